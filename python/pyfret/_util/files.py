@@ -7,6 +7,7 @@ import json
 import os
 import shutil
 from contextlib import contextmanager
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,7 +17,7 @@ from pyfret._util.lazy import xr
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["beside", "is_copy", "opened", "read", "write"]
+__all__ = ["beside", "gzip", "is_copy", "opened", "read", "write"]
 
 #: Bytes of a NetCDF file beside its numbers, more than.
 MARGIN = 1 << 20
@@ -48,11 +49,20 @@ def write(dataset: xr.Dataset, path: str | os.PathLike[str]) -> None:
         raise ValueError(f"{place}: must end in .zarr or .nc")
     with beside(place) as unfinished:
         if place.suffix == ".zarr":
-            dataset.to_zarr(unfinished, zarr_format=2, consolidated=True)
+            encoding = {name: gzip() for name in dataset.variables}
+            dataset.to_zarr(unfinished, zarr_format=2, consolidated=True, encoding=encoding)
         else:
             attrs = {k: flat(v) for k, v in dataset.attrs.items()}
             reserve(unfinished, dataset.nbytes)
             dataset.assign_attrs(attrs).to_netcdf(unfinished)
+
+
+def gzip() -> dict[str, Any]:
+    """How an array is compressed: as those of the stores of runs, so that one reader reads both."""
+    numcodecs, zarr = import_module("numcodecs"), import_module("zarr")
+    codec = numcodecs.GZip(level=1)
+    old = zarr.__version__.startswith("2.")
+    return {"compressor": codec} if old else {"compressors": [codec]}
 
 
 @contextmanager

@@ -9,7 +9,7 @@ import re
 import sys
 import warnings
 import zlib
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
@@ -21,6 +21,7 @@ from pyfret._core import InvalidSceneError, Scene
 from pyfret._util.lazy import xr
 from pyfret._util.text import read_text
 from pyfret.errors import SceneWarning
+from pyfret.study.identity import identity
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -72,11 +73,7 @@ def varied(scene: Scene | str | PathLike[str], values: Mapping[str, Any]) -> Sce
     --------
     >>> harder = varied("coated.toml", {"body2.coatings.0.E": 3e11})  # doctest: +SKIP
     """
-    settings = [
-        f"{SHORT.get(one, one)}={toml(each)}"
-        for key, value in values.items()
-        for one, each in spread(key, value, scene)
-    ]
+    settings = [f"{key}={toml(each)}" for key, _, each in once(values.items(), scene)]
     if not isinstance(scene, Scene):
         return Scene.from_file(scene, set=settings)
     made = Scene.from_toml(scene.to_toml(), set=settings)
@@ -98,6 +95,29 @@ def spread(key: str, value: Any, scene: Scene | str | PathLike[str]) -> Iterator
                 yield one.replace(".*.", f".{n}."), each
         else:
             yield one, each
+
+
+def once(
+    values: Iterable[tuple[str, Any]], scene: Scene | str | PathLike[str]
+) -> list[tuple[str, str, Any]]:
+    """Keys of a scene file, the names that they were given by, and their values.
+
+    An :exc:`InvalidSceneError` if two names set one value, or one of them what the other is part
+    of.
+    """
+    found: list[tuple[str, str, Any]] = []
+    for name, value in values:
+        for one, each in spread(name, value, scene):
+            key = SHORT.get(one, one)
+            for other, by, _ in found:
+                if f"{key}.".startswith(f"{other}.") or f"{other}.".startswith(f"{key}."):
+                    shared = (
+                        key if key == other else f"{min(key, other, key=len)} and what it holds"
+                    )
+                    both = f"{by} and {name} set" if by != name else f"{name} sets"
+                    raise InvalidSceneError(f"{both} {shared} twice: give it once")
+            found.append((key, name, each))
+    return found
 
 
 def told_alone(values: Mapping[str, Any], scene: Scene) -> None:
@@ -125,8 +145,9 @@ def toml(value: Any) -> str:
 
 
 def function_name(of: object) -> str:
-    """How a function is told from others: by its name."""
-    return f"function {getattr(of, '__qualname__', type(of).__qualname__)}"
+    """How a function is told from others: by its name, and by what it does."""
+    name = getattr(of, "__qualname__", type(of).__qualname__)
+    return f"function {name} {identity(of)}"
 
 
 @dataclass(frozen=True)
@@ -206,8 +227,11 @@ class Design:
             return varied(source, values)
         return source(values)
 
-    def describe(self, source: Source) -> str:
-        """Tell this study from others: what makes its points, as JSON."""
+    def describe(self, source: Source, code: Mapping[str, str]) -> str:
+        """Tell this study from others: what makes its points, as JSON.
+
+        `code` holds checksums of the functions that measure.
+        """
         files: dict[str, int] = {}
         if isinstance(source, Scene):
             what = source.to_toml()
@@ -223,6 +247,7 @@ class Design:
             "combine": self.combine,
             "scene": what,
             "files": files,
+            "code": dict(code),
         }
         if isinstance(source, Scene) and callable(source.friction.law):
             design["law"] = function_name(source.friction.law)
@@ -243,6 +268,7 @@ class Design:
         """Refuse parameters of which no value makes a scene, such as a key that is misspelt."""
         if not isinstance(source, Scene | str | PathLike):
             return
+        self.check_each_sets(source)
         first: InvalidSceneError | None = None
         for n in range(len(self)):
             try:
@@ -257,6 +283,29 @@ class Design:
                 return
         if first is not None:
             raise ValueError(f"no point of the study has a scene: {first}{self.meant()}")
+
+    def check_each_sets(self, source: Scene | str | PathLike[str]) -> None:
+        """Refuse a parameter whose values make no difference, since another one sets the same."""
+        try:
+            texts_of = {key: self.texts_of(source, key) for key in self.parameters}
+        except (InvalidSceneError, OSError, ValueError, TypeError, ArithmeticError):
+            # What is wrong with it is said of the points.
+            return
+        for key, (beside, alone) in texts_of.items():
+            if beside == 1 < alone:
+                others = ", ".join(other for other in self.parameters if other != key)
+                raise ValueError(f"{key}: its values make no difference beside {others}")
+
+    def texts_of(self, source: Scene | str | PathLike[str], key: str) -> tuple[int, int]:
+        """How many scenes two values of a parameter make, beside the others and alone."""
+        of = self.parameters[key]
+        two = [of[0], next((v for v in of if v != of[0]), of[0])]
+        first = {name: values[0] for name, values in self.parameters.items()}
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            beside = {varied(source, first | {key: value}).to_toml() for value in two}
+            alone = {varied(source, {key: value}).to_toml() for value in two}
+        return len(beside), len(alone)
 
     def meant(self) -> str:
         """What short names of parameters may have been meant."""

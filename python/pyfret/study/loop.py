@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,10 +13,11 @@ from pyfret._core import OffGridError, Scene
 from pyfret._util.progress import Progress
 from pyfret.study.design import Combine, Design, Source
 from pyfret.study.lock import writing
-from pyfret.study.measures import Measure, checked, names_of
+from pyfret.study.measures import Measure, checked, code_of, names_of
+from pyfret.study.memory import Columns
 from pyfret.study.outcome import Study, open
 from pyfret.study.point import Outcome, failure, solve_point
-from pyfret.study.store import Store
+from pyfret.study.store import Store, check_names
 from pyfret.study.workers import Workers
 
 if TYPE_CHECKING:
@@ -101,26 +101,16 @@ def solve(
     >>> table.map("von_mises")  # doctest: +SKIP
     """
     design, measures = Design.of(parameters, combine), checked(measure)
+    check_names(design, measures)
     said = {
-        "study": design.describe(scene),
+        "study": design.describe(scene, {} if out is None else code_of(measures)),
         "measures": ", ".join(names_of(measures)),
         "title": scene.title if isinstance(scene, Scene) else "",
     }
 
     design.check(scene)
 
-    def run(place: str | os.PathLike[str]) -> Study:
-        Store.prepare(place, design, said)
-        with writing(Path(place)):
-            go_through(Store(place, design, said))
-        study = open(place)
-        # Where every point failed nothing has been measured.
-        for name in (of for of in measures if isinstance(of, str) and of not in study.dataset):
-            status = study.dataset["status"]
-            study.dataset[name] = (status.dims, np.full(status.shape, np.nan))
-        return study
-
-    def go_through(store: Store) -> None:
+    def go_through(store: Store | Columns) -> None:
         points = store.open_points(again=again)
         done, total = len(design) - len(points), len(design)
         with Progress(title=said["title"] or "study", shown=progress) as bar:
@@ -131,10 +121,20 @@ def solve(
                 if on_point is not None:
                     on_point(done, total)
 
-    if out is not None:
-        return run(out)
-    with tempfile.TemporaryDirectory(prefix="pyfret-") as folder:
-        return run(Path(folder) / "study.zarr")
+    if out is None:
+        columns = Columns(design, said)
+        go_through(columns)
+        study = Study(columns.dataset())
+    else:
+        Store.prepare(out, design, said)
+        with writing(Path(out)):
+            go_through(Store(out, design, said))
+        study = open(out)
+    # Where every point failed nothing has been measured.
+    for name in (of for of in measures if isinstance(of, str) and of not in study.dataset):
+        status = study.dataset["status"]
+        study.dataset[name] = (status.dims, np.full(status.shape, np.nan))
+    return study
 
 
 def outcomes(

@@ -12,6 +12,7 @@ import numpy as np
 from pyfret import fracture
 from pyfret._util.lazy import xr
 from pyfret.run.summary import directions
+from pyfret.study.identity import identity
 from pyfret.subsurface.tensor import LABELS
 from pyfret.wear.runs import solve
 
@@ -278,6 +279,38 @@ class FirstToFail:
         return numbers | {"first": xr.DataArray(first, attrs=attrs)}
 
 
+def code_of(measures: Sequence[Measure]) -> dict[str, str]:
+    """Checksums of the measures that are functions, by their names."""
+    return {
+        f"{name_of(one)}{suffix}": identity(one)
+        for one, suffix in zip(measures, suffixes(measures), strict=True)
+        if not isinstance(one, str)
+    }
+
+
+def suffixes(measures: Sequence[Measure]) -> list[str]:
+    """What tells measures of one class apart: nothing for the first, ``_2`` for the second."""
+    kinds = [type(one) if is_own(one) else None for one in measures]
+    counts = [kinds[: n + 1].count(kind) if kind else 1 for n, kind in enumerate(kinds)]
+    return [f"_{count}" if count > 1 else "" for count in counts]
+
+
+def is_own(measure: Measure) -> bool:
+    """Whether a measure is one of this package, which names what it gives itself."""
+    return isinstance(measure, (Wear, Cracking, Arrest, FirstToFail))
+
+
+def differing(measure: Any, measures: Sequence[Measure]) -> str:
+    """In what a measure of this package differs from the others of its class, in words."""
+    others = [one for one in measures if type(one) is type(measure) and one is not measure]
+    names = [
+        f.name
+        for f in fields(measure)
+        if any(getattr(one, f.name) != getattr(measure, f.name) for one in others)
+    ]
+    return ", ".join(f"{name} = {getattr(measure, name)!r}" for name in names)
+
+
 def names_of(measures: Sequence[Measure]) -> list[str]:
     """Names of measures, to tell studies apart."""
     return [m if isinstance(m, str) else name_of(m) for m in measures]
@@ -297,9 +330,7 @@ def checked(measure: Measure | Sequence[Measure]) -> list[Measure]:
             raise ValueError(f"measure {one!r}: must be a function or one of {', '.join(MEASURES)}")
     names = names_of(measures)
     for n, name in enumerate(names):
-        # Measures of this package name what they give themselves.
-        own = isinstance(measures[n], (Wear, Cracking, Arrest, FirstToFail))
-        if name in names[:n] and not own:
+        if name in names[:n] and not is_own(measures[n]):
             raise ValueError(
                 f"two measures have the name {name}: give each a name of its own, "
                 "def of_stress(result): ..."
@@ -308,15 +339,25 @@ def checked(measure: Measure | Sequence[Measure]) -> list[Measure]:
 
 
 def measured(result: Result, measures: Sequence[Measure]) -> dict[str, xr.Variable]:
-    """All measures of a result by name."""
+    """All measures of a result by name; a ValueError if two of them give one name.
+
+    Second and further measures of one class of this package have their number behind the name.
+    """
     found: dict[str, xr.Variable] = {}
-    for one in measures:
+    for one, suffix in zip(measures, suffixes(measures), strict=True):
         if isinstance(one, str):
             units, meaning, of = MEASURES[one]
             units = result.scene.grid.unit_of(units)
-            found[one] = xr.Variable((), of(result), {"units": units, "long_name": meaning})
+            given = {one: xr.Variable((), of(result), {"units": units, "long_name": meaning})}
         else:
-            found |= variables(one(result), name_of(one))
+            given = variables(one(result), name_of(one))
+            if is_own(one) and (words := differing(one, measures)):
+                for of_one in given.values():
+                    of_one.attrs["long_name"] = f"{of_one.attrs.get('long_name', '')} ({words})"
+        for name, value in given.items():
+            if f"{name}{suffix}" in found:
+                raise ValueError(f"two measures give {name}: give each a name of its own")
+            found[f"{name}{suffix}"] = value
     return found
 
 

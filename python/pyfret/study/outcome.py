@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from html import escape
+import warnings
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
+from pyfret._util.text import html, shown
 from pyfret.scene.tables import number, table
 from pyfret.study.point import DONE, FAILED, OPEN
-from pyfret.study.store import read
+from pyfret.study.store import OWN, read
 
 if TYPE_CHECKING:
     import os
@@ -43,8 +44,7 @@ class Study(Labelled):
     @property
     def measures(self) -> list[str]:
         """Names of the measures."""
-        own = {"status", "reason", "nx", "ny", "seconds"}
-        return [str(name) for name in self.dataset.data_vars if name not in own]
+        return [str(name) for name in self.dataset.data_vars if name not in OWN]
 
     def count(self) -> dict[str, int]:
         """How many points are open, done and failed."""
@@ -65,12 +65,23 @@ class Study(Labelled):
     def to_dataframe(self) -> pd.DataFrame:
         """Give a row for every point: its parameters, its measures and what became of it.
 
-        Measures that are fields are left out. ``study.to_dataframe().to_csv("points.csv")`` writes
-        a table, ``to_excel`` and ``groupby`` are those of pandas.
+        Measures that are fields are left out, with a warning that names them; the ``dataset`` has
+        them. ``study.to_dataframe().to_csv("points.csv")`` writes a table, ``to_excel`` and
+        ``groupby`` are those of pandas.
         """
         d = self.dataset
         dims = set(d["status"].dims)
-        scalars = d[[name for name, of in d.data_vars.items() if set(of.dims) <= dims]]
+        beside = {
+            str(name): [str(dim) for dim in of.dims if dim not in dims] for name, of in d.items()
+        }
+        if fields := [f"{name} (over {', '.join(of)})" for name, of in beside.items() if of]:
+            warnings.warn(
+                f"left out, since a row has no room for a field: {'; '.join(fields)}. "
+                "study.dataset has them",
+                UserWarning,
+                stacklevel=2,
+            )
+        scalars = d[[name for name, of in beside.items() if not of]]
         return scalars.to_dataframe().reset_index()
 
     def sensitivity(self, of: str | None = None) -> xr.DataArray:
@@ -138,7 +149,7 @@ class Study(Labelled):
         counts = ", ".join(f"{n} {name}" for name, n in self.count().items() if n)
         sizes = " x ".join(str(n) for n in self.dataset["status"].shape)
         over, of = ", ".join(self.parameters), ", ".join(self.measures)
-        return f"Study({sizes} points over {over}: {counts}; {of})"
+        return shown(f"Study({sizes} points over {over}: {counts}; {of})")
 
 
 def study_html(study: Study) -> str:
@@ -153,7 +164,7 @@ def study_html(study: Study) -> str:
             else:
                 span = f"{np.unique(values).size} values"
             unit = str(d[name].attrs.get("units", ""))
-            rows.append([kind, escape(name), span, "" if unit == "1" else escape(unit)])
+            rows.append([kind, html(name), span, "" if unit == "1" else html(unit)])
     counts = ", ".join(f"{n} {name}" for name, n in study.count().items() if n)
     return f"<p><b>Study</b>: {counts}</p>{table(['', '', 'from, to', 'unit'], rows)}"
 

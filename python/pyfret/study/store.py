@@ -18,12 +18,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pyfret._core import StoreError, __version__
+from pyfret._util.files import gzip
 from pyfret._util.lazy import xr
+from pyfret.study.design import TOGETHER
 from pyfret.study.ledger import FILE, Ledger, attributes, checksum
+from pyfret.study.measures import names_of
 from pyfret.study.point import FAILED, MEANINGS, OPEN, Outcome
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
     from pyfret.study.design import Design
+    from pyfret.study.measures import Measure
 
 __all__ = ["Store", "read"]
 
@@ -81,8 +87,11 @@ class Store:
         beside = target.with_name(f".{target.name}.{os.getpid()}.unfinished")
         shutil.rmtree(beside, ignore_errors=True)
         try:
-            template = xr.Dataset(coords=design.coords(), attrs={**said, **Store.marks()})
-            lay_out(beside, template, design, OWN)
+            begun = template(design, {**said, **Store.marks()}, OWN)
+            shape = tuple(design.sizes.values())
+            encoding: dict[str, Any] = {str(name): gzip() for name in begun.variables}
+            encoding |= {name: {"chunks": shape, "_FillValue": None, **gzip()} for name in OWN}
+            begun.to_zarr(beside, mode="w-", zarr_format=2, consolidated=True, encoding=encoding)
             Ledger.begin(beside, layout_of(opened(beside)))
             try:
                 beside.rename(target)
@@ -117,14 +126,14 @@ class Store:
             # What a killed process has left of it.
             shutil.rmtree(self.place / name, ignore_errors=True)
         sizes = self.design.sizes
-        template, encoding = xr.Dataset(attrs=read(self.place).attrs), {}
+        room, encoding = xr.Dataset(attrs=read(self.place).attrs), {}
         for name, of in new.items():
             # A field has a chunk for each point, scalars of all points share one.
             alone = tuple(1 for _ in sizes) if of.ndim else tuple(sizes.values())
             values = np.full((*sizes.values(), *of.shape), np.nan)
-            template[name] = ((*sizes, *of.dims), values, of.attrs)
-            encoding[name] = {"chunks": (*alone, *of.shape), "_FillValue": np.nan}
-        template.to_zarr(self.place, mode="a", zarr_format=2, consolidated=True, encoding=encoding)
+            room[name] = ((*sizes, *of.dims), values, of.attrs)
+            encoding[name] = {"chunks": (*alone, *of.shape), "_FillValue": np.nan, **gzip()}
+        room.to_zarr(self.place, mode="a", zarr_format=2, consolidated=True, encoding=encoding)
         self.shapes |= {name: {str(k): n for k, n in of.sizes.items()} for name, of in new.items()}
         self.attrs = attributes(opened(self.place))
 
@@ -133,8 +142,8 @@ class Store:
         if n in self.ledger.points:
             self.ledger.add(n, OPEN, {}, {})
             self.write_status(n, OPEN)
+        outcome = fitting(outcome, self.design, self.shapes)
         self.make_room(outcome.measures)
-        outcome = self.fitting(outcome)
         numbers = {
             "nx": np.int32(outcome.nx),
             "ny": np.int32(outcome.ny),
@@ -159,17 +168,6 @@ class Store:
             name: xr.Variable(of.dims, np.asarray(of.values).astype(kinds.get(name, "float64")))
             for name, of in written.items()
         }
-
-    def fitting(self, outcome: Outcome) -> Outcome:
-        """The outcome, failed if a field has another shape than those of the other points."""
-        for name, of in outcome.measures.items():
-            if dict(of.sizes) != self.shapes[name]:
-                reason = (
-                    f"{name} is a field of {dict(of.sizes)}, that of other points one of "
-                    f"{self.shapes[name]}; interpolate it, or keep the grid with grow=False"
-                )
-                return replace(outcome, status=FAILED, reason=reason, measures={})
-        return outcome
 
     def region(self, n: int, values: dict[str, xr.Variable]) -> None:
         """Write variables of one point."""
@@ -197,12 +195,67 @@ class Store:
         return [n for n in range(len(self.design)) if of.get(n, OPEN) in wanted]
 
 
+def fitting(outcome: Outcome, design: Design, shapes: dict[str, dict[str, int]]) -> Outcome:
+    """The outcome, failed if a measure cannot stand beside the others.
+
+    That is one of a name, or with a dimension, that a study has itself, and a field of another
+    shape than that of the other points, `shapes`.
+    """
+    taken = {*OWN, *design.parameters, *design.sizes}
+
+    def failed(reason: str) -> Outcome:
+        return replace(outcome, status=FAILED, reason=reason, measures={})
+
+    for name, of in outcome.measures.items():
+        sizes = {str(dim): n for dim, n in of.sizes.items()}
+        for word, what in [(name, "name"), *((dim, "dimension") for dim in sizes)]:
+            if why := refused_name(word, taken):
+                return failed(f"{name}: the {what} {word!r} {why}")
+        if name in shapes and sizes != shapes[name]:
+            return failed(
+                f"{name} is a field of {sizes}, that of other points one of {shapes[name]}; "
+                "interpolate it, or keep the grid with grow=False"
+            )
+    return outcome
+
+
+def refused_name(name: str, taken: Iterable[str]) -> str:
+    """Why a measure cannot have a name; nothing if it can."""
+    if name in taken:
+        return "is one that the study has itself: give another"
+    if not name or name.startswith((".", "_")) or "/" in name or "\\" in name:
+        return "must be that of an array in a store: not empty, no . or _ first, no / or \\ in it"
+    return ""
+
+
+def check_names(design: Design, measures: Sequence[Measure]) -> None:
+    """Refuse names of parameters and measures that the store of the study needs itself."""
+    for key in design.parameters:
+        if key in OWN or key == TOGETHER:
+            raise ValueError(
+                f"parameter {key!r}: is a name that the study has itself: give another"
+            )
+    for name in names_of(measures):
+        if why := refused_name(name, {*OWN, *design.parameters, *design.sizes}):
+            raise ValueError(f"measure {name!r} {why}")
+
+
 def difference(there: dict[Any, Any], said: dict[str, str]) -> str:
     """In what two studies differ."""
     if there.get("measures") != said["measures"]:
         return f"it measures {there.get('measures')}, not {said['measures']}"
     theirs, ours = json.loads(there.get("study", "{}")), json.loads(said["study"])
-    parts = [name for name in ours if ours[name] != theirs.get(name)]
+    # Stores of before have no code, which is right where no measure is a function.
+    parts = [
+        name for name in ours if ours[name] != theirs.get(name, {} if name == "code" else None)
+    ]
+    if parts == ["code"]:
+        before = theirs.get("code") or {}
+        changed = [name for name, sum_of in ours["code"].items() if before.get(name) != sum_of]
+        return (
+            f"the code of the measure {', '.join(changed)}, what it refers to, or the version of "
+            "Python is another"
+        )
     if parts == ["files"]:
         before = theirs.get("files") or {}
         changed = [name for name, crc in ours["files"].items() if before.get(name) != crc]
@@ -210,19 +263,18 @@ def difference(there: dict[Any, Any], said: dict[str, str]) -> str:
     return f"they differ in {' and '.join(parts)}"
 
 
-def lay_out(
-    place: Path, dataset: xr.Dataset, design: Design, own: dict[str, tuple[str, Any, str, str]]
-) -> None:
-    """Write the template: coordinates, and variables without values."""
+def template(
+    design: Design, attrs: dict[str, Any], own: dict[str, tuple[str, Any, str, str]]
+) -> xr.Dataset:
+    """A study without a point: coordinates, and variables without values."""
+    dataset = xr.Dataset(coords=design.coords(), attrs=attrs)
     shape = tuple(design.sizes.values())
     for name, (kind, empty, unit, meaning) in own.items():
-        attrs: dict[str, Any] = {"units": unit, "long_name": meaning}
+        of_one: dict[str, Any] = {"units": unit, "long_name": meaning}
         if name == "status":
-            attrs |= {"flag_values": [0, 1, 2], "flag_meanings": MEANINGS}
-        values = np.full(shape, empty, dtype=kind)
-        dataset[name] = (tuple(design.sizes), values, attrs)
-    encoding = {name: {"chunks": shape, "_FillValue": None} for name in own}
-    dataset.to_zarr(place, mode="w-", zarr_format=2, consolidated=True, encoding=encoding)
+            of_one |= {"flag_values": [0, 1, 2], "flag_meanings": MEANINGS}
+        dataset[name] = (tuple(design.sizes), np.full(shape, empty, dtype=kind), of_one)
+    return dataset
 
 
 def layout_of(dataset: xr.Dataset) -> int:
