@@ -2296,6 +2296,7 @@ def solve(
     *,
     store: str | PathLike[str],
     checkpoint: float = 5.0,
+    overwrite: bool = False,
     error: bool = False,
     on_increment: Callable[[int, int], object] | None = None,
 ) -> None:
@@ -3078,7 +3079,8 @@ def wear(
     body1: _WearLaw | list[_WearLaw | None] | None,
     body2: _WearLaw | list[_WearLaw | None] | None,
     cycles: float,
-    store: str | PathLike[str],
+    store: str | PathLike[str] | None = None,
+    overwrite: bool = False,
     share1: float | None = None,
     share2: float | None = None,
     first_branch: int | None = None,
@@ -3093,11 +3095,20 @@ def wear(
     go_on: bool = False,
     tell_from: float = 0.1,
     on_jump: Callable[[float], None] | None = None,
-) -> None:
-    """Runs a scene over many cycles into a store."""
+) -> tuple[dict[str, _Variable], str] | None:
+    """Runs a scene over many cycles into a store, or without one in memory."""
 
 def read_text(path: str | PathLike[str]) -> str:
     """The text of a file of numbers, in UTF-8, UTF-16 or Latin-1."""
+
+def read_bytes(path: str | PathLike[str]) -> bytes:
+    """The bytes of a file that somebody names.
+
+    A pipe, a device or a file that would not fit into memory is refused before it is read.
+    """
+
+def shown(text: str) -> str:
+    """A text whose control codes and marks that turn the direction of reading stand as escapes."""
 
 def verify_wear(store: str | PathLike[str]) -> None:
     """Fails if a file of the store of a run of wear is missing, or is not as it was written."""

@@ -31,6 +31,7 @@ def solve(
     save: Literal["branches", "all"] | Sequence[int] | None = None,
     out: str | os.PathLike[str] | None = None,
     checkpoint: float = 5.0,
+    overwrite: bool = False,
     error: bool = False,
     progress: bool = True,
 ) -> Result:
@@ -56,6 +57,8 @@ def solve(
         Seconds of the run between two checkpoints, what a crash may lose; 0 for one after every
         increment. The ends of branches have theirs too, unless that costs more than 3 % of the
         run.
+    overwrite : bool
+        Whether a store at `out` is replaced, once the first increment is solved (default False).
     error : bool
         Whether to run the path again on coarser and finer grids and with fewer increments, some
         times as long, for :meth:`Result.error_bars`.
@@ -84,7 +87,12 @@ def solve(
     with Progress(title=scene.title or "fretting", shown=progress) as bar:
         if out is not None:
             _core.solve(
-                scene, store=out, checkpoint=checkpoint, error=error, on_increment=bar.update
+                scene,
+                store=out,
+                checkpoint=checkpoint,
+                overwrite=overwrite,
+                error=error,
+                on_increment=bar.update,
             )
             return told(open(out))
         run = _core.solve_in_memory(scene, error=error, on_increment=bar.update)

@@ -37,6 +37,7 @@ mod material;
 pub mod memory;
 pub mod plan;
 pub mod scene;
+mod shown;
 pub mod solvers;
 pub mod stop;
 pub mod zones;
@@ -48,3 +49,4 @@ struct UseAsADependency;
 
 pub use error::Error;
 pub use scene::Scene;
+pub use shown::shown;

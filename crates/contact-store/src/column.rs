@@ -64,6 +64,11 @@ impl Column {
         Ok(())
     }
 
+    /// The values, of a column that is not flushed.
+    pub(super) fn values(&self) -> &[f64] {
+        &self.tail
+    }
+
     pub(super) fn variable(&self) -> &Variable {
         &self.variable
     }

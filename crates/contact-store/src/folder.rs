@@ -93,7 +93,12 @@ impl Folder {
 
     /// The content of a file; `None` if there is none.
     pub(super) fn read(&self, key: &str) -> io::Result<Option<Vec<u8>>> {
-        match fs::read(self.root.join(key)) {
+        let path = self.root.join(key);
+        // A pipe would be waited for, and a device has no end.
+        if fs::metadata(&path).is_ok_and(|about| !about.is_file()) {
+            return Err(io::Error::other("is not a file"));
+        }
+        match fs::read(path) {
             Ok(bytes) => Ok(Some(bytes)),
             Err(e) if e.kind() == io::ErrorKind::NotFound => Ok(None),
             Err(e) => Err(e),

@@ -11,7 +11,7 @@
 //! state, from which [`resume`] continues to the same result, bit by bit. Groups are laid out
 //! beside their place and take it at once: a path holds nothing, or a store.
 //!
-//! [`Columns`] keeps the same in memory, for whoever wants no store.
+//! [`Columns`] and [`WearColumns`] keep the same in memory, for whoever wants no store.
 //!
 //! Stress below the surface goes to a group of its own ([`StressStore`]) or to VTK image data
 //! ([`ImageData`]), volumes plane by plane while they are computed ([`write_volume`]).
@@ -40,6 +40,7 @@ mod variable;
 mod volume;
 mod wear_catalogue;
 mod wear_checkpoint;
+mod wear_memory;
 mod wear_resume;
 mod wear_store;
 mod whole;
@@ -56,6 +57,7 @@ pub use resume::{Resumed, resume, resume_by};
 pub use stored_cycle::StoredCycle;
 pub use stress_store::StressStore;
 pub use volume::{VolumeSink, write_volume};
+pub use wear_memory::{InMemory, WearColumns};
 pub use wear_resume::{resume_wear, resume_wear_by};
 pub use wear_store::{WearStore, verify_wear};
 pub use worn_read::read_worn;

@@ -12,7 +12,7 @@ use zarrs::array::ArraySubset;
 use super::consolidated::{Consolidated, FILE};
 use super::folder::Folder;
 use super::stored::Stored;
-use super::whole;
+use super::whole::{self, Found};
 
 /// A result store as it was when it was opened.
 pub struct Store {
@@ -29,6 +29,18 @@ impl Store {
     pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
         let folder = Folder::new(path.as_ref());
         let consolidated = whole::consolidated(&folder)?;
+        Self::of(folder, consolidated)
+    }
+
+    /// Opens a store as [`Self::open`], or a copy without checksums that Python's `save` has
+    /// written, for whoever reads alone. What is read of a copy is not checked.
+    pub fn open_to_read(path: impl AsRef<Path>) -> Result<Self, Error> {
+        let folder = Folder::new(path.as_ref());
+        let (Found::Store(consolidated) | Found::Copy(consolidated)) = whole::found(&folder)?;
+        Self::of(folder, consolidated)
+    }
+
+    fn of(folder: Arc<Folder>, consolidated: Consolidated) -> Result<Self, Error> {
         let damaged = |e: &dyn std::fmt::Display| folder.error(&format!("{FILE} is damaged: {e}"));
         let attributes = consolidated.document(".zattrs");
         let scene = attributes["scene"]

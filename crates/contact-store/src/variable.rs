@@ -116,6 +116,14 @@ impl Variable {
         self.shape[0] = length as u64;
     }
 
+    pub(super) fn kind(&self) -> Kind {
+        self.kind
+    }
+
+    pub(super) fn shape(&self) -> Vec<usize> {
+        self.shape.iter().map(|n| *n as usize).collect()
+    }
+
     pub(super) fn checksums(&self) -> &[u32] {
         &self.checksums
     }
@@ -194,6 +202,35 @@ impl Variable {
     }
 }
 
+/// Fails by its name at a codec, a filter or a type of numbers that no store of ours has: a codec is
+/// a program that a file asks for.
+fn is_ours(zarray: &Value) -> Result<(), String> {
+    let compressor = &zarray["compressor"];
+    if !compressor.is_null() && compressor["id"] != "gzip" {
+        return Err(format!(
+            "is compressed by {}: pyfret reads gzip alone",
+            compressor["id"]
+        ));
+    }
+    if zarray["filters"]
+        .as_array()
+        .is_some_and(|all| !all.is_empty())
+        || zarray["filters"].is_object()
+    {
+        return Err(format!(
+            "has the filters {}: pyfret writes none",
+            zarray["filters"]
+        ));
+    }
+    match zarray["dtype"].as_str() {
+        Some(kind) if Kind::named(kind).is_some() => Ok(()),
+        _ => Err(format!(
+            "has numbers of the type {}, which pyfret does not write",
+            zarray["dtype"]
+        )),
+    }
+}
+
 /// The array of a `.zarray`.
 pub(super) fn open_array(
     folder: &Arc<Folder>,
@@ -201,6 +238,7 @@ pub(super) fn open_array(
     zarray: Value,
 ) -> Result<Array<Folder>, Error> {
     let failed = |e: &dyn std::fmt::Display| folder.error(&format!("{name}: {e}"));
+    is_ours(&zarray).map_err(|e| failed(&e))?;
     let metadata: ArrayMetadataV2 = serde_json::from_value(zarray).map_err(|e| failed(&e))?;
     Array::new_with_metadata(
         folder.clone(),

@@ -82,7 +82,7 @@ fn take_up(
     for (variable, _) in fields(&run, &run.block(), kept.cycles.len()) {
         let name = variable.name();
         let sums = kept.checksums.get(name).map_or(&[][..], Vec::as_slice);
-        let stored = Stored::new(&folder, name, &variable.zarray(), sums)?;
+        let stored = Stored::new(&folder, name, &variable.zarray(), Some(sums))?;
         let verified = stored.verify(&stored.all());
         verified.map_err(|e| folder.error(&format!("{name}: {e}")))?;
     }

@@ -126,34 +126,10 @@ impl WearStore {
         block: &Block,
         status: &str,
     ) -> Result<(), Error> {
-        let jumps = run.history();
         let mut documents = Map::new();
         documents.insert(".zgroup".into(), json!({ "zarr_format": 2 }));
         documents.insert(ATTRIBUTES.into(), attributes(run, status));
-        let grid = &run.scene().grid;
-        let scalar = |(name, unit, what, of): &Scalar| {
-            let kind = if matches!(*name, "retries" | "index") {
-                Kind::Count
-            } else {
-                Kind::Real
-            };
-            Column::new(name, kind, (grid.unit_of(unit), what), "jump", &[])
-                .extend(jumps.iter().map(of))
-        };
-        let mut columns: Vec<Column> = SCALARS.iter().map(scalar).collect();
-        let along = |name, what, n: usize, at: &dyn Fn(usize) -> f64| {
-            Column::new(name, Kind::Real, ("m", what), name, &[]).extend((0..n).map(at))
-        };
-        columns.push(along("x", "position along x", grid.nx, &|i| grid.x(i)));
-        columns.push(along("y", "position along y", grid.ny, &|j| grid.y(j)));
-        let blocks = Column::new(
-            "block_cycles",
-            Kind::Real,
-            ("1", "cycles at the block"),
-            "block",
-            &[],
-        );
-        columns.push(blocks.extend(self.kept.cycles.iter().copied()));
+        let mut columns = columns(run, &self.kept.cycles);
         for column in &mut columns {
             column.flush(folder)?;
         }
@@ -180,6 +156,35 @@ impl WearStore {
         // The status comes last: a store that says "done" is whole.
         write(ATTRIBUTES, consolidated.document(ATTRIBUTES))
     }
+}
+
+/// The scalars of the jumps, the places of the cells, the cycles of the blocks.
+pub(super) fn columns(run: &WearRun, cycles: &[f64]) -> Vec<Column> {
+    let (jumps, grid) = (run.history(), &run.scene().grid);
+    let scalar = |(name, unit, what, of): &Scalar| {
+        let kind = if matches!(*name, "retries" | "index") {
+            Kind::Count
+        } else {
+            Kind::Real
+        };
+        Column::new(name, kind, (grid.unit_of(unit), what), "jump", &[])
+            .extend(jumps.iter().map(of))
+    };
+    let mut columns: Vec<Column> = SCALARS.iter().map(scalar).collect();
+    let along = |name, what, n: usize, at: &dyn Fn(usize) -> f64| {
+        Column::new(name, Kind::Real, ("m", what), name, &[]).extend((0..n).map(at))
+    };
+    columns.push(along("x", "position along x", grid.nx, &|i| grid.x(i)));
+    columns.push(along("y", "position along y", grid.ny, &|j| grid.y(j)));
+    let blocks = Column::new(
+        "block_cycles",
+        Kind::Real,
+        ("1", "cycles at the block"),
+        "block",
+        &[],
+    );
+    columns.push(blocks.extend(cycles.iter().copied()));
+    columns
 }
 
 /// The folder, locked; fails if another process writes it.
@@ -231,7 +236,7 @@ pub(super) fn fields(run: &WearRun, block: &Block, blocks: usize) -> Vec<(Variab
     fields.chain(friction_loop).collect()
 }
 
-fn attributes(run: &WearRun, status: &str) -> Value {
+pub(super) fn attributes(run: &WearRun, status: &str) -> Value {
     let events = run.state().events.iter().map(|e| {
         let kind = match e.kind {
             EventKind::Thinned => "thinned",

@@ -14,6 +14,25 @@ use super::stored::Stored;
 /// The consolidated metadata of a store; fails if there is none, one of another layout or damaged
 /// ones.
 pub(super) fn consolidated(folder: &Folder) -> Result<Consolidated, Error> {
+    match found(folder)? {
+        Found::Store(consolidated) => Ok(consolidated),
+        Found::Copy(_) => Err(folder.error(
+            &"is a copy without checksums, as `save` or xarray write one: it can be read, but not be gone on with; \
+              the store itself has them",
+        )),
+    }
+}
+
+/// What lies in a folder.
+pub(super) enum Found {
+    /// A store with its checksums.
+    Store(Consolidated),
+    /// A copy that another program has written, without checksums.
+    Copy(Consolidated),
+}
+
+/// What lies in a folder; fails as [`consolidated`].
+pub(super) fn found(folder: &Folder) -> Result<Found, Error> {
     let text = folder
         .read(FILE)
         .map_err(|e| folder.error(&format!("{FILE}: {e}")))?
@@ -26,12 +45,9 @@ pub(super) fn consolidated(folder: &Folder) -> Result<Consolidated, Error> {
             "is a store of schema {schema}: this version reads schema {SCHEMA}; solve its scene again \
              (the attribute `scene` holds it)"
         ))),
-        _ if !whole && !text_has_sums(&text) => Err(folder.error(
-            &"is a copy without checksums, as `save` or xarray write one: it can be opened in Python, but not be gone on \
-              with; the store itself has them",
-        )),
+        _ if !whole && !text_has_sums(&text) => Ok(Found::Copy(consolidated)),
         _ if !whole => Err(damaged(&"it is not what was written")),
-        _ => Ok(consolidated),
+        _ => Ok(Found::Store(consolidated)),
     }
 }
 
@@ -68,8 +84,14 @@ pub(super) fn array<'a>(
     if zarray.is_null() {
         return Err(folder.error(&format!("holds no {name}")));
     }
-    let checksums = consolidated.checksums.get(name);
-    Stored::new(folder, name, zarray, checksums.map_or(&[], Vec::as_slice))
+    // A copy has none of them, a store one list for each array.
+    let checksums = (!consolidated.checksums.is_empty()).then(|| {
+        consolidated
+            .checksums
+            .get(name)
+            .map_or(&[][..], Vec::as_slice)
+    });
+    Stored::new(folder, name, zarray, checksums)
 }
 
 /// Fails if a document of the group is not the one that the consolidated metadata have, but for

@@ -36,14 +36,6 @@ pub enum Error {
         /// What is wrong and what is allowed.
         message: String,
     },
-    /// A file could not be read.
-    #[error("{path}: {message}")]
-    File {
-        /// The file.
-        path: String,
-        /// What the system says.
-        message: String,
-    },
     /// The caller raised its flag.
     #[error("stopped")]
     Stopped,

@@ -75,5 +75,5 @@ pub use evaluate::evaluate;
 pub use invariants::dang_van_path;
 pub use judge::{Judge, strain_life};
 pub use life::{Basquin, CoffinManson};
-pub use material::{Material, QUANTITIES, Quantity, Sourced, materials, materials_from, read};
+pub use material::{Material, QUANTITIES, Quantity, Sourced, materials, read};
 pub use shakedown::{Yield, yielding};

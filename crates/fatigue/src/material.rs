@@ -1,7 +1,6 @@
 //! Material data for the criteria, every number with its source.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 
 use serde::Deserialize;
 use toml::{Spanned, Value};
@@ -203,17 +202,7 @@ pub fn materials() -> BTreeMap<String, Material> {
     read(include_str!("materials.toml"), "materials.toml").unwrap_or_default()
 }
 
-/// The materials of a file, in the form of `materials.toml`.
-pub fn materials_from(path: &Path) -> Result<BTreeMap<String, Material>, Error> {
-    let file = path.display().to_string();
-    let text = std::fs::read_to_string(path).map_err(|e| Error::File {
-        path: file.clone(),
-        message: e.to_string(),
-    })?;
-    read(&text, &file)
-}
-
-/// The materials of a text; `file` is its name in errors.
+/// The materials of a text in the form of `materials.toml`; `file` is its name in errors.
 pub fn read(text: &str, file: &str) -> Result<BTreeMap<String, Material>, Error> {
     let wrong = |at: usize, message: String| Error::Table {
         file: file.to_owned(),

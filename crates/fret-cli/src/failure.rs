@@ -4,9 +4,9 @@ use std::io::IsTerminal;
 
 use clap::ColorChoice;
 use clap::builder::styling::AnsiColor;
-use contact_core::Error;
+use contact_core::{Error, shown};
 
-use crate::terminal::{colours, say};
+use crate::terminal::{colours, say, say_coloured};
 
 /// How a command that failed ends.
 pub(crate) enum Failure {
@@ -32,7 +32,7 @@ impl Failure {
         let coloured = stderr.is_terminal() && colours() != ColorChoice::Never;
         let red = AnsiColor::Red.on_default().bold();
         if coloured {
-            say(&format!("{red}fret:{red:#} {error}"));
+            say_coloured(&format!("{red}fret:{red:#} {}", shown(&error)));
         } else {
             say(&format!("fret: {error}"));
         }

@@ -2,14 +2,14 @@
 
 use std::io::{self, ErrorKind, Write};
 
-use contact_core::Error;
+use contact_core::{Error, shown};
 
 use crate::failure::Failure;
 
-/// Writes to the standard output. That nobody reads on is no failure, a full disk is one.
+/// Writes to the standard output, what would act on the terminal as escapes. That nobody reads on is no failure, a full disk is one.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
-    written(writeln!(out, "{text}").and_then(|()| out.flush()))
+    written(writeln!(out, "{}", shown(text)).and_then(|()| out.flush()))
 }
 
 /// Outcome of writing to the standard output.

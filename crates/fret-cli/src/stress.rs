@@ -188,7 +188,7 @@ pub(crate) fn stop_on_interrupt() -> Arc<AtomicBool> {
 
 impl Task {
     fn new(options: &Options, stop: Arc<AtomicBool>) -> Result<Self, Error> {
-        let store = Store::open(&options.store)?;
+        let store = Store::open_to_read(&options.store)?;
         let scene = store.scene().clone();
         let side = if options.body == 1 {
             Side::Body1

@@ -3,9 +3,16 @@
 use std::io::{self, IsTerminal, Write};
 
 use clap::ColorChoice;
+use contact_core::shown;
 
-/// Writes a line to the standard error; a failure is ignored.
+/// Writes a line to the standard error, what would act on the terminal as escapes; a failure is
+/// ignored.
 pub(crate) fn say(line: &str) {
+    say_coloured(&shown(line));
+}
+
+/// Writes a line that holds the codes of colours, which is of our own making.
+pub(crate) fn say_coloured(line: &str) {
     let _ = writeln!(io::stderr(), "{line}");
 }
 

@@ -1,6 +1,6 @@
 //! The table from errors of the core to Python exceptions.
 
-use contact_core::Error;
+use contact_core::{Error, shown};
 use pyo3::create_exception;
 use pyo3::exceptions::{
     PyKeyboardInterrupt, PyMemoryError, PyOSError, PyRuntimeError, PyTypeError, PyValueError,
@@ -58,7 +58,7 @@ create_exception!(
 
 /// The Python exception that says the same as `error`.
 pub(crate) fn to_python(error: Error) -> PyErr {
-    let text = error.to_string();
+    let text = shown(&error.to_string()).into_owned();
     match error {
         Error::InvalidScene { .. } | Error::SceneFile { .. } | Error::Setting { .. } => {
             InvalidSceneError::new_err(text)
@@ -92,9 +92,8 @@ pub(crate) fn to_python(error: Error) -> PyErr {
 
 /// The Python exception that says the same as an error of the criteria.
 pub(crate) fn of_criterion(error: fatigue::Error) -> PyErr {
-    let text = error.to_string();
+    let text = shown(&error.to_string()).into_owned();
     match error {
-        fatigue::Error::File { .. } => StoreError::new_err(text),
         fatigue::Error::Stopped => PyKeyboardInterrupt::new_err(text),
         _ => ArgumentError::new_err(text),
     }

@@ -6,6 +6,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use contact_core::scene::text_of;
 use fatigue as core;
 use ndarray::{Array1, Array2, Ix2, Ix3};
 use numpy::IntoPyArray;
@@ -14,7 +15,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyCFunction, PyDict, PyTuple};
 
 use crate::arguments::{Array, List};
-use crate::error::of_criterion as refused;
+use crate::error::{of_criterion as refused, to_python};
 use crate::interruptible::interruptible;
 
 /// A number of what a criterion finds at a point.
@@ -311,7 +312,10 @@ impl Material {
 pub(crate) fn materials(file: Option<PathBuf>) -> PyResult<Vec<Material>> {
     let found = match file {
         None => core::materials(),
-        Some(file) => core::materials_from(&file).map_err(refused)?,
+        Some(file) => {
+            let (text, name) = text_of(&file).map_err(to_python)?;
+            core::read(&text, &name).map_err(refused)?
+        }
     };
     Ok(found.into_values().map(Material).collect())
 }

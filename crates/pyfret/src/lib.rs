@@ -100,7 +100,7 @@ mod _core {
         Subsurface, chosen_depths, depths, residual_of_layers, section_of_states,
     };
     #[pymodule_export]
-    use crate::text::read_text;
+    use crate::text::{read_bytes, read_text, shown};
     #[pymodule_export]
     use crate::wear::{Archard, DissipatedEnergy, resume_wear, verify_wear, wear};
 

@@ -115,17 +115,18 @@ fn whole(scene: &Scene, error: bool, watch: &mut dyn Observer) -> Result<Option<
 /// `on_increment` is called with the number of each increment solved and their number in all,
 /// which is known once they are chosen.
 #[pyfunction]
-#[pyo3(signature = (scene, *, store, checkpoint = 5.0, error = false, on_increment = None))]
+#[pyo3(signature = (scene, *, store, checkpoint = 5.0, overwrite = false, error = false, on_increment = None))]
 pub(crate) fn solve(
     py: Python<'_>,
     scene: Scene,
     store: PathBuf,
     checkpoint: f64,
+    overwrite: bool,
     error: bool,
     on_increment: Option<Py<PyAny>>,
 ) -> PyResult<()> {
     check(&scene, error)?;
-    let writer = StoreWriter::create(&store, false)
+    let writer = StoreWriter::create(&store, overwrite)
         .map_err(to_python)?
         .with_interval(interval(checkpoint)?);
     let run = |watch: &mut dyn Observer| {

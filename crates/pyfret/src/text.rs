@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 
 use contact_core::Error;
-use contact_core::scene::text_of_numbers;
+use contact_core::scene::{read_file, text_of_numbers};
 use pyo3::prelude::*;
+use pyo3::types::PyBytes;
 
 use crate::error::to_python;
 
@@ -17,6 +18,19 @@ pub(crate) fn read_text(path: PathBuf) -> PyResult<String> {
             message,
         })
     };
-    let bytes = std::fs::read(&path).map_err(|e| failed(e.to_string()))?;
-    text_of_numbers(bytes).map_err(failed)
+    text_of_numbers(read_file(&path).map_err(to_python)?).map_err(failed)
+}
+
+/// The bytes of a file that somebody names.
+///
+/// A pipe, a device or a file that would not fit into memory is refused before it is read.
+#[pyfunction]
+pub(crate) fn read_bytes(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyBytes>> {
+    Ok(PyBytes::new(py, &read_file(&path).map_err(to_python)?))
+}
+
+/// A text whose control codes and marks that turn the direction of reading stand as escapes.
+#[pyfunction]
+pub(crate) fn shown(text: &str) -> String {
+    contact_core::shown(text).into_owned()
 }

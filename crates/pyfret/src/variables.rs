@@ -2,9 +2,12 @@
 
 use contact_core::march::{Fields, Increment};
 use contact_core::scene::Grid;
-use contact_store::{AXES, Columns, FIELDS, FieldView, KeptField, Kind, SCALARS, STATUS_MEANINGS};
+use contact_store::{
+    AXES, Columns, FIELDS, FieldView, InMemory, KeptField, Kind, SCALARS, STATUS_MEANINGS,
+};
 use ndarray::{Array1, Array2, Array3, ArrayD, Axis, IxDyn};
 use numpy::{Element, IntoPyArray, PyArray1, ToPyArray};
+use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
@@ -117,6 +120,21 @@ impl<'py> Variables<'py> {
             )?;
         }
         Ok(())
+    }
+
+    /// A variable of a run of wear.
+    pub(crate) fn in_memory(&self, of: InMemory) -> PyResult<()> {
+        let words = |key: &str| of.attributes[key].as_str().unwrap_or_default();
+        let dims = of.attributes["_ARRAY_DIMENSIONS"].as_array();
+        let dims: Vec<&str> = dims
+            .into_iter()
+            .flatten()
+            .filter_map(serde_json::Value::as_str)
+            .collect();
+        let values = ArrayD::from_shape_vec(IxDyn(&of.shape), of.values)
+            .map_err(|e| PyRuntimeError::new_err(format!("{}: {e}", of.name)))?;
+        let values = self.typed(of.kind, values);
+        self.put(of.name, &dims, values, (words("units"), words("long_name")))
     }
 
     /// Numbers in the type of their kind, the one that a store has.

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use contact_store::{WearStore, resume_wear_by as take_up, verify_wear as verify};
+use contact_store::{WearColumns, WearStore, resume_wear_by as take_up, verify_wear as verify};
 use contact_wear::{
     self as core, BodyWear, Cycling, Factor, Jumps, Law, Of, Varying, WearRun, WornStart,
     WornThrough,
@@ -12,6 +12,7 @@ use contact_wear::{
 use numpy::{PyArrayLike1, PyArrayLike2, ToPyArray};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyTypeError, PyValueError};
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 use crate::argument::to_python;
 use crate::error::to_python as scene_to_python;
@@ -19,6 +20,7 @@ use crate::interruptible::interruptible;
 use crate::parts::parts;
 use crate::scene::Scene;
 use crate::scene::friction_law::own_law;
+use crate::variables::Variables;
 
 /// What a factor is a function of, and its pairs.
 type Table = Option<(String, Vec<(f64, f64)>)>;
@@ -241,25 +243,29 @@ impl Start<'_> {
     }
 }
 
-/// Runs a scene over many cycles into a store.
+/// A run of wear in memory: its variables as xarray takes them, and its attributes as JSON.
+type InMemory<'py> = (Bound<'py, PyDict>, String);
+
+/// Runs a scene over many cycles into a store, or without one in memory.
 #[pyfunction]
-#[pyo3(signature = (scene, *, body1, body2, cycles, store, share1 = None, share2 = None, first_branch = None,
+#[pyo3(signature = (scene, *, body1, body2, cycles, store = None, overwrite = false, share1 = None, share2 = None, first_branch = None,
     debris_kept = 0.0, frequency = None, start = None,
     sliding = false, rig_stiffness = f64::INFINITY, tolerance = None, jumps = None, explicit_jumps = None,
     go_on = false, tell_from = 0.1, on_jump = None))]
-pub(crate) fn wear(
-    py: Python<'_>,
+pub(crate) fn wear<'py>(
+    py: Python<'py>,
     scene: Scene,
-    body1: Option<Bound<'_, PyAny>>,
-    body2: Option<Bound<'_, PyAny>>,
+    body1: Option<Bound<'py, PyAny>>,
+    body2: Option<Bound<'py, PyAny>>,
     cycles: f64,
-    store: PathBuf,
+    store: Option<PathBuf>,
+    overwrite: bool,
     share1: Option<f64>,
     share2: Option<f64>,
     first_branch: Option<usize>,
     debris_kept: f64,
     frequency: Option<f64>,
-    start: Option<Start<'_>>,
+    start: Option<Start<'py>>,
     sliding: bool,
     rig_stiffness: f64,
     tolerance: Option<f64>,
@@ -268,7 +274,7 @@ pub(crate) fn wear(
     go_on: bool,
     tell_from: f64,
     on_jump: Option<Py<PyAny>>,
-) -> PyResult<()> {
+) -> PyResult<Option<InMemory<'py>>> {
     scene.0.check().map_err(scene_to_python)?;
     let raised = Raised::default();
     let bodies = [
@@ -302,16 +308,28 @@ pub(crate) fn wear(
     let stop = Arc::<AtomicBool>::default();
     let start = start.map(|start| start.read());
     let run = || {
-        let store = WearStore::create(&store, false)?;
+        let kept = match &store {
+            Some(store) => Kept::Store(Box::new(WearStore::create(store, overwrite)?)),
+            None => Kept::Memory(WearColumns::default()),
+        };
         let run = match &start {
             Some(start) => WearRun::from_worn(&scene.0, &wear, start, &stop)?,
             None => WearRun::new(&scene.0, &wear, &stop)?,
         };
-        Ok((run, store))
+        Ok((run, kept))
     };
     let begun: Result<_, contact_core::Error> = interruptible(py, &stop, run)?;
-    let (run, store) = begun.map_err(|e| caused(py, to_python(e), &raised))?;
-    go(py, run, store, (&stop, &raised), on_jump.as_ref())
+    let (mut run, mut kept) = begun.map_err(|e| caused(py, to_python(e), &raised))?;
+    go(py, &mut run, &mut kept, (&stop, &raised), on_jump.as_ref())?;
+    let Kept::Memory(columns) = kept else {
+        return Ok(None);
+    };
+    let (variables, attributes) = columns.finish(&run, "done");
+    let labelled = Variables::new(py);
+    variables
+        .into_iter()
+        .try_for_each(|variable| labelled.in_memory(variable))?;
+    Ok(Some((labelled.finish(), attributes.to_string())))
 }
 
 /// Fails if a file of the store of a run of wear is missing, or is not as it was written.
@@ -343,7 +361,10 @@ pub(crate) fn resume_wear(
     let found = found.map_err(to_python)?;
     match found {
         None => Ok(()),
-        Some((run, store)) => go(py, run, store, (&stop, &raised), on_jump.as_ref()),
+        Some((mut run, store)) => {
+            let mut kept = Kept::Store(Box::new(store));
+            go(py, &mut run, &mut kept, (&stop, &raised), on_jump.as_ref())
+        }
     }
 }
 
@@ -359,20 +380,45 @@ fn caused(py: Python<'_>, error: PyErr, raised: &Raised) -> PyErr {
     }
 }
 
+/// Where what a run gives is kept.
+enum Kept {
+    Store(Box<WearStore>),
+    Memory(WearColumns),
+}
+
+impl Kept {
+    fn write(&mut self, run: &mut WearRun) -> Result<(), contact_core::Error> {
+        match self {
+            Self::Store(store) => store.write(run),
+            Self::Memory(columns) => {
+                columns.keep(run);
+                Ok(())
+            }
+        }
+    }
+
+    fn finish(&self, run: &WearRun, status: &str) -> Result<(), contact_core::Error> {
+        match self {
+            Self::Store(store) => store.finish(run, status),
+            Self::Memory(_) => Ok(()),
+        }
+    }
+}
+
 fn go(
     py: Python<'_>,
-    mut run: WearRun,
-    mut store: WearStore,
+    run: &mut WearRun,
+    kept: &mut Kept,
     (stop, raised): (&Arc<AtomicBool>, &Raised),
     on_jump: Option<&Py<PyAny>>,
 ) -> PyResult<()> {
     loop {
         let step = interruptible(py, stop, || {
             let jump = run.advance()?;
-            Some(jump.and_then(|jump| store.write(&mut run).map(|()| jump.cycles)))
+            Some(jump.and_then(|jump| kept.write(run).map(|()| jump.cycles)))
         });
         match step {
-            Ok(None) => return store.finish(&run, "done").map_err(to_python),
+            Ok(None) => return kept.finish(run, "done").map_err(to_python),
             Ok(Some(Ok(cycles))) => {
                 if let Some(tell) = on_jump {
                     tell.call1(py, (cycles,))?;
@@ -383,11 +429,11 @@ fn go(
                 let error = caused(py, to_python(error), raised);
                 let stopped = error.is_instance_of::<PyKeyboardInterrupt>(py);
                 let status = if stopped { "stopped" } else { &text };
-                store.finish(&run, status).map_err(to_python)?;
+                kept.finish(run, status).map_err(to_python)?;
                 return Err(error);
             }
             Err(raised) => {
-                store.finish(&run, "stopped").map_err(to_python)?;
+                kept.finish(run, "stopped").map_err(to_python)?;
                 return Err(raised);
             }
         }

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from pyfret import verification, wear
 from pyfret._cli import compare, crack, export, fit, threshold
 from pyfret._cli.parser import Parser, added
+from pyfret._cli.say import say
 from pyfret._core import __version__
 from pyfret.citation import cite as told
 from pyfret.citation import sources
@@ -87,7 +88,7 @@ def study(options: argparse.Namespace) -> int:
             again=options.again,
         )
     except KeyboardInterrupt:
-        print("fret: stopped; the same command goes on", file=sys.stderr)
+        say("fret: stopped; the same command goes on", file=sys.stderr)
         return ENDED_EARLY
     finally:
         if client is not None:
@@ -102,9 +103,9 @@ def study(options: argparse.Namespace) -> int:
             map=options.map,
         )
     else:
-        print(f"{place}: {found!r}")
+        say(f"{place}: {found!r}")
         for values, reason in failed:
-            print(f"{', '.join(f'{k} = {v}' for k, v in values.items())}: {reason}")
+            say(f"{', '.join(f'{k} = {v}' for k, v in values.items())}: {reason}")
     if options.map:
         import matplotlib.pyplot as plt
 
@@ -127,7 +128,7 @@ def report(options: argparse.Namespace) -> int:
     if options.json:
         tell(page=str(place), bytes=size)
     else:
-        print(f"{place}: {size / 1e6:.1f} MB")
+        say(f"{place}: {size / 1e6:.1f} MB")
     return DONE
 
 
@@ -148,7 +149,7 @@ def verify(options: argparse.Namespace) -> int:
         ]
         tell(passed=found.passed, checks=checks)
     else:
-        print(found)
+        say(found)
     return DONE if found.passed else ENDED_EARLY
 
 
@@ -158,13 +159,13 @@ def cite(options: argparse.Namespace) -> int:
     if options.json:
         tell(version=__version__, sources=[source._asdict() for source in sources(result)])
     else:
-        print(told(result))
+        say(told(result))
     return DONE
 
 
 def tell(**answer: object) -> None:
     """Print what came out as one JSON object."""
-    print(json.dumps(answer, indent=2))
+    say(json.dumps(answer, indent=2))
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -181,7 +182,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return DONE
     except OSError as error:
         leave_output()
-        print(f"fret: standard output: {error.strerror}", file=sys.stderr)
+        say(f"fret: standard output: {error.strerror}", file=sys.stderr)
         return UNWRITTEN
     return code
 
@@ -225,14 +226,14 @@ def run(arguments: Sequence[str] | None) -> int:
         raise
     except OSError as error:
         place = f"{error.filename}: " if error.filename else ""
-        print(f"fret: {place}{error.strerror or error}", file=sys.stderr)
+        say(f"fret: {place}{error.strerror or error}", file=sys.stderr)
         return UNWRITTEN if error.errno in FULL else BAD_INPUT
     except (ValueError, KeyError, ImportError) as error:
-        print(f"fret: {' '.join(str(error).split())}", file=sys.stderr)
+        say(f"fret: {' '.join(str(error).split())}", file=sys.stderr)
         return BAD_INPUT
     except (RuntimeError, MemoryError) as error:
-        print(f"fret: {' '.join(str(error).split()) or 'no memory'}", file=sys.stderr)
+        say(f"fret: {' '.join(str(error).split()) or 'no memory'}", file=sys.stderr)
         return ENDED_EARLY
     except KeyboardInterrupt:
-        print("fret: stopped", file=sys.stderr)
+        say("fret: stopped", file=sys.stderr)
         return ENDED_EARLY

@@ -10,6 +10,7 @@ import numpy as np
 
 from pyfret import export
 from pyfret._cli.parser import added
+from pyfret._cli.say import say
 from pyfret.result import open as open_result
 
 if TYPE_CHECKING:
@@ -73,9 +74,9 @@ def run(options: argparse.Namespace) -> int:
     )
     if options.json:
         about = {"file": options.out, "body": options.body, "unit": options.unit}
-        print(json.dumps(about | {"bytes": Path(options.out).stat().st_size}, indent=2))
+        say(json.dumps(about | {"bytes": Path(options.out).stat().st_size}, indent=2))
     else:
-        print(options.out)
+        say(options.out)
     return 0
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from pyfret import fit
 from pyfret._cli.parser import added
+from pyfret._cli.say import say
 from pyfret.study.design import varied
 
 if TYPE_CHECKING:
@@ -81,9 +82,9 @@ def run(options: argparse.Namespace) -> int:
         }
         if found.posterior is not None:
             said["posterior"] = {key: found.posterior.interval(key) for key in found.known}
-        print(json.dumps(said))
+        say(json.dumps(said))
     else:
-        print(found.summary())
+        say(found.summary())
     if options.out:
         import matplotlib.pyplot as plt
 

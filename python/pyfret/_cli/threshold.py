@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from pyfret import fatigue
 from pyfret._cli.parser import added
+from pyfret._cli.say import say
 from pyfret.study.design import varied
 from pyfret.study.thresholds import Averaged, Threshold, threshold
 
@@ -107,5 +108,5 @@ def run(options: argparse.Namespace) -> int:
         ]
     for row in rows:
         text = ", ".join(f"{k} = {v:.6g}" for k, v in row.items())
-        print(json.dumps(row) if options.json else text)
+        say(json.dumps(row) if options.json else text)
     return 0

@@ -8,6 +8,8 @@ import time
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from pyfret._core import shown
+
 if TYPE_CHECKING:
     from types import TracebackType
 
@@ -98,7 +100,7 @@ class Progress:
         bar = ("=" * round(WIDTH * share)).ljust(WIDTH)
         left = elapsed * (1 - share) / share if share > 0 else 0.0
         counts = f"{self.done}/{max(self.total, self.done)}"
-        return f"{self.title} [{bar}] {counts} {elapsed:.0f} s, {left:.0f} s left "
+        return f"{shown(self.title)} [{bar}] {counts} {elapsed:.0f} s, {left:.0f} s left "
 
     def __exit__(
         self,

@@ -1,20 +1,27 @@
-"""Texts of files that people name."""
+"""Texts of files that people name, and of others on their way to the eye."""
 
 from __future__ import annotations
 
 import codecs
-import stat
+from html import escape
 from typing import TYPE_CHECKING
 
-from pyfret._core import StoreError
+from pyfret._core import StoreError, read_bytes, shown
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-__all__ = ["read_text"]
+__all__ = ["html", "literal", "read_text", "shown"]
 
-#: Bytes of the largest text that is read.
-LARGEST = 1 << 28
+
+def html(text: object) -> str:
+    """A text of others in a page: neither markup nor what turns the direction of reading."""
+    return escape(shown(str(text)))
+
+
+def literal(text: object) -> str:
+    """A text of others in a figure: a ``$`` is one, and begins no formula."""
+    return shown(str(text)).replace("$", r"\$")
 
 
 def read_text(path: Path) -> str:
@@ -25,18 +32,7 @@ def read_text(path: Path) -> str:
     StoreError
         There is no file but a folder, a pipe or a device, it is too large, or no text.
     """
-    try:
-        # A pipe would be waited for when it is opened, and a device has no end.
-        about = path.stat()
-        if not stat.S_ISREG(about.st_mode):
-            raise StoreError(f"{path}: is not a file")
-        if about.st_size > LARGEST:
-            raise StoreError(f"{path}: has {about.st_size} bytes: must have {LARGEST} at most")
-        content = path.read_bytes()
-    except StoreError:
-        raise
-    except OSError as error:
-        raise StoreError(f"{path}: {error.strerror}") from error
+    content = read_bytes(path)
     wide = content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
     try:
         return content.decode("utf-16" if wide else "utf-8-sig")

@@ -12,7 +12,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import suppress
-from html import escape
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -21,6 +20,7 @@ from pyfret._core import Material
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
 from pyfret._util.numbers import in_words, place
+from pyfret._util.text import html
 from pyfret.fatigue.cycle_section import (
     body_of,
     depths_of,
@@ -235,7 +235,7 @@ class Life(Labelled):
             value = f"{in_words(1e-6 * w.value)} MPa" if unit == "Pa" else f"{w.value:.4g} {unit}"
             rows.append([str(layer), in_words(w.margin), value, *place])
         heading = ["layer", name.replace("_", " "), "value", "x [µm]", "y [µm]", "z [µm]"]
-        criterion = escape(str(self.dataset.attrs["criterion"]))
+        criterion = html(str(self.dataset.attrs["criterion"]))
         return f"<p><b>{criterion}</b></p>{table(heading, rows)}"
 
     def __repr__(self) -> str:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import matplotlib.pyplot as plt
 import numpy as np
 
+from pyfret._util.text import literal
 from pyfret.plot.along import look_along
 from pyfret.plot.histories import driven, fretting_loop, load_path, stick_ratio
 from pyfret.plot.maps import pressure_map, shear_streamlines, slip_map, stick_slip
@@ -60,7 +61,7 @@ def overview(shown: Run | State, *, units: Units = "auto") -> Figure:
     else:
         sixth.set_axis_off()
         note(sixth, "the lower body is rigid" if at.contact.any() else "no contact")
-    title = str(at.dataset.attrs["title"])
+    title = literal(at.dataset.attrs["title"])
     when = f"increment {int(at.dataset.increment)}, t = {float(at.dataset.t):.4g}"
     figure.suptitle(f"{title}: {when}" if title else when, x=0.01, ha="left", fontsize=9)
     return figure

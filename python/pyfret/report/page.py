@@ -6,13 +6,13 @@ import base64
 import gzip
 import io
 import json
-from html import escape
 from pathlib import Path
 from string import Template
 from typing import TYPE_CHECKING
 
 from pyfret._core import __version__
 from pyfret._util.files import beside
+from pyfret._util.text import html
 from pyfret.citation import sources
 from pyfret.report.content import figures as numbers
 from pyfret.report.crack import Crack
@@ -81,19 +81,19 @@ def report(
         raise ValueError("threshold: needs a crack, such as crack=result.crack()")
     cracked = None if crack is None else Crack(crack, threshold)
     page = Template((HERE / "page.html").read_text(encoding="utf-8")).substitute(
-        title=escape(str(result.dataset.attrs["title"]) or "Fretting contact"),
-        version=escape(str(result.dataset.attrs.get("version", __version__))),
-        status=escape(result.status),
-        doubts="".join(f"<p>Doubted: {escape(doubt)}.</p>" for doubt in doubted(result)),
+        title=html(str(result.dataset.attrs["title"]) or "Fretting contact"),
+        version=html(str(result.dataset.attrs.get("version", __version__))),
+        status=html(result.status),
+        doubts="".join(f"<p>Doubted: {html(doubt)}.</p>" for doubt in doubted(result)),
         scene=scene_html(result.scene),
         ends=ends_table(result),
         bars=bars(result),
         cycles="".join(cycles_table(result, of) for of in directions(result)),
         plan=plan(result),
         sources=cited(result),
-        worn="" if wear is None else f"<pre>{escape(wear.summary())}</pre>",
+        worn="" if wear is None else f"<pre>{html(wear.summary())}</pre>",
         more="".join(picture(caption, of) for caption, of in (figures or {}).items()),
-        toml=escape(result.scene.to_toml()),
+        toml=html(result.scene.to_toml()),
         css=(HERE / "page.css").read_text(encoding="utf-8"),
         js=(HERE / "page.js").read_text(encoding="utf-8"),
         numbers=packed(json.dumps(numbers(result, wear, cracked), allow_nan=False)),
@@ -142,14 +142,14 @@ def plan(result: Run) -> str:
     for line in result.dataset.attrs.get("plan", ()):
         what, _, why = str(line).partition(" (")
         kind, _, of = what.partition(": ")
-        rows.append([escape(kind), escape(of), escape(why.removesuffix(")"))])
+        rows.append([html(kind), html(of), html(why.removesuffix(")"))])
     return table(["", "what", "why"], rows, words=True)
 
 
 def cited(result: Run) -> str:
     """The sources of the methods."""
     rows = [
-        f"<li><b>{escape(s.what)}</b>: {escape(s.text)}, doi:{escape(s.doi)}</li>"
+        f"<li><b>{html(s.what)}</b>: {html(s.text)}, doi:{html(s.doi)}</li>"
         for s in sources(result)
     ]
     return f"<ul>{''.join(rows)}</ul>"
@@ -161,6 +161,6 @@ def picture(caption: str, figure: Figure) -> str:
     figure.savefig(file, format="png", dpi=150)
     data = base64.b64encode(file.getvalue()).decode("ascii")
     return (
-        f'<section><h2>{escape(caption)}</h2><img alt="{escape(caption)}" '
+        f'<section><h2>{html(caption)}</h2><img alt="{html(caption)}" '
         f'src="data:image/png;base64,{data}"></section>'
     )

@@ -16,14 +16,20 @@ __all__ = ["dataset"]
 
 #: Variables that are coordinates, as in a store.
 COORDINATES = frozenset(
-    ("x", "y", "increment", "t", "branch_of_increment", "saved_increment", "saved_t")
+    (
+        *("x", "y", "increment", "t", "branch_of_increment", "saved_increment", "saved_t"),
+        *("cycles", "block_cycles"),
+    )
 )
 
 
 def dataset(variables: Mapping[str, Variable], attributes: str) -> xr.Dataset:
     """Make a dataset of variables (dimensions, values, attributes) and of attributes as JSON."""
+    attrs = json.loads(attributes)
+    # Of a store, where it says what are coordinates.
+    attrs.pop("coordinates", None)
     return xr.Dataset(
         {k: of for k, of in variables.items() if k not in COORDINATES},
         coords={k: of for k, of in variables.items() if k in COORDINATES},
-        attrs=json.loads(attributes),
+        attrs=attrs,
     )

@@ -9,6 +9,7 @@ import numpy as np
 
 from pyfret._util.guesses import no_attribute
 from pyfret._util.lazy import xr
+from pyfret._util.text import shown
 from pyfret.run.attributes import OfRun
 from pyfret.run.loops import STATUS, of_cycles
 from pyfret.run.state import State
@@ -230,7 +231,7 @@ class Run(OfRun):
     def __repr__(self) -> str:
         """Give the title and the size of the result."""
         d = self.dataset
-        return (
+        return shown(
             f"{type(self).__name__}({d.attrs['title']!r}, {d.sizes['increment']} increments, "
             f"{d.sizes['saved']} with fields of {d.sizes['x']} x {d.sizes['y']}, {self.status})"
         )

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from pyfret._util.numbers import in_words
+from pyfret._util.text import shown
 from pyfret.run.loops import STATUS
 
 if TYPE_CHECKING:
@@ -120,7 +121,7 @@ def summary(result: Run) -> str:
     ]
     title = f"{result.dataset.attrs['title'] or 'run'}: {result.status}"
     doubts = [f"doubted: {doubt}" for doubt in result.doubts]
-    return "\n".join([title, *rows, *cycle_lines(result), *doubts])
+    return shown("\n".join([title, *rows, *cycle_lines(result), *doubts]))
 
 
 def cycle_lines(result: Run) -> list[str]:

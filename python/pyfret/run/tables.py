@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from html import escape
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from pyfret._util.text import html
 from pyfret.run.loops import STATUS
 from pyfret.run.summary import told
 from pyfret.scene.tables import number, table
@@ -95,8 +95,8 @@ def cycles_table(result: Run, direction: Any) -> str:
 
 def run_html(result: Run) -> str:
     """A result as tables: what was solved, and the ends of the branches."""
-    title = escape(str(result.dataset.attrs["title"])) or "run"
-    return f"<p><b>{title}</b>: {escape(result.status)}</p>{ends_table(result)}"
+    title = html(str(result.dataset.attrs["title"])) or "run"
+    return f"<p><b>{title}</b>: {html(result.status)}</p>{ends_table(result)}"
 
 
 def state_html(state: State) -> str:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from html import escape
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from pyfret._core import LoadPath, Scene
 from pyfret._util.numbers import in_words, length
+from pyfret._util.text import html
 from pyfret.scene.words import friction_in_words, shape_in_words
 
 if TYPE_CHECKING:
@@ -93,7 +93,7 @@ def scene_html(scene: Scene) -> str:
     if hertz is not None:
         size = f"a<sub>H</sub> = {number(1e6 * hertz.a)} µm, p<sub>H</sub> = "
         rows.append(["uncoated", "Hertz contact", f"{size}{number(1e-6 * hertz.p0)} MPa"])
-    title = f"<p><b>{escape(scene.title)}</b></p>" if scene.title else ""
+    title = f"<p><b>{html(scene.title)}</b></p>" if scene.title else ""
     return title + table(["", "", ""], rows, words=True) + path_html(scene.path, grid)
 
 
@@ -136,5 +136,5 @@ def path_html(path: LoadPath, grid: Grid | None = None) -> str:
 
 def show_in_notebooks() -> None:
     """Let scenes and load paths be shown as tables."""
-    for kind, html in ((Scene, scene_html), (LoadPath, path_html)):
-        setattr(kind, "_repr_html_", html)  # noqa: B010
+    for kind, table_of in ((Scene, scene_html), (LoadPath, path_html)):
+        setattr(kind, "_repr_html_", table_of)  # noqa: B010

@@ -12,6 +12,7 @@ import numpy as np
 from pyfret._core import Scene
 from pyfret._util import files
 from pyfret._util.labelled import Labelled
+from pyfret._util.text import shown
 from pyfret.scene.tables import table
 
 if sys.version_info >= (3, 11):
@@ -149,7 +150,7 @@ class WearResult(Labelled):
         for body in (1, 2):
             laws = says.get(f"body{body}", {}).get("laws", [])
             lines += [f"law of body {body}: {written(law)}" for law in laws]
-        return "\n".join(lines)
+        return shown("\n".join(lines))
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the result to a Zarr folder (``.zarr``) or a NetCDF file (``.nc``).

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import math
-import tempfile
 from os import fspath
-from pathlib import Path
 from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
@@ -14,6 +12,7 @@ from pyfret import _core
 from pyfret._core import Scene, StoreError
 from pyfret._util import files
 from pyfret._util.progress import Progress
+from pyfret.run.dataset import dataset
 from pyfret.wear.result import WearResult
 
 if TYPE_CHECKING:
@@ -53,6 +52,7 @@ def solve(
     tell_from: float = 0.1,
     start: WearResult | None = None,
     out: str | os.PathLike[str] | None = None,
+    overwrite: bool = False,
     progress: bool = True,
 ) -> WearResult:
     """Wear the surfaces of a scene over many cycles.
@@ -101,7 +101,9 @@ def solve(
         and volumes count on. The grid must be the same.
     out : path, optional
         Result store to write while the run goes on; it must not exist. :func:`resume` goes on
-        with a run that was interrupted.
+        with a run that was interrupted. Without it the result is in memory only.
+    overwrite : bool
+        Whether a store at `out` is replaced, once the first jump is done (default False).
     progress : bool
         Whether to draw a progress bar on a terminal or in a notebook.
 
@@ -124,37 +126,34 @@ def solve(
     if path is not None:
         scene = scene.replace(path=path)
 
-    def run(store: str | os.PathLike[str]) -> None:
-        with Progress(title=scene.title or "wear", shown=progress) as bar:
-            _core.wear(
-                scene,
-                body1=body1,
-                body2=body2,
-                cycles=cycles,
-                store=store,
-                share1=share1,
-                share2=share2,
-                first_branch=first_branch,
-                debris_kept=debris_kept,
-                frequency=frequency,
-                start=begins,
-                sliding=cycling == "sliding",
-                rig_stiffness=rig_stiffness,
-                tolerance=tolerance,
-                jumps=jumps,
-                explicit_jumps=explicit_jumps,
-                go_on=worn_through == "go_on",
-                tell_from=tell_from,
-                on_jump=lambda now: bar.update(round(now - done), round(cycles)),
-            )
-
-    if out is not None:
-        run(out)
-        return open(out)
-    with tempfile.TemporaryDirectory(prefix="pyfret-") as folder:
-        store = Path(folder) / "wear.zarr"
-        run(store)
-        return WearResult(open(store).dataset.load())
+    with Progress(title=scene.title or "wear", shown=progress) as bar:
+        kept = _core.wear(
+            scene,
+            body1=body1,
+            body2=body2,
+            cycles=cycles,
+            store=out,
+            overwrite=overwrite,
+            share1=share1,
+            share2=share2,
+            first_branch=first_branch,
+            debris_kept=debris_kept,
+            frequency=frequency,
+            start=begins,
+            sliding=cycling == "sliding",
+            rig_stiffness=rig_stiffness,
+            tolerance=tolerance,
+            jumps=jumps,
+            explicit_jumps=explicit_jumps,
+            go_on=worn_through == "go_on",
+            tell_from=tell_from,
+            on_jump=lambda now: bar.update(round(now - done), round(cycles)),
+        )
+    if kept is not None:
+        return WearResult(dataset(*kept))
+    if out is None:
+        raise RuntimeError("a run without a store is in memory")
+    return open(out)
 
 
 def check_choice(name: str, value: str, allowed: tuple[str, ...]) -> None:

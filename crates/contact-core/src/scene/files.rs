@@ -25,8 +25,13 @@ pub(crate) fn check(path: &Path) -> Result<(), Error> {
     fits("the numbers of a file", COPIES * about.len() as f64)
 }
 
-/// The content of a file; checked first.
-pub(crate) fn read(path: &Path) -> Result<Vec<u8>, Error> {
+/// The content of a file that somebody names, whatever it is read for: checked first.
+///
+/// # Errors
+///
+/// [`Error::File`] where there is no file, but a folder, a pipe or a device, or where it cannot be
+/// read; [`Error::TooLarge`] where what is made of it would not fit into memory.
+pub fn read(path: &Path) -> Result<Vec<u8>, Error> {
     check(path)?;
     fs::read(path).map_err(|e| Error::File {
         path: path.display().to_string(),

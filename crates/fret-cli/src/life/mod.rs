@@ -6,11 +6,12 @@ mod table;
 
 use contact_assess::{ByCriterion, Site, judge, materials_of_layers, of_criteria};
 use contact_core::Error;
+use contact_core::scene::text_of;
 use contact_store::Store;
 use contact_store::StoredCycle;
 use contact_subsurface::{Line, Side, chosen_depths, depths, residual_of_layers};
 use contact_subsurface::{OverCycle, unsettled};
-use fatigue::{Material, Search, materials, materials_from};
+use fatigue::{Material, Search, materials, read};
 use serde_json::json;
 
 pub(crate) use self::options::Options;
@@ -35,7 +36,7 @@ pub(crate) fn life(options: &Options) -> Result<(), Failure> {
 /// The text to print; notes go to the standard error.
 fn judged(options: &Options) -> Result<Vec<String>, Error> {
     table::check(options)?;
-    let store = Store::open(&options.store)?;
+    let store = Store::open_to_read(&options.store)?;
     let scene = store.scene();
     let (side, body) = if options.body == 1 {
         (Side::Body1, &scene.body1)
@@ -123,7 +124,8 @@ fn given_materials(options: &Options) -> Result<Vec<Option<Material>>, Error> {
     let mut table = materials();
     let mut names = options.material.clone();
     if let Some(file) = &options.materials {
-        let own = materials_from(file).map_err(of_criteria)?;
+        let (text, name) = text_of(file)?;
+        let own = read(&text, &name).map_err(of_criteria)?;
         if names.is_empty() && own.len() == 1 {
             names = own.keys().cloned().collect();
         }

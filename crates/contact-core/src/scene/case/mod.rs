@@ -65,7 +65,11 @@ impl Scene {
     }
 }
 
-/// The text of a scene file, and its name in errors.
+/// The text of a file in UTF-8 or UTF-16, and its name in errors.
+///
+/// # Errors
+///
+/// Those of [`read_file`](crate::scene::read_file), and [`Error::File`] where it is no text.
 pub fn text_of(path: &Path) -> Result<(String, String), Error> {
     let file = path.display().to_string();
     match strict(files::read(path)?) {
