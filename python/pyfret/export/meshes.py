@@ -7,12 +7,16 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from pyfret.export.foreign import read_by_meshio
+from pyfret.export.inp import read_parts
+
 if TYPE_CHECKING:
     import os
 
     from numpy.typing import NDArray
 
     from pyfret.export.frame import Frame
+    from pyfret.export.inp import Part
 
 __all__ = ["Mesh", "faces_in_plane", "read_mesh"]
 
@@ -45,8 +49,8 @@ IN_PLANE = 1e-6
 class Mesh(NamedTuple):
     """Nodes and elements of a mesh."""
 
-    #: Number of each node.
-    numbers: NDArray[np.int64]
+    #: Name of each node: its number, in an assembly behind its instance, ``Block-1.7``.
+    names: list[str]
     #: Places of the nodes, shape (n, 3).
     points: NDArray[np.float64]
     #: Elements as rows of node indices, by their number of nodes; volumes.
@@ -56,72 +60,57 @@ class Mesh(NamedTuple):
 
 
 def read_mesh(path: str | os.PathLike[str]) -> Mesh:
-    """Read the mesh of an ``.inp`` file of Abaqus or CalculiX, or of any format of meshio.
+    """Read the mesh of an ``.inp`` file of Abaqus or CalculiX, or of a format that meshio reads.
 
-    Nodes of an ``.inp`` keep their numbers; those of other formats count from 1.
+    Nodes of an ``.inp`` keep their numbers, in an assembly behind the name of their instance; those
+    of other formats count from 1.
     """
-    if Path(path).suffix.lower() == ".inp":
-        return _read_inp(Path(path))
-    try:
-        import meshio
-    except ModuleNotFoundError as absent:
-        message = 'meshes other than .inp need meshio: pip install "fretting[mesh]"'
-        raise ModuleNotFoundError(message, name="meshio") from absent
-    found = meshio.read(path)
+    place = Path(path)
+    if place.suffix.lower() == ".inp":
+        return joined(read_parts(place), place)
+    found = read_by_meshio(place)
     points = np.zeros((len(found.points), 3))
     points[:, : found.points.shape[1]] = found.points
     blocks = [(block.type, np.asarray(block.data, np.int64)) for block in found.cells]
     volumes = [data for name, data in blocks if name not in PLANE and data.shape[1] in FACES]
     faces = [data for name, data in blocks if name in PLANE]
-    return Mesh(np.arange(1, len(points) + 1), points, volumes, faces)
+    return Mesh([str(n + 1) for n in range(len(points))], points, volumes, faces)
 
 
-def _read_inp(path: Path) -> Mesh:
-    """The ``*NODE`` and ``*ELEMENT`` blocks of a file; includes are not followed."""
-    nodes: list[list[float]] = []
-    elements: list[list[int]] = []
-    keyword, open_line = "", False
-    with path.open(encoding="latin-1") as file:
-        for number, text in enumerate(file, 1):
-            line = text.strip()
-            if not line or line.startswith("**"):
-                continue
-            if line.startswith("*"):
-                keyword, open_line = line.split(",")[0].strip().upper(), False
-                continue
-            if keyword not in ("*NODE", "*ELEMENT"):
-                continue
-            fields = [field.strip() for field in line.rstrip(",").split(",")]
-            try:
-                if keyword == "*NODE":
-                    nodes.append([float(field) for field in fields[:4]])
+def joined(parts: list[Part], path: Path) -> Mesh:
+    """The parts of a file as one mesh."""
+    names: list[str] = []
+    points: list[NDArray[np.float64]] = []
+    volumes: dict[int, list[NDArray[np.int64]]] = {}
+    faces: dict[int, list[NDArray[np.int64]]] = {}
+    for part in parts:
+        numbers = np.array(part.numbers, dtype=np.int64)
+        order = np.argsort(numbers, kind="stable")
+        twice = np.flatnonzero(np.diff(numbers[order]) == 0)
+        if twice.size:
+            raise ValueError(f"{path}: the node {numbers[order][twice[0]]} stands there twice")
+        for rows, found in ((part.volumes, volumes), (part.faces, faces)):
+            for count in sorted({len(row) - 1 for row in rows}):
+                if ((found is volumes) and count not in FACES) or count < 3:
                     continue
-                row = [int(field) for field in fields]
-            except ValueError as error:
-                raise ValueError(f"{path}, line {number}: {line!r}: {error}") from error
-            if open_line:
-                elements[-1].extend(row)
-            else:
-                elements.append(row)
-            # An element goes on in the next line after a comma.
-            open_line = line.endswith(",")
-    if not nodes:
-        raise ValueError(f"{path}: has no *NODE block with nodes")
-    table = np.array([node + [0.0] * (4 - len(node)) for node in nodes])
-    numbers = table[:, 0].astype(np.int64)
-    order = np.argsort(numbers)
-    volumes = []
-    for count in sorted({len(row) - 1 for row in elements}):
-        if count not in FACES:
-            continue
-        named = np.array([row[1:] for row in elements if len(row) == count + 1])
-        at = np.searchsorted(numbers, named, sorter=order)
-        known = order[np.minimum(at, numbers.size - 1)]
-        if (numbers[known] != named).any():
-            missing = named[numbers[known] != named][0]
-            raise ValueError(f"{path}: an element has the node {missing}, which *NODE lacks")
-        volumes.append(known)
-    return Mesh(numbers, table[:, 1:], volumes, [])
+                named = np.array([row[1:] for row in rows if len(row) == count + 1])
+                at = np.searchsorted(numbers, named, sorter=order)
+                known = order[np.minimum(at, numbers.size - 1)]
+                if (numbers[known] != named).any():
+                    missing = named[numbers[known] != named][0]
+                    raise ValueError(
+                        f"{path}: an element has the node {missing}, which *NODE lacks"
+                    )
+                found.setdefault(count, []).append(known + len(names))
+        names += [f"{part.prefix}{n}" for n in part.numbers]
+        points.append(np.array(part.points).reshape(-1, 3))
+    kept = {count: rows for count, rows in faces.items() if count in (3, 4, 6, 8)}
+    return Mesh(
+        names,
+        np.concatenate(points),
+        [np.concatenate(rows) for _, rows in sorted(volumes.items())],
+        [np.concatenate(rows) for _, rows in sorted(kept.items())],
+    )
 
 
 def faces_in_plane(mesh: Mesh, frame: Frame) -> list[NDArray[np.int64]]:

@@ -118,7 +118,8 @@ def loads(
     ----------
     mesh : path
         An ``.inp`` file with ``*NODE`` and ``*ELEMENT`` (tetrahedra, wedges, hexahedra, linear or
-        quadratic), or any format that meshio reads.
+        quadratic), in an assembly with its instances, or a format of :data:`FORMATS` that meshio
+        reads. Keywords that move or generate nodes in other ways are refused by name.
     path : path
         File to write; it must not exist.
     state, frame, body_number
@@ -139,10 +140,10 @@ def loads(
     total = ", ".join(f"{component:.6g}" for component in forces.sum(axis=0))
     with Path(path).open("x", encoding="ascii", newline="\n") as file:
         file.write(f"** forces of a contact on body {body_number}, in all {total} N\n*CLOAD\n")
-        for number, force in zip(read.numbers.tolist(), forces.tolist(), strict=True):
+        for name, force in zip(read.names, forces.tolist(), strict=True):
             for axis, component in enumerate(force, 1):
                 if component != 0.0:
-                    file.write(f"{number}, {axis}, {component:.12g}\n")
+                    file.write(f"{name}, {axis}, {component:.12g}\n")
     return forces
 
 

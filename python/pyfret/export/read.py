@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from pyfret._core import read_text
+from pyfret.export.foreign import read_by_meshio
 from pyfret.export.frame import Frame
+from pyfret.export.numbers import numbers
 
 if TYPE_CHECKING:
     import os
@@ -17,6 +21,12 @@ if TYPE_CHECKING:
 
 __all__ = ["bulk_stress", "compliance", "nodal"]
 
+#: Digits of the numbers of nodes, by the format of a block.
+WIDTHS = {"0": 5, "1": 10}
+#: Letters of the head of a block before its format; some programs leave the format out.
+SHORT = 58
+#: Numbers in a row of a block of results.
+COMPONENTS = {"STRESS": 6, "DISP": 3}
 #: Nearest nodes that a value at the contact is taken from.
 NEAREST = 8
 #: Order of the components xx, yy, zz, xy, yz, zx of a stress of CalculiX as a matrix.
@@ -37,12 +47,12 @@ def bulk_stress(
     ----------
     path : path
         ``.frd`` of CalculiX (``*NODE FILE`` S, the last step), ``.dat`` of CalculiX (``*EL PRINT``
-        S: the mean over the points printed), or any mesh that meshio reads with a stress at its
+        S: the mean over the points printed last), or a mesh that meshio reads with a stress at its
         nodes: six components xx, yy, zz, xy, xz, yz, or nine.
     frame : Frame, optional
         Where the contact lies in the model, and its units.
     field : str
-        Name of the stress in the files of meshio.
+        Name of the stress in the files of meshio; of a ``.dat`` with several sets, the set.
 
     Returns
     -------
@@ -52,7 +62,7 @@ def bulk_stress(
     frame = Frame() if frame is None else frame
     place = Path(path)
     if place.suffix.lower() == ".dat":
-        stress = _printed(place)[:, VOIGT].mean(axis=0).reshape(3, 3)
+        stress = _printed(place, field)[:, VOIGT].mean(axis=0).reshape(3, 3)
     else:
         points, values = nodal(place, "STRESS", field)
         order = FRD if place.suffix.lower() == ".frd" else VOIGT
@@ -111,12 +121,7 @@ def nodal(
     """Nodes and a field on them: `block` of a ``.frd``, `field` of what meshio reads."""
     if path.suffix.lower() == ".frd":
         return _read_frd(path, block)
-    try:
-        import meshio
-    except ModuleNotFoundError as absent:
-        message = 'results other than .frd and .dat need meshio: pip install "fretting[mesh]"'
-        raise ModuleNotFoundError(message, name="meshio") from absent
-    mesh = meshio.read(path)
+    mesh = read_by_meshio(path)
     if field not in mesh.point_data:
         known = ", ".join(mesh.point_data) or "none"
         raise ValueError(f"{path}: has no field {field!r} at its nodes; it has {known}")
@@ -126,15 +131,22 @@ def nodal(
 
 
 def _read_frd(path: Path, block: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Nodes and the last field of a name of a text ``.frd`` file."""
+    """Nodes and the last field of a name of a text ``.frd`` file.
+
+    CalculiX GraphiX manual, "frd: Result Format": the last number of the head of a block is its
+    format, 0 for numbers of nodes of five digits, 1 of ten, others binary.
+    """
     points: dict[int, list[float]] = {}
     found: dict[int, list[float]] = {}
-    lines = iter(path.read_text(encoding="latin-1").splitlines())
-    for line in lines:
+    width = 10
+    lines = iter(enumerate(read_text(path).splitlines(), 1))
+    for _, line in lines:
+        if line.startswith(("    2C", "  100C", "    3C")):
+            width = _width(line, path)
         if line.startswith("    2C"):
-            points = dict(_rows(lines, path))
-        elif line.startswith(" -4") and line[3:].split()[0] == block:
-            found = dict(_rows(lines, path))
+            points = _rows(lines, path, width, 3)
+        elif line.startswith(" -4") and line[3:].split()[:1] == [block]:
+            found = _rows(lines, path, width, COMPONENTS[block])
     if not points or not found:
         what = "nodes" if not points else f"block {block}"
         raise ValueError(f"{path}: has no {what}; *NODE FILE writes it, as text")
@@ -142,33 +154,75 @@ def _read_frd(path: Path, block: str) -> tuple[NDArray[np.float64], NDArray[np.f
     return np.array([points[n] for n in numbers]), np.array([found[n] for n in numbers])
 
 
-def _rows(lines: Iterator[str], path: Path) -> Iterator[tuple[int, list[float]]]:
-    """The rows of a block up to its end: number of the node and columns of twelve characters."""
-    for line in lines:
+def _width(line: str, path: Path) -> int:
+    """Digits of the numbers of nodes of a block."""
+    last = (line[SHORT:].split() or ["1"])[-1]
+    if last not in WIDTHS:
+        raise ValueError(f"{path}: a block has the format {last}: must be 0 or 1, which are text")
+    return WIDTHS[last]
+
+
+def _rows(
+    lines: Iterator[tuple[int, str]], path: Path, width: int, components: int
+) -> dict[int, list[float]]:
+    """The rows of a block up to its end, by the number of their nodes."""
+    rows: dict[int, list[float]] = {}
+    for n, line in lines:
         if line.startswith(" -3"):
-            return
+            return rows
         if not line.startswith(" -1"):
             continue
         try:
-            values = [float(line[k : k + 12]) for k in range(13, len(line.rstrip()), 12)]
-            yield int(line[3:13]), values
+            values = numbers(line[3 + width :])
+            if len(values) != components:
+                raise ValueError(f"{len(values)} numbers: must have {components}")
+            rows[int(line[3 : 3 + width])] = values
         except ValueError as error:
-            raise ValueError(f"{path}: {line!r}: {error}") from error
+            raise ValueError(f"{path}, line {n}: {error}") from error
+    raise ValueError(f"{path}: ends within a block")
 
 
-def _printed(path: Path) -> NDArray[np.float64]:
-    """The stresses of the last block that ``*EL PRINT`` wrote, shape (points, 6)."""
-    blocks: list[list[list[float]]] = []
-    reading = False
-    for line in path.read_text(encoding="latin-1").splitlines():
-        fields = line.split()
+def _printed(path: Path, of: str) -> NDArray[np.float64]:
+    """The stresses that ``*EL PRINT`` wrote last for a set, shape (points, 6).
+
+    `of` is the set, needed where there are several.
+    """
+    blocks: dict[str, list[list[float]]] = {}
+    rows: list[list[float]] | None = None
+    for n, line in enumerate(read_text(path).splitlines(), 1):
+        words = line.split()
         if line.strip().startswith("stresses (elem"):
-            blocks.append([])
-            reading = True
-        elif reading and len(fields) >= 8:
-            blocks[-1].append([float(value) for value in fields[2:8]])
-        elif fields:
-            reading = False
-    if not blocks or not blocks[-1]:
+            head = re.search(r"for set (.+?) and time", line)
+            name = head[1].strip() if head else ""
+            # Later times take the place of earlier ones.
+            rows = blocks[name] = []
+        elif rows is not None and words and words[0].isdigit():
+            try:
+                rows.append(_point(line))
+            except ValueError as error:
+                raise ValueError(f"{path}, line {n}: {error}") from error
+        elif words:
+            rows = None
+    if not any(blocks.values()):
         raise ValueError(f"{path}: has no stresses of elements; *EL PRINT with S writes them")
-    return np.array(blocks[-1])
+    if len(blocks) == 1:
+        return np.array(next(iter(blocks.values())))
+    if of not in blocks or not blocks[of]:
+        raise ValueError(
+            f"{path}: has stresses of {len(blocks)} sets, {', '.join(blocks)}: say which with "
+            f"field={next(iter(blocks))!r}"
+        )
+    return np.array(blocks[of])
+
+
+def _point(line: str) -> list[float]:
+    """The stress at a point of integration: element, point, six numbers."""
+    found = re.fullmatch(r"\s*\d+\s+\d+\s(.*?)(\s+[A-Za-z_]\S*)?\s*", line)
+    if found is None:
+        raise ValueError(f"{line.strip()!r}: must be element, point and six stresses")
+    if found[2]:
+        raise ValueError(f"stresses along the axes {found[2].strip()}: print them with GLOBAL=YES")
+    values = numbers(found[1])
+    if len(values) != 6:
+        raise ValueError(f"{len(values)} stresses: must be six")
+    return values
