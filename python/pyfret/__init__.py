@@ -60,7 +60,8 @@ from pyfret._util.names import MODULES, MOVED, OTHER_NAMES, listing, moved
 from pyfret.citation import cite
 from pyfret.grids import offer as offer_grids
 from pyfret.materials import material
-from pyfret.result import Result, open
+from pyfret.opening import open
+from pyfret.result import Result
 from pyfret.scene.surfaces import read_surface
 from pyfret.scene.tables import show_in_notebooks
 from pyfret.snapshot import Snapshot

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from os import fspath
-from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from pyfret import _core, fatigue, fracture
@@ -298,8 +297,7 @@ def open(path: str | os.PathLike[str]) -> Result:
     StoreError
         There is no store, or a file of it is missing or damaged; the message names both.
     """
-    if not Path(path).exists():
-        raise StoreError(f"{fspath(path)}: no such file or folder")
+    files.checked(path)
     # Zarr reads the attributes of the group from a file that no checksum covers.
     attributes = {} if files.is_copy(path) else json.loads(_core.verify(path))
     dataset = files.opened(path)

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use clap::Args;
-use contact_core::estimate::{BranchEnds, choose_increments, coarsest, error_bars};
+use contact_core::estimate::{BranchEnds, choose_increments, error_bars};
 use contact_core::march::{Increment, March, Observer, Reached, solve};
 use contact_core::{Error, Scene};
 use contact_store::{StoreWriter, write_error_bars, write_no_error_bars};
@@ -66,9 +66,6 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
     let scene = options.scene.read().map_err(Failure::BadInput)?;
     scene.check_fit().map_err(Failure::BadInput)?;
     say_doubts(&scene);
-    if options.error {
-        coarsest(&scene).map_err(Failure::BadInput)?;
-    }
     let manner = &options.manner;
     manner.threads.settle();
     let scene = choose_increments(&scene, &Arc::default()).map_err(ended)?;

@@ -7,7 +7,7 @@ use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 use contact_core::Error;
-use contact_core::estimate::{BranchEnds, ErrorBars, choose_increments, coarsest, error_bars};
+use contact_core::estimate::{BranchEnds, ErrorBars, choose_increments, error_bars};
 use contact_core::march::{Increment, March, Observer};
 use contact_store::{Columns, Resumed, StoreWriter};
 use pyo3::prelude::*;
@@ -84,12 +84,8 @@ fn watched<K: Observer + Send, T: Send>(
 }
 
 /// Refuses scenes that no run comes to.
-fn check(scene: &Scene, error: bool) -> PyResult<()> {
-    scene.0.check_fit().map_err(to_python)?;
-    if error {
-        coarsest(&scene.0).map_err(to_python)?;
-    }
-    Ok(())
+fn check(scene: &Scene) -> PyResult<()> {
+    scene.0.check_fit().map_err(to_python)
 }
 
 /// The error bars of a run, or why there are none.
@@ -125,7 +121,7 @@ pub(crate) fn solve(
     error: bool,
     on_increment: Option<Py<PyAny>>,
 ) -> PyResult<()> {
-    check(&scene, error)?;
+    check(&scene)?;
     let writer = StoreWriter::create(&store, overwrite)
         .map_err(to_python)?
         .with_interval(interval(checkpoint)?);
@@ -152,7 +148,7 @@ pub(crate) fn solve_in_memory(
     error: bool,
     on_increment: Option<Py<PyAny>>,
 ) -> PyResult<(Bound<'_, PyDict>, String)> {
-    check(&scene, error)?;
+    check(&scene)?;
     let run = |watch: &mut dyn Observer| whole(&scene, error, watch);
     let (mut columns, bars) = watched(py, Columns::default(), on_increment, run)?;
     if let Some(bars) = bars {

@@ -11,17 +11,20 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pyfret._core import StoreError
+from pyfret._core import StoreError, read_bytes, shown
 from pyfret._util.lazy import xr
+from pyfret._util.stores import check_store
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["beside", "gzip", "is_copy", "opened", "read", "write"]
+__all__ = ["beside", "checked", "gzip", "is_copy", "opened", "read", "write"]
 
 #: Bytes of a NetCDF file beside its numbers, more than.
 MARGIN = 1 << 20
 
+#: How many times as large as the file the numbers of a NetCDF file may be: it is not compressed.
+RATIO = 1100
 #: What marks an attribute as JSON, where a file has no room for what it is.
 JSON = "json:"
 
@@ -95,7 +98,14 @@ def reserve(path: Path, size: int) -> None:
 def read(path: str | os.PathLike[str]) -> xr.Dataset:
     """The dataset of a Zarr store or of a NetCDF file (``.nc``) that :func:`write` wrote."""
     if Path(path).suffix == ".nc":
+        size = len(read_bytes(path))
         dataset = xr.open_dataset(path)
+        kinds = {
+            str(of.dtype) for of in dataset.variables.values() if of.dtype.kind not in "biufUS"
+        }
+        if kinds - {"object"} or dataset.nbytes > RATIO * size + MARGIN:
+            dataset.close()
+            raise ValueError("holds other types or more numbers than its size allows")
         dataset = dataset.assign_attrs({k: unfolded(v) for k, v in dataset.attrs.items()})
     else:
         dataset = xr.open_zarr(path, chunks=None)
@@ -106,12 +116,28 @@ def read(path: str | os.PathLike[str]) -> xr.Dataset:
 
 
 def opened(path: str | os.PathLike[str]) -> xr.Dataset:
-    """The dataset of a file, as :func:`read`; a StoreError with the reason where it has none."""
+    """The dataset of a file, as :func:`read`; a StoreError with the reason where it has none.
+
+    Of a folder :func:`pyfret._util.stores.check_store` comes first.
+    """
+    checked(path)
     try:
         return read(path)
     except Exception as error:
         message = " ".join(str(error).split())
         raise StoreError(f"{os.fspath(path)}: {type(error).__name__}: {message}") from error
+
+
+def checked(path: str | os.PathLike[str]) -> None:
+    """Refuse, before anything is read of it, what is neither a file nor a folder of ours."""
+    place = Path(path)
+    if not place.exists():
+        raise StoreError(shown(f"{os.fspath(path)}: no such file or folder"))
+    if place.is_dir():
+        check_store(place)
+    elif place.suffix != ".nc":
+        read_bytes(path)
+        raise StoreError(shown(f"{os.fspath(path)}: is no result: a folder .zarr, or a file .nc"))
 
 
 def is_copy(path: str | os.PathLike[str]) -> bool:

@@ -20,6 +20,7 @@ import numpy as np
 from pyfret._core import StoreError, __version__
 from pyfret._util.files import gzip
 from pyfret._util.lazy import xr
+from pyfret._util.stores import check_store
 from pyfret.study.design import TOGETHER
 from pyfret.study.ledger import FILE, Ledger, attributes, checksum
 from pyfret.study.measures import names_of
@@ -304,6 +305,8 @@ def read(place: str | os.PathLike[str]) -> xr.Dataset:
         There is no study there, or a part of it is missing or damaged; the message names it.
     """
     folder = Path(place)
+    if folder.is_dir():
+        check_store(folder)
     if not (folder / FILE).exists():
         raise StoreError(f"{fspath(place)}: is not the store of a study: it has no file {FILE}")
     for _ in range(ATTEMPTS):

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
+import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -14,6 +16,7 @@ from concurrent.futures import (
     Future,
     wait,
 )
+from pathlib import Path
 from typing import Any
 
 from pyfret.study.point import FAILED, Outcome, failure
@@ -30,6 +33,24 @@ WATCH = 0.5
 
 #: Hands the n-th point to an executor.
 Submit = Callable[[Executor, int], "Future[Outcome]"]
+
+
+@contextlib.contextmanager
+def standard_streams() -> Iterator[None]:
+    """Put streams that lead nowhere where there are none, as under pythonw and in services.
+
+    Libraries that start processes flush them.
+    """
+    missing = [name for name in ("stdout", "stderr") if getattr(sys, name) is None]
+    with Path(os.devnull).open("w", encoding="utf-8") as nowhere:
+        for name in missing:
+            setattr(sys, name, nowhere)
+        try:
+            yield
+        finally:
+            for name in missing:
+                if getattr(sys, name) is nowhere:
+                    setattr(sys, name, None)
 
 
 def processors() -> int:
@@ -80,7 +101,9 @@ class Workers:
         waiting = points[::-1]
         at_work: dict[Future[Outcome], int] = {}
         deaths: dict[int, int] = {}
+        streams = contextlib.ExitStack()
         try:
+            streams.enter_context(standard_streams())
             while waiting or at_work:
                 broken = self.hand_out(waiting, at_work, deaths, submit)
                 done, _ = wait(at_work, return_when=FIRST_COMPLETED)
@@ -100,6 +123,7 @@ class Workers:
                 future.cancel()
             if self.own is not None:
                 shut(self.executor)
+            streams.close()
 
     def hand_out(
         self,

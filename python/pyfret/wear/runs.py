@@ -220,6 +220,7 @@ def open(store: str | os.PathLike[str]) -> WearResult:
     StoreError
         There is no run of wear, or a file of it is missing or damaged; the message names both.
     """
+    files.checked(store)
     if not files.is_copy(store):
         _core.verify_wear(store)
     data = files.opened(store)

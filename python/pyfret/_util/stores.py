@@ -1,0 +1,151 @@
+"""Folders that are said to be stores: looked at before a library reads them.
+
+A store from somebody else is data. Its metadata name programs (codecs, filters) and types that a
+library would run or build; what pyfret does not write itself is refused by name, before a chunk is
+read. So are sizes that the files do not bear out, and what is no file.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from pyfret._core import StoreError, read_bytes, shown
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+__all__ = ["check_store"]
+
+#: Codecs that pyfret writes, or xarray for it.
+CODECS = frozenset(("gzip", "zlib", "zstd", "blosc", "bytes", "crc32c"))
+#: Types of numbers and text of a fixed length, in Zarr 2 and 3.
+TYPES = re.compile(r"[<>|]?(b1|[iu][1248]|f[248]|[US]\d{1,6})")
+NAMES = frozenset(
+    (
+        *("bool", "float16", "float32", "float64", "fixed_length_utf32"),
+        *(f"{kind}{bits}" for kind in ("int", "uint") for bits in (8, 16, 32, 64)),
+    )
+)
+#: Documents that hold metadata.
+DOCUMENTS = (".zarray", ".zattrs", ".zgroup", ".zmetadata", "zarr.json")
+#: Bytes that an array may have without a file of its own, and values of a chunk, that of a field of
+#: the largest grid.
+FREE, LARGEST = 1 << 26, 1 << 28
+#: Levels of folders of a store.
+DEEPEST = 6
+
+
+def check_store(path: str | os.PathLike[str]) -> None:
+    """Refuse a store that asks for more than to be read.
+
+    Raises
+    ------
+    StoreError
+        A codec, a filter or a type that pyfret does not write, a size that the files do not bear
+        out, or something that is neither a file nor a folder; the message names it.
+    """
+    root = Path(path)
+    try:
+        found = list(entries(root, DEEPEST))
+        for file in found:
+            if file.name in DOCUMENTS:
+                check_document(root, file)
+    except Refused as refused:
+        raise StoreError(shown(f"{os.fspath(path)}: {refused}")) from None
+    except (OSError, RecursionError) as error:
+        raise StoreError(shown(f"{os.fspath(path)}: {error}")) from error
+
+
+class Refused(Exception):
+    """Why a store is not read."""
+
+
+def entries(folder: Path, levels: int) -> Iterator[Path]:
+    """The files of a folder and of those in it."""
+    if levels == 0:
+        raise Refused(f"{folder.name}: folders lie {DEEPEST} deep in it")
+    with os.scandir(folder) as listed:
+        for entry in listed:
+            if entry.is_dir():
+                yield from entries(Path(entry.path), levels - 1)
+            elif entry.is_file():
+                yield Path(entry.path)
+            else:
+                raise Refused(f"{entry.name} is not a file")
+
+
+def check_document(root: Path, file: Path) -> None:
+    """Refuse what a document of metadata asks for."""
+    try:
+        document = json.loads(read_bytes(file))
+    except ValueError as error:
+        raise Refused(f"the file {file.relative_to(root)} is damaged: {error}") from None
+    if not isinstance(document, dict):
+        raise Refused(f"the file {file.relative_to(root)} is damaged: it is no object")
+    where = file.parent
+    check_array(document, where, root)
+    for key in ("metadata", "consolidated_metadata"):
+        inner = document.get(key)
+        inner = inner.get("metadata", inner) if isinstance(inner, dict) else inner
+        if isinstance(inner, dict):
+            for name, of in inner.items():
+                if isinstance(of, dict):
+                    part = name.removesuffix("/.zarray").removesuffix("/.zattrs")
+                    check_array(of, where / part.removeprefix("/"), root)
+
+
+def check_array(of: Mapping[str, Any], where: Path, root: Path) -> None:
+    """Refuse what the metadata of an array ask for; others say nothing of arrays."""
+    if "shape" not in of and "dtype" not in of and "data_type" not in of:
+        return
+    name = where.name
+    for codec in codecs(of):
+        word = codec.get("id", codec.get("name")) if isinstance(codec, dict) else codec
+        if word not in CODECS:
+            allowed = ", ".join(sorted(CODECS))
+            raise Refused(f"{name}: asks for the codec {word!r}: pyfret reads {allowed}")
+    if of.get("filters") or of.get("storage_transformers"):
+        raise Refused(f"{name}: asks for filters, {of.get('filters')!r}: pyfret reads none")
+    kind = of.get("dtype", of.get("data_type"))
+    word = kind.get("name") if isinstance(kind, dict) else kind
+    if not isinstance(word, str) or not (TYPES.fullmatch(word) or word in NAMES):
+        raise Refused(f"{name}: holds {kind!r}: pyfret reads numbers and text of a fixed length")
+    check_size(of, where, root, word)
+
+
+def codecs(of: Mapping[str, Any]) -> list[Any]:
+    """The codecs that an array names."""
+    listed = of.get("codecs") or []
+    named = [of["compressor"]] if of.get("compressor") is not None else []
+    return [*named, *(listed if isinstance(listed, list) else [listed])]
+
+
+def check_size(of: Mapping[str, Any], where: Path, root: Path, word: str) -> None:
+    """Refuse an array that says it is larger than its files can make it."""
+    grid = of.get("chunk_grid") or {}
+    inner = grid.get("configuration", {}) if isinstance(grid, dict) else {}
+    chunks = of.get("chunks") or (inner.get("chunk_shape") if isinstance(inner, dict) else None)
+    for sizes, what in ((of.get("shape"), "shape"), (chunks, "chunks")):
+        whole = isinstance(sizes, list) and all(type(n) is int and n >= 0 for n in sizes)
+        if not whole:
+            raise Refused(f"{where.name}: has no {what} but {sizes!r}")
+    digits = re.search(r"\d+", word)
+    each = max(int(digits[0]) if digits else 1, 1)
+    values, chunk = math.prod(of["shape"]), math.prod(chunks or [1])
+    if chunk > LARGEST:
+        raise Refused(f"{where.name}: has chunks of {chunk} values: must be {LARGEST} at most")
+    if values * each <= FREE:
+        return
+    inside = where.resolve().is_relative_to(root.resolve()) and where.is_dir()
+    files = (
+        sum(not n.name.startswith((".", "zarr")) for n in entries(where, DEEPEST)) if inside else 0
+    )
+    if values > files * chunk:
+        raise Refused(
+            f"{where.name}: says that it has {values} values, and has {files} files of {chunk} each"
+        )
