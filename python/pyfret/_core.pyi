@@ -55,6 +55,7 @@ __all__ = [
     "NoConvergenceError",
     "OffGridError",
     "PerRange",
+    "Plastic",
     "Preset",
     "Profile",
     "Rough",
@@ -147,6 +148,8 @@ class Elastic:
         Young's modulus [Pa], positive; infinite, with nu = 0, for :data:`RIGID`.
     nu : float
         Poisson's ratio, -1 < nu <= 0.5.
+    plastic : Plastic, optional
+        How it yields (default: it stays elastic).
 
     Examples
     --------
@@ -155,7 +158,10 @@ class Elastic:
     80.77
     """
 
-    def __new__(cls, *, E: float, nu: float) -> Elastic: ...
+    def __new__(cls, *, E: float, nu: float, plastic: Plastic | None = None) -> Elastic: ...
+    @property
+    def plastic(self) -> Plastic | None:
+        """How it yields; None where it stays elastic."""
     @property
     def E(self) -> float:
         """Young's modulus [Pa]; infinite for :data:`RIGID`."""
@@ -168,6 +174,45 @@ class Elastic:
     def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
     def __replace__(self, **changes: Any) -> Elastic: ...
     def replace(self, **changes: Any) -> Elastic:
+        """The same with some of its parts exchanged, named as in the constructor."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+
+@final
+class Plastic:
+    """Yielding after von Mises, with linear isotropic and linear kinematic hardening.
+
+    The yield stress is s_y + hardening p, with p the equivalent plastic strain. The back stress is
+    2/3 kinematic e_p (Prager).
+
+    Parameters
+    ----------
+    s_y : float
+        Yield stress [Pa], positive.
+    hardening : float
+        Growth of the yield stress per equivalent plastic strain [Pa], 0 or more (default 0).
+    kinematic : float
+        Kinematic hardening [Pa], 0 or more (default 0).
+
+    Examples
+    --------
+    >>> Elastic(E=210e9, nu=0.3, plastic=Plastic(s_y=900e6, hardening=5e9)).plastic.s_y
+    900000000.0
+    """
+
+    def __new__(cls, *, s_y: float, hardening: float = 0.0, kinematic: float = 0.0) -> Plastic: ...
+    @property
+    def s_y(self) -> float:
+        """Yield stress [Pa]."""
+    @property
+    def hardening(self) -> float:
+        """Isotropic hardening [Pa]."""
+    @property
+    def kinematic(self) -> float:
+        """Kinematic hardening [Pa]."""
+    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
+    def __replace__(self, **changes: Any) -> Plastic: ...
+    def replace(self, **changes: Any) -> Plastic:
         """The same with some of its parts exchanged, named as in the constructor."""
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
@@ -2212,6 +2257,8 @@ class March:
         """What a result says of the run, as JSON."""
     def variables(self) -> dict[str, _Variable]:
         """The last increment as variables: dimensions, values, attributes as xarray takes them."""
+    def plastic(self, body: int) -> dict[str, Any] | None:
+        """Plastic strain, stress and imprint of a body; None where it stays elastic."""
     def __iter__(self) -> March: ...
     def __next__(self) -> dict[str, float]:
         """Solve the next increment and give its scalars."""

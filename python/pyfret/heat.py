@@ -185,9 +185,14 @@ def temperature(
     >>> steel = Conductor(conductivity=45.0, heat_capacity=3.6e6)
     >>> found = temperature(result, steel, steel, frequency=50.0)  # doctest: +SKIP
     """
+    scene = result.scene
+    for name, body in (("body1", scene.body1), ("body2", scene.body2)):
+        if any(layer.plastic for layer in (body.substrate, *(c.material for c in body.coatings))):
+            raise ValueError(
+                f"{name}.plastic: must be left out: the heat of plastic work is not computed"
+            )
     kept = cycle_increments(result, cycle)
     heat, contact = _heat(result, kept)
-    scene = result.scene
     body1, body2 = scene.body1, scene.body2
     bulk = (bulk[0], bulk[1]) if isinstance(bulk, Sequence) else (bulk, bulk)
     if harmonics is None:

@@ -25,6 +25,7 @@ fn coefficients(n: usize) -> InfluenceCoefficients {
         substrate: STEEL,
         coatings: vec![coating],
         bonds: Vec::new(),
+        plastic: Vec::new(),
         shape: Shape::Flat,
     };
     let grid = Grid::centred(1.2e-3, n).expect("a positive extent");

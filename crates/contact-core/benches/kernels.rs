@@ -26,6 +26,7 @@ fn body(layers: usize) -> Body {
         substrate: STEEL,
         coatings: (0..layers).map(coating).collect(),
         bonds: Vec::new(),
+        plastic: Vec::new(),
         shape: Shape::Flat,
     }
 }

@@ -54,6 +54,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             thickness: 5e-4,
         }],
         bonds: Vec::new(),
+        plastic: Vec::new(),
         shape: Shape::Flat,
     };
     println!("cells,threads,seconds");

@@ -40,6 +40,7 @@ pub mod scene;
 mod shown;
 pub mod solvers;
 pub mod stop;
+pub mod yielding;
 pub mod zones;
 
 /// The page on the use as a dependency, whose examples compile and run.

@@ -20,6 +20,10 @@ impl Uniform {
         residual: &[f64],
         grid: &Grid,
     ) -> Result<Self, Error> {
+        if body.yields() {
+            let allowed = "left out: this is the stress of elastic bodies; of bodies that yield a march has it";
+            return Err(Error::invalid("plastic", "given", allowed));
+        }
         Ok(Self {
             sigma_B: sigma_B.to_vec(),
             plane_strain: grid.plane_strain,

@@ -111,6 +111,10 @@ impl Wear {
             return Err(Error::invalid("wear.cycles", self.cycles, allowed));
         }
         let bodies = [("body1", &scene.body1), ("body2", &scene.body2)];
+        if let Some((name, _)) = bodies.iter().find(|(_, body)| body.yields()) {
+            let allowed = "left out in a run of wear: start it with the imprint as part of a shape";
+            return Err(Error::invalid(format!("{name}.plastic"), "given", allowed));
+        }
         for ((name, body), wear) in bodies.into_iter().zip(&self.bodies) {
             wear.check(&format!("wear.{name}"), body.coatings.len() + 1)?;
         }

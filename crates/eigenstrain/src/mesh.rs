@@ -159,14 +159,15 @@ impl Mesh {
     }
 
     /// With elements of about `height` \[m\] down to `depth` \[m\], at least two in each layer that
-    /// begins there, and growing ones through the layers below.
+    /// begins there, and growing ones below: through the layers, and at least down to `reach` \[m\].
     pub fn graded(
         cells: Cells,
         layers: Vec<Layer>,
         depth: f64,
         height: f64,
+        reach: f64,
     ) -> Result<Self, Error> {
-        for (key, length) in [("depth", depth), ("height", height)] {
+        for (key, length) in [("depth", depth), ("height", height), ("reach", reach)] {
             if !(length > 0.0 && length.is_finite()) {
                 return Err(Error::new(key, length, "a positive length in m"));
             }
@@ -185,7 +186,8 @@ impl Mesh {
                 coarse = h;
                 top = fine_end;
             }
-            while end.is_finite() && end - top > 1e-9 * layer.thickness {
+            let end = if end.is_finite() { end } else { reach.max(top) };
+            while end - top > 1e-9 * end {
                 coarse *= GROWTH;
                 let left = end - top;
                 top = if left < 1.5 * coarse {

@@ -25,9 +25,11 @@ pub struct Answer<'a> {
     pub stress: &'a mut [f64],
     /// Planes on which the stress is wanted.
     pub wanted: &'a [bool],
-    /// u_x, u_y, u_z of the surface on the cells \[m\], one after the other. In plane strain that of
-    /// tractions is relative to a point far away, whose distance the cells set.
+    /// u_x, u_y, u_z of the surface on the cells \[m\], one after the other.
     pub displacement: &'a mut [f64],
+    /// Whether the displacement contains that of the tractions; in plane strain this is relative to a
+    /// point far away, whose distance the cells set. Without, it is that of the eigenstrain.
+    pub of_tractions: bool,
 }
 
 /// The response of a layered half-space, with its work space: no memory is taken after the first
@@ -92,7 +94,7 @@ impl Operator {
             "the length of the displacement"
         );
         self.read(sources);
-        let wanted = answer.wanted;
+        let (wanted, of_tractions) = (answer.wanted, answer.of_tractions);
         let planes = wanted.iter().filter(|wanted| **wanted).count();
         let per_chunk = COMPONENTS * planes + 3;
         let zero = [[0.0; LANES]; 2];
@@ -115,6 +117,7 @@ impl Operator {
                     polarisation,
                     filled,
                     tractions,
+                    of_tractions,
                     stride,
                     from: n * LANES,
                 };

@@ -44,6 +44,8 @@ pub(crate) struct Rows<'a> {
     pub(crate) filled: &'a [bool],
     /// t_x, t_y, t_z.
     pub(crate) tractions: Option<&'a [Complex64]>,
+    /// Whether their displacement of the surface is wanted.
+    pub(crate) of_tractions: bool,
     /// Length of a row.
     pub(crate) stride: usize,
     /// Where the chunk begins in it.
@@ -99,22 +101,18 @@ pub(crate) fn sweep(
     scratch: &mut Scratch,
     answers: &mut Answers,
 ) {
+    let (stresses, surface) = answers.split_at_mut(answers.len() - 3);
     let mut right = up(mesh, chunk, rows, scratch);
+    if !rows.of_tractions {
+        displacement(chunk, &of_surface(chunk, &right), surface);
+    }
     if let Some(tractions) = rows.tractions {
         add_tractions(chunk, rows, tractions, &mut right);
     }
-    let mut u = ZERO_NODE;
-    let [vv, vw, ww, out] = &chunk.top;
-    for part in 0..2 {
-        for l in 0..LANES {
-            let (v, w) = (right[0][part][l], right[1][part][l]);
-            u[0][part][l] = vv[l] * v + vw[l] * w;
-            u[1][part][l] = vw[l] * v + ww[l] * w;
-            u[2][part][l] = out[l] * right[2][part][l];
-        }
+    let mut u = of_surface(chunk, &right);
+    if rows.of_tractions {
+        displacement(chunk, &u, surface);
     }
-    let (stresses, surface) = answers.split_at_mut(answers.len() - 3);
-    displacement(chunk, &u, surface);
     let mut stresses = stresses.chunks_exact_mut(COMPONENTS);
     for element in 0..mesh.elements() {
         let [middle, lower] = below(chunk, element, scratch, &u);
@@ -138,6 +136,21 @@ pub(crate) fn sweep(
 /// (v, w, u_2) of a node.
 type Node = [Parts; 3];
 const ZERO_NODE: Node = [ZERO; 3];
+
+/// (v, w, u_2) of the surface from its right-hand side.
+fn of_surface(chunk: &Chunk, right: &Node) -> Node {
+    let mut u = ZERO_NODE;
+    let [vv, vw, ww, out] = &chunk.top;
+    for part in 0..2 {
+        for l in 0..LANES {
+            let (v, w) = (right[0][part][l], right[1][part][l]);
+            u[0][part][l] = vv[l] * v + vw[l] * w;
+            u[1][part][l] = vw[l] * v + ww[l] * w;
+            u[2][part][l] = out[l] * right[2][part][l];
+        }
+    }
+    u
+}
 
 /// The pass up: right-hand sides, condensed; returns that of the surface.
 fn up(mesh: &Mesh, chunk: &Chunk, rows: Rows<'_>, scratch: &mut Scratch) -> Node {

@@ -36,6 +36,7 @@ fn answer(operator: &mut Operator, sources: Sources<'_>) -> (Vec<f64>, Vec<f64>)
         stress: &mut stress,
         wanted: &wanted,
         displacement: &mut displacement,
+        of_tractions: true,
     };
     operator.apply(sources, to);
     (stress, displacement)
@@ -51,7 +52,7 @@ fn dilatation(n: usize, extent: f64) -> [f64; 2] {
     let (c, e_0) = (1.0, 1e-3);
     let s = c / 6.0;
     let d = extent / n as f64;
-    let mesh = Mesh::graded(square(n, d), vec![STEEL], 2.0 * c, c / 16.0).expect("a mesh");
+    let mesh = Mesh::graded(square(n, d), vec![STEEL], 2.0 * c, c / 16.0, 2.0 * c).expect("a mesh");
     let mut operator = Operator::new(mesh);
     let mut e = vec![0.0; operator.len()];
     let cells = n * n;
@@ -100,7 +101,13 @@ fn a_centre_of_dilatation_moves_the_surface_as_in_the_closed_form() {
 fn the_surface_of_a_homogeneous_column_is_exact_on_any_mesh() {
     let ([_, mu], nu) = (STEEL.lame(), STEEL.nu);
     for elements in [1, 3, 10] {
-        let mesh = Mesh::graded(square(8, 1.0), vec![STEEL], 1.0, 1.0 / f64::from(elements));
+        let mesh = Mesh::graded(
+            square(8, 1.0),
+            vec![STEEL],
+            1.0,
+            1.0 / f64::from(elements),
+            1.0,
+        );
         let mesh = mesh.expect("a mesh");
         for exponent in -4..=3 {
             let k = 10f64.powi(exponent);
@@ -134,7 +141,7 @@ fn work_of_tractions_and_of_eigenstrains_is_reciprocal() {
                 ..square(4 + rng.usize(0..9), 0.2)
             }
         };
-        let mesh = Mesh::graded(cells, layers, 0.6 + rng.f64(), 0.3).expect("a mesh");
+        let mesh = Mesh::graded(cells, layers, 0.6 + rng.f64(), 0.3, 2.0).expect("a mesh");
         let mut operator = Operator::new(mesh.clone());
         let n = cells.len();
         let mut random = |n: usize| -> Vec<f64> { (0..n).map(|_| rng.f64() - 0.5).collect() };
@@ -187,7 +194,8 @@ fn stress_under_a_hertz_pressure() {
     for n in [32, 64] {
         let (a, p_0, nu) = (1.0_f64, 1e9, STEEL.nu);
         let d = 3.2 * a / n as f64;
-        let mesh = Mesh::graded(square(n, d), vec![STEEL], 1.5 * a, a / 16.0).expect("a mesh");
+        let mesh =
+            Mesh::graded(square(n, d), vec![STEEL], 1.5 * a, a / 16.0, 1.5 * a).expect("a mesh");
         let mut operator = Operator::new(mesh.clone());
         // Means over the cells: 8 x 8 points in each.
         let mut p = vec![0.0; n * n];

@@ -38,6 +38,7 @@ mod subsurface;
 mod text;
 mod variables;
 mod wear;
+mod yielding;
 
 use pyo3::prelude::*;
 
@@ -75,8 +76,8 @@ mod _core {
     use crate::scene::{
         Body, Bond, Branch, Coating, Cone, CrownedRoller, Cylinder, Elastic, Ellipsoid, Flat,
         FlatPunch, FrequencyDomain, Friction, Grid, Hankel, History, InverseFft, LoadPath,
-        PerRange, Preset, Profile, Rough, Scene, Settings, Skip, Spacing, Sphere, Sum, SurfaceMap,
-        Waviness, Wedge, graded,
+        PerRange, Plastic, Preset, Profile, Rough, Scene, Settings, Skip, Spacing, Sphere, Sum,
+        SurfaceMap, Waviness, Wedge, graded,
     };
 
     #[pymodule_export]

@@ -125,6 +125,15 @@ impl March {
         Ok(variables.finish())
     }
 
+    /// Plastic strain, stress and imprint of a body; None where it stays elastic.
+    fn plastic<'py>(
+        &mut self,
+        py: Python<'py>,
+        body: usize,
+    ) -> PyResult<Option<Bound<'py, PyDict>>> {
+        crate::yielding::plastic(py, self.inner(), body)
+    }
+
     /// What a result says of the run, as JSON.
     #[getter]
     fn attributes(&mut self) -> String {

@@ -14,6 +14,8 @@ use crate::parts::parts;
 ///     Young's modulus [Pa], positive; infinite, with nu = 0, for :data:`RIGID`.
 /// nu : float
 ///     Poisson's ratio, -1 < nu <= 0.5.
+/// plastic : Plastic, optional
+///     How it yields (default: it stays elastic).
 ///
 /// Examples
 /// --------
@@ -22,9 +24,9 @@ use crate::parts::parts;
 /// 80.77
 #[pyclass(frozen, eq, module = "pyfret")]
 #[derive(Clone, Copy, PartialEq)]
-pub(crate) struct Elastic(pub(crate) core::Elastic);
+pub(crate) struct Elastic(pub(crate) core::Elastic, pub(crate) Option<core::Plastic>);
 
-parts!(Elastic: E, nu);
+parts!(Elastic: E, nu, plastic);
 takes!(Elastic, "a material, such as Elastic(E=210e9, nu=0.3)");
 
 /// A material of a closed form: of a body, that of its substrate.
@@ -50,18 +52,25 @@ impl<'py> FromPyObject<'_, 'py> for Material {
 }
 
 impl Elastic {
-    pub(crate) const RIGID: Self = Self(core::Elastic::RIGID);
+    pub(crate) const RIGID: Self = Self(core::Elastic::RIGID, None);
 }
 
 #[pymethods]
 impl Elastic {
     #[new]
-    #[pyo3(signature = (*, E, nu))]
-    fn new(E: f64, nu: f64) -> PyResult<Self> {
-        if (Self(core::Elastic { E, nu })) == Self::RIGID {
+    #[pyo3(signature = (*, E, nu, plastic = None))]
+    fn new(E: f64, nu: f64, plastic: Option<Plastic>) -> PyResult<Self> {
+        if (Self(core::Elastic { E, nu }, None)) == Self::RIGID && plastic.is_none() {
             return Ok(Self::RIGID);
         }
-        core::Elastic::new(E, nu).map(Self).map_err(to_python)
+        let material = core::Elastic::new(E, nu).map_err(to_python)?;
+        Ok(Self(material, plastic.map(|law| law.0)))
+    }
+
+    /// How it yields; None where it stays elastic.
+    #[getter]
+    fn plastic(&self) -> Option<Plastic> {
+        self.1.map(Plastic)
     }
 
     /// Young's modulus [Pa]; infinite for :data:`RIGID`.
@@ -86,8 +95,80 @@ impl Elastic {
         if self.0.is_rigid() {
             "RIGID".into()
         } else {
-            format!("Elastic(E={:?}, nu={:?})", self.0.E, self.0.nu)
+            let law = self.plastic();
+            let law = law.map_or_else(String::new, |law| format!(", plastic={}", law.__repr__()));
+            format!("Elastic(E={:?}, nu={:?}{law})", self.0.E, self.0.nu)
         }
+    }
+}
+
+/// Yielding after von Mises, with linear isotropic and linear kinematic hardening.
+///
+/// The yield stress is s_y + hardening p, with p the equivalent plastic strain. The back stress is
+/// 2/3 kinematic e_p (Prager).
+///
+/// Parameters
+/// ----------
+/// s_y : float
+///     Yield stress [Pa], positive.
+/// hardening : float
+///     Growth of the yield stress per equivalent plastic strain [Pa], 0 or more (default 0).
+/// kinematic : float
+///     Kinematic hardening [Pa], 0 or more (default 0).
+///
+/// Examples
+/// --------
+/// >>> Elastic(E=210e9, nu=0.3, plastic=Plastic(s_y=900e6, hardening=5e9)).plastic.s_y
+/// 900000000.0
+#[pyclass(frozen, eq, module = "pyfret")]
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) struct Plastic(pub(crate) core::Plastic);
+
+parts!(Plastic: s_y, hardening, kinematic);
+takes!(
+    Plastic,
+    "a law of yielding, such as Plastic(s_y=900e6, hardening=5e9)"
+);
+
+#[pymethods]
+impl Plastic {
+    #[new]
+    #[pyo3(signature = (*, s_y, hardening = 0.0, kinematic = 0.0))]
+    fn new(s_y: f64, hardening: f64, kinematic: f64) -> PyResult<Self> {
+        let law = core::Plastic {
+            s_y,
+            hardening,
+            kinematic,
+        };
+        core::check_plastic(&law, "plastic").map_err(to_python)?;
+        Ok(Self(law))
+    }
+
+    /// Yield stress [Pa].
+    #[getter]
+    fn s_y(&self) -> f64 {
+        self.0.s_y
+    }
+
+    /// Isotropic hardening [Pa].
+    #[getter]
+    fn hardening(&self) -> f64 {
+        self.0.hardening
+    }
+
+    /// Kinematic hardening [Pa].
+    #[getter]
+    fn kinematic(&self) -> f64 {
+        self.0.kinematic
+    }
+
+    pub(crate) fn __repr__(&self) -> String {
+        let core::Plastic {
+            s_y,
+            hardening,
+            kinematic,
+        } = self.0;
+        format!("Plastic(s_y={s_y:?}, hardening={hardening:?}, kinematic={kinematic:?})")
     }
 }
 
@@ -162,12 +243,16 @@ impl Bond {
 ///     Bond to what is below it (default: perfect).
 #[pyclass(frozen, eq, module = "pyfret")]
 #[derive(Clone, Copy, PartialEq)]
-pub(crate) struct Coating(pub(crate) core::Coating, pub(crate) core::Bond);
+pub(crate) struct Coating(
+    pub(crate) core::Coating,
+    pub(crate) core::Bond,
+    pub(crate) Option<core::Plastic>,
+);
 
 impl Coating {
     /// A layer that is perfectly bonded.
     pub(crate) fn perfect(coating: core::Coating) -> Self {
-        Self(coating, core::Bond::PERFECT)
+        Self(coating, core::Bond::PERFECT, None)
     }
 }
 
@@ -187,13 +272,13 @@ impl Coating {
             thickness,
         };
         coating.check("coating").map_err(to_python)?;
-        Ok(Self(coating, bond.0))
+        Ok(Self(coating, bond.0, material.1))
     }
 
     /// Material of the layer.
     #[getter]
     fn material(&self) -> Elastic {
-        Elastic(self.0.material)
+        Elastic(self.0.material, self.2)
     }
 
     /// Thickness [m].

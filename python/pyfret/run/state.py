@@ -58,6 +58,9 @@ class State(OfRun):
     q_max: xr.DataArray
     q_rms: xr.DataArray
     q_scatter: xr.DataArray
+    plastic_work: xr.DataArray
+    plastic_volume: xr.DataArray
+    largest_plastic_strain: xr.DataArray
     work: xr.DataArray
     elastic: xr.DataArray
     dissipated: xr.DataArray

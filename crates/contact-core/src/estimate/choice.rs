@@ -12,7 +12,7 @@ use super::repeats::Repeats;
 use super::trial::Trial;
 use super::two_runs::PathError;
 use crate::error::Error;
-use crate::scene::{Branch, LoadPath, Loads, RigidMotion, Scene, Spacing};
+use crate::scene::{Branch, LoadPath, Loads, PathGrid, RigidMotion, Scene, Spacing};
 
 /// Bounds of the order m, error ~ n^-m, computed from two rounds.
 const ORDERS: (f64, f64) = (1.25, 2.0);
@@ -63,6 +63,9 @@ pub fn choose_increments(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene,
         return Ok(scene.clone());
     }
     scene.check()?;
+    if scene.yields() {
+        return choose_for_yielding(scene, stop);
+    }
     let mut chosen = scene.clone();
     chosen.settings.solver.tolerance = Some(scene.tolerance());
     begin(&mut chosen.path, scene.friction.mu > 0.0);
@@ -84,6 +87,25 @@ pub fn choose_increments(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene,
         }
     }
     choose_path_grid(&mut chosen, stop)?;
+    Ok(chosen)
+}
+
+/// Fewest increments of a branch of bodies that yield where no number is given: the plastic strain is
+/// of second order in them.
+const OF_YIELDING: usize = 12;
+
+/// The increments of bodies that yield: those of elastic bodies, 12 in a branch at least, on the grid of
+/// the scene.
+fn choose_for_yielding(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene, Error> {
+    let mut chosen = choose_increments(&scene.elastic(), stop)?;
+    chosen.body1.plastic.clone_from(&scene.body1.plastic);
+    chosen.body2.plastic.clone_from(&scene.body2.plastic);
+    chosen.settings.solver.path_grid = PathGrid::Same;
+    for (branch, given) in chosen.path.branches.iter_mut().zip(&scene.path.branches) {
+        if given.increments.is_none() {
+            branch.increments = branch.increments.map(|n| n.max(OF_YIELDING));
+        }
+    }
     Ok(chosen)
 }
 

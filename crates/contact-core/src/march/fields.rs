@@ -98,7 +98,7 @@ impl March {
             .and(&at_limit)
             .map_collect(|&slips, &at_limit| slips && at_limit);
         Fields {
-            gap: u_z.clone() + self.problem.scene.h_init() - rigid,
+            gap: self.offset_gap(u_z.clone() + self.problem.scene.h_init() - rigid),
             q_x,
             q_y,
             u_x,

@@ -19,6 +19,7 @@ mod guess;
 mod increment;
 mod lifted;
 mod off_grid;
+mod offsets;
 mod path_grid;
 mod problem;
 mod reached;
@@ -34,11 +35,13 @@ mod tests;
 mod threads;
 mod transmitted;
 mod worn;
+mod yielding;
+mod yields;
 
 pub use fields::{Fields, Tractions};
 pub(crate) use problem::TANGENTIAL_SHARE;
 pub use reached::Reached;
-pub use results::{Energy, Increment, Motion, Residuals, Status, Work};
+pub use results::{Energy, Increment, Motion, Residuals, Status, Work, Yield};
 pub use run::{BranchSummary, Observer, solve, summarise};
 pub use shear_errors::shear_errors;
 pub use state::State;
@@ -52,6 +55,7 @@ use self::retry::{CONVOLUTIONS, reach};
 use self::setup::{Failure, Workspace};
 use self::state::Along;
 use self::threads::with_busy_threads;
+use self::yields::Yields;
 use crate::convolution::{Convolutions, PARALLEL_FROM};
 use crate::error::Error;
 use crate::plan::Plan;
@@ -66,6 +70,8 @@ pub struct March {
     workspace: Workspace,
     /// The same path on a coarser grid, if there is one.
     coarse: Option<Box<March>>,
+    /// Bodies that yield, if there are any.
+    yielding: Option<Box<Yields>>,
 }
 
 impl March {
@@ -89,12 +95,17 @@ impl March {
         plan.check_memory(scene)?;
         let coarse = Self::on_path_grid(scene, &plan, stop)?;
         let domain = Domain::new(scene, &plan, stop)?;
+        let yielding = Yields::of(scene, plan.mirror)?.map(Box::new);
         let mut solved = scene.clone();
         solved.settings.solver.tolerance = Some(scene.tolerance());
         Ok(Self {
             points: plan.points(scene),
-            state: unloaded(scene, &domain, coarse.as_deref()),
+            state: State {
+                yielded: yielding.as_ref().map(|yields| Box::new(yields.unyielded())),
+                ..unloaded(scene, &domain, coarse.as_deref())
+            },
             coarse,
+            yielding,
             workspace: Workspace::new(domain.cells(), scene.friction.mu),
             problem: Problem {
                 largest: Largest::of(&scene.path),
@@ -138,6 +149,10 @@ impl March {
                 "one of this scene: on its grid and within its load path",
             ));
         }
+        if march.yielding.is_some() && state.yielded.is_none() {
+            let allowed = "a state with the plastic strain of its bodies";
+            return Err(Error::invalid("state", "without plastic strain", allowed));
+        }
         march.state = state;
         Ok(march)
     }
@@ -159,7 +174,11 @@ impl March {
         if let Some(coarse) = &mut self.coarse {
             coarse.go_along(path, None);
         }
-        let unloaded = || unloaded(&self.problem.scene, &self.domain, self.coarse.as_deref());
+        let yielding = self.yielding.as_ref();
+        let unloaded = || State {
+            yielded: yielding.map(|yields| Box::new(yields.unyielded())),
+            ..unloaded(&self.problem.scene, &self.domain, self.coarse.as_deref())
+        };
         self.state = state.unwrap_or_else(unloaded);
     }
 
@@ -201,7 +220,9 @@ impl March {
         let end = &self.problem.scene.path.branches[point.branch].to;
         let (forces, motions) = (self.state.loads.forces(), self.state.motion.motions());
         let point = point.resolved(end, forces, motions);
-        Some(if self.coarse.is_some() {
+        Some(if self.yielding.is_some() {
+            self.advance_yielding(&point)
+        } else if self.coarse.is_some() {
             self.on_both_grids(&point)
         } else {
             self.advance_to(&point)

@@ -49,7 +49,7 @@ impl March {
         let PathGrid::Cells(cells) = scene.settings.solver.path_grid else {
             return Ok(None);
         };
-        if scene.settings.save == SaveFields::All {
+        if scene.settings.save == SaveFields::All || scene.yields() {
             return Ok(None);
         }
         let product = scene.friction.mu * coupling(scene);

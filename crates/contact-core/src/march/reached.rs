@@ -6,6 +6,8 @@ use crate::scene::{FEW_CELLS, FEWEST_CELLS, LARGE_STRAIN, Scene};
 
 /// Upper bound of the hardness of metals and most ceramics over Young's modulus.
 const HARD: f64 = 0.05;
+/// Equivalent plastic strain beyond which strains are not small.
+const LARGE_PLASTIC_STRAIN: f64 = 0.06;
 /// A warning names the error of the increments if it exceeds the tolerance of the path by this
 /// factor.
 const NOTABLE_RATIO: f64 = 2.0;
@@ -19,6 +21,8 @@ pub struct Reached {
     pub cells_per_radius: f64,
     /// Pressure \[Pa\].
     pub p_max: f64,
+    /// Equivalent plastic strain.
+    pub plastic_strain: f64,
     /// The increments that ended branches.
     pub ends: Vec<Increment>,
 }
@@ -37,6 +41,7 @@ impl Reached {
     pub fn see(&mut self, increment: &Increment) {
         self.cells_per_radius = self.cells_per_radius.max(increment.cells_per_radius);
         self.p_max = self.p_max.max(increment.p_max);
+        self.plastic_strain = self.plastic_strain.max(increment.yielded.largest);
         if increment.point.ends_branch {
             self.ends.push(*increment);
         }
@@ -77,6 +82,13 @@ impl Reached {
                 scene.path.branches[k].count(),
                 100.0 * error,
                 100.0 * allowed
+            ));
+        }
+        if self.plastic_strain > LARGE_PLASTIC_STRAIN {
+            doubts.push(format!(
+                "the plastic strain comes to {:.0} %: the equations are those of small strains, below {:.0} %",
+                100.0 * self.plastic_strain,
+                100.0 * LARGE_PLASTIC_STRAIN
             ));
         }
         let bodies = [&scene.body1, &scene.body2];

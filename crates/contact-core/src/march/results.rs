@@ -144,6 +144,17 @@ pub struct Work {
     pub parts: usize,
 }
 
+/// What has yielded.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Yield {
+    /// Plastic work in the increment \[J\], int sigma : de_p dV.
+    pub work: f64,
+    /// Volume that has yielded so far \[m^3\].
+    pub volume: f64,
+    /// Largest equivalent plastic strain of a point so far.
+    pub largest: f64,
+}
+
 /// One increment of the load path: scalars, residuals, work.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Increment {
@@ -182,6 +193,8 @@ pub struct Increment {
     pub path_grid: usize,
     /// Energies of the increment.
     pub energy: Energy,
+    /// What has yielded; zeros where nothing has.
+    pub yielded: Yield,
     /// Residuals of the equations.
     pub residuals: Residuals,
     /// Work of the solvers.

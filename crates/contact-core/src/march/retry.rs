@@ -15,7 +15,7 @@ use super::growing::steps;
 use super::increment::increment;
 use super::problem::Problem;
 use super::setup::{Failure, Workspace};
-use super::{Energy, Increment, Residuals, State, Work};
+use super::{Energy, Increment, Residuals, State, Work, Yield};
 use crate::error::Error;
 use crate::scene::{LoadPoint, Preset};
 
@@ -159,7 +159,7 @@ fn in_halves(
 impl Increment {
     /// Both as one: the state at the end of the second, the sums of energies and work, the larger
     /// residuals.
-    fn followed_by(self, second: &Self) -> Self {
+    pub(super) fn followed_by(self, second: &Self) -> Self {
         let (e, f) = (self.energy, second.energy);
         let (r, s) = (self.residuals, second.residuals);
         let (w, v) = (self.work, second.work);
@@ -180,6 +180,10 @@ impl Increment {
                 angle: r.angle.max(s.angle),
                 balance: r.balance.max(s.balance),
                 energy: s.energy,
+            },
+            yielded: Yield {
+                work: self.yielded.work + second.yielded.work,
+                ..second.yielded
             },
             work: Work {
                 convolutions: w.convolutions + v.convolutions,

@@ -7,6 +7,7 @@ use crate::cells::Arms;
 use crate::plan::Mirror;
 use crate::scene::{Grid, LoadPoint, Loads};
 use crate::solvers::Interface;
+use crate::yielding::Yielded;
 
 /// State after an increment, on the kept cells (half of the grid where the scene is symmetric).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -51,6 +52,8 @@ pub struct State {
     /// State of the coarser grid that the path is solved on, if there is one; the other fields are
     /// then those of the last increment that was solved on the grid of the scene.
     pub(crate) along: Option<Box<Along>>,
+    /// Plastic strain of bodies that yield.
+    pub yielded: Option<Box<Yielded>>,
 }
 
 impl State {
@@ -80,6 +83,7 @@ impl State {
             residual: pair(),
             step: Loads::default(),
             along: None,
+            yielded: None,
         }
     }
 

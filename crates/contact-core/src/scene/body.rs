@@ -3,6 +3,13 @@
 use super::Shape;
 use crate::error::Error;
 use crate::material::{Bond, Coating, Elastic};
+use plasticity::Plastic;
+
+/// Fails at a number without meaning; `key` says where the law stands.
+pub fn check_plastic(law: &Plastic, key: &str) -> Result<(), Error> {
+    let checked = law.check(key);
+    checked.map_err(|e| Error::invalid(e.key, e.value, e.allowed))
+}
 
 /// One of the two bodies, an elastic half-space under a gently curved surface.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,6 +20,8 @@ pub struct Body {
     pub coatings: Vec<Coating>,
     /// Bond of each layer to the one below it; missing ones are perfect.
     pub bonds: Vec<Bond>,
+    /// How each layer yields, from the surface down, the substrate last; missing ones stay elastic.
+    pub plastic: Vec<Option<Plastic>>,
     /// Shape of the undeformed surface.
     pub shape: Shape,
 }
@@ -24,6 +33,7 @@ impl Body {
             substrate: material,
             coatings: Vec::new(),
             bonds: Vec::new(),
+            plastic: Vec::new(),
             shape,
         }
     }
@@ -36,6 +46,25 @@ impl Body {
     /// The bond of a layer to the one below it.
     pub fn bond(&self, layer: usize) -> Bond {
         self.bonds.get(layer).copied().unwrap_or_default()
+    }
+
+    /// How a layer yields, if it does; the substrate is the last one.
+    pub fn plastic(&self, layer: usize) -> Option<Plastic> {
+        self.plastic.get(layer).copied().flatten()
+    }
+
+    /// Whether any layer may yield.
+    pub fn yields(&self) -> bool {
+        self.plastic.iter().any(Option::is_some)
+    }
+
+    /// The same body, elastic.
+    #[must_use]
+    pub fn elastic(&self) -> Self {
+        Self {
+            plastic: Vec::new(),
+            ..self.clone()
+        }
     }
 
     /// Whether every layer has the properties of the substrate and is perfectly bonded.
@@ -71,6 +100,47 @@ impl Body {
             .collect()
     }
 
+    /// Fails if a layer yields by numbers without meaning, or in a body that this is not computed for.
+    fn check_plastic(&self, key: &str) -> Result<(), Error> {
+        let layers = self.coatings.len() + 1;
+        if self.plastic.len() > layers {
+            let allowed = format!("{layers}, one for each layer, or fewer");
+            let key = format!("{key}.plastic");
+            return Err(Error::invalid(key, self.plastic.len(), allowed));
+        }
+        if !self.yields() {
+            return Ok(());
+        }
+        for layer in 0..layers {
+            let key = match self.coatings.get(layer) {
+                Some(_) => format!("{key}.coatings[{layer}]"),
+                None => key.to_owned(),
+            };
+            let material = self
+                .coatings
+                .get(layer)
+                .map_or(self.substrate, |c| c.material);
+            if material.is_rigid() {
+                let allowed =
+                    "a finite modulus in a body of which a layer yields: leave plastic out";
+                return Err(Error::invalid(format!("{key}.E"), material.E, allowed));
+            }
+            if material.nu >= 0.5 {
+                let allowed = "below 0.5 in a body of which a layer yields, such as 0.49";
+                return Err(Error::invalid(format!("{key}.nu"), material.nu, allowed));
+            }
+            if let Some(plastic) = self.plastic(layer) {
+                check_plastic(&plastic, &format!("{key}.plastic"))?;
+            }
+            if self.bond(layer) != Bond::PERFECT {
+                let allowed =
+                    "left out in a body of which a layer yields: layers are bonded perfectly there";
+                return Err(Error::invalid(format!("{key}.bond"), "compliant", allowed));
+            }
+        }
+        Ok(())
+    }
+
     /// Fails if a material or a thickness is out of its range; `key` is `body1` or `body2`.
     pub(crate) fn check(&self, key: &str) -> Result<(), Error> {
         self.substrate.check(key)?;
@@ -88,6 +158,7 @@ impl Body {
         for (i, bond) in self.bonds.iter().enumerate() {
             bond.check(&format!("{key}.coatings[{i}].bond"))?;
         }
+        self.check_plastic(key)?;
         self.shape.check(&format!("{key}.shape"))
     }
 }

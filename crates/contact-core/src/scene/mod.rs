@@ -23,7 +23,7 @@ mod shape;
 mod surface_map;
 
 pub use crate::material::{Bond, Coating, Elastic, dundurs_beta};
-pub use body::Body;
+pub use body::{Body, check_plastic};
 pub use case::{Fault, Section, read_with, text_of};
 pub use files::{Reach, read as read_file};
 pub use friction::{Friction, FrictionHistory, History};
@@ -35,6 +35,7 @@ pub use loads::{Given, Loads};
 pub use missing::Missing;
 pub use motion::{Prescribed, RigidMotion};
 pub use number_files::{FileOfNumbers, tolerant as text_of_numbers};
+pub use plasticity::Plastic;
 pub use resolution::{FEW_CELLS, FEWEST_CELLS};
 pub use settings::{
     KernelMethod, KernelSettings, PathGrid, Preset, SaveFields, Settings, SkipSettings,
@@ -147,8 +148,54 @@ impl Scene {
         self.check_sense()?;
         self.check_yardsticks()?;
         self.settings.check()?;
+        self.check_yielding()?;
         self.check_path_grid()?;
         self.check_saved()
+    }
+
+    /// Whether any layer of the bodies may yield.
+    pub fn yields(&self) -> bool {
+        self.body1.yields() || self.body2.yields()
+    }
+
+    /// The same scene with bodies that never yield.
+    #[must_use]
+    pub fn elastic(&self) -> Self {
+        Self {
+            body1: self.body1.elastic(),
+            body2: self.body2.elastic(),
+            ..self.clone()
+        }
+    }
+
+    /// Fails where a layer may yield and the loads are such that this is not computed.
+    fn check_yielding(&self) -> Result<(), Error> {
+        let Some(number) = [&self.body1, &self.body2]
+            .iter()
+            .position(|body| body.yields())
+        else {
+            return Ok(());
+        };
+        let key = format!("body{}.plastic", number + 1);
+        let refuse = |found: &str, allowed: &str| Err(Error::invalid(&key, found, allowed));
+        for branch in &self.path.branches {
+            if branch.to.rolled != 0.0 {
+                return refuse("given, and path.rolled", "left out where the bodies roll");
+            }
+            if branch.to.sigma_B != 0.0 || branch.to.sigma_B1 != 0.0 {
+                return refuse(
+                    "given, and a bulk stress",
+                    "left out with path.sigma_B and path.sigma_B1",
+                );
+            }
+        }
+        if self.settings.kernel.method != KernelMethod::Hankel {
+            return refuse(
+                "given, and another kernel.method",
+                "left out, or kernel.method = \"hankel\"",
+            );
+        }
+        Ok(())
     }
 
     /// Fails if fields are to be kept of increments that the path does not have.
@@ -303,6 +350,8 @@ impl Scene {
             Some("where the coefficient of friction changes along the path")
         } else if self.settings.solver.preset == Preset::Spinu2020 {
             Some("with the preset spinu2020")
+        } else if self.yields() {
+            Some("where a body yields")
         } else {
             None
         };

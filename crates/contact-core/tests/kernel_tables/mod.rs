@@ -46,6 +46,7 @@ pub(crate) fn body(entry: &Value) -> Body {
         substrate: elastic(&entry["substrate"]),
         coatings: layers.iter().map(coating).collect(),
         bonds: Vec::new(),
+        plastic: Vec::new(),
         shape: Shape::Flat,
     }
 }

@@ -14,6 +14,7 @@ fn response(E: Profile, layers: usize) -> [f64; 4] {
         substrate: Elastic { E: 210e9, nu: 0.3 },
         coatings: graded.coatings().unwrap(),
         bonds: Vec::new(),
+        plastic: Vec::new(),
         shape: Shape::Flat,
     };
     let r = Stack::new(&body).response(2e5);

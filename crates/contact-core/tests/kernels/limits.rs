@@ -14,6 +14,7 @@ fn body(layers: &[(f64, f64, f64)], substrate: Elastic) -> Body {
         substrate,
         coatings: layers.iter().map(coating).collect(),
         bonds: Vec::new(),
+        plastic: Vec::new(),
         shape: Shape::Flat,
     }
 }

@@ -19,6 +19,7 @@ fn coated() -> Body {
             thickness: 8e-6,
         }],
         bonds: Vec::new(),
+        plastic: Vec::new(),
         shape: Shape::Flat,
     }
 }
@@ -136,6 +137,7 @@ fn frequency_domain_is_the_convolution_with_its_own_coefficients() {
             thickness: 2e-6,
         }],
         bonds: Vec::new(),
+        plastic: Vec::new(),
         shape: Shape::Flat,
     };
     for (n, lambda) in [((16, 24), 2), ((12, 10), 3), ((9, 14), 4)] {

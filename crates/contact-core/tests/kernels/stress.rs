@@ -89,6 +89,7 @@ fn a_layer_may_be_cut_in_two() {
             substrate: Elastic { E: 210e9, nu: 0.3 },
             coatings,
             bonds: Vec::new(),
+            plastic: Vec::new(),
             shape: Shape::Flat,
         };
         let mut cut = whole.clone();

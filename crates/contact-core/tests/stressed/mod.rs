@@ -32,6 +32,7 @@ pub(crate) fn coated(n: usize) -> Contact {
             thickness: A_H,
         }],
         bonds: Vec::new(),
+        plastic: Vec::new(),
         shape: Shape::Flat,
     };
     let grid = Grid::centred(2.4 * A_H, n).expect("a grid");

@@ -29,6 +29,7 @@ fn coated() -> Body {
         substrate: Elastic::new(1.0, 0.3).unwrap(),
         coatings: vec![layer(3.0, 0.25, 9.5), layer(0.4, 0.4, 2.5)],
         bonds: Vec::new(),
+        plastic: Vec::new(),
         shape: Shape::Flat,
     }
 }

@@ -138,6 +138,21 @@ pub const SCALARS: &[Scalar] = &[
         "scatter of the shear from cell to cell where the bodies stick, at the end of a branch",
         |i| i.q_scatter.unwrap_or(f64::NAN),
     ),
+    real("plastic_work", "J", "plastic work in the increment", |i| {
+        i.yielded.work
+    }),
+    real(
+        "plastic_volume",
+        "m^3",
+        "volume that has yielded so far",
+        |i| i.yielded.volume,
+    ),
+    real(
+        "largest_plastic_strain",
+        "1",
+        "largest equivalent plastic strain so far; at the border of slip it does not converge",
+        |i| i.yielded.largest,
+    ),
     real(
         "work",
         "J",

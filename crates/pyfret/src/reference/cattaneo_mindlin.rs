@@ -45,7 +45,7 @@ impl CattaneoMindlin {
         positive("mu", mu).map_err(to_python)?;
         Ok(Self {
             slip: core::CattaneoMindlin::new(hertz.0, body1, body2, mu),
-            bodies: (Elastic(body1), Elastic(body2)),
+            bodies: (Elastic(body1, None), Elastic(body2, None)),
         })
     }
 

@@ -152,9 +152,9 @@ pub(crate) fn coated_indentation(
     Ok(CoatedIndentation {
         found: found.map_err(to_python)?,
         R,
-        indenter: Elastic(indenter),
+        indenter: Elastic(indenter, None),
         coating: given,
-        substrate: Elastic(substrate),
+        substrate: Elastic(substrate, None),
         W,
     })
 }

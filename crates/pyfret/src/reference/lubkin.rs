@@ -42,7 +42,7 @@ impl Lubkin {
         positive("mu", mu).map_err(to_python)?;
         Ok(Self {
             torsion: core::Lubkin::new(hertz.0, body1, body2, mu),
-            bodies: (Elastic(body1), Elastic(body2)),
+            bodies: (Elastic(body1, None), Elastic(body2, None)),
         })
     }
 

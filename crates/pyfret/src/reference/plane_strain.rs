@@ -41,7 +41,7 @@ pub(crate) fn line_contact(R: f64, bodies: (Material, Material), W: f64) -> PyRe
         line: core::line_contact(R, E_star, W),
         E_star,
         R,
-        bodies: (Elastic(body1), Elastic(body2)),
+        bodies: (Elastic(body1, None), Elastic(body2, None)),
     })
 }
 

@@ -76,7 +76,7 @@ impl Springs {
             springs: core::Springs::new(largest.0, R, body1, body2, mu, n),
             largest,
             R,
-            bodies: (Elastic(body1), Elastic(body2)),
+            bodies: (Elastic(body1, None), Elastic(body2, None)),
             mu,
             n,
             loads: Vec::new(),

@@ -36,6 +36,7 @@ impl Body {
         Self(core::Body {
             substrate: substrate.0,
             bonds: coatings.bonds(),
+            plastic: coatings.plastic(substrate),
             coatings: coatings.0.into_iter().map(|c| c.0).collect(),
             shape: shape.into(),
         })
@@ -44,14 +45,16 @@ impl Body {
     /// Material below the coatings.
     #[getter]
     fn substrate(&self) -> Elastic {
-        Elastic(self.0.substrate)
+        Elastic(self.0.substrate, self.0.plastic(self.0.coatings.len()))
     }
 
     /// Layers from the surface down.
     #[getter]
     fn coatings(&self) -> Vec<Coating> {
         let layers = self.0.coatings.iter().enumerate();
-        layers.map(|(n, c)| Coating(*c, self.0.bond(n))).collect()
+        layers
+            .map(|(n, c)| Coating(*c, self.0.bond(n), self.0.plastic(n)))
+            .collect()
     }
 
     /// Undeformed surface.
@@ -77,6 +80,15 @@ impl Body {
 struct Coatings(Vec<Coating>);
 
 impl Coatings {
+    /// How the layers yield, the substrate last; none where all stay elastic.
+    fn plastic(&self, substrate: Elastic) -> Vec<Option<core::Plastic>> {
+        let laws = self.0.iter().map(|c| c.2).chain([substrate.1]);
+        if laws.clone().all(|law| law.is_none()) {
+            return Vec::new();
+        }
+        laws.collect()
+    }
+
     /// Their bonds; none where all are perfect.
     fn bonds(&self) -> Vec<core::Bond> {
         let bonds = self.0.iter().map(|c| c.1);

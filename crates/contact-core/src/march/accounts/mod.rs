@@ -9,7 +9,7 @@ pub(super) use self::history::{Closing, Stuck, close, growth};
 pub(super) use self::scatter::SAMPLES;
 use super::setup::{Setup, count};
 use super::transmitted::transmitted;
-use super::{Increment, Motion, Status, Work, check};
+use super::{Increment, Motion, Status, Work, Yield, check};
 use crate::cells::both;
 use crate::scene::LoadPoint;
 use crate::solvers::Interface;
@@ -70,6 +70,7 @@ pub(super) fn draw_up(
             .flatten(),
         path_grid: setup.problem.scene.grid.nx,
         energy,
+        yielded: Yield::default(),
         residuals,
         work: Work {
             convolutions: 0.0,

@@ -64,6 +64,7 @@ pub(in crate::march) fn state(
         residual: state.residual.each_ref().map(field),
         at_limit: embedded(&state.at_limit, from, to, mirror, false),
         along: state.along.clone(),
+        yielded: state.yielded.clone(),
         ..*state
     }
 }

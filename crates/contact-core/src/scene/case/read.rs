@@ -11,7 +11,7 @@ use super::section::{Section, count, pair};
 use super::settings::settings;
 use super::shape::shape;
 use crate::scene::files::Files;
-use crate::scene::{Body, Bond, Coating, Elastic, Grid, Scene};
+use crate::scene::{Body, Bond, Coating, Elastic, Grid, Plastic, Scene};
 
 /// The version of the scene file that is read and written.
 pub(super) const SCHEMA: i64 = 1;
@@ -19,7 +19,7 @@ pub(super) const ROOT: [&str; 13] = [
     "schema", "title", "body1", "body2", "friction", "grid", "path", "kernel", "solver", "skip",
     "output", "wear", "rig",
 ];
-const BODY: [&str; 4] = ["shape", "E", "nu", "coatings"];
+const BODY: [&str; 5] = ["shape", "E", "nu", "coatings", "plastic"];
 
 /// The whole scene, not yet checked for meaning.
 pub(super) fn scene(table: &Table, files: &Files<'_>) -> Result<Scene, Fault> {
@@ -72,6 +72,8 @@ pub(super) fn scene(table: &Table, files: &Files<'_>) -> Result<Scene, Fault> {
     scene.body2.coatings = coatings(&bodies[1], &scene.body2, &[a_H, p_H])?;
     scene.body1.bonds = bonds(&bodies[0])?;
     scene.body2.bonds = bonds(&bodies[1])?;
+    scene.body1.plastic = plastic(&bodies[0])?;
+    scene.body2.plastic = plastic(&bodies[1])?;
     scene.grid = grid(&root, a_H)?;
     Ok(scene)
 }
@@ -92,7 +94,34 @@ fn uncoated(section: &Section<'_>, files: &Files<'_>) -> Result<Body, Fault> {
     Ok(Body::homogeneous(substrate, shape(section, files)?))
 }
 
-const COATING: [&str; 5] = ["E", "nu", "thickness", "bond_normal", "bond_shear"];
+const COATING: [&str; 6] = [
+    "E",
+    "nu",
+    "thickness",
+    "bond_normal",
+    "bond_shear",
+    "plastic",
+];
+const PLASTIC: [&str; 3] = ["s_y", "hardening", "kinematic"];
+
+/// How the layers yield, the substrate last; none where all stay elastic.
+fn plastic(body: &Section<'_>) -> Result<Vec<Option<Plastic>>, Fault> {
+    let law = |section: &Section<'_>| -> Result<Option<Plastic>, Fault> {
+        let Some(law) = section.section("plastic", &PLASTIC)? else {
+            return Ok(None);
+        };
+        Ok(Some(Plastic {
+            s_y: law.number("s_y", "a yield stress in Pa", &[])?,
+            hardening: law.number_or("hardening", 0.0, &[])?,
+            kinematic: law.number_or("kinematic", 0.0, &[])?,
+        }))
+    };
+    let coatings = body.sections("coatings", &COATING)?;
+    let laws = coatings.iter().map(law).chain([law(body)]);
+    let laws = laws.collect::<Result<Vec<_>, Fault>>()?;
+    let elastic = laws.iter().all(Option::is_none);
+    Ok(if elastic { Vec::new() } else { laws })
+}
 
 /// The bonds of the coatings; none where all are perfect.
 fn bonds(section: &Section<'_>) -> Result<Vec<Bond>, Fault> {

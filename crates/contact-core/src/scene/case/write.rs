@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use toml::Value;
 
 use super::read::SCHEMA;
-use crate::scene::{Body, Bond, Elastic, Loads, RigidMotion, Scene, Spacing};
+use crate::scene::{Body, Bond, Elastic, Loads, Plastic, RigidMotion, Scene, Spacing};
 
 impl Scene {
     /// The scene in the format of the scene file, every number in SI, nothing left to a default.
@@ -25,6 +25,9 @@ impl Scene {
                 if bond != Bond::PERFECT {
                     line(format_args!("bond_normal = {:?}", bond.normal));
                     line(format_args!("bond_shear = {:?}", bond.shear));
+                }
+                if let Some(law) = body.plastic(n) {
+                    line(format_args!("{}", plastic(law)));
                 }
             }
         }
@@ -76,13 +79,24 @@ impl Scene {
     }
 }
 
+fn plastic(law: Plastic) -> String {
+    let Plastic {
+        s_y,
+        hardening,
+        kinematic,
+    } = law;
+    format!("plastic = {{ s_y = {s_y:?}, hardening = {hardening:?}, kinematic = {kinematic:?} }}")
+}
+
 fn quoted(text: &str) -> String {
     Value::String(text.to_owned()).to_string()
 }
 
 fn substrate(body: &Body) -> String {
     let shape = super::shape::text(&body.shape);
-    format!("shape = {shape}\n{}", material(body.substrate))
+    let law = body.plastic(body.coatings.len());
+    let law = law.map_or_else(String::new, |law| format!("\n{}", plastic(law)));
+    format!("shape = {shape}\n{}{law}", material(body.substrate))
 }
 
 fn material(material: Elastic) -> String {

@@ -1,0 +1,162 @@
+//! An increment of bodies that yield: the contact, solved again until their residual displacement no
+//! longer changes.
+
+use ndarray::Array2;
+
+use super::offsets::{Offsets, replace};
+use super::{Increment, March, Yield};
+use crate::error::Error;
+use crate::scene::LoadPoint;
+use crate::yielding::{MOST_PASSES, Residual, Yielded, Yielding};
+
+/// Equivalent plastic strain at which a run ends: the equations are those of small strains.
+const LARGEST_STRAIN: f64 = 0.15;
+/// Halvings of an increment before the run gives up.
+const HALVINGS: u32 = 4;
+
+impl March {
+    /// The bodies that yield, with the stress of a state; none where no body may.
+    pub fn yielding(&mut self) -> Option<&mut Yielding> {
+        self.yielding.as_mut().map(|yields| &mut yields.bodies)
+    }
+
+    /// Displacements that the surfaces have without tractions after the last increment; none where no
+    /// body may yield.
+    pub fn residual(&self) -> Option<Residual> {
+        let yields = self.yielding.as_ref()?;
+        Some(yields.bodies.residual_of(self.state.yielded.as_ref()?))
+    }
+
+    /// A gap with the offsets of the surfaces.
+    pub(super) fn offset_gap(&self, gap: Array2<f64>) -> Array2<f64> {
+        match self.residual() {
+            Some(residual) => gap + residual.gap,
+            None => gap,
+        }
+    }
+
+    /// The increment to a point, in halves if it does not converge.
+    pub(super) fn advance_yielding(&mut self, point: &LoadPoint) -> Result<Increment, Error> {
+        self.in_yielding_halves(point, HALVINGS)
+    }
+
+    fn in_yielding_halves(&mut self, point: &LoadPoint, halvings: u32) -> Result<Increment, Error> {
+        let start = self.state.clone();
+        let failure = match self.pass_to(point) {
+            Err(error @ Error::NotConverged { .. }) if halvings > 0 => error,
+            ended => return ended,
+        };
+        let middle = point.on_the_way(&start.loads, start.motion.motions(), 0.5);
+        let mut halves = || {
+            let first = self.in_yielding_halves(&middle, halvings - 1)?;
+            self.state.increments -= 1;
+            let second = self.in_yielding_halves(point, halvings - 1)?;
+            Ok(first.followed_by(&second))
+        };
+        let ended = halves();
+        if let Err(error) = ended {
+            self.state = start;
+            return Err(match error {
+                Error::Interrupted { .. } => error,
+                _ => failure,
+            });
+        }
+        ended
+    }
+
+    /// The increment to a point in one piece; after a failure the state is as before.
+    fn pass_to(&mut self, point: &LoadPoint) -> Result<Increment, Error> {
+        let start = self.state.clone();
+        let ended = self.settle(point);
+        if ended.is_err() {
+            self.state = start;
+        }
+        ended
+    }
+
+    /// The increment of bodies that have not yielded before and do not in it: that of elastic bodies.
+    fn elastically(&mut self, point: &LoadPoint) -> Result<Option<Increment>, Error> {
+        let fresh = |yielded: &Yielded| yielded.bodies.iter().all(|body| body.points.is_empty());
+        let Some(before) = self.state.yielded.clone().filter(|yielded| fresh(yielded)) else {
+            return Ok(None);
+        };
+        let start = self.state.clone();
+        let increment = self.advance_to(point)?;
+        let [p, q_x, q_y] = self.tractions();
+        let Some(yields) = &mut self.yielding else {
+            return Ok(Some(increment));
+        };
+        yields.bodies.begin(&before);
+        if yields.bodies.pass([&p, &q_x, &q_y]) {
+            return Ok(Some(increment));
+        }
+        self.state = start;
+        Ok(None)
+    }
+
+    fn settle(&mut self, point: &LoadPoint) -> Result<Increment, Error> {
+        if let Some(increment) = self.elastically(point)? {
+            return Ok(increment);
+        }
+        // Offsets stand on the whole grid, and are those of the end of an increment.
+        self.domain
+            .widen(&self.problem, &mut self.state, point, None)?;
+        self.grow_in(1);
+        let start = self.state.clone();
+        let Some(before) = start.yielded.as_deref() else {
+            return self.advance_to(point);
+        };
+        let mirror = self.problem.plan.mirror;
+        let arms = self.domain.window.geometry.arms.clone();
+        let Some(yields) = &mut self.yielding else {
+            return self.advance_to(point);
+        };
+        yields.bodies.begin(before);
+        let from = Offsets::of(&yields.bodies.residual(), &arms, mirror);
+        let mut convolutions = 0.0;
+        for _ in 0..MOST_PASSES {
+            let Some(yields) = &self.yielding else { break };
+            let to = Offsets::of(&yields.bodies.residual(), &arms, mirror);
+            self.state.clone_from(&start);
+            let geometry = &mut self.domain.window.geometry;
+            replace(&mut self.state, geometry, &yields.bare, [&from, &to]);
+            let mut increment = self.advance_to(point)?;
+            convolutions += increment.work.convolutions;
+            let [p, q_x, q_y] = self.tractions();
+            let Some(yields) = &mut self.yielding else {
+                break;
+            };
+            if yields.bodies.pass([&p, &q_x, &q_y]) {
+                let now = yields.bodies.commit(before);
+                if now.largest > LARGEST_STRAIN {
+                    let found = format!("a strain of {:.0} %", 100.0 * now.largest);
+                    let allowed = format!(
+                        "such that strains stay below {:.0} %: a smaller load, or more hardening",
+                        100.0 * LARGEST_STRAIN
+                    );
+                    return Err(Error::invalid("plastic", found, allowed));
+                }
+                increment.yielded = Yield {
+                    work: now.work - before.work,
+                    volume: now.volume,
+                    largest: now.largest,
+                };
+                self.state.yielded = Some(Box::new(now));
+                increment.work.convolutions = convolutions;
+                return Ok(increment);
+            }
+        }
+        let (residual, tolerance) = self
+            .yielding
+            .as_ref()
+            .map_or((0.0, 0.0), |yields| yields.bodies.residuals());
+        Err(Error::NotConverged {
+            increment: start.increments + 1,
+            solver: "plastic",
+            residual,
+            tolerance,
+            iterations: MOST_PASSES,
+            why: String::new(),
+        })
+    }
+}

@@ -1,0 +1,379 @@
+//! One body that yields.
+
+use eigenstrain::{Answer, COMPONENTS, Layer, Mesh, Operator, Sources};
+use plasticity::{
+    Plastic, Point, Returned, Tensor, YIELDS, contraction, deviator, equivalent_strain,
+    equivalent_stress,
+};
+use rayon::prelude::*;
+
+use super::state::{PlasticPoint, PlasticState};
+use super::volume::Volume;
+use crate::error::Error;
+use crate::scene::Body;
+
+/// Largest change of the stress in a pass, over the yield stress, of a plastic strain that is taken.
+pub(super) const TOLERANCE: f64 = 1e-4;
+/// Largest change of the residual displacement in a pass, over its largest.
+const DISPLACEMENT: f64 = 1e-4;
+/// Scale of the displacements in the fixed point, beside strains: ten yield strains.
+const SCALE: f64 = 10.0;
+/// No slot.
+const NONE: u32 = u32::MAX;
+
+/// A body that yields: its response, and its points that have yielded or may.
+#[derive(Debug)]
+pub(super) struct YieldingBody {
+    pub(super) number: usize,
+    operator: Operator,
+    /// Law and shear modulus of each plane \[Pa\].
+    laws: Vec<Option<(Plastic, f64)>>,
+    wanted: Vec<bool>,
+    /// Plastic strain of the present x, as `operator` takes it.
+    strain: Vec<f64>,
+    /// Residual displacement of the present x, and its image.
+    pub(super) displacement: Vec<f64>,
+    pub(super) next_displacement: Vec<f64>,
+    stress: Vec<f64>,
+    /// Largest change of the stress in the last pass, over the yield stress.
+    pub(super) off: f64,
+    /// Slot of each point of the planes and cells.
+    slot: Vec<u32>,
+    /// Point (plane times cells plus cell), its state at the start of the increment and the returned one.
+    active: Vec<(usize, Point, Returned)>,
+}
+
+impl YieldingBody {
+    pub(super) fn new(number: usize, body: &Body, volume: &Volume) -> Result<Self, Error> {
+        let key = format!("body{number}.plastic");
+        let refused = |e: eigenstrain::Error| Error::invalid(&key, e.value, e.allowed);
+        let layer = |E: f64, nu: f64, thickness: f64| Layer { E, nu, thickness };
+        let coatings = body.coatings.iter();
+        let mut layers: Vec<Layer> = coatings
+            .map(|c| layer(c.material.E, c.material.nu, c.thickness))
+            .collect();
+        layers.push(layer(body.substrate.E, body.substrate.nu, f64::INFINITY));
+        let depth = volume.depth[number - 1];
+        let mesh = Mesh::graded(volume.cells, layers, depth, volume.height, volume.reach)
+            .map_err(refused)?;
+        let law = |plane: usize| {
+            let layer = mesh.layer(plane);
+            let [_, mu] = mesh.layers()[layer].lame();
+            body.plastic(layer).map(|law| (law, mu))
+        };
+        let laws: Vec<_> = (0..mesh.planes()).map(law).collect();
+        let cells = volume.cells.len();
+        let operator = Operator::new(mesh);
+        Ok(Self {
+            number,
+            wanted: laws.iter().map(Option::is_some).collect(),
+            strain: vec![0.0; operator.len()],
+            stress: vec![0.0; operator.len()],
+            displacement: vec![0.0; 3 * cells],
+            next_displacement: vec![0.0; 3 * cells],
+            slot: vec![NONE; laws.len() * cells],
+            active: Vec::new(),
+            off: 0.0,
+            laws,
+            operator,
+        })
+    }
+
+    pub(super) fn mesh(&self) -> &Mesh {
+        self.operator.mesh()
+    }
+
+    fn cells(&self) -> usize {
+        self.mesh().cells.len()
+    }
+
+    /// Where a component of a point stands in the fields.
+    fn at(&self, point: usize, component: usize) -> usize {
+        let cells = self.cells();
+        (point / cells * COMPONENTS + component) * cells + point % cells
+    }
+
+    /// From the state at the start of an increment.
+    pub(super) fn begin(&mut self, state: Option<&PlasticState>) {
+        let cells = self.cells();
+        for (point, ..) in std::mem::take(&mut self.active) {
+            self.slot[point] = NONE;
+            for c in 0..COMPONENTS {
+                let at = self.at(point, c);
+                self.strain[at] = 0.0;
+            }
+        }
+        self.displacement.fill(0.0);
+        let Some(state) = state else { return };
+        self.displacement.copy_from_slice(&state.displacement);
+        for known in &state.points {
+            let point = known.plane as usize * cells + known.cell as usize;
+            self.slot[point] = self.active.len() as u32;
+            let start = Point {
+                strain: known.strain,
+                equivalent: known.equivalent,
+                flow: known.flow,
+            };
+            let unchanged = Returned {
+                strain: known.strain,
+                equivalent: known.equivalent,
+                flow: [0.0; COMPONENTS],
+            };
+            self.active.push((point, start, unchanged));
+            for c in 0..COMPONENTS {
+                let at = self.at(point, c);
+                self.strain[at] = known.strain[c];
+            }
+        }
+    }
+
+    /// One pass: stress, return, displacement. True where neither strain nor displacement would change
+    /// beyond the tolerance.
+    pub(super) fn pass(&mut self, tractions: &[Vec<f64>; 3]) -> bool {
+        self.respond(tractions);
+        let cells = self.cells();
+        let (laws, stress, strain, slot, active) = (
+            &self.laws,
+            &self.stress,
+            &self.strain,
+            &self.slot,
+            &self.active,
+        );
+        let block = COMPONENTS * cells;
+        let of_plane = |plane: usize| -> Vec<(usize, Returned)> {
+            let Some((law, mu)) = &laws[plane] else {
+                return Vec::new();
+            };
+            let (stress, strain) = (
+                &stress[plane * block..][..block],
+                &strain[plane * block..][..block],
+            );
+            let slots = &slot[plane * cells..][..cells];
+            let mut found = Vec::new();
+            for cell in 0..cells {
+                let s: Tensor = std::array::from_fn(|c| stress[c * cells + cell]);
+                if slots[cell] == NONE {
+                    let s_dev = deviator(&s);
+                    let limit = law.s_y * (1.0 + YIELDS);
+                    if 1.5 * contraction(&s_dev, &s_dev) > limit * limit {
+                        found.push((plane * cells + cell, Point::default().at(law, *mu, &s)));
+                    }
+                    continue;
+                }
+                let (_, start, _) = &active[slots[cell] as usize];
+                let trial = std::array::from_fn(|c| {
+                    s[c] + 2.0 * mu * (strain[c * cells + cell] - start.strain[c])
+                });
+                found.push((plane * cells + cell, start.at(law, *mu, &trial)));
+            }
+            found
+        };
+        let found: Vec<Vec<_>> = (0..laws.len()).into_par_iter().map(of_plane).collect();
+        let mut off = 0.0_f64;
+        for (point, returned) in found.into_iter().flatten() {
+            if self.slot[point] == NONE {
+                self.slot[point] = self.active.len() as u32;
+                self.active.push((point, Point::default(), returned));
+            }
+            let slot = self.slot[point] as usize;
+            self.active[slot].2 = returned;
+            let change: Tensor =
+                std::array::from_fn(|c| returned.strain[c] - self.strain[self.at(point, c)]);
+            if let Some((law, mu)) = &self.laws[point / cells] {
+                off = off.max(equivalent_stress(&change) * 2.0 * mu / law.s_y);
+            }
+        }
+        self.off = off;
+        let largest = self
+            .next_displacement
+            .iter()
+            .fold(0.0_f64, |m, u| m.max(u.abs()));
+        let pairs = self.next_displacement.iter().zip(&self.displacement);
+        let moved = pairs.fold(0.0_f64, |m, (to, from)| m.max((to - from).abs()));
+        off <= TOLERANCE && moved <= DISPLACEMENT * largest
+    }
+
+    /// Stress of the tractions and the present strain, displacement of the strain alone.
+    fn respond(&mut self, tractions: &[Vec<f64>; 3]) {
+        let [x, y, z] = &self.facing(tractions);
+        let yields = !self.active.is_empty();
+        self.operator.apply(
+            Sources {
+                eigenstrain: yields.then_some(&self.strain[..]),
+                tractions: Some([x, y, z]),
+            },
+            Answer {
+                stress: &mut self.stress,
+                wanted: &self.wanted,
+                displacement: &mut self.next_displacement,
+                of_tractions: false,
+            },
+        );
+    }
+
+    /// Tractions on the body, with z into it: on body 1 the shear is the opposite.
+    fn facing(&self, tractions: &[Vec<f64>; 3]) -> [Vec<f64>; 3] {
+        let mut signed = tractions.clone();
+        if self.number == 1 {
+            for q in &mut signed[..2] {
+                q.iter_mut().for_each(|q| *q = -*q);
+            }
+        }
+        signed
+    }
+
+    /// Points that have yielded or may.
+    pub(super) fn slots(&self) -> usize {
+        self.active.len()
+    }
+
+    /// Growth of the strain in the increment, of x.
+    pub(super) fn grown(&self) -> impl Iterator<Item = f64> {
+        self.active.iter().flat_map(|(point, start, _)| {
+            (0..COMPONENTS).map(|c| self.strain[self.at(*point, c)] - start.strain[c])
+        })
+    }
+
+    /// The same of its image.
+    pub(super) fn next_grown(&self) -> impl Iterator<Item = f64> {
+        let grown = |(_, start, end): &(usize, Point, Returned)| -> [f64; COMPONENTS] {
+            std::array::from_fn(|c| end.strain[c] - start.strain[c])
+        };
+        self.active.iter().flat_map(grown)
+    }
+
+    /// Displacement \[m\] over its unit in x.
+    pub(super) fn scaled<'a>(
+        &self,
+        displacement: &'a [f64],
+    ) -> impl Iterator<Item = f64> + use<'a> {
+        let unit = self.unit();
+        displacement.iter().map(move |u| u / unit)
+    }
+
+    /// Unit of the displacements in x \[m\]: the yield strain along the depth of the first element.
+    fn unit(&self) -> f64 {
+        let laws = self.laws.iter().flatten();
+        let strain = laws
+            .map(|(law, mu)| law.s_y / mu)
+            .fold(f64::INFINITY, f64::min);
+        let mesh = self.mesh();
+        let planes = (0..mesh.planes()).filter(|plane| self.wanted[*plane]);
+        let height: f64 = planes.map(|plane| mesh.weight(plane)).sum();
+        strain * height / SCALE
+    }
+
+    pub(super) fn take_displacement(&mut self, x: &[f64], from: usize) -> usize {
+        let (unit, n) = (self.unit(), self.displacement.len());
+        for (u, x) in self.displacement.iter_mut().zip(&x[from..from + n]) {
+            *u = x * unit;
+        }
+        from + n
+    }
+
+    pub(super) fn take_strain(&mut self, x: &[f64], from: usize) -> usize {
+        let n = COMPONENTS * self.active.len();
+        for (slot, grown) in x[from..from + n].chunks_exact(COMPONENTS).enumerate() {
+            let (point, start, _) = self.active[slot];
+            for c in 0..COMPONENTS {
+                let at = self.at(point, c);
+                self.strain[at] = start.strain[c] + grown[c];
+            }
+        }
+        from + n
+    }
+
+    /// The state at the end of the increment: the returned strain of the last pass.
+    pub(super) fn commit(&self) -> PlasticState {
+        let cells = self.cells();
+        let points = self
+            .active
+            .iter()
+            .filter(|(_, _, end)| end.equivalent > 0.0);
+        PlasticState {
+            body: self.number,
+            points: points
+                .map(|(point, _, end)| PlasticPoint {
+                    plane: (point / cells) as u32,
+                    cell: (point % cells) as u32,
+                    strain: end.strain,
+                    equivalent: end.equivalent,
+                    flow: end.flow,
+                })
+                .collect(),
+            displacement: self.displacement.clone(),
+        }
+    }
+
+    /// Plastic work of the increment \[J\], int sigma : de_p = R dp + d(C/2 e_eq^2) at the yield
+    /// surface.
+    pub(super) fn work(&self, volume: &Volume) -> f64 {
+        let (mesh, cells) = (self.mesh(), self.cells());
+        let of_point = |(point, start, end): &(usize, Point, Returned)| {
+            let plane = point / cells;
+            let Some((law, _)) = &self.laws[plane] else {
+                return 0.0;
+            };
+            let (p, q) = (start.equivalent, end.equivalent);
+            let [before, after] = [&start.strain, &end.strain].map(equivalent_strain);
+            let isotropic = (q - p) * (law.s_y + 0.5 * law.hardening * (p + q));
+            let kinematic = 0.5 * law.kinematic * (after * after - before * before);
+            mesh.weight(plane) * (isotropic + kinematic)
+        };
+        volume.cells.area() * self.active.iter().map(of_point).sum::<f64>()
+    }
+
+    /// Volume of the points that have yielded \[m^3\].
+    pub(super) fn plastic_volume(&self, volume: &Volume) -> f64 {
+        let (mesh, cells) = (self.mesh(), self.cells());
+        let yielded = self
+            .active
+            .iter()
+            .filter(|(_, _, end)| end.equivalent > 0.0);
+        volume.cells.area()
+            * yielded
+                .map(|(point, ..)| mesh.weight(point / cells))
+                .sum::<f64>()
+    }
+
+    /// Largest equivalent plastic strain.
+    pub(super) fn largest(&self) -> f64 {
+        let points = self.active.iter();
+        points.map(|(_, _, end)| end.equivalent).fold(0.0, f64::max)
+    }
+
+    /// Stress of a state on all planes, in the axes of the scene \[Pa\].
+    pub(super) fn stress_of(
+        &mut self,
+        state: &PlasticState,
+        tractions: Option<&[Vec<f64>; 3]>,
+    ) -> Vec<f64> {
+        self.begin(Some(state));
+        let signed = tractions.map(|tractions| self.facing(tractions));
+        let mut stress = vec![0.0; self.operator.len()];
+        let mut displacement = vec![0.0; self.displacement.len()];
+        let wanted = vec![true; self.wanted.len()];
+        let tractions = signed.as_ref().map(|[x, y, z]| [&x[..], &y[..], &z[..]]);
+        self.operator.apply(
+            Sources {
+                eigenstrain: Some(&self.strain),
+                tractions,
+            },
+            Answer {
+                stress: &mut stress,
+                wanted: &wanted,
+                displacement: &mut displacement,
+                of_tractions: false,
+            },
+        );
+        if self.number == 1 {
+            let cells = self.cells();
+            for (n, field) in stress.chunks_exact_mut(cells).enumerate() {
+                if n % COMPONENTS >= 4 {
+                    field.iter_mut().for_each(|s| *s = -*s);
+                }
+            }
+        }
+        stress
+    }
+}

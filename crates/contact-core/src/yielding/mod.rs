@@ -1,0 +1,210 @@
+//! BODIES THAT YIELD: plastic strain below the contact, and what it does to the surfaces.
+//!
+//! The plastic strain e of a body is an eigenstrain. It leaves a residual stress and a residual
+//! displacement of the surface, which enter the contact as displacements without tractions
+//! (`march::offsets`); the solver of the contact knows nothing else of it. Within an increment the pair
+//! x = (e, residual displacement u) is the fixed point of
+//!
+//! ```text
+//! contact with u  ->  p, q;      stress of (p, q, e), displacement of e  ->  radial return  ->  x'
+//! ```
+//!
+//! mixed after Anderson. Both parts are mixed: a displacement that lags behind e is part of the state of
+//! the iteration. The stress is that of `eigenstrain` on a volume grid of its own ([`Volume`]), the
+//! return that of `plasticity`. Where nothing yields one pass is enough, and the contact is that of
+//! elastic bodies to the last bit.
+
+mod anderson;
+mod body;
+mod resampled;
+mod state;
+mod volume;
+
+use ndarray::Array2;
+
+use self::anderson::Anderson;
+use self::body::{TOLERANCE, YieldingBody};
+pub use self::state::{PlasticPoint, PlasticState, Yielded};
+pub use self::volume::Volume;
+use crate::error::Error;
+use crate::scene::Scene;
+
+/// Most passes of an increment.
+pub(crate) const MOST_PASSES: usize = 120;
+
+/// Bodies that yield, at an increment.
+#[derive(Debug)]
+pub struct Yielding {
+    volume: Volume,
+    bodies: Vec<YieldingBody>,
+    mixing: Anderson,
+}
+
+/// Displacements that the surfaces have without tractions, on the grid of the scene \[m\].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Residual {
+    /// u(2) - u(1) along x and y.
+    pub u: [Array2<f64>; 2],
+    /// Growth of the gap.
+    pub gap: Array2<f64>,
+}
+
+impl Yielding {
+    /// Of a scene whose bodies may yield; `None` where none does.
+    pub fn of(scene: &Scene) -> Result<Option<Self>, Error> {
+        if !scene.yields() {
+            return Ok(None);
+        }
+        let volume = Volume::of(scene);
+        let bodies = [(1, &scene.body1), (2, &scene.body2)];
+        let bodies = bodies.into_iter().filter(|(_, body)| body.yields());
+        let bodies = bodies.map(|(number, body)| YieldingBody::new(number, body, &volume));
+        Ok(Some(Self {
+            bodies: bodies.collect::<Result<_, _>>()?,
+            volume,
+            mixing: Anderson::default(),
+        }))
+    }
+
+    /// The volume grid.
+    pub fn volume(&self) -> &Volume {
+        &self.volume
+    }
+
+    /// Begins an increment from a state, with the plastic strain and displacement of its start.
+    pub(crate) fn begin(&mut self, state: &Yielded) {
+        self.mixing = Anderson::default();
+        for (n, body) in self.bodies.iter_mut().enumerate() {
+            body.begin(state.bodies.get(n));
+        }
+    }
+
+    /// The residual displacement of the present x.
+    pub(crate) fn residual(&self) -> Residual {
+        let bodies = self.bodies.iter();
+        self.together(bodies.map(|body| (body.number, &body.displacement[..])))
+    }
+
+    /// The residual displacement of a state.
+    pub fn residual_of(&self, state: &Yielded) -> Residual {
+        let bodies = state.bodies.iter();
+        self.together(bodies.map(|body| (body.body, &body.displacement[..])))
+    }
+
+    fn together<'a>(&self, bodies: impl Iterator<Item = (usize, &'a [f64])> + Clone) -> Residual {
+        let cells = self.volume.cells.len();
+        let sum = |component: usize, sign: f64| {
+            let mut sum = vec![0.0; cells];
+            for (number, displacement) in bodies.clone() {
+                let sign = if number == 1 { sign } else { 1.0 };
+                let of = &displacement[component * cells..(component + 1) * cells];
+                for (sum, u) in sum.iter_mut().zip(of) {
+                    *sum += sign * u;
+                }
+            }
+            self.volume.to_contact(&sum)
+        };
+        // Both bodies are computed with z into them: normal displacements add.
+        Residual {
+            u: [sum(0, -1.0), sum(1, -1.0)],
+            gap: sum(2, 1.0),
+        }
+    }
+
+    /// Largest change of the stress in the last pass over the yield stress, and what is allowed.
+    pub(crate) fn residuals(&self) -> (f64, f64) {
+        let off = self.bodies.iter().map(|body| body.off);
+        (off.fold(0.0, f64::max), TOLERANCE)
+    }
+
+    /// One pass under the tractions p, q_x, q_y of the contact \[Pa\]: whether x is settled. Otherwise
+    /// x is the next one to try.
+    pub(crate) fn pass(&mut self, [p, q_x, q_y]: [&Array2<f64>; 3]) -> bool {
+        let tractions = [q_x, q_y, p].map(|field| self.volume.to_volume(field));
+        let mut settled = true;
+        for body in &mut self.bodies {
+            settled &= body.pass(&tractions);
+        }
+        if settled {
+            return true;
+        }
+        let bodies = self.bodies.iter();
+        let mut x: Vec<f64> = bodies
+            .clone()
+            .flat_map(|b| b.scaled(&b.displacement))
+            .collect();
+        let mut to: Vec<f64> = bodies
+            .flat_map(|b| b.scaled(&b.next_displacement))
+            .collect();
+        let displacements = x.len();
+        let mut counts = Vec::new();
+        for body in &self.bodies {
+            counts.push(body.slots());
+            x.extend(body.grown());
+            to.extend(body.next_grown());
+        }
+        let mixed = self.mixing.mixed(&x, &to, displacements, &counts);
+        let mut from = 0;
+        for body in &mut self.bodies {
+            from = body.take_displacement(&mixed, from);
+        }
+        for body in &mut self.bodies {
+            from = body.take_strain(&mixed, from);
+        }
+        false
+    }
+
+    /// Ends the increment: the state that the next one begins with.
+    pub(crate) fn commit(&self, before: &Yielded) -> Yielded {
+        let bodies: Vec<PlasticState> = self.bodies.iter().map(YieldingBody::commit).collect();
+        let done: f64 = self.bodies.iter().map(|body| body.work(&self.volume)).sum();
+        Yielded {
+            work: before.work + done,
+            volume: self
+                .bodies
+                .iter()
+                .map(|body| body.plastic_volume(&self.volume))
+                .sum(),
+            largest: self
+                .bodies
+                .iter()
+                .map(YieldingBody::largest)
+                .fold(0.0, f64::max),
+            bodies,
+        }
+    }
+
+    /// The state before anything has yielded.
+    pub(crate) fn unyielded(&self) -> Yielded {
+        let cells = self.volume.cells.len();
+        let body = |body: &YieldingBody| PlasticState {
+            body: body.number,
+            points: Vec::new(),
+            displacement: vec![0.0; 3 * cells],
+        };
+        Yielded {
+            bodies: self.bodies.iter().map(body).collect(),
+            ..Yielded::default()
+        }
+    }
+
+    /// Stress under tractions and plastic strain of a state in a body, on the planes of its mesh: for
+    /// each plane six components on the cells of the volume grid \[Pa\], in the axes of the scene.
+    pub fn stress(
+        &mut self,
+        state: &Yielded,
+        tractions: Option<[&Array2<f64>; 3]>,
+        body: usize,
+    ) -> Option<Vec<f64>> {
+        let n = self.bodies.iter().position(|b| b.number == body)?;
+        let tractions =
+            tractions.map(|[p, q_x, q_y]| [q_x, q_y, p].map(|field| self.volume.to_volume(field)));
+        Some(self.bodies[n].stress_of(state.bodies.get(n)?, tractions.as_ref()))
+    }
+
+    /// The mesh of a body that yields.
+    pub fn mesh(&self, body: usize) -> Option<&eigenstrain::Mesh> {
+        let found = self.bodies.iter().find(|b| b.number == body);
+        found.map(YieldingBody::mesh)
+    }
+}

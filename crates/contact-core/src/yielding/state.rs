@@ -1,0 +1,44 @@
+//! The plastic state that the next increment depends on.
+
+use plasticity::Tensor;
+use serde::{Deserialize, Serialize};
+
+/// A point that has yielded.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PlasticPoint {
+    /// Plane of Gauss points of the body's mesh.
+    pub plane: u32,
+    /// Cell of the volume grid, x first.
+    pub cell: u32,
+    /// Plastic strain: xx, yy, zz, xy, xz, yz, with z into the body.
+    pub strain: Tensor,
+    /// Equivalent plastic strain, added up over the path.
+    pub equivalent: f64,
+    /// Direction of flow in the last increment; zero if it did not yield there.
+    pub flow: Tensor,
+}
+
+/// The plastic state of a body.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PlasticState {
+    /// 1 or 2.
+    pub body: usize,
+    /// The points that have yielded.
+    pub points: Vec<PlasticPoint>,
+    /// Residual displacement u_x, u_y, u_z of the surface on the cells of the volume grid \[m\], one
+    /// after the other, with z into the body.
+    pub displacement: Vec<f64>,
+}
+
+/// The plastic state after an increment.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Yielded {
+    /// Of the bodies that may yield.
+    pub bodies: Vec<PlasticState>,
+    /// Plastic work over the path \[J\].
+    pub work: f64,
+    /// Volume that has yielded \[m^3\].
+    pub volume: f64,
+    /// Largest equivalent plastic strain of a point.
+    pub largest: f64,
+}

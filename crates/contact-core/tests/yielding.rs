@@ -1,0 +1,148 @@
+//! Bodies that yield: against finite elements, and against elastic bodies where nothing yields.
+#![allow(missing_docs)]
+
+use std::path::Path;
+
+use contact_core::march::{Increment, March};
+use contact_core::scene::{
+    Body, Branch, Coating, Elastic, Friction, Given, Grid, LoadPath, Loads, Plastic, Scene, Shape,
+};
+use serde_json::Value;
+
+const STEEL: Elastic = Elastic { E: 210e9, nu: 0.3 };
+
+fn approach(delta_z: f64, increments: usize, t_end: f64) -> Branch {
+    let given = Given {
+        delta_z: Some(delta_z),
+        ..Given::default()
+    };
+    let to = Loads {
+        given,
+        ..Loads::default()
+    };
+    Branch::new(to, increments, t_end)
+}
+
+fn indentation(R: f64, yields: Plastic, grid: Grid, path: Vec<Branch>) -> Scene {
+    let mut body2 = Body::homogeneous(STEEL, Shape::Flat);
+    body2.plastic = vec![Some(yields)];
+    let path = LoadPath {
+        branches: path,
+        ..LoadPath::default()
+    };
+    let rigid = Body::homogeneous(Elastic::RIGID, Shape::Sphere { R });
+    Scene::new(rigid, body2, Friction::coulomb(0.0), grid, path)
+}
+
+fn run(scene: &Scene) -> (Vec<Increment>, March) {
+    let mut march = March::new(scene).expect("a scene");
+    let mut increments = Vec::new();
+    while let Some(increment) = march.advance() {
+        increments.push(increment.expect("an increment"));
+    }
+    (increments, march)
+}
+
+fn number(of: &Value, key: &str) -> [f64; 2] {
+    ["value", "error"].map(|part| of[key][part].as_f64().expect("a number of the table"))
+}
+
+#[test]
+fn indentation_follows_finite_elements() {
+    let file =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/data/plastic/indentation.json");
+    let text = std::fs::read_to_string(file).expect("the table");
+    let table: Value = serde_json::from_str(&text).expect("a table");
+    for row in table["normal"].as_array().expect("rows") {
+        let law = &row["substrate"];
+        let yields = Plastic {
+            s_y: law["yield_stress"].as_f64().expect("a stress"),
+            hardening: law["hardening"].as_f64().expect("a modulus"),
+            kinematic: 0.0,
+        };
+        let R = row["indenter"]["R"].as_f64().expect("a radius");
+        let state = &row["states"][1];
+        let delta_z = state["approach"].as_f64().expect("an approach");
+        let radius = state["contact_radius_between"][1]
+            .as_f64()
+            .expect("a radius");
+        let grid = Grid::centred(3.2 * radius, 32).expect("a grid");
+        let path = vec![approach(delta_z, 5, 1.0), approach(-0.3 * delta_z, 1, 2.0)];
+        let (increments, march) = run(&indentation(R, yields, grid, path));
+        let name = &row["name"];
+        let close = |what: &str, found: f64, [wanted, error]: [f64; 2], bar: f64| {
+            let off = ((found - wanted).abs() - error).max(0.0) / wanted.abs();
+            println!("{name} {what}: {found:e} for {wanted:e}, {off:.2e}");
+            assert!(off < bar, "{name} {what}: {found:e} for {wanted:e}");
+        };
+        let loaded = &increments[4];
+        close("load", loaded.point.loads.W, number(state, "load"), 7.5e-3);
+        close(
+            "volume",
+            loaded.yielded.volume,
+            number(state, "plastic_volume"),
+            0.06,
+        );
+        // What unloads does not yield anew.
+        assert_eq!(increments[5].yielded.work, 0.0);
+        let imprint = march.residual().expect("an imprint").gap;
+        let depth = imprint.iter().fold(0.0_f64, |m, h| m.max(*h));
+        close(
+            "imprint",
+            depth,
+            number(&state["unloaded"], "imprint_depth"),
+            0.02,
+        );
+    }
+}
+
+#[test]
+fn bodies_that_do_not_reach_their_yield_stress_are_elastic_to_the_bit() {
+    let law = Plastic {
+        s_y: 1e12,
+        hardening: 0.0,
+        kinematic: 0.0,
+    };
+    let grid = Grid::centred(4e-4, 32).expect("a grid");
+    let mut scene = indentation(0.01, law, grid, vec![approach(2e-6, 3, 1.0)]);
+    scene.body2.coatings = vec![Coating {
+        material: Elastic { E: 300e9, nu: 0.25 },
+        thickness: 2e-5,
+    }];
+    scene.body2.plastic = vec![None, Some(law)];
+    scene.friction = Friction::coulomb(0.3);
+    let (yielding, march) = run(&scene);
+    let (elastic, other) = run(&scene.elastic());
+    assert_eq!(yielding, elastic);
+    assert_eq!(march.tractions(), other.tractions());
+}
+
+#[test]
+fn a_run_goes_on_from_its_state_to_the_same_bits() {
+    let law = Plastic {
+        s_y: 1e9,
+        hardening: 1e10,
+        kinematic: 0.0,
+    };
+    let grid = Grid::centred(5e-4, 24).expect("a grid");
+    let scene = indentation(0.01, law, grid, vec![approach(3e-6, 4, 1.0)]);
+    let (whole, ended) = run(&scene);
+    let mut first = March::new(&scene).expect("a scene");
+    for _ in 0..2 {
+        first
+            .advance()
+            .expect("an increment")
+            .expect("an increment");
+    }
+    let mut second = March::resume(&scene, first.state().clone()).expect("the state");
+    let rest: Vec<Increment> = (0..2)
+        .map(|_| {
+            second
+                .advance()
+                .expect("an increment")
+                .expect("an increment")
+        })
+        .collect();
+    assert_eq!(whole[2..], rest[..]);
+    assert_eq!(ended.state(), second.state());
+}
