@@ -4,6 +4,9 @@ Read are the `use` statements and the paths of the Rust crates and the imports o
 package, those for types alone included. A name counts for the file that defines it: one that only
 hands it on (`pub use`, `__init__.py`) is no dependency. Within a folder, its files and its folders
 must be without a circle too, each folder taken as one.
+
+`import_module("pyfret.x")` is an import of `pyfret.x`: from an `__init__.py` it may name what lies
+within its package, and its argument is a literal, not a name that is put together.
 """
 
 from __future__ import annotations
@@ -161,6 +164,36 @@ class Crate:
         return graph
 
 
+def late_imports(tree: ast.AST, package: str) -> list[str | None]:
+    """Give the modules of a package that `import_module` names; None where no literal does."""
+    found: list[str | None] = []
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.Call) or not node.args:
+            continue
+        called = node.func.attr if isinstance(node.func, ast.Attribute) else node.func
+        name = called.id if isinstance(called, ast.Name) else called
+        if name not in ("import_module", "__import__"):
+            continue
+        words = [one.value for one in ast.walk(node.args[0]) if isinstance(one, ast.Constant)]
+        if any(str(word).startswith((package, ".")) for word in words):
+            plain = isinstance(node.args[0], ast.Constant) and words[0].startswith(package)
+            found.append(words[0] if plain else None)
+    return found
+
+
+def unseen(root: Path) -> list[str]:
+    """Give a line for each call of `import_module` that no graph can show."""
+    said = []
+    for file in sorted(root.rglob("*.py")):
+        own = file.relative_to(root.parent).with_suffix("").parts
+        for to in late_imports(ast.parse(file.read_text()), root.name):
+            if to is None:
+                said.append(f"{file}: import_module of a name that is put together")
+            elif file.name == "__init__.py" and not to.startswith(".".join(own[:-1]) + "."):
+                said.append(f"{file}: import_module({to!r}) is not within the package")
+    return said
+
+
 def package(root: Path) -> Graph:
     """Which files of a Python package each file imports from."""
     files = {}
@@ -199,6 +232,10 @@ def package(root: Path) -> Graph:
             continue
         targets = {alias: path for alias, path in imports[name].items() if path != (root.name,)}
         graph[file] = {to for path in targets.values() if (to := defined(path))} - {file}
+        late = [tuple(to.split(".")) for to in late_imports(trees[name], root.name) if to]
+        for path in late:
+            init = root.parent.joinpath(*path, "__init__.py")
+            graph[file] |= {files.get(path, init)} & set(files.values())
         for node in ast.walk(trees[name]):
             if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
                 module = imports[name].get(node.value.id)
@@ -251,6 +288,9 @@ def main() -> int:
     crates = sorted(root.glob("crates/*/src"))
     graphs = [(src, Crate(src).dependencies()) for src in crates]
     graphs += [(root / src, package(root / src)) for src in PACKAGES]
+    for line in (line for src in PACKAGES for line in unseen(root / src)):
+        print(line)
+        bad += 1
     for src, graph in graphs:
         of_files = circles(graph)
         folders = sorted(

@@ -57,7 +57,7 @@ from pyfret._core import (
     graded,
 )
 from pyfret._core import __version__ as __version__
-from pyfret._util.names import MODULES, MOVED, OTHER_NAMES, listing, moved
+from pyfret._util.names import OTHER_NAMES, listing
 from pyfret.citation import cite
 from pyfret.grids import offer as offer_grids
 from pyfret.materials import material
@@ -138,8 +138,6 @@ def __getattr__(name: str) -> Any:
                 raise
             message = 'figures need matplotlib: pip install "fretting[plot]"'
             raise ModuleNotFoundError(message, name="matplotlib") from absent
-    if name in MOVED or name in MODULES:
-        return moved(name)
     meant = OTHER_NAMES.get(name)
     hint = f"; it is called pyfret.{meant}" if meant else ""
     raise AttributeError(f"module 'pyfret' has no attribute {name!r}{hint}")

@@ -10,9 +10,6 @@ in Pa. No contact is needed; ``docs/fatigue.md`` has the equations and their sou
     found.safety_factor.min()
 """
 
-from importlib import import_module
-from typing import Any
-
 from pyfret._util.names import listing
 from pyfret.fatigue.averages import average, critical_distance
 from pyfret.fatigue.criteria import (
@@ -67,14 +64,4 @@ __all__ = [
     "ruiz",
     "to_pylife",
 ]
-#: What solves contacts, and so stands above the criteria, in :mod:`pyfret.study`.
-SOLVES = ("Averaged", "Limits", "Threshold", "fit_limits", "threshold")
-__all__ += SOLVES
 __dir__ = listing(__all__)
-
-
-def __getattr__(name: str) -> Any:
-    """Give what finds thresholds."""
-    if name in SOLVES:
-        return getattr(import_module("pyfret.study"), name)
-    raise AttributeError(f"module 'pyfret.fatigue' has no attribute {name!r}")

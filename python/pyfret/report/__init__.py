@@ -4,9 +4,8 @@
 ``page.css`` and ``page.js`` are its looks.
 """
 
-from pyfret._util.names import called, listing
+from pyfret._util.names import listing
 from pyfret.report.page import report
 
 __all__ = ["report"]
 __dir__ = listing(__all__)
-called(__name__)

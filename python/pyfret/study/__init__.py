@@ -8,7 +8,7 @@ study of the load path that a map of running conditions needs. ::
     found.map()
 """
 
-from pyfret._util.names import called, listing
+from pyfret._util.names import listing
 from pyfret.study.candidate import Candidate
 from pyfret.study.compare import compare
 from pyfret.study.comparison import Comparison
@@ -41,4 +41,3 @@ __all__ = [
     "varied",
 ]
 __dir__ = listing(__all__)
-called(__name__)

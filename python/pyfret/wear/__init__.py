@@ -7,10 +7,9 @@ A run of wear is solved, opened and gone on with::
 """
 
 from pyfret._core import Archard, DissipatedEnergy
-from pyfret._util.names import called, listing
+from pyfret._util.names import listing
 from pyfret.wear.result import WearResult
 from pyfret.wear.runs import open, resume, solve
 
 __all__ = ["Archard", "DissipatedEnergy", "WearResult", "open", "resume", "solve"]
 __dir__ = listing(__all__)
-called(__name__)

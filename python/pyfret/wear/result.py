@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import sys
-from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -46,6 +45,11 @@ class WearResult(Labelled):
             if name in self.dataset.attrs:
                 return self.dataset.attrs[name]
         raise AttributeError(f"a wear result has no {name!r}")
+
+    @property
+    def scene(self) -> Scene:
+        """The scene whose surfaces wear, as they are before the first cycle."""
+        return Scene.from_toml(self.dataset.attrs["scene"])
 
     @property
     def worn(self) -> xr.DataArray:
@@ -91,8 +95,7 @@ class WearResult(Labelled):
         if body not in (1, 2):
             raise ValueError(f"body = {body}: must be 1 or 2")
         if part_of_coating is not None:
-            scene = Scene.from_toml(self.dataset.attrs["scene"])
-            coatings = (scene.body1 if body == 1 else scene.body2).coatings
+            coatings = (self.scene.body1 if body == 1 else self.scene.body2).coatings
             if not 0 <= coating < len(coatings):
                 raise ValueError(f"coating = {coating}: body {body} has {len(coatings)} coatings")
             above = sum(layer.thickness for layer in coatings[:coating])
@@ -165,13 +168,6 @@ class WearResult(Labelled):
             The ending is another.
         """
         files.write(self.dataset.load().drop_encoding(), path)
-
-    def report(self, path: str | os.PathLike[str]) -> None:
-        """Write a page for a browser: the contact on its unworn surfaces, and what wears."""
-        # Reports and solutions stand above wear.
-        above = [import_module(f"pyfret.{name}") for name in ("solution", "report")]
-        scene = Scene.from_toml(self.dataset.attrs["scene"])
-        above[1].report(above[0].solve(scene, progress=False), path, wear=self)
 
     @property
     def events(self) -> list[dict[str, Any]]:
