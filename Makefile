@@ -16,7 +16,7 @@ unexport PYTHONDONTWRITEBYTECODE
 RUST := $(shell find crates -name '*.rs' -o -name '*.toml') Cargo.toml Cargo.lock
 
 .DEFAULT_GOAL := help
-.PHONY: help setup constants ablation largest stub demo figure-13 loads validation test stress path-errors error-bars kill wear wear-jumps memory fuzz deny check format bench bench-kernels bench-stress bench-peers docs wheel wheel-test clean
+.PHONY: help setup constants ablation largest stub demo figure-13 loads validation quick test test-all stress path-errors error-bars kill wear wear-jumps memory fuzz deny check format bench bench-kernels bench-stress bench-peers docs wheel wheel-test clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
@@ -36,31 +36,41 @@ loads: setup ## every load, law and shape against its closed form, twins, moment
 validation: setup ## the validation book, every page from runs: docs/validation
 	$(PY) -m validation --out docs/validation
 
-test: setup ## all tests: cargo, then pytest
+quick: setup ## a minute: format, tests of units, the tests of Python that take a moment
+	cargo fmt --all --check
+	$(BIN)/ruff check --quiet
+	cargo test --workspace --locked --release --lib --quiet
+	$(PY) -m pytest --quiet --numprocesses 2 -m "not slow and not solves"
+
+test: setup ## before a change is handed in, eight minutes: all but what is slow
 	cargo test --workspace --locked --release
+	$(PY) -m pytest --numprocesses 2 --dist loadfile -m "not slow"
+
+test-all: setup ## everything, twenty minutes: slow tests too
+	cargo test --workspace --locked --release -- --include-ignored
 	$(PY) -m pytest --numprocesses 2 --dist loadfile
 
 stress: ## 10 000 random scenes, 30 minutes at most; the numbers go to docs/reliability.md
 	FRET_STRESS=10000 FRET_STRESS_MINUTES=29 FRET_STRESS_REPORT=$(CURDIR)/docs/reliability.md \
-		cargo test --release --locked --package contact-core --test stress -- --nocapture
+		cargo test --release --locked --workspace --test campaigns -- --nocapture stress::
 
 path-errors: ## the estimated error of the path against the true one in 50 random scenes
-	FRET_PATH_ERRORS=50 cargo test --release --locked --package contact-core --test path_error -- --nocapture
+	FRET_PATH_ERRORS=50 cargo test --release --locked --workspace --test campaigns -- --nocapture path_error::
 
 largest: ## largest stresses of 60 random contacts against four times as many cells; the numbers go to docs/reliability.md
 	FRET_LARGEST=60 FRET_LARGEST_REPORT=$(CURDIR)/docs/reliability.md \
-		cargo test --release --locked --package contact-core --test largest -- --nocapture random
+		cargo test --release --locked --workspace --test subsurface -- --nocapture largest::random
 
 error-bars: ## error bars against the true errors in 160 random scenes; the numbers go to docs/error_bars.md
 	FRET_ERROR_BARS=160 FRET_ERROR_BARS_REPORT=$(CURDIR)/docs/error_bars.md \
-		cargo test --release --locked --package contact-core --test error_bars -- --nocapture
+		cargo test --release --locked --workspace --test campaigns -- --nocapture error_bars::
 
 fuzz: ## ten minutes of hostile input for each reader; the numbers go to docs/reliability.md
 	FRET_FUZZ=600 FRET_FUZZ_REPORT=$(CURDIR)/docs/reliability.md \
-		cargo test --release --locked --package contact-core --test fuzz -- --nocapture --test-threads=1
+		cargo test --release --locked --workspace --test fuzz -- --nocapture --test-threads=1
 
 ablation: ## what each numerical method buys, switched off alone: docs/ablation.md
-	cargo run --release --locked --package contact-core --example ablation > docs/ablation.md
+	cargo run --release --locked --example ablation > docs/ablation.md
 
 constants: ## what the constants of the methods do, each changed alone: docs/constants.md
 	python3 tools/constants.py > docs/constants.md
@@ -71,18 +81,18 @@ deny: $(VENV)/.tools ## licences, bans and sources of the dependencies
 
 memory: ## what runs allocate against what `fret check` announces; the numbers go to docs/reliability.md
 	FRET_MEMORY=1024 FRET_MEMORY_REPORT=$(CURDIR)/docs/reliability.md \
-		cargo test --release --locked --package contact-core --test memory -- --nocapture
+		cargo test --release --locked --workspace --test memory -- --nocapture
 
 kill: ## a hundred kills of a running solve and of a run of wear, and what checkpoints cost; the numbers go to docs/reliability.md
 	FRET_KILLS=100 FRET_KILL_REPORT=$(CURDIR)/docs/reliability.md \
-		cargo test --release --locked --package fret-cli --test kill -- --nocapture --test-threads=1
+		cargo test --release --locked --workspace --test kill -- --nocapture --test-threads=1
 
 wear: ## 300 random runs of wear, audited, and partial slip fully worn on 256 x 256 cells
-	FRET_WEAR=300 FRET_WEAR_CELLS=256 cargo test --release --locked --package contact-core --test wear -- \
+	FRET_WEAR=300 FRET_WEAR_CELLS=256 cargo test --release --locked --workspace --test wear -- \
 		--nocapture --test-threads=1 random partial_slip
 
 wear-jumps: ## implicit jumps over cycles beside the explicit ones that are as exact; the numbers go to docs/wear.md
-	cargo run --release --locked --package contact-core --example wear_jumps -- $(CURDIR)/docs/wear.md
+	cargo run --release --locked --example wear_jumps -- $(CURDIR)/docs/wear.md
 
 # In release mode, so that build scripts and macros are compiled once for checks, tests and wheel.
 check: setup ## formats, lints, circles of imports, types, spelling
@@ -118,12 +128,12 @@ wheel-test: wheel ## the wheel in a bare environment: command, README, examples
 	$(PY) tools/wheel_test.py out/wheels
 
 bench: ## criterion benches of every stage
-	cargo bench --locked --package contact-core --bench '*'
+	cargo bench --locked --package contact-core --package contact-subsurface --package contact-store --bench '*'
 
 bench-kernels: setup ## error against time of every kernel conversion: out/kernel_methods*
 	mkdir -p out
-	cargo run --release --locked --package contact-core --example kernel_methods > out/kernel_methods.csv
-	cargo run --release --locked --package contact-core --example kernel_methods_run -- \
+	cargo run --release --locked --example kernel_methods > out/kernel_methods.csv
+	cargo run --release --locked --example kernel_methods_run -- \
 		scenes/coated_fretting.toml grid.n=128 > out/kernel_methods_run.csv
 	cat out/kernel_methods.csv out/kernel_methods_run.csv
 	$(PY) examples/kernel_methods.py --out out
@@ -131,8 +141,8 @@ bench-kernels: setup ## error against time of every kernel conversion: out/kerne
 bench-stress: ## time and memory of the stress on a plane and in a volume
 	mkdir -p out
 	rm -f out/bench.vti
-	cargo run --release --locked --package contact-core --example subsurface -- plane
-	cargo run --release --locked --package contact-core --example subsurface -- volume out/bench.vti
+	cargo run --release --locked --example subsurface -- plane
+	cargo run --release --locked --example subsurface -- volume out/bench.vti
 
 bench-peers: setup ## side by side with public programs and FFTW: out/peers*
 	$(PY) benches/peers.py --out out

@@ -15,7 +15,7 @@ use crate::scene::{Grid, PathGrid, RigidMotion, SaveFields, Scene};
 const PARTS: [f64; 2] = [0.5, 0.375];
 /// Order m of the [`numbers`]: 1.5, between that of thin coatings, whose rim is off by a part of a
 /// cell (1), and that of smooth solutions (2). The rotation has 2: in 28 branches with torsion of
-/// random scenes (`tests/error_bars.rs`) true errors are 1.03 times the estimate with m = 2, and
+/// random scenes (`tests/campaigns/error_bars.rs`) true errors are 1.03 times the estimate with m = 2, and
 /// 0.61 times that with m = 1.5.
 pub(super) const ORDER: [f64; NUMBERS] = {
     let mut order = [1.5; NUMBERS];
