@@ -20,6 +20,8 @@ const SHORTEST: f64 = 0.01;
 const MOST_ROUNDS: usize = 16;
 /// Least relative gain of a step.
 const GAIN: f64 = 1e-6;
+/// How far beyond the samples the ascent may go, over their length.
+const BEYOND: f64 = 0.5;
 /// A point is on a border if it is at most this many cells from it.
 const ON_BORDER: f64 = 0.1;
 /// Contact cells times moments up to which every point of the ascent is judged by the whole
@@ -157,7 +159,9 @@ impl<J: Judge> Climb<'_, J> {
         // The representative moments may score less than the whole history of the sample.
         score = self.scores(at, &[place])?.first().copied().unwrap_or(score);
         let reach = self.site.along(self.line);
-        let ends = [reach[0], reach[reach.len() - 1]];
+        // The tractions are known: the stress beyond the grid is as well.
+        let beyond = BEYOND * (reach[reach.len() - 1] - reach[0]);
+        let ends = [reach[0] - beyond, reach[reach.len() - 1] + beyond];
         let (mut steps, mut left) = (first, [0.0; 2]);
         for _ in 0..MOST_ROUNDS {
             let mut beside: Vec<(usize, Place)> = Vec::new();

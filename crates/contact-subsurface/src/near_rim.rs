@@ -307,9 +307,7 @@ impl NearRim {
             let traction = OF_TRACTIONS.iter().find(|(of, _)| *of == row);
             match (traction.filter(|_| parts.on_surface), &own) {
                 (None, _) => *stress += more,
-                (Some((_, c)), Some(own)) if *c == 2 || own.shear_varies() => {
-                    *stress = -own.at(parts.offset)[*c];
-                }
+                (Some((_, c)), Some(own)) => *stress = -own.at(parts.offset)[*c],
                 (Some(_), _) => (),
             }
         }

@@ -4,8 +4,10 @@
 //! Pressure and shear vanish at the rim like the square root of the distance, and so does the
 //! shortfall of the shear from its bound inside a stick zone that shrinks; tractions constant in
 //! each cell cannot represent that. Their squares are nearly linear and are interpolated bilinearly
-//! between the centres of the cells: p^2, with q/p beside it; near the stick zone (m p - |q|)^2, m
-//! being |q|/p of the slip cells. In cells at a border the values are extrapolated from inside
+//! between the centres of the cells: p^2, with q/p beside it; near the stick zone (m p - q.e)^2, m
+//! and e being |q|/p and q/|q| of the slip cells. Cells that stick at the rim, as just after a
+//! reversal, where the ring of slip is narrower than a cell, have |q| <= mu p as well: q/p is
+//! interpolated there, too, so that the shear has no step. In cells at a border the values are extrapolated from inside
 //! (`level`). Where that is impossible (a punch with a sharp edge, a contact of few cells) the
 //! border is assumed a quarter of a cell outside the edge of the outermost cell, where a root from
 //! the centre of the cell carries the load of half the cell. So the tractions have no step, next to
@@ -41,9 +43,9 @@ pub struct Continued {
     level: Array2<f64>,
     /// q/p, in cells beside the contact the mean of their neighbours' within.
     ratios: [Array2<f64>; 2],
-    /// m, NaN far from the slip cells, and (m p - |q|)^2 \[Pa^2\], negative in cells beside the
+    /// m and e, NaN far from the slip cells, and (m p - q.e)^2 \[Pa^2\], negative in cells beside the
     /// stick zone.
-    bound: Option<[Array2<f64>; 2]>,
+    bound: Option<Bound<Array2<f64>>>,
     varying: Array2<Varying>,
     /// Cells whose level could not be extrapolated from inside.
     taken: Array2<bool>,
@@ -69,11 +71,28 @@ pub struct Crossing {
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Varying {
     Nothing,
-    Pressure,
-    /// The pressure, and the shear in proportion to it.
+    /// The pressure, and q/p.
     Both,
     /// The pressure, and the shear as m p less the shortfall.
     Shortfall,
+}
+
+/// The shear near a stick zone: q.e is m p less the root of `shortfall`.
+#[derive(Clone, Debug)]
+struct Bound<T> {
+    m: T,
+    e: [T; 2],
+    shortfall: T,
+}
+
+impl<T> Bound<T> {
+    fn map<U>(&self, f: impl Fn(&T) -> U) -> Bound<U> {
+        Bound {
+            m: f(&self.m),
+            e: self.e.each_ref().map(&f),
+            shortfall: f(&self.shortfall),
+        }
+    }
 }
 
 impl Continued {
@@ -113,13 +132,6 @@ impl Continued {
                 _ => Varying::Nothing,
             }
         });
-        let sticks = |n: usize| stick.is_some_and(|stick| stick[n]);
-        for &cell in rim.known.iter().chain(&rim.unknown) {
-            // In cells that stick at the rim the shear is not proportional to the pressure.
-            if sticks(cell.0 * grid.ny + cell.1) && q.iter().any(|q| q[cell] != 0.0) {
-                around(cell, shape).for_each(|at| varying[at] = Varying::Pressure);
-            }
-        }
         let constant = rim.unknown.iter().filter(|_| thin);
         for at in constant.flat_map(|cell| around(*cell, shape)) {
             varying[at] = Varying::Nothing;
@@ -133,7 +145,14 @@ impl Continued {
             constant: [&q[0], &q[1], &p].map(|field| cut(field, window)),
             lacking: [(); 3].map(|()| Array2::zeros((window.0.len(), window.1.len()))),
             level: cut(&rim.level, window),
-            bound: zone.map(|zone| [&zone.m, &zone.border.level].map(|field| cut(field, window))),
+            bound: zone.map(|zone| {
+                let whole = Bound {
+                    m: zone.m,
+                    e: zone.direction,
+                    shortfall: zone.border.level,
+                };
+                whole.map(|field| cut(field, window))
+            }),
             varying: cut(&varying, window),
             taken: cut(&taken, window),
             steps: thin && !rim.unknown.is_empty(),
@@ -165,7 +184,7 @@ impl Continued {
         let taken = |n: usize| [lower, upper].iter().any(|row| self.taken[cell(n, *row)]);
         let zones = [
             Some(&self.level),
-            self.bound.as_ref().map(|[_, level]| level),
+            self.bound.as_ref().map(|bound| &bound.shortfall),
         ];
         let mut all = Vec::new();
         for (zone, level) in zones.into_iter().enumerate() {
@@ -256,12 +275,11 @@ impl Continued {
         let bound = self.bound.as_ref();
         let bound = bound.filter(|_| varying == Varying::Shortfall);
         Some(Within {
-            varying,
             constant: [0, 1, 2].map(|c| self.constant[c][at]),
             lacking: [0, 1, 2].map(|c| self.lacking[c][at]),
             level: around(&self.level),
             ratios: self.ratios.each_ref().map(around),
-            bound: bound.map(|fields| fields.each_ref().map(around)),
+            bound: bound.map(|bound| bound.map(around)),
         })
     }
 
@@ -293,21 +311,15 @@ impl Continued {
 
 /// The tractions within a cell.
 pub struct Within {
-    varying: Varying,
     /// The constant tractions of the cell \[Pa\].
     pub constant: [f64; 3],
     lacking: [f64; 3],
     level: Around,
     ratios: [Around; 2],
-    bound: Option<[Around; 2]>,
+    bound: Option<Bound<Around>>,
 }
 
 impl Within {
-    /// Whether the shear varies, too.
-    pub fn shear_varies(&self) -> bool {
-        self.varying != Varying::Pressure
-    }
-
     /// q_x, q_y, p at an offset from the middle in cells \[Pa\].
     pub fn at(&self, offset: (f64, f64)) -> [f64; 3] {
         let q = self.interpolated(offset);
@@ -316,18 +328,17 @@ impl Within {
 
     fn interpolated(&self, offset: (f64, f64)) -> [f64; 3] {
         let p = self.level.at(offset).max(0.0).sqrt();
-        if self.varying == Varying::Pressure {
-            return [self.constant[0], self.constant[1], p];
-        }
         let [x, y] = self.ratios.each_ref().map(|ratio| ratio.at(offset));
-        let size = match &self.bound {
-            Some([m, shortfall]) => {
-                let q = m.at(offset) * p - shortfall.at(offset).max(0.0).sqrt();
-                q.max(0.0) / x.hypot(y).max(f64::MIN_POSITIVE)
-            }
-            None => p,
+        let Some(Bound { m, e, shortfall }) = &self.bound else {
+            return [p * x, p * y, p];
         };
-        [size * x, size * y, p]
+        let [e_x, e_y] = e.each_ref().map(|e| e.at(offset));
+        let length = e_x.hypot(e_y).max(f64::MIN_POSITIVE);
+        let (e_x, e_y) = (e_x / length, e_y / length);
+        // Along e the shear is known by its bound, across it by q/p.
+        let along = m.at(offset) * p - shortfall.at(offset).max(0.0).sqrt();
+        let across = p * (y * e_x - x * e_y);
+        [along * e_x - across * e_y, along * e_y + across * e_x, p]
     }
 }
 
