@@ -35,6 +35,9 @@ Data: TypeAlias = "Loops | Indentation | Scar | Lives"
 
 #: Part of the range of the shift that a turn has to go back to count as one.
 TURN = 0.3
+#: Part of a branch at its end whose slope is that of sliding, and the largest slope there, over
+#: that of the flank, of a loop that slides: at 0.9 mu W a ball in partial slip has 0.46.
+END, SLIDING = 0.25, 0.3
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -55,6 +58,11 @@ class Loops(HoldsArrays):
         Standard deviation of the force [N]; None: what the fit leaves.
     drift : (float, float)
         How much shift [m] and force [N] of the middle of a cycle move from the first to the last.
+    tilt : bool, optional
+        Whether a spring parallel to the contact is fitted; None: if the loops slide.
+    drifts : bool, optional
+        Whether drifts of both gauges, linear in the number of the point, are fitted; None: if
+        there are several cycles.
     """
 
     delta: NDArray[np.float64]
@@ -64,14 +72,47 @@ class Loops(HoldsArrays):
     W: float | None = None
     noise: float | None = None
     drift: tuple[float, float] = (0.0, 0.0)
+    tilt: bool | None = None
+    drifts: bool | None = None
+
+    @property
+    def sliding_slope(self) -> float | None:
+        """Slope of the ends of the branches [N/m], mean; None if the loops do not slide."""
+        ends, flanks = [], []
+        for n in range(int(self.cycle.max()) + 1):
+            for down in (False, True):
+                here = (self.cycle == n) & (self.down == down)
+                shift, force = self.delta[here], self.T[here]
+                length = float(np.ptp(shift)) if shift.size else 0.0
+                if length == 0.0:
+                    continue
+                to_end = shift - shift.min() if down else shift.max() - shift
+                end = to_end < END * length
+                if end.sum() < 3:
+                    continue
+                ends.append(float(np.polyfit(shift[end], force[end], 1)[0]))
+                # The flank rises by half of the force in the part of the shift that it takes.
+                rise = np.abs(force - (force.max() if down else force.min()))
+                flank = shift[rise <= 0.5 * np.ptp(force)]
+                flanks.append(0.5 * float(np.ptp(force)) / max(float(np.ptp(flank)), 1e-300))
+        if not ends or abs(np.mean(ends)) > SLIDING * float(np.mean(flanks)):
+            return None
+        return float(np.mean(ends))
 
     @staticmethod
     def of(
-        delta: ArrayLike, T: ArrayLike, *, W: float | None = None, noise: float | None = None
+        delta: ArrayLike,
+        T: ArrayLike,
+        *,
+        W: float | None = None,
+        noise: float | None = None,
+        tilt: bool | None = None,
+        drift: bool | None = None,
     ) -> Loops:
         """Loops of points in the order of time; what is before the first turn is left out.
 
-        Points with a missing value, masked or NaN, are left out.
+        Points with a missing value, masked or NaN, are left out. ``tilt`` and ``drift`` as of
+        :func:`loops`.
 
         Raises
         ------
@@ -101,24 +142,34 @@ class Loops(HoldsArrays):
             ]
             for v in (shift, force)
         ]
-        drift = (middles[0][1] - middles[0][0], middles[1][1] - middles[1][0])
-        return Loops(shift[order], force[order], down[order], cycle[order], W, noise, drift)
+        moved = (middles[0][1] - middles[0][0], middles[1][1] - middles[1][0])
+        points = (shift[order], force[order], down[order], cycle[order])
+        return Loops(*points, W, noise, moved, tilt, drift)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Indentation(HoldsArrays):
-    """An indentation curve: approach [m] over normal force [N]."""
+    """An indentation curve: approach [m] over normal force [N].
+
+    With ``frame`` the compliance of the frame is fitted, too.
+    """
 
     W: NDArray[np.float64]
     delta_z: NDArray[np.float64]
     noise: float | None = None
+    frame: bool = False
 
     @staticmethod
-    def of(W: ArrayLike, delta_z: ArrayLike, *, noise: float | None = None) -> Indentation:
-        """A curve of points in any order; those without load or with a hole are left out."""
+    def of(
+        W: ArrayLike, delta_z: ArrayLike, *, noise: float | None = None, frame: bool = False
+    ) -> Indentation:
+        """A curve of points in any order; those without load or with a hole are left out.
+
+        ``frame`` as of :func:`indentation`.
+        """
         force, approach = together(W=W, delta_z=delta_z, holes=True)
         loaded = force > 0
-        return Indentation(force[loaded], approach[loaded], noise)
+        return Indentation(force[loaded], approach[loaded], noise, frame)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -193,6 +244,8 @@ def loops(
     units: dict[str, str] | None = None,
     W: float | None = None,
     noise: float | None = None,
+    tilt: bool | None = None,
+    drift: bool | None = None,
 ) -> Loops:
     """Read friction loops of a file, one after the other, also parted by empty lines.
 
@@ -208,6 +261,13 @@ def loops(
         Normal force [N] (default: that of the scene).
     noise : float, optional
         Standard deviation of the force [N] (default: what the fit leaves).
+    tilt : bool, optional
+        Whether a spring parallel to the contact, such as a guide or a seal, is an unknown: its
+        force is its stiffness times the shift (default: if the loops slide; in partial slip a rig
+        of another stiffness looks alike).
+    drift : bool, optional
+        Whether drifts of shift and force are unknowns: both grow in proportion to the number of the
+        point (default: if there are several cycles).
 
     Raises
     ------
@@ -218,7 +278,7 @@ def loops(
     shift = table.column("length", ("delta", "d_", "weg", "x", "shift", "disp"), delta)
     force = table.column("force", ("t", "q", "kraft", "f", "force"), T)
     rows = np.concatenate(table.blocks)
-    return Loops.of(rows[:, shift], rows[:, force], W=W, noise=noise)
+    return Loops.of(rows[:, shift], rows[:, force], W=W, noise=noise, tilt=tilt, drift=drift)
 
 
 def indentation(
@@ -228,13 +288,18 @@ def indentation(
     delta_z: str | None = None,
     units: dict[str, str] | None = None,
     noise: float | None = None,
+    frame: bool = False,
 ) -> Indentation:
-    """Read an indentation curve of a file, as :func:`loops`."""
+    """Read an indentation curve of a file, as :func:`loops`.
+
+    With ``frame=True`` the compliance of the frame [m/N] is an unknown: the approach that is
+    measured holds it times the force.
+    """
     table = tables.read(path, units)
     force = table.column("force", ("w", "f", "p", "load"), W)
     approach = table.column("length", ("delta", "h", "z", "depth", "weg"), delta_z)
     rows = np.concatenate(table.blocks)
-    return Indentation.of(rows[:, force], rows[:, approach], noise=noise)
+    return Indentation.of(rows[:, force], rows[:, approach], noise=noise, frame=frame)
 
 
 def scar(

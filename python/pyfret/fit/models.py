@@ -11,7 +11,7 @@ import numpy as np
 from pyfret import wear
 from pyfret._core import LoadPath, OffGridError, Scene
 from pyfret._util.extras import needed
-from pyfret.fit.data import Data, Indentation, Lives, Loops, Measured, Scar
+from pyfret.fit.data import Data, Indentation, Lives, Loops, Measured, Scar, turning
 from pyfret.solution import solve
 from pyfret.study.design import varied
 from pyfret.study.point import GROWTHS, grown
@@ -26,6 +26,10 @@ Curve: TypeAlias = "Callable[[NDArray[np.float64]], NDArray[np.float64]]"
 
 #: Increments of a way of the loop and of an indentation, where the scene's path says nothing else.
 WAY, INDENTATION = 24, 16
+#: What of the measurement of loops may be unknown.
+SHIFT, FORCE = "offset of the shift [m]", "offset of the force [N]"
+TILT = "spring beside the contact [N/m]"
+DRIFTS = ("drift of the shift [m]", "drift of the force [N]")
 #: Default tolerance of the jumps of a run of wear.
 TOLERANCE = 0.01
 
@@ -37,9 +41,12 @@ class Model(Measured):
     Attributes
     ----------
     offsets : tuple of str
-        What of the measurement itself is unknown besides: zeros of its gauges, free of solves.
+        What of the measurement itself is unknown besides: zeros and drifts of its gauges, springs
+        beside the contact; free of solves.
     scales : array
         About the size of each offset.
+    zeros : array
+        What each offset is counted from.
     solves : int
         Solves that one prediction takes.
     predict : callable
@@ -55,6 +62,7 @@ class Model(Measured):
         Callable[[NDArray[np.float64]], NDArray[np.float64]],
     ]
     noise: float | None
+    zeros: NDArray[np.float64]
 
     def without(self) -> Measured:
         """What was measured, without what computes it."""
@@ -95,10 +103,14 @@ def through(x: NDArray[np.float64], y: NDArray[np.float64]) -> Curve:
 def of_loops(data: Loops) -> Model:
     """Loops: the closed cycle between the ends of the measured shift, under the scene's W."""
     cycles = range(int(data.cycle.max()) + 1)
-    of_cycle = [data.delta[data.cycle == n] for n in cycles]
+    drifts = data.drifts if data.drifts is not None else len(cycles) > 1
+    time = np.linspace(-0.5, 0.5, data.delta.size)
+    steady = data.delta - (drift_of_turns(data.delta, time) * time if drifts else 0.0)
+    of_cycle = [steady[data.cycle == n] for n in cycles]
     reach = 0.5 * float(np.median([np.ptp(shift) for shift in of_cycle]))
     middle = float(np.median([0.5 * (s.max() + s.min()) for s in of_cycle]))
     force = 0.5 * float(np.median([np.ptp(data.T[data.cycle == n]) for n in cycles]))
+    tilts = data.tilt if data.tilt is not None else data.sliding_slope is not None
 
     def predict(
         scene: Scene, _: Mapping[str, float], finer: float
@@ -117,16 +129,35 @@ def of_loops(data: Loops) -> Model:
             curves.append(through(shift[ways], T[ways]))
 
         def at(offsets: NDArray[np.float64]) -> NDArray[np.float64]:
-            where = data.delta - middle - offsets[0]
+            more = dict(zip(named, offsets, strict=True))
+            where = data.delta - middle - more[SHIFT] - more.get(DRIFTS[0], 0.0) * time
             down, up = (curve(where) for curve in curves)
-            return np.asarray(np.where(data.down, down, up) + offsets[1])
+            beside = more[FORCE] + more.get(DRIFTS[1], 0.0) * time + more.get(TILT, 0.0) * where
+            return np.asarray(np.where(data.down, down, up) + beside)
 
         return at
 
-    scales = np.array([reach, force])
-    offsets = ("offset of the shift [m]", "offset of the force [N]")
+    named = {SHIFT: reach, FORCE: force}
+    if tilts:
+        named[TILT] = force / reach
+    if drifts:
+        named |= dict(zip(DRIFTS, (reach, force), strict=True))
+    scales = np.array(list(named.values()))
+    zeros = np.array([middle, *np.zeros(len(named) - 1)])
     labels = ("shift [m]", "force [N]")
-    return Model(data, data.T, data.delta, labels, offsets, scales, 1, predict, data.noise)
+    along, names = data.delta, tuple(named)
+    return Model(data, data.T, along, labels, names, scales, 1, predict, data.noise, zeros)
+
+
+def drift_of_turns(delta: NDArray[np.float64], time: NDArray[np.float64]) -> float:
+    """Slope of the shift at its turns over time, the same for both ends of the loop [m]."""
+    # The ends of a record need not be turns.
+    turns = [n for n in turning(delta) if 0 < n < delta.size - 1]
+    if len(turns) < 3:
+        return 0.0
+    upper = delta[turns] > 0.5 * (delta.max() + delta.min())
+    columns = np.stack([time[turns], upper, ~upper], axis=1).astype(float)
+    return float(np.linalg.lstsq(columns, delta[turns], rcond=None)[0][0])
 
 
 def of_indentation(data: Indentation) -> Model:
@@ -144,12 +175,16 @@ def of_indentation(data: Indentation) -> Model:
         # Over W^(2/3) the curve of a homogeneous sphere is straight.
         curve = through(np.r_[0.0, d.W.values] ** (2 / 3), np.r_[0.0, d.delta_z.values])
         found = curve(data.W ** (2 / 3))
-        return lambda offsets: found + offsets[0]
+        return lambda offsets: found + offsets[0] + (offsets[1] * data.W if data.frame else 0.0)
 
-    scales = np.array([float(np.ptp(data.delta_z))])
+    reach = float(np.ptp(data.delta_z))
+    scales, zeros = np.array([reach, reach / most]), np.zeros(2)
     labels = ("normal force [N]", "approach [m]")
-    offsets = ("offset of the approach [m]",)
-    return Model(data, data.delta_z, data.W, labels, offsets, scales, 1, predict, data.noise)
+    offsets = ("offset of the approach [m]", "compliance of the frame [m/N]")
+    if not data.frame:
+        offsets, scales, zeros = offsets[:1], scales[:1], zeros[:1]
+    along = data.W
+    return Model(data, data.delta_z, along, labels, offsets, scales, 1, predict, data.noise, zeros)
 
 
 def of_scar(data: Scar) -> Model:
@@ -172,8 +207,8 @@ def of_scar(data: Scar) -> Model:
 
     labels = ("x [m]", "worn depth [m]")
     offsets = ("offset of x [m]",)
-    scales = np.array([half])
-    return Model(data, data.depth, data.x, labels, offsets, scales, 1, predict, data.noise)
+    scales, zeros = np.array([half]), np.zeros(1)
+    return Model(data, data.depth, data.x, labels, offsets, scales, 1, predict, data.noise, zeros)
 
 
 def of_lives(data: Lives) -> Model:
@@ -196,8 +231,8 @@ def of_lives(data: Lives) -> Model:
     labels = ("test", "ln of the cycles")
     count = len(data.cycles)
     along = np.arange(count, dtype=float)
-    measured = np.log(data.cycles)
-    return Model(data, measured, along, labels, (), np.zeros(0), count, predict, data.noise)
+    measured, none = np.log(data.cycles), np.zeros(0)
+    return Model(data, measured, along, labels, (), none, count, predict, data.noise, none)
 
 
 def jumping(arguments: dict[str, Any], finer: float) -> dict[str, Any]:

@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from pyfret._core import with_error
 from pyfret._util.holds_arrays import HoldsArrays
+from pyfret.fit.data import Loops
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -60,7 +62,10 @@ class Found(HoldsArrays):
     known : dict of str to Known
         Values with 95 % confidence by the keys of the unknowns.
     offsets : dict of str to float
-        Zeros of the gauges.
+        Zeros and drifts of the gauges, springs beside the contact. The offset of the shift is what
+        the gauge shows in the middle of the contact's own motion.
+    offset_errors : dict of str to float
+        Half-widths of their 95 % confidence.
     correlation : array
         Correlation of the unknowns, in their order.
     residual, computed : list of array
@@ -84,6 +89,7 @@ class Found(HoldsArrays):
 
     known: dict[str, Known]
     offsets: dict[str, float]
+    offset_errors: dict[str, float]
     correlation: NDArray[np.float64]
     residual: list[NDArray[np.float64]]
     computed: list[NDArray[np.float64]]
@@ -150,13 +156,28 @@ class Found(HoldsArrays):
         if not self.converged:
             said.append(f"the search did not settle in {self.solves} solves")
         for n, measured in enumerate(self.sets):
-            drift = getattr(measured.data, "drift", None)
-            if drift is not None and abs(drift[1]) > 2 * self.noise[n]:
-                said.append(
-                    f"the middle of the loops drifts by {drift[0]:.2g} m and {drift[1]:.2g} N "
-                    "from the "
-                    "first to the last"
-                )
+            if isinstance(measured.data, Loops):
+                said += self._doubts_of_loops(measured.data, self.noise[n])
+        return said
+
+    def _doubts_of_loops(self, data: Loops, noise: float) -> list[str]:
+        """What of loops the contact does not explain."""
+        said = []
+        drift = data.drift
+        if data.drifts is False and abs(drift[1]) > 2 * noise:
+            said.append(
+                f"the middle of the loops drifts by {drift[0]:.2g} m and {drift[1]:.2g} N from the "
+                "first to the last: fit it by drift=True"
+            )
+        slope = data.sliding_slope
+        if slope is not None and abs(slope) * float(np.ptp(data.delta)) > 2 * noise:
+            cause = (
+                "an unknown spring beside the contact would explain it, tilt=True"
+                if data.tilt is False
+                else "it is taken for a spring beside the contact; friction that grows with the "
+                "shift looks alike"
+            )
+            said.append(f"the sliding branches rise by {slope:.2g} N/m: {cause}")
         return said
 
     def summary(self) -> str:
@@ -174,7 +195,10 @@ class Found(HoldsArrays):
             for key in self.known:
                 low, high = self.posterior.interval(key)
                 lines.append(f"{key}: 95 % of the posterior from {low:.4g} to {high:.4g}")
-        lines += [f"{name}: {value:.3g}" for name, value in self.offsets.items()]
+        lines += [
+            f"{name}: {with_error(value, self.offset_errors[name])}"
+            for name, value in self.offsets.items()
+        ]
         for of, noise in zip(self.sets, self.noise, strict=True):
             part = noise / float(np.ptp(of.measured)) if np.ptp(of.measured) else 0.0
             lines.append(f"residual of {of.labels[1]}: {noise:.3g}, {part:.1%} of its range")

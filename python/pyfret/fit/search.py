@@ -267,13 +267,16 @@ class Search:
             )
         names = [name for model in self.models for name in model.offsets]
         scales = [float(s) for model in self.models for s in model.scales]
-        offsets = [float(g) * s for g, s in zip(gauges, scales, strict=True)]
+        zeros = [float(zero) for model in self.models for zero in model.zeros]
+        offsets = [float(g) * s + z for g, s, z in zip(gauges, scales, zeros, strict=True)]
+        of_offsets = [t * float(one) * s for one, s in zip(spread[n:], scales, strict=True)]
         computed = self.computed(self.known[u], gauges)
         rest = [m.measured - c for m, c in zip(self.models, computed, strict=True)]
         values = split(self.values(u))[0]
         return Found(
             known=known,
             offsets=dict(zip(names, offsets, strict=True)),
+            offset_errors=dict(zip(names, of_offsets, strict=True)),
             correlation=correlation,
             residual=rest,
             computed=computed,
