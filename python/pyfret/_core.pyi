@@ -2643,6 +2643,15 @@ def cycle_temperature(
 ) -> dict[str, Any]:
     """Temperature over a cycle; use :meth:`pyfret.Result.temperature`."""
 
+#: Why a cycle has no stiffness, and what to do.
+TOO_FEW_INCREMENTS: str
+
+def with_error(value: float, error: float | None = None) -> str:
+    """A number and its error, with the digits that the error leaves; without an error an estimate."""
+
+def with_range(value: float, low: float, high: float) -> str:
+    """A number and the range that it lies in, with the digits that the range leaves."""
+
 def loops(
     path: LoadPath,
     *,

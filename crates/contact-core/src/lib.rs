@@ -25,6 +25,7 @@
 pub mod bisection;
 pub mod cells;
 pub mod convolution;
+pub mod digits;
 pub mod error;
 pub mod estimate;
 pub mod gauss;

@@ -5,9 +5,23 @@
 //! delta* of force and shift and the energy E_d dissipated in a cycle, the energy ratio is
 //! E_d/(4 T* delta*), the sliding ratio half the opening of the loop over delta*. Partial slip
 //! turns into gross slip at an energy ratio of 0.2 and a sliding ratio of 0.26.
+//!
+//! The stiffness right after a reversal is that of the contact without slip. An increment gives a
+//! secant, which is lower: after a change of the force by f the ring of reverse slip has grown. The
+//! secants S of the first increments are extrapolated to f = 0 by a parabola in f; the line through
+//! two of them shows the error. Increments in gross slip have no part in it: there the shift does
+//! not depend on the force.
 
 use contact_core::march::{Increment, Status};
 use contact_core::scene::{Branch, LoadPath, Loads, Prescribed, RigidMotion};
+
+/// Least distance of the forces whose secants are extrapolated, over the change of the force in the
+/// branch: the errors of closer ones are amplified.
+const APART: f64 = 0.05;
+/// Largest relative error with which a stiffness is given.
+const OF_STIFFNESS: f64 = 0.02;
+/// Largest error with which a sliding ratio is given.
+const OF_SLIDING: f64 = 0.05;
 
 /// Loads that agree to this share of the largest are the same.
 const SAME: f64 = 1e-9;
@@ -35,24 +49,41 @@ pub struct Cycle {
     pub T: f64,
     /// Half the range of the shift \[m\].
     pub delta: f64,
-    /// Stiffness right after the reversals \[N/m\]: the steepest increment of each branch,
-    /// averaged.
+    /// Stiffness right after the reversals \[N/m\], extrapolated, mean over the branches; NaN
+    /// where the increments leave an error above 2 %: too few of them are in partial slip.
     pub stiffness: f64,
+    /// Its estimated error \[N/m\].
+    pub stiffness_error: f64,
     /// Half the opening of the loop where the force passes the middle of its range \[m\].
     pub opening: f64,
+    /// Bound of its error \[m\]: the loop between two increments is convex.
+    pub opening_error: f64,
     /// Gross slip if the interface slid in any increment.
     pub status: Status,
 }
 
 impl Cycle {
+    /// Why a cycle has no stiffness, and what to do.
+    pub const TOO_FEW: &str =
+        "fewer than three increments of a branch are in partial slip, use more";
+
     /// E_d/(4 T* delta*); 0 where nothing moves.
     pub fn energy_ratio(&self) -> f64 {
         ratio(self.dissipated, 4.0 * self.T * self.delta)
     }
 
-    /// Half the opening over half the range of the shift; 0 where nothing moves.
+    /// Half the opening over half the range of the shift; 0 where nothing moves, NaN where the
+    /// increments leave an error above 0.05.
     pub fn sliding_ratio(&self) -> f64 {
+        if self.sliding_ratio_error() > OF_SLIDING {
+            return f64::NAN;
+        }
         ratio(self.opening, self.delta)
+    }
+
+    /// Bound of the error of the sliding ratio.
+    pub fn sliding_ratio_error(&self) -> f64 {
+        ratio(self.opening_error, self.delta)
     }
 
     /// Stiffness of the whole loop \[N/m\], T*/delta*.
@@ -178,47 +209,116 @@ fn cycle(branches: (usize, usize), part: &[LoopPoint], curve: &[LoopPoint]) -> C
     };
     let (force, shift) = (range(|p| p.T), range(|p| p.delta));
     let worst = |a: Status, b: Status| if b.code() > a.code() { b } else { a };
+    let [stiffness, stiffness_error] = reversal_stiffness(curve);
+    let [opening, opening_error] = opening(curve, f64::midpoint(force.0, force.1));
     Cycle {
         branches,
         dissipated: part.iter().map(|p| p.dissipated).sum(),
         T: (force.1 - force.0) / 2.0,
         delta: (shift.1 - shift.0) / 2.0,
-        stiffness: reversal_stiffness(curve),
-        opening: opening(curve, f64::midpoint(force.0, force.1)),
+        stiffness,
+        stiffness_error,
+        opening,
+        opening_error,
         status: part.iter().map(|p| p.status).fold(Status::NoContact, worst),
     }
 }
 
-/// Mean over the branches of the steepest increment \[N/m\].
-fn reversal_stiffness(curve: &[LoopPoint]) -> f64 {
-    let mut steepest: Vec<(usize, f64)> = Vec::new();
-    for pair in curve.windows(2) {
-        let (rise, run) = (pair[1].T - pair[0].T, pair[1].delta - pair[0].delta);
-        if rise == 0.0 || run == 0.0 {
-            continue;
-        }
-        let slope = (rise / run).abs();
-        match steepest.last_mut() {
-            Some((branch, s)) if *branch == pair[1].branch => *s = s.max(slope),
-            _ => steepest.push((pair[1].branch, slope)),
-        }
-    }
-    let sum: f64 = steepest.iter().map(|s| s.1).sum();
-    ratio(sum, steepest.len() as f64)
+/// The branches of a loop, each with the point that it starts from.
+fn branches(curve: &[LoopPoint]) -> impl Iterator<Item = &[LoopPoint]> {
+    let starts = (1..curve.len()).filter(|n| *n == 1 || curve[*n].branch != curve[n - 1].branch);
+    starts.map(|first| {
+        let of_branch = |p: &&LoopPoint| p.branch == curve[first].branch;
+        let count = curve[first..].iter().take_while(of_branch).count();
+        &curve[first - 1..first + count]
+    })
 }
 
-/// Half the distance between the outermost shifts at which the force passes `middle` \[m\].
-fn opening(curve: &[LoopPoint], middle: f64) -> f64 {
+/// Stiffness right after the reversals and its error \[N/m\], mean over the branches that change
+/// the force.
+fn reversal_stiffness(curve: &[LoopPoint]) -> [f64; 2] {
+    let moved =
+        branches(curve).filter(|of| of[1..].iter().any(|p| p.T.to_bits() != of[0].T.to_bits()));
+    let known: Vec<Option<[f64; 2]>> = moved.map(tangent).collect();
+    let count = known.len() as f64;
+    let sums = (known.into_iter().flatten()).fold([0.0, 0.0, 0.0], |[n, k, e], [K, error]| {
+        [n + 1.0, k + K, e + error]
+    });
+    let [found, K, error] = sums;
+    if found < count || !(error <= OF_STIFFNESS * K) {
+        return [f64::NAN; 2];
+    }
+    [ratio(K, count), ratio(error, count)]
+}
+
+/// The tangent of the loop where a branch begins, and its error \[N/m\]; none where too few
+/// increments are in partial slip.
+fn tangent(branch: &[LoopPoint]) -> Option<[f64; 2]> {
+    let (start, points) = branch.split_first()?;
+    let secant = |p: &LoopPoint| {
+        let (rise, run) = ((p.T - start.T).abs(), (p.delta - start.delta).abs());
+        (rise > 0.0 && run > 0.0).then(|| [rise, rise / run])
+    };
+    if let Some(stuck) = points.iter().rfind(|p| p.status == Status::FullStick) {
+        return secant(stuck).map(|[_, K]| [K, 0.0]);
+    }
+    let held = points.iter().take_while(|p| p.status != Status::GrossSlip);
+    let secants: Vec<[f64; 2]> = held.filter_map(secant).collect();
+    let step = secants.first()?[0].max(APART * secants.last()?[0]);
+    let mut chosen: Vec<[f64; 2]> = Vec::new();
+    for n in 1..=3 {
+        let away = |s: &[f64; 2]| (s[0] - f64::from(n) * step).abs();
+        let nearest = secants.iter().min_by(|a, b| away(a).total_cmp(&away(b)))?;
+        if chosen.last().is_none_or(|last| nearest[0] > last[0]) {
+            chosen.push(*nearest);
+        }
+    }
+    let [a, b, rest @ ..] = &chosen[..] else {
+        return None;
+    };
+    // Aitken's scheme at f = 0.
+    let line = |a: &[f64; 2], b: &[f64; 2]| (a[1] * b[0] - b[1] * a[0]) / (b[0] - a[0]);
+    let by_line = line(a, b);
+    let Some(c) = rest.first() else {
+        return Some([by_line, (by_line - a[1]).abs()]);
+    };
+    let parabola = line(&[b[0], by_line], &[c[0], line(a, c)]);
+    Some([parabola, (parabola - by_line).abs()])
+}
+
+/// Half the distance between the outermost shifts at which the force passes `middle`, and the bound
+/// of its error \[m\]. Between two increments of a branch the loop is convex: it lies between the
+/// chord and the extensions of the chords before and after.
+fn opening(curve: &[LoopPoint], middle: f64) -> [f64; 2] {
     let mut range = (f64::INFINITY, f64::NEG_INFINITY);
-    for pair in curve.windows(2) {
-        let (from, to) = (pair[0], pair[1]);
-        if (from.T - middle) * (to.T - middle) <= 0.0 && from.T.to_bits() != to.T.to_bits() {
+    let mut error = 0.0;
+    for branch in branches(curve) {
+        for (n, pair) in branch.windows(2).enumerate() {
+            let (from, to) = (pair[0], pair[1]);
+            if (from.T - middle) * (to.T - middle) > 0.0 || from.T.to_bits() == to.T.to_bits() {
+                continue;
+            }
             let share = (middle - from.T) / (to.T - from.T);
             let at = from.delta + (to.delta - from.delta) * share;
+            let length = (to.delta - from.delta).abs();
+            // Shifts per force of the chords beside.
+            let beside = |a: usize, b: usize| {
+                let (a, b) = (branch.get(a)?, branch.get(b)?);
+                let rise = (b.T - a.T).abs();
+                (rise > 0.0).then(|| (b.delta - a.delta).abs() / rise)
+            };
+            let before = n.checked_sub(1).and_then(|m| beside(m, n)).unwrap_or(0.0);
+            let least = before * (middle - from.T).abs();
+            let after = beside(n + 1, n + 2);
+            let least = after.map_or(least, |slope| {
+                least.max(length - slope * (to.T - middle).abs())
+            });
+            let chord = (at - from.delta).abs();
+            error += (chord - least.max(0.0)).clamp(0.0, length) / 2.0;
             range = (range.0.min(at), range.1.max(at));
         }
     }
-    ((range.1 - range.0) / 2.0).max(0.0)
+    [((range.1 - range.0) / 2.0).max(0.0), error]
 }
 
 #[cfg(test)]

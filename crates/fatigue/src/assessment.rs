@@ -54,6 +54,18 @@ impl Assessment {
         }
     }
 
+    /// The least and the largest margin of a value with an error: from value + error to
+    /// value - error. NaN without a finite error.
+    pub fn range(&self, value: f64, error: f64) -> [f64; 2] {
+        [value + error, value - error].map(|value| {
+            if value.is_finite() {
+                self.margin(value)
+            } else {
+                f64::NAN
+            }
+        })
+    }
+
     /// Whether [`Self::margin`] is a life \[cycles\].
     pub fn gives_lives(&self) -> bool {
         matches!(self.judge, Judge::Life(_))

@@ -10,8 +10,8 @@ use serde_json::{Map, Value, json};
 use crate::failure::Failure;
 use crate::printed::print;
 use crate::scene_options::{SceneOptions, say_doubts};
-use crate::summary::short;
 use crate::units::{mega, um};
+use contact_core::digits::short;
 
 /// Options of `fret check`.
 #[derive(Args)]

@@ -90,8 +90,10 @@ fn cycle(direction: Direction, c: &Cycle) -> Value {
         "T": c.T,
         "delta": c.delta,
         "stiffness": c.stiffness,
+        "stiffness_error": c.stiffness_error,
         "energy_ratio": c.energy_ratio(),
         "sliding_ratio": c.sliding_ratio(),
+        "sliding_ratio_error": c.sliding_ratio_error(),
     })
 }
 

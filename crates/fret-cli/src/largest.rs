@@ -3,8 +3,8 @@
 use contact_core::scene::Scene;
 use contact_subsurface::{Errors, Extreme, Probe, Zone};
 
-use crate::summary::short;
 use crate::units::{mega, um};
+use contact_core::digits::short;
 
 /// Prints the largest values of an increment and their places.
 pub(crate) struct Largest<'a> {

@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use comfy_table::{CellAlignment, Table, presets};
 use contact_core::Scene;
+use contact_core::digits::{short, with_error};
 use contact_core::estimate::{Bar, ErrorBars};
 use contact_core::march::{BranchSummary, Increment, Reached, summarise};
 use contact_core::scene::{Branch, RigidMotion};
@@ -14,27 +15,6 @@ use crate::words::{state, word};
 
 /// Micrometres, or microjoules, per SI unit.
 const MICRO: f64 = 1e6;
-
-/// A number with few digits.
-const DIGITS: i32 = 4;
-
-/// A number with a few digits, without zeros that say nothing.
-pub(crate) fn short(x: f64) -> String {
-    if x == 0.0 || !x.is_finite() {
-        return x.to_string();
-    }
-    let size = x.abs().log10().floor() as i32;
-    if !(-4..=6).contains(&size) {
-        return format!("{x:.3e}");
-    }
-    let decimals = (DIGITS - 1 - size).max(0) as usize;
-    let text = format!("{x:.decimals$}");
-    if text.contains('.') {
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
-    } else {
-        text
-    }
-}
 
 /// Unit of length and pressure of a column: Hertz's where there is a Hertz contact.
 struct Measures {
@@ -231,13 +211,21 @@ fn cycle_lines(scene: &Scene, increments: &[Increment]) -> Vec<String> {
             "N/m"
         });
         format!(
-            "cycle {} ({}): {}, {} {joule} dissipated, energy ratio {}, stiffness {:.3e} {stiffness}",
+            "cycle {} ({}): {}, {} {joule} dissipated, energy ratio {}, sliding ratio {}, stiffness {}",
             n + 1,
             word(*direction),
             state(c.status),
             short(c.dissipated * joules),
             short(c.energy_ratio()),
-            c.stiffness
+            with_error(c.sliding_ratio(), Some(c.sliding_ratio_error())),
+            if c.stiffness.is_nan() {
+                format!("not known: {}", Cycle::TOO_FEW)
+            } else {
+                format!(
+                    "{} {stiffness}",
+                    with_error(c.stiffness, Some(c.stiffness_error))
+                )
+            }
         )
     };
     cycles.iter().enumerate().map(line).collect()
@@ -250,16 +238,6 @@ pub(crate) fn time(run: Duration, (count, spent): (usize, Duration)) -> String {
         "fret: {run:.2} s, of these {spent:.3} s ({:.1} %) for {count} checkpoints",
         100.0 * spent / run
     )
-}
-
-/// A number and its error, with as many decimals as the error has a say in.
-fn with_error(value: f64, error: f64) -> String {
-    let decimals = if error > 0.0 {
-        (1.0 - error.log10().floor()).clamp(0.0, 9.0) as usize
-    } else {
-        6
-    };
-    format!("{value:.decimals$} +- {error:.decimals$}")
 }
 
 /// Of a branch a number, its error and the unit.
@@ -334,8 +312,9 @@ pub(crate) fn error_table(scene: &Scene, increments: &[Increment], bars: &[Error
         ];
         numbers.extend(answers.iter().map(|answer| (answer.of)(of, bar)));
         let fields = [bar.p, bar.q];
-        let number =
-            |&(value, bar, unit): &(f64, Bar, f64)| with_error(value * unit, bar.total * unit);
+        let number = |&(value, bar, unit): &(f64, Bar, f64)| {
+            with_error(value * unit, Some(bar.total * unit))
+        };
         let field = |bar: &Bar| format!("+- {:.2}", 100.0 * bar.total);
         let branch = (of.branch + 1).to_string();
         table.add_row(

@@ -1,6 +1,6 @@
 //! Numbers in the units that engineers read.
 
-use crate::summary::short;
+use contact_core::digits::short;
 
 /// A length \[m\] in micrometres.
 pub(crate) fn um(length: f64) -> String {

@@ -223,10 +223,12 @@ pub(crate) fn loops(
             of.set_item("T", c.T)?;
             of.set_item("delta", c.delta)?;
             of.set_item("stiffness", c.stiffness)?;
+            of.set_item("stiffness_error", c.stiffness_error)?;
             of.set_item("secant_stiffness", c.secant_stiffness())?;
             of.set_item("opening", c.opening)?;
             of.set_item("energy_ratio", c.energy_ratio())?;
             of.set_item("sliding_ratio", c.sliding_ratio())?;
+            of.set_item("sliding_ratio_error", c.sliding_ratio_error())?;
             of.set_item("status", c.status.code())?;
             Ok(of)
         })

@@ -101,13 +101,15 @@ mod _core {
         Subsurface, chosen_depths, depths, residual_of_layers, section_of_states,
     };
     #[pymodule_export]
-    use crate::text::{read_bytes, read_text, shown};
+    use crate::text::{read_bytes, read_text, shown, with_error, with_range};
     #[pymodule_export]
     use crate::wear::{Archard, DissipatedEnergy, resume_wear, verify_wear, wear};
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
         module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+        let too_few = contact_subsurface::Cycle::TOO_FEW;
+        module.add("TOO_FEW_INCREMENTS", too_few)?;
         crate::fatigue::add_criteria(&module.getattr("Criterion")?)?;
         module.add("RIGID", Elastic::RIGID)
     }

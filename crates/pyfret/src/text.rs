@@ -1,9 +1,9 @@
-//! Files of text in any encoding.
+//! Files of text in any encoding; numbers as people read them.
 
 use std::path::PathBuf;
 
-use contact_core::Error;
 use contact_core::scene::{read_file, text_of_numbers};
+use contact_core::{Error, digits};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
@@ -33,4 +33,17 @@ pub(crate) fn read_bytes(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, Py
 #[pyfunction]
 pub(crate) fn shown(text: &str) -> String {
     contact_core::shown(text).into_owned()
+}
+
+/// A number and its error, with the digits that the error leaves; without an error an estimate.
+#[pyfunction]
+#[pyo3(signature = (value, error = None))]
+pub(crate) fn with_error(value: f64, error: Option<f64>) -> String {
+    digits::with_error(value, error)
+}
+
+/// A number and the range that it lies in, with the digits that the range leaves.
+#[pyfunction]
+pub(crate) fn with_range(value: f64, low: f64, high: f64) -> String {
+    digits::with_range(value, [low, high])
 }

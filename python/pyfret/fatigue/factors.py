@@ -17,9 +17,9 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, get_args
 
 import numpy as np
 
-from pyfret._core import Material
+from pyfret._core import Material, with_error
 from pyfret._util.labelled import Labelled
-from pyfret._util.numbers import in_words, place
+from pyfret._util.numbers import place
 from pyfret.fatigue.cycle_section import (
     body_of,
     depths_of,
@@ -68,7 +68,7 @@ class Least(NamedTuple):
 
     def __repr__(self) -> str:
         """Give factor, error and place in a few digits."""
-        return f"Least({in_words(self.factor)} +- {in_words(self.error)}, {place(self)})"
+        return f"Least({with_error(self.factor, self.error)}, {place(self)})"
 
 
 class LoadFactors(Labelled):
@@ -119,7 +119,7 @@ class LoadFactors(Labelled):
             found["y"],
             found["z"],
             found["layer"],
-            error / use**2 if use > 0.0 else 0.0,
+            _error_of_inverse(use, error),
         )
 
     def least(self, of: Factor = "von_mises") -> Least:
@@ -145,8 +145,16 @@ class LoadFactors(Labelled):
 
     def __repr__(self) -> str:
         """Say what decides."""
-        found = ", ".join(f"{of} {self.least(of).factor:.4g}" for of in get_args(Factor))
-        return f"LoadFactors({found})"
+        least = {of: self.least(of) for of in get_args(Factor)}
+        found = (f"{of} {with_error(one.factor, one.error)}" for of, one in least.items())
+        return f"LoadFactors({', '.join(found)})"
+
+
+def _error_of_inverse(use: float, error: float) -> float:
+    """The error of 1/use, on the side where it is larger; infinite if ``use`` may be 0."""
+    if error == 0.0:
+        return 0.0
+    return 1.0 / (use - error) - 1.0 / use if use > error else np.inf
 
 
 def _yield_stresses(given: YieldStresses, layers: int) -> list[float | None]:

@@ -16,10 +16,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from pyfret._core import Material
+from pyfret._core import Material, with_error, with_range
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
-from pyfret._util.numbers import in_words, place
+from pyfret._util.numbers import place
 from pyfret._util.text import html
 from pyfret.fatigue.cycle_section import (
     body_of,
@@ -96,6 +96,8 @@ class Worst(NamedTuple):
     #: Angle of the critical plane to the surface normal in the section [degrees], positive where it
     #: leans towards larger x or y with depth.
     inclination: float | None
+    #: The margins of value + error and of value - error: the least and the largest.
+    range: tuple[float, float]
 
     @property
     def error(self) -> float:
@@ -104,12 +106,10 @@ class Worst(NamedTuple):
 
     def __repr__(self) -> str:
         """Give margin, value, error and place in a few digits."""
-        numbers = (
-            f"{name}={in_words(getattr(self, name))}" for name in ("margin", "value", "error")
-        )
+        margin, value = with_range(self.margin, *self.range), with_error(self.value, self.error)
         at = f", at={self.at!r}" if self.at else ""
         angle = "" if self.inclination is None else f", inclination={self.inclination:.1f} degrees"
-        return f"Worst({', '.join(numbers)}, {place(self)}{at}{angle})"
+        return f"Worst(margin={margin}, value={value}, {place(self)}{at}{angle})"
 
 
 class Life(Labelled):
@@ -187,6 +187,7 @@ class Life(Labelled):
                 found["at"],
                 tuple(found["normal"]) if "normal" in found else None,
                 found.get("inclination"),
+                (found["range"][0], found["range"][1]),
             )
         return self._worst[layer]
 
@@ -232,8 +233,9 @@ class Life(Labelled):
         for layer in self.layers:
             w = self.worst_of(layer)
             place = (f"{1e6 * at:.4g}" for at in (w.x, w.y, w.z))
-            value = f"{in_words(1e-6 * w.value)} MPa" if unit == "Pa" else f"{w.value:.4g} {unit}"
-            rows.append([str(layer), in_words(w.margin), value, *place])
+            scale, unit_shown = (1e-6, "MPa") if unit == "Pa" else (1.0, unit)
+            value = f"{with_error(scale * w.value, scale * w.error)} {unit_shown}"
+            rows.append([str(layer), with_range(w.margin, *w.range), value, *place])
         heading = ["layer", name.replace("_", " "), "value", "x [µm]", "y [µm]", "z [µm]"]
         criterion = html(str(self.dataset.attrs["criterion"]))
         return f"<p><b>{criterion}</b></p>{table(heading, rows)}"
@@ -246,7 +248,7 @@ class Life(Labelled):
         if w.inclination is not None and np.isfinite(w.inclination):
             plane = f", plane {w.inclination:.1f} degrees from the surface normal"
         return (
-            f"Life({self.dataset.attrs['criterion']}, {name} {w.margin:.4g} at "
+            f"Life({self.dataset.attrs['criterion']}, {name} {with_range(w.margin, *w.range)} at "
             f"{place(w)}{plane})" + "".join(f"\n  {note}" for note in self.notes)
         )
 

@@ -21,11 +21,13 @@ LOOP = {
     "dissipated": ("J", "energy dissipated in the cycle"),
     "T": ("N", "half the range of the force"),
     "delta": ("m", "half the range of the shift"),
-    "stiffness": ("N/m", "stiffness right after the reversals"),
+    "stiffness": ("N/m", "stiffness right after the reversals, NaN where it is not known to 2 %"),
+    "stiffness_error": ("N/m", "estimated error of the stiffness"),
     "secant_stiffness": ("N/m", "stiffness of the whole loop"),
     "opening": ("m", "half the opening of the loop at the middle force"),
     "energy_ratio": ("1", "dissipated energy over that of the surrounding rectangle"),
-    "sliding_ratio": ("1", "opening over the range of the shift"),
+    "sliding_ratio": ("1", "opening over the range of the shift, NaN where not known to 0.05"),
+    "sliding_ratio_error": ("1", "bound of the error of the sliding ratio"),
     "status": ("1", "0 no contact, 1 full stick, 2 partial slip, 3 gross slip"),
 }
 

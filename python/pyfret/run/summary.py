@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from pyfret._core import TOO_FEW_INCREMENTS, with_error
 from pyfret._util.numbers import in_words
 from pyfret._util.text import shown
 from pyfret.run.loops import STATUS
@@ -61,21 +62,16 @@ def columns(result: Run, ends: xr.Dataset) -> list[list[str]]:
         values = scale * told(result, ends, name)
         if bars is not None and name in bars:
             errors = scale * bars[name].values
-            cells = [with_error(v, e) for v, e in zip(values, errors, strict=True)]
+            cells = [
+                with_error(v, e) if np.isfinite(e) else in_words(v)
+                for v, e in zip(values, errors, strict=True)
+            ]
         else:
             cells = [in_words(value) for value in values]
         table.append([title, *cells])
     if "path_error" in ends:
         table.append(["error of q", *(f"{100 * e:.2f} %" for e in ends.path_error.values)])
     return [*table, ["state", *(STATUS[int(code)] for code in ends.status)]]
-
-
-def with_error(value: float, error: float) -> str:
-    """A number and its error, in as many decimals as the error has a say in."""
-    if not (np.isfinite(error) and error > 0.0):
-        return in_words(value)
-    decimals = int(np.clip(1.0 - np.floor(np.log10(error)), 0, 9))
-    return f"{value:.{decimals}f} +- {error:.{decimals}f}"
 
 
 def told(result: Run, ends: xr.Dataset, name: str) -> NDArray[np.float64]:
@@ -136,9 +132,19 @@ def cycle_lines(result: Run) -> list[str]:
                 f"cycle {n + 1} ({direction}): {STATUS[int(of.status)]}, "
                 f"{in_words(scale * float(of.dissipated))} {joules} dissipated, "
                 f"energy ratio {in_words(float(of.energy_ratio), 3)}, "
-                f"stiffness {float(of.stiffness):.4g} {of.stiffness.attrs['units']}"
+                f"sliding ratio "
+                f"{with_error(float(of.sliding_ratio), float(of.sliding_ratio_error))}, "
+                f"stiffness {stiffness(of)}"
             )
     return lines
+
+
+def stiffness(of: xr.Dataset) -> str:
+    """The stiffness of a cycle with its error and unit, or why it is not known."""
+    value = float(of.stiffness)
+    if np.isnan(value):
+        return f"not known: {TOO_FEW_INCREMENTS}"
+    return f"{with_error(value, float(of.stiffness_error))} {of.stiffness.attrs['units']}"
 
 
 def directions(result: Run) -> list[Literal["x", "y", "torsion"]]:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from pyfret._core import with_error
 from pyfret._util.text import html
 from pyfret.run.loops import STATUS
 from pyfret.run.summary import told
@@ -84,8 +85,8 @@ def cycles_table(result: Run, direction: Any) -> str:
             str(n + 1),
             number(factor * float(of.dissipated)),
             number(float(of.energy_ratio)),
-            number(float(of.sliding_ratio)),
-            number(float(of.stiffness)),
+            with_error(float(of.sliding_ratio), float(of.sliding_ratio_error)),
+            with_error(float(of.stiffness), float(of.stiffness_error)),
             STATUS[int(of.status)],
         ]
         for n, of in ((n, loops.isel(cycle=n)) for n in range(loops.sizes["cycle"]))

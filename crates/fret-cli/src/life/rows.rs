@@ -7,6 +7,7 @@ use contact_assess::{
     Averaging, ByCriterion, Distance, Judged, Site, Worst, average, inclination, worst,
 };
 use contact_core::Error;
+use contact_core::digits::{short, with_range};
 use contact_core::scene::Body;
 use contact_subsurface::{Line, Zone};
 use fatigue::{Assessment, AtPoint};
@@ -54,8 +55,9 @@ pub(super) fn points(
             Zone::Stick => "border of the stick zone",
         });
         let error = w.extreme.error.sum();
+        let [low, high] = a.range(w.extreme.value, error);
         let json = json!({
-            "criterion": criterion, name: margin, "value": w.extreme.value, "unit": unit, "error": error,
+            "criterion": criterion, name: margin, "low": low, "high": high, "value": w.extreme.value, "unit": unit, "error": error,
             "error_x": w.extreme.error.x, "error_y": w.extreme.error.y, "error_z": w.extreme.error.z,
             "error_tractions": w.extreme.error.tractions, "x": w.extreme.x, "y": w.extreme.y, "z": w.extreme.depth.z,
             "layer": w.extreme.depth.layer, "at": at, "normal": normal, "inclination": angle,
@@ -64,7 +66,7 @@ pub(super) fn points(
         let mut line = format!(
             "layer {}: {}, {criterion} {} +- {} at x = {}, y = {}, z = {}",
             w.extreme.depth.layer,
-            said(margin, a),
+            said(margin, [low, high], a),
             mega(w.extreme.value, unit),
             mega(error, unit),
             um(w.extreme.x),
@@ -142,7 +144,8 @@ pub(super) fn mean(
     });
     let line = format!(
         "layer {layer}: {}, {criterion} {} at {axis} = {}, {} method with L = {}",
-        said(margin, assessment),
+        // The error of a mean is not known.
+        said(margin, [f64::NAN; 2], assessment),
         mega(most.value, unit),
         um(place),
         options.method,
@@ -155,10 +158,14 @@ pub(super) fn mean(
     })
 }
 
-fn said(margin: f64, of: &Assessment) -> String {
+/// A margin and its range in words.
+fn said(margin: f64, range: [f64; 2], of: &Assessment) -> String {
     match (of.gives_lives(), margin.is_finite()) {
-        (true, true) => format!("{margin:.4e} cycles"),
+        (true, true) => format!("life {} cycles", with_range(margin, range)),
+        (true, false) if range[0].is_finite() => {
+            format!("endless life (at least {} cycles)", short(range[0]))
+        }
         (true, false) => "endless life".into(),
-        (false, _) => format!("safety factor {margin:.4}"),
+        (false, _) => format!("safety factor {}", with_range(margin, range)),
     }
 }

@@ -64,7 +64,9 @@ impl CriterionBelow {
             return Ok(None);
         };
         let found = place(py, &worst)?;
-        found.set_item("margin", assessment.margin(worst.extreme.value))?;
+        let (value, error) = (worst.extreme.value, worst.extreme.error.sum());
+        found.set_item("margin", assessment.margin(value))?;
+        found.set_item("range", assessment.range(value, error).to_vec())?;
         if assessment.criterion.has_plane() {
             let normal = worst.found.normal;
             found.set_item("normal", normal)?;

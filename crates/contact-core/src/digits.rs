@@ -1,0 +1,108 @@
+//! Numbers as people read them: the digits that are printed follow the error.
+
+/// Digits of a number whose error is not asked for.
+const DIGITS: i32 = 4;
+/// Digits of an error, and of a number without one.
+const OF_ERRORS: i32 = 2;
+/// Powers of ten from and up to which numbers are printed without an exponent.
+const PLAIN: std::ops::RangeInclusive<i32> = -4..=6;
+
+/// A number with four digits, without zeros at its end, with an exponent where it is large or
+/// small.
+pub fn short(x: f64) -> String {
+    digits(x, DIGITS)
+}
+
+/// A number and its error, with the decimals of the first two digits of the error. Without an error
+/// (`None`, NaN or infinite) two digits and the word "estimate"; without a number "not known". An
+/// error of 0 gives the number alone.
+///
+/// # Examples
+///
+/// ```
+/// use contact_core::digits::with_error;
+///
+/// assert_eq!(with_error(2.16345, Some(0.0123)), "2.163 +- 0.012");
+/// assert_eq!(with_error(1.2184e7, Some(2.4e5)), "(1.218 +- 0.024)e7");
+/// assert_eq!(with_error(2.16345, None), "2.2 (estimate)");
+/// assert_eq!(with_error(f64::NAN, None), "not known");
+/// ```
+pub fn with_error(value: f64, error: Option<f64>) -> String {
+    if value.is_nan() {
+        return "not known".into();
+    }
+    let error = error.filter(|error| error.is_finite()).map(f64::abs);
+    match error {
+        _ if value.is_infinite() => value.to_string(),
+        None => format!("{} (estimate)", digits(value, OF_ERRORS)),
+        Some(0.0) => short(value),
+        Some(error) => {
+            let size = power(value.abs().max(error));
+            let scale = if PLAIN.contains(&size) { 0 } else { size };
+            let unit = 10_f64.powi(scale);
+            let decimals = (OF_ERRORS - 1 - power(error / unit)).clamp(0, 9) as usize;
+            let both = format!("{:.decimals$} +- {:.decimals$}", value / unit, error / unit);
+            if scale == 0 {
+                both
+            } else {
+                format!("({both})e{scale}")
+            }
+        }
+    }
+}
+
+/// A number and the range that it lies in, with the digits that the range leaves: two to four.
+///
+/// # Examples
+///
+/// ```
+/// use contact_core::digits::with_range;
+///
+/// assert_eq!(with_range(52_345.0, [51_900.0, 52_800.0]), "52350 (51900 to 52800)");
+/// assert_eq!(with_range(52_345.0, [11_900.0, f64::INFINITY]), "52000 (12000 to inf)");
+/// ```
+pub fn with_range(value: f64, [low, high]: [f64; 2]) -> String {
+    if value.is_nan() {
+        return "not known".into();
+    }
+    if low.is_nan() || high.is_nan() {
+        return format!("{} (estimate)", digits(value, OF_ERRORS));
+    }
+    let width = (high - low) / (2.0 * value.abs());
+    let count = if width > 0.0 && width.is_finite() {
+        (OF_ERRORS - 1 - power(width)).clamp(OF_ERRORS, DIGITS)
+    } else if width == 0.0 || (low == high) {
+        return short(value);
+    } else {
+        OF_ERRORS
+    };
+    let told = |x: f64| digits(x, count);
+    format!("{} ({} to {})", told(value), told(low), told(high))
+}
+
+/// The power of ten of the first digit.
+fn power(x: f64) -> i32 {
+    x.abs().log10().floor() as i32
+}
+
+/// A number with a few digits, without zeros at its end.
+fn digits(x: f64, count: i32) -> String {
+    if x == 0.0 || !x.is_finite() {
+        return x.to_string();
+    }
+    let size = power(x);
+    if !PLAIN.contains(&size) {
+        return format!("{x:.*e}", (count - 1) as usize);
+    }
+    let decimals = count - 1 - size;
+    if decimals < 0 {
+        let unit = 10_f64.powi(-decimals);
+        return format!("{:.0}", (x / unit).round() * unit);
+    }
+    let text = format!("{x:.*}", decimals as usize);
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}
