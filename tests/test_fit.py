@@ -209,3 +209,41 @@ def test_the_posterior_is_that_of_the_confidence_where_the_model_is_linear() -> 
     assert "95 % of the posterior" in found.summary()
     again = [np.corrcoef(*posterior.samples.values())[0, 1], found.correlation[0, 1]]
     assert abs(again[0] - again[1]) < 0.15
+
+
+def test_a_tilt_drifts_and_offsets_are_found_beside_mu_and_the_rig() -> None:
+    true = fret.study.varied(ball(), {"mu": 0.55, "rig.stiffness": 9e6})
+    path = true.path.displace(delta_x=[6e-6, -6e-6, 6e-6, -6e-6, 6e-6], increments=150)
+    d = fret.solve(true, path, progress=False).dataset
+    first = int(np.flatnonzero(d.branch_of_increment.values >= 2)[0]) - 1
+    shift, T = d.delta_x.values[first:], d.T_x.values[first:]
+    time, half = np.linspace(-0.5, 0.5, shift.size), 0.5 * np.ptp(T)
+    tilt = 0.05 * half / 6e-6
+    noise = np.random.default_rng(7).normal(0, 0.02 * np.ptp(T), T.size)
+    loops = fret.fit.Loops.of(
+        shift + 2e-6 + 3e-7 * time, T + tilt * shift + 1.0 + 0.1 * half * time + noise
+    )
+    found = fret.fit(ball(), loops, unknown={"mu": (0.2, 1.2), "rig.stiffness": (1e6, 1e8)})
+    for key, value in {"mu": 0.55, "rig.stiffness": 9e6}.items():
+        assert found.known[key].low < value < found.known[key].high, found.summary()
+    for name, value in {
+        "spring beside the contact [N/m]": tilt,
+        "offset of the shift [m]": 2e-6,
+        "offset of the force [N]": 1.0,
+        "drift of the shift [m]": 3e-7,
+        "drift of the force [N]": 0.1 * half,
+    }.items():
+        assert abs(found.offsets[name] - value) < 1.5 * found.offset_errors[name], name
+    assert any("sliding branches rise" in said for said in found.doubts)
+
+
+def test_the_frame_gives_way_under_an_indentation() -> None:
+    path = fret.LoadPath.start()
+    for force in np.linspace(0, W, 21)[1:]:
+        path = path.normal(float(force), increments=1)
+    d = fret.solve(ball(), path, progress=False).dataset
+    approach = d.delta_z.values + 2e-9 * d.W.values + 1e-8
+    curve = fret.fit.Indentation.of(d.W.values, approach, frame=True)
+    found = fret.fit(ball(), curve, unknown={"body2.E": (5e10, 1e12)})
+    assert found["body2.E"] == pytest.approx(210e9, rel=0.03)
+    assert found.offsets["compliance of the frame [m/N]"] == pytest.approx(2e-9, rel=0.05)

@@ -11,6 +11,7 @@ from conftest import T_MAX, R, W, pair, sphere_on_flat
 from pyfret import fatigue
 
 S_Y = 1e9
+FACTORS = ("von_mises", "tresca", "shakedown")
 
 
 @pytest.fixture(scope="module")
@@ -138,3 +139,41 @@ def test_a_stress_that_does_not_change_has_no_limit_of_shakedown() -> None:
     assert least.factor == np.inf
     assert least.error == 0.0
     assert 0.0 < factors.least("von_mises").factor < np.inf
+
+
+def fretted(n: int) -> fret.Result:
+    """A titanium line contact over a cycle of shear and bulk stress in phase."""
+    body = fret.Elastic(E=117e9, nu=0.31)
+    load, mu = 3e5, 0.55
+    a = fret.reference.line_contact(R=0.04, bodies=(body, body), W=load).a
+    path = fret.LoadPath.start().normal(load)
+    for sign in (1, -1, 1):
+        path = path.force(T_x=sign * 0.5 * mu * load, sigma_B=sign * 80e6)
+    scene = fret.Scene(
+        body1=fret.Body(body, shape=fret.Cylinder(R=0.04)),
+        body2=fret.Body(body),
+        mu=mu,
+        grid=fret.Grid.strip(extent=2.6 * a, n=n),
+    )
+    return fret.solve(scene, path, save="all", progress=False)
+
+
+def test_least_factors_and_lives_do_not_depend_on_the_grid() -> None:
+    # Just after a reversal the ring of reverse slip is narrower than a cell of all but the finest.
+    titanium = fatigue.Materials()["titanium_6Al4V"]
+    fine = fretted(512)
+    right = {of: fine.load_factors(9e8).least(of).factor for of in FACTORS}
+    life = fine.life(titanium, "smith_watson_topper").worst.margin
+    for n in (40, 48, 64, 96):
+        result = fretted(n)
+        factors = result.load_factors(9e8)
+        for of in FACTORS:
+            least = factors.least(of)
+            assert "+-" in repr(factors)
+            off = abs(least.factor - right[of])
+            assert off < max(0.04 * right[of], 1.5 * least.error), f"{n} cells, {of}: {least}"
+            assert off < 0.1 * right[of], f"{n} cells, {of}: {least}"
+        worst = result.life(titanium, "smith_watson_topper").worst
+        low, high = worst.range
+        assert low < worst.margin < high
+        assert low / 1.1 < life < high * 1.1, f"{n} cells: {worst}"

@@ -315,7 +315,7 @@ def test_loops_of_torsion_and_of_given_shifts() -> None:
     )
     # Between shifts ten times as large as what slides, the loop is nearly a rectangle.
     for turn in (4e-5, -4e-5, 4e-5):
-        start = start.displace(delta_x=turn, increments=10)
+        start = start.displace(delta_x=turn, increments=25)
     slid = fret.solve(scene, start, progress=False).loops().isel(cycle=-1)
     assert slid.first_branch == 2
     assert float(slid["T"]) == pytest.approx(MU * W, rel=1e-6)

@@ -180,7 +180,7 @@ def of_indentation(data: Indentation) -> Model:
     reach = float(np.ptp(data.delta_z))
     scales, zeros = np.array([reach, reach / most]), np.zeros(2)
     labels = ("normal force [N]", "approach [m]")
-    offsets = ("offset of the approach [m]", "compliance of the frame [m/N]")
+    offsets: tuple[str, ...] = ("offset of the approach [m]", "compliance of the frame [m/N]")
     if not data.frame:
         offsets, scales, zeros = offsets[:1], scales[:1], zeros[:1]
     along = data.W

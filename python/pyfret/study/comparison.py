@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from pyfret._core import with_error
 from pyfret._util import files
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
 from pyfret._util.numbers import in_words, length
 from pyfret.fatigue.ranges import Range
-from pyfret.run.summary import with_error
 from pyfret.scene.tables import table
 from pyfret.study.point import FAILED
 from pyfret.study.questions import NUMBERS, Number

@@ -161,7 +161,7 @@ pub(super) fn mean(
 /// A margin and its range in words.
 fn said(margin: f64, range: [f64; 2], of: &Assessment) -> String {
     match (of.gives_lives(), margin.is_finite()) {
-        (true, true) => format!("life {} cycles", with_range(margin, range)),
+        (true, true) => format!("{} cycles", with_range(margin, range)),
         (true, false) if range[0].is_finite() => {
             format!("endless life (at least {} cycles)", short(range[0]))
         }
