@@ -28,7 +28,7 @@ from pyfret.fatigue.cycle_section import (
     over_cycle,
     side_by_side,
 )
-from pyfret.fatigue.ranges import Range, of_error
+from pyfret.fatigue.ranges import Range
 from pyfret.fatigue.section import Section, for_each_layer
 from pyfret.scene.tables import table
 
@@ -197,9 +197,8 @@ class Life(Labelled):
         The scatter of the material is no part of it: it is the same for two contacts of one
         material that are compared.
         """
-        worst, assessment = self.worst_of(layer), self._assessments[layer]
-        assert assessment is not None
-        return of_error(assessment, worst.value, worst.error)
+        worst = self.worst_of(layer)
+        return Range(worst.range[0], worst.margin, worst.range[1])
 
     @property
     def worst(self) -> Worst:

@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
-if TYPE_CHECKING:
-    from pyfret._core import Assessment
-
-__all__ = ["Range", "of_error"]
+__all__ = ["Range"]
 
 
 class Range(NamedTuple):
@@ -29,12 +26,3 @@ class Range(NamedTuple):
         return (
             f"{best} ({low} to {high})" if math.isfinite(self.high) else f"{best} ({low} or more)"
         )
-
-
-def of_error(assessment: Assessment, value: float, error: float) -> Range:
-    """The margin, a life or a safety factor, of a value of a criterion and of its error.
-
-    The margin falls as the value grows: its lowest is that of the value and its error together.
-    """
-    margin = assessment.life if assessment.limit is None else assessment.safety_factor
-    return Range(margin(value + error), margin(value), margin(max(value - error, 0.0)))

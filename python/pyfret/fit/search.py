@@ -250,8 +250,8 @@ class Search:
         for k, r in enumerate(self.ranges):
             if t * spread[k] * r.width > WIDE and min(u[k], 1 - u[k]) > 0:
                 half[k] = self.profile(x, k, covariance, (jacobian, t * np.sqrt(left)))
-        to_unknowns = (inverse.T / scale).T[:n]
-        moved = sum(np.abs(to_unknowns @ off) for off in self.solver_errors(u, gauges))
+        to_all = (inverse.T / scale).T
+        moved = sum(np.abs(to_all @ off) for off in self.solver_errors(u, gauges))
         known = {}
         for k, r in enumerate(self.ranges):
             value = r.value(u[k])
@@ -269,7 +269,8 @@ class Search:
         scales = [float(s) for model in self.models for s in model.scales]
         zeros = [float(zero) for model in self.models for zero in model.zeros]
         offsets = [float(g) * s + z for g, s, z in zip(gauges, scales, zeros, strict=True)]
-        of_offsets = [t * float(one) * s for one, s in zip(spread[n:], scales, strict=True)]
+        half_widths = (t * spread + moved)[n:].tolist()
+        of_offsets = [one * s for one, s in zip(half_widths, scales, strict=True)]
         computed = self.computed(self.known[u], gauges)
         rest = [m.measured - c for m, c in zip(self.models, computed, strict=True)]
         values = split(self.values(u))[0]
