@@ -12,7 +12,18 @@ import pyfret as fret
 from conftest import sphere_on_flat
 from pyfret._cli import commands
 
-COMMANDS = ("study", "compare", "export", "crack", "fit", "threshold", "report", "verify", "cite")
+COMMANDS = (
+    "study",
+    "compare",
+    "explore",
+    "export",
+    "crack",
+    "fit",
+    "threshold",
+    "report",
+    "verify",
+    "cite",
+)
 
 
 def help_of(*words: str, capsys: pytest.CaptureFixture[str]) -> str:

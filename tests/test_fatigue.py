@@ -59,10 +59,10 @@ def test_materials_and_lives(tmp_path: Path) -> None:
         for s in (500, 600, 700)
     ]
     assert lives[0] > lives[1] > lives[2] > 1e3
-    with pytest.raises(ValueError, match=r"titanium_6Al4V`\.s_D: is missing \(fatigue limit"):
-        fatigue.assess(axial(1, -1), titanium, "crossland")
+    with pytest.raises(ValueError, match=r"alumina`\.s_D: is missing \(fatigue limit"):
+        fatigue.assess(axial(1, -1), table["alumina"], "crossland")
     with pytest.raises(KeyError, match="steel_42CrMo4"):
-        table["steel"]
+        table["unobtainium"]
     mine = tmp_path / "mine.toml"
     mine.write_text(
         'schema = 1\n[materials.mine]\ns_D = { value = 4e8, source = "test" }\n'

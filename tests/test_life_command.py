@@ -102,7 +102,7 @@ def test_lines_and_distance(store: Path, tmp_path: Path) -> None:
         ((), "--material = nothing: must be one of CrN"),
         (("--material", "steel"), "steel: must be one of CrN"),
         (("--material", "steel_42CrMo4,none,none"), "materials = 3: must be one, the substrate's"),
-        (("--material", "aluminium_7075_T6"), "s_D"),
+        (("--material", "alumina"), "s_D"),
         (("--material", "steel_42CrMo4", "-o", "life.png"), "pyfret.plot.criterion_map"),
         (
             ("--material", "none,steel_42CrMo4", "--distance", "1e-5", "--layer", "0"),

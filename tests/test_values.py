@@ -110,11 +110,16 @@ VALUES: list[Any] = [
     fret.fit.Indentation.of([1.0, 2.0], [1e-7, 2e-7]),
     fret.fit.Scar.of(TURN, np.cos(TURN), wear={"cycles": 1e3, "body2": LAW}),
     fret.fit.Lives(1e3 * TURN, [{"mu": 0.3}] * TURN.size, {"body2": LAW}),
+    fret.fatigue.Range(1e4, 2e4, 4e4),
+    fret.fatigue.LifeRange(
+        1e4, 2e4, 4e4, fret.fatigue.Range(1e4, 2e4, 4e4), 3.0, None, None, ("a note",)
+    ),
+    fret.study.Candidate(BODY, mu=0.3, residual=(-1e9, 0.0)),
     fret.fit.Posterior({"mu": 0.3 + 0.01 * np.cos(TURN)}, 0.1, 12),
 ]
 #: Classes whose values may change or hold what may, which are no keys of a dict.
 NO_KEYS = (
-    *("Springs", "Material", "Assessment", "Materials", "Cracking", "Cracks", "Wear"),
+    *("Springs", "Material", "Assessment", "Materials", "Cracking", "Cracks", "Wear", "Candidate"),
     *("Averaged", "Limits", "Experiment", "Loops", "Indentation", "Scar", "Lives", "Posterior"),
 )
 
@@ -148,6 +153,9 @@ def of_a_run() -> list[Any]:
     study = fret.study.solve(
         scene.replace(path=path), {"mu": [0.3]}, measure="p_max", executor=1, progress=False
     )
+    compared = fret.compare(
+        {"coated": scene.body2}, scene, path, questions=["energy"], executor=1, progress=False
+    )
     march = fret.march(scene, paper_path(1, 9))
     curve = fret.fit.Indentation.of(W * np.array([0.3, 0.6, 1.0]), [6.1e-6, 9.6e-6, 1.33e-5])
     of_path = scene.replace(path=path)
@@ -162,6 +170,8 @@ def of_a_run() -> list[Any]:
         life,
         life.worst,
         life.worst.errors,
+        life.over_distance([1e-5, 2e-5]),
+        compared,
         factors,
         factors.least(),
         worn,
@@ -206,7 +216,16 @@ def test_every_public_class_has_its_value_here(of_a_run: list[Any]) -> None:
 
 
 def test_notebooks_show_tables(of_a_run: list[Any]) -> None:
-    shown = ("Result", "Snapshot", "Stress", "Life", "WearResult", "Study")
+    shown = (
+        "Result",
+        "Snapshot",
+        "Stress",
+        "Life",
+        "OverDistance",
+        "Comparison",
+        "WearResult",
+        "Study",
+    )
     values = [sphere_on_flat(n=8), paper_path(1, 9), *of_a_run]
     for value in values:
         if type(value).__name__ in (*shown, "Scene", "LoadPath"):

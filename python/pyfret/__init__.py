@@ -72,6 +72,7 @@ from pyfret.verification import verify
 
 if TYPE_CHECKING:
     from pyfret import plot
+    from pyfret.what_if.page import explore
 
 __all__ = [
     "RIGID",
@@ -100,6 +101,7 @@ __all__ = [
     "compare",
     "errors",
     "experiments",
+    "explore",
     "export",
     "fatigue",
     "fit",
@@ -138,6 +140,8 @@ def __getattr__(name: str) -> Any:
                 raise
             message = 'figures need matplotlib: pip install "fretting[plot]"'
             raise ModuleNotFoundError(message, name="matplotlib") from absent
+    if name == "explore":
+        return import_module("pyfret.what_if.page").explore
     meant = OTHER_NAMES.get(name)
     hint = f"; it is called pyfret.{meant}" if meant else ""
     raise AttributeError(f"module 'pyfret' has no attribute {name!r}{hint}")

@@ -2986,6 +2986,8 @@ class Material:
         Name, as in a file of materials, value in its SI unit, and where that is from.
     title : str
         What the material is (default: its name).
+    also : list of str
+        Other names that it is found by.
 
     Examples
     --------
@@ -2998,8 +3000,22 @@ class Material:
         name: str,
         numbers: Sequence[tuple[str, float, str]],
         title: str | None = ...,
+        also: Sequence[str] = ...,
     ) -> Material: ...
-    def __getnewargs__(self) -> tuple[str, list[tuple[str, float, str]], str]: ...
+    def __getnewargs__(self) -> tuple[str, list[tuple[str, float, str]], str, list[str]]: ...
+    @property
+    def also(self) -> list[str]:
+        """Other names that it is found by."""
+    def estimated(self, family: str) -> Material:
+        """The material with the numbers that it lacks, as far as published rules give them.
+
+        `family` is "steel", "aluminium", "titanium" or "nickel". From the tensile strength ``s_u``
+        and ``E`` come a strain-life curve (uniform material law), limits of fatigue, ``k`` of
+        Fatemi and Socie's criterion and a threshold (Murakami's law for steels). The source of each
+        begins with "estimate:". Numbers that are known stay.
+        """
+    def is_called(self, name: str) -> bool:
+        """Whether a name is one of its own, whatever the case and the marks between its letters."""
     @property
     def name(self) -> str:
         """Key of the material in its table."""

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from pyfret._core import Elastic
 from pyfret.fatigue import Materials
+from pyfret.fatigue.ranges import known_as
 from pyfret.scene.warnings import SceneWarning
 
 if TYPE_CHECKING:
@@ -31,7 +32,8 @@ def material(
     Parameters
     ----------
     name : str
-        Key of the material, such as ``"TiN"``, ``"steel_42CrMo4"``.
+        Key of the material, such as ``"TiN"``, ``"steel_42CrMo4"``, or another name of it, such as
+        ``"steel"``, ``"316L"``, ``"Ti6Al4V"``, ``"7075"``, ``"Al2O3"``.
     file : path, optional
         A table of your own (TOML), over that of the package.
     nu : float, optional
@@ -47,7 +49,8 @@ def material(
     Warns
     -----
     SceneWarning
-        The table has no Poisson's ratio of the material, as of most coatings: 0.25 is taken.
+        The table has no Poisson's ratio of the material, as of most coatings: 0.25 is taken; or its
+        modulus is from memory, without a source.
 
     Examples
     --------
@@ -55,8 +58,15 @@ def material(
     True
     """
     found = Materials(file)[name]
-    known = {key for key, _, _ in found.numbers()}
-    if nu is None and "nu" not in known:
+    sources = {key: source for key, _, source in found.numbers()}
+    if known_as(sources.get("E", "")) == "recalled":
+        warnings.warn(
+            f"{found.name}: its modulus of {found.number('E') / 1e9:g} GPa is from memory, without "
+            "a source; give your own, Elastic(E=..., nu=...)",
+            SceneWarning,
+            stacklevel=2,
+        )
+    if nu is None and "nu" not in sources:
         warnings.warn(
             f"{name}: the table has no Poisson's ratio of it, {NU:g} is taken; give nu=",
             SceneWarning,

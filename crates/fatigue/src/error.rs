@@ -26,6 +26,14 @@ pub enum Error {
         /// What is wrong and what is allowed.
         why: String,
     },
+    /// There is no family of alloys of this name.
+    #[error("family {name:?}: must be one of {allowed}")]
+    Family {
+        /// The name given.
+        name: String,
+        /// Those that there are.
+        allowed: String,
+    },
     /// A table of materials does not have its form.
     #[error("{file}:{line}: {message}")]
     Table {

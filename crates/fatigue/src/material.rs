@@ -2,9 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use serde::Deserialize;
-use toml::{Spanned, Value};
-
 use crate::allowed::Allowed;
 use crate::error::Error;
 
@@ -104,8 +101,18 @@ pub struct Sourced {
 }
 
 impl Sourced {
+    /// A number of [`QUANTITIES`] by its name; fails with the reason.
+    pub(crate) fn of(
+        name: &str,
+        value: f64,
+        source: String,
+    ) -> Result<(&'static str, Self), String> {
+        let quantity = known(name)?;
+        Ok((quantity.name, Self::new(value, source, quantity)?))
+    }
+
     /// Fails with the reason at a value that the quantity cannot have, and without a source.
-    fn new(value: f64, source: String, quantity: &Quantity) -> Result<Self, String> {
+    pub(crate) fn new(value: f64, source: String, quantity: &Quantity) -> Result<Self, String> {
         if source.trim().is_empty() {
             return Err("has no source".into());
         }
@@ -123,18 +130,10 @@ pub struct Material {
     pub name: String,
     /// Description.
     pub title: String,
+    /// Other names that it is found by.
+    pub also: Vec<String>,
     /// Its numbers by the names of [`QUANTITIES`].
     pub numbers: BTreeMap<&'static str, Sourced>,
-}
-
-/// The form of a file.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct File {
-    schema: u32,
-    #[serde(default)]
-    sources: BTreeMap<String, String>,
-    materials: BTreeMap<String, BTreeMap<String, Spanned<Value>>>,
 }
 
 impl Material {
@@ -147,16 +146,15 @@ impl Material {
         let mut material = Self {
             name: name.to_owned(),
             title: title.to_owned(),
+            also: Vec::new(),
             numbers: BTreeMap::new(),
         };
         for (key, value, source) in numbers {
-            let found = known(&key)
-                .and_then(|of| Ok((of.name, Sourced::new(value, source, of)?)))
-                .map_err(|why| Error::Material {
-                    material: name.to_owned(),
-                    key,
-                    why,
-                })?;
+            let found = Sourced::of(&key, value, source).map_err(|why| Error::Material {
+                material: name.to_owned(),
+                key,
+                why,
+            })?;
             material.numbers.insert(found.0, found.1);
         }
         Ok(material)
@@ -197,53 +195,8 @@ impl Material {
     }
 }
 
-/// The materials that come with the program.
-pub fn materials() -> BTreeMap<String, Material> {
-    read(include_str!("materials.toml"), "materials.toml").unwrap_or_default()
-}
-
-/// The materials of a text in the form of `materials.toml`; `file` is its name in errors.
-pub fn read(text: &str, file: &str) -> Result<BTreeMap<String, Material>, Error> {
-    let wrong = |at: usize, message: String| Error::Table {
-        file: file.to_owned(),
-        line: 1 + text[..at.min(text.len())].matches('\n').count(),
-        message,
-    };
-    let parsed: File = toml::from_str(text)
-        .map_err(|e| wrong(e.span().map_or(0, |s| s.start), e.message().to_owned()))?;
-    if parsed.schema != 1 {
-        return Err(wrong(0, format!("schema = {}: must be 1", parsed.schema)));
-    }
-    let mut materials = BTreeMap::new();
-    for (name, entries) in parsed.materials {
-        let mut material = Material {
-            name: name.clone(),
-            title: name.clone(),
-            numbers: BTreeMap::new(),
-        };
-        for (key, entry) in entries {
-            let refused = |message: String| {
-                wrong(
-                    entry.span().start,
-                    format!("materials.{name}.{key}: {message}"),
-                )
-            };
-            if key == "title" {
-                let title = entry.get_ref().as_str();
-                let title = title.ok_or_else(|| refused("must be a text".into()))?;
-                title.clone_into(&mut material.title);
-                continue;
-            }
-            let quantity = known(&key).map_err(refused)?;
-            let sourced = sourced(entry.get_ref(), quantity, &parsed.sources).map_err(refused)?;
-            material.numbers.insert(quantity.name, sourced);
-        }
-        materials.insert(name, material);
-    }
-    Ok(materials)
-}
-
-fn known(key: &str) -> Result<&'static Quantity, String> {
+/// The quantity of a name; fails with the nearest one.
+pub(crate) fn known(key: &str) -> Result<&'static Quantity, String> {
     if let Some(quantity) = QUANTITIES.iter().find(|q| q.name == key) {
         return Ok(quantity);
     }
@@ -255,24 +208,7 @@ fn known(key: &str) -> Result<&'static Quantity, String> {
         .map_or("", |(_, name)| name);
     let names: Vec<_> = QUANTITIES.iter().map(|q| q.name).collect();
     Err(format!(
-        "unknown; nearest is {near}; there are title, {}",
+        "unknown; nearest is {near}; there are title, also, family, {}",
         names.join(", ")
     ))
-}
-
-fn sourced(
-    entry: &Value,
-    quantity: &Quantity,
-    sources: &BTreeMap<String, String>,
-) -> Result<Sourced, String> {
-    const FORM: &str = "must be { value = NUMBER, source = \"where it is from\" }";
-    let table = entry.as_table().filter(|t| t.len() == 2).ok_or(FORM)?;
-    let value = table.get("value").ok_or(FORM)?;
-    let value = value
-        .as_float()
-        .or_else(|| value.as_integer().map(|n| n as f64));
-    let value = value.ok_or(FORM)?;
-    let source = table.get("source").and_then(Value::as_str).ok_or(FORM)?;
-    let source = sources.get(source).map_or(source, String::as_str);
-    Sourced::new(value, source.to_owned(), quantity)
 }

@@ -85,6 +85,8 @@ enum Command {
     /// package)
     Export(python::Options),
     // Many runs.
+    /// Open a page that answers while parameters are dragged (needs the Python package)
+    Explore(python::Options),
     /// Solve a scene for many values of its parameters (needs the Python package)
     Study(python::Options),
     /// Put bodies side by side in one scene, such as several coatings (needs the Python package)
@@ -141,6 +143,7 @@ pub fn run_command(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Man { folder } => manual(&folder),
         Command::Wear(options) => wear::wear(&options),
         Command::Study(options) => return in_python("study", &options.arguments),
+        Command::Explore(options) => return in_python("explore", &options.arguments),
         Command::Compare(options) => return in_python("compare", &options.arguments),
         Command::Life(options) => life::life(&options),
         Command::Export(options) => return in_python("export", &options.arguments),

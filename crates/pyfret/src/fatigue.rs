@@ -239,6 +239,8 @@ impl Assessment {
 ///     Name, as in a file of materials, value in its SI unit, and where that is from.
 /// title : str
 ///     What the material is (default: its name).
+/// also : list of str
+///     Other names that it is found by.
 ///
 /// Examples
 /// --------
@@ -251,18 +253,40 @@ pub(crate) struct Material(pub(crate) core::Material);
 #[pymethods]
 impl Material {
     #[new]
-    #[pyo3(signature = (name, numbers, title = None))]
+    #[pyo3(signature = (name, numbers, title = None, also = Vec::new()))]
     fn new(
         name: &str,
         numbers: List<(String, f64, String)>,
         title: Option<&str>,
+        also: Vec<String>,
     ) -> PyResult<Self> {
         let made = core::Material::new(name, title.unwrap_or(name), numbers);
-        made.map(Self).map_err(refused)
+        let mut made = made.map_err(refused)?;
+        made.also = also;
+        Ok(Self(made))
     }
 
-    fn __getnewargs__(&self) -> (&str, Vec<(&'static str, f64, String)>, &str) {
-        (self.name(), self.numbers(), self.title())
+    #[expect(clippy::type_complexity, reason = "the arguments of the constructor")]
+    fn __getnewargs__(&self) -> (&str, Vec<(&'static str, f64, String)>, &str, Vec<String>) {
+        (self.name(), self.numbers(), self.title(), self.also())
+    }
+
+    /// Other names that it is found by.
+    #[getter]
+    fn also(&self) -> Vec<String> {
+        self.0.also.clone()
+    }
+
+    /// The material with the numbers that it lacks, as far as published rules give them.
+    fn estimated(&self, family: &str) -> PyResult<Self> {
+        let family = core::Family::named(family).map_err(refused)?;
+        Ok(Self(core::estimated(&self.0, family)))
+    }
+
+    /// Whether a name is one of its own, whatever the case and the marks between its letters.
+    fn is_called(&self, name: &str) -> bool {
+        let alone = BTreeMap::from([(self.0.name.clone(), self.0.clone())]);
+        core::find(&alone, name).is_some()
     }
 
     /// Key of the material in its table.

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pyfret import verification, wear
-from pyfret._cli import compare, crack, export, fit, threshold
+from pyfret._cli import compare, crack, explore, export, fit, threshold
 from pyfret._cli.parser import Parser, added
 from pyfret._cli.say import say
 from pyfret._core import __version__
@@ -49,6 +49,7 @@ def parser() -> argparse.ArgumentParser:
     study.add_argument("--again", action="store_true", help="also points that failed before")
     study.add_argument("--map", metavar="FILE", help="figure of the first measure (.png, .svg)")
     compare.add_options(commands)
+    explore.add_options(commands)
     export.add_options(commands)
     crack.add_options(commands)
     fit.add_options(commands)
@@ -206,6 +207,7 @@ def run(arguments: Sequence[str] | None) -> int:
     commands = {
         "study": study,
         "compare": compare.run,
+        "explore": explore.run,
         "export": export.run,
         "crack": crack.run,
         "report": report,

@@ -29,9 +29,11 @@ from pyfret.fatigue.criteria import (
     to_pylife,
 )
 from pyfret.fatigue.cycles import cycle_increments, history
+from pyfret.fatigue.distance import OverDistance
 from pyfret.fatigue.factors import Least, LoadFactors, load_factors
 from pyfret.fatigue.frictional_work import ruiz
 from pyfret.fatigue.lives import Errors, Life, Worst, life, lives
+from pyfret.fatigue.ranges import LifeRange, Range
 from pyfret.fatigue.section import Section
 
 __all__ = [
@@ -42,9 +44,12 @@ __all__ = [
     "Errors",
     "Least",
     "Life",
+    "LifeRange",
     "LoadFactors",
     "Material",
     "Materials",
+    "OverDistance",
+    "Range",
     "Section",
     "Worst",
     "assess",

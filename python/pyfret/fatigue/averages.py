@@ -9,15 +9,14 @@ import numpy as np
 from pyfret._core import Material
 from pyfret._util.lazy import xr
 from pyfret.fatigue.cycle_section import body_of, over_cycle
-from pyfret.fatigue.lives import described
+from pyfret.fatigue.fields import described
 from pyfret.fatigue.section import Section, for_each_layer
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from pyfret.fatigue.criteria import CriterionName
-    from pyfret.fatigue.lives import Materials
-    from pyfret.fatigue.section import SectionOptions
+    from pyfret.fatigue.section import Materials, SectionOptions
     from pyfret.run import Run
 
 __all__ = ["Averaging", "average", "critical_distance"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import warnings
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Literal, get_args
@@ -72,10 +73,16 @@ class Materials(Mapping[str, Material]):
             self._materials.update({m.name: m for m in own})
 
     def __getitem__(self, name: str) -> Material:
-        """Give a material by its name."""
-        if name not in self._materials:
-            raise KeyError(f"no material {name!r}; there are {', '.join(self._materials)}")
-        return self._materials[name]
+        """Give a material by its name, or by another one that it is known by: ``"Ti6Al4V"``."""
+        if name in self._materials:
+            return self._materials[name]
+        for material in self._materials.values():
+            if material.is_called(name):
+                return material
+        all_names = {n: m for m in self._materials.values() for n in (m.name, *m.also)}
+        near = difflib.get_close_matches(name, all_names, n=1, cutoff=0.6)
+        hint = f"; the nearest is {near[0]}" if near else ""
+        raise KeyError(f"no material {name!r}{hint}; there are {', '.join(self._materials)}")
 
     def __iter__(self) -> Iterator[str]:
         """Go through the names."""

@@ -16,11 +16,12 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from pyfret._core import Material, with_error, with_range
+from pyfret._core import with_error, with_range
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
 from pyfret._util.numbers import place
 from pyfret._util.text import html
+from pyfret.fatigue.averages import average, critical_distance
 from pyfret.fatigue.cycle_section import (
     body_of,
     depths_of,
@@ -28,15 +29,18 @@ from pyfret.fatigue.cycle_section import (
     over_cycle,
     side_by_side,
 )
-from pyfret.fatigue.ranges import Range
-from pyfret.fatigue.section import Section, for_each_layer
+from pyfret.fatigue.distance import OverDistance
+from pyfret.fatigue.fields import described, margin_name
+from pyfret.fatigue.ranges import DISTANCE, LifeRange, Range, of_error, scatter_of, told_of
+from pyfret.fatigue.section import Materials, Section, for_each_layer
 from pyfret.scene.tables import table
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
     from typing_extensions import Unpack
 
-    from pyfret._core import Assessment, CriterionBelow
+    from pyfret._core import CriterionBelow, Material
+    from pyfret.fatigue.averages import Averaging
     from pyfret.fatigue.criteria import CriterionName
     from pyfret.fatigue.section import SectionOptions
     from pyfret.run import Run
@@ -50,10 +54,6 @@ RIM = (
     "the worst point is at the rim of the contact: a point value depends on the grid, use a "
     "critical distance (fatigue.average)"
 )
-
-#: The material of the substrate, or one for each layer from the surface down, the substrate's last;
-#: layers of ``None`` are not judged.
-Materials = Material | Sequence[Material | None]
 
 
 class Errors(NamedTuple):
@@ -126,8 +126,11 @@ class Life(Labelled):
         dataset: xr.Dataset,
         sections: Sequence[CriterionBelow],
         notes: Sequence[str],
+        judged: Judged | None = None,
     ) -> None:
         super().__init__(dataset)
+        self._judged = judged
+        self._ranges: dict[int, LifeRange] = {}
         self._sections = list(sections)
         self._assessments = self._sections[0].assessments
         self._notes = list(notes)
@@ -149,8 +152,8 @@ class Life(Labelled):
     @property
     def notes(self) -> list[str]:
         """What to know of the numbers: other elastic constants, a cycle that is not settled."""
-        at_rim = [RIM] if self.worst.at == "contact" else []
-        return [*self._notes, *at_rim]
+        at_rim = [RIM] if self.worst.at == "contact" and self.range.distance is None else []
+        return [*self._notes, *self.range.notes, *at_rim]
 
     def section(self, place: float) -> Life:
         """Give the one of several sections that is nearest to a place on the axis across [m]."""
@@ -160,7 +163,7 @@ class Life(Labelled):
         n = int(np.abs(self.dataset[across].values - place).argmin())
         if self._parts:
             return self._parts[n]
-        return Life(self.dataset.isel({across: n}), [self._sections[n]], self._notes)
+        return Life(self.dataset.isel({across: n}), [self._sections[n]], self._notes, self._judged)
 
     def worst_of(self, layer: int) -> Worst:
         """Give the worst point of a layer; a ValueError where it is not judged."""
@@ -201,6 +204,124 @@ class Life(Labelled):
         return Range(worst.range[0], worst.margin, worst.range[1])
 
     @property
+    def range(self) -> LifeRange:
+        """Low, best and high of the margin of the worst layer: :meth:`range_of`."""
+        return self.range_of(self.worst.layer)
+
+    @property
+    def low(self) -> float:
+        """The lowest margin of :attr:`range`."""
+        return self.range.low
+
+    @property
+    def best(self) -> float:
+        """The best estimate of :attr:`range`."""
+        return self.range.best
+
+    @property
+    def high(self) -> float:
+        """The highest margin of :attr:`range`."""
+        return self.range.high
+
+    def range_of(
+        self, layer: int, *, scatter: float | None = None, L: float | None = None
+    ) -> LifeRange:
+        """Give low, best and high of a life or of a safety factor, the range of 10 to 90 %.
+
+        Three parts make the range; their logarithms are independent and add as squares. *Stress*:
+        the error of the value of the criterion. *Material*: its scatter. *Distance*: the stress is
+        averaged along a line from the surface to 2 L, and L is known to a factor. A material
+        without a critical distance, and a layer that is thinner than 2 L, keep the value at the
+        worst point, which is on the safe side.
+
+        Parameters
+        ----------
+        layer : int
+            The layer, from the surface down; of a substrate the number of coatings.
+        scatter : float, optional
+            Life that 90 % reach less than over that which 10 % reach less than (default: 3, or 5
+            where numbers of the material are estimates); of a safety factor the same of strengths
+            (default: 1.2, or 1.5).
+        L : float, optional
+            Critical distance [m] (default: that of the material).
+        """
+        default = scatter is None and L is None
+        if default and layer in self._ranges:
+            return self._ranges[layer]
+        worst, assessment = self.worst_of(layer), self._assessments[layer]
+        assert assessment is not None
+        material = self._judged.materials[layer] if self._judged else None
+        value, distance, notes = worst.value, None, []
+        if L is None and material is not None:
+            with suppress(ValueError):
+                L = critical_distance(material)
+        if L is not None and self._judged is not None:
+            step = DISTANCE[scatter_of(material, ("dK_th", "s_D"))] ** 0.5
+            try:
+                value, *ends = (self._judged.mean(L * f, layer) for f in (1.0, 1 / step, step))
+            except ValueError as reason:
+                notes.append(f"the value is that at a point, no mean over a distance: {reason}")
+            else:
+                distance = Range(
+                    *(of_error(assessment, v, 0.0).best for v in (ends[0], value, ends[1]))
+                )
+        part = worst.error / worst.value if worst.value > 0.0 else 0.0
+        found = LifeRange.of(
+            of_error(assessment, value, part * value),
+            told_of(assessment, material, scatter),
+            distance,
+            L if distance is not None else None,
+            notes,
+        )
+        if default:
+            self._ranges[layer] = found
+        return found
+
+    def over_distance(
+        self,
+        L: ArrayLike,
+        *,
+        method: Averaging = "line",
+        layer: int | None = None,
+    ) -> OverDistance:
+        """Judge the stress averaged over several distances: how much the life depends on L.
+
+        Parameters
+        ----------
+        L : array
+            Critical distances [m].
+        method : "point", "line", "area" or "volume"
+            As in :func:`pyfret.fatigue.average`.
+        layer : int, optional
+            The layer (default: that of the worst point).
+
+        Returns
+        -------
+        OverDistance
+            Low, best and high margin over L; :func:`pyfret.plot.life_over_distance` draws them.
+
+        Raises
+        ------
+        ValueError
+            The life was unpickled, or a distance reaches beyond the layer.
+        """
+        if self._judged is None:
+            raise ValueError("a life that was unpickled has no stress: judge the result again")
+        there = self.worst.layer if layer is None else layer
+        worst, assessment = self.worst_of(there), self._assessments[there]
+        assert assessment is not None
+        part = worst.error / worst.value if worst.value > 0.0 else 0.0
+        factor = told_of(assessment, self._judged.materials[there], None)
+        rows = []
+        lengths = np.atleast_1d(np.asarray(L, float))
+        for length in lengths.tolist():
+            value = self._judged.mean(length, there, method)
+            stress = of_error(assessment, value, part * value)
+            rows.append(LifeRange.of(stress, factor, None, length, []))
+        name, meaning = margin_name(self._assessments)
+        return OverDistance.of(lengths, rows, name, meaning, method, critical(self._judged, there))
+
+    @property
     def worst(self) -> Worst:
         """The point of the smallest margin; of equal ones, that of the larger value."""
         judged = [self.worst_of(layer) for layer in self.layers]
@@ -217,12 +338,12 @@ class Life(Labelled):
         for layer in self.layers:
             # A layer without a number is refused when it is asked for.
             with suppress(ValueError):
-                self.worst_of(layer)
+                self.range_of(layer)
         parts = self._parts
         if self.dataset.value.ndim > 2 and not parts:
             across = str(self.dataset.value.dims[2])
             parts = [self.section(place) for place in self.dataset[across].values.tolist()]
-        return {**self.__dict__, "_sections": [], "_parts": parts}
+        return {**self.__dict__, "_sections": [], "_parts": parts, "_judged": None}
 
     def _repr_html_(self) -> str:
         """The worst point of every layer, for notebooks."""
@@ -234,8 +355,18 @@ class Life(Labelled):
             place = (f"{1e6 * at:.4g}" for at in (w.x, w.y, w.z))
             scale, unit_shown = (1e-6, "MPa") if unit == "Pa" else (1.0, unit)
             value = f"{with_error(scale * w.value, scale * w.error)} {unit_shown}"
-            rows.append([str(layer), with_range(w.margin, *w.range), value, *place])
-        heading = ["layer", name.replace("_", " "), "value", "x [µm]", "y [µm]", "z [µm]"]
+            point = with_range(w.margin, *w.range)
+            rows.append([str(layer), repr(self.range_of(layer)), point, value, *place])
+        title = name.replace("_", " ")
+        heading = [
+            "layer",
+            f"{title}, 10 to 90 %",
+            f"{title} at the point",
+            "value",
+            "x [µm]",
+            "y [µm]",
+            "z [µm]",
+        ]
         criterion = html(str(self.dataset.attrs["criterion"]))
         return f"<p><b>{criterion}</b></p>{table(heading, rows)}"
 
@@ -247,49 +378,9 @@ class Life(Labelled):
         if w.inclination is not None and np.isfinite(w.inclination):
             plane = f", plane {w.inclination:.1f} degrees from the surface normal"
         return (
-            f"Life({self.dataset.attrs['criterion']}, {name} {with_range(w.margin, *w.range)} at "
-            f"{place(w)}{plane})" + "".join(f"\n  {note}" for note in self.notes)
+            f"Life({self.dataset.attrs['criterion']}, {name} {self.range!r} at {place(w)}{plane})"
+            + "".join(f"\n  {note}" for note in self.notes)
         )
-
-
-def margin_name(assessments: Sequence[Assessment | None]) -> tuple[str, str]:
-    """Name and meaning of the margin: a life as soon as one layer has a strain-life curve."""
-    lives = any(a is not None and a.limit is None for a in assessments)
-    if lives:
-        return "life", "cycles until a crack has started"
-    return "safety_factor", "limit over value"
-
-
-#: What is found at every point: unit and meaning; that of the value is the criterion's.
-FOUND = {
-    "value": ("", "value of the criterion"),
-    "planes": ("1", "planes looked at"),
-    "missed": ("", "most that another plane may have more"),
-    "shear_amplitude": ("Pa", "shear amplitude, radius of the smallest circle"),
-    "shear_chord": ("Pa", "half of the longest chord of the shear path"),
-    "normal_max": ("Pa", "largest normal stress on the critical plane"),
-    "normal_min": ("Pa", "smallest normal stress on the critical plane"),
-    "normal": ("1", "normal of the critical plane"),
-}
-
-
-def described(
-    found: dict[str, NDArray[np.float64]], assessments: Sequence[Assessment | None]
-) -> dict[str, tuple[NDArray[np.float64], dict[str, str]]]:
-    """What the core found at points, with names and units."""
-    unit = next(a.criterion.unit for a in assessments if a is not None)
-    shown = {
-        name: (found[name], {"units": of or unit, "long_name": meaning})
-        for name, (of, meaning) in FOUND.items()
-    }
-    most, least = found["normal_max"], found["normal_min"]
-    mean = {"units": "Pa", "long_name": "mean normal stress on the critical plane"}
-    shown["normal_mean"] = ((most + least) / 2, mean)
-    amplitude = {"units": "Pa", "long_name": "amplitude of the normal stress there"}
-    shown["normal_amplitude"] = ((most - least) / 2, amplitude)
-    name, meaning = margin_name(assessments)
-    shown[name] = (found["margin"], {"units": "1", "long_name": meaning})
-    return shown
 
 
 def life(
@@ -386,7 +477,56 @@ def lives(
                 )
 
     def of(name: CriterionName) -> Life:
+        judged = Judged(result, each, name, section, tolerance)
         whole = side_by_side(result, where, shown[name]).assign_attrs(criterion=name)
-        return Life(whole, found[name], [*found[name][0].notes, *notes])
+        return Life(whole, found[name], [*found[name][0].notes, *notes], judged)
 
     return {name: of(name) for name in names}
+
+
+class Judged(NamedTuple):
+    """What was judged, so that means over a distance can be judged as well."""
+
+    result: Run
+    materials: list[Material | None]
+    criterion: CriterionName
+    section: SectionOptions
+    tolerance: float
+
+    def mean(self, L: float, layer: int, method: Averaging = "line") -> float:
+        """The largest value of the criterion on the stress averaged over a distance."""
+        where = Section(**self.section)
+        largest = []
+        for one in where.each():
+            options: SectionOptions = {**self.section}
+            options["x" if one.y is None else "y"] = one.place
+            found = average(
+                self.result,
+                self.materials,
+                self.criterion,
+                L=L,
+                method=method,
+                layer=layer,
+                tolerance=self.tolerance,
+                **options,
+            )
+            largest.append(peak(found.value.values))
+        return max(largest)
+
+
+def peak(values: NDArray[np.float64]) -> float:
+    """The largest value between samples, by the parabola through the highest and its sides."""
+    n = int(np.nanargmax(values))
+    if not 0 < n < values.size - 1 or not np.isfinite(values[n - 1 : n + 2]).all():
+        return float(values[n])
+    left, middle, right = values[n - 1 : n + 2]
+    bend = left - 2.0 * middle + right
+    return float(middle - (right - left) ** 2 / (8.0 * bend) if bend < 0.0 else middle)
+
+
+def critical(judged: Judged, layer: int) -> float | None:
+    """The critical distance of the material of a layer; none if it has no such number."""
+    material = judged.materials[layer]
+    with suppress(ValueError):
+        return None if material is None else critical_distance(material)
+    return None

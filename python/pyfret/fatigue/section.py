@@ -11,7 +11,12 @@ import numpy as np
 from pyfret._core import Material
 from pyfret._util.arrays import plain
 
-__all__ = ["Section", "SectionOptions", "for_each_layer"]
+__all__ = ["Materials", "Section", "SectionOptions", "for_each_layer"]
+
+
+#: The material of the substrate, or one for each layer from the surface down, the substrate's last;
+#: layers of ``None`` are not judged.
+Materials = Material | Sequence[Material | None]
 
 
 class SectionOptions(TypedDict, total=False):

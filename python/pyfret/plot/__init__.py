@@ -19,6 +19,7 @@ from pyfret.plot.life import (
     critical_plane_rose,
     dang_van_diagram,
     haigh_diagram,
+    life_over_distance,
     load_factor_map,
 )
 from pyfret.plot.maps import pressure_map, shear_streamlines, slip_map, stick_slip
@@ -55,6 +56,7 @@ __all__ = [
     "haigh_diagram",
     "intensity_history",
     "kitagawa",
+    "life_over_distance",
     "load_factor_map",
     "load_path",
     "loop_evolution",

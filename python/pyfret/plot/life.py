@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -16,7 +16,7 @@ from pyfret._util.depths import interfaces, thin
 from pyfret.plot.depth_axis import stretch as stretch_axis
 from pyfret.plot.scales import scales
 from pyfret.plot.stresses import COLOURS, FLAT, section_size
-from pyfret.plot.style import MARK, axes, inside_legend, mark, note, styled
+from pyfret.plot.style import MARK, REFERENCE, STICK, axes, inside_legend, mark, note, styled
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -363,3 +363,50 @@ def _limit_of_uniaxial_stress(ax: Axes, material: Material) -> None:
     ends = np.array([min(left, 0.0), s_D / slope if slope > 0.0 else right])
     ax.plot(ends, s_D - slope * ends, color="0.2", linestyle="--", label=f"limit, {name}")
     ax.set_xlim(left, right)
+
+
+class OverDistances(Protocol):
+    """Margins over distances, as :meth:`pyfret.fatigue.Life.over_distance` gives them."""
+
+    @property
+    def dataset(self) -> xr.Dataset:
+        """``low`` and ``high`` over ``L``."""
+
+    @property
+    def margin(self) -> xr.DataArray:
+        """The best estimate over ``L``."""
+
+
+@styled
+def life_over_distance(of: OverDistances, *, ax: Axes | None = None) -> Axes:
+    """Life or safety factor over the distance that the stress is averaged over, with its range.
+
+    Parameters
+    ----------
+    of : OverDistance
+        As :meth:`pyfret.fatigue.Life.over_distance` gives it.
+    ax : matplotlib Axes, optional
+        Where to draw.
+    """
+    ax = axes(ax)
+    d, margin = of.dataset, of.margin
+    L = 1e6 * d["L"].values
+    ax.fill_between(
+        L, d["low"].values, d["high"].values, color=STICK, alpha=0.2, lw=0, label="10 to 90 %"
+    )
+    ax.plot(L, margin.values, "o-", color=STICK, ms=4, label="best estimate")
+    if "L" in d.attrs:
+        ax.axvline(
+            1e6 * d.attrs["L"],
+            color=REFERENCE,
+            lw=1,
+            ls="--",
+            label="critical distance of the material",
+        )
+    life = margin.name == "life"
+    if life:
+        ax.set_yscale("log")
+    ax.set_xlabel("distance L [µm]")
+    ax.set_ylabel("life [cycles]" if life else "safety factor")
+    ax.legend()
+    return ax

@@ -12,6 +12,7 @@ from pyfret._core import Scene
 from pyfret._util import files
 from pyfret._util.labelled import Labelled
 from pyfret._util.text import shown
+from pyfret.fatigue.ranges import Range
 from pyfret.scene.tables import table
 
 if sys.version_info >= (3, 11):
@@ -25,6 +26,9 @@ if TYPE_CHECKING:
     import xarray as xr
 
 __all__ = ["WearResult"]
+
+#: Highest over lowest coefficient of wear, 10 to 90 % of the tests: a stated default.
+SCATTER = 3.0
 
 
 class WearResult(Labelled):
@@ -102,6 +106,26 @@ class WearResult(Labelled):
             depth = above + part_of_coating * coatings[coating].thickness
         name, target = ("volume", volume) if depth is None else ("depth", depth)
         return reached(self.dataset, f"{name}{body}", float(target or 0.0))
+
+    def range_of_cycles(self, *, scatter: float = SCATTER, **to: Any) -> Range:
+        """Cycles after which a body has worn so far as a range of 10 to 90 %: low, best, high.
+
+        The error of the depths and the scatter of the wear coefficient make the range; their
+        logarithms are independent and add as squares.
+
+        Parameters
+        ----------
+        scatter : float
+            Coefficient that 90 % of the tests stay below over that which 10 % do (default: 3, a
+            stated default where no scatter was measured).
+        **to
+            As in :meth:`cycles_to`.
+        """
+        if not scatter >= 1.0:
+            raise ValueError(f"scatter = {scatter}: must be 1 or more, the highest over the lowest")
+        best, error = self.cycles_to(**to), float(self.dataset["depth_error"][-1])
+        part = math.exp(math.hypot(0.5 * math.log(scatter), math.log1p(error)))
+        return Range(best / part, best, best * part)
 
     @property
     def gap(self) -> xr.DataArray:

@@ -11,7 +11,7 @@ use contact_store::Store;
 use contact_store::StoredCycle;
 use contact_subsurface::{Line, Side, chosen_depths, depths, residual_of_layers};
 use contact_subsurface::{OverCycle, unsettled};
-use fatigue::{Material, Search, materials, read};
+use fatigue::{Material, Search, find, materials, read};
 use serde_json::json;
 
 pub(crate) use self::options::Options;
@@ -143,7 +143,7 @@ fn given_materials(options: &Options) -> Result<Vec<Option<Material>>, Error> {
         if name == "none" {
             return Ok(None);
         }
-        let found = table.get(&name).cloned().map(Some);
+        let found = find(&table, &name).cloned().map(Some);
         found.ok_or_else(|| {
             Error::invalid("--material", &name, format!("one of {}, or none", known()))
         })

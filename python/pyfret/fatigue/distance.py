@@ -1,0 +1,79 @@
+"""A life over the critical distance."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pyfret._util.labelled import Labelled
+from pyfret._util.lazy import xr
+from pyfret._util.numbers import length
+from pyfret.scene.tables import table
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from pyfret.fatigue.ranges import LifeRange
+
+__all__ = ["OverDistance"]
+
+
+class OverDistance(Labelled):
+    """Lives or safety factors over the distance that the stress is averaged over.
+
+    :attr:`dataset` has ``life`` or ``safety_factor`` over ``L`` [m], and its range, ``low`` and
+    ``high``, from the error of the stress and the scatter of the material. Attribute ``L`` is the
+    critical distance of the material, where it has one. The figure is
+    :func:`pyfret.plot.life_over_distance`.
+    """
+
+    @classmethod
+    def of(
+        cls,
+        L: NDArray[np.float64],
+        rows: Sequence[LifeRange],
+        name: str,
+        meaning: str,
+        method: str,
+        critical: float | None,
+    ) -> OverDistance:
+        """Put the ranges of several distances together."""
+        about = {"units": "m", "long_name": "distance that the stress is averaged over"}
+        dataset = xr.Dataset(coords={"L": ("L", L, about)}, attrs={"method": method})
+        for key, says, values in (
+            (name, meaning, [row.best for row in rows]),
+            ("low", f"{meaning}, lowest", [row.low for row in rows]),
+            ("high", f"{meaning}, highest", [row.high for row in rows]),
+        ):
+            dataset[key] = ("L", values, {"units": "1", "long_name": says})
+        if critical is not None:
+            dataset.attrs["L"] = critical
+        return cls(dataset)
+
+    @property
+    def margin(self) -> xr.DataArray:
+        """``life`` or ``safety_factor``, whichever the criterion gives."""
+        return self.dataset["life" if "life" in self.dataset else "safety_factor"]
+
+    def rows(self) -> list[list[str]]:
+        """A line for every distance: L, low, best, high."""
+        d = self.dataset
+        return [
+            [length(float(d.L[n])), *(f"{float(of[n]):.2g}" for of in (d.low, self.margin, d.high))]
+            for n in range(d.sizes["L"])
+        ]
+
+    def _repr_html_(self) -> str:
+        """The table for notebooks."""
+        return table(["L", "low", "best", "high"], self.rows())
+
+    def __repr__(self) -> str:
+        """The table as text."""
+        rows = [["L", "low", str(self.margin.name), "high"], *self.rows()]
+        widths = [max(len(row[k]) for row in rows) for k in range(4)]
+        return "\n".join(
+            "  ".join(of.rjust(width) for of, width in zip(row, widths, strict=True))
+            for row in rows
+        ).replace("µ", "u")

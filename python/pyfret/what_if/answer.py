@@ -1,0 +1,154 @@
+"""The answer to a change: numbers and figures of a contact, as a preview or in full."""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from pyfret._core import NoConvergenceError, OffGridError
+from pyfret._util.extras import needed
+from pyfret.errors import SceneWarning
+from pyfret.solution import solve
+from pyfret.study.comparison import layer_names
+from pyfret.what_if.controls import in_increments
+
+if TYPE_CHECKING:
+    from pyfret._core import Scene
+    from pyfret.result import Result
+
+__all__ = ["FEWER", "Answer", "answer"]
+
+#: A preview has the increments of the neighbouring scene over this, a least number in a branch.
+FEWER, LEAST = 3, 4
+#: Colours of figures: stick, slip, none.
+ZONES = [[0.0, "#ffffff"], [0.5, "#F2C9A9"], [1.0, "#0072B2"]]
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What a contact came to."""
+
+    #: Numbers as the page shows them, by their names.
+    numbers: dict[str, str]
+    #: The largest von Mises stress [Pa], as the page shows it.
+    largest: float
+    #: The first doubt that applies, or nothing.
+    doubt: str
+    #: Increments of every branch.
+    counts: list[int]
+    #: The figure, for plotly.
+    figure: Any
+
+
+def answer(scene: Scene, counts: list[int] | None = None) -> Answer:
+    """Solve a scene and draw it.
+
+    Parameters
+    ----------
+    scene : Scene
+        The contact with its path.
+    counts : list of int, optional
+        Increments of the branches of a neighbouring scene, for a preview (default: those that the
+        tolerance of the path asks for).
+
+    Raises
+    ------
+    ValueError
+        The scene has no meaning or no solution; the message says why.
+    """
+    if counts is not None:
+        fewer = [max(LEAST, count // FEWER) for count in counts]
+        scene = scene.replace(path=in_increments(scene.path, fewer))
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", SceneWarning)
+            result = solve(scene.replace(save="branches"), progress=False)
+            last = result.at(-1)
+            below = last.stress(y=0.0)
+            most = below.maximum("von_mises")
+    except (NoConvergenceError, OffGridError) as error:
+        raise ValueError(str(error)) from error
+    doubts = [*scene.doubts(), *result.doubts]
+    names = layer_names(len(scene.body2.coatings))
+    unit = scene.grid.unit_of("J")
+    loops = result.loops()
+    energy = float(loops.dissipated[-1]) if loops.sizes["cycle"] else None
+    numbers = {
+        "largest von Mises stress": f"{1e-6 * most.value:.4g} MPa in the {names[most.layer]}",
+        "largest pressure": f"{1e-6 * float(result.p_max[-1]):.4g} MPa",
+        "stick ratio": f"{float(result.stick_ratio[-1]):.3f}",
+        "energy of the last cycle": "no closed cycle"
+        if energy is None
+        else f"{1e6 * energy:.4g} µ{unit}",
+    }
+    found = np.bincount(result.dataset.branch_of_increment.values)
+    taken = [int(n) for n in found if n]
+    return Answer(
+        numbers,
+        most.value,
+        doubts[0] if doubts else "",
+        counts if counts is not None else taken,
+        figure(result, below, most),
+    )
+
+
+def figure(result: Result, below: Any, most: Any) -> Any:
+    """Loop, zones, tractions along x and stress on the section, in one figure."""
+    plotly = needed("plotly.graph_objects", "explore")
+    panels = needed("plotly.subplots", "explore")
+    d, last = result.dataset, result.at(-1)
+    drawn = panels.make_subplots(
+        rows=2,
+        cols=2,
+        subplot_titles=("loop", "stick (blue) and slip", "traction along x", "von Mises stress"),
+        horizontal_spacing=0.12,
+        vertical_spacing=0.16,
+    )
+    force = result.scene.grid.unit_of("N")
+    shift = np.concatenate([[0.0], 1e6 * d["delta_x"].values])
+    loop = np.concatenate([[0.0], d["T_x"].values])
+    drawn.add_trace(plotly.Scatter(x=shift, y=loop, mode="lines"), 1, 1)
+    axes = [("shift [µm]", f"T_x [{force}]"), ("x [µm]", "y [µm]")]
+    x, contact, stick = 1e6 * last.p.x.values, last.contact.values, last.stick.values
+    zones = np.where(contact, np.where(stick, 1.0, 0.5), 0.0)
+    y = 1e6 * last.p.y.values
+    heat = {"colorscale": ZONES, "zmin": 0.0, "zmax": 1.0, "showscale": False}
+    drawn.add_trace(plotly.Heatmap(x=x, y=y, z=zones.T, **heat), 1, 2)
+    row = last.along_x()
+    along = 1e6 * row.x.values
+    for name, title in (("p", "p"), ("q_x", "q_x")):
+        drawn.add_trace(
+            plotly.Scatter(x=along, y=1e-6 * row[name].values, mode="lines", name=title), 2, 1
+        )
+    axes += [("x [µm]", "[MPa]"), ("x [µm]", "depth [µm]")]
+    stress = 1e-6 * below.measure("von_mises")
+    dims = [str(dim) for dim in stress.dims]
+    values = stress.values if dims[-1] == "x" else stress.values.T
+    # A depth on an interface stands twice; a hair's breadth keeps both rows.
+    depth = 1e6 * below.dataset.z.values + 1e-6 * np.arange(below.dataset.z.size)
+    drawn.add_trace(
+        plotly.Heatmap(
+            x=1e6 * below.dataset.x.values,
+            y=depth,
+            z=values,
+            colorscale="Viridis",
+            colorbar={"title": "MPa", "len": 0.42, "y": 0.21, "thickness": 12},
+        ),
+        2,
+        2,
+    )
+    cross = {"symbol": "x", "color": "#D55E00", "size": 9}
+    drawn.add_trace(
+        plotly.Scatter(x=[1e6 * most.x], y=[1e6 * most.z], mode="markers", marker=cross), 2, 2
+    )
+    for n, (along_x, along_y) in enumerate(axes):
+        drawn.update_xaxes(title_text=along_x, row=n // 2 + 1, col=n % 2 + 1)
+        drawn.update_yaxes(title_text=along_y, row=n // 2 + 1, col=n % 2 + 1)
+    drawn.update_yaxes(autorange="reversed", row=2, col=2)
+    drawn.update_layout(
+        height=640, showlegend=False, margin={"l": 60, "r": 20, "t": 40, "b": 50}, uirevision="x"
+    )
+    return drawn

@@ -1,0 +1,168 @@
+"""The page of what if: its answers are those of ``solve``, in a real browser."""
+
+from __future__ import annotations
+
+import shutil
+import time
+import urllib.error
+import urllib.request
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+
+import pyfret as fret
+from pyfret.what_if.answer import FEWER, answer
+from pyfret.what_if.controls import changed, controls
+from pyfret.what_if.page import as_python
+
+pytest.importorskip("dash")
+
+
+def scene() -> fret.Scene:
+    """A coated ball contact with a cycle of partial slip."""
+    steel, film = fret.Elastic(E=210e9, nu=0.3), fret.Elastic(E=400e9, nu=0.25)
+    R, W = 5e-3, 10.0
+    a = fret.reference.hertz(R=R, bodies=(steel, steel), W=W).a
+    return fret.Scene(
+        body1=fret.Body(steel, shape=fret.Sphere(R=R)),
+        body2=fret.Body(steel, coatings=[fret.Coating(film, thickness=20e-6)]),
+        mu=0.4,
+        grid=fret.Grid.centred(extent=2.6 * a, n=32),
+        path=fret.LoadPath.start().normal(W).cycles(1, T_x=2.0),
+        title="ball",
+    )
+
+
+def test_sliders_change_what_they_name() -> None:
+    given = scene()
+    assert [of.name for of in controls(given)] == ["load", "mu", "thickness", "modulus", "radius"]
+    for of in controls(given):
+        before = of.read(given)
+        assert before is not None
+        made = changed(given, {of.name: 1.5 * before}, n=24)
+        assert of.read(made) == pytest.approx(1.5 * before)
+        others = [one for one in controls(given) if one.name != of.name]
+        assert all(one.read(made) == pytest.approx(one.read(given)) for one in others)
+        # The grid follows the contact.
+        assert made.hertz is not None
+        assert given.hertz is not None
+        width = made.grid.nx * made.grid.dx / made.hertz.a
+        assert width == pytest.approx(given.grid.nx * given.grid.dx / given.hertz.a)
+    bare = given.replace(body2=fret.Body(given.body2.substrate))
+    assert [of.name for of in controls(bare)] == ["load", "mu", "radius"]
+
+
+def test_loads_keep_their_ratios() -> None:
+    made = changed(scene(), {"load": 20.0}, n=24)
+    assert np.max(made.path.T_x) == pytest.approx(4.0)
+
+
+def test_a_preview_has_fewer_increments_and_nearly_the_same_numbers() -> None:
+    given = changed(scene(), {}, n=32)
+    full = answer(given)
+    result = fret.solve(given, progress=False)
+    assert full.largest == pytest.approx(result.at(-1).stress(y=0.0).maximum("von_mises").value)
+    assert sum(full.counts) == result.dataset.sizes["increment"]
+    near = changed(scene(), {"mu": 0.42}, n=32)
+    early, late = answer(near, full.counts), answer(near)
+    assert early.largest == pytest.approx(late.largest, rel=0.03)
+    assert early.counts == full.counts
+    assert max(4, max(full.counts) // FEWER) < max(full.counts)
+
+
+def test_what_has_no_solution_is_told() -> None:
+    given = scene()
+    with pytest.raises(ValueError, match=r"T_x|friction|slide|resist"):
+        answer(changed(given, {"mu": 0.05}, n=24))
+
+
+def test_the_script_runs(monkeypatch: pytest.MonkeyPatch, capsys: Any) -> None:
+    import matplotlib.pyplot as plt
+
+    monkeypatch.setattr(plt, "show", lambda: None)
+    exec(as_python(changed(scene(), {"mu": 0.5}, n=16).to_toml()), {})
+    assert "cycle 1" in capsys.readouterr().out
+
+
+def test_the_page_is_on_this_machine_alone() -> None:
+    page = fret.explore(scene())
+    try:
+        assert page.url.startswith("http://127.0.0.1:")
+        with urllib.request.urlopen(page.url) as answered:
+            assert answered.status == 200
+        asked = urllib.request.Request(page.url, headers={"Host": "elsewhere.example"})
+        with pytest.raises(urllib.error.HTTPError, match="403"):
+            urllib.request.urlopen(asked)
+    finally:
+        page.stop()
+
+
+@pytest.fixture
+def browser() -> Iterator[Any]:
+    api = pytest.importorskip("playwright.sync_api", reason="no playwright")
+    found = shutil.which("chromium") or shutil.which("chromium-browser")
+    if found is None:
+        pytest.skip("there is no Chromium")
+    with api.sync_playwright() as play:
+        chromium = play.chromium.launch(executable_path=found, args=["--no-sandbox"])
+        yield chromium
+        chromium.close()
+
+
+def settled(view: Any) -> None:
+    """Wait for the full answer."""
+    view.wait_for_function(
+        "document.querySelector('#state').textContent.startsWith('full answer')", timeout=60_000
+    )
+
+
+def largest(view: Any) -> float:
+    """The largest stress that the page shows."""
+    return float(view.get_attribute("#largest", "data-largest"))
+
+
+def test_a_slider_is_moved_in_a_browser(browser: Any, capsys: Any) -> None:
+    page = fret.explore(scene())
+    asked: list[str] = []
+    try:
+        one, other = (browser.new_context().new_page() for _ in range(2))
+        one.on("request", lambda request: asked.append(request.url))
+        one.set_viewport_size({"width": 1300, "height": 900})
+        for view in (one, other):
+            view.goto(page.url)
+            settled(view)
+        before = largest(one)
+        whole = changed(scene(), {}, n=48)
+        assert before == pytest.approx(answer(whole).largest, rel=1e-4)
+        times = []
+        handle = one.locator("#slider-mu [role=slider]")
+        handle.focus()
+        for _ in range(5):
+            start = time.perf_counter()
+            one.keyboard.press("PageUp")
+            one.wait_for_function(
+                "document.querySelector('#state').textContent.startsWith('preview')",
+                timeout=30_000,
+            )
+            times.append(time.perf_counter() - start)
+            settled(one)
+        value = 10.0 ** float(handle.get_attribute("aria-valuenow"))
+        assert value > 0.4
+        expected = answer(changed(scene(), {"mu": value}, n=48)).largest
+        assert largest(one) == pytest.approx(expected, rel=1e-4)
+        assert largest(one) != pytest.approx(before, rel=1e-3)
+        # The other browser has its own scene.
+        assert largest(other) == before
+        # Nothing comes from outside.
+        assert asked
+        assert all(url.startswith((page.url, "data:", "blob:")) for url in asked)
+        with one.expect_download() as saved:
+            one.click("#as-scene")
+        text = saved.value.path().read_text(encoding="utf-8")
+        assert fret.Scene.from_toml(text).mu == pytest.approx(value)
+        with capsys.disabled():
+            print(f" median {sorted(times)[2]:.2f} s from change to picture", end="")
+    finally:
+        page.stop()

@@ -1,0 +1,179 @@
+"""A life is a range: what it comes from, and that measured values lie in it."""
+
+from __future__ import annotations
+
+import math
+import pickle
+
+import numpy as np
+import pytest
+
+import pyfret as fret
+from pyfret import experiments, fatigue
+from pyfret.fatigue.ranges import DISTANCE, LIFE, LifeRange, Range, known_as
+
+R, W, MU = 76e-3, 300e3, 0.55
+ALLOYS = (
+    "7075-T6",
+    "2024-T3",
+    "Ti-6Al-4V",
+    "4340",
+    "42CrMo4",
+    "100Cr6",
+    "316L",
+    "304",
+    "C45",
+    "Inconel 718",
+)
+
+
+@pytest.fixture(scope="module")
+def life() -> fatigue.Life:
+    """A rig of fretting fatigue, by Smith, Watson and Topper's criterion."""
+    alloy = fret.material("7075")
+    half_width = math.sqrt(4.0 * W * R * 2.0 * (1.0 - alloy.nu**2) / (math.pi * alloy.E))
+    scene = fret.Scene(
+        body1=fret.Body(alloy, shape=fret.Cylinder(R=R)),
+        body2=fret.Body(alloy),
+        mu=MU,
+        grid=fret.Grid.strip(extent=2.8 * half_width, n=96),
+    )
+    path = fret.LoadPath.start().force(W=W, increments=2)
+    for sign in (1, -1, 1):
+        path = path.force(T_x=sign * 0.5 * MU * W, sigma_B=sign * 90e6, increments=8)
+    result = fret.solve(scene, path, save="all", progress=False)
+    return result.life(fatigue.Materials()["7075"], "smith_watson_topper")
+
+
+def test_a_life_has_low_best_and_high(life: fatigue.Life) -> None:
+    assert life.low < life.best < life.high
+    assert life.range.factor < 10.0
+    assert life.range.material == LIFE["known"]
+    assert f"{life.best:.2g} ({life.low:.2g} to {life.high:.2g})" in repr(life)
+    # Twice as much scatter, a wider range; none leaves stress and distance.
+    layer = life.worst.layer
+    widths = [life.range_of(layer, scatter=s, L=life.range.L).factor for s in (1.0, 3.0, 6.0)]
+    assert widths == sorted(widths)
+    assert widths[0] > 1.0
+    with pytest.raises(ValueError, match="scatter"):
+        life.range_of(layer, scatter=0.5)
+
+
+def test_parts_add_as_squares_of_logarithms() -> None:
+    stress, distance = Range(5e4, 1e5, 2e5), Range(8e4, 1e5, 1.25e5)
+    found = LifeRange.of(stress, (4.0, ""), distance, 1e-5, [])
+    down = math.sqrt(math.log(2.0) ** 2 + math.log(2.0) ** 2 + math.log(1.25) ** 2)
+    assert found.low == pytest.approx(1e5 * math.exp(-down))
+    assert found.high == pytest.approx(1e5 * math.exp(down))
+    endless = LifeRange.of(Range(1e7, math.inf, math.inf), (4.0, ""), None, None, [])
+    assert endless.low == pytest.approx(5e6)
+    assert endless.high == math.inf
+
+
+def test_the_best_is_that_of_the_mean_over_the_critical_distance(life: fatigue.Life) -> None:
+    L = fatigue.critical_distance(fatigue.Materials()["7075"])
+    assert pytest.approx(L) == life.range.L
+    found = life.over_distance([L / 2, L, 2 * L])
+    assert float(found.margin[1]) == pytest.approx(life.best)
+    # Steep stresses: the longer the distance, the longer the life; a point is the worst.
+    assert np.all(np.diff(found.margin.values) > 0.0)
+    assert life.worst.margin < float(found.margin[0])
+    assert found.dataset.attrs["L"] == pytest.approx(L)
+    ax = fret.plot.life_over_distance(found)
+    assert "cycles" in ax.get_ylabel()
+    assert "life" in repr(found)
+
+
+def test_a_pickled_life_keeps_its_range(life: fatigue.Life) -> None:
+    again = pickle.loads(pickle.dumps(life))
+    assert again.range == life.range
+    with pytest.raises(ValueError, match="unpickled"):
+        again.over_distance([1e-5])
+
+
+@pytest.mark.parametrize("name", ALLOYS)
+def test_common_alloys_have_lives_and_distances(name: str) -> None:
+    material = fatigue.Materials()[name]
+    for criterion in ("smith_watson_topper", "fatemi_socie"):
+        assert material.assessment(criterion).life(1e3) >= 0.0
+    assert 5e-6 < fatigue.critical_distance(material) < 300e-6
+    for _, _, source in material.numbers():
+        assert source
+    # An estimate is called one, and what is from memory is not called known.
+    kinds = {known_as(source) for _, _, source in material.numbers()}
+    assert "estimate" in kinds
+
+
+@pytest.mark.parametrize(
+    ("name", "key"),
+    [
+        ("steel", "steel"),
+        ("Ti6Al4V", "titanium_6Al4V"),
+        ("7075", "aluminium_7075_T6"),
+        ("Al2O3", "alumina"),
+        ("316L", "steel_316L"),
+        ("ti-6al-4v", "titanium_6Al4V"),
+        ("AISI 52100", "steel_100Cr6"),
+    ],
+)
+def test_everyday_names_are_found(name: str, key: str) -> None:
+    assert fatigue.Materials()[name].name == key
+
+
+def test_a_wrong_name_gets_the_nearest_one() -> None:
+    with pytest.raises(KeyError, match="the nearest is 42CrMo4"):
+        fret.material("42CrMo")
+
+
+def test_a_modulus_from_memory_is_marked() -> None:
+    with pytest.warns(fret.errors.SceneWarning, match="from memory"):
+        fret.material("316L")
+
+
+def test_estimates_follow_their_rules() -> None:
+    numbers = [("E", 210e9, "tests"), ("s_u", 600e6, "tests"), ("s_y", 400e6, "tests")]
+    found = fatigue.Material("ours", numbers).estimated("steel")
+    assert found.number("s_f") == pytest.approx(900e6)
+    assert found.number("e_f") == pytest.approx(0.59)
+    s_D = 900e6 * 2e6**-0.087
+    assert found.number("s_D") == pytest.approx(s_D)
+    assert found.number("t_D") == pytest.approx(s_D / math.sqrt(3.0))
+    # Both limits have the same value of Fatemi and Socie's criterion.
+    k = found.number("k")
+    assert 2.0 * found.number("t_D") == pytest.approx(s_D * (1.0 + k * s_D / (2.0 * 400e6)))
+    assert found.number("s_u") == 600e6
+    assert {known_as(of) for n, _, of in found.numbers() if n in ("s_u", "s_y", "E")} == {"known"}
+    with pytest.raises(ValueError, match="must be one of steel"):
+        fatigue.Material("ours", numbers).estimated("copper")
+
+
+def test_estimates_widen_the_range(life: fatigue.Life) -> None:
+    assert DISTANCE["estimate"] > DISTANCE["known"]
+    assert LIFE["estimate"] > LIFE["known"]
+
+
+@pytest.mark.parametrize(("coating", "failed"), [("TiC", 0.8), ("TiN", 0.7)])
+def test_published_lives_lie_in_their_ranges(coating: str, failed: float) -> None:
+    """Failure at the energy density of the paper, a part of the thickness."""
+    test = experiments.fouvry2007(coating)
+    scene = test.scene
+    coarse = scene.replace(
+        grid=scene.grid.replace(nx=32, ny=32, dx=2 * scene.grid.dx, dy=2 * scene.grid.dy)
+    )
+    per_cycle = 4.0 * scene.mu * 100.0 * 75e-6
+    cycles = (400.0 if coating == "TiC" else 200.0) / per_cycle
+    options = {**test.arguments, "cycles": cycles, "jumps": 12, "worn_through": "go_on"}
+    options.pop("tolerance", None)
+    worn = fret.wear.solve(coarse, progress=False, **options)
+    found = worn.range_of_cycles(part_of_coating=failed)
+    assert found.factor < 10.0
+    energy = float(worn.dissipated[-1] / worn.cycles[-1])
+    area = math.pi * 183.3e-6**2
+    rows = experiments.table(f"fouvry2007_{coating.lower()}_lives")
+    inside = []
+    for row in rows:
+        # The life goes with the energy of a cycle, that of the test.
+        scale = energy / (row["mean_energy_density_J_per_m2_cycle"] * area)
+        lived = row["cycles_to_failure"]
+        inside.append(scale * found.low <= lived <= scale * found.high)
+    assert sum(inside) >= 0.8 * len(rows)
