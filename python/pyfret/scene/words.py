@@ -54,14 +54,8 @@ def friction_in_words(scene: Scene) -> str:
     friction = scene.friction
     if not isinstance(friction, Friction) or not math.isfinite(friction.mu):
         return "none slips"
-    said = [f"&mu; = {in_words(friction.mu)}"]
-    if friction.mu_y is not None:
-        said = [f"&mu;<sub>x</sub> = {in_words(friction.mu)}"]
-        said.append(f"&mu;<sub>y</sub> = {in_words(friction.mu_y)}")
-    if friction.kinetic is not None:
-        said.append(f"sliding {in_words(friction.kinetic)}")
-    if friction.map is not None:
-        said.append("varies over the surface")
-    if friction.history is not None:
-        said.append("changes with what has slipped")
+    said = [
+        what if value is None else f"{what.replace('mu', '&mu;', 1)} = {in_words(value)}"
+        for what, value in friction.words()
+    ]
     return ", ".join(said)

@@ -6,12 +6,12 @@ use std::sync::atomic::AtomicBool;
 use super::two_runs::{PathError, TwoRuns, of_trial};
 use crate::error::Error;
 use crate::march::March;
-use crate::scene::{Branch, Grid, LoadPath, PathGrid, Scene, Spacing};
+use crate::scene::{Branch, Dependence, Grid, LoadPath, PathGrid, Scene, Spacing};
 
 /// Order of the error in the increments: 1.5, between that of cells entering one by one (1) and
 /// that of turning slip (2); 1 where friction falls once a cell has slipped, one increment late.
 const ORDER: f64 = 1.5;
-const KINETIC_ORDER: f64 = 1.0;
+const LATE_ORDER: f64 = 1.0;
 /// The same of a contact that grows: a cell that comes to stick within an increment is taken to have
 /// stuck from its start, or from its entry.
 const GROWTH_ORDER: f64 = 1.0;
@@ -80,7 +80,11 @@ impl Trial {
             } else {
                 1.0
             },
-            order: scene.friction.kinetic.map_or(ORDER, |_| KINETIC_ORDER),
+            order: if scene.friction.depends_on(Dependence::LastSlip) {
+                LATE_ORDER
+            } else {
+                ORDER
+            },
         })
     }
 

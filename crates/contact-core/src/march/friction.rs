@@ -21,14 +21,13 @@ pub(super) fn update(
 ) {
     let (geometry, state) = (setup.geometry, setup.state);
     let friction = &setup.problem.scene.friction;
-    let changes = friction.kinetic.is_some() || friction.history.is_some();
-    if !changes && geometry.friction_map.is_empty() {
+    if !friction.varies() && geometry.friction_map.is_empty() {
         return;
     }
     let last = setup.last();
     let origin = |n: usize| setup.roll.origin(geometry, setup.problem.plan.mirror, n);
     for (n, (mu, before)) in mu.iter_mut().zip(before).enumerate() {
-        let slipped = friction.kinetic.filter(|_| last.slips[n]);
+        let level = friction.level(last.slips[n]);
         let map = geometry.friction_map.get(n).copied().unwrap_or(1.0);
         let at = |field: &[f64]| origin(n).map_or(0.0, |n| field[n]);
         let factors = friction.history.as_ref().map_or([1.0; 2], |history| {
@@ -42,11 +41,7 @@ pub(super) fn update(
         });
         [*mu, *before] = factors.map(|history| {
             let factor = map * history;
-            if factor > 0.0 {
-                slipped.unwrap_or(friction.mu) * factor
-            } else {
-                0.0
-            }
+            if factor > 0.0 { level * factor } else { 0.0 }
         });
     }
 }

@@ -34,8 +34,7 @@ pub(crate) fn direct_branches(
             Ok("without friction pressure depends on the loads alone"),
         );
     }
-    let friction = &scene.friction;
-    if friction.kinetic.is_some() || friction.history.is_some() || friction.law.is_some() {
+    if scene.friction.varies() {
         return none("friction depends on what cells have been through");
     }
     if branches.iter().any(|b| {

@@ -193,11 +193,8 @@ fn mirror(scene: &Scene) -> Result<&'static str, &'static str> {
         return Err("the surfaces are not mirror-symmetric in y");
     }
     let map = |map: &SurfaceMap| is_mirror_symmetric(&scene.grid.map(|x, y| map.at(x, y)));
-    if scene.friction.law.is_some() {
-        return Err("friction is a law of the user's own");
-    }
-    if !scene.friction.map.as_ref().is_none_or(map) {
-        return Err("the friction is not mirror-symmetric in y");
+    if let Some(why) = scene.friction.laws().find_map(|law| law.is_uneven(map)) {
+        return Err(why);
     }
     let uneven = |to: &Loads| {
         let mut odd = RigidMotion::ALL.into_iter().filter(|of| of.is_odd_in_y());

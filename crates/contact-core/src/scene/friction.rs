@@ -4,6 +4,12 @@ use std::cmp::Ordering;
 
 use super::{FrictionLaw, Grid, OwnFriction, SurfaceMap};
 use crate::error::Error;
+use crate::magnitude::{SMALLEST, within};
+
+/// Largest factor of a coefficient of friction over the surface, in the other direction, in motion
+/// or over the history: six orders of magnitude are more than any surface has, and the equations of
+/// cells that differ by more can't be solved to six digits together.
+const FACTOR: f64 = 1e6;
 
 /// Coulomb's law, `|q| <= mu p`, with a coefficient that may depend on the direction, the place and
 /// the history of each cell.
@@ -83,76 +89,245 @@ impl Friction {
         self.mu_y.map_or(1.0, |mu_y| mu_y / self.mu)
     }
 
+    /// The laws beside the coefficient mu. A field that is added here asks for a [`Law`], and a law
+    /// for an answer to every question of this file.
+    pub(crate) fn laws(&self) -> impl Iterator<Item = Law<'_>> {
+        let Self {
+            mu: _,
+            mu_y,
+            kinetic,
+            map,
+            history,
+            law,
+        } = self;
+        let laws = [
+            mu_y.map(Law::Direction),
+            kinetic.map(Law::Kinetic),
+            map.as_ref().map(Law::Place),
+            history.as_ref().map(Law::History),
+            law.as_ref().map(|_| Law::Own),
+        ];
+        laws.into_iter().flatten()
+    }
+
+    /// Whether the coefficient depends on this.
+    pub fn depends_on(&self, what: Dependence) -> bool {
+        self.laws().any(|law| law.depends_on().contains(&what))
+    }
+
+    /// Whether the coefficient depends on these alone.
+    pub fn depends_on_no_more_than(&self, allowed: &[Dependence]) -> bool {
+        self.laws()
+            .all(|law| law.depends_on().iter().all(|on| allowed.contains(on)))
+    }
+
     /// Whether the coefficient of a cell changes along the path.
     pub(crate) fn varies(&self) -> bool {
-        self.kinetic.is_some() || self.history.is_some() || self.law.is_some()
+        !self.depends_on_no_more_than(&[Dependence::Direction, Dependence::Place])
+    }
+
+    /// The coefficient along x, before factors of place and history, of a cell that slipped in the
+    /// increment before, or did not.
+    pub(crate) fn level(&self, slipped: bool) -> f64 {
+        self.kinetic.filter(|_| slipped).unwrap_or(self.mu)
     }
 
     /// The tangential force that friction carries at most under `W`, if the law says so alone.
     pub(crate) fn limit(&self, W: f64) -> Option<f64> {
-        let plain = self.mu_y.is_none()
-            && self.map.is_none()
-            && self.history.is_none()
-            && self.law.is_none();
-        plain.then_some(if W > 0.0 { self.mu * W } else { 0.0 })
+        self.depends_on_no_more_than(&[Dependence::LastSlip])
+            .then_some(if W > 0.0 { self.mu * W } else { 0.0 })
+    }
+
+    /// The law in words: names with their values, and facts without one.
+    pub fn words(&self) -> Vec<(&'static str, Option<f64>)> {
+        let mut words = vec![("mu", Some(self.mu))];
+        words.extend(self.laws().map(|law| law.words()));
+        words
     }
 
     /// Fails if a coefficient, map or history has no meaning, or, given a `grid`, does not cover
     /// it.
     pub fn check(&self, grid: Option<&Grid>) -> Result<(), Error> {
-        let positive = |mu: f64| mu > 0.0 && mu.is_finite();
         if self.mu < 0.0 || self.mu.is_nan() {
             return Err(Error::invalid("friction.mu", self.mu, "a number >= 0"));
         }
-        for (key, mu) in [
-            ("friction.mu_y", self.mu_y),
-            ("friction.kinetic", self.kinetic),
-        ] {
-            if let Some(mu) = mu
-                && !(positive(mu) && positive(self.mu))
-            {
-                return Err(Error::invalid(key, mu, "a positive number, as friction.mu"));
-            }
-        }
-        if self.law.is_some() {
-            if !positive(self.mu) {
-                let allowed = "a finite number > 0: about what the law gives";
-                return Err(Error::invalid("friction.mu", self.mu, allowed));
-            }
-            if self.map.is_some() || self.history.is_some() || self.kinetic.is_some() {
-                let allowed = "without map, history and kinetic: the law knows place and history";
-                return Err(Error::invalid("friction.law", "a law of your own", allowed));
-            }
-        }
-        if let Some(map) = &self.map {
-            map.check("friction.map")?;
-            if let Some(grid) = grid {
-                map.check_on(grid, "friction.map")?;
-            }
-            if let Some(factor) = map.values.iter().find(|f| **f < 0.0) {
-                return Err(Error::invalid("friction.map", factor, "factors >= 0"));
-            }
-        }
-        if let Some(FrictionHistory { table, .. }) = &self.history {
-            let key = "friction.history.table";
-            if table.is_empty() {
-                return Err(Error::invalid(key, "empty", "at least one pair"));
-            }
-            if let Some(pair) = table
-                .windows(2)
-                .find(|w| w[1].0.partial_cmp(&w[0].0) != Some(Ordering::Greater))
-            {
-                return Err(Error::invalid(key, pair[1].0, "a history that grows"));
-            }
-            if let Some((_, f)) = table.iter().find(|(_, f)| !(*f >= 0.0 && f.is_finite())) {
-                return Err(Error::invalid(key, f, "finite factors >= 0"));
-            }
+        self.laws().try_for_each(|law| law.check(self.mu, grid))?;
+        let beside = [
+            Dependence::Direction,
+            Dependence::Place,
+            Dependence::Pressure,
+            Dependence::Cells,
+        ];
+        let alone = self.map.is_none() && self.history.is_none();
+        if self.law.is_some() && !(alone && self.depends_on_no_more_than(&beside)) {
+            let allowed = "without map, history and kinetic: the law knows place and history";
+            return Err(Error::invalid("friction.law", "a law of your own", allowed));
         }
         Ok(())
+    }
+
+    /// Fails at coefficients or factors that are so small or so large that nothing could be computed
+    /// from them.
+    pub(super) fn check_magnitudes(&self) -> Result<(), Error> {
+        within(SMALLEST, "friction.mu", self.mu)?;
+        self.laws()
+            .try_for_each(|law| law.check_magnitudes(self.mu))
+    }
+}
+
+/// A law beside the coefficient mu: what it depends on, its range, its words.
+pub(crate) enum Law<'a> {
+    /// Another coefficient along y.
+    Direction(f64),
+    /// Another coefficient of cells that slip.
+    Kinetic(f64),
+    /// A factor over the surface.
+    Place(&'a SurfaceMap),
+    /// A factor of the history.
+    History(&'a FrictionHistory),
+    /// A function of the user's own.
+    Own,
+}
+
+/// What a coefficient of friction depends on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dependence {
+    /// The direction of the shear.
+    Direction,
+    /// The place of a cell.
+    Place,
+    /// The pressure of a cell.
+    Pressure,
+    /// Whether a cell slipped in the increment before.
+    LastSlip,
+    /// The number of increments.
+    Increments,
+    /// The number of cycles.
+    Cycles,
+    /// Slip or energy of a cell so far.
+    Cells,
+}
+
+impl Law<'_> {
+    /// What it depends on.
+    pub(crate) fn depends_on(&self) -> &'static [Dependence] {
+        match self {
+            Self::Direction(_) => &[Dependence::Direction],
+            Self::Kinetic(_) => &[Dependence::LastSlip],
+            Self::Place(_) => &[Dependence::Place],
+            Self::History(history) => match history.of {
+                History::Increment => &[Dependence::Increments],
+                History::Cycles => &[Dependence::Cycles],
+                History::Slip | History::Dissipated => &[Dependence::Cells],
+            },
+            Self::Own => &[Dependence::Place, Dependence::Pressure, Dependence::Cells],
+        }
+    }
+
+    /// Why the coefficient may differ between y and -y, if it may; `is_even` says whether a map is
+    /// the same at both.
+    pub(crate) fn is_uneven(&self, is_even: impl Fn(&SurfaceMap) -> bool) -> Option<&'static str> {
+        match self {
+            Self::Own => Some("friction is a law of the user's own"),
+            Self::Place(map) if !is_even(map) => Some("the friction is not mirror-symmetric in y"),
+            Self::Place(_) | Self::Direction(_) | Self::Kinetic(_) | Self::History(_) => None,
+        }
+    }
+
+    /// What it is called, with its value if it is one number.
+    fn words(&self) -> (&'static str, Option<f64>) {
+        match self {
+            Self::Direction(mu) => ("mu along y", Some(*mu)),
+            Self::Kinetic(mu) => ("mu of cells that slip", Some(*mu)),
+            Self::Place(_) => ("varies over the surface", None),
+            Self::History(history) => match history.of {
+                History::Increment => ("changes with the increments", None),
+                History::Cycles => ("changes with the cycles", None),
+                History::Slip => ("changes with the way slipped", None),
+                History::Dissipated => ("changes with the energy dissipated", None),
+            },
+            Self::Own => ("a function of your own", None),
+        }
+    }
+
+    /// Fails if it has no meaning beside `mu`, or, given a `grid`, does not cover it.
+    fn check(&self, mu: f64, grid: Option<&Grid>) -> Result<(), Error> {
+        let positive = |mu: f64| mu > 0.0 && mu.is_finite();
+        let coefficient = |key: &str, of: f64| {
+            if positive(of) && positive(mu) {
+                return Ok(());
+            }
+            Err(Error::invalid(key, of, "a positive number, as friction.mu"))
+        };
+        match self {
+            Self::Direction(mu_y) => coefficient("friction.mu_y", *mu_y),
+            Self::Kinetic(kinetic) => coefficient("friction.kinetic", *kinetic),
+            Self::Place(map) => {
+                map.check("friction.map")?;
+                if let Some(grid) = grid {
+                    map.check_on(grid, "friction.map")?;
+                }
+                match map.values.iter().find(|f| **f < 0.0) {
+                    Some(factor) => Err(Error::invalid("friction.map", factor, "factors >= 0")),
+                    None => Ok(()),
+                }
+            }
+            Self::History(history) => history.check(),
+            Self::Own if !positive(mu) => {
+                let allowed = "a finite number > 0: about what the law gives";
+                Err(Error::invalid("friction.mu", mu, allowed))
+            }
+            Self::Own => Ok(()),
+        }
+    }
+
+    /// Fails at a coefficient or factor that is far from the order of one.
+    fn check_magnitudes(&self, mu: f64) -> Result<(), Error> {
+        let is_far = |of: f64| of.is_finite() && !(1.0 / FACTOR..=FACTOR).contains(&of);
+        let coefficient = |key: &str, of: f64| {
+            if !is_far(of / mu) {
+                return Ok(());
+            }
+            let allowed = format!("between 1/{FACTOR:e} and {FACTOR:e} of friction.mu");
+            Err(Error::invalid(key, of, allowed))
+        };
+        let (key, factors): (_, Vec<f64>) = match self {
+            Self::Direction(mu_y) => return coefficient("friction.mu_y", *mu_y),
+            Self::Kinetic(kinetic) => return coefficient("friction.kinetic", *kinetic),
+            Self::Own => return Ok(()),
+            Self::Place(map) => ("friction.map", map.values.iter().copied().collect()),
+            Self::History(FrictionHistory { table, .. }) => {
+                let factors = table.iter().map(|(_, factor)| *factor);
+                ("friction.history.table", factors.collect())
+            }
+        };
+        match factors.into_iter().find(|f| *f > 0.0 && is_far(*f)) {
+            Some(factor) => {
+                let allowed = format!("factors that are 0 or between 1/{FACTOR:e} and {FACTOR:e}");
+                Err(Error::invalid(key, format!("{factor:e}"), allowed))
+            }
+            None => Ok(()),
+        }
     }
 }
 
 impl FrictionHistory {
+    /// Fails if the table has no meaning.
+    fn check(&self) -> Result<(), Error> {
+        let (key, table) = ("friction.history.table", &self.table);
+        if table.is_empty() {
+            return Err(Error::invalid(key, "empty", "at least one pair"));
+        }
+        let falls = |w: &&[(f64, f64)]| w[1].0.partial_cmp(&w[0].0) != Some(Ordering::Greater);
+        if let Some(pair) = table.windows(2).find(falls) {
+            return Err(Error::invalid(key, pair[1].0, "a history that grows"));
+        }
+        match table.iter().find(|(_, f)| !(*f >= 0.0 && f.is_finite())) {
+            Some((_, f)) => Err(Error::invalid(key, f, "finite factors >= 0")),
+            None => Ok(()),
+        }
+    }
+
     /// The factor after a history.
     pub fn factor(&self, history: f64) -> f64 {
         let table = &self.table;
@@ -169,7 +344,80 @@ impl FrictionHistory {
 
 #[cfg(test)]
 mod tests {
-    use super::{FrictionHistory, History};
+    use super::{Dependence, Friction, FrictionHistory, History};
+    use crate::scene::{Grid, SurfaceMap};
+
+    /// Every kind of law, alone.
+    fn each() -> Vec<Friction> {
+        let plain = Friction::coulomb(0.3);
+        let history = |of| FrictionHistory {
+            of,
+            table: vec![(0.0, 1.0), (1.0, 2.0)],
+        };
+        let map = Grid::centred(1e-3, 4).unwrap().map(|_, _| 1.0);
+        let mut all = vec![
+            Friction {
+                mu_y: Some(0.2),
+                ..plain.clone()
+            },
+            Friction {
+                kinetic: Some(0.2),
+                ..plain.clone()
+            },
+            Friction {
+                map: Some(SurfaceMap::new(map, (3e-4, 3e-4), Default::default()).unwrap()),
+                ..plain.clone()
+            },
+            Friction {
+                law: Some(super::OwnFriction::elsewhere()),
+                ..plain.clone()
+            },
+        ];
+        for of in [
+            History::Increment,
+            History::Cycles,
+            History::Slip,
+            History::Dissipated,
+        ] {
+            all.push(Friction {
+                history: Some(history(of)),
+                ..plain.clone()
+            });
+        }
+        all
+    }
+
+    #[test]
+    fn every_law_is_known_to_its_readers() {
+        let plain = Friction::coulomb(0.3);
+        assert!(plain.laws().next().is_none() && plain.words().len() == 1);
+        for friction in each() {
+            assert_eq!(friction.laws().count(), 1, "{friction:?}");
+            assert_eq!(friction.words().len(), 2);
+            assert!(friction.check(None).is_ok() && friction.check_magnitudes().is_ok());
+            let on = friction.laws().flat_map(|law| law.depends_on().iter());
+            let on: Vec<_> = on.copied().collect();
+            assert!(!on.is_empty() && friction.depends_on_no_more_than(&on));
+            let fixed = [Dependence::Direction, Dependence::Place];
+            assert_eq!(friction.varies(), on.iter().any(|d| !fixed.contains(d)));
+        }
+    }
+
+    #[test]
+    fn a_law_of_ones_own_stands_alone_but_for_the_direction() {
+        let own = Friction {
+            law: Some(super::OwnFriction::elsewhere()),
+            ..Friction::coulomb(0.3)
+        };
+        for other in each() {
+            let both = Friction {
+                law: own.law.clone(),
+                ..other.clone()
+            };
+            let alone = other.law.is_some() || other.mu_y.is_some();
+            assert_eq!(both.check(None).is_ok(), alone, "{other:?}");
+        }
+    }
 
     #[test]
     fn the_history_is_linear_between_its_pairs() {

@@ -3,12 +3,7 @@
 use super::shape::Range;
 use super::{Body, Grid, RigidMotion, Scene, Shape};
 use crate::error::Error;
-use crate::magnitude::{LARGEST, SMALLEST};
-
-/// Largest factor of a coefficient of friction over the surface, in the other direction, in motion
-/// or over the history: six orders of magnitude are more than any surface has, and the equations of
-/// cells that differ by more can't be solved to six digits together.
-const FACTOR: f64 = 1e6;
+use crate::magnitude::{LARGEST, SMALLEST, within};
 
 impl Body {
     /// The same checks as in a scene, but for the shape, where a body is used by itself.
@@ -34,7 +29,7 @@ impl Scene {
         for (key, body) in [("body1", &self.body1), ("body2", &self.body2)] {
             check_body(key, body)?;
         }
-        self.check_friction_magnitudes()?;
+        self.friction.check_magnitudes()?;
         within(SMALLEST, "grid.dx", self.grid.dx)?;
         within(SMALLEST, "grid.dy", self.grid.dy)?;
         for (i, branch) in self.path.branches.iter().enumerate() {
@@ -49,35 +44,6 @@ impl Scene {
                 ("sigma_B1", branch.to.sigma_B1),
             ] {
                 within(0.0, &format!("path[{i}].{name}"), value)?;
-            }
-        }
-        Ok(())
-    }
-
-    /// The coefficients of friction and their factors over the surface, which are zero or of the
-    /// order of one.
-    fn check_friction_magnitudes(&self) -> Result<(), Error> {
-        let friction = &self.friction;
-        within(SMALLEST, "friction.mu", friction.mu)?;
-        let coefficients = [
-            ("friction.mu_y", friction.mu_y),
-            ("friction.kinetic", friction.kinetic),
-        ];
-        for (key, mu) in coefficients {
-            let factor = mu.map_or(1.0, |mu| mu / friction.mu);
-            if factor.is_finite() && !(1.0 / FACTOR..=FACTOR).contains(&factor) {
-                let allowed = format!("between 1/{FACTOR:e} and {FACTOR:e} of friction.mu");
-                return Err(Error::invalid(key, mu.unwrap_or_default(), allowed));
-            }
-        }
-        let map = friction.map.iter().flat_map(|map| map.values.iter());
-        let map = map.map(|factor| ("friction.map", *factor));
-        let table = friction.history.iter().flat_map(|history| &history.table);
-        let table = table.map(|(_, factor)| ("friction.history.table", *factor));
-        for (key, factor) in map.chain(table) {
-            if factor.is_finite() && factor > 0.0 && !(1.0 / FACTOR..=FACTOR).contains(&factor) {
-                let allowed = format!("factors that are 0 or between 1/{FACTOR:e} and {FACTOR:e}");
-                return Err(Error::invalid(key, format!("{factor:e}"), allowed));
             }
         }
         Ok(())
@@ -137,14 +103,4 @@ fn check_shape(key: &str, shape: &Shape) -> Result<(), Error> {
             .try_for_each(|(i, part)| check_shape(&format!("{key}.sum[{i}]"), part)),
         _ => Ok(()),
     }
-}
-
-fn within(smallest: f64, key: &str, value: f64) -> Result<(), Error> {
-    let size = value.abs();
-    if size == 0.0 || size == f64::INFINITY || (smallest..=LARGEST).contains(&size) {
-        return Ok(());
-    }
-    let value = format!("{value:e}");
-    let allowed = format!("0 or of a size from {smallest:e} to {LARGEST:e}");
-    Err(Error::invalid(key, value, allowed))
 }

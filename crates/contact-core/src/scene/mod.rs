@@ -24,8 +24,9 @@ mod surface_map;
 
 pub use crate::material::{Bond, Coating, Elastic, dundurs_beta};
 pub use body::{Body, check_plastic};
-pub use case::{Fault, Section, read_with, text_of};
+pub use case::{Fault, Section, quantity, read_with, text_of};
 pub use files::{Reach, read as read_file};
+pub use friction::Dependence;
 pub use friction::{Friction, FrictionHistory, History};
 pub use friction_law::is_missing;
 pub use friction_law::{CellHistory, FrictionLaw, OwnFriction};

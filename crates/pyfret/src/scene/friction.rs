@@ -148,6 +148,11 @@ impl Friction {
         self.0.law.as_ref().map(|law| function(py, law))
     }
 
+    /// The law in words: names with their values, and facts without a value.
+    fn words(&self) -> Vec<(&'static str, Option<f64>)> {
+        self.0.words()
+    }
+
     pub(crate) fn __repr__(&self) -> String {
         let mut parts = vec![format!("{:?}", self.0.mu)];
         for (name, mu) in [("mu_y", self.0.mu_y), ("kinetic", self.0.kinetic)] {
