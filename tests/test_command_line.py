@@ -235,7 +235,7 @@ def test_a_scene_comes_from_the_standard_input() -> None:
     assert run.returncode == 0, run.stderr
     told = json.loads(run.stdout)
     assert told["title"] == "Alumina on DLC/Cr on titanium"
-    assert "0.500 um" in told["body 2"][0]
+    assert "0.500 um" in told["text"]["body 2"][0]
 
 
 def test_numbers_for_programs(coated: fret.Result, tmp_path: Path) -> None:

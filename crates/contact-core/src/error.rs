@@ -52,6 +52,20 @@ pub enum Error {
         /// What is wrong and what is allowed.
         message: String,
     },
+    /// Values that come from no file do not follow the schema.
+    #[error("{message}")]
+    Values {
+        /// Which key, what is wrong and what is allowed.
+        message: String,
+    },
+    /// A scene file is wrong in several places, or doubtful beside one.
+    #[error("{}", told(errors, doubts))]
+    SceneFaults {
+        /// Each of [`Self::SceneFile`] or [`Self::Setting`], in the order of the file.
+        errors: Vec<Error>,
+        /// Doubts about values that could be read.
+        doubts: Vec<String>,
+    },
     /// A value set from outside the scene file (`--set key=value`) is wrong.
     #[error("setting {setting}: {message}")]
     Setting {
@@ -258,7 +272,22 @@ pub enum Error {
     },
 }
 
+/// A line for each error, then for each doubt.
+fn told(errors: &[Error], doubts: &[String]) -> String {
+    let doubts = doubts.iter().map(|doubt| format!("doubtful: {doubt}"));
+    let lines: Vec<_> = errors.iter().map(Error::to_string).chain(doubts).collect();
+    lines.join("\n")
+}
+
 impl Error {
+    /// The line of a scene file, 0 where there is none.
+    pub fn line(&self) -> usize {
+        match self {
+            Self::SceneFile { line, .. } => *line,
+            _ => 0,
+        }
+    }
+
     /// A value out of its range.
     pub fn invalid(
         key: impl Into<String>,

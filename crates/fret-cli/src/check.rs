@@ -1,10 +1,10 @@
 //! `fret check`.
 
 use clap::Args;
-use contact_core::Scene;
 use contact_core::memory::available_memory;
 use contact_core::plan::Plan;
 use contact_core::scene::{Body, Bond, Elastic};
+use contact_core::{Error, Scene};
 use serde_json::{Map, Value, json};
 
 use crate::failure::Failure;
@@ -18,30 +18,26 @@ use contact_core::digits::short;
 pub(crate) struct Options {
     #[command(flatten)]
     scene: SceneOptions,
-    /// Print one JSON object, for programs
+    /// Print one JSON object, for programs: numbers in SI units, and the lines of the text
     #[arg(long)]
     json: bool,
+    /// Exit with 1 where something is doubtful
+    #[arg(long)]
+    strict: bool,
 }
 
 /// Prints the interpretation of the scene and the needs of its solution.
 pub(crate) fn check(options: &Options) -> Result<(), Failure> {
-    let scene = options.scene.read().map_err(Failure::BadInput)?;
-    scene.check_fit().map_err(Failure::BadInput)?;
+    let read = options.scene.read();
+    let read = read.and_then(|scene| scene.check_fit().map(|()| scene));
+    if let (Err(error), true) = (&read, options.json) {
+        print(&format!("{:#}", refused(error)))?;
+    }
+    let scene = read.map_err(Failure::BadInput)?;
     let plan = Plan::new(&scene);
     let lines = description(&scene, &plan);
     if options.json {
-        let mut object = Map::new();
-        object.insert("title".into(), json!(scene.title));
-        object.insert("a_H".into(), json!(scene.hertz().map(|h| h.a)));
-        object.insert("p_H".into(), json!(scene.hertz().map(|h| h.p0)));
-        for (subject, text) in &lines {
-            let entry = object.entry(*subject).or_insert_with(|| json!([]));
-            if let Value::Array(list) = entry {
-                list.push(json!(text));
-            }
-        }
-        object.insert("doubts".into(), json!(scene.doubts()));
-        print(&format!("{:#}", Value::Object(object)))?;
+        print(&format!("{:#}", numbers(&scene, &plan, &lines)))?;
     } else {
         let lines = lines
             .iter()
@@ -50,7 +46,66 @@ pub(crate) fn check(options: &Options) -> Result<(), Failure> {
         print(&all.join("\n"))?;
     }
     say_doubts(&scene);
-    plan.check_memory(&scene).map_err(Failure::BadInput)
+    plan.check_memory(&scene).map_err(Failure::BadInput)?;
+    match scene.doubts().len() {
+        0 => Ok(()),
+        _ if !options.strict => Ok(()),
+        doubts => Err(Failure::Doubted(doubts)),
+    }
+}
+
+/// The errors of a scene that has no meaning, and the doubts beside them.
+fn refused(error: &Error) -> Value {
+    let (errors, doubts) = match error {
+        Error::SceneFaults { errors, doubts } => (&errors[..], &doubts[..]),
+        error => (std::slice::from_ref(error), &[][..]),
+    };
+    let each = errors.iter().map(|error| match error {
+        Error::SceneFile {
+            file,
+            line,
+            message,
+        } => json!({ "file": file, "line": line, "message": message }),
+        Error::Setting { setting, message } => json!({ "setting": setting, "message": message }),
+        other => json!({ "message": other.to_string() }),
+    });
+    json!({ "errors": each.collect::<Vec<_>>(), "doubts": doubts })
+}
+
+/// The numbers of a scene in SI units, and what is printed of it.
+fn numbers(scene: &Scene, plan: &Plan, lines: &[(&'static str, String)]) -> Value {
+    let (grid, hertz) = (&scene.grid, scene.hertz());
+    let (length_x, length_y) = grid.extent();
+    let work = Work::of(scene, plan);
+    let mut text = Map::new();
+    for (subject, line) in lines {
+        let entry = text.entry(*subject).or_insert_with(|| json!([]));
+        if let Value::Array(list) = entry {
+            list.push(json!(line));
+        }
+    }
+    json!({
+        "title": scene.title,
+        "errors": [],
+        "doubts": scene.doubts(),
+        "a_H": hertz.map(|h| h.a),
+        "p_H": hertz.map(|h| h.p0),
+        "cells_per_a_H": hertz.map(|h| [h.a / grid.dx, h.a / grid.dy]),
+        "grid": {
+            "n": [grid.nx, grid.ny],
+            "extent": [length_x, length_y],
+            "spacing": [grid.dx, grid.dy],
+            "plane_strain": grid.plane_strain,
+        },
+        "path": {
+            "branches": scene.path.branches.len(),
+            "increments": work.increments,
+            "W_max": scene.path.W_max(),
+        },
+        "convolutions": work.convolutions,
+        "memory": { "needed": plan.memory(scene), "available": available_memory() },
+        "text": text,
+    })
 }
 
 /// Subjects and their text.
@@ -175,13 +230,33 @@ const CHOSEN: [usize; 2] = [12, 60];
 const COUPLED: [usize; 2] = [8, 60];
 const UNCOUPLED: [usize; 2] = [3, 12];
 
-/// Time and memory of a solution, as a rule.
+/// The work of a solution, as a rule: at least and at most.
+struct Work {
+    increments: [usize; 2],
+    convolutions: [usize; 2],
+}
+
+impl Work {
+    fn of(scene: &Scene, plan: &Plan) -> Self {
+        let branches = &scene.path.branches;
+        let increments = CHOSEN.map(|chosen| {
+            let counts = branches.iter().map(|b| b.increments.unwrap_or(chosen));
+            counts.sum()
+        });
+        let [few, many] = if plan.coupling { COUPLED } else { UNCOUPLED };
+        Self {
+            increments,
+            convolutions: [increments[0] * few, increments[1] * many],
+        }
+    }
+}
+
+/// The work of a solution in words.
 fn work(scene: &Scene, plan: &Plan) -> String {
-    let branches = &scene.path.branches;
-    let [least, most] = CHOSEN.map(|chosen| -> usize {
-        let counts = branches.iter().map(|b| b.increments.unwrap_or(chosen));
-        counts.sum()
-    });
+    let Work {
+        increments: [least, most],
+        convolutions: [fewest, all],
+    } = Work::of(scene, plan);
     let increments = if scene.path.is_open() {
         format!("some {least} to {most} increments")
     } else {
@@ -190,8 +265,6 @@ fn work(scene: &Scene, plan: &Plan) -> String {
     let [few, many] = if plan.coupling { COUPLED } else { UNCOUPLED };
     let (nx, ny) = (scene.grid.nx, scene.grid.ny);
     format!(
-        "{increments} of {few} to {many} convolutions each, {} to {} of {nx} x {ny} cells",
-        least * few,
-        most * many
+        "{increments} of {few} to {many} convolutions each, {fewest} to {all} of {nx} x {ny} cells"
     )
 }

@@ -14,6 +14,8 @@ pub(crate) enum Failure {
     EndedEarly(Error),
     /// The scene or the command line has no meaning.
     BadInput(Error),
+    /// So many doubts about a scene, where none is allowed.
+    Doubted(usize),
     /// Ctrl-C, and nothing is kept.
     Stopped,
     /// The output could not be written.
@@ -26,15 +28,18 @@ impl Failure {
             Self::EndedEarly(error) => (error.to_string(), 1),
             Self::BadInput(error) => (error.to_string(), 2),
             Self::Unwritten(error) => (error.to_string(), 3),
+            Self::Doubted(doubts) => (format!("{doubts} of its values are doubtful (--strict)"), 1),
             Self::Stopped => ("stopped, nothing was written".to_owned(), 1),
         };
         let stderr = std::io::stderr();
         let coloured = stderr.is_terminal() && colours() != ColorChoice::Never;
         let red = AnsiColor::Red.on_default().bold();
-        if coloured {
-            say_coloured(&format!("{red}fret:{red:#} {}", shown(&error)));
-        } else {
-            say(&format!("fret: {error}"));
+        for line in error.lines() {
+            if coloured {
+                say_coloured(&format!("{red}fret:{red:#} {}", shown(line)));
+            } else {
+                say(&format!("fret: {line}"));
+            }
         }
         code
     }

@@ -128,26 +128,11 @@ impl Scene {
     /// Allowed but implausible values, one sentence each with the interpretation used.
     pub fn doubts(&self) -> Vec<String> {
         let hertz = self.hertz();
-        let mut doubts = self.doubts_of_units();
+        let mut doubts = self.doubts_of_values();
         doubts.extend(hertz.and_then(|hertz| self.doubt_of_half_spaces(&hertz)));
         doubts.extend(self.doubt_of_cells());
-        let (extent_x, extent_y) = self.grid.extent();
-        let wide = if self.grid.plane_strain {
-            extent_x
-        } else {
-            extent_x.max(extent_y)
-        };
-        let a = hertz.map_or(wide, |h| h.a);
+        let wide = self.grid.wide();
         for (key, body) in [("body1", &self.body1), ("body2", &self.body2)] {
-            for (i, Coating { thickness, .. }) in body.coatings.iter().enumerate() {
-                if *thickness > THICK * a {
-                    doubts.push(format!(
-                        "{key}.coatings[{i}].thickness = {thickness:.3e} m is {:.0} times the contact: \
-                         what lies below it does not matter; {UNITS}",
-                        thickness / a
-                    ));
-                }
-            }
             doubts.extend(self.doubt_of_thin_layers(key, body));
             for map in maps(&body.shape) {
                 doubts.extend(self.doubts_of_map(map, &format!("{key}.shape.height_map")));
@@ -165,6 +150,25 @@ impl Scene {
             doubts.extend(doubt_of_filled(map, "friction.map"));
         }
         doubts.extend(self.doubts_of_loads(wide));
+        doubts
+    }
+
+    /// Those of single values, whatever the cells are.
+    pub(super) fn doubts_of_values(&self) -> Vec<String> {
+        let mut doubts = self.doubts_of_units();
+        let wide = self.grid.wide();
+        let a = self.hertz().map_or(wide, |h| h.a);
+        for (key, body) in [("body1", &self.body1), ("body2", &self.body2)] {
+            for (i, Coating { thickness, .. }) in body.coatings.iter().enumerate() {
+                if *thickness > THICK * a {
+                    doubts.push(format!(
+                        "{key}.coatings[{i}].thickness = {thickness:.3e} m is {:.0} times the contact: \
+                         what lies below it does not matter; {UNITS}",
+                        thickness / a
+                    ));
+                }
+            }
+        }
         doubts
     }
 

@@ -98,6 +98,12 @@ impl Grid {
         (self.nx as f64 * self.dx, self.ny as f64 * self.dy)
     }
 
+    /// The longer side, of a line contact that along x \[m\].
+    pub(crate) fn wide(&self) -> f64 {
+        let (x, y) = self.extent();
+        if self.plane_strain { x } else { x.max(y) }
+    }
+
     /// Coordinate of the centre of the i-th column of cells \[m\].
     pub fn x(&self, i: usize) -> f64 {
         (i as f64 - (self.nx - 1) as f64 / 2.0) * self.dx

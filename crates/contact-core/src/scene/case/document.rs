@@ -113,7 +113,7 @@ fn line_at(text: &str, offset: usize) -> usize {
 }
 
 /// The steps of a key: `body2.coatings[0].E` and `body2.coatings.0.E` have the same four.
-fn steps(key: &str) -> Vec<&str> {
+pub(super) fn steps(key: &str) -> Vec<&str> {
     key.split(['.', '[', ']'])
         .map(str::trim)
         .filter(|step| !step.is_empty())
@@ -121,7 +121,7 @@ fn steps(key: &str) -> Vec<&str> {
 }
 
 /// Applies `key=value` to the values; the message says what is wrong with it.
-fn apply(root: &mut Table, setting: &str) -> Result<(), String> {
+pub(super) fn apply(root: &mut Table, setting: &str) -> Result<(), String> {
     let (key, value) = setting
         .split_once('=')
         .ok_or("a setting must be of the form key=value")?;
@@ -184,12 +184,14 @@ fn element<'t>(array: &'t mut [Value], step: &str, key: &str) -> Result<&'t mut 
         .ok_or_else(|| format!("{key} has {count} entries, counted from 0, and none is `{step}`"))
 }
 
-/// A TOML value; a bare word is a string.
-fn parse_value(text: &str) -> Result<Value, String> {
+/// A TOML value; a bare word is a string, and so is a number with its unit.
+pub(super) fn parse_value(text: &str) -> Result<Value, String> {
     let bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
     match toml::from_str::<Table>(&format!("value = {text}")) {
         Ok(mut table) if table.len() == 1 => table.remove("value").ok_or_else(String::new),
-        _ if !text.is_empty() && text.chars().all(bare) => Ok(Value::String(text.to_owned())),
+        _ if measure::has_unit(text) || (!text.is_empty() && text.chars().all(bare)) => {
+            Ok(Value::String(text.to_owned()))
+        }
         _ => Err(format!("`{text}` is not a TOML value")),
     }
 }

@@ -11,6 +11,10 @@ pub struct Fault {
     pub(super) key: String,
     /// One sentence.
     pub(super) message: String,
+    /// The nearest valid name of a key that is unknown.
+    pub(super) nearest: Option<String>,
+    /// Whether the value can be read, and is wrong by its size or beside other values.
+    pub(super) is_of_meaning: bool,
 }
 
 impl Fault {
@@ -19,6 +23,15 @@ impl Fault {
         Self {
             key: key.into(),
             message: message.into(),
+            nearest: None,
+            is_of_meaning: false,
+        }
+    }
+
+    /// The error of values that come from no file.
+    pub fn into_error(self) -> Error {
+        Error::Values {
+            message: self.message,
         }
     }
 
@@ -38,12 +51,13 @@ impl Fault {
 impl From<Error> for Fault {
     fn from(error: Error) -> Self {
         let message = error.to_string();
-        match error {
-            Error::InvalidScene { key, .. } => Self { key, message },
-            _ => Self {
-                key: String::new(),
-                message,
-            },
+        let key = match error {
+            Error::InvalidScene { key, .. } => key,
+            _ => String::new(),
+        };
+        Self {
+            is_of_meaning: true,
+            ..Self::new(key, message)
         }
     }
 }

@@ -1,8 +1,9 @@
-//! Numbers in other measures than SI: tables of one key.
+//! Numbers in other measures than SI: tables of one key; and in other units: texts.
 
 use toml::Value;
 
 use super::fault::Fault;
+use crate::scene::number_files::{Kind, named, names};
 
 /// A measure that a number may be given in.
 #[derive(Clone, Copy)]
@@ -59,7 +60,70 @@ impl Measure {
     }
 }
 
-/// The number in SI: given as such, or in one of the measures.
+/// The kinds of the keys of a scene file, by their last names; others are numbers without a unit.
+const KINDS: [(&[&str], Kind); 8] = [
+    (&["E", "sigma_B", "sigma_B1"], Kind::Stress),
+    (
+        &[
+            "R",
+            "R_x",
+            "R_y",
+            "length",
+            "crown",
+            "radius",
+            "edge",
+            "amplitude",
+            "wavelength",
+            "rms",
+            "longest",
+            "shortest",
+            "thickness",
+            "extent",
+            "spacing",
+            "delta_x",
+            "delta_y",
+            "delta_z",
+            "rolled",
+        ],
+        Kind::Length,
+    ),
+    (&["angle", "phase", "phi_x", "phi_y", "phi_z"], Kind::Angle),
+    (&["W", "T_x", "T_y"], Kind::Force),
+    (&["M_x", "M_y", "M_z"], Kind::Moment),
+    (&["stiffness", "rig_stiffness"], Kind::Stiffness),
+    (&["frequency"], Kind::Frequency),
+    (&["t"], Kind::Time),
+];
+
+/// The kind of a key: that of its last name, `spacing` of `grid.spacing[1]`.
+fn kind_of(key: &str) -> Option<Kind> {
+    let last = key.rsplit('.').next()?;
+    let name = last.split('[').next()?;
+    let found = KINDS.iter().find(|(names, _)| names.contains(&name));
+    found.map(|(_, kind)| *kind)
+}
+
+/// A number and the word behind it, `3 um`.
+fn split(text: &str) -> Option<(f64, &str)> {
+    let text = text.trim();
+    let digit = |c: char| c.is_ascii_digit() || "+-.eE".contains(c);
+    let mut end = text.find(|c| !digit(c)).unwrap_or(text.len());
+    // The e of `3 eV` belongs to the word, that of `3e9 Pa` to the number.
+    while end > 0 {
+        if let Ok(number) = text[..end].parse() {
+            return Some((number, text[end..].trim()));
+        }
+        end -= 1;
+    }
+    None
+}
+
+/// Whether a text is a number with a word behind it that is a unit or a measure.
+pub(super) fn has_unit(text: &str) -> bool {
+    split(text).is_some_and(|(_, word)| is_name(word) || named(word).is_some())
+}
+
+/// The number in SI: given as such, as a text with its unit, or in one of the measures.
 pub(super) fn number(key: &str, value: &Value, measures: &[Measure]) -> Result<f64, Fault> {
     let plain = match value {
         Value::Float(x) => Some(*x),
@@ -69,30 +133,134 @@ pub(super) fn number(key: &str, value: &Value, measures: &[Measure]) -> Result<f
     if let Some(x) = plain.filter(|x| !x.is_nan()) {
         return Ok(x);
     }
-    let Some((name, inner)) = value
-        .as_table()
-        .filter(|table| table.len() == 1 && !measures.is_empty())
-        .and_then(|table| table.iter().next())
-    else {
-        return Err(Fault::value(key, value, &allowed(measures)));
+    let kind = kind_of(key);
+    let wrong = || Fault::value(key, value, &allowed(kind, measures));
+    let in_measure = |name: &str, number: f64| {
+        let measure = measures.iter().find(|m| m.name == name).ok_or_else(wrong)?;
+        // What the measure follows from is at fault.
+        let why = |why| Fault {
+            is_of_meaning: true,
+            ..Fault::new(key, format!("{key} is given in {name}, but {why}"))
+        };
+        Ok(number * measure.value.map_err(why)?)
     };
-    let Some(measure) = measures.iter().find(|m| m.name == name) else {
-        return Err(Fault::value(key, value, &allowed(measures)));
-    };
-    let factor = number(&format!("{key}.{name}"), inner, &[])?;
-    let unit = measure
-        .value
-        .map_err(|why| Fault::new(key, format!("{key} is given in {name}, but {why}")))?;
-    Ok(factor * unit)
+    match value {
+        Value::String(text) => {
+            let (number, word) = split(text).ok_or_else(wrong)?;
+            match kind.and_then(|kind| kind.size(word)) {
+                Some(size) => Ok(number * size),
+                None => in_measure(word, number),
+            }
+        }
+        Value::Table(table) if table.len() == 1 && !measures.is_empty() => {
+            let Some((name, inner)) = table.iter().next() else {
+                return Err(wrong());
+            };
+            if !measures.iter().any(|m| m.name == name) {
+                return Err(wrong());
+            }
+            in_measure(name, self::number(&format!("{key}.{name}"), inner, &[])?)
+        }
+        _ => Err(wrong()),
+    }
 }
 
-fn allowed(measures: &[Measure]) -> String {
-    if measures.is_empty() {
-        return "a number".to_owned();
+/// A text with a unit in SI, by the name that the quantity has in a scene file, such as `E`; the
+/// error is what is allowed.
+pub fn quantity(name: &str, text: &str) -> Result<f64, String> {
+    let value = Value::String(text.to_owned());
+    number(name, &value, &[]).map_err(|_| allowed(kind_of(name), &[]))
+}
+
+/// The load of a contact: a force per length, `300 N/mm`, where and only where cells are without end
+/// along y and forces are those on a `width` \[m\].
+pub(super) fn load(
+    key: &str,
+    value: &Value,
+    measures: &[Measure],
+    width: Option<f64>,
+) -> Result<f64, Fault> {
+    let word = value.as_str().and_then(split).map_or("", |(_, word)| word);
+    let per_length = word.contains('/');
+    let load = number(key, value, measures)?;
+    let allowed = match (width, Kind::Force.size(word).is_some()) {
+        (Some(width), true) if per_length => return Ok(load * width),
+        (Some(1.0), true) => "a force per length, such as N/m or N/mm: the contact is a line",
+        (None, true) if per_length => "a force, such as N or kN: the contact is no line",
+        _ => return Ok(load),
+    };
+    Err(Fault::value(key, value, allowed))
+}
+
+fn allowed(kind: Option<Kind>, measures: &[Measure]) -> String {
+    let mut allowed = match kind {
+        None if measures.is_empty() => return "a number".to_owned(),
+        None => "a number in SI units".to_owned(),
+        Some(kind) => format!(
+            "a number in {}, a text with its unit ({})",
+            kind.unit(),
+            names(kind)
+        ),
+    };
+    for measure in measures {
+        allowed = format!("{allowed}, or {{ {} = number }}", measure.name);
     }
-    let tables: Vec<_> = measures
-        .iter()
-        .map(|measure| format!("{{ {} = number }}", measure.name))
-        .collect();
-    format!("a number in SI units, or {}", tables.join(" or "))
+    allowed
+}
+
+#[cfg(test)]
+mod tests {
+    use toml::Value;
+
+    use super::{Measure, number};
+
+    fn read(key: &str, text: &str) -> Result<f64, String> {
+        let measures = [Measure::a_H(Some(2e-4))];
+        let value = Value::String(text.to_owned());
+        number(key, &value, &measures).map_err(|fault| fault.message)
+    }
+
+    #[test]
+    fn a_text_with_a_unit_is_a_number_in_si() {
+        for (key, text, right) in [
+            ("body1.E", "380 GPa", 380e9),
+            ("body1.E", "2.1e5 N/mm^2", 2.1e11),
+            ("body2.coatings[0].thickness", "3 um", 3e-6),
+            ("body2.coatings[0].thickness", "3µm", 3e-6),
+            ("grid.extent", "2.4 a_H", 4.8e-4),
+            ("grid.spacing[1]", "1 um", 1e-6),
+            ("path[0].W", "10 N", 10.0),
+            ("path[0].W", "300 N/mm", 3e5),
+            ("path[3].phi_z", "180 deg", std::f64::consts::PI),
+            ("rig.stiffness", "24 N/um", 24e6),
+            ("wear.frequency", "2 kHz", 2e3),
+        ] {
+            let found = read(key, text).unwrap();
+            assert!(
+                (found - right).abs() <= 1e-14 * right,
+                "{key} = {text}: {found}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_text_without_the_right_unit_is_refused() {
+        for (key, text, allowed) in [
+            (
+                "body1.E",
+                "380 N",
+                "a number in Pa, a text with its unit (Pa, ",
+            ),
+            ("body1.E", "380", "a number in Pa"),
+            ("body1.E", "GPa", "a number in Pa"),
+            ("body1.E", "nan Pa", "a number in Pa"),
+            ("body1.nu", "0.3 m", "a number"),
+            ("body1.nu", "0.3", "a number"),
+            ("path[0].W", "10 Nm", "a number in N, a text"),
+            ("grid.extent", "2 p_H", "or { a_H = number }"),
+        ] {
+            let told = read(key, text).unwrap_err();
+            assert!(told.contains(allowed), "{told}");
+        }
+    }
 }

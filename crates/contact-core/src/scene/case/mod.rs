@@ -1,10 +1,12 @@
 //! The scene file: TOML, `schema = 1`, SI units.
 //!
 //! [`Scene::from_file`] reads it, [`Scene::to_toml`] writes it back with every number in SI. A
-//! number in another measure is a table of one key, `thickness = { a_H = 1.0 }`. Every error
-//! names the key and its line, and an unknown key the nearest valid one.
+//! number in another measure is a table of one key, `thickness = { a_H = 1.0 }`, and one in another
+//! unit a text, `thickness = "3 um"`. Every error names the key and its line, and an unknown key the
+//! nearest valid one; a file that is wrong in several places has all of them told.
 
 mod document;
+mod every;
 mod fault;
 mod friction;
 mod measure;
@@ -21,7 +23,10 @@ mod write;
 
 use std::path::Path;
 
+use toml::Table;
+
 pub use fault::Fault;
+pub use measure::quantity;
 pub use section::Section;
 
 use document::Document;
@@ -88,16 +93,25 @@ pub fn read_with<T>(
     file: &str,
     settings: &[String],
     reach: Reach,
-    more: impl FnOnce(&Section<'_>, &Scene) -> Result<T, Fault>,
+    more: impl Fn(&Section<'_>, &Scene) -> Result<T, Fault>,
 ) -> Result<(Scene, T), Error> {
     let document = Document::parse(text, file, settings)?;
     let folder = Path::new(file).parent().unwrap_or_else(|| Path::new(""));
-    let both = || -> Result<_, Fault> {
-        let scene = read::scene(document.root(), &Files { folder, reach })?;
+    let both = |root: &Table| -> Result<_, Fault> {
+        let scene = read::scene(root, &Files { folder, reach })?;
         scene.check()?;
-        let root = Section::root(document.root(), &read::ROOT)?;
+        let root = Section::root(root, &read::ROOT)?;
         let more = more(&root, &scene)?;
         Ok((scene, more))
     };
-    both().map_err(|fault| document.error(&fault))
+    both(document.root()).map_err(|first| {
+        let read = |root: &Table| both(root).map(|(scene, _)| scene);
+        let (faults, doubts) = every::every(document.root(), first, read);
+        let mut errors: Vec<_> = faults.iter().map(|fault| document.error(fault)).collect();
+        if errors.len() == 1 && doubts.is_empty() {
+            return errors.remove(0);
+        }
+        errors.sort_by_key(Error::line);
+        Error::SceneFaults { errors, doubts }
+    })
 }

@@ -3,13 +3,19 @@
 use toml::Value;
 
 use super::fault::Fault;
-use super::measure::Measure;
+use super::measure::{self, Measure};
 use super::section::{Section, count};
 use crate::scene::files::Files;
 use crate::scene::{Branch, Increments, LoadPath, Loads, Prescribed, RigidMotion, Spacing};
 
 /// The branches; loads that a branch does not name do not change.
-pub(super) fn path(root: &Section<'_>, files: &Files<'_>, mu: f64) -> Result<LoadPath, Fault> {
+/// In plane strain forces are those on a `width` \[m\].
+pub(super) fn path(
+    root: &Section<'_>,
+    files: &Files<'_>,
+    mu: f64,
+    width: Option<f64>,
+) -> Result<LoadPath, Fault> {
     let own = [
         "sigma_B",
         "sigma_B1",
@@ -26,7 +32,7 @@ pub(super) fn path(root: &Section<'_>, files: &Files<'_>, mu: f64) -> Result<Loa
     let mut path = LoadPath::start();
     let (mut at, mut t) = (Loads::default(), 0.0);
     for section in root.sections("path", &keys)? {
-        at = loads(&section, at, mu)?;
+        at = loads(&section, at, mu, width)?;
         let t_end = section.number_or("t", t + 1.0, &[])?;
         t = t_end;
         path = path.branch(Branch {
@@ -65,7 +71,7 @@ fn branch_increments(section: &Section<'_>) -> Result<Option<usize>, Fault> {
 }
 
 /// The loads and motions of a branch.
-fn loads(section: &Section<'_>, at: Loads, mu: f64) -> Result<Loads, Fault> {
+fn loads(section: &Section<'_>, at: Loads, mu: f64, width: Option<f64>) -> Result<Loads, Fault> {
     let mut to = at;
     for motion in RigidMotion::ALL {
         let (load, name) = (motion.load(), motion.name());
@@ -83,7 +89,9 @@ fn loads(section: &Section<'_>, at: Loads, mu: f64) -> Result<Loads, Fault> {
                 );
                 return Err(Fault::new(key, message));
             }
-            (Some(_), None) => Prescribed::Load(section.number(load, "a load", measures)?),
+            (Some(value), None) => {
+                Prescribed::Load(measure::load(&section.path(load), value, measures, width)?)
+            }
             (None, Some(_)) => Prescribed::Motion(section.number(name, "a motion", &[])?),
             (None, None) => continue,
         };

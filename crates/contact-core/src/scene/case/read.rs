@@ -40,6 +40,7 @@ pub(super) fn scene(table: &Table, files: &Files<'_>) -> Result<Scene, Fault> {
     ];
     let friction = friction(&root, files)?;
     let mu = friction.mu;
+    let (plane_strain, dy) = (plane_strain(&root)?, row(&root)?);
     let mut scene = Scene {
         title: title.to_owned(),
         body1: uncoated(&bodies[0], files)?,
@@ -49,10 +50,10 @@ pub(super) fn scene(table: &Table, files: &Files<'_>) -> Result<Scene, Fault> {
             nx: 0,
             ny: 0,
             dx: 0.0,
-            dy: row(&root)?,
-            plane_strain: plane_strain(&root)?,
+            dy,
+            plane_strain,
         },
-        path: path(&root, files, mu)?,
+        path: path(&root, files, mu, plane_strain.then_some(dy))?,
         settings: settings(&root)?,
     };
     scene.path.rig_stiffness = match root.section("rig", &["stiffness"])? {

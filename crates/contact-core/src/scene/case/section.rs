@@ -13,7 +13,7 @@ pub struct Section<'a> {
 
 impl<'a> Section<'a> {
     /// The whole file.
-    pub(crate) fn root(table: &'a Table, allowed: &[&str]) -> Result<Self, Fault> {
+    pub fn root(table: &'a Table, allowed: &[&str]) -> Result<Self, Fault> {
         Self::new(String::new(), table, allowed)
     }
 
@@ -22,14 +22,14 @@ impl<'a> Section<'a> {
         let section = Self { key, table };
         match table.keys().find(|k| !allowed.contains(&k.as_str())) {
             None => Ok(section),
-            Some(unknown) => Err(Fault::new(
-                section.path(unknown),
-                format!(
-                    "unknown key `{}`: {}",
-                    section.path(unknown),
-                    section.hint(unknown, allowed)
-                ),
-            )),
+            Some(unknown) => {
+                let key = section.path(unknown);
+                let message = format!("unknown key `{key}`: {}", section.hint(unknown, allowed));
+                Err(Fault {
+                    nearest: nearest(unknown, allowed),
+                    ..Fault::new(key, message)
+                })
+            }
         }
     }
 
@@ -50,13 +50,10 @@ impl<'a> Section<'a> {
     }
 
     fn hint(&self, unknown: &str, allowed: &[&str]) -> String {
-        let nearest = allowed
-            .iter()
-            .min_by_key(|name| strsim::damerau_levenshtein(unknown, name));
-        match nearest {
+        match nearest(unknown, allowed) {
             Some(name) => format!(
                 "the nearest valid key is `{}` (of {})",
-                self.path(name),
+                self.path(&name),
                 allowed.join(", ")
             ),
             None => "no key is allowed here".to_owned(),
@@ -177,6 +174,15 @@ impl<'a> Section<'a> {
             Fault::value(&self.path(name), value, &words.join(" or "))
         })
     }
+}
+
+/// The name that is nearest to one that is unknown.
+fn nearest(unknown: &str, allowed: &[&str]) -> Option<String> {
+    let distance = |name: &&&str| strsim::damerau_levenshtein(unknown, name);
+    allowed
+        .iter()
+        .min_by_key(distance)
+        .map(|&name| name.to_owned())
 }
 
 /// A whole number of at least `least`.

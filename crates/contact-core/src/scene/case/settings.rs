@@ -2,10 +2,11 @@
 
 use std::fmt::Write as _;
 
-use toml::Value;
+use toml::{Table, Value};
 
 use super::fault::Fault;
 use super::section::{Section, count};
+use crate::error::Error;
 use crate::scene::{
     KernelMethod, KernelSettings, PathGrid, Preset, SaveFields, Settings, SkipSettings,
     SolverSettings,
@@ -64,6 +65,22 @@ pub(super) fn settings(root: &Section<'_>) -> Result<Settings, Fault> {
     read(root, "skip", SKIP, &mut settings.skip)?;
     read(root, "output", OUTPUT, &mut settings.save)?;
     Ok(settings)
+}
+
+impl Settings {
+    /// Settings from the tables `[kernel]`, `[solver]`, `[skip]`, `[output]` of a scene file, checked.
+    pub fn from_table(tables: &Table) -> Result<Self, Error> {
+        let names = ["kernel", "solver", "skip", "output"];
+        let read = Section::root(tables, &names).and_then(|root| settings(&root));
+        let settings = read.map_err(Fault::into_error)?;
+        settings.check()?;
+        Ok(settings)
+    }
+
+    /// The tables of a scene file, every key in full.
+    pub fn to_table(&self) -> Table {
+        toml::from_str(&text(self)).unwrap_or_default()
+    }
 }
 
 /// The sections of the settings, every key in full.

@@ -19,4 +19,4 @@ pub(in crate::scene) use heights::{Heights, heights};
 pub(in crate::scene) use table::Table;
 pub(in crate::scene) use text::strict;
 pub use text::tolerant;
-pub(in crate::scene) use unit::{Kind, named, of_titles};
+pub(in crate::scene) use unit::{Kind, named, names, of_titles};

@@ -9,14 +9,39 @@ pub(in crate::scene) enum Kind {
     Angle,
     Stress,
     Time,
+    Stiffness,
+    Frequency,
+}
+
+impl Kind {
+    /// Its unit in SI.
+    pub(in crate::scene) fn unit(self) -> &'static str {
+        match self {
+            Self::Length => "m",
+            Self::Force => "N",
+            Self::Moment => "N m",
+            Self::Angle => "rad",
+            Self::Stress => "Pa",
+            Self::Time => "s",
+            Self::Stiffness => "N/m",
+            Self::Frequency => "Hz",
+        }
+    }
+
+    /// The size in SI of a unit of this kind, by its name; a force per length is a stiffness, too.
+    pub(in crate::scene) fn size(self, name: &str) -> Option<f64> {
+        let (kind, size) = named(name)?;
+        let per_length = (kind, self) == (Self::Force, Self::Stiffness) && name.contains('/');
+        (kind == self || per_length).then_some(size)
+    }
 }
 
 /// A unit: what it measures, and its size in SI units. Forces and moments of line contacts are per
 /// metre.
 pub(in crate::scene) type Unit = (Kind, f64);
 
-const UNITS: [(&str, Kind, f64); 50] = {
-    use Kind::{Angle, Force, Length, Moment, Stress, Time};
+const UNITS: [(&str, Kind, f64); 57] = {
+    use Kind::{Angle, Force, Frequency, Length, Moment, Stiffness, Stress, Time};
     [
         ("m", Length, 1.0),
         ("cm", Length, 1e-2),
@@ -68,6 +93,13 @@ const UNITS: [(&str, Kind, f64); 50] = {
         ("ms", Time, 1e-3),
         ("min", Time, 60.0),
         ("h", Time, 3600.0),
+        ("N/um", Stiffness, 1e6),
+        ("kN/um", Stiffness, 1e9),
+        ("N/nm", Stiffness, 1e9),
+        ("Hz", Frequency, 1.0),
+        ("kHz", Frequency, 1e3),
+        ("1/s", Frequency, 1.0),
+        ("1/min", Frequency, 1.0 / 60.0),
     ]
 };
 
