@@ -59,7 +59,7 @@ def wear_rate(out: Path) -> None:
         law = fret.wear.Archard(K)
         result = fret.wear.solve(
             scene,
-            moved(W, stroke),
+            path=moved(W, stroke),
             cycles=2000,
             first_branch=2,
             body1=law,
@@ -100,7 +100,7 @@ def coating_life(out: Path) -> None:
         for j, stroke in enumerate(strokes):
             result = fret.wear.solve(
                 contact(W, coating=thickness, reach=5.5, n=64),
-                moved(W, stroke, increments=4),
+                path=moved(W, stroke, increments=4),
                 cycles=1e9,
                 first_branch=2,
                 cycling="sliding",
@@ -149,7 +149,7 @@ def partial_slip(out: Path) -> None:
     for name, coating in (("worn_sphere", None), ("worn_coated_sphere", 20e-6)):
         result = fret.wear.solve(
             contact(W, n=64, reach=1.4, coating=coating),
-            path,
+            path=path,
             cycles=1e5,
             first_branch=2,
             body1=law,
@@ -164,7 +164,7 @@ def gross_slip(out: Path) -> None:
     W = 50.0
     result = fret.wear.solve(
         contact(W, n=72, reach=3.4),
-        moved(W, 80e-6, increments=8),
+        path=moved(W, 80e-6, increments=8),
         cycles=3000,
         first_branch=2,
         cycling="sliding",
@@ -189,7 +189,7 @@ def mccoll(out: Path) -> None:
             mu=0.9,
             grid=fret.Grid.strip(extent=0.72e-3, n=320),
         ),
-        path,
+        path=path,
         cycles=18000,
         first_branch=2,
         cycling="sliding",

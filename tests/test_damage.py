@@ -80,7 +80,7 @@ def worn(place: Path) -> fret.wear.WearResult:
     )
     return fret.wear.solve(
         sphere_on_flat(n=12),
-        path,
+        path=path,
         cycles=1e3,
         body2=fret.wear.Archard(1e-15),
         first_branch=2,

@@ -35,7 +35,7 @@ def result() -> fret.Result:
 def worn() -> fret.wear.WearResult:
     scene = sphere_on_flat(ratio=2.0, n=16)
     return fret.wear.solve(
-        scene, PATH, cycles=1e4, first_branch=2, body2=fret.wear.Archard(1e-14), progress=False
+        scene, path=PATH, cycles=1e4, first_branch=2, body2=fret.wear.Archard(1e-14), progress=False
     )
 
 

@@ -149,7 +149,7 @@ def of_a_run() -> list[Any]:
     stress = result.at(-1).stress()
     round_trip = fret.LoadPath.start().normal(W, increments=2)
     round_trip = round_trip.tangential([100.0, -100.0, 0.0], increments=6)
-    worn = fret.wear.solve(scene, round_trip, cycles=10.0, jumps=1, body2=LAW, progress=False)
+    worn = fret.wear.solve(scene, path=round_trip, cycles=10.0, jumps=1, body2=LAW, progress=False)
     study = fret.study.solve(
         scene.replace(path=path), {"mu": [0.3]}, measure="p_max", executor=1, progress=False
     )

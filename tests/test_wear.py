@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import base64
+import gzip
+import json
+import re
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -79,10 +83,10 @@ def test_bad_input_is_refused_by_name() -> None:
 @pytest.mark.parametrize(
     ("options", "told"),
     [
-        ({"cycling": "slide"}, r"cycling = 'slide': must be \"march\" or \"sliding\""),
-        ({"worn_through": "on"}, r"worn_through = 'on': must be \"stop\" or \"go_on\""),
-        ({"jumps": -1}, r"jumps = -1: must be 1 or more"),
-        ({"first_branch": 0}, r"first_branch = 0: must be 1 or more"),
+        ({"cycling": "slide"}, r'cycling = "slide": must be "march" or "sliding"'),
+        ({"worn_through": "on"}, r'worn_through = "on": must be "stop" or "go_on"'),
+        ({"jumps": -1}, r"jumps = -1: must be a whole number >= 1"),
+        ({"first_branch": 0}, r"first_branch = 0: must be a whole number >= 1"),
         ({"tolerance": 0.01, "jumps": 3}, "one of them at most"),
         ({"share1": 0.5}, r"share1 = 0.5: must come with a law, body1"),
     ],
@@ -153,7 +157,7 @@ def test_a_run_goes_on_from_worn_surfaces(tmp_path: Path) -> None:
 def test_coefficients_change_by_a_table() -> None:
     table = [(0.0, 1.0), (2000.0, 3.0)]
     law = fret.wear.Archard(2e-14, factor=("cycles", table))
-    assert law.factor == ("cycles", table)
+    assert law.factor == ("cycles", tuple(table))
     assert law == law.replace(k=2e-14)
     twice = worn(law, jumps=10).volume2[-1] / worn(fret.wear.Archard(2e-14), jumps=10).volume2[-1]
     assert np.isclose(twice, 2.0, rtol=1e-3)
@@ -162,8 +166,10 @@ def test_coefficients_change_by_a_table() -> None:
         worn(power)
     half = worn(power, frequency=5.0).dataset
     assert np.isclose(half.volume2[-1], 1e-14 * half.dissipated[-1])
-    with pytest.raises(ValueError, match="must be of"):
-        fret.wear.Archard(1e-14, factor=("weekdays", table))
+    with pytest.raises(
+        ValueError, match=r'factor\.of = "weekdays": must be "cycles" or "pressure"'
+    ):
+        worn(fret.wear.Archard(1e-14, factor=("weekdays", table)))
 
 
 def test_what_is_left_open_is_chosen() -> None:
@@ -171,12 +177,12 @@ def test_what_is_left_open_is_chosen() -> None:
     path = fret.LoadPath.start().normal(18.5e3).displace(delta_x=[20e-6, -20e-6, 20e-6])
     law = fret.wear.Archard(2e-14)
     result = fret.wear.solve(
-        scene, path, cycles=100, cycling="sliding", body2=[law], jumps=1, progress=False
+        scene, path=path, cycles=100, cycling="sliding", body2=[law], jumps=1, progress=False
     )
     assert float(result.volume2[-1]) > 0
     with pytest.raises(fret.errors.ArgumentError, match="no closed cycle"):
         fret.wear.solve(
-            scene, fret.LoadPath.start().normal(1e3), cycles=1, body2=law, progress=False
+            scene, path=fret.LoadPath.start().normal(1e3), cycles=1, body2=law, progress=False
         )
 
 
@@ -222,3 +228,107 @@ def test_a_rig_acts_in_every_run() -> None:
     assert float(soft.dataset.dissipated.sum()) < float(stiff.dataset.dissipated.sum())
     again = fret.Scene.from_toml(scene.replace(path=scene.path.rig(5e9)).to_toml())
     assert again.path.rig_stiffness == 5e9
+
+
+FILE = """
+schema = 1
+[body1]
+shape.cylinder.R = "6 mm"
+E = "200 GPa"
+nu = 0.3
+[body2]
+shape = "flat"
+E = "200 GPa"
+nu = 0.3
+[friction]
+mu = 0.9
+[grid]
+n = 96
+extent = "0.5 mm"
+plane_strain = true
+[[path]]
+W = "18.5 N/mm"
+increments = 1
+[[path]]
+delta_x = "20 um"
+increments = 3
+[[path]]
+delta_x = "-20 um"
+increments = 3
+[[path]]
+delta_x = "20 um"
+increments = 3
+[wear]
+cycles = 2000
+first_branch = 2
+cycling = "sliding"
+body2.k = 2e-14
+"""
+
+
+def test_a_scene_file_is_worn_as_it_says(tmp_path: Path) -> None:
+    file = tmp_path / "scene.toml"
+    file.write_text(FILE)
+    law = fret.wear.Archard(2e-14)
+    wear = fret.wear.Wear(2000, body2=law, first_branch=2, cycling="sliding")
+    here = fret.wear.solve(line(), wear, progress=False)
+    there = fret.wear.solve(file, progress=False)
+    assert there.dataset.wear == here.dataset.wear
+    assert np.allclose(here.worn2, there.worn2, rtol=1e-9, atol=0)
+    twice = fret.wear.solve(file, cycles=4000, progress=False)
+    assert float(twice.cycles[-1]) == 4000
+
+
+def test_the_nearest_name_of_a_setting_is_offered() -> None:
+    with pytest.raises(TypeError, match=r"no argument 'debris': the nearest is 'debris_kept'"):
+        fret.wear.solve(line(), cycles=10, debris=0.5)
+    with pytest.raises(TypeError, match="cycles: must be given"):
+        fret.wear.solve(line(), body2=fret.wear.Archard(1e-14))
+
+
+@pytest.mark.parametrize("cycling", ["sliding", "march"])
+def test_the_rig_of_a_run_of_wear_is_in_its_scene_and_on_its_page(
+    cycling: str, tmp_path: Path
+) -> None:
+    K = 24e9
+    run = fret.wear.solve(
+        line(48),
+        cycles=100,
+        cycling=cycling,
+        rig_stiffness=K,
+        jumps=1,
+        body2=fret.wear.Archard(2e-14),
+        progress=False,
+    )
+    stored = fret.Scene.from_toml(run.dataset.attrs["scene"])
+    assert stored.path.rig_stiffness == run.scene.path.rig_stiffness == K
+    assert f"stiffness = {K}" in run.dataset.attrs["scene"]
+    fret.solve(run.scene, progress=False).report(tmp_path / "page.html", wear=run)
+    text = (tmp_path / "page.html").read_text(encoding="utf-8")
+    numbers = next(
+        json.loads(found)
+        for found in (
+            gzip.decompress(base64.b64decode(of)) for of in re.findall(r"H4sI[\w+/=]*", text)
+        )
+        if found.startswith(b"{")
+    )
+    # The loops that the page draws of wear are those of the result and of its figure.
+    axes = fret.plot.wear_loops(run)
+    for drawn, loop in zip(axes.lines, numbers["wear"]["loops"], strict=True):
+        assert np.allclose(drawn.get_xdata(), loop["x"], rtol=1e-4, atol=1e-9)
+        assert np.allclose(drawn.get_ydata(), loop["y"], rtol=1e-4, atol=1e-6)
+    # The loop of the contact on the same page has the rig as well: as long and as high.
+    for key, name in (("x", "loop_delta_x"), ("y", "loop_T_x")):
+        found = np.ptp(np.array(numbers["loop"][key], dtype=float))
+        scale = 1e6 if key == "x" else 1.0
+        assert np.isclose(found, scale * np.ptp(run.dataset[name][0].values), rtol=0.01)
+
+
+def test_a_store_with_the_rig_in_its_table_of_wear_still_has_it() -> None:
+    run = worn(fret.wear.Archard(2e-14), jumps=1)
+    d = run.dataset
+    assert run.scene.path.rig_stiffness is None
+    before = d.assign_attrs(
+        wear=d.attrs["wear"].replace("cycles =", "rig_stiffness = 5e9\ncycles =")
+    )
+    assert fret.wear.WearResult(before).scene.path.rig_stiffness == 5e9

@@ -134,7 +134,7 @@ def names() -> dict[str, Any]:
     wide = bare.replace(grid=fret.Grid.centred(extent=4.5 * a, n=32))
     worn = fret.wear.solve(
         wide,
-        pressed.cycles(1, delta_x=4e-6, increments=8),
+        path=pressed.cycles(1, delta_x=4e-6, increments=8),
         cycles=3e4,
         body2=fret.wear.Archard(2e-15),
         progress=False,

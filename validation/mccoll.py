@@ -36,7 +36,7 @@ def worn() -> fret.wear.WearResult:
             mu=0.9,
             grid=fret.Grid.strip(extent=0.72e-3, n=CELLS),
         ),
-        path,
+        path=path,
         cycles=18000,
         first_branch=2,
         cycling="sliding",

@@ -160,7 +160,7 @@ def slid(kind: str) -> Slid:
             mu=MU,
             grid=grid(extent=2.6 * b, n=n),
         ),
-        path,
+        path=path,
         cycles=cycles,
         first_branch=2,
         cycling="sliding",

@@ -22,6 +22,6 @@ scene = fret.Scene(
 T = 0.5 * mu * W
 path = fret.LoadPath.start().normal(W, increments=1).tangential([T, -T, T], increments=18)
 law = fret.wear.Archard(k=1e-14)
-result = fret.wear.solve(scene, path, cycles=1e6, first_branch=2, body2=law, progress=False)
+result = fret.wear.solve(scene, path=path, cycles=1e6, first_branch=2, body2=law, progress=False)
 fret.plot.wear_profiles(result, of="both")
 plt.gcf().set_layout_engine("constrained")

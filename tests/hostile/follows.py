@@ -26,7 +26,7 @@ def worn(**options: Any) -> object:
     laws = {"k": 1e-14, "threshold": 0.0}
     law = fret.wear.Archard(**{key: options.pop(key, value) for key, value in laws.items()})
     said = {"cycles": 10.0, "first_branch": 2, "jumps": 2} | options
-    return fret.wear.solve(scene(), CYCLE, body2=law, progress=False, **said)
+    return fret.wear.solve(scene(), path=CYCLE, body2=law, progress=False, **said)
 
 
 def studied(values: Any, measure: Any = "p_max") -> object:

@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 
 use contact_core::Error;
 use contact_core::scene::{OwnFriction, Scene};
-use contact_wear::{BodyWear, Wear, WearRun};
+use contact_wear::{BodyWear, Law, Wear, WearRun};
 use serde_json::Value;
 
 use super::folder::Folder;
@@ -25,8 +25,8 @@ pub fn resume_wear(
     of: Option<(&Scene, &Wear)>,
     stop: &Arc<AtomicBool>,
 ) -> Result<Option<(WearRun, WearStore)>, Error> {
-    let own = of.map_or([None, None], |(_, wear)| {
-        wear.bodies.each_ref().map(|body| Some(body.clone()))
+    let own = of.map_or([vec![], vec![]], |(_, wear)| {
+        wear.bodies.each_ref().map(BodyWear::own)
     });
     let settled = of.map(|(scene, wear)| wear.settled(scene, stop));
     let friction = of.and_then(|(scene, _)| scene.friction.law.as_ref());
@@ -34,10 +34,10 @@ pub fn resume_wear(
 }
 
 /// The same for a run by laws of the user's own, which no store can hold: those of wear are given
-/// again for the bodies that have them, and that of friction.
+/// again for each body, in the order of its layers, and that of friction.
 pub fn resume_wear_by(
     path: impl AsRef<Path>,
-    own: &[Option<BodyWear>; 2],
+    own: &[Vec<Arc<dyn Law>>; 2],
     friction: Option<&OwnFriction>,
     stop: &Arc<AtomicBool>,
 ) -> Result<Option<(WearRun, WearStore)>, Error> {
@@ -47,7 +47,7 @@ pub fn resume_wear_by(
 fn take_up(
     path: &Path,
     of: Option<(Scene, Wear)>,
-    (own, friction): (&[Option<BodyWear>; 2], Option<&OwnFriction>),
+    (own, friction): (&[Vec<Arc<dyn Law>>; 2], Option<&OwnFriction>),
     stop: &Arc<AtomicBool>,
 ) -> Result<Option<(WearRun, WearStore)>, Error> {
     let place = path.to_owned();
@@ -56,10 +56,13 @@ fn take_up(
     let text = folder.read(ATTRIBUTES).map_err(|e| folder.error(&e))?;
     let text = text.ok_or_else(|| folder.error(&"holds no run of wear"))?;
     let attributes: Value = serde_json::from_slice(&text).map_err(|e| folder.error(&e))?;
-    let differs = |key: &str, given: String| attributes[key].as_str() != Some(&given);
-    if of.is_some_and(|(scene, wear)| {
-        differs("scene", scene.to_toml()) || differs("wear", wear.to_toml())
-    }) {
+    let text = |key: &str| attributes[key].as_str().unwrap_or_default();
+    let name = place.display().to_string();
+    let stored = || Wear::from_store(&format!("{}{}", text("scene"), text("wear")), &name, own);
+    let written = |(scene, wear): (Scene, Wear)| [scene.to_toml(), wear.to_toml()];
+    if let Some(of) = of
+        && written(of) != written(stored()?)
+    {
         return Err(
             folder.error(&"belongs to another scene: go on with that one, or choose another store")
         );
@@ -69,12 +72,10 @@ fn take_up(
         clear_checkpoint(&folder);
         return Ok(None);
     }
-    let (Some(scene), Some(wear)) = (attributes["scene"].as_str(), attributes["wear"].as_str())
-    else {
+    if [text("scene"), text("wear")].contains(&"") {
         return Err(folder.error(&"holds no run of wear"));
-    };
-    let name = place.display().to_string();
-    let (scene, wear) = Wear::from_store(&format!("{scene}{wear}"), &name, own)?;
+    }
+    let (scene, wear) = stored()?;
     let scene = with_law(&scene, friction)?;
     let lock = locked(&folder)?;
     let (state, kept) = read_checkpoint(&folder)?;

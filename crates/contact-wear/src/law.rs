@@ -164,6 +164,18 @@ impl BodyWear {
         }
     }
 
+    /// The laws that no file can hold, the user's own.
+    pub fn own(&self) -> Vec<Arc<dyn Law>> {
+        let own = self.laws.iter().filter(|law| law.written().is_none());
+        own.cloned().collect()
+    }
+
+    /// Puts the user's own laws in their places, in turn.
+    pub(super) fn give(&mut self, own: &[Arc<dyn Law>]) {
+        let places = self.laws.iter_mut().filter(|law| law.written().is_none());
+        places.zip(own).for_each(|(law, own)| law.clone_from(own));
+    }
+
     /// The law of a layer, 0 the outermost.
     fn law(&self, layer: usize) -> Option<&dyn Law> {
         let only = if self.laws.len() == 1 { 0 } else { layer };

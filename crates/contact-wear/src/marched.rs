@@ -23,7 +23,7 @@ use std::sync::atomic::AtomicBool;
 use contact_core::Error;
 use contact_core::cells::Drive;
 use contact_core::march::{Increment, March, Reached, State};
-use contact_core::scene::{Branch, Friction, FrictionHistory, History, PathGrid, Scene};
+use contact_core::scene::{Branch, Dependence, Friction, FrictionHistory, PathGrid, Scene};
 use serde::{Deserialize, Serialize};
 
 use super::cycled::{Cycled, Sums};
@@ -101,9 +101,6 @@ impl Marched {
         }
         scene.settings.skip.far = false;
         scene.settings.solver.path_grid = PathGrid::Same;
-        if wear.rig_stiffness.is_finite() {
-            scene.path.rig_stiffness = Some(wear.rig_stiffness);
-        }
         let mut march = March::until(&scene, stop)?;
         let scene = march.scene().clone();
         let points = march.points();
@@ -341,10 +338,9 @@ impl Marched {
 
 /// The coefficient of friction, if uniform apart from a dependence on cycles.
 fn plain(friction: &Friction) -> Option<f64> {
-    let of_cycles = |h: &FrictionHistory| h.of == History::Cycles;
-    let mut level = friction.clone();
-    level.history = level.history.filter(|h| !of_cycles(h));
-    (level == Friction::coulomb(friction.mu)).then_some(friction.mu)
+    friction
+        .depends_on_no_more_than(&[Dependence::Cycles])
+        .then_some(friction.mu)
 }
 
 /// Gap between worn surfaces: h plus the part `opens` of the worn depths \[m\].

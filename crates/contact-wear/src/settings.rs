@@ -1,7 +1,7 @@
 //! The wear settings of a user: laws, cycles, jumps, events.
 
 use contact_core::Error;
-use contact_core::scene::{Body, Branch, FrictionHistory, History, Scene};
+use contact_core::scene::{Body, Branch, Dependence, Scene};
 
 use super::law::BodyWear;
 use super::stroke::stroke;
@@ -70,9 +70,6 @@ pub struct Wear {
     pub frequency: Option<f64>,
     /// How the contact of a cycle is solved.
     pub cycling: Cycling,
-    /// Stiffness of the rig along x, a spring in series with the contact through which shifts
-    /// are given \[N/m\]; infinite (default): the bodies themselves are moved.
-    pub rig_stiffness: f64,
     /// How long the jumps are.
     pub jumps: Jumps,
     /// Action when a coating is worn through.
@@ -96,7 +93,6 @@ impl Wear {
             first_branch: None,
             frequency: None,
             cycling: Cycling::default(),
-            rig_stiffness: f64::INFINITY,
             jumps: Jumps::default(),
             worn_through: WornThrough::default(),
             debris_kept: 0.0,
@@ -150,13 +146,6 @@ impl Wear {
                 ),
             ));
         }
-        if !(self.rig_stiffness > 0.0) {
-            return Err(Error::invalid(
-                "wear.rig_stiffness",
-                self.rig_stiffness,
-                "above 0 N/m",
-            ));
-        }
         if !(0.0..=1.0).contains(&self.debris_kept) {
             return Err(Error::invalid(
                 "wear.debris_kept",
@@ -175,15 +164,14 @@ impl Wear {
             let allowed = "a finite coefficient above 0 for wear";
             return Err(Error::invalid("friction.mu", scene.friction.mu, allowed));
         }
-        let of_increments = |h: &FrictionHistory| h.of == History::Increment;
-        if scene.friction.history.as_ref().is_some_and(of_increments) {
+        if scene.friction.depends_on(Dependence::Increments) {
             let allowed = "\"cycles\", \"slip\" or \"dissipated\" over cycles of wear";
             return Err(Error::invalid("friction.history.of", "increment", allowed));
         }
         let first_branch = self.first_branch(scene)?;
         Self::closed(scene, first_branch)?;
         if self.cycling == Cycling::Sliding {
-            stroke(scene, first_branch, self.rig_stiffness)?;
+            stroke(scene, first_branch)?;
         }
         self.jumps.check()
     }

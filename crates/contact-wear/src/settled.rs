@@ -44,20 +44,12 @@ impl Wear {
     pub fn settled(&self, scene: &Scene, stop: &Arc<AtomicBool>) -> Result<(Scene, Self), Error> {
         scene.check()?;
         let mut wear = self.clone();
-        if wear.rig_stiffness.is_infinite()
-            && let Some(K) = scene.path.rig_stiffness
-        {
-            wear.rig_stiffness = K;
-        }
         wear.first_branch = Some(self.first_branch(scene)?);
         wear.check(scene)?;
         let mut scene = scene.clone();
         if wear.cycling == Cycling::Sliding {
             choose_places(&mut scene);
             return Ok((scene, wear));
-        }
-        if wear.rig_stiffness.is_finite() {
-            scene.path.rig_stiffness = Some(wear.rig_stiffness);
         }
         Ok((choose_increments(&scene, stop)?, wear))
     }

@@ -77,7 +77,7 @@ impl Sliding {
         worn: &Worn,
         stop: &Arc<AtomicBool>,
     ) -> Result<Self, Error> {
-        let (places, corners) = stroke(scene, wear.first_branch(scene)?, wear.rig_stiffness)?;
+        let (places, corners) = stroke(scene, wear.first_branch(scene)?)?;
         let plan = Plan::new(scene);
         plan.check_memory(scene)?;
         let pressing = Pressing::new(scene, &plan, stop)?;

@@ -1,7 +1,7 @@
 //! The places of a stroke: shifts of the bodies and the way slipped at each.
 
 use contact_core::Error;
-use contact_core::scene::{FrictionHistory, History, Scene, Shape};
+use contact_core::scene::{Dependence, Scene, Shape};
 
 /// Places closer than this part of a cell are the same.
 const SAME: f64 = 1e-9;
@@ -29,8 +29,8 @@ pub(crate) type Corner = [f64; 3];
 pub(crate) fn stroke(
     scene: &Scene,
     first_branch: usize,
-    rig_stiffness: f64,
 ) -> Result<(Vec<Place>, Vec<Corner>), Error> {
+    let rig_stiffness = scene.path.rig_stiffness.unwrap_or(f64::INFINITY);
     check(scene, first_branch, rig_stiffness.is_infinite())?;
     let mu = scene.friction.mu;
     let points = scene.path.points();
@@ -106,13 +106,11 @@ fn check(scene: &Scene, first_branch: usize, rigid: bool) -> Result<(), Error> {
     let refuse =
         |key: String, value: String, allowed: &str| Err(Error::invalid(key, value, allowed));
     let friction = &scene.friction;
-    let of_cycles = |h: &FrictionHistory| h.of == History::Cycles && rigid;
-    let changes = friction.history.as_ref().is_some_and(|h| !of_cycles(h));
-    let own = friction.law.is_some();
-    if friction.map.is_some() || changes || friction.kinetic.is_some() || own {
+    let known = [Dependence::Direction, Dependence::Cycles];
+    if !friction.depends_on_no_more_than(&known[..if rigid { 2 } else { 1 }]) {
         let allowed = "one coefficient mu where wear.cycling = \"sliding\", or, without a spring of the rig, one with a \
                        history of cycles; wear.cycling = \"march\" takes all of them";
-        let value = if own {
+        let value = if friction.law.is_some() {
             "a law of your own"
         } else {
             "a law of place or history"

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use contact_core::Error;
 use contact_core::scene::{Fault, Reach, Scene, Section, read_with, text_of};
+use toml::{Table, Value};
 
 use super::law::{Archard, BodyWear, CellCycle, DissipatedEnergy, Law};
 use super::settings::{Cycling, Jumps, Wear, WornThrough};
@@ -49,21 +50,41 @@ impl Wear {
         read(text, file, settings, Reach::Folder)
     }
 
+    /// Wear of a scene from a table `[wear]`, and the scene with its rig where the table has one.
+    /// Laws that are the user's own, `{ own = true }`, are taken in turn from `own` for each body.
+    pub fn from_table(
+        scene: &Scene,
+        table: &Table,
+        own: &[Vec<Arc<dyn Law>>; 2],
+    ) -> Result<(Scene, Self), Error> {
+        let root = Table::from_iter([("wear".to_owned(), Value::Table(table.clone()))]);
+        let both = || {
+            let section = Section::root(&root, &["wear"])?.need_section("wear", &KEYS)?;
+            Ok((wear(&section)?, rig(&section)?))
+        };
+        let (mut wear, rig) = both().map_err(Fault::into_error)?;
+        wear.take(own);
+        let mut scene = scene.clone();
+        scene.path.rig_stiffness = rig.or(scene.path.rig_stiffness);
+        Ok((scene, wear))
+    }
+
     /// Reads a scene and its wear back from a store, with the laws of the user's own for bodies
     /// that have them.
     pub fn from_store(
         text: &str,
         file: &str,
-        own: &[Option<BodyWear>; 2],
+        own: &[Vec<Arc<dyn Law>>; 2],
     ) -> Result<(Scene, Self), Error> {
-        let (scene, mut wear) = read_with(text, file, &[], Reach::Folder, |root, _| wear(root))?;
-        for (body, own) in wear.bodies.iter_mut().zip(own) {
-            if let Some(own) = own {
-                body.laws.clone_from(&own.laws);
-            }
-        }
+        let (scene, mut wear) = read_unchecked(text, file, &[], Reach::Folder)?;
+        wear.take(own);
         wear.check(&scene)?;
         Ok((scene, wear))
+    }
+
+    fn take(&mut self, own: &[Vec<Arc<dyn Law>>; 2]) {
+        let bodies = self.bodies.iter_mut().zip(own);
+        bodies.for_each(|(body, own)| body.give(own));
     }
 
     /// The table `[wear]` in SI, every number in full. A law of the user's own, which a file cannot
@@ -90,9 +111,6 @@ impl Wear {
             "cycling = \"{cycling}\"\nworn_through = \"{through}\"\ndebris_kept = {:?}\ntell_from = {:?}",
             self.debris_kept, self.tell_from
         );
-        if self.rig_stiffness.is_finite() {
-            let _ = writeln!(text, "rig_stiffness = {:?}", self.rig_stiffness);
-        }
         let _ = match self.jumps {
             Jumps::Tolerance(tolerance) => writeln!(text, "tolerance = {tolerance:?}"),
             Jumps::Number(n) => writeln!(text, "jumps = {n}"),
@@ -118,14 +136,39 @@ impl Wear {
 }
 
 fn read(text: &str, file: &str, settings: &[String], reach: Reach) -> Result<(Scene, Wear), Error> {
-    let (scene, wear) = read_with(text, file, settings, reach, |root, _| wear(root))?;
+    let (scene, wear) = read_unchecked(text, file, settings, reach)?;
     wear.check(&scene)?;
     Ok((scene, wear))
 }
 
-fn wear(root: &Section<'_>) -> Result<Wear, Fault> {
-    let section = root.need_section("wear", &KEYS)?;
-    let bodies = [body(&section, "body1")?, body(&section, "body2")?];
+/// The scene, with the rig of `[wear]` where it has one, and its wear.
+fn read_unchecked(
+    text: &str,
+    file: &str,
+    settings: &[String],
+    reach: Reach,
+) -> Result<(Scene, Wear), Error> {
+    let both = |root: &Section<'_>, _: &Scene| {
+        let section = root.need_section("wear", &KEYS)?;
+        Ok((wear(&section)?, rig(&section)?))
+    };
+    let (mut scene, (wear, rig)) = read_with(text, file, settings, reach, both)?;
+    scene.path.rig_stiffness = rig.or(scene.path.rig_stiffness);
+    Ok((scene, wear))
+}
+
+/// The spring through which shifts are given, another place for `[rig]`.
+fn rig(wear: &Section<'_>) -> Result<Option<f64>, Fault> {
+    let K = wear.number_if("rig_stiffness", &[])?;
+    if let Some(K) = K.filter(|K| !(*K > 0.0)) {
+        let key = wear.path("rig_stiffness");
+        return Err(Error::invalid(key, K, "above 0 N/m").into());
+    }
+    Ok(K.filter(|K| K.is_finite()))
+}
+
+fn wear(section: &Section<'_>) -> Result<Wear, Fault> {
+    let bodies = [body(section, "body1")?, body(section, "body2")?];
     let cycles = section.number("cycles", "a number of cycles above 0", &[])?;
     let default = Wear::new(bodies, cycles);
     let ways = ["tolerance", "jumps", "explicit_jumps"];
@@ -151,7 +194,6 @@ fn wear(root: &Section<'_>) -> Result<Wear, Fault> {
             "cycling",
             &[("march", Cycling::March), ("sliding", Cycling::Sliding)],
         )?,
-        rig_stiffness: section.number_or("rig_stiffness", default.rig_stiffness, &[])?,
         jumps,
         worn_through: section.choice(
             "worn_through",

@@ -4,136 +4,21 @@ use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex, PoisonError};
 
+use contact_core::scene::Reach;
 use contact_store::{WearColumns, WearStore, resume_wear_by as take_up, verify_wear as verify};
-use contact_wear::{
-    self as core, BodyWear, Cycling, Factor, Jumps, Law, Of, Varying, WearRun, WornStart,
-    WornThrough,
-};
+use contact_wear::{self as core, Law, WearRun, WornStart};
 use numpy::{PyArrayLike1, PyArrayLike2, ToPyArray};
-use pyo3::exceptions::{PyKeyboardInterrupt, PyTypeError, PyValueError};
+use pyo3::exceptions::{PyKeyboardInterrupt, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::argument::to_python;
+use crate::document::Document;
 use crate::error::to_python as scene_to_python;
 use crate::interruptible::interruptible;
-use crate::parts::parts;
 use crate::scene::Scene;
 use crate::scene::friction_law::own_law;
 use crate::variables::Variables;
-
-/// What a factor is a function of, and its pairs.
-type Table = Option<(String, Vec<(f64, f64)>)>;
-
-fn factor(given: Table) -> PyResult<Option<Factor>> {
-    let Some((of, table)) = given else {
-        return Ok(None);
-    };
-    if let Some((_, of)) = Of::ALL.iter().find(|(name, _)| *name == of) {
-        return Ok(Some(Factor { of: *of, table }));
-    }
-    let names = Of::ALL.map(|(name, _)| format!("\"{name}\"")).join(", ");
-    let message = format!("factor of \"{of}\": must be of {names}");
-    Err(PyValueError::new_err(message))
-}
-
-fn table(factor: Option<&Factor>) -> Table {
-    factor.map(|factor| (factor.of.name().to_owned(), factor.table.clone()))
-}
-
-/// A law, times a factor where it has one.
-fn varying(law: impl Law + 'static, factor: Option<&Factor>) -> Arc<dyn Law> {
-    let law: Arc<dyn Law> = Arc::new(law);
-    match factor.cloned() {
-        Some(factor) => Arc::new(Varying { law, factor }),
-        None => law,
-    }
-}
-
-/// Archard's law.
-#[pyclass(frozen, eq, from_py_object, module = "pyfret.wear")]
-#[derive(Clone, PartialEq)]
-pub(crate) struct Archard(core::Archard, Option<Factor>);
-
-parts!(Archard: k, threshold, factor);
-
-#[pymethods]
-impl Archard {
-    #[new]
-    #[pyo3(signature = (k, *, threshold = 0.0, factor = None))]
-    fn new(k: f64, threshold: f64, factor: Table) -> PyResult<Self> {
-        Ok(Self(core::Archard { k, threshold }, self::factor(factor)?))
-    }
-
-    /// Worn depth over pressure times sliding distance [m^2/N].
-    #[getter]
-    fn k(&self) -> f64 {
-        self.0.k
-    }
-
-    /// Sliding distance in a cycle below which nothing wears [m].
-    #[getter]
-    fn threshold(&self) -> f64 {
-        self.0.threshold
-    }
-
-    /// What the coefficient changes with, and pairs of that and its factor.
-    #[getter]
-    fn factor(&self) -> Table {
-        table(self.1.as_ref())
-    }
-
-    fn __repr__(&self) -> String {
-        let varies = if self.1.is_some() { ", factor=..." } else { "" };
-        format!(
-            "Archard({:?}, threshold={:?}{varies})",
-            self.0.k, self.0.threshold
-        )
-    }
-}
-
-/// Wear by the energy dissipated.
-#[pyclass(frozen, eq, from_py_object, module = "pyfret.wear")]
-#[derive(Clone, PartialEq)]
-pub(crate) struct DissipatedEnergy(core::DissipatedEnergy, Option<Factor>);
-
-parts!(DissipatedEnergy: alpha, threshold, factor);
-
-#[pymethods]
-impl DissipatedEnergy {
-    #[new]
-    #[pyo3(signature = (alpha, *, threshold = 0.0, factor = None))]
-    fn new(alpha: f64, threshold: f64, factor: Table) -> PyResult<Self> {
-        Ok(Self(
-            core::DissipatedEnergy { alpha, threshold },
-            self::factor(factor)?,
-        ))
-    }
-
-    /// Worn volume over dissipated energy [m^3/J].
-    #[getter]
-    fn alpha(&self) -> f64 {
-        self.0.alpha
-    }
-
-    /// Energy per area in a cycle below which nothing wears [J/m^2].
-    #[getter]
-    fn threshold(&self) -> f64 {
-        self.0.threshold
-    }
-
-    /// What the coefficient changes with, and pairs of that and its factor.
-    #[getter]
-    fn factor(&self) -> Table {
-        table(self.1.as_ref())
-    }
-
-    fn __repr__(&self) -> String {
-        let core::DissipatedEnergy { alpha, threshold } = self.0;
-        let varies = if self.1.is_some() { ", factor=..." } else { "" };
-        format!("DissipatedEnergy({alpha:?}, threshold={threshold:?}{varies})")
-    }
-}
 
 /// What a law of one's own has raised.
 type Raised = Arc<Mutex<Option<PyErr>>>;
@@ -183,42 +68,11 @@ impl Law for Own {
     }
 }
 
-fn law(given: &Bound<'_, PyAny>, raised: &Raised) -> PyResult<Arc<dyn Law>> {
-    if let Ok(law) = given.extract::<Archard>() {
-        return Ok(varying(law.0, law.1.as_ref()));
-    }
-    if let Ok(law) = given.extract::<DissipatedEnergy>() {
-        return Ok(varying(law.0, law.1.as_ref()));
-    }
-    if given.is_none() {
-        // A layer that does not wear.
-        return Ok(Arc::new(core::Archard {
-            k: 0.0,
-            threshold: 0.0,
-        }));
-    }
-    if given.is_callable() {
-        return Ok(Arc::new(Own(given.clone().unbind(), raised.clone())));
-    }
-    Err(PyTypeError::new_err(format!(
-        "a wear law must be an Archard, a DissipatedEnergy, a function, or None for what does not wear, not {given}"
-    )))
-}
-
-fn body(
-    given: Option<&Bound<'_, PyAny>>,
-    share: Option<f64>,
-    raised: &Raised,
-) -> PyResult<BodyWear> {
-    let laws = match given {
-        None => Vec::new(),
-        Some(list) if list.is_instance_of::<pyo3::types::PyList>() => list
-            .try_iter()?
-            .map(|one| law(&one?, raised))
-            .collect::<PyResult<_>>()?,
-        Some(one) => vec![law(one, raised)?],
-    };
-    Ok(BodyWear { laws, share })
+/// The functions of both bodies.
+fn laws(given: &[Vec<Py<PyAny>>; 2], raised: &Raised, py: Python<'_>) -> [Vec<Arc<dyn Law>>; 2] {
+    let own =
+        |law: &Py<PyAny>| -> Arc<dyn Law> { Arc::new(Own(law.clone_ref(py), raised.clone())) };
+    given.each_ref().map(|body| body.iter().map(own).collect())
 }
 
 /// Surfaces to begin on: cycles, energy dissipated, and the fields worn1, worn2, energy1, energy2, slid.
@@ -246,65 +100,26 @@ impl Start<'_> {
 /// A run of wear in memory: its variables as xarray takes them, and its attributes as JSON.
 type InMemory<'py> = (Bound<'py, PyDict>, String);
 
-/// Runs a scene over many cycles into a store, or without one in memory.
+/// Runs a scene over many cycles, by the table `[wear]` of a scene file.
+///
+/// It writes a store, or without one gives all in memory. Laws that are functions, `{ own = true }`
+/// in the table, stand in `own` for each body.
 #[pyfunction]
-#[pyo3(signature = (scene, *, body1, body2, cycles, store = None, overwrite = false, share1 = None, share2 = None, first_branch = None,
-    debris_kept = 0.0, frequency = None, start = None,
-    sliding = false, rig_stiffness = f64::INFINITY, tolerance = None, jumps = None, explicit_jumps = None,
-    go_on = false, tell_from = 0.1, on_jump = None))]
+#[pyo3(signature = (scene, wear, own, *, store = None, overwrite = false, start = None, on_jump = None))]
 pub(crate) fn wear<'py>(
     py: Python<'py>,
     scene: Scene,
-    body1: Option<Bound<'py, PyAny>>,
-    body2: Option<Bound<'py, PyAny>>,
-    cycles: f64,
+    wear: Document,
+    own: [Vec<Py<PyAny>>; 2],
     store: Option<PathBuf>,
     overwrite: bool,
-    share1: Option<f64>,
-    share2: Option<f64>,
-    first_branch: Option<usize>,
-    debris_kept: f64,
-    frequency: Option<f64>,
     start: Option<Start<'py>>,
-    sliding: bool,
-    rig_stiffness: f64,
-    tolerance: Option<f64>,
-    jumps: Option<usize>,
-    explicit_jumps: Option<usize>,
-    go_on: bool,
-    tell_from: f64,
     on_jump: Option<Py<PyAny>>,
 ) -> PyResult<Option<InMemory<'py>>> {
     scene.0.check().map_err(scene_to_python)?;
     let raised = Raised::default();
-    let bodies = [
-        body(body1.as_ref(), share1, &raised)?,
-        body(body2.as_ref(), share2, &raised)?,
-    ];
-    let wear = core::Wear {
-        first_branch,
-        debris_kept,
-        frequency,
-        cycling: if sliding {
-            Cycling::Sliding
-        } else {
-            Cycling::March
-        },
-        rig_stiffness,
-        jumps: match (explicit_jumps, jumps, tolerance) {
-            (Some(n), _, _) => Jumps::Explicit(n),
-            (None, Some(n), _) => Jumps::Number(n),
-            (None, None, Some(tolerance)) => Jumps::Tolerance(tolerance),
-            (None, None, None) => Jumps::default(),
-        },
-        worn_through: if go_on {
-            WornThrough::GoOn
-        } else {
-            WornThrough::Stop
-        },
-        tell_from,
-        ..core::Wear::new(bodies, cycles)
-    };
+    let own = laws(&own, &raised, py);
+    let (scene, wear) = core::Wear::from_table(&scene.0, &wear.0, &own).map_err(to_python)?;
     let stop = Arc::<AtomicBool>::default();
     let start = start.map(|start| start.read());
     let run = || {
@@ -313,8 +128,8 @@ pub(crate) fn wear<'py>(
             None => Kept::Memory(WearColumns::default()),
         };
         let run = match &start {
-            Some(start) => WearRun::from_worn(&scene.0, &wear, start, &stop)?,
-            None => WearRun::new(&scene.0, &wear, &stop)?,
+            Some(start) => WearRun::from_worn(&scene, &wear, start, &stop)?,
+            None => WearRun::new(&scene, &wear, &stop)?,
         };
         Ok((run, kept))
     };
@@ -338,22 +153,28 @@ pub(crate) fn verify_wear(py: Python<'_>, store: PathBuf) -> PyResult<()> {
     py.detach(|| verify(&store)).map_err(to_python)
 }
 
-/// Goes on with a run of wear that ended early.
+/// The scene of a file and its table `[wear]`, as the text of a scene file each.
 #[pyfunction]
-#[pyo3(signature = (store, *, body1 = None, body2 = None, friction_law = None, on_jump = None))]
+#[pyo3(signature = (path, set = Vec::new()))]
+pub(crate) fn wear_of_file(path: PathBuf, set: Vec<String>) -> PyResult<(Scene, String)> {
+    let read = core::Wear::from_file(path, &set, Reach::Folder);
+    let (scene, wear) = read.map_err(scene_to_python)?;
+    Ok((Scene(scene), wear.to_toml()))
+}
+
+/// Goes on with a run of wear that ended early; `own` has the functions among the laws.
+#[pyfunction]
+#[pyo3(signature = (store, own, *, friction_law = None, on_jump = None))]
 pub(crate) fn resume_wear(
     py: Python<'_>,
     store: PathBuf,
-    body1: Option<Bound<'_, PyAny>>,
-    body2: Option<Bound<'_, PyAny>>,
+    own: [Vec<Py<PyAny>>; 2],
     friction_law: Option<&Bound<'_, PyAny>>,
     on_jump: Option<Py<PyAny>>,
 ) -> PyResult<()> {
     let raised = Raised::default();
     let friction = friction_law.map(own_law).transpose()?;
-    let own =
-        |law: Option<&Bound<'_, PyAny>>| law.map(|law| body(Some(law), None, &raised)).transpose();
-    let own = [own(body1.as_ref())?, own(body2.as_ref())?];
+    let own = laws(&own, &raised, py);
     let stop = Arc::<AtomicBool>::default();
     let found = interruptible(py, &stop, || {
         take_up(&store, &own, friction.as_ref(), &stop)

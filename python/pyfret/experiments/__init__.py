@@ -3,7 +3,7 @@
 To be repeated and varied::
 
     test = fret.experiments.fouvry2017("RP_f_20")
-    worn = test.wear(debris_kept=0.85)
+    worn = test.wear(tolerance=0.005)
     test.row["worn_volume_m3"], float(worn.volume1[-1] + worn.volume2[-1])
 
 Numbers are facts of the papers cited, typed from their tables or read off their figures by others

@@ -286,6 +286,6 @@ def wear_arguments(given: Mapping[str, Any], values: Mapping[str, float]) -> dic
             arguments[name] = value
         else:
             raise ValueError(
-                f"{key}: must be wear.body1.k, wear.body2.alpha, wear.debris_kept, ..."
+                f"{key}: must be wear.body1.k, wear.body2.alpha, wear.body2.share, ..."
             )
     return arguments

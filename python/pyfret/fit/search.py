@@ -66,7 +66,7 @@ def fit(
     unknown : mapping of str to (low, high) or (low, start, high)
         Ranges by the keys of a scene file, such as ``"mu"``, ``"rig.stiffness"``,
         ``"body2.coatings.0.E"``, ``"body2.coatings.0.thickness"``, ``"body1.shape.sphere.R"``, and
-        of its wear, ``"wear.body2.alpha"``, ``"wear.debris_kept"``. Positive ranges are searched
+        of its wear, ``"wear.body2.alpha"``, ``"wear.body2.share"``. Positive ranges are searched
         by their logarithm.
     workers : int
         Contacts solved side by side.

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Literal
 import matplotlib.pyplot as plt
 import numpy as np
 
-from pyfret._core import Scene
 from pyfret.plot.style import axes, inside_legend, styled
 
 if TYPE_CHECKING:
@@ -79,7 +78,7 @@ def wear_history(result: WearResult, *, ax: Axes | None = None) -> Axes:
     """
     ax = axes(ax)
     d = result.dataset
-    scene = Scene.from_toml(d.attrs["scene"])
+    scene = result.scene
     first = float(d.cycles[0] - d.length[0])
     for body, coated in ((1, scene.body1), (2, scene.body2)):
         depth = 1e6 * np.r_[d.attrs["depth_before"][body - 1], d[f"depth{body}"]]

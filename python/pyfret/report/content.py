@@ -174,7 +174,21 @@ def wear(worn: WearResult) -> dict[str, Any]:
         "depth": [short(1e6 * d[f"depth{n}"].values) for n in (1, 2)],
         "x": short(1e6 * d.x.values),
         "profile": [short(1e6 * d[f"worn{n}"][-1].values[:, middle]) for n in (1, 2)],
+        "loops": [
+            {
+                "name": f"after {in_words(float(d.block_cycles[block]))} cycles",
+                "x": short(1e6 * closed(d.loop_delta_x[block].values), 5),
+                "y": short(closed(d.loop_T_x[block].values), 5),
+            }
+            for block in (0, -1)
+        ],
+        "force": f"T_x [{d.loop_T_x.attrs['units']}]",
     }
+
+
+def closed(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The corners of a loop, the last one before the first."""
+    return np.concatenate((corners[-1:], corners))
 
 
 def figures(

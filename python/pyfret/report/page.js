@@ -163,6 +163,8 @@
     downwards.yaxis.autorange = "reversed";
     Plotly.newPlot("depths", pair(data.wear.cycles, data.wear.depth), layout("cycles", "depth [µm]"), options);
     Plotly.newPlot("profiles", pair(data.wear.x, data.wear.profile), downwards, options);
+    const loops = data.wear.loops.map((of, n) => ({ ...of, mode: "lines+markers", marker: { size: 4 }, line: { color: n ? colours.second : colours.first } }));
+    Plotly.newPlot("loops", loops, layout("δ_x [µm]", data.wear.force), options);
   } else {
     document.getElementById("worn").remove();
   }

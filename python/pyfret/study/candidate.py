@@ -11,12 +11,12 @@ from pyfret.fatigue.section import for_each_layer
 
 if TYPE_CHECKING:
     from pyfret._core import Body
-    from pyfret._core import _WearLaw as WearLaw
     from pyfret.fatigue.criteria import CriterionName
     from pyfret.fatigue.factors import YieldStresses
     from pyfret.fatigue.lives import Materials
     from pyfret.fracture import Threshold
     from pyfret.heat import Conductors
+    from pyfret.wear.settings import Law as WearLaw
 
 __all__ = ["Candidate", "Duty", "candidate"]
 

@@ -23,8 +23,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from pyfret._core import Body
-    from pyfret._core import _WearLaw as WearLaw
     from pyfret.heat import Conductors
+    from pyfret.wear.settings import Law as WearLaw
 
 __all__ = ["compare"]
 

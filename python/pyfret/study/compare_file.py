@@ -8,7 +8,7 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pyfret._core import Archard, DissipatedEnergy, Scene
+from pyfret._core import Scene
 from pyfret._util.text import read_text
 from pyfret.fatigue.criteria import Materials
 from pyfret.fracture import Threshold
@@ -17,6 +17,7 @@ from pyfret.study.candidate import Candidate
 from pyfret.study.compare import compare
 from pyfret.study.design import toml
 from pyfret.study.file import known
+from pyfret.wear import Archard, DissipatedEnergy
 
 if sys.version_info >= (3, 11):
     import tomllib

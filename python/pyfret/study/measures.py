@@ -4,20 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from dataclasses import dataclass, field, fields
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from pyfret import fracture
+from pyfret import fracture, wear
 from pyfret._util.lazy import xr
 from pyfret.run.summary import directions
 from pyfret.study.identity import identity
 from pyfret.subsurface.tensor import LABELS
-from pyfret.wear.runs import solve
 
 if TYPE_CHECKING:
-    from pyfret._core import _WearLaw as WearLaw
     from pyfret.fatigue.criteria import CriterionName
     from pyfret.fatigue.lives import Materials
     from pyfret.result import Result
@@ -111,7 +109,7 @@ MEASURES: dict[str, tuple[str, str, Callable[[Result], float]]] = {
 
 
 @dataclass(frozen=True)
-class Wear:
+class Wear(wear.Wear):
     """A measure: what many cycles wear off, by :func:`pyfret.wear.solve` on the scene of the point.
 
     Gives ``worn_volume1``, ``worn_volume2`` [m^3], ``worn_depth1``, ``worn_depth2`` [m], their
@@ -120,39 +118,18 @@ class Wear:
 
     Parameters
     ----------
-    cycles : float
-        Number of cycles.
-    body1, body2 : Archard, DissipatedEnergy, or list of these and None, optional
-        How a body wears; None: it does not.
     part : float
         Part of the outermost coating's thickness at which its life ends (default 1).
-    first_branch : int, optional
-        First branch of the path that belongs to the cycle, from 0 (default: the last closed one).
-    cycling : "march" or "sliding"
-        As in :func:`pyfret.wear.solve`, and so are all others.
+    cycles, body1, body2, cycling, ...
+        The settings of :class:`pyfret.wear.Wear`.
     """
 
-    cycles: float
-    body1: WearLaw | list[WearLaw | None] | None = None
-    body2: WearLaw | list[WearLaw | None] | None = None
-    part: float = 1.0
-    first_branch: int | None = None
-    cycling: Literal["march", "sliding"] = "march"
-    share1: float | None = None
-    share2: float | None = None
-    debris_kept: float = 0.0
-    frequency: float | None = None
-    rig_stiffness: float = math.inf
-    tolerance: float | None = None
-    jumps: int | None = None
-    explicit_jumps: int | None = None
-    worn_through: Literal["stop", "go_on"] = "stop"
-    tell_from: float = 0.1
+    part: float = field(default=1.0, kw_only=True)
 
     def __call__(self, result: Result) -> dict[str, xr.DataArray]:
         """Wear the scene of the result."""
-        arguments = {f.name: getattr(self, f.name) for f in fields(self) if f.name != "part"}
-        run = solve(result.scene, progress=False, **arguments)
+        settings = {f.name: getattr(self, f.name) for f in fields(wear.Wear)}
+        run = wear.solve(result.scene, wear.Wear(**settings), progress=False)
         worn = run.dataset
         numbers = {}
         for of, unit in (("volume", "m^3"), ("depth", "m")):

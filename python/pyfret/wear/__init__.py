@@ -6,10 +6,10 @@ A run of wear is solved, opened and gone on with::
     worn.depth2[-1]
 """
 
-from pyfret._core import Archard, DissipatedEnergy
 from pyfret._util.names import listing
 from pyfret.wear.result import WearResult
 from pyfret.wear.runs import open, resume, solve
+from pyfret.wear.settings import Archard, DissipatedEnergy, Wear
 
-__all__ = ["Archard", "DissipatedEnergy", "WearResult", "open", "resume", "solve"]
+__all__ = ["Archard", "DissipatedEnergy", "Wear", "WearResult", "open", "resume", "solve"]
 __dir__ = listing(__all__)

@@ -51,11 +51,6 @@ class WearResult(Labelled):
         raise AttributeError(f"a wear result has no {name!r}")
 
     @property
-    def scene(self) -> Scene:
-        """The scene whose surfaces wear, as they are before the first cycle."""
-        return Scene.from_toml(self.dataset.attrs["scene"])
-
-    @property
     def worn(self) -> xr.DataArray:
         """Depth worn off both bodies together, read with no shift between them, m."""
         total: xr.DataArray = self.dataset.worn1 + self.dataset.worn2
@@ -134,9 +129,22 @@ class WearResult(Labelled):
         return opened
 
     @property
+    def scene(self) -> Scene:
+        """The scene before wear, its rig included."""
+        scene = Scene.from_toml(self.dataset.attrs["scene"])
+        # Stores of before have the rig in the table of wear.
+        stiffness = self.table.get("rig_stiffness", scene.path.rig_stiffness)
+        return scene.replace(path=scene.path.rig(stiffness))
+
+    @property
+    def table(self) -> dict[str, Any]:
+        """The table ``[wear]`` of a scene file."""
+        return dict(tomllib.loads(self.dataset.attrs["wear"])["wear"])
+
+    @property
     def debris_kept(self) -> float:
         """Part of what both bodies lose that stays in the contact."""
-        return float(tomllib.loads(self.dataset.attrs["wear"])["wear"].get("debris_kept", 0.0))
+        return float(self.table.get("debris_kept", 0.0))
 
     def summary(self) -> str:
         """Depths, volumes, energy, jumps, laws and what happened to the coatings, as text."""
@@ -173,7 +181,7 @@ class WearResult(Labelled):
             f"{event['coating']}, at x = {1e6 * event['x']:.1f} um, y = {1e6 * event['y']:.1f} um"
             for event in self.events
         ]
-        says = tomllib.loads(d.attrs["wear"])["wear"]
+        says = self.table
         for body in (1, 2):
             laws = says.get(f"body{body}", {}).get("laws", [])
             lines += [f"law of body {body}: {written(law)}" for law in laws]

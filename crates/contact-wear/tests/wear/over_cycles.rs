@@ -308,7 +308,7 @@ fn runs_of_tables_and_of_functions_are_taken_up_to_the_same_bytes() {
         };
         write(&whole, 9);
         write(&broken, 2);
-        let own = bodies.map(Some);
+        let own = bodies.map(|body| body.own());
         if scene == sliding() {
             let told = resume_wear(&broken, None, &stop).map(drop).unwrap_err();
             assert!(told.to_string().contains("given again"), "{told}");

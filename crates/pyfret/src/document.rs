@@ -1,0 +1,107 @@
+//! Values of Python as those of a scene file.
+
+use pyo3::IntoPyObjectExt;
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyString};
+use toml::{Table, Value};
+
+/// A mapping of names to values, as a table of a scene file.
+pub(crate) struct Document(pub(crate) Table);
+
+impl<'py> FromPyObject<'_, 'py> for Document {
+    type Error = PyErr;
+
+    fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        table(&*value.cast::<PyDict>()?).map(Self)
+    }
+}
+
+fn table(dict: &Bound<'_, PyDict>) -> PyResult<Table> {
+    let each = dict.iter().map(|(name, value)| {
+        let name: String = name.extract()?;
+        let value = self::value(&value).map_err(|error| named(&name, error, dict.py()))?;
+        Ok((name, value))
+    });
+    each.collect()
+}
+
+/// An error of a value with the name that it has.
+fn named(name: &str, error: PyErr, py: Python<'_>) -> PyErr {
+    PyTypeError::new_err(format!("{name} = {}", error.value(py)))
+}
+
+/// A value: None within a list is an error, a quantity of pint a text with its unit.
+fn value(of: &Bound<'_, PyAny>) -> PyResult<Value> {
+    if let Ok(flag) = of.cast::<PyBool>() {
+        return Ok(Value::Boolean(flag.is_true()));
+    }
+    if of.is_instance_of::<PyString>() {
+        return Ok(Value::String(of.extract()?));
+    }
+    if of.is_instance_of::<PyInt>() {
+        return Ok(of.extract().map_or_else(
+            |_| of.extract().map(Value::Float),
+            |whole| Ok(Value::Integer(whole)),
+        )?);
+    }
+    if of.is_instance_of::<PyFloat>() {
+        return Ok(Value::Float(of.extract()?));
+    }
+    if let Ok(dict) = of.cast::<PyDict>() {
+        return table(dict).map(Value::Table);
+    }
+    if of.hasattr("magnitude")? && of.hasattr("units")? {
+        return quantity(of).map(Value::String);
+    }
+    // Numbers of numpy, zero-dimensional arrays.
+    if let Ok(whole) = of.call_method0("__index__") {
+        return Ok(Value::Integer(whole.extract()?));
+    }
+    if let Ok(number) = of.call_method0("__float__") {
+        return Ok(Value::Float(number.extract()?));
+    }
+    match of.try_iter() {
+        Ok(items) => items
+            .map(|item| value(&item?))
+            .collect::<PyResult<_>>()
+            .map(Value::Array),
+        Err(_) => {
+            let shown = of.repr()?;
+            Err(PyTypeError::new_err(format!(
+                "{shown}: must be a number, a text, or a list of them"
+            )))
+        }
+    }
+}
+
+/// A table of a scene file as a dict.
+pub(crate) fn to_dict<'py>(table: &Table, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+    let dict = PyDict::new(py);
+    for (name, value) in table {
+        dict.set_item(name, to_python(value, py)?)?;
+    }
+    Ok(dict)
+}
+
+fn to_python<'py>(value: &Value, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+    match value {
+        Value::Boolean(flag) => flag.into_bound_py_any(py),
+        Value::Integer(whole) => whole.into_bound_py_any(py),
+        Value::Float(number) => number.into_bound_py_any(py),
+        Value::Table(table) => Ok(to_dict(table, py)?.into_any()),
+        Value::Array(items) => {
+            let items = items.iter().map(|item| to_python(item, py));
+            items.collect::<PyResult<Vec<_>>>()?.into_bound_py_any(py)
+        }
+        Value::String(text) => text.into_bound_py_any(py),
+        Value::Datetime(date) => date.to_string().into_bound_py_any(py),
+    }
+}
+
+/// A quantity of pint as a text with its unit, `380.0 GPa`.
+pub(crate) fn quantity(of: &Bound<'_, PyAny>) -> PyResult<String> {
+    let number: f64 = of.getattr("magnitude")?.extract()?;
+    let unit = of.getattr("units")?.call_method1("__format__", ("~P",))?;
+    Ok(format!("{number:?} {unit}"))
+}

@@ -1,0 +1,233 @@
+"""What wears, over how many cycles, and how: the table ``[wear]`` of a scene file."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Any, Literal
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+from pyfret.scene.parts import Replaceable, refuse_unknown
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from numpy.typing import NDArray
+
+__all__ = ["Archard", "DissipatedEnergy", "Wear"]
+
+#: What a coefficient changes with, and pairs of that and its factor.
+Factor = tuple[str, "Sequence[tuple[float, float]]"]
+
+
+@dataclass(frozen=True)
+class Archard(Replaceable):
+    """Archard's law: the worn depth is k times pressure times sliding distance.
+
+    Parameters
+    ----------
+    k : float
+        Worn depth over pressure times sliding distance [m^2/N].
+    threshold : float
+        Sliding distance in a cycle below which nothing wears [m].
+    factor : (str, list of pairs), optional
+        What the coefficient changes with ("cycles", "pressure", "power_density" or "energy"), and
+        pairs of that and its factor.
+    """
+
+    k: float
+    threshold: float = 0.0
+    factor: Factor | None = None
+
+    def __post_init__(self) -> None:
+        """Make the pairs of the factor a value, as the law is."""
+        fix(self)
+
+
+@dataclass(frozen=True)
+class DissipatedEnergy(Replaceable):
+    """Wear by the energy dissipated: the worn volume is alpha times the energy.
+
+    Parameters
+    ----------
+    alpha : float
+        Worn volume over dissipated energy [m^3/J].
+    threshold : float
+        Energy per area in a cycle below which nothing wears [J/m^2].
+    factor : (str, list of pairs), optional
+        What the coefficient changes with ("cycles", "pressure", "power_density" or "energy"), and
+        pairs of that and its factor.
+    """
+
+    alpha: float
+    threshold: float = 0.0
+    factor: Factor | None = None
+
+    def __post_init__(self) -> None:
+        """Make the pairs of the factor a value, as the law is."""
+        fix(self)
+
+
+#: Depth [m] that a cycle takes from each cell, of its pressed way [Pa m], way [m], energy [J/m^2],
+#: depth so far [m] and the cycles so far.
+Function = Callable[..., "NDArray[Any]"]
+Law = Archard | DissipatedEnergy | Function
+
+
+@dataclass(frozen=True)
+class Wear(Replaceable):
+    """What wears, over how many cycles, and how.
+
+    Parameters
+    ----------
+    cycles : float
+        Number of cycles.
+    body1, body2 : Archard, DissipatedEnergy, callable, or list of these, optional
+        How a body wears: one law, or one for each coating from the outermost on and one for the
+        substrate; None: the body or the layer does not wear. A callable takes
+        arrays over the cells, of one cycle: ``pressed_way`` (integral of the pressure over the way
+        slipped, Pa m), ``way`` (slipped, m), ``dissipated`` (energy per area, J/m^2), ``worn``
+        (depth so far, m), and the number ``cycles`` so far, and gives the depth that the cycle
+        takes, m.
+    share1, share2 : float, optional
+        Part of what its law says that a body loses (default 1).
+    debris_kept : float
+        Part of what both bodies lose that stays in the contact, 0 to 1: the gap grows by the rest.
+        Debris lies where it was made and is as stiff as the body that it was.
+    first_branch : int, optional
+        First branch of the path that belongs to the cycle, counted from 0 (default: that of the
+        last closed cycle); the cycle ends where it begins.
+    cycling : "march" or "sliding"
+        "march" solves the increments of the cycle, with stick and slip; "sliding" is for gross slip
+        along x under given shifts, whatever the stroke: the normal contact alone at each place.
+    frequency : float, optional
+        Cycles per second [Hz], for coefficients that are functions of the power density.
+    rig_stiffness : float, optional
+        Stiffness of a spring through which the shifts are given [N/m] (default: that of the path).
+    tolerance : float, optional
+        Error that a jump may leave of the worn depth (default 0.01); jumps are as long as that
+        lets.
+    jumps, explicit_jumps : int, optional
+        That many jumps of equal length instead, implicit or explicit.
+    worn_through : "stop" or "go_on"
+        What happens when a coating is worn through.
+    tell_from : float
+        Part of the coatings' thickness from which a worn depth is an event.
+    """
+
+    cycles: float
+    body1: Law | Sequence[Law | None] | None = None
+    body2: Law | Sequence[Law | None] | None = None
+    share1: float | None = None
+    share2: float | None = None
+    debris_kept: float = 0.0
+    first_branch: int | None = None
+    cycling: Literal["march", "sliding"] = "march"
+    frequency: float | None = None
+    rig_stiffness: float | None = None
+    tolerance: float | None = None
+    jumps: int | None = None
+    explicit_jumps: int | None = None
+    worn_through: Literal["stop", "go_on"] = "stop"
+    tell_from: float = 0.1
+
+    @classmethod
+    def of(cls, wear: Wear | None, settings: Mapping[str, Any]) -> Wear:
+        """The settings of `wear` with some exchanged, or made of these alone.
+
+        Raises
+        ------
+        TypeError
+            One of them is no setting of wear; the message offers the nearest name.
+        """
+        refuse_unknown("wear", settings, [field.name for field in fields(cls)])
+        if wear is not None:
+            return wear.replace(**settings)
+        if "cycles" not in settings:
+            raise TypeError("cycles: must be given, the number of cycles")
+        return cls(**settings)
+
+    def document(self) -> tuple[dict[str, Any], list[list[Function]]]:
+        """The table of a scene file, and the functions of each body, which no file can hold."""
+        table = {name: value for name, value in vars(self).items() if value is not None}
+        functions: list[list[Function]] = []
+        for body in ("body1", "body2"):
+            given, share = table.pop(body, None), table.pop(f"share{body[-1]}", None)
+            laws = listed(given)
+            functions.append(own(given))
+            if share is not None and not laws:
+                raise ValueError(f"share{body[-1]} = {share}: must come with a law, {body}")
+            if laws:
+                table[body] = {"laws": [written(law) for law in laws]}
+                table[body] |= {} if share is None else {"share": share}
+        return table, functions
+
+
+def fix(law: Archard | DissipatedEnergy) -> None:
+    """The pairs of a factor as tuples."""
+    if law.factor is not None:
+        of, pairs = law.factor
+        object.__setattr__(law, "factor", (of, tuple(tuple(pair) for pair in pairs)))
+
+
+def listed(laws: Law | Sequence[Law | None] | None) -> list[Law | None]:
+    """The laws of a body, none or one or several, in a list."""
+    if laws is None:
+        return []
+    return list(laws) if isinstance(laws, list | tuple) else [laws]  # type: ignore[list-item]
+
+
+def own(laws: Law | Sequence[Law | None] | None) -> list[Function]:
+    """The functions among the laws of a body."""
+    return [law for law in listed(laws) if callable(law)]
+
+
+def read(text: str) -> Wear:
+    """The settings of a table ``[wear]`` of a scene file or a store.
+
+    Raises
+    ------
+    ValueError
+        A law is a function, which no file can hold.
+    """
+    table = dict(tomllib.loads(text)["wear"])
+    for body in ("body1", "body2"):
+        of = table.pop(body, {})
+        if "share" in of:
+            table[f"share{body[-1]}"] = of["share"]
+        if of.get("laws"):
+            table[body] = [law_of(law) for law in of["laws"]]
+    return Wear(**table)
+
+
+def law_of(table: dict[str, Any]) -> Archard | DissipatedEnergy:
+    """The law of a table of a scene file."""
+    law = dict(table)
+    if "factor" in law:
+        law["factor"] = (law["factor"]["of"], [tuple(pair) for pair in law["factor"]["table"]])
+    if "own" in law:
+        raise ValueError("own: a law of your own is in no file, it must be given again")
+    return Archard(**law) if "k" in law else DissipatedEnergy(**law)
+
+
+def written(law: Law | None) -> dict[str, Any]:
+    """A law as the table of a scene file."""
+    if law is None:
+        # A layer that does not wear.
+        return {"k": 0.0}
+    if isinstance(law, Archard | DissipatedEnergy):
+        of = {name: value for name, value in vars(law).items() if value is not None}
+        if law.factor is not None:
+            of["factor"] = dict(zip(("of", "table"), law.factor, strict=True))
+        return of
+    if callable(law):
+        return {"own": True}
+    raise TypeError(
+        "a wear law must be an Archard, a DissipatedEnergy, a function, or None for what does "
+        f"not wear, not {law}"
+    )
