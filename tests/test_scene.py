@@ -169,3 +169,19 @@ def test_a_scene_reads_no_file_outside_its_folder(tmp_path: Path) -> None:
     with pytest.raises(fret.errors.InvalidSceneError, match="outside the folder"):
         fret.Scene.from_file(scene)
     assert fret.Scene.from_file(scene, allow_outside=True).grid.nx == 8
+
+
+def test_the_settings_of_python_have_the_defaults_of_a_scene_file() -> None:
+    scene = sphere_on_flat().replace(path=INDENTED)
+    text = scene.to_toml().split("[kernel]")[0]
+    assert fret.Scene.from_toml(text).settings == fret.Settings()
+    exotic = fret.Settings(
+        kernel=fret.settings.FrequencyDomain(enlargement=3),
+        save=[1],
+        path_grid="same",
+        tolerance=1e-7,
+    )
+    again = fret.Scene.from_toml(scene.replace(settings=exotic).to_toml())
+    assert again.settings == exotic
+    with pytest.raises(TypeError, match="the nearest is 'path_tolerance'"):
+        fret.Settings(pathtolerance=1.0)  # type: ignore[call-arg]

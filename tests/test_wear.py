@@ -87,7 +87,7 @@ def test_bad_input_is_refused_by_name() -> None:
         ({"worn_through": "on"}, r'worn_through = "on": must be "stop" or "go_on"'),
         ({"jumps": -1}, r"jumps = -1: must be a whole number >= 1"),
         ({"first_branch": 0}, r"first_branch = 0: must be a whole number >= 1"),
-        ({"tolerance": 0.01, "jumps": 3}, "one of them at most"),
+        ({"tolerance": 0.01, "jumps": 3}, "one of tolerance, jumps, explicit_jumps at most"),
         ({"share1": 0.5}, r"share1 = 0.5: must come with a law, body1"),
     ],
 )

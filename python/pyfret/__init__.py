@@ -49,7 +49,6 @@ from pyfret._core import (
     Plastic,
     Profile,
     Scene,
-    Settings,
     Spacing,
     Sphere,
     SurfaceMap,
@@ -65,6 +64,7 @@ from pyfret.opening import open
 from pyfret.result import Result
 from pyfret.scene.surfaces import read_surface
 from pyfret.scene.tables import show_in_notebooks
+from pyfret.settings import Settings
 from pyfret.snapshot import Snapshot
 from pyfret.solution import march, resume, solve
 from pyfret.study.compare import compare

@@ -10,9 +10,10 @@ from typing import Any, ClassVar, Final, Literal, TypeAlias, final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pyfret.settings import Settings
+
 __all__ = [
     "RIGID",
-    "Archard",
     "ArgumentError",
     "Assessment",
     "Body",
@@ -30,22 +31,18 @@ __all__ = [
     "CrownedRoller",
     "CycleSection",
     "Cylinder",
-    "DissipatedEnergy",
     "Elastic",
     "Ellipsoid",
     "Envelope",
     "Flat",
     "FlatPunch",
-    "FrequencyDomain",
     "Friction",
     "Grid",
-    "Hankel",
     "Hertz",
     "HertzEllipse",
     "HertzStress",
     "History",
     "InvalidSceneError",
-    "InverseFft",
     "KernelInaccurateError",
     "LineContact",
     "LoadPath",
@@ -56,12 +53,9 @@ __all__ = [
     "OffGridError",
     "PerRange",
     "Plastic",
-    "Preset",
     "Profile",
     "Rough",
     "Scene",
-    "Settings",
-    "Skip",
     "SlidingError",
     "SolveError",
     "Spacing",
@@ -78,6 +72,7 @@ __all__ = [
     "__version__",
     "arrest",
     "channel_crack",
+    "check_settings",
     "chosen_depths",
     "coated_indentation",
     "continued_pressure",
@@ -123,6 +118,7 @@ __all__ = [
     "verify",
     "verify_wear",
     "wear",
+    "wear_of_file",
     "yielding_on",
 ]
 
@@ -861,6 +857,8 @@ class Friction:
     @property
     def law(self) -> _FrictionFunction | Literal["own"] | None:
         """The function that gives the coefficient; ``"own"`` if only that there is one is known."""
+    def words(self) -> list[tuple[str, float | None]]:
+        """The law in words: names with their values, and facts without a value."""
     def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
     def __replace__(self, **changes: Any) -> Friction: ...
     def replace(self, **changes: Any) -> Friction:
@@ -1400,247 +1398,10 @@ class LoadPath:
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
 
-@final
-class Preset:
-    """Families of algorithms.
-
-    ``FAST``: preconditioned solvers; sets and fields carried over and extrapolated.
-    ``SPINU2020``: the paper's, plain conjugate gradients in both directions, plain alternation.
-    """
-
-    FAST: ClassVar[Preset]
-    """Preconditioned solvers; sets and fields carried over and extrapolated."""
-    SPINU2020: ClassVar[Preset]
-    """The paper's: plain conjugate gradients in both directions, plain alternation."""
-
-    def __int__(self) -> int: ...
-    def __hash__(self) -> int: ...
-    def __eq__(self, other: object, /) -> bool: ...
-    def __ne__(self, other: object, /) -> bool: ...
-
-@final
-class Hankel:
-    """Influence coefficients by Hankel integrals: exact to round-off."""
-
-    def __new__(cls) -> Hankel: ...
-    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
-    def __replace__(self, **changes: Any) -> Hankel: ...
-    def replace(self, **changes: Any) -> Hankel:
-        """The same with some of its parts exchanged, named as in the constructor."""
-    def __eq__(self, other: object, /) -> bool: ...
-    def __ne__(self, other: object, /) -> bool: ...
-
-@final
-class InverseFft:
-    """Influence coefficients by the paper's inverse FFT, eq. (9)-(13).
-
-    Parameters
-    ----------
-    enlargement : int
-        How many times larger the domain is, the paper's lambda, 1 to 12 (default 8).
-    aliases : int
-        Order of the alias sums (default 0, as in the paper).
-    """
-
-    def __new__(cls, *, enlargement: int = 8, aliases: int = 0) -> InverseFft: ...
-    @property
-    def enlargement(self) -> int:
-        """How many times larger the domain is."""
-    @property
-    def aliases(self) -> int:
-        """Order of the alias sums."""
-    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
-    def __replace__(self, **changes: Any) -> InverseFft: ...
-    def replace(self, **changes: Any) -> InverseFft:
-        """The same with some of its parts exchanged, named as in the constructor."""
-    def __eq__(self, other: object, /) -> bool: ...
-    def __ne__(self, other: object, /) -> bool: ...
-
-@final
-class FrequencyDomain:
-    """No coefficients: every convolution with the frequency response on an enlarged domain.
-
-    Parameters
-    ----------
-    enlargement : int
-        How many times larger the domain is, 1 to 12 (default 8).
-    """
-
-    def __new__(cls, *, enlargement: int = 8) -> FrequencyDomain: ...
-    @property
-    def enlargement(self) -> int:
-        """How many times larger the domain is."""
-    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
-    def __replace__(self, **changes: Any) -> FrequencyDomain: ...
-    def replace(self, **changes: Any) -> FrequencyDomain:
-        """The same with some of its parts exchanged, named as in the constructor."""
-    def __eq__(self, other: object, /) -> bool: ...
-    def __ne__(self, other: object, /) -> bool: ...
-
 _Save: TypeAlias = Literal["branches", "all"] | Sequence[int]
 
 _Count: TypeAlias = int | Literal["auto"]
 _Values: TypeAlias = float | Sequence[float] | _Array
-_KernelMethod: TypeAlias = Hankel | InverseFft | FrequencyDomain
-
-@final
-class Skip:
-    """What may be left out when the scene does not need it; the answer stays as it is.
-
-    Parameters
-    ----------
-    equal_layers : bool
-        Treat a body whose layers all equal its substrate as homogeneous (default True).
-    coupling : bool
-        Leave out the normal-tangential kernels where they vanish (default True).
-    mirror : bool
-        Solve on half of a mirror-symmetric scene (default True).
-    digits : bool
-        Answer changes of the tractions in single precision where the tolerance is 1e-6 or more
-        (default True).
-    far : bool
-        Solve in a window around the contact, where no cell beyond it can touch (default True).
-    path : bool
-        Leave out the increments of branches whose end does not depend on the way there
-        (default False: results have a row for every increment asked for); they are solved if
-        their fields are to be kept.
-    """
-
-    def __new__(
-        cls,
-        *,
-        equal_layers: bool = True,
-        coupling: bool = True,
-        mirror: bool = True,
-        digits: bool = True,
-        far: bool = True,
-        path: bool = False,
-    ) -> Skip: ...
-    @property
-    def equal_layers(self) -> bool:
-        """Whether a body of equal layers is treated as homogeneous."""
-    @property
-    def coupling(self) -> bool:
-        """Whether vanishing normal-tangential kernels are left out."""
-    @property
-    def mirror(self) -> bool:
-        """Whether a mirror-symmetric scene is solved on its half."""
-    @property
-    def digits(self) -> bool:
-        """Whether changes of the tractions are answered in single precision."""
-    @property
-    def far(self) -> bool:
-        """Whether cells that can never touch are left out."""
-    @property
-    def path(self) -> bool:
-        """Whether increments are left out where the way does not count."""
-    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
-    def __replace__(self, **changes: Any) -> Skip: ...
-    def replace(self, **changes: Any) -> Skip:
-        """The same with some of its parts exchanged, named as in the constructor."""
-    def __eq__(self, other: object, /) -> bool: ...
-    def __ne__(self, other: object, /) -> bool: ...
-
-@final
-class Settings:
-    """How a scene is solved; the defaults are what most users want.
-
-    Parameters
-    ----------
-    preset : Preset, optional
-        Which algorithms (default ``Preset.FAST``).
-    tolerance : float, optional
-        Relative tolerance of the solution (default 1e-6; where increments are chosen 1/125 of
-        ``path_tolerance`` if that is more, 1/2500 where loads only press): gap error in the
-        contact over the Hertz approach, tangential misfit over mu times it, change of the
-        tractions in the last pass.
-    entering : bool, optional
-        Reckon the slip of cells that come into contact from their entry (default True): one more
-        solution in increments in which the contact grows, and far fewer increments.
-    path_tolerance : float, optional
-        Largest error of the shear at the ends of branches that ``increments="auto"`` leaves, over
-        the largest shear of the path (L2, default 5e-3).
-    path_grid : "auto", "same" or int, optional
-        Cells along x of the grid for increments that are solved for the path alone (fields not
-        kept, not the end of a branch, constant normal force and tilting moments): a half or a
-        quarter of those of the grid; ``"same"``: the grid itself. ``"auto"`` (default): chosen with
-        the increments, such that ``path_tolerance`` holds; ``"same"`` where these are given.
-    turning : bool, optional
-        Let slip follow the turn of the shear within an increment (default True): the path becomes
-        of second order.
-    max_alternations : int, optional
-        Most passes of the intermediate loop per increment (default 60).
-    max_iterations : int, optional
-        Most iterations of an inner loop (default 1000).
-    kernel : Hankel, InverseFft or FrequencyDomain, optional
-        Conversion of the frequency response of coated bodies (default ``Hankel()``).
-    kernel_tolerance : float, optional
-        Largest error of the influence coefficients over C33(0, 0) (default 1e-10).
-    skip : Skip, optional
-        What may be left out (default: all that the scene does not need).
-    save : "branches", "all" or sequence of int, optional
-        Which increments keep their fields (default ``"branches"``: the last of each branch).
-        Increments count from 1; the last of the path is always kept.
-    """
-
-    def __new__(
-        cls,
-        *,
-        preset: Preset | None = None,
-        tolerance: float | None = None,
-        entering: bool | None = None,
-        turning: bool | None = None,
-        path_tolerance: float | None = None,
-        path_grid: Literal["auto", "same"] | int | None = None,
-        max_alternations: int | None = None,
-        max_iterations: int | None = None,
-        kernel: _KernelMethod | None = None,
-        kernel_tolerance: float | None = None,
-        skip: Skip | None = None,
-        save: _Save | None = None,
-    ) -> Settings: ...
-    @property
-    def preset(self) -> Preset:
-        """Which algorithms."""
-    @property
-    def tolerance(self) -> float | None:
-        """Relative tolerance of the solution; None: the default."""
-    @property
-    def entering(self) -> bool:
-        """Whether slip is reckoned from the entry of a cell into the contact."""
-    @property
-    def turning(self) -> bool:
-        """Whether slip follows the turn of the shear within an increment."""
-    @property
-    def path_tolerance(self) -> float:
-        """Largest error of the shear that increments are chosen for."""
-    @property
-    def path_grid(self) -> Literal["auto", "same"] | int:
-        """Grid of the increments that are solved for the path alone."""
-    @property
-    def max_alternations(self) -> int:
-        """Most passes of the intermediate loop per increment."""
-    @property
-    def max_iterations(self) -> int:
-        """Most iterations of an inner loop."""
-    @property
-    def kernel(self) -> _KernelMethod:
-        """Conversion of the frequency response."""
-    @property
-    def kernel_tolerance(self) -> float:
-        """Largest error of the influence coefficients over C33(0, 0)."""
-    @property
-    def skip(self) -> Skip:
-        """What may be left out."""
-    @property
-    def save(self) -> str | list[int]:
-        """Which increments keep their fields."""
-    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
-    def __replace__(self, **changes: Any) -> Settings: ...
-    def replace(self, **changes: Any) -> Settings:
-        """The same with some of its parts exchanged, named as in the constructor."""
-    def __eq__(self, other: object, /) -> bool: ...
-    def __ne__(self, other: object, /) -> bool: ...
 
 @final
 class Scene:
@@ -3084,91 +2845,27 @@ class KernelInaccurateError(SolveError):
 class StoreError(OSError):
     """A file or a result store could not be read or written."""
 
-_WearLaw: TypeAlias = (
-    Archard
-    | DissipatedEnergy
-    | Callable[
-        [NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], float],
-        ArrayLike,
-    ]
-)
-
-@final
-class Archard:
-    """Archard's law."""
-
-    def __new__(
-        cls,
-        k: float,
-        *,
-        threshold: float = 0.0,
-        factor: tuple[str, Sequence[tuple[float, float]]] | None = None,
-    ) -> Archard: ...
-    @property
-    def k(self) -> float:
-        """Worn depth over pressure times sliding distance [m^2/N]."""
-    @property
-    def threshold(self) -> float:
-        """Sliding distance in a cycle below which nothing wears [m]."""
-    @property
-    def factor(self) -> tuple[str, list[tuple[float, float]]] | None:
-        """What the coefficient changes with, and pairs of that and its factor."""
-    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
-    def __replace__(self, **changes: Any) -> Archard: ...
-    def replace(self, **changes: Any) -> Archard:
-        """The same with some of its parts exchanged, named as in the constructor."""
-    def __eq__(self, other: object, /) -> bool: ...
-
-@final
-class DissipatedEnergy:
-    """Wear by the energy dissipated."""
-
-    def __new__(
-        cls,
-        alpha: float,
-        *,
-        threshold: float = 0.0,
-        factor: tuple[str, Sequence[tuple[float, float]]] | None = None,
-    ) -> DissipatedEnergy: ...
-    @property
-    def alpha(self) -> float:
-        """Worn volume over dissipated energy [m^3/J]."""
-    @property
-    def threshold(self) -> float:
-        """Energy per area in a cycle below which nothing wears [J/m^2]."""
-    @property
-    def factor(self) -> tuple[str, list[tuple[float, float]]] | None:
-        """What the coefficient changes with, and pairs of that and its factor."""
-    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
-    def __replace__(self, **changes: Any) -> DissipatedEnergy: ...
-    def replace(self, **changes: Any) -> DissipatedEnergy:
-        """The same with some of its parts exchanged, named as in the constructor."""
-    def __eq__(self, other: object, /) -> bool: ...
-
 def wear(
     scene: Scene,
+    wear: dict[str, Any],
+    own: Sequence[Sequence[Callable[..., ArrayLike]]],
     *,
-    body1: _WearLaw | list[_WearLaw | None] | None,
-    body2: _WearLaw | list[_WearLaw | None] | None,
-    cycles: float,
     store: str | PathLike[str] | None = None,
     overwrite: bool = False,
-    share1: float | None = None,
-    share2: float | None = None,
-    first_branch: int | None = None,
-    debris_kept: float = 0.0,
-    frequency: float | None = None,
     start: tuple[float, float, Sequence[_Array]] | None = None,
-    sliding: bool = False,
-    rig_stiffness: float = ...,
-    tolerance: float | None = None,
-    jumps: int | None = None,
-    explicit_jumps: int | None = None,
-    go_on: bool = False,
-    tell_from: float = 0.1,
     on_jump: Callable[[float], None] | None = None,
 ) -> tuple[dict[str, _Variable], str] | None:
-    """Runs a scene over many cycles into a store, or without one in memory."""
+    """Runs a scene over many cycles, by the table `[wear]` of a scene file.
+
+    It writes a store, or without one gives all in memory. Laws that are functions, `{ own = true }`
+    in the table, stand in `own` for each body.
+    """
+
+def wear_of_file(path: str | PathLike[str], set: Sequence[str] = ...) -> tuple[Scene, str]:
+    """The scene of a file and its table `[wear]`, as the text of a scene file each."""
+
+def check_settings(settings: Settings) -> None:
+    """Fails if a setting has no meaning."""
 
 def read_text(path: str | PathLike[str]) -> str:
     """The text of a file of numbers, in UTF-8, UTF-16 or Latin-1."""
@@ -3187,10 +2884,9 @@ def verify_wear(store: str | PathLike[str]) -> None:
 
 def resume_wear(
     store: str | PathLike[str],
+    own: Sequence[Sequence[Callable[..., ArrayLike]]],
     *,
-    body1: _WearLaw | list[_WearLaw | None] | None = None,
-    body2: _WearLaw | list[_WearLaw | None] | None = None,
     friction_law: _FrictionFunction | Literal["own"] | None = None,
     on_jump: Callable[[float], None] | None = None,
 ) -> None:
-    """Goes on with a run of wear that ended early."""
+    """Goes on with a run of wear that ended early; `own` has the functions among the laws."""

@@ -1,7 +1,202 @@
 """How a scene is solved: the numerical methods, and what may be left out."""
 
-from pyfret._core import FrequencyDomain, Hankel, InverseFft, Preset, Settings, Skip
+from __future__ import annotations
+
+from collections.abc import Sequence
+from enum import Enum
+from typing import Any, Literal
+
+from pyfret import _core
 from pyfret._util.names import listing
+from pyfret.scene.parts import Replaceable, part
 
 __all__ = ["FrequencyDomain", "Hankel", "InverseFft", "Preset", "Settings", "Skip"]
 __dir__ = listing(__all__)
+
+
+class Preset(Enum):
+    """Families of algorithms.
+
+    ``FAST``: preconditioned solvers; sets and fields carried over and extrapolated.
+    ``SPINU2020``: the paper's, plain conjugate gradients in both directions, plain alternation.
+    """
+
+    FAST = "fast"
+    SPINU2020 = "spinu2020"
+
+    def __repr__(self) -> str:
+        """As it is written in a program."""
+        return f"Preset.{self.name}"
+
+
+@part
+class Hankel(Replaceable):
+    """Influence coefficients by Hankel integrals: exact to round-off."""
+
+    def written(self) -> str:
+        """As in a scene file."""
+        return "hankel"
+
+
+@part
+class InverseFft(Replaceable):
+    """Influence coefficients by the paper's inverse FFT, eq. (9)-(13).
+
+    Parameters
+    ----------
+    enlargement : int
+        How many times larger the domain is, the paper's lambda, 1 to 12 (default 8).
+    aliases : int
+        Order of the alias sums (default 0, as in the paper).
+    """
+
+    enlargement: int = 8
+    aliases: int = 0
+
+    def written(self) -> dict[str, Any]:
+        """As in a scene file."""
+        return {"inverse_fft": {"lambda": self.enlargement, "aliases": self.aliases}}
+
+
+@part
+class FrequencyDomain(Replaceable):
+    """No coefficients: every convolution with the frequency response on an enlarged domain.
+
+    Parameters
+    ----------
+    enlargement : int
+        How many times larger the domain is, 1 to 12 (default 8).
+    """
+
+    enlargement: int = 8
+
+    def written(self) -> dict[str, Any]:
+        """As in a scene file."""
+        return {"frequency_domain": {"lambda": self.enlargement}}
+
+
+@part
+class Skip(Replaceable):
+    """What may be left out when the scene does not need it; the answer stays as it is.
+
+    Parameters
+    ----------
+    equal_layers : bool
+        Treat a body whose layers all equal its substrate as homogeneous (default True).
+    coupling : bool
+        Leave out the normal-tangential kernels where they vanish (default True).
+    mirror : bool
+        Solve on half of a mirror-symmetric scene (default True).
+    digits : bool
+        Answer changes of the tractions in single precision where the tolerance is 1e-6 or more
+        (default True).
+    far : bool
+        Solve in a window around the contact, where no cell beyond it can touch (default True).
+    path : bool
+        Leave out the increments of branches whose end does not depend on the way there
+        (default False: results have a row for every increment asked for); they are solved if
+        their fields are to be kept.
+    """
+
+    equal_layers: bool = True
+    coupling: bool = True
+    mirror: bool = True
+    digits: bool = True
+    far: bool = True
+    path: bool = False
+
+
+@part
+class Settings(Replaceable):
+    """How a scene is solved; the defaults are what most users want.
+
+    Parameters
+    ----------
+    preset : Preset
+        Which algorithms (default ``Preset.FAST``).
+    tolerance : float, optional
+        Relative tolerance of the solution (default 1e-6; where increments are chosen 1/125 of
+        ``path_tolerance`` if that is more, 1/2500 where loads only press): gap error in the
+        contact over the Hertz approach, tangential misfit over mu times it, change of the
+        tractions in the last pass.
+    entering : bool
+        Reckon the slip of cells that come into contact from their entry (default True): one more
+        solution in increments in which the contact grows, and far fewer increments.
+    path_tolerance : float
+        Largest error of the shear at the ends of branches that ``increments="auto"`` leaves, over
+        the largest shear of the path (L2, default 5e-3).
+    path_grid : "auto", "same" or int
+        Cells along x of the grid for increments that are solved for the path alone (fields not
+        kept, not the end of a branch, constant normal force and tilting moments): a half or a
+        quarter of those of the grid; ``"same"``: the grid itself. ``"auto"`` (default): chosen with
+        the increments, such that ``path_tolerance`` holds; ``"same"`` where these are given.
+    turning : bool
+        Let slip follow the turn of the shear within an increment (default True): the path becomes
+        of second order.
+    max_alternations : int
+        Most passes of the intermediate loop per increment (default 60).
+    max_iterations : int
+        Most iterations of an inner loop (default 1000).
+    kernel : Hankel, InverseFft or FrequencyDomain
+        Conversion of the frequency response of coated bodies (default ``Hankel()``).
+    kernel_tolerance : float
+        Largest error of the influence coefficients over C33(0, 0) (default 1e-10).
+    skip : Skip
+        What may be left out (default: all that the scene does not need).
+    save : "branches", "all" or sequence of int
+        Which increments keep their fields (default ``"branches"``: the last of each branch).
+        Increments count from 1; the last of the path is always kept.
+
+    Raises
+    ------
+    InvalidSceneError
+        A number is out of its range; the message names the key, the value and what is allowed.
+    """
+
+    preset: Preset = Preset.FAST
+    tolerance: float | None = None
+    entering: bool = True
+    turning: bool = True
+    path_tolerance: float = 5e-3
+    path_grid: Literal["auto", "same"] | int = "auto"
+    max_alternations: int = 60
+    max_iterations: int = 1000
+    kernel: Hankel | InverseFft | FrequencyDomain = Hankel()
+    kernel_tolerance: float = 1e-10
+    skip: Skip = Skip()
+    save: Literal["branches", "all"] | Sequence[int] = "branches"
+
+    def __post_init__(self) -> None:
+        """Refuse what has no meaning."""
+        if not isinstance(self.save, str):
+            object.__setattr__(self, "save", tuple(self.save))
+        _core.check_settings(self)
+
+    def document(self) -> dict[str, Any]:
+        """The tables of a scene file."""
+        solver = dict(vars(self))
+        kernel = {
+            "method": solver.pop("kernel").written(),
+            "tolerance": solver.pop("kernel_tolerance"),
+        }
+        skip, output = vars(solver.pop("skip")), {"save": solver.pop("save")}
+        solver["preset"] = self.preset.value
+        given = {name: value for name, value in solver.items() if value is not None}
+        return {"kernel": kernel, "solver": given, "skip": skip, "output": output}
+
+    @classmethod
+    def of(cls, document: dict[str, Any]) -> Settings:
+        """The settings of the tables of a scene file."""
+        kernel, solver = document["kernel"], document["solver"]
+        method: Hankel | InverseFft | FrequencyDomain = Hankel()
+        if isinstance(kernel["method"], dict):
+            ((name, numbers),) = kernel["method"].items()
+            numbers = {"enlargement": numbers.pop("lambda"), **numbers}
+            method = (InverseFft if name == "inverse_fft" else FrequencyDomain)(**numbers)
+        return cls(
+            **{**solver, "preset": Preset(solver["preset"])},
+            kernel=method,
+            kernel_tolerance=kernel["tolerance"],
+            skip=Skip(**document["skip"]),
+            save=document["output"]["save"],
+        )

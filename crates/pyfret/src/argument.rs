@@ -8,7 +8,7 @@ use crate::error::{self, ArgumentError};
 /// The Python exception that says the same as `error`.
 pub(crate) fn to_python(error: Error) -> PyErr {
     match error {
-        Error::InvalidScene { .. } | Error::SceneFile { .. } => {
+        Error::InvalidScene { .. } | Error::SceneFile { .. } | Error::Values { .. } => {
             ArgumentError::new_err(error.to_string())
         }
         error => error::to_python(error),

@@ -60,9 +60,11 @@ create_exception!(
 pub(crate) fn to_python(error: Error) -> PyErr {
     let text = shown(&error.to_string()).into_owned();
     match error {
-        Error::InvalidScene { .. } | Error::SceneFile { .. } | Error::Setting { .. } => {
-            InvalidSceneError::new_err(text)
-        }
+        Error::InvalidScene { .. }
+        | Error::SceneFile { .. }
+        | Error::SceneFaults { .. }
+        | Error::Values { .. }
+        | Error::Setting { .. } => InvalidSceneError::new_err(text),
         Error::OffGrid { .. } | Error::WornOffGrid { .. } | Error::GridTooSmall { .. } => {
             OffGridError::new_err(text)
         }

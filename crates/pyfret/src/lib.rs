@@ -18,6 +18,7 @@ mod argument;
 mod arguments;
 mod assess;
 mod command_line;
+mod document;
 mod error;
 mod fatigue;
 mod forked;
@@ -30,6 +31,7 @@ mod march;
 mod material;
 mod operator;
 mod parts;
+mod quantity;
 mod reference;
 mod result;
 mod scene;
@@ -75,9 +77,8 @@ mod _core {
     #[pymodule_export]
     use crate::scene::{
         Body, Bond, Branch, Coating, Cone, CrownedRoller, Cylinder, Elastic, Ellipsoid, Flat,
-        FlatPunch, FrequencyDomain, Friction, Grid, Hankel, History, InverseFft, LoadPath,
-        PerRange, Plastic, Preset, Profile, Rough, Scene, Settings, Skip, Spacing, Sphere, Sum,
-        SurfaceMap, Waviness, Wedge, graded,
+        FlatPunch, Friction, Grid, History, LoadPath, PerRange, Plastic, Profile, Rough, Scene,
+        Spacing, Sphere, Sum, SurfaceMap, Waviness, Wedge, check_settings, graded,
     };
 
     #[pymodule_export]
@@ -103,7 +104,7 @@ mod _core {
     #[pymodule_export]
     use crate::text::{read_bytes, read_text, shown, with_error, with_range};
     #[pymodule_export]
-    use crate::wear::{Archard, DissipatedEnergy, resume_wear, verify_wear, wear};
+    use crate::wear::{resume_wear, verify_wear, wear, wear_of_file};
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {

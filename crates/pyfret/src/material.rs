@@ -2,9 +2,11 @@
 
 use contact_core::scene as core;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 use crate::error::{must_be, takes, to_python};
 use crate::parts::parts;
+use crate::quantity::{Given, known};
 
 /// A homogeneous isotropic elastic material.
 ///
@@ -58,8 +60,17 @@ impl Elastic {
 #[pymethods]
 impl Elastic {
     #[new]
-    #[pyo3(signature = (*, E, nu, plastic = None))]
-    fn new(E: f64, nu: f64, plastic: Option<Plastic>) -> PyResult<Self> {
+    #[pyo3(
+        signature = (*, E, nu, plastic = None, **unknown),
+        text_signature = "(*, E, nu, plastic=None)"
+    )]
+    fn new(
+        #[pyo3(from_py_with = Given::E)] E: f64,
+        nu: f64,
+        plastic: Option<Plastic>,
+        unknown: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Self> {
+        known("Elastic", unknown, &["E", "nu", "plastic"])?;
         if (Self(core::Elastic { E, nu }, None)) == Self::RIGID && plastic.is_none() {
             return Ok(Self::RIGID);
         }
@@ -265,8 +276,17 @@ takes!(
 #[pymethods]
 impl Coating {
     #[new]
-    #[pyo3(signature = (material, *, thickness, bond = Bond(core::Bond::PERFECT)))]
-    fn new(material: Elastic, thickness: f64, bond: Bond) -> PyResult<Self> {
+    #[pyo3(
+        signature = (material, *, thickness, bond = Bond(core::Bond::PERFECT), **unknown),
+        text_signature = "(material, *, thickness, bond=...)"
+    )]
+    fn new(
+        material: Elastic,
+        #[pyo3(from_py_with = Given::thickness)] thickness: f64,
+        bond: Bond,
+        unknown: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Self> {
+        known("Coating", unknown, &["material", "thickness", "bond"])?;
         let coating = core::Coating {
             material: material.0,
             thickness,

@@ -138,19 +138,6 @@ macro_rules! made {
 }
 pub(crate) use made;
 
-/// The `__repr__` of a class with parts: all of them, as they are given to the constructor.
-macro_rules! shown {
-    ($class:ident) => {
-        #[pyo3::pymethods]
-        impl $class {
-            fn __repr__(slf: &pyo3::Bound<'_, Self>) -> pyo3::PyResult<String> {
-                $crate::parts::shown(slf.as_any(), Self::PARTS)
-            }
-        }
-    };
-}
-pub(crate) use shown as shown_by_parts;
-
 /// A value of the class of `value` with some of its parts exchanged.
 pub(crate) fn replaced<'py>(
     value: &Bound<'py, PyAny>,

@@ -2,11 +2,13 @@
 
 use contact_core::scene as core;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 use super::shape::{Flat, Shape};
 use crate::error::{must_be, takes};
 use crate::material::{Coating, Elastic};
 use crate::parts::parts;
+use crate::quantity::known;
 
 /// An elastic half-space under its coatings and a gently curved surface.
 ///
@@ -31,15 +33,24 @@ takes!(
 #[pymethods]
 impl Body {
     #[new]
-    #[pyo3(signature = (substrate, *, coatings = Coatings(Vec::new()), shape = Shape::Flat(Flat)))]
-    fn new(substrate: Elastic, coatings: Coatings, shape: Shape) -> Self {
-        Self(core::Body {
+    #[pyo3(
+        signature = (substrate, *, coatings = Coatings(Vec::new()), shape = Shape::Flat(Flat), **unknown),
+        text_signature = "(substrate, *, coatings=..., shape=...)"
+    )]
+    fn new(
+        substrate: Elastic,
+        coatings: Coatings,
+        shape: Shape,
+        unknown: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Self> {
+        known("Body", unknown, &["substrate", "coatings", "shape"])?;
+        Ok(Self(core::Body {
             substrate: substrate.0,
             bonds: coatings.bonds(),
             plastic: coatings.plastic(substrate),
             coatings: coatings.0.into_iter().map(|c| c.0).collect(),
             shape: shape.into(),
-        })
+        }))
     }
 
     /// Material below the coatings.

@@ -8,6 +8,7 @@ use contact_core::scene::{self as core, Prescribed, RigidMotion};
 use numpy::PyArray1;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 use super::branch::{Branch, Spacing};
 use super::branches::{branch, column, cycled, moved, prescribe};
@@ -15,6 +16,7 @@ use super::increments::{AnyIncrements, Count, Names, Values};
 use crate::arguments::List;
 use crate::error::{takes, to_python};
 use crate::parts::parts;
+use crate::quantity::{Given, Optional, known};
 
 /// The load history, from two bodies just touching.
 ///
@@ -84,7 +86,7 @@ impl LoadPath {
 
     /// Go to the normal force `W` [N], the tangential forces kept, in one unit of path time.
     #[pyo3(signature = (W, *, increments = Count(None)))]
-    fn normal(&self, W: f64, increments: Count) -> PyResult<Self> {
+    fn normal(&self, #[pyo3(from_py_with = Given::W)] W: f64, increments: Count) -> PyResult<Self> {
         checked(self.0.clone().normal(W, increments.0))
     }
 
@@ -218,15 +220,15 @@ impl LoadPath {
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn force(
         &self,
-        W: Option<f64>,
-        T_x: Option<f64>,
-        T_y: Option<f64>,
-        M_x: Option<f64>,
-        M_y: Option<f64>,
-        M_z: Option<f64>,
-        sigma_B: Option<f64>,
-        sigma_B1: Option<f64>,
-        rolled: Option<f64>,
+        #[pyo3(from_py_with = Optional::W)] W: Option<f64>,
+        #[pyo3(from_py_with = Optional::T_x)] T_x: Option<f64>,
+        #[pyo3(from_py_with = Optional::T_y)] T_y: Option<f64>,
+        #[pyo3(from_py_with = Optional::M_x)] M_x: Option<f64>,
+        #[pyo3(from_py_with = Optional::M_y)] M_y: Option<f64>,
+        #[pyo3(from_py_with = Optional::M_z)] M_z: Option<f64>,
+        #[pyo3(from_py_with = Optional::sigma_B)] sigma_B: Option<f64>,
+        #[pyo3(from_py_with = Optional::sigma_B1)] sigma_B1: Option<f64>,
+        #[pyo3(from_py_with = Optional::rolled)] rolled: Option<f64>,
         increments: Count,
         spacing: Spacing,
         t: Option<f64>,
@@ -309,19 +311,31 @@ impl LoadPath {
     /// --------
     /// >>> LoadPath.start().normal(10.0).cycles(2, delta_x=2e-6)
     /// LoadPath(6 branches, increments to be chosen)
-    #[pyo3(signature = (n, *, T_x = None, T_y = None, M_z = None, delta_x = None, delta_y = None, phi_z = None, increments = Count(None)))]
+    #[pyo3(signature = (n, *, T_x = None, T_y = None, M_z = None, delta_x = None, delta_y = None, phi_z = None, increments = Count(None), **unknown), text_signature = "($self, n, *, T_x=None, T_y=None, M_z=None, delta_x=None, delta_y=None, phi_z=None, increments=...)")]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn cycles(
         &self,
         n: usize,
-        T_x: Option<f64>,
-        T_y: Option<f64>,
-        M_z: Option<f64>,
-        delta_x: Option<f64>,
-        delta_y: Option<f64>,
-        phi_z: Option<f64>,
+        #[pyo3(from_py_with = Optional::T_x)] T_x: Option<f64>,
+        #[pyo3(from_py_with = Optional::T_y)] T_y: Option<f64>,
+        #[pyo3(from_py_with = Optional::M_z)] M_z: Option<f64>,
+        #[pyo3(from_py_with = Optional::delta_x)] delta_x: Option<f64>,
+        #[pyo3(from_py_with = Optional::delta_y)] delta_y: Option<f64>,
+        #[pyo3(from_py_with = Optional::phi_z)] phi_z: Option<f64>,
         increments: Count,
+        unknown: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
+        let names = [
+            "n",
+            "T_x",
+            "T_y",
+            "M_z",
+            "delta_x",
+            "delta_y",
+            "phi_z",
+            "increments",
+        ];
+        known("LoadPath.cycles", unknown, &names)?;
         let named = [
             (RigidMotion::DeltaX, T_x.map(Prescribed::Load)),
             (RigidMotion::DeltaY, T_y.map(Prescribed::Load)),

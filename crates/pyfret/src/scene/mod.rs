@@ -21,7 +21,7 @@ pub(crate) use grid::{Grid, Pitch};
 pub(crate) use increments::PerRange;
 pub(crate) use load_path::LoadPath;
 pub(crate) use profile::{Profile, graded};
-pub(crate) use settings::{FrequencyDomain, Hankel, InverseFft, Preset, Save, Settings, Skip};
+pub(crate) use settings::{Settings, check_settings};
 pub(crate) use shape::{
     Cone, CrownedRoller, Cylinder, Ellipsoid, Flat, FlatPunch, Rough, Sphere, Sum, SurfaceMap,
     Waviness, Wedge,

@@ -6,11 +6,14 @@ use std::path::PathBuf;
 use contact_core::scene as core;
 use contact_subsurface::Side;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
-use super::{AnyFriction, Body, Friction, Grid, LoadPath, Save, Settings};
+use super::settings::save_fields;
+use super::{AnyFriction, Body, Friction, Grid, LoadPath, Settings};
 use crate::arguments::{Field, List, side};
 use crate::error::{takes, to_python};
 use crate::parts::parts;
+use crate::quantity::known;
 use crate::reference::Hertz;
 
 /// A fretting contact problem.
@@ -53,7 +56,10 @@ impl Scene {
 #[pymethods]
 impl Scene {
     #[new]
-    #[pyo3(signature = (*, body1, body2, mu, grid, path = None, settings = None, title = String::new()))]
+    #[pyo3(
+        signature = (*, body1, body2, mu, grid, path = None, settings = None, title = String::new(), **unknown),
+        text_signature = "(*, body1, body2, mu, grid, path=None, settings=None, title=...)"
+    )]
     fn new(
         body1: Body,
         body2: Body,
@@ -62,8 +68,11 @@ impl Scene {
         path: Option<LoadPath>,
         settings: Option<Settings>,
         title: String,
-    ) -> Self {
-        Self(core::Scene {
+        unknown: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Self> {
+        let names = ["body1", "body2", "mu", "grid", "path", "settings", "title"];
+        known("Scene", unknown, &names)?;
+        Ok(Self(core::Scene {
             title,
             body1: body1.0,
             body2: body2.0,
@@ -71,7 +80,7 @@ impl Scene {
             grid: grid.0,
             path: path.map_or_else(core::LoadPath::start, |p| p.0),
             settings: settings.unwrap_or_default().0,
-        })
+        }))
     }
 
     /// Read a scene file.
@@ -127,7 +136,7 @@ impl Scene {
         grid: Option<Grid>,
         path: Option<LoadPath>,
         settings: Option<Settings>,
-        save: Option<Save>,
+        save: Option<&Bound<'_, PyAny>>,
         mu: Option<AnyFriction>,
         title: Option<String>,
     ) -> PyResult<Self> {
@@ -148,7 +157,7 @@ impl Scene {
             scene.settings = settings.0;
         }
         if let Some(save) = save {
-            scene.settings.save = save.into_core()?;
+            scene.settings.save = save_fields(save)?;
         }
         if let Some(mu) = mu {
             scene.friction = mu.0;

@@ -1,0 +1,67 @@
+//! Numbers that may come with a unit: quantities of pint, texts such as "380 GPa".
+
+use contact_core::scene::quantity as in_si;
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyString};
+
+use crate::document::quantity;
+
+/// The number in SI of a quantity that has this name in a scene file.
+fn si(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
+    let text = if value.is_instance_of::<PyString>() {
+        value.extract()?
+    } else if value.hasattr("magnitude")? && value.hasattr("units")? {
+        quantity(value)?
+    } else {
+        return value.extract();
+    };
+    in_si(name, &text)
+        .map_err(|allowed| PyValueError::new_err(format!("{text:?}: must be {allowed}")))
+}
+
+/// Takes an argument of a name.
+pub(crate) struct Given;
+/// The same of arguments that may be left out.
+pub(crate) struct Optional;
+
+macro_rules! taken {
+    ($($name:ident)*) => {
+        #[allow(dead_code)] // each name has both kinds
+        impl Given {$(
+            pub(crate) fn $name(value: &Bound<'_, PyAny>) -> PyResult<f64> {
+                si(stringify!($name), value)
+            }
+        )*}
+
+        #[allow(dead_code)]
+        impl Optional {$(
+            pub(crate) fn $name(value: &Bound<'_, PyAny>) -> PyResult<Option<f64>> {
+                if value.is_none() {
+                    return Ok(None);
+                }
+                si(stringify!($name), value).map(Some)
+            }
+        )*}
+    };
+}
+
+taken! {
+    E thickness R R_x R_y length crown radius edge amplitude wavelength angle phase slope
+    W T_x T_y M_x M_y M_z delta_x delta_y phi_z sigma_B sigma_B1 rolled
+}
+
+/// Refuses an argument that is unknown, with the nearest one.
+pub(crate) fn known(what: &str, given: Option<&Bound<'_, PyDict>>, names: &[&str]) -> PyResult<()> {
+    let Some(unknown) = given.and_then(|given| given.keys().iter().next()) else {
+        return Ok(());
+    };
+    let unknown: String = unknown.extract()?;
+    let alike = |name: &&&str| (1e6 * strsim::jaro_winkler(&unknown, name)) as usize;
+    let nearest = names.iter().max_by_key(alike);
+    Err(PyTypeError::new_err(format!(
+        "{what} has no argument '{unknown}': the nearest is '{}' (of {})",
+        nearest.unwrap_or(&""),
+        names.join(", ")
+    )))
+}

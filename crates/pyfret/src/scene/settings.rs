@@ -1,0 +1,58 @@
+//! How a scene is solved: a dataclass of Python, which comes and goes as the tables of a scene file.
+
+use contact_core::scene as core;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::document::{Document, to_dict};
+use crate::error::{must_be, to_python};
+
+/// The settings, on their way in or out.
+#[derive(Clone, Default)]
+pub(crate) struct Settings(pub(crate) core::Settings);
+
+impl<'py> FromPyObject<'_, 'py> for Settings {
+    type Error = PyErr;
+
+    fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        let class = value.py().import("pyfret.settings")?.getattr("Settings")?;
+        if !value.is_instance(&class)? {
+            return Err(must_be(
+                &value,
+                "settings, such as Settings(tolerance=1e-8)",
+            ));
+        }
+        let tables: Document = value.call_method0("document")?.extract()?;
+        let settings = core::Settings::from_table(&tables.0).map_err(to_python)?;
+        Ok(Self(settings))
+    }
+}
+
+impl<'py> IntoPyObject<'py> for Settings {
+    type Target = PyAny;
+    type Output = Bound<'py, PyAny>;
+    type Error = PyErr;
+
+    fn into_pyobject(self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let tables: Bound<'py, PyDict> = to_dict(&self.0.to_table(), py)?;
+        let class = py.import("pyfret.settings")?.getattr("Settings")?;
+        class.call_method1("of", (tables,))
+    }
+}
+
+/// Fails if a setting has no meaning.
+#[pyfunction]
+pub(crate) fn check_settings(settings: Settings) {
+    drop(settings);
+}
+
+/// The fields that are kept, by the words of a scene file.
+pub(crate) fn save_fields(save: &Bound<'_, PyAny>) -> PyResult<core::SaveFields> {
+    let output = PyDict::new(save.py());
+    output.set_item("save", save)?;
+    let tables = PyDict::new(save.py());
+    tables.set_item("output", output)?;
+    let tables: Document = tables.extract()?;
+    let settings = core::Settings::from_table(&tables.0).map_err(to_python)?;
+    Ok(settings.save)
+}

@@ -1,0 +1,64 @@
+"""Parts of a scene: frozen dataclasses that are checked when they are made."""
+
+from __future__ import annotations
+
+import difflib
+import functools
+from dataclasses import dataclass, fields, replace
+from typing import TYPE_CHECKING, Any, TypeVar
+
+if TYPE_CHECKING:
+    from typing_extensions import dataclass_transform
+else:
+
+    def dataclass_transform(**_: Any) -> Any:
+        """Nothing while the program runs: it is said to tools that read types."""
+        return lambda of: of
+
+
+__all__ = ["part", "refuse_unknown"]
+
+T = TypeVar("T")
+
+
+def refuse_unknown(what: str, given: Any, known: list[str]) -> None:
+    """Refuse a keyword that is unknown, with the nearest one.
+
+    Raises
+    ------
+    TypeError
+        One of the names is none of those known.
+    """
+    for name in given:
+        if name not in known:
+            near = difflib.get_close_matches(name, known, n=1, cutoff=0.0)
+            hint = f"the nearest is {near[0]!r}, of {', '.join(known)}" if near else "it has none"
+            raise TypeError(f"{what} has no argument {name!r}: {hint}")
+
+
+@dataclass_transform(kw_only_default=True, frozen_default=True)
+def part(cls: type[T]) -> type[T]:
+    """A frozen dataclass of keywords; one that is unknown is refused with the nearest."""
+    made = dataclass(frozen=True, kw_only=True)(cls)
+    known = [field.name for field in fields(made)]  # type: ignore[arg-type]
+    init = made.__init__
+
+    @functools.wraps(init)
+    def made_of_known(self: T, *values: Any, **given: Any) -> None:
+        refuse_unknown(cls.__name__, given, known)
+        init(self, *values, **given)
+
+    made.__init__ = made_of_known  # type: ignore[assignment]
+    return made
+
+
+class Replaceable:
+    """What can be given with some of its parts exchanged."""
+
+    def replace(self: T, **changes: Any) -> T:
+        """The same with some of its parts exchanged, named as in the constructor."""
+        return replace(self, **changes)  # type: ignore[type-var]
+
+    def __replace__(self: T, **changes: Any) -> T:
+        """For :func:`copy.replace`."""
+        return replace(self, **changes)  # type: ignore[type-var]
