@@ -62,7 +62,10 @@ impl Measure {
 
 /// The kinds of the keys of a scene file, by their last names; others are numbers without a unit.
 const KINDS: [(&[&str], Kind); 8] = [
-    (&["E", "sigma_B", "sigma_B1"], Kind::Stress),
+    (
+        &["E", "sigma_B", "sigma_B1", "s_y", "hardening", "kinematic"],
+        Kind::Stress,
+    ),
     (
         &[
             "R",
