@@ -3,13 +3,24 @@
 Describe two bodies, each homogeneous or coated, a load history and a friction law; get the
 tractions, the stick and slip zones and the fretting loop at every load increment::
 
+    import matplotlib.pyplot as plt
+
     import pyfret as fret
 
-    scene = fret.Scene.from_file("scenes/coated_fretting.toml")
-    result = fret.solve(scene)
-    fret.plot.fretting_loop(result)
+    ball, alloy = fret.material("alumina"), fret.material("titanium_6Al4V")
+    film = fret.Coating(fret.material("TiN"), thickness=3e-6)
+    upper = fret.Body(ball, shape=fret.Sphere(R=5e-3))
+    lower = fret.Body(alloy, coatings=[film])
+    path = fret.LoadPath.start().normal(10.0).cycles(1, T_x=3.0)
+    grid = fret.Grid.for_contact(upper, lower, path, error=0.02)
+    scene = fret.Scene(body1=upper, body2=lower, mu=0.4, grid=grid)
+    result = fret.solve(scene, path)
+    print(result.summary())
+    result.plot()
+    plt.show()
 
-Axes, signs and names are those of ``docs/conventions.md``; SI units everywhere.
+On the command line: ``fret new coated_ball -o scene.toml``, ``fret run scene.toml``. SI units
+everywhere; z points into body 2, the lower one; pressure is positive, tension is positive.
 """
 
 from __future__ import annotations

@@ -62,6 +62,11 @@ class Run(OfRun):
         public = (member for member in dir(type(self)) if not member.startswith("_"))
         raise no_attribute("result", name, [*scalars, *public], fields)
 
+    def __dir__(self) -> list[str]:
+        """The names of the class, and the scalars of every increment."""
+        scalars = [str(k) for k, v in self.dataset.variables.items() if v.dims == ("increment",)]
+        return sorted({*super().__dir__(), *scalars})
+
     @property
     def status(self) -> str:
         """``"done"``, ``"running"``, or the sentence that says why the run stopped."""
