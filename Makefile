@@ -52,22 +52,22 @@ test-all: setup ## everything, twenty minutes: slow tests too
 
 stress: ## 10 000 random scenes, 30 minutes at most; the numbers go to docs/reliability.md
 	FRET_STRESS=10000 FRET_STRESS_MINUTES=29 FRET_STRESS_REPORT=$(CURDIR)/docs/reliability.md \
-		cargo test --release --locked --workspace --test campaigns -- --nocapture stress::
+		cargo test --release --locked --workspace --test campaigns -- --include-ignored --nocapture stress::
 
 path-errors: ## the estimated error of the path against the true one in 50 random scenes
-	FRET_PATH_ERRORS=50 cargo test --release --locked --workspace --test campaigns -- --nocapture path_error::
+	FRET_PATH_ERRORS=50 cargo test --release --locked --workspace --test campaigns -- --include-ignored --nocapture path_error::
 
 largest: ## largest stresses of 60 random contacts against four times as many cells; the numbers go to docs/reliability.md
 	FRET_LARGEST=60 FRET_LARGEST_REPORT=$(CURDIR)/docs/reliability.md \
-		cargo test --release --locked --workspace --test subsurface -- --nocapture largest::random
+		cargo test --release --locked --workspace --test subsurface -- --include-ignored --nocapture largest::random
 
 error-bars: ## error bars against the true errors in 160 random scenes; the numbers go to docs/error_bars.md
 	FRET_ERROR_BARS=160 FRET_ERROR_BARS_REPORT=$(CURDIR)/docs/error_bars.md \
-		cargo test --release --locked --workspace --test campaigns -- --nocapture error_bars::
+		cargo test --release --locked --workspace --test campaigns -- --include-ignored --nocapture error_bars::
 
 fuzz: ## ten minutes of hostile input for each reader; the numbers go to docs/reliability.md
 	FRET_FUZZ=600 FRET_FUZZ_REPORT=$(CURDIR)/docs/reliability.md \
-		cargo test --release --locked --workspace --test fuzz -- --nocapture --test-threads=1
+		cargo test --release --locked --workspace --test fuzz -- --include-ignored --nocapture --test-threads=1
 
 ablation: ## what each numerical method buys, switched off alone: docs/ablation.md
 	cargo run --release --locked --example ablation > docs/ablation.md
@@ -85,11 +85,11 @@ memory: ## what runs allocate against what `fret check` announces; the numbers g
 
 kill: ## a hundred kills of a running solve and of a run of wear, and what checkpoints cost; the numbers go to docs/reliability.md
 	FRET_KILLS=100 FRET_KILL_REPORT=$(CURDIR)/docs/reliability.md \
-		cargo test --release --locked --workspace --test kill -- --nocapture --test-threads=1
+		cargo test --release --locked --workspace --test kill -- --include-ignored --nocapture --test-threads=1
 
 wear: ## 300 random runs of wear, audited, and partial slip fully worn on 256 x 256 cells
 	FRET_WEAR=300 FRET_WEAR_CELLS=256 cargo test --release --locked --workspace --test wear -- \
-		--nocapture --test-threads=1 random partial_slip
+		--include-ignored --nocapture --test-threads=1 random partial_slip
 
 wear-jumps: ## implicit jumps over cycles beside the explicit ones that are as exact; the numbers go to docs/wear.md
 	cargo run --release --locked --example wear_jumps -- $(CURDIR)/docs/wear.md

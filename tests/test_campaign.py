@@ -6,6 +6,8 @@ import sys
 from pathlib import Path
 from types import SimpleNamespace
 
+import pytest
+
 import pyfret as fret
 
 sys.path.insert(0, str(Path(__file__).parent / "campaign"))
@@ -13,6 +15,8 @@ sys.path.insert(0, str(Path(__file__).parent / "campaign"))
 from audit import Audit
 from draw import draw
 from run import campaign, fate, told
+
+pytestmark = pytest.mark.solves
 
 SCENE = """
 schema = 1

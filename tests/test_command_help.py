@@ -12,6 +12,8 @@ import pyfret as fret
 from conftest import sphere_on_flat
 from pyfret._cli import commands
 
+pytestmark = pytest.mark.solves
+
 COMMANDS = (
     "study",
     "compare",

@@ -94,6 +94,7 @@ def test_check_solves_nothing_and_says_what_is_skipped(scene_file: Path) -> None
         assert words in run.stdout
 
 
+@pytest.mark.solves
 def test_stress_below_is_that_of_python(coated: fret.Result, tmp_path: Path) -> None:
     store = tmp_path / "out.zarr"
     result = fret.solve(coated.scene, out=store, progress=False)
@@ -256,6 +257,7 @@ def test_numbers_for_programs(coated: fret.Result, tmp_path: Path) -> None:
     assert shear["z"] == coated.scene.interfaces()[0]
 
 
+@pytest.mark.solves
 def test_few_planes_of_a_volume_leave_the_largest_value_as_it_is(
     coated: fret.Result, tmp_path: Path
 ) -> None:

@@ -16,6 +16,8 @@ from conftest import ROOT
 from pyfret import fatigue, wear
 from pyfret.study import Candidate
 
+pytestmark = pytest.mark.solves
+
 R, W = 6e-3, 20.0
 TITANIUM = fret.Elastic(E=117e9, nu=0.31)
 FILM = fret.Elastic(E=300e9, nu=0.25)

@@ -63,6 +63,7 @@ def test_uniform_tension_on_a_normal_crack() -> None:
         crack.intensity(stress[:, :-1])
 
 
+@pytest.mark.solves
 def test_cracks_are_values() -> None:
     crack = fracture.Crack(legs=[(1e-4, 0.0), (2e-4, 0.3)], x=-1e-3)
     for again in (pickle.loads(pickle.dumps(crack)), copy.copy(crack)):
@@ -131,6 +132,7 @@ def test_growth_constants_of_the_table_of_materials() -> None:
     assert fracture.Threshold.of(own, walker=0.9).walker == 0.9
 
 
+@pytest.mark.slow
 def test_growth_below_a_contact(rig: fret.Result, pulled: fret.Result) -> None:
     """The path settles; a straight first crack of the path has the K of a straight crack."""
     grown = pulled.grow_crack(start=2e-5, end=2e-4, angle=0.4, tolerance=0.05)
@@ -155,6 +157,7 @@ def test_growth_below_a_contact(rig: fret.Result, pulled: fret.Result) -> None:
     assert alone.lengths[-1] < 1.9e-4
 
 
+@pytest.mark.solves
 def test_growth_under_a_plain_history() -> None:
     """Under tension to and fro an inclined crack turns normal to it, and K_II vanishes."""
     crack = fracture.Crack(legs=[(1e-4, np.radians(40))])
@@ -180,6 +183,7 @@ def test_growth_under_a_plain_history() -> None:
         crack.grow(tension, end=5e-4, direction="down")  # type: ignore[arg-type]
 
 
+@pytest.mark.solves
 def test_a_kink_is_that_of_the_plain_crack(rig: fret.Result) -> None:
     x = -rig.a_H
     lengths = [3e-5, 1e-4]
@@ -199,6 +203,7 @@ def test_a_kink_is_that_of_the_plain_crack(rig: fret.Result) -> None:
         rig.crack(x, lengths=lengths, kink=(-5e-5, 0.5))
 
 
+@pytest.mark.solves
 def test_the_deepest_point_of_a_crack_under_a_ball() -> None:
     """A load along y turns the plane; the estimate is the plane value times the factor."""
     ball = fret.Body(STEEL, shape=fret.Sphere(R=5e-3))
@@ -230,6 +235,7 @@ def test_the_deepest_point_of_a_crack_under_a_ball() -> None:
         along_x.crack(lengths=lengths, aspect=2.0)
 
 
+@pytest.mark.slow
 def test_film_interface_or_substrate(rig: fret.Result) -> None:
     film = fret.Coating(fret.Elastic(E=400e9, nu=0.25), thickness=1e-5)
     scene = rig.scene.replace(body2=fret.Body(STEEL, coatings=[film]), path=rig.scene.path)
@@ -258,6 +264,7 @@ def test_film_interface_or_substrate(rig: fret.Result) -> None:
         fracture.first_to_fail(rig, toughness=1.0)
 
 
+@pytest.mark.solves
 def test_the_arrest_map_holds_what_each_point_gives(rig: fret.Result) -> None:
     scene = rig.scene.replace(grid=fret.Grid.strip(extent=1e-3, n=64))
     arrest = fret.study.Arrest(fracture.Threshold(3e6, 300e6))
@@ -280,6 +287,7 @@ def test_the_arrest_map_holds_what_each_point_gives(rig: fret.Result) -> None:
     assert "stops" in [text.get_text() for text in ax.get_legend().get_texts()]
 
 
+@pytest.mark.solves
 def test_the_running_map_has_the_lengths_at_which_cracks_stop(rig: fret.Result) -> None:
     scene = rig.scene.replace(grid=fret.Grid.strip(extent=1e-3, n=64))
     arrest = fret.study.Arrest(fracture.Threshold(2e6, 300e6), lengths=[5e-6, 2e-5, 1e-4, 4e-4])
@@ -300,6 +308,7 @@ def test_the_running_map_has_the_lengths_at_which_cracks_stop(rig: fret.Result) 
     assert "crack stops at [µm]" in [text.get_text() for text in ax.get_legend().get_texts()]
 
 
+@pytest.mark.solves
 def test_bulk_stress_moves_the_line_of_arrest_in_the_running_map(rig: fret.Result) -> None:
     scene = rig.scene.replace(grid=fret.Grid.strip(extent=1e-3, n=64))
     arrest = fret.study.Arrest(fracture.Threshold(3e6, 300e6), lengths=[5e-6, 2e-5, 1e-4, 4e-4])
@@ -348,6 +357,7 @@ def test_films() -> None:
         fracture.film_intensity(film, STEEL, 5e-6, 1e9)
 
 
+@pytest.mark.solves
 def test_figures(rig: fret.Result) -> None:
     cracks, threshold = rig.crack(), fracture.Threshold(2e6, 200e6)
     for ax in (
@@ -381,6 +391,7 @@ def test_figures(rig: fret.Result) -> None:
     assert "limit of the film" in named
 
 
+@pytest.mark.solves
 def test_command(pulled: fret.Result, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     store = tmp_path / "rig.nc"
     pulled.save(store)

@@ -42,6 +42,7 @@ def random_coatings(random: np.random.Generator) -> list[fret.Coating]:
 PATH = fret.LoadPath.start().normal(W, increments=1).tangential(0.6 * 0.3 * W, increments=1)
 
 
+@pytest.mark.solves
 @pytest.mark.timeout(600)
 @pytest.mark.filterwarnings("ignore::pyfret.errors.SceneWarning")
 def test_chosen_depths_find_the_largest_stress_of_random_layered_contacts() -> None:

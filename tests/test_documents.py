@@ -156,6 +156,7 @@ def store(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("document", DOCUMENTS, ids=ids)
 def test_its_python_runs(document: Path, store: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     blocks = re.findall(r"```python\n(.*?)```", text(document), flags=re.DOTALL)
@@ -172,6 +173,7 @@ def test_the_scene_of_its_document_is_a_scene() -> None:
     assert fret.Scene.from_toml(block).title == "Coated fretting"
 
 
+@pytest.mark.solves
 def test_the_example_of_a_real_coating_is_short_and_runs(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

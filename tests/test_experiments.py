@@ -8,6 +8,8 @@ import pytest
 import pyfret as fret
 from pyfret import experiments
 
+pytestmark = pytest.mark.solves
+
 
 def test_every_table_is_there() -> None:
     for name in experiments.NAMES:

@@ -13,6 +13,8 @@ import pyfret as fret
 from pyfret import export
 from pyfret.export.meshes import faces_in_plane, read_mesh
 
+pytestmark = pytest.mark.solves
+
 W, MU, R = 100.0, 0.3, 5e-3
 STEEL = fret.Elastic(E=210e9, nu=0.0)
 HERTZ = fret.reference.hertz(R=R, bodies=(STEEL, STEEL), W=W)

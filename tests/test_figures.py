@@ -98,9 +98,13 @@ def _close_figures() -> Iterator[None]:
     plt.close("all")
 
 
-pytestmark = pytest.mark.filterwarnings("ignore::pyfret.errors.SceneWarning")
+pytestmark = [
+    pytest.mark.solves,
+    pytest.mark.filterwarnings("ignore::pyfret.errors.SceneWarning"),
+]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("units", ["auto", "SI"])
 def test_every_figure_is_drawn(result: fret.Result, units: fret.plot.Units) -> None:
     last = result.at(-1)

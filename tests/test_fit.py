@@ -12,6 +12,8 @@ import pyfret as fret
 if TYPE_CHECKING:
     from pathlib import Path
 
+pytestmark = pytest.mark.solves
+
 STEEL = fret.Elastic(E=210e9, nu=0.3)
 W = 20.0
 

@@ -12,6 +12,8 @@ import pyfret as fret
 from conftest import sphere_on_flat
 from pyfret import fatigue
 
+pytestmark = pytest.mark.solves
+
 SOURCE = "bending and torsion tests of this test"
 STEEL = fatigue.Material("steel", [("s_D", 400e6, SOURCE), ("t_D", 260e6, SOURCE)])
 

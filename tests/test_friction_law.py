@@ -13,6 +13,8 @@ import pytest
 import pyfret as fret
 from conftest import MU, W, sphere_on_flat
 
+pytestmark = pytest.mark.solves
+
 PATH = fret.LoadPath.start().normal(W, increments=2).cycles(1, T_x=0.5 * MU * W, increments=6)
 
 

@@ -11,6 +11,8 @@ import pytest
 import pyfret as fret
 from conftest import W, sphere_on_flat
 
+pytestmark = pytest.mark.solves
+
 PRESSED = fret.LoadPath.start().normal(W, increments=2)
 
 

@@ -13,6 +13,8 @@ from conftest import W as LOAD
 from pyfret import fatigue
 from pyfret.heat import Conductor
 
+pytestmark = pytest.mark.solves
+
 STEEL = Conductor(conductivity=45.0, heat_capacity=3.6e6)
 SHIFT = 40e-6
 STEEL_E = fret.Elastic(E=210e9, nu=0.3)

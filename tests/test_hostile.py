@@ -10,6 +10,8 @@ from pathlib import Path
 
 import pytest
 
+pytestmark = pytest.mark.solves
+
 CALLS = Path(__file__).with_name("hostile")
 #: The longest that a call may take, a busy machine allowed for [s].
 LONGEST = 60.0

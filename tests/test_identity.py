@@ -14,6 +14,8 @@ import xarray as xr
 import pyfret as fret
 from pyfret.study.identity import identity
 
+pytestmark = pytest.mark.solves
+
 STEEL = fret.Elastic(E=210e9, nu=0.3)
 SCENE = fret.Scene(
     body1=fret.Body(STEEL, shape=fret.Sphere(R=5e-3)),

@@ -13,6 +13,8 @@ from conftest import T_MAX, sphere_on_flat
 from conftest import W as LOAD
 from pyfret import fatigue, fracture, subsurface
 
+pytestmark = pytest.mark.solves
+
 COATING = fret.Coating(fret.Elastic(E=300e9, nu=0.2), thickness=3e-6)
 
 

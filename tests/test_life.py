@@ -17,6 +17,8 @@ from pyfret import fatigue
 from pyfret.fatigue import averages
 from pyfret.fatigue.section import Section, SectionOptions
 
+pytestmark = pytest.mark.solves
+
 STEEL = fatigue.Materials()["steel_42CrMo4"]
 
 

@@ -15,6 +15,8 @@ from conftest import ROOT, T_MAX, sphere_on_flat
 from conftest import W as LOAD
 from pyfret import fatigue
 
+pytestmark = pytest.mark.solves
+
 FRET = ROOT / "target" / "release" / "fret"
 STEEL = fatigue.Materials()["steel_42CrMo4"]
 TABLE = (

@@ -10,6 +10,8 @@ import pyfret as fret
 from conftest import T_MAX, R, W, pair, sphere_on_flat
 from pyfret import fatigue
 
+pytestmark = pytest.mark.solves
+
 S_Y = 1e9
 FACTORS = ("von_mises", "tresca", "shakedown")
 

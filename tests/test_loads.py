@@ -12,6 +12,8 @@ import pytest
 import pyfret as fret
 from conftest import MU, R, W, sphere_on_flat
 
+pytestmark = pytest.mark.solves
+
 STEEL = fret.Elastic(E=210e9, nu=0.3)
 PRESSED = fret.LoadPath.start().normal(W, increments=1)
 

@@ -147,6 +147,7 @@ def test_what_cannot_be_meant_is_refused(tmp_path: Path, text: str, said: str) -
         assert "\n" not in str(told.value)
 
 
+@pytest.mark.solves
 @pytest.mark.parametrize(
     ("name", "content"),
     [

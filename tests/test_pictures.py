@@ -21,6 +21,8 @@ from matplotlib.testing.compare import compare_images
 import pyfret as fret
 from conftest import ROOT
 
+pytestmark = pytest.mark.solves
+
 PICTURES = ROOT / "tests" / "data" / "pictures"
 #: Root-mean-square difference, of 255, up to which two pictures are the same: versions of
 #: matplotlib set letters a pixel apart.

@@ -15,6 +15,8 @@ from PIL import Image
 import pyfret as fret
 from conftest import paper_path, sphere_on_flat
 
+pytestmark = pytest.mark.solves
+
 
 @pytest.fixture(autouse=True)
 def _close_figures() -> Iterator[None]:

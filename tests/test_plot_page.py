@@ -14,6 +14,7 @@ from pyfret import plot
 sys.path.insert(0, str(ROOT / "tools"))
 import plot_page
 
+pytestmark = pytest.mark.solves
 NAMES = [name for figures in plot_page.FIGURES.values() for name in figures]
 
 

@@ -9,6 +9,8 @@ import pytest
 
 import pyfret as fret
 
+pytestmark = pytest.mark.solves
+
 STEEL = fret.Elastic(E=210e9, nu=0.3)
 R, W = 5e-3, 10.0
 HERTZ = fret.reference.hertz(R=R, bodies=(STEEL, STEEL), W=W)

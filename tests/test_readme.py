@@ -10,6 +10,8 @@ import pytest
 
 from conftest import ROOT
 
+pytestmark = pytest.mark.solves
+
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 
 

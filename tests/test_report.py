@@ -20,6 +20,8 @@ from pyfret import verification
 from pyfret.report import content
 from pyfret.report.crack import Crack
 
+pytestmark = pytest.mark.solves
+
 PATH = fret.LoadPath.start().normal(W, increments=3).cycles(1, T_x=200.0, increments=8)
 #: Widths and heights of a laptop and of a phone.
 SCREENS = {"laptop": (1280, 800), "phone": (390, 844)}

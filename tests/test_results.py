@@ -16,6 +16,8 @@ import xarray as xr
 import pyfret as fret
 from conftest import MU, T_MAX, R, W, paper_path, sphere_on_flat
 
+pytestmark = pytest.mark.solves
+
 SCALARS = [
     "W",
     "T_x",

@@ -19,6 +19,8 @@ from pyfret import fatigue
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+pytestmark = pytest.mark.solves
+
 NU = 0.3
 S_Y = 1e9
 K = S_Y / np.sqrt(3)

@@ -17,6 +17,8 @@ import pyfret as fret
 from conftest import R, W, pair, sphere_on_flat
 from pyfret._util.progress import Progress
 
+pytestmark = pytest.mark.solves
+
 STEEL, _ = pair(0.3)
 BALL = fret.Body(STEEL, shape=fret.Sphere(R))
 FLAT = fret.Body(STEEL)

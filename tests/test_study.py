@@ -21,6 +21,8 @@ from conftest import MU, ROOT, R, W, sphere_on_flat
 from pyfret import citation
 from pyfret.plot.parameters import parameter_label
 
+pytestmark = pytest.mark.solves
+
 #: A cycle, small.
 PATH = fret.LoadPath.start().normal(W, increments=2).cycles(1, T_x=150.0, increments=6)
 SCENE = sphere_on_flat(ratio=2.0, n=16).replace(path=PATH, title="study")

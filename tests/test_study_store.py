@@ -18,6 +18,8 @@ import pyfret as fret
 from pyfret.errors import StoreError
 from pyfret.study.ledger import FILE
 
+pytestmark = pytest.mark.solves
+
 STEEL = fret.Elastic(E=210e9, nu=0.3)
 SCENE = fret.Scene(
     body1=fret.Body(STEEL, shape=fret.Sphere(R=5e-3)),

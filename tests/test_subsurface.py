@@ -14,6 +14,8 @@ from matplotlib.figure import Figure
 import pyfret as fret
 from conftest import MU, W, pair, paper_path, sphere_on_flat
 
+pytestmark = pytest.mark.solves
+
 STEEL, _ = pair(0.3)
 
 

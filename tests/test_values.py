@@ -18,6 +18,8 @@ from conftest import W, paper_path, sphere_on_flat
 from pyfret.solution import Increment
 from pyfret.verification import Check
 
+pytestmark = pytest.mark.solves
+
 STEEL = fret.Elastic(E=210e9, nu=0.3)
 PAIR = (STEEL, fret.Elastic(E=70e9, nu=0.33))
 HERTZ = fret.reference.hertz(R=0.018, bodies=PAIR, W=1e3)

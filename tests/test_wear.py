@@ -16,6 +16,8 @@ import pyfret as fret
 if TYPE_CHECKING:
     from pathlib import Path
 
+pytestmark = pytest.mark.solves
+
 STEEL = fret.Elastic(E=200e9, nu=0.3)
 
 

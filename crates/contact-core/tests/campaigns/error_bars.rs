@@ -229,6 +229,7 @@ fn summary(name: &str, ratios: &[f64]) -> ([usize; 2], String) {
 }
 
 #[test]
+#[ignore = "slow"]
 fn error_bars_are_honest() {
     let asked = std::env::var("FRET_ERROR_BARS").ok();
     let scenes: usize = asked.map_or(2, |n| n.parse().expect("a number of scenes"));

@@ -136,6 +136,7 @@ fn largest(branches: &[Compared]) -> Compared {
 }
 
 #[test]
+#[ignore = "slow"]
 fn the_estimated_error_of_the_path_is_honest() {
     let asked = std::env::var("FRET_PATH_ERRORS").ok();
     let asked: Option<u64> = asked.map(|n| n.parse().expect("a number of scenes"));

@@ -77,6 +77,7 @@ const CELLS: usize = 400;
 const INCREMENTS: usize = 8;
 
 #[test]
+#[ignore = "slow"]
 fn scene_files() {
     for text in SCENES {
         assert!(take(text).unwrap(), "the scenes are good ones");

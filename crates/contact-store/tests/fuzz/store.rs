@@ -48,6 +48,7 @@ struct Damage {
 }
 
 #[test]
+#[ignore = "slow"]
 fn result_stores() {
     let folder = crate::folder();
     let path = folder.path().join("good.zarr");

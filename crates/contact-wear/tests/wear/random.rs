@@ -20,6 +20,7 @@ struct Case {
 }
 
 #[test]
+#[ignore = "slow"]
 fn random_wear_is_sound() {
     let count = std::env::var("FRET_WEAR").map_or(24, |n| n.parse().unwrap());
     let from = std::env::var("FRET_WEAR_FROM").map_or(0, |n| n.parse().unwrap());

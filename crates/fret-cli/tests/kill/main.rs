@@ -83,6 +83,7 @@ fn kills() -> usize {
 }
 
 #[test]
+#[ignore = "slow"]
 fn killed_runs_are_resumed_to_the_same_bits() {
     let kills = kills();
     // A checkpoint after every increment: most kills hit one; and as few as run time allows, so

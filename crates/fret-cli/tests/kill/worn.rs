@@ -139,6 +139,7 @@ fn jumps(out: &Path) -> usize {
 }
 
 #[test]
+#[ignore = "slow"]
 fn killed_runs_of_wear_are_resumed_to_the_same_bits() {
     let kills = kills();
     let victims = [

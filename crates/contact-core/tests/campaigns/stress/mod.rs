@@ -86,6 +86,7 @@ fn campaign(n: u64) -> Vec<Outcome> {
 }
 
 #[test]
+#[ignore = "slow"]
 fn random_scenes_are_solved_or_refused() {
     if let Some(seed) = number("FRET_STRESS_SEED") {
         let drawn = draw::draw(seed);

@@ -215,6 +215,7 @@ fn all(seeds: Range<u64>, n: usize, finer: usize) -> Vec<Compared> {
 }
 
 #[test]
+#[ignore = "slow"]
 fn random_contacts_are_within_their_errors() {
     let number = |name: &str| std::env::var(name).ok().map(|n| n.parse::<u64>().unwrap());
     let whole = number("FRET_LARGEST");
