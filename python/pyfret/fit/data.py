@@ -242,6 +242,7 @@ def loops(
     delta: str | None = None,
     T: str | None = None,
     units: dict[str, str] | None = None,
+    skip: int = 0,
     W: float | None = None,
     noise: float | None = None,
     tilt: bool | None = None,
@@ -257,6 +258,8 @@ def loops(
         Names of the columns of shift and force (default: by their units).
     units : dict of str to str, optional
         Units of columns whose head has none.
+    skip : int
+        Lines at the top that are left out, where the head is not found by itself (default 0).
     W : float, optional
         Normal force [N] (default: that of the scene).
     noise : float, optional
@@ -274,7 +277,7 @@ def loops(
     ValueError
         The file is no such table; the message has the line and what is allowed.
     """
-    table = tables.read(path, units)
+    table = tables.read(path, units, skip=skip)
     shift = table.column("length", ("delta", "d_", "weg", "x", "shift", "disp"), delta)
     force = table.column("force", ("t", "q", "kraft", "f", "force"), T)
     rows = np.concatenate(table.blocks)
@@ -287,6 +290,7 @@ def indentation(
     W: str | None = None,
     delta_z: str | None = None,
     units: dict[str, str] | None = None,
+    skip: int = 0,
     noise: float | None = None,
     frame: bool = False,
 ) -> Indentation:
@@ -295,7 +299,7 @@ def indentation(
     With ``frame=True`` the compliance of the frame [m/N] is an unknown: the approach that is
     measured holds it times the force.
     """
-    table = tables.read(path, units)
+    table = tables.read(path, units, skip=skip)
     force = table.column("force", ("w", "f", "p", "load"), W)
     approach = table.column("length", ("delta", "h", "z", "depth", "weg"), delta_z)
     rows = np.concatenate(table.blocks)
@@ -310,12 +314,18 @@ def scar(
     x: str | None = None,
     depth: str | None = None,
     units: dict[str, str] | None = None,
+    skip: int = 0,
     noise: float | None = None,
 ) -> Scar:
     """Read the profile of a scar of a file, depth downwards positive, as :func:`loops`."""
-    table = tables.read(path, units)
+    table = tables.read(path, units, skip=skip)
     place = table.column("length", ("x", "pos"), x)
     worn = table.column("length", ("depth", "z", "h", "worn", "tiefe"), depth)
+    if place == worn:
+        raise ValueError(
+            f"{table.place}: has one column of lengths, {table.names[place]}: a profile has two, "
+            "place and depth"
+        )
     rows = np.concatenate(table.blocks)
     return Scar.of(rows[:, place], rows[:, worn], wear=wear, body=body, noise=noise)
 
@@ -328,10 +338,11 @@ def lives(
     part: float = 1.0,
     body: int = 2,
     units: dict[str, str] | None = None,
+    skip: int = 0,
     noise: float | None = None,
 ) -> Lives:
     """Read lives of a file: a column of cycles, the others named by the keys of a scene file."""
-    table = tables.read(path, units)
+    table = tables.read(path, units, skip=skip)
     if cycles not in table.names:
         raise ValueError(f"{table.place}: has no column {cycles!r}, but {', '.join(table.names)}")
     rows = np.concatenate(table.blocks)

@@ -43,6 +43,8 @@ UNITS: dict[str, tuple[str, float]] = {
 }
 #: A unit at the end of a head: ``[um]``, ``(um)``, ``/ um`` or ``_um``.
 UNIT = re.compile(r"^(.*?)\s*(?:\[([^\]]*)\]|\(([^)]*)\)|/\s*(\S+)|_([^_\s]+))\s*$")
+#: Lines from which what parts the columns is found.
+SAMPLE = 200
 NUMBER = re.compile(r"^[+-]?(\d+[.,]?\d*|[.,]\d+)([eE][+-]?\d+)?$")
 
 
@@ -77,16 +79,20 @@ class Table:
         )
 
 
-def read(path: str | os.PathLike[str], units: dict[str, str] | None = None) -> Table:
+def read(
+    path: str | os.PathLike[str], units: dict[str, str] | None = None, *, skip: int = 0
+) -> Table:
     """Read a table.
 
     Parameters
     ----------
     path : path
         Text in UTF-8, UTF-16 or Latin-1 with a head of names, and perhaps a line of units below it;
-        lines that begin with ``#`` or ``%`` are left out.
+        lines above the head are left out, and so are those that begin with ``#`` or ``%``.
     units : dict of str to str, optional
         Units of columns whose head names none.
+    skip : int
+        Lines at the top of the file that are left out, where the head is not found by itself.
 
     Raises
     ------
@@ -94,37 +100,49 @@ def read(path: str | os.PathLike[str], units: dict[str, str] | None = None) -> T
         There is no head, a number cannot be read, or a unit is unknown; the message has the line.
     """
     place = Path(path)
-    lines = _core.read_text(place).splitlines()
-    kept = [(n, line.strip()) for n, line in enumerate(lines, 1) if not line.startswith(("#", "%"))]
-    filled = [line for _, line in kept if line]
+    lines = list(enumerate(_core.read_text(place).splitlines(), 1))[skip:]
+    kept = [(n, line.strip(" \r")) for n, line in lines if not line.startswith(("#", "%"))]
+    filled = [(n, line) for n, line in kept if line.strip()]
     if len(filled) < 2:
         raise ValueError(f"{place}: must be a head and rows of numbers")
-    separator = parting(filled)
-    heads = cells(filled[0], separator)
-    if all(NUMBER.match(head) for head in heads):
+    separator = parting([line for _, line in filled])
+    rows = [cells(line, separator) for _, line in filled]
+    first = first_row(rows)
+    if first == 0:
         raise ValueError(
-            f"{place}:1: the first line must name the columns and their units, as in "
+            f"{place}:{filled[0][0]}: the first line must name the columns and their units, as in "
             "delta [um];T [N]"
         )
-    below = [cell.strip("[]()") for cell in cells(filled[1], separator)]
+    if first is None:
+        n, line = filled[1]
+        raise ValueError(f"{place}:{n}: must be numbers: {line}")
+    below = [cell.strip("[]()") for cell in rows[first - 1]]
     # Units may have a line of their own.
-    is_row = len(below) == len(heads) and all(unit in UNITS for unit in below)
+    is_row = first > 1 and all(unit in UNITS or not unit for unit in below) and any(below)
+    head = first - 2 if is_row else first - 1
+    heads, line_of_head = rows[head], filled[head][0]
+    if len(heads) != len(rows[first]):
+        raise ValueError(
+            f"{place}:{filled[first][0]}: {len(rows[first])} numbers, where the head, line "
+            f"{line_of_head}, has {len(heads)}: skip=n leaves out n lines at the top"
+        )
     if is_row:
         units = {**dict(zip(heads, below, strict=True)), **(units or {})}
     parted = [named(head, units or {}) for head in heads]
     for name, unit in parted:
         if unit and unit not in UNITS:
-            raise ValueError(f"{place}:1: {name}: unit {unit!r}: must be one of {', '.join(UNITS)}")
+            raise ValueError(
+                f"{place}:{line_of_head}: {name}: unit {unit!r}: must be one of {', '.join(UNITS)}"
+            )
     factors = np.array([UNITS[unit][1] if unit else 1.0 for _, unit in parted])
     blocks: list[list[list[float]]] = [[]]
-    begun = False
     for n, line in kept:
-        if not line:
+        if n < filled[first][0]:
+            # What a logger writes above the head, the head, the units.
+            continue
+        if not line.strip():
             if blocks[-1]:
                 blocks.append([])
-            continue
-        if not begun:
-            begun = True
             continue
         row = cells(line, separator)
         if row == heads or (is_row and [cell.strip("[]()") for cell in row] == below):
@@ -145,15 +163,30 @@ def read(path: str | os.PathLike[str], units: dict[str, str] | None = None) -> T
 
 
 def parting(lines: list[str]) -> str | None:
-    """What parts the columns; None for blanks. A comma parts only where nothing else does."""
-    for separator in (";", "\t"):
-        if all(separator in line for line in lines[:20]):
-            return separator
-    # The line below the head may be one of units.
-    rows = [line.split() for line in lines[2:20] or lines[1:]]
-    if all(len(row) > 1 and all(NUMBER.match(cell) for cell in row) for row in rows):
-        return None
-    return ","
+    """What parts the columns, None for blanks: that which makes numbers of most lines.
+
+    A comma parts only where nothing else does as well.
+    """
+
+    def numeric(separator: str | None) -> int:
+        return sum(is_numeric(cells(line, separator)) for line in lines[:SAMPLE])
+
+    # The first of the best.
+    return max((";", "\t", None, ","), key=numeric)
+
+
+def is_numeric(row: list[str]) -> bool:
+    """Whether a line is a row of numbers."""
+    return len(row) > 1 and all(NUMBER.match(cell) for cell in row)
+
+
+def first_row(rows: list[list[str]]) -> int | None:
+    """The first row of numbers that the next one goes on from."""
+    for n, row in enumerate(rows):
+        after = rows[n + 1] if n + 1 < len(rows) else row
+        if is_numeric(row) and is_numeric(after) and len(row) == len(after):
+            return n
+    return None
 
 
 def cells(line: str, separator: str | None) -> list[str]:

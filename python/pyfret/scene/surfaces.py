@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gzip
+import io
 import warnings
 from os import PathLike, fspath
 from pathlib import Path
@@ -10,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from pyfret._core import StoreError, SurfaceMap
+from pyfret._core import StoreError, SurfaceMap, read_bytes
 from pyfret.scene.warnings import SceneWarning
 
 if TYPE_CHECKING:
@@ -82,12 +83,12 @@ def read_surface(
             'reading instrument files needs SurfaceTopography: pip install "fretting[surfaces]"'
         )
         raise ImportError(message) from absent
-    if not place.is_file():
-        raise StoreError(f"{fspath(path)}: there is no such file")
+    if not read_bytes(place):
+        raise StoreError(f"{fspath(path)}: is empty")
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            reader = open_topography(fspath(path))
+            reader = open_topography(opened(place))
             chosen = chosen_channel(reader, channel)
             surface = measured(reader, chosen, spacing, unit)
             if surface.dim == 2:
@@ -111,6 +112,18 @@ def read_surface(
         return SurfaceMap(np.ascontiguousarray(heights), spacing=pitch, missing=missing)
     except ValueError as error:
         raise StoreError(f"{fspath(path)}: {error}") from error
+
+
+def opened(path: Path) -> str | io.BytesIO:
+    """What SurfaceTopography opens: the file, or its text under the name that the standard has now.
+
+    ISO 25178-71 took over the format of EUNA 15178, whose text begins with aBCR-1.0; the scales are
+    in m in both.
+    """
+    content = read_bytes(path)
+    if not content.startswith(b"aBCR-1.0"):
+        return fspath(path)
+    return io.BytesIO(content.replace(b"aBCR-1.0", b"aISO-1.0", 1))
 
 
 def is_plain(path: Path) -> bool:
