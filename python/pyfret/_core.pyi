@@ -2157,6 +2157,61 @@ def verify(store: str | PathLike[str]) -> str:
 def probe_labels() -> dict[str, tuple[str, str]]:
     """Units and meaning of everything that follows from the stress."""
 
+def line_through(
+    x: float, y: float, azimuth: float
+) -> tuple[float | None, float | None, float | None]:
+    """x, y and azimuth of the line through a point at an angle; along an axis x or y alone."""
+
+def line_places(
+    grid: Grid,
+    *,
+    x: float | None = None,
+    y: float | None = None,
+    azimuth: float | None = None,
+) -> tuple[list[float], list[tuple[float, float]]]:
+    """Places along a line on a grid, and their x, y [m]."""
+
+def main_sections(
+    outlines: Sequence[Outline], *, stretched: bool = False
+) -> list[tuple[float | None, float | None, float | None]]:
+    """x, y and azimuth of the sections in which a cycle of a contact is looked at by default.
+
+    Of the outlines of its moments: the first along the shear; a second across it, where the
+    contact or its shear has no axis of its own there. `stretched`: there is a bulk stress along x.
+    """
+
+@final
+class Outline:
+    """The outline of a contact: its border in any direction, its spots, the direction of its shear.
+
+    Made of the tractions on a grid, each of shape (nx, ny) [Pa]; of :attr:`Snapshot.outline`.
+    """
+
+    def __new__(cls, grid: Grid, *, p: _Array, q_x: _Array, q_y: _Array) -> Outline: ...
+    @property
+    def centre(self) -> tuple[float, float]:
+        """Centre of the area, x and y [m]; 0 where it lies in the middle of the grid."""
+    @property
+    def spots(self) -> list[tuple[float, float, float, float, float, float]]:
+        """The spots, the largest first: x, y [m], area [m^2], semi-axes [m] and azimuth [rad].
+
+        The semi-axes are those of the ellipse with the second moments of the spot, the larger one
+        first, in the direction of the azimuth.
+        """
+    @property
+    def shear_azimuth(self) -> float | None:
+        """Direction of the shear to the x axis [rad]; None without shear, or where it has none."""
+    @property
+    def half_widths(self) -> tuple[float, float, float]:
+        """Half of the largest and smallest width [m], and the direction of the largest [rad]."""
+    @property
+    def rim_cells(self) -> list[tuple[float, float]]:
+        """Centres x, y of the cells at the rim [m]."""
+    def border(self, azimuth: float = 0.0) -> tuple[float, float]:
+        """Where a line through the centre leaves the contact, backwards and forwards [m]."""
+    def half_width(self, azimuth: float = 0.0) -> float:
+        """Half of the width of the contact in a direction [m]."""
+
 def depths(body: Body, z: Sequence[float]) -> tuple[list[float], list[int]]:
     """Depths [m] with their layers; on an interface both, the upper one first."""
 
@@ -2174,6 +2229,7 @@ def section_of_states(
     residual: Sequence[float] | None = None,
     x: float | None = None,
     y: float | None = None,
+    azimuth: float | None = None,
     body_number: int = 2,
 ) -> _Array:
     """Stress [Pa] on a section in several states of a contact, shape (states, 6, depths, places).
@@ -2452,6 +2508,7 @@ class Subsurface:
         *,
         x: float | None = None,
         y: float | None = None,
+        azimuth: float | None = None,
         displacement: bool = False,
     ) -> _Array:
         """Stress [Pa] or displacement [m] on a section, shape (6 or 3, depths, places)."""
@@ -2468,9 +2525,11 @@ class Subsurface:
         *,
         x: float | None = None,
         y: float | None = None,
+        azimuth: float | None = None,
         only: int | None = None,
+        anywhere: bool = False,
         error_bars: tuple[float, float] | None = None,
-    ) -> (
+    ) -> tuple[
         tuple[
             float,
             float,
@@ -2480,18 +2539,21 @@ class Subsurface:
             str | None,
             tuple[float, float, float, float, float | None],
         ]
-        | None
-    ):
+        | None,
+        list[int],
+    ]:
         """Largest value of a measure on a section, between its samples; in the layer `only`.
 
         Value, x, y, z, layer, the border that it lies on, and the parts of its error along x, y
-        and z, of the tractions and, from the `error_bars` of p and q as fields, of the solution.
+        and z, of the tractions and, from the `error_bars` of p and q as fields, of the solution;
+        and the layers whose stress still rises at the end of the longest section. `anywhere`: also
+        beside the section.
         """
     @property
     def rim(self) -> bool:
         """Whether the tractions are those of a contact."""
     def borders(
-        self, *, x: float | None = None, y: float | None = None
+        self, *, x: float | None = None, y: float | None = None, azimuth: float | None = None
     ) -> list[tuple[float, float, str, bool]]:
         """Where a line, or the lines of all cells, cross rims of contact and stick zone.
 
@@ -2637,6 +2699,7 @@ class CycleSection:
         *,
         x: float | None = None,
         y: float | None = None,
+        azimuth: float | None = None,
         body_number: int = 2,
         residual: Sequence[float] | None = None,
     ) -> CycleSection: ...

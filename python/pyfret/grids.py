@@ -144,35 +144,70 @@ def _pressed(path: LoadPath) -> LoadPath:
     raise ValueError("the path presses nothing: it must give W or delta_z")
 
 
-def _scene(body1: Body, body2: Body, path: LoadPath, extent: float, *, plane_strain: bool) -> Scene:
+def _scene(
+    body1: Body, body2: Body, path: LoadPath, sides: tuple[float, float], *, plane_strain: bool
+) -> Scene:
     """The contact without friction on a coarse grid."""
-    grid = _square(extent, plane_strain=plane_strain)
+    if plane_strain:
+        grid = _square(sides[0], plane_strain=True)
+    else:
+        grid = Grid.from_spacing((COARSE, COARSE), (sides[0] / COARSE, sides[1] / COARSE))
     return Scene(body1=body1, body2=body2, mu=0.0, grid=grid, path=path)
 
 
 def _lengths(
     body1: Body, body2: Body, path: LoadPath, start: float | None, *, plane_strain: bool
 ) -> tuple[float, float]:
-    """Lengths of the box around the contact along x and y [m], centred on the grid."""
-    guess = _scene(body1, body2, path, 1e-3, plane_strain=plane_strain)
+    """Lengths of the box around the contact along x and y [m], centred on the grid.
+
+    Each side of the grid is looked for by itself, since a roller is much longer than its contact is
+    wide: it grows while the contact reaches the border, and gets shorter while the contact fills
+    few of its cells.
+    """
+    guess = _scene(body1, body2, path, (1e-3, 1e-3), plane_strain=plane_strain)
     hertz = guess.hertz
-    extent = start or (2.4 * hertz.a if hertz is not None else 1e-3)
-    too_long, too_short = math.inf, 0.0
-    for _ in range(TRIES):
-        scene = _scene(body1, body2, path, extent, plane_strain=plane_strain)
-        lengths = _box(scene)
-        if lengths is None or max(lengths) > 0.97 * extent:
-            too_short = extent
-            extent = 2 * extent if too_long == math.inf else math.sqrt(extent * too_long)
-        elif max(lengths) < 0.4 * extent:
-            too_long = extent
-            # A contact of no cell says only that it is smaller.
-            wanted = 1.5 * max(lengths) if max(lengths) > 0.0 else extent / 4
-            extent = wanted if wanted > too_short else math.sqrt(extent * too_short)
+    first = start or (2.4 * hertz.a if hertz is not None else 1e-3)
+    axes = [0] if plane_strain else [0, 1]
+    extent, too_short, too_long = [first, first], [0.0, 0.0], [math.inf, math.inf]
+    shrunk: int | None = None
+    for _ in range(TRIES * len(axes)):
+        found = _box(_scene(body1, body2, path, (extent[0], extent[1]), plane_strain=plane_strain))
+        if found is None and shrunk is not None:
+            # The side that was made shorter is the long one.
+            too_short[shrunk], extent[shrunk] = extent[shrunk], 4 * extent[shrunk]
+            other = axes[-1] - shrunk
+            too_long[other] = extent[other]
+            extent[other] = max(extent[other] / 4, math.sqrt(extent[other] * too_short[other]))
+            shrunk = None if other == shrunk else other
+            continue
+        if found is None:
+            for k in axes:
+                too_short[k] = extent[k]
+                wide = math.isinf(too_long[k])
+                extent[k] = 2 * extent[k] if wide else math.sqrt(extent[k] * too_long[k])
+        elif max(found) <= 0.0:
+            # Too few cells in it: shorter along the side that has not been found to be long.
+            free = [k for k in axes if too_short[k] < extent[k] / 4.0] or axes
+            shrunk = max(free, key=lambda k: extent[k])
+            too_long[shrunk] = extent[shrunk]
+            extent[shrunk] = max(extent[shrunk] / 4, math.sqrt(extent[shrunk] * too_short[shrunk]))
         else:
-            return lengths
-        if too_short and too_long < 1.05 * too_short:
-            return lengths or (extent, extent)
+            shrunk = None
+            if all(0.4 * extent[k] <= found[k] <= 0.97 * extent[k] for k in axes):
+                return found
+            for k in axes:
+                if found[k] > 0.97 * extent[k]:
+                    too_short[k] = extent[k]
+                    wide = math.isinf(too_long[k])
+                    extent[k] = 2 * extent[k] if wide else math.sqrt(extent[k] * too_long[k])
+                elif found[k] < 0.4 * extent[k]:
+                    too_long[k] = extent[k]
+                    wanted = 1.5 * found[k]
+                    above = wanted > too_short[k]
+                    extent[k] = wanted if above else math.sqrt(extent[k] * too_short[k])
+        if all(0.0 < too_short[k] and too_long[k] < 1.05 * too_short[k] for k in axes):
+            reach = found if found is not None and min(found) > 0.0 else (extent[0], extent[1])
+            return reach
     raise ValueError(
         "found no grid that the contact fits: flat surfaces touch all over; give start= of about "
         "its length, or make the grid yourself"

@@ -92,6 +92,7 @@ class Snapshot(State):
         *,
         x: float | None = None,
         y: float | None = None,
+        azimuth: float | None = None,
         body_number: int = 2,
         bulk: bool = True,
         residual: Sequence[float] | None = None,
@@ -105,8 +106,11 @@ class Snapshot(State):
             the layers ask for, down to twice :attr:`length`).
         x, y : float, optional
             With `y`, the section along x at that y; with `x`, that along y; with both, the line
-            below a point; with neither, the whole plane at every depth given, or where none is, the
-            section at y = 0.
+            below a point; with neither, the whole plane at every depth given. Where nothing is
+            given, the section along the shear, through the centre of the contact: :attr:`outline`.
+        azimuth : float, optional
+            The section at this angle to the x axis [rad], through `x` and `y` (default: the centre
+            of the contact).
         body_number : 1 or 2
             The body.
         bulk : bool
@@ -130,6 +134,7 @@ class Snapshot(State):
             z,
             x=x,
             y=y,
+            azimuth=azimuth,
             body_number=body_number,
             bulk=bulk,
             residual=residual,
@@ -141,10 +146,13 @@ class Snapshot(State):
         *,
         x: float | None = None,
         y: float | None = None,
+        azimuth: float | None = None,
         body_number: int = 2,
     ) -> xr.Dataset:
         """Displacements u_x, u_y, u_z of a body below the contact [m], as in :meth:`stress`."""
-        return contact.displacement_below(self, z, x=x, y=y, body_number=body_number)
+        return contact.displacement_below(
+            self, z, x=x, y=y, azimuth=azimuth, body_number=body_number
+        )
 
     def stick_zone(self, *, y: float = 0.0) -> Zone:
         """Where the stick zone begins and ends along a line of constant `y` [m], within the cells.

@@ -88,18 +88,14 @@ pub fn average<J: Judge>(
     } else {
         vec![(0.0, length, 1.0)]
     };
-    let along = site.along(line);
+    let along = line.places(site.grid);
     let mut mean = Array3::zeros((site.cycle.count(), along.len(), 6));
     for (offset, radius, share) in discs {
         // In plane strain all sections are the same.
         let offset = if site.grid.plane_strain { 0.0 } else { offset };
-        let beside = match line {
-            Line::AlongX(y) => Line::AlongX(y + offset),
-            Line::AlongY(x) => Line::AlongY(x + offset),
-        };
         add_mean(
             site,
-            beside,
+            line.parallel(offset),
             (method, radius, layer),
             (top, share),
             &mut mean,
@@ -178,7 +174,7 @@ fn add_mean(
             layer,
         })
         .collect();
-    let along = site.along(line);
+    let along = line.places(site.grid);
     site.on_line(line, &depths, |first, histories| {
         for (k, history) in histories.iter().enumerate() {
             let (x, weight) = nodes[first + k];

@@ -140,10 +140,8 @@ pub fn materials_of_layers(
 /// section \[rad\]: positive where the trace leans towards the end of the line with depth. NaN
 /// where the plane is the section.
 pub fn inclination(normal: [f64; 3], line: Line) -> f64 {
-    let along = match line {
-        Line::AlongX(_) => normal[0],
-        Line::AlongY(_) => normal[1],
-    };
+    let [cos, sin] = line.direction();
+    let along = cos * normal[0] + sin * normal[1];
     if along.hypot(normal[2]) < 1e-9 {
         return f64::NAN;
     }

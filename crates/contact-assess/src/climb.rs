@@ -158,7 +158,7 @@ impl<J: Judge> Climb<'_, J> {
     ) -> Result<(Place, [f64; 2]), Error> {
         // The representative moments may score less than the whole history of the sample.
         score = self.scores(at, &[place])?.first().copied().unwrap_or(score);
-        let reach = self.site.along(self.line);
+        let reach = self.line.places(self.site.grid);
         // The tractions are known: the stress beyond the grid is as well.
         let beyond = BEYOND * (reach[reach.len() - 1] - reach[0]);
         let ends = [reach[0] - beyond, reach[reach.len() - 1] + beyond];
@@ -252,16 +252,12 @@ impl<J: Judge> Climb<'_, J> {
         cells: &TwiceAsLarge,
     ) -> Result<Option<f64>, Error> {
         let s = self.along(border);
-        let middle = cells.middle;
-        let (line, shift) = match self.line {
-            Line::AlongX(y) => (Line::AlongX(y - middle.1), middle.0),
-            Line::AlongY(x) => (Line::AlongY(x - middle.0), middle.1),
-        };
+        let (line, shift) = self.line.seen_from(cells.middle);
         let coarse = moments.on_coarser(cells);
         let mut nearest: Option<f64> = None;
         for (tractions, stick) in coarse.tractions.iter().zip(&coarse.stick) {
             for other in borders_of(&cells.grid, tractions, stick, line)? {
-                let at = self.along(&other) + shift;
+                let at = line.along(other.x, other.y) + shift;
                 let nearer = nearest.is_none_or(|known| (at - s).abs() < (known - s).abs());
                 if other.zone == border.zone && nearer {
                     nearest = Some(at);
@@ -285,18 +281,12 @@ impl<J: Judge> Climb<'_, J> {
     }
 
     fn along(&self, border: &Border) -> f64 {
-        match self.line {
-            Line::AlongX(_) => border.x,
-            Line::AlongY(_) => border.y,
-        }
+        self.line.along(border.x, border.y)
     }
 
     /// Distance of the samples along the line \[m\].
     pub(super) fn cell(&self) -> f64 {
-        match self.line {
-            Line::AlongX(_) => self.site.grid.dx,
-            Line::AlongY(_) => self.site.grid.dy,
-        }
+        self.line.step(self.site.grid)
     }
 
     pub(super) fn point(&self, [s, z]: Place) -> Point {
@@ -304,10 +294,7 @@ impl<J: Judge> Climb<'_, J> {
             z,
             layer: self.layer,
         };
-        match self.line {
-            Line::AlongX(y) => (s, y, depth),
-            Line::AlongY(x) => (x, s, depth),
-        }
+        self.line.point(s, depth)
     }
 }
 

@@ -46,7 +46,7 @@ pub fn judge<J: Judge>(
     depths: &[Depth],
     judges: &[J],
 ) -> Result<Vec<Judged<J::Found>>, Error> {
-    let along = site.along(line);
+    let along = line.places(site.grid);
     let wanted: Vec<usize> = (0..depths.len())
         .filter(|n| judges.iter().any(|judge| judge.judges(depths[*n].layer)))
         .collect();

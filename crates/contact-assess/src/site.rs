@@ -44,14 +44,6 @@ pub(super) struct At {
 }
 
 impl Site<'_> {
-    /// Places of a line \[m\].
-    pub fn along(&self, line: Line) -> Vec<f64> {
-        match line {
-            Line::AlongX(_) => (0..self.grid.nx).map(|i| self.grid.x(i)).collect(),
-            Line::AlongY(_) => (0..self.grid.ny).map(|j| self.grid.y(j)).collect(),
-        }
-    }
-
     /// Hands the histories on a line to `f`, those of a few depths at a time, in order: the number
     /// of the first of them and a history for each.
     pub fn on_line(
@@ -60,7 +52,7 @@ impl Site<'_> {
         depths: &[Depth],
         mut f: impl FnMut(usize, &[History]) -> Result<(), Error>,
     ) -> Result<(), Error> {
-        let (moments, places) = (self.cycle.count(), self.along(line).len());
+        let (moments, places) = (self.cycle.count(), line.places(self.grid).len());
         let each = 48.0 * moments as f64 * places as f64;
         let chunk = (MOST_MEMORY / each).max(1.0) as usize;
         let all: Vec<usize> = (0..moments).collect();

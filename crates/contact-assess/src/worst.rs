@@ -6,7 +6,7 @@
 //! is below the worst sample.
 
 use contact_core::Error;
-use contact_subsurface::{Errors, Extreme, Line};
+use contact_subsurface::{Errors, Extreme};
 
 use super::climb::Climb;
 use super::judged::{Judge, Judged};
@@ -106,10 +106,6 @@ pub fn worst<J: Judge>(
     let beside = climb.scores(&at, &beside)?.into_iter();
     let unsure = beside.map(|beside| (score - beside).abs());
     let along = unsure.fold(left[0].max(missing), f64::max);
-    let (x_error, y_error) = match judged.line {
-        Line::AlongX(_) => (along, 0.0),
-        Line::AlongY(_) => (0.0, along),
-    };
     Ok(Some(Worst {
         found,
         extreme: Extreme {
@@ -119,11 +115,8 @@ pub fn worst<J: Judge>(
             depth: point.2,
             at: border.map(|b| b.zone),
             error: Errors {
-                x: x_error,
-                y: y_error,
-                z: left[1],
                 tractions: coarse.map(|coarse| (score - coarse).abs()),
-                solution: None,
+                ..Errors::along(judged.line, [along, 0.0, left[1]])
             },
         },
     }))

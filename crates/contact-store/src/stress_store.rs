@@ -45,11 +45,6 @@ impl StressStore {
             return Err(Folder::new(path).error(&"exists: choose another path"));
         }
         let unfinished = Unfinished::begin(path)?;
-        let (along_x, along_y) = match line {
-            None => (true, true),
-            Some(Line::AlongX(_)) => (true, false),
-            Some(Line::AlongY(_)) => (false, true),
-        };
         let mut shape = vec![depths.len() as u64];
         let mut dims = vec!["depth"];
         let mut coordinates = vec![
@@ -70,17 +65,17 @@ impl StressStore {
             )
             .extend(depths.iter().map(|d| d.layer as f64)),
         ];
-        if along_x {
-            shape.push(grid.nx as u64);
-            dims.push("x");
-            let column = Column::new("x", Kind::Real, ("m", "position along x"), "x", &[]);
-            coordinates.push(column.extend((0..grid.nx).map(|i| grid.x(i))));
-        }
-        if along_y {
-            shape.push(grid.ny as u64);
-            dims.push("y");
-            let column = Column::new("y", Kind::Real, ("m", "position along y"), "y", &[]);
-            coordinates.push(column.extend((0..grid.ny).map(|j| grid.y(j))));
+        let lines = match line {
+            None => vec![Line::AlongX(0.0), Line::AlongY(0.0)],
+            Some(line) => vec![line],
+        };
+        for line in lines {
+            let (name, places) = (line.name(), line.places(grid));
+            let meaning = format!("position along {name}");
+            shape.push(places.len() as u64);
+            dims.push(name);
+            let column = Column::new(name, Kind::Real, ("m", &meaning), name, &[]);
+            coordinates.push(column.extend(places.into_iter()));
         }
         let chunks = match line {
             // A plane is one chunk, a section too.
@@ -108,6 +103,10 @@ impl StressStore {
             None => {}
             Some(Line::AlongX(y)) => drop(attributes.insert("y".into(), json!(y))),
             Some(Line::AlongY(x)) => drop(attributes.insert("x".into(), json!(x))),
+            Some(Line::Through { x, y, azimuth }) => {
+                let place = [("x", x), ("y", y), ("azimuth", azimuth)];
+                attributes.extend(place.map(|(name, v)| (name.into(), json!(v))));
+            }
         }
         attributes.insert("coordinates".into(), json!("z layer"));
         Ok(Self {

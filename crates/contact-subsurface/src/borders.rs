@@ -77,6 +77,16 @@ pub(super) fn of(continued: &Continued, grid: &Grid, line: Option<Line>) -> Vec<
     let crossings: Vec<Crossing> = match line {
         Some(Line::AlongX(y)) => continued.crossings(0, to_row(y)),
         Some(Line::AlongY(x)) => continued.crossings(1, to_column(x)),
+        Some(line @ Line::Through { .. }) => {
+            let cells = |s: f64| {
+                let (x, y) = line.at(s);
+                [to_column(x), to_row(y)]
+            };
+            let (from, to) = (cells(0.0), cells(line.step(grid)));
+            let ends = [line.places(grid).first(), line.places(grid).last()]
+                .map(|end| end.map_or(0.0, |s| s / line.step(grid)));
+            continued.crossings_along(from, [to[0] - from[0], to[1] - from[1]], ends)
+        }
         None => {
             let rows = (0..n.1).flat_map(|j| continued.crossings(0, j as f64));
             let columns = (0..n.0).flat_map(|i| continued.crossings(1, i as f64));

@@ -96,10 +96,7 @@ impl Coarser {
         let stick = states.stick.and_then(|stick| stick.first());
         let stick: Option<Vec<bool>> = stick.map(|stick| cells.any(stick));
         let stick: Vec<&[bool]> = stick.iter().map(Vec::as_slice).collect();
-        let line = line.map(|line| match line {
-            Line::AlongX(y) => Line::AlongX(y - middle.1),
-            Line::AlongY(x) => Line::AlongY(x - middle.0),
-        });
+        let line = line.map(|line| line.seen_from(middle).0);
         let states = States {
             tractions: &tractions,
             stick: states.stick.map(|_| &stick[..]),

@@ -13,6 +13,9 @@ pub struct Depth {
     pub layer: usize,
 }
 
+/// A point: x, y \[m\] and the depth.
+pub type Point = (f64, f64, Depth);
+
 /// Which of the two bodies.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Side {

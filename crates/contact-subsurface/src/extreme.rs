@@ -1,6 +1,6 @@
 //! The largest value of a number below a contact, its place and its error.
 
-use super::{Depth, Zone};
+use super::{Depth, Line, Zone};
 
 /// The largest value of a number below a contact and where it is: a value at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,6 +39,23 @@ pub struct Errors {
 }
 
 impl Errors {
+    /// Of a search along a line, across it and along depth: along the axis that the line is nearer
+    /// to.
+    pub fn along(line: Line, [along, across, z]: [f64; 3]) -> Self {
+        let [cos, sin] = line.direction();
+        let (x, y) = if cos.abs() >= sin.abs() {
+            (along, across)
+        } else {
+            (across, along)
+        };
+        Self {
+            x,
+            y,
+            z,
+            ..Self::default()
+        }
+    }
+
     /// The sum of all.
     pub fn sum(&self) -> f64 {
         let known = [self.tractions, self.solution].into_iter().flatten();

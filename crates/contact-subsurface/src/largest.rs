@@ -111,23 +111,14 @@ fn between_samples(
     let left = coarser.map_or(0.0, |coarser| (hill.top.value - coarser.top.value).abs());
     let added = hill.top.left.max((hill.top.value - hill.top.sampled).abs());
     let [s] = hill.top.place;
-    let ((x, y), [along_x, along_y]) = match line {
-        Line::AlongX(y) => ((s, y), [added, 0.0]),
-        Line::AlongY(x) => ((x, s), [0.0, added]),
-    };
+    let (x, y) = line.at(s);
     Some(Extreme {
         value: hill.top.value,
         x,
         y,
         depth: hill.depth,
         at: None,
-        error: Errors {
-            x: along_x,
-            y: along_y,
-            z: left,
-            tractions: None,
-            solution: None,
-        },
+        error: Errors::along(line, [added, 0.0, left]),
     })
 }
 

@@ -19,6 +19,7 @@
 
 #![forbid(unsafe_code)]
 
+mod anywhere;
 mod borders;
 mod climb;
 mod coarser;
@@ -28,6 +29,7 @@ mod energy;
 mod envelope;
 mod extreme;
 mod largest;
+mod line;
 mod line_transform;
 mod loads;
 mod maximum;
@@ -46,21 +48,23 @@ mod states;
 mod stream;
 mod uniform;
 
+pub use anywhere::{Anywhere, Loads, largest_anywhere};
 pub use borders::{Border, Zone, borders};
 pub use coarser::TwiceAsLarge;
-pub use depth::{Depth, Side, chosen_depths, depths};
+pub use depth::{Depth, Point, Side, chosen_depths, depths};
 pub use energy::{Cycle, Direction, LoopPoint, cycles, loops};
 pub use envelope::{DepthEnvelope, Envelope, Extremes};
 pub use extreme::{Errors, Extreme};
 pub use largest::{DepthTops, Largest, MomentTops, largest_of_samples};
+pub use line::Line;
 pub use maximum::{Top, top_of_line, top_of_plane};
 pub use measure::{MEASURES, Measure, measure_named};
 pub use moments::{Moments, OverCycle, unsettled};
-pub use points::{Point, Points};
+pub use points::Points;
 pub use probe::{Component, DISPLACEMENTS, Probe};
 pub use recorded::Recorded;
 pub use search::{Probed, Search};
-pub use section::{Line, Section};
+pub use section::Section;
 pub use slices::Slices;
 pub use states::States;
 pub use stream::{Accumulate, Moment, Stream};

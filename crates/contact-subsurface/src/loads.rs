@@ -159,6 +159,11 @@ impl Plane {
         }
     }
 
+    /// Half of the extent across the lines \[m\].
+    pub(super) fn half_width(&self) -> f64 {
+        self.n.1 as f64 * self.d.1 / 2.0
+    }
+
     /// Largest distance of a point above the grid from a load \[m\].
     pub(super) fn reach(&self) -> f64 {
         let length = |n: usize, d: f64| (n + 2 * SHARING_CELLS + 1) as f64 * d;

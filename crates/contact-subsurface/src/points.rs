@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use super::loads::{Loads, Patch, Plane, Source, snapped};
 use super::near_rim::NearRim;
 use super::states::Loaded;
-use super::{Border, Depth, Line, Side, States};
+use super::{Border, Depth, Line, Point, Side, States};
 
 /// Stress and displacement at single points; each costs one kernel value per cell that is loaded in
 /// any state.
@@ -23,9 +23,6 @@ pub struct Points {
     loads: Vec<[Loads; 2]>,
     patches: [Patch; 2],
 }
-
-/// A point: x, y \[m\] and the depth.
-pub type Point = (f64, f64, Depth);
 
 impl Points {
     /// In the body `side` under each of the `states`.

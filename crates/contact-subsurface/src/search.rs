@@ -35,11 +35,15 @@ const OF_ROOT: f64 = 1.0 + std::f64::consts::SQRT_2;
 
 /// Looks for the largest values below a contact.
 pub struct Search {
-    points: Points,
+    pub(super) points: Points,
     coarser: Coarser,
     borders: Vec<Border>,
+    /// The line whose directions the ascent takes, along, across.
     line: Option<Line>,
+    grid: Grid,
     d: (f64, f64),
+    /// Whether the ascent leaves the line.
+    free: bool,
     /// Whether there is one row of cells.
     flat: bool,
     /// Whether the layer at the surface is too thin for the cells ([`RESOLVED`]).
@@ -47,6 +51,25 @@ pub struct Search {
 }
 
 impl Search {
+    /// In the whole body, with the directions along `line` and across it.
+    pub(super) fn free(
+        body: &Body,
+        side: Side,
+        grid: &Grid,
+        line: Line,
+        states: &States<'_>,
+    ) -> Result<Self, Error> {
+        let anywhere = Self::new(body, side, grid, None, states)?;
+        let mut borders = anywhere.points.borders(0, Some(line));
+        borders.extend(anywhere.borders);
+        Ok(Self {
+            line: Some(line),
+            borders,
+            free: true,
+            ..anywhere
+        })
+    }
+
     /// In the body `side` under the first of the states, below `line` or anywhere.
     pub fn new(
         body: &Body,
@@ -74,8 +97,10 @@ impl Search {
             coarser,
             points,
             line,
+            grid: *grid,
             d: (grid.dx, grid.dy),
             flat: grid.ny == 1,
+            free: line.is_none(),
         })
     }
 
@@ -94,43 +119,82 @@ impl Search {
         let lines = samples.rows().into_iter();
         let tops: Vec<_> = lines.map(|line| top_of_line(&line, along)).collect();
         let hills = hills_of(probe, &tops, depths, layer);
-        let axis = usize::from(matches!(line, Line::AlongY(_)));
-        let step = STEP * [self.d.0, self.d.1][axis];
-        let start = |hill: &Hill<1>, s: f64, z: f64, known: Option<f64>| {
-            let (place, steps) = match line {
-                Line::AlongX(y) => ([s, y, z], [step, 0.0, 0.5 * hill.step]),
-                Line::AlongY(x) => ([x, s, z], [0.0, step, 0.5 * hill.step]),
-            };
-            Start {
-                place,
-                layer: hill.depth.layer,
-                steps,
-                known,
-            }
-        };
-        let both = |hill: &Hill<1>| {
-            let Top {
-                place,
-                sample,
-                sampled,
-                ..
-            } = hill.top;
-            [
-                start(hill, place[0], hill.depth.z, None),
-                start(hill, along[sample[0]], hill.sampled_z, Some(sampled)),
-            ]
-        };
-        let starts = hills.iter().flat_map(both).collect();
+        let starts = hills
+            .iter()
+            .flat_map(|hill| self.starts(line, hill, along, false));
         let surface = samples.rows().into_iter().next();
         let near = |border: &Border| {
-            let s = [border.x, border.y][axis];
+            let s = line.along(border.x, border.y);
             let nearest = (0..along.len())
                 .min_by(|&a, &b| (along[a] - s).abs().total_cmp(&(along[b] - s).abs()));
             nearest
                 .zip(surface.as_ref())
                 .map_or(f64::NAN, |(n, row)| row[n])
         };
-        self.climbed(probe, starts, depths, layer, &near)
+        self.climbed(probe, starts.collect(), depths, layer, &near)
+    }
+
+    /// The starting points on a hill of a section: the top of the parabolas and the sample; `free`
+    /// across the line or on it.
+    pub(super) fn starts(
+        &self,
+        line: Line,
+        hill: &Hill<1>,
+        along: &[f64],
+        free: bool,
+    ) -> [Start; 2] {
+        let Top {
+            place,
+            sample,
+            sampled,
+            ..
+        } = hill.top;
+        let across = if free && !self.flat {
+            STEP * self.d.0.max(self.d.1)
+        } else {
+            0.0
+        };
+        let start = |s: f64, z: f64, known: Option<f64>| {
+            let (x, y) = line.at(s);
+            let [s, t] = self.in_frame(x, y);
+            Start {
+                place: [s, t, z],
+                layer: hill.depth.layer,
+                steps: [STEP * line.step(&self.grid), across, 0.5 * hill.step],
+                known,
+            }
+        };
+        [
+            start(place[0], hill.depth.z, None),
+            start(along[sample[0]], hill.sampled_z, Some(sampled)),
+        ]
+    }
+
+    /// A starting point at x, y \[m\] and a depth, with the distance to the next depth \[m\].
+    pub(super) fn start_at(&self, [x, y]: [f64; 2], depth: Depth, step: f64) -> Start {
+        let [s, t] = self.in_frame(x, y);
+        let cell = STEP * self.d.0.max(self.d.1);
+        Start {
+            place: [s, t, depth.z],
+            layer: depth.layer,
+            steps: [cell, cell, 0.5 * step],
+            known: None,
+        }
+    }
+
+    /// Place along the line of the search and to the left of it \[m\]; without one x and y.
+    fn in_frame(&self, x: f64, y: f64) -> [f64; 2] {
+        self.line.map_or([x, y], |line| {
+            let s = line.along(x, y);
+            let ((x_0, y_0), [cos, sin]) = (line.at(s), line.direction());
+            [s, (y - y_0) * cos - (x - x_0) * sin]
+        })
+    }
+
+    /// The reverse.
+    fn in_space(&self, (s, t, depth): Point) -> Point {
+        let (x, y) = self.line.map_or((s, t), |line| line.beside(s, t));
+        (x, y, depth)
     }
 
     /// The largest value in a volume, from the tops of the planes at its depths and the samples on
@@ -179,7 +243,7 @@ impl Search {
 
     /// The result of the ascent from the highest of the starts and, if the surface is included, of
     /// the borders; `near` gives the sample next to a border.
-    fn climbed(
+    pub(super) fn climbed(
         &self,
         probe: &Probe,
         mut starts: Vec<Start>,
@@ -192,13 +256,14 @@ impl Search {
             starts.extend(self.border_starts(depths, near));
         }
         let values = |points: &[Point]| -> Result<Vec<f64>, Error> {
+            let points: Vec<Point> = points.iter().map(|at| self.in_space(*at)).collect();
             match probe {
                 Probe::Stress(m) => {
-                    let stress = self.points.stress(points)?.swap_remove(0);
+                    let stress = self.points.stress(&points)?.swap_remove(0);
                     Ok(stress.iter().map(m.value).collect())
                 }
                 Probe::Displacement(c) => {
-                    let u = self.points.displacement(points)?.swap_remove(0);
+                    let u = self.points.displacement(&points)?.swap_remove(0);
                     Ok(u.iter().map(|u| u[c.axis()]).collect())
                 }
             }
@@ -230,10 +295,15 @@ impl Search {
             of_layer().fold(0.0, f64::max),
         );
         let (place, value, left) = climb(&values, start, value, bounds)?;
-        let at = point(place, start.layer);
+        let there = point(place, start.layer);
+        let at = self.in_space(there);
         let border = self.border_at(at);
         let unsure = self.points.rim_is_unknown(at);
-        let inwards = if unsure { self.beside(at) } else { Vec::new() };
+        let inwards = if unsure {
+            self.beside(there)
+        } else {
+            Vec::new()
+        };
         let inwards = values(&inwards)?.into_iter();
         let unsure = inwards.map(|beside| (value - beside).abs());
         let unsure = unsure.fold(0.0, f64::max);
@@ -253,11 +323,11 @@ impl Search {
             depth: at.2,
             at: border.map(|b| b.zone),
             error: Errors {
-                x: left[0].max(unsure),
-                y: left[1],
-                z: left[2],
                 tractions: Some(part * (value - coarse).abs()),
-                solution: None,
+                ..Errors::along(
+                    self.line.unwrap_or(Line::AlongX(0.0)),
+                    [left[0].max(unsure), left[1], left[2]],
+                )
             },
         }))
     }
@@ -272,29 +342,45 @@ impl Search {
             .collect();
         by_sample.sort_by(|(a, _), (b, _)| b.total_cmp(a));
         let below = depths.get(1).filter(|d| d.layer == 0).map_or(0.0, |d| d.z);
-        let free = |free: bool, d: f64| if free { STEP_AT_BORDER * d } else { 0.0 };
-        let along_x = !matches!(self.line, Some(Line::AlongY(_)));
-        let along_y = !matches!(self.line, Some(Line::AlongX(_)));
-        let start = |(_, border): &(f64, &Border)| Start {
-            place: [border.x, border.y, 0.0],
-            layer: 0,
-            steps: [
-                free(along_x, self.d.0),
-                free(along_y && !self.flat, self.d.1),
-                0.5 * below,
-            ],
-            known: None,
+        let steps = match self.line {
+            Some(line) => {
+                let across = if self.free {
+                    line.step(&self.grid)
+                } else {
+                    0.0
+                };
+                [line.step(&self.grid), across]
+            }
+            None => [self.d.0, if self.flat { 0.0 } else { self.d.1 }],
         };
-        by_sample.iter().take(BORDERS).map(start).collect()
+        let start = |(_, border): &(f64, &Border)| {
+            let [s, t] = self.in_frame(border.x, border.y);
+            Start {
+                place: [s, t, 0.0],
+                layer: 0,
+                steps: [
+                    STEP_AT_BORDER * steps[0],
+                    STEP_AT_BORDER * steps[1],
+                    0.5 * below,
+                ],
+                known: None,
+            }
+        };
+        by_sample
+            .iter()
+            .take(if self.free && self.line.is_some() {
+                2 * BORDERS
+            } else {
+                BORDERS
+            })
+            .map(start)
+            .collect()
     }
 
     /// The points half a cell to both sides: the value there bounds the effect of an uncertain rim.
-    fn beside(&self, (x, y, depth): Point) -> Vec<Point> {
-        let steps = match self.line {
-            Some(Line::AlongY(_)) => [(0.0, STEP * self.d.1), (0.0, -STEP * self.d.1)],
-            _ => [(STEP * self.d.0, 0.0), (-STEP * self.d.0, 0.0)],
-        };
-        steps.map(|(s, t)| (x + s, y + t, depth)).into()
+    fn beside(&self, (s, t, depth): Point) -> Vec<Point> {
+        let step = STEP * self.line.map_or(self.d.0, |line| line.step(&self.grid));
+        [step, -step].map(|by| (s + by, t, depth)).into()
     }
 
     /// The border that a point lies on.
@@ -329,7 +415,7 @@ fn lives_on_interfaces(probe: &Probe) -> bool {
 }
 
 /// The hills of a layer, or of all, that are evaluated.
-fn hills_of<const D: usize>(
+pub(super) fn hills_of<const D: usize>(
     probe: &Probe,
     tops: &[Option<Top<D>>],
     depths: &[Depth],

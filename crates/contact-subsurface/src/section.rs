@@ -10,28 +10,25 @@ use super::line_transform::LineTransform;
 use super::loads::{Plane, Source};
 use super::near_rim::NearRim;
 use super::states::Loaded;
-use super::{Depth, Side, States};
+use super::{Depth, Line, Point, Points, Side, States};
 
-/// A straight line on the surface, through the middles of cells or anywhere between.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Line {
-    /// Along x at this y \[m\].
-    AlongX(f64),
-    /// Along y at this x \[m\].
-    AlongY(f64),
-}
-
-impl Line {
-    /// y of a line along x, x of one along y \[m\].
-    fn place(self) -> f64 {
-        match self {
-            Self::AlongX(place) | Self::AlongY(place) => place,
-        }
-    }
-}
-
-/// Stress and displacement below a line, at the places of the grid's cells along it.
+/// Stress and displacement below a line, at its places on the grid ([`Line::places`]).
 pub struct Section {
+    way: Way,
+    states: usize,
+    places: usize,
+}
+
+/// How the lines are computed.
+enum Way {
+    /// Along rows or columns of cells, by transforms.
+    Rows(Box<Rows>),
+    /// In any direction, point by point: the points x, y \[m\].
+    Points(Box<Points>, Vec<(f64, f64)>),
+}
+
+/// Lines along an axis.
+struct Rows {
     loaded: Loaded,
     line: Line,
     plane: Plane,
@@ -49,45 +46,24 @@ impl Section {
         states: impl Into<States<'a>>,
     ) -> Result<Self, Error> {
         let states = states.into();
-        let window = || {
-            let plane = Plane::new(grid, matches!(line, Line::AlongY(_)));
-            let half = plane.n.1 as f64 * plane.d.1 / 2.0;
-            let place = line.place();
-            if place.is_nan() || place.abs() > half * (1.0 + 1e-9) {
-                let allowed = format!("a place above the grid, {:e} to {half:e} m", -half);
-                return Err(match line {
-                    Line::AlongX(y) => Error::invalid("y", y, allowed),
-                    Line::AlongY(x) => Error::invalid("x", x, allowed),
-                });
+        let (count, places) = (states.tractions.len(), line.places(grid));
+        let way = match line {
+            Line::Through { .. } => {
+                let (x, y) = line.at(0.0);
+                within(grid, Line::AlongX(y))?;
+                within(grid, Line::AlongY(x))?;
+                let points = Points::new(body, side, grid, states)?;
+                Way::Points(
+                    Box::new(points),
+                    places.iter().map(|s| line.at(*s)).collect(),
+                )
             }
-            Ok(match line {
-                Line::AlongX(y) => {
-                    let ((_, j), _) = NearRim::locate(grid, 0.0, y);
-                    (0..grid.nx, j..j + 1)
-                }
-                Line::AlongY(x) => {
-                    let ((i, _), _) = NearRim::locate(grid, x, 0.0);
-                    (i..i + 1, 0..grid.ny)
-                }
-            })
+            _ => Way::Rows(Box::new(Rows::new(body, side, grid, line, &states)?)),
         };
-        let loaded = Loaded::new(body, side, grid, &states, window)?;
-        let plane = Plane::new(grid, matches!(line, Line::AlongY(_)));
-        let [cells, points] = Source::ALL.map(|source| {
-            LineTransform::new(
-                &plane,
-                side,
-                line.place(),
-                states.tractions,
-                source,
-                &states.stop,
-            )
-        });
         Ok(Self {
-            loaded,
-            line,
-            plane,
-            rows: [cells?, points?],
+            way,
+            states: count,
+            places: places.len(),
         })
     }
 
@@ -100,11 +76,9 @@ impl Section {
     /// Displacement of each state relative to infinity \[m\], shape (3, depths, cells along the
     /// line).
     pub fn displacement(&self, depths: &[Depth]) -> Result<Vec<Array3<f64>>, Error> {
-        self.gather::<3>(depths, |depth| {
-            let kernel = self
-                .loaded
-                .kernel::<Displacement, 5, 3>(depth, self.plane.reach())?;
-            self.at(&kernel, depth)
+        self.gather::<3>(depths, |depth| match &self.way {
+            Way::Rows(rows) => rows.displacement_at(depth),
+            Way::Points(points, places) => points.displacement(&below(places, depth)).map(lines),
         })
     }
 
@@ -133,11 +107,82 @@ impl Section {
             .map(|depth| lines(*depth))
             .collect::<Result<_, _>>()?;
         let of_state = |state: usize| {
-            Array3::from_shape_fn((R, depths.len(), self.plane.n.0), |(r, depth, i)| {
+            Array3::from_shape_fn((R, depths.len(), self.places), |(r, depth, i)| {
                 lines[depth][state][(r, i)]
             })
         };
-        Ok((0..self.loaded.states).map(of_state).collect())
+        Ok((0..self.states).map(of_state).collect())
+    }
+
+    /// The stress of all states at one depth, each of shape (6, places along the line).
+    fn stress_at(&self, depth: Depth) -> Result<Vec<Array2<f64>>, Error> {
+        match &self.way {
+            Way::Rows(rows) => rows.stress_at(depth),
+            Way::Points(points, places) => points.stress(&below(places, depth)).map(lines),
+        }
+    }
+}
+
+/// Points at a depth.
+fn below(places: &[(f64, f64)], depth: Depth) -> Vec<Point> {
+    places.iter().map(|&(x, y)| (x, y, depth)).collect()
+}
+
+/// What is known at points, by state, as arrays of shape (R, points).
+fn lines<const R: usize>(of_states: Vec<Vec<[f64; R]>>) -> Vec<Array2<f64>> {
+    let line =
+        |values: Vec<[f64; R]>| Array2::from_shape_fn((R, values.len()), |(row, n)| values[n][row]);
+    of_states.into_iter().map(line).collect()
+}
+
+/// Fails unless a line along an axis lies above the grid.
+fn within(grid: &Grid, line: Line) -> Result<(), Error> {
+    let (x, y) = line.at(0.0);
+    let (key, place, half) = match line {
+        Line::AlongY(_) => ("x", x, grid.extent().0 / 2.0),
+        _ => ("y", y, Plane::new(grid, false).half_width()),
+    };
+    if place.is_nan() || place.abs() > half * (1.0 + 1e-9) {
+        let allowed = format!("a place above the grid, {:e} to {half:e} m", -half);
+        return Err(Error::invalid(key, place, allowed));
+    }
+    Ok(())
+}
+
+impl Rows {
+    fn new(
+        body: &Body,
+        side: Side,
+        grid: &Grid,
+        line: Line,
+        states: &States<'_>,
+    ) -> Result<Self, Error> {
+        within(grid, line)?;
+        let (x, y) = line.at(0.0);
+        let ((i, j), _) = NearRim::locate(grid, x, y);
+        let (window, place) = match line {
+            Line::AlongY(_) => ((i..i + 1, 0..grid.ny), x),
+            _ => ((0..grid.nx, j..j + 1), y),
+        };
+        let loaded = Loaded::new(body, side, grid, states, || Ok(window))?;
+        let plane = Plane::new(grid, matches!(line, Line::AlongY(_)));
+        let [cells, points] = Source::ALL.map(|source| {
+            LineTransform::new(&plane, side, place, states.tractions, source, &states.stop)
+        });
+        Ok(Self {
+            loaded,
+            line,
+            plane,
+            rows: [cells?, points?],
+        })
+    }
+
+    /// The displacement of all states at one depth, each of shape (3, cells along the line).
+    fn displacement_at(&self, depth: Depth) -> Result<Vec<Array2<f64>>, Error> {
+        let kernel = self
+            .loaded
+            .kernel::<Displacement, 5, 3>(depth, self.plane.reach())?;
+        self.at(&kernel, depth)
     }
 
     /// The stress of all states at one depth, each of shape (6, cells along the line).
@@ -164,18 +209,20 @@ impl Section {
         lines: &mut [Array2<f64>],
     ) {
         let Some(rim) = &self.loaded.rim else { return };
-        let (first, offset) = match self.line {
-            Line::AlongX(y) => NearRim::locate(&self.loaded.grid, self.loaded.grid.x(0), y),
-            Line::AlongY(x) => NearRim::locate(&self.loaded.grid, x, self.loaded.grid.y(0)),
-        };
+        let grid = &self.loaded.grid;
+        let (x, y) = self.line.at(match self.line {
+            Line::AlongY(_) => grid.y(0),
+            _ => grid.x(0),
+        });
+        let (first, offset) = NearRim::locate(grid, x, y);
         let Some(parts) = rim.parts(kernel, depth, offset) else {
             return;
         };
         for (state, line) in lines.iter_mut().enumerate() {
             for (n, mut stress) in line.columns_mut().into_iter().enumerate() {
                 let cell = match self.line {
-                    Line::AlongX(_) => (n, first.1),
                     Line::AlongY(_) => (first.0, n),
+                    _ => (n, first.1),
                 };
                 if rim.is_near(state, depth, cell) {
                     let mut with_rim = std::array::from_fn(|c| stress[c]);

@@ -123,11 +123,7 @@ impl<A: Accumulate> Stream<A> {
         } else {
             Slices::new(body, side, grid, States::default())?;
         }
-        let places = match line {
-            Some(Line::AlongX(_)) => grid.nx,
-            Some(Line::AlongY(_)) => grid.ny,
-            None => grid.cells(),
-        };
+        let places = line.map_or(grid.cells(), |line| line.places(grid).len());
         let kept = depths
             .iter()
             .map(|d| accumulate.start(*d, places))

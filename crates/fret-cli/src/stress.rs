@@ -292,10 +292,7 @@ impl Task {
         let states = self.states(&tractions, &stick);
         let search = Search::new(self.body(), self.side, grid, Some(line), &states)?;
         let section = Section::new(self.body(), self.side, grid, line, states)?;
-        let (axis, along): (_, Vec<f64>) = match line {
-            Line::AlongX(_) => ("x", (0..grid.nx).map(|i| grid.x(i)).collect()),
-            Line::AlongY(_) => ("y", (0..grid.ny).map(|j| grid.y(j)).collect()),
-        };
+        let (axis, along) = (line.name(), line.places(grid));
         let mut all: Vec<Depth> = self.chosen.clone();
         all.extend(self.depths.iter().filter(|d| !self.chosen.contains(d)));
         all.sort_by(|a, b| a.z.total_cmp(&b.z).then(a.layer.cmp(&b.layer)));

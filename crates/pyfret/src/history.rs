@@ -50,13 +50,9 @@ impl Envelope {
         let cycles = core::cycles(&path.0);
         let line = match (x, y) {
             (None, None) => None,
-            _ => Some(line(x, y)?),
+            _ => Some(line(x, y, None)?),
         };
-        let along = match line {
-            Some(Line::AlongX(_)) => (0..grid.0.nx).map(|i| grid.0.x(i)).collect(),
-            Some(Line::AlongY(_)) => (0..grid.0.ny).map(|j| grid.0.y(j)).collect(),
-            None => Vec::new(),
-        };
+        let along = line.map_or_else(Vec::new, |line| line.places(&grid.0));
         let of_largest = line.unwrap_or(Line::AlongX(0.0));
         let accumulate = (
             core::Envelope {
@@ -162,11 +158,7 @@ impl Envelope {
                     Some([
                         moment.increment as f64,
                         m.value,
-                        if matches!(self.largest.line, Line::AlongX(_)) {
-                            m.x
-                        } else {
-                            m.y
-                        },
+                        self.largest.line.along(m.x, m.y),
                         m.depth.z,
                         layer,
                         m.error.sum(),

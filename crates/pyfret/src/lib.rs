@@ -30,6 +30,7 @@ mod kernels;
 mod march;
 mod material;
 mod operator;
+mod outline;
 mod parts;
 mod quantity;
 mod reference;
@@ -96,10 +97,13 @@ mod _core {
     #[pymodule_export]
     use crate::history::{Envelope, loops};
     #[pymodule_export]
+    use crate::outline::{Outline, main_sections};
+    #[pymodule_export]
     use crate::stress::{largest_of_samples, measure, principal, probe_labels};
     #[pymodule_export]
     use crate::subsurface::{
-        Subsurface, chosen_depths, depths, residual_of_layers, section_of_states,
+        Subsurface, chosen_depths, depths, line_places, line_through, residual_of_layers,
+        section_of_states,
     };
     #[pymodule_export]
     use crate::text::{read_bytes, read_text, shown, with_error, with_range};

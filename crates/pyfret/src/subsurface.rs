@@ -24,14 +24,47 @@ type Place = (f64, f64, f64, usize);
 /// Numbers for Python, one row per point.
 type Matrix<'py> = Bound<'py, PyArray2<f64>>;
 
-pub(crate) fn line(x: Option<f64>, y: Option<f64>) -> PyResult<Line> {
-    match (x, y) {
-        (None, Some(y)) => Ok(Line::AlongX(y)),
-        (Some(x), None) => Ok(Line::AlongY(x)),
+pub(crate) fn line(x: Option<f64>, y: Option<f64>, azimuth: Option<f64>) -> PyResult<Line> {
+    match (x, y, azimuth) {
+        (None, Some(y), None) => Ok(Line::AlongX(y)),
+        (Some(x), None, None) => Ok(Line::AlongY(x)),
+        (Some(x), Some(y), Some(azimuth)) => Ok(Line::through((x, y), azimuth)),
         _ => Err(PyValueError::new_err(
-            "a section has either x or y constant",
+            "a section has either x or y constant, or a point x, y and an azimuth",
         )),
     }
+}
+
+/// x, y and azimuth that name a line.
+pub(crate) type LineName = (Option<f64>, Option<f64>, Option<f64>);
+
+pub(crate) fn name_of(line: Line) -> LineName {
+    match line {
+        Line::AlongX(y) => (None, Some(y), None),
+        Line::AlongY(x) => (Some(x), None, None),
+        Line::Through { x, y, azimuth } => (Some(x), Some(y), Some(azimuth)),
+    }
+}
+
+/// x, y and azimuth of the line through a point at an angle; along an axis x or y alone.
+#[pyfunction]
+pub(crate) fn line_through(x: f64, y: f64, azimuth: f64) -> LineName {
+    name_of(Line::through((x, y), azimuth))
+}
+
+/// Places along a line on a grid, and their x, y [m].
+#[pyfunction]
+#[pyo3(signature = (grid, *, x = None, y = None, azimuth = None))]
+pub(crate) fn line_places(
+    grid: Grid,
+    x: Option<f64>,
+    y: Option<f64>,
+    azimuth: Option<f64>,
+) -> PyResult<(Vec<f64>, Vec<(f64, f64)>)> {
+    let line = line(x, y, azimuth)?;
+    let places = line.places(&grid.0);
+    let at = places.iter().map(|s| line.at(*s)).collect();
+    Ok((places, at))
 }
 
 /// Depths [m] with their layers; on an interface both, the upper one first.
@@ -62,7 +95,7 @@ pub(crate) fn chosen_depths(
 /// Tractions [Pa] and cells that stick are of shape (states, nx, ny); near the surface tractions
 /// vary within the cells. States share the kernels, which cost as much as about ten of them.
 #[pyfunction]
-#[pyo3(signature = (body, grid, z, layer, *, p, q_x, q_y, stick, sigma_B, residual = None, x = None, y = None, body_number = 2))]
+#[pyo3(signature = (body, grid, z, layer, *, p, q_x, q_y, stick, sigma_B, residual = None, x = None, y = None, azimuth = None, body_number = 2))]
 #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
 pub(crate) fn section_of_states<'py>(
     py: Python<'py>,
@@ -78,6 +111,7 @@ pub(crate) fn section_of_states<'py>(
     residual: Option<List<f64>>,
     x: Option<f64>,
     y: Option<f64>,
+    azimuth: Option<f64>,
     body_number: u8,
 ) -> PyResult<Bound<'py, PyArray4<f64>>> {
     let shape = (sigma_B.len(), grid.0.nx, grid.0.ny);
@@ -107,7 +141,7 @@ pub(crate) fn section_of_states<'py>(
     let stick: Vec<&[bool]> = stick.chunks(cells).collect();
     let (depths, line, side) = (
         Subsurface::depths(&z, &layer)?,
-        line(x, y)?,
+        line(x, y, azimuth)?,
         side(body_number)?,
     );
     let stop = Arc::default();
@@ -266,7 +300,7 @@ impl Subsurface {
     }
 
     /// Stress [Pa] or displacement [m] on a section, shape (6 or 3, depths, places).
-    #[pyo3(signature = (z, layer, *, x = None, y = None, displacement = false))]
+    #[pyo3(signature = (z, layer, *, x = None, y = None, azimuth = None, displacement = false))]
     fn section<'py>(
         &self,
         py: Python<'py>,
@@ -274,9 +308,10 @@ impl Subsurface {
         layer: List<usize>,
         x: Option<f64>,
         y: Option<f64>,
+        azimuth: Option<f64>,
         displacement: bool,
     ) -> PyResult<Bound<'py, PyArray3<f64>>> {
-        let (depths, line) = (Self::depths(&z, &layer)?, line(x, y)?);
+        let (depths, line) = (Self::depths(&z, &layer)?, line(x, y, azimuth)?);
         let stop = Arc::default();
         let found = interruptible(py, &stop, || {
             let section = self.under(&stop, |body, grid, states| {
@@ -341,9 +376,12 @@ impl Subsurface {
     /// Largest value of a measure on a section, between its samples; in the layer `only`.
     ///
     /// Value, x, y, z, layer, the border that it lies on, and the parts of its error along x, y
-    /// and z, of the tractions and, from the `error_bars` of p and q as fields, of the solution.
+    /// and z, of the tractions and, from the `error_bars` of p and q as fields, of the solution;
+    /// and the layers whose stress still rises at the end of the longest section. `anywhere`: also
+    /// beside the section.
     #[pyo3(signature = (
-        of, samples, z, layer, *, x = None, y = None, only = None, error_bars = None
+        of, samples, z, layer, *, x = None, y = None, azimuth = None, only = None, anywhere = false,
+        error_bars = None
     ))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn maximum(
@@ -355,15 +393,14 @@ impl Subsurface {
         layer: List<usize>,
         x: Option<f64>,
         y: Option<f64>,
+        azimuth: Option<f64>,
         only: Option<usize>,
+        anywhere: bool,
         error_bars: Option<(f64, f64)>,
-    ) -> PyResult<Option<Found>> {
-        let (depths, line) = (Self::depths(&z, &layer)?, line(x, y)?);
+    ) -> PyResult<(Option<Found>, Vec<usize>)> {
+        let (depths, line) = (Self::depths(&z, &layer)?, line(x, y, azimuth)?);
         let grid = &self.grid.0;
-        let along: Vec<f64> = match line {
-            Line::AlongX(_) => (0..grid.nx).map(|i| grid.x(i)).collect(),
-            Line::AlongY(_) => (0..grid.ny).map(|j| grid.y(j)).collect(),
-        };
+        let along = line.places(grid);
         let samples = samples.as_array().to_owned();
         if samples.dim() != (depths.len(), along.len()) {
             return Err(PyValueError::new_err(format!(
@@ -372,15 +409,23 @@ impl Subsurface {
                 (depths.len(), along.len())
             )));
         }
-        let probe = core::Probe::named(of, "of").map_err(to_python)?;
+        let measure = core::measure_named(of)
+            .ok_or_else(|| PyValueError::new_err(format!("{of:?}: is no measure of stress")))?;
         let stop = Arc::default();
         let found = interruptible(py, &stop, || {
             self.under(&stop, |body, grid, states| {
-                let search = core::Search::new(body, self.side, grid, Some(line), &states)?;
-                search.on_section(&probe, &samples.view(), (&depths, &along), only)
+                let loads = core::Loads {
+                    body,
+                    side: self.side,
+                    grid,
+                    states: &states,
+                };
+                let samples = (&depths[..], &samples.view());
+                core::largest_anywhere(loads, measure, (line, anywhere), samples, only)
             })
         })?;
-        Ok(found.map_err(to_python)?.map(|m| {
+        let found = found.map_err(to_python)?;
+        let largest = found.largest.map(|m| {
             let m = error_bars.map_or(m, |(p, q)| m.with_error_bars(p, q));
             let core::Errors {
                 x,
@@ -392,7 +437,8 @@ impl Subsurface {
             let error = (x, y, z, tractions.unwrap_or(f64::NAN), solution);
             let at = m.at.map(zone_name);
             (m.value, m.x, m.y, m.depth.z, m.depth.layer, at, error)
-        }))
+        });
+        Ok((largest, found.still_rises))
     }
 
     /// Whether the tractions are those of a contact.
@@ -404,15 +450,16 @@ impl Subsurface {
     /// Where a line, or the lines of all cells, cross rims of contact and stick zone.
     ///
     /// x, y, which of them, and whether the place is known within a cell.
-    #[pyo3(signature = (*, x = None, y = None))]
+    #[pyo3(signature = (*, x = None, y = None, azimuth = None))]
     fn borders(
         &self,
         x: Option<f64>,
         y: Option<f64>,
+        azimuth: Option<f64>,
     ) -> PyResult<Vec<(f64, f64, &'static str, bool)>> {
         let along = match (x, y) {
             (None, None) => None,
-            _ => Some(line(x, y)?),
+            _ => Some(line(x, y, azimuth)?),
         };
         let stick = self.stick.as_deref();
         let found = core::borders(&self.grid.0, &self.tractions(), stick, along);

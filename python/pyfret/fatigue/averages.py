@@ -8,9 +8,10 @@ import numpy as np
 
 from pyfret._core import Material
 from pyfret._util.lazy import xr
-from pyfret.fatigue.cycle_section import body_of, over_cycle
+from pyfret.fatigue.cycle_section import body_of, over_cycle, placed
 from pyfret.fatigue.fields import described
 from pyfret.fatigue.section import Section, for_each_layer
+from pyfret.subsurface.fields import coordinates
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -82,7 +83,7 @@ def average(
     ValueError
         As :func:`pyfret.fatigue.life`, and if the distance reaches beyond the layer.
     """
-    where = Section(**section)
+    where = placed(result, Section(**section))[0]
     layers = len(body_of(result, where).coatings) + 1
     if layer is not None and not 0 <= layer < layers:
         raise ValueError(f"layer = {layer}: must be 0 to {layers - 1}, from the surface down")
@@ -103,11 +104,10 @@ def average(
     below = over_cycle(result, where)
     found = below.mean(L, method, there, each, criterion, tolerance=tolerance)
     assessments = [None if m is None else m.assessment(criterion) for m in each]
-    grid = result.scene.grid
     along = where.along
-    shown = xr.Dataset(
-        coords={along: np.asarray(grid.x if along == "x" else grid.y), "axis": ["x", "y", "z"]}
-    )
+    places = coordinates(result.scene.grid, [0.0], [there], *where.line)
+    shown = xr.Dataset(coords=places).drop_dims("depth")
+    shown = shown.assign_coords(axis=["x", "y", "z"])
     for name, (values, attrs) in described(found, assessments).items():
         shown[name] = ((along, "axis")[: values.ndim - 1], values[0], attrs)
     return shown.assign_attrs(criterion=criterion, method=method, L=L, layer=there)

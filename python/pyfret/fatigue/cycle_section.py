@@ -11,6 +11,7 @@ from pyfret._util.arrays import plain
 from pyfret._util.lazy import xr
 from pyfret.fatigue.cycles import cycle_increments, moment_before
 from pyfret.subsurface.fields import coordinates, interfaces
+from pyfret.subsurface.line import Line
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -21,13 +22,32 @@ if TYPE_CHECKING:
     from pyfret.fatigue.section import Section
     from pyfret.run import Run
 
-__all__ = ["body_of", "depths_of", "labelled", "over_cycle", "side_by_side"]
+__all__ = ["body_of", "depths_of", "labelled", "over_cycle", "placed", "side_by_side"]
+
+#: Moments of a cycle, about, by which its sections find their place.
+MOMENTS = 16
 
 
 def body_of(result: Run, section: Section) -> Body:
     """The body that a section lies in."""
     scene = result.scene
     return scene.body1 if section.body_number == 1 else scene.body2
+
+
+def placed(result: Run, section: Section) -> list[Section]:
+    """The section, or where it says no place those of the cycle, the first along its shear.
+
+    A second one stands across the first, unless what is largest lies in the plane of the shear: a
+    round contact that is sheared to and fro along one line.
+    """
+    if section.is_placed:
+        return [section]
+    kept = cycle_increments(result, section.cycle)
+    states = [result.at(int(n)) for n in kept[:: max(1, len(kept) // MOMENTS)]]
+    outlines = [now.outline for now in states if now.outline is not None]
+    stretched = any(now.bulk_stress(section.body_number) != 0.0 for now in states)
+    lines = _core.main_sections(outlines, stretched=stretched)
+    return [section.below(Line(*line)) for line in lines]
 
 
 def over_cycle(result: Run, section: Section) -> _core.CycleSection:
@@ -48,14 +68,12 @@ def over_cycle(result: Run, section: Section) -> _core.CycleSection:
         bulk = [one.bulk_stress(section.body_number) for one in now]
         return (*fields, stick, bulk)
 
-    place = section.place
     return _core.CycleSection(
         body_of(result, section),
         result.scene.grid,
         moments,
         len(kept),
-        x=place if section.across == "x" else None,
-        y=place if section.across == "y" else None,
+        **section.line.named(),
         body_number=section.body_number,
         residual=section.residual,
     )
@@ -92,9 +110,7 @@ def labelled(
     fields: Mapping[str, tuple[NDArray[np.float64], dict[str, str]]],
 ) -> xr.Dataset:
     """Arrays over (depth, place) or (depth, place, axis) of a section with their coordinates."""
-    x = section.place if section.across == "x" else None
-    y = section.place if section.across == "y" else None
-    places = coordinates(result.scene.grid, *depths, x, y)
+    places = coordinates(result.scene.grid, *depths, *section.line)
     shown = xr.Dataset(coords={**xr.Dataset(coords=places).coords, "axis": ["x", "y", "z"]})
     for name, (values, attrs) in fields.items():
         shown[name] = (("depth", section.along, "axis")[: values.ndim], values, attrs)

@@ -12,6 +12,7 @@ from pyfret._util.lazy import xr
 from pyfret.fatigue.criteria import COMPONENTS
 from pyfret.subsurface.contact import stress_below
 from pyfret.subsurface.fields import coordinates
+from pyfret.subsurface.line import Line
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -71,6 +72,7 @@ def history(
     *,
     x: float | None = None,
     y: float | None = None,
+    azimuth: float | None = None,
     body_number: int = 2,
     cycle: int | None = -1,
     residual: Sequence[float] | None = None,
@@ -81,7 +83,7 @@ def history(
     ----------
     result : Result
         Solved with ``save="all"``, or with the increments of the cycle.
-    z, x, y, body_number
+    z, x, y, azimuth, body_number
         Where, as in :meth:`Snapshot.stress`.
     cycle : int, optional
         Which of the closed cycles of the load path, the last by default; None for all increments
@@ -96,7 +98,7 @@ def history(
         Stress [Pa] with the coordinates of the places, ``layer`` among them.
     """
     kept = cycle_increments(result, cycle)
-    if (x is None) == (y is None):
+    if azimuth is None and (x is None) == (y is None):
         return _of_snapshots(result, kept, z, x, y, body_number, residual)
     scene = result.scene
     body = scene.body1 if body_number == 1 else scene.body2
@@ -120,15 +122,16 @@ def history(
             residual=residual,
             x=x,
             y=y,
+            azimuth=azimuth,
             body_number=body_number,
         )
         parts.append(np.moveaxis(stress, 1, -1))
-    along = "x" if x is None else "y"
+    along = Line(x, y, azimuth).along
     stacked = xr.DataArray(
         np.concatenate(parts),
         dims=("increment", "depth", along, "component"),
         coords={
-            **xr.Dataset(coords=coordinates(scene.grid, depths, layers, x, y)).coords,
+            **xr.Dataset(coords=coordinates(scene.grid, depths, layers, x, y, azimuth)).coords,
             "increment": kept,
             "component": list(COMPONENTS),
         },

@@ -25,6 +25,7 @@ from pyfret.fatigue.cycle_section import (
     depths_of,
     labelled,
     over_cycle,
+    placed,
     side_by_side,
 )
 from pyfret.fatigue.lives import Errors
@@ -107,7 +108,13 @@ class LoadFactors(Labelled):
         if values.size == 0 or not np.isfinite(values).any():
             raise ValueError(f"layer {layer} is not judged: it has no yield stress or no depth")
         n = int(np.nanmax(np.where(np.isfinite(values), values, -np.inf), axis=0).argmax())
-        found = self._sections[n].least(layer, of)
+        shown = here.shape[2] if here.ndim > 2 else 1
+        looked = [self._sections[n], *self._sections[shown:]]
+        found = max(
+            filter(None, (section.least(layer, of) for section in looked)),
+            key=lambda least: least["score"],
+            default=None,
+        )
         if found is None:
             raise ValueError("the section holds no number")
         use, error = found["score"], Errors(*found["errors"]).sum
@@ -181,10 +188,11 @@ def load_factors(
     z : array, optional
         Depths [m] (default: those that the layers ask for, both sides of every interface).
     **section
-        ``x`` or ``y`` (several for a volume), ``body_number``, ``cycle`` (None: the whole path as
-        far as its increments were kept), ``residual``: the fields of
-        :class:`pyfret.fatigue.Section`. The residual stress counts for first yield and does not
-        grow with the load; shakedown finds its own.
+        ``x`` or ``y`` (several for a volume), ``azimuth``, ``body_number``, ``cycle`` (None: the
+        whole path as far as its increments were kept), ``residual``: the fields of
+        :class:`pyfret.fatigue.Section`; the place by default as in :func:`pyfret.fatigue.life`. The
+        residual stress counts for first yield and does not grow with the load; shakedown finds its
+        own.
 
     Returns
     -------
@@ -201,7 +209,7 @@ def load_factors(
     --------
     >>> result.load_factors(900e6).least("shakedown")  # doctest: +SKIP
     """
-    where = Section(**section)
+    where, *others = placed(result, Section(**section))
     limits = _yield_stresses(s_y, len(body_of(result, where).coatings) + 1)
     depths = depths_of(result, where, z, limits, "yield stress")
     meanings = {
@@ -210,8 +218,11 @@ def load_factors(
         "shakedown": "load factor of elastic shakedown, upper bound",
     }
     found, shown = [], []
-    for one in where.each():
+    for one in [*where.each(), *others]:
         judged = over_cycle(result, one).by_yield(*depths, limits)
+        if one in others:
+            found.append(judged)
+            continue
         fields = judged.fields()
         labels = {
             name: (fields[name], {"units": "1", "long_name": meaning})

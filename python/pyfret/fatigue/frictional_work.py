@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -42,7 +43,7 @@ def ruiz(result: Run, **section: Unpack[SectionOptions]) -> xr.Dataset:
     result : Result
         As in :func:`life`; the last increments before and of the cycle must be kept.
     **section
-        ``y``, ``body_number``, ``cycle``, ``residual``, as in :func:`life`.
+        ``y`` (default: 0), ``body_number``, ``cycle``, ``residual``, as in :func:`life`.
 
     Returns
     -------
@@ -50,6 +51,8 @@ def ruiz(result: Run, **section: Unpack[SectionOptions]) -> xr.Dataset:
         Over x: ``F1`` [J/m^2] and ``F2`` [J Pa/m^2]; F2 is 0 where the surface is never in tension.
     """
     where = Section(**section)
+    if not where.is_placed:
+        where = replace(where, y=0.0)
     if where.along != "x":
         raise ValueError("x is given: Ruiz' parameters are those along x, at a y")
     y = where.place

@@ -27,6 +27,7 @@ from pyfret.fatigue.cycle_section import (
     depths_of,
     labelled,
     over_cycle,
+    placed,
     side_by_side,
 )
 from pyfret.fatigue.distance import OverDistance
@@ -411,8 +412,10 @@ def life(
     tolerance : float
         Largest part of the value that another plane may be proved to have more.
     **section
-        ``x`` or ``y`` (several for a volume), ``body_number``, ``cycle``, ``residual``: the fields
-        of :class:`pyfret.fatigue.Section`.
+        ``x`` or ``y`` (several for a volume), or ``x``, ``y`` and ``azimuth``; ``body_number``,
+        ``cycle``, ``residual``: the fields of :class:`pyfret.fatigue.Section`. By default the
+        section stands along the shear, through the centre of the contact; the worst point is also
+        looked for in the section across it, unless a round contact is sheared along one line.
 
     Raises
     ------
@@ -454,18 +457,20 @@ def lives(
     names = list(dict.fromkeys(criteria))
     if not names:
         raise ValueError("criteria = []: must be one or more of fatigue.CRITERIA")
-    where = Section(**section)
+    where, *others = placed(result, Section(**section))
     layers = len(body_of(result, where).coatings) + 1
     each = for_each_layer(materials, layers, "material", "materials")
     depths = depths_of(result, where, z, each, "material")
     found: dict[CriterionName, list[CriterionBelow]] = {name: [] for name in names}
     shown: dict[CriterionName, list[xr.Dataset]] = {name: [] for name in names}
     notes: list[str] = []
-    for one in where.each():
+    for one in [*where.each(), *others]:
         below = over_cycle(result, one)
         judged = below.by_criteria(*depths, each, names, tolerance=tolerance)
         for name, by in zip(names, judged, strict=True):
             found[name].append(by)
+            if one in others:
+                continue
             fields = described(by.fields(), by.assessments)
             shown[name].append(labelled(result, one, depths, fields))
         if not notes and where.cycle is not None:

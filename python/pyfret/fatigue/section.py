@@ -10,6 +10,7 @@ import numpy as np
 
 from pyfret._core import Material
 from pyfret._util.arrays import plain
+from pyfret.subsurface.line import Line
 
 __all__ = ["Materials", "Section", "SectionOptions", "for_each_layer"]
 
@@ -24,6 +25,7 @@ class SectionOptions(TypedDict, total=False):
 
     x: float | Sequence[float] | None
     y: float | Sequence[float] | None
+    azimuth: float | None
     body_number: int
     cycle: int | None
     residual: Sequence[float] | None
@@ -38,8 +40,11 @@ class Section:
 
     #: The section along y at this x [m], or sections at several.
     x: float | Sequence[float] | None = None
-    #: The section along x at this y [m], or sections at several (default: y = 0).
+    #: The section along x at this y [m], or sections at several (default: the section along the
+    #: shear of the cycle, through the centre of its largest contact).
     y: float | Sequence[float] | None = None
+    #: The section at this angle to the x axis [rad], through `x` and `y`.
+    azimuth: float | None = None
     #: The upper body (1) or the lower one (2).
     body_number: int = 2
     #: Which of the closed cycles, the last by default; None for all increments that were kept.
@@ -49,20 +54,26 @@ class Section:
     residual: Sequence[float] | None = None
 
     def __post_init__(self) -> None:
-        """Take y = 0 where no place is given; refuse what is no section."""
-        if self.x is None and self.y is None:
-            object.__setattr__(self, "y", 0.0)
-        if self.x is not None and self.y is not None:
+        """Refuse what is no section."""
+        if self.azimuth is not None:
+            if not isinstance(self.x, (int, float)) or not isinstance(self.y, (int, float)):
+                raise ValueError("azimuth: give x and y as well, one point of the section")
+        elif self.x is not None and self.y is not None:
             raise ValueError("give x or y: a section is along y at an x, or along x at a y")
         if self.body_number not in (1, 2):
             raise ValueError(f"body_number = {self.body_number}: must be 1 or 2")
-        if np.size(self.places) == 0:
+        if self.is_placed and np.size(self.places) == 0:
             raise ValueError(f"{self.across} = []: must be one place or more")
 
     @property
+    def is_placed(self) -> bool:
+        """Whether it says where it lies."""
+        return self.x is not None or self.y is not None
+
+    @property
     def along(self) -> str:
-        """The axis that the section runs along."""
-        return "y" if self.y is None else "x"
+        """The axis that the section runs along, or "s" in another direction."""
+        return "s" if self.azimuth is not None else "y" if self.y is None else "x"
 
     @property
     def across(self) -> str:
@@ -71,7 +82,9 @@ class Section:
 
     @property
     def places(self) -> float | Sequence[float]:
-        """The place or places on that axis [m]."""
+        """The place or places on that axis [m]; 0 in another direction."""
+        if self.azimuth is not None:
+            return 0.0
         places = self.x if self.y is None else self.y
         assert places is not None
         return places
@@ -87,8 +100,22 @@ class Section:
         """The section at another place [m]."""
         return replace(self, y=place) if self.across == "y" else replace(self, x=place)
 
+    @property
+    def line(self) -> Line:
+        """The line below which the one section lies."""
+        if self.azimuth is None:
+            place = self.place
+            return Line(*((place, None) if self.across == "x" else (None, place)))
+        return Line(self.x, self.y, self.azimuth)  # type: ignore[arg-type]
+
+    def below(self, line: Line) -> Section:
+        """The section below a line."""
+        return replace(self, **line.named())
+
     def each(self) -> list[Section]:
         """The sections one by one."""
+        if self.azimuth is not None:
+            return [self]
         return [self.at(place) for place in np.atleast_1d(plain(self.places, self.across)).tolist()]
 
 

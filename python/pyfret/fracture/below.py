@@ -11,7 +11,9 @@ import numpy as np
 from pyfret import _core
 from pyfret._util.arrays import plain
 from pyfret._util.lazy import xr
+from pyfret.fatigue.cycle_section import placed
 from pyfret.fatigue.cycles import cycle_increments
+from pyfret.fatigue.section import Section
 from pyfret.fracture.growth import Cracks
 
 if TYPE_CHECKING:
@@ -21,6 +23,7 @@ if TYPE_CHECKING:
 
     from pyfret._core import Body, Grid
     from pyfret.run import Run, State
+    from pyfret.subsurface.line import Line
 
 __all__ = ["crack", "grow"]
 
@@ -54,8 +57,9 @@ def crack(
         Solved with ``save="all"``, or with the increments of the cycle; the fields in the plane of
         the crack are taken as those of plane strain.
     x : float, optional
-        Place of the mouth along the plane of the crack [m] (default: that rim of the contact, at
-        the largest contact of the cycle, below which the range of K is larger).
+        Place of the mouth along the plane of the crack [m] (default: that rim of the contact,
+        where the largest contact of the cycle ends in this plane, below which the range of K is
+        larger).
     lengths : array, optional
         Lengths of the crack [m] (default: 24 from 0.01 to 2 times half the width of the contact).
     angle : float
@@ -64,7 +68,8 @@ def crack(
         Length [m] after which cracks go on at another angle [rad]; by default they are straight.
     azimuth : float, optional
         Angle of the plane of the crack about the z axis from the x axis [rad], 0 in plane strain
-        (default: of 0, 30, ..., 150 degrees that of the largest range of K; 0 under shear along x).
+        (default: that of the shear; where the contact is not round, or sheared in several
+        directions, that of the largest range of K in steps of 30 degrees from it).
     aspect : float, optional
         Depth over half-length of a semi-elliptic crack, above 0 and up to 1: K is then an estimate
         for its deepest point, the plane value times :func:`ellipse_factor`; the error has 5 % more
@@ -196,9 +201,23 @@ class Cycle:
         return [self.result.at(int(n)) for n in self.increments]
 
     @cached_property
+    def largest(self) -> _core.Outline:
+        """The outline of the largest contact of the cycle."""
+        outlines = [now.outline for now in self.states if now.outline is not None]
+        if not outlines:
+            raise ValueError("no increment of the cycle has contact: give the place x of the crack")
+        return max(outlines, key=lambda outline: sum(spot[2] for spot in outline.spots))
+
+    @property
     def half_width(self) -> float:
-        """Half the largest width of the contact [m], its radius in three dimensions."""
-        return max(_half_width(now) for now in self.states)
+        """Half the largest width of the contact along the shear [m]."""
+        return self.largest.half_width(self.lines[0].angle)
+
+    @cached_property
+    def lines(self) -> list[Line]:
+        """The sections of the cycle by default, the first along the shear."""
+        section = Section(cycle=self.cycle, body_number=self.body_number)
+        return [one.line for one in placed(self.result, section)]
 
     @cached_property
     def arguments(self) -> tuple[Body, Grid, dict[str, Any]]:
@@ -227,29 +246,19 @@ class Cycle:
         """Mouth [m] and plane [rad]: those given, or those of the largest range of short cracks."""
         if x is not None and azimuth is not None:
             return float(x), float(azimuth)
-        _, grid, fields = self.arguments
         if azimuth is not None:
             planes = [float(azimuth)]
-        elif grid.plane_strain or not np.any(fields["q_y"]):
-            planes = [0.0]
+        elif len(self.lines) == 1:
+            planes = [self.lines[0].angle]
         else:
-            planes = np.radians(np.arange(0.0, 180.0, 30.0)).tolist()
-        largest = max(self.states, key=_half_width)
-        loaded = np.argwhere(largest.p.values > 0.0)
-        if loaded.size == 0:
-            raise ValueError("no increment of the cycle has contact: give the place x of the crack")
-        first, last = loaded.min(axis=0), loaded.max(axis=0)
-        middle = [
-            0.5 * (largest[name].values[i] + largest[name].values[j])
-            for name, i, j in zip("xy", first, last, strict=True)
-        ]
-        a = self.half_width
-        lengths = (a * np.array([0.05, 0.1, 0.2, 0.4])).tolist()
-        rims = [
-            (float(np.cos(phi) * middle[0] + np.sin(phi) * middle[1] + side * a), phi)
-            for phi in planes
-            for side in (-1.0, 1.0)
-        ]
+            planes = (self.lines[0].angle + np.radians(np.arange(0.0, 180.0, 30.0))).tolist()
+        lengths = (self.half_width * np.array([0.05, 0.1, 0.2, 0.4])).tolist()
+        rims = []
+        if x is None:
+            X, Y = self.largest.centre
+            for phi in planes:
+                middle = float(np.cos(phi) * X + np.sin(phi) * Y)
+                rims += [(middle + end, phi) for end in self.largest.border(phi)]
         places = rims if x is None else [(float(x), phi) for phi in planes]
 
         def range_at(place: tuple[float, float]) -> float:
@@ -293,11 +302,3 @@ def labelled(
     of_run = cycle.result.dataset.attrs
     about |= {name: of_run[name] for name in ("a_H", "p_H") if name in of_run}
     return Cracks(xr.Dataset(variables, coords=coordinates, attrs=about))
-
-
-def _half_width(now: State) -> float:
-    """Half the width of the contact [m], its radius in three dimensions."""
-    grid = now.scene.grid
-    if grid.plane_strain:
-        return 0.5 * float(now.contact_area) / grid.dy
-    return float(now.contact_radius)

@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
+from pyfret.fatigue.cycle_section import placed
 from pyfret.fatigue.cycles import history
+from pyfret.fatigue.section import Section
 from pyfret.fracture.below import Cycle, crack
 from pyfret.fracture.film import channel_release
 from pyfret.fracture.interface import over_cycle
@@ -58,7 +60,7 @@ def first_to_fail(
     body_number: int = 2,
     cycle: int | None = -1,
 ) -> FirstToFail:
-    """Compare what a closed cycle does to film, interface and substrate in the plane y = 0.
+    """Compare what a closed cycle does to film, interface and substrate in the plane of the shear.
 
     All three are proportional to the stress, so that without residual stress the largest goes first
     as loads grow.
@@ -68,9 +70,9 @@ def first_to_fail(
     result : Result
         Of a coated body, solved with ``save="all"``, or with the increments of the cycle.
     toughness : float, optional
-        Energy release rate at which a crack channels through the outermost coating [J/m^2]; it is
-        under the largest s_xx of the cycle at its top and bottom, residual stress included, on the
-        safe side where that varies through the thickness.
+        Energy release rate at which a crack channels through the outermost coating [J/m^2]. Its
+        stress is the largest of the cycle along that plane at the top and the bottom of the
+        coating, residual stress included: on the safe side where that varies through the thickness.
     peel_strength, shear_strength : float, optional
         Strengths of the interfaces [Pa], both or neither: :func:`over_cycle`.
     threshold : Threshold, optional
@@ -101,15 +103,20 @@ def first_to_fail(
         coating = body.coatings[0]
         below = body.coatings[1].material if len(body.coatings) > 1 else body.substrate
         # The surface, and both sides of the first interface: the upper one is the film's.
+        where = Section(body_number=body_number, cycle=cycle, residual=residual)
+        line = placed(result, where)[0].line
         stress = history(
             result,
             [0.0, coating.thickness],
-            y=0.0,
+            **line.named(),
             body_number=body_number,
             cycle=cycle,
             residual=residual,
         )
-        largest = float(stress.isel(depth=slice(0, 2)).sel(component="s_xx").max())
+        of_film = stress.isel(depth=slice(0, 2))
+        xx, yy, xy = (of_film.sel(component=name, drop=True) for name in ("s_xx", "s_yy", "s_xy"))
+        cos, sin = np.cos(line.angle), np.sin(line.angle)
+        largest = float((cos**2 * xx + 2.0 * cos * sin * xy + sin**2 * yy).max())
         film = math.sqrt(channel_release(coating, below, largest) / toughness)
     if peel_strength is not None or shear_strength is not None:
         found = over_cycle(

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from pyfret._util.lazy import xr
+from pyfret.fatigue.cycle_section import placed
 from pyfret.fatigue.cycles import history
 from pyfret.fatigue.section import Section
 from pyfret.subsurface.fields import interfaces
@@ -58,7 +59,7 @@ def over_cycle(
         The body has no coating, one of the strengths is missing or not positive, or as
         :func:`pyfret.fatigue.life`.
     """
-    where = Section(**section)
+    where = placed(result, Section(**section))[0]
     scene = result.scene
     depths = interfaces(scene.body1 if where.body_number == 1 else scene.body2)
     if not depths:
@@ -74,8 +75,7 @@ def over_cycle(
     stress = history(
         result,
         depths,
-        x=where.place if along == "y" else None,
-        y=where.place if along == "x" else None,
+        **where.line.named(),
         body_number=where.body_number,
         cycle=where.cycle,
     )

@@ -17,6 +17,7 @@ from pyfret.plot.depth_axis import stretch as stretch_axis
 from pyfret.plot.scales import scales
 from pyfret.plot.stresses import COLOURS, FLAT, section_size
 from pyfret.plot.style import MARK, REFERENCE, STICK, axes, inside_legend, mark, note, styled
+from pyfret.subsurface.line import line_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -86,7 +87,7 @@ def criterion_map(
     field, label = _shown(life)
     shown = life.dataset.value.copy(data=field).assign_attrs(life.dataset.attrs)
     ax = _contours(shown, label, units, levels, ax, stretch=stretch, limit=1.0 if safety else None)
-    at = (getattr(worst, str(shown.dims[1])), worst.z)
+    at = (line_of(shown).place(worst.x, worst.y), worst.z)
     _mark(ax, at, f"worst point: {margin}", shown, units, lives=not safety)
     return ax
 
@@ -119,7 +120,7 @@ def load_factor_map(
     name = {"von_mises": "First yield, von Mises", "tresca": "First yield, Tresca"}
     label = f"{name.get(of, 'Shakedown')}: load over limit"
     ax = _contours(shown, label, units, levels, ax, stretch=stretch, limit=1.0)
-    at = (getattr(least, str(shown.dims[1])), least.z)
+    at = (line_of(shown).place(least.x, least.y), least.z)
     _mark(ax, at, f"least factor {least.factor:.3g}", shown, units)
     return ax
 

@@ -16,6 +16,7 @@ from pyfret.plot.depth_axis import stretch as stretch_axis
 from pyfret.plot.scales import Scales, Units, scales
 from pyfret.plot.style import apart, axes, mark, styled
 from pyfret.subsurface.contact import stress_below
+from pyfret.subsurface.line import Line, line_of
 from pyfret.subsurface.tensor import Stress
 
 if TYPE_CHECKING:
@@ -57,9 +58,9 @@ def _scales(attrs: Mapping[Any, Any], units: Units, a_H: float | None, p_H: floa
     return scales({**attrs, **given}, units)
 
 
-def _mark(ax: Axes, largest: Extreme, along: str, by: Scales, *, marker: str = "x") -> None:
+def _mark(ax: Axes, largest: Extreme, line: Line, by: Scales, *, marker: str = "x") -> None:
     """Mark a value at its place along the section and its depth, and say it in the legend."""
-    at = ((largest.x if along == "x" else largest.y) / by.length.value, largest.z / by.length.value)
+    at = (line.place(largest.x, largest.y) / by.length.value, largest.z / by.length.value)
     where = "largest" if marker == "x" else "on the surface"
     said = in_words(largest.value / by.stress.value)
     if largest.error > TOLD * abs(largest.value):
@@ -151,7 +152,7 @@ def section_map(
         ax.axhline(depth, color="0.2", linewidth=0.8, linestyle=(0, (6, 3)))
     ax.set_xlim(x[0], x[-1])
     if maximum is not None:
-        _mark(ax, maximum, along, by)
+        _mark(ax, maximum, line_of(values), by)
     name = symbol if symbol is not None else SYMBOLS.get(str(values.name), str(values.name))
     if colorbar and image is not None:
         # Within the axes, so that it is as high as the section.
@@ -209,7 +210,7 @@ def stress_map(
     )
     if float(values.z[0]) == 0.0 < largest.z and not of.startswith("interface"):
         by = _scales(stress.dataset.attrs, units, a_H, p_H)
-        _mark(ax, stress.on_surface().maximum(of), str(values.dims[1]), by, marker="o")
+        _mark(ax, stress.on_surface().maximum(of), line_of(values), by, marker="o")
     return ax
 
 

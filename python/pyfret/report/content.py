@@ -12,6 +12,7 @@ from pyfret.report.crack import Crack
 from pyfret.report.digits import short
 from pyfret.run.summary import directions
 from pyfret.subsurface.contact import stress_below
+from pyfret.subsurface.line import line_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -119,7 +120,7 @@ def loop(result: Run) -> dict[str, Any]:
 
 
 def stress(result: Run, crack: Crack | None = None) -> dict[str, Any] | None:
-    """Von Mises stress on the section y = 0 at the last increment, with the crack in it.
+    """Von Mises stress on the section along the shear at the last increment, with the crack in it.
 
     Of the lower body, or of that with the crack.
     """
@@ -131,12 +132,12 @@ def stress(result: Run, crack: Crack | None = None) -> dict[str, Any] | None:
     below = stress_below(at, body_number=number)
     largest = below.maximum()
     values = 1e-6 * below.von_mises.values
-    z, x = below.von_mises.z.values, below.von_mises.x.values
-    near = np.arange(x.size)
-    touched = x[np.isin(x, at.x.values[at.contact.values.any(axis=1)])]
-    if touched.size:
-        room = SIDEWAYS * max(np.ptp(touched), z[-1])
-        near = np.flatnonzero((x >= touched[0] - room) & (x <= touched[-1] + room))
+    line = line_of(below.dataset)
+    z, x = below.von_mises.z.values, below.von_mises[line.along].values
+    assert at.outline is not None
+    ends = line.place(*at.outline.centre) + np.array(at.outline.border(line.angle))
+    room = SIDEWAYS * max(np.ptp(ends), z[-1])
+    near = np.flatnonzero((x >= ends[0] - room) & (x <= ends[1] + room))
     depths, along = chosen(z.size, DOWN), near[chosen(near.size, ALONG)]
     interfaces = np.cumsum([layer.thickness for layer in body.coatings])
     borders = 1e6 * np.array([z[0], *interfaces, z[-1]])
@@ -157,8 +158,8 @@ def stress(result: Run, crack: Crack | None = None) -> dict[str, Any] | None:
         "equal": not (stretch or flat),
         "values": short(values[np.ix_(depths, along)], 3),
         "interfaces": place(borders[1:-1]),
-        "largest": [1e6 * largest.x, 1e6 * largest.z, 1e-6 * largest.value],
-        "mark": [1e6 * largest.x, *place(np.array([1e6 * largest.z]))],
+        "largest": [1e6 * line.place(largest.x, largest.y), 1e6 * largest.z, 1e-6 * largest.value],
+        "mark": [1e6 * line.place(largest.x, largest.y), *place(np.array([1e6 * largest.z]))],
         "error": 1e-6 * largest.error,
         "body": "upper" if number == 1 else "lower",
         "crack": None if crack is None else crack.drawn(1e6 * z[-1], place),

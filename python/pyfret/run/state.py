@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -130,6 +131,17 @@ class State(OfRun):
         a_H, or where there is no Hertz contact half the longer side of the box around the contact.
         """
         return self.scene.length(self.dataset["p"].values)
+
+    @cached_property
+    def outline(self) -> _core.Outline | None:
+        """Where the contact is: its border in any direction, its spots, the direction of its shear.
+
+        None without a contact.
+        """
+        tractions = {k: np.asarray(v, dtype=float) for k, v in self.tractions().items()}
+        if not (tractions["p"] > 0.0).any():
+            return None
+        return _core.Outline(self.scene.grid, **tractions)
 
     def __dir__(self) -> list[str]:
         """The variables beside the methods."""

@@ -168,8 +168,8 @@ class Cracking:
     body_number: int = 2
 
     def __call__(self, result: Result) -> dict[str, xr.DataArray]:
-        """Judge the section y = 0 of the body."""
-        life = result.life(self.materials, self.criterion, y=0.0, body_number=self.body_number)
+        """Judge the body in the plane of the shear."""
+        life = result.life(self.materials, self.criterion, body_number=self.body_number)
         worst, margin = life.worst, life.margin
         attrs = {"units": "m", "long_name": "depth of the worst point"}
         return {

@@ -66,14 +66,12 @@ class Averaged:
 
     def __call__(self, result: Any) -> float:
         """The margin of a result: safety factor or life, the smallest along the surface."""
-        y = 0.0 if result.dataset.y.size > 1 else float(result.dataset.y[0])
         found = average(
             result,
             self.material,
             self.criterion,
             L=self.L,
             method=self.method,
-            y=y,
             body_number=self.body_number,
         )
         margin = found.life if "life" in found else found.safety_factor

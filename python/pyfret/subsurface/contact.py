@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from pyfret import _core
 from pyfret.scene.warnings import doubt_layers
 from pyfret.subsurface import fields
+from pyfret.subsurface.line import Line, along
 from pyfret.subsurface.tensor import Stress
 
 if TYPE_CHECKING:
@@ -26,6 +28,7 @@ def stress_below(
     *,
     x: float | None = None,
     y: float | None = None,
+    azimuth: float | None = None,
     body_number: int = 2,
     bulk: bool = True,
     residual: Sequence[float] | None = None,
@@ -33,12 +36,14 @@ def stress_below(
     """Stress below the contact of an increment: :meth:`pyfret.Snapshot.stress`."""
     body, grid = state.body(body_number), state.scene.grid
     doubt_layers(fields.interfaces(body), grid)
+    line, chosen = line_below(state, z, x, y, azimuth)
     below = fields.stress(
         body,
         grid,
         z,
-        x=x,
-        y=y,
+        x=line.x,
+        y=line.y,
+        azimuth=line.azimuth,
         body_number=body_number,
         sigma_B=state.bulk_stress(body_number) if bulk else 0.0,
         rim=True,
@@ -48,7 +53,30 @@ def stress_below(
         **state.tractions(),
     )
     yardsticks = {k: v for k, v in state.dataset.attrs.items() if k in ("a_H", "p_H")}
-    return below.assign_attrs(yardsticks | tractions_error(state))
+    return below.assign_attrs(yardsticks | tractions_error(state) | {"anywhere": int(chosen)})
+
+
+def line_below(
+    state: State,
+    z: ArrayLike | None,
+    x: float | None,
+    y: float | None,
+    azimuth: float | None,
+) -> tuple[Line, bool]:
+    """The section asked for, or that of the contact where none is; and whether it is that one.
+
+    That one lies along the shear, through the centre of the contact.
+    """
+    outline = state.outline
+    if azimuth is not None:
+        centre = (0.0, 0.0) if outline is None else outline.centre
+        x, y = (c if at is None else at for at, c in zip((x, y), centre, strict=True))
+        return along(x, y, azimuth), False
+    if z is not None or x is not None or y is not None:
+        return Line(x, y), False
+    if outline is None:
+        return Line(None, 0.0), True
+    return Line(*_core.main_sections([outline])[0]), True
 
 
 def tractions_error(state: State) -> dict[str, tuple[float, float]]:
@@ -66,15 +94,18 @@ def displacement_below(
     *,
     x: float | None = None,
     y: float | None = None,
+    azimuth: float | None = None,
     body_number: int = 2,
 ) -> xr.Dataset:
     """Displacements below the contact of an increment: :meth:`pyfret.Snapshot.displacement`."""
+    line, _ = line_below(state, z, x, y, azimuth)
     return fields.displacement(
         state.body(body_number),
         state.scene.grid,
         z,
-        x=x,
-        y=y,
+        x=line.x,
+        y=line.y,
+        azimuth=line.azimuth,
         body_number=body_number,
         length=state.length,
         **state.tractions(),

@@ -9,6 +9,7 @@ import numpy as np
 from pyfret import _core
 from pyfret._util.arrays import plain
 from pyfret._util.lazy import xr
+from pyfret.subsurface.line import Line
 from pyfret.subsurface.tensor import COMPONENTS, DISPLACEMENTS, LABELS, Stress
 
 if TYPE_CHECKING:
@@ -56,7 +57,12 @@ def interfaces(body: Body) -> list[float]:
 
 
 def coordinates(
-    grid: Grid, z: list[float], layer: list[int], x: float | None, y: float | None
+    grid: Grid,
+    z: list[float],
+    layer: list[int],
+    x: float | None,
+    y: float | None,
+    azimuth: float | None = None,
 ) -> dict[str, object]:
     """Depths with their layers, and x and y: the cells, or where they are constant."""
     metres = {"units": "m"}
@@ -64,6 +70,14 @@ def coordinates(
         "z": ("depth", z, {"units": "m", "long_name": "depth below the surface"}),
         "layer": ("depth", layer, {"long_name": "layer from the surface down"}),
     }
+    if azimuth is not None:
+        s, places = _core.line_places(grid, x=x, y=y, azimuth=azimuth)
+        long_name = "place along the section, from its given point"
+        coords["s"] = ("s", s, {**metres, "long_name": long_name})
+        coords["azimuth"] = ((), azimuth, {"units": "rad"})
+        for name, values in zip(("x", "y"), np.transpose(places), strict=True):
+            coords[name] = ("s", values, metres)
+        return coords
     for name, at, cells in (("x", x, grid.x), ("y", y, grid.y)):
         coords[name] = (name, cells, metres) if at is None else ((), at, metres)
     return coords
@@ -105,6 +119,7 @@ def stress(
     q_y: ArrayLike | None = None,
     x: float | None = None,
     y: float | None = None,
+    azimuth: float | None = None,
     body_number: int = 2,
     sigma_B: float = 0.0,
     rim: bool = False,
@@ -129,6 +144,8 @@ def stress(
         With `y`, the section along x at that y; with `x`, that along y; with both, the line
         below a point; with neither, the whole plane at every depth given, or where none is, the
         section at y = 0.
+    azimuth : float, optional
+        With `x` and `y`, the section through this point at this angle to the x axis [rad].
     body_number : 1 or 2
         Whether `body` is the upper one, on which the shear acts reversed, or the lower one.
     sigma_B : float
@@ -153,7 +170,7 @@ def stress(
     """
     loads = (p, q_x, q_y)
     below = _subsurface(body, grid, loads, body_number, sigma_B, residual, rim=rim, stick=stick)
-    at = _line(z, x, y)
+    at = Line(*_line(z, x, y), azimuth)
     length = loaded_length(grid, *loads) if length is None else length
     sampled = _sampled(below, body, grid, _depths(body, z, length), at, displacement=False)
     return Stress(sampled.assign_attrs(interfaces=interfaces(body), length=length), below)
@@ -176,6 +193,7 @@ def displacement(
     q_y: ArrayLike | None = None,
     x: float | None = None,
     y: float | None = None,
+    azimuth: float | None = None,
     body_number: int = 2,
     length: float | None = None,
 ) -> xr.Dataset:
@@ -186,7 +204,7 @@ def displacement(
     below = _subsurface(body, grid, (p, q_x, q_y), body_number)
     length = loaded_length(grid, p, q_x, q_y) if length is None else length
     depths = _depths(body, z, length)
-    return _sampled(below, body, grid, depths, _line(z, x, y), displacement=True)
+    return _sampled(below, body, grid, depths, Line(*_line(z, x, y), azimuth), displacement=True)
 
 
 def _sampled(
@@ -194,23 +212,23 @@ def _sampled(
     body: Body,
     grid: Grid,
     depths_and_layers: tuple[list[float], list[int]],
-    at: tuple[float | None, float | None],
+    at: Line,
     *,
     displacement: bool,
 ) -> xr.Dataset:
     """Stress or displacement on planes, below a line or below a point."""
     depths, layers = depths_and_layers
     pairs = list(zip(depths, layers, strict=True))
-    x, y = at
-    if x is not None and y is not None:
+    x, y, azimuth = at
+    if x is not None and y is not None and azimuth is None:
         values = below.points([(x, y, *d) for d in pairs])[int(displacement)].T
     elif x is None and y is None:
         planes = [below.slice(*d, displacement=displacement) for d in pairs]
         values = np.stack([np.stack(plane) for plane in planes], axis=1)
     else:
-        values = below.section(depths, layers, x=x, y=y, displacement=displacement)
-    coords = coordinates(grid, depths, layers, x, y)
-    dims = ["depth", *(k for k in ("x", "y") if coords[k][0] == k)]  # type: ignore[index]
+        values = below.section(depths, layers, x=x, y=y, azimuth=azimuth, displacement=displacement)
+    coords = coordinates(grid, depths, layers, x, y, azimuth)
+    dims = ["depth", *(k for k in ("s", "x", "y") if k in coords and coords[k][0] == k)]  # type: ignore[index]
     labels = DISPLACEMENTS if displacement else {name: LABELS[name] for name in COMPONENTS}
     variables = {
         name: (dims, of, {"units": units, "long_name": meaning})

@@ -14,6 +14,7 @@ from pyfret._util.lazy import xr
 from pyfret._util.numbers import in_words, place
 from pyfret.scene.tables import table
 from pyfret.scene.warnings import SceneWarning
+from pyfret.subsurface.line import line_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -133,12 +134,14 @@ class Stress(Labelled):
         )
 
     def maximum(self, of: str = "von_mises", *, layer: int | None = None) -> Extreme:
-        """Give the largest value on a section and its place: a value at a point.
+        """Give the largest value and its place: a value at a point.
 
-        The samples, the rims of the contact and the borders of its stick zone tell where to look;
-        from the highest of them the stress is evaluated between the samples. A maximum at the
-        surface or at an interface stays there. ``interface_shear`` and ``interface_peel`` are those
-        of the interfaces.
+        Of a section that was asked for, the largest value on it; of the section that
+        ``stress()`` chooses, the largest value in the whole body. The search begins at the highest
+        samples, at the rim of the contact and at the border of its stick zone. It goes on between
+        the samples. Where the samples of a layer still rise at the ends of the section, it is made
+        up to 16 times as long. A maximum at the surface or at an interface stays there.
+        ``interface_shear`` and ``interface_peel`` are those of the interfaces.
 
         Parameters
         ----------
@@ -152,27 +155,36 @@ class Stress(Labelled):
         SceneWarning
             A layer between the first and the last depth holds no depth, or not its borders: the
             largest value may lie there. Depths are chosen from the layers where none are given.
+            Or the stress of a layer still rises at the ends of the longest section.
         """
         if of not in LABELS:
             raise ValueError(f"{of!r}: must be one of {', '.join(sorted(LABELS))}")
         self._doubt_depths()
-        along = self._along()
-        across = "y" if along == "x" else "x"
+        self._along()
         depths = self.dataset.z.values.tolist()
         layers = self.dataset.layer.values.tolist()
         if layer is not None and layer not in layers:
             raise ValueError(f"layer = {layer}: must be one of {sorted(set(layers))}")
         if self._below is None:
             raise ValueError("the largest value is that of a section as stress(...) gives it")
-        found = self._below.maximum(
+        found, rises = self._below.maximum(
             of,
             self.measure(of).values,
             depths,
             layers,
             only=layer,
             error_bars=self.dataset.attrs.get("tractions_error"),
-            **{across: float(self.dataset[across])},
+            anywhere=bool(self.dataset.attrs.get("anywhere", 0)),
+            **line_of(self.dataset).named(),
         )
+        if rises:
+            layers_said = ", ".join(map(str, rises))
+            warnings.warn(
+                f"{of} in layer {layers_said} still rises 8 lengths of the grid away from it: "
+                "a larger value may lie beyond; use a longer grid",
+                SceneWarning,
+                stacklevel=2,
+            )
         if found is None and of.startswith("interface"):
             raise ValueError(f"{of}: no interface lies among the depths of the section")
         if found is None:
@@ -201,7 +213,6 @@ class Stress(Labelled):
 
     def _on_borders(self, zone: str) -> Stress:
         along = self._along()
-        across = "y" if along == "x" else "x"
         surface = self.dataset.isel(depth=0)
         if float(surface.z) != 0.0:
             raise ValueError("the section has no surface: give stress(z=[0, ...], ...)")
@@ -209,16 +220,20 @@ class Stress(Labelled):
             raise ValueError(
                 "tractions constant in each cell end nowhere within a cell: give rim=True"
             )
-        borders = self._below.borders(**{across: float(self.dataset[across])})
+        line = line_of(self.dataset)
+        borders = self._below.borders(**line.named())
         places = [(x, y) for x, y, of, _ in borders if of == zone]
         tensors = self._below.points([(x, y, 0.0, 0) for x, y in places])[0]
         variables = {
             name: (zone.split()[0], values, surface[name].attrs)
             for name, values in zip(COMPONENTS, tensors.T, strict=True)
         }
-        coords = {k: v for k, v in surface.coords.items() if k != along}
-        at = [place["xy".index(along)] for place in places]
-        coords[along] = (zone.split()[0], at, {"units": "m"})
+        coords = {k: v for k, v in surface.coords.items() if along not in v.dims}
+        named = {"x": 0, "y": 1} if along == "s" else {along: "xy".index(along)}
+        for name, axis in named.items():
+            coords[name] = (zone.split()[0], [place[axis] for place in places], {"units": "m"})
+        if along == "s":
+            coords["s"] = (zone.split()[0], [line.place(*at) for at in places], {"units": "m"})
         return Stress(xr.Dataset(variables, coords))
 
     def _doubt_depths(self) -> None:

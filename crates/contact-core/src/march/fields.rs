@@ -4,7 +4,9 @@ use ndarray::Array2;
 
 use super::domain::on_grid;
 use super::{March, Motion, State};
+use crate::convolution;
 use crate::plan::Half;
+use crate::zones::Outline;
 
 /// p, `q_x`, `q_y` \[Pa\], each of shape (nx, ny).
 pub type Tractions = [Array2<f64>; 3];
@@ -61,6 +63,17 @@ impl March {
         let p = on_grid(&self.problem, &state, &state.interface.p, Half::Even);
         let [q_x, q_y] = self.shear_of(&state);
         [p, q_x, q_y]
+    }
+
+    /// The outline of the contact after the last increment; `None` without one.
+    pub fn outline(&self) -> Option<Outline> {
+        let [p, q_x, q_y] = self.tractions();
+        let tractions = convolution::Tractions {
+            p: p.as_slice(),
+            q_x: q_x.as_slice(),
+            q_y: q_y.as_slice(),
+        };
+        Outline::new(&self.problem.scene.grid, &tractions)
     }
 
     /// The fields after the last increment on the whole grid.

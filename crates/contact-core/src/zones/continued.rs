@@ -29,6 +29,8 @@ const BESIDE: u8 = 3;
 /// Assumed distance t of a border that cannot be extrapolated from the centre of the outermost cell
 /// \[cells\]: the integral of (1 - s/t)^(1/2) over 0..t is 2 t/3 = 1/2, the load of half a cell.
 const TAKEN: f64 = 0.75;
+/// Places in a cell at which the border on an oblique line is looked for.
+const LOOKS: f64 = 4.0;
 
 /// The tractions of a contact as fields over a window of its cells.
 #[derive(Clone, Debug)]
@@ -208,6 +210,76 @@ impl Continued {
             }
         }
         all
+    }
+
+    /// The same for a line in any direction: from a place in steps of about a cell \[cells\],
+    /// between two numbers of steps.
+    pub fn crossings_along(
+        &self,
+        from: [f64; 2],
+        step: [f64; 2],
+        ends: [f64; 2],
+    ) -> Vec<Crossing> {
+        let at = |n: f64| [from[0] + n * step[0], from[1] + n * step[1]];
+        let zones = [
+            Some(&self.level),
+            self.bound.as_ref().map(|[_, level]| level),
+        ];
+        let mut all = Vec::new();
+        for (zone, level) in zones.into_iter().enumerate() {
+            let Some(level) = level else { continue };
+            let value = |n: f64| self.between(level, at(n));
+            let count = ((ends[1] - ends[0]) * LOOKS).ceil().max(1.0) as usize;
+            let place = |k: usize| ends[0] + k as f64 / LOOKS;
+            let mut before = (place(0), value(place(0)));
+            for now in (1..=count).map(|k| (place(k), value(place(k)))) {
+                let ((m, a), (n, b)) = (before, now);
+                before = now;
+                if (a > 0.0) == (b > 0.0) {
+                    continue;
+                }
+                let outside = at(if a > 0.0 { n } else { m });
+                if zone == 1 && self.between(&self.constant[2], outside) <= 0.0 {
+                    continue;
+                }
+                let known = a.min(b) < 0.0;
+                let here = at(if known {
+                    m + (n - m) * a / (a - b)
+                } else {
+                    0.5 * (m + n)
+                });
+                let cell = here.map(|v| v.round().max(0.0) as usize);
+                all.push(Crossing {
+                    place: here,
+                    stick: zone == 1,
+                    within_cell: known && !(zone == 0 && self.rim_is_unknown((cell[0], cell[1]))),
+                });
+            }
+        }
+        all
+    }
+
+    /// Whether a cell of the grid is pressed.
+    pub fn presses(&self, cell: (usize, usize)) -> bool {
+        self.place(cell)
+            .is_some_and(|at| self.constant[2][at] > 0.0)
+    }
+
+    /// A field between the centres of the cells, bilinear.
+    fn between(&self, field: &Array2<f64>, [column, row]: [f64; 2]) -> f64 {
+        let (columns, rows) = field.dim();
+        let split = |v: f64, start: usize, n: usize| {
+            let v = (v - start as f64).clamp(0.0, (n - 1) as f64);
+            (
+                v.floor() as usize,
+                (v.floor() as usize + 1).min(n - 1),
+                v.fract(),
+            )
+        };
+        let (i, next, s) = split(column, self.start.0, columns);
+        let (j, above, t) = split(row, self.start.1, rows);
+        let along = |j: usize| field[(i, j)] + s * (field[(next, j)] - field[(i, j)]);
+        along(j) + t * (along(above) - along(j))
     }
 
     /// A cell of the grid in the window.

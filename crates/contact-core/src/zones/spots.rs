@@ -7,15 +7,56 @@
 //! resolution. In plane strain the radius is the half-width.
 
 use crate::cells::Lattice;
+use crate::plan::Mirror;
+use crate::scene::Grid;
 
 /// Area of a spot over that of the ellipse of its moments, at least, for the ellipse to give its
 /// radius: a disc has 1, a rectangle 3/pi = 0.95, half a disc 0.96, a ring as wide as a third of
 /// its radius 0.52.
 const FILLS: f64 = 0.75;
 
+/// A spot of a contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spot {
+    /// Centre of its area \[m\].
+    pub centre: (f64, f64),
+    /// Area of its cells \[m^2\].
+    pub area: f64,
+    /// Semi-axes of the ellipse with its second moments, the larger first \[m\].
+    pub semi_axes: [f64; 2],
+    /// Direction of the larger one \[rad\].
+    pub azimuth: f64,
+}
+
+/// The spots of a contact on the whole grid, the largest first.
+pub(super) fn spots(grid: &Grid, contact: &[bool]) -> Vec<Spot> {
+    let (d_x, d_y) = (grid.dx, if grid.ny == 1 { 0.0 } else { grid.dy });
+    let middle = |n: usize| 0.5 * (n - 1) as f64;
+    let lattice = Lattice::new(grid, Mirror::None);
+    let spot = |sums: Sums| {
+        let [x, y] = sums.first.map(|sum| sum / sums.cells);
+        let [xx, xy, yy] = sums.moments();
+        let (xx, xy, yy) = (xx * d_x * d_x, xy * d_x * d_y, yy * d_y * d_y);
+        let (mean, half) = (0.5 * (xx + yy), (0.5 * (xx - yy)).hypot(xy));
+        Spot {
+            // Rows are counted from the lower side of the first, columns from its middle.
+            centre: (
+                (x - middle(grid.nx)) * d_x,
+                (y - 0.5 - middle(grid.ny)) * d_y,
+            ),
+            area: sums.cells * grid.dx * grid.dy,
+            semi_axes: [mean + half, mean - half].map(|m| 2.0 * m.max(0.0).sqrt()),
+            azimuth: 0.5 * xy.atan2(0.5 * (xx - yy)),
+        }
+    };
+    let mut all: Vec<Spot> = sums(lattice, contact).into_iter().map(spot).collect();
+    all.sort_by(|a, b| b.area.total_cmp(&a.area));
+    all
+}
+
 /// A patch of cells in contact: its sums over the cells, and the faces to cells outside.
 #[derive(Clone, Copy, Debug, Default)]
-struct Spot {
+struct Sums {
     cells: f64,
     first: [f64; 2],
     /// xx, xy, yy.
@@ -36,7 +77,7 @@ struct Run {
 /// Cells across the radius of a contact: the median of the radii of its spots, weighted by area;
 /// zero without a contact.
 pub(crate) fn cells_per_radius(lattice: Lattice, contact: &[bool]) -> f64 {
-    let mut spots: Vec<(f64, f64)> = spots(lattice, contact)
+    let mut spots: Vec<(f64, f64)> = sums(lattice, contact)
         .into_iter()
         .map(|spot| (spot.radius(lattice.flat), spot.cells))
         .collect();
@@ -51,7 +92,7 @@ pub(crate) fn cells_per_radius(lattice: Lattice, contact: &[bool]) -> f64 {
 }
 
 /// The spots of a contact, those of the half that is not kept included.
-fn spots(lattice: Lattice, contact: &[bool]) -> Vec<Spot> {
+fn sums(lattice: Lattice, contact: &[bool]) -> Vec<Sums> {
     let rows = lattice.rows();
     // For each run its spot, or an earlier run of the same spot (union-find).
     let (mut of, mut all) = (Vec::new(), Vec::new());
@@ -67,7 +108,7 @@ fn spots(lattice: Lattice, contact: &[bool]) -> Vec<Spot> {
             }
             let spot = all.len();
             of.push(spot);
-            all.push(Spot::of_run(i, from, to, lattice.is_mirrored()));
+            all.push(Sums::of_run(i, from, to, lattice.is_mirrored()));
             here.push(Run { from, to, spot });
             for before in last.iter().filter(|b| b.from <= to && from <= b.to) {
                 let shared = to.min(before.to).saturating_sub(from.max(before.from));
@@ -99,7 +140,7 @@ fn root(of: &mut [usize], mut run: usize) -> usize {
     run
 }
 
-impl Spot {
+impl Sums {
     /// The cells [from, to) of column i. Of a mirrored half the mirror is at row 0.
     fn of_run(i: usize, from: usize, to: usize, mirrored: bool) -> Self {
         let (n, x) = ((to - from) as f64, i as f64);
@@ -134,15 +175,20 @@ impl Spot {
         std::iter::repeat_n(if self.mirrored { whole } else { self }, images)
     }
 
+    /// Second moments about its centre over its area \[cells^2\].
+    fn moments(&self) -> [f64; 3] {
+        let [x, y] = self.first.map(|sum| sum / self.cells);
+        let [xx, xy, yy] = self.second.map(|sum| sum / self.cells);
+        // A cell by itself is a square.
+        [xx - x * x + 1.0 / 12.0, xy - x * y, yy - y * y + 1.0 / 12.0]
+    }
+
     /// In cells.
     fn radius(&self, flat: bool) -> f64 {
         if flat {
             return 0.5 * self.cells;
         }
-        let [x, y] = self.first.map(|sum| sum / self.cells);
-        let [xx, xy, yy] = self.second.map(|sum| sum / self.cells);
-        // A cell by itself is a square.
-        let (xx, xy, yy) = (xx - x * x + 1.0 / 12.0, xy - x * y, yy - y * y + 1.0 / 12.0);
+        let [xx, xy, yy] = self.moments();
         let (mean, half) = (0.5 * (xx + yy), (0.5 * (xx - yy)).hypot(xy));
         let [small, large] = [mean - half, mean + half].map(|m| 2.0 * m.max(0.0).sqrt());
         let ellipse = std::f64::consts::PI * small * large;
@@ -159,8 +205,6 @@ impl Spot {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plan::Mirror;
-    use crate::scene::Grid;
 
     fn radius(n: usize, mirror: Mirror, inside: impl Fn(f64, f64) -> bool) -> f64 {
         let grid = Grid::from_spacing((n, n), (1.0, 1.0)).expect("a grid");

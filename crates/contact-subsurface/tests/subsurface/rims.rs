@@ -48,10 +48,9 @@ fn rims_and_stick_borders_are_known_within_a_fraction_of_a_cell() {
                         *within_cell && off < 0.1,
                         "{n} {line:?} {zone:?}: {off} cells"
                     );
-                    match line {
-                        Some(Line::AlongX(at)) => assert_eq!(*y, at),
-                        Some(Line::AlongY(at)) => assert!((x - at).abs() < 1e-12),
-                        None => (),
+                    if let Some(line) = line {
+                        let at = line.at(line.along(*x, *y));
+                        assert!((at.0 - x).hypot(at.1 - y) < 1e-12);
                     }
                 }
             }

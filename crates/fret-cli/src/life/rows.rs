@@ -116,7 +116,7 @@ pub(super) fn mean(
         layer,
     };
     let found = average(site, line, &distance, of)?;
-    let along = site.along(line);
+    let along = line.places(site.grid);
     let judged = found
         .iter()
         .zip(&along)
@@ -132,11 +132,7 @@ pub(super) fn mean(
     } else {
         "safety_factor"
     };
-    let axis = if matches!(line, Line::AlongX(_)) {
-        "x"
-    } else {
-        "y"
-    };
+    let axis = line.name();
     let (criterion, unit) = (assessment.criterion.name(), assessment.criterion.unit());
     let json = json!({
         "criterion": criterion, name: margin, "value": most.value, "unit": unit, "L": length,

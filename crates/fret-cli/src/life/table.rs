@@ -36,10 +36,8 @@ pub(super) fn check(options: &Options) -> Result<(), Error> {
 
 /// Writes value, margin and plane of every point.
 pub(super) fn write(out: &Path, judged: &Judged<AtPoint>, of: &ByCriterion) -> Result<(), Error> {
-    let (axis, across, place) = match judged.line {
-        Line::AlongX(y) => ("x", "y", y),
-        Line::AlongY(x) => ("y", "x", x),
-    };
+    let along_y = matches!(judged.line, Line::AlongY(_));
+    let (axis, across) = if along_y { ("y", "x") } else { ("x", "y") };
     let mut text = format!(
         "{axis} [m],{across} [m],z [m],layer,value,missed,margin,n_x,n_y,n_z,shear_amplitude [Pa],normal_max [Pa],\
          normal_min [Pa]\n"
@@ -50,6 +48,8 @@ pub(super) fn write(out: &Path, judged: &Judged<AtPoint>, of: &ByCriterion) -> R
         };
         for (s, f) in judged.along.iter().zip(found) {
             let [n_x, n_y, n_z] = f.normal;
+            let (x, y) = judged.line.at(*s);
+            let (s, place) = if along_y { (y, x) } else { (x, y) };
             let margin = assessment.margin(f.value);
             let _ = writeln!(
                 text,

@@ -38,7 +38,7 @@ pub(crate) struct CycleSection {
 #[pymethods]
 impl CycleSection {
     #[new]
-    #[pyo3(signature = (body, grid, moments, count, *, x = None, y = None, body_number = 2, residual = None))]
+    #[pyo3(signature = (body, grid, moments, count, *, x = None, y = None, azimuth = None, body_number = 2, residual = None))]
     fn new(
         body: Body,
         grid: Grid,
@@ -46,13 +46,14 @@ impl CycleSection {
         count: usize,
         x: Option<f64>,
         y: Option<f64>,
+        azimuth: Option<f64>,
         body_number: u8,
         residual: Option<List<f64>>,
     ) -> PyResult<Self> {
         let residual = residual_of_layers(&body.0, &residual.unwrap_or_default());
         let below = Below {
             side: side(body_number)?,
-            line: line(x, y)?,
+            line: line(x, y, azimuth)?,
             residual: residual.map_err(to_python)?,
             given: Given {
                 give: moments,

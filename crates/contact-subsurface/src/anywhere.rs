@@ -1,0 +1,260 @@
+//! The largest value of a number in a whole body below a contact.
+//!
+//! Samples on a section through the contact, on the section across it, on the surface and on both
+//! sides of every interface give the starting points, and so does the rim of the contact; the
+//! ascent from the highest is free in all three directions. Where the samples of a layer still rise
+//! at their end, its section is made longer: the tractions are known, so that the field is known
+//! beyond the grid.
+
+use ndarray::{Array2, ArrayView2, Axis};
+
+use super::climb::Start;
+use super::depth::on_interfaces;
+use super::maximum::{top_of_line, top_of_plane};
+use super::search::{Search, hills_of};
+use super::{Border, Depth, Extreme, Line, Measure, Point, Probe, Section, Side, Slices, States};
+use contact_core::Error;
+use contact_core::scene::{Body, Grid};
+use contact_core::zones::Outline;
+
+/// How far beyond the grid a section is made longer, over the length of the grid, and the ratio of
+/// the distances of successive samples from its end, the first a cell from it.
+const LONGER: f64 = 8.0;
+const RATIO: f64 = 1.35;
+/// Samples rise at the end of a line if they do so there above this part of the highest of the
+/// layer.
+const COUNTS: f64 = 0.05;
+
+/// A largest value, and the layers whose samples still rise at the end of the longest section.
+pub struct Anywhere {
+    /// The largest value; `None` if all samples are NaN.
+    pub largest: Option<Extreme>,
+    /// Layers from the surface down.
+    pub still_rises: Vec<usize>,
+}
+
+/// A body under the first of some states.
+#[derive(Clone, Copy)]
+pub struct Loads<'a> {
+    /// The body.
+    pub body: &'a Body,
+    /// Which one it is.
+    pub side: Side,
+    /// The grid of the tractions.
+    pub grid: &'a Grid,
+    /// The states.
+    pub states: &'a States<'a>,
+}
+
+/// Samples of a layer on a line.
+struct Sampled {
+    line: Line,
+    depths: Vec<Depth>,
+    along: Vec<f64>,
+    values: Array2<f64>,
+}
+
+/// The largest value of a measure of stress, in one `layer` if given, in the whole body or, where
+/// `free` is false, below `line`.
+///
+/// `samples` are those at the `depths` of the line, of shape (depths, places).
+pub fn largest_anywhere(
+    loads: Loads<'_>,
+    measure: &Measure,
+    (line, free): (Line, bool),
+    (depths, samples): (&[Depth], &ArrayView2<'_, f64>),
+    layer: Option<usize>,
+) -> Result<Anywhere, Error> {
+    let Loads {
+        body,
+        side,
+        grid,
+        states,
+    } = loads;
+    let free = free && !grid.plane_strain && grid.ny > 1;
+    let probe = Probe::Stress(*measure);
+    let mut layers: Vec<usize> = depths.iter().map(|d| d.layer).collect();
+    layers.dedup();
+    layers.retain(|n| layer.is_none_or(|layer| layer == *n));
+    let mut sampled = Vec::new();
+    for n in &layers {
+        let rows: Vec<usize> = (0..depths.len())
+            .filter(|k| depths[*k].layer == *n)
+            .collect();
+        sampled.push(Sampled {
+            line,
+            depths: rows.iter().map(|k| depths[*k]).collect(),
+            along: line.places(grid),
+            values: samples.select(Axis(0), &rows),
+        });
+    }
+    if free {
+        let own = states.tractions.first().copied().unwrap_or_default();
+        let centre = Outline::new(grid, &own).map_or((0.0, 0.0), |outline| outline.centre);
+        let middle = line.at(line.along(centre.0, centre.1));
+        let across = Line::through(middle, line.azimuth() + RIGHT_ANGLE);
+        let section = Section::new(body, side, grid, across, states.clone())?;
+        for n in 0..layers.len() {
+            let of = sampled[n].depths.clone();
+            let values = values_of(&section, measure, &of)?;
+            sampled.push(Sampled {
+                line: across,
+                depths: of,
+                along: across.places(grid),
+                values,
+            });
+        }
+    }
+    let search = if free {
+        Search::free(body, side, grid, line, states)?
+    } else {
+        Search::new(body, side, grid, Some(line), states)?
+    };
+    let mut still_rises = Vec::new();
+    for one in &mut sampled {
+        if one.made_longer(&search, grid, measure)? {
+            still_rises.push(one.depths[0].layer);
+        }
+    }
+    still_rises.sort_unstable();
+    still_rises.dedup();
+    let mut starts: Vec<Start> = Vec::new();
+    for one in &sampled {
+        let rows = one.values.rows().into_iter();
+        let tops: Vec<_> = rows.map(|row| top_of_line(&row, &one.along)).collect();
+        let hills = hills_of(&probe, &tops, &one.depths, layer);
+        starts.extend(
+            hills
+                .iter()
+                .flat_map(|hill| search.starts(one.line, hill, &one.along, free)),
+        );
+    }
+    let mut surface = None;
+    if free {
+        let slices = Slices::new(body, side, grid, states.clone())?;
+        let (x, y) = (
+            Line::AlongX(0.0).places(grid),
+            Line::AlongY(0.0).places(grid),
+        );
+        let both = on_interfaces(depths);
+        for (depth, on_one) in depths.iter().zip(both) {
+            let asked = layer.is_none_or(|layer| layer == depth.layer);
+            if !asked || !(on_one || depth.z <= 0.0) || (measure.of_interfaces && !on_one) {
+                continue;
+            }
+            let planes = slices.stress(*depth)?.swap_remove(0);
+            let plane = Array2::from_shape_fn((grid.nx, grid.ny), |cell| {
+                (measure.value)(&planes.each_ref().map(|of| of[cell]))
+            });
+            starts.extend(top_of_plane(&plane, &x, &y).map(|top| {
+                let step = depth_step(depths, *depth);
+                search.start_at(top.place, *depth, step)
+            }));
+            if depth.z <= 0.0 {
+                surface = Some(plane);
+            }
+        }
+    }
+    let near = |border: &Border| match &surface {
+        Some(plane) => {
+            let cell = |v: f64, n: usize, d: f64| {
+                let place = (v / d + (n - 1) as f64 / 2.0).round();
+                place.clamp(0.0, (n - 1) as f64) as usize
+            };
+            plane[(
+                cell(border.x, grid.nx, grid.dx),
+                cell(border.y, grid.ny, grid.dy),
+            )]
+        }
+        None => {
+            let along = line.places(grid);
+            let s = line.along(border.x, border.y);
+            let nearest = (0..along.len())
+                .min_by(|&a, &b| (along[a] - s).abs().total_cmp(&(along[b] - s).abs()));
+            nearest.map_or(f64::NAN, |n| samples[(0, n)])
+        }
+    };
+    let largest = search.climbed(&probe, starts, depths, layer, &near)?;
+    Ok(Anywhere {
+        largest,
+        still_rises,
+    })
+}
+
+const RIGHT_ANGLE: f64 = std::f64::consts::FRAC_PI_2;
+
+/// Distance to the next depth of the layer \[m\]; 0 without one.
+fn depth_step(depths: &[Depth], at: Depth) -> f64 {
+    let others = depths
+        .iter()
+        .filter(|d| d.layer == at.layer && d.z != at.z)
+        .map(|d| (d.z - at.z).abs());
+    let nearest = others.fold(f64::INFINITY, f64::min);
+    if nearest.is_finite() { nearest } else { 0.0 }
+}
+
+fn values_of(section: &Section, measure: &Measure, depths: &[Depth]) -> Result<Array2<f64>, Error> {
+    let stress = section.stress(depths)?.swap_remove(0);
+    Ok(measure.on_lines(&stress))
+}
+
+impl Sampled {
+    /// The depths at which the samples rise towards an end of the line.
+    fn rising(&self) -> Vec<usize> {
+        let numbers = self.values.iter().filter(|v| !v.is_nan());
+        let top = numbers.copied().fold(0.0, f64::max);
+        let rises = |row: &usize| {
+            let row = self.values.row(*row);
+            let n = row.len();
+            let ends = [(0, 1), (n - 1, n.saturating_sub(2))];
+            n > 2
+                && ends
+                    .into_iter()
+                    .any(|(end, next)| row[end] > COUNTS * top && row[end] > row[next])
+        };
+        (0..self.depths.len()).filter(rises).collect()
+    }
+
+    /// Samples the depths at which they rise towards an end beyond it, ever farther apart; whether
+    /// some still rise there.
+    fn made_longer(
+        &mut self,
+        search: &Search,
+        grid: &Grid,
+        measure: &Measure,
+    ) -> Result<bool, Error> {
+        let rising = self.rising();
+        let (Some(first), Some(last)) = (self.along.first(), self.along.last()) else {
+            return Ok(false);
+        };
+        if rising.is_empty() {
+            return Ok(false);
+        }
+        let step = self.line.step(grid);
+        let count = ((LONGER * (last - first) / step).ln() / RATIO.ln()).ceil() as i32;
+        let away: Vec<f64> = (0..=count).map(|k| step * RATIO.powi(k)).collect();
+        let before: Vec<f64> = away.iter().rev().map(|by| first - by).collect();
+        let after: Vec<f64> = away.iter().map(|by| last + by).collect();
+        let along = [before, std::mem::take(&mut self.along), after].concat();
+        let own = away.len()..along.len() - away.len();
+        let mut values = Array2::from_elem((self.depths.len(), along.len()), f64::NAN);
+        for ((row, n), value) in self.values.indexed_iter() {
+            values[(row, n + own.start)] = *value;
+        }
+        let places: Vec<usize> = (0..along.len()).filter(|n| !own.contains(n)).collect();
+        let cells: Vec<(usize, usize)> = rising
+            .iter()
+            .flat_map(|row| places.iter().map(|n| (*row, *n)))
+            .collect();
+        let points: Vec<Point> = cells
+            .iter()
+            .map(|(row, n)| self.line.point(along[*n], self.depths[*row]))
+            .collect();
+        let stress = search.points.stress(&points)?.swap_remove(0);
+        for (cell, stress) in cells.into_iter().zip(&stress) {
+            values[cell] = (measure.value)(stress);
+        }
+        (self.along, self.values) = (along, values);
+        Ok(!self.rising().is_empty())
+    }
+}

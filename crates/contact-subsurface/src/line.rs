@@ -1,0 +1,249 @@
+//! A straight line on the surface, below which a section lies.
+
+use super::depth::{Depth, Point};
+use contact_core::scene::Grid;
+use contact_core::zones::{Outline, azimuth_of};
+
+/// A straight line on the surface, through the centres of cells or anywhere between.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Line {
+    /// Along x at this y \[m\].
+    AlongX(f64),
+    /// Along y at this x \[m\].
+    AlongY(f64),
+    /// Through a point x, y \[m\] in a direction.
+    Through {
+        /// x of the point \[m\].
+        x: f64,
+        /// y of the point \[m\].
+        y: f64,
+        /// Angle of the direction to the x axis \[rad\].
+        azimuth: f64,
+    },
+}
+
+/// Sine or cosine of an angle to an axis below which a line runs along that axis.
+const ALIGNED: f64 = 1e-3;
+
+/// Smaller over larger half-width of a round contact, at least, and smaller over larger principal
+/// value of a shear along one line, at most: then what is largest lies in the plane of the shear.
+const ROUND: f64 = 0.8;
+const ONE_WAY: f64 = 0.1;
+/// Sine of the angle to the x axis of a shear that a bulk stress along x does not turn.
+const WITH_BULK: f64 = 0.05;
+
+impl Line {
+    /// The sections in which a contact is looked at, from its outlines over a cycle, or from one:
+    /// through the centre of the largest, along the shear of all of them; along x where that has no
+    /// direction. A second one stands across the first, unless what is largest lies in the plane of
+    /// the shear: a round contact, sheared to and fro along one line, which a bulk stress along x
+    /// (`stretched`) follows.
+    pub fn of_outlines(outlines: &[&Outline], stretched: bool) -> Vec<Self> {
+        let area = |o: &&&Outline| o.spots.iter().map(|spot| spot.area).sum::<f64>();
+        let Some(largest) = outlines.iter().max_by(|a, b| area(a).total_cmp(&area(b))) else {
+            return vec![Self::AlongX(0.0)];
+        };
+        let mut shear = [0.0; 3];
+        for outline in outlines {
+            for (sum, one) in shear.iter_mut().zip(outline.shear) {
+                *sum += one;
+            }
+        }
+        let azimuth = azimuth_of(shear);
+        let main = Self::through(largest.centre, azimuth.unwrap_or(0.0));
+        if largest.is_flat() {
+            return vec![main];
+        }
+        let (a, b, _) = largest.half_widths();
+        let [xx, xy, yy] = shear;
+        let (mean, half) = (0.5 * (xx + yy), (0.5 * (xx - yy)).hypot(xy));
+        let one_way = azimuth.is_none() || mean - half <= ONE_WAY * (mean + half);
+        let with_bulk = !stretched || main.direction()[1].abs() < WITH_BULK;
+        if b >= ROUND * a && one_way && with_bulk {
+            return vec![main];
+        }
+        let across = main.azimuth() + std::f64::consts::FRAC_PI_2;
+        vec![main, Self::through(largest.centre, across)]
+    }
+
+    /// Through a point in a direction; along x or along y where the direction is that of an axis.
+    pub fn through((x, y): (f64, f64), azimuth: f64) -> Self {
+        let (sin, cos) = azimuth.sin_cos();
+        if sin.abs() < ALIGNED {
+            Self::AlongX(y)
+        } else if cos.abs() < ALIGNED {
+            Self::AlongY(x)
+        } else {
+            Self::Through { x, y, azimuth }
+        }
+    }
+
+    /// Angle of the direction to the x axis \[rad\].
+    pub fn azimuth(self) -> f64 {
+        match self {
+            Self::AlongX(_) => 0.0,
+            Self::AlongY(_) => std::f64::consts::FRAC_PI_2,
+            Self::Through { azimuth, .. } => azimuth,
+        }
+    }
+
+    /// Unit vector along the line.
+    pub fn direction(self) -> [f64; 2] {
+        match self {
+            Self::AlongX(_) => [1.0, 0.0],
+            Self::AlongY(_) => [0.0, 1.0],
+            Self::Through { azimuth, .. } => [azimuth.cos(), azimuth.sin()],
+        }
+    }
+
+    /// Name of the place along the line: x, y, or s from the given point on.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::AlongX(_) => "x",
+            Self::AlongY(_) => "y",
+            Self::Through { .. } => "s",
+        }
+    }
+
+    /// The origin of s.
+    fn origin(self) -> (f64, f64) {
+        match self {
+            Self::AlongX(y) => (0.0, y),
+            Self::AlongY(x) => (x, 0.0),
+            Self::Through { x, y, .. } => (x, y),
+        }
+    }
+
+    /// x, y of a place s along the line, and t beside it, to the left \[m\].
+    pub fn beside(self, s: f64, t: f64) -> (f64, f64) {
+        let ((x, y), [cos, sin]) = (self.origin(), self.direction());
+        match self {
+            Self::AlongX(_) => (s, y + t),
+            Self::AlongY(_) => (x - t, s),
+            Self::Through { .. } => (x + s * cos - t * sin, y + s * sin + t * cos),
+        }
+    }
+
+    /// x, y of a place s along the line \[m\].
+    pub fn at(self, s: f64) -> (f64, f64) {
+        self.beside(s, 0.0)
+    }
+
+    /// A point below a place of the line.
+    pub fn point(self, s: f64, depth: Depth) -> Point {
+        let (x, y) = self.at(s);
+        (x, y, depth)
+    }
+
+    /// The place along the line that is nearest to x, y \[m\].
+    pub fn along(self, x: f64, y: f64) -> f64 {
+        match self {
+            Self::AlongX(_) => x,
+            Self::AlongY(_) => y,
+            Self::Through {
+                x: x_0,
+                y: y_0,
+                azimuth,
+            } => (x - x_0) * azimuth.cos() + (y - y_0) * azimuth.sin(),
+        }
+    }
+
+    /// A parallel line at a distance t to the left \[m\].
+    #[must_use]
+    pub fn parallel(self, t: f64) -> Self {
+        let (x, y) = self.beside(self.along(self.origin().0, self.origin().1), t);
+        match self {
+            Self::AlongX(_) => Self::AlongX(y),
+            Self::AlongY(_) => Self::AlongY(x),
+            Self::Through { azimuth, .. } => Self::Through { x, y, azimuth },
+        }
+    }
+
+    /// The same line in coordinates with another origin, and what its places have more here \[m\].
+    #[must_use]
+    pub fn seen_from(self, (x_0, y_0): (f64, f64)) -> (Self, f64) {
+        match self {
+            Self::AlongX(y) => (Self::AlongX(y - y_0), x_0),
+            Self::AlongY(x) => (Self::AlongY(x - x_0), y_0),
+            Self::Through { x, y, azimuth } => {
+                let (x, y) = (x - x_0, y - y_0);
+                (Self::Through { x, y, azimuth }, 0.0)
+            }
+        }
+    }
+
+    /// Distance of samples on a grid \[m\]: of a line along an axis that of the cells.
+    pub fn step(self, grid: &Grid) -> f64 {
+        match self {
+            Self::AlongX(_) => grid.dx,
+            Self::AlongY(_) => grid.dy,
+            Self::Through { azimuth, .. } => {
+                (azimuth.cos() * grid.dx).hypot(azimuth.sin() * grid.dy)
+            }
+        }
+    }
+
+    /// Places of the samples on a grid \[m\]: the cells of a line along an axis, else steps from
+    /// the given point to the borders of the grid.
+    pub fn places(self, grid: &Grid) -> Vec<f64> {
+        match self {
+            Self::AlongX(_) => (0..grid.nx).map(|i| grid.x(i)).collect(),
+            Self::AlongY(_) => (0..grid.ny).map(|j| grid.y(j)).collect(),
+            Self::Through { x, y, .. } => {
+                let (step, [cos, sin]) = (self.step(grid), self.direction());
+                let (half_x, half_y) = (grid.extent().0 / 2.0, grid.extent().1 / 2.0);
+                // The way to the border of the grid, forwards or backwards.
+                let way = |sign: f64| {
+                    let to = |v: f64, half: f64, part: f64| {
+                        ((half - v * part.signum()) / part.abs()).max(0.0)
+                    };
+                    (to(x, half_x, sign * cos).min(to(y, half_y, sign * sin)) / step) as isize
+                };
+                (-way(-1.0)..=way(1.0)).map(|n| n as f64 * step).collect()
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_finds_its_own_places() {
+        let grid = Grid::from_spacing((40, 30), (1.0, 1.5)).expect("a grid");
+        for line in [
+            Line::AlongX(0.3),
+            Line::AlongY(-2.0),
+            Line::Through {
+                x: 1.0,
+                y: -0.5,
+                azimuth: 0.7,
+            },
+            Line::Through {
+                x: 0.0,
+                y: 2.0,
+                azimuth: -2.0,
+            },
+        ] {
+            let places = line.places(&grid);
+            assert!(places.len() > 20);
+            assert!((places[1] - places[0] - line.step(&grid)).abs() < 1e-12);
+            for s in places {
+                let (x, y) = line.at(s);
+                assert!((line.along(x, y) - s).abs() < 1e-12);
+                assert!(x.abs() <= 20.0 && y.abs() <= 22.5, "{x} {y}");
+                let (moved, more) = line.seen_from((0.4, -0.2));
+                let (u, v) = moved.at(s - more);
+                assert!((u + 0.4 - x).abs() < 1e-12 && (v - 0.2 - y).abs() < 1e-12);
+                let (u, v) = line.parallel(2.0).at(s);
+                assert!(((u - x).hypot(v - y) - 2.0).abs() < 1e-12);
+            }
+        }
+        assert_eq!(Line::through((1.0, 2.0), 1e-9), Line::AlongX(2.0));
+        assert_eq!(
+            Line::through((1.0, 2.0), std::f64::consts::FRAC_PI_2),
+            Line::AlongY(1.0)
+        );
+    }
+}

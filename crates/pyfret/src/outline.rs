@@ -1,0 +1,125 @@
+//! Where the contact is that came out.
+
+use contact_core::convolution::Tractions;
+use contact_core::zones as core;
+use contact_subsurface::Line;
+use numpy::PyReadonlyArray2;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::scene::Grid;
+use crate::subsurface::{LineName, name_of};
+
+/// A spot of a contact: x, y of its centre, area, larger and smaller semi-axis, azimuth.
+type Spot = (f64, f64, f64, f64, f64, f64);
+
+/// The outline of a contact: its border in any direction, its spots, the direction of its shear.
+///
+/// Made of the tractions on a grid, each of shape (nx, ny) [Pa]; of :attr:`Snapshot.outline`.
+#[pyclass(frozen, module = "pyfret")]
+pub(crate) struct Outline(core::Outline);
+
+#[pymethods]
+impl Outline {
+    #[new]
+    #[pyo3(signature = (grid, *, p, q_x, q_y))]
+    fn new(
+        grid: Grid,
+        p: PyReadonlyArray2<'_, f64>,
+        q_x: PyReadonlyArray2<'_, f64>,
+        q_y: PyReadonlyArray2<'_, f64>,
+    ) -> PyResult<Self> {
+        let cells = |name: &str, field: &PyReadonlyArray2<'_, f64>| {
+            let (found, shape) = (field.as_array().dim(), (grid.0.nx, grid.0.ny));
+            if found != shape {
+                return Err(PyValueError::new_err(format!(
+                    "{name} has the shape {found:?}: must be that of the grid, {shape:?}"
+                )));
+            }
+            Ok(field.as_array().iter().copied().collect::<Vec<_>>())
+        };
+        let (p, q_x, q_y) = (cells("p", &p)?, cells("q_x", &q_x)?, cells("q_y", &q_y)?);
+        let tractions = Tractions {
+            p: Some(&p),
+            q_x: Some(&q_x),
+            q_y: Some(&q_y),
+        };
+        core::Outline::new(&grid.0, &tractions)
+            .map(Self)
+            .ok_or_else(|| PyValueError::new_err("p is 0 everywhere: the bodies do not touch"))
+    }
+
+    /// Centre of the area, x and y [m]; 0 where it lies in the middle of the grid.
+    #[getter]
+    fn centre(&self) -> (f64, f64) {
+        self.0.centre
+    }
+
+    /// The spots, the largest first: x, y [m], area [m^2], semi-axes [m] and azimuth [rad].
+    ///
+    /// The semi-axes are those of the ellipse with the second moments of the spot, the larger one
+    /// first, in the direction of the azimuth.
+    #[getter]
+    fn spots(&self) -> Vec<Spot> {
+        let spots = self.0.spots.iter();
+        spots
+            .map(|s| {
+                let [large, small] = s.semi_axes;
+                (s.centre.0, s.centre.1, s.area, large, small, s.azimuth)
+            })
+            .collect()
+    }
+
+    /// Direction of the shear to the x axis [rad]; None without shear, or where it has none.
+    #[getter]
+    fn shear_azimuth(&self) -> Option<f64> {
+        self.0.shear_azimuth()
+    }
+
+    /// Half of the largest and smallest width [m], and the direction of the largest [rad].
+    #[getter]
+    fn half_widths(&self) -> (f64, f64, f64) {
+        self.0.half_widths()
+    }
+
+    /// Centres x, y of the cells at the rim [m].
+    #[getter]
+    fn rim_cells(&self) -> Vec<(f64, f64)> {
+        self.0.rim_cells()
+    }
+
+    /// Where a line through the centre leaves the contact, backwards and forwards [m].
+    #[pyo3(signature = (azimuth = 0.0))]
+    fn border(&self, azimuth: f64) -> (f64, f64) {
+        self.0.border(azimuth)
+    }
+
+    /// Half of the width of the contact in a direction [m].
+    #[pyo3(signature = (azimuth = 0.0))]
+    fn half_width(&self, azimuth: f64) -> f64 {
+        self.0.half_width(azimuth)
+    }
+
+    fn __repr__(&self) -> String {
+        let (a, b, _) = self.0.half_widths();
+        let (x, y) = self.0.centre;
+        format!(
+            "Outline(centre ({x:.4e}, {y:.4e}) m, half-widths {a:.4e} and {b:.4e} m, {} spots)",
+            self.0.spots.len()
+        )
+    }
+}
+
+/// x, y and azimuth of the sections in which a cycle of a contact is looked at by default.
+///
+/// Of the outlines of its moments: the first along the shear; a second across it, where the
+/// contact or its shear has no axis of its own there. `stretched`: there is a bulk stress along x.
+#[pyfunction]
+#[pyo3(signature = (outlines, *, stretched = false))]
+pub(crate) fn main_sections(outlines: Vec<Py<Outline>>, stretched: bool) -> Vec<LineName> {
+    let all: Vec<&core::Outline> = outlines.iter().map(|one| &one.get().0).collect();
+    Line::of_outlines(&all, stretched)
+        .into_iter()
+        .map(name_of)
+        .collect()
+}

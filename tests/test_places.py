@@ -1,0 +1,139 @@
+"""Where a contact is looked at does not depend on how the scene is turned."""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+import pytest
+
+import pyfret as fret
+from pyfret import fatigue
+
+STEEL = fret.Elastic(E=210e9, nu=0.3)
+RADIUS = 0.01
+W, T, MU = 100.0, 25.0, 0.3
+A = fret.reference.hertz(R=RADIUS, bodies=(STEEL, STEEL), W=W).a
+
+
+def sheared(
+    angle: float, *, n: int = 32, shape: object = None, coatings: object = (), increments: int = 8
+) -> fret.Result:
+    """A contact sheared to and fro at an angle to the x axis."""
+    x, y = T * np.cos(angle), T * np.sin(angle)
+    path = fret.LoadPath.start().normal(W, increments=1)
+    for sign in (1.0, -1.0, 1.0):
+        path = path.force(W=W, T_x=sign * x, T_y=sign * y, increments=increments)
+    ball = fret.Body(STEEL, shape=shape or fret.Sphere(R=RADIUS))
+    scene = fret.Scene(
+        body1=ball,
+        body2=fret.Body(STEEL, coatings=list(coatings)),  # type: ignore[call-overload]
+        mu=MU,
+        grid=fret.Grid.centred(extent=2.6 * A, n=n),
+        path=path,
+    )
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return fret.solve(scene, progress=False, save="all")
+
+
+def numbers(result: fret.Result) -> dict[str, float]:
+    """Largest stresses, life, load factor and crack by default."""
+    material = fatigue.Materials()["steel_42CrMo4"]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        below = result.at(-1).stress()
+        crack = result.crack(lengths=[0.2 * A])
+        return {
+            "s_1": below.maximum("s_1").value,
+            "von_mises": below.maximum("von_mises").value,
+            "margin": result.life(material, "crossland").worst.margin,
+            "factor": result.load_factors(900e6).least("von_mises").factor,
+            "dK": float(crack.dK().max()),
+        }
+
+
+@pytest.fixture(scope="module")
+def along_x() -> dict[str, float]:
+    return numbers(sheared(0.0))
+
+
+@pytest.mark.parametrize("degrees", [37.0, 90.0, -20.0])
+def test_turned_shear_gives_the_same_numbers(along_x: dict[str, float], degrees: float) -> None:
+    turned = numbers(sheared(np.radians(degrees)))
+    for name, right in along_x.items():
+        assert turned[name] == pytest.approx(right, rel=0.015), (name, degrees)
+
+
+def test_the_outline_of_a_sheared_ball() -> None:
+    at = sheared(np.radians(37.0)).at(-1)
+    outline = at.outline
+    assert outline is not None
+    azimuth = outline.shear_azimuth
+    assert azimuth is not None
+    assert np.degrees(azimuth) == pytest.approx(37.0, abs=0.5)
+    for angle in np.linspace(0.0, np.pi, 7):
+        rear, front = outline.border(angle)
+        assert front == pytest.approx(A, rel=0.01)
+        assert rear == pytest.approx(-A, rel=0.01)
+    section = at.stress()
+    assert section.s_1.dims == ("depth", "s")
+    assert float(section.dataset.azimuth) == pytest.approx(azimuth)
+
+
+def test_an_oblique_section_is_the_stress_at_its_points() -> None:
+    at = sheared(np.radians(37.0)).at(-1)
+    below = at.stress([0.0, 0.3 * A], x=0.1 * A, y=-0.2 * A, azimuth=0.5)
+    for n in (5, 14, 22):
+        x, y = (float(below.dataset[name][n]) for name in ("x", "y"))
+        point = at.stress([0.0, 0.3 * A], x=x, y=y)
+        for name in ("s_xx", "s_xy", "s_zz"):
+            assert below.dataset[name][:, n].values == pytest.approx(
+                point.dataset[name].values, rel=1e-9, abs=1.0
+            )
+    rims = below.rims()
+    assert rims.s_xx.sizes["rim"] == 2
+    x, y = rims.dataset.x.values, rims.dataset.y.values
+    assert np.hypot(x, y) == pytest.approx(A, rel=0.01)
+
+
+def test_the_crack_begins_where_an_elliptic_contact_ends() -> None:
+    result = sheared(0.0, n=48, shape=fret.shapes.Ellipsoid(R_x=2.0 * RADIUS, R_y=0.5 * RADIUS))
+    at = result.at(-1)
+    outline = at.outline
+    assert outline is not None
+    rim = max(outline.border(0.0))
+    cells = np.abs(at.dataset.x.values[at.contact.values.any(axis=1)]).max()
+    assert rim == pytest.approx(cells, abs=0.8 * result.scene.grid.dx)
+    lengths = [0.1 * A, 0.2 * A]
+    by_default = result.crack(lengths=lengths).dK().max()
+    there = max(
+        float(result.crack(x=x, lengths=lengths, azimuth=0.0).dK().max()) for x in (-rim, rim)
+    )
+    assert float(by_default) >= 0.99 * there
+
+
+def test_the_largest_stress_of_a_buried_layer_lies_beyond_the_grid() -> None:
+    ball, base = fret.Elastic(E=190e9, nu=0.25), fret.Elastic(E=205e9, nu=0.26)
+    a = fret.reference.hertz(R=8e-3, bodies=(ball, base), W=40.0).a
+    stack = [
+        fret.Coating(fret.Elastic(E=225e9, nu=0.31), thickness=0.13 * a),
+        fret.Coating(fret.Elastic(E=690e9, nu=0.18), thickness=0.042 * a),
+    ]
+
+    def largest(extent: float, n: int) -> fret.subsurface.Extreme:
+        scene = fret.Scene(
+            body1=fret.Body(ball, shape=fret.Sphere(R=8e-3)),
+            body2=fret.Body(base, coatings=stack),
+            mu=0.0,
+            grid=fret.Grid.centred(extent=extent * a, n=n),
+        )
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            result = fret.solve(scene, fret.LoadPath.start().normal(40.0), progress=False)
+            return result.at(-1).stress().maximum("s_1", layer=1)
+
+    wide = largest(5.0, 96)
+    for n in (56, 64):
+        short = largest(2.8, n)
+        assert abs(short.value - wide.value) <= 0.03 * wide.value + short.error
