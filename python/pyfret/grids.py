@@ -8,7 +8,21 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pyfret._core import Grid, InvalidSceneError, LoadPath, OffGridError, Rough, Scene, Sum
+from pyfret._core import (
+    Cylinder,
+    Ellipsoid,
+    Flat,
+    Grid,
+    InvalidSceneError,
+    LoadPath,
+    OffGridError,
+    Rough,
+    Scene,
+    Sphere,
+    Sum,
+    SurfaceMap,
+)
+from pyfret.scene.warnings import SceneWarning
 from pyfret.solution import solve
 from pyfret.wear.runs import solve as wear_off
 
@@ -37,6 +51,10 @@ IN_A_WAVE = 8
 IN_A_FIRST, IN_A_TRIAL, MOST_OF_TRIAL = 16, 8, 256
 #: How much longer the grid of a trial gets that the scar leaves, and the tolerance of its jumps.
 LONGER, ROUGHLY = 1.5, 0.05
+#: Part of the mean square slope of a measured map in waves that are not resolved.
+UNSEEN = 0.01
+#: Most cells of a grid on which it is tried whether numbers still change.
+MOST_TRIED = 512 * 512
 #: Fewest and most cells along a side.
 FEWEST, MOST = 24, 4096
 
@@ -57,8 +75,10 @@ def for_contact(
 
     The contact under the largest normal load of the path, coatings and all, is solved without
     friction on 32 cells a side, roughness left out; the grid is `room` times as long, on rough
-    surfaces 15 % longer. It has as many cells as a smooth contact takes for `error`, and
-    eight in the shortest wave of a rough or wavy surface.
+    surfaces 15 % longer. It has as many cells as a smooth contact takes for `error`, and eight in
+    the shortest wave of a rough, wavy or measured surface. On measured surfaces, on waves and where
+    a body has edges, the number of cells is doubled until area and largest pressure agree to
+    `error`.
 
     Parameters
     ----------
@@ -89,6 +109,12 @@ def for_contact(
     ValueError
         Nothing is pressed together, no size was found that fits, as of two flats, or `wear`
         comes without `mu`.
+
+    Warns
+    -----
+    SceneWarning
+        Area or largest pressure still change by more than `error` on 512 x 512 cells, or an
+        outermost coating is thinner than a cell.
 
     Examples
     --------
@@ -123,6 +149,9 @@ def for_contact(
     if wear is not None:
         size = min(size, first / IN_A_FIRST)
     n = [2 * math.ceil(side / size / 2) for side in sides]
+    if wear is None and max(n) <= MOST and not (_is_plain(body1.shape) and _is_plain(body2.shape)):
+        n = _refined(body1, body2, pressed, sides, n, error, plane_strain=plane_strain)
+    _doubt_films(body1, body2, [side / of for side, of in zip(sides, n, strict=True)])
     if max(n) > MOST:
         raise ValueError(
             f"{max(n)} cells along a side: the contact is {lengths[0]:.3g} m long; a larger error "
@@ -168,46 +197,37 @@ def _lengths(
     hertz = guess.hertz
     first = start or (2.4 * hertz.a if hertz is not None else 1e-3)
     axes = [0] if plane_strain else [0, 1]
-    extent, too_short, too_long = [first, first], [0.0, 0.0], [math.inf, math.inf]
-    shrunk: int | None = None
+    # Sides that were too short, and the last ones that the contact fitted.
+    extent, too_short, fits = [first, first], [0.0, 0.0], [math.inf, math.inf]
     for _ in range(TRIES * len(axes)):
         found = _box(_scene(body1, body2, path, (extent[0], extent[1]), plane_strain=plane_strain))
-        if found is None and shrunk is not None:
-            # The side that was made shorter is the long one.
-            too_short[shrunk], extent[shrunk] = extent[shrunk], 4 * extent[shrunk]
-            other = axes[-1] - shrunk
-            too_long[other] = extent[other]
-            extent[other] = max(extent[other] / 4, math.sqrt(extent[other] * too_short[other]))
-            shrunk = None if other == shrunk else other
-            continue
         if found is None:
-            for k in axes:
-                too_short[k] = extent[k]
-                wide = math.isinf(too_long[k])
-                extent[k] = 2 * extent[k] if wide else math.sqrt(extent[k] * too_long[k])
-        elif max(found) <= 0.0:
-            # Too few cells in it: shorter along the side that has not been found to be long.
-            free = [k for k in axes if too_short[k] < extent[k] / 4.0] or axes
-            shrunk = max(free, key=lambda k: extent[k])
-            too_long[shrunk] = extent[shrunk]
-            extent[shrunk] = max(extent[shrunk] / 4, math.sqrt(extent[shrunk] * too_short[shrunk]))
-        else:
-            shrunk = None
-            if all(0.4 * extent[k] <= found[k] <= 0.97 * extent[k] for k in axes):
-                return found
-            for k in axes:
-                if found[k] > 0.97 * extent[k]:
+            # The sides that became shorter since it fitted are too short; else any.
+            shorter = [k for k in axes if extent[k] < fits[k] < math.inf]
+            for k in shorter or axes:
+                if shorter or len(axes) == 1:
                     too_short[k] = extent[k]
-                    wide = math.isinf(too_long[k])
-                    extent[k] = 2 * extent[k] if wide else math.sqrt(extent[k] * too_long[k])
-                elif found[k] < 0.4 * extent[k]:
-                    too_long[k] = extent[k]
-                    wanted = 1.5 * found[k]
-                    above = wanted > too_short[k]
-                    extent[k] = wanted if above else math.sqrt(extent[k] * too_short[k])
-        if all(0.0 < too_short[k] and too_long[k] < 1.05 * too_short[k] for k in axes):
-            reach = found if found is not None and min(found) > 0.0 else (extent[0], extent[1])
-            return reach
+                extent[k] = math.sqrt(extent[k] * fits[k]) if shorter else 2 * extent[k]
+        else:
+            fits = list(extent)
+            if max(found) <= 0.0:
+                # Too few cells in it: one side shorter, which has not been found to be long.
+                free = [k for k in axes if too_short[k] == 0.0] or axes
+                k = max(free, key=lambda k: extent[k])
+                extent[k] = max(extent[k] / 4, math.sqrt(extent[k] * too_short[k]))
+                found = None
+            elif all(0.4 * extent[k] <= found[k] <= 0.97 * extent[k] for k in axes):
+                return found
+            else:
+                for k in axes:
+                    if found[k] > 0.97 * extent[k]:
+                        too_short[k], extent[k] = extent[k], 2 * extent[k]
+                    elif found[k] < 0.4 * extent[k]:
+                        wanted = 1.5 * found[k]
+                        above = wanted > too_short[k]
+                        extent[k] = wanted if above else math.sqrt(extent[k] * too_short[k])
+        if all(too_short[k] > 0.0 and fits[k] < 1.05 * too_short[k] for k in axes):
+            return found or (extent[0], extent[1])
     raise ValueError(
         "found no grid that the contact fits: flat surfaces touch all over; give start= of about "
         "its length, or make the grid yourself"
@@ -287,13 +307,123 @@ def _smooth(shape: Any) -> Any:
     return Sum(kept) if len(kept) > 1 else kept[0] if kept else shape
 
 
+def _parts(shape: object) -> list[Any]:
+    """The surfaces that add up to one."""
+    return list(getattr(shape, "parts", None) or [shape])
+
+
 def _shortest(shape: object) -> float:
     """The shortest wave of a surface [m]; infinite for a smooth one."""
-    parts = getattr(shape, "parts", None) or [shape]
-    return min(
-        float(getattr(part, "shortest", None) or getattr(part, "wavelength", None) or math.inf)
-        for part in parts
+    return min(map(_wave, _parts(shape)))
+
+
+def _wave(part: Any) -> float:
+    """The shortest wave of a part of a surface [m]."""
+    if isinstance(part, SurfaceMap):
+        return _wave_of_map(part)
+    return float(getattr(part, "shortest", None) or getattr(part, "wavelength", None) or math.inf)
+
+
+def _wave_of_map(part: SurfaceMap) -> float:
+    """The shortest wave of a measured map [m]: longer ones hold all but a part of its slope.
+
+    The map is tapered by Hann's window; its spectrum of slopes is summed up from the longest wave
+    on. No wave is shorter than two points.
+    """
+    heights = np.asarray(part.values, dtype=float)
+    spacing = part.spacing if isinstance(part.spacing, tuple) else (part.spacing, part.spacing)
+    heights = heights - heights.mean()
+    for axis, count in enumerate(heights.shape):
+        if count > 2:
+            shape = [1, 1]
+            shape[axis] = count
+            heights = heights * np.hanning(count).reshape(shape)
+    k = [np.fft.fftfreq(count, d) for count, d in zip(heights.shape, spacing, strict=True)]
+    wave_number = np.hypot(*np.meshgrid(*k, indexing="ij")).ravel()
+    slope = (np.abs(np.fft.fft2(heights)).ravel() * wave_number) ** 2
+    if not slope.any():
+        return math.inf
+    order = np.argsort(wave_number)
+    summed = np.cumsum(slope[order])
+    last = wave_number[order][int(np.searchsorted(summed, (1.0 - UNSEEN) * summed[-1]))]
+    return max(1.0 / float(last), 2.0 * min(spacing))
+
+
+def _is_plain(shape: object) -> bool:
+    """Whether a surface has neither edges nor measured heights: the rule of its contact holds."""
+    return all(
+        isinstance(part, (Flat, Sphere, Ellipsoid, Rough))
+        or (isinstance(part, Cylinder) and math.isinf(part.length))
+        for part in _parts(shape)
     )
+
+
+def _refined(
+    body1: Body,
+    body2: Body,
+    pressed: LoadPath,
+    sides: list[float],
+    n: list[int],
+    error: float,
+    *,
+    plane_strain: bool,
+) -> list[int]:
+    """Cells along the sides, doubled until area and largest pressure agree to `error`.
+
+    The last of two grids that agree is given; where none of at most MOST_TRIED cells do, the finest
+    one, with a warning.
+    """
+
+    def numbers(of: list[int]) -> NDArray[np.float64]:
+        if plane_strain:
+            grid = Grid.strip(extent=sides[0], n=of[0])
+        else:
+            grid = Grid.from_spacing((of[0], of[1]), (sides[0] / of[0], sides[1] / of[1]))
+        scene = Scene(body1=body1, body2=body2, mu=0.0, grid=grid, path=pressed)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            at = solve(scene, progress=False).at(-1)
+        return np.array([float(at.contact_area), float(at.p_max)])
+
+    most = MOST if plane_strain else MOST_TRIED
+    before, change = None, math.inf
+    while True:
+        try:
+            now = numbers(n)
+        except (OffGridError, InvalidSceneError) as refused:
+            if "cells" not in str(refused):
+                raise
+            now = None
+        if now is not None and before is not None:
+            change = float(np.abs(now / before - 1.0).max())
+            if change <= error:
+                return n
+        finer = [2 * of for of in n]
+        if math.prod(finer[: 1 if plane_strain else 2]) > most:
+            break
+        before, n = now, finer
+    if math.isfinite(change):
+        warnings.warn(
+            f"area or largest pressure still changes by {100 * change:.2g} % from half as many "
+            f"cells to {n[0]}, more than error = {error:g}: an edge or short waves need more",
+            SceneWarning,
+            stacklevel=3,
+        )
+    return n
+
+
+def _doubt_films(body1: Body, body2: Body, cells: list[float]) -> None:
+    """Warn of an outermost coating that is thinner than a cell."""
+    for number, body in enumerate((body1, body2), start=1):
+        thickness = body.coatings[0].thickness if body.coatings else math.inf
+        if thickness < min(cells):
+            warnings.warn(
+                f"the outermost coating of body {number} is {thickness / min(cells):.2g} of a cell "
+                "thick: stresses in it are averages over a cell; for these, use cells of "
+                f"{thickness:.2e} m",
+                SceneWarning,
+                stacklevel=3,
+            )
 
 
 def offer() -> None:

@@ -39,7 +39,8 @@ class Line(NamedTuple):
         """The place along the line that is nearest to x, y [m]."""
         if self.azimuth is None:
             return x if self.along == "x" else y
-        assert self.x is not None and self.y is not None
+        assert self.x is not None
+        assert self.y is not None
         cos, sin = np.cos(self.azimuth), np.sin(self.azimuth)
         return float((x - self.x) * cos + (y - self.y) * sin)
 

@@ -1,0 +1,77 @@
+"""Grids for contacts that are no balls."""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+import pytest
+
+import pyfret as fret
+from pyfret import shapes
+
+STEEL = fret.Elastic(E=210e9, nu=0.3)
+FLAT = fret.Body(STEEL)
+
+
+def p_max(
+    body: fret.Body, lower: fret.Body, path: fret.LoadPath, grid: fret.Grid
+) -> tuple[float, float]:
+    """Area and largest pressure on a grid."""
+    scene = fret.Scene(body1=body, body2=lower, mu=0.0, grid=grid, path=path)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        at = fret.solve(scene, progress=False).at(-1)
+    return float(at.contact_area), float(at.p_max)
+
+
+@pytest.mark.parametrize("length", [0.5e-3, 2e-3])
+def test_a_roller_with_ends_has_a_grid_of_its_length(length: float) -> None:
+    path = fret.LoadPath.start().normal(100.0, increments=1)
+    for angle in (0.0, np.pi / 2):
+        roller = fret.Body(STEEL, shape=shapes.Cylinder(R=0.01, length=length, angle=angle))
+        with warnings.catch_warnings():
+            # The pressure at its ends grows with the cells.
+            warnings.simplefilter("ignore", fret.errors.SceneWarning)
+            grid = fret.Grid.for_contact(roller, FLAT, path, error=0.1)
+        sides = sorted((grid.nx * grid.dx, grid.ny * grid.dy))
+        assert 1.1 * length < sides[1] < 1.4 * length
+        assert sides[0] < 0.6 * length
+        assert min(grid.nx, grid.ny) >= 24
+
+
+def test_a_punch_with_round_edges_is_refined_until_its_pressure_is_known() -> None:
+    punch = fret.Body(STEEL, shape=shapes.FlatPunch(radius=2e-3, edge=3e-3))
+    path = fret.LoadPath.start().normal(3e5, increments=1)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        grid = fret.Grid.for_contact(punch, FLAT, path, error=0.02, plane_strain=True)
+    found = p_max(punch, FLAT, path, grid)
+    finest = p_max(punch, FLAT, path, fret.Grid.strip(extent=grid.nx * grid.dx, n=2048))
+    assert found == pytest.approx(finest, rel=0.03)
+
+
+def test_cells_resolve_the_waves_of_a_measured_surface() -> None:
+    n, spacing, wave = 120, 2e-6, 20e-6
+    x = spacing * np.arange(n)
+    heights = 5e-8 * np.cos(2 * np.pi * x / wave)[:, None] * np.cos(2 * np.pi * x / wave)[None, :]
+    ball = fret.Body(STEEL, shape=fret.Sphere(R=2e-3))
+    rough = fret.Body(STEEL, shape=shapes.SurfaceMap(heights, spacing=spacing))
+    path = fret.LoadPath.start().normal(2.0, increments=1)
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        grid = fret.Grid.for_contact(ball, rough, path, error=0.02)
+    # The waves along the diagonals are shorter by the root of two.
+    assert grid.dx <= wave / np.sqrt(2) / 7.0
+    side = grid.nx * grid.dx
+    found = p_max(ball, rough, path, grid)
+    finest = p_max(ball, rough, path, fret.Grid.centred(extent=side, n=2 * grid.nx))
+    assert told or found == pytest.approx(finest, rel=0.03)
+
+
+def test_a_coating_thinner_than_a_cell_is_told() -> None:
+    ball = fret.Body(STEEL, shape=fret.Sphere(R=5e-3))
+    film = fret.Body(STEEL, coatings=[fret.Coating(fret.Elastic(E=400e9, nu=0.2), thickness=1e-7)])
+    path = fret.LoadPath.start().normal(10.0, increments=1)
+    with pytest.warns(fret.errors.SceneWarning, match="thick"):
+        fret.Grid.for_contact(ball, film, path, error=0.02)
