@@ -214,12 +214,7 @@ impl Continued {
 
     /// The same for a line in any direction: from a place in steps of about a cell \[cells\],
     /// between two numbers of steps.
-    pub fn crossings_along(
-        &self,
-        from: [f64; 2],
-        step: [f64; 2],
-        ends: [f64; 2],
-    ) -> Vec<Crossing> {
+    pub fn crossings_along(&self, from: [f64; 2], step: [f64; 2], ends: [f64; 2]) -> Vec<Crossing> {
         let at = |n: f64| [from[0] + n * step[0], from[1] + n * step[1]];
         let zones = [
             Some(&self.level),
