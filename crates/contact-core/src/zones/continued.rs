@@ -218,7 +218,7 @@ impl Continued {
         let at = |n: f64| [from[0] + n * step[0], from[1] + n * step[1]];
         let zones = [
             Some(&self.level),
-            self.bound.as_ref().map(|[_, level]| level),
+            self.bound.as_ref().map(|bound| &bound.shortfall),
         ];
         let mut all = Vec::new();
         for (zone, level) in zones.into_iter().enumerate() {
