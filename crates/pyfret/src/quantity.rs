@@ -57,8 +57,10 @@ pub(crate) fn known(what: &str, given: Option<&Bound<'_, PyDict>>, names: &[&str
         return Ok(());
     };
     let unknown: String = unknown.extract()?;
-    let alike = |name: &&&str| (1e6 * strsim::jaro_winkler(&unknown, name)) as usize;
-    let nearest = names.iter().max_by_key(alike);
+    let lower = unknown.to_lowercase();
+    let alike = |name: &&&str| (1e6 * strsim::jaro_winkler(&lower, &name.to_lowercase())) as usize;
+    // Of several the first.
+    let nearest = names.iter().rev().max_by_key(alike);
     Err(PyTypeError::new_err(format!(
         "{what} has no argument '{unknown}': the nearest is '{}' (of {})",
         nearest.unwrap_or(&""),
