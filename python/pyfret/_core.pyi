@@ -87,6 +87,7 @@ __all__ = [
     "cycle_temperature",
     "dang_van_path",
     "depths",
+    "doubt",
     "dundurs_beta",
     "ellipse_factor",
     "equivalent_range",
@@ -1878,6 +1879,9 @@ class Springs:
         """The loads gone through: W and T [N] at the end of each, and its steps."""
     def load(self, *, W: float, T: float, steps: int = 10) -> float:
         """Go straight to the forces `W`, `T` [N] in `steps` steps; the shift delta_x [m]."""
+
+def doubt(quantity: str, key: str, value: float) -> str | None:
+    """The doubt of a number, if it is hardly meant, by the name of its quantity."""
 
 def dundurs_beta(body1: _Material, body2: _Material) -> float:
     """Dundurs' parameter beta of the pair: the coupling of normal and tangential directions.

@@ -24,6 +24,7 @@ from pyfret._core import Material
 from pyfret._util.lazy import xr
 from pyfret._util.names import listing
 from pyfret.fatigue.cycles import cycle_increments
+from pyfret.scene.warnings import doubt_numbers
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -51,6 +52,11 @@ class Conductor:
     conductivity: float
     #: Heat capacity of the volume, density times specific heat [J/(m^3 K)].
     heat_capacity: float
+
+    def __post_init__(self) -> None:
+        """Warn of numbers that are hardly meant."""
+        doubt_numbers("conductivity", stacklevel=4, conductivity=self.conductivity)
+        doubt_numbers("heat capacity", stacklevel=4, heat_capacity=self.heat_capacity)
 
     @classmethod
     def of(cls, material: Material) -> Conductor:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal
 
 from pyfret import _core
 from pyfret._core import Scene
+from pyfret._util.arrays import number
 from pyfret._util.lazy import xr
 from pyfret._util.progress import Progress
 from pyfret.result import Result, open
@@ -81,6 +82,7 @@ def solve(
         Something of the scene is allowed but hardly meant, such as a number in another unit; or of
         what the run came to, such as a contact of few cells (:attr:`Result.doubts`).
     """
+    seconds = number(checkpoint, "checkpoint")
     scene = read(scene).replace(path=path, save=save)
     if rig_stiffness is not None:
         scene = scene.replace(path=scene.path.rig(rig_stiffness))
@@ -90,7 +92,7 @@ def solve(
             _core.solve(
                 scene,
                 store=out,
-                checkpoint=checkpoint,
+                checkpoint=seconds,
                 overwrite=overwrite,
                 error=error,
                 on_increment=bar.update,

@@ -4,6 +4,9 @@ use std::fmt::Debug;
 use std::sync::Arc;
 
 use contact_core::Error;
+use plausible::doubt;
+
+use super::variable::Of;
 
 /// Loading of each cell of a surface in one cycle, in the coordinates of its own body.
 #[derive(Clone, Copy, Debug)]
@@ -36,9 +39,26 @@ pub trait Law: Debug + Send + Sync {
         Ok(())
     }
 
+    /// Numbers that are allowed and hardly meant, one sentence each; `key` is the law's place.
+    fn doubts(&self, _key: &str) -> Vec<String> {
+        Vec::new()
+    }
+
     /// Whether it needs a frequency.
     fn needs_frequency(&self) -> bool {
         false
+    }
+
+    /// Whether the depth depends on the loading of the cycle alone: not on depth, energy and cycles so
+    /// far. A law that is not steady is asked several times in a jump.
+    fn is_steady(&self) -> bool {
+        false
+    }
+
+    /// Values of a variable at which the law bends, ascending: a jump ends where its cycles do, and a
+    /// cell is followed from one value of its energy to the next.
+    fn bends(&self, _of: Of) -> Vec<f64> {
+        Vec::new()
     }
 
     /// The law as a table of a scene file; `None` if a file cannot represent it.
@@ -73,6 +93,15 @@ impl Law for Archard {
             self.threshold,
             "m of slip per cycle",
         )
+    }
+
+    fn is_steady(&self) -> bool {
+        true
+    }
+
+    fn doubts(&self, key: &str) -> Vec<String> {
+        let k = doubt("wear coefficient", &format!("{key}.k"), self.k.max(0.0));
+        k.into_iter().collect()
     }
 
     fn written(&self) -> Option<String> {
@@ -110,6 +139,19 @@ impl Law for DissipatedEnergy {
             self.threshold,
             "J/m^2 per cycle",
         )
+    }
+
+    fn is_steady(&self) -> bool {
+        true
+    }
+
+    fn doubts(&self, key: &str) -> Vec<String> {
+        let alpha = doubt(
+            "energy wear coefficient",
+            &format!("{key}.alpha"),
+            self.alpha.max(0.0),
+        );
+        alpha.into_iter().collect()
     }
 
     fn written(&self) -> Option<String> {
@@ -206,34 +248,46 @@ impl BodyWear {
         self.laws.iter().try_for_each(|law| law.check(key))
     }
 
-    /// The coefficient k of each cell, `depth = k pressed_way` per cycle \[1/Pa\], by the law of
-    /// the layer that is bare there; `thickness` of the coatings \[m\].
-    pub(crate) fn coefficients(
+    /// Whether the coefficients stay the same in a jump, whatever the depth.
+    pub(super) fn is_steady(&self) -> bool {
+        self.laws.len() <= 1 && self.laws.iter().all(|law| law.is_steady())
+    }
+
+    /// Values of a variable at which a law bends, ascending.
+    pub(super) fn bends(&self, of: Of) -> Vec<f64> {
+        let mut bends: Vec<f64> = self.laws.iter().flat_map(|law| law.bends(of)).collect();
+        bends.sort_by(f64::total_cmp);
+        bends.dedup();
+        bends
+    }
+
+    /// The depth that one cycle takes from each cell \[m\], by the law of the layer that is bare
+    /// there; `thickness` of the coatings \[m\].
+    pub(super) fn depth(
         &self,
         cycle: &CellCycle<'_>,
         thickness: &[f64],
-        k: &mut [f64],
+        depth: &mut [f64],
     ) -> Result<(), Error> {
-        k.fill(0.0);
-        let mut depth = vec![0.0; k.len()];
+        depth.fill(0.0);
+        let mut of_law = vec![0.0; depth.len()];
         for layer in 0..=thickness.len() {
             let bare = |n: usize| layer_at(cycle.worn[n], thickness) == layer;
             let Some(law) = self.law(layer) else { continue };
-            if !(0..k.len()).any(bare) {
+            if !(0..depth.len()).any(bare) {
                 continue;
             }
-            law.depth(cycle, &mut depth)?;
-            for n in (0..k.len()).filter(|&n| bare(n)) {
-                let way = cycle.pressed_way[n];
-                if way > 0.0 {
-                    k[n] = self.share.unwrap_or(1.0) * depth[n] / way;
+            law.depth(cycle, &mut of_law)?;
+            for n in (0..depth.len()).filter(|&n| bare(n)) {
+                if cycle.pressed_way[n] > 0.0 {
+                    depth[n] = self.share.unwrap_or(1.0) * of_law[n];
                 }
             }
         }
-        match k.iter().find(|k| !(**k >= 0.0 && k.is_finite())) {
+        match depth.iter().find(|d| !(**d >= 0.0 && d.is_finite())) {
             Some(bad) => Err(Error::invalid(
                 "wear.law",
-                format!("a depth of {bad:e} per Pa m"),
+                format!("a depth of {bad:e} m in a cycle"),
                 "finite and >= 0 in every cell: nothing grows",
             )),
             None => Ok(()),
@@ -274,9 +328,9 @@ mod tests {
             cycles: 0.0,
             frequency: f64::NAN,
         };
-        let mut k = [9.0; 3];
-        body.coefficients(&cycle, &[1.0], &mut k).unwrap();
-        assert_eq!(k, [0.5, 2.5, 0.0]);
+        let mut depth = [9.0; 3];
+        body.depth(&cycle, &[1.0], &mut depth).unwrap();
+        assert_eq!(depth, [1.0, 5.0, 0.0]);
         assert_eq!(layer_at(1.5, &[1.0, 2.0]), 1);
     }
 

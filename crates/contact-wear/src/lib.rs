@@ -8,7 +8,8 @@
 //! increment by increment through the march (`marched`), or, in gross slip with any stroke, the
 //! normal problem alone at each place of the stroke, the worn surfaces read where they then lie
 //! (`sliding`). Each jump is made whole and in two halves, extrapolated to second order; the
-//! difference controls its length (`run`).
+//! difference controls its length (`run`). Within a jump each cell follows its law through the bends of
+//! tables, layers and laws that stop (`course`); a jump ends where a table of cycles bends.
 
 #![forbid(unsafe_code)]
 
@@ -16,6 +17,7 @@ mod attempt;
 mod block;
 mod border;
 mod compliant;
+mod course;
 mod cycled;
 mod events;
 mod jump;
@@ -36,6 +38,7 @@ mod sliding;
 mod state;
 mod stroke;
 mod table;
+mod variable;
 mod varying;
 mod within_cell;
 mod worn_start;
@@ -47,5 +50,6 @@ pub use law::{Archard, BodyWear, CellCycle, DissipatedEnergy, Law};
 pub use run::WearRun;
 pub use settings::{Cycling, Jumps, Wear, WornThrough};
 pub use state::WearState;
-pub use varying::{Factor, Of, Varying};
+pub use variable::Of;
+pub use varying::{Factor, Varying};
 pub use worn_start::WornStart;

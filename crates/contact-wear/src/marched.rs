@@ -26,6 +26,7 @@ use contact_core::march::{Increment, March, Reached, State};
 use contact_core::scene::{Branch, Dependence, Friction, FrictionHistory, PathGrid, Scene};
 use serde::{Deserialize, Serialize};
 
+use super::course::coefficients;
 use super::cycled::{Cycled, Sums};
 use super::law::CellCycle;
 use super::loss::{Loss, Worn};
@@ -159,7 +160,7 @@ impl Marched {
 
     /// The loss of both bodies in n cycles.
     pub(crate) fn jump(&mut self, worn: &Worn, n: f64, implicit: bool) -> Result<Loss, Error> {
-        let mut rates = self.rates(worn, &self.state.cycled)?;
+        let mut rates = self.rates(worn, &self.state.cycled, n)?;
         let mut p = self.state.cycled.p.clone();
         let (area, shortest_waves) = (self.pressing.cell_area(), self.pressing.shortest_waves());
         let opens = self.wear.opens();
@@ -181,8 +182,9 @@ impl Marched {
                 .map(|c| opens * (rates.k[0][c] + rates.k[1][c]) * in_jump.way[c])
                 .collect();
             let gap = gap(&self.h, worn, opens);
+            let above = |c: usize| opens * (rates.above[0][c] + rates.above[1][c]) * in_jump.way[c];
             let h: Vec<f64> = (0..cells)
-                .map(|c| gap[c] + rates.u_q[c] - compliance[c] * in_jump.borne[c])
+                .map(|c| gap[c] + rates.u_q[c] + above(c) - compliance[c] * in_jump.borne[c])
                 .collect();
             self.pressing
                 .solve(&h, &compliance, rates.drive, &mut p, 1.0)?;
@@ -210,7 +212,7 @@ impl Marched {
             end.add(&loss);
             last = Some((p.clone(), loss));
             let (cycled, _) = self.cycle(&end)?;
-            rates = self.rates(worn, &cycled)?;
+            rates = self.rates(worn, &cycled, n)?;
             self.state.cycled = cycled;
         }
         unreachable!("the last correction returns")
@@ -277,8 +279,9 @@ impl Marched {
         ))
     }
 
-    /// Rates of wear of every cell; cells outside the contact have those of their neighbours.
-    fn rates(&self, worn: &Worn, cycled: &Cycled) -> Result<Rates, Error> {
+    /// Rates of wear of every cell in n cycles from worn surfaces on; cells outside the contact have
+    /// those of their neighbours.
+    fn rates(&self, worn: &Worn, cycled: &Cycled, n: f64) -> Result<Rates, Error> {
         let cells = self.h.len();
         let largest = cycled.p.iter().fold(0.0, |m: f64, p| m.max(*p));
         let pressed = |c: usize| cycled.p[c] > 1e-6 * largest && cycled.pressed_way[c] >= 0.0;
@@ -298,11 +301,10 @@ impl Marched {
                 (sigma[c], way[c]) = (own, own);
             }
         }
-        let pressed_way: Vec<f64> = (0..cells)
-            .map(|c| sigma[c] * cycled.p[c].max(1e-6 * largest))
-            .collect();
+        let p: Vec<f64> = cycled.p.iter().map(|p| p.max(1e-6 * largest)).collect();
+        let pressed_way: Vec<f64> = sigma.iter().zip(&p).map(|(s, p)| s * p).collect();
         let dissipated: Vec<f64> = (0..cells).map(|c| mu[c] * pressed_way[c]).collect();
-        let mut k = [vec![0.0; cells], vec![0.0; cells]];
+        let (mut k, mut above) = ([vec![], vec![]], [vec![], vec![]]);
         for b in 0..2 {
             let cycle = CellCycle {
                 pressed_way: &pressed_way,
@@ -313,7 +315,11 @@ impl Marched {
                 cycles: worn.cycles,
                 frequency: self.wear.frequency.unwrap_or(f64::NAN),
             };
-            self.wear.bodies[b].coefficients(&cycle, &self.coatings[b], &mut k[b])?;
+            let found = coefficients(&self.wear.bodies[b], &cycle, &self.coatings[b], n)?;
+            // Cells outside the contact wear at the pressure of the jump's end alone.
+            let means = found.mean.iter().zip(&found.end).zip(&cycled.p);
+            above[b] = means.map(|((mean, end), p)| (mean - end) * p).collect();
+            k[b] = found.end;
         }
         let [W, approach] = cycled.mean;
         let drive = if self.gives_approach {
@@ -326,6 +332,7 @@ impl Marched {
         };
         Ok(Rates {
             k,
+            above,
             sigma,
             mu,
             slips: way,

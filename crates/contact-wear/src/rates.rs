@@ -7,8 +7,11 @@ use super::loss::{Loss, Worn};
 
 /// Rates of wear of the cells.
 pub(super) struct Rates {
-    /// Coefficient of each body \[1/Pa\].
+    /// Coefficient of each body in the last cycle \[1/Pa\].
     pub(super) k: [Vec<f64>; 2],
+    /// What the mean coefficient of a jump is above that, times the pressure that both were found
+    /// at \[1\].
+    pub(super) above: [Vec<f64>; 2],
     /// Pressed way over the mean pressure \[m\].
     pub(super) sigma: Vec<f64>,
     /// Energy dissipated over the pressed way \[1\].
@@ -49,7 +52,7 @@ impl Rates {
     }
 }
 
-/// Loss in a jump: k way (p - borne) of each body.
+/// Loss in a jump: way (k (p - borne) + above) of each body.
 pub(super) struct LossRate {
     /// Cycles.
     n: f64,
@@ -63,7 +66,13 @@ impl LossRate {
     /// The loss under the pressure p at the end of the jump.
     pub(super) fn loss(&self, rates: &Rates, p: &[f64], cell_area: f64) -> Loss {
         let way = |c: usize| self.way[c] * (p[c] - self.borne[c]).max(0.0);
-        let depth = [0, 1].map(|b| (0..p.len()).map(|c| rates.k[b][c] * way(c)).collect());
+        let depth = [0, 1].map(|b| {
+            let of_cell = |c: usize| {
+                let above = self.way[c] * rates.above[b][c];
+                (rates.k[b][c] * way(c) + above).max(0.0)
+            };
+            (0..p.len()).map(of_cell).collect()
+        });
         let energy: Vec<f64> = (0..p.len()).map(|c| rates.mu[c] * way(c)).collect();
         let dissipated: f64 = energy.iter().sum();
         let slides = |c: usize| {

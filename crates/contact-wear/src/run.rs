@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use contact_core::Error;
 use contact_core::plan::Plan;
-use contact_core::scene::Scene;
+use contact_core::scene::{History, Scene};
 
 use super::attempt::Attempt;
 use super::events::EventKind;
@@ -17,6 +17,7 @@ use super::on_grid;
 use super::passage::Passage;
 use super::settings::{Jumps, Wear, WornThrough};
 use super::state::WearState;
+use super::variable::Of;
 use super::worn_start::WornStart;
 
 /// The next length is CAUTIOUS (tol/error)^(1/2) times the last one, within SHORTER to LONGER.
@@ -212,13 +213,32 @@ impl WearRun {
         )
     }
 
+    /// Cycles to the next place of a table of cycles, of the wear laws or of friction.
+    fn next_bend(&self) -> f64 {
+        let now = self.state.cycles;
+        let friction = self.scene.friction.history.iter();
+        let friction = friction.filter(|history| history.of == History::Cycles);
+        let friction = friction.flat_map(|history| history.table.iter().map(|(at, _)| *at));
+        let laws = self
+            .wear
+            .bodies
+            .iter()
+            .flat_map(|body| body.bends(Of::Cycles));
+        let behind = now * (1.0 + SHORTEST) + SHORTEST * self.wear.cycles;
+        let ahead = friction.chain(laws).filter(|at| *at > behind);
+        ahead.fold(f64::INFINITY, f64::min) - now
+    }
+
     fn jump(&mut self, left: f64) -> Result<Jump, Error> {
-        let mut n = self.state.next.min(left);
+        let wanted = self.state.next;
+        let mut n = wanted.min(left);
         // A negligible rest is included in this jump.
         if left - n < 1e-6 * n {
             n = left;
         }
-        let (mut for_error, mut for_event) = (n, None);
+        let to_bend = self.next_bend();
+        n = n.min(to_bend);
+        let (mut for_error, mut for_event) = (wanted, None);
         for retries in 0..TRIES {
             if self.stop.load(Ordering::Relaxed) {
                 return Err(Error::Interrupted {
@@ -244,6 +264,9 @@ impl WearRun {
                     continue;
                 }
                 for_error = n * factor.clamp(SHORTER, LONGER);
+                if n == to_bend {
+                    for_error = for_error.max(wanted);
+                }
             }
             let stops = self.wear.worn_through == WornThrough::Stop;
             let passage = Passage {
@@ -343,7 +366,7 @@ impl WearRun {
         let seen = state.seen(&self.model, self.wear.debris_kept);
         let by_border = state.lost_by_slip(&seen) * by_border;
         let jump = Jump {
-            depth_error: seen.depth_error + by_border / state.worn.deepest().max(f64::MIN_POSITIVE),
+            depth_error: seen.depth_error + state.over_deepest(by_border),
             length: n,
             error: tried.error,
             pressure_error: tried.pressure_error,

@@ -31,7 +31,8 @@ pub enum Jumps {
     /// Implicit, as long as the error of one stays below this part of the worn depth, and a
     /// twentieth of that of the pressure (root mean squares); of second order.
     Tolerance(f64),
-    /// Implicit, that many of equal length, and more where one does not converge; of second order.
+    /// Implicit, that many of equal length, and more where a table of cycles bends or one does not
+    /// converge; of second order.
     Number(usize),
     /// Explicit, that many of equal length, with the pressure at the start of each: of first order,
     /// and unstable where they are long. The usual method, for comparison.
@@ -174,6 +175,14 @@ impl Wear {
             stroke(scene, first_branch)?;
         }
         self.jumps.check()
+    }
+
+    /// Numbers that are allowed and hardly meant, one sentence each.
+    pub fn doubts(&self) -> Vec<String> {
+        let bodies = ["wear.body1", "wear.body2"].into_iter().zip(&self.bodies);
+        bodies
+            .flat_map(|(key, body)| body.laws.iter().flat_map(move |law| law.doubts(key)))
+            .collect()
     }
 
     /// 1 - kept: growth of the gap over the worn depth.

@@ -32,7 +32,8 @@ use contact_core::Error;
 use contact_core::plan::Plan;
 use contact_core::scene::{FrictionHistory, Scene, Shape};
 
-use super::law::CellCycle;
+use super::course::{Coefficients, coefficients};
+use super::law::{BodyWear, CellCycle};
 use super::loss::{Loss, Worn};
 use super::on_grid;
 use super::pressing::Pressing;
@@ -45,6 +46,10 @@ use super::stroke::{Corner, Place, stroke};
 const LEAST_CHANGE: f64 = 1e-3;
 /// Times the tolerance of the scene to which the pressures of a round are solved.
 const ROUGH: f64 = 10.0;
+/// Most corrections of a law that changes within a jump, and the change of the depth (root mean square,
+/// over that of the depth) that ends them.
+const CORRECTIONS: usize = 8;
+const AGREES: f64 = 0.01;
 /// Most rounds; a remaining error enters the estimate of the jump's error.
 const MOST_ROUNDS: usize = 60;
 
@@ -134,21 +139,44 @@ impl Sliding {
         Ok(())
     }
 
-    /// The loss of both bodies in n cycles; sets the pressures at the end.
+    /// The loss of both bodies in n cycles; sets the pressures at the end. A law that changes within the
+    /// jump is followed at the pressures that it leads to, until the depth settles.
     pub(crate) fn jump(&mut self, worn: &Worn, n: f64, implicit: bool) -> Result<Loss, Error> {
         self.cycles = worn.cycles;
-        let ways = self.summed(&self.p);
-        let k = self.coefficients(worn, &ways)?;
+        let mut rates = self.rates(worn, n)?;
         if !implicit {
-            return Ok(self.loss(n, &k, &ways));
+            return Ok(self.loss(n, &rates, &self.summed(&self.p)));
         }
         self.pressing.begin();
+        let steady = self.wear.bodies.iter().all(BodyWear::is_steady);
+        let mut last: Option<Loss> = None;
+        for correction in 0..=CORRECTIONS {
+            self.rounds(worn, n, &rates)?;
+            let loss = self.loss(n, &rates, &self.summed(&self.p));
+            let settled = |last: &Loss| {
+                let cells = loss.depth.iter().flatten().zip(last.depth.iter().flatten());
+                let (moved, size) = cells.fold((0.0, 0.0), |(moved, size), (now, last)| {
+                    (moved + (now - last) * (now - last), size + now * now)
+                });
+                moved <= AGREES * AGREES * size
+            };
+            if steady || correction == CORRECTIONS || last.as_ref().is_some_and(settled) {
+                return Ok(loss);
+            }
+            last = Some(loss);
+            rates = self.rates(worn, n)?;
+        }
+        unreachable!("the last correction returns")
+    }
+
+    /// The rounds over all places at given rates, accelerated.
+    fn rounds(&mut self, worn: &Worn, n: f64, rates: &Rates) -> Result<(), Error> {
         let mut momentum = 1.0_f64;
         let (mut around, mut last) = (self.p.clone(), self.p.clone());
         let mut buffers = Buffers::of(self.h.len());
         for _ in 0..MOST_ROUNDS {
             last.clone_from(&self.p);
-            self.round(worn, n, &k, &around, &mut buffers)?;
+            self.round(worn, n, rates, &around, &mut buffers)?;
             let (mut left, mut size, mut turned) = (0.0, 0.0, 0.0);
             for i in 0..self.places.len() {
                 for (c, p) in self.p[i].iter().enumerate() {
@@ -174,8 +202,7 @@ impl Sliding {
                 }
             }
         }
-        let ways = self.summed(&self.p);
-        Ok(self.loss(n, &k, &ways))
+        Ok(())
     }
 
     /// One round over the places: minimises the majorant of the energy at the pressures `around`.
@@ -183,7 +210,7 @@ impl Sliding {
         &mut self,
         worn: &Worn,
         n: f64,
-        k: &[Vec<f64>; 2],
+        rates: &Rates,
         around: &[Vec<f64>],
         buffers: &mut Buffers,
     ) -> Result<(), Error> {
@@ -196,13 +223,13 @@ impl Sliding {
         } = buffers;
         self.sum(around, ways);
         for b in 0..2 {
-            let cells = worn.depth[b].iter().zip(k[b].iter().zip(&ways[b]));
-            for (end, (worn, (k, way))) in end.depth[b].iter_mut().zip(cells) {
-                *end = worn + n * k * way;
+            let cells = worn.depth[b].iter().zip(rates.depth(b, n, &ways[b]));
+            for (end, (worn, lost)) in end.depth[b].iter_mut().zip(cells) {
+                *end = worn + lost;
             }
         }
         for i in 0..self.places.len() {
-            self.read(k, i, compliance);
+            self.read(&rates.k, i, compliance);
             for d in compliance.iter_mut() {
                 *d *= opens * n * s;
             }
@@ -236,11 +263,8 @@ impl Sliding {
         self.mu * factor
     }
 
-    fn loss(&self, n: f64, k: &[Vec<f64>; 2], ways: &[Vec<f64>; 2]) -> Loss {
-        let depth = [0, 1].map(|b| {
-            let cells = k[b].iter().zip(&ways[b]);
-            cells.map(|(k, way)| n * k * way).collect()
-        });
+    fn loss(&self, n: f64, rates: &Rates, ways: &[Vec<f64>; 2]) -> Loss {
+        let depth = [0, 1].map(|b| rates.depth(b, n, &ways[b]).collect());
         let mu = self.mu();
         let energy = [0, 1].map(|b| ways[b].iter().map(|way| n * mu * way).collect::<Vec<f64>>());
         let slides = |p: &f64| if *p > 0.0 { n * self.way() } else { 0.0 };
@@ -277,7 +301,9 @@ impl Sliding {
         }
     }
 
-    fn coefficients(&self, worn: &Worn, ways: &[Vec<f64>; 2]) -> Result<[Vec<f64>; 2], Error> {
+    /// The rates of n cycles from worn surfaces on, at the present pressures.
+    fn rates(&self, worn: &Worn, n: f64) -> Result<Rates, Error> {
+        let ways = self.summed(&self.p);
         let touches = |p: &f64| f64::from(u8::from(*p > 0.0));
         let touched: Vec<Vec<f64>> = self
             .p
@@ -285,7 +311,7 @@ impl Sliding {
             .map(|p| p.iter().map(touches).collect())
             .collect();
         let (touched, s) = (self.summed(&touched), self.way());
-        let mut k = [vec![0.0; self.h.len()], vec![0.0; self.h.len()]];
+        let (mut k, mut above) = ([vec![], vec![]], [vec![], vec![]]);
         for b in 0..2 {
             // Cells that come into contact within the jump need a coefficient, too: they get a
             // small pressed way.
@@ -305,9 +331,13 @@ impl Sliding {
                 cycles: worn.cycles,
                 frequency: self.wear.frequency.unwrap_or(f64::NAN),
             };
-            self.wear.bodies[b].coefficients(&cycle, &self.coatings[b], &mut k[b])?;
+            let Coefficients { mean, end } =
+                coefficients(&self.wear.bodies[b], &cycle, &self.coatings[b], n)?;
+            let means = mean.iter().zip(&end).zip(&ways[b]);
+            above[b] = means.map(|((mean, end), way)| (mean - end) * way).collect();
+            k[b] = end;
         }
-        Ok(k)
+        Ok(Rates { k, above })
     }
 
     /// The sum of fields of both bodies, shifted to the grid at a place.
@@ -333,6 +363,22 @@ impl Sliding {
         self.pressing
             .solve(h, compliance, drive, &mut self.p[i], times)?;
         Ok(())
+    }
+}
+
+/// Rates of wear of both bodies in a jump.
+struct Rates {
+    /// Coefficient in the last cycle \[1/Pa\].
+    k: [Vec<f64>; 2],
+    /// What the mean depth of a cycle is above that of the last one \[m\].
+    above: [Vec<f64>; 2],
+}
+
+impl Rates {
+    /// Depth of body b in n cycles of these pressed ways \[m\].
+    fn depth(&self, b: usize, n: f64, ways: &[f64]) -> impl Iterator<Item = f64> {
+        let cells = self.k[b].iter().zip(&self.above[b]).zip(ways);
+        cells.map(move |((k, above), way)| (n * (k * way + above)).max(0.0))
     }
 }
 

@@ -93,8 +93,14 @@ impl WearState {
             p_max: largest(seen.p),
             contact_area: touches * area,
             stick_ratio: seen.stick_ratio,
-            depth_error: moved / self.worn.deepest().max(f64::MIN_POSITIVE),
+            depth_error: self.over_deepest(moved),
         }
+    }
+
+    /// An error of the depth over the deepest depth; zero where nothing has worn.
+    pub(super) fn over_deepest(&self, error: f64) -> f64 {
+        let deepest = self.worn.deepest();
+        if deepest > 0.0 { error / deepest } else { 0.0 }
     }
 
     /// The part of its pressure that the slip zone has lost by wear: that of the largest energy of

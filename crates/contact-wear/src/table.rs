@@ -10,7 +10,8 @@ use toml::{Table, Value};
 
 use super::law::{Archard, BodyWear, CellCycle, DissipatedEnergy, Law};
 use super::settings::{Cycling, Jumps, Wear, WornThrough};
-use super::varying::{Factor, Of, Varying};
+use super::variable::Of;
+use super::varying::{Factor, Varying};
 
 const KEYS: [&str; 13] = [
     "cycles",

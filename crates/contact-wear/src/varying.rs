@@ -7,43 +7,14 @@ use contact_core::Error;
 use contact_core::scene::{FrictionHistory, History};
 
 use super::law::{CellCycle, Law};
-
-/// The variable of the factor of a wear coefficient.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Of {
-    /// Cycles done so far, the same for all cells.
-    Cycles,
-    /// Mean pressure of a cell over the way that it slips \[Pa\].
-    Pressure,
-    /// Energy dissipated per area and time: that of a cycle times the frequency \[W/m^2\].
-    PowerDensity,
-    /// Energy dissipated per area so far \[J/m^2\].
-    Energy,
-}
-
-impl Of {
-    /// All of them, with their names in scene files.
-    pub const ALL: [(&'static str, Self); 4] = [
-        ("cycles", Self::Cycles),
-        ("pressure", Self::Pressure),
-        ("power_density", Self::PowerDensity),
-        ("energy", Self::Energy),
-    ];
-
-    /// Its name in scene files.
-    pub fn name(self) -> &'static str {
-        Self::ALL
-            .iter()
-            .find(|(_, of)| *of == self)
-            .map_or("", |(name, _)| name)
-    }
-}
+use super::variable::Of;
 
 /// A factor of a wear coefficient, piecewise linear, level beyond its ends.
 ///
-/// Within a jump it is evaluated at the surfaces and pressures of the jump's start; the comparison
-/// with two halves shows its change. A factor that changes faster than in proportion to the
-/// pressure makes the pressure of long jumps oscillate.
+/// A jump ends at the places of a table of cycles, and follows each cell from place to place of a table
+/// of the energy. Pressure and power density are those of the last cycle that was solved; the
+/// comparison with two halves shows their change. A factor that changes faster than in proportion to
+/// the pressure makes the pressure of long jumps oscillate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Factor {
     /// The variable.
@@ -141,14 +112,32 @@ impl Law for Varying {
         Some(format!("{keys}, factor = {} }}", self.factor.written()))
     }
 
+    fn doubts(&self, key: &str) -> Vec<String> {
+        self.law.doubts(key)
+    }
+
     fn needs_frequency(&self) -> bool {
         self.factor.of == Of::PowerDensity || self.law.needs_frequency()
+    }
+
+    fn is_steady(&self) -> bool {
+        let of_loading = matches!(self.factor.of, Of::Pressure | Of::PowerDensity);
+        of_loading && self.law.is_steady()
+    }
+
+    fn bends(&self, of: Of) -> Vec<f64> {
+        let mut bends = self.law.bends(of);
+        if self.factor.of == of {
+            bends.extend(self.factor.table.iter().map(|(at, _)| at));
+        }
+        bends
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Factor, Of, Varying};
+    use super::{Factor, Varying};
+    use crate::Of;
     use crate::{Archard, CellCycle, Law};
     use std::sync::Arc;
 

@@ -162,18 +162,19 @@ impl Material {
 
     /// Warnings for numbers that seem to be in another unit.
     pub fn doubts(&self) -> Vec<String> {
-        /// No fatigue limit and no modulus is below this \[Pa\].
-        const WEAK: f64 = 1e5;
-        let in_pascal = |name: &str| QUANTITIES.iter().any(|q| q.name == name && q.unit == "Pa");
-        let weak = (self.numbers.iter()).filter(|(name, of)| in_pascal(name) && of.value < WEAK);
-        weak.map(|(name, of)| {
-            format!(
-                "material {}: {name} = {v} Pa is less than any solid has: stresses are in Pa, {v} MPa is {v}e6",
-                self.name,
-                v = of.value
-            )
-        })
-        .collect()
+        let row = |name: &str| match (name, QUANTITIES.iter().find(|q| q.name == name)?.unit) {
+            (_, "Pa") => Some("material stress"),
+            (_, "Pa m^0.5") => Some("threshold"),
+            ("conductivity", _) => Some("conductivity"),
+            ("density", _) => Some("density"),
+            ("specific_heat", _) => Some("specific heat"),
+            _ => None,
+        };
+        let doubt = |(name, of): (&&str, &Sourced)| {
+            let key = format!("material {}: {name}", self.name);
+            plausible::doubt(row(name)?, &key, of.value)
+        };
+        self.numbers.iter().filter_map(doubt).collect()
     }
 
     /// A number; fails with the missing name and the known ones.

@@ -56,7 +56,12 @@ impl SceneOptions {
 
 /// Warns of allowed but implausible values of a scene.
 pub(crate) fn say_doubts(scene: &Scene) {
-    for doubt in scene.doubts() {
+    say_each(&scene.doubts());
+}
+
+/// Warns of doubts.
+pub(crate) fn say_each(doubts: &[String]) {
+    for doubt in doubts {
         say(&format!("fret: warning: {doubt}"));
     }
 }

@@ -17,7 +17,7 @@ use crate::failure::Failure;
 use crate::out::Out;
 use crate::printed::print;
 use crate::run::stop_on_interrupt;
-use crate::scene_options::SceneOptions;
+use crate::scene_options::{SceneOptions, say_each};
 use crate::terminal::{draws, say};
 use crate::threads::Threads;
 use crate::units::um;
@@ -78,6 +78,7 @@ pub(crate) fn wear(options: &Options) -> Result<(), Failure> {
     };
     let read = Wear::from_file(&options.scene.scene, &options.scene.settings, reach);
     let (scene, wear) = read.map_err(Failure::BadInput)?;
+    say_each(&wear.doubts());
     let out = &options.out.path;
     if options.resume {
         return resume(out, Some((&scene, &wear)), options.shown());

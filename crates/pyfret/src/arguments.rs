@@ -1,4 +1,7 @@
-//! Arguments that several functions take.
+//! Arguments that several functions take, and the door for all numbers and arrays.
+//!
+//! Arrays go through `pyfret._util.arrays`, which knows labels, masks and kinds; numbers and lists of
+//! them go through [`number`]: True and False are no numbers.
 
 use std::ops::Deref;
 
@@ -9,9 +12,37 @@ use numpy::{AllowTypeChange, PyArrayLike, PyReadonlyArray};
 use pyo3::conversion::FromPyObjectOwned;
 use pyo3::exceptions::{PyMemoryError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::PyString;
+use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyString, PyTuple};
 
-/// An array of numbers, or what makes one, without masked values; copies of it fit into memory.
+/// An argument that is a number, or holds some; True and False are refused, wherever they stand.
+pub(crate) fn number<'py, T: FromPyObjectOwned<'py>>(value: &Bound<'py, PyAny>) -> PyResult<T> {
+    refuse_truths(value)?;
+    value.extract().map_err(Into::into)
+}
+
+fn refuse_truths(value: &Bound<'_, PyAny>) -> PyResult<()> {
+    if value.is_instance_of::<PyFloat>() || value.is_exact_instance_of::<PyInt>() {
+        return Ok(());
+    }
+    let kind = value
+        .getattr("dtype")
+        .and_then(|of| of.getattr("kind")?.extract::<String>());
+    if value.is_instance_of::<PyBool>() || kind.is_ok_and(|kind| kind == "b") {
+        return Err(PyTypeError::new_err(format!(
+            "{}: must be a number, which True and False are not",
+            value.repr()?
+        )));
+    }
+    if value.is_instance_of::<PyTuple>() || value.is_instance_of::<PyList>() {
+        for item in value.try_iter()? {
+            refuse_truths(&item?)?;
+        }
+    }
+    Ok(())
+}
+
+/// An array of numbers, or what makes one, by the rules of `pyfret._util.arrays`; copies of it fit into
+/// memory.
 pub(crate) struct Array<'py, D: Dimension>(PyArrayLike<'py, f64, D, AllowTypeChange>);
 
 /// A field on the grid.
@@ -32,12 +63,29 @@ impl<'a, 'py, D: Dimension + 'py> FromPyObject<'a, 'py> for Array<'py, D> {
     type Error = PyErr;
 
     fn extract(value: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
-        if is_masked(&value)? {
-            return Err(PyValueError::new_err(
-                "has masked values: must have a number everywhere, filled(0.0) for one",
-            ));
+        Self::through_the_door(&value, false)
+    }
+}
+
+impl<'py, D: Dimension + 'py> Array<'py, D> {
+    /// The same where missing values, masked or NaN, are holes: NaN.
+    pub(crate) fn with_holes(value: &Bound<'py, PyAny>) -> PyResult<Self> {
+        Self::through_the_door(value, true)
+    }
+
+    fn through_the_door(value: &Bound<'py, PyAny>, holes: bool) -> PyResult<Self> {
+        if let Ok(size) = value
+            .getattr("size")
+            .and_then(|size| size.extract::<usize>())
+        {
+            must_fit(size, 8.0)?;
         }
-        let array: PyArrayLike<'py, f64, D, AllowTypeChange> = value.extract()?;
+        let py = value.py();
+        let door = py.import("pyfret._util.arrays")?.getattr("plain")?;
+        let options = PyDict::new(py);
+        options.set_item("holes", holes)?;
+        let array: PyArrayLike<'py, f64, D, AllowTypeChange> =
+            door.call((value, "the array"), Some(&options))?.extract()?;
         must_fit(array.as_array().len(), 8.0)?;
         Ok(Self(array))
     }
@@ -114,28 +162,10 @@ impl<'py, T: FromPyObjectOwned<'py>> FromPyObject<'_, 'py> for List<T> {
             values
                 .try_reserve(1)
                 .map_err(|e| PyMemoryError::new_err(e.to_string()))?;
-            values.push(item?.extract::<T>().map_err(Into::into)?);
+            values.push(number(&item?)?);
         }
         Ok(Self(values))
     }
-}
-
-/// Whether an array has values that its mask hides.
-fn is_masked(value: &Bound<'_, PyAny>) -> PyResult<bool> {
-    if !value.hasattr("mask")? {
-        return Ok(false);
-    }
-    let ma = value.py().import("numpy.ma")?;
-    ma.call_method1("is_masked", (value,))?.extract()
-}
-
-/// The array with NaN where its mask hides a value.
-pub(crate) fn with_holes<'py>(value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
-    if !is_masked(value)? {
-        return Ok(value.clone());
-    }
-    let numbers = value.call_method1("astype", ("float64",))?;
-    numbers.call_method1("filled", (f64::NAN,))
 }
 
 /// The side of body 1 or 2.

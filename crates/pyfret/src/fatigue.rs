@@ -14,7 +14,7 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyCFunction, PyDict, PyTuple};
 
-use crate::arguments::{Array, List};
+use crate::arguments::{Array, List, number};
 use crate::error::{of_criterion as refused, to_python};
 use crate::interruptible::interruptible;
 
@@ -144,7 +144,11 @@ pub(crate) struct Assessment(pub(crate) core::Assessment);
 impl Assessment {
     #[new]
     #[pyo3(signature = (criterion, *, limit = None, curve = None))]
-    fn new(criterion: Criterion, limit: Option<f64>, curve: Option<[f64; 5]>) -> PyResult<Self> {
+    fn new(
+        criterion: Criterion,
+        #[pyo3(from_py_with = number)] limit: Option<f64>,
+        #[pyo3(from_py_with = number)] curve: Option<[f64; 5]>,
+    ) -> PyResult<Self> {
         let judge = match (limit, curve) {
             (Some(limit), None) if limit > 0.0 && limit.is_finite() => core::Judge::Limit(limit),
             (None, Some([E, coefficient, exponent, ductility, of_ductility])) => {
@@ -201,12 +205,12 @@ impl Assessment {
     }
 
     /// Factor by which the history may grow until the limit, for values of the criterion.
-    fn safety_factor(&self, value: f64) -> f64 {
+    fn safety_factor(&self, #[pyo3(from_py_with = number)] value: f64) -> f64 {
         self.0.safety_factor(value)
     }
 
     /// Cycles to failure for values of the criterion.
-    fn life(&self, value: f64) -> f64 {
+    fn life(&self, #[pyo3(from_py_with = number)] value: f64) -> f64 {
         self.0.life(value)
     }
 
@@ -364,7 +368,7 @@ pub(crate) fn criterion_on<'py>(
     py: Python<'py>,
     criterion: Criterion,
     stress: Array<'py, Ix3>,
-    tolerance: f64,
+    #[pyo3(from_py_with = number)] tolerance: f64,
 ) -> PyResult<Bound<'py, PyDict>> {
     let (view, stop) = (stress.as_array(), Arc::default());
     let search = core::Search {
@@ -392,8 +396,8 @@ pub(crate) fn criterion_on<'py>(
 pub(crate) fn yielding_on<'py>(
     py: Python<'py>,
     stress: Array<'py, Ix3>,
-    s_y: f64,
-    constant: [f64; 6],
+    #[pyo3(from_py_with = number)] s_y: f64,
+    #[pyo3(from_py_with = number)] constant: [f64; 6],
 ) -> PyResult<Bound<'py, PyDict>> {
     let (view, stop) = (stress.as_array(), Arc::default());
     let work = || core::yielding(&view, s_y, &constant, &stop);

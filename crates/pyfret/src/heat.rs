@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::argument::to_python;
-use crate::arguments::{Array, List, Mask};
+use crate::arguments::{Array, List, Mask, number};
 use crate::interruptible::interruptible;
 use crate::scene::{Body, Grid};
 
@@ -39,12 +39,12 @@ pub(crate) fn cycle_temperature<'py>(
     body1: Body,
     body2: Body,
     grid: Grid,
-    bulk: (f64, f64),
-    frequency: f64,
+    #[pyo3(from_py_with = number)] bulk: (f64, f64),
+    #[pyo3(from_py_with = number)] frequency: f64,
     ends: List<f64>,
     heat: Array<'py, Ix3>,
     contact: Mask<'py, Ix2>,
-    harmonics: usize,
+    #[pyo3(from_py_with = number)] harmonics: usize,
 ) -> PyResult<Bound<'py, PyDict>> {
     let one = layers(&conductor1, &body1, "conductor1")?;
     let two = layers(&conductor2, &body2, "conductor2")?;

@@ -13,7 +13,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::argument::to_python;
-use crate::arguments::{Field, List, Mask, side};
+use crate::arguments::{Field, List, Mask, number, side};
 use crate::interruptible::interruptible;
 use crate::scene::{Body, Grid, LoadPath};
 use crate::stress::measures;
@@ -42,9 +42,9 @@ impl Envelope {
         z: List<f64>,
         layer: List<usize>,
         of: List<String>,
-        x: Option<f64>,
-        y: Option<f64>,
-        body_number: u8,
+        #[pyo3(from_py_with = number)] x: Option<f64>,
+        #[pyo3(from_py_with = number)] y: Option<f64>,
+        #[pyo3(from_py_with = number)] body_number: u8,
         residual: Option<List<f64>>,
     ) -> PyResult<Self> {
         let cycles = core::cycles(&path.0);
@@ -100,13 +100,13 @@ impl Envelope {
     fn push(
         &mut self,
         py: Python<'_>,
-        increment: usize,
-        branch: usize,
+        #[pyo3(from_py_with = number)] increment: usize,
+        #[pyo3(from_py_with = number)] branch: usize,
         p: Field<'_>,
         q_x: Field<'_>,
         q_y: Field<'_>,
         stick: Mask<'_, Ix2>,
-        sigma_B: f64,
+        #[pyo3(from_py_with = number)] sigma_B: f64,
     ) -> PyResult<()> {
         let tractions = [q_x, q_y, p].map(|f| f.as_array().as_standard_layout().into_owned());
         let mut stream = self.stream.take().ok_or_else(finished)?;

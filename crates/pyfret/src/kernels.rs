@@ -10,7 +10,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::argument::to_python;
-use crate::arguments::Array;
+use crate::arguments::{Array, number};
 use crate::interruptible::interruptible;
 use crate::scene::{Body, Grid, Settings};
 
@@ -95,8 +95,8 @@ pub(crate) fn stress_coefficients(
     py: Python<'_>,
     body: Body,
     grid: Grid,
-    z: f64,
-    layer: Option<usize>,
+    #[pyo3(from_py_with = number)] z: f64,
+    #[pyo3(from_py_with = number)] layer: Option<usize>,
 ) -> PyResult<Bound<'_, PyArray4<f64>>> {
     let stop = Arc::default();
     let matrix = interruptible(py, &stop, || {
@@ -117,9 +117,9 @@ pub(crate) fn stress_coefficients(
 pub(crate) fn stress_at(
     py: Python<'_>,
     body: Body,
-    cell: (f64, f64),
-    point: (f64, f64, f64),
-    layer: Option<usize>,
+    #[pyo3(from_py_with = number)] cell: (f64, f64),
+    #[pyo3(from_py_with = number)] point: (f64, f64, f64),
+    #[pyo3(from_py_with = number)] layer: Option<usize>,
 ) -> PyResult<Bound<'_, PyArray2<f64>>> {
     let at = || core::stress_at(&body.0, cell, point, layer);
     let stress = interruptible(py, &Arc::default(), at)?.map_err(to_python)?;
@@ -134,7 +134,11 @@ pub(crate) struct Conversion(core::Conversion);
 impl Conversion {
     #[new]
     #[pyo3(signature = (grid, *, enlargement = 8, aliases = 0))]
-    fn new(grid: Grid, enlargement: usize, aliases: usize) -> PyResult<Self> {
+    fn new(
+        grid: Grid,
+        #[pyo3(from_py_with = number)] enlargement: usize,
+        #[pyo3(from_py_with = number)] aliases: usize,
+    ) -> PyResult<Self> {
         core::Conversion::new(&grid.0, enlargement, aliases)
             .map(Self)
             .map_err(to_python)

@@ -19,6 +19,7 @@ mod arguments;
 mod assess;
 mod command_line;
 mod document;
+mod doubts;
 mod error;
 mod fatigue;
 mod forked;
@@ -54,6 +55,8 @@ mod _core {
     use crate::assess::{CriterionBelow, CycleSection, YieldBelow};
     #[pymodule_export]
     use crate::command_line::run_command;
+    #[pymodule_export]
+    use crate::doubts::doubt;
     #[pymodule_export]
     use crate::error::{
         ArgumentError, InvalidSceneError, KernelInaccurateError, NoConvergenceError, OffGridError,

@@ -14,7 +14,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde_json::Value;
 
-use crate::arguments::Field;
+use crate::arguments::{Field, number};
 use crate::error::to_python;
 use crate::interruptible::interruptible;
 use crate::scene::{Grid, Scene};
@@ -129,7 +129,7 @@ impl March {
     fn plastic<'py>(
         &mut self,
         py: Python<'py>,
-        body: usize,
+        #[pyo3(from_py_with = number)] body: usize,
     ) -> PyResult<Option<Bound<'py, PyDict>>> {
         crate::yielding::plastic(py, self.inner(), body)
     }

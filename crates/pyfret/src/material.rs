@@ -4,6 +4,7 @@ use contact_core::scene as core;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::arguments::number;
 use crate::error::{must_be, takes, to_python};
 use crate::parts::parts;
 use crate::quantity::{Given, known};
@@ -66,7 +67,7 @@ impl Elastic {
     )]
     fn new(
         #[pyo3(from_py_with = Given::E)] E: f64,
-        nu: f64,
+        #[pyo3(from_py_with = number)] nu: f64,
         plastic: Option<Plastic>,
         unknown: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
@@ -145,7 +146,11 @@ takes!(
 impl Plastic {
     #[new]
     #[pyo3(signature = (*, s_y, hardening = 0.0, kinematic = 0.0))]
-    fn new(s_y: f64, hardening: f64, kinematic: f64) -> PyResult<Self> {
+    fn new(
+        #[pyo3(from_py_with = number)] s_y: f64,
+        #[pyo3(from_py_with = number)] hardening: f64,
+        #[pyo3(from_py_with = number)] kinematic: f64,
+    ) -> PyResult<Self> {
         let law = core::Plastic {
             s_y,
             hardening,
@@ -210,7 +215,10 @@ takes!(Bond, "a bond, such as Bond(normal=1e-17, shear=1e-16)");
 impl Bond {
     #[new]
     #[pyo3(signature = (*, normal = 0.0, shear = 0.0))]
-    fn new(normal: f64, shear: f64) -> PyResult<Self> {
+    fn new(
+        #[pyo3(from_py_with = number)] normal: f64,
+        #[pyo3(from_py_with = number)] shear: f64,
+    ) -> PyResult<Self> {
         let bond = core::Bond { normal, shear };
         bond.check("bond").map_err(to_python)?;
         Ok(Self(bond))
@@ -219,7 +227,10 @@ impl Bond {
     /// The bond that a thin layer of a material makes: h (1 - 2 nu)/(2 G (1 - nu)) and h/G.
     #[staticmethod]
     #[pyo3(signature = (material, *, thickness))]
-    fn of_layer(material: Elastic, thickness: f64) -> PyResult<Self> {
+    fn of_layer(
+        material: Elastic,
+        #[pyo3(from_py_with = number)] thickness: f64,
+    ) -> PyResult<Self> {
         let bond = core::Bond::of_layer(material.0, thickness);
         bond.check("bond").map_err(to_python)?;
         Ok(Self(bond))

@@ -5,6 +5,7 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString};
 
+use crate::arguments::number;
 use crate::document::quantity;
 
 /// The number in SI of a quantity that has this name in a scene file.
@@ -14,7 +15,7 @@ fn si(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     } else if value.hasattr("magnitude")? && value.hasattr("units")? {
         quantity(value)?
     } else {
-        return value.extract();
+        return number(value);
     };
     in_si(name, &text)
         .map_err(|allowed| PyValueError::new_err(format!("{text:?}: must be {allowed}")))

@@ -14,6 +14,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde_json::Value;
 
+use crate::arguments::number;
 use crate::error::to_python;
 use crate::interruptible::interruptible;
 use crate::scene::Scene;
@@ -116,7 +117,7 @@ pub(crate) fn solve(
     py: Python<'_>,
     scene: Scene,
     store: PathBuf,
-    checkpoint: f64,
+    #[pyo3(from_py_with = number)] checkpoint: f64,
     overwrite: bool,
     error: bool,
     on_increment: Option<Py<PyAny>>,
@@ -177,7 +178,7 @@ pub(crate) fn verify(py: Python<'_>, store: PathBuf) -> PyResult<String> {
 pub(crate) fn resume(
     py: Python<'_>,
     store: PathBuf,
-    checkpoint: f64,
+    #[pyo3(from_py_with = number)] checkpoint: f64,
     friction_law: Option<&Bound<'_, PyAny>>,
     on_increment: Option<Py<PyAny>>,
 ) -> PyResult<()> {

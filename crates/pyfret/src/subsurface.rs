@@ -15,7 +15,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::argument::to_python;
-use crate::arguments::{Array, Field, List, Mask, side};
+use crate::arguments::{Array, Field, List, Mask, number, side};
 use crate::interruptible::interruptible;
 use crate::scene::{Body, Grid};
 
@@ -48,7 +48,11 @@ pub(crate) fn name_of(line: Line) -> LineName {
 
 /// x, y and azimuth of the line through a point at an angle; along an axis x or y alone.
 #[pyfunction]
-pub(crate) fn line_through(x: f64, y: f64, azimuth: f64) -> LineName {
+pub(crate) fn line_through(
+    #[pyo3(from_py_with = number)] x: f64,
+    #[pyo3(from_py_with = number)] y: f64,
+    #[pyo3(from_py_with = number)] azimuth: f64,
+) -> LineName {
     name_of(Line::through((x, y), azimuth))
 }
 
@@ -57,9 +61,9 @@ pub(crate) fn line_through(x: f64, y: f64, azimuth: f64) -> LineName {
 #[pyo3(signature = (grid, *, x = None, y = None, azimuth = None))]
 pub(crate) fn line_places(
     grid: Grid,
-    x: Option<f64>,
-    y: Option<f64>,
-    azimuth: Option<f64>,
+    #[pyo3(from_py_with = number)] x: Option<f64>,
+    #[pyo3(from_py_with = number)] y: Option<f64>,
+    #[pyo3(from_py_with = number)] azimuth: Option<f64>,
 ) -> PyResult<(Vec<f64>, Vec<(f64, f64)>)> {
     let line = line(x, y, azimuth)?;
     let places = line.places(&grid.0);
@@ -82,9 +86,9 @@ pub(crate) fn depths(body: Body, z: List<f64>) -> PyResult<(Vec<f64>, Vec<usize>
 #[pyo3(signature = (body, *, a, deepest, finer = 1.0))]
 pub(crate) fn chosen_depths(
     body: Body,
-    a: f64,
-    deepest: f64,
-    finer: f64,
+    #[pyo3(from_py_with = number)] a: f64,
+    #[pyo3(from_py_with = number)] deepest: f64,
+    #[pyo3(from_py_with = number)] finer: f64,
 ) -> PyResult<(Vec<f64>, Vec<usize>)> {
     let depths = core::chosen_depths(&body.0, a, deepest, finer).map_err(to_python)?;
     Ok(depths.iter().map(|d| (d.z, d.layer)).unzip())
@@ -109,10 +113,10 @@ pub(crate) fn section_of_states<'py>(
     stick: Mask<'_, Ix3>,
     sigma_B: List<f64>,
     residual: Option<List<f64>>,
-    x: Option<f64>,
-    y: Option<f64>,
-    azimuth: Option<f64>,
-    body_number: u8,
+    #[pyo3(from_py_with = number)] x: Option<f64>,
+    #[pyo3(from_py_with = number)] y: Option<f64>,
+    #[pyo3(from_py_with = number)] azimuth: Option<f64>,
+    #[pyo3(from_py_with = number)] body_number: u8,
 ) -> PyResult<Bound<'py, PyArray4<f64>>> {
     let shape = (sigma_B.len(), grid.0.nx, grid.0.ny);
     for (name, found) in [
@@ -265,8 +269,8 @@ impl Subsurface {
         p: Option<Field<'_>>,
         q_x: Option<Field<'_>>,
         q_y: Option<Field<'_>>,
-        body_number: u8,
-        sigma_B: f64,
+        #[pyo3(from_py_with = number)] body_number: u8,
+        #[pyo3(from_py_with = number)] sigma_B: f64,
         residual: Option<List<f64>>,
         rim: bool,
         stick: Option<Mask<'_, Ix2>>,
@@ -306,9 +310,9 @@ impl Subsurface {
         py: Python<'py>,
         z: List<f64>,
         layer: List<usize>,
-        x: Option<f64>,
-        y: Option<f64>,
-        azimuth: Option<f64>,
+        #[pyo3(from_py_with = number)] x: Option<f64>,
+        #[pyo3(from_py_with = number)] y: Option<f64>,
+        #[pyo3(from_py_with = number)] azimuth: Option<f64>,
         displacement: bool,
     ) -> PyResult<Bound<'py, PyArray3<f64>>> {
         let (depths, line) = (Self::depths(&z, &layer)?, line(x, y, azimuth)?);
@@ -331,8 +335,8 @@ impl Subsurface {
     fn slice<'py>(
         &self,
         py: Python<'py>,
-        z: f64,
-        layer: usize,
+        #[pyo3(from_py_with = number)] z: f64,
+        #[pyo3(from_py_with = number)] layer: usize,
         displacement: bool,
     ) -> PyResult<Vec<Bound<'py, PyArray2<f64>>>> {
         let stop = Arc::default();
@@ -391,12 +395,12 @@ impl Subsurface {
         samples: Field<'_>,
         z: List<f64>,
         layer: List<usize>,
-        x: Option<f64>,
-        y: Option<f64>,
-        azimuth: Option<f64>,
-        only: Option<usize>,
+        #[pyo3(from_py_with = number)] x: Option<f64>,
+        #[pyo3(from_py_with = number)] y: Option<f64>,
+        #[pyo3(from_py_with = number)] azimuth: Option<f64>,
+        #[pyo3(from_py_with = number)] only: Option<usize>,
         anywhere: bool,
-        error_bars: Option<(f64, f64)>,
+        #[pyo3(from_py_with = number)] error_bars: Option<(f64, f64)>,
     ) -> PyResult<(Option<Found>, Vec<usize>)> {
         let (depths, line) = (Self::depths(&z, &layer)?, line(x, y, azimuth)?);
         let grid = &self.grid.0;
@@ -453,9 +457,9 @@ impl Subsurface {
     #[pyo3(signature = (*, x = None, y = None, azimuth = None))]
     fn borders(
         &self,
-        x: Option<f64>,
-        y: Option<f64>,
-        azimuth: Option<f64>,
+        #[pyo3(from_py_with = number)] x: Option<f64>,
+        #[pyo3(from_py_with = number)] y: Option<f64>,
+        #[pyo3(from_py_with = number)] azimuth: Option<f64>,
     ) -> PyResult<Vec<(f64, f64, &'static str, bool)>> {
         let along = match (x, y) {
             (None, None) => None,

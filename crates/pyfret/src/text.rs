@@ -7,6 +7,7 @@ use contact_core::{Error, digits};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
+use crate::arguments::number;
 use crate::error::to_python;
 
 /// The text of a file of numbers, in UTF-8, UTF-16 or Latin-1.
@@ -38,12 +39,19 @@ pub(crate) fn shown(text: &str) -> String {
 /// A number and its error, with the digits that the error leaves; without an error an estimate.
 #[pyfunction]
 #[pyo3(signature = (value, error = None))]
-pub(crate) fn with_error(value: f64, error: Option<f64>) -> String {
+pub(crate) fn with_error(
+    #[pyo3(from_py_with = number)] value: f64,
+    #[pyo3(from_py_with = number)] error: Option<f64>,
+) -> String {
     digits::with_error(value, error)
 }
 
 /// A number and the range that it lies in, with the digits that the range leaves.
 #[pyfunction]
-pub(crate) fn with_range(value: f64, low: f64, high: f64) -> String {
+pub(crate) fn with_range(
+    #[pyo3(from_py_with = number)] value: f64,
+    #[pyo3(from_py_with = number)] low: f64,
+    #[pyo3(from_py_with = number)] high: f64,
+) -> String {
     digits::with_range(value, [low, high])
 }

@@ -34,6 +34,8 @@ __all__ = ["COMPONENTS", "Histories", "histories", "number", "plain", "together"
 COMPONENTS = ("s_xx", "s_yy", "s_zz", "s_xy", "s_xz", "s_yz")
 #: Names of the axis of a history along which time passes.
 TIMES = ("increment", "time", "t", "instant", "saved", "saved_increment", "moment", "load_step")
+#: Axes of a field on the grid, in the order of arrays without labels.
+PLANE = ("x", "y")
 #: Kinds of numpy's types that are numbers: integers and floating point.
 NUMBERS = "iuf"
 
@@ -49,9 +51,13 @@ def number(value: object, name: str) -> float:
 def plain(values: ArrayLike, name: str, *, holes: bool = False) -> NDArray[np.float64]:
     """The numbers of an array, by the rules of this module.
 
-    `name` is that of the argument. With `holes` missing values are allowed and are NaN.
+    `name` is that of the argument. With `holes` missing values are allowed and are NaN. A field
+    with the labels x and y has the shape (x, y), both axes ascending.
     """
-    if labels(values) and np.ndim(values) > 1:
+    if sorted(map(str, labels(values))) == list(PLANE):
+        ordered: Any = values
+        values = ordered.transpose(*PLANE).sortby([a for a in PLANE if a in ordered.coords])
+    elif labels(values) and np.ndim(values) > 1:
         raise TypeError(
             f"{name} has the axes {', '.join(map(str, labels(values)))}, whose order is not known "
             f"here: put the axes in order and give {name}.values"

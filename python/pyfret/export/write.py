@@ -5,8 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
-import numpy as np
-
 from pyfret.export.images import image
 from pyfret.export.nodes import loads
 from pyfret.export.tables import stress, tractions
@@ -51,7 +49,7 @@ def write(
     if mesh is not None and points is not None:
         raise ValueError("give mesh, for forces on its nodes, or points, for the stress there")
     if points is not None:
-        stress(state, np.asarray(points, float), path, frame=frame, body_number=body_number)
+        stress(state, points, path, frame=frame, body_number=body_number)
     elif mesh is not None:
         loads(state, mesh, path, frame=frame, body_number=body_number)
     elif Path(path).suffix == ".vti":

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal, get_args
 import numpy as np
 
 from pyfret._core import Material
+from pyfret._util.arrays import number
 from pyfret._util.lazy import xr
 from pyfret.fatigue.cycle_section import body_of, over_cycle, placed
 from pyfret.fatigue.fields import described
@@ -96,7 +97,7 @@ def average(
     of_layer = each[there]
     if of_layer is None:
         raise ValueError(f"layer = {there}: has no material")
-    L = critical_distance(of_layer) if L is None else float(L)
+    L = critical_distance(of_layer) if L is None else number(L, "L")
     if not (L > 0.0 and np.isfinite(L)):
         raise ValueError(f"L = {L}: must be a positive length in m")
     if method not in get_args(Averaging):

@@ -41,6 +41,8 @@ UNITS: dict[str, tuple[str, float]] = {
     "MPa": ("pressure", 1e6),
     "GPa": ("pressure", 1e9),
 }
+#: A unit of each kind that a column is asked for, as an example.
+USUAL = {"length": "um", "force": "N"}
 #: A unit at the end of a head: ``[um]``, ``(um)``, ``/ um`` or ``_um``.
 UNIT = re.compile(r"^(.*?)\s*(?:\[([^\]]*)\]|\(([^)]*)\)|/\s*(\S+)|_([^_\s]+))\s*$")
 #: Lines from which what parts the columns is found.
@@ -64,7 +66,15 @@ class Table:
                 raise ValueError(
                     f"{self.place}: has no column {given!r}, but {', '.join(self.names)}"
                 )
-            return self.names.index(given)
+            at = self.names.index(given)
+            if not self.units[at] or UNITS[self.units[at]][0] != kind:
+                told = f"[{self.units[at]}]" if self.units[at] else "without a unit"
+                raise ValueError(
+                    f"{self.place}: column {given!r} {told}: must have a unit of {kind}; write it "
+                    f"into the head, as in {given} [{USUAL[kind]}], or give "
+                    f'units={{"{given}": "{USUAL[kind]}"}}'
+                )
+            return at
         of_kind = [n for n, unit in enumerate(self.units) if UNITS.get(unit, ("", 0))[0] == kind]
         if len(of_kind) > 1:
             named = [n for n in of_kind if self.names[n].lower().startswith(names)]

@@ -13,6 +13,7 @@ from pyfret.fatigue.section import Section
 from pyfret.fracture.below import Cycle, crack
 from pyfret.fracture.film import channel_release
 from pyfret.fracture.interface import over_cycle
+from pyfret.scene.warnings import doubt_numbers
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -100,6 +101,7 @@ def first_to_fail(
     if toughness is not None:
         if not (toughness > 0.0 and np.isfinite(toughness)):
             raise ValueError(f"toughness = {toughness}: must be positive, in J/m^2")
+        doubt_numbers("toughness", toughness=toughness)
         coating = body.coatings[0]
         below = body.coatings[1].material if len(body.coatings) > 1 else body.substrate
         # The surface, and both sides of the first interface: the upper one is the film's.

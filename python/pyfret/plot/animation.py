@@ -9,6 +9,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.animation import FFMpegWriter, FuncAnimation, PillowWriter
 
+from pyfret._util.arrays import plain
 from pyfret.plot.histories import fretting_loop, loop_point
 from pyfret.plot.maps import shear_streamlines, stick_slip
 from pyfret.plot.style import styled
@@ -59,7 +60,9 @@ def animate(
         raise ValueError(f"{place}: must end in {' or '.join(WRITERS)}")
     if place.suffix == ".mp4" and not FFMpegWriter.isAvailable():
         raise ValueError(f"{place}: films as .mp4 need the program ffmpeg; .gif needs none")
-    kept = result.dataset.saved_increment.values if increments is None else np.asarray(increments)
+    kept = result.dataset.saved_increment.values
+    if increments is not None:
+        kept = plain(increments, "increments").astype(np.int64)
     if kept.size < 2:
         raise ValueError(
             f"{kept.size} increment kept its fields: a film needs more, solve(..., save='all')"

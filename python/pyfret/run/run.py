@@ -136,7 +136,7 @@ class Run(OfRun):
 
     def _kept(self, which: float) -> tuple[xr.Dataset, Scene]:
         """The fields and scalars of an increment of :meth:`at`, and the scene."""
-        if not isinstance(which, numbers.Real):
+        if isinstance(which, bool) or not isinstance(which, numbers.Real):
             raise TypeError(
                 f"{which!r}: must be an increment, such as 5, or -1 for the last that kept its "
                 "fields, or a path time, such as 1.0"

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
+
+from pyfret import _core
 
 if TYPE_CHECKING:
     from pyfret._core import Grid, Scene
 
-__all__ = ["SceneWarning", "doubt_layers", "doubt_run", "doubt_scene"]
+__all__ = ["SceneWarning", "doubt_layers", "doubt_numbers", "doubt_run", "doubt_scene"]
 
 
 class SceneWarning(UserWarning):
@@ -25,6 +28,20 @@ def doubt_run(doubts: list[str]) -> None:
     """Warn of what a run has come to."""
     for doubt in doubts:
         warnings.warn(doubt, SceneWarning, stacklevel=3)
+
+
+def doubt_numbers(
+    quantity: str, /, *, stacklevel: int = 3, **numbers: float | Sequence[float] | None
+) -> None:
+    """Warn of numbers of a quantity, by their names, that are hardly meant: another unit.
+
+    Sequences are looked at one by one, None and missing ones are left out.
+    """
+    for name, given in numbers.items():
+        for value in () if given is None else given if isinstance(given, Sequence) else (given,):
+            doubt = _core.doubt(quantity, name, value)
+            if doubt is not None:
+                warnings.warn(doubt, SceneWarning, stacklevel=stacklevel)
 
 
 def doubt_layers(interfaces: list[float], grid: Grid) -> None:

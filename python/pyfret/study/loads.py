@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pyfret._core import LoadPath, Scene
-from pyfret._util.arrays import plain
+from pyfret._util.arrays import number, plain
 from pyfret._util.lazy import xr
 from pyfret.study.loop import solve
 
@@ -194,7 +194,8 @@ def arrest_map(
         "sigma_B": np.atleast_1d(plain(sigma_B, "sigma_B")),
     }
     measures: list[Measure] = [arrest, *([cracking] if cracking else [])]
-    template = BulkCycle(scene, float(W), bulk_ratio, increments)
+    pressed = number(W, "W")
+    template = BulkCycle(scene, pressed, bulk_ratio, increments)
     found = solve(
         template, loads, measure=measures, executor=executor, progress=False, on_point=on_point
     )
@@ -206,7 +207,7 @@ def arrest_map(
     unit = scene.grid.unit_of("N")
     table["T"] = table["T"].assign_attrs(units=unit, long_name="amplitude of the force")
     table["sigma_B"] = table["sigma_B"].assign_attrs(units="Pa", long_name=BULK)
-    return table.assign_attrs({"title": scene.title, "mu": scene.mu, "W": float(W)})
+    return table.assign_attrs({"title": scene.title, "mu": scene.mu, "W": pressed})
 
 
 def labelled(found: xr.Dataset, scene: Scene, driven: str) -> xr.Dataset:

@@ -205,7 +205,15 @@ pub(super) fn within_tolerance(
         let direction = r.direction.powi(2) * slipping as f64;
         mu.max(1.0) * ((stick + direction) / contact.max(1) as f64).sqrt()
     };
-    let lengths = r.gap.max(r.penetration).max(slips);
+    // `f64::max` passes over what is not a number.
+    let is_known = [r.gap, r.penetration, slips, increment.energy.work]
+        .iter()
+        .all(|x| x.is_finite());
+    let lengths = if is_known {
+        r.gap.max(r.penetration).max(slips)
+    } else {
+        f64::NAN
+    };
     let tolerance = scene.tolerance();
     let (residual, allowed) = if !(lengths <= tolerance * (1.0 + ROUNDING)) {
         (lengths * approach, tolerance * approach)

@@ -8,7 +8,7 @@ use super::setup::{Failure, Setup, Solution, Solver, Workspace, count};
 use super::{Increment, State, accounts, check, entry, friction, guess};
 use crate::error::Error;
 use crate::scene::{History, LoadPoint};
-use crate::solvers::Response;
+use crate::solvers::{Interface, Response};
 
 /// Computes the increment to a point and makes it the present state, which after a failure is as
 /// before.
@@ -118,10 +118,7 @@ fn with_its_friction<'a>(
             mu_before: &ws.mu_before,
             ..*given
         };
-        let (now, info) = match guess.take() {
-            None => solve(&setup, &mut solver, extrapolates)?,
-            Some(now) => entry::solve(&setup, &mut solver, now)?,
-        };
+        let (now, info) = solve(&setup, &mut solver, guess.take(), extrapolates)?;
         if !follows || corrections == friction::CORRECTIONS {
             return Ok((now, info));
         }
@@ -170,16 +167,18 @@ fn rolls_off(
     .into()
 }
 
-/// The solution from a first guess; without tractions if nothing presses the bodies together.
+/// The solution from a guess, the first one if none is given; without tractions if nothing presses the
+/// bodies together.
 fn solve(
     setup: &Setup<'_>,
     solver: &mut Solver<'_>,
+    guess: Option<Interface>,
     extrapolates: bool,
 ) -> Result<Solution, Error> {
     // A path without any approach never presses, even if a moment could tilt one body against the
     // other.
     if setup.drives.press() && setup.problem.approach > 0.0 {
-        let guess = guess::first_guess(setup, extrapolates);
+        let guess = guess.unwrap_or_else(|| guess::first_guess(setup, extrapolates));
         return entry::solve(setup, solver, guess);
     }
     let scene = &setup.problem.scene;

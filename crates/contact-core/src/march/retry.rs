@@ -24,6 +24,8 @@ const HALVINGS: u32 = 5;
 /// Most convolutions for an increment, all tries together. Usual increments take a few, those at
 /// the limits of friction and coupling some thousand.
 pub(super) const CONVOLUTIONS: usize = 10_000;
+/// mu times the coupling above which it is named as the cause of a failure.
+const STRONG: f64 = 0.5;
 
 /// The increment to `point`, in one piece if it converges, else in several; a failure leaves the
 /// state unchanged.
@@ -77,10 +79,19 @@ pub(super) fn why(problem: &Problem, domain: &Domain) -> String {
         parts.push("; friction without a limit holds cells that shear would lift: a finite mu lets them slip".to_owned());
     } else if problem.plan.coupling && friction.mu > 0.0 {
         let product = friction.mu * coupling(&problem.scene);
-        parts.push(format!(
-            "; mu times the coupling of the bodies, Dundurs' beta where they have no coatings, is {product:.2}: the larger it is, \
-             the less a solution is certain"
-        ));
+        if product > STRONG {
+            parts.push(format!(
+                "; mu times the coupling of the bodies, Dundurs' beta where they have no coatings, is {product:.2}: above \
+                 {STRONG} a solution is not certain"
+            ));
+        }
+    }
+    if friction.varies() {
+        parts.push(
+            "; the coefficient of friction follows the history of the cells: where it falls faster than the contact gives \
+             way, cells slip at once and no increment is small enough"
+                .to_owned(),
+        );
     }
     parts.concat()
 }

@@ -3,6 +3,8 @@
 //! Everything is compared with something else of the scene, never with what is usual, so that a
 //! scene in units of its own is a scene like any other.
 
+use plausible::{UNITS, doubt, quantity};
+
 use super::shape::Shape;
 use super::{Body, Coating, Elastic, Grid, Prescribed, RigidMotion, Scene, SurfaceMap};
 use crate::error::Error;
@@ -12,16 +14,10 @@ use crate::hertz::Hertz;
 pub(crate) const LARGE_STRAIN: f64 = 0.1;
 /// Contact radius over the radius of the bodies beyond which they are no half-spaces.
 const WIDE: f64 = 0.1;
-/// Young's modulus below that of any solid \[Pa\].
-const LIQUID: f64 = 1e3;
 /// Young's moduli below those of rubber, which in MPa are those of all solids \[Pa\]; and lengths
 /// that then are hardly in metres: of a grid, of a radius \[m\].
 const GEL: f64 = 2e6;
 const LONG: [f64; 2] = [0.05, 0.5];
-/// Radii above this are probably not in metres \[m\].
-const LARGE_RADIUS: f64 = 1.0;
-/// Friction coefficients above this are probably percentages.
-const ROUGHEST: f64 = 3.0;
 /// Thickness over contact radius above which the substrate of a coating hardly matters.
 const THICK: f64 = 1000.0;
 /// Root-mean-square slope of a measured surface above which its heights are probably not in metres.
@@ -30,9 +26,6 @@ const STEEP: f64 = 0.5;
 const COARSE_MAP: f64 = 2.0;
 /// Part of the Hertz radius that a contact reaches for certain.
 const CERTAIN: f64 = 0.97;
-
-pub(super) const UNITS: &str =
-    "lengths are in m, moduli in Pa, forces in N: 3 um is 3e-6, 114 GPa is 114e9";
 
 impl Scene {
     /// Fails at impossible values: an approach beyond the radius, heights beyond the length of
@@ -183,32 +176,23 @@ impl Scene {
             let all = layers.chain([(format!("{key}.E"), body.substrate.E)]);
             for (name, E) in all.filter(|(_, E)| E.is_finite()) {
                 stiffest = stiffest.max(E);
-                if E < LIQUID {
-                    doubts.push(format!(
-                        "{name} = {E:.3e} Pa is less than that of the softest gel: {UNITS}"
-                    ));
-                }
+                doubts.extend(doubt("modulus", &name, E));
             }
             for R in radii(&body.shape) {
                 radius = radius.max(R);
-                if R >= LARGE_RADIUS {
-                    doubts.push(format!("{key}.shape.R = {R} m is large: {UNITS}"));
-                }
+                doubts.extend(doubt("radius", &format!("{key}.shape.R"), R));
             }
         }
         let (extent, _) = self.grid.extent();
-        if (LIQUID..GEL).contains(&stiffest) && (extent > LONG[0] || radius > LONG[1]) {
+        if (quantity("modulus").least..GEL).contains(&stiffest)
+            && (extent > LONG[0] || radius > LONG[1])
+        {
             doubts.push(format!(
                 "moduli of at most {stiffest:.3e} Pa, those of gels, on a grid {extent:.3e} m long: numbers in mm, N and MPa \
                  are taken as m, N and Pa, and results carry these units; {UNITS}"
             ));
         }
-        let mu = self.friction.mu;
-        if mu.is_finite() && mu > ROUGHEST {
-            doubts.push(format!(
-                "friction.mu = {mu} is more than surfaces have: it is a number, not per cent: 30 % is 0.3"
-            ));
-        }
+        doubts.extend(doubt("friction", "friction.mu", self.friction.mu));
         doubts
     }
 
@@ -283,6 +267,7 @@ impl Scene {
                 ("sigma_B1", branch.to.sigma_B1, &self.body1),
             ];
             for (name, sigma_B, body) in bulk {
+                doubts.extend(doubt("bulk stress", &format!("path[{i}].{name}"), sigma_B));
                 let [strain, _] = body.bulk_strain(sigma_B, self.grid.plane_strain);
                 if strain.abs() > LARGE_STRAIN {
                     doubts.push(format!(

@@ -3,7 +3,9 @@
 //! With one cell across the radius of a contact pressure and energy are off by half and more, with
 //! two by some 10 %, with eight by some per cent.
 
-use super::doubts::{UNITS, softest};
+use plausible::UNITS;
+
+use super::doubts::softest;
 use super::{Grid, Scene};
 use crate::error::Error;
 use crate::hertz::hertz_ellipse;

@@ -10,6 +10,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use super::below::{Below, depths_of, place};
+use crate::arguments::number;
 use crate::fatigue::{AT_POINT, Assessment};
 
 /// What a criterion found on a section.
@@ -56,7 +57,11 @@ impl CriterionBelow {
     }
 
     /// The worst point of a layer, None where it is not judged.
-    fn worst<'py>(&self, py: Python<'py>, layer: usize) -> PyResult<Option<Bound<'py, PyDict>>> {
+    fn worst<'py>(
+        &self,
+        py: Python<'py>,
+        #[pyo3(from_py_with = number)] layer: usize,
+    ) -> PyResult<Option<Bound<'py, PyDict>>> {
         let worst = self.below.at(py, true, |site| {
             core::worst(site, &self.judged, &self.of, layer)
         })?;

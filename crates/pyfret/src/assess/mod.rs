@@ -20,7 +20,7 @@ use self::criterion::arrays;
 use self::given::Given;
 pub(crate) use self::yielding::YieldBelow;
 use crate::argument::to_python;
-use crate::arguments::{List, side};
+use crate::arguments::{List, number, side};
 use crate::fatigue::Material;
 use crate::scene::{Body, Grid};
 use crate::subsurface::{Subsurface, line};
@@ -43,11 +43,11 @@ impl CycleSection {
         body: Body,
         grid: Grid,
         moments: Py<PyAny>,
-        count: usize,
-        x: Option<f64>,
-        y: Option<f64>,
-        azimuth: Option<f64>,
-        body_number: u8,
+        #[pyo3(from_py_with = number)] count: usize,
+        #[pyo3(from_py_with = number)] x: Option<f64>,
+        #[pyo3(from_py_with = number)] y: Option<f64>,
+        #[pyo3(from_py_with = number)] azimuth: Option<f64>,
+        #[pyo3(from_py_with = number)] body_number: u8,
         residual: Option<List<f64>>,
     ) -> PyResult<Self> {
         let residual = residual_of_layers(&body.0, &residual.unwrap_or_default());
@@ -84,7 +84,7 @@ impl CycleSection {
         layer: List<usize>,
         materials: List<Option<Material>>,
         criteria: List<String>,
-        tolerance: f64,
+        #[pyo3(from_py_with = number)] tolerance: f64,
     ) -> PyResult<Vec<CriterionBelow>> {
         let depths = Subsurface::depths(&z, &layer)?;
         let named = |name: &String| criterion_of(&self.below, &materials, name, tolerance);
@@ -129,12 +129,12 @@ impl CycleSection {
     fn mean<'py>(
         &self,
         py: Python<'py>,
-        L: f64,
+        #[pyo3(from_py_with = number)] L: f64,
         method: &str,
-        layer: usize,
+        #[pyo3(from_py_with = number)] layer: usize,
         materials: List<Option<Material>>,
         criterion: &str,
-        tolerance: f64,
+        #[pyo3(from_py_with = number)] tolerance: f64,
     ) -> PyResult<Bound<'py, PyDict>> {
         let named = Averaging::ALL.iter().find(|(name, _)| *name == method);
         let Some((_, method)) = named else {

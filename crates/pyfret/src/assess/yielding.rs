@@ -8,6 +8,8 @@ use ndarray::Array2;
 use numpy::IntoPyArray;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+
+use crate::arguments::number;
 use pyo3::types::PyDict;
 
 use super::below::{Below, depths_of, place};
@@ -57,7 +59,7 @@ impl YieldBelow {
     fn least<'py>(
         &self,
         py: Python<'py>,
-        layer: usize,
+        #[pyo3(from_py_with = number)] layer: usize,
         factor: &str,
     ) -> PyResult<Option<Bound<'py, PyDict>>> {
         let named = FACTORS.iter().find(|(name, _)| *name == factor);

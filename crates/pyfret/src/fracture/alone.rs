@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use super::told::{named, refused, set_path};
-use crate::arguments::{Array, List};
+use crate::arguments::{Array, List, number};
 use crate::error::to_python;
 use crate::parts::parts;
 
@@ -80,7 +80,7 @@ impl Crack {
 
     #[new]
     #[pyo3(signature = (*, legs, x = 0.0))]
-    fn new(legs: List<(f64, f64)>, x: f64) -> PyResult<Self> {
+    fn new(legs: List<(f64, f64)>, #[pyo3(from_py_with = number)] x: f64) -> PyResult<Self> {
         let path = of_cracks::Path::kinked(x, &legs);
         of_cracks::Crack::new(path).map(Self).map_err(refused)
     }
@@ -132,7 +132,7 @@ impl Crack {
         &self,
         py: Python<'py>,
         stress: Array<'_, Ix3>,
-        friction: Option<f64>,
+        #[pyo3(from_py_with = number)] friction: Option<f64>,
     ) -> PyResult<Bound<'py, PyDict>> {
         let history = history(stress, self.0.points().len())?;
         let start = of_cracks::Faces::new(&self.0, friction.unwrap_or(0.0)).map_err(refused)?;
@@ -191,10 +191,10 @@ impl Crack {
         &self,
         py: Python<'py>,
         stress: &Bound<'py, PyAny>,
-        end: f64,
+        #[pyo3(from_py_with = number)] end: f64,
         direction: &str,
-        friction: f64,
-        tolerance: f64,
+        #[pyo3(from_py_with = number)] friction: f64,
+        #[pyo3(from_py_with = number)] tolerance: f64,
     ) -> PyResult<Bound<'py, PyDict>> {
         let growing = of_cracks::Growing {
             direction: core::direction_named(direction).map_err(to_python)?,

@@ -13,7 +13,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use super::told::{named, set_path};
-use crate::arguments::{Array, List, Mask, side};
+use crate::arguments::{Array, List, Mask, number, side};
 use crate::error::to_python;
 use crate::interruptible::interruptible;
 use crate::scene::{Body, Grid};
@@ -107,13 +107,13 @@ pub(crate) fn crack_of_states<'py>(
     body: Body,
     grid: Grid,
     states: ContactStates<'_>,
-    x: f64,
+    #[pyo3(from_py_with = number)] x: f64,
     lengths: List<f64>,
-    angle: f64,
-    kink: Option<(f64, f64)>,
-    azimuth: f64,
-    friction: f64,
-    body_number: u8,
+    #[pyo3(from_py_with = number)] angle: f64,
+    #[pyo3(from_py_with = number)] kink: Option<(f64, f64)>,
+    #[pyo3(from_py_with = number)] azimuth: f64,
+    #[pyo3(from_py_with = number)] friction: f64,
+    #[pyo3(from_py_with = number)] body_number: u8,
 ) -> PyResult<Bound<'py, PyDict>> {
     let cracks = core::Cracks {
         x,
@@ -137,15 +137,15 @@ pub(crate) fn crack_growth_of_states<'py>(
     body: Body,
     grid: Grid,
     states: ContactStates<'_>,
-    x: f64,
-    start: f64,
-    end: f64,
+    #[pyo3(from_py_with = number)] x: f64,
+    #[pyo3(from_py_with = number)] start: f64,
+    #[pyo3(from_py_with = number)] end: f64,
     direction: &str,
-    tolerance: f64,
-    angle: f64,
-    azimuth: f64,
-    friction: f64,
-    body_number: u8,
+    #[pyo3(from_py_with = number)] tolerance: f64,
+    #[pyo3(from_py_with = number)] angle: f64,
+    #[pyo3(from_py_with = number)] azimuth: f64,
+    #[pyo3(from_py_with = number)] friction: f64,
+    #[pyo3(from_py_with = number)] body_number: u8,
 ) -> PyResult<Bound<'py, PyDict>> {
     let growth = core::Growth {
         x,

@@ -4,6 +4,7 @@ use ::fracture as of_cracks;
 use pyo3::prelude::*;
 
 use super::told::refused;
+use crate::arguments::number;
 use crate::material::Elastic;
 
 /// Factor from the plane K to the deepest point of a semi-elliptic crack of the aspect a/c <= 1.
@@ -11,7 +12,7 @@ use crate::material::Elastic;
 /// Newman and Raju's K under uniform tension over that of a straight front: an estimate, which
 /// takes the stress as constant along the front. J. C. Newman, I. S. Raju, NASA TM 85793 (1984).
 #[pyfunction]
-pub(crate) fn ellipse_factor(aspect: f64) -> PyResult<f64> {
+pub(crate) fn ellipse_factor(#[pyo3(from_py_with = number)] aspect: f64) -> PyResult<f64> {
     of_cracks::ellipse_factor(aspect).map_err(refused)
 }
 
@@ -34,7 +35,7 @@ pub(crate) fn partial_crack(
     py: Python<'_>,
     film_: Elastic,
     below: Elastic,
-    depth: f64,
+    #[pyo3(from_py_with = number)] depth: f64,
 ) -> PyResult<f64> {
     let film = film(film_, below)?;
     py.detach(|| film.partial(depth)).map_err(refused)

@@ -5,7 +5,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use super::told::refused;
-use crate::arguments::List;
+use crate::arguments::{List, number};
 
 /// A curve of K over lengths [m] from the largest and smallest K_I of the cycle [Pa m^0.5].
 fn curve(lengths: List<f64>, K_max: List<f64>, K_min: List<f64>) -> PyResult<of_cracks::Curve> {
@@ -41,7 +41,10 @@ fn threshold((dK_th, dS_0, Y, walker, table): Numbers) -> PyResult<of_cracks::Th
 
 /// Threshold range of K at R = 0 [Pa m^0.5] at lengths [m], and El Haddad's a_0 [m].
 #[pyfunction]
-pub(crate) fn threshold_at(threshold_: Numbers, lengths: List<f64>) -> PyResult<(Vec<f64>, f64)> {
+pub(crate) fn threshold_at(
+    #[pyo3(from_py_with = number)] threshold_: Numbers,
+    lengths: List<f64>,
+) -> PyResult<(Vec<f64>, f64)> {
     let of = threshold(threshold_)?;
     Ok((lengths.iter().map(|l| of.at(*l)).collect(), of.a_0()))
 }
@@ -49,7 +52,7 @@ pub(crate) fn threshold_at(threshold_: Numbers, lengths: List<f64>) -> PyResult<
 /// Equivalent range of K at R = 0 [Pa m^0.5] of extremes of K.
 #[pyfunction]
 pub(crate) fn equivalent_range(
-    threshold_: Numbers,
+    #[pyo3(from_py_with = number)] threshold_: Numbers,
     K_max: List<f64>,
     K_min: List<f64>,
 ) -> PyResult<Vec<f64>> {
@@ -68,8 +71,8 @@ pub(crate) fn arrest(
     lengths: List<f64>,
     K_max: List<f64>,
     K_min: List<f64>,
-    threshold_: Numbers,
-    start: f64,
+    #[pyo3(from_py_with = number)] threshold_: Numbers,
+    #[pyo3(from_py_with = number)] start: f64,
 ) -> PyResult<Arrested> {
     let found = curve(lengths, K_max, K_min)?
         .arrest(&threshold(threshold_)?, start)
@@ -95,13 +98,13 @@ pub(crate) fn crack_life(
     lengths: List<f64>,
     K_max: List<f64>,
     K_min: List<f64>,
-    threshold_: Numbers,
-    C: f64,
-    m: f64,
+    #[pyo3(from_py_with = number)] threshold_: Numbers,
+    #[pyo3(from_py_with = number)] C: f64,
+    #[pyo3(from_py_with = number)] m: f64,
     growth: &str,
     short: bool,
-    start: f64,
-    end: f64,
+    #[pyo3(from_py_with = number)] start: f64,
+    #[pyo3(from_py_with = number)] end: f64,
 ) -> PyResult<(f64, f64, bool)> {
     let growth = match growth {
         "plain" => of_cracks::Growth::Plain,

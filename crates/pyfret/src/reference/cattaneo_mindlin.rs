@@ -8,6 +8,7 @@ use pyo3::prelude::*;
 
 use super::{Hertz, Numbers, map, map_checked, pair};
 use crate::argument::to_python;
+use crate::arguments::number;
 use crate::material::{Elastic, Material};
 use crate::parts::made;
 
@@ -40,7 +41,11 @@ made!(CattaneoMindlin by "CattaneoMindlin": hertz, bodies, mu);
 impl CattaneoMindlin {
     #[new]
     #[pyo3(signature = (hertz, *, bodies, mu))]
-    fn new(hertz: Hertz, bodies: (Material, Material), mu: f64) -> PyResult<Self> {
+    fn new(
+        hertz: Hertz,
+        bodies: (Material, Material),
+        #[pyo3(from_py_with = number)] mu: f64,
+    ) -> PyResult<Self> {
         let (body1, body2) = pair(bodies)?;
         positive("mu", mu).map_err(to_python)?;
         Ok(Self {
@@ -81,7 +86,7 @@ impl CattaneoMindlin {
 
     /// Stick radius of the first loading to `T` [N], a (1 - T/(mu W))^(1/3) [m].
     #[pyo3(signature = (T))]
-    fn stick_radius(&self, T: f64) -> PyResult<f64> {
+    fn stick_radius(&self, #[pyo3(from_py_with = number)] T: f64) -> PyResult<f64> {
         self.check(&[("T", T)])?;
         Ok(self.slip.stick_radius(T))
     }
@@ -90,7 +95,11 @@ impl CattaneoMindlin {
     ///
     /// a [1 - abs(T_m - T)/(2 mu W)]^(1/3)
     #[pyo3(signature = (T, *, T_m))]
-    fn stick_radius_reversed(&self, T: f64, T_m: f64) -> PyResult<f64> {
+    fn stick_radius_reversed(
+        &self,
+        #[pyo3(from_py_with = number)] T: f64,
+        #[pyo3(from_py_with = number)] T_m: f64,
+    ) -> PyResult<f64> {
         self.check(&[("T", T), ("T_m", T_m)])?;
         Ok(self.slip.stick_radius_reversed(T, T_m))
     }
@@ -101,7 +110,7 @@ impl CattaneoMindlin {
         &self,
         py: Python<'py>,
         r: Numbers<'py>,
-        T: f64,
+        #[pyo3(from_py_with = number)] T: f64,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         self.check(&[("T", T)])?;
         Ok(map(py, &r, |r| self.slip.q_loading(r, T)))
@@ -113,8 +122,8 @@ impl CattaneoMindlin {
         &self,
         py: Python<'py>,
         r: Numbers<'py>,
-        T: f64,
-        T_m: f64,
+        #[pyo3(from_py_with = number)] T: f64,
+        #[pyo3(from_py_with = number)] T_m: f64,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         self.check(&[("T", T), ("T_m", T_m)])?;
         Ok(map(py, &r, |r| self.slip.q_unloading(r, T, T_m)))
@@ -126,8 +135,8 @@ impl CattaneoMindlin {
         &self,
         py: Python<'py>,
         r: Numbers<'py>,
-        T: f64,
-        T_m: f64,
+        #[pyo3(from_py_with = number)] T: f64,
+        #[pyo3(from_py_with = number)] T_m: f64,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         self.check(&[("T", T), ("T_m", T_m)])?;
         Ok(map(py, &r, |r| self.slip.q_reloading(r, T, T_m)))
@@ -153,7 +162,7 @@ impl CattaneoMindlin {
         &self,
         py: Python<'py>,
         T: Numbers<'py>,
-        T_m: f64,
+        #[pyo3(from_py_with = number)] T_m: f64,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         self.check(&[("T_m", T_m)])?;
         let shift = |T| self.slip.shift_unloading(T, T_m);
@@ -166,7 +175,7 @@ impl CattaneoMindlin {
         &self,
         py: Python<'py>,
         T: Numbers<'py>,
-        T_m: f64,
+        #[pyo3(from_py_with = number)] T_m: f64,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         self.check(&[("T_m", T_m)])?;
         let shift = |T| self.slip.shift_reloading(T, T_m);
@@ -174,13 +183,13 @@ impl CattaneoMindlin {
     }
 
     /// Energy dissipated in one closed loop between -`T_m` and `T_m` [J].
-    fn loop_energy(&self, T_m: f64) -> PyResult<f64> {
+    fn loop_energy(&self, #[pyo3(from_py_with = number)] T_m: f64) -> PyResult<f64> {
         self.check(&[("T_m", T_m)])?;
         Ok(self.slip.loop_energy(T_m))
     }
 
     /// Loop energy over 4 T_m delta_x(T_m); 0.2 where partial slip ends.
-    fn energy_ratio(&self, T_m: f64) -> PyResult<f64> {
+    fn energy_ratio(&self, #[pyo3(from_py_with = number)] T_m: f64) -> PyResult<f64> {
         self.check(&[("T_m", T_m)])?;
         Ok(self.slip.energy_ratio(T_m))
     }

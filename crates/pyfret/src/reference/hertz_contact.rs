@@ -7,6 +7,7 @@ use pyo3::prelude::*;
 
 use super::{Numbers, map, pair};
 use crate::argument::to_python;
+use crate::arguments::number;
 use crate::material::Material;
 use crate::parts::made;
 
@@ -36,7 +37,13 @@ made!(Hertz by "Hertz": W, E_star, a, p0, delta_z);
 impl Hertz {
     #[new]
     #[pyo3(signature = (*, W, E_star, a, p0, delta_z))]
-    fn new(W: f64, E_star: f64, a: f64, p0: f64, delta_z: f64) -> PyResult<Self> {
+    fn new(
+        #[pyo3(from_py_with = number)] W: f64,
+        #[pyo3(from_py_with = number)] E_star: f64,
+        #[pyo3(from_py_with = number)] a: f64,
+        #[pyo3(from_py_with = number)] p0: f64,
+        #[pyo3(from_py_with = number)] delta_z: f64,
+    ) -> PyResult<Self> {
         let all = [
             ("W", W),
             ("E_star", E_star),
@@ -95,7 +102,11 @@ impl Hertz {
 /// Hertz contact of a sphere of relative radius `R` [m] under the force `W` [N].
 #[pyfunction]
 #[pyo3(signature = (*, R, bodies, W))]
-pub(crate) fn hertz(R: f64, bodies: (Material, Material), W: f64) -> PyResult<Hertz> {
+pub(crate) fn hertz(
+    #[pyo3(from_py_with = number)] R: f64,
+    bodies: (Material, Material),
+    #[pyo3(from_py_with = number)] W: f64,
+) -> PyResult<Hertz> {
     let (body1, body2) = pair(bodies)?;
     positive("R", R).and(positive("W", W)).map_err(to_python)?;
     Ok(Hertz(core::hertz(R, body1, body2, W)))
@@ -159,7 +170,12 @@ impl HertzEllipse {
 /// 1/R_x is the sum of both bodies' curvatures along x; `E_star` [Pa], `W` [N].
 #[pyfunction]
 #[pyo3(signature = (*, R_x, R_y, E_star, W))]
-pub(crate) fn hertz_ellipse(R_x: f64, R_y: f64, E_star: f64, W: f64) -> PyResult<HertzEllipse> {
+pub(crate) fn hertz_ellipse(
+    #[pyo3(from_py_with = number)] R_x: f64,
+    #[pyo3(from_py_with = number)] R_y: f64,
+    #[pyo3(from_py_with = number)] E_star: f64,
+    #[pyo3(from_py_with = number)] W: f64,
+) -> PyResult<HertzEllipse> {
     for (key, value) in [("R_x", R_x), ("R_y", R_y), ("E_star", E_star), ("W", W)] {
         positive(key, value).map_err(to_python)?;
     }

@@ -7,6 +7,7 @@ use pyo3::prelude::*;
 
 use super::{Numbers, checked};
 use crate::argument::to_python;
+use crate::arguments::number;
 use crate::parts::made;
 
 /// Farthest place over the radius of the loaded circle.
@@ -29,7 +30,10 @@ made!(HertzStress by "HertzStress": a, nu);
 impl HertzStress {
     #[new]
     #[pyo3(signature = (*, a, nu))]
-    fn new(a: f64, nu: f64) -> PyResult<Self> {
+    fn new(
+        #[pyo3(from_py_with = number)] a: f64,
+        #[pyo3(from_py_with = number)] nu: f64,
+    ) -> PyResult<Self> {
         positive("a", a)
             .and(between("nu", nu, (-1.0, 0.5)))
             .map_err(to_python)?;
@@ -53,8 +57,8 @@ impl HertzStress {
         &self,
         py: Python<'py>,
         x: Numbers<'py>,
-        y: f64,
-        z: f64,
+        #[pyo3(from_py_with = number)] y: f64,
+        #[pyo3(from_py_with = number)] z: f64,
     ) -> PyResult<[Bound<'py, PyArrayDyn<f64>>; 6]> {
         self.check(&x, y, z)?;
         let x = x.as_array();
@@ -67,8 +71,8 @@ impl HertzStress {
         &self,
         py: Python<'py>,
         x: Numbers<'py>,
-        y: f64,
-        z: f64,
+        #[pyo3(from_py_with = number)] y: f64,
+        #[pyo3(from_py_with = number)] z: f64,
     ) -> PyResult<[Bound<'py, PyArrayDyn<f64>>; 6]> {
         self.check(&x, y, z)?;
         let x = x.as_array();

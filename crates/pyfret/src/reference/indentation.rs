@@ -7,6 +7,7 @@ use pyo3::prelude::*;
 
 use super::{Numbers, map, pair};
 use crate::argument::to_python;
+use crate::arguments::number;
 use crate::material::{Coating, Elastic, Material};
 use crate::parts::made;
 
@@ -25,7 +26,10 @@ pub(crate) fn dundurs_beta(body1: Material, body2: Material) -> PyResult<f64> {
 /// pressure is neglected.
 #[pyfunction]
 #[pyo3(signature = (*, beta, mu))]
-pub(crate) fn goodman_stick_ratio(beta: f64, mu: f64) -> PyResult<f64> {
+pub(crate) fn goodman_stick_ratio(
+    #[pyo3(from_py_with = number)] beta: f64,
+    #[pyo3(from_py_with = number)] mu: f64,
+) -> PyResult<f64> {
     check(beta, mu)?;
     Ok(core::goodman_stick_ratio(beta, mu))
 }
@@ -83,7 +87,10 @@ impl CoupledIndentation {
 /// its shape.
 #[pyfunction]
 #[pyo3(signature = (*, beta, mu))]
-pub(crate) fn coupled_indentation(beta: f64, mu: f64) -> PyResult<CoupledIndentation> {
+pub(crate) fn coupled_indentation(
+    #[pyo3(from_py_with = number)] beta: f64,
+    #[pyo3(from_py_with = number)] mu: f64,
+) -> PyResult<CoupledIndentation> {
     check(beta, mu)?;
     let found = core::coupled_indentation(beta, mu);
     Ok(CoupledIndentation { found, beta, mu })
@@ -136,11 +143,11 @@ impl CoatedIndentation {
 #[pyfunction]
 #[pyo3(signature = (*, R, indenter, coating, substrate, W))]
 pub(crate) fn coated_indentation(
-    R: f64,
+    #[pyo3(from_py_with = number)] R: f64,
     indenter: Material,
     coating: Coating,
     substrate: Material,
-    W: f64,
+    #[pyo3(from_py_with = number)] W: f64,
 ) -> PyResult<CoatedIndentation> {
     positive("R", R).and(positive("W", W)).map_err(to_python)?;
     pair((indenter, Material(coating.0.material)))?;

@@ -8,6 +8,7 @@ use pyo3::prelude::*;
 
 use super::{Hertz, Numbers, map, map_checked, pair};
 use crate::argument::to_python;
+use crate::arguments::number;
 use crate::material::{Elastic, Material};
 use crate::parts::made;
 
@@ -37,7 +38,11 @@ made!(Lubkin by "Lubkin": hertz, bodies, mu);
 impl Lubkin {
     #[new]
     #[pyo3(signature = (hertz, *, bodies, mu))]
-    fn new(hertz: Hertz, bodies: (Material, Material), mu: f64) -> PyResult<Self> {
+    fn new(
+        hertz: Hertz,
+        bodies: (Material, Material),
+        #[pyo3(from_py_with = number)] mu: f64,
+    ) -> PyResult<Self> {
         let (body1, body2) = pair(bodies)?;
         positive("mu", mu).map_err(to_python)?;
         Ok(Self {
@@ -83,7 +88,7 @@ impl Lubkin {
 
     /// Stick radius under the moment `M_z` [N m] [m].
     #[pyo3(signature = (*, M_z))]
-    fn stick_radius(&self, M_z: f64) -> PyResult<f64> {
+    fn stick_radius(&self, #[pyo3(from_py_with = number)] M_z: f64) -> PyResult<f64> {
         let limit = self.torsion.M_limit() * (1.0 + 1e-9);
         between("M_z", M_z, (0.0, limit)).map_err(to_python)?;
         Ok(self.torsion.stick_radius(M_z))
@@ -95,7 +100,7 @@ impl Lubkin {
         &self,
         py: Python<'py>,
         r: Numbers<'py>,
-        c: f64,
+        #[pyo3(from_py_with = number)] c: f64,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         self.radius(c).map_err(to_python)?;
         Ok(map(py, &r, |r| self.torsion.q(r, c)))

@@ -7,6 +7,7 @@ use pyo3::prelude::*;
 
 use super::{Numbers, checked, map, pair};
 use crate::argument::to_python;
+use crate::arguments::number;
 use crate::material::{Elastic, Material};
 use crate::parts::made;
 
@@ -33,7 +34,11 @@ made!(LineContact by "line_contact": R, bodies, W);
 /// Line contact of cylinders of relative radius `R` [m] under `W` [N/m].
 #[pyfunction]
 #[pyo3(signature = (*, R, bodies, W))]
-pub(crate) fn line_contact(R: f64, bodies: (Material, Material), W: f64) -> PyResult<LineContact> {
+pub(crate) fn line_contact(
+    #[pyo3(from_py_with = number)] R: f64,
+    bodies: (Material, Material),
+    #[pyo3(from_py_with = number)] W: f64,
+) -> PyResult<LineContact> {
     let (body1, body2) = pair(bodies)?;
     positive("R", R).and(positive("W", W)).map_err(to_python)?;
     let E_star = core::hertz(R, body1, body2, 1.0).E_star;
@@ -72,7 +77,11 @@ impl LineContact {
 
     /// Half-width of the stick zone under `T` [N/m] [m].
     #[pyo3(signature = (*, T, mu))]
-    fn stick_half_width(&self, T: f64, mu: f64) -> PyResult<f64> {
+    fn stick_half_width(
+        &self,
+        #[pyo3(from_py_with = number)] T: f64,
+        #[pyo3(from_py_with = number)] mu: f64,
+    ) -> PyResult<f64> {
         self.check(T, mu)?;
         Ok(self.line.stick_half_width(T, mu))
     }
@@ -81,7 +90,11 @@ impl LineContact {
     ///
     /// The strain is brought up together with T > 0.
     #[pyo3(signature = (*, eps_x, mu))]
-    fn stick_middle(&self, eps_x: f64, mu: f64) -> PyResult<f64> {
+    fn stick_middle(
+        &self,
+        #[pyo3(from_py_with = number)] eps_x: f64,
+        #[pyo3(from_py_with = number)] mu: f64,
+    ) -> PyResult<f64> {
         let strain = between("eps_x", eps_x, (-1.0, 1.0));
         strain.and(positive("mu", mu)).map_err(to_python)?;
         Ok(self.line.stick_middle(eps_x, self.E_star, mu))
@@ -95,9 +108,9 @@ impl LineContact {
         &self,
         py: Python<'py>,
         x: Numbers<'py>,
-        T: f64,
-        mu: f64,
-        middle: f64,
+        #[pyo3(from_py_with = number)] T: f64,
+        #[pyo3(from_py_with = number)] mu: f64,
+        #[pyo3(from_py_with = number)] middle: f64,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         self.check(T, mu)?;
         between("middle", middle, (-self.line.a, self.line.a)).map_err(to_python)?;
@@ -110,9 +123,9 @@ impl LineContact {
         &self,
         py: Python<'py>,
         x: Numbers<'py>,
-        z: f64,
-        T: f64,
-        mu: f64,
+        #[pyo3(from_py_with = number)] z: f64,
+        #[pyo3(from_py_with = number)] T: f64,
+        #[pyo3(from_py_with = number)] mu: f64,
     ) -> PyResult<[Bound<'py, PyArrayDyn<f64>>; 3]> {
         self.check(T, mu)?;
         let far = FAR * self.line.a;

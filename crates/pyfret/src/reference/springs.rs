@@ -6,6 +6,7 @@ use pyo3::prelude::*;
 
 use super::{Hertz, pair};
 use crate::argument::to_python;
+use crate::arguments::number;
 use crate::material::{Elastic, Material};
 use crate::parts::made;
 
@@ -61,10 +62,10 @@ impl Springs {
     #[pyo3(signature = (largest, *, R, bodies, mu, n = 1500, loads = Vec::new()))]
     fn new(
         largest: Hertz,
-        R: f64,
+        #[pyo3(from_py_with = number)] R: f64,
         bodies: (Material, Material),
-        mu: f64,
-        n: usize,
+        #[pyo3(from_py_with = number)] mu: f64,
+        #[pyo3(from_py_with = number)] n: usize,
         loads: Vec<(f64, f64, usize)>,
     ) -> PyResult<Self> {
         let (body1, body2) = pair(bodies)?;
@@ -89,7 +90,12 @@ impl Springs {
 
     /// Go straight to the forces `W`, `T` [N] in `steps` steps; the shift delta_x [m].
     #[pyo3(signature = (*, W, T, steps = 10))]
-    fn load(&mut self, W: f64, T: f64, steps: usize) -> PyResult<f64> {
+    fn load(
+        &mut self,
+        #[pyo3(from_py_with = number)] W: f64,
+        #[pyo3(from_py_with = number)] T: f64,
+        #[pyo3(from_py_with = number)] steps: usize,
+    ) -> PyResult<f64> {
         // Rounding is no reason to refuse the largest forces.
         let most = |limit: f64| limit * (1.0 + 1e-9);
         between("W", W, (0.0, most(self.largest.0.W))).map_err(to_python)?;

@@ -4,6 +4,7 @@ use contact_core::scene::{self as core, Prescribed, RigidMotion};
 use pyo3::prelude::*;
 
 use super::increments::Count;
+use crate::arguments::number;
 use crate::parts::{members, parts};
 
 /// How the increments of a branch are spaced.
@@ -101,25 +102,25 @@ impl Branch {
         path_error = None,
     ))]
     fn new(
-        W: Option<f64>,
-        M_x: Option<f64>,
-        M_y: Option<f64>,
-        T_x: Option<f64>,
-        T_y: Option<f64>,
-        M_z: Option<f64>,
-        delta_z: Option<f64>,
-        phi_x: Option<f64>,
-        phi_y: Option<f64>,
-        delta_x: Option<f64>,
-        delta_y: Option<f64>,
-        phi_z: Option<f64>,
-        sigma_B: f64,
-        sigma_B1: f64,
-        rolled: f64,
+        #[pyo3(from_py_with = number)] W: Option<f64>,
+        #[pyo3(from_py_with = number)] M_x: Option<f64>,
+        #[pyo3(from_py_with = number)] M_y: Option<f64>,
+        #[pyo3(from_py_with = number)] T_x: Option<f64>,
+        #[pyo3(from_py_with = number)] T_y: Option<f64>,
+        #[pyo3(from_py_with = number)] M_z: Option<f64>,
+        #[pyo3(from_py_with = number)] delta_z: Option<f64>,
+        #[pyo3(from_py_with = number)] phi_x: Option<f64>,
+        #[pyo3(from_py_with = number)] phi_y: Option<f64>,
+        #[pyo3(from_py_with = number)] delta_x: Option<f64>,
+        #[pyo3(from_py_with = number)] delta_y: Option<f64>,
+        #[pyo3(from_py_with = number)] phi_z: Option<f64>,
+        #[pyo3(from_py_with = number)] sigma_B: f64,
+        #[pyo3(from_py_with = number)] sigma_B1: f64,
+        #[pyo3(from_py_with = number)] rolled: f64,
         increments: Option<Count>,
         spacing: Spacing,
-        t: f64,
-        path_error: Option<f64>,
+        #[pyo3(from_py_with = number)] t: f64,
+        #[pyo3(from_py_with = number)] path_error: Option<f64>,
     ) -> Self {
         let mut to = core::Loads {
             sigma_B,

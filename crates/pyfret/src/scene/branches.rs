@@ -101,6 +101,7 @@ pub(super) fn cycled(
     } else {
         Prescribed::Load
     };
+    core::LoadPath::check_branches(n.saturating_mul(2)).map_err(to_python)?;
     let values = core::LoadPath::cycle(amplitude.value(), n);
     Ok(path.clone().through(of, kind, &values, increments))
 }

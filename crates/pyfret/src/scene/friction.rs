@@ -5,7 +5,7 @@ use pyo3::prelude::*;
 
 use super::SurfaceMap;
 use super::friction_law::{function, own_law};
-use crate::arguments::List;
+use crate::arguments::{List, number};
 use crate::error::{must_be, to_python};
 use crate::parts::{members, parts};
 
@@ -89,9 +89,9 @@ impl Friction {
     #[new]
     #[pyo3(signature = (mu, *, mu_y = None, kinetic = None, map = None, history = None, law = None))]
     fn new(
-        mu: f64,
-        mu_y: Option<f64>,
-        kinetic: Option<f64>,
+        #[pyo3(from_py_with = number)] mu: f64,
+        #[pyo3(from_py_with = number)] mu_y: Option<f64>,
+        #[pyo3(from_py_with = number)] kinetic: Option<f64>,
         map: Option<SurfaceMap>,
         history: Option<(History, List<(f64, f64)>)>,
         law: Option<&Bound<'_, PyAny>>,
@@ -178,7 +178,7 @@ impl<'py> FromPyObject<'_, 'py> for AnyFriction {
         let sticks = value.extract::<&str>().is_ok_and(|word| word == "stick");
         let mu = if sticks {
             f64::INFINITY
-        } else if let Ok(mu) = value.extract() {
+        } else if let Ok(mu) = number(&value) {
             mu
         } else {
             let wanted = "a coefficient, such as 0.3, a law, such as Friction(0.3, kinetic=0.25) or Friction(0.3, law=function), or \"stick\" \

@@ -4,6 +4,7 @@ use contact_core::scene as core;
 use numpy::{PyArray1, ToPyArray};
 use pyo3::prelude::*;
 
+use crate::arguments::number;
 use crate::error::{must_be, takes, to_python};
 use crate::parts::parts;
 
@@ -14,12 +15,11 @@ impl<'py> FromPyObject<'_, 'py> for Pitch {
     type Error = PyErr;
 
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        if let Ok(both) = value.extract::<f64>() {
+        if let Ok(both) = number(&value) {
             return Ok(Self((both, both)));
         }
         let wanted = "a length in m, or one along x and one along y, such as (2e-6, 2e-6)";
-        value
-            .extract()
+        number(&value)
             .map(Self)
             .map_err(|_| must_be(&value, wanted))
     }
@@ -32,12 +32,11 @@ impl<'py> FromPyObject<'_, 'py> for Cells {
     type Error = PyErr;
 
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        if let Ok(both) = value.extract::<usize>() {
+        if let Ok(both) = number(&value) {
             return Ok(Self((both, both)));
         }
         let wanted = "a whole number of cells, or one along x and one along y, such as (128, 128)";
-        value
-            .extract()
+        number(&value)
             .map(Self)
             .map_err(|_| must_be(&value, wanted))
     }
@@ -50,7 +49,7 @@ impl<'py> FromPyObject<'_, 'py> for Count {
     type Error = PyErr;
 
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        let count = value.extract().map(Self);
+        let count = number(&value).map(Self);
         count.map_err(|_| must_be(&value, "a whole number of cells >= 1, such as 128"))
     }
 }
@@ -79,7 +78,13 @@ takes!(Grid, "a grid, such as Grid.centred(extent=1e-3, n=128)");
 impl Grid {
     #[new]
     #[pyo3(signature = (*, nx, ny, dx, dy, plane_strain = false))]
-    fn new(nx: Count, ny: Count, dx: f64, dy: f64, plane_strain: bool) -> PyResult<Self> {
+    fn new(
+        nx: Count,
+        ny: Count,
+        #[pyo3(from_py_with = number)] dx: f64,
+        #[pyo3(from_py_with = number)] dy: f64,
+        plane_strain: bool,
+    ) -> PyResult<Self> {
         let grid = core::Grid {
             nx: nx.0,
             ny: ny.0,
@@ -114,7 +119,11 @@ impl Grid {
     /// relative to the points at the distance `extent` from a load.
     #[staticmethod]
     #[pyo3(signature = (*, extent, n, width = 1.0))]
-    fn strip(extent: f64, n: Count, width: f64) -> PyResult<Self> {
+    fn strip(
+        #[pyo3(from_py_with = number)] extent: f64,
+        n: Count,
+        #[pyo3(from_py_with = number)] width: f64,
+    ) -> PyResult<Self> {
         core::Grid::strip(extent, n.0, width)
             .map(Self)
             .map_err(to_python)

@@ -3,7 +3,7 @@
 use contact_core::scene as core;
 use pyo3::prelude::*;
 
-use crate::arguments::List;
+use crate::arguments::{List, number};
 use crate::error::must_be;
 use crate::parts::parts;
 
@@ -17,7 +17,7 @@ impl<'py> FromPyObject<'_, 'py> for Values {
     type Error = PyErr;
 
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        if let Ok(one) = value.extract::<f64>() {
+        if let Ok(one) = number(&value) {
             return Ok(Self::One(one));
         }
         let wanted = "a number, or several to visit in turn, such as [100.0, -100.0, 100.0]";
@@ -65,7 +65,7 @@ parts!(PerRange: increments);
 #[pymethods]
 impl PerRange {
     #[new]
-    fn new(increments: usize) -> Self {
+    fn new(#[pyo3(from_py_with = number)] increments: usize) -> Self {
         Self(increments)
     }
 
@@ -91,7 +91,7 @@ impl<'py> FromPyObject<'_, 'py> for Count {
             return Ok(Self(None));
         }
         let wanted = "a whole number of increments >= 1, or \"auto\"";
-        let given = value.extract().ok().filter(|&n: &usize| n >= 1);
+        let given = number(&value).ok().filter(|&n: &usize| n >= 1);
         given
             .map(|n| Self(Some(n)))
             .ok_or_else(|| must_be(&value, wanted))
@@ -116,8 +116,7 @@ impl<'py> FromPyObject<'_, 'py> for AnyIncrements {
             return Ok(Self::Chosen);
         }
         let wanted = "a whole number of increments per branch, PerRange(40) or \"auto\"";
-        value
-            .extract()
+        number(&value)
             .map(Self::Each)
             .map_err(|_| must_be(&value, wanted))
     }

@@ -13,7 +13,7 @@ use pyo3::types::PyDict;
 use super::branch::{Branch, Spacing};
 use super::branches::{branch, column, cycled, moved, prescribe};
 use super::increments::{AnyIncrements, Count, Names, Values};
-use crate::arguments::List;
+use crate::arguments::{List, number};
 use crate::error::{takes, to_python};
 use crate::parts::parts;
 use crate::quantity::{Given, Optional, known};
@@ -52,7 +52,10 @@ fn checked(path: core::LoadPath) -> PyResult<LoadPath> {
 impl LoadPath {
     #[new]
     #[pyo3(signature = (branches = List(Vec::new()), *, rig_stiffness = None))]
-    fn new(branches: List<Branch>, rig_stiffness: Option<f64>) -> Self {
+    fn new(
+        branches: List<Branch>,
+        #[pyo3(from_py_with = number)] rig_stiffness: Option<f64>,
+    ) -> Self {
         let branches = branches.0.into_iter().map(|branch| branch.0).collect();
         Self(core::LoadPath {
             branches,
@@ -65,7 +68,7 @@ impl LoadPath {
     /// It is in series with the contact: ``delta_x`` is the shift of the spring's far end, given or
     /// read, and the contact's own shift is ``delta_x - T_x/K``. None takes the spring out.
     #[pyo3(signature = (stiffness))]
-    fn rig(&self, stiffness: Option<f64>) -> Self {
+    fn rig(&self, #[pyo3(from_py_with = number)] stiffness: Option<f64>) -> Self {
         Self(core::LoadPath {
             rig_stiffness: stiffness,
             ..self.0.clone()
@@ -117,7 +120,13 @@ impl LoadPath {
     /// for each turn towards (0, T_y), each a branch of its own; with "auto", 64 branches for each
     /// turn, and as many increments as the path tolerance of the settings asks for.
     #[pyo3(signature = (*, T_x, T_y, turns = 1, increments = Count(None)))]
-    fn ellipse(&self, T_x: f64, T_y: f64, turns: usize, increments: Count) -> PyResult<Self> {
+    fn ellipse(
+        &self,
+        #[pyo3(from_py_with = number)] T_x: f64,
+        #[pyo3(from_py_with = number)] T_y: f64,
+        #[pyo3(from_py_with = number)] turns: usize,
+        increments: Count,
+    ) -> PyResult<Self> {
         core::LoadPath::check_turns(turns, increments.0).map_err(to_python)?;
         Ok(Self(self.0.clone().ellipse(
             (T_x, T_y),
@@ -231,7 +240,7 @@ impl LoadPath {
         #[pyo3(from_py_with = Optional::rolled)] rolled: Option<f64>,
         increments: Count,
         spacing: Spacing,
-        t: Option<f64>,
+        #[pyo3(from_py_with = number)] t: Option<f64>,
     ) -> PyResult<Self> {
         let loads = [W, M_x, M_y, T_x, T_y, M_z].map(|load| load.map(Prescribed::Load));
         let change = |to: &mut core::Loads| {
@@ -280,7 +289,7 @@ impl LoadPath {
         phi_z: Option<Values>,
         increments: Count,
         spacing: Spacing,
-        t: Option<f64>,
+        #[pyo3(from_py_with = number)] t: Option<f64>,
     ) -> PyResult<Self> {
         let motions = [delta_z, phi_x, phi_y, delta_x, delta_y, phi_z];
         moved(&self.0, motions, increments.0, spacing, t).and_then(checked)
@@ -315,7 +324,7 @@ impl LoadPath {
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn cycles(
         &self,
-        n: usize,
+        #[pyo3(from_py_with = number)] n: usize,
         #[pyo3(from_py_with = Optional::T_x)] T_x: Option<f64>,
         #[pyo3(from_py_with = Optional::T_y)] T_y: Option<f64>,
         #[pyo3(from_py_with = Optional::M_z)] M_z: Option<f64>,
@@ -351,7 +360,7 @@ impl LoadPath {
     ///
     /// What friction makes of the history of a cell goes on meanwhile.
     #[pyo3(signature = (*, increments = 1))]
-    fn hold(&self, increments: usize) -> Self {
+    fn hold(&self, #[pyo3(from_py_with = number)] increments: usize) -> Self {
         Self(self.0.clone().hold(increments))
     }
 

@@ -4,7 +4,7 @@ use contact_core::kernels as core;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::arguments::List;
+use crate::arguments::{List, number};
 use crate::error::to_python;
 use crate::material::Coating;
 use crate::parts::{Remade, remade_by_method};
@@ -18,21 +18,28 @@ pub(crate) struct Profile(core::Profile);
 impl Profile {
     /// Return the same value everywhere.
     #[staticmethod]
-    fn constant(value: f64) -> Self {
+    fn constant(#[pyo3(from_py_with = number)] value: f64) -> Self {
         Self(core::Profile::Constant(value))
     }
 
     /// Return top + (bottom - top) s.
     #[staticmethod]
     #[pyo3(signature = (*, top, bottom))]
-    fn linear(top: f64, bottom: f64) -> Self {
+    fn linear(
+        #[pyo3(from_py_with = number)] top: f64,
+        #[pyo3(from_py_with = number)] bottom: f64,
+    ) -> Self {
         Self(core::Profile::Linear { top, bottom })
     }
 
     /// Return top + (bottom - top) s^exponent, with a positive exponent.
     #[staticmethod]
     #[pyo3(signature = (*, top, bottom, exponent))]
-    fn power(top: f64, bottom: f64, exponent: f64) -> Self {
+    fn power(
+        #[pyo3(from_py_with = number)] top: f64,
+        #[pyo3(from_py_with = number)] bottom: f64,
+        #[pyo3(from_py_with = number)] exponent: f64,
+    ) -> Self {
         Self(core::Profile::Power {
             top,
             bottom,
@@ -43,7 +50,10 @@ impl Profile {
     /// Return top (bottom/top)^s, both of one sign.
     #[staticmethod]
     #[pyo3(signature = (*, top, bottom))]
-    fn exponential(top: f64, bottom: f64) -> Self {
+    fn exponential(
+        #[pyo3(from_py_with = number)] top: f64,
+        #[pyo3(from_py_with = number)] bottom: f64,
+    ) -> Self {
         Self(core::Profile::Exponential { top, bottom })
     }
 
@@ -134,8 +144,8 @@ impl Profile {
 pub(crate) fn graded(
     E: Profile,
     nu: Profile,
-    thickness: f64,
-    layers: usize,
+    #[pyo3(from_py_with = number)] thickness: f64,
+    #[pyo3(from_py_with = number)] layers: usize,
 ) -> PyResult<Vec<Coating>> {
     let coating = core::Graded {
         E: E.0,

@@ -10,7 +10,7 @@ use pyo3::types::PyDict;
 
 use super::settings::save_fields;
 use super::{AnyFriction, Body, Friction, Grid, LoadPath, Settings};
-use crate::arguments::{Field, List, side};
+use crate::arguments::{Field, List, number, side};
 use crate::error::{takes, to_python};
 use crate::parts::parts;
 use crate::quantity::known;
@@ -256,7 +256,7 @@ impl Scene {
     /// >>> scene.interfaces()  # doctest: +SKIP
     /// [3e-06, 3.5e-06]
     #[pyo3(signature = (body_number = 2))]
-    fn interfaces(&self, body_number: u8) -> PyResult<Vec<f64>> {
+    fn interfaces(&self, #[pyo3(from_py_with = number)] body_number: u8) -> PyResult<Vec<f64>> {
         Ok(match side(body_number)? {
             Side::Body1 => self.0.body1.interfaces(),
             Side::Body2 => self.0.body2.interfaces(),

@@ -1,8 +1,9 @@
 //! Bodies that touch for the first time in an increment.
 //!
-//! They move rigidly before they touch: the gap h_init closes by delta_z, a cell enters at the part
-//! theta = h_init/delta_z of the increment, and its motion before entry is -theta d(delta). The
-//! shift d(delta) is part of the solution, so that the equations are solved repeatedly.
+//! They move rigidly before they touch: the gap h of a cell, h_init under the tilt of the increment's
+//! end, closes by delta_z. The cell enters at the part theta = h/delta_z of the increment, and its
+//! motion before entry is -theta d(delta). The shift d(delta) is part of the solution, so that the
+//! equations are solved repeatedly.
 
 use super::equations::entered;
 use crate::error::Error;
@@ -24,8 +25,9 @@ pub(super) fn solve_first_contact(
     guess: Interface,
 ) -> Result<Solution, Error> {
     let (h_init, arms) = (&setup.geometry.h_init, &setup.geometry.arms);
-    let lowest = h_init.iter().copied().fold(f64::INFINITY, f64::min);
     let mut assumed = [0.0; 3];
+    let [_, phi_x, phi_y] = setup.drives.normal.given;
+    let mut tilt = [0.0, phi_x, phi_y];
     let mut last: Option<([f64; 3], [f64; 3])> = None;
     let mut work = AlternationInfo::default();
     let mut closed = f64::INFINITY;
@@ -33,9 +35,11 @@ pub(super) fn solve_first_contact(
     let mut round = 0;
     loop {
         round += 1;
+        let gap = |n: usize| h_init[n] - arms.across(tilt, n);
+        let lowest = (0..h_init.len()).map(gap).fold(f64::INFINITY, f64::min);
         let motion = [0, 1].map(|c| {
             let before_entry = |n: usize| {
-                let theta = ((h_init[n] - lowest) / closed).clamp(0.0, 1.0);
+                let theta = ((gap(n) - lowest) / closed).clamp(0.0, 1.0);
                 -theta * arms.in_plane(assumed, n)[c]
             };
             (0..h_init.len()).map(before_entry).collect()
@@ -63,7 +67,9 @@ pub(super) fn solve_first_contact(
         };
         last = Some((assumed, misfit));
         assumed = next;
-        closed = info.approach[0] - lowest;
+        tilt = [0.0, info.approach[1], info.approach[2]];
+        let gap = |n: usize| h_init[n] - arms.across(tilt, n);
+        closed = info.approach[0] - (0..h_init.len()).map(gap).fold(f64::INFINITY, f64::min);
         guess = now;
     }
 }

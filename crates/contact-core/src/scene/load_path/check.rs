@@ -10,6 +10,8 @@ use crate::scene::{Friction, Grid, Prescribed, RigidMotion};
 const MOST_INCREMENTS: usize = 100_000_000;
 /// Memory of a point of the path \[bytes\].
 const POINT: f64 = 256.0;
+/// Memory of a branch while the path is built, its copies included \[bytes\].
+const BRANCH: f64 = 1024.0;
 
 impl LoadPath {
     /// Fails if the path has more increments than can be told apart in memory.
@@ -26,8 +28,13 @@ impl LoadPath {
 
     /// Fails if [`Self::ellipse`] would make more increments than a path may have.
     pub fn check_turns(turns: usize, increments: impl Into<Option<usize>>) -> Result<(), Error> {
-        let all = turns.saturating_mul(increments.into().unwrap_or(CHORDS));
-        Self::start().normal(0.0, all).check_length()
+        Self::check_branches(turns.saturating_mul(increments.into().unwrap_or(CHORDS)))
+    }
+
+    /// Fails if that many branches are more than a path may have, or do not fit into memory.
+    pub fn check_branches(branches: usize) -> Result<(), Error> {
+        Self::start().normal(0.0, branches).check_length()?;
+        fits("the load path", BRANCH * branches as f64)
     }
 
     /// Fails at a load, motion or time that no scene can have: one that is not finite, bodies

@@ -10,7 +10,7 @@ use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 
 use super::super::Pitch;
-use crate::arguments::{Field, with_holes};
+use crate::arguments::Field;
 use crate::error::{must_be, to_python};
 use crate::parts::parts;
 
@@ -41,8 +41,7 @@ impl SurfaceMap {
     #[pyo3(signature = (values, *, spacing, missing = "refuse"))]
     fn new(values: &Bound<'_, PyAny>, spacing: Pitch, missing: &str) -> PyResult<Self> {
         let wanted = "an array of numbers of shape (points along x, points along y)";
-        let numbers = with_holes(values)?;
-        let numbers: Field<'_> = numbers.extract().map_err(|_| must_be(values, wanted))?;
+        let numbers = Field::with_holes(values).map_err(|_| must_be(values, wanted))?;
         let numbers = numbers.as_array().to_owned();
         let map = core::SurfaceMap::new(numbers, spacing.0, word(missing)?);
         said(values.py(), map.map_err(to_python)?)

@@ -3,6 +3,7 @@
 use contact_core::scene as core;
 use pyo3::prelude::*;
 
+use crate::arguments::number;
 use crate::error::to_python;
 use crate::parts::parts;
 
@@ -31,7 +32,13 @@ parts!(Rough: rms, hurst, longest, shortest, seed);
 impl Rough {
     #[new]
     #[pyo3(signature = (*, rms, hurst, longest, shortest, seed = 0))]
-    fn new(rms: f64, hurst: f64, longest: f64, shortest: f64, seed: u32) -> PyResult<Self> {
+    fn new(
+        #[pyo3(from_py_with = number)] rms: f64,
+        #[pyo3(from_py_with = number)] hurst: f64,
+        #[pyo3(from_py_with = number)] longest: f64,
+        #[pyo3(from_py_with = number)] shortest: f64,
+        #[pyo3(from_py_with = number)] seed: u32,
+    ) -> PyResult<Self> {
         let rough = core::Rough {
             rms,
             hurst,

@@ -1,0 +1,32 @@
+//! What a wear coefficient may be a function of.
+
+/// The variable of the factor of a wear coefficient.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Of {
+    /// Cycles done so far, the same for all cells.
+    Cycles,
+    /// Mean pressure of a cell over the way that it slips \[Pa\].
+    Pressure,
+    /// Energy dissipated per area and time: that of a cycle times the frequency \[W/m^2\].
+    PowerDensity,
+    /// Energy dissipated per area so far \[J/m^2\].
+    Energy,
+}
+
+impl Of {
+    /// All of them, with their names in scene files.
+    pub const ALL: [(&'static str, Self); 4] = [
+        ("cycles", Self::Cycles),
+        ("pressure", Self::Pressure),
+        ("power_density", Self::PowerDensity),
+        ("energy", Self::Energy),
+    ];
+
+    /// Its name in scene files.
+    pub fn name(self) -> &'static str {
+        Self::ALL
+            .iter()
+            .find(|(_, of)| *of == self)
+            .map_or("", |(name, _)| name)
+    }
+}

@@ -1,0 +1,56 @@
+"""The binding reads every number of every function through one door."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+#: Types of the binding that hold numbers.
+RAW = re.compile(
+    r"(?:Option<)?(?:f64|usize|u8|u32|u64|i64|\(f64, f64\)|\(usize, usize\)|\[f64; \d\])>?$"
+)
+
+
+def binding() -> list[tuple[str, str, bool]]:
+    """Parameters of raw numbers of the binding, their types, and whether the door reads them."""
+    found = []
+    for file in sorted((ROOT / "crates/pyfret/src").rglob("*.rs")):
+        text = file.read_text()
+        for start in re.finditer(r"#\[pymethods\]\s*impl[^{]*\{|#\[pyfunction", text):
+            end = (
+                closing(text, start.end())
+                if "impl" in start[0]
+                else text.find("{", text.index("fn ", start.end()))
+            )
+            part = text[start.end() : end]
+            for head in re.finditer(r"fn (\w+)(?:<[^(]*>)?\(", part):
+                parameters = part[head.end() : closing(part, head.end(), "()") - 1]
+                if head[1].startswith("__"):
+                    continue
+                for one in re.split(r",\s*(?![^(\[<]*[)\]>])", parameters):
+                    match = re.search(r"(\w+): ([^:]+)$", one.strip())
+                    if match and RAW.match(match[2].strip()):
+                        where = f"{file.stem}.{head[1]}({match[1]})"
+                        found.append((where, match[2], "from_py_with = " in one))
+    return found
+
+
+def closing(text: str, start: int, pair: str = "{}") -> int:
+    """Where the bracket that is open at a place closes."""
+    depth = 1
+    for n in range(start, len(text)):
+        depth += (text[n] == pair[0]) - (text[n] == pair[1])
+        if depth == 0:
+            return n + 1
+    raise ValueError("a bracket that does not close")
+
+
+def test_the_binding_reads_all_its_numbers_by_the_door(
+    record_property: Callable[[str, object], None],
+) -> None:
+    found = binding()
+    record_property("parameters", len(found))
+    assert len(found) > 150
+    assert [where for where, _, by_door in found if not by_door] == []
