@@ -113,6 +113,7 @@ VALUES: list[Any] = [
     fret.fit.Scar.of(TURN, np.cos(TURN), wear={"cycles": 1e3, "body2": LAW}),
     fret.fit.Lives(1e3 * TURN, [{"mu": 0.3}] * TURN.size, {"body2": LAW}),
     fret.fatigue.Range(1e4, 2e4, 4e4),
+    fret.Plastic(s_y=1e9, hardening=1e10),
     fret.fatigue.LifeRange(
         1e4, 2e4, 4e4, fret.fatigue.Range(1e4, 2e4, 4e4), 3.0, None, None, ("a note",)
     ),

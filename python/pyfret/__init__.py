@@ -48,7 +48,6 @@ from pyfret._core import (
     RIGID,
     Body,
     Bond,
-    Branch,
     Coating,
     Cylinder,
     Elastic,
@@ -56,16 +55,19 @@ from pyfret._core import (
     Grid,
     History,
     LoadPath,
-    PerRange,
     Plastic,
     Profile,
     Scene,
-    Spacing,
     Sphere,
     SurfaceMap,
     SurfaceOperator,
     graded,
 )
+
+# Beside the list: parts of a load path that its methods make.
+from pyfret._core import Branch as Branch
+from pyfret._core import PerRange as PerRange
+from pyfret._core import Spacing as Spacing
 from pyfret._core import __version__ as __version__
 from pyfret._util.names import OTHER_NAMES, listing
 from pyfret.citation import cite
@@ -89,7 +91,6 @@ __all__ = [
     "RIGID",
     "Body",
     "Bond",
-    "Branch",
     "Coating",
     "Cylinder",
     "Elastic",
@@ -97,14 +98,12 @@ __all__ = [
     "Grid",
     "History",
     "LoadPath",
-    "PerRange",
     "Plastic",
     "Profile",
     "Result",
     "Scene",
     "Settings",
     "Snapshot",
-    "Spacing",
     "Sphere",
     "SurfaceMap",
     "SurfaceOperator",
