@@ -115,15 +115,15 @@ pub(crate) fn eliminate(
         let (p, q) = (product(m, between[1][0]), product(m, between[1][2]));
         let schur =
             |i: usize, j: usize, of: Square| sum(between[i][j], product(between[i][1], of), -1.0);
-        let (ba, bb) = (schur(2, 0, p), schur(2, 2, q));
-        let d = inverse(sum(bb, stiffness, 1.0));
-        let g = product(d, ba);
+        let (cross, own) = (schur(2, 0, p), schur(2, 2, q));
+        let d = inverse(sum(own, stiffness, 1.0));
+        let g = product(d, cross);
         // Forces under a translation of the whole element: small of order k, so that nothing cancels.
         let of_middle = product(m, moved[1]);
         let [of_upper, of_lower] =
             [0, 2].map(|i| sum(moved[i], product(between[i][1], of_middle), -1.0));
         let carried = product(d, sum(of_lower, stiffness, 1.0));
-        stiffness = sum(of_upper, product(transposed(ba), carried), -1.0);
+        stiffness = sum(of_upper, product(transposed(cross), carried), -1.0);
         let mean = 0.5 * (stiffness[0][1] + stiffness[1][0]);
         stiffness[0][1] = mean;
         stiffness[1][0] = mean;
@@ -131,14 +131,14 @@ pub(crate) fn eliminate(
         let Nodes { between, moved } = out;
         let m_2 = 1.0 / between[1][1];
         let (p_2, q_2) = (m_2 * between[1][0], m_2 * between[1][2]);
-        let (ba, bb) = (
+        let (cross, own) = (
             between[2][0] - between[2][1] * p_2,
             between[2][2] - between[2][1] * q_2,
         );
-        let d_2 = 1.0 / (bb + across);
-        let g_2 = d_2 * ba;
+        let d_2 = 1.0 / (own + across);
+        let g_2 = d_2 * cross;
         let [of_upper, of_lower] = [0, 2].map(|i| moved[i] - between[i][1] * m_2 * moved[1]);
-        across = of_upper - ba * d_2 * (of_lower + across);
+        across = of_upper - cross * d_2 * (of_lower + across);
         each(
             element,
             Reduced::packed(m, p, q, d, g, [m_2, p_2, q_2, d_2, g_2]),
@@ -171,12 +171,12 @@ fn stiffnesses(h: f64, k: f64, [lambda, mu]: [f64; 2]) -> (Nodes<Square>, Nodes<
         for i in 0..3 {
             for j in 0..3 {
                 let (nn, dd) = (weight * k * k * N[i] * N[j], weight * dN[i] * dN[j]);
-                let (nd, dn) = (weight * k * N[i] * dN[j], weight * k * dN[i] * N[j]);
+                let (n_d, d_n) = (weight * k * N[i] * dN[j], weight * k * dN[i] * N[j]);
                 let block: &mut Square = &mut plane.between[i][j];
                 block[0][0] += stiff * nn + mu * dd;
                 block[1][1] += stiff * dd + mu * nn;
-                block[0][1] += lambda * nd - mu * dn;
-                block[1][0] += lambda * dn - mu * nd;
+                block[0][1] += lambda * n_d - mu * d_n;
+                block[1][0] += lambda * d_n - mu * n_d;
                 across.between[i][j] += mu * (nn + dd);
             }
             // The shapes add up to 1, their slopes to 0.

@@ -13,9 +13,10 @@ pub struct Error {
 }
 
 impl Error {
-    pub(crate) fn new(
+    /// A value out of its range.
+    pub fn new(
         key: impl Into<String>,
-        value: impl ToString,
+        value: impl std::fmt::Display,
         allowed: impl Into<String>,
     ) -> Self {
         Self {

@@ -71,11 +71,11 @@ impl Periods {
 
 /// The least n from `least` on that is `times` a product of 3, 5, 7, 11 (and 2 if `times` is even).
 fn smooth(least: usize, times: usize) -> usize {
-    let fits = |n: &usize| {
+    let fits = |n: usize| {
         if n % 2 != (times % 2) {
             return false;
         }
-        let mut left = *n;
+        let mut left = n;
         for factor in [2, 3, 5, 7, 11] {
             while left.is_multiple_of(factor) {
                 left /= factor;
@@ -83,7 +83,11 @@ fn smooth(least: usize, times: usize) -> usize {
         }
         left == 1
     };
-    (least.max(1)..).find(fits).unwrap_or(least)
+    let mut n = least.max(1);
+    while !fits(n) {
+        n += 1;
+    }
+    n
 }
 
 /// Steps of the wave numbers of the fast transforms along (x, y) \[1/m\].
