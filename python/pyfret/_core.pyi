@@ -926,8 +926,10 @@ class Grid:
 
         The contact under the largest normal load of the path, coatings and all, is solved without
         friction on 32 cells a side, roughness left out; the grid is `room` times as long, on rough
-        surfaces 15 % longer. It has as many cells as a smooth contact takes for `error`, and
-        eight in the shortest wave of a rough or wavy surface.
+        surfaces 15 % longer. It has as many cells as a smooth contact takes for `error`, and eight in
+        the shortest wave of a rough, wavy or measured surface. On measured surfaces, on waves and where
+        a body has edges, the number of cells is doubled until area and largest pressure agree to
+        `error`.
 
         Parameters
         ----------
@@ -958,6 +960,12 @@ class Grid:
         ValueError
             Nothing is pressed together, no size was found that fits, as of two flats, or `wear`
             comes without `mu`.
+
+        Warns
+        -----
+        SceneWarning
+            Area or largest pressure still change by more than `error` on 512 x 512 cells, or an
+            outermost coating is thinner than a cell.
 
         Examples
         --------
@@ -2477,7 +2485,7 @@ def cycle_temperature(
 TOO_FEW_INCREMENTS: str
 
 def with_error(value: float, error: float | None = None) -> str:
-    """A number and its error, with the digits that the error leaves; without one an estimate."""
+    """A number and its error, with the digits that the error leaves; without an error an estimate."""
 
 def with_range(value: float, low: float, high: float) -> str:
     """A number and the range that it lies in, with the digits that the range leaves."""
@@ -2844,13 +2852,7 @@ class Material:
     def also(self) -> list[str]:
         """Other names that it is found by."""
     def estimated(self, family: str) -> Material:
-        """The material with the numbers that it lacks, as far as published rules give them.
-
-        `family` is "steel", "aluminium", "titanium" or "nickel". From the tensile strength ``s_u``
-        and ``E`` come a strain-life curve (uniform material law), limits of fatigue, ``k`` of
-        Fatemi and Socie's criterion and a threshold (Murakami's law for steels). The source of each
-        begins with "estimate:". Numbers that are known stay.
-        """
+        """The material with the numbers that it lacks, as far as published rules give them."""
     def is_called(self, name: str) -> bool:
         """Whether a name is one of its own, whatever the case and the marks between its letters."""
     @property
