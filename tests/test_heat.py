@@ -120,7 +120,7 @@ def test_refusals(coated: fret.Result) -> None:
         ValueError, match=r"conductor2 = 1 conductors: must be one for each of the 2"
     ):
         coated.temperature(STEEL, [STEEL], frequency=1.0)
-    bad = Conductor(conductivity=-1.0, heat_capacity=1.0)
+    bad = Conductor(conductivity=-1.0, heat_capacity=3.6e6)
     with pytest.raises(ValueError, match=r"conductor1\[0\].conductivity = -1"):
         coated.temperature(bad, STEEL, frequency=1.0)
     with pytest.raises(ValueError, match="wave = 'square'"):

@@ -39,7 +39,7 @@ PRESSED = fret.LoadPath.start().normal(W, increments=1)
         (lambda: fret.Scene(body1=BALL, body2=FLAT, mu=-0.6, grid=GRID), r"friction.mu = -0.6"),
         (lambda: fret.Sphere(0.0), r"sphere.R = 0: must be a finite radius"),
         (lambda: fret.shapes.Rough(rms=1e-7, hurst=2.0, longest=1e-4, shortest=1e-5), r"hurst = 2"),
-        (lambda: fret.SurfaceMap([[0.0, math.inf]], spacing=1e-6), r"z = inf: must be finite"),
+        (lambda: fret.SurfaceMap([[0.0, math.inf]], spacing=1e-6), r"inf: must be a finite number"),
     ],
 )
 def test_a_constructor_refuses_at_once(make: Callable[[], object], says: str) -> None:

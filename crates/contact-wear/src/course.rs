@@ -60,6 +60,7 @@ pub(super) fn coefficients(
     };
     let course = Course::new(body, cycle, coatings);
     let mut state = State {
+        lost: vec![0.0; cycle.worn.len()],
         worn: cycle.worn.to_vec(),
         energy: cycle.energy.to_vec(),
     };
@@ -74,12 +75,6 @@ pub(super) fn coefficients(
     for (from, to) in course.straight_parts(&state, &first, [cycle.cycles, cycle.cycles + n])? {
         course.go_on(&mut state, from, to)?;
     }
-    let lost: Vec<f64> = state
-        .worn
-        .iter()
-        .zip(cycle.worn)
-        .map(|(end, start)| end - start)
-        .collect();
     let last = course.rate(&state, cycle.cycles + n)?;
     // Where the rate stays the same, the sum of its steps differs from it by rounding.
     let first = per_way(&first, 1.0);
@@ -91,7 +86,11 @@ pub(super) fn coefficients(
         }
     };
     Ok(Coefficients {
-        mean: per_way(&lost, n).into_iter().zip(first).map(same).collect(),
+        mean: per_way(&state.lost, n)
+            .into_iter()
+            .zip(first)
+            .map(same)
+            .collect(),
         end: per_way(&last, 1.0),
     })
 }
@@ -99,6 +98,8 @@ pub(super) fn coefficients(
 /// Depth and energy of every cell.
 #[derive(Clone)]
 struct State {
+    /// Depth since the jump began, which the depth in all does not hold to the last digits \[m\].
+    lost: Vec<f64>,
     /// \[m\]
     worn: Vec<f64>,
     /// \[J/m^2\]
@@ -186,6 +187,7 @@ impl<'a> Course<'a> {
                 .map(|c| self.way(state, c, first[c], left[c]))
                 .collect();
             let at = |part: &dyn Fn(usize) -> f64| State {
+                lost: Vec::new(),
                 worn: (0..cells)
                     .map(|c| ways[c].worn(state, c, part(c)))
                     .collect(),
@@ -216,8 +218,11 @@ impl<'a> Course<'a> {
                 let part = end[c].unwrap_or(1.0);
                 let passed = part * ways[c].cycles;
                 if part == 1.0 && ways[c].ends_at.is_some() && step < STEPS {
-                    state.worn[c] = ways[c].ends_at.unwrap_or_default();
+                    let bottom = ways[c].ends_at.unwrap_or_default();
+                    state.lost[c] += bottom - state.worn[c];
+                    state.worn[c] = bottom;
                 } else {
+                    state.lost[c] += mean[c] * passed;
                     state.worn[c] += mean[c] * passed;
                 }
                 state.energy[c] += self.cycle.dissipated[c] * passed;

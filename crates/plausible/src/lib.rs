@@ -185,12 +185,12 @@ impl Quantity {
         } else {
             format!(" {}", self.unit)
         };
-        (!meant).then(|| {
-            format!(
-                "{key} = {value:?}{unit} is {}: {}",
-                self.outside, self.usual
-            )
-        })
+        let value = if (1e-3..1e6).contains(&size) {
+            value.to_string()
+        } else {
+            format!("{value:e}")
+        };
+        (!meant).then(|| format!("{key} = {value}{unit} is {}: {}", self.outside, self.usual))
     }
 }
 

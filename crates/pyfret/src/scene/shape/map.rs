@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use contact_core::Error;
 use contact_core::scene as core;
 use numpy::{PyArray2, ToPyArray};
-use pyo3::exceptions::PyUserWarning;
+use pyo3::exceptions::{PyTypeError, PyUserWarning};
 use pyo3::prelude::*;
 
 use super::super::Pitch;
@@ -41,7 +41,13 @@ impl SurfaceMap {
     #[pyo3(signature = (values, *, spacing, missing = "refuse"))]
     fn new(values: &Bound<'_, PyAny>, spacing: Pitch, missing: &str) -> PyResult<Self> {
         let wanted = "an array of numbers of shape (points along x, points along y)";
-        let numbers = Field::with_holes(values).map_err(|_| must_be(values, wanted))?;
+        let numbers = Field::with_holes(values).map_err(|error| {
+            if error.is_instance_of::<PyTypeError>(values.py()) {
+                must_be(values, wanted)
+            } else {
+                error
+            }
+        })?;
         let numbers = numbers.as_array().to_owned();
         let map = core::SurfaceMap::new(numbers, spacing.0, word(missing)?);
         said(values.py(), map.map_err(to_python)?)
