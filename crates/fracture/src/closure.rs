@@ -15,7 +15,7 @@ use super::rule::Rule;
 /// Changes of the set of open points, beyond their number, before the search gives up.
 const MOST_CHANGES: usize = 100;
 /// Changes of all points at fault that may leave as many at fault, before one is changed at a time.
-pub(crate) const BLOCKS: usize = 8;
+const BLOCKS: usize = 8;
 /// Values below this part of the largest of their kind count as zero.
 const ZERO: f64 = 1e-12;
 /// Rounding of a sum, over the sum of the sizes of its terms: beside mouth and kinks points are so

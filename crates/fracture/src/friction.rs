@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use ndarray::Array1;
 
 use super::Error;
-use super::closure::{BLOCKS, Contact, Opening, solve};
+use super::closure::{Contact, Opening, solve};
 use super::crack::{Crack, Intensity, k_of_density};
 use super::lu::largest;
 use super::stress::{PlaneStress, tractions};
@@ -19,8 +19,6 @@ const LEAST_CHANGE: f64 = 1e-6;
 /// The same after the last pass, which then counts as an error of K: more points come and go along
 /// kinked cracks.
 const BEARABLE: f64 = 1e-4;
-/// Tractions below this part of the largest of the history count as an unloaded crack.
-const OF_HISTORY: f64 = 1e-4;
 /// Values below this part of the largest of their kind count as zero.
 const ZERO: f64 = 1e-12;
 
@@ -44,8 +42,6 @@ pub struct Faces {
     slip: Array1<f64>,
     /// Slip since the last instant.
     moved: Array1<f64>,
-    /// Largest traction of the history \[Pa\]: what an unloaded crack keeps is rounding of it.
-    most: f64,
     open: Vec<bool>,
     /// Stick, or the sign of the shear traction where slipping.
     moving: Vec<i8>,
@@ -73,7 +69,6 @@ impl Faces {
             friction,
             slip: Array1::zeros(n),
             moved: Array1::zeros(n),
-            most: 0.0,
             open: vec![true; n],
             moving: vec![0; n],
             intensity: Intensity::default(),
@@ -95,7 +90,6 @@ impl Faces {
         let normal: Array1<f64> = tractions.iter().map(|t| t.normal).collect();
         let shear: Array1<f64> = tractions.iter().map(|t| t.shear).collect();
         let mut next = self.clone();
-        next.most = self.most.max(largest(&normal)).max(largest(&shear));
         let change = next.settle(self.crack.contact()?, &normal, &shear)?;
         let root = self.crack.length().sqrt();
         let k = k_of_density() * self.crack.system.rule.tip_leg.sqrt() * root
@@ -112,17 +106,10 @@ impl Faces {
             // borders as unknowns: below 1e-4 of the intensity and of that without contact.
             let sizes = [linear, next.intensity].map(|k| k.K_I.hypot(k.K_II));
             next.intensity.error += 1e-4 * (sizes[0] + sizes[1]);
-            let scale = next.scale(&normal, &shear);
+            let scale = largest(&normal).max(largest(&shear));
             next.intensity.error += change * scale * (PI * self.crack.length()).sqrt();
         }
         Ok(next)
-    }
-
-    /// The traction that changes are compared with \[Pa\].
-    fn scale(&self, normal: &Array1<f64>, shear: &Array1<f64>) -> f64 {
-        largest(normal)
-            .max(largest(shear))
-            .max(OF_HISTORY * self.most)
     }
 
     /// Pressure for known shear, shear for known pressure, until the pressure settles; its last
@@ -138,7 +125,6 @@ impl Faces {
         let mut carried = Array1::zeros(n);
         let mut pressure: Option<Array1<f64>> = None;
         let mut change = f64::INFINITY;
-        let scale = self.scale(normal, shear);
         for pass in 1..=MOST_PASSES {
             let load = normal + &contact.nt.dot(&(&carried - shear));
             let mut open = self.open.clone();
@@ -147,6 +133,7 @@ impl Faces {
             };
             let known = shear + &contact.tn.dot(&opening.gap);
             self.open = open;
+            let scale = largest(normal).max(largest(shear));
             change = pressure.as_ref().map_or(f64::INFINITY, |last| {
                 largest(&(last - &opening.normal)) / scale.max(f64::MIN_POSITIVE)
             });
@@ -178,8 +165,7 @@ impl Faces {
     /// Slip under a known pressure; the shear traction that the faces carry.
     ///
     /// Active set: stuck points beyond Coulomb's bound slip, points that would slip against their
-    /// shear stick; all at once while that lessens their number, else the one nearest to the mouth, as
-    /// in [`Contact::open`]. Points without pressure slip freely.
+    /// shear stick.
     fn stick(
         &mut self,
         contact: &Contact,
@@ -190,14 +176,7 @@ impl Faces {
         let bound = self.opening.normal.mapv(|s| self.friction * (-s).max(0.0));
         let held = known + &contact.tt.dot(before);
         let scale = largest(&held).max(largest(&bound));
-        let is_free = |k: usize| bound[k] <= ZERO * scale;
-        for (k, moving) in self.moving.iter_mut().enumerate() {
-            if *moving == 0 && is_free(k) {
-                *moving = 1;
-            }
-        }
-        let (mut fewest, mut blocks) = (usize::MAX, BLOCKS);
-        for _ in 0..MOST_PASSES + n {
+        for _ in 0..MOST_PASSES {
             let target = |k: usize| {
                 if self.opening.open[k] {
                     0.0
@@ -212,24 +191,18 @@ impl Faces {
             let moved = solve(&contact.tt, &free, &right)?;
             let carried = &held + &contact.tt.dot(&moved);
             let tight = ZERO * largest(&moved);
-            let next = |k: usize| match self.moving[k] {
-                0 if carried[k].abs() > bound[k] + ZERO * scale => carried[k].signum() as i8,
-                sign if sign != 0 && moved[k] * f64::from(sign) < -tight => 0,
-                same => same,
-            };
-            let closed = (0..n).filter(|&k| !self.opening.open[k] && !is_free(k));
-            let changes = closed.map(|k| (k, next(k)));
-            let mut changes: Vec<_> = changes.filter(|(k, to)| self.moving[*k] != *to).collect();
-            let changed = !changes.is_empty();
-            if changes.len() < fewest {
-                (fewest, blocks) = (changes.len(), BLOCKS);
-            } else if blocks > 0 {
-                blocks -= 1;
-            } else {
-                changes.drain(..changes.len() - 1);
-            }
-            for (k, to) in changes {
-                self.moving[k] = to;
+            let mut changed = false;
+            for k in 0..n {
+                if self.opening.open[k] {
+                    continue;
+                }
+                let next = match self.moving[k] {
+                    0 if carried[k].abs() > bound[k] + ZERO * scale => carried[k].signum() as i8,
+                    sign if sign != 0 && moved[k] * f64::from(sign) < -tight => 0,
+                    same => same,
+                };
+                changed |= next != self.moving[k];
+                self.moving[k] = next;
             }
             if !changed {
                 self.slip = before + &moved;
