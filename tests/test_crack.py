@@ -110,9 +110,9 @@ def test_thresholds() -> None:
     assert fracture.Threshold(2.1e6).at([1e-6, 1.0]).tolist() == [2.1e6, 2.1e6]
     with pytest.raises(ValueError, match="dK_th"):
         fracture.Threshold(-1.0)
-    steel = fret.fatigue.Materials()["steel_42CrMo4"]
+    unknown = fret.fatigue.Material("mine", [("s_D", 300e6, "a test")])
     with pytest.raises(ValueError, match="dK_th"):
-        fracture.Threshold.of(steel)
+        fracture.Threshold.of(unknown)
     own = fret.fatigue.Material("mine", [("dK_th", 8e6, "a test"), ("s_D", 300e6, "another")])
     assert fracture.Threshold.of(own) == fracture.Threshold(4e6, 300e6)
 

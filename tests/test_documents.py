@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import inspect
 import os
 import re
@@ -108,6 +109,9 @@ def test_its_keywords_exist(document: Path) -> None:
         # What judges a section takes its fields as keywords.
         fields = set(inspect.signature(Section).parameters)
         parameters = [of | fields if "section" in of else of for of in parameters]
+        # The settings of wear may stand in the call.
+        of_wear = {of.name for of in dataclasses.fields(fret.wear.Wear)}
+        parameters = [of | of_wear if "settings" in of else of for of in parameters]
         assert any(keywords <= of for of in parameters), (name, keywords, parameters)
 
 
@@ -117,6 +121,7 @@ def test_its_options_exist(document: Path) -> None:
     commands += (
         "study",
         "compare",
+        "explore",
         "life",
         "crack",
         "export",
@@ -169,7 +174,7 @@ def test_its_python_runs(document: Path, store: Path, monkeypatch: pytest.Monkey
 
 def test_the_scene_of_its_document_is_a_scene() -> None:
     document = ROOT / "docs" / "scene_file.md"
-    (block,) = re.findall(r"```toml\n(.*?)```", text(document), flags=re.DOTALL)
+    block, *_ = re.findall(r"```toml\n(.*?)```", text(document), flags=re.DOTALL)
     assert fret.Scene.from_toml(block).title == "Coated fretting"
 
 

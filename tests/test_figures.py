@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
@@ -90,12 +87,6 @@ SCENES = {
 @pytest.fixture(scope="module", params=SCENES, ids=str)
 def result(request: pytest.FixtureRequest) -> fret.Result:
     return fret.solve(SCENES[request.param], progress=False)
-
-
-@pytest.fixture(autouse=True)
-def _close_figures() -> Iterator[None]:
-    yield
-    plt.close("all")
 
 
 pytestmark = [

@@ -102,7 +102,7 @@ def test_lines_and_distance(store: Path, tmp_path: Path) -> None:
     ("arguments", "says"),
     [
         ((), "--material = nothing: must be one of CrN"),
-        (("--material", "steel"), "steel: must be one of CrN"),
+        (("--material", "stell"), "stell: must be one of CrN"),
         (("--material", "steel_42CrMo4,none,none"), "materials = 3: must be one, the substrate's"),
         (("--material", "alumina"), "s_D"),
         (("--material", "steel_42CrMo4", "-o", "life.png"), "pyfret.plot.criterion_map"),

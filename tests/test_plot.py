@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import sys
 import types
-from collections.abc import Iterator
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -16,12 +15,6 @@ import pyfret as fret
 from conftest import paper_path, sphere_on_flat
 
 pytestmark = pytest.mark.solves
-
-
-@pytest.fixture(autouse=True)
-def _close_figures() -> Iterator[None]:
-    yield
-    plt.close("all")
 
 
 def test_the_loop_starts_at_the_end_of_indentation(coated: fret.Result) -> None:

@@ -200,7 +200,8 @@ def test_nothing_sticks_after_gross_slip_and_all_of_it_before_slip() -> None:
 
 def test_materials_have_names() -> None:
     names = list(fret.fatigue.Materials())
-    known = [n for n in names if "E" in {k for k, _, _ in fret.fatigue.Materials()[n].numbers()}]
+    numbers = {n: fret.fatigue.Materials()[n].numbers() for n in names}
+    known = [n for n in names if any(k == "E" and "recalled" not in of for k, _, of in numbers[n])]
     assert len(known) > 5
     for name in known:
         elastic = fret.material(name, nu=0.3)
@@ -231,7 +232,8 @@ def test_a_study_is_a_table_of_points() -> None:
     study = fret.study.solve(
         scene, {"mu": [0.2, 0.3]}, measure=["p_max", profile], executor=1, progress=False
     )
-    table = study.to_dataframe()
+    with pytest.warns(UserWarning, match=r"left out.* profile \(over x\)"):
+        table = study.to_dataframe()
     assert list(table.columns)[:1] == ["mu"]
     assert "profile" not in table.columns
     assert len(table) == 2

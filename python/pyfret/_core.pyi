@@ -926,10 +926,10 @@ class Grid:
 
         The contact under the largest normal load of the path, coatings and all, is solved without
         friction on 32 cells a side, roughness left out; the grid is `room` times as long, on rough
-        surfaces 15 % longer. It has as many cells as a smooth contact takes for `error`, and eight in
-        the shortest wave of a rough, wavy or measured surface. On measured surfaces, on waves and where
-        a body has edges, the number of cells is doubled until area and largest pressure agree to
-        `error`.
+        surfaces 15 % longer. It has as many cells as a smooth contact takes for `error`, and eight
+        in the shortest wave of a rough, wavy or measured surface. On measured surfaces, on waves
+        and where a body has edges, the number of cells is doubled until area and largest pressure
+        agree to `error`.
 
         Parameters
         ----------

@@ -46,6 +46,9 @@ pub struct Loads<'a> {
     pub states: &'a States<'a>,
 }
 
+/// Change of the stress from a sample to the next, over the largest, below which it is even.
+const FLAT: f64 = 1e-3;
+
 /// Samples of a layer on a line.
 struct Sampled {
     line: Line,
@@ -174,7 +177,27 @@ pub fn largest_anywhere(
             nearest.map_or(f64::NAN, |n| samples[(0, n)])
         }
     };
-    let largest = search.climbed(&probe, starts, depths, layer, &near)?;
+    let mut largest = search.climbed(&probe, starts, depths, layer, &near)?;
+    if free {
+        // A narrow ridge along the section is followed on it to its top.
+        let search = Search::new(body, side, grid, Some(line), states)?;
+        let mut starts: Vec<Start> = Vec::new();
+        for one in sampled.iter().filter(|one| one.line == line) {
+            let rows = one.values.rows().into_iter();
+            let tops: Vec<_> = rows.map(|row| top_of_line(&row, &one.along)).collect();
+            let hills = hills_of(&probe, &tops, &one.depths, layer);
+            starts.extend(
+                hills
+                    .iter()
+                    .flat_map(|hill| search.starts(line, hill, &one.along, false)),
+            );
+        }
+        let on_line = search.climbed(&probe, starts, depths, layer, &near)?;
+        largest = match (largest, on_line) {
+            (Some(free), Some(on_line)) if on_line.value > free.value => Some(on_line),
+            (free, on_line) => free.or(on_line),
+        };
+    }
     Ok(Anywhere {
         largest,
         still_rises,
@@ -255,6 +278,20 @@ impl Sampled {
             values[cell] = (measure.value)(stress);
         }
         (self.along, self.values) = (along, values);
-        Ok(!self.rising().is_empty())
+        Ok(self.is_largest_at_an_end())
+    }
+
+    /// Whether the largest sample stands at an end of the line, and its neighbour is smaller by more
+    /// than [`FLAT`] of it: the stress far from a contact under bulk stress is even.
+    fn is_largest_at_an_end(&self) -> bool {
+        let numbers = self.values.iter().filter(|v| !v.is_nan());
+        let top = numbers.copied().fold(0.0, f64::max);
+        self.values.rows().into_iter().any(|row| {
+            let n = row.len();
+            n > 2
+                && [(0, 1), (n - 1, n - 2)]
+                    .into_iter()
+                    .any(|(end, next)| row[end] >= top && row[end] - row[next] > FLAT * top)
+        })
     }
 }

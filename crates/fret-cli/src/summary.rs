@@ -200,7 +200,7 @@ fn driven(scene: &Scene) -> impl Iterator<Item = RigidMotion> {
     })
 }
 
-/// A line for every cycle: state of the interface, energy and stiffness.
+/// Two lines for every cycle: state of the interface and energy; stiffness.
 fn cycle_lines(scene: &Scene, increments: &[Increment]) -> Vec<String> {
     let cycles = json::cycles(scene, increments);
     let (joule, joules) = energy(scene);
@@ -211,7 +211,7 @@ fn cycle_lines(scene: &Scene, increments: &[Increment]) -> Vec<String> {
             "N/m"
         });
         format!(
-            "cycle {} ({}): {}, {} {joule} dissipated, energy ratio {}, sliding ratio {}, stiffness {}",
+            "cycle {} ({}): {}, {} {joule} dissipated, energy ratio {}, sliding ratio {},\n  stiffness {}",
             n + 1,
             word(*direction),
             state(c.status),

@@ -162,7 +162,13 @@ impl<'py, T: FromPyObjectOwned<'py>> FromPyObject<'_, 'py> for List<T> {
             values
                 .try_reserve(1)
                 .map_err(|e| PyMemoryError::new_err(e.to_string()))?;
-            values.push(number(&item?)?);
+            let item = item?;
+            // An array has the rule of what takes it: numbers, or yes and no.
+            let dimensions = item.getattr("ndim").and_then(|of| of.extract::<usize>());
+            values.push(match dimensions {
+                Ok(1..) => item.extract().map_err(Into::into)?,
+                _ => number(&item)?,
+            });
         }
         Ok(Self(values))
     }

@@ -36,7 +36,7 @@ pub(crate) fn shown(text: &str) -> String {
     contact_core::shown(text).into_owned()
 }
 
-/// A number and its error, with the digits that the error leaves; without an error an estimate.
+/// A number and its error, with the digits that the error leaves; an estimate without one.
 #[pyfunction]
 #[pyo3(signature = (value, error = None))]
 pub(crate) fn with_error(

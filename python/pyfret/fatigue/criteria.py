@@ -276,12 +276,13 @@ def mean_stress_slope(material: Material) -> tuple[float, str]:
     """Give how much amplitude of uniaxial stress a mean stress costs, and after whom.
 
     The limit is amplitude = s_D - slope mean. With the strength ``s_u``, s_D/s_u (J. Goodman,
-    Mechanics Applied to Engineering, 1899); else with ``t_D`` by Dang Van's criterion, whose
-    s_a/2 + alpha (s_a + s_m)/3 = t_D is slope = 1 - s_D/(2 t_D) with alpha = 3 t_D/s_D - 3/2.
+    Mechanics Applied to Engineering, 1899) where it has a source; else with ``t_D`` by Dang
+    Van's criterion, whose s_a/2 + alpha (s_a + s_m)/3 = t_D is slope = 1 - s_D/(2 t_D) with
+    alpha = 3 t_D/s_D - 3/2.
     A ValueError says which number is missing.
     """
     s_D = material.number("s_D")
-    if any(name == "s_u" for name, _, _ in material.numbers()):
+    if any(name == "s_u" and "recalled" not in source for name, _, source in material.numbers()):
         return s_D / material.number("s_u"), "Goodman"
     return 1.0 - s_D / (2.0 * material.number("t_D")), "Dang Van"
 
