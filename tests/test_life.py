@@ -158,8 +158,9 @@ def test_averages_are_those_of_the_stress(cycled: fret.Result) -> None:
     assert float(area.value.max()) < float(surface.max())
     with pytest.raises(ValueError, match="belongs to one material"):
         averages.average(cycled, BOTH, "crossland", L=1.0)
+    unknown = fatigue.Material("mine", [("s_D", 398e6, "a test"), ("t_D", 260e6, "a test")])
     with pytest.raises(ValueError, match="dK_th"):
-        averages.average(cycled, BOTH, "crossland")
+        averages.average(cycled, unknown, "crossland")
     with pytest.raises(ValueError, match="positive length"):
         averages.average(cycled, BOTH, "crossland", L=0.0)
 
@@ -284,7 +285,7 @@ def test_mean_stress_costs_amplitude_as_the_criterion_says(tmp_path: Path) -> No
     goodman = fatigue.mean_stress_slope(fatigue.Materials(table)["mine"])
     assert goodman == (pytest.approx(4 / 9), "Goodman")
     with pytest.raises(ValueError, match="s_D"):
-        fatigue.mean_stress_slope(fatigue.Materials()["aluminium_7075_T6"])
+        fatigue.mean_stress_slope(fatigue.Material("mine", [("s_u", 5e8, "a test")]))
 
 
 def test_the_mean_over_a_critical_distance_knows_the_width_of_the_contact() -> None:

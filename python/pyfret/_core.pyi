@@ -2485,7 +2485,7 @@ def cycle_temperature(
 TOO_FEW_INCREMENTS: str
 
 def with_error(value: float, error: float | None = None) -> str:
-    """A number and its error, with the digits that the error leaves; without an error an estimate."""
+    """A number and its error, with the digits that the error leaves; an estimate without one."""
 
 def with_range(value: float, low: float, high: float) -> str:
     """A number and the range that it lies in, with the digits that the range leaves."""

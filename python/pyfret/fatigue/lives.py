@@ -500,11 +500,11 @@ class Judged(NamedTuple):
 
     def mean(self, L: float, layer: int, method: Averaging = "line") -> float:
         """The largest value of the criterion on the stress averaged over a distance."""
-        where = Section(**self.section)
+        where = placed(self.result, Section(**self.section))
         largest = []
-        for one in where.each():
+        for one in (at for section in where for at in section.each()):
             options: SectionOptions = {**self.section}
-            options["x" if one.y is None else "y"] = one.place
+            options.update({"x": one.x, "y": one.y, "azimuth": one.azimuth})
             found = average(
                 self.result,
                 self.materials,
