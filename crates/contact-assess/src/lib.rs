@@ -3,7 +3,7 @@
 //!
 //! A [`Judge`] judges the stress history of a point: [`ByCriterion`] by a fatigue criterion,
 //! [`ByYield`] by load factors of first yield and shakedown. [`judge`] applies it to a section, a
-//! few depths at a time, so that memory is bounded for any number of increments ([`OverCycle`]
+//! few depths at a time, so that memory is bounded for any number of increments ([`OverCycle`](contact_subsurface::OverCycle)
 //! gives them, from a store or from arrays); [`worst`] finds the worst point of a layer, between
 //! the samples and on the rim of the contact, by judging the stress there; [`average`] judges means
 //! over a critical distance of the material. [`crack`] gives the stress intensity of a crack under

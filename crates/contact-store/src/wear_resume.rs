@@ -44,10 +44,13 @@ pub fn resume_wear_by(
     take_up(path.as_ref(), None, (own, friction), stop)
 }
 
+/// The laws of wear of each body and the law of friction that are of the user's own.
+type OwnLaws<'a> = (&'a [Vec<Arc<dyn Law>>; 2], Option<&'a OwnFriction>);
+
 fn take_up(
     path: &Path,
     of: Option<(Scene, Wear)>,
-    (own, friction): (&[Vec<Arc<dyn Law>>; 2], Option<&OwnFriction>),
+    (own, friction): OwnLaws<'_>,
     stop: &Arc<AtomicBool>,
 ) -> Result<Option<(WearRun, WearStore)>, Error> {
     let place = path.to_owned();

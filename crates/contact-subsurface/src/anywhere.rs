@@ -61,6 +61,7 @@ struct Sampled {
 /// `free` is false, below `line`.
 ///
 /// `samples` are those at the `depths` of the line, of shape (depths, places).
+#[expect(clippy::too_many_lines, reason = "the search, step by step")]
 pub fn largest_anywhere(
     loads: Loads<'_>,
     measure: &Measure,
@@ -158,24 +159,22 @@ pub fn largest_anywhere(
             }
         }
     }
-    let near = |border: &Border| match &surface {
-        Some(plane) => {
+    let near = |border: &Border| {
+        if let Some(plane) = &surface {
             let cell = |v: f64, n: usize, d: f64| {
                 let place = (v / d + (n - 1) as f64 / 2.0).round();
                 place.clamp(0.0, (n - 1) as f64) as usize
             };
-            plane[(
+            return plane[(
                 cell(border.x, grid.nx, grid.dx),
                 cell(border.y, grid.ny, grid.dy),
-            )]
+            )];
         }
-        None => {
-            let along = line.places(grid);
-            let s = line.along(border.x, border.y);
-            let nearest = (0..along.len())
-                .min_by(|&a, &b| (along[a] - s).abs().total_cmp(&(along[b] - s).abs()));
-            nearest.map_or(f64::NAN, |n| samples[(0, n)])
-        }
+        let along = line.places(grid);
+        let s = line.along(border.x, border.y);
+        let nearest =
+            (0..along.len()).min_by(|&a, &b| (along[a] - s).abs().total_cmp(&(along[b] - s).abs()));
+        nearest.map_or(f64::NAN, |n| samples[(0, n)])
     };
     let mut largest = search.climbed(&probe, starts, depths, layer, &near)?;
     if free {

@@ -62,6 +62,7 @@ impl Moments {
     }
 
     /// On cells twice as large.
+    #[must_use]
     pub fn on_coarser(&self, cells: &TwiceAsLarge) -> Self {
         let shape = (cells.grid.nx, cells.grid.ny);
         let mean = |field: &Array2<f64>| {

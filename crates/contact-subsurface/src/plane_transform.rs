@@ -151,7 +151,7 @@ impl PlaneTransform {
         let mut half = vec![vec![0.0; frequencies * ny]; 3 * R];
         let mut entries = vec![0.0; 3 * R * nx];
         let mut buffers = Buffers::new(&*self.x_forward);
-        let pairs = pairs::<Q, N, R>(|row, column| Q::is_odd(row, column).0);
+        let pairs = pairs::<R>(|row, column| Q::is_odd(row, column).0);
         for j in 0..ny {
             unless(stop)?;
             let y = j as f64 * d.1;
@@ -187,7 +187,7 @@ impl PlaneTransform {
     ) -> Result<Vec<Vec<Complex64>>, Error> {
         let (frequencies, period) = (self.frequencies(), self.period.1);
         let ny = self.offsets.1;
-        let pairs = pairs::<Q, N, R>(|row, column| Q::is_odd(row, column).1);
+        let pairs = pairs::<R>(|row, column| Q::is_odd(row, column).1);
         let mut lines = vec![vec![Complex64::default(); rows * frequencies]; states * R];
         let mut buffers = Buffers::new(&*self.y_real);
         let mut sums = vec![Complex64::default(); states * R * period];
@@ -274,9 +274,7 @@ fn multiply(
 }
 
 /// Entries (3 row + column) in pairs of an even and an odd one, which share a transform.
-fn pairs<Q: Quantity<N, R>, const N: usize, const R: usize>(
-    is_odd: impl Fn(usize, usize) -> bool,
-) -> Vec<[Option<usize>; 2]> {
+fn pairs<const R: usize>(is_odd: impl Fn(usize, usize) -> bool) -> Vec<[Option<usize>; 2]> {
     let (odd, even): (Vec<usize>, Vec<usize>) =
         (0..3 * R).partition(|entry| is_odd(entry / 3, entry % 3));
     (0..even.len().max(odd.len()))

@@ -95,6 +95,9 @@ pub(super) fn coefficients(
     })
 }
 
+/// The state after a part of the way of each cell.
+type AtPart<'a> = dyn Fn(&dyn Fn(usize) -> f64) -> State + 'a;
+
 /// Depth and energy of every cell.
 #[derive(Clone)]
 struct State {
@@ -265,7 +268,7 @@ impl<'a> Course<'a> {
     fn bend(
         &self,
         bent: &[usize],
-        at: &dyn Fn(&dyn Fn(usize) -> f64) -> State,
+        at: &AtPart<'_>,
         [first, half, last]: [&[f64]; 3],
         cycles: f64,
     ) -> Result<Vec<(f64, f64)>, Error> {

@@ -89,7 +89,6 @@ fn dilatation(n: usize, extent: f64) -> [f64; 2] {
 fn a_centre_of_dilatation_moves_the_surface_as_in_the_closed_form() {
     for (n, extent) in [(64, 5.3), (64, 8.0), (48, 5.3)] {
         let [z, r] = dilatation(n, extent);
-        println!("{n} {extent}: {z:.2e} {r:.2e}");
         assert!(
             z < 2e-3 && r < 2e-3,
             "{n} cells, {extent}: u_z {z}, u_r {r}"
@@ -233,7 +232,6 @@ fn stress_under_a_hertz_pressure() {
             worst[0] = worst[0].max((at(2) - zz).abs() / p_0);
             worst[1] = worst[1].max((at(0) - rr).abs() / p_0);
         }
-        println!("{n}: {worst:?}");
         assert!(worst.iter().all(|e| *e < 4e-3), "{n}: {worst:?}");
     }
 }

@@ -40,10 +40,10 @@ fn value(of: &Bound<'_, PyAny>) -> PyResult<Value> {
         return Ok(Value::String(of.extract()?));
     }
     if of.is_instance_of::<PyInt>() {
-        return Ok(of.extract().map_or_else(
+        return of.extract().map_or_else(
             |_| of.extract().map(Value::Float),
             |whole| Ok(Value::Integer(whole)),
-        )?);
+        );
     }
     if of.is_instance_of::<PyFloat>() {
         return Ok(Value::Float(of.extract()?));
@@ -61,18 +61,16 @@ fn value(of: &Bound<'_, PyAny>) -> PyResult<Value> {
     if let Ok(number) = of.call_method0("__float__") {
         return Ok(Value::Float(number.extract()?));
     }
-    match of.try_iter() {
-        Ok(items) => items
+    if let Ok(items) = of.try_iter() {
+        return items
             .map(|item| value(&item?))
             .collect::<PyResult<_>>()
-            .map(Value::Array),
-        Err(_) => {
-            let shown = of.repr()?;
-            Err(PyTypeError::new_err(format!(
-                "{shown}: must be a number, a text, or a list of them"
-            )))
-        }
+            .map(Value::Array);
     }
+    let shown = of.repr()?;
+    Err(PyTypeError::new_err(format!(
+        "{shown}: must be a number, a text, or a list of them"
+    )))
 }
 
 /// A table of a scene file as a dict.

@@ -22,6 +22,8 @@ use crate::scene::{Body, Grid};
 /// x, y, z and the layer of a point.
 type Place = (f64, f64, f64, usize);
 /// Numbers for Python, one row per point.
+/// Places along a line and their x, y [m].
+type Places = (Vec<f64>, Vec<(f64, f64)>);
 type Matrix<'py> = Bound<'py, PyArray2<f64>>;
 
 pub(crate) fn line(x: Option<f64>, y: Option<f64>, azimuth: Option<f64>) -> PyResult<Line> {
@@ -64,7 +66,7 @@ pub(crate) fn line_places(
     #[pyo3(from_py_with = number)] x: Option<f64>,
     #[pyo3(from_py_with = number)] y: Option<f64>,
     #[pyo3(from_py_with = number)] azimuth: Option<f64>,
-) -> PyResult<(Vec<f64>, Vec<(f64, f64)>)> {
+) -> PyResult<Places> {
     let line = line(x, y, azimuth)?;
     let places = line.places(&grid.0);
     let at = places.iter().map(|s| line.at(*s)).collect();

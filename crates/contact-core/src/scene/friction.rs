@@ -365,7 +365,9 @@ mod tests {
                 ..plain.clone()
             },
             Friction {
-                map: Some(SurfaceMap::new(map, (3e-4, 3e-4), Default::default()).unwrap()),
+                map: Some(
+                    SurfaceMap::new(map, (3e-4, 3e-4), crate::scene::Missing::default()).unwrap(),
+                ),
                 ..plain.clone()
             },
             Friction {

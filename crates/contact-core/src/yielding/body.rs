@@ -216,7 +216,9 @@ impl YieldingBody {
         let mut signed = tractions.clone();
         if self.number == 1 {
             for q in &mut signed[..2] {
-                q.iter_mut().for_each(|q| *q = -*q);
+                for q in q.iter_mut() {
+                    *q = -*q;
+                }
             }
         }
         signed
@@ -370,7 +372,9 @@ impl YieldingBody {
             let cells = self.cells();
             for (n, field) in stress.chunks_exact_mut(cells).enumerate() {
                 if n % COMPONENTS >= 4 {
-                    field.iter_mut().for_each(|s| *s = -*s);
+                    for s in field.iter_mut() {
+                        *s = -*s;
+                    }
                 }
             }
         }

@@ -82,16 +82,19 @@ impl Yielding {
     /// The residual displacement of the present x.
     pub(crate) fn residual(&self) -> Residual {
         let bodies = self.bodies.iter();
-        self.together(bodies.map(|body| (body.number, &body.displacement[..])))
+        self.together(&bodies.map(|body| (body.number, &body.displacement[..])))
     }
 
     /// The residual displacement of a state.
     pub fn residual_of(&self, state: &Yielded) -> Residual {
         let bodies = state.bodies.iter();
-        self.together(bodies.map(|body| (body.body, &body.displacement[..])))
+        self.together(&bodies.map(|body| (body.body, &body.displacement[..])))
     }
 
-    fn together<'a>(&self, bodies: impl Iterator<Item = (usize, &'a [f64])> + Clone) -> Residual {
+    fn together<'a>(
+        &self,
+        bodies: &(impl Iterator<Item = (usize, &'a [f64])> + Clone),
+    ) -> Residual {
         let cells = self.volume.cells.len();
         let sum = |component: usize, sign: f64| {
             let mut sum = vec![0.0; cells];

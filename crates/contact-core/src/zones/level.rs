@@ -89,6 +89,7 @@ impl Stencil {
     }
 
     /// The same for a zone whose border lies beyond its outermost cells.
+    #[must_use]
     pub const fn of_inner_zone(self) -> Self {
         Self {
             at_border: false,

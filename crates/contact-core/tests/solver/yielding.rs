@@ -72,7 +72,6 @@ fn indentation_follows_finite_elements() {
         let name = &row["name"];
         let close = |what: &str, found: f64, [wanted, error]: [f64; 2], bar: f64| {
             let off = ((found - wanted).abs() - error).max(0.0) / wanted.abs();
-            println!("{name} {what}: {found:e} for {wanted:e}, {off:.2e}");
             assert!(off < bar, "{name} {what}: {found:e} for {wanted:e}");
         };
         let loaded = &increments[4];

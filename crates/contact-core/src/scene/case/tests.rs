@@ -246,7 +246,10 @@ fn hostile_text_is_survived() {
             }
             Err(error) => {
                 let sentence = error.to_string();
-                assert!(sentence.lines().all(|line| line.contains(": ")), "{sentence}");
+                assert!(
+                    sentence.lines().all(|line| line.contains(": ")),
+                    "{sentence}"
+                );
                 bad += 1;
             }
         }
