@@ -100,7 +100,7 @@ def test_doubts_are_told_beside_mistakes() -> None:
         fret.Scene.from_toml(text.replace("n = 64", "n = 0").replace("mu = 0.15", "mu = 15"))
     lines = str(told.value).splitlines()
     assert "grid.n = 0" in lines[0]
-    doubts = ("body1.shape.R = 5 m", "coatings[0].E = 3.800e2 Pa", "friction.mu = 15")
+    doubts = ("body1.shape.R = 5 m", "coatings[0].E = 380 Pa", "friction.mu = 15")
     assert len(lines) == 1 + len(doubts)
     for line, doubt in zip(sorted(lines[1:]), sorted(doubts), strict=True):
         assert line.startswith("doubtful: ")

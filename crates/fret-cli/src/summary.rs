@@ -200,7 +200,7 @@ fn driven(scene: &Scene) -> impl Iterator<Item = RigidMotion> {
     })
 }
 
-/// Two lines for every cycle: state of the interface and energy; stiffness.
+/// Three lines for every cycle: state of the interface and energy, sliding ratio, stiffness.
 fn cycle_lines(scene: &Scene, increments: &[Increment]) -> Vec<String> {
     let cycles = json::cycles(scene, increments);
     let (joule, joules) = energy(scene);
@@ -211,7 +211,7 @@ fn cycle_lines(scene: &Scene, increments: &[Increment]) -> Vec<String> {
             "N/m"
         });
         format!(
-            "cycle {} ({}): {}, {} {joule} dissipated, energy ratio {}, sliding ratio {},\n  stiffness {}",
+            "cycle {} ({}): {}, {} {joule} dissipated, energy ratio {}\n  sliding ratio {}\n  stiffness {}",
             n + 1,
             word(*direction),
             state(c.status),
