@@ -31,7 +31,7 @@ fn slips_of_the_pen_are_told_once() {
     told("body1.shape.R = 5 m", |scene| {
         scene.body1.shape = Shape::Sphere { R: 5.0 }
     });
-    told("body1.E = 2.100e2 Pa", |scene| {
+    told("body1.E = 210 Pa", |scene| {
         scene.body1.substrate.E = 210.0;
     });
     told("those of gels", |scene| {
