@@ -70,7 +70,8 @@ fn error_bars_stand_in_the_summary_and_in_the_store() {
     let of_cycle = |line: &&str| line.contains("sliding ratio") || line.contains("stiffness");
     let of_branches = told.lines().filter(|line| !of_cycle(line));
     let bars: usize = of_branches.map(|line| line.matches("+- ").count()).sum();
-    assert_eq!(bars, 4 * 8, "{told}");
+    // Nothing moves along the plane in the indentation: two numbers are 0, exactly.
+    assert_eq!(bars, 4 * 8 - 2, "{told}");
     assert_eq!(told.matches(" path ").count(), 4, "{told}");
     Store::open(&out).unwrap();
     let attributes = fs::read_to_string(out.join(".zattrs")).unwrap();
