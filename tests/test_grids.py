@@ -28,7 +28,7 @@ def p_max(
 @pytest.mark.parametrize("length", [0.5e-3, 2e-3])
 def test_a_roller_with_ends_has_a_grid_of_its_length(length: float) -> None:
     path = fret.LoadPath.start().normal(100.0, increments=1)
-    # Half width of a line contact, Johnson (4.43); a grid is 1.2 times as wide, within the cells that found it.
+    # Half width of a line contact, Johnson (4.43); a grid is 1.2 times as wide, to a cell or so.
     E_star = STEEL.E / (2.0 * (1.0 - STEEL.nu**2))
     half_width = np.sqrt(4.0 * (100.0 / length) * 0.01 / (np.pi * E_star))
     for angle in (0.0, np.pi / 2):
