@@ -11,7 +11,7 @@ use pyo3::prelude::*;
 
 use super::super::Pitch;
 use crate::arguments::Field;
-use crate::error::{must_be, to_python};
+use crate::error::{InvalidSceneError, must_be, to_python};
 use crate::parts::parts;
 
 /// Numbers over the contact plane, the middle of the map over the origin.
@@ -45,7 +45,7 @@ impl SurfaceMap {
             if error.is_instance_of::<PyTypeError>(values.py()) {
                 must_be(values, wanted)
             } else {
-                error
+                InvalidSceneError::new_err(error.value(values.py()).to_string())
             }
         })?;
         let numbers = numbers.as_array().to_owned();
