@@ -35,7 +35,6 @@ def damage(file: Path, rng: random.Random) -> None:
         file.write_bytes(content)
 
 
-@pytest.mark.xfail(strict=False, reason="some refusals name the variable, not the file")
 def test_a_damaged_store_is_read_as_it_was_or_refused_by_name(tmp_path: Path) -> None:
     """Every file of a store, in turn and at random."""
     good = tmp_path / "good.zarr"

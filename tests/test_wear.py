@@ -42,9 +42,6 @@ def worn(law: object, **options: object) -> fret.wear.WearResult:
     )
 
 
-@pytest.mark.xfail(
-    reason="a law of one's own is integrated over the jump: rims are 0.2 % of the depth off"
-)
 def test_a_law_of_ones_own_that_says_the_same_wears_the_same() -> None:
     built_in = worn(fret.wear.Archard(2e-14))
     own = worn(lambda pressed_way, way, dissipated, worn, cycles: 2e-14 * pressed_way)

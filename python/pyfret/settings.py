@@ -7,6 +7,7 @@ from enum import Enum
 from typing import Any, Literal
 
 from pyfret import _core
+from pyfret._util.arrays import items
 from pyfret._util.names import listing
 from pyfret.scene.parts import Replaceable, part
 
@@ -169,7 +170,7 @@ class Settings(Replaceable):
     def __post_init__(self) -> None:
         """Refuse what has no meaning."""
         if not isinstance(self.save, str):
-            object.__setattr__(self, "save", tuple(self.save))
+            object.__setattr__(self, "save", tuple(items(self.save, "save")))
         _core.check_settings(self)
 
     def document(self) -> dict[str, Any]:

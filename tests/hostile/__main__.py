@@ -19,6 +19,8 @@ import numpy as np
 import scenes
 from values import ALLOWED, OWN, hostile
 
+import pyfret as fret
+
 #: Address space beyond what is taken after the imports [bytes].
 MEMORY = 3 << 30
 CALLS = [*scenes.CALLS, *closed_forms.CALLS, *fields.CALLS, *follows.CALLS]
@@ -51,8 +53,11 @@ def outcome(call: Callable[..., Any], arguments: dict[str, Any]) -> str:
         found = call(*by_position, **by_name)
     except (*ALLOWED, *OWN) as error:
         text = str(error)
+        # A scene tells every mistake, each with its place on a line of its own.
+        listed = isinstance(error, fret.errors.InvalidSceneError)
+        whole = "\n" not in text or (listed and all(": " in line for line in text.splitlines()))
         # What PyO3 says of a value of another type has several lines.
-        if not text.strip() or ("\n" in text.strip() and not isinstance(error, TypeError)):
+        if not text.strip() or not (whole or isinstance(error, TypeError)):
             return f"BAD: {type(error).__name__} says {text[:200]!r}"
         return f"refused: {type(error).__name__}: {text[:150]}"
     except BaseException as error:

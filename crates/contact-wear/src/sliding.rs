@@ -33,7 +33,7 @@ use contact_core::plan::Plan;
 use contact_core::scene::{FrictionHistory, Scene, Shape};
 
 use super::course::{Coefficients, coefficients};
-use super::law::{BodyWear, CellCycle};
+use super::law::CellCycle;
 use super::loss::{Loss, Worn};
 use super::on_grid;
 use super::pressing::Pressing;
@@ -50,6 +50,8 @@ const ROUGH: f64 = 10.0;
 /// over that of the depth) that ends them.
 const CORRECTIONS: usize = 8;
 const AGREES: f64 = 0.01;
+/// Difference of two rates, over the largest one, up to which they are the same.
+const ROUNDING: f64 = 1e-12;
 /// Most rounds; a remaining error enters the estimate of the jump's error.
 const MOST_ROUNDS: usize = 60;
 
@@ -139,8 +141,9 @@ impl Sliding {
         Ok(())
     }
 
-    /// The loss of both bodies in n cycles; sets the pressures at the end. A law that changes within the
-    /// jump is followed at the pressures that it leads to, until the depth settles.
+    /// The loss of both bodies in n cycles; sets the pressures at the end. Rates that change with the
+    /// pressure are corrected until the depth settles. Rates that stay the same need no correction, whoever
+    /// wrote the law.
     pub(crate) fn jump(&mut self, worn: &Worn, n: f64, implicit: bool) -> Result<Loss, Error> {
         self.cycles = worn.cycles;
         let mut rates = self.rates(worn, n)?;
@@ -148,11 +151,11 @@ impl Sliding {
             return Ok(self.loss(n, &rates, &self.summed(&self.p)));
         }
         self.pressing.begin();
-        let steady = self.wear.bodies.iter().all(BodyWear::is_steady);
         let mut last: Option<Loss> = None;
         for correction in 0..=CORRECTIONS {
             self.rounds(worn, n, &rates)?;
-            let loss = self.loss(n, &rates, &self.summed(&self.p));
+            let ways = self.summed(&self.p);
+            let loss = self.loss(n, &rates, &ways);
             let settled = |last: &Loss| {
                 let cells = loss.depth.iter().flatten().zip(last.depth.iter().flatten());
                 let (moved, size) = cells.fold((0.0, 0.0), |(moved, size), (now, last)| {
@@ -160,11 +163,15 @@ impl Sliding {
                 });
                 moved <= AGREES * AGREES * size
             };
-            if steady || correction == CORRECTIONS || last.as_ref().is_some_and(settled) {
+            if correction == CORRECTIONS || last.as_ref().is_some_and(settled) {
+                return Ok(loss);
+            }
+            let corrected = self.rates(worn, n)?;
+            if corrected.are_those(&rates, &ways) {
                 return Ok(loss);
             }
             last = Some(loss);
-            rates = self.rates(worn, n)?;
+            rates = corrected;
         }
         unreachable!("the last correction returns")
     }
@@ -375,6 +382,20 @@ struct Rates {
 }
 
 impl Rates {
+    /// Whether these are the same but for rounding; `ways` are the pressed ways of a cycle.
+    fn are_those(&self, other: &Self, ways: &[Vec<f64>; 2]) -> bool {
+        let largest = |of: &[f64]| of.iter().fold(0.0_f64, |size, a| size.max(a.abs()));
+        let same = |one: &[f64], other: &[f64], size: f64| {
+            let mut cells = one.iter().zip(other);
+            cells.all(|(one, other)| (one - other).abs() <= ROUNDING * size)
+        };
+        (0..2).all(|b| {
+            let k = largest(&self.k[b]);
+            same(&self.k[b], &other.k[b], k)
+                && same(&self.above[b], &other.above[b], k * largest(&ways[b]))
+        })
+    }
+
     /// Depth of body b in n cycles of these pressed ways \[m\].
     fn depth(&self, b: usize, n: f64, ways: &[f64]) -> impl Iterator<Item = f64> {
         let cells = self.k[b].iter().zip(&self.above[b]).zip(ways);

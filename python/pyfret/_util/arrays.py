@@ -10,26 +10,28 @@ One rule for every module:
   array of more than one axis is refused: its order is unknown. An array without labels is taken by
   place.
 - What came in with labels goes out with them.
+- What a sequence says of its length is not trusted.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sized
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
 from pyfret._util.lazy import xr
 
 if TYPE_CHECKING:
-    from collections.abc import Hashable
+    from collections.abc import Hashable, Iterable
 
     from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["COMPONENTS", "Histories", "histories", "number", "plain", "together"]
+__all__ = ["COMPONENTS", "Histories", "histories", "items", "number", "plain", "together"]
 
+T = TypeVar("T")
 #: The last axis of a stress history.
 COMPONENTS = ("s_xx", "s_yy", "s_zz", "s_xy", "s_xz", "s_yz")
 #: Names of the axis of a history along which time passes.
@@ -46,6 +48,27 @@ def number(value: object, name: str) -> float:
     if found.ndim:
         raise TypeError(f"{name}: must be a number, not an array of the shape {found.shape}")
     return float(found)
+
+
+def items(values: Iterable[T], name: str) -> list[T]:
+    """What a sequence holds, one by one; what it says of its length is not trusted.
+
+    Raises
+    ------
+    TypeError
+        It is a text, a mapping or no sequence.
+    ValueError
+        It gives more than it says that it has.
+    """
+    if isinstance(values, (str, bytes, Mapping)) or not hasattr(values, "__iter__"):
+        raise TypeError(f"{name} = {values!r:.60}: must be a list")
+    says = len(values) if isinstance(values, Sized) else None
+    found: list[T] = []
+    for value in values:
+        if len(found) == says:
+            raise ValueError(f"{name}: says that it has {says} values and gives more")
+        found.append(value)
+    return found
 
 
 def plain(values: ArrayLike, name: str, *, holes: bool = False) -> NDArray[np.float64]:

@@ -80,14 +80,22 @@ def entries(folder: Path, levels: int) -> Iterator[Path]:
 
 
 def check_document(root: Path, file: Path) -> None:
-    """Refuse what a document of metadata asks for."""
+    """Refuse what a document of metadata asks for; the message names the document."""
+    name = file.relative_to(root)
     try:
         document = json.loads(read_bytes(file))
     except ValueError as error:
-        raise Refused(f"the file {file.relative_to(root)} is damaged: {error}") from None
+        raise Refused(f"the file {name} is damaged: {error}") from None
     if not isinstance(document, dict):
-        raise Refused(f"the file {file.relative_to(root)} is damaged: it is no object")
-    where = file.parent
+        raise Refused(f"the file {name} is damaged: it is no object")
+    try:
+        check_arrays(document, file.parent, root)
+    except Refused as refused:
+        raise Refused(f"the file {name}: {refused}") from None
+
+
+def check_arrays(document: Mapping[str, Any], where: Path, root: Path) -> None:
+    """Refuse what a document asks for in its array, or in those that it collects."""
     check_array(document, where, root)
     for key in ("metadata", "consolidated_metadata"):
         inner = document.get(key)

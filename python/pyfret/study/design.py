@@ -282,7 +282,8 @@ class Design:
             else:
                 return
         if first is not None:
-            raise ValueError(f"no point of the study has a scene: {first}{self.meant()}")
+            why = "; ".join(str(first).splitlines())
+            raise ValueError(f"no point of the study has a scene: {why}{self.meant()}")
 
     def check_each_sets(self, source: Scene | str | PathLike[str]) -> None:
         """Refuse a parameter whose values make no difference, since another one sets the same."""
