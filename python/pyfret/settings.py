@@ -130,7 +130,8 @@ class Settings(Replaceable):
         Cells along x of the grid for increments that are solved for the path alone (fields not
         kept, not the end of a branch, constant normal force and tilting moments): a half or a
         quarter of those of the grid; ``"same"``: the grid itself. ``"auto"`` (default): chosen with
-        the increments, such that ``path_tolerance`` holds; ``"same"`` where these are given.
+        the increments, such that ``path_tolerance`` holds; ``"same"`` where these are given. The
+        error that a number leaves is in ``path_error``, in the bars and in the doubts of a result.
     turning : bool
         Let slip follow the turn of the shear within an increment (default True): the path becomes
         of second order.

@@ -5,7 +5,7 @@ use std::sync::atomic::AtomicBool;
 
 use contact_core::Error;
 use contact_core::estimate::choose_increments;
-use contact_core::scene::Scene;
+use contact_core::scene::{PathGrid, Scene};
 
 use super::settings::{Cycling, Wear};
 
@@ -47,6 +47,8 @@ impl Wear {
         wear.first_branch = Some(self.first_branch(scene)?);
         wear.check(scene)?;
         let mut scene = scene.clone();
+        // The fields of every increment are wanted.
+        scene.settings.solver.path_grid = PathGrid::Same;
         if wear.cycling == Cycling::Sliding {
             choose_places(&mut scene);
             return Ok((scene, wear));

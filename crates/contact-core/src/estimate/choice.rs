@@ -7,6 +7,7 @@
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
+use super::path_error::with_path_errors;
 use super::path_grid::choose_path_grid;
 use super::repeats::Repeats;
 use super::trial::Trial;
@@ -56,11 +57,18 @@ const MOST_OF_BRANCH: usize = 1000;
 /// `solver.path_tolerance`, with the estimated error of each branch, and with the grid that the path
 /// is solved on.
 ///
-/// A scene whose increments are given is returned as it is. Ends when `stop` is raised:
+/// A scene whose increments are given keeps them; its errors are estimated where a path grid is given
+/// ([`PathGrid::Cells`]). Ends when `stop` is raised:
 /// [`Error::Interrupted`] after increment 0.
 pub fn choose_increments(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene, Error> {
     if !scene.path.is_open() {
-        return Ok(scene.clone());
+        let known = scene.path.branches.iter().all(|b| b.path_error.is_some());
+        let coarser = matches!(scene.settings.solver.path_grid, PathGrid::Cells(_));
+        return if coarser && !known {
+            with_path_errors(scene, stop)
+        } else {
+            Ok(scene.clone())
+        };
     }
     scene.check()?;
     if scene.yields() {
@@ -88,6 +96,18 @@ pub fn choose_increments(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene,
     }
     choose_path_grid(&mut chosen, stop)?;
     Ok(chosen)
+}
+
+/// The scene with the estimated error of the shear at the end of each branch.
+///
+/// Compared with half of the increments, or with twice as many where a branch has only one. Ends
+/// when `stop` is raised.
+pub fn estimate_path_error(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene, Error> {
+    if scene.path.is_open() {
+        choose_increments(scene, stop)
+    } else {
+        with_path_errors(scene, stop)
+    }
 }
 
 /// Fewest increments of a branch of bodies that yield where no number is given: the plastic strain is

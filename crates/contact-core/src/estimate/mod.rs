@@ -15,8 +15,7 @@ mod two_runs;
 
 pub use bar::Bar;
 pub use branch_ends::BranchEnds;
-pub use choice::choose_increments;
+pub use choice::{choose_increments, estimate_path_error};
 pub use coarser::{coarsest, means};
 pub use error_bars::{ErrorBars, error_bars};
 pub use finer::finest;
-pub use path_error::estimate_path_error;

@@ -16,22 +16,16 @@
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use super::choice::choose_increments;
 use super::path_grid::path_grid_errors;
 use super::trial::Trial;
 use super::two_runs::PathError;
 use crate::error::Error;
 use crate::scene::Scene;
 
-/// The scene with the estimated error of the shear at the end of each branch.
-///
-/// Compared with half of the increments, or with twice as many where a branch has only one. Ends
-/// when `stop` is raised.
-pub fn estimate_path_error(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene, Error> {
-    let mut estimated = choose_increments(scene, stop)?;
-    if scene.path.is_open() {
-        return Ok(estimated);
-    }
+/// A scene whose increments are all given with the estimated error of the shear at the end of each
+/// branch.
+pub(super) fn with_path_errors(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene, Error> {
+    let mut estimated = scene.clone();
     let errors = path_errors(scene, stop)?;
     for (branch, error) in estimated.path.branches.iter_mut().zip(errors) {
         branch.path_error = Some(error.q);

@@ -9,6 +9,8 @@
 //! e(N, 2^k N) = e(32, 64) (32/N)^m (1 + 2^-m + ... + 2^-(k - 1) m),   m = 3/2
 //! ```
 //!
+//! A path grid of fewer than 32 cells, which has to be given, is itself compared with twice as many.
+//!
 //! On the paper's scene at 256 cells with a path on 64 (E1/E2 = 0.5, 2, 4) this gives 2.0e-3, 2.5e-3
 //! and 2.5e-3; the true errors are 1.6e-3, 2.3e-3 and 2.4e-3. Where the path is round, spots are in
 //! contact or the coupling is strong they are ten times as large.
@@ -21,7 +23,7 @@ use super::two_runs::{PathError, TwoRuns};
 use crate::error::Error;
 use crate::scene::{Grid, PathGrid, SaveFields, Scene};
 
-/// Cells of the shorter side of the path grid that is tried.
+/// Cells of the shorter side of the path grid that is tried, at most.
 const TRIAL_CELLS: usize = 32;
 /// Fewest cells of the shorter side of a grid on which a coarser path pays.
 const FEWEST_CELLS: usize = 192;
@@ -36,33 +38,42 @@ const TAKEN_OVER: f64 = 0.5;
 
 /// Chooses the path grid of a scene whose increments have just been chosen: the coarsest with which
 /// the errors of the increments and of the path grid, which are independent, stay within
-/// `path_tolerance` together. Adds its errors to those of the branches.
+/// `path_tolerance` together. Adds its errors to those of the branches; those of a path grid that is
+/// given, too.
 pub(super) fn choose_path_grid(scene: &mut Scene, stop: &Arc<AtomicBool>) -> Result<(), Error> {
-    if scene.settings.solver.path_grid != PathGrid::Auto {
-        return Ok(());
-    }
-    scene.settings.solver.path_grid = PathGrid::Same;
-    let Grid { nx, ny, .. } = scene.grid;
-    let shorter = nx.min(ny);
-    let possible = |ratio: &usize| {
-        let allowed = on_path_grid(scene, nx / ratio).check_path_grid().is_ok();
-        allowed && shorter >= FEWEST_PATH_CELLS * ratio
+    let (nx, shorter) = (scene.grid.nx, scene.grid.nx.min(scene.grid.ny));
+    let given = scene.settings.solver.path_grid;
+    let ratios: Vec<usize> = match given {
+        PathGrid::Same => return Ok(()),
+        PathGrid::Cells(cells) => vec![nx / cells],
+        PathGrid::Auto => {
+            scene.settings.solver.path_grid = PathGrid::Same;
+            let possible = |ratio: &usize| {
+                let coarser = on_path_grid(scene, nx / ratio);
+                let allowed = coarser.check_path_grid().is_ok() && coarser.resolves_on_path_grid();
+                allowed && shorter >= FEWEST_PATH_CELLS * ratio
+            };
+            let ratios: Vec<usize> = RATIOS.into_iter().filter(possible).collect();
+            if shorter < FEWEST_CELLS || ratios.is_empty() || !pays(scene) {
+                return Ok(());
+            }
+            ratios
+        }
     };
-    let ratios: Vec<usize> = RATIOS.into_iter().filter(possible).collect();
-    if shorter < FEWEST_CELLS || ratios.is_empty() || !pays(scene) {
-        return Ok(());
-    }
     // Cycles repeat the ends of their branches.
     let branches = Repeats::of_ends(&scene.path.branches).last() + 1;
-    let errors = match errors_of_trial(scene, branches, stop) {
-        Ok(errors) => errors,
-        Err(error @ Error::Interrupted { .. }) => return Err(error),
+    let tried = ratios.iter().map(|ratio| shorter / ratio);
+    let tried = tried.fold(TRIAL_CELLS, usize::min);
+    let errors = match (errors_of_trial(scene, tried, branches, stop), given) {
+        (Ok(errors), _) => errors,
+        (Err(error @ Error::Interrupted { .. }), _) => return Err(error),
+        (Err(error), PathGrid::Cells(cells)) => return Err(without_estimate(cells, &error)),
         // A coarse grid may be too coarse for the scene.
-        Err(_) => return Ok(()),
+        (Err(_), _) => return Ok(()),
     };
     let worst = errors.iter().map(|error| error.q).fold(0.0, f64::max);
     for ratio in ratios {
-        let of_grid = worst * extrapolation(shorter / ratio, ratio);
+        let of_grid = worst * extrapolation(tried, shorter / ratio, ratio);
         let mut branches = scene.path.branches.clone();
         for (k, branch) in branches.iter_mut().enumerate() {
             // Branches that are solved on both grids, as the contact grows, have no such error.
@@ -71,13 +82,21 @@ pub(super) fn choose_path_grid(scene: &mut Scene, stop: &Arc<AtomicBool>) -> Res
             }
         }
         let largest = branches.iter().filter_map(|of| of.path_error);
-        if largest.fold(0.0, f64::max) <= scene.settings.solver.path_tolerance {
+        let allowed = largest.fold(0.0, f64::max) <= scene.settings.solver.path_tolerance;
+        if allowed || given != PathGrid::Auto {
             scene.settings.solver.path_grid = PathGrid::Cells(nx / ratio);
             scene.path.branches = branches;
             break;
         }
     }
     Ok(())
+}
+
+/// Refuses a path grid whose error cannot be estimated.
+fn without_estimate(cells: usize, why: &Error) -> Error {
+    let allowed =
+        format!("\"auto\" or \"same\": the error that it leaves cannot be estimated ({why})");
+    Error::invalid("solver.path_grid", cells, allowed)
 }
 
 /// Errors of the path grid of a scene at the ends of its branches; empty if that is the grid
@@ -90,9 +109,14 @@ pub(super) fn path_grid_errors(
         return Ok(Vec::new());
     };
     let ratio = scene.grid.nx / cells;
-    let factor = extrapolation(scene.grid.nx.min(scene.grid.ny) / ratio, ratio);
-    let errors = errors_of_trial(scene, scene.path.branches.len(), stop)?;
-    let errors = errors.into_iter();
+    let shorter = scene.grid.nx.min(scene.grid.ny) / ratio;
+    let tried = shorter.min(TRIAL_CELLS);
+    let factor = extrapolation(tried, shorter, ratio);
+    let errors = match errors_of_trial(scene, tried, scene.path.branches.len(), stop) {
+        Ok(errors) => errors.into_iter(),
+        Err(error @ Error::Interrupted { .. }) => return Err(error),
+        Err(error) => return Err(without_estimate(cells, &error)),
+    };
     Ok(errors.map(|error| error.times(factor)).collect())
 }
 
@@ -111,22 +135,23 @@ fn pays(scene: &Scene) -> bool {
         && taken_over as f64 >= TAKEN_OVER * scene.path.increments() as f64
 }
 
-/// e(N, ratio N) over e(32, 64).
-fn extrapolation(cells: usize, ratio: usize) -> f64 {
+/// e(N, ratio N) over e(T, 2 T) of the `tried` cells T.
+fn extrapolation(tried: usize, cells: usize, ratio: usize) -> f64 {
     let halvings = (0..ratio.ilog2()).map(|k| (-ORDER * f64::from(k)).exp2());
-    (TRIAL_CELLS as f64 / cells as f64).powf(ORDER) * halvings.sum::<f64>()
+    (tried as f64 / cells as f64).powf(ORDER) * halvings.sum::<f64>()
 }
 
-/// The errors e(32, 64) at the ends of the first branches.
+/// The errors e(T, 2 T) of the `tried` cells T at the ends of the first branches.
 fn errors_of_trial(
     scene: &Scene,
+    tried: usize,
     branches: usize,
     stop: &Arc<AtomicBool>,
 ) -> Result<Vec<PathError>, Error> {
     let Grid { nx, ny, .. } = scene.grid;
     let (length, width) = scene.grid.extent();
     let shorter = nx.min(ny) as f64;
-    let cells = |n: usize| 4 * ((n * TRIAL_CELLS) as f64 / (2.0 * shorter)).round() as usize;
+    let cells = |n: usize| 4 * ((n * tried) as f64 / (2.0 * shorter)).round() as usize;
     let mut trial = scene.clone();
     trial.path.branches.truncate(branches);
     for branch in &mut trial.path.branches {

@@ -30,7 +30,7 @@ use super::coupling::coupling;
 use super::{Increment, March, Motion, State};
 use crate::error::Error;
 use crate::plan::Plan;
-use crate::scene::{Grid, LoadPoint, PathGrid, SaveFields, Scene};
+use crate::scene::{LoadPoint, PathGrid, SaveFields, Scene};
 
 /// Tolerance of increments that start from a carried state, over that of the scene.
 const CARRIED_SHARE: f64 = 0.25;
@@ -46,7 +46,7 @@ impl March {
         plan: &Plan,
         stop: &Arc<AtomicBool>,
     ) -> Result<Option<Box<Self>>, Error> {
-        let PathGrid::Cells(cells) = scene.settings.solver.path_grid else {
+        let Some(grid) = scene.path_grid() else {
             return Ok(None);
         };
         if scene.settings.save == SaveFields::All || scene.yields() {
@@ -58,18 +58,10 @@ impl March {
                 "\"auto\" or \"same\": mu times the coupling of the bodies is {product:.2}, at most \
                  {MOST_COUPLING} for a coarser path"
             );
-            return Err(Error::invalid("solver.path_grid", cells, allowed));
+            return Err(Error::invalid("solver.path_grid", grid.nx, allowed));
         }
-        let (mut coarse, ratio) = (scene.clone(), scene.grid.nx / cells);
-        let Grid { nx, ny, dx, dy, .. } = scene.grid;
-        let length = ratio as f64;
-        coarse.grid = Grid {
-            nx: nx / ratio,
-            ny: ny / ratio,
-            dx: length * dx,
-            dy: length * dy,
-            ..scene.grid
-        };
+        let mut coarse = scene.clone();
+        coarse.grid = grid;
         coarse.settings.solver.tolerance = Some(scene.tolerance());
         coarse.settings.solver.path_grid = PathGrid::Same;
         Ok(Some(Box::new(Self::planned(&coarse, plan.clone(), stop)?)))

@@ -2,7 +2,7 @@
 
 use super::{Increment, shear_errors};
 use crate::error::Error;
-use crate::scene::{FEW_CELLS, FEWEST_CELLS, LARGE_STRAIN, Scene};
+use crate::scene::{LARGE_STRAIN, PathGrid, Scene};
 
 /// Upper bound of the hardness of metals and most ceramics over Young's modulus.
 const HARD: f64 = 0.05;
@@ -47,10 +47,11 @@ impl Reached {
         }
     }
 
-    /// Fails if the contact has fewer than [`FEWEST_CELLS`] across its radius where it is largest.
+    /// Fails if the contact has fewer than [`FEWEST_CELLS`](crate::scene::FEWEST_CELLS) across its
+    /// radius where it is largest, on the grid or on the path grid.
     pub fn check(&self, scene: &Scene) -> Result<(), Error> {
-        if self.cells_per_radius > 0.0 && self.cells_per_radius < FEWEST_CELLS {
-            return Err(scene.grid.too_coarse(self.cells_per_radius));
+        if self.cells_per_radius > 0.0 {
+            return scene.check_cells(self.cells_per_radius, 1.0);
         }
         Ok(())
     }
@@ -68,18 +69,29 @@ impl Reached {
     /// each.
     pub fn doubts(&self, scene: &Scene) -> Vec<String> {
         let mut doubts = Vec::new();
-        if self.cells_per_radius > 0.0 && self.cells_per_radius < FEW_CELLS {
-            doubts.push(scene.grid.coarse(self.cells_per_radius));
+        if self.cells_per_radius > 0.0 {
+            doubts.extend(scene.doubts_of(self.cells_per_radius, 1.0));
         }
         let allowed = scene.settings.solver.path_tolerance;
         let errors = shear_errors(scene, &self.ends).into_iter().enumerate();
         if let Some((k, error)) = errors.max_by(|a, b| a.1.total_cmp(&b.1))
             && error > NOTABLE_RATIO * allowed
         {
+            let with = match scene.settings.solver.path_grid {
+                PathGrid::Cells(cells) => {
+                    format!(
+                        "with more increments, and with more cells than solver.path_grid = {cells}"
+                    )
+                }
+                _ => "with more increments".into(),
+            };
+            let count = match scene.path.branches[k].count() {
+                1 => "one increment".into(),
+                count => format!("{count} increments"),
+            };
             doubts.push(format!(
-                "branch {} of the path, in {} increments, leaves the shear {:.1} % off, the path tolerance is {:.1} %: it falls with more increments",
+                "branch {} of the path, in {count}, leaves the shear {:.1} % off, the path tolerance is {:.1} %: it falls {with}",
                 k + 1,
-                scene.path.branches[k].count(),
                 100.0 * error,
                 100.0 * allowed
             ));

@@ -123,7 +123,7 @@ impl Scene {
         let hertz = self.hertz();
         let mut doubts = self.doubts_of_values();
         doubts.extend(hertz.and_then(|hertz| self.doubt_of_half_spaces(&hertz)));
-        doubts.extend(self.doubt_of_cells());
+        doubts.extend(self.doubts_of_cells());
         let wide = self.grid.wide();
         for (key, body) in [("body1", &self.body1), ("body2", &self.body2)] {
             doubts.extend(self.doubt_of_thin_layers(key, body));

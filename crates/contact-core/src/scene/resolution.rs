@@ -6,7 +6,7 @@
 use plausible::UNITS;
 
 use super::doubts::softest;
-use super::{Grid, Scene};
+use super::{Grid, PathGrid, Scene};
 use crate::error::Error;
 use crate::hertz::hertz_ellipse;
 
@@ -25,19 +25,78 @@ impl Scene {
     /// Fails if even the contact of the softest material alone has fewer than [`FEWEST_CELLS`]
     /// across its radius.
     pub(super) fn check_resolution(&self) -> Result<(), Error> {
-        let Some(cells) = self.most_cells() else {
-            return Ok(());
-        };
-        if CERTAIN * cells < FEWEST_CELLS {
-            return Err(self.grid.too_coarse(cells));
-        }
-        Ok(())
+        self.most_cells()
+            .map_or(Ok(()), |cells| self.check_cells(cells, CERTAIN))
     }
 
     /// That the contact has few cells across its radius, if that is certain before it is solved.
-    pub(super) fn doubt_of_cells(&self) -> Option<String> {
-        let cells = self.most_cells()?;
-        (CERTAIN * cells < FEW_CELLS).then(|| self.grid.coarse(cells))
+    pub(super) fn doubts_of_cells(&self) -> Vec<String> {
+        self.most_cells()
+            .map_or_else(Vec::new, |cells| self.doubts_of(cells, CERTAIN))
+    }
+
+    /// Fails if a contact of so many cells across its radius, `more` times as many at most, has fewer
+    /// than [`FEWEST_CELLS`] on the grid or on the path grid.
+    pub(crate) fn check_cells(&self, cells: f64, more: f64) -> Result<(), Error> {
+        if more * cells < FEWEST_CELLS {
+            return Err(self.grid.too_coarse(cells));
+        }
+        match self.cells_on_path_grid(cells) {
+            Some((of, cells)) if more * cells < FEWEST_CELLS => Err(Error::invalid(
+                "solver.path_grid",
+                of,
+                format!(
+                    "\"auto\", \"same\" or more: on the path grid the contact has {cells:.2} cells across its radius, and \
+                     fewer than {FEWEST_CELLS} show nothing of it"
+                ),
+            )),
+            _ => Ok(()),
+        }
+    }
+
+    /// That a contact of so many cells across its radius, `more` times as many at most, has fewer than
+    /// [`FEW_CELLS`] on the grid, or on the path grid.
+    pub(crate) fn doubts_of(&self, cells: f64, more: f64) -> Vec<String> {
+        let of_grid = (more * cells < FEW_CELLS).then(|| self.grid.coarse(cells));
+        let on_path = self.cells_on_path_grid(cells);
+        let of_path = on_path.filter(|(_, cells)| more * cells < FEW_CELLS);
+        let of_path = of_path.map(|(of, cells)| {
+            format!(
+                "solver.path_grid = {of}: on the path grid the contact has {cells:.1} cells across its radius; with fewer than \
+                 {FEW_CELLS} the path and its energies are off by more than some per cent; \"same\" has as many as the grid"
+            )
+        });
+        of_grid.into_iter().chain(of_path).collect()
+    }
+
+    /// The path grid, and the cells there across the radius of a contact with so many on the grid.
+    fn cells_on_path_grid(&self, cells: f64) -> Option<(usize, f64)> {
+        let grid = self.path_grid()?;
+        Some((grid.nx, cells * self.grid.dx / grid.dx))
+    }
+
+    /// The grid that the path is solved on where that is not the grid of the scene.
+    pub(crate) fn path_grid(&self) -> Option<Grid> {
+        let PathGrid::Cells(cells) = self.settings.solver.path_grid else {
+            return None;
+        };
+        let Grid { nx, ny, dx, dy, .. } = self.grid;
+        let ratio = nx / cells;
+        let length = ratio as f64;
+        Some(Grid {
+            nx: nx / ratio,
+            ny: ny / ratio,
+            dx: length * dx,
+            dy: length * dy,
+            ..self.grid
+        })
+    }
+
+    /// Whether the contact may have [`FEW_CELLS`] across its radius on the path grid.
+    pub(crate) fn resolves_on_path_grid(&self) -> bool {
+        let most = self.most_cells();
+        let on_path = most.and_then(|cells| self.cells_on_path_grid(CERTAIN * cells));
+        on_path.is_none_or(|(_, cells)| cells >= FEW_CELLS)
     }
 
     /// Most cells that a contact of two paraboloids can have across its radius under the largest

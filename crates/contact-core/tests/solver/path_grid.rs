@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use contact_core::Scene;
 use contact_core::estimate::choose_increments;
-use contact_core::march::{Increment, March, State};
+use contact_core::march::{Increment, March, Reached, State};
 use contact_core::scene::{PathGrid, SaveFields};
 use ndarray::Array2;
 
@@ -157,6 +157,85 @@ fn a_path_grid_divides_the_grid() {
         assert!(
             said.contains("path_grid") && said.contains(allowed),
             "{said}"
+        );
+    }
+}
+
+/// The error that is estimated, over the true one, and the doubts of a run.
+#[test]
+fn a_path_grid_that_is_given_has_its_error() {
+    let coarse = |n: usize, extent: f64, path: &str| {
+        let (n, extent) = (
+            format!("grid.n={n}"),
+            format!("grid.extent={{ a_H = {extent} }}"),
+        );
+        scene(PAPER, &[&n, &extent, &format!("solver.path_grid={path}")])
+    };
+    for (n, extent, path, resolved) in [
+        (64, 2.4, 32, true),
+        (64, 5.0, 32, false),
+        (64, 2.4, 16, false),
+    ] {
+        let (_, exact) = run(&coarse(n, extent, "\"same\""));
+        let given = coarse(n, extent, &path.to_string());
+        let known = choose_increments(&given, &Arc::default()).expect("an estimate");
+        let (rows, q) = run(&known);
+        let errors = known
+            .path
+            .branches
+            .iter()
+            .map(|b| b.path_error.expect("an error"));
+        let (told, off) = (errors.fold(0.0, f64::max), distance(&q, &exact));
+        assert!(
+            told > 0.7 * off,
+            "{off:.1e} off, {told:.1e} told, {n}/{path} cells on {extent} a"
+        );
+        let doubts = Reached::of(&rows).doubts(&known);
+        let few = doubts
+            .iter()
+            .any(|doubt| doubt.starts_with(&format!("solver.path_grid = {path}")));
+        assert_eq!(few, !resolved, "{doubts:?}");
+        assert_eq!(
+            few,
+            known
+                .doubts()
+                .iter()
+                .any(|doubt| doubt.contains("path_grid"))
+        );
+    }
+    let refused = coarse(64, 20.0, "16")
+        .check_fit()
+        .expect_err("too few cells");
+    assert!(
+        refused.to_string().contains("solver.path_grid = 16"),
+        "{refused}"
+    );
+}
+
+/// Errors of the increments that are chosen contain that of a path grid that is given.
+#[test]
+fn chosen_increments_have_the_error_of_a_given_path_grid() {
+    let open = PAPER
+        .replace(", increments", "}, #")
+        .replace("tolerance = 4e-5", "");
+    let errors = |path: &str| {
+        let scene = scene(&open, &["grid.n=64", path]);
+        let chosen = choose_increments(&scene, &Arc::default()).expect("a choice");
+        let errors = chosen
+            .path
+            .branches
+            .iter()
+            .map(|b| b.path_error.expect("an error"));
+        errors.collect::<Vec<f64>>()
+    };
+    let (same, given) = (
+        errors("solver.path_grid=\"same\""),
+        errors("solver.path_grid=16"),
+    );
+    for (k, (same, given)) in same.iter().zip(&given).enumerate() {
+        assert!(
+            given >= same && (k == 0 || *given > 2.0 * same),
+            "{same:.1e}, {given:.1e}"
         );
     }
 }
