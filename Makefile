@@ -104,11 +104,11 @@ check: setup ## formats, lints, circles of imports, types, spelling
 	$(BIN)/ruff check
 	$(BIN)/mypy
 	$(PY) -m mypy.stubtest pyfret._core
-	$(PY) tools/stub_docs.py --check
+	$(PY) tools/stub.py --check
 	$(BIN)/typos
 
-stub: setup ## docstrings of the compiled module into its stub
-	$(PY) tools/stub_docs.py
+stub: setup ## the stub of the compiled module, from the module
+	$(PY) tools/stub.py
 
 format: $(VENV)/.tools ## format all sources
 	cargo fmt --all
@@ -122,7 +122,7 @@ docs: setup ## the book, warnings are errors: out/book
 
 # RUSTFLAGS takes the place of those in .cargo/config.toml: a wheel runs on processors without AVX2.
 wheel: $(VENV)/.tools ## a wheel for every processor of this kind, and the source distribution: out/wheels
-	RUSTFLAGS="-C debuginfo=0" CARGO_TARGET_DIR=target/wheel $(BIN)/maturin build --release --locked --sdist --out out/wheels
+	RUSTFLAGS="-C debuginfo=0" CARGO_TARGET_DIR=target/wheel $(BIN)/maturin build --release --locked --strip --sdist --out out/wheels
 
 wheel-test: wheel ## the wheel in a bare environment: command, README, examples
 	$(PY) tools/wheel_test.py out/wheels

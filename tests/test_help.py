@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import ast
 import inspect
-import subprocess
-import sys
 from collections.abc import Iterator
 from types import ModuleType
 from typing import Any
@@ -62,7 +60,7 @@ def test_every_public_name_has_its_docstring() -> None:
     assert not empty
 
 
-def test_the_stub_has_the_members_and_the_docstrings_of_the_module() -> None:
+def test_the_stub_has_the_members_of_the_module() -> None:
     classes = {node.name: node for node in STUB.body if isinstance(node, ast.ClassDef)}
     for name, thing in public(_core):
         if not inspect.isclass(thing):
@@ -74,9 +72,6 @@ def test_the_stub_has_the_members_and_the_docstrings_of_the_module() -> None:
             if isinstance(node, (ast.FunctionDef, ast.AnnAssign))
         }
         assert mine <= theirs, f"{name}: {mine - theirs}"
-    tool = [sys.executable, ROOT / "tools" / "stub_docs.py", "--check"]
-    run = subprocess.run(tool, capture_output=True, text=True, check=False)
-    assert run.returncode == 0, run.stdout + run.stderr
 
 
 def test_a_snapshot_declares_every_variable_of_the_store() -> None:

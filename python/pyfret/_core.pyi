@@ -1,16 +1,3095 @@
-"""The compiled part of pyfret: the scene, its solution and the closed forms.
-
-SI units everywhere; axes, signs and names are those of ``docs/conventions.md``.
-"""
-
 from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
-from typing import Any, ClassVar, Final, Literal, TypeAlias, final
+from typing import Any, Final, Literal, final
 
 import numpy as np
+from numpy import bool_, float64
 from numpy.typing import ArrayLike, NDArray
+from typing_extensions import Self
 
+from pyfret._util.types import FrictionFunction, Variable
 from pyfret.settings import Settings
+
+RIGID: Final[Elastic]
+"""
+A material that does not deform.
+"""
+
+TOO_FEW_INCREMENTS: Final[str]
+"""
+Why a cycle has no stiffness, and what to do.
+"""
+
+__version__: Final[str]
+
+@final
+class Assessment:
+    """
+    A criterion with its limit or its curve of lives.
+
+    Parameters
+    ----------
+    criterion : Criterion
+        Whose value is judged.
+    limit : float, optional
+        Limit for endless life, in the unit of the criterion.
+    curve : five floats, optional
+        Instead of it E [Pa], s_f' [Pa], b, e_f' and c of a strain-life curve.
+    """
+
+    def __eq__(self, value: object, /) -> bool: ...
+    def __getnewargs_ex__(self, /) -> tuple[tuple[Criterion], dict[str, Any]]: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __new__(
+        cls,
+        /,
+        criterion: Criterion,
+        *,
+        limit: float | None = None,
+        curve: Sequence[float] | None = None,
+    ) -> Assessment: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def criterion(self, /) -> Criterion:
+        """The criterion whose value is judged."""
+    @property
+    def curve(self, /) -> list[float] | None:
+        """E [Pa], s_f' [Pa], b, e_f' and c of the strain-life curve, or nothing with a limit."""
+    def life(self, /, value: float) -> float:
+        """Cycles to failure for values of the criterion."""
+    @property
+    def limit(self, /) -> float | None:
+        """The limit, or nothing where the criterion gives lives."""
+    def safety_factor(self, /, value: float) -> float:
+        """Factor by which the history may grow until the limit, for values of the criterion."""
+
+@final
+class Body:
+    """
+    An elastic half-space under its coatings and a gently curved surface.
+
+    Parameters
+    ----------
+    substrate : Elastic
+        Material below the coatings.
+    coatings : sequence of Coating
+        Layers from the surface down: ``coatings[0]`` is the outermost (default: none).
+    shape : Flat, Sphere, Ellipsoid, Cylinder, ... or a sum of them
+        Undeformed surface (default: flat).
+    """
+
+    def __eq__(self, value: object, /) -> bool: ...
+    def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
+    def __hash__(self, /) -> int: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __new__(
+        cls,
+        /,
+        substrate: Elastic,
+        *,
+        coatings: Coating | Sequence[Coating] = ...,
+        shape: Flat
+        | Sphere
+        | Ellipsoid
+        | Cylinder
+        | CrownedRoller
+        | Cone
+        | Wedge
+        | FlatPunch
+        | Waviness
+        | Rough
+        | SurfaceMap
+        | Sum = ...,
+    ) -> Body: ...
+    def __replace__(self, /, **changes: Any) -> Self: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def coatings(self, /) -> list[Coating]:
+        """Layers from the surface down."""
+    def replace(self, /, **changes: Any) -> Self:
+        """The same with some of its parts exchanged, named as in the constructor."""
+    @property
+    def shape(
+        self, /
+    ) -> (
+        Flat
+        | Sphere
+        | Ellipsoid
+        | Cylinder
+        | CrownedRoller
+        | Cone
+        | Wedge
+        | FlatPunch
+        | Waviness
+        | SurfaceMap
+        | Rough
+        | Sum
+    ):
+        """Undeformed surface."""
+    @property
+    def substrate(self, /) -> Elastic:
+        """Material below the coatings."""
+
+@final
+class Bond:
+    """
+    How a layer is bonded to what lies below it: springs that give way under the traction there.
+
+    The upper side moves against the lower one by compliance times traction, in tension as in
+    pressure.
+
+    Parameters
+    ----------
+    normal, shear : float
+        Approach per pressure and slip per shear traction [m/Pa], 0 (default) or more; a large shear
+        compliance is a frictionless interface.
+
+    Examples
+    --------
+    >>> glue = Elastic(E=3e9, nu=0.4)
+    >>> Bond.of_layer(glue, thickness=0.0).normal
+    0.0
+    """
+
+    def __eq__(self, value: object, /) -> bool: ...
+    def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
+    def __hash__(self, /) -> int: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __new__(cls, /, *, normal: float = 0.0, shear: float = 0.0) -> Bond: ...
+    def __replace__(self, /, **changes: Any) -> Self: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def normal(self, /) -> float:
+        """Approach per pressure [m/Pa]."""
+    @staticmethod
+    def of_layer(material: Elastic, *, thickness: float) -> Bond:
+        """The bond that a thin layer of a material makes: h (1 - 2 nu)/(2 G (1 - nu)) and h/G."""
+    def replace(self, /, **changes: Any) -> Self:
+        """The same with some of its parts exchanged, named as in the constructor."""
+    @property
+    def shear(self, /) -> float:
+        """Slip per shear traction [m/Pa]."""
+
+@final
+class Branch:
+    """
+    One straight piece of a load history; most are made by the methods of :class:`LoadPath`.
+
+    Parameters
+    ----------
+    W, M_x, M_y, T_x, T_y, M_z : float, optional
+        Loads at its end [N, N m].
+    delta_z, phi_x, phi_y, delta_x, delta_y, phi_z : float, optional
+        Motions at its end [m, rad], in place of their loads. Without both the forces are 0 and
+        the bodies do not rotate.
+    sigma_B, sigma_B1, rolled : float
+        Bulk stresses [Pa] and the way rolled [m] at its end (default 0).
+    increments : int, optional
+        Their number (default: chosen).
+    spacing : Spacing
+        How they are spaced (default uniform).
+    t : float
+        Path time at its end.
+    path_error : float, optional
+        Estimated error that the increments leave in the shear, as known before a run; that of
+        :meth:`Result.branches` contains what the run shows of it.
+    """
+
+    @property
+    def M_x(self, /) -> float | None:
+        """Tilting moment about x at its end [N m]; None where the tilt is given."""
+    @property
+    def M_y(self, /) -> float | None:
+        """Tilting moment about y at its end [N m]; None where the tilt is given."""
+    @property
+    def M_z(self, /) -> float | None:
+        """Torsional moment on body 2 at its end [N m]; None where the rotation is given."""
+    @property
+    def T_x(self, /) -> float | None:
+        """Tangential force along x on body 2 at its end [N]; None where the shift is given."""
+    @property
+    def T_y(self, /) -> float | None:
+        """Tangential force along y on body 2 at its end [N]; None where the shift is given."""
+    @property
+    def W(self, /) -> float | None:
+        """Normal force at its end [N]; None where the approach is given."""
+    def __eq__(self, value: object, /) -> bool: ...
+    def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
+    def __hash__(self, /) -> int: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __new__(
+        cls,
+        /,
+        *,
+        W: float | None = None,
+        M_x: float | None = None,
+        M_y: float | None = None,
+        T_x: float | None = None,
+        T_y: float | None = None,
+        M_z: float | None = None,
+        delta_z: float | None = None,
+        phi_x: float | None = None,
+        phi_y: float | None = None,
+        delta_x: float | None = None,
+        delta_y: float | None = None,
+        phi_z: float | None = None,
+        sigma_B: float = 0.0,
+        sigma_B1: float = 0.0,
+        rolled: float = 0.0,
+        increments: int | Literal["auto"] | None = None,
+        spacing: Spacing = ...,
+        t: float,
+        path_error: float | None = None,
+    ) -> Branch: ...
+    def __replace__(self, /, **changes: Any) -> Self: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def delta_x(self, /) -> float | None:
+        """Shift along x at its end [m]; None where T_x is given."""
+    @property
+    def delta_y(self, /) -> float | None:
+        """Shift along y at its end [m]; None where T_y is given."""
+    @property
+    def delta_z(self, /) -> float | None:
+        """Approach at its end [m]; None where W is given."""
+    @property
+    def increments(self, /) -> int | None:
+        """Number of increments; None: as many as the path tolerance asks for."""
+    @property
+    def path_error(self, /) -> float | None:
+        """Estimated error that the increments leave in the shear, over the largest shear."""
+    @property
+    def phi_x(self, /) -> float | None:
+        """Tilt about x at its end [rad]; None where M_x is given."""
+    @property
+    def phi_y(self, /) -> float | None:
+        """Tilt about y at its end [rad]; None where M_y is given."""
+    @property
+    def phi_z(self, /) -> float | None:
+        """Rotation about z at its end [rad]; None where M_z is given."""
+    def replace(self, /, **changes: Any) -> Self:
+        """The same with some of its parts exchanged, named as in the constructor."""
+    @property
+    def rolled(self, /) -> float:
+        """Way that the contact has rolled along x at its end [m]."""
+    @property
+    def sigma_B(self, /) -> float:
+        """Bulk stress along x in body 2 at its end [Pa]."""
+    @property
+    def sigma_B1(self, /) -> float:
+        """Bulk stress along x in body 1 at its end [Pa]."""
+    @property
+    def spacing(self, /) -> Spacing:
+        """How the increments are spaced."""
+    @property
+    def t(self, /) -> float:
+        """Path time at its end."""
+
+@final
+class CattaneoMindlin:
+    """
+    Partial slip of a sphere under constant normal force and a force T along x.
+
+    C. Cattaneo (1938); R. D. Mindlin, J. Appl. Mech. 16 (1949) 259; reversals after R. D. Mindlin
+    and H. Deresiewicz, J. Appl. Mech. 20 (1953) 327. Exact for similar bodies of nu = 0; for other
+    nu the slip is not quite along x and the shift over the force stays a good approximation.
+    All forces obey abs(T) <= mu W.
+
+    Parameters
+    ----------
+    hertz : Hertz
+        The normal contact.
+    bodies : tuple[Any, ...] of Elastic
+        Materials of body 1 and body 2.
+    mu : float
+        Friction coefficient.
+    """
+
+    @property
+    def G_star(self, /) -> float:
+        """Tangential modulus [Pa], 1/G* = (2 - nu1)/G1 + (2 - nu2)/G2."""
+    @property
+    def T_limit(self, /) -> float:
+        """Largest tangential force [N], mu W."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self, /) -> int: ...
+    def __new__(
+        cls, /, hertz: Hertz, *, bodies: tuple[Elastic | Body, Elastic | Body], mu: float
+    ) -> CattaneoMindlin: ...
+    def __reduce__(self, /) -> tuple[Any, tuple[Any, ...]]: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def bodies(self, /) -> tuple[Elastic, Elastic]:
+        """Materials of body 1 and body 2."""
+    def energy_ratio(self, /, T_m: float) -> float:
+        """Loop energy over 4 T_m delta_x(T_m); 0.2 where partial slip ends."""
+    @property
+    def hertz(self, /) -> Hertz:
+        """The normal contact."""
+    def loop_energy(self, /, T_m: float) -> float:
+        """Energy dissipated in one closed loop between -`T_m` and `T_m` [J]."""
+    @property
+    def mu(self, /) -> float:
+        """Friction coefficient."""
+    def q_loading(self, /, r: ArrayLike, *, T: float) -> NDArray[np.float64]:
+        """Shear traction at distance `r` [m] in the first loading to `T` [N] [Pa]."""
+    def q_reloading(self, /, r: ArrayLike, *, T: float, T_m: float) -> NDArray[np.float64]:
+        """Shear traction at `T` on the way from -`T_m` back to `T_m` [N] [Pa]."""
+    def q_unloading(self, /, r: ArrayLike, *, T: float, T_m: float) -> NDArray[np.float64]:
+        """Shear traction at `T` on the way back from the first loading to `T_m` [N] [Pa]."""
+    @property
+    def shift_limit(self, /) -> float:
+        """Shift at which gross sliding starts [m], 3 mu W / (16 a G*)."""
+    def shift_loading(self, /, T: ArrayLike) -> NDArray[np.float64]:
+        """Shift delta_x of the first loading to `T` [N] [m]."""
+    def shift_reloading(self, /, T: ArrayLike, *, T_m: float) -> NDArray[np.float64]:
+        """Shift delta_x at `T` on the way from -`T_m` back to `T_m` [N] [m]."""
+    def shift_unloading(self, /, T: ArrayLike, *, T_m: float) -> NDArray[np.float64]:
+        """Shift delta_x at `T` on the way back from `T_m` [N] [m]."""
+    def stick_radius(self, /, T: float) -> float:
+        """Stick radius of the first loading to `T` [N], a (1 - T/(mu W))^(1/3) [m]."""
+    def stick_radius_reversed(self, /, T: float, *, T_m: float) -> float:
+        """
+        Stick radius after the force changed from the reversal at `T_m` to `T` [N] [m].
+
+        a [1 - abs(T_m - T)/(2 mu W)]^(1/3)
+        """
+
+@final
+class CoatedIndentation:
+    """Frictionless contact of a sphere with a body that has one coating."""
+
+    @property
+    def R(self, /) -> float:
+        """Radius of the sphere [m]."""
+    @property
+    def W(self, /) -> float:
+        """Normal force [N]."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self, /) -> int: ...
+    def __reduce__(self, /) -> tuple[Any, tuple[Any, ...]]: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def a(self, /) -> float:
+        """Contact radius [m]."""
+    @property
+    def coating(self, /) -> Coating:
+        """The coating."""
+    @property
+    def delta_z(self, /) -> float:
+        """Approach [m]."""
+    @property
+    def indenter(self, /) -> Elastic:
+        """Material of the sphere."""
+    def p(self, /, r: ArrayLike) -> NDArray[np.float64]:
+        """Pressure at distance `r` [m] from the middle [Pa]."""
+    @property
+    def substrate(self, /) -> Elastic:
+        """Material below the coating."""
+
+@final
+class Coating:
+    """
+    A layer of constant thickness on what is below it.
+
+    Parameters
+    ----------
+    material : Elastic
+        Material of the layer.
+    thickness : float
+        Thickness [m], positive.
+    bond : Bond
+        Bond to what is below it (default: perfect).
+    """
+
+    def __eq__(self, value: object, /) -> bool: ...
+    def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
+    def __hash__(self, /) -> int: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __new__(cls, /, material: Elastic, *, thickness: float, bond: Bond = ...) -> Coating: ...
+    def __replace__(self, /, **changes: Any) -> Self: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def bond(self, /) -> Bond:
+        """Bond to what is below it."""
+    @property
+    def material(self, /) -> Elastic:
+        """Material of the layer."""
+    def replace(self, /, **changes: Any) -> Self:
+        """The same with some of its parts exchanged, named as in the constructor."""
+    @property
+    def thickness(self, /) -> float:
+        """Thickness [m]."""
+
+@final
+class Cone:
+    """
+    A cone with its tip at the origin.
+
+    Parameters
+    ----------
+    slope : float
+        Tangent of the angle between flank and contact plane.
+    """
+
+    def __add__(self, other: object, /) -> Sum: ...
+    def __radd__(self, other: object, /) -> Sum: ...
+    def __eq__(self, value: object, /) -> bool: ...
+    def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
+    def __hash__(self, /) -> int: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __new__(cls, /, *, slope: float) -> Cone: ...
+    def __replace__(self, /, **changes: Any) -> Self: ...
+    def __repr__(self, /) -> str: ...
+    def replace(self, /, **changes: Any) -> Self:
+        """The same with some of its parts exchanged, named as in the constructor."""
+    @property
+    def slope(self, /) -> float:
+        """Tangent of the angle between flank and contact plane."""
+
+@final
+class Conversion:
+    """The paper's conversion, planned; see :func:`pyfret.kernels.convert`."""
+
+    def __new__(cls, /, grid: Grid, *, enlargement: int = 8, aliases: int = 0) -> Conversion: ...
+    def convert(self, /, frf: NDArray[np.complex128]) -> NDArray[np.float64]:
+        """Influence coefficients from the response at the wave vectors, shape (n, 3, 3)."""
+    def wave_vectors(self, /) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Wave numbers k_x, k_y [1/m] at which the response is needed, never both zero."""
+
+@final
+class CoupledIndentation:
+    """Indentation with friction of dissimilar bodies, fully coupled, in numbers without load."""
+
+    @property
+    def W(self, /) -> float:
+        """Normal force over 4 E* a^3 / (3 R)."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self, /) -> int: ...
+    def __reduce__(self, /) -> tuple[Any, tuple[Any, ...]]: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def beta(self, /) -> float:
+        """Dundurs' parameter."""
+    @property
+    def delta_z(self, /) -> float:
+        """Approach over a^2/R."""
+    @property
+    def mu(self, /) -> float:
+        """Friction coefficient."""
+    @property
+    def p0(self, /) -> float:
+        """Central pressure over 3 W / (2 pi a^2)."""
+    @property
+    def stick_ratio(self, /) -> float:
+        """Stick radius over contact radius."""
+
+@final
+class Crack:
+    """
+    A crack from the surface of a half-plane: where stress is wanted, what it does at the tip.
+
+    Plane strain; nothing here knows of contacts. K_I + i K_II = lim sqrt(2 pi r) (s_nn + i s_tn)
+    ahead of the tip, t along the crack, n = +x for a crack along the depth.
+
+    Parameters
+    ----------
+    x : float
+        Place of the mouth [m].
+    legs : list of (float, float)
+        Length [m] and angle [rad] of each straight leg from the mouth on; angles are from the
+        inward normal, positive towards +x.
+
+    Examples
+    --------
+    >>> crack = Crack(legs=[(1e-4, 0.0)])
+    >>> tension = np.zeros((1, len(crack.points), 6))
+    >>> tension[..., 0] = 100e6
+    >>> K = crack.intensity(tension).get("K_I").item(0)
+    >>> round(K / (100e6 * np.sqrt(np.pi * 1e-4)), 4)
+    1.1215
+    """
+
+    def __eq__(self, other: object, /) -> bool: ...
+    def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
+    def __hash__(self, /) -> int: ...
+    def __new__(cls, /, *, legs: Sequence[tuple[float, float]], x: float = 0.0) -> Crack: ...
+    def __replace__(self, /, **changes: Any) -> Self: ...
+    def __repr__(self, /) -> str: ...
+    def grow(
+        self,
+        /,
+        stress: Callable[[NDArray[np.float64]], ArrayLike],
+        *,
+        end: float,
+        direction: Literal["tangential_stress", "opening_intensity"] = "tangential_stress",
+        friction: float = 0.0,
+        tolerance: float = 1e-2,
+    ) -> dict[str, Any]:
+        """
+        Grow the crack in the direction of the largest range over a cycle of stress.
+
+        Pieces are curved so that at the end of each the crack has no reason to turn; their number
+        doubles until the tip moves less than the tolerance.
+
+        Parameters
+        ----------
+        stress : callable
+            Takes points, x and depth [m] in an array of shape (points, 2), and gives the stress of
+            the body without the crack there over the instants of the cycle [Pa], shape
+            (time, points, 6).
+        end : float
+            Length to grow to [m].
+        direction : {"tangential_stress", "opening_intensity"}
+            Largest range of the tangential stress ahead of the tip, or of K_I of a small kink.
+        friction : float
+            Coefficient of friction between faces in contact.
+        tolerance : float
+            Distance by which the last tip may be off over the length grown.
+
+        Returns
+        -------
+        dict[str, Any]
+            Of the tips on the way ``length``, ``x``, ``z`` [m], ``angle`` [rad], over (time, tips)
+            ``K_I``, ``K_II`` and their ``error`` [Pa m^0.5]; ``path_error``, how far the last tip
+            may be off [m]; ``end``: "reached" the length, "closed", as nothing opens the crack,
+            "surface", to which it came back, "kinks", where its direction jumps.
+        """
+    def intensity(
+        self, /, stress: ArrayLike, *, friction: float | None = None
+    ) -> dict[str, NDArray[np.float64]]:
+        """
+        K over the instants of a history of stress at :attr:`points`.
+
+        Parameters
+        ----------
+        stress : array of shape (time, points, 6)
+            Stress of the body without the crack [Pa]: xx, yy, zz, xy, xz, yz, z the depth.
+        friction : float, optional
+            Coefficient of friction between faces in contact; by default faces may pass through
+            each other, and K is linear in the stress.
+
+        Returns
+        -------
+        dict[str, Any]
+            ``K_I``, ``K_II`` and their ``error`` [Pa m^0.5], ``open``, the share of the crack that
+            is open, each over time.
+        """
+    @property
+    def legs(self, /) -> list[tuple[float, float]]:
+        """Length [m] and angle [rad] of each leg."""
+    @property
+    def length(self, /) -> float:
+        """Length along the crack [m]."""
+    @property
+    def points(self, /) -> NDArray[float64]:
+        """Points at which the stress is wanted, tip to mouth: x and depth [m], (points, 2)."""
+    def replace(self, /, **changes: Any) -> Self:
+        """The same with some of its parts exchanged, named as in the constructor."""
+    @property
+    def x(self, /) -> float:
+        """Place of the mouth [m]."""
+
+@final
+class Criterion:
+    """
+    A criterion by its name, one of :data:`pyfret.fatigue.CRITERIA`, and its numbers by theirs.
+
+    Examples
+    --------
+    >>> Criterion.findley(k=0.3) == Criterion("findley", k=0.3)
+    True
+    """
+
+    def __eq__(self, value: object, /) -> bool: ...
+    def __getnewargs_ex__(self, /) -> tuple[tuple[str], dict[str, Any]]: ...
+    def __hash__(self, /) -> int: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __new__(cls, name: str, /, **numbers: float) -> Criterion: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def has_plane(self, /) -> bool:
+        """Whether it has a critical plane."""
+    @property
+    def name(self, /) -> str:
+        """Name of the criterion."""
+    @property
+    def numbers(self, /) -> dict[str, Any]:
+        """Its numbers by their names."""
+    @property
+    def unit(self, /) -> str:
+        """Unit of its value: Pa, or 1 for strains."""
+    @staticmethod
+    def crossland(**numbers: float) -> Criterion:
+        """Give sqrt(J2,a) + alpha p_h,max [Pa].
+
+        B. Crossland, Proc. Int. Conf. on Fatigue of Metals, IMechE, London (1956) 138-149.
+        """
+    @staticmethod
+    def dang_van(**numbers: float) -> Criterion:
+        """Give the largest tau(t) + alpha p_h(t) of the mesoscopic shear [Pa].
+
+        K. Dang Van, ASTM STP 1191 (1993) 120-130.
+        """
+    @staticmethod
+    def findley(**numbers: float) -> Criterion:
+        """Give the largest tau_a + k s_n,max of all planes [Pa].
+
+        W. N. Findley, J. Eng. Ind. 81 (1959) 301-305.
+        """
+    @staticmethod
+    def matake(**numbers: float) -> Criterion:
+        """Give tau_a + k s_n,max on the plane of the largest tau_a [Pa].
+
+        T. Matake, Bull. JSME 20 (1977) 257-263.
+        """
+    @staticmethod
+    def mcdiarmid(**numbers: float) -> Criterion:
+        """Give tau_a + k s_n,max on the plane of the largest tau_a, k = t_D/(2 s_u) [Pa].
+
+        D. L. McDiarmid, Fatigue Fract. Eng. Mater. Struct. 14 (1991) 429-453.
+        """
+    @staticmethod
+    def smith_watson_topper(**numbers: float) -> Criterion:
+        """Give the largest s_n,max times half the range of the normal strain [Pa].
+
+        K. N. Smith, P. Watson, T. H. Topper, J. Mater. 5 (1970) 767-778;
+        D. F. Socie, J. Eng. Mater. Technol. 109 (1987) 293-298.
+        """
+    @staticmethod
+    def fatemi_socie(**numbers: float) -> Criterion:
+        """Give the largest gamma_a (1 + k s_n,max/s_y) of all planes.
+
+        A. Fatemi, D. F. Socie, Fatigue Fract. Eng. Mater. Struct. 11 (1988) 149-165.
+        """
+    @staticmethod
+    def brown_miller(**numbers: float) -> Criterion:
+        """Give gamma_a + S times the range of the normal strain, where gamma_a is largest.
+
+        F. A. Kandil, M. W. Brown, K. J. Miller, The Metals Society Book 280 (1982) 203-210.
+        """
+
+@final
+class CriterionBelow:
+    """What a criterion found on a section."""
+
+    @property
+    def assessments(self, /) -> list[Assessment | None]:
+        """The assessment of every layer, None where it is not judged."""
+    @property
+    def depths(self, /) -> tuple[list[float], list[int]]:
+        """Depths [m] and their layers."""
+    def fields(self, /) -> dict[str, NDArray[np.float64]]:
+        """Arrays over (depth, place), NaN where not judged."""
+    @property
+    def notes(self, /) -> list[str]:
+        """What a reader should know of the materials."""
+    def worst(self, /, layer: int) -> dict[str, Any] | None:
+        """The worst point of a layer, None where it is not judged."""
+
+@final
+class CrownedRoller:
+    """
+    A cylinder with rounded ends; its axis is y turned by `angle`.
+
+    Parameters
+    ----------
+    R : float
+        Radius [m].
+    length : float
+        Length of the straight part [m], 0 for a crown all along.
+    crown : float
+        Radius along the axis beyond the straight part [m].
+    angle : float
+        Turn of the axis from y [rad].
+    """
+
+    @property
+    def R(self, /) -> float:
+        """Radius [m]."""
+    def __add__(self, other: object, /) -> Sum: ...
+    def __radd__(self, other: object, /) -> Sum: ...
+    def __eq__(self, value: object, /) -> bool: ...
+    def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
+    def __hash__(self, /) -> int: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __new__(
+        cls, /, *, R: float, length: float, crown: float, angle: float = 0.0
+    ) -> CrownedRoller: ...
+    def __replace__(self, /, **changes: Any) -> Self: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def angle(self, /) -> float:
+        """Turn of the axis from y [rad]."""
+    @property
+    def crown(self, /) -> float:
+        """Radius along the axis beyond the straight part [m]."""
+    @property
+    def length(self, /) -> float:
+        """Length of the straight part [m], 0 for a crown all along."""
+    def replace(self, /, **changes: Any) -> Self:
+        """The same with some of its parts exchanged, named as in the constructor."""
+
+@final
+class CycleSection:
+    """
+    A section of a body below a contact over a cycle.
+
+    `moments` is called with a list of numbers from 0 to `count` - 1, or with None for the moment
+    before the cycle: lists of q_x, q_y, p [Pa] and stick, of shape (nx, ny) each, and of the bulk
+    stress [Pa]; or None.
+    """
+
+    def __new__(
+        cls,
+        /,
+        body: Body,
+        grid: Grid,
+        moments: Callable[[list[int] | None], tuple[list[Any], ...] | None],
+        count: int,
+        *,
+        x: float | None = None,
+        y: float | None = None,
+        azimuth: float | None = None,
+        body_number: int = 2,
+        residual: Sequence[float] | None = None,
+    ) -> CycleSection: ...
+    def by_criteria(
+        self,
+        /,
+        z: Sequence[float],
+        layer: Sequence[int],
+        materials: Sequence[Material | None],
+        criteria: Sequence[str],
+        *,
+        tolerance: float,
+    ) -> list[CriterionBelow]:
+        """Judge the section by criteria for the materials of the layers, all by the same stress."""
+    def by_yield(
+        self, /, z: Sequence[float], layer: Sequence[int], s_y: Sequence[float | None]
+    ) -> YieldBelow:
+        """Judge the section by yield stresses of the layers from the surface down [Pa]."""
+    def mean(
+        self,
+        /,
+        L: float,
+        method: str,
+        layer: int,
+        materials: Sequence[Material | None],
+        criterion: str,
+        *,
+        tolerance: float,
+    ) -> dict[str, NDArray[np.float64]]:
+        """Judge the mean over a critical distance L [m] in a layer: arrays over the places."""
+    def unsettled(self, /) -> float | None:
+        """Part of the largest traction by which the cycle ends off its start, if that was kept."""
+
+@final
+class Cylinder:
+    """
+    A cylinder with sharp ends; its axis is y turned by `angle`.
+
+    Parameters
+    ----------
+    R : float
+        Radius [m]; negative for a hollow.
+    length : float
+        Length along the axis [m]; infinite for one that leaves the grid.
+    angle : float
+        Turn of the axis from y [rad].
+    """
+
+    @property
+    def R(self, /) -> float:
+        """Radius [m]; negative for a hollow."""
+    def __add__(self, other: object, /) -> Sum: ...
+    def __radd__(self, other: object, /) -> Sum: ...
+    def __eq__(self, value: object, /) -> bool: ...
+    def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
+    def __hash__(self, /) -> int: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __new__(cls, /, R: float, *, length: float = ..., angle: float = 0.0) -> Cylinder: ...
+    def __replace__(self, /, **changes: Any) -> Self: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def angle(self, /) -> float:
+        """Turn of the axis from y [rad]."""
+    @property
+    def length(self, /) -> float:
+        """Length along the axis [m]; infinite for one that leaves the grid."""
+    def replace(self, /, **changes: Any) -> Self:
+        """The same with some of its parts exchanged, named as in the constructor."""
+
+@final
+class Elastic:
+    """
+    A homogeneous isotropic elastic material.
+
+    Parameters
+    ----------
+    E : float
+        Young's modulus [Pa], positive; infinite, with nu = 0, for :data:`RIGID`.
+    nu : float
+        Poisson's ratio, -1 < nu <= 0.5.
+    plastic : Plastic, optional
+        How it yields (default: it stays elastic).
+
+    Examples
+    --------
+    >>> steel = Elastic(E=210e9, nu=0.3)
+    >>> round(steel.G / 1e9, 2)
+    80.77
+    """
+
+    @property
+    def E(self, /) -> float:
+        """Young's modulus [Pa]; infinite for :data:`RIGID`."""
+    @property
+    def G(self, /) -> float:
+        """Shear modulus E / (2 (1 + nu)) [Pa]."""
+    def __eq__(self, value: object, /) -> bool: ...
+    def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
+    def __hash__(self, /) -> int: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __new__(cls, /, *, E: float, nu: float, plastic: Plastic | None = None) -> Elastic: ...
+    def __replace__(self, /, **changes: Any) -> Self: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def nu(self, /) -> float:
+        """Poisson's ratio."""
+    @property
+    def plastic(self, /) -> Plastic | None:
+        """How it yields; None where it stays elastic."""
+    def replace(self, /, **changes: Any) -> Self:
+        """The same with some of its parts exchanged, named as in the constructor."""
+
+@final
+class Ellipsoid:
+    """
+    Two principal radii, each a parabola as in Hertz's theory.
+
+    Parameters
+    ----------
+    R_x : float
+        Principal radius in the direction `angle` [m]; negative for a hollow.
+    R_y : float
+        Principal radius across it [m].
+    angle : float
+        Direction of the first one, from x towards y [rad].
+    """
+
+    @property
+    def R_x(self, /) -> float:
+        """Principal radius in the direction `angle` [m]; negative for a hollow."""
+    @property
+    def R_y(self, /) -> float:
+        """Principal radius across it [m]."""
+    def __add__(self, other: object, /) -> Sum: ...
+    def __radd__(self, other: object, /) -> Sum: ...
+    def __eq__(self, value: object, /) -> bool: ...
+    def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
+    def __hash__(self, /) -> int: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __new__(cls, /, *, R_x: float, R_y: float, angle: float = 0.0) -> Ellipsoid: ...
+    def __replace__(self, /, **changes: Any) -> Self: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def angle(self, /) -> float:
+        """Direction of the first one, from x towards y [rad]."""
+    def replace(self, /, **changes: Any) -> Self:
+        """The same with some of its parts exchanged, named as in the constructor."""
+
+@final
+class Envelope:
+    """Extremes of stress below a line; use :func:`pyfret.subsurface.envelope`."""
+
+    def __new__(
+        cls,
+        /,
+        body: Body,
+        grid: Grid,
+        path: LoadPath,
+        z: Sequence[float],
+        layer: Sequence[int],
+        *,
+        of: Sequence[str],
+        x: float | None = None,
+        y: float | None = None,
+        body_number: int = 2,
+        residual: Sequence[float] | None = None,
+    ) -> Envelope: ...
+    @property
+    def cycles(self, /) -> list[tuple[int, int]]:
+        """First and last branch of every cycle."""
+    def finish(self, /) -> dict[str, dict[str, NDArray[np.float64]]]:
+        """Give the extremes of every measure."""
+    def push(
+        self,
+        /,
+        increment: int,
+        branch: int,
+        *,
+        p: ArrayLike,
+        q_x: ArrayLike,
+        q_y: ArrayLike,
+        stick: NDArray[bool_],
+        sigma_B: float = 0.0,
+    ) -> None:
+        """Take an increment: tractions [Pa], cells that stick, bulk stress of the body [Pa]."""
+
+@final
+class Flat:
+    """The contact plane itself."""
+
+    def __add__(self, other: object, /) -> Sum: ...
+    def __radd__(self, other: object, /) -> Sum: ...
+    def __eq__(self, value: object, /) -> bool: ...
+    def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
+    def __hash__(self, /) -> int: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __new__(cls, /) -> Flat: ...
+    def __replace__(self, /, **changes: Any) -> Self: ...
+    def __repr__(self, /) -> str: ...
+    def replace(self, /, **changes: Any) -> Self:
+        """The same with some of its parts exchanged, named as in the constructor."""
+
+@final
+class FlatPunch:
+    """
+    A round flat punch with a rounded edge.
+
+    Parameters
+    ----------
+    radius : float
+        Radius of the flat [m].
+    edge : float
+        Radius of the rounding beyond it [m].
+    """
+
+    def __add__(self, other: object, /) -> Sum: ...
+    def __radd__(self, other: object, /) -> Sum: ...
+    def __eq__(self, value: object, /) -> bool: ...
+    def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
+    def __hash__(self, /) -> int: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __new__(cls, /, *, radius: float, edge: float) -> FlatPunch: ...
+    def __replace__(self, /, **changes: Any) -> Self: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def edge(self, /) -> float:
+        """Radius of the rounding beyond it [m]."""
+    @property
+    def radius(self, /) -> float:
+        """Radius of the flat [m]."""
+    def replace(self, /, **changes: Any) -> Self:
+        """The same with some of its parts exchanged, named as in the constructor."""
+
+@final
+class Friction:
+    """
+    Coulomb's law with a coefficient that depends on direction, place and history.
+
+    The coefficient of an increment is that of the history at its end, extrapolated from the last
+    increment.
+
+    Parameters
+    ----------
+    mu : float
+        Coefficient, >= 0; ``float("inf")`` for a contact that never slips.
+    mu_y : float, optional
+        Coefficient along y, mu being that along x: the bound is an ellipse.
+    kinetic : float, optional
+        Coefficient, along x, of cells that slipped in the increment before.
+    map : SurfaceMap, optional
+        Factor of the coefficient over the surface.
+    history : (History, list of pairs), optional
+        Factor of the coefficient, linear between the pairs (history, factor).
+    law : callable, optional
+        A function of five arrays, a number for each cell: places `x`, `y` [m], pressure `p` [Pa],
+        length of the way slipped `slip` [m], energy per area `dissipated` [J/m^2]. It gives the
+        coefficient along x of each cell, finite and >= 0, an array of the same shape or one number;
+        `mu` is about what it gives, the measure of tolerances, and the coefficient where nothing
+        is pressed yet. An increment is solved again until the coefficient is that of pressure and
+        history at its end. What the function raises is raised as it is. No map, history or kinetic
+        coefficient beside it; over cycles of wear slip and energy are those of all cycles so far. A
+        store keeps that there is a law, not which: ``pyfret.resume(store, friction_law=...)``.
+    """
+
+    def __eq__(self, value: object, /) -> bool: ...
+    def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
+    def __hash__(self, /) -> int: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __new__(
+        cls,
+        /,
+        mu: float,
+        *,
+        mu_y: float | None = None,
+        kinetic: float | None = None,
+        map: SurfaceMap | None = None,
+        history: tuple[History, Sequence[tuple[float, float]]] | None = None,
+        law: FrictionFunction | Literal["own"] | None = None,
+    ) -> Friction: ...
+    def __replace__(self, /, **changes: Any) -> Self: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def history(self, /) -> tuple[History, list[tuple[float, float]]] | None:
+        """Factor as a function of the history."""
+    @property
+    def kinetic(self, /) -> float | None:
+        """Coefficient of cells that slipped in the increment before."""
+    @property
+    def law(self, /) -> Any | None:
+        """The function that gives the coefficient; ``"own"`` if only that there is one is known."""
+    @property
+    def map(self, /) -> SurfaceMap | None:
+        """Factor over the surface."""
+    @property
+    def mu(self, /) -> float:
+        """Coefficient."""
+    @property
+    def mu_y(self, /) -> float | None:
+        """Coefficient along y, if it is another."""
+    def replace(self, /, **changes: Any) -> Self:
+        """The same with some of its parts exchanged, named as in the constructor."""
+    def words(self, /) -> list[tuple[str, float | None]]:
+        """The law in words: names with their values, and facts without a value."""
+
+@final
+class Grid:
+    """
+    Rectangular cells around the initial point of contact; tractions are constant on each.
+
+    Arrays over the grid have the shape (nx, ny), x first.
+
+    Parameters
+    ----------
+    nx, ny : int
+        Number of cells along x and along y.
+    dx, dy : float
+        Cell length along x and along y [m].
+    plane_strain : bool
+        Whether the cells are without end along y (default False): `ny` is 1 and `dy` the width that
+        forces are those on.
+    """
+
+    def __eq__(self, value: object, /) -> bool: ...
+    def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
+    def __hash__(self, /) -> int: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __new__(
+        cls, /, *, nx: int, ny: int, dx: float, dy: float, plane_strain: bool = False
+    ) -> Grid: ...
+    def __replace__(self, /, **changes: Any) -> Self: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def cell_area(self, /) -> float:
+        """Area of a cell [m^2]."""
+    @staticmethod
+    def centred(*, extent: float | tuple[float, float], n: int | tuple[int, int]) -> Grid:
+        """`n` by `n` cells on a square of side `extent` [m]; a rectangle by pairs (x, y)."""
+    @property
+    def dx(self, /) -> float:
+        """Cell length along x [m]."""
+    @property
+    def dy(self, /) -> float:
+        """Cell length along y [m]."""
+    @staticmethod
+    def from_spacing(n: int | tuple[int, int], spacing: float | tuple[float, float]) -> Grid:
+        """`n` = (nx, ny) cells of size `spacing` = (dx, dy) [m]."""
+    @property
+    def nx(self, /) -> int:
+        """Number of cells along x."""
+    @property
+    def ny(self, /) -> int:
+        """Number of cells along y."""
+    @property
+    def plane_strain(self, /) -> bool:
+        """Whether the cells are without end along y."""
+    def replace(self, /, **changes: Any) -> Self:
+        """The same with some of its parts exchanged, named as in the constructor."""
+    @staticmethod
+    def strip(*, extent: float, n: int, width: float = 1.0) -> Grid:
+        """
+        Plane strain: `n` cells over the length `extent` [m] along x, without end along y.
+
+        Forces, moments and energies are those on the width `width` [m]; displacements are
+        relative to the points at the distance `extent` from a load.
+        """
+    def unit_of(self, /, unit: str) -> str:
+        """
+        Unit of a number of a run on this grid, by that of a contact of two directions.
+
+        On a strip one metre wide forces are in N/m, energies in J/m, areas in m^2/m.
+        """
+    @property
+    def x(self, /) -> NDArray[float64]:
+        """Centres of the cells along x [m], shape (nx,)."""
+    @property
+    def y(self, /) -> NDArray[float64]:
+        """Centres of the cells along y [m], shape (ny,)."""
+    @staticmethod
+    def for_contact(
+        body1: Body,
+        body2: Body,
+        path: LoadPath,
+        *,
+        error: float = 0.005,
+        room: float = 1.2,
+        start: float | None = None,
+        plane_strain: bool = False,
+        wear: Mapping[str, Any] | None = None,
+        mu: float | Friction | None = None,
+    ) -> Grid:
+        """Choose a grid for the contact that comes out of two bodies and a load path.
+
+        The contact under the largest normal load of the path, coatings and all, is solved without
+        friction on 32 cells a side, roughness left out; the grid is `room` times as long, on rough
+        surfaces 15 % longer. It has as many cells as a smooth contact takes for `error`, and eight
+        in the shortest wave of a rough, wavy or measured surface. On measured surfaces, on waves
+        and where a body has edges, the number of cells is doubled until area and largest pressure
+        agree to `error`.
+
+        Parameters
+        ----------
+        body1, body2 : Body
+            The upper and the lower body.
+        path : LoadPath
+            The loads.
+        error : float
+            Error of the pressure that is wanted, root mean square over that of the pressure; that
+            of radius and approach is a tenth of it. Error bars tell what it came to.
+        room : float
+            Side of the grid over the length of the contact: 1.2 (default), 2 or more where wear or
+            rolling makes the contact longer.
+        start : float, optional
+            Side to begin with [m] (default: that of the Hertz contact, else a millimetre).
+        plane_strain : bool
+            Whether it is a line contact: a strip one metre wide.
+        wear : dict, optional
+            What wears, as keywords of :func:`pyfret.wear.solve`: cycles and laws at least. The
+            run is done on few cells, and the grid holds the scar at its end, strokes included.
+            `error` is then that of the contact at the end, and the first contact has eight cells
+            in its radius.
+        mu : float or Friction, optional
+            Coefficient of friction, which decides where wear slips: to be given with `wear`.
+
+        Raises
+        ------
+        ValueError
+            Nothing is pressed together, no size was found that fits, as of two flats, or `wear`
+            comes without `mu`.
+
+        Warns
+        -----
+        SceneWarning
+            Area or largest pressure still change by more than `error` on 512 x 512 cells, or an
+            outermost coating is thinner than a cell.
+
+        Examples
+        --------
+        >>> steel = Elastic(E=210e9, nu=0.3)  # doctest: +SKIP
+        >>> ball, flat = Body(steel, shape=Sphere(R=5e-3)), Body(steel)  # doctest: +SKIP
+        >>> path = LoadPath.start().normal(10.0).cycles(1, T_x=1.0)  # doctest: +SKIP
+        >>> grid = Grid.for_contact(ball, flat, path)  # doctest: +SKIP
+        >>> law = Archard(k=1e-15)  # doctest: +SKIP
+        >>> wear = {"cycles": 1e5, "body2": law}  # doctest: +SKIP
+        >>> worn = Grid.for_contact(ball, flat, path, wear=wear, mu=0.3)  # doctest: +SKIP
+        """
+
+@final
+class Hertz:
+    """
+    Frictionless contact of two paraboloids of revolution.
+
+    K. L. Johnson, Contact Mechanics (1985), eq. (4.22)-(4.24). :func:`hertz` makes it.
+
+    Parameters
+    ----------
+    W : float
+        Normal force [N].
+    E_star : float
+        Contact modulus [Pa].
+    a : float
+        Contact radius [m].
+    p0 : float
+        Peak pressure [Pa].
+    delta_z : float
+        Approach [m].
+    """
+
+    @property
+    def E_star(self, /) -> float:
+        """Contact modulus [Pa], 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2."""
+    @property
+    def W(self, /) -> float:
+        """Normal force [N]."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self, /) -> int: ...
+    def __new__(
+        cls, /, *, W: float, E_star: float, a: float, p0: float, delta_z: float
+    ) -> Hertz: ...
+    def __reduce__(self, /) -> tuple[Any, tuple[Any, ...]]: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def a(self, /) -> float:
+        """Contact radius [m], a^3 = 3 W R / (4 E*)."""
+    @property
+    def delta_z(self, /) -> float:
+        """Approach [m], a^2 / R."""
+    def p(self, /, r: ArrayLike) -> NDArray[np.float64]:
+        """Pressure at distance `r` [m] from the middle [Pa], p0 sqrt(1 - r^2/a^2)."""
+    @property
+    def p0(self, /) -> float:
+        """Peak pressure [Pa], 3 W / (2 pi a^2)."""
+
+@final
+class HertzEllipse:
+    """Elliptical Hertz contact, K. L. Johnson, Contact Mechanics (1985), sec. 4.2."""
+
+    @property
+    def E_star(self, /) -> float:
+        """Contact modulus [Pa]."""
+    @property
+    def R_x(self, /) -> float:
+        """Relative principal radius along x [m]."""
+    @property
+    def R_y(self, /) -> float:
+        """Relative principal radius along y [m]."""
+    @property
+    def W(self, /) -> float:
+        """Normal force [N]."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self, /) -> int: ...
+    def __reduce__(self, /) -> tuple[Any, tuple[Any, ...]]: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def a_x(self, /) -> float:
+        """Semi-axis of the contact along x [m]."""
+    @property
+    def a_y(self, /) -> float:
+        """Semi-axis of the contact along y [m]."""
+    @property
+    def delta_z(self, /) -> float:
+        """Approach [m]."""
+    @property
+    def p0(self, /) -> float:
+        """Peak pressure [Pa], 3 W / (2 pi a_x a_y)."""
+
+@final
+class HertzStress:
+    """
+    A half-space under sqrt(1 - r^2/a^2) of unit peak on r < a: Hamilton's stresses.
+
+    Parameters
+    ----------
+    a : float
+        Radius of the loaded circle [m].
+    nu : float
+        Poisson's ratio.
+    """
+
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self, /) -> int: ...
+    def __new__(cls, /, *, a: float, nu: float) -> HertzStress: ...
+    def __reduce__(self, /) -> tuple[Any, tuple[Any, ...]]: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def a(self, /) -> float:
+        """Radius of the loaded circle [m]."""
+    @property
+    def nu(self, /) -> float:
+        """Poisson's ratio."""
+    def pressure(self, /, x: ArrayLike, y: float, z: float) -> list[NDArray[np.float64]]:
+        """Stress s_xx, s_yy, s_zz, s_xy, s_xz, s_yz at (`x`, `y`, `z`) [m] under a pressure."""
+    def shear(self, /, x: ArrayLike, y: float, z: float) -> list[NDArray[np.float64]]:
+        """The same under a shear traction that acts on the body along +x."""
+
+@final
+class History:
+    """
+    What a cell has been through.
+
+    ``INCREMENT``: increments done, the same for all cells. ``SLIP``: length of the way that the
+    cell has slipped [m]. ``DISSIPATED``: energy dissipated per area [J/m^2]. ``CYCLES``: cycles of
+    wear done; a path that is run through once has done none. Over jumps of wear each is that of
+    all cycles so far.
+    """
+
+    CYCLES: Final[History]
+    DISSIPATED: Final[History]
+    INCREMENT: Final[History]
+    SLIP: Final[History]
+    def __eq__(self, value: object, /) -> bool: ...
+    def __hash__(self, /) -> int: ...
+    def __int__(self, /) -> int: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __reduce__(self, /) -> tuple[Any, tuple[type, str]]: ...
+    def __repr__(self, /) -> str: ...
+
+@final
+class LineContact:
+    """Cylinders in plane strain: Hertz, Cattaneo, Carter, McEwen; from `line_contact`."""
+
+    @property
+    def E_star(self, /) -> float:
+        """Contact modulus [Pa]."""
+    @property
+    def R(self, /) -> float:
+        """Relative radius [m]."""
+    @property
+    def W(self, /) -> float:
+        """Normal force per length [N/m]."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self, /) -> int: ...
+    def __reduce__(self, /) -> tuple[Any, tuple[Any, ...]]: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def a(self, /) -> float:
+        """Half-width [m], a^2 = 4 W R/(pi E*)."""
+    @property
+    def bodies(self, /) -> tuple[Elastic, Elastic]:
+        """Materials of body 1 and body 2."""
+    def p(self, /, x: ArrayLike) -> NDArray[np.float64]:
+        """Pressure at `x` [m] [Pa]."""
+    @property
+    def p0(self, /) -> float:
+        """Peak pressure [Pa]."""
+    def q(
+        self, /, x: ArrayLike, *, T: float, mu: float, middle: float = 0.0
+    ) -> NDArray[np.float64]:
+        """
+        Shear at `x` [m] under `T` [N/m] with the stick zone around `middle` [m] [Pa].
+
+        Cattaneo's with the middle at 0, Carter's with it at a - c towards the leading edge.
+        """
+    def stick_half_width(self, /, *, T: float, mu: float) -> float:
+        """Half-width of the stick zone under `T` [N/m] [m]."""
+    def stick_middle(self, /, *, eps_x: float, mu: float) -> float:
+        """
+        Middle of the stick zone [m] under the bulk strain `eps_x` of body 2.
+
+        The strain is brought up together with T > 0.
+        """
+    def stress(
+        self, /, x: ArrayLike, z: float, *, T: float, mu: float
+    ) -> list[NDArray[np.float64]]:
+        """Stress s_xx, s_zz, s_xz at (`x`, `z`) [m] in partial slip [Pa]."""
+
+@final
+class LoadPath:
+    """
+    The load history, from two bodies just touching.
+
+    Built by chaining; every call gives a new path with more branches.
+
+    Parameters
+    ----------
+    branches : list of Branch
+        Its branches, where they are at hand.
+
+    Examples
+    --------
+    >>> path = LoadPath.start().normal(1e3, increments=100)
+    >>> path.tangential([270.0, -270.0, 270.0], increments=500)
+    LoadPath(4 branches, 600 increments)
+    """
+
+    @property
+    def M_z(self, /) -> NDArray[float64]:
+        """Torsional moment at the end of every increment [N m]."""
+    @property
+    def T_x(self, /) -> NDArray[float64]:
+        """Tangential force along x at the end of every increment [N]."""
+    @property
+    def T_y(self, /) -> NDArray[float64]:
+        """Tangential force along y at the end of every increment [N]."""
+    @property
+    def W(self, /) -> NDArray[float64]:
+        """Normal force at the end of every increment [N]; NaN where only the solution can say."""
+    def __bool__(self, /) -> bool: ...
+    def __eq__(self, value: object, /) -> bool: ...
+    def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
+    def __hash__(self, /) -> int: ...
+    def __len__(self, /) -> int: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __new__(
+        cls, /, branches: Sequence[Branch] = ..., *, rig_stiffness: float | None = None
+    ) -> LoadPath: ...
+    def __replace__(self, /, **changes: Any) -> Self: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def branches(self, /) -> list[Branch]:
+        """The branches in their order."""
+    def cycles(
+        self,
+        /,
+        n: int,
+        *,
+        T_x: float | None = None,
+        T_y: float | None = None,
+        M_z: float | None = None,
+        delta_x: float | None = None,
+        delta_y: float | None = None,
+        phi_z: float | None = None,
+        increments: int | Literal["auto"] = ...,
+    ) -> LoadPath:
+        """
+        Go through `n` cycles of one load or motion about zero.
+
+        The path goes to the amplitude, then `n` times to its opposite and back; what is not named
+        stays as it was.
+
+        Parameters
+        ----------
+        n : int
+            Number of cycles.
+        T_x, T_y : float, optional
+            Amplitude of a tangential force [N].
+        M_z : float, optional
+            Amplitude of the torsional moment [N m].
+        delta_x, delta_y : float, optional
+            Amplitude of a shift [m].
+        phi_z : float, optional
+            Amplitude of the rotation [rad].
+        increments : int or "auto"
+            Number of increments of all branches together, shared out in proportion to the change
+            (default: as many as the path tolerance of the settings asks for).
+
+        Examples
+        --------
+        >>> LoadPath.start().normal(10.0).cycles(2, delta_x=2e-6)
+        LoadPath(6 branches, increments to be chosen)
+        """
+    def displace(
+        self,
+        /,
+        *,
+        delta_z: float | Sequence[float] | None = None,
+        delta_x: float | Sequence[float] | None = None,
+        delta_y: float | Sequence[float] | None = None,
+        phi_x: float | Sequence[float] | None = None,
+        phi_y: float | Sequence[float] | None = None,
+        phi_z: float | Sequence[float] | None = None,
+        increments: int | Literal["auto"] = ...,
+        spacing: Spacing = ...,
+        t: float | None = None,
+    ) -> LoadPath:
+        """
+        Go to the given rigid motions of body 1 on a straight line, or visit several in turn.
+
+        A motion that is named is given from here on, and its load follows from the solution. What
+        is not named stays as it was; without a word, rotations are given as zero.
+
+        Parameters
+        ----------
+        delta_z, delta_x, delta_y : float or sequence of float, optional
+            Approach and shifts [m]. One of all the motions may be a sequence: its values are
+            visited in turn, and the increments shared out in proportion to the change, as
+            `tangential` does.
+        phi_x, phi_y, phi_z : float or sequence of float, optional
+            Tilts and rotation about z [rad].
+        increments : int or "auto"
+            Number of increments (default: as many as the path tolerance of the settings asks for).
+        spacing : Spacing
+            How they are spaced (default: equal increments).
+        t : float, optional
+            Path time at the end (default: one unit later); not with a sequence.
+
+        Examples
+        --------
+        >>> pressed = LoadPath.start().normal(10.0)
+        >>> pressed.displace(delta_x=[2e-6, -2e-6, 2e-6])
+        LoadPath(4 branches, increments to be chosen)
+        """
+    def ellipse(
+        self, /, *, T_x: float, T_y: float, turns: int = 1, increments: int | Literal["auto"] = ...
+    ) -> LoadPath:
+        """
+        Turn the tangential force around an ellipse of semi-axes `T_x`, `T_y` [N].
+
+        Its middle is where the path stands. It goes to (T_x, 0) in `increments` and takes as many
+        for each turn towards (0, T_y), each a branch of its own; with "auto", 64 branches for each
+        turn, and as many increments as the path tolerance of the settings asks for.
+        """
+    def force(
+        self,
+        /,
+        *,
+        W: float | None = None,
+        T_x: float | None = None,
+        T_y: float | None = None,
+        M_x: float | None = None,
+        M_y: float | None = None,
+        M_z: float | None = None,
+        sigma_B: float | None = None,
+        sigma_B1: float | None = None,
+        rolled: float | None = None,
+        increments: int | Literal["auto"] = ...,
+        spacing: Spacing = ...,
+        t: float | None = None,
+    ) -> LoadPath:
+        """
+        Go to the given loads on a straight line; what is not named stays as it was.
+
+        A load that is named is given from here on, and the motion that goes with it is free.
+
+        Parameters
+        ----------
+        W, T_x, T_y : float, optional
+            Normal force and tangential forces on body 2 [N].
+        M_x, M_y, M_z : float, optional
+            Tilting moments and torsional moment on body 2 [N m].
+        sigma_B : float, optional
+            Bulk stress along x in body 2, tension positive: a fatigue load [Pa].
+        sigma_B1 : float, optional
+            The same in body 1.
+        rolled : float, optional
+            Way that the contact has rolled along x over both bodies [m], whole cells per increment.
+        increments : int or "auto"
+            Number of increments (default: as many as the path tolerance of the settings asks for).
+        spacing : Spacing
+            How they are spaced (default: equal increments of force).
+        t : float, optional
+            Path time at the end (default: one unit later).
+        """
+    @staticmethod
+    def from_csv(
+        path: str | PathLike[str],
+        *,
+        increments: PerRange | int | Literal["auto"] = ...,
+        drive: str | Sequence[str] = ...,
+    ) -> LoadPath:
+        """
+        Read a measured history: a table of text whose titles name the columns of `waypoints`.
+
+        Semicolons, tabs, commas or blanks part its numbers, with decimal points or commas; units
+        stand in the titles, ``T_x [kN]``, or in a row of their own.
+
+        Parameters
+        ----------
+        path : path
+            The file.
+        increments : int, PerRange or "auto"
+            Increments per branch, as in `waypoints`.
+        drive : str or list of str, optional
+            Of a load and its motion that both stand in the file, as in every measured loop, the
+            one that drives; the other is left out.
+
+        Raises
+        ------
+        StoreError
+            If the file cannot be read; the message says which line and column, and what to give.
+        """
+    def hold(self, /, *, increments: int = 1) -> LoadPath:
+        """
+        Stay at the loads and motions reached for some increments, one unit of path time.
+
+        What friction makes of the history of a cell goes on meanwhile.
+        """
+    def normal(self, /, W: float, *, increments: int | Literal["auto"] = ...) -> LoadPath:
+        """Go to the normal force `W` [N], the tangential forces kept, in one unit of path time."""
+    def radial(
+        self, /, W: float | Sequence[float], *, increments: int | Literal["auto"] = ...
+    ) -> LoadPath:
+        """Visit the normal forces `W` [N] in turn, as `tangential` does: fretting mode II."""
+    def replace(self, /, **changes: Any) -> Self:
+        """The same with some of its parts exchanged, named as in the constructor."""
+    def rig(self, /, stiffness: float | None) -> LoadPath:
+        """
+        The same path through a rig of a stiffness K [N/m], a spring along x.
+
+        It is in series with the contact: ``delta_x`` is the shift of the spring's far end, given or
+        read, and the contact's own shift is ``delta_x - T_x/K``. None takes the spring out.
+        """
+    @property
+    def rig_stiffness(self, /) -> float | None:
+        """Stiffness of the rig along x [N/m]; None: the bodies themselves are moved."""
+    @property
+    def rolled(self, /) -> NDArray[float64]:
+        """Way rolled at the end of every increment [m]."""
+    @property
+    def sigma_B(self, /) -> NDArray[float64]:
+        """Bulk stress of body 2 at the end of every increment [Pa]."""
+    @property
+    def sigma_B1(self, /) -> NDArray[float64]:
+        """Bulk stress of body 1 at the end of every increment [Pa]."""
+    @staticmethod
+    def start() -> LoadPath:
+        """The path before its first branch."""
+    @property
+    def t(self, /) -> NDArray[float64]:
+        """Path time at the end of every increment."""
+    def tangential(
+        self, /, T_x: float | Sequence[float], *, increments: int | Literal["auto"] = ...
+    ) -> LoadPath:
+        """
+        Visit the tangential forces `T_x` [N] in turn.
+
+        The increments are shared out in proportion to the change of force. Path time runs as in
+        the first branch: one unit for as many increments as that one has.
+        """
+    def torsion(
+        self, /, M_z: float | Sequence[float], *, increments: int | Literal["auto"] = ...
+    ) -> LoadPath:
+        """Visit the torsional moments `M_z` [N m] in turn, as `tangential` does the forces."""
+    def waypoints(
+        self,
+        /,
+        *,
+        increments: PerRange | int | Literal["auto"] = ...,
+        **columns: Sequence[float] | NDArray[np.float64],
+    ) -> LoadPath:
+        """
+        Go straight from waypoint to waypoint, a branch for each.
+
+        Parameters
+        ----------
+        increments : int, PerRange or "auto"
+            Increments per branch; or as many as the change needs; or as the path tolerance of the
+            settings asks for.
+        **columns : array
+            Loads (``W``, ``T_x``, ...), motions (``delta_x``, ...), ``sigma_B``, ``sigma_B1``,
+            ``rolled`` and the path time ``t`` at the waypoints. What has no column stays as it is.
+        """
+
+@final
+class Lubkin:
+    """
+    Partial slip of a sphere under constant normal force and a torsional moment.
+
+    J. L. Lubkin, J. Appl. Mech. 18 (1951) 183; exact for every nu.
+
+    Parameters
+    ----------
+    hertz : Hertz
+        The normal contact.
+    bodies : tuple[Any, ...] of Elastic
+        Materials of body 1 and body 2.
+    mu : float
+        Friction coefficient.
+    """
+
+    @property
+    def M_limit(self, /) -> float:
+        """Moment of full slip [N m], (3 pi/16) mu W a."""
+    def M_z(self, /, c: ArrayLike) -> NDArray[np.float64]:
+        """Moment M_z at the stick radius `c` [m] [N m]."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self, /) -> int: ...
+    def __new__(
+        cls, /, hertz: Hertz, *, bodies: tuple[Elastic | Body, Elastic | Body], mu: float
+    ) -> Lubkin: ...
+    def __reduce__(self, /) -> tuple[Any, tuple[Any, ...]]: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def bodies(self, /) -> tuple[Elastic, Elastic]:
+        """Materials of body 1 and body 2."""
+    @property
+    def hertz(self, /) -> Hertz:
+        """The normal contact."""
+    @property
+    def mu(self, /) -> float:
+        """Friction coefficient."""
+    def phi(self, /, c: ArrayLike) -> NDArray[np.float64]:
+        """Rotation phi_z at the stick radius `c` [m] [rad]."""
+    def q(self, /, r: ArrayLike, *, c: float) -> NDArray[np.float64]:
+        """Circumferential traction at `r` for the stick radius `c` [m] [Pa]."""
+    def stick_radius(self, /, *, M_z: float) -> float:
+        """Stick radius under the moment `M_z` [N m] [m]."""
+    @property
+    def stiffness(self, /) -> float:
+        """Torsional stiffness without slip [N m/rad], 16 G a^3/3."""
+
+@final
+class March:
+    """
+    A load path being run through; iterating solves one increment after the other.
+
+    Use :func:`pyfret.march`, which labels what this one gives.
+    """
+
+    def __iter__(self, /) -> March: ...
+    def __new__(cls, /, scene: Scene) -> March: ...
+    def __next__(self, /) -> dict[str, Any]:
+        """Solve the next increment and give its scalars."""
+    @property
+    def attributes(self, /) -> str:
+        """What a result says of the run, as JSON."""
+    @property
+    def done(self, /) -> int:
+        """Increments solved so far."""
+    def doubts(self, /) -> list[str]:
+        """What the increments so far came to that is hardly meant, one sentence each."""
+    def plastic(self, /, body: int) -> dict[str, Any] | None:
+        """Plastic strain, stress and imprint of a body; None where it stays elastic."""
+    @property
+    def scene(self, /) -> Scene:
+        """The scene that is being solved."""
+    def variables(self, /) -> dict[str, Variable]:
+        """The last increment as variables: dimensions, values, attributes as xarray takes them."""
+
+@final
+class Material:
+    """
+    A material and its numbers.
+
+    Parameters
+    ----------
+    name : str
+        Its key in tables.
+    numbers : list of (str, float, str)
+        Name, as in a file of materials, value in its SI unit, and where that is from.
+    title : str
+        What the material is (default: its name).
+    also : list of str
+        Other names that it is found by.
+
+    Examples
+    --------
+    >>> tests = "bending and torsion tests, report 2024-17"
+    >>> steel = Material("our_steel", [("s_D", 412e6, tests), ("t_D", 268e6, tests)])
+    """
+
+    def __eq__(self, value: object, /) -> bool: ...
+    def __getnewargs__(self, /) -> tuple[str, list[tuple[str, float, str]], str, list[str]]: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __new__(
+        cls,
+        /,
+        name: str,
+        numbers: Sequence[tuple[str, float, str]],
+        title: str | None = None,
+        also: Sequence[str] = ...,
+    ) -> Material: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def also(self, /) -> list[str]:
+        """Other names that it is found by."""
+    def assessment(self, /, criterion: str) -> Assessment:
+        """The criterion of that name with the limit or life curve of the material."""
+    def doubts(self, /) -> list[str]:
+        """Numbers that look like those of another unit, in words."""
+    def estimated(self, /, family: str) -> Material:
+        """The material with the numbers that it lacks, as far as published rules give them."""
+    def is_called(self, /, name: str) -> bool:
+        """Whether a name is one of its own, whatever the case and the marks between its letters."""
+    @property
+    def name(self, /) -> str:
+        """Key of the material in its table."""
+    def number(self, /, name: str) -> float:
+        """A number of the material by its key."""
+    def numbers(self, /) -> list[tuple[str, float, str]]:
+        """Name, value and source of every number."""
+    @property
+    def title(self, /) -> str:
+        """What the material is."""
+
+@final
+class Outline:
+    """
+    The outline of a contact: its border in any direction, its spots, the direction of its shear.
+
+    Made of the tractions on a grid, each of shape (nx, ny) [Pa]; of :attr:`Snapshot.outline`.
+    """
+
+    def __new__(
+        cls,
+        /,
+        grid: Grid,
+        *,
+        p: NDArray[np.float64],
+        q_x: NDArray[np.float64],
+        q_y: NDArray[np.float64],
+    ) -> Outline: ...
+    def __repr__(self, /) -> str: ...
+    def border(self, /, azimuth: float = 0.0) -> tuple[float, float]:
+        """Where a line through the centre leaves the contact, backwards and forwards [m]."""
+    @property
+    def centre(self, /) -> tuple[float, float]:
+        """Centre of the area, x and y [m]; 0 where it lies in the middle of the grid."""
+    def half_width(self, /, azimuth: float = 0.0) -> float:
+        """Half of the width of the contact in a direction [m]."""
+    @property
+    def half_widths(self, /) -> tuple[float, float, float]:
+        """Half of the largest and smallest width [m], and the direction of the largest [rad]."""
+    @property
+    def rim_cells(self, /) -> list[tuple[float, float]]:
+        """Centres x, y of the cells at the rim [m]."""
+    @property
+    def shear_azimuth(self, /) -> float | None:
+        """Direction of the shear to the x axis [rad]; None without shear, or where it has none."""
+    @property
+    def spots(self, /) -> list[tuple[float, float, float, float, float, float]]:
+        """
+        The spots, the largest first: x, y [m], area [m^2], semi-axes [m] and azimuth [rad].
+
+        The semi-axes are those of the ellipse with the second moments of the spot, the larger one
+        first, in the direction of the azimuth.
+        """
+
+@final
+class PerRange:
+    """As many increments as a change needs if the whole range takes this many."""
+
+    def __eq__(self, value: object, /) -> bool: ...
+    def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
+    def __hash__(self, /) -> int: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __new__(cls, /, increments: int) -> PerRange: ...
+    def __replace__(self, /, **changes: Any) -> Self: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def increments(self, /) -> int:
+        """Increments over the whole range of the load or motion that needs most."""
+    def replace(self, /, **changes: Any) -> Self:
+        """The same with some of its parts exchanged, named as in the constructor."""
+
+@final
+class Plastic:
+    """
+    Yielding after von Mises, with linear isotropic and linear kinematic hardening.
+
+    The yield stress is s_y + hardening p, with p the equivalent plastic strain. The back stress is
+    2/3 kinematic e_p (Prager).
+
+    Parameters
+    ----------
+    s_y : float
+        Yield stress [Pa], positive.
+    hardening : float
+        Growth of the yield stress per equivalent plastic strain [Pa], 0 or more (default 0).
+    kinematic : float
+        Kinematic hardening [Pa], 0 or more (default 0).
+
+    Examples
+    --------
+    >>> Elastic(E=210e9, nu=0.3, plastic=Plastic(s_y=900e6, hardening=5e9)).plastic.s_y
+    900000000.0
+    """
+
+    def __eq__(self, value: object, /) -> bool: ...
+    def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
+    def __hash__(self, /) -> int: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __new__(
+        cls, /, *, s_y: float, hardening: float = 0.0, kinematic: float = 0.0
+    ) -> Plastic: ...
+    def __replace__(self, /, **changes: Any) -> Self: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def hardening(self, /) -> float:
+        """Isotropic hardening [Pa]."""
+    @property
+    def kinematic(self, /) -> float:
+        """Kinematic hardening [Pa]."""
+    def replace(self, /, **changes: Any) -> Self:
+        """The same with some of its parts exchanged, named as in the constructor."""
+    @property
+    def s_y(self, /) -> float:
+        """Yield stress [Pa]."""
+
+@final
+class Profile:
+    """How a property changes from the surface of a graded coating to its bottom, s = z/h."""
+
+    def __eq__(self, value: object, /) -> bool: ...
+    def __hash__(self, /) -> int: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __reduce__(self, /) -> tuple[Any, tuple[Any, ...]]: ...
+    def __repr__(self, /) -> str: ...
+    @staticmethod
+    def constant(value: float) -> Profile:
+        """Return the same value everywhere."""
+    @staticmethod
+    def exponential(*, top: float, bottom: float) -> Profile:
+        """Return top (bottom/top)^s, both of one sign."""
+    @staticmethod
+    def linear(*, top: float, bottom: float) -> Profile:
+        """Return top + (bottom - top) s."""
+    @staticmethod
+    def power(*, top: float, bottom: float, exponent: float) -> Profile:
+        """Return top + (bottom - top) s^exponent, with a positive exponent."""
+    @staticmethod
+    def table(points: Sequence[tuple[float, float]]) -> Profile:
+        """Interpolate linearly between the points (s, value), s rising from 0 to 1."""
+
+@final
+class Rough:
+    """
+    A random self-affine surface; add it to a shape.
+
+    Its power falls like k^-(2 + 2 `hurst`) between two wavelengths and is level above the longer
+    one. The same seed gives the same surface on every grid of the same size, however fine.
+
+    Parameters
+    ----------
+    rms : float
+        Root-mean-square height [m].
+    hurst : float
+        Hurst exponent, above 0 and up to 1.
+    longest, shortest : float
+        Wavelengths between which it is self-affine [m]; the shortest is at least two cells.
+    seed : int
+        Seed of the phases (default 0).
+    """
+
+    def __add__(self, other: object, /) -> Sum: ...
+    def __radd__(self, other: object, /) -> Sum: ...
+    def __eq__(self, value: object, /) -> bool: ...
+    def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
+    def __hash__(self, /) -> int: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __new__(
+        cls, /, *, rms: float, hurst: float, longest: float, shortest: float, seed: int = 0
+    ) -> Rough: ...
+    def __replace__(self, /, **changes: Any) -> Self: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def hurst(self, /) -> float:
+        """Hurst exponent."""
+    @property
+    def longest(self, /) -> float:
+        """Longest wavelength of the self-affine range [m]."""
+    def replace(self, /, **changes: Any) -> Self:
+        """The same with some of its parts exchanged, named as in the constructor."""
+    @property
+    def rms(self, /) -> float:
+        """Root-mean-square height [m]."""
+    @property
+    def seed(self, /) -> int:
+        """Seed of the phases."""
+    @property
+    def shortest(self, /) -> float:
+        """Shortest wavelength [m]."""
+
+@final
+class Scene:
+    """
+    A fretting contact problem.
+
+    Parameters
+    ----------
+    body1, body2 : Body
+        The upper body (the indenter) and the lower one.
+    mu : float, Friction or "stick"
+        Friction coefficient, >= 0, a friction law, or no slip.
+    grid : Grid
+        Mesh of the contact plane; it has to hold the contact.
+    path : LoadPath, optional
+        Load history; it can be given when the scene is solved instead.
+    settings : Settings, optional
+        How the scene is solved.
+    title : str
+        One line that names the scene in results and figures.
+    """
+
+    def __eq__(self, value: object, /) -> bool: ...
+    def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
+    def __hash__(self, /) -> int: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __new__(
+        cls,
+        /,
+        *,
+        body1: Body,
+        body2: Body,
+        mu: Friction | float | Literal["stick"],
+        grid: Grid,
+        path: LoadPath | None = None,
+        settings: Settings | None = None,
+        title: str = ...,
+    ) -> Scene: ...
+    def __replace__(self, /, **changes: Any) -> Self: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def body1(self, /) -> Body:
+        """The upper body."""
+    @property
+    def body2(self, /) -> Body:
+        """The lower body."""
+    def check(self, /, path: LoadPath | None = None) -> None:
+        """
+        Refuse a scene that has no meaning, warn of what is hardly meant.
+
+        Parameters
+        ----------
+        path : LoadPath, optional
+            Load history (default: that of the scene).
+
+        Raises
+        ------
+        InvalidSceneError
+            With the key, the value and what is allowed.
+
+        Warns
+        -----
+        SceneWarning
+            As :meth:`doubts` says.
+        """
+    def doubts(self, /, path: LoadPath | None = None) -> list[str]:
+        """
+        What is allowed but hardly meant: numbers that look like another unit's, few cells.
+
+        One sentence for each, with what was understood; :func:`pyfret.solve` and :meth:`check` warn
+        of them.
+
+        Parameters
+        ----------
+        path : LoadPath, optional
+            Load history (default: that of the scene).
+        """
+    @property
+    def friction(self, /) -> Friction:
+        """Friction law."""
+    @staticmethod
+    def from_file(
+        path: str | PathLike[str], *, set: Sequence[str] = ..., allow_outside: bool = False
+    ) -> Scene:
+        """
+        Read a scene file.
+
+        Parameters
+        ----------
+        path : path
+            The file: TOML, ``schema = 1``, SI units.
+        set : sequence of str, optional
+            Values to exchange, each ``"key=value"`` as after ``fret run --set``, e.g.
+            ``"friction.mu=0.5"`` or ``"body2.coatings.0.E.E_substrate=4"``.
+        allow_outside : bool, optional
+            Let the scene name files outside its own folder.
+
+        Raises
+        ------
+        InvalidSceneError
+            With the line, the key and what is allowed; an unknown key names the nearest valid one.
+        """
+    @staticmethod
+    def from_toml(text: str, *, set: Sequence[str] = ...) -> Scene:
+        """Read a scene from the text of a scene file; see :meth:`from_file`."""
+    @property
+    def grid(self, /) -> Grid:
+        """Mesh of the contact plane."""
+    @property
+    def hertz(self, /) -> Hertz | None:
+        """The yardstick a_H, p_H: the uncoated pair at the largest normal force of the path."""
+    def interfaces(self, /, body_number: int = 2) -> list[float]:
+        """
+        Depths of the interfaces of a body [m], from the surface down; none of a homogeneous one.
+
+        Parameters
+        ----------
+        body_number : 1 or 2
+            The upper body or the lower one (default 2).
+
+        Examples
+        --------
+        >>> scene.interfaces()  # doctest: +SKIP
+        [3e-06, 3.5e-06]
+        """
+    def length(self, /, p: ArrayLike) -> float:
+        """
+        Length that results of an increment are measured in [m].
+
+        That is a_H, or where there is no Hertz contact half the longer side of the box around the
+        cells under the pressure `p` [Pa], shape (nx, ny).
+        """
+    @property
+    def mu(self, /) -> float:
+        """Friction coefficient."""
+    @property
+    def path(self, /) -> LoadPath:
+        """Load history."""
+    def replace(
+        self,
+        /,
+        *,
+        body1: Body | None = None,
+        body2: Body | None = None,
+        grid: Grid | None = None,
+        path: LoadPath | None = None,
+        settings: Settings | None = None,
+        save: Literal["branches", "all"] | Sequence[int] | None = None,
+        mu: Friction | float | Literal["stick"] | None = None,
+        title: str | None = None,
+    ) -> Scene:
+        """The same scene with some of its parts exchanged."""
+    @property
+    def settings(self, /) -> Settings:
+        """How the scene is solved."""
+    @property
+    def title(self, /) -> str:
+        """One line that names the scene."""
+    def to_toml(self, /) -> str:
+        """Write the text of a scene file, all numbers in SI units."""
+
+@final
+class Spacing:
+    """
+    How the increments of a branch are spaced.
+
+    ``UNIFORM``: equal increments of force. ``EQUAL_RADIUS``: increments of equal contact radius
+    of a paraboloid; natural for an indentation. ``SHORT_FIRST``: a short first increment, then
+    equal ones; shows the stiffness and the stick zone right after a reversal.
+    """
+
+    EQUAL_RADIUS: Final[Spacing]
+    SHORT_FIRST: Final[Spacing]
+    UNIFORM: Final[Spacing]
+    def __eq__(self, value: object, /) -> bool: ...
+    def __hash__(self, /) -> int: ...
+    def __int__(self, /) -> int: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __reduce__(self, /) -> tuple[Any, tuple[type, str]]: ...
+    def __repr__(self, /) -> str: ...
+
+@final
+class Sphere:
+    """
+    A sphere, taken as the paraboloid r^2/(2 R) as in Hertz's theory.
+
+    Parameters
+    ----------
+    R : float
+        Radius [m]; negative for a hollow.
+    """
+
+    @property
+    def R(self, /) -> float:
+        """Radius [m]."""
+    def __add__(self, other: object, /) -> Sum: ...
+    def __radd__(self, other: object, /) -> Sum: ...
+    def __eq__(self, value: object, /) -> bool: ...
+    def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
+    def __hash__(self, /) -> int: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __new__(cls, /, R: float) -> Sphere: ...
+    def __replace__(self, /, **changes: Any) -> Self: ...
+    def __repr__(self, /) -> str: ...
+    def replace(self, /, **changes: Any) -> Self:
+        """The same with some of its parts exchanged, named as in the constructor."""
+
+@final
+class Springs:
+    """
+    One-dimensional springs with friction: the shift for every path of W and T.
+
+    Exact for a sphere on a flat of like bodies with nu = 0 (method of dimensionality reduction).
+
+    Parameters
+    ----------
+    largest : Hertz
+        The contact under the largest force of the path.
+    R : float
+        Radius [m].
+    bodies : tuple[Any, ...] of Elastic
+        Materials of body 1 and body 2.
+    mu : float
+        Friction coefficient.
+    n : int
+        Springs on either side.
+    loads : list of (float, float, int)
+        Loads to go through at once: W and T [N], and the steps of :meth:`load`.
+    """
+
+    @property
+    def R(self, /) -> float:
+        """Radius [m]."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __new__(
+        cls,
+        /,
+        largest: Hertz,
+        *,
+        R: float,
+        bodies: tuple[Elastic | Body, Elastic | Body],
+        mu: float,
+        n: int = 1500,
+        loads: Sequence[tuple[float, float, int]] = ...,
+    ) -> Springs: ...
+    def __reduce__(self, /) -> tuple[Any, tuple[Any, ...]]: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def bodies(self, /) -> tuple[Elastic, Elastic]:
+        """Materials of body 1 and body 2."""
+    @property
+    def largest(self, /) -> Hertz:
+        """The contact under the largest force that there are springs for."""
+    def load(self, /, *, W: float, T: float, steps: int = 10) -> float:
+        """Go straight to the forces `W`, `T` [N] in `steps` steps; the shift delta_x [m]."""
+    @property
+    def loads(self, /) -> list[tuple[float, float, int]]:
+        """The loads gone through: W and T [N] at the end of each, and its steps."""
+    @property
+    def mu(self, /) -> float:
+        """Friction coefficient."""
+    @property
+    def n(self, /) -> int:
+        """Springs on either side."""
+
+@final
+class Subsurface:
+    """
+    Tractions on a body, and what they cause below its surface.
+
+    Use :func:`pyfret.subsurface.stress`, which labels what this one gives.
+    """
+
+    def __new__(
+        cls,
+        /,
+        body: Body,
+        grid: Grid,
+        *,
+        p: ArrayLike | None = None,
+        q_x: ArrayLike | None = None,
+        q_y: ArrayLike | None = None,
+        body_number: int = 2,
+        sigma_B: float = 0.0,
+        residual: Sequence[float] | None = None,
+        rim: bool = False,
+        stick: NDArray[bool_] | None = None,
+    ) -> Subsurface: ...
+    def borders(
+        self, /, *, x: float | None = None, y: float | None = None, azimuth: float | None = None
+    ) -> list[tuple[float, float, str, bool]]:
+        """
+        Where a line, or the lines of all cells, cross rims of contact and stick zone.
+
+        x, y, which of them, and whether the place is known within a cell.
+        """
+    def maximum(
+        self,
+        /,
+        of: str,
+        samples: ArrayLike,
+        z: Sequence[float],
+        layer: Sequence[int],
+        *,
+        x: float | None = None,
+        y: float | None = None,
+        azimuth: float | None = None,
+        only: int | None = None,
+        anywhere: bool = False,
+        error_bars: tuple[float, float] | None = None,
+    ) -> tuple[
+        tuple[
+            float,
+            float,
+            float,
+            float,
+            int,
+            str | None,
+            tuple[float, float, float, float, float | None],
+        ]
+        | None,
+        list[int],
+    ]:
+        """
+        Largest value of a measure on a section, between its samples; in the layer `only`.
+
+        Value, x, y, z, layer, the border that it lies on, and the parts of its error along x, y
+        and z, of the tractions and, from the `error_bars` of p and q as fields, of the solution;
+        and the layers whose stress still rises at the end of the longest section. `anywhere`: also
+        beside the section.
+        """
+    def points(
+        self, /, places: Sequence[tuple[float, float, float, int]]
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Stress (n, 6) [Pa] and displacement (n, 3) [m] at points x, y, z, layer."""
+    @property
+    def rim(self, /) -> bool:
+        """Whether the tractions are those of a contact."""
+    def section(
+        self,
+        /,
+        z: Sequence[float],
+        layer: Sequence[int],
+        *,
+        x: float | None = None,
+        y: float | None = None,
+        azimuth: float | None = None,
+        displacement: bool = False,
+    ) -> NDArray[np.float64]:
+        """Stress [Pa] or displacement [m] on a section, shape (6 or 3, depths, places)."""
+    def slice(
+        self, /, z: float, layer: int, *, displacement: bool = False
+    ) -> list[NDArray[np.float64]]:
+        """Stress [Pa] or displacement [m] on a plane, six or three arrays of shape (nx, ny)."""
+    def volume(
+        self,
+        /,
+        out: str | PathLike[str],
+        z: Sequence[float],
+        layer: Sequence[int],
+        *,
+        of: Sequence[str],
+        title: str = "",
+    ) -> None:
+        """Write measures of stress, and displacements, to a .vti file or a Zarr folder."""
+
+@final
+class Sum:
+    """Several shapes on top of one another, made by adding them."""
+
+    def __add__(self, other: object, /) -> Sum: ...
+    def __radd__(self, other: object, /) -> Sum: ...
+    def __eq__(self, value: object, /) -> bool: ...
+    def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
+    def __hash__(self, /) -> int: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __new__(
+        cls,
+        /,
+        parts: Sequence[
+            Flat
+            | Sphere
+            | Ellipsoid
+            | Cylinder
+            | CrownedRoller
+            | Cone
+            | Wedge
+            | FlatPunch
+            | Waviness
+            | Rough
+            | SurfaceMap
+            | Sum
+        ],
+    ) -> Sum: ...
+    def __replace__(self, /, **changes: Any) -> Self: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def parts(
+        self, /
+    ) -> list[
+        Flat
+        | Sphere
+        | Ellipsoid
+        | Cylinder
+        | CrownedRoller
+        | Cone
+        | Wedge
+        | FlatPunch
+        | Waviness
+        | SurfaceMap
+        | Rough
+        | Sum
+    ]:
+        """The shapes."""
+    def replace(self, /, **changes: Any) -> Self:
+        """The same with some of its parts exchanged, named as in the constructor."""
+
+@final
+class SurfaceMap:
+    """
+    Numbers over the contact plane, the middle of the map over the origin.
+
+    As the shape of a body they are heights out of it, towards the other one [m]; in a friction law
+    they are factors of mu.
+
+    Parameters
+    ----------
+    values : array of shape (points along x, points along y)
+        The numbers.
+    spacing : float or (float, float)
+        Distance of the points along x and y [m]. In between they are interpolated linearly.
+    missing : "refuse", "crop" or "fill"
+        What becomes of points that are NaN or masked: an error that says where they are; lines
+        taken off the edges; the mean of the neighbours, where at most a tenth of the points is
+        missing and no hole is wider than ten.
+    """
+
+    def __add__(self, other: object, /) -> Sum: ...
+    def __radd__(self, other: object, /) -> Sum: ...
+    def __eq__(self, value: object, /) -> bool: ...
+    def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
+    def __hash__(self, /) -> int: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __new__(
+        cls,
+        /,
+        values: ArrayLike,
+        *,
+        spacing: float | tuple[float, float],
+        missing: Literal["refuse", "crop", "fill"] = "refuse",
+    ) -> SurfaceMap: ...
+    def __replace__(self, /, **changes: Any) -> Self: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def filled(self, /) -> int:
+        """How many of the numbers were not measured: each is the mean of its neighbours."""
+    @staticmethod
+    def from_file(
+        path: str | PathLike[str],
+        *,
+        spacing: float | tuple[float, float] | None = None,
+        unit: str | None = None,
+        channel: str | None = None,
+        missing: Literal["refuse", "crop", "fill"] = "refuse",
+    ) -> SurfaceMap:
+        """
+        Read numbers from a file: a ``.npy`` array, or text of instruments and spreadsheets.
+
+        Text is UTF-8, UTF-16 or Latin-1; its numbers are parted by semicolons, tabs, commas or
+        blanks, with decimal points or commas. It is a table, one line per x, with or without
+        titles; points x, y and height in any order; Gwyddion's export; or an ESRI grid. A profile
+        is refused.
+
+        Parameters
+        ----------
+        path : path
+            The file.
+        spacing : float or (float, float), optional
+            Distance of the points along x and y [m], where the file does not say it.
+        unit : str, optional
+            Unit of the numbers, in a list of points of x and y too, such as "um"; by default what
+            the file says, metres if it says nothing.
+        channel : str, optional
+            Of a list of points with several columns beside x and y, the title or the number
+            (from 1) of the one that is meant.
+        missing : "refuse", "crop" or "fill"
+            What becomes of points without a number (blank, NaN or what the header says): an error
+            that says where they are; lines taken off the edges; the mean of the neighbours, where
+            at most a tenth of the points is missing and no hole is wider than ten.
+
+        Raises
+        ------
+        StoreError
+            If the file cannot be read, says something else than the arguments, or leaves something
+            open; the message says which line and column, and what to give.
+        """
+    def replace(self, /, **changes: Any) -> Self:
+        """The same with some of its parts exchanged, named as in the constructor."""
+    @property
+    def spacing(self, /) -> tuple[float, float]:
+        """Distance of the points along x and y [m]."""
+    @property
+    def values(self, /) -> NDArray[float64]:
+        """The numbers."""
+
+@final
+class SurfaceOperator:
+    """
+    The displacements that tractions cause on a pair of bodies, u = C * q.
+
+    Parameters
+    ----------
+    body1, body2 : Body
+        The upper body and the lower one; their shapes do not matter.
+    grid : Grid
+        Cells on which tractions are constant.
+    settings : Settings, optional
+        Its kernel settings are used.
+    """
+
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self, /) -> int: ...
+    def __new__(
+        cls, /, body1: Body, body2: Body, grid: Grid, *, settings: Settings | None = None
+    ) -> SurfaceOperator: ...
+    def __reduce__(self, /) -> tuple[Any, tuple[Any, ...]]: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def body1(self, /) -> Body:
+        """The upper body."""
+    @property
+    def body2(self, /) -> Body:
+        """The lower body."""
+    def displacement(
+        self,
+        /,
+        p: ArrayLike | None = None,
+        q_x: ArrayLike | None = None,
+        q_y: ArrayLike | None = None,
+    ) -> NDArray[np.float64]:
+        """
+        Relative displacement u(2) - u(1) [m], shape (3, nx, ny): along x, y and z.
+
+        Parameters
+        ----------
+        p : array of shape (nx, ny), optional
+            Pressure [Pa] (default: none).
+        q_x, q_y : array of shape (nx, ny), optional
+            Shear tractions on body 2 [Pa] (default: none).
+        """
+    @property
+    def grid(self, /) -> Grid:
+        """Cells on which tractions are constant."""
+    @property
+    def settings(self, /) -> Settings:
+        """Those of the kernels are used."""
+
+@final
+class Waviness:
+    """
+    A wave along the direction `angle`, a crest at the origin for phase 0; add it to a shape.
+
+    Parameters
+    ----------
+    amplitude : float
+        Height of a crest above the mean [m].
+    wavelength : float
+        Distance of the crests [m].
+    angle : float
+        Direction, from x towards y [rad].
+    phase : float
+        Phase at the origin [rad].
+    """
+
+    def __add__(self, other: object, /) -> Sum: ...
+    def __radd__(self, other: object, /) -> Sum: ...
+    def __eq__(self, value: object, /) -> bool: ...
+    def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
+    def __hash__(self, /) -> int: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __new__(
+        cls, /, *, amplitude: float, wavelength: float, angle: float = 0.0, phase: float = 0.0
+    ) -> Waviness: ...
+    def __replace__(self, /, **changes: Any) -> Self: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def amplitude(self, /) -> float:
+        """Height of a crest above the mean [m]."""
+    @property
+    def angle(self, /) -> float:
+        """Direction, from x towards y [rad]."""
+    @property
+    def phase(self, /) -> float:
+        """Phase at the origin [rad]."""
+    def replace(self, /, **changes: Any) -> Self:
+        """The same with some of its parts exchanged, named as in the constructor."""
+    @property
+    def wavelength(self, /) -> float:
+        """Distance of the crests [m]."""
+
+@final
+class Wedge:
+    """
+    Two flanks that meet in an edge; it is y turned by `angle`.
+
+    Parameters
+    ----------
+    slope : float
+        Tangent of the angle between flank and contact plane.
+    angle : float
+        Turn of the edge from y [rad].
+    """
+
+    def __add__(self, other: object, /) -> Sum: ...
+    def __radd__(self, other: object, /) -> Sum: ...
+    def __eq__(self, value: object, /) -> bool: ...
+    def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
+    def __hash__(self, /) -> int: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __new__(cls, /, *, slope: float, angle: float = 0.0) -> Wedge: ...
+    def __replace__(self, /, **changes: Any) -> Self: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def angle(self, /) -> float:
+        """Turn of the edge from y [rad]."""
+    def replace(self, /, **changes: Any) -> Self:
+        """The same with some of its parts exchanged, named as in the constructor."""
+    @property
+    def slope(self, /) -> float:
+        """Tangent of the angle between flank and contact plane."""
+
+@final
+class YieldBelow:
+    """Load factors on a section."""
+
+    @property
+    def depths(self, /) -> tuple[list[float], list[int]]:
+        """Depths [m] and their layers."""
+    def fields(self, /) -> dict[str, NDArray[np.float64]]:
+        """Load factors over (depth, place), NaN where not judged."""
+    def least(self, /, layer: int, factor: str) -> dict[str, Any] | None:
+        """Where a load factor of a layer is least; `score` is its inverse."""
+
+def arrest(
+    lengths: Sequence[float],
+    K_max: Sequence[float],
+    K_min: Sequence[float],
+    threshold_: tuple[float, float | None, float, float | None, list[tuple[float, float]] | None],
+    start: float,
+) -> tuple[Literal["dormant", "stops", "grows"], float | None, list[float], float, float]:
+    """What becomes of a crack: verdict, length where it stops, crossings, margin and its length."""
+
+def channel_crack(film_: Elastic, below: Elastic) -> float:
+    """Factor g of a channel crack in a film; use :func:`pyfret.fracture.channel_release`."""
+
+def check_settings(settings: Settings) -> None:
+    """Fails if a setting has no meaning."""
+
+def chosen_depths(
+    body: Body, *, a: float, deepest: float, finer: float = 1.0
+) -> tuple[list[float], list[int]]:
+    """
+    Depths [m] that the layers of a body ask for, with their layers.
+
+    They go to the depth `deepest` [m] under a contact of the radius `a` [m]; `finer` times as
+    many as the default.
+    """
+
+def coated_indentation(
+    *, R: float, indenter: Elastic | Body, coating: Coating, substrate: Elastic | Body, W: float
+) -> CoatedIndentation:
+    """Contact of a sphere of radius `R` [m] with a coated body under `W` [N], without friction."""
+
+def continued_pressure(p: ArrayLike, grid: Grid) -> NDArray[np.float64]:
+    """Pressure [Pa], that at the rim continued from inside; use :meth:`Snapshot.p_continued`."""
+
+def coupled_indentation(*, beta: float, mu: float) -> CoupledIndentation:
+    """
+    Indentation by a sphere for Dundurs' `beta` and friction `mu` > 0.
+
+    The problem is D. A. Spence's, J. Elasticity 5 (1975) 297: the contact grows without changing
+    its shape.
+    """
+
+def crack_growth_of_states(
+    body: Body,
+    grid: Grid,
+    states: Mapping[str, Any],
+    *,
+    x: float,
+    start: float,
+    end: float,
+    direction: str,
+    tolerance: float,
+    angle: float = 0.0,
+    azimuth: float = 0.0,
+    friction: float = 0.0,
+    body_number: int = 2,
+) -> dict[str, Any]:
+    """A crack that grows below a contact; use :meth:`pyfret.Result.grow_crack`."""
+
+def crack_life(
+    lengths: Sequence[float],
+    K_max: Sequence[float],
+    K_min: Sequence[float],
+    threshold_: tuple[float, float | None, float, float | None, list[tuple[float, float]] | None],
+    *,
+    C: float,
+    m: float,
+    growth: str,
+    short: bool,
+    start: float,
+    end: float,
+) -> tuple[float, float, bool]:
+    """Cycles of growth by Paris' law, where it ends [m] and whether it stops there."""
+
+def crack_of_states(
+    body: Body,
+    grid: Grid,
+    states: Mapping[str, Any],
+    *,
+    x: float,
+    lengths: Sequence[float],
+    angle: float = 0.0,
+    kink: tuple[float, float] | None = None,
+    azimuth: float = 0.0,
+    friction: float = 0.0,
+    body_number: int = 2,
+) -> dict[str, NDArray[np.float64]]:
+    """K of cracks below a contact in several of its states; use :meth:`pyfret.Result.crack`."""
+
+def criteria() -> list[tuple[str, str]]:
+    """Names of the criteria, and how they are written in figures."""
+
+def criterion_on(
+    criterion: Criterion, stress: ArrayLike, *, tolerance: float
+) -> dict[str, NDArray[np.float64]]:
+    """A criterion on stresses of shape (time, points, 6): arrays over the points."""
+
+def cycle_temperature(
+    conductor1: Sequence[tuple[float, float]],
+    conductor2: Sequence[tuple[float, float]],
+    *,
+    body1: Body,
+    body2: Body,
+    grid: Grid,
+    bulk: tuple[float, float],
+    frequency: float,
+    ends: Sequence[float],
+    heat: ArrayLike,
+    contact: NDArray[bool_],
+    harmonics: int,
+) -> dict[str, Any]:
+    """Temperature over a cycle; use :meth:`pyfret.Result.temperature`."""
+
+def dang_van_path(stress: ArrayLike) -> NDArray[np.float64]:
+    """
+    The path of one point in Dang Van's plane.
+
+    From its stress of shape (time, 6): tau and hydrostatic stress at every instant.
+    """
+
+def depths(body: Body, z: Sequence[float]) -> tuple[list[float], list[int]]:
+    """Depths [m] with their layers; on an interface both, the upper one first."""
+
+def doubt(quantity: str, key: str, value: float) -> str | None:
+    """The doubt of a number, if it is hardly meant, by the name of its quantity."""
+
+def dundurs_beta(body1: Elastic | Body, body2: Elastic | Body) -> float:
+    """
+    Dundurs' parameter beta of the pair: the coupling of normal and tangential directions.
+
+    beta = [(1 - 2 nu1)/G1 - (1 - 2 nu2)/G2] / (2 [(1 - nu1)/G1 + (1 - nu2)/G2])
+    """
+
+def ellipse_factor(aspect: float) -> float:
+    """
+    Factor from the plane K to the deepest point of a semi-elliptic crack of the aspect a/c <= 1.
+
+    Newman and Raju's K under uniform tension over that of a straight front: an estimate, which
+    takes the stress as constant along the front. J. C. Newman, I. S. Raju, NASA TM 85793 (1984).
+    """
+
+def equivalent_range(
+    threshold_: tuple[float, float | None, float, float | None, list[tuple[float, float]] | None],
+    K_max: Sequence[float],
+    K_min: Sequence[float],
+) -> list[float]:
+    """Equivalent range of K at R = 0 [Pa m^0.5] of extremes of K."""
+
+def goodman_stick_ratio(*, beta: float, mu: float) -> float:
+    """
+    Stick over contact radius of an indentation with friction, after Goodman and Spence.
+
+    (1/(2 c)) ln[(1 + c)/(1 - c)] = (mu/abs(beta)) K(sqrt(1 - c^2)); the effect of the shear on the
+    pressure is neglected.
+    """
+
+def graded(*, E: Profile, nu: Profile, thickness: float, layers: int) -> list[Coating]:
+    """
+    Stack of equally thick layers that stands for a graded coating, outermost first.
+
+    Each layer has the properties of its middle; the error falls with the square of their number.
+
+    Parameters
+    ----------
+    E, nu : Profile
+        Young's modulus [Pa] and Poisson's ratio over the depth.
+    thickness : float
+        Thickness of the whole coating [m], positive.
+    layers : int
+        Number of layers, at least 1.
+
+    Raises
+    ------
+    InvalidSceneError
+        If a profile, the thickness or the number of layers is out of its range.
+    """
+
+def hertz(*, R: float, bodies: tuple[Elastic | Body, Elastic | Body], W: float) -> Hertz:
+    """Hertz contact of a sphere of relative radius `R` [m] under the force `W` [N]."""
+
+def hertz_ellipse(*, R_x: float, R_y: float, E_star: float, W: float) -> HertzEllipse:
+    """
+    Hertz contact of relative principal radii `R_x`, `R_y` [m] along the axes.
+
+    1/R_x is the sum of both bodies' curvatures along x; `E_star` [Pa], `W` [N].
+    """
+
+def influence_coefficients(
+    body: Body, grid: Grid, *, settings: Settings | None = None
+) -> NDArray[np.float64]:
+    """
+    Surface displacement under unit traction on one cell, C_ij [m/Pa].
+
+    Parameters
+    ----------
+    body : Body
+        Homogeneous or coated, taken as the lower body.
+    grid : Grid
+        The cells; only their number and size matter.
+    settings : Settings, optional
+        Its kernel settings are used.
+
+    Returns
+    -------
+    array of shape (3, 3, 2 nx - 1, 2 ny - 1)
+        u_x, u_y, u_z under q_x, q_y, p at all offsets of the observed cell from the loaded one;
+        the offset (0, 0) is in the middle.
+    """
+
+def labels() -> dict[str, tuple[str, str]]:
+    """Units and meaning of every variable of a result, scalars and fields."""
+
+def largest_of_samples(
+    samples: ArrayLike, z: Sequence[float], layer: Sequence[int], along: Sequence[float]
+) -> tuple[float, float, float, int, float] | None:
+    """
+    Largest value of a field known at samples alone, shape (depths, places) along x or y.
+
+    The value, its place along the line, depth, layer and error.
+    """
+
+def line_contact(
+    *, R: float, bodies: tuple[Elastic | Body, Elastic | Body], W: float
+) -> LineContact:
+    """Line contact of cylinders of relative radius `R` [m] under `W` [N/m]."""
+
+def line_places(
+    grid: Grid, *, x: float | None = None, y: float | None = None, azimuth: float | None = None
+) -> tuple[list[float], list[tuple[float, float]]]:
+    """Places along a line on a grid, and their x, y [m]."""
+
+def line_through(
+    x: float, y: float, azimuth: float
+) -> tuple[float | None, float | None, float | None]:
+    """x, y and azimuth of the line through a point at an angle; along an axis x or y alone."""
+
+def loops(
+    path: LoadPath,
+    *,
+    branch: Sequence[int],
+    T: Sequence[float],
+    delta: Sequence[float],
+    dissipated: Sequence[float],
+    status: Sequence[int],
+) -> list[dict[str, float]]:
+    """Energy and stiffness of every cycle of a history; use :meth:`pyfret.Result.loops`."""
+
+def main_sections(
+    outlines: Sequence[Outline], *, stretched: bool = False
+) -> list[tuple[float | None, float | None, float | None]]:
+    """
+    x, y and azimuth of the sections in which a cycle of a contact is looked at by default.
+
+    Of the outlines of its moments: the first along the shear; a second across it, where the
+    contact or its shear has no axis of its own there. `stretched`: there is a bulk stress along x.
+    """
+
+def material_quantities() -> list[tuple[str, str, str]]:
+    """Names, units and meanings of the numbers of materials."""
+
+def materials(file: str | PathLike[str] | None = None) -> list[Material]:
+    """The materials that come with the package, or those of a file."""
+
+def measure(name: str, stress: ArrayLike) -> NDArray[np.float64]:
+    """Give what follows from stresses of shape (6, n), by its name."""
+
+def partial_crack(film_: Elastic, below: Elastic, depth: float) -> float:
+    """Factor F of a crack with its tip in a film; use :func:`pyfret.fracture.film_intensity`."""
+
+def principal(stress: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Principal values (n, 3), the largest first, and directions (n, 3, 3) of stresses (6, n)."""
+
+def probe_labels() -> dict[str, tuple[str, str]]:
+    """Units and meaning of everything that follows from the stress."""
+
+def read_bytes(path: str | PathLike[str]) -> bytes:
+    """
+    The bytes of a file that somebody names.
+
+    A pipe, a device or a file that would not fit into memory is refused before it is read.
+    """
+
+def read_text(path: str | PathLike[str]) -> str:
+    """The text of a file of numbers, in UTF-8, UTF-16 or Latin-1."""
+
+def residual_of_layers(body: Body, residual: Sequence[float] | None = None) -> NDArray[np.float64]:
+    """Residual stress of every layer of a body [Pa]: those given, or zero."""
+
+def resume(
+    store: str | PathLike[str],
+    *,
+    checkpoint: float = 5.0,
+    friction_law: FrictionFunction | Literal["own"] | None = None,
+    on_increment: Callable[[int, int], object] | None = None,
+) -> None:
+    """Go on with the run of a store that ended early; use :func:`pyfret.resume`, which opens it."""
+
+def resume_wear(
+    store: str | PathLike[str],
+    own: Sequence[Sequence[Callable[..., ArrayLike]]],
+    *,
+    friction_law: FrictionFunction | Literal["own"] | None = None,
+    on_jump: Callable[[float], None] | None = None,
+) -> None:
+    """Goes on with a run of wear that ended early; `own` has the functions among the laws."""
+
+def run_command(arguments: Sequence[str]) -> int:
+    """
+    Run the command ``fret`` in this process: what its console script does.
+
+    Ctrl-C belongs to the command from here on, so that the process should end with it.
+
+    Parameters
+    ----------
+    arguments : sequence of str
+        The program's name and its arguments.
+
+    Returns
+    -------
+    int
+        Exit code: 0 done, 1 the run ended early, 2 bad scene or bad command line.
+    """
+
+def section_of_states(
+    body: Body,
+    grid: Grid,
+    z: Sequence[float],
+    layer: Sequence[int],
+    *,
+    p: ArrayLike,
+    q_x: ArrayLike,
+    q_y: ArrayLike,
+    stick: NDArray[bool_],
+    sigma_B: Sequence[float],
+    residual: Sequence[float] | None = None,
+    x: float | None = None,
+    y: float | None = None,
+    azimuth: float | None = None,
+    body_number: int = 2,
+) -> NDArray[np.float64]:
+    """
+    Stress [Pa] on a section in several states of a contact, shape (states, 6, depths, places).
+
+    Tractions [Pa] and cells that stick are of shape (states, nx, ny); near the surface tractions
+    vary within the cells. States share the kernels, which cost as much as about ten of them.
+    """
+
+def shown(text: str) -> str:
+    """A text whose control codes and marks that turn the direction of reading stand as escapes."""
+
+def solve(
+    scene: Scene,
+    *,
+    store: str | PathLike[str],
+    checkpoint: float = 5.0,
+    overwrite: bool = False,
+    error: bool = False,
+    on_increment: Callable[[int, int], object] | None = None,
+) -> None:
+    """
+    Run a scene into a new result store; use :func:`pyfret.solve`, which opens it.
+
+    `on_increment` is called with the number of each increment solved and their number in all,
+    which is known once they are chosen.
+    """
+
+def solve_in_memory(
+    scene: Scene, *, error: bool = False, on_increment: Callable[[int, int], object] | None = None
+) -> tuple[dict[str, Variable], str]:
+    """
+    Run a scene in memory; use :func:`pyfret.solve`, which labels what this one gives.
+
+    These are the variables, each with dimensions, values and attributes as xarray takes them, and
+    what a store says of the run, as JSON.
+    """
+
+def stress_at(
+    body: Body,
+    cell: tuple[float, float],
+    point: tuple[float, float, float],
+    *,
+    layer: int | None = None,
+) -> NDArray[np.float64]:
+    """
+    Stress at a point under unit traction on the cell of sides `cell` [m] around the origin.
+
+    Returns
+    -------
+    array of shape (6, 3)
+        s_xx, s_yy, s_zz, s_xy, s_xz, s_yz under q_x, q_y, p; tension is positive.
+    """
+
+def stress_coefficients(
+    body: Body, grid: Grid, z: float, *, layer: int | None = None
+) -> NDArray[np.float64]:
+    """
+    Stress at the depth `z` [m] under unit traction on one cell, tension positive.
+
+    Parameters
+    ----------
+    body : Body
+        Homogeneous or coated, taken as the lower body.
+    grid : Grid
+        The cells; only their number and size matter.
+    z : float
+        Depth [m].
+    layer : int, optional
+        Layer from the surface down (their number for the substrate); it decides at an interface,
+        where stresses jump (default: the upper one).
+
+    Returns
+    -------
+    array of shape (6, 3, 2 nx - 1, 2 ny - 1)
+        s_xx, s_yy, s_zz, s_xy, s_xz, s_yz under q_x, q_y, p at all offsets; the offset (0, 0) is in
+        the middle.
+    """
+
+def surface_frf(body: Body, k_x: ArrayLike, k_y: ArrayLike) -> NDArray[np.complex128]:
+    """Surface response at one-dimensional arrays of wave numbers; see :mod:`pyfret.kernels`."""
+
+def threshold_at(
+    threshold_: tuple[float, float | None, float, float | None, list[tuple[float, float]] | None],
+    lengths: Sequence[float],
+) -> tuple[list[float], float]:
+    """Threshold range of K at R = 0 [Pa m^0.5] at lengths [m], and El Haddad's a_0 [m]."""
+
+def verify(store: str | PathLike[str]) -> str:
+    """Checks a store and gives the attributes of its group as JSON."""
+
+def verify_wear(store: str | PathLike[str]) -> None:
+    """Fails if a file of the store of a run of wear is missing, or is not as it was written."""
+
+def wear(
+    scene: Scene,
+    wear: dict[str, Any],
+    own: Sequence[Sequence[Callable[..., ArrayLike]]],
+    *,
+    store: str | PathLike[str] | None = None,
+    overwrite: bool = False,
+    start: tuple[float, float, Sequence[NDArray[np.float64]]] | None = None,
+    on_jump: Callable[[float], None] | None = None,
+) -> tuple[dict[str, Variable], str] | None:
+    """
+    Runs a scene over many cycles, by the table `[wear]` of a scene file.
+
+    It writes a store, or without one gives all in memory. Laws that are functions, `{ own = true }`
+    in the table, stand in `own` for each body.
+    """
+
+def wear_of_file(path: str | PathLike[str], set: Sequence[str] = ...) -> tuple[Scene, str]:
+    """The scene of a file and its table `[wear]`, as the text of a scene file each."""
+
+def with_error(value: float, error: float | None = None) -> str:
+    """A number and its error, with the digits that the error leaves; an estimate without one."""
+
+def with_range(value: float, low: float, high: float) -> str:
+    """A number and the range that it lies in, with the digits that the range leaves."""
+
+def yielding_on(
+    stress: ArrayLike, *, s_y: float, constant: tuple[float, float, float, float, float, float]
+) -> dict[str, NDArray[np.float64]]:
+    """Load factors of first yield and shakedown of stresses of shape (time, points, 6)."""
+
+class ArgumentError(ValueError):
+    """An argument of a function has no meaning; the message says which and what is allowed."""
+
+class InvalidSceneError(ValueError):
+    """A scene, or a scene file, has no meaning; the message says where and what is allowed."""
+
+class SolveError(RuntimeError):
+    """A scene that has a meaning could not be solved; the classes below it say why."""
+
+class StoreError(OSError):
+    """A file or a result store could not be read or written."""
+
+class KernelInaccurateError(SolveError):
+    """Influence or stress coefficients missed the tolerance asked for."""
+
+class NoConvergenceError(SolveError):
+    """A solver stopped before its tolerance; the message gives the residual reached."""
+
+class OffGridError(InvalidSceneError):
+    """The contact reaches the border of the grid; the message says how wide the grid should be."""
+
+class SlidingError(SolveError):
+    """Loads that friction cannot carry, that nothing carries, or that lift a stuck contact."""
 
 __all__ = [
     "RIGID",
@@ -131,2840 +3210,3 @@ __all__ = [
     "with_range",
     "yielding_on",
 ]
-
-_Array: TypeAlias = NDArray[np.float64]
-_Variable: TypeAlias = tuple[tuple[str, ...], NDArray[Any], dict[str, Any]]
-_Pitch: TypeAlias = float | tuple[float, float]
-#: Of x, y, p, slip, dissipated: arrays with a number for each cell.
-_FrictionFunction: TypeAlias = Callable[[_Array, _Array, _Array, _Array, _Array], ArrayLike]
-_Missing: TypeAlias = Literal["refuse", "crop", "fill"]
-
-__version__: Final[str]
-
-RIGID: Final[Elastic]
-"""A material that does not deform."""
-
-@final
-class Elastic:
-    """A homogeneous isotropic elastic material.
-
-    Parameters
-    ----------
-    E : float
-        Young's modulus [Pa], positive; infinite, with nu = 0, for :data:`RIGID`.
-    nu : float
-        Poisson's ratio, -1 < nu <= 0.5.
-    plastic : Plastic, optional
-        How it yields (default: it stays elastic).
-
-    Examples
-    --------
-    >>> steel = Elastic(E=210e9, nu=0.3)
-    >>> round(steel.G / 1e9, 2)
-    80.77
-    """
-
-    def __new__(cls, *, E: float, nu: float, plastic: Plastic | None = None) -> Elastic: ...
-    @property
-    def plastic(self) -> Plastic | None:
-        """How it yields; None where it stays elastic."""
-    @property
-    def E(self) -> float:
-        """Young's modulus [Pa]; infinite for :data:`RIGID`."""
-    @property
-    def nu(self) -> float:
-        """Poisson's ratio."""
-    @property
-    def G(self) -> float:
-        """Shear modulus E / (2 (1 + nu)) [Pa]."""
-    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
-    def __replace__(self, **changes: Any) -> Elastic: ...
-    def replace(self, **changes: Any) -> Elastic:
-        """The same with some of its parts exchanged, named as in the constructor."""
-    def __eq__(self, other: object, /) -> bool: ...
-    def __ne__(self, other: object, /) -> bool: ...
-
-@final
-class Plastic:
-    """Yielding after von Mises, with linear isotropic and linear kinematic hardening.
-
-    The yield stress is s_y + hardening p, with p the equivalent plastic strain. The back stress is
-    2/3 kinematic e_p (Prager).
-
-    Parameters
-    ----------
-    s_y : float
-        Yield stress [Pa], positive.
-    hardening : float
-        Growth of the yield stress per equivalent plastic strain [Pa], 0 or more (default 0).
-    kinematic : float
-        Kinematic hardening [Pa], 0 or more (default 0).
-
-    Examples
-    --------
-    >>> Elastic(E=210e9, nu=0.3, plastic=Plastic(s_y=900e6, hardening=5e9)).plastic.s_y
-    900000000.0
-    """
-
-    def __new__(cls, *, s_y: float, hardening: float = 0.0, kinematic: float = 0.0) -> Plastic: ...
-    @property
-    def s_y(self) -> float:
-        """Yield stress [Pa]."""
-    @property
-    def hardening(self) -> float:
-        """Isotropic hardening [Pa]."""
-    @property
-    def kinematic(self) -> float:
-        """Kinematic hardening [Pa]."""
-    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
-    def __replace__(self, **changes: Any) -> Plastic: ...
-    def replace(self, **changes: Any) -> Plastic:
-        """The same with some of its parts exchanged, named as in the constructor."""
-    def __eq__(self, other: object, /) -> bool: ...
-    def __ne__(self, other: object, /) -> bool: ...
-
-@final
-class Bond:
-    """How a layer is bonded to what lies below it: springs that give way under the traction there.
-
-    The upper side moves against the lower one by compliance times traction, in tension as in
-    pressure.
-
-    Parameters
-    ----------
-    normal, shear : float
-        Approach per pressure and slip per shear traction [m/Pa], 0 (default) or more; a large shear
-        compliance is a frictionless interface.
-
-    Examples
-    --------
-    >>> glue = Elastic(E=3e9, nu=0.4)
-    >>> Bond.of_layer(glue, thickness=0.0).normal
-    0.0
-    """
-
-    def __new__(cls, *, normal: float = 0.0, shear: float = 0.0) -> Bond: ...
-    @staticmethod
-    def of_layer(material: Elastic, *, thickness: float) -> Bond:
-        """The bond that a thin layer of a material makes: h (1 - 2 nu)/(2 G (1 - nu)) and h/G."""
-    @property
-    def normal(self) -> float:
-        """Approach per pressure [m/Pa]."""
-    @property
-    def shear(self) -> float:
-        """Slip per shear traction [m/Pa]."""
-    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
-    def __replace__(self, **changes: Any) -> Bond: ...
-    def replace(self, **changes: Any) -> Bond:
-        """The same with some of its parts exchanged, named as in the constructor."""
-    def __eq__(self, other: object, /) -> bool: ...
-    def __ne__(self, other: object, /) -> bool: ...
-
-@final
-class Coating:
-    """A layer of constant thickness on what is below it.
-
-    Parameters
-    ----------
-    material : Elastic
-        Material of the layer.
-    thickness : float
-        Thickness [m], positive.
-    bond : Bond
-        Bond to what is below it (default: perfect).
-    """
-
-    def __new__(cls, material: Elastic, *, thickness: float, bond: Bond = ...) -> Coating: ...
-    @property
-    def material(self) -> Elastic:
-        """Material of the layer."""
-    @property
-    def thickness(self) -> float:
-        """Thickness [m]."""
-    @property
-    def bond(self) -> Bond:
-        """Bond to what is below it."""
-    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
-    def __replace__(self, **changes: Any) -> Coating: ...
-    def replace(self, **changes: Any) -> Coating:
-        """The same with some of its parts exchanged, named as in the constructor."""
-    def __eq__(self, other: object, /) -> bool: ...
-    def __ne__(self, other: object, /) -> bool: ...
-
-@final
-class Profile:
-    """How a property changes from the surface of a graded coating to its bottom, s = z/h."""
-
-    @staticmethod
-    def constant(value: float) -> Profile:
-        """Return the same value everywhere."""
-    @staticmethod
-    def linear(*, top: float, bottom: float) -> Profile:
-        """Return top + (bottom - top) s."""
-    @staticmethod
-    def power(*, top: float, bottom: float, exponent: float) -> Profile:
-        """Return top + (bottom - top) s^exponent, with a positive exponent."""
-    @staticmethod
-    def exponential(*, top: float, bottom: float) -> Profile:
-        """Return top (bottom/top)^s, both of one sign."""
-    @staticmethod
-    def table(points: Sequence[tuple[float, float]]) -> Profile:
-        """Interpolate linearly between the points (s, value), s rising from 0 to 1."""
-    def __eq__(self, other: object, /) -> bool: ...
-    def __ne__(self, other: object, /) -> bool: ...
-
-def graded(*, E: Profile, nu: Profile, thickness: float, layers: int) -> list[Coating]:
-    """Stack of equally thick layers that stands for a graded coating, outermost first.
-
-    Each layer has the properties of its middle; the error falls with the square of their number.
-
-    Parameters
-    ----------
-    E, nu : Profile
-        Young's modulus [Pa] and Poisson's ratio over the depth.
-    thickness : float
-        Thickness of the whole coating [m], positive.
-    layers : int
-        Number of layers, at least 1.
-
-    Raises
-    ------
-    InvalidSceneError
-        If a profile, the thickness or the number of layers is out of its range.
-    """
-
-@final
-class Flat:
-    """The contact plane itself."""
-
-    def __new__(cls) -> Flat: ...
-    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
-    def __replace__(self, **changes: Any) -> Flat: ...
-    def replace(self, **changes: Any) -> Flat:
-        """The same with some of its parts exchanged, named as in the constructor."""
-    def __add__(self, other: _Shape, /) -> Sum: ...
-    def __radd__(self, value: _Shape, /) -> Sum: ...
-    def __eq__(self, other: object, /) -> bool: ...
-    def __ne__(self, other: object, /) -> bool: ...
-
-@final
-class Sphere:
-    """A sphere, taken as the paraboloid r^2/(2 R) as in Hertz's theory.
-
-    Parameters
-    ----------
-    R : float
-        Radius [m]; negative for a hollow.
-    """
-
-    def __new__(cls, R: float) -> Sphere: ...
-    @property
-    def R(self) -> float:
-        """Radius [m]."""
-    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
-    def __replace__(self, **changes: Any) -> Sphere: ...
-    def replace(self, **changes: Any) -> Sphere:
-        """The same with some of its parts exchanged, named as in the constructor."""
-    def __add__(self, other: _Shape, /) -> Sum: ...
-    def __radd__(self, value: _Shape, /) -> Sum: ...
-    def __eq__(self, other: object, /) -> bool: ...
-    def __ne__(self, other: object, /) -> bool: ...
-
-@final
-class Ellipsoid:
-    """Two principal radii, each a parabola as in Hertz's theory.
-
-    Parameters
-    ----------
-    R_x : float
-        Principal radius in the direction `angle` [m]; negative for a hollow.
-    R_y : float
-        Principal radius across it [m].
-    angle : float
-        Direction of the first one, from x towards y [rad].
-    """
-
-    def __new__(cls, *, R_x: float, R_y: float, angle: float = ...) -> Ellipsoid: ...
-    @property
-    def R_x(self) -> float:
-        """Principal radius in the direction `angle` [m]; negative for a hollow."""
-    @property
-    def R_y(self) -> float:
-        """Principal radius across it [m]."""
-    @property
-    def angle(self) -> float:
-        """Direction of the first one, from x towards y [rad]."""
-    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
-    def __replace__(self, **changes: Any) -> Ellipsoid: ...
-    def replace(self, **changes: Any) -> Ellipsoid:
-        """The same with some of its parts exchanged, named as in the constructor."""
-    def __add__(self, other: _Shape, /) -> Sum: ...
-    def __radd__(self, value: _Shape, /) -> Sum: ...
-    def __eq__(self, other: object, /) -> bool: ...
-    def __ne__(self, other: object, /) -> bool: ...
-
-@final
-class Cylinder:
-    """A cylinder with sharp ends; its axis is y turned by `angle`.
-
-    Parameters
-    ----------
-    R : float
-        Radius [m]; negative for a hollow.
-    length : float
-        Length along the axis [m]; infinite for one that leaves the grid.
-    angle : float
-        Turn of the axis from y [rad].
-    """
-
-    def __new__(cls, R: float, *, length: float = ..., angle: float = ...) -> Cylinder: ...
-    @property
-    def R(self) -> float:
-        """Radius [m]; negative for a hollow."""
-    @property
-    def length(self) -> float:
-        """Length along the axis [m]; infinite for one that leaves the grid."""
-    @property
-    def angle(self) -> float:
-        """Turn of the axis from y [rad]."""
-    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
-    def __replace__(self, **changes: Any) -> Cylinder: ...
-    def replace(self, **changes: Any) -> Cylinder:
-        """The same with some of its parts exchanged, named as in the constructor."""
-    def __add__(self, other: _Shape, /) -> Sum: ...
-    def __radd__(self, value: _Shape, /) -> Sum: ...
-    def __eq__(self, other: object, /) -> bool: ...
-    def __ne__(self, other: object, /) -> bool: ...
-
-@final
-class CrownedRoller:
-    """A cylinder with rounded ends; its axis is y turned by `angle`.
-
-    Parameters
-    ----------
-    R : float
-        Radius [m].
-    length : float
-        Length of the straight part [m], 0 for a crown all along.
-    crown : float
-        Radius along the axis beyond the straight part [m].
-    angle : float
-        Turn of the axis from y [rad].
-    """
-
-    def __new__(
-        cls, *, R: float, length: float, crown: float, angle: float = ...
-    ) -> CrownedRoller: ...
-    @property
-    def R(self) -> float:
-        """Radius [m]."""
-    @property
-    def length(self) -> float:
-        """Length of the straight part [m], 0 for a crown all along."""
-    @property
-    def crown(self) -> float:
-        """Radius along the axis beyond the straight part [m]."""
-    @property
-    def angle(self) -> float:
-        """Turn of the axis from y [rad]."""
-    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
-    def __replace__(self, **changes: Any) -> CrownedRoller: ...
-    def replace(self, **changes: Any) -> CrownedRoller:
-        """The same with some of its parts exchanged, named as in the constructor."""
-    def __add__(self, other: _Shape, /) -> Sum: ...
-    def __radd__(self, value: _Shape, /) -> Sum: ...
-    def __eq__(self, other: object, /) -> bool: ...
-    def __ne__(self, other: object, /) -> bool: ...
-
-@final
-class Cone:
-    """A cone with its tip at the origin.
-
-    Parameters
-    ----------
-    slope : float
-        Tangent of the angle between flank and contact plane.
-    """
-
-    def __new__(cls, *, slope: float) -> Cone: ...
-    @property
-    def slope(self) -> float:
-        """Tangent of the angle between flank and contact plane."""
-    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
-    def __replace__(self, **changes: Any) -> Cone: ...
-    def replace(self, **changes: Any) -> Cone:
-        """The same with some of its parts exchanged, named as in the constructor."""
-    def __add__(self, other: _Shape, /) -> Sum: ...
-    def __radd__(self, value: _Shape, /) -> Sum: ...
-    def __eq__(self, other: object, /) -> bool: ...
-    def __ne__(self, other: object, /) -> bool: ...
-
-@final
-class Wedge:
-    """Two flanks that meet in an edge; it is y turned by `angle`.
-
-    Parameters
-    ----------
-    slope : float
-        Tangent of the angle between flank and contact plane.
-    angle : float
-        Turn of the edge from y [rad].
-    """
-
-    def __new__(cls, *, slope: float, angle: float = ...) -> Wedge: ...
-    @property
-    def slope(self) -> float:
-        """Tangent of the angle between flank and contact plane."""
-    @property
-    def angle(self) -> float:
-        """Turn of the edge from y [rad]."""
-    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
-    def __replace__(self, **changes: Any) -> Wedge: ...
-    def replace(self, **changes: Any) -> Wedge:
-        """The same with some of its parts exchanged, named as in the constructor."""
-    def __add__(self, other: _Shape, /) -> Sum: ...
-    def __radd__(self, value: _Shape, /) -> Sum: ...
-    def __eq__(self, other: object, /) -> bool: ...
-    def __ne__(self, other: object, /) -> bool: ...
-
-@final
-class FlatPunch:
-    """A round flat punch with a rounded edge.
-
-    Parameters
-    ----------
-    radius : float
-        Radius of the flat [m].
-    edge : float
-        Radius of the rounding beyond it [m].
-    """
-
-    def __new__(cls, *, radius: float, edge: float) -> FlatPunch: ...
-    @property
-    def radius(self) -> float:
-        """Radius of the flat [m]."""
-    @property
-    def edge(self) -> float:
-        """Radius of the rounding beyond it [m]."""
-    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
-    def __replace__(self, **changes: Any) -> FlatPunch: ...
-    def replace(self, **changes: Any) -> FlatPunch:
-        """The same with some of its parts exchanged, named as in the constructor."""
-    def __add__(self, other: _Shape, /) -> Sum: ...
-    def __radd__(self, value: _Shape, /) -> Sum: ...
-    def __eq__(self, other: object, /) -> bool: ...
-    def __ne__(self, other: object, /) -> bool: ...
-
-@final
-class Waviness:
-    """A wave along the direction `angle`, a crest at the origin for phase 0; add it to a shape.
-
-    Parameters
-    ----------
-    amplitude : float
-        Height of a crest above the mean [m].
-    wavelength : float
-        Distance of the crests [m].
-    angle : float
-        Direction, from x towards y [rad].
-    phase : float
-        Phase at the origin [rad].
-    """
-
-    def __new__(
-        cls, *, amplitude: float, wavelength: float, angle: float = ..., phase: float = ...
-    ) -> Waviness: ...
-    @property
-    def amplitude(self) -> float:
-        """Height of a crest above the mean [m]."""
-    @property
-    def wavelength(self) -> float:
-        """Distance of the crests [m]."""
-    @property
-    def angle(self) -> float:
-        """Direction, from x towards y [rad]."""
-    @property
-    def phase(self) -> float:
-        """Phase at the origin [rad]."""
-    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
-    def __replace__(self, **changes: Any) -> Waviness: ...
-    def replace(self, **changes: Any) -> Waviness:
-        """The same with some of its parts exchanged, named as in the constructor."""
-    def __add__(self, other: _Shape, /) -> Sum: ...
-    def __radd__(self, value: _Shape, /) -> Sum: ...
-    def __eq__(self, other: object, /) -> bool: ...
-    def __ne__(self, other: object, /) -> bool: ...
-
-@final
-class Rough:
-    """A random self-affine surface; add it to a shape.
-
-    Its power falls like k^-(2 + 2 `hurst`) between two wavelengths and is level above the longer
-    one. The same seed gives the same surface on every grid of the same size, however fine.
-
-    Parameters
-    ----------
-    rms : float
-        Root-mean-square height [m].
-    hurst : float
-        Hurst exponent, above 0 and up to 1.
-    longest, shortest : float
-        Wavelengths between which it is self-affine [m]; the shortest is at least two cells.
-    seed : int
-        Seed of the phases (default 0).
-    """
-
-    def __new__(
-        cls, *, rms: float, hurst: float, longest: float, shortest: float, seed: int = 0
-    ) -> Rough: ...
-    @property
-    def rms(self) -> float:
-        """Root-mean-square height [m]."""
-    @property
-    def hurst(self) -> float:
-        """Hurst exponent."""
-    @property
-    def longest(self) -> float:
-        """Longest wavelength of the self-affine range [m]."""
-    @property
-    def shortest(self) -> float:
-        """Shortest wavelength [m]."""
-    @property
-    def seed(self) -> int:
-        """Seed of the phases."""
-    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
-    def __replace__(self, **changes: Any) -> Rough: ...
-    def replace(self, **changes: Any) -> Rough:
-        """The same with some of its parts exchanged, named as in the constructor."""
-    def __add__(self, other: _Shape, /) -> Sum: ...
-    def __radd__(self, value: _Shape, /) -> Sum: ...
-    def __eq__(self, other: object, /) -> bool: ...
-    def __ne__(self, other: object, /) -> bool: ...
-
-@final
-class SurfaceMap:
-    """Numbers over the contact plane, the middle of the map over the origin.
-
-    As the shape of a body they are heights out of it, towards the other one [m]; in a friction law
-    they are factors of mu.
-
-    Parameters
-    ----------
-    values : array of shape (points along x, points along y)
-        The numbers.
-    spacing : float or (float, float)
-        Distance of the points along x and y [m]. In between they are interpolated linearly.
-    missing : "refuse", "crop" or "fill"
-        What becomes of points that are NaN or masked: an error that says where they are; lines
-        taken off the edges; the mean of the neighbours, where at most a tenth of the points is
-        missing and no hole is wider than ten.
-    """
-
-    def __new__(
-        cls, values: ArrayLike, *, spacing: _Pitch, missing: _Missing = "refuse"
-    ) -> SurfaceMap: ...
-    @staticmethod
-    def from_file(
-        path: str | PathLike[str],
-        *,
-        spacing: _Pitch | None = None,
-        unit: str | None = None,
-        channel: str | None = None,
-        missing: _Missing = "refuse",
-    ) -> SurfaceMap:
-        """Read numbers from a file: a ``.npy`` array, or text of instruments and spreadsheets.
-
-        Text is UTF-8, UTF-16 or Latin-1; its numbers are parted by semicolons, tabs, commas or
-        blanks, with decimal points or commas. It is a table, one line per x, with or without
-        titles; points x, y and height in any order; Gwyddion's export; or an ESRI grid. A profile
-        is refused.
-
-        Parameters
-        ----------
-        path : path
-            The file.
-        spacing : float or (float, float), optional
-            Distance of the points along x and y [m], where the file does not say it.
-        unit : str, optional
-            Unit of the numbers, in a list of points of x and y too, such as "um"; by default what
-            the file says, metres if it says nothing.
-        channel : str, optional
-            Of a list of points with several columns beside x and y, the title or the number
-            (from 1) of the one that is meant.
-        missing : "refuse", "crop" or "fill"
-            What becomes of points without a number (blank, NaN or what the header says): an error
-            that says where they are; lines taken off the edges; the mean of the neighbours, where
-            at most a tenth of the points is missing and no hole is wider than ten.
-
-        Raises
-        ------
-        StoreError
-            If the file cannot be read, says something else than the arguments, or leaves something
-            open; the message says which line and column, and what to give.
-        """
-    @property
-    def filled(self) -> int:
-        """How many of the numbers were not measured: each is the mean of its neighbours."""
-    @property
-    def values(self) -> _Array:
-        """The numbers."""
-    @property
-    def spacing(self) -> tuple[float, float]:
-        """Distance of the points along x and y [m]."""
-    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
-    def __replace__(self, **changes: Any) -> SurfaceMap: ...
-    def replace(self, **changes: Any) -> SurfaceMap:
-        """The same with some of its parts exchanged, named as in the constructor."""
-    def __add__(self, other: _Shape, /) -> Sum: ...
-    def __radd__(self, value: _Shape, /) -> Sum: ...
-    def __eq__(self, other: object, /) -> bool: ...
-    def __ne__(self, other: object, /) -> bool: ...
-
-@final
-class Sum:
-    """Several shapes on top of one another, made by adding them."""
-
-    def __new__(cls, parts: Sequence[_Shape]) -> Sum: ...
-    @property
-    def parts(self) -> list[_Shape]:
-        """The shapes."""
-    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
-    def __replace__(self, **changes: Any) -> Sum: ...
-    def replace(self, **changes: Any) -> Sum:
-        """The same with some of its parts exchanged, named as in the constructor."""
-    def __add__(self, other: _Shape, /) -> Sum: ...
-    def __radd__(self, value: _Shape, /) -> Sum: ...
-    def __eq__(self, other: object, /) -> bool: ...
-    def __ne__(self, other: object, /) -> bool: ...
-
-_Shape: TypeAlias = (
-    Flat
-    | Sphere
-    | Ellipsoid
-    | Cylinder
-    | CrownedRoller
-    | Cone
-    | Wedge
-    | FlatPunch
-    | Waviness
-    | Rough
-    | SurfaceMap
-    | Sum
-)
-
-@final
-class Body:
-    """An elastic half-space under its coatings and a gently curved surface.
-
-    Parameters
-    ----------
-    substrate : Elastic
-        Material below the coatings.
-    coatings : sequence of Coating
-        Layers from the surface down: ``coatings[0]`` is the outermost (default: none).
-    shape : Flat, Sphere, Ellipsoid, Cylinder, ... or a sum of them
-        Undeformed surface (default: flat).
-    """
-
-    def __new__(
-        cls, substrate: Elastic, *, coatings: Sequence[Coating] | Coating = ..., shape: _Shape = ...
-    ) -> Body: ...
-    @property
-    def substrate(self) -> Elastic:
-        """Material below the coatings."""
-    @property
-    def coatings(self) -> list[Coating]:
-        """Layers from the surface down."""
-    @property
-    def shape(self) -> _Shape:
-        """Undeformed surface."""
-    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
-    def __replace__(self, **changes: Any) -> Body: ...
-    def replace(self, **changes: Any) -> Body:
-        """The same with some of its parts exchanged, named as in the constructor."""
-    def __eq__(self, other: object, /) -> bool: ...
-    def __ne__(self, other: object, /) -> bool: ...
-
-@final
-class History:
-    """What a cell has been through.
-
-    ``INCREMENT``: increments done, the same for all cells. ``SLIP``: length of the way that the
-    cell has slipped [m]. ``DISSIPATED``: energy dissipated per area [J/m^2]. ``CYCLES``: cycles of
-    wear done; a path that is run through once has done none. Over jumps of wear each is that of
-    all cycles so far.
-    """
-
-    INCREMENT: ClassVar[History]
-    """Increments done, the same for all cells."""
-    SLIP: ClassVar[History]
-    """Length of the way that the cell has slipped [m]."""
-    DISSIPATED: ClassVar[History]
-    """Energy dissipated per area [J/m^2]."""
-    CYCLES: ClassVar[History]
-    """Cycles of wear done, the same for all cells."""
-
-    def __int__(self) -> int: ...
-    def __hash__(self) -> int: ...
-    def __eq__(self, other: object, /) -> bool: ...
-    def __ne__(self, other: object, /) -> bool: ...
-
-@final
-class Friction:
-    """Coulomb's law with a coefficient that depends on direction, place and history.
-
-    The coefficient of an increment is that of the history at its end, extrapolated from the last
-    increment.
-
-    Parameters
-    ----------
-    mu : float
-        Coefficient, >= 0; ``float("inf")`` for a contact that never slips.
-    mu_y : float, optional
-        Coefficient along y, mu being that along x: the bound is an ellipse.
-    kinetic : float, optional
-        Coefficient, along x, of cells that slipped in the increment before.
-    map : SurfaceMap, optional
-        Factor of the coefficient over the surface.
-    history : (History, list of pairs), optional
-        Factor of the coefficient, linear between the pairs (history, factor).
-    law : callable, optional
-        A function of five arrays, a number for each cell: places `x`, `y` [m], pressure `p` [Pa],
-        length of the way slipped `slip` [m], energy per area `dissipated` [J/m^2]. It gives the
-        coefficient along x of each cell, finite and >= 0, an array of the same shape or one number;
-        `mu` is about what it gives, the measure of tolerances, and the coefficient where nothing
-        is pressed yet. An increment is solved again until the coefficient is that of pressure and
-        history at its end. What the function raises is raised as it is. No map, history or kinetic
-        coefficient beside it; over cycles of wear slip and energy are those of all cycles so far. A
-        store keeps that there is a law, not which: ``pyfret.resume(store, friction_law=...)``.
-    """
-
-    def __new__(
-        cls,
-        mu: float,
-        *,
-        mu_y: float | None = None,
-        kinetic: float | None = None,
-        map: SurfaceMap | None = None,
-        history: tuple[History, Sequence[tuple[float, float]]] | None = None,
-        law: _FrictionFunction | Literal["own"] | None = None,
-    ) -> Friction: ...
-    @property
-    def mu(self) -> float:
-        """Coefficient."""
-    @property
-    def mu_y(self) -> float | None:
-        """Coefficient along y, if it is another."""
-    @property
-    def kinetic(self) -> float | None:
-        """Coefficient of cells that slipped in the increment before."""
-    @property
-    def map(self) -> SurfaceMap | None:
-        """Factor over the surface."""
-    @property
-    def history(self) -> tuple[History, list[tuple[float, float]]] | None:
-        """Factor as a function of the history."""
-    @property
-    def law(self) -> _FrictionFunction | Literal["own"] | None:
-        """The function that gives the coefficient; ``"own"`` if only that there is one is known."""
-    def words(self) -> list[tuple[str, float | None]]:
-        """The law in words: names with their values, and facts without a value."""
-    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
-    def __replace__(self, **changes: Any) -> Friction: ...
-    def replace(self, **changes: Any) -> Friction:
-        """The same with some of its parts exchanged, named as in the constructor."""
-    def __eq__(self, other: object, /) -> bool: ...
-    def __ne__(self, other: object, /) -> bool: ...
-
-@final
-class Grid:
-    """Rectangular cells around the initial point of contact; tractions are constant on each.
-
-    Arrays over the grid have the shape (nx, ny), x first.
-
-    Parameters
-    ----------
-    nx, ny : int
-        Number of cells along x and along y.
-    dx, dy : float
-        Cell length along x and along y [m].
-    plane_strain : bool
-        Whether the cells are without end along y (default False): `ny` is 1 and `dy` the width that
-        forces are those on.
-    """
-
-    def __new__(
-        cls, *, nx: int, ny: int, dx: float, dy: float, plane_strain: bool = ...
-    ) -> Grid: ...
-    @staticmethod
-    def centred(*, extent: _Pitch, n: int | tuple[int, int]) -> Grid:
-        """`n` by `n` cells on a square of side `extent` [m]; a rectangle by pairs (x, y)."""
-    @staticmethod
-    def from_spacing(n: int | tuple[int, int], spacing: _Pitch) -> Grid:
-        """`n` = (nx, ny) cells of size `spacing` = (dx, dy) [m]."""
-    @staticmethod
-    def strip(*, extent: float, n: int, width: float = 1.0) -> Grid:
-        """Plane strain: `n` cells over the length `extent` [m] along x, without end along y.
-
-        Forces, moments and energies are those on the width `width` [m]; displacements are
-        relative to the points at the distance `extent` from a load.
-        """
-    @staticmethod
-    def for_contact(
-        body1: Body,
-        body2: Body,
-        path: LoadPath,
-        *,
-        error: float = 0.005,
-        room: float = 1.2,
-        start: float | None = None,
-        plane_strain: bool = False,
-        wear: Mapping[str, Any] | None = None,
-        mu: float | Friction | None = None,
-    ) -> Grid:
-        """Choose a grid for the contact that comes out of two bodies and a load path.
-
-        The contact under the largest normal load of the path, coatings and all, is solved without
-        friction on 32 cells a side, roughness left out; the grid is `room` times as long, on rough
-        surfaces 15 % longer. It has as many cells as a smooth contact takes for `error`, and eight
-        in the shortest wave of a rough, wavy or measured surface. On measured surfaces, on waves
-        and where a body has edges, the number of cells is doubled until area and largest pressure
-        agree to `error`.
-
-        Parameters
-        ----------
-        body1, body2 : Body
-            The upper and the lower body.
-        path : LoadPath
-            The loads.
-        error : float
-            Error of the pressure that is wanted, root mean square over that of the pressure; that
-            of radius and approach is a tenth of it. Error bars tell what it came to.
-        room : float
-            Side of the grid over the length of the contact: 1.2 (default), 2 or more where wear or
-            rolling makes the contact longer.
-        start : float, optional
-            Side to begin with [m] (default: that of the Hertz contact, else a millimetre).
-        plane_strain : bool
-            Whether it is a line contact: a strip one metre wide.
-        wear : dict, optional
-            What wears, as keywords of :func:`pyfret.wear.solve`: cycles and laws at least. The
-            run is done on few cells, and the grid holds the scar at its end, strokes included.
-            `error` is then that of the contact at the end, and the first contact has eight cells
-            in its radius.
-        mu : float or Friction, optional
-            Coefficient of friction, which decides where wear slips: to be given with `wear`.
-
-        Raises
-        ------
-        ValueError
-            Nothing is pressed together, no size was found that fits, as of two flats, or `wear`
-            comes without `mu`.
-
-        Warns
-        -----
-        SceneWarning
-            Area or largest pressure still change by more than `error` on 512 x 512 cells, or an
-            outermost coating is thinner than a cell.
-
-        Examples
-        --------
-        >>> steel = Elastic(E=210e9, nu=0.3)  # doctest: +SKIP
-        >>> ball, flat = Body(steel, shape=Sphere(R=5e-3)), Body(steel)  # doctest: +SKIP
-        >>> path = LoadPath.start().normal(10.0).cycles(1, T_x=1.0)  # doctest: +SKIP
-        >>> grid = Grid.for_contact(ball, flat, path)  # doctest: +SKIP
-        >>> law = Archard(k=1e-15)  # doctest: +SKIP
-        >>> wear = {"cycles": 1e5, "body2": law}  # doctest: +SKIP
-        >>> worn = Grid.for_contact(ball, flat, path, wear=wear, mu=0.3)  # doctest: +SKIP
-        """
-    def unit_of(self, unit: str) -> str:
-        """Unit of a number of a run on this grid, by that of a contact of two directions.
-
-        On a strip one metre wide forces are in N/m, energies in J/m, areas in m^2/m.
-        """
-    @property
-    def plane_strain(self) -> bool:
-        """Whether the cells are without end along y."""
-    @property
-    def nx(self) -> int:
-        """Number of cells along x."""
-    @property
-    def ny(self) -> int:
-        """Number of cells along y."""
-    @property
-    def dx(self) -> float:
-        """Cell length along x [m]."""
-    @property
-    def dy(self) -> float:
-        """Cell length along y [m]."""
-    @property
-    def cell_area(self) -> float:
-        """Area of a cell [m^2]."""
-    @property
-    def x(self) -> _Array:
-        """Centres of the cells along x [m], shape (nx,)."""
-    @property
-    def y(self) -> _Array:
-        """Centres of the cells along y [m], shape (ny,)."""
-    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
-    def __replace__(self, **changes: Any) -> Grid: ...
-    def replace(self, **changes: Any) -> Grid:
-        """The same with some of its parts exchanged, named as in the constructor."""
-    def __eq__(self, other: object, /) -> bool: ...
-    def __ne__(self, other: object, /) -> bool: ...
-
-@final
-class Spacing:
-    """How the increments of a branch are spaced.
-
-    ``UNIFORM``: equal increments of force. ``EQUAL_RADIUS``: increments of equal contact radius
-    of a paraboloid; natural for an indentation. ``SHORT_FIRST``: a short first increment, then
-    equal ones; shows the stiffness and the stick zone right after a reversal.
-    """
-
-    UNIFORM: ClassVar[Spacing]
-    """Equal increments of force."""
-    EQUAL_RADIUS: ClassVar[Spacing]
-    """Increments of equal contact radius of a paraboloid; natural for an indentation."""
-    SHORT_FIRST: ClassVar[Spacing]
-    """A short first increment, then equal ones: what is chosen after a reversal."""
-
-    def __int__(self) -> int: ...
-    def __hash__(self) -> int: ...
-    def __eq__(self, other: object, /) -> bool: ...
-    def __ne__(self, other: object, /) -> bool: ...
-
-@final
-class Branch:
-    """One straight piece of a load history; most are made by the methods of :class:`LoadPath`.
-
-    Parameters
-    ----------
-    W, M_x, M_y, T_x, T_y, M_z : float, optional
-        Loads at its end [N, N m].
-    delta_z, phi_x, phi_y, delta_x, delta_y, phi_z : float, optional
-        Motions at its end [m, rad], in place of their loads. Without both the forces are 0 and
-        the bodies do not rotate.
-    sigma_B, sigma_B1, rolled : float
-        Bulk stresses [Pa] and the way rolled [m] at its end (default 0).
-    increments : int, optional
-        Their number (default: chosen).
-    spacing : Spacing
-        How they are spaced (default uniform).
-    t : float
-        Path time at its end.
-    path_error : float, optional
-        Estimated error that the increments leave in the shear, as known before a run; that of
-        :meth:`Result.branches` contains what the run shows of it.
-    """
-
-    def __new__(
-        cls,
-        *,
-        W: float | None = ...,
-        M_x: float | None = ...,
-        M_y: float | None = ...,
-        T_x: float | None = ...,
-        T_y: float | None = ...,
-        M_z: float | None = ...,
-        delta_z: float | None = ...,
-        phi_x: float | None = ...,
-        phi_y: float | None = ...,
-        delta_x: float | None = ...,
-        delta_y: float | None = ...,
-        phi_z: float | None = ...,
-        sigma_B: float = ...,
-        sigma_B1: float = ...,
-        rolled: float = ...,
-        increments: _Count | None = ...,
-        spacing: Spacing = ...,
-        t: float,
-        path_error: float | None = ...,
-    ) -> Branch: ...
-    @property
-    def W(self) -> float | None:
-        """Normal force at its end [N]; None where the approach is given."""
-    @property
-    def T_x(self) -> float | None:
-        """Tangential force along x on body 2 at its end [N]; None where the shift is given."""
-    @property
-    def T_y(self) -> float | None:
-        """Tangential force along y on body 2 at its end [N]; None where the shift is given."""
-    @property
-    def M_x(self) -> float | None:
-        """Tilting moment about x at its end [N m]; None where the tilt is given."""
-    @property
-    def M_y(self) -> float | None:
-        """Tilting moment about y at its end [N m]; None where the tilt is given."""
-    @property
-    def M_z(self) -> float | None:
-        """Torsional moment on body 2 at its end [N m]; None where the rotation is given."""
-    @property
-    def delta_z(self) -> float | None:
-        """Approach at its end [m]; None where W is given."""
-    @property
-    def delta_x(self) -> float | None:
-        """Shift along x at its end [m]; None where T_x is given."""
-    @property
-    def delta_y(self) -> float | None:
-        """Shift along y at its end [m]; None where T_y is given."""
-    @property
-    def phi_x(self) -> float | None:
-        """Tilt about x at its end [rad]; None where M_x is given."""
-    @property
-    def phi_y(self) -> float | None:
-        """Tilt about y at its end [rad]; None where M_y is given."""
-    @property
-    def phi_z(self) -> float | None:
-        """Rotation about z at its end [rad]; None where M_z is given."""
-    @property
-    def sigma_B(self) -> float:
-        """Bulk stress along x in body 2 at its end [Pa]."""
-    @property
-    def sigma_B1(self) -> float:
-        """Bulk stress along x in body 1 at its end [Pa]."""
-    @property
-    def rolled(self) -> float:
-        """Way that the contact has rolled along x at its end [m]."""
-    @property
-    def increments(self) -> int | None:
-        """Number of increments; None: as many as the path tolerance asks for."""
-    @property
-    def path_error(self) -> float | None:
-        """Estimated error that the increments leave in the shear, over the largest shear."""
-    @property
-    def spacing(self) -> Spacing:
-        """How the increments are spaced."""
-    @property
-    def t(self) -> float:
-        """Path time at its end."""
-    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
-    def __replace__(self, **changes: Any) -> Branch: ...
-    def replace(self, **changes: Any) -> Branch:
-        """The same with some of its parts exchanged, named as in the constructor."""
-    def __eq__(self, other: object, /) -> bool: ...
-    def __ne__(self, other: object, /) -> bool: ...
-
-@final
-class PerRange:
-    """As many increments as a change needs if the whole range takes this many."""
-
-    def __new__(cls, increments: int) -> PerRange: ...
-    @property
-    def increments(self) -> int:
-        """Increments over the whole range of the load or motion that needs most."""
-    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
-    def __replace__(self, **changes: Any) -> PerRange: ...
-    def replace(self, **changes: Any) -> PerRange:
-        """The same with some of its parts exchanged, named as in the constructor."""
-    def __hash__(self) -> int: ...
-    def __eq__(self, other: object, /) -> bool: ...
-    def __ne__(self, other: object, /) -> bool: ...
-
-@final
-class LoadPath:
-    """The load history, from two bodies just touching.
-
-    Built by chaining; every call gives a new path with more branches.
-
-    Parameters
-    ----------
-    branches : list of Branch
-        Its branches, where they are at hand.
-
-    Examples
-    --------
-    >>> path = LoadPath.start().normal(1e3, increments=100)
-    >>> path.tangential([270.0, -270.0, 270.0], increments=500)
-    LoadPath(4 branches, 600 increments)
-    """
-
-    def __new__(
-        cls, branches: Sequence[Branch] = ..., *, rig_stiffness: float | None = None
-    ) -> LoadPath: ...
-    def rig(self, stiffness: float | None) -> LoadPath:
-        """The same path through a rig of a stiffness K [N/m], a spring along x.
-
-        It is in series with the contact: ``delta_x`` is the shift of the spring's far end, given or
-        read, and the contact's own shift is ``delta_x - T_x/K``. None takes the spring out.
-        """
-    @property
-    def rig_stiffness(self) -> float | None:
-        """Stiffness of the rig along x [N/m]; None: the bodies themselves are moved."""
-    @staticmethod
-    def start() -> LoadPath:
-        """The path before its first branch."""
-    def normal(self, W: float, *, increments: _Count = ...) -> LoadPath:
-        """Go to the normal force `W` [N], the tangential forces kept, in one unit of path time."""
-    def tangential(self, T_x: _Values, *, increments: _Count = ...) -> LoadPath:
-        """Visit the tangential forces `T_x` [N] in turn.
-
-        The increments are shared out in proportion to the change of force. Path time runs as in
-        the first branch: one unit for as many increments as that one has.
-        """
-    def torsion(self, M_z: _Values, *, increments: _Count = ...) -> LoadPath:
-        """Visit the torsional moments `M_z` [N m] in turn, as `tangential` does the forces."""
-    def radial(self, W: _Values, *, increments: _Count = ...) -> LoadPath:
-        """Visit the normal forces `W` [N] in turn, as `tangential` does: fretting mode II."""
-    def ellipse(
-        self, *, T_x: float, T_y: float, turns: int = 1, increments: _Count = ...
-    ) -> LoadPath:
-        """Turn the tangential force around an ellipse of semi-axes `T_x`, `T_y` [N].
-
-        Its middle is where the path stands. It goes to (T_x, 0) in `increments` and takes as many
-        for each turn towards (0, T_y), each a branch of its own; with "auto", 64 branches for each
-        turn, and as many increments as the path tolerance of the settings asks for.
-        """
-    def waypoints(
-        self,
-        *,
-        increments: int | PerRange | Literal["auto"] = ...,
-        **columns: Sequence[float] | _Array,
-    ) -> LoadPath:
-        """Go straight from waypoint to waypoint, a branch for each.
-
-        Parameters
-        ----------
-        increments : int, PerRange or "auto"
-            Increments per branch; or as many as the change needs; or as the path tolerance of the
-            settings asks for.
-        **columns : array
-            Loads (``W``, ``T_x``, ...), motions (``delta_x``, ...), ``sigma_B``, ``sigma_B1``,
-            ``rolled`` and the path time ``t`` at the waypoints. What has no column stays as it is.
-        """
-    @staticmethod
-    def from_csv(
-        path: str | PathLike[str],
-        *,
-        increments: int | PerRange | Literal["auto"] = ...,
-        drive: str | Sequence[str] = ...,
-    ) -> LoadPath:
-        """Read a measured history: a table of text whose titles name the columns of `waypoints`.
-
-        Semicolons, tabs, commas or blanks part its numbers, with decimal points or commas; units
-        stand in the titles, ``T_x [kN]``, or in a row of their own.
-
-        Parameters
-        ----------
-        path : path
-            The file.
-        increments : int, PerRange or "auto"
-            Increments per branch, as in `waypoints`.
-        drive : str or list of str, optional
-            Of a load and its motion that both stand in the file, as in every measured loop, the
-            one that drives; the other is left out.
-
-        Raises
-        ------
-        StoreError
-            If the file cannot be read; the message says which line and column, and what to give.
-        """
-    def force(
-        self,
-        *,
-        W: float | None = None,
-        T_x: float | None = None,
-        T_y: float | None = None,
-        M_x: float | None = None,
-        M_y: float | None = None,
-        M_z: float | None = None,
-        sigma_B: float | None = None,
-        sigma_B1: float | None = None,
-        rolled: float | None = None,
-        increments: _Count = ...,
-        spacing: Spacing = ...,
-        t: float | None = None,
-    ) -> LoadPath:
-        """Go to the given loads on a straight line; what is not named stays as it was.
-
-        A load that is named is given from here on, and the motion that goes with it is free.
-
-        Parameters
-        ----------
-        W, T_x, T_y : float, optional
-            Normal force and tangential forces on body 2 [N].
-        M_x, M_y, M_z : float, optional
-            Tilting moments and torsional moment on body 2 [N m].
-        sigma_B : float, optional
-            Bulk stress along x in body 2, tension positive: a fatigue load [Pa].
-        sigma_B1 : float, optional
-            The same in body 1.
-        rolled : float, optional
-            Way that the contact has rolled along x over both bodies [m], whole cells per increment.
-        increments : int or "auto"
-            Number of increments (default: as many as the path tolerance of the settings asks for).
-        spacing : Spacing
-            How they are spaced (default: equal increments of force).
-        t : float, optional
-            Path time at the end (default: one unit later).
-        """
-    def displace(
-        self,
-        *,
-        delta_z: _Values | None = None,
-        delta_x: _Values | None = None,
-        delta_y: _Values | None = None,
-        phi_x: _Values | None = None,
-        phi_y: _Values | None = None,
-        phi_z: _Values | None = None,
-        increments: _Count = ...,
-        spacing: Spacing = ...,
-        t: float | None = None,
-    ) -> LoadPath:
-        """Go to the given rigid motions of body 1 on a straight line, or visit several in turn.
-
-        A motion that is named is given from here on, and its load follows from the solution. What
-        is not named stays as it was; without a word, rotations are given as zero.
-
-        Parameters
-        ----------
-        delta_z, delta_x, delta_y : float or sequence of float, optional
-            Approach and shifts [m]. One of all the motions may be a sequence: its values are
-            visited in turn, and the increments shared out in proportion to the change, as
-            `tangential` does.
-        phi_x, phi_y, phi_z : float or sequence of float, optional
-            Tilts and rotation about z [rad].
-        increments : int or "auto"
-            Number of increments (default: as many as the path tolerance of the settings asks for).
-        spacing : Spacing
-            How they are spaced (default: equal increments).
-        t : float, optional
-            Path time at the end (default: one unit later); not with a sequence.
-
-        Examples
-        --------
-        >>> pressed = LoadPath.start().normal(10.0)
-        >>> pressed.displace(delta_x=[2e-6, -2e-6, 2e-6])
-        LoadPath(4 branches, increments to be chosen)
-        """
-    def cycles(
-        self,
-        n: int,
-        *,
-        T_x: float | None = None,
-        T_y: float | None = None,
-        M_z: float | None = None,
-        delta_x: float | None = None,
-        delta_y: float | None = None,
-        phi_z: float | None = None,
-        increments: _Count = ...,
-    ) -> LoadPath:
-        """Go through `n` cycles of one load or motion about zero.
-
-        The path goes to the amplitude, then `n` times to its opposite and back; what is not named
-        stays as it was.
-
-        Parameters
-        ----------
-        n : int
-            Number of cycles.
-        T_x, T_y : float, optional
-            Amplitude of a tangential force [N].
-        M_z : float, optional
-            Amplitude of the torsional moment [N m].
-        delta_x, delta_y : float, optional
-            Amplitude of a shift [m].
-        phi_z : float, optional
-            Amplitude of the rotation [rad].
-        increments : int or "auto"
-            Number of increments of all branches together, shared out in proportion to the change
-            (default: as many as the path tolerance of the settings asks for).
-
-        Examples
-        --------
-        >>> LoadPath.start().normal(10.0).cycles(2, delta_x=2e-6)
-        LoadPath(6 branches, increments to be chosen)
-        """
-    def hold(self, *, increments: int = 1) -> LoadPath:
-        """Stay at the loads and motions reached for some increments, one unit of path time.
-
-        What friction makes of the history of a cell goes on meanwhile.
-        """
-    @property
-    def branches(self) -> list[Branch]:
-        """The branches in their order."""
-    @property
-    def t(self) -> _Array:
-        """Path time at the end of every increment."""
-    @property
-    def W(self) -> _Array:
-        """Normal force at the end of every increment [N]; NaN where only the solution can say."""
-    @property
-    def T_x(self) -> _Array:
-        """Tangential force along x at the end of every increment [N]."""
-    @property
-    def T_y(self) -> _Array:
-        """Tangential force along y at the end of every increment [N]."""
-    @property
-    def sigma_B(self) -> _Array:
-        """Bulk stress of body 2 at the end of every increment [Pa]."""
-    @property
-    def sigma_B1(self) -> _Array:
-        """Bulk stress of body 1 at the end of every increment [Pa]."""
-    @property
-    def rolled(self) -> _Array:
-        """Way rolled at the end of every increment [m]."""
-    @property
-    def M_z(self) -> _Array:
-        """Torsional moment at the end of every increment [N m]."""
-    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
-    def __replace__(self, **changes: Any) -> LoadPath: ...
-    def replace(self, **changes: Any) -> LoadPath:
-        """The same with some of its parts exchanged, named as in the constructor."""
-    def __len__(self) -> int: ...
-    def __bool__(self) -> bool: ...
-    def __eq__(self, other: object, /) -> bool: ...
-    def __ne__(self, other: object, /) -> bool: ...
-
-_Save: TypeAlias = Literal["branches", "all"] | Sequence[int]
-
-_Count: TypeAlias = int | Literal["auto"]
-_Values: TypeAlias = float | Sequence[float] | _Array
-
-@final
-class Scene:
-    """A fretting contact problem.
-
-    Parameters
-    ----------
-    body1, body2 : Body
-        The upper body (the indenter) and the lower one.
-    mu : float, Friction or "stick"
-        Friction coefficient, >= 0, a friction law, or no slip.
-    grid : Grid
-        Mesh of the contact plane; it has to hold the contact.
-    path : LoadPath, optional
-        Load history; it can be given when the scene is solved instead.
-    settings : Settings, optional
-        How the scene is solved.
-    title : str
-        One line that names the scene in results and figures.
-    """
-
-    def __new__(
-        cls,
-        *,
-        body1: Body,
-        body2: Body,
-        mu: float | Friction | Literal["stick"],
-        grid: Grid,
-        path: LoadPath | None = None,
-        settings: Settings | None = None,
-        title: str = ...,
-    ) -> Scene: ...
-    @staticmethod
-    def from_file(
-        path: str | PathLike[str], *, set: Sequence[str] = ..., allow_outside: bool = False
-    ) -> Scene:
-        """Read a scene file.
-
-        Parameters
-        ----------
-        path : path
-            The file: TOML, ``schema = 1``, SI units.
-        set : sequence of str, optional
-            Values to exchange, each ``"key=value"`` as after ``fret run --set``, e.g.
-            ``"friction.mu=0.5"`` or ``"body2.coatings.0.E.E_substrate=4"``.
-        allow_outside : bool, optional
-            Let the scene name files outside its own folder.
-
-        Raises
-        ------
-        InvalidSceneError
-            With the line, the key and what is allowed; an unknown key names the nearest valid one.
-        """
-    @staticmethod
-    def from_toml(text: str, *, set: Sequence[str] = ...) -> Scene:
-        """Read a scene from the text of a scene file; see :meth:`from_file`."""
-    def to_toml(self) -> str:
-        """Write the text of a scene file, all numbers in SI units."""
-    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
-    def __replace__(self, **changes: Any) -> Scene: ...
-    def replace(
-        self,
-        *,
-        body1: Body | None = None,
-        body2: Body | None = None,
-        grid: Grid | None = None,
-        path: LoadPath | None = None,
-        settings: Settings | None = None,
-        save: _Save | None = None,
-        mu: float | Friction | Literal["stick"] | None = None,
-        title: str | None = None,
-    ) -> Scene:
-        """The same scene with some of its parts exchanged."""
-    def check(self, path: LoadPath | None = None) -> None:
-        """Refuse a scene that has no meaning, warn of what is hardly meant.
-
-        Parameters
-        ----------
-        path : LoadPath, optional
-            Load history (default: that of the scene).
-
-        Raises
-        ------
-        InvalidSceneError
-            With the key, the value and what is allowed.
-
-        Warns
-        -----
-        SceneWarning
-            As :meth:`doubts` says.
-        """
-    def interfaces(self, body_number: int = 2) -> list[float]:
-        """Depths of the interfaces of a body [m], from the surface down; none of a homogeneous one.
-
-        Parameters
-        ----------
-        body_number : 1 or 2
-            The upper body or the lower one (default 2).
-
-        Examples
-        --------
-        >>> scene.interfaces()  # doctest: +SKIP
-        [3e-06, 3.5e-06]
-        """
-    def length(self, p: ArrayLike) -> float:
-        """Length that results of an increment are measured in [m].
-
-        That is a_H, or where there is no Hertz contact half the longer side of the box around the
-        cells under the pressure `p` [Pa], shape (nx, ny).
-        """
-    def doubts(self, path: LoadPath | None = None) -> list[str]:
-        """What is allowed but hardly meant: numbers that look like another unit's, few cells.
-
-        One sentence for each, with what was understood; :func:`pyfret.solve` and :meth:`check` warn
-        of them.
-
-        Parameters
-        ----------
-        path : LoadPath, optional
-            Load history (default: that of the scene).
-        """
-    @property
-    def title(self) -> str:
-        """One line that names the scene."""
-    @property
-    def body1(self) -> Body:
-        """The upper body."""
-    @property
-    def body2(self) -> Body:
-        """The lower body."""
-    @property
-    def mu(self) -> float:
-        """Friction coefficient."""
-    @property
-    def friction(self) -> Friction:
-        """Friction law."""
-    @property
-    def grid(self) -> Grid:
-        """Mesh of the contact plane."""
-    @property
-    def path(self) -> LoadPath:
-        """Load history."""
-    @property
-    def settings(self) -> Settings:
-        """How the scene is solved."""
-    @property
-    def hertz(self) -> Hertz | None:
-        """The yardstick a_H, p_H: the uncoated pair at the largest normal force of the path."""
-    def __eq__(self, other: object, /) -> bool: ...
-    def __ne__(self, other: object, /) -> bool: ...
-
-_Material: TypeAlias = Elastic | Body
-
-@final
-class Hertz:
-    """Frictionless contact of two paraboloids of revolution.
-
-    K. L. Johnson, Contact Mechanics (1985), eq. (4.22)-(4.24). :func:`hertz` makes it.
-
-    Parameters
-    ----------
-    W : float
-        Normal force [N].
-    E_star : float
-        Contact modulus [Pa].
-    a : float
-        Contact radius [m].
-    p0 : float
-        Peak pressure [Pa].
-    delta_z : float
-        Approach [m].
-    """
-
-    def __new__(cls, *, W: float, E_star: float, a: float, p0: float, delta_z: float) -> Hertz: ...
-    def __eq__(self, value: object, /) -> bool: ...
-    def __hash__(self) -> int: ...
-    @property
-    def W(self) -> float:
-        """Normal force [N]."""
-    @property
-    def E_star(self) -> float:
-        """Contact modulus [Pa], 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2."""
-    @property
-    def a(self) -> float:
-        """Contact radius [m], a^3 = 3 W R / (4 E*)."""
-    @property
-    def p0(self) -> float:
-        """Peak pressure [Pa], 3 W / (2 pi a^2)."""
-    @property
-    def delta_z(self) -> float:
-        """Approach [m], a^2 / R."""
-    def p(self, r: ArrayLike) -> _Array:
-        """Pressure at distance `r` [m] from the middle [Pa], p0 sqrt(1 - r^2/a^2)."""
-
-def hertz(*, R: float, bodies: tuple[_Material, _Material], W: float) -> Hertz:
-    """Hertz contact of a sphere of relative radius `R` [m] under the force `W` [N]."""
-
-@final
-class HertzEllipse:
-    """Elliptical Hertz contact, K. L. Johnson, Contact Mechanics (1985), sec. 4.2."""
-
-    def __eq__(self, value: object, /) -> bool: ...
-    def __hash__(self) -> int: ...
-    @property
-    def R_x(self) -> float:
-        """Relative principal radius along x [m]."""
-    @property
-    def R_y(self) -> float:
-        """Relative principal radius along y [m]."""
-    @property
-    def W(self) -> float:
-        """Normal force [N]."""
-    @property
-    def E_star(self) -> float:
-        """Contact modulus [Pa]."""
-    @property
-    def a_x(self) -> float:
-        """Semi-axis of the contact along x [m]."""
-    @property
-    def a_y(self) -> float:
-        """Semi-axis of the contact along y [m]."""
-    @property
-    def p0(self) -> float:
-        """Peak pressure [Pa], 3 W / (2 pi a_x a_y)."""
-    @property
-    def delta_z(self) -> float:
-        """Approach [m]."""
-
-def hertz_ellipse(*, R_x: float, R_y: float, E_star: float, W: float) -> HertzEllipse:
-    """Hertz contact of relative principal radii `R_x`, `R_y` [m] along the axes.
-
-    1/R_x is the sum of both bodies' curvatures along x; `E_star` [Pa], `W` [N].
-    """
-
-@final
-class CattaneoMindlin:
-    """Partial slip of a sphere under constant normal force and a force T along x.
-
-    C. Cattaneo (1938); R. D. Mindlin, J. Appl. Mech. 16 (1949) 259; reversals after R. D. Mindlin
-    and H. Deresiewicz, J. Appl. Mech. 20 (1953) 327. Exact for similar bodies of nu = 0; for other
-    nu the slip is not quite along x and the shift over the force stays a good approximation.
-    All forces obey abs(T) <= mu W.
-
-    Parameters
-    ----------
-    hertz : Hertz
-        The normal contact.
-    bodies : tuple of Elastic
-        Materials of body 1 and body 2.
-    mu : float
-        Friction coefficient.
-    """
-
-    def __new__(
-        cls, hertz: Hertz, *, bodies: tuple[_Material, _Material], mu: float
-    ) -> CattaneoMindlin: ...
-    def __eq__(self, value: object, /) -> bool: ...
-    def __hash__(self) -> int: ...
-    @property
-    def bodies(self) -> tuple[Elastic, Elastic]:
-        """Materials of body 1 and body 2."""
-    @property
-    def hertz(self) -> Hertz:
-        """The normal contact."""
-    @property
-    def mu(self) -> float:
-        """Friction coefficient."""
-    @property
-    def G_star(self) -> float:
-        """Tangential modulus [Pa], 1/G* = (2 - nu1)/G1 + (2 - nu2)/G2."""
-    @property
-    def T_limit(self) -> float:
-        """Largest tangential force [N], mu W."""
-    @property
-    def shift_limit(self) -> float:
-        """Shift at which gross sliding starts [m], 3 mu W / (16 a G*)."""
-    def stick_radius(self, T: float) -> float:
-        """Stick radius of the first loading to `T` [N], a (1 - T/(mu W))^(1/3) [m]."""
-    def stick_radius_reversed(self, T: float, *, T_m: float) -> float:
-        """Stick radius after the force changed from the reversal at `T_m` to `T` [N] [m].
-
-        a [1 - abs(T_m - T)/(2 mu W)]^(1/3)
-        """
-    def q_loading(self, r: ArrayLike, *, T: float) -> _Array:
-        """Shear traction at distance `r` [m] in the first loading to `T` [N] [Pa]."""
-    def q_unloading(self, r: ArrayLike, *, T: float, T_m: float) -> _Array:
-        """Shear traction at `T` on the way back from the first loading to `T_m` [N] [Pa]."""
-    def q_reloading(self, r: ArrayLike, *, T: float, T_m: float) -> _Array:
-        """Shear traction at `T` on the way from -`T_m` back to `T_m` [N] [Pa]."""
-    def shift_loading(self, T: ArrayLike) -> _Array:
-        """Shift delta_x of the first loading to `T` [N] [m]."""
-    def shift_unloading(self, T: ArrayLike, *, T_m: float) -> _Array:
-        """Shift delta_x at `T` on the way back from `T_m` [N] [m]."""
-    def shift_reloading(self, T: ArrayLike, *, T_m: float) -> _Array:
-        """Shift delta_x at `T` on the way from -`T_m` back to `T_m` [N] [m]."""
-    def loop_energy(self, T_m: float) -> float:
-        """Energy dissipated in one closed loop between -`T_m` and `T_m` [J]."""
-    def energy_ratio(self, T_m: float) -> float:
-        """Loop energy over 4 T_m delta_x(T_m); 0.2 where partial slip ends."""
-
-@final
-class Lubkin:
-    """Partial slip of a sphere under constant normal force and a torsional moment.
-
-    J. L. Lubkin, J. Appl. Mech. 18 (1951) 183; exact for every nu.
-
-    Parameters
-    ----------
-    hertz : Hertz
-        The normal contact.
-    bodies : tuple of Elastic
-        Materials of body 1 and body 2.
-    mu : float
-        Friction coefficient.
-    """
-
-    def __new__(cls, hertz: Hertz, *, bodies: tuple[_Material, _Material], mu: float) -> Lubkin: ...
-    def __eq__(self, value: object, /) -> bool: ...
-    def __hash__(self) -> int: ...
-    @property
-    def hertz(self) -> Hertz:
-        """The normal contact."""
-    @property
-    def bodies(self) -> tuple[Elastic, Elastic]:
-        """Materials of body 1 and body 2."""
-    @property
-    def mu(self) -> float:
-        """Friction coefficient."""
-    @property
-    def M_limit(self) -> float:
-        """Moment of full slip [N m], (3 pi/16) mu W a."""
-    @property
-    def stiffness(self) -> float:
-        """Torsional stiffness without slip [N m/rad], 16 G a^3/3."""
-    def phi(self, c: ArrayLike) -> _Array:
-        """Rotation phi_z at the stick radius `c` [m] [rad]."""
-    def M_z(self, c: ArrayLike) -> _Array:
-        """Moment M_z at the stick radius `c` [m] [N m]."""
-    def stick_radius(self, *, M_z: float) -> float:
-        """Stick radius under the moment `M_z` [N m] [m]."""
-    def q(self, r: ArrayLike, *, c: float) -> _Array:
-        """Circumferential traction at `r` for the stick radius `c` [m] [Pa]."""
-
-@final
-class HertzStress:
-    """A half-space under sqrt(1 - r^2/a^2) of unit peak on r < a: Hamilton's stresses.
-
-    Parameters
-    ----------
-    a : float
-        Radius of the loaded circle [m].
-    nu : float
-        Poisson's ratio.
-    """
-
-    def __new__(cls, *, a: float, nu: float) -> HertzStress: ...
-    def __eq__(self, value: object, /) -> bool: ...
-    def __hash__(self) -> int: ...
-    @property
-    def a(self) -> float:
-        """Radius of the loaded circle [m]."""
-    @property
-    def nu(self) -> float:
-        """Poisson's ratio."""
-    def pressure(self, x: ArrayLike, y: float, z: float) -> list[_Array]:
-        """Stress s_xx, s_yy, s_zz, s_xy, s_xz, s_yz at (`x`, `y`, `z`) [m] under a pressure."""
-    def shear(self, x: ArrayLike, y: float, z: float) -> list[_Array]:
-        """The same under a shear traction that acts on the body along +x."""
-
-@final
-class LineContact:
-    """Cylinders in plane strain: Hertz, Cattaneo, Carter, McEwen; from `line_contact`."""
-
-    def __eq__(self, value: object, /) -> bool: ...
-    def __hash__(self) -> int: ...
-    @property
-    def R(self) -> float:
-        """Relative radius [m]."""
-    @property
-    def bodies(self) -> tuple[Elastic, Elastic]:
-        """Materials of body 1 and body 2."""
-    @property
-    def W(self) -> float:
-        """Normal force per length [N/m]."""
-    @property
-    def E_star(self) -> float:
-        """Contact modulus [Pa]."""
-    @property
-    def a(self) -> float:
-        """Half-width [m], a^2 = 4 W R/(pi E*)."""
-    @property
-    def p0(self) -> float:
-        """Peak pressure [Pa]."""
-    def p(self, x: ArrayLike) -> _Array:
-        """Pressure at `x` [m] [Pa]."""
-    def stick_half_width(self, *, T: float, mu: float) -> float:
-        """Half-width of the stick zone under `T` [N/m] [m]."""
-    def stick_middle(self, *, eps_x: float, mu: float) -> float:
-        """Middle of the stick zone [m] under the bulk strain `eps_x` of body 2.
-
-        The strain is brought up together with T > 0.
-        """
-    def q(self, x: ArrayLike, *, T: float, mu: float, middle: float = 0.0) -> _Array:
-        """Shear at `x` [m] under `T` [N/m] with the stick zone around `middle` [m] [Pa].
-
-        Cattaneo's with the middle at 0, Carter's with it at a - c towards the leading edge.
-        """
-    def stress(self, x: ArrayLike, z: float, *, T: float, mu: float) -> list[_Array]:
-        """Stress s_xx, s_zz, s_xz at (`x`, `z`) [m] in partial slip [Pa]."""
-
-def line_contact(*, R: float, bodies: tuple[_Material, _Material], W: float) -> LineContact:
-    """Line contact of cylinders of relative radius `R` [m] under `W` [N/m]."""
-
-@final
-class Springs:
-    """One-dimensional springs with friction: the shift for every path of W and T.
-
-    Exact for a sphere on a flat of like bodies with nu = 0 (method of dimensionality reduction).
-
-    Parameters
-    ----------
-    largest : Hertz
-        The contact under the largest force of the path.
-    R : float
-        Radius [m].
-    bodies : tuple of Elastic
-        Materials of body 1 and body 2.
-    mu : float
-        Friction coefficient.
-    n : int
-        Springs on either side.
-    loads : list of (float, float, int)
-        Loads to go through at once: W and T [N], and the steps of :meth:`load`.
-    """
-
-    def __new__(
-        cls,
-        largest: Hertz,
-        *,
-        R: float,
-        bodies: tuple[_Material, _Material],
-        mu: float,
-        n: int = 1500,
-        loads: Sequence[tuple[float, float, int]] = ...,
-    ) -> Springs: ...
-    def __eq__(self, value: object, /) -> bool: ...
-    __hash__: ClassVar[None]  # type: ignore[assignment]
-    @property
-    def largest(self) -> Hertz:
-        """The contact under the largest force that there are springs for."""
-    @property
-    def R(self) -> float:
-        """Radius [m]."""
-    @property
-    def bodies(self) -> tuple[Elastic, Elastic]:
-        """Materials of body 1 and body 2."""
-    @property
-    def mu(self) -> float:
-        """Friction coefficient."""
-    @property
-    def n(self) -> int:
-        """Springs on either side."""
-    @property
-    def loads(self) -> list[tuple[float, float, int]]:
-        """The loads gone through: W and T [N] at the end of each, and its steps."""
-    def load(self, *, W: float, T: float, steps: int = 10) -> float:
-        """Go straight to the forces `W`, `T` [N] in `steps` steps; the shift delta_x [m]."""
-
-def doubt(quantity: str, key: str, value: float) -> str | None:
-    """The doubt of a number, if it is hardly meant, by the name of its quantity."""
-
-def dundurs_beta(body1: _Material, body2: _Material) -> float:
-    """Dundurs' parameter beta of the pair: the coupling of normal and tangential directions.
-
-    beta = [(1 - 2 nu1)/G1 - (1 - 2 nu2)/G2] / (2 [(1 - nu1)/G1 + (1 - nu2)/G2])
-    """
-
-def goodman_stick_ratio(*, beta: float, mu: float) -> float:
-    """Stick over contact radius of an indentation with friction, after Goodman and Spence.
-
-    (1/(2 c)) ln[(1 + c)/(1 - c)] = (mu/abs(beta)) K(sqrt(1 - c^2)); the effect of the shear on the
-    pressure is neglected.
-    """
-
-@final
-class CoupledIndentation:
-    """Indentation with friction of dissimilar bodies, fully coupled, in numbers without load."""
-
-    def __eq__(self, value: object, /) -> bool: ...
-    def __hash__(self) -> int: ...
-    @property
-    def beta(self) -> float:
-        """Dundurs' parameter."""
-    @property
-    def mu(self) -> float:
-        """Friction coefficient."""
-    @property
-    def stick_ratio(self) -> float:
-        """Stick radius over contact radius."""
-    @property
-    def p0(self) -> float:
-        """Central pressure over 3 W / (2 pi a^2)."""
-    @property
-    def delta_z(self) -> float:
-        """Approach over a^2/R."""
-    @property
-    def W(self) -> float:
-        """Normal force over 4 E* a^3 / (3 R)."""
-
-def coupled_indentation(*, beta: float, mu: float) -> CoupledIndentation:
-    """Indentation by a sphere for Dundurs' `beta` and friction `mu` > 0.
-
-    The problem is D. A. Spence's, J. Elasticity 5 (1975) 297: the contact grows without changing
-    its shape.
-    """
-
-@final
-class CoatedIndentation:
-    """Frictionless contact of a sphere with a body that has one coating."""
-
-    def __eq__(self, value: object, /) -> bool: ...
-    def __hash__(self) -> int: ...
-    @property
-    def R(self) -> float:
-        """Radius of the sphere [m]."""
-    @property
-    def indenter(self) -> Elastic:
-        """Material of the sphere."""
-    @property
-    def coating(self) -> Coating:
-        """The coating."""
-    @property
-    def substrate(self) -> Elastic:
-        """Material below the coating."""
-    @property
-    def a(self) -> float:
-        """Contact radius [m]."""
-    @property
-    def W(self) -> float:
-        """Normal force [N]."""
-    @property
-    def delta_z(self) -> float:
-        """Approach [m]."""
-    def p(self, r: ArrayLike) -> _Array:
-        """Pressure at distance `r` [m] from the middle [Pa]."""
-
-def coated_indentation(
-    *, R: float, indenter: _Material, coating: Coating, substrate: _Material, W: float
-) -> CoatedIndentation:
-    """Contact of a sphere of radius `R` [m] with a coated body under `W` [N], without friction."""
-
-@final
-class SurfaceOperator:
-    """The displacements that tractions cause on a pair of bodies, u = C * q.
-
-    Parameters
-    ----------
-    body1, body2 : Body
-        The upper body and the lower one; their shapes do not matter.
-    grid : Grid
-        Cells on which tractions are constant.
-    settings : Settings, optional
-        Its kernel settings are used.
-    """
-
-    def __new__(
-        cls, body1: Body, body2: Body, grid: Grid, *, settings: Settings | None = None
-    ) -> SurfaceOperator: ...
-    def __eq__(self, value: object, /) -> bool: ...
-    def __hash__(self) -> int: ...
-    @property
-    def body1(self) -> Body:
-        """The upper body."""
-    @property
-    def body2(self) -> Body:
-        """The lower body."""
-    @property
-    def grid(self) -> Grid:
-        """Cells on which tractions are constant."""
-    @property
-    def settings(self) -> Settings:
-        """Those of the kernels are used."""
-    def displacement(
-        self,
-        p: ArrayLike | None = None,
-        q_x: ArrayLike | None = None,
-        q_y: ArrayLike | None = None,
-    ) -> _Array:
-        """Relative displacement u(2) - u(1) [m], shape (3, nx, ny): along x, y and z.
-
-        Parameters
-        ----------
-        p : array of shape (nx, ny), optional
-            Pressure [Pa] (default: none).
-        q_x, q_y : array of shape (nx, ny), optional
-            Shear tractions on body 2 [Pa] (default: none).
-        """
-
-@final
-class March:
-    """A load path being run through; iterating solves one increment after the other.
-
-    Use :func:`pyfret.march`, which labels what this one gives.
-    """
-
-    def __new__(cls, scene: Scene) -> March: ...
-    @property
-    def done(self) -> int:
-        """Increments solved so far."""
-    @property
-    def scene(self) -> Scene:
-        """The scene that is being solved."""
-    def doubts(self) -> list[str]:
-        """What the increments so far came to that is hardly meant, one sentence each."""
-    @property
-    def attributes(self) -> str:
-        """What a result says of the run, as JSON."""
-    def variables(self) -> dict[str, _Variable]:
-        """The last increment as variables: dimensions, values, attributes as xarray takes them."""
-    def plastic(self, body: int) -> dict[str, Any] | None:
-        """Plastic strain, stress and imprint of a body; None where it stays elastic."""
-    def __iter__(self) -> March: ...
-    def __next__(self) -> dict[str, float]:
-        """Solve the next increment and give its scalars."""
-
-def surface_frf(body: Body, k_x: _Array, k_y: _Array) -> NDArray[np.complex128]:
-    """Surface response at one-dimensional arrays of wave numbers; see :mod:`pyfret.kernels`."""
-
-def influence_coefficients(body: Body, grid: Grid, *, settings: Settings | None = None) -> _Array:
-    """Surface displacement under unit traction on one cell, C_ij [m/Pa].
-
-    Parameters
-    ----------
-    body : Body
-        Homogeneous or coated, taken as the lower body.
-    grid : Grid
-        The cells; only their number and size matter.
-    settings : Settings, optional
-        Its kernel settings are used.
-
-    Returns
-    -------
-    array of shape (3, 3, 2 nx - 1, 2 ny - 1)
-        u_x, u_y, u_z under q_x, q_y, p at all offsets of the observed cell from the loaded one;
-        the offset (0, 0) is in the middle.
-    """
-
-def stress_coefficients(body: Body, grid: Grid, z: float, *, layer: int | None = None) -> _Array:
-    """Stress at the depth `z` [m] under unit traction on one cell, tension positive.
-
-    Parameters
-    ----------
-    body : Body
-        Homogeneous or coated, taken as the lower body.
-    grid : Grid
-        The cells; only their number and size matter.
-    z : float
-        Depth [m].
-    layer : int, optional
-        Layer from the surface down (their number for the substrate); it decides at an interface,
-        where stresses jump (default: the upper one).
-
-    Returns
-    -------
-    array of shape (6, 3, 2 nx - 1, 2 ny - 1)
-        s_xx, s_yy, s_zz, s_xy, s_xz, s_yz under q_x, q_y, p at all offsets; the offset (0, 0) is in
-        the middle.
-    """
-
-def stress_at(
-    body: Body,
-    cell: tuple[float, float],
-    point: tuple[float, float, float],
-    *,
-    layer: int | None = None,
-) -> _Array:
-    """Stress at a point under unit traction on the cell of sides `cell` [m] around the origin.
-
-    Returns
-    -------
-    array of shape (6, 3)
-        s_xx, s_yy, s_zz, s_xy, s_xz, s_yz under q_x, q_y, p; tension is positive.
-    """
-
-@final
-class Conversion:
-    """The paper's conversion, planned; see :func:`pyfret.kernels.convert`."""
-
-    def __new__(cls, grid: Grid, *, enlargement: int = 8, aliases: int = 0) -> Conversion: ...
-    def wave_vectors(self) -> tuple[_Array, _Array]:
-        """Wave numbers k_x, k_y [1/m] at which the response is needed, never both zero."""
-    def convert(self, frf: NDArray[np.complex128]) -> _Array:
-        """Influence coefficients from the response at the wave vectors, shape (n, 3, 3)."""
-
-def continued_pressure(p: ArrayLike, grid: Grid) -> _Array:
-    """Pressure [Pa], that at the rim continued from inside; use :meth:`Snapshot.p_continued`."""
-
-def labels() -> dict[str, tuple[str, str]]:
-    """Units and meaning of every variable of a result, scalars and fields."""
-
-def solve(
-    scene: Scene,
-    *,
-    store: str | PathLike[str],
-    checkpoint: float = 5.0,
-    overwrite: bool = False,
-    error: bool = False,
-    on_increment: Callable[[int, int], object] | None = None,
-) -> None:
-    """Run a scene into a new result store; use :func:`pyfret.solve`, which opens it.
-
-    `on_increment` is called with the number of each increment solved and their number in all,
-    which is known once they are chosen.
-    """
-
-def solve_in_memory(
-    scene: Scene,
-    *,
-    error: bool = False,
-    on_increment: Callable[[int, int], object] | None = None,
-) -> tuple[dict[str, _Variable], str]:
-    """Run a scene in memory; use :func:`pyfret.solve`, which labels what this one gives.
-
-    These are the variables, each with dimensions, values and attributes as xarray takes them, and
-    what a store says of the run, as JSON.
-    """
-
-def resume(
-    store: str | PathLike[str],
-    *,
-    checkpoint: float = 5.0,
-    friction_law: _FrictionFunction | Literal["own"] | None = None,
-    on_increment: Callable[[int, int], object] | None = None,
-) -> None:
-    """Go on with the run of a store that ended early; use :func:`pyfret.resume`, which opens it."""
-
-def run_command(arguments: Sequence[str]) -> int:
-    """Run the command ``fret`` in this process: what its console script does.
-
-    Ctrl-C belongs to the command from here on, so that the process should end with it.
-
-    Parameters
-    ----------
-    arguments : sequence of str
-        The program's name and its arguments.
-
-    Returns
-    -------
-    int
-        Exit code: 0 done, 1 the run ended early, 2 bad scene or bad command line.
-    """
-
-def verify(store: str | PathLike[str]) -> str:
-    """Checks a store and gives the attributes of its group as JSON."""
-
-def probe_labels() -> dict[str, tuple[str, str]]:
-    """Units and meaning of everything that follows from the stress."""
-
-def line_through(
-    x: float, y: float, azimuth: float
-) -> tuple[float | None, float | None, float | None]:
-    """x, y and azimuth of the line through a point at an angle; along an axis x or y alone."""
-
-def line_places(
-    grid: Grid,
-    *,
-    x: float | None = None,
-    y: float | None = None,
-    azimuth: float | None = None,
-) -> tuple[list[float], list[tuple[float, float]]]:
-    """Places along a line on a grid, and their x, y [m]."""
-
-def main_sections(
-    outlines: Sequence[Outline], *, stretched: bool = False
-) -> list[tuple[float | None, float | None, float | None]]:
-    """x, y and azimuth of the sections in which a cycle of a contact is looked at by default.
-
-    Of the outlines of its moments: the first along the shear; a second across it, where the
-    contact or its shear has no axis of its own there. `stretched`: there is a bulk stress along x.
-    """
-
-@final
-class Outline:
-    """The outline of a contact: its border in any direction, its spots, the direction of its shear.
-
-    Made of the tractions on a grid, each of shape (nx, ny) [Pa]; of :attr:`Snapshot.outline`.
-    """
-
-    def __new__(cls, grid: Grid, *, p: _Array, q_x: _Array, q_y: _Array) -> Outline: ...
-    @property
-    def centre(self) -> tuple[float, float]:
-        """Centre of the area, x and y [m]; 0 where it lies in the middle of the grid."""
-    @property
-    def spots(self) -> list[tuple[float, float, float, float, float, float]]:
-        """The spots, the largest first: x, y [m], area [m^2], semi-axes [m] and azimuth [rad].
-
-        The semi-axes are those of the ellipse with the second moments of the spot, the larger one
-        first, in the direction of the azimuth.
-        """
-    @property
-    def shear_azimuth(self) -> float | None:
-        """Direction of the shear to the x axis [rad]; None without shear, or where it has none."""
-    @property
-    def half_widths(self) -> tuple[float, float, float]:
-        """Half of the largest and smallest width [m], and the direction of the largest [rad]."""
-    @property
-    def rim_cells(self) -> list[tuple[float, float]]:
-        """Centres x, y of the cells at the rim [m]."""
-    def border(self, azimuth: float = 0.0) -> tuple[float, float]:
-        """Where a line through the centre leaves the contact, backwards and forwards [m]."""
-    def half_width(self, azimuth: float = 0.0) -> float:
-        """Half of the width of the contact in a direction [m]."""
-
-def depths(body: Body, z: Sequence[float]) -> tuple[list[float], list[int]]:
-    """Depths [m] with their layers; on an interface both, the upper one first."""
-
-def section_of_states(
-    body: Body,
-    grid: Grid,
-    z: Sequence[float],
-    layer: Sequence[int],
-    *,
-    p: _Array,
-    q_x: _Array,
-    q_y: _Array,
-    stick: NDArray[np.bool_],
-    sigma_B: Sequence[float],
-    residual: Sequence[float] | None = None,
-    x: float | None = None,
-    y: float | None = None,
-    azimuth: float | None = None,
-    body_number: int = 2,
-) -> _Array:
-    """Stress [Pa] on a section in several states of a contact, shape (states, 6, depths, places).
-
-    Tractions [Pa] and cells that stick are of shape (states, nx, ny); near the surface tractions
-    vary within the cells. States share the kernels, which cost as much as about ten of them.
-    """
-
-def residual_of_layers(body: Body, residual: Sequence[float] | None = None) -> _Array:
-    """Residual stress of every layer of a body [Pa]: those given, or zero."""
-
-def chosen_depths(
-    body: Body, *, a: float, deepest: float, finer: float = 1.0
-) -> tuple[list[float], list[int]]:
-    """Depths [m] that the layers of a body ask for, with their layers.
-
-    They go to the depth `deepest` [m] under a contact of the radius `a` [m]; `finer` times as
-    many as the default.
-    """
-
-def measure(name: str, stress: ArrayLike) -> _Array:
-    """Give what follows from stresses of shape (6, n), by its name."""
-
-def principal(stress: ArrayLike) -> tuple[_Array, _Array]:
-    """Principal values (n, 3), the largest first, and directions (n, 3, 3) of stresses (6, n)."""
-
-def largest_of_samples(
-    samples: ArrayLike, z: Sequence[float], layer: Sequence[int], along: Sequence[float]
-) -> tuple[float, float, float, int, float] | None:
-    """Largest value of a field known at samples alone, shape (depths, places) along x or y.
-
-    The value, its place along the line, depth, layer and error.
-    """
-
-@final
-class Crack:
-    """A crack from the surface of a half-plane: where stress is wanted, what it does at the tip.
-
-    Plane strain; nothing here knows of contacts. K_I + i K_II = lim sqrt(2 pi r) (s_nn + i s_tn)
-    ahead of the tip, t along the crack, n = +x for a crack along the depth.
-
-    Parameters
-    ----------
-    x : float
-        Place of the mouth [m].
-    legs : list of (float, float)
-        Length [m] and angle [rad] of each straight leg from the mouth on; angles are from the
-        inward normal, positive towards +x.
-
-    Examples
-    --------
-    >>> crack = Crack(legs=[(1e-4, 0.0)])
-    >>> tension = np.zeros((1, len(crack.points), 6))
-    >>> tension[..., 0] = 100e6
-    >>> K = crack.intensity(tension).get("K_I").item(0)
-    >>> round(K / (100e6 * np.sqrt(np.pi * 1e-4)), 4)
-    1.1215
-    """
-
-    def __new__(cls, *, legs: Sequence[tuple[float, float]], x: float = 0.0) -> Crack: ...
-    @property
-    def x(self) -> float:
-        """Place of the mouth [m]."""
-    @property
-    def legs(self) -> list[tuple[float, float]]:
-        """Length [m] and angle [rad] of each leg."""
-    @property
-    def length(self) -> float:
-        """Length along the crack [m]."""
-    @property
-    def points(self) -> _Array:
-        """Points at which the stress is wanted, tip to mouth: x and depth [m], (points, 2)."""
-    def intensity(
-        self, stress: NDArray[np.float64], *, friction: float | None = None
-    ) -> dict[str, _Array]:
-        """K over the instants of a history of stress at :attr:`points`.
-
-        Parameters
-        ----------
-        stress : array of shape (time, points, 6)
-            Stress of the body without the crack [Pa]: xx, yy, zz, xy, xz, yz, z the depth.
-        friction : float, optional
-            Coefficient of friction between faces in contact; by default faces may pass through
-            each other, and K is linear in the stress.
-
-        Returns
-        -------
-        dict
-            ``K_I``, ``K_II`` and their ``error`` [Pa m^0.5], ``open``, the share of the crack that
-            is open, each over time.
-        """
-    def grow(
-        self,
-        stress: Callable[[_Array], ArrayLike],
-        *,
-        end: float,
-        direction: Literal["tangential_stress", "opening_intensity"] = "tangential_stress",
-        friction: float = 0.0,
-        tolerance: float = 1e-2,
-    ) -> dict[str, Any]:
-        """Grow the crack in the direction of the largest range over a cycle of stress.
-
-        Pieces are curved so that at the end of each the crack has no reason to turn; their number
-        doubles until the tip moves less than the tolerance.
-
-        Parameters
-        ----------
-        stress : callable
-            Takes points, x and depth [m] in an array of shape (points, 2), and gives the stress of
-            the body without the crack there over the instants of the cycle [Pa], shape
-            (time, points, 6).
-        end : float
-            Length to grow to [m].
-        direction : {"tangential_stress", "opening_intensity"}
-            Largest range of the tangential stress ahead of the tip, or of K_I of a small kink.
-        friction : float
-            Coefficient of friction between faces in contact.
-        tolerance : float
-            Distance by which the last tip may be off over the length grown.
-
-        Returns
-        -------
-        dict
-            Of the tips on the way ``length``, ``x``, ``z`` [m], ``angle`` [rad], over (time, tips)
-            ``K_I``, ``K_II`` and their ``error`` [Pa m^0.5]; ``path_error``, how far the last tip
-            may be off [m]; ``end``: "reached" the length, "closed", as nothing opens the crack,
-            "surface", to which it came back, "kinks", where its direction jumps.
-        """
-    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
-    def __replace__(self, **changes: Any) -> Crack: ...
-    def replace(self, **changes: Any) -> Crack:
-        """The same with some of its parts exchanged, named as in the constructor."""
-
-_Threshold: TypeAlias = tuple[
-    float, float | None, float, float | None, list[tuple[float, float]] | None
-]
-
-def crack_of_states(
-    body: Body,
-    grid: Grid,
-    states: Mapping[str, Any],
-    *,
-    x: float,
-    lengths: Sequence[float],
-    angle: float = 0.0,
-    kink: tuple[float, float] | None = None,
-    azimuth: float = 0.0,
-    friction: float = 0.0,
-    body_number: int = 2,
-) -> dict[str, _Array]:
-    """K of cracks below a contact in several of its states; use :meth:`pyfret.Result.crack`."""
-
-def crack_growth_of_states(
-    body: Body,
-    grid: Grid,
-    states: Mapping[str, Any],
-    *,
-    x: float,
-    start: float,
-    end: float,
-    direction: str,
-    tolerance: float,
-    angle: float = 0.0,
-    azimuth: float = 0.0,
-    friction: float = 0.0,
-    body_number: int = 2,
-) -> dict[str, Any]:
-    """A crack that grows below a contact; use :meth:`pyfret.Result.grow_crack`."""
-
-def threshold_at(threshold_: _Threshold, lengths: Sequence[float]) -> tuple[list[float], float]:
-    """Threshold range of K at R = 0 [Pa m^0.5] at lengths [m], and El Haddad's a_0 [m]."""
-
-def equivalent_range(
-    threshold_: _Threshold, K_max: Sequence[float], K_min: Sequence[float]
-) -> list[float]:
-    """Equivalent range of K at R = 0 [Pa m^0.5] of extremes of K."""
-
-def arrest(
-    lengths: Sequence[float],
-    K_max: Sequence[float],
-    K_min: Sequence[float],
-    threshold_: _Threshold,
-    start: float,
-) -> tuple[Literal["dormant", "stops", "grows"], float | None, list[float], float, float]:
-    """What becomes of a crack: verdict, length where it stops, crossings, margin and its length."""
-
-def crack_life(
-    lengths: Sequence[float],
-    K_max: Sequence[float],
-    K_min: Sequence[float],
-    threshold_: _Threshold,
-    *,
-    C: float,
-    m: float,
-    growth: str,
-    short: bool,
-    start: float,
-    end: float,
-) -> tuple[float, float, bool]:
-    """Cycles of growth by Paris' law, where it ends [m] and whether it stops there."""
-
-def ellipse_factor(aspect: float) -> float:
-    """Factor from the plane K to the deepest point of a semi-elliptic crack of the aspect a/c <= 1.
-
-    Newman and Raju's K under uniform tension over that of a straight front: an estimate, which
-    takes the stress as constant along the front. J. C. Newman, I. S. Raju, NASA TM 85793 (1984).
-    """
-
-def channel_crack(film_: Elastic, below: Elastic) -> float:
-    """Factor g of a channel crack in a film; use :func:`pyfret.fracture.channel_release`."""
-
-def partial_crack(film_: Elastic, below: Elastic, depth: float) -> float:
-    """Factor F of a crack with its tip in a film; use :func:`pyfret.fracture.film_intensity`."""
-
-def cycle_temperature(
-    conductor1: Sequence[tuple[float, float]],
-    conductor2: Sequence[tuple[float, float]],
-    *,
-    body1: Body,
-    body2: Body,
-    grid: Grid,
-    bulk: tuple[float, float],
-    frequency: float,
-    ends: Sequence[float],
-    heat: NDArray[np.float64],
-    contact: NDArray[np.bool_],
-    harmonics: int,
-) -> dict[str, Any]:
-    """Temperature over a cycle; use :meth:`pyfret.Result.temperature`."""
-
-#: Why a cycle has no stiffness, and what to do.
-TOO_FEW_INCREMENTS: str
-
-def with_error(value: float, error: float | None = None) -> str:
-    """A number and its error, with the digits that the error leaves; an estimate without one."""
-
-def with_range(value: float, low: float, high: float) -> str:
-    """A number and the range that it lies in, with the digits that the range leaves."""
-
-def loops(
-    path: LoadPath,
-    *,
-    branch: Sequence[int],
-    T: Sequence[float],
-    delta: Sequence[float],
-    dissipated: Sequence[float],
-    status: Sequence[int],
-) -> list[dict[str, float]]:
-    """Energy and stiffness of every cycle of a history; use :meth:`pyfret.Result.loops`."""
-
-@final
-class Subsurface:
-    """Tractions on a body, and what they cause below its surface.
-
-    Use :func:`pyfret.subsurface.stress`, which labels what this one gives.
-    """
-
-    def __new__(
-        cls,
-        body: Body,
-        grid: Grid,
-        *,
-        p: ArrayLike | None = None,
-        q_x: ArrayLike | None = None,
-        q_y: ArrayLike | None = None,
-        body_number: int = 2,
-        sigma_B: float = 0.0,
-        residual: Sequence[float] | None = None,
-        rim: bool = False,
-        stick: NDArray[np.bool_] | None = None,
-    ) -> Subsurface: ...
-    def section(
-        self,
-        z: Sequence[float],
-        layer: Sequence[int],
-        *,
-        x: float | None = None,
-        y: float | None = None,
-        azimuth: float | None = None,
-        displacement: bool = False,
-    ) -> _Array:
-        """Stress [Pa] or displacement [m] on a section, shape (6 or 3, depths, places)."""
-    def slice(self, z: float, layer: int, *, displacement: bool = False) -> list[_Array]:
-        """Stress [Pa] or displacement [m] on a plane, six or three arrays of shape (nx, ny)."""
-    def points(self, places: Sequence[tuple[float, float, float, int]]) -> tuple[_Array, _Array]:
-        """Stress (n, 6) [Pa] and displacement (n, 3) [m] at points x, y, z, layer."""
-    def maximum(
-        self,
-        of: str,
-        samples: ArrayLike,
-        z: Sequence[float],
-        layer: Sequence[int],
-        *,
-        x: float | None = None,
-        y: float | None = None,
-        azimuth: float | None = None,
-        only: int | None = None,
-        anywhere: bool = False,
-        error_bars: tuple[float, float] | None = None,
-    ) -> tuple[
-        tuple[
-            float,
-            float,
-            float,
-            float,
-            int,
-            str | None,
-            tuple[float, float, float, float, float | None],
-        ]
-        | None,
-        list[int],
-    ]:
-        """Largest value of a measure on a section, between its samples; in the layer `only`.
-
-        Value, x, y, z, layer, the border that it lies on, and the parts of its error along x, y
-        and z, of the tractions and, from the `error_bars` of p and q as fields, of the solution;
-        and the layers whose stress still rises at the end of the longest section. `anywhere`: also
-        beside the section.
-        """
-    @property
-    def rim(self) -> bool:
-        """Whether the tractions are those of a contact."""
-    def borders(
-        self, *, x: float | None = None, y: float | None = None, azimuth: float | None = None
-    ) -> list[tuple[float, float, str, bool]]:
-        """Where a line, or the lines of all cells, cross rims of contact and stick zone.
-
-        x, y, which of them, and whether the place is known within a cell.
-        """
-    def volume(
-        self,
-        out: str | PathLike[str],
-        z: Sequence[float],
-        layer: Sequence[int],
-        *,
-        of: Sequence[str],
-        title: str = "",
-    ) -> None:
-        """Write measures of stress, and displacements, to a .vti file or a Zarr folder."""
-
-@final
-class Envelope:
-    """Extremes of stress below a line; use :func:`pyfret.subsurface.envelope`."""
-
-    def __new__(
-        cls,
-        body: Body,
-        grid: Grid,
-        path: LoadPath,
-        z: Sequence[float],
-        layer: Sequence[int],
-        *,
-        of: Sequence[str],
-        x: float | None = None,
-        y: float | None = None,
-        body_number: int = 2,
-        residual: Sequence[float] | None = None,
-    ) -> Envelope: ...
-    @property
-    def cycles(self) -> list[tuple[int, int]]:
-        """First and last branch of every cycle."""
-    def push(
-        self,
-        increment: int,
-        branch: int,
-        *,
-        p: ArrayLike,
-        q_x: ArrayLike,
-        q_y: ArrayLike,
-        stick: NDArray[np.bool_],
-        sigma_B: float = 0.0,
-    ) -> None:
-        """Take an increment: tractions [Pa], cells that stick, bulk stress of the body [Pa]."""
-    def finish(self) -> dict[str, dict[str, _Array]]:
-        """Give the extremes of every measure."""
-
-@final
-class Criterion:
-    """A criterion by its name, one of :data:`pyfret.fatigue.CRITERIA`, and its numbers by theirs.
-
-    Examples
-    --------
-    >>> Criterion.findley(k=0.3) == Criterion("findley", k=0.3)
-    True
-    """
-
-    def __new__(cls, name: str, /, **numbers: float) -> Criterion: ...
-    def __getnewargs_ex__(self) -> tuple[tuple[str], dict[str, float]]: ...
-    @property
-    def numbers(self) -> dict[str, float]:
-        """Its numbers by their names."""
-    @staticmethod
-    def crossland(*, alpha: float) -> Criterion:
-        """Give sqrt(J2,a) + alpha p_h,max [Pa].
-
-        B. Crossland, Proc. Int. Conf. on Fatigue of Metals, IMechE, London (1956) 138-149.
-        """
-    @staticmethod
-    def dang_van(*, alpha: float) -> Criterion:
-        """Give the largest tau(t) + alpha p_h(t) of the mesoscopic shear [Pa].
-
-        K. Dang Van, ASTM STP 1191 (1993) 120-130.
-        """
-    @staticmethod
-    def findley(*, k: float) -> Criterion:
-        """Give the largest tau_a + k s_n,max of all planes [Pa].
-
-        W. N. Findley, J. Eng. Ind. 81 (1959) 301-305.
-        """
-    @staticmethod
-    def matake(*, k: float) -> Criterion:
-        """Give tau_a + k s_n,max on the plane of the largest tau_a [Pa].
-
-        T. Matake, Bull. JSME 20 (1977) 257-263.
-        """
-    @staticmethod
-    def mcdiarmid(*, k: float) -> Criterion:
-        """Give tau_a + k s_n,max on the plane of the largest tau_a, k = t_D/(2 s_u) [Pa].
-
-        D. L. McDiarmid, Fatigue Fract. Eng. Mater. Struct. 14 (1991) 429-453.
-        """
-    @staticmethod
-    def smith_watson_topper(*, E: float, nu: float) -> Criterion:
-        """Give the largest s_n,max times half the range of the normal strain [Pa].
-
-        K. N. Smith, P. Watson, T. H. Topper, J. Mater. 5 (1970) 767-778;
-        D. F. Socie, J. Eng. Mater. Technol. 109 (1987) 293-298.
-        """
-    @staticmethod
-    def fatemi_socie(*, E: float, nu: float, k: float, s_y: float) -> Criterion:
-        """Give the largest gamma_a (1 + k s_n,max/s_y) of all planes.
-
-        A. Fatemi, D. F. Socie, Fatigue Fract. Eng. Mater. Struct. 11 (1988) 149-165.
-        """
-    @staticmethod
-    def brown_miller(*, E: float, nu: float, S: float) -> Criterion:
-        """Give gamma_a + S times the range of the normal strain, where gamma_a is largest.
-
-        F. A. Kandil, M. W. Brown, K. J. Miller, The Metals Society Book 280 (1982) 203-210.
-        """
-    @property
-    def name(self) -> str:
-        """Name of the criterion."""
-    @property
-    def unit(self) -> str:
-        """Unit of its value: Pa, or 1 for strains."""
-    @property
-    def has_plane(self) -> bool:
-        """Whether it has a critical plane."""
-    def __eq__(self, value: object, /) -> bool: ...
-
-@final
-class CycleSection:
-    """A section of a body below a contact over a cycle.
-
-    `moments` is called with a list of numbers from 0 to `count` - 1, or with None for the moment
-    before the cycle: lists of q_x, q_y, p [Pa] and stick, of shape (nx, ny) each, and of the bulk
-    stress [Pa]; or None.
-    """
-
-    def __new__(
-        cls,
-        body: Body,
-        grid: Grid,
-        moments: Callable[[list[int] | None], tuple[list[Any], ...] | None],
-        count: int,
-        *,
-        x: float | None = None,
-        y: float | None = None,
-        azimuth: float | None = None,
-        body_number: int = 2,
-        residual: Sequence[float] | None = None,
-    ) -> CycleSection: ...
-    def unsettled(self) -> float | None:
-        """Part of the largest traction by which the cycle ends off its start, if that was kept."""
-    def by_criteria(
-        self,
-        z: Sequence[float],
-        layer: Sequence[int],
-        materials: Sequence[Material | None],
-        criteria: Sequence[str],
-        *,
-        tolerance: float,
-    ) -> list[CriterionBelow]:
-        """Judge the section by criteria for the materials of the layers, all by the same stress."""
-    def by_yield(
-        self, z: Sequence[float], layer: Sequence[int], s_y: Sequence[float | None]
-    ) -> YieldBelow:
-        """Judge the section by yield stresses of the layers from the surface down [Pa]."""
-    def mean(
-        self,
-        L: float,
-        method: str,
-        layer: int,
-        materials: Sequence[Material | None],
-        criterion: str,
-        *,
-        tolerance: float,
-    ) -> dict[str, NDArray[np.float64]]:
-        """Judge the mean over a critical distance L [m] in a layer: arrays over the places."""
-
-@final
-class CriterionBelow:
-    """What a criterion found on a section."""
-
-    @property
-    def depths(self) -> tuple[list[float], list[int]]:
-        """Depths [m] and their layers."""
-    @property
-    def assessments(self) -> list[Assessment | None]:
-        """The assessment of every layer, None where it is not judged."""
-    @property
-    def notes(self) -> list[str]:
-        """What a reader should know of the materials."""
-    def fields(self) -> dict[str, NDArray[np.float64]]:
-        """Arrays over (depth, place), NaN where not judged."""
-    def worst(self, layer: int) -> dict[str, Any] | None:
-        """The worst point of a layer, None where it is not judged."""
-
-@final
-class YieldBelow:
-    """Load factors on a section."""
-
-    @property
-    def depths(self) -> tuple[list[float], list[int]]:
-        """Depths [m] and their layers."""
-    def fields(self) -> dict[str, NDArray[np.float64]]:
-        """Load factors over (depth, place), NaN where not judged."""
-    def least(self, layer: int, factor: str) -> dict[str, Any] | None:
-        """Where a load factor of a layer is least; `score` is its inverse."""
-
-@final
-class Assessment:
-    """A criterion with its limit or its curve of lives.
-
-    Parameters
-    ----------
-    criterion : Criterion
-        Whose value is judged.
-    limit : float, optional
-        Limit for endless life, in the unit of the criterion.
-    curve : five floats, optional
-        Instead of it E [Pa], s_f' [Pa], b, e_f' and c of a strain-life curve.
-    """
-
-    def __new__(
-        cls,
-        criterion: Criterion,
-        *,
-        limit: float | None = None,
-        curve: Sequence[float] | None = None,
-    ) -> Assessment: ...
-    def __getnewargs_ex__(self) -> tuple[tuple[Criterion], dict[str, Any]]: ...
-    @property
-    def criterion(self) -> Criterion:
-        """The criterion whose value is judged."""
-    @property
-    def curve(self) -> list[float] | None:
-        """E [Pa], s_f' [Pa], b, e_f' and c of the strain-life curve, or nothing with a limit."""
-    @property
-    def limit(self) -> float | None:
-        """The limit, or nothing where the criterion gives lives."""
-    def safety_factor(self, value: float) -> float:
-        """Factor by which the history may grow until the limit, for values of the criterion."""
-    def life(self, value: float) -> float:
-        """Cycles to failure for values of the criterion."""
-    def __eq__(self, value: object, /) -> bool: ...
-
-@final
-class Material:
-    """A material and its numbers.
-
-    Parameters
-    ----------
-    name : str
-        Its key in tables.
-    numbers : list of (str, float, str)
-        Name, as in a file of materials, value in its SI unit, and where that is from.
-    title : str
-        What the material is (default: its name).
-    also : list of str
-        Other names that it is found by.
-
-    Examples
-    --------
-    >>> tests = "bending and torsion tests, report 2024-17"
-    >>> steel = Material("our_steel", [("s_D", 412e6, tests), ("t_D", 268e6, tests)])
-    """
-
-    def __new__(
-        cls,
-        name: str,
-        numbers: Sequence[tuple[str, float, str]],
-        title: str | None = ...,
-        also: Sequence[str] = ...,
-    ) -> Material: ...
-    def __getnewargs__(self) -> tuple[str, list[tuple[str, float, str]], str, list[str]]: ...
-    @property
-    def also(self) -> list[str]:
-        """Other names that it is found by."""
-    def estimated(self, family: str) -> Material:
-        """The material with the numbers that it lacks, as far as published rules give them."""
-    def is_called(self, name: str) -> bool:
-        """Whether a name is one of its own, whatever the case and the marks between its letters."""
-    @property
-    def name(self) -> str:
-        """Key of the material in its table."""
-    @property
-    def title(self) -> str:
-        """What the material is."""
-    def numbers(self) -> list[tuple[str, float, str]]:
-        """Name, value and source of every number."""
-    def number(self, name: str) -> float:
-        """A number of the material by its key."""
-    def doubts(self) -> list[str]:
-        """Numbers that look like those of another unit, in words."""
-    def assessment(self, criterion: str) -> Assessment:
-        """The criterion of that name with the limit or life curve of the material."""
-    def __eq__(self, value: object, /) -> bool: ...
-
-def materials(file: str | PathLike[str] | None = None) -> list[Material]:
-    """The materials that come with the package, or those of a file."""
-
-def criteria() -> list[tuple[str, str]]:
-    """Names of the criteria, and how they are written in figures."""
-
-def material_quantities() -> list[tuple[str, str, str]]:
-    """Names, units and meanings of the numbers of materials."""
-
-def criterion_on(
-    criterion: Criterion, stress: NDArray[np.float64], *, tolerance: float
-) -> dict[str, _Array]:
-    """A criterion on stresses of shape (time, points, 6): arrays over the points."""
-
-def yielding_on(
-    stress: NDArray[np.float64],
-    *,
-    s_y: float,
-    constant: tuple[float, float, float, float, float, float],
-) -> dict[str, _Array]:
-    """Load factors of first yield and shakedown of stresses of shape (time, points, 6)."""
-
-def dang_van_path(stress: NDArray[np.float64]) -> _Array:
-    """The path of one point in Dang Van's plane.
-
-    From its stress of shape (time, 6): tau and hydrostatic stress at every instant.
-    """
-
-class InvalidSceneError(ValueError):
-    """A scene, or a scene file, has no meaning; the message says where and what is allowed."""
-
-class OffGridError(InvalidSceneError):
-    """The contact reaches the border of the grid; the message says how wide the grid should be."""
-
-class SolveError(RuntimeError):
-    """A scene that has a meaning could not be solved; the classes below it say why."""
-
-class ArgumentError(ValueError):
-    """An argument of a function has no meaning; the message says which and what is allowed."""
-
-class NoConvergenceError(SolveError):
-    """A solver stopped before its tolerance; the message gives the residual reached."""
-
-class SlidingError(SolveError):
-    """Loads that friction cannot carry, that nothing carries, or that lift a stuck contact."""
-
-class KernelInaccurateError(SolveError):
-    """Influence or stress coefficients missed the tolerance asked for."""
-
-class StoreError(OSError):
-    """A file or a result store could not be read or written."""
-
-def wear(
-    scene: Scene,
-    wear: dict[str, Any],
-    own: Sequence[Sequence[Callable[..., ArrayLike]]],
-    *,
-    store: str | PathLike[str] | None = None,
-    overwrite: bool = False,
-    start: tuple[float, float, Sequence[_Array]] | None = None,
-    on_jump: Callable[[float], None] | None = None,
-) -> tuple[dict[str, _Variable], str] | None:
-    """Runs a scene over many cycles, by the table `[wear]` of a scene file.
-
-    It writes a store, or without one gives all in memory. Laws that are functions, `{ own = true }`
-    in the table, stand in `own` for each body.
-    """
-
-def wear_of_file(path: str | PathLike[str], set: Sequence[str] = ...) -> tuple[Scene, str]:
-    """The scene of a file and its table `[wear]`, as the text of a scene file each."""
-
-def check_settings(settings: Settings) -> None:
-    """Fails if a setting has no meaning."""
-
-def read_text(path: str | PathLike[str]) -> str:
-    """The text of a file of numbers, in UTF-8, UTF-16 or Latin-1."""
-
-def read_bytes(path: str | PathLike[str]) -> bytes:
-    """The bytes of a file that somebody names.
-
-    A pipe, a device or a file that would not fit into memory is refused before it is read.
-    """
-
-def shown(text: str) -> str:
-    """A text whose control codes and marks that turn the direction of reading stand as escapes."""
-
-def verify_wear(store: str | PathLike[str]) -> None:
-    """Fails if a file of the store of a run of wear is missing, or is not as it was written."""
-
-def resume_wear(
-    store: str | PathLike[str],
-    own: Sequence[Sequence[Callable[..., ArrayLike]]],
-    *,
-    friction_law: _FrictionFunction | Literal["own"] | None = None,
-    on_jump: Callable[[float], None] | None = None,
-) -> None:
-    """Goes on with a run of wear that ended early; `own` has the functions among the laws."""

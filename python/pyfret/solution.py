@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from pyfret._core import LoadPath
-    from pyfret._core import _FrictionFunction as FrictionFunction
+    from pyfret._util.types import FrictionFunction
 
 __all__ = ["Increment", "march", "resume", "solve"]
 

@@ -5,12 +5,14 @@
 
 use std::ops::Deref;
 
+use crate::hints::sequence_of;
 use contact_core::memory::available_memory;
 use contact_subsurface::Side;
 use ndarray::{Dimension, Ix2};
 use numpy::{AllowTypeChange, PyArrayLike, PyReadonlyArray};
 use pyo3::conversion::FromPyObjectOwned;
 use pyo3::exceptions::{PyMemoryError, PyTypeError, PyValueError};
+use pyo3::inspect::PyStaticExpr;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyString, PyTuple};
 
@@ -62,6 +64,8 @@ impl<'py, D: Dimension> Deref for Array<'py, D> {
 impl<'a, 'py, D: Dimension + 'py> FromPyObject<'a, 'py> for Array<'py, D> {
     type Error = PyErr;
 
+    const INPUT_TYPE: PyStaticExpr = crate::hints::ARRAY_LIKE;
+
     fn extract(value: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
         Self::through_the_door(&value, false)
     }
@@ -105,6 +109,8 @@ impl<'py, D: Dimension> Deref for Mask<'py, D> {
 impl<'a, 'py, D: Dimension + 'py> FromPyObject<'a, 'py> for Mask<'py, D> {
     type Error = PyErr;
 
+    const INPUT_TYPE: PyStaticExpr = crate::hints::MASK;
+
     fn extract(value: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
         let array: PyReadonlyArray<'py, bool, D> = value.extract()?;
         must_fit(array.as_array().len(), 1.0)?;
@@ -146,6 +152,8 @@ impl<T> IntoIterator for List<T> {
 
 impl<'py, T: FromPyObjectOwned<'py>> FromPyObject<'_, 'py> for List<T> {
     type Error = PyErr;
+
+    const INPUT_TYPE: PyStaticExpr = sequence_of!(T::INPUT_TYPE);
 
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         if value.is_instance_of::<PyString>() {

@@ -18,6 +18,7 @@ use pyo3::prelude::*;
 /// int
 ///     Exit code: 0 done, 1 the run ended early, 2 bad scene or bad command line.
 #[pyfunction]
+#[pyo3(signature = (arguments: "Sequence[str]"))]
 pub(crate) fn run_command(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
     py.detach(|| fret_cli::run_command(arguments))
 }

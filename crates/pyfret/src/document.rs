@@ -2,6 +2,7 @@
 
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyTypeError;
+use pyo3::inspect::PyStaticExpr;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyString};
 use toml::{Table, Value};
@@ -11,6 +12,8 @@ pub(crate) struct Document(pub(crate) Table);
 
 impl<'py> FromPyObject<'_, 'py> for Document {
     type Error = PyErr;
+
+    const INPUT_TYPE: PyStaticExpr = crate::hints::NAMED;
 
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         table(&*value.cast::<PyDict>()?).map(Self)

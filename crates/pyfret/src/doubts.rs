@@ -7,6 +7,7 @@ use crate::arguments::number;
 
 /// The doubt of a number, if it is hardly meant, by the name of its quantity.
 #[pyfunction]
+#[pyo3(signature = (quantity, key, value: "float"))]
 pub(crate) fn doubt(
     quantity: &str,
     key: &str,

@@ -120,6 +120,8 @@ macro_rules! takes {
         impl<'py> pyo3::FromPyObject<'_, 'py> for $class {
             type Error = pyo3::PyErr;
 
+            const INPUT_TYPE: pyo3::inspect::PyStaticExpr = <Self as pyo3::PyTypeInfo>::TYPE_HINT;
+
             fn extract(value: pyo3::Borrowed<'_, 'py, pyo3::PyAny>) -> pyo3::PyResult<Self> {
                 match value.cast::<Self>() {
                     Ok(found) => Ok(found.get().clone()),

@@ -43,8 +43,8 @@ pub(crate) const AT_POINT: [(&str, Number); 7] = [
 pub(crate) struct Criterion(core::Criterion);
 
 /// A static method of the class for every criterion of the core: `Criterion.findley(k=0.3)`.
-pub(crate) fn add_criteria(class: &Bound<'_, PyAny>) -> PyResult<()> {
-    let py = class.py();
+pub(crate) fn add_criteria(py: Python<'_>) -> PyResult<()> {
+    let class = py.get_type::<Criterion>();
     let text = |text: String| {
         Ok::<&'static CStr, PyErr>(Box::leak(CString::new(text)?.into_boxed_c_str()))
     };
@@ -68,7 +68,7 @@ pub(crate) fn add_criteria(class: &Bound<'_, PyAny>) -> PyResult<()> {
 #[pymethods]
 impl Criterion {
     #[new]
-    #[pyo3(signature = (name, /, **numbers))]
+    #[pyo3(signature = (name, /, **numbers: "float"))]
     fn new(name: &str, numbers: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
         let numbers: BTreeMap<String, f64> = match numbers {
             Some(numbers) => numbers.extract()?,
@@ -143,7 +143,7 @@ pub(crate) struct Assessment(pub(crate) core::Assessment);
 #[pymethods]
 impl Assessment {
     #[new]
-    #[pyo3(signature = (criterion, *, limit = None, curve = None))]
+    #[pyo3(signature = (criterion, *, limit: "float | None" = None, curve: "Sequence[float] | None" = None))]
     fn new(
         criterion: Criterion,
         #[pyo3(from_py_with = number)] limit: Option<f64>,
@@ -205,11 +205,13 @@ impl Assessment {
     }
 
     /// Factor by which the history may grow until the limit, for values of the criterion.
+    #[pyo3(signature = (value: "float"))]
     fn safety_factor(&self, #[pyo3(from_py_with = number)] value: f64) -> f64 {
         self.0.safety_factor(value)
     }
 
     /// Cycles to failure for values of the criterion.
+    #[pyo3(signature = (value: "float"))]
     fn life(&self, #[pyo3(from_py_with = number)] value: f64) -> f64 {
         self.0.life(value)
     }
@@ -257,7 +259,7 @@ pub(crate) struct Material(pub(crate) core::Material);
 #[pymethods]
 impl Material {
     #[new]
-    #[pyo3(signature = (name, numbers, title = None, also = Vec::new()))]
+    #[pyo3(signature = (name, numbers: "Sequence[tuple[str, float, str]]", title = None, also: "Sequence[str]" = Vec::new()))]
     fn new(
         name: &str,
         numbers: List<(String, f64, String)>,
@@ -363,7 +365,7 @@ pub(crate) fn material_quantities() -> Vec<(&'static str, &'static str, &'static
 
 /// A criterion on stresses of shape (time, points, 6): arrays over the points.
 #[pyfunction]
-#[pyo3(signature = (criterion, stress, *, tolerance))]
+#[pyo3(signature = (criterion, stress, *, tolerance: "float") -> "dict[str, NDArray[np.float64]]")]
 pub(crate) fn criterion_on<'py>(
     py: Python<'py>,
     criterion: Criterion,
@@ -392,7 +394,7 @@ pub(crate) fn criterion_on<'py>(
 
 /// Load factors of first yield and shakedown of stresses of shape (time, points, 6).
 #[pyfunction]
-#[pyo3(signature = (stress, *, s_y, constant))]
+#[pyo3(signature = (stress, *, s_y: "float", constant: "tuple[float, float, float, float, float, float]") -> "dict[str, NDArray[np.float64]]")]
 pub(crate) fn yielding_on<'py>(
     py: Python<'py>,
     stress: Array<'py, Ix3>,
@@ -419,6 +421,7 @@ pub(crate) fn yielding_on<'py>(
 ///
 /// From its stress of shape (time, 6): tau and hydrostatic stress at every instant.
 #[pyfunction]
+#[pyo3(signature = (stress) -> "NDArray[np.float64]")]
 pub(crate) fn dang_van_path<'py>(
     py: Python<'py>,
     stress: Array<'py, Ix2>,

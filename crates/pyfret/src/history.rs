@@ -33,7 +33,7 @@ pub(crate) struct Envelope {
 #[pymethods]
 impl Envelope {
     #[new]
-    #[pyo3(signature = (body, grid, path, z, layer, *, of, x = None, y = None, body_number = 2, residual = None))]
+    #[pyo3(signature = (body, grid, path, z: "Sequence[float]", layer: "Sequence[int]", *, of, x: "float | None" = None, y: "float | None" = None, body_number: "int" = 2, residual: "Sequence[float] | None" = None))]
     fn new(
         py: Python<'_>,
         body: Body,
@@ -95,7 +95,7 @@ impl Envelope {
     }
 
     /// Take an increment: tractions [Pa], cells that stick, bulk stress of the body [Pa].
-    #[pyo3(signature = (increment, branch, *, p, q_x, q_y, stick, sigma_B = 0.0))]
+    #[pyo3(signature = (increment: "int", branch: "int", *, p, q_x, q_y, stick, sigma_B: "float" = 0.0))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn push(
         &mut self,
@@ -124,6 +124,7 @@ impl Envelope {
     }
 
     /// Give the extremes of every measure.
+    #[pyo3(signature = () -> "dict[str, dict[str, NDArray[np.float64]]]")]
     fn finish<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let mut stream = self.stream.take().ok_or_else(finished)?;
         let stop = Arc::<AtomicBool>::default();
@@ -179,7 +180,7 @@ fn finished() -> PyErr {
 
 /// Energy and stiffness of every cycle of a history; use :meth:`pyfret.Result.loops`.
 #[pyfunction]
-#[pyo3(signature = (path, *, branch, T, delta, dissipated, status))]
+#[pyo3(signature = (path, *, branch: "Sequence[int]", T: "Sequence[float]", delta: "Sequence[float]", dissipated: "Sequence[float]", status: "Sequence[int]") -> "list[dict[str, float]]")]
 pub(crate) fn loops(
     py: Python<'_>,
     path: LoadPath,

@@ -16,6 +16,7 @@ use crate::scene::{Body, Grid, Settings};
 
 /// Surface response at one-dimensional arrays of wave numbers; see :mod:`pyfret.kernels`.
 #[pyfunction]
+#[pyo3(signature = (body, k_x, k_y) -> "NDArray[np.complex128]")]
 pub(crate) fn surface_frf<'py>(
     py: Python<'py>,
     body: Body,
@@ -53,7 +54,7 @@ pub(crate) fn surface_frf<'py>(
 ///     u_x, u_y, u_z under q_x, q_y, p at all offsets of the observed cell from the loaded one;
 ///     the offset (0, 0) is in the middle.
 #[pyfunction]
-#[pyo3(signature = (body, grid, *, settings = None))]
+#[pyo3(signature = (body, grid, *, settings = None) -> "NDArray[np.float64]")]
 pub(crate) fn influence_coefficients(
     py: Python<'_>,
     body: Body,
@@ -90,7 +91,7 @@ pub(crate) fn influence_coefficients(
 ///     s_xx, s_yy, s_zz, s_xy, s_xz, s_yz under q_x, q_y, p at all offsets; the offset (0, 0) is in
 ///     the middle.
 #[pyfunction]
-#[pyo3(signature = (body, grid, z, *, layer = None))]
+#[pyo3(signature = (body, grid, z: "float", *, layer: "int | None" = None) -> "NDArray[np.float64]")]
 pub(crate) fn stress_coefficients(
     py: Python<'_>,
     body: Body,
@@ -113,7 +114,7 @@ pub(crate) fn stress_coefficients(
 /// array of shape (6, 3)
 ///     s_xx, s_yy, s_zz, s_xy, s_xz, s_yz under q_x, q_y, p; tension is positive.
 #[pyfunction]
-#[pyo3(signature = (body, cell, point, *, layer = None))]
+#[pyo3(signature = (body, cell: "tuple[float, float]", point: "tuple[float, float, float]", *, layer: "int | None" = None) -> "NDArray[np.float64]")]
 pub(crate) fn stress_at(
     py: Python<'_>,
     body: Body,
@@ -133,7 +134,7 @@ pub(crate) struct Conversion(core::Conversion);
 #[pymethods]
 impl Conversion {
     #[new]
-    #[pyo3(signature = (grid, *, enlargement = 8, aliases = 0))]
+    #[pyo3(signature = (grid, *, enlargement: "int" = 8, aliases: "int" = 0))]
     fn new(
         grid: Grid,
         #[pyo3(from_py_with = number)] enlargement: usize,
@@ -145,6 +146,7 @@ impl Conversion {
     }
 
     /// Wave numbers k_x, k_y [1/m] at which the response is needed, never both zero.
+    #[pyo3(signature = () -> "tuple[NDArray[np.float64], NDArray[np.float64]]")]
     fn wave_vectors<'py>(
         &self,
         py: Python<'py>,
@@ -154,6 +156,7 @@ impl Conversion {
     }
 
     /// Influence coefficients from the response at the wave vectors, shape (n, 3, 3).
+    #[pyo3(signature = (frf: "NDArray[np.complex128]") -> "NDArray[np.float64]")]
     fn convert<'py>(
         &self,
         py: Python<'py>,

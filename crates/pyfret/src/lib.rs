@@ -1,7 +1,7 @@
 //! Python module `pyfret._core`: the public types of `contact-core` under the same names.
 //!
 //! Nothing is computed here. Each file translates one noun; the documentation of what Python
-//! sees is that of its docstrings; `tools/stub_docs.py` carries it into `python/pyfret/_core.pyi`.
+//! sees is that of its docstrings and signatures; `tools/stub.py` makes `python/pyfret/_core.pyi` of them.
 
 #![allow(
     rustdoc::broken_intra_doc_links,
@@ -25,6 +25,7 @@ mod fatigue;
 mod forked;
 mod fracture;
 mod heat;
+mod hints;
 mod history;
 mod interruptible;
 mod kernels;
@@ -48,7 +49,6 @@ use pyo3::prelude::*;
 
 #[pymodule]
 mod _core {
-    use super::Bound;
     use pyo3::prelude::*;
 
     #[pymodule_export]
@@ -113,12 +113,18 @@ mod _core {
     #[pymodule_export]
     use crate::wear::{resume_wear, verify_wear, wear, wear_of_file};
 
+    #[allow(non_upper_case_globals)] // Python's name
+    #[pymodule_export]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
+    /// Why a cycle has no stiffness, and what to do.
+    #[pymodule_export]
+    const TOO_FEW_INCREMENTS: &str = contact_subsurface::Cycle::TOO_FEW;
+    /// A material that does not deform.
+    #[pymodule_export]
+    const RIGID: Elastic = Elastic::RIGID;
+
     #[pymodule_init]
-    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
-        module.add("__version__", env!("CARGO_PKG_VERSION"))?;
-        let too_few = contact_subsurface::Cycle::TOO_FEW;
-        module.add("TOO_FEW_INCREMENTS", too_few)?;
-        crate::fatigue::add_criteria(&module.getattr("Criterion")?)?;
-        module.add("RIGID", Elastic::RIGID)
+    fn init() -> PyResult<()> {
+        Python::attach(crate::fatigue::add_criteria)
     }
 }

@@ -112,6 +112,7 @@ impl March {
     }
 
     /// The last increment as variables: dimensions, values, attributes as xarray takes them.
+    #[pyo3(signature = () -> "dict[str, Variable]")]
     fn variables<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let variables = Variables::new(py);
         let last = self.last;
@@ -126,6 +127,7 @@ impl March {
     }
 
     /// Plastic strain, stress and imprint of a body; None where it stays elastic.
+    #[pyo3(signature = (body: "int") -> "dict[str, Any] | None")]
     fn plastic<'py>(
         &mut self,
         py: Python<'py>,
@@ -144,6 +146,7 @@ impl March {
 
 /// Pressure [Pa], that at the rim continued from inside; use :meth:`Snapshot.p_continued`.
 #[pyfunction]
+#[pyo3(signature = (p, grid) -> "NDArray[np.float64]")]
 pub(crate) fn continued_pressure<'py>(
     py: Python<'py>,
     p: Field<'py>,

@@ -1,8 +1,10 @@
 //! Elastic materials, alone and as layers.
 
 use contact_core::scene as core;
+use pyo3::inspect::PyStaticExpr;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use pyo3::{PyTypeInfo, type_hint_union};
 
 use crate::arguments::number;
 use crate::error::{must_be, takes, to_python};
@@ -39,6 +41,9 @@ pub(crate) struct Material(pub(crate) core::Elastic);
 impl<'py> FromPyObject<'_, 'py> for Material {
     type Error = PyErr;
 
+    const INPUT_TYPE: PyStaticExpr =
+        type_hint_union!(Elastic::TYPE_HINT, crate::scene::Body::TYPE_HINT);
+
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         if let Ok(material) = value.extract::<Elastic>() {
             return Ok(Self(material.0));
@@ -62,7 +67,7 @@ impl Elastic {
 impl Elastic {
     #[new]
     #[pyo3(
-        signature = (*, E, nu, plastic = None, **unknown),
+        signature = (*, E: "float", nu: "float", plastic = None, **unknown),
         text_signature = "(*, E, nu, plastic=None)"
     )]
     fn new(
@@ -145,7 +150,7 @@ takes!(
 #[pymethods]
 impl Plastic {
     #[new]
-    #[pyo3(signature = (*, s_y, hardening = 0.0, kinematic = 0.0))]
+    #[pyo3(signature = (*, s_y: "float", hardening: "float" = 0.0, kinematic: "float" = 0.0))]
     fn new(
         #[pyo3(from_py_with = number)] s_y: f64,
         #[pyo3(from_py_with = number)] hardening: f64,
@@ -214,7 +219,7 @@ takes!(Bond, "a bond, such as Bond(normal=1e-17, shear=1e-16)");
 #[pymethods]
 impl Bond {
     #[new]
-    #[pyo3(signature = (*, normal = 0.0, shear = 0.0))]
+    #[pyo3(signature = (*, normal: "float" = 0.0, shear: "float" = 0.0))]
     fn new(
         #[pyo3(from_py_with = number)] normal: f64,
         #[pyo3(from_py_with = number)] shear: f64,
@@ -226,7 +231,7 @@ impl Bond {
 
     /// The bond that a thin layer of a material makes: h (1 - 2 nu)/(2 G (1 - nu)) and h/G.
     #[staticmethod]
-    #[pyo3(signature = (material, *, thickness))]
+    #[pyo3(signature = (material, *, thickness: "float"))]
     fn of_layer(
         material: Elastic,
         #[pyo3(from_py_with = number)] thickness: f64,
@@ -288,7 +293,7 @@ takes!(
 impl Coating {
     #[new]
     #[pyo3(
-        signature = (material, *, thickness, bond = Bond(core::Bond::PERFECT), **unknown),
+        signature = (material, *, thickness: "float", bond = Bond(core::Bond::PERFECT), **unknown),
         text_signature = "(material, *, thickness, bond=...)"
     )]
     fn new(

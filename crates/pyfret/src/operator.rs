@@ -81,7 +81,7 @@ impl SurfaceOperator {
     ///     Pressure [Pa] (default: none).
     /// q_x, q_y : array of shape (nx, ny), optional
     ///     Shear tractions on body 2 [Pa] (default: none).
-    #[pyo3(signature = (p = None, q_x = None, q_y = None))]
+    #[pyo3(signature = (p = None, q_x = None, q_y = None) -> "NDArray[np.float64]")]
     fn displacement<'py>(
         &self,
         py: Python<'py>,

@@ -23,7 +23,7 @@ pub(crate) struct Outline(core::Outline);
 #[pymethods]
 impl Outline {
     #[new]
-    #[pyo3(signature = (grid, *, p, q_x, q_y))]
+    #[pyo3(signature = (grid, *, p: "NDArray[np.float64]", q_x: "NDArray[np.float64]", q_y: "NDArray[np.float64]"))]
     fn new(
         grid: Grid,
         p: PyReadonlyArray2<'_, f64>,
@@ -90,13 +90,13 @@ impl Outline {
     }
 
     /// Where a line through the centre leaves the contact, backwards and forwards [m].
-    #[pyo3(signature = (azimuth = 0.0))]
+    #[pyo3(signature = (azimuth: "float" = 0.0))]
     fn border(&self, #[pyo3(from_py_with = number)] azimuth: f64) -> (f64, f64) {
         self.0.border(azimuth)
     }
 
     /// Half of the width of the contact in a direction [m].
-    #[pyo3(signature = (azimuth = 0.0))]
+    #[pyo3(signature = (azimuth: "float" = 0.0))]
     fn half_width(&self, #[pyo3(from_py_with = number)] azimuth: f64) -> f64 {
         self.0.half_width(azimuth)
     }
@@ -116,7 +116,7 @@ impl Outline {
 /// Of the outlines of its moments: the first along the shear; a second across it, where the
 /// contact or its shear has no axis of its own there. `stretched`: there is a bulk stress along x.
 #[pyfunction]
-#[pyo3(signature = (outlines, *, stretched = false))]
+#[pyo3(signature = (outlines: "Sequence[Outline]", *, stretched = false))]
 pub(crate) fn main_sections(outlines: Vec<Py<Outline>>, stretched: bool) -> Vec<LineName> {
     let all: Vec<&core::Outline> = outlines.iter().map(|one| &one.get().0).collect();
     Line::of_outlines(&all, stretched)

@@ -163,7 +163,7 @@ macro_rules! parts {
                 Ok(((), $crate::parts::arguments(slf.as_any(), Self::PARTS)?))
             }
 
-            #[pyo3(signature = (**changes))]
+            #[pyo3(signature = (**changes: "Any") -> "Self")]
             fn __replace__<'py>(
                 slf: &pyo3::Bound<'py, Self>,
                 changes: Option<&pyo3::Bound<'py, pyo3::types::PyDict>>,
@@ -190,7 +190,7 @@ macro_rules! parts {
         #[pyo3::pymethods]
         impl $class {
             /// The same with some of its parts exchanged, named as in the constructor.
-            #[pyo3(signature = (**changes))]
+            #[pyo3(signature = (**changes: "Any") -> "Self")]
             fn replace<'py>(
                 slf: &pyo3::Bound<'py, Self>,
                 changes: Option<&pyo3::Bound<'py, pyo3::types::PyDict>>,

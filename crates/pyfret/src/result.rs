@@ -112,7 +112,7 @@ fn whole(scene: &Scene, error: bool, watch: &mut dyn Observer) -> Result<Option<
 /// `on_increment` is called with the number of each increment solved and their number in all,
 /// which is known once they are chosen.
 #[pyfunction]
-#[pyo3(signature = (scene, *, store, checkpoint = 5.0, overwrite = false, error = false, on_increment = None))]
+#[pyo3(signature = (scene, *, store, checkpoint: "float" = 5.0, overwrite = false, error = false, on_increment: "Callable[[int, int], object] | None" = None))]
 pub(crate) fn solve(
     py: Python<'_>,
     scene: Scene,
@@ -142,7 +142,7 @@ pub(crate) fn solve(
 /// These are the variables, each with dimensions, values and attributes as xarray takes them, and
 /// what a store says of the run, as JSON.
 #[pyfunction]
-#[pyo3(signature = (scene, *, error = false, on_increment = None))]
+#[pyo3(signature = (scene, *, error = false, on_increment: "Callable[[int, int], object] | None" = None) -> "tuple[dict[str, Variable], str]")]
 pub(crate) fn solve_in_memory(
     py: Python<'_>,
     scene: Scene,
@@ -174,7 +174,7 @@ pub(crate) fn verify(py: Python<'_>, store: PathBuf) -> PyResult<String> {
 
 /// Go on with the run of a store that ended early; use :func:`pyfret.resume`, which opens it.
 #[pyfunction]
-#[pyo3(signature = (store, *, checkpoint = 5.0, friction_law = None, on_increment = None))]
+#[pyo3(signature = (store, *, checkpoint: "float" = 5.0, friction_law: "FrictionFunction | Literal['own'] | None" = None, on_increment: "Callable[[int, int], object] | None" = None))]
 pub(crate) fn resume(
     py: Python<'_>,
     store: PathBuf,

@@ -49,6 +49,7 @@ fn tensors(stress: &Field<'_>) -> PyResult<Vec<StressTensor>> {
 
 /// Give what follows from stresses of shape (6, n), by its name.
 #[pyfunction]
+#[pyo3(signature = (name, stress) -> "NDArray[np.float64]")]
 pub(crate) fn measure<'py>(
     py: Python<'py>,
     name: String,
@@ -60,6 +61,7 @@ pub(crate) fn measure<'py>(
 
 /// Principal values (n, 3), the largest first, and directions (n, 3, 3) of stresses (6, n).
 #[pyfunction]
+#[pyo3(signature = (stress) -> "tuple[NDArray[np.float64], NDArray[np.float64]]")]
 pub(crate) fn principal<'py>(
     py: Python<'py>,
     stress: Field<'py>,
@@ -86,6 +88,7 @@ type Found = (f64, f64, f64, usize, f64);
 ///
 /// The value, its place along the line, depth, layer and error.
 #[pyfunction]
+#[pyo3(signature = (samples, z: "Sequence[float]", layer: "Sequence[int]", along: "Sequence[float]"))]
 pub(crate) fn largest_of_samples(
     samples: Field<'_>,
     z: List<f64>,

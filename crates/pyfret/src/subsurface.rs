@@ -50,6 +50,7 @@ pub(crate) fn name_of(line: Line) -> LineName {
 
 /// x, y and azimuth of the line through a point at an angle; along an axis x or y alone.
 #[pyfunction]
+#[pyo3(signature = (x: "float", y: "float", azimuth: "float"))]
 pub(crate) fn line_through(
     #[pyo3(from_py_with = number)] x: f64,
     #[pyo3(from_py_with = number)] y: f64,
@@ -60,7 +61,7 @@ pub(crate) fn line_through(
 
 /// Places along a line on a grid, and their x, y [m].
 #[pyfunction]
-#[pyo3(signature = (grid, *, x = None, y = None, azimuth = None))]
+#[pyo3(signature = (grid, *, x: "float | None" = None, y: "float | None" = None, azimuth: "float | None" = None))]
 pub(crate) fn line_places(
     grid: Grid,
     #[pyo3(from_py_with = number)] x: Option<f64>,
@@ -75,6 +76,7 @@ pub(crate) fn line_places(
 
 /// Depths [m] with their layers; on an interface both, the upper one first.
 #[pyfunction]
+#[pyo3(signature = (body, z: "Sequence[float]"))]
 pub(crate) fn depths(body: Body, z: List<f64>) -> PyResult<(Vec<f64>, Vec<usize>)> {
     let depths = core::depths(&body.0, &z).map_err(to_python)?;
     Ok(depths.iter().map(|d| (d.z, d.layer)).unzip())
@@ -85,7 +87,7 @@ pub(crate) fn depths(body: Body, z: List<f64>) -> PyResult<(Vec<f64>, Vec<usize>
 /// They go to the depth `deepest` [m] under a contact of the radius `a` [m]; `finer` times as
 /// many as the default.
 #[pyfunction]
-#[pyo3(signature = (body, *, a, deepest, finer = 1.0))]
+#[pyo3(signature = (body, *, a: "float", deepest: "float", finer: "float" = 1.0))]
 pub(crate) fn chosen_depths(
     body: Body,
     #[pyo3(from_py_with = number)] a: f64,
@@ -101,7 +103,7 @@ pub(crate) fn chosen_depths(
 /// Tractions [Pa] and cells that stick are of shape (states, nx, ny); near the surface tractions
 /// vary within the cells. States share the kernels, which cost as much as about ten of them.
 #[pyfunction]
-#[pyo3(signature = (body, grid, z, layer, *, p, q_x, q_y, stick, sigma_B, residual = None, x = None, y = None, azimuth = None, body_number = 2))]
+#[pyo3(signature = (body, grid, z: "Sequence[float]", layer: "Sequence[int]", *, p, q_x, q_y, stick, sigma_B: "Sequence[float]", residual: "Sequence[float] | None" = None, x: "float | None" = None, y: "float | None" = None, azimuth: "float | None" = None, body_number: "int" = 2) -> "NDArray[np.float64]")]
 #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
 pub(crate) fn section_of_states<'py>(
     py: Python<'py>,
@@ -170,7 +172,7 @@ pub(crate) fn section_of_states<'py>(
 
 /// Residual stress of every layer of a body [Pa]: those given, or zero.
 #[pyfunction]
-#[pyo3(signature = (body, residual = None))]
+#[pyo3(signature = (body, residual: "Sequence[float] | None" = None) -> "NDArray[np.float64]")]
 pub(crate) fn residual_of_layers(
     py: Python<'_>,
     body: Body,
@@ -264,7 +266,7 @@ impl Subsurface {
 #[pymethods]
 impl Subsurface {
     #[new]
-    #[pyo3(signature = (body, grid, *, p = None, q_x = None, q_y = None, body_number = 2, sigma_B = 0.0, residual = None, rim = false, stick = None))]
+    #[pyo3(signature = (body, grid, *, p = None, q_x = None, q_y = None, body_number: "int" = 2, sigma_B: "float" = 0.0, residual: "Sequence[float] | None" = None, rim = false, stick = None))]
     fn new(
         body: Body,
         grid: Grid,
@@ -306,7 +308,7 @@ impl Subsurface {
     }
 
     /// Stress [Pa] or displacement [m] on a section, shape (6 or 3, depths, places).
-    #[pyo3(signature = (z, layer, *, x = None, y = None, azimuth = None, displacement = false))]
+    #[pyo3(signature = (z: "Sequence[float]", layer: "Sequence[int]", *, x: "float | None" = None, y: "float | None" = None, azimuth: "float | None" = None, displacement = false) -> "NDArray[np.float64]")]
     fn section<'py>(
         &self,
         py: Python<'py>,
@@ -333,7 +335,7 @@ impl Subsurface {
     }
 
     /// Stress [Pa] or displacement [m] on a plane, six or three arrays of shape (nx, ny).
-    #[pyo3(signature = (z, layer, *, displacement = false))]
+    #[pyo3(signature = (z: "float", layer: "int", *, displacement = false) -> "list[NDArray[np.float64]]")]
     fn slice<'py>(
         &self,
         py: Python<'py>,
@@ -356,6 +358,7 @@ impl Subsurface {
     }
 
     /// Stress (n, 6) [Pa] and displacement (n, 3) [m] at points x, y, z, layer.
+    #[pyo3(signature = (places: "Sequence[tuple[float, float, float, int]]") -> "tuple[NDArray[np.float64], NDArray[np.float64]]")]
     fn points<'py>(
         &self,
         py: Python<'py>,
@@ -386,8 +389,8 @@ impl Subsurface {
     /// and the layers whose stress still rises at the end of the longest section. `anywhere`: also
     /// beside the section.
     #[pyo3(signature = (
-        of, samples, z, layer, *, x = None, y = None, azimuth = None, only = None, anywhere = false,
-        error_bars = None
+        of, samples, z: "Sequence[float]", layer: "Sequence[int]", *, x: "float | None" = None, y: "float | None" = None, azimuth: "float | None" = None, only: "int | None" = None, anywhere = false,
+        error_bars: "tuple[float, float] | None" = None
     ))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn maximum(
@@ -456,7 +459,7 @@ impl Subsurface {
     /// Where a line, or the lines of all cells, cross rims of contact and stick zone.
     ///
     /// x, y, which of them, and whether the place is known within a cell.
-    #[pyo3(signature = (*, x = None, y = None, azimuth = None))]
+    #[pyo3(signature = (*, x: "float | None" = None, y: "float | None" = None, azimuth: "float | None" = None))]
     fn borders(
         &self,
         #[pyo3(from_py_with = number)] x: Option<f64>,
@@ -474,7 +477,7 @@ impl Subsurface {
     }
 
     /// Write measures of stress, and displacements, to a .vti file or a Zarr folder.
-    #[pyo3(signature = (out, z, layer, *, of, title = ""))]
+    #[pyo3(signature = (out, z: "Sequence[float]", layer: "Sequence[int]", *, of, title = ""))]
     fn volume(
         &self,
         py: Python<'_>,

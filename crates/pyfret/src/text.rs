@@ -38,7 +38,7 @@ pub(crate) fn shown(text: &str) -> String {
 
 /// A number and its error, with the digits that the error leaves; an estimate without one.
 #[pyfunction]
-#[pyo3(signature = (value, error = None))]
+#[pyo3(signature = (value: "float", error: "float | None" = None))]
 pub(crate) fn with_error(
     #[pyo3(from_py_with = number)] value: f64,
     #[pyo3(from_py_with = number)] error: Option<f64>,
@@ -48,6 +48,7 @@ pub(crate) fn with_error(
 
 /// A number and the range that it lies in, with the digits that the range leaves.
 #[pyfunction]
+#[pyo3(signature = (value: "float", low: "float", high: "float"))]
 pub(crate) fn with_range(
     #[pyo3(from_py_with = number)] value: f64,
     #[pyo3(from_py_with = number)] low: f64,

@@ -105,7 +105,7 @@ type InMemory<'py> = (Bound<'py, PyDict>, String);
 /// It writes a store, or without one gives all in memory. Laws that are functions, `{ own = true }`
 /// in the table, stand in `own` for each body.
 #[pyfunction]
-#[pyo3(signature = (scene, wear, own, *, store = None, overwrite = false, start = None, on_jump = None))]
+#[pyo3(signature = (scene, wear: "dict[str, Any]", own: "Sequence[Sequence[Callable[..., ArrayLike]]]", *, store = None, overwrite = false, start: "tuple[float, float, Sequence[NDArray[np.float64]]] | None" = None, on_jump: "Callable[[float], None] | None" = None) -> "tuple[dict[str, Variable], str] | None")]
 pub(crate) fn wear<'py>(
     py: Python<'py>,
     scene: Scene,
@@ -155,7 +155,7 @@ pub(crate) fn verify_wear(py: Python<'_>, store: PathBuf) -> PyResult<()> {
 
 /// The scene of a file and its table `[wear]`, as the text of a scene file each.
 #[pyfunction]
-#[pyo3(signature = (path, set = Vec::new()))]
+#[pyo3(signature = (path, set: "Sequence[str]" = Vec::new()))]
 pub(crate) fn wear_of_file(path: PathBuf, set: Vec<String>) -> PyResult<(Scene, String)> {
     let read = core::Wear::from_file(path, &set, Reach::Folder);
     let (scene, wear) = read.map_err(scene_to_python)?;
@@ -164,7 +164,7 @@ pub(crate) fn wear_of_file(path: PathBuf, set: Vec<String>) -> PyResult<(Scene, 
 
 /// Goes on with a run of wear that ended early; `own` has the functions among the laws.
 #[pyfunction]
-#[pyo3(signature = (store, own, *, friction_law = None, on_jump = None))]
+#[pyo3(signature = (store, own: "Sequence[Sequence[Callable[..., ArrayLike]]]", *, friction_law: "FrictionFunction | Literal['own'] | None" = None, on_jump: "Callable[[float], None] | None" = None))]
 pub(crate) fn resume_wear(
     py: Python<'_>,
     store: PathBuf,

@@ -10,7 +10,7 @@ from pyfret._util.lazy import xr
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from pyfret._core import _Variable as Variable
+    from pyfret._util.types import Variable
 
 __all__ = ["dataset"]
 

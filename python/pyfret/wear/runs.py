@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from pyfret._core import LoadPath
-    from pyfret._core import _FrictionFunction as FrictionFunction
+    from pyfret._util.types import FrictionFunction
     from pyfret.wear.settings import Law
 
 __all__ = ["open", "resume", "solve"]

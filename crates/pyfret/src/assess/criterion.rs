@@ -46,6 +46,7 @@ impl CriterionBelow {
     }
 
     /// Arrays over (depth, place), NaN where not judged.
+    #[pyo3(signature = () -> "dict[str, NDArray[np.float64]]")]
     fn fields<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let places = self.judged.along.len();
         let row = |found: &Option<Vec<AtPoint>>| match found {
@@ -57,6 +58,7 @@ impl CriterionBelow {
     }
 
     /// The worst point of a layer, None where it is not judged.
+    #[pyo3(signature = (layer: "int") -> "dict[str, Any] | None")]
     fn worst<'py>(
         &self,
         py: Python<'py>,

@@ -38,7 +38,7 @@ pub(crate) struct CycleSection {
 #[pymethods]
 impl CycleSection {
     #[new]
-    #[pyo3(signature = (body, grid, moments, count, *, x = None, y = None, azimuth = None, body_number = 2, residual = None))]
+    #[pyo3(signature = (body, grid, moments: "Callable[[list[int] | None], tuple[list[Any], ...] | None]", count: "int", *, x: "float | None" = None, y: "float | None" = None, azimuth: "float | None" = None, body_number: "int" = 2, residual: "Sequence[float] | None" = None))]
     fn new(
         body: Body,
         grid: Grid,
@@ -76,7 +76,7 @@ impl CycleSection {
     }
 
     /// Judge the section by criteria for the materials of the layers, all by the same stress.
-    #[pyo3(signature = (z, layer, materials, criteria, *, tolerance))]
+    #[pyo3(signature = (z: "Sequence[float]", layer: "Sequence[int]", materials, criteria, *, tolerance: "float"))]
     fn by_criteria(
         &self,
         py: Python<'_>,
@@ -101,6 +101,7 @@ impl CycleSection {
     }
 
     /// Judge the section by yield stresses of the layers from the surface down [Pa].
+    #[pyo3(signature = (z: "Sequence[float]", layer: "Sequence[int]", s_y: "Sequence[float | None]"))]
     fn by_yield(
         &self,
         py: Python<'_>,
@@ -125,7 +126,7 @@ impl CycleSection {
     }
 
     /// Judge the mean over a critical distance L [m] in a layer: arrays over the places.
-    #[pyo3(signature = (L, method, layer, materials, criterion, *, tolerance))]
+    #[pyo3(signature = (L: "float", method, layer: "int", materials, criterion, *, tolerance: "float") -> "dict[str, NDArray[np.float64]]")]
     fn mean<'py>(
         &self,
         py: Python<'py>,

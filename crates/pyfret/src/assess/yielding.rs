@@ -41,6 +41,7 @@ impl YieldBelow {
     }
 
     /// Load factors over (depth, place), NaN where not judged.
+    #[pyo3(signature = () -> "dict[str, NDArray[np.float64]]")]
     fn fields<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let shape = (self.judged.found.len(), self.judged.along.len());
         let found = PyDict::new(py);
@@ -56,6 +57,7 @@ impl YieldBelow {
     }
 
     /// Where a load factor of a layer is least; `score` is its inverse.
+    #[pyo3(signature = (layer: "int", factor) -> "dict[str, Any] | None")]
     fn least<'py>(
         &self,
         py: Python<'py>,

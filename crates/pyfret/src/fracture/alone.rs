@@ -11,6 +11,7 @@ use pyo3::types::PyDict;
 use super::told::{named, refused, set_path};
 use crate::arguments::{Array, List, number};
 use crate::error::to_python;
+use crate::hints::Numbers;
 use crate::parts::parts;
 
 /// What a function of the caller raised, or the crack refused.
@@ -79,7 +80,7 @@ impl Crack {
     }
 
     #[new]
-    #[pyo3(signature = (*, legs, x = 0.0))]
+    #[pyo3(signature = (*, legs: "Sequence[tuple[float, float]]", x: "float" = 0.0))]
     fn new(legs: List<(f64, f64)>, #[pyo3(from_py_with = number)] x: f64) -> PyResult<Self> {
         let path = of_cracks::Path::kinked(x, &legs);
         of_cracks::Crack::new(path).map(Self).map_err(refused)
@@ -106,10 +107,12 @@ impl Crack {
 
     /// Points at which the stress is wanted, tip to mouth: x and depth [m], (points, 2).
     #[getter]
-    fn points<'py>(&self, py: Python<'py>) -> Bound<'py, numpy::PyArray2<f64>> {
+    fn points<'py>(&self, py: Python<'py>) -> Numbers<'py> {
         let points = self.0.points();
         let of = |(n, c): (usize, usize)| if c == 0 { points[n].x } else { points[n].z };
-        Array2::from_shape_fn((points.len(), 2), of).into_pyarray(py)
+        Array2::from_shape_fn((points.len(), 2), of)
+            .into_pyarray(py)
+            .into()
     }
 
     /// K over the instants of a history of stress at :attr:`points`.
@@ -127,7 +130,7 @@ impl Crack {
     /// dict
     ///     ``K_I``, ``K_II`` and their ``error`` [Pa m^0.5], ``open``, the share of the crack that
     ///     is open, each over time.
-    #[pyo3(signature = (stress, *, friction = None))]
+    #[pyo3(signature = (stress, *, friction: "float | None" = None) -> "dict[str, NDArray[np.float64]]")]
     fn intensity<'py>(
         &self,
         py: Python<'py>,
@@ -186,7 +189,7 @@ impl Crack {
     ///     ``K_I``, ``K_II`` and their ``error`` [Pa m^0.5]; ``path_error``, how far the last tip
     ///     may be off [m]; ``end``: "reached" the length, "closed", as nothing opens the crack,
     ///     "surface", to which it came back, "kinks", where its direction jumps.
-    #[pyo3(signature = (stress, *, end, direction = "tangential_stress", friction = 0.0, tolerance = 1e-2))]
+    #[pyo3(signature = (stress: "Callable[[NDArray[np.float64]], ArrayLike]", *, end: "float", direction: "Literal['tangential_stress', 'opening_intensity']" = "tangential_stress", friction: "float" = 0.0, tolerance: "float" = 1e-2) -> "dict[str, Any]")]
     fn grow<'py>(
         &self,
         py: Python<'py>,

@@ -12,6 +12,7 @@ use crate::material::Elastic;
 /// Newman and Raju's K under uniform tension over that of a straight front: an estimate, which
 /// takes the stress as constant along the front. J. C. Newman, I. S. Raju, NASA TM 85793 (1984).
 #[pyfunction]
+#[pyo3(signature = (aspect: "float"))]
 pub(crate) fn ellipse_factor(#[pyo3(from_py_with = number)] aspect: f64) -> PyResult<f64> {
     of_cracks::ellipse_factor(aspect).map_err(refused)
 }
@@ -31,6 +32,7 @@ pub(crate) fn channel_crack(py: Python<'_>, film_: Elastic, below: Elastic) -> P
 
 /// Factor F of a crack with its tip in a film; use :func:`pyfret.fracture.film_intensity`.
 #[pyfunction]
+#[pyo3(signature = (film_, below, depth: "float"))]
 pub(crate) fn partial_crack(
     py: Python<'_>,
     film_: Elastic,

@@ -41,6 +41,7 @@ fn threshold((dK_th, dS_0, Y, walker, table): Numbers) -> PyResult<of_cracks::Th
 
 /// Threshold range of K at R = 0 [Pa m^0.5] at lengths [m], and El Haddad's a_0 [m].
 #[pyfunction]
+#[pyo3(signature = (threshold_: "tuple[float, float | None, float, float | None, list[tuple[float, float]] | None]", lengths: "Sequence[float]"))]
 pub(crate) fn threshold_at(
     #[pyo3(from_py_with = number)] threshold_: Numbers,
     lengths: List<f64>,
@@ -51,6 +52,7 @@ pub(crate) fn threshold_at(
 
 /// Equivalent range of K at R = 0 [Pa m^0.5] of extremes of K.
 #[pyfunction]
+#[pyo3(signature = (threshold_: "tuple[float, float | None, float, float | None, list[tuple[float, float]] | None]", K_max: "Sequence[float]", K_min: "Sequence[float]"))]
 pub(crate) fn equivalent_range(
     #[pyo3(from_py_with = number)] threshold_: Numbers,
     K_max: List<f64>,
@@ -67,6 +69,7 @@ type Arrested = (&'static str, Option<f64>, Vec<f64>, f64, f64);
 
 /// What becomes of a crack: verdict, length where it stops, crossings, margin and its length.
 #[pyfunction]
+#[pyo3(signature = (lengths: "Sequence[float]", K_max: "Sequence[float]", K_min: "Sequence[float]", threshold_: "tuple[float, float | None, float, float | None, list[tuple[float, float]] | None]", start: "float") -> "tuple[Literal['dormant', 'stops', 'grows'], float | None, list[float], float, float]")]
 pub(crate) fn arrest(
     lengths: List<f64>,
     K_max: List<f64>,
@@ -93,7 +96,7 @@ pub(crate) fn arrest(
 
 /// Cycles of growth by Paris' law, where it ends [m] and whether it stops there.
 #[pyfunction]
-#[pyo3(signature = (lengths, K_max, K_min, threshold_, *, C, m, growth, short, start, end))]
+#[pyo3(signature = (lengths: "Sequence[float]", K_max: "Sequence[float]", K_min: "Sequence[float]", threshold_: "tuple[float, float | None, float, float | None, list[tuple[float, float]] | None]", *, C: "float", m: "float", growth, short, start: "float", end: "float"))]
 pub(crate) fn crack_life(
     lengths: List<f64>,
     K_max: List<f64>,

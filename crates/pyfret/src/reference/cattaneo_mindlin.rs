@@ -40,7 +40,7 @@ made!(CattaneoMindlin by "CattaneoMindlin": hertz, bodies, mu);
 #[pymethods]
 impl CattaneoMindlin {
     #[new]
-    #[pyo3(signature = (hertz, *, bodies, mu))]
+    #[pyo3(signature = (hertz, *, bodies, mu: "float"))]
     fn new(
         hertz: Hertz,
         bodies: (Material, Material),
@@ -85,7 +85,7 @@ impl CattaneoMindlin {
     }
 
     /// Stick radius of the first loading to `T` [N], a (1 - T/(mu W))^(1/3) [m].
-    #[pyo3(signature = (T))]
+    #[pyo3(signature = (T: "float"))]
     fn stick_radius(&self, #[pyo3(from_py_with = number)] T: f64) -> PyResult<f64> {
         self.check(&[("T", T)])?;
         Ok(self.slip.stick_radius(T))
@@ -94,7 +94,7 @@ impl CattaneoMindlin {
     /// Stick radius after the force changed from the reversal at `T_m` to `T` [N] [m].
     ///
     /// a [1 - abs(T_m - T)/(2 mu W)]^(1/3)
-    #[pyo3(signature = (T, *, T_m))]
+    #[pyo3(signature = (T: "float", *, T_m: "float"))]
     fn stick_radius_reversed(
         &self,
         #[pyo3(from_py_with = number)] T: f64,
@@ -105,7 +105,7 @@ impl CattaneoMindlin {
     }
 
     /// Shear traction at distance `r` [m] in the first loading to `T` [N] [Pa].
-    #[pyo3(signature = (r, *, T))]
+    #[pyo3(signature = (r, *, T: "float") -> "NDArray[np.float64]")]
     fn q_loading<'py>(
         &self,
         py: Python<'py>,
@@ -117,7 +117,7 @@ impl CattaneoMindlin {
     }
 
     /// Shear traction at `T` on the way back from the first loading to `T_m` [N] [Pa].
-    #[pyo3(signature = (r, *, T, T_m))]
+    #[pyo3(signature = (r, *, T: "float", T_m: "float") -> "NDArray[np.float64]")]
     fn q_unloading<'py>(
         &self,
         py: Python<'py>,
@@ -130,7 +130,7 @@ impl CattaneoMindlin {
     }
 
     /// Shear traction at `T` on the way from -`T_m` back to `T_m` [N] [Pa].
-    #[pyo3(signature = (r, *, T, T_m))]
+    #[pyo3(signature = (r, *, T: "float", T_m: "float") -> "NDArray[np.float64]")]
     fn q_reloading<'py>(
         &self,
         py: Python<'py>,
@@ -143,6 +143,7 @@ impl CattaneoMindlin {
     }
 
     /// Shift delta_x of the first loading to `T` [N] [m].
+    #[pyo3(signature = (T) -> "NDArray[np.float64]")]
     fn shift_loading<'py>(
         &self,
         py: Python<'py>,
@@ -157,7 +158,7 @@ impl CattaneoMindlin {
     }
 
     /// Shift delta_x at `T` on the way back from `T_m` [N] [m].
-    #[pyo3(signature = (T, *, T_m))]
+    #[pyo3(signature = (T, *, T_m: "float") -> "NDArray[np.float64]")]
     fn shift_unloading<'py>(
         &self,
         py: Python<'py>,
@@ -170,7 +171,7 @@ impl CattaneoMindlin {
     }
 
     /// Shift delta_x at `T` on the way from -`T_m` back to `T_m` [N] [m].
-    #[pyo3(signature = (T, *, T_m))]
+    #[pyo3(signature = (T, *, T_m: "float") -> "NDArray[np.float64]")]
     fn shift_reloading<'py>(
         &self,
         py: Python<'py>,
@@ -183,12 +184,14 @@ impl CattaneoMindlin {
     }
 
     /// Energy dissipated in one closed loop between -`T_m` and `T_m` [J].
+    #[pyo3(signature = (T_m: "float"))]
     fn loop_energy(&self, #[pyo3(from_py_with = number)] T_m: f64) -> PyResult<f64> {
         self.check(&[("T_m", T_m)])?;
         Ok(self.slip.loop_energy(T_m))
     }
 
     /// Loop energy over 4 T_m delta_x(T_m); 0.2 where partial slip ends.
+    #[pyo3(signature = (T_m: "float"))]
     fn energy_ratio(&self, #[pyo3(from_py_with = number)] T_m: f64) -> PyResult<f64> {
         self.check(&[("T_m", T_m)])?;
         Ok(self.slip.energy_ratio(T_m))

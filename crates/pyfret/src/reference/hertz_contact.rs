@@ -36,7 +36,7 @@ made!(Hertz by "Hertz": W, E_star, a, p0, delta_z);
 #[pymethods]
 impl Hertz {
     #[new]
-    #[pyo3(signature = (*, W, E_star, a, p0, delta_z))]
+    #[pyo3(signature = (*, W: "float", E_star: "float", a: "float", p0: "float", delta_z: "float"))]
     fn new(
         #[pyo3(from_py_with = number)] W: f64,
         #[pyo3(from_py_with = number)] E_star: f64,
@@ -94,6 +94,7 @@ impl Hertz {
     }
 
     /// Pressure at distance `r` [m] from the middle [Pa], p0 sqrt(1 - r^2/a^2).
+    #[pyo3(signature = (r) -> "NDArray[np.float64]")]
     fn p<'py>(&self, py: Python<'py>, r: Numbers<'py>) -> Bound<'py, PyArrayDyn<f64>> {
         map(py, &r, |r| self.0.p(r))
     }
@@ -101,7 +102,7 @@ impl Hertz {
 
 /// Hertz contact of a sphere of relative radius `R` [m] under the force `W` [N].
 #[pyfunction]
-#[pyo3(signature = (*, R, bodies, W))]
+#[pyo3(signature = (*, R: "float", bodies, W: "float"))]
 pub(crate) fn hertz(
     #[pyo3(from_py_with = number)] R: f64,
     bodies: (Material, Material),
@@ -169,7 +170,7 @@ impl HertzEllipse {
 ///
 /// 1/R_x is the sum of both bodies' curvatures along x; `E_star` [Pa], `W` [N].
 #[pyfunction]
-#[pyo3(signature = (*, R_x, R_y, E_star, W))]
+#[pyo3(signature = (*, R_x: "float", R_y: "float", E_star: "float", W: "float"))]
 pub(crate) fn hertz_ellipse(
     #[pyo3(from_py_with = number)] R_x: f64,
     #[pyo3(from_py_with = number)] R_y: f64,

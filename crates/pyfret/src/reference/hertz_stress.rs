@@ -29,7 +29,7 @@ made!(HertzStress by "HertzStress": a, nu);
 #[pymethods]
 impl HertzStress {
     #[new]
-    #[pyo3(signature = (*, a, nu))]
+    #[pyo3(signature = (*, a: "float", nu: "float"))]
     fn new(
         #[pyo3(from_py_with = number)] a: f64,
         #[pyo3(from_py_with = number)] nu: f64,
@@ -53,6 +53,7 @@ impl HertzStress {
     }
 
     /// Stress s_xx, s_yy, s_zz, s_xy, s_xz, s_yz at (`x`, `y`, `z`) [m] under a pressure.
+    #[pyo3(signature = (x, y: "float", z: "float") -> "list[NDArray[np.float64]]")]
     fn pressure<'py>(
         &self,
         py: Python<'py>,
@@ -67,6 +68,7 @@ impl HertzStress {
     }
 
     /// The same under a shear traction that acts on the body along +x.
+    #[pyo3(signature = (x, y: "float", z: "float") -> "list[NDArray[np.float64]]")]
     fn shear<'py>(
         &self,
         py: Python<'py>,

@@ -25,7 +25,7 @@ pub(crate) fn dundurs_beta(body1: Material, body2: Material) -> PyResult<f64> {
 /// (1/(2 c)) ln[(1 + c)/(1 - c)] = (mu/abs(beta)) K(sqrt(1 - c^2)); the effect of the shear on the
 /// pressure is neglected.
 #[pyfunction]
-#[pyo3(signature = (*, beta, mu))]
+#[pyo3(signature = (*, beta: "float", mu: "float"))]
 pub(crate) fn goodman_stick_ratio(
     #[pyo3(from_py_with = number)] beta: f64,
     #[pyo3(from_py_with = number)] mu: f64,
@@ -86,7 +86,7 @@ impl CoupledIndentation {
 /// The problem is D. A. Spence's, J. Elasticity 5 (1975) 297: the contact grows without changing
 /// its shape.
 #[pyfunction]
-#[pyo3(signature = (*, beta, mu))]
+#[pyo3(signature = (*, beta: "float", mu: "float"))]
 pub(crate) fn coupled_indentation(
     #[pyo3(from_py_with = number)] beta: f64,
     #[pyo3(from_py_with = number)] mu: f64,
@@ -134,6 +134,7 @@ impl CoatedIndentation {
     }
 
     /// Pressure at distance `r` [m] from the middle [Pa].
+    #[pyo3(signature = (r) -> "NDArray[np.float64]")]
     fn p<'py>(&self, py: Python<'py>, r: Numbers<'py>) -> Bound<'py, PyArrayDyn<f64>> {
         map(py, &r, |r| self.found.p(r))
     }
@@ -141,7 +142,7 @@ impl CoatedIndentation {
 
 /// Contact of a sphere of radius `R` [m] with a coated body under `W` [N], without friction.
 #[pyfunction]
-#[pyo3(signature = (*, R, indenter, coating, substrate, W))]
+#[pyo3(signature = (*, R: "float", indenter, coating, substrate, W: "float"))]
 pub(crate) fn coated_indentation(
     #[pyo3(from_py_with = number)] R: f64,
     indenter: Material,

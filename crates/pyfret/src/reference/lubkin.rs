@@ -37,7 +37,7 @@ made!(Lubkin by "Lubkin": hertz, bodies, mu);
 #[pymethods]
 impl Lubkin {
     #[new]
-    #[pyo3(signature = (hertz, *, bodies, mu))]
+    #[pyo3(signature = (hertz, *, bodies, mu: "float"))]
     fn new(
         hertz: Hertz,
         bodies: (Material, Material),
@@ -76,18 +76,20 @@ impl Lubkin {
     }
 
     /// Rotation phi_z at the stick radius `c` [m] [rad].
+    #[pyo3(signature = (c) -> "NDArray[np.float64]")]
     fn phi<'py>(&self, py: Python<'py>, c: Numbers<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         let radius = |c| positive("c", c).and(self.radius(c));
         map_checked(py, &c, radius, |c| self.torsion.phi(c))
     }
 
     /// Moment M_z at the stick radius `c` [m] [N m].
+    #[pyo3(signature = (c) -> "NDArray[np.float64]")]
     fn M_z<'py>(&self, py: Python<'py>, c: Numbers<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         map_checked(py, &c, |c| self.radius(c), |c| self.torsion.M_z(c))
     }
 
     /// Stick radius under the moment `M_z` [N m] [m].
-    #[pyo3(signature = (*, M_z))]
+    #[pyo3(signature = (*, M_z: "float"))]
     fn stick_radius(&self, #[pyo3(from_py_with = number)] M_z: f64) -> PyResult<f64> {
         let limit = self.torsion.M_limit() * (1.0 + 1e-9);
         between("M_z", M_z, (0.0, limit)).map_err(to_python)?;
@@ -95,7 +97,7 @@ impl Lubkin {
     }
 
     /// Circumferential traction at `r` for the stick radius `c` [m] [Pa].
-    #[pyo3(signature = (r, *, c))]
+    #[pyo3(signature = (r, *, c: "float") -> "NDArray[np.float64]")]
     fn q<'py>(
         &self,
         py: Python<'py>,

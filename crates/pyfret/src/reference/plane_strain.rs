@@ -33,7 +33,7 @@ made!(LineContact by "line_contact": R, bodies, W);
 
 /// Line contact of cylinders of relative radius `R` [m] under `W` [N/m].
 #[pyfunction]
-#[pyo3(signature = (*, R, bodies, W))]
+#[pyo3(signature = (*, R: "float", bodies, W: "float"))]
 pub(crate) fn line_contact(
     #[pyo3(from_py_with = number)] R: f64,
     bodies: (Material, Material),
@@ -71,12 +71,13 @@ impl LineContact {
     }
 
     /// Pressure at `x` [m] [Pa].
+    #[pyo3(signature = (x) -> "NDArray[np.float64]")]
     fn p<'py>(&self, py: Python<'py>, x: Numbers<'py>) -> Bound<'py, PyArrayDyn<f64>> {
         map(py, &x, |x| self.line.p(x))
     }
 
     /// Half-width of the stick zone under `T` [N/m] [m].
-    #[pyo3(signature = (*, T, mu))]
+    #[pyo3(signature = (*, T: "float", mu: "float"))]
     fn stick_half_width(
         &self,
         #[pyo3(from_py_with = number)] T: f64,
@@ -89,7 +90,7 @@ impl LineContact {
     /// Middle of the stick zone [m] under the bulk strain `eps_x` of body 2.
     ///
     /// The strain is brought up together with T > 0.
-    #[pyo3(signature = (*, eps_x, mu))]
+    #[pyo3(signature = (*, eps_x: "float", mu: "float"))]
     fn stick_middle(
         &self,
         #[pyo3(from_py_with = number)] eps_x: f64,
@@ -103,7 +104,7 @@ impl LineContact {
     /// Shear at `x` [m] under `T` [N/m] with the stick zone around `middle` [m] [Pa].
     ///
     /// Cattaneo's with the middle at 0, Carter's with it at a - c towards the leading edge.
-    #[pyo3(signature = (x, *, T, mu, middle = 0.0))]
+    #[pyo3(signature = (x, *, T: "float", mu: "float", middle: "float" = 0.0) -> "NDArray[np.float64]")]
     fn q<'py>(
         &self,
         py: Python<'py>,
@@ -118,7 +119,7 @@ impl LineContact {
     }
 
     /// Stress s_xx, s_zz, s_xz at (`x`, `z`) [m] in partial slip [Pa].
-    #[pyo3(signature = (x, z, *, T, mu))]
+    #[pyo3(signature = (x, z: "float", *, T: "float", mu: "float") -> "list[NDArray[np.float64]]")]
     fn stress<'py>(
         &self,
         py: Python<'py>,

@@ -59,7 +59,7 @@ made!(changing Springs by "Springs": largest, R, bodies, mu, n, loads);
 #[pymethods]
 impl Springs {
     #[new]
-    #[pyo3(signature = (largest, *, R, bodies, mu, n = 1500, loads = Vec::new()))]
+    #[pyo3(signature = (largest, *, R: "float", bodies, mu: "float", n: "int" = 1500, loads: "Sequence[tuple[float, float, int]]" = Vec::new()))]
     fn new(
         largest: Hertz,
         #[pyo3(from_py_with = number)] R: f64,
@@ -89,7 +89,7 @@ impl Springs {
     }
 
     /// Go straight to the forces `W`, `T` [N] in `steps` steps; the shift delta_x [m].
-    #[pyo3(signature = (*, W, T, steps = 10))]
+    #[pyo3(signature = (*, W: "float", T: "float", steps: "int" = 10))]
     fn load(
         &mut self,
         #[pyo3(from_py_with = number)] W: f64,

@@ -1,8 +1,11 @@
 //! Bodies.
 
+use crate::hints::sequence_of;
 use contact_core::scene as core;
+use pyo3::inspect::PyStaticExpr;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use pyo3::{PyTypeInfo, type_hint_union};
 
 use super::shape::{Flat, Shape};
 use crate::error::{must_be, takes};
@@ -112,6 +115,9 @@ impl Coatings {
 
 impl<'py> FromPyObject<'_, 'py> for Coatings {
     type Error = PyErr;
+
+    const INPUT_TYPE: PyStaticExpr =
+        type_hint_union!(Coating::TYPE_HINT, sequence_of!(Coating::TYPE_HINT));
 
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         if let Ok(one) = value.extract::<Coating>() {

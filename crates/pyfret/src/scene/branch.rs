@@ -96,10 +96,10 @@ impl Branch {
 impl Branch {
     #[new]
     #[pyo3(signature = (
-        *, W = None, M_x = None, M_y = None, T_x = None, T_y = None, M_z = None, delta_z = None,
-        phi_x = None, phi_y = None, delta_x = None, delta_y = None, phi_z = None, sigma_B = 0.0,
-        sigma_B1 = 0.0, rolled = 0.0, increments = None, spacing = Spacing::Uniform, t,
-        path_error = None,
+        *, W: "float | None" = None, M_x: "float | None" = None, M_y: "float | None" = None, T_x: "float | None" = None, T_y: "float | None" = None, M_z: "float | None" = None, delta_z: "float | None" = None,
+        phi_x: "float | None" = None, phi_y: "float | None" = None, delta_x: "float | None" = None, delta_y: "float | None" = None, phi_z: "float | None" = None, sigma_B: "float" = 0.0,
+        sigma_B1: "float" = 0.0, rolled: "float" = 0.0, increments = None, spacing = Spacing::Uniform, t: "float",
+        path_error: "float | None" = None,
     ))]
     fn new(
         #[pyo3(from_py_with = number)] W: Option<f64>,

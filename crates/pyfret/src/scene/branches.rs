@@ -1,13 +1,14 @@
 //! Branches appended to a load path.
 
 use contact_core::scene::{self as core, Prescribed, RigidMotion};
-use numpy::{PyArray1, ToPyArray};
+use numpy::ToPyArray;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use super::branch::Spacing;
 use super::increments::Values;
 use crate::error::to_python;
+use crate::hints::Numbers;
 
 /// Appends a branch that goes to the loads and motions which `change` makes of the present ones.
 pub(super) fn branch(
@@ -29,10 +30,10 @@ pub(super) fn column<'py>(
     path: &core::LoadPath,
     py: Python<'py>,
     of: impl Fn(&core::LoadPoint) -> f64,
-) -> PyResult<Bound<'py, PyArray1<f64>>> {
+) -> PyResult<Numbers<'py>> {
     path.check_length().map_err(to_python)?;
     let column: Vec<f64> = path.points().iter().map(of).collect();
-    Ok(column.to_pyarray(py))
+    Ok(column.to_pyarray(py).into())
 }
 
 /// Goes to the motions of body 1 on a straight line; one of them may take several values in turn.

@@ -1,12 +1,15 @@
 //! Friction laws.
 
 use contact_core::scene as core;
+use pyo3::inspect::PyStaticExpr;
 use pyo3::prelude::*;
+use pyo3::{PyTypeInfo, type_hint_union};
 
 use super::SurfaceMap;
 use super::friction_law::{function, own_law};
 use crate::arguments::{List, number};
 use crate::error::{must_be, to_python};
+use crate::hints;
 use crate::parts::{members, parts};
 
 /// What a cell has been through.
@@ -87,7 +90,7 @@ parts!(Friction: mu, mu_y, kinetic, map, history, law);
 #[pymethods]
 impl Friction {
     #[new]
-    #[pyo3(signature = (mu, *, mu_y = None, kinetic = None, map = None, history = None, law = None))]
+    #[pyo3(signature = (mu: "float", *, mu_y: "float | None" = None, kinetic: "float | None" = None, map = None, history: "tuple[History, Sequence[tuple[float, float]]] | None" = None, law: "FrictionFunction | Literal['own'] | None" = None))]
     fn new(
         #[pyo3(from_py_with = number)] mu: f64,
         #[pyo3(from_py_with = number)] mu_y: Option<f64>,
@@ -170,6 +173,9 @@ pub(crate) struct AnyFriction(pub(crate) core::Friction);
 
 impl<'py> FromPyObject<'_, 'py> for AnyFriction {
     type Error = PyErr;
+
+    const INPUT_TYPE: PyStaticExpr =
+        type_hint_union!(Friction::TYPE_HINT, hints::FLOAT, hints::word!("stick"));
 
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         if let Ok(law) = value.extract::<Friction>() {

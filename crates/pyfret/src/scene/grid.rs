@@ -1,11 +1,13 @@
 //! The mesh of the contact plane.
 
 use contact_core::scene as core;
-use numpy::{PyArray1, ToPyArray};
+use numpy::ToPyArray;
+use pyo3::inspect::PyStaticExpr;
 use pyo3::prelude::*;
 
 use crate::arguments::number;
 use crate::error::{must_be, takes, to_python};
+use crate::hints::Numbers;
 use crate::parts::parts;
 
 /// Distance of points or cells along x and y, or the same along both.
@@ -13,6 +15,8 @@ pub(crate) struct Pitch(pub(crate) (f64, f64));
 
 impl<'py> FromPyObject<'_, 'py> for Pitch {
     type Error = PyErr;
+
+    const INPUT_TYPE: PyStaticExpr = crate::hints::PITCH;
 
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         if let Ok(both) = number(&value) {
@@ -31,6 +35,8 @@ struct Cells((usize, usize));
 impl<'py> FromPyObject<'_, 'py> for Cells {
     type Error = PyErr;
 
+    const INPUT_TYPE: PyStaticExpr = crate::hints::CELLS;
+
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         if let Ok(both) = number(&value) {
             return Ok(Self((both, both)));
@@ -47,6 +53,8 @@ struct Count(usize);
 
 impl<'py> FromPyObject<'_, 'py> for Count {
     type Error = PyErr;
+
+    const INPUT_TYPE: PyStaticExpr = crate::hints::INT;
 
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         let count = number(&value).map(Self);
@@ -77,7 +85,7 @@ takes!(Grid, "a grid, such as Grid.centred(extent=1e-3, n=128)");
 #[pymethods]
 impl Grid {
     #[new]
-    #[pyo3(signature = (*, nx, ny, dx, dy, plane_strain = false))]
+    #[pyo3(signature = (*, nx, ny, dx: "float", dy: "float", plane_strain = false))]
     fn new(
         nx: Count,
         ny: Count,
@@ -118,7 +126,7 @@ impl Grid {
     /// Forces, moments and energies are those on the width `width` [m]; displacements are
     /// relative to the points at the distance `extent` from a load.
     #[staticmethod]
-    #[pyo3(signature = (*, extent, n, width = 1.0))]
+    #[pyo3(signature = (*, extent: "float", n, width: "float" = 1.0))]
     fn strip(
         #[pyo3(from_py_with = number)] extent: f64,
         n: Count,
@@ -174,16 +182,16 @@ impl Grid {
 
     /// Centres of the cells along x [m], shape (nx,).
     #[getter]
-    fn x<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+    fn x<'py>(&self, py: Python<'py>) -> Numbers<'py> {
         let x: Vec<f64> = (0..self.0.nx).map(|i| self.0.x(i)).collect();
-        x.to_pyarray(py)
+        x.to_pyarray(py).into()
     }
 
     /// Centres of the cells along y [m], shape (ny,).
     #[getter]
-    fn y<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+    fn y<'py>(&self, py: Python<'py>) -> Numbers<'py> {
         let y: Vec<f64> = (0..self.0.ny).map(|j| self.0.y(j)).collect();
-        y.to_pyarray(py)
+        y.to_pyarray(py).into()
     }
 
     pub(crate) fn __repr__(&self) -> String {

@@ -1,7 +1,9 @@
 //! Numbers of increments, and values to visit.
 
 use contact_core::scene as core;
+use pyo3::inspect::PyStaticExpr;
 use pyo3::prelude::*;
+use pyo3::{PyTypeInfo, type_hint_union};
 
 use crate::arguments::{List, number};
 use crate::error::must_be;
@@ -15,6 +17,8 @@ pub(super) enum Values {
 
 impl<'py> FromPyObject<'_, 'py> for Values {
     type Error = PyErr;
+
+    const INPUT_TYPE: PyStaticExpr = crate::hints::NUMBERS;
 
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         if let Ok(one) = number(&value) {
@@ -43,6 +47,8 @@ pub(super) struct Names(pub(super) Vec<String>);
 impl<'py> FromPyObject<'_, 'py> for Names {
     type Error = PyErr;
 
+    const INPUT_TYPE: PyStaticExpr = crate::hints::NAMES;
+
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         if let Ok(one) = value.extract::<String>() {
             return Ok(Self(vec![one]));
@@ -65,6 +71,7 @@ parts!(PerRange: increments);
 #[pymethods]
 impl PerRange {
     #[new]
+    #[pyo3(signature = (increments: "int"))]
     fn new(#[pyo3(from_py_with = number)] increments: usize) -> Self {
         Self(increments)
     }
@@ -85,6 +92,8 @@ pub(super) struct Count(pub(super) Option<usize>);
 
 impl<'py> FromPyObject<'_, 'py> for Count {
     type Error = PyErr;
+
+    const INPUT_TYPE: PyStaticExpr = crate::hints::COUNT;
 
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         if value.extract::<&str>().is_ok_and(|word| word == "auto") {
@@ -107,6 +116,8 @@ pub(super) enum AnyIncrements {
 
 impl<'py> FromPyObject<'_, 'py> for AnyIncrements {
     type Error = PyErr;
+
+    const INPUT_TYPE: PyStaticExpr = type_hint_union!(PerRange::TYPE_HINT, crate::hints::COUNT);
 
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         if let Ok(per_range) = value.extract::<PerRange>() {

@@ -5,7 +5,6 @@ use std::path::PathBuf;
 
 use contact_core::Error;
 use contact_core::scene::{self as core, Prescribed, RigidMotion};
-use numpy::PyArray1;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -15,6 +14,7 @@ use super::branches::{branch, column, cycled, moved, prescribe};
 use super::increments::{AnyIncrements, Count, Names, Values};
 use crate::arguments::{List, number};
 use crate::error::{takes, to_python};
+use crate::hints::Numbers;
 use crate::parts::parts;
 use crate::quantity::{Given, Optional, known};
 
@@ -51,7 +51,7 @@ fn checked(path: core::LoadPath) -> PyResult<LoadPath> {
 #[pymethods]
 impl LoadPath {
     #[new]
-    #[pyo3(signature = (branches = List(Vec::new()), *, rig_stiffness = None))]
+    #[pyo3(signature = (branches = List(Vec::new()), *, rig_stiffness: "float | None" = None))]
     fn new(
         branches: List<Branch>,
         #[pyo3(from_py_with = number)] rig_stiffness: Option<f64>,
@@ -67,7 +67,7 @@ impl LoadPath {
     ///
     /// It is in series with the contact: ``delta_x`` is the shift of the spring's far end, given or
     /// read, and the contact's own shift is ``delta_x - T_x/K``. None takes the spring out.
-    #[pyo3(signature = (stiffness))]
+    #[pyo3(signature = (stiffness: "float | None"))]
     fn rig(&self, #[pyo3(from_py_with = number)] stiffness: Option<f64>) -> Self {
         Self(core::LoadPath {
             rig_stiffness: stiffness,
@@ -88,7 +88,7 @@ impl LoadPath {
     }
 
     /// Go to the normal force `W` [N], the tangential forces kept, in one unit of path time.
-    #[pyo3(signature = (W, *, increments = Count(None)))]
+    #[pyo3(signature = (W: "float", *, increments = Count(None)))]
     fn normal(&self, #[pyo3(from_py_with = Given::W)] W: f64, increments: Count) -> PyResult<Self> {
         checked(self.0.clone().normal(W, increments.0))
     }
@@ -119,7 +119,7 @@ impl LoadPath {
     /// Its middle is where the path stands. It goes to (T_x, 0) in `increments` and takes as many
     /// for each turn towards (0, T_y), each a branch of its own; with "auto", 64 branches for each
     /// turn, and as many increments as the path tolerance of the settings asks for.
-    #[pyo3(signature = (*, T_x, T_y, turns = 1, increments = Count(None)))]
+    #[pyo3(signature = (*, T_x: "float", T_y: "float", turns: "int" = 1, increments = Count(None)))]
     fn ellipse(
         &self,
         #[pyo3(from_py_with = number)] T_x: f64,
@@ -145,7 +145,7 @@ impl LoadPath {
     /// **columns : array
     ///     Loads (``W``, ``T_x``, ...), motions (``delta_x``, ...), ``sigma_B``, ``sigma_B1``,
     ///     ``rolled`` and the path time ``t`` at the waypoints. What has no column stays as it is.
-    #[pyo3(signature = (*, increments = AnyIncrements::Each(1), **columns))]
+    #[pyo3(signature = (*, increments = AnyIncrements::Each(1), **columns: "Sequence[float] | NDArray[np.float64]"))]
     fn waypoints(
         &self,
         increments: AnyIncrements,
@@ -225,7 +225,7 @@ impl LoadPath {
     ///     How they are spaced (default: equal increments of force).
     /// t : float, optional
     ///     Path time at the end (default: one unit later).
-    #[pyo3(signature = (*, W = None, T_x = None, T_y = None, M_x = None, M_y = None, M_z = None, sigma_B = None, sigma_B1 = None, rolled = None, increments = Count(None), spacing = Spacing::Uniform, t = None))]
+    #[pyo3(signature = (*, W: "float | None" = None, T_x: "float | None" = None, T_y: "float | None" = None, M_x: "float | None" = None, M_y: "float | None" = None, M_z: "float | None" = None, sigma_B: "float | None" = None, sigma_B1: "float | None" = None, rolled: "float | None" = None, increments = Count(None), spacing = Spacing::Uniform, t: "float | None" = None))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn force(
         &self,
@@ -277,7 +277,7 @@ impl LoadPath {
     /// >>> pressed = LoadPath.start().normal(10.0)
     /// >>> pressed.displace(delta_x=[2e-6, -2e-6, 2e-6])
     /// LoadPath(4 branches, increments to be chosen)
-    #[pyo3(signature = (*, delta_z = None, delta_x = None, delta_y = None, phi_x = None, phi_y = None, phi_z = None, increments = Count(None), spacing = Spacing::Uniform, t = None))]
+    #[pyo3(signature = (*, delta_z = None, delta_x = None, delta_y = None, phi_x = None, phi_y = None, phi_z = None, increments = Count(None), spacing = Spacing::Uniform, t: "float | None" = None))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn displace(
         &self,
@@ -320,7 +320,7 @@ impl LoadPath {
     /// --------
     /// >>> LoadPath.start().normal(10.0).cycles(2, delta_x=2e-6)
     /// LoadPath(6 branches, increments to be chosen)
-    #[pyo3(signature = (n, *, T_x = None, T_y = None, M_z = None, delta_x = None, delta_y = None, phi_z = None, increments = Count(None), **unknown), text_signature = "($self, n, *, T_x=None, T_y=None, M_z=None, delta_x=None, delta_y=None, phi_z=None, increments=...)")]
+    #[pyo3(signature = (n: "int", *, T_x: "float | None" = None, T_y: "float | None" = None, M_z: "float | None" = None, delta_x: "float | None" = None, delta_y: "float | None" = None, phi_z: "float | None" = None, increments = Count(None), **unknown), text_signature = "($self, n, *, T_x=None, T_y=None, M_z=None, delta_x=None, delta_y=None, phi_z=None, increments=...)")]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn cycles(
         &self,
@@ -359,7 +359,7 @@ impl LoadPath {
     /// Stay at the loads and motions reached for some increments, one unit of path time.
     ///
     /// What friction makes of the history of a cell goes on meanwhile.
-    #[pyo3(signature = (*, increments = 1))]
+    #[pyo3(signature = (*, increments: "int" = 1))]
     fn hold(&self, #[pyo3(from_py_with = number)] increments: usize) -> Self {
         Self(self.0.clone().hold(increments))
     }
@@ -372,49 +372,49 @@ impl LoadPath {
 
     /// Path time at the end of every increment.
     #[getter]
-    fn t<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    fn t<'py>(&self, py: Python<'py>) -> PyResult<Numbers<'py>> {
         column(&self.0, py, |point| point.t)
     }
 
     /// Normal force at the end of every increment [N]; NaN where only the solution can say.
     #[getter]
-    fn W<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    fn W<'py>(&self, py: Python<'py>) -> PyResult<Numbers<'py>> {
         column(&self.0, py, |point| point.loads.W)
     }
 
     /// Tangential force along x at the end of every increment [N].
     #[getter]
-    fn T_x<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    fn T_x<'py>(&self, py: Python<'py>) -> PyResult<Numbers<'py>> {
         column(&self.0, py, |point| point.loads.T_x)
     }
 
     /// Tangential force along y at the end of every increment [N].
     #[getter]
-    fn T_y<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    fn T_y<'py>(&self, py: Python<'py>) -> PyResult<Numbers<'py>> {
         column(&self.0, py, |point| point.loads.T_y)
     }
 
     /// Bulk stress of body 2 at the end of every increment [Pa].
     #[getter]
-    fn sigma_B<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    fn sigma_B<'py>(&self, py: Python<'py>) -> PyResult<Numbers<'py>> {
         column(&self.0, py, |point| point.loads.sigma_B)
     }
 
     /// Bulk stress of body 1 at the end of every increment [Pa].
     #[getter]
-    fn sigma_B1<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    fn sigma_B1<'py>(&self, py: Python<'py>) -> PyResult<Numbers<'py>> {
         column(&self.0, py, |point| point.loads.sigma_B1)
     }
 
     /// Way rolled at the end of every increment [m].
     #[getter]
-    fn rolled<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    fn rolled<'py>(&self, py: Python<'py>) -> PyResult<Numbers<'py>> {
         column(&self.0, py, |point| point.loads.rolled)
     }
 
     /// Torsional moment at the end of every increment [N m].
     #[getter]
-    fn M_z<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    fn M_z<'py>(&self, py: Python<'py>) -> PyResult<Numbers<'py>> {
         column(&self.0, py, |point| point.loads.M_z)
     }
 

@@ -18,13 +18,14 @@ pub(crate) struct Profile(core::Profile);
 impl Profile {
     /// Return the same value everywhere.
     #[staticmethod]
+    #[pyo3(signature = (value: "float"))]
     fn constant(#[pyo3(from_py_with = number)] value: f64) -> Self {
         Self(core::Profile::Constant(value))
     }
 
     /// Return top + (bottom - top) s.
     #[staticmethod]
-    #[pyo3(signature = (*, top, bottom))]
+    #[pyo3(signature = (*, top: "float", bottom: "float"))]
     fn linear(
         #[pyo3(from_py_with = number)] top: f64,
         #[pyo3(from_py_with = number)] bottom: f64,
@@ -34,7 +35,7 @@ impl Profile {
 
     /// Return top + (bottom - top) s^exponent, with a positive exponent.
     #[staticmethod]
-    #[pyo3(signature = (*, top, bottom, exponent))]
+    #[pyo3(signature = (*, top: "float", bottom: "float", exponent: "float"))]
     fn power(
         #[pyo3(from_py_with = number)] top: f64,
         #[pyo3(from_py_with = number)] bottom: f64,
@@ -49,7 +50,7 @@ impl Profile {
 
     /// Return top (bottom/top)^s, both of one sign.
     #[staticmethod]
-    #[pyo3(signature = (*, top, bottom))]
+    #[pyo3(signature = (*, top: "float", bottom: "float"))]
     fn exponential(
         #[pyo3(from_py_with = number)] top: f64,
         #[pyo3(from_py_with = number)] bottom: f64,
@@ -59,6 +60,7 @@ impl Profile {
 
     /// Interpolate linearly between the points (s, value), s rising from 0 to 1.
     #[staticmethod]
+    #[pyo3(signature = (points: "Sequence[tuple[float, float]]"))]
     fn table(points: List<(f64, f64)>) -> Self {
         Self(core::Profile::Table(points.0))
     }
@@ -140,7 +142,7 @@ impl Profile {
 /// InvalidSceneError
 ///     If a profile, the thickness or the number of layers is out of its range.
 #[pyfunction]
-#[pyo3(signature = (*, E, nu, thickness, layers))]
+#[pyo3(signature = (*, E, nu, thickness: "float", layers: "int"))]
 pub(crate) fn graded(
     E: Profile,
     nu: Profile,

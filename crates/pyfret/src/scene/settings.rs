@@ -1,6 +1,7 @@
 //! How a scene is solved: a dataclass of Python, which comes and goes as the tables of a scene file.
 
 use contact_core::scene as core;
+use pyo3::inspect::PyStaticExpr;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -13,6 +14,8 @@ pub(crate) struct Settings(pub(crate) core::Settings);
 
 impl<'py> FromPyObject<'_, 'py> for Settings {
     type Error = PyErr;
+
+    const INPUT_TYPE: PyStaticExpr = crate::hints::SETTINGS;
 
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         let class = value.py().import("pyfret.settings")?.getattr("Settings")?;
@@ -32,6 +35,8 @@ impl<'py> IntoPyObject<'py> for Settings {
     type Target = PyAny;
     type Output = Bound<'py, PyAny>;
     type Error = PyErr;
+
+    const OUTPUT_TYPE: PyStaticExpr = crate::hints::SETTINGS;
 
     fn into_pyobject(self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let tables: Bound<'py, PyDict> = to_dict(&self.0.to_table(), py)?;

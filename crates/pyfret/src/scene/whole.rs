@@ -128,7 +128,7 @@ impl Scene {
 
     /// The same scene with some of its parts exchanged.
     #[pyo3(signature = (*, body1 = None, body2 = None, grid = None, path = None, settings = None,
-                        save = None, mu = None, title = None))]
+                        save: "Literal['branches', 'all'] | Sequence[int] | None" = None, mu = None, title = None))]
     fn replace(
         &self,
         body1: Option<Body>,
@@ -255,7 +255,7 @@ impl Scene {
     /// --------
     /// >>> scene.interfaces()  # doctest: +SKIP
     /// [3e-06, 3.5e-06]
-    #[pyo3(signature = (body_number = 2))]
+    #[pyo3(signature = (body_number: "int" = 2))]
     fn interfaces(&self, #[pyo3(from_py_with = number)] body_number: u8) -> PyResult<Vec<f64>> {
         Ok(match side(body_number)? {
             Side::Body1 => self.0.body1.interfaces(),

@@ -5,13 +5,14 @@ use std::path::PathBuf;
 
 use contact_core::Error;
 use contact_core::scene as core;
-use numpy::{PyArray2, ToPyArray};
+use numpy::ToPyArray;
 use pyo3::exceptions::{PyTypeError, PyUserWarning};
 use pyo3::prelude::*;
 
 use super::super::Pitch;
 use crate::arguments::Field;
 use crate::error::{InvalidSceneError, must_be, to_python};
+use crate::hints::Numbers;
 use crate::parts::parts;
 
 /// Numbers over the contact plane, the middle of the map over the origin.
@@ -38,7 +39,7 @@ parts!(SurfaceMap: values, spacing);
 #[pymethods]
 impl SurfaceMap {
     #[new]
-    #[pyo3(signature = (values, *, spacing, missing = "refuse"))]
+    #[pyo3(signature = (values: "ArrayLike", *, spacing, missing: "Literal['refuse', 'crop', 'fill']" = "refuse"))]
     fn new(values: &Bound<'_, PyAny>, spacing: Pitch, missing: &str) -> PyResult<Self> {
         let wanted = "an array of numbers of shape (points along x, points along y)";
         let numbers = Field::with_holes(values).map_err(|error| {
@@ -83,7 +84,7 @@ impl SurfaceMap {
     ///     If the file cannot be read, says something else than the arguments, or leaves something
     ///     open; the message says which line and column, and what to give.
     #[staticmethod]
-    #[pyo3(signature = (path, *, spacing = None, unit = None, channel = None, missing = "refuse"))]
+    #[pyo3(signature = (path, *, spacing = None, unit = None, channel = None, missing: "Literal['refuse', 'crop', 'fill']" = "refuse"))]
     fn from_file(
         py: Python<'_>,
         path: PathBuf,
@@ -110,8 +111,8 @@ impl SurfaceMap {
 
     /// The numbers.
     #[getter]
-    fn values<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
-        self.0.values.to_pyarray(py)
+    fn values<'py>(&self, py: Python<'py>) -> Numbers<'py> {
+        self.0.values.to_pyarray(py).into()
     }
 
     /// Distance of the points along x and y [m].

@@ -31,7 +31,7 @@ parts!(Rough: rms, hurst, longest, shortest, seed);
 #[pymethods]
 impl Rough {
     #[new]
-    #[pyo3(signature = (*, rms, hurst, longest, shortest, seed = 0))]
+    #[pyo3(signature = (*, rms: "float", hurst: "float", longest: "float", shortest: "float", seed: "int" = 0))]
     fn new(
         #[pyo3(from_py_with = number)] rms: f64,
         #[pyo3(from_py_with = number)] hurst: f64,

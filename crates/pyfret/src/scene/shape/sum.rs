@@ -1,7 +1,9 @@
 //! Any shape, and several on top of one another: a sum is made of shapes, and is one.
 
 use contact_core::scene as core;
+use pyo3::inspect::PyStaticExpr;
 use pyo3::prelude::*;
+use pyo3::{PyTypeInfo, type_hint_union};
 
 use super::edged::{Cone, FlatPunch, Wedge};
 use super::flat::Flat;
@@ -32,6 +34,7 @@ impl Sum {
 #[pymethods]
 impl Sum {
     #[new]
+    #[pyo3(signature = (parts: "Sequence[Flat | Sphere | Ellipsoid | Cylinder | CrownedRoller | Cone | Wedge | FlatPunch | Waviness | Rough | SurfaceMap | Sum]"))]
     fn new(parts: Vec<Shape>) -> Self {
         Self(parts.into_iter().map(core::Shape::from).collect())
     }
@@ -84,6 +87,21 @@ pub(crate) enum Shape {
 
 impl<'py> FromPyObject<'_, 'py> for Shape {
     type Error = PyErr;
+
+    const INPUT_TYPE: PyStaticExpr = type_hint_union!(
+        Flat::TYPE_HINT,
+        Sphere::TYPE_HINT,
+        Ellipsoid::TYPE_HINT,
+        Cylinder::TYPE_HINT,
+        CrownedRoller::TYPE_HINT,
+        Cone::TYPE_HINT,
+        Wedge::TYPE_HINT,
+        FlatPunch::TYPE_HINT,
+        Waviness::TYPE_HINT,
+        Rough::TYPE_HINT,
+        SurfaceMap::TYPE_HINT,
+        Sum::TYPE_HINT
+    );
 
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         macro_rules! first_of {

@@ -25,5 +25,5 @@ elementary!(
         /// Phase at the origin [rad].
         phase
     },
-    (*, amplitude, wavelength, angle = 0.0, phase = 0.0)
+    (*, amplitude: "float", wavelength: "float", angle: "float" = 0.0, phase: "float" = 0.0)
 );
