@@ -3,9 +3,9 @@
 //! D. Taylor, The Theory of Critical Distances, Elsevier (2007).
 
 use contact_core::Error;
-use contact_core::gauss::gauss;
 use contact_subsurface::{Depth, Line};
 use ndarray::{Array3, Axis};
+use quadrature::gauss;
 
 use super::judged::Judge;
 use super::site::{History, Site};

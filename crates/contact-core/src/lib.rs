@@ -28,7 +28,6 @@ pub mod convolution;
 pub mod digits;
 pub mod error;
 pub mod estimate;
-pub mod gauss;
 pub mod hertz;
 pub mod kernels;
 pub mod linear_system;

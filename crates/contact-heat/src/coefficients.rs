@@ -9,11 +9,11 @@
 use std::f64::consts::PI;
 
 use contact_core::Error;
-use contact_core::gauss::gauss;
 use contact_core::kernels::{Cell, Complex64, Hankel, RadialTable};
 use contact_core::memory::fits;
 use contact_core::scene::Grid;
 use ndarray::Array2;
+use quadrature::gauss;
 use rayon::prelude::*;
 
 use super::conductor::Layers;

@@ -3,11 +3,11 @@
 use std::f64::consts::PI;
 
 use contact_core::Error;
-use contact_core::gauss::gauss_legendre;
 use contact_core::hertz::hertz;
 use contact_core::linear_system::solve;
 use contact_core::scene::{Coating, Elastic};
 use ndarray::Array2;
+use quadrature::gauss_legendre;
 
 use super::layered_response::layered_normal_remainder;
 

@@ -3,10 +3,10 @@
 use std::f64::consts::PI;
 
 use contact_core::bisection::bisect;
-use contact_core::gauss::integrate;
 use contact_core::hertz::Hertz;
 use contact_core::hertz::elliptic_integrals;
 use contact_core::scene::Elastic;
+use quadrature::integrate;
 
 /// Points of the Gauss rule; the integrands are smooth but for a logarithm at full slip.
 const NODES: usize = 64;

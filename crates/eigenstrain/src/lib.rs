@@ -19,7 +19,6 @@
 mod column;
 mod error;
 mod factors;
-mod gauss;
 mod mesh;
 mod operator;
 mod sweep;

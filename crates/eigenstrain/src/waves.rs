@@ -14,7 +14,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::gauss;
+use quadrature::gauss_legendre;
+
 use crate::mesh::Cells;
 
 /// Steepness of the bump b: it leaves out erfc(BUMP/2)/2 of F at k = 0, and images of
@@ -135,7 +136,7 @@ pub(crate) fn of_integral(cells: &Cells, periods: Periods) -> Vec<Wave> {
     let (length, width) = (cells.nx as f64 * cells.dx, cells.ny as f64 * cells.dy);
     if cells.plane_strain {
         let n = nodes(reach * length);
-        return gauss::rule(n)
+        return gauss_legendre(n, 0.0, 1.0)
             .into_iter()
             .map(|(at, weight)| {
                 let k = at * reach;
@@ -151,7 +152,7 @@ pub(crate) fn of_integral(cells: &Cells, periods: Periods) -> Vec<Wave> {
     let farthest = length.hypot(width);
     let n = nodes(reach * farthest);
     let mut waves = Vec::new();
-    for (at, weight) in gauss::rule(n) {
+    for (at, weight) in gauss_legendre(n, 0.0, 1.0) {
         let k = at * reach;
         let directions = (0.5 * (k * farthest + ANGLES)).ceil();
         let step = PI / directions;

@@ -1,6 +1,6 @@
 //! Integrals over one rectangular cell.
 
-use crate::gauss::gauss;
+use quadrature::gauss;
 
 /// Most Gauss nodes along one side; a cell that needs more is halved.
 const MOST_NODES: usize = 10;

@@ -13,9 +13,9 @@ use rustfft::FftPlanner;
 use rustfft::num_complex::Complex64;
 
 use crate::error::Error;
-use crate::gauss::gauss;
 use crate::memory::fits;
 use crate::scene::{Grid, MOST_ALIASES};
+use quadrature::gauss;
 
 /// The displacements u_x, u_y, u_z \[m/Pa\] (rows) under tractions exp(i(k_x x + k_y y)) q_x, q_y,
 /// p (columns).

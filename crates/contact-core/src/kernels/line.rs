@@ -21,8 +21,8 @@ use rayon::prelude::*;
 
 use super::InfluenceCoefficients;
 use super::layered_frf::{HalfSpace, RadialResponse, Stack};
-use crate::gauss::gauss;
 use crate::scene::Grid;
+use quadrature::gauss;
 
 /// Phase 2 k h beyond which the remainder, exp(-2 k h) times a low power, is below rounding.
 const DECAY: f64 = 48.0;

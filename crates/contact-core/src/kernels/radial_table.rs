@@ -18,7 +18,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use rayon::prelude::*;
 
 use super::bessel::bessel;
-use crate::gauss::gauss;
+use quadrature::gauss;
 
 /// Chebyshev nodes per panel: 9.9^-16 is below rounding.
 const ORDER: usize = 16;

@@ -12,8 +12,8 @@ use std::f64::consts::PI;
 
 use super::half_space::Six;
 use super::layered_frf::{RadialResponse, Stack};
-use crate::gauss::gauss;
 use crate::scene::Grid;
+use quadrature::gauss;
 
 /// Gauss nodes in angle and radius of the mean at zero frequency: exact to rounding.
 const MEAN: usize = 16;
