@@ -18,17 +18,21 @@ pub enum Error {
     },
     /// The faces of a crack found no state of opening, stick and slip.
     #[error(
-        "the faces of the crack of length {length:.4e} m found no state of opening, stick and slip \
-         in {passes} passes (change of the pressure {change:.2e} of its largest); a smaller \
-         coefficient of friction or smaller increments help"
+        "the faces of the crack of length {length:.4e} m, with the coefficient of friction {friction}, found no \
+         state of opening, stick and slip in {passes} passes, the load cut into halves: {at_fault} of {points} \
+         points change from pass to pass; a smaller coefficient of friction helps"
     )]
     Faces {
         /// Length of the crack \[m\].
         length: f64,
-        /// Passes made.
+        /// Coefficient of friction between the faces.
+        friction: f64,
+        /// Linear systems solved.
         passes: usize,
-        /// Last change of the pressure between the faces over its largest.
-        change: f64,
+        /// Points that broke their inequality after the last pass.
+        at_fault: usize,
+        /// Points of the crack.
+        points: usize,
     },
     /// The system of the dislocations has no solution.
     #[error("the dislocations of the crack of length {length:.4e} m have no solution: {why}")]

@@ -1,37 +1,17 @@
 //! Faces of a crack over a history: open, stick, slip by Coulomb's law.
 
-use std::f64::consts::PI;
-
-use ndarray::Array1;
+use ndarray::{Array1, s};
 
 use super::Error;
-use super::closure::{Contact, Opening, solve};
+use super::closure::{Instant, Opening, Signed, State};
 use super::crack::{Crack, Intensity, k_of_density};
 use super::lu::largest;
-use super::stress::{PlaneStress, tractions};
+use super::stress::{PlaneStress, Traction, tractions};
 
-/// Passes between pressure and shear of the faces before the search gives up.
-const MOST_PASSES: usize = 200;
-/// Change of the pressure from pass to pass that ends the search, over its largest: a point between
-/// open and closed, or between stick and slip, that comes and goes changes it by some 1e-7; K is
-/// told to 1e-4.
-const LEAST_CHANGE: f64 = 1e-6;
-/// The same after the last pass, which then counts as an error of K: more points come and go along
-/// kinked cracks.
-const BEARABLE: f64 = 1e-4;
-/// Values below this part of the largest of their kind count as zero.
-const ZERO: f64 = 1e-12;
-
-/// State of the faces at a point.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum State {
-    /// Apart.
-    Open,
-    /// In contact without relative motion since the last instant.
-    Stick,
-    /// In contact and slipping, or without friction.
-    Slip,
-}
+/// Most halvings of the change of the load between two instants before the search gives up.
+const MOST_HALVINGS: usize = 5;
+/// Most linear systems solved in a search that halves the load.
+const MOST_PASSES: usize = 400;
 
 /// The faces of a crack at one instant; [`Faces::next`] takes them to the next one.
 #[derive(Clone, Debug)]
@@ -42,15 +22,19 @@ pub struct Faces {
     slip: Array1<f64>,
     /// Slip since the last instant.
     moved: Array1<f64>,
-    open: Vec<bool>,
-    /// Stick, or the sign of the shear traction where slipping.
-    moving: Vec<i8>,
+    /// Tractions of the body without the crack, normal then shear, and the largest of the history
+    /// \[Pa\].
+    load: Array1<f64>,
+    most: f64,
+    states: Vec<Signed>,
     /// K at the tip; K_I is never below zero.
     pub intensity: Intensity,
     /// Opening of the faces and the pressure between them.
     pub opening: Opening,
     /// Shear traction between the faces \[Pa\].
     pub shear: Array1<f64>,
+    /// Linear systems solved for this instant.
+    pub passes: usize,
 }
 
 impl Faces {
@@ -69,8 +53,9 @@ impl Faces {
             friction,
             slip: Array1::zeros(n),
             moved: Array1::zeros(n),
-            open: vec![true; n],
-            moving: vec![0; n],
+            load: Array1::zeros(2 * n),
+            most: 0.0,
+            states: vec![(State::Open, 0); n],
             intensity: Intensity::default(),
             opening: Opening {
                 open: vec![false; n],
@@ -78,6 +63,7 @@ impl Faces {
                 normal: Array1::zeros(n),
             },
             shear: Array1::zeros(n),
+            passes: 0,
         })
     }
 
@@ -87,10 +73,12 @@ impl Faces {
         let points = self.crack.points();
         let tractions = tractions(&points, stress)?;
         let linear = self.crack.linear(&tractions);
-        let normal: Array1<f64> = tractions.iter().map(|t| t.normal).collect();
-        let shear: Array1<f64> = tractions.iter().map(|t| t.shear).collect();
+        let part = |of: fn(&Traction) -> f64| tractions.iter().map(of);
+        let load: Array1<f64> = part(|t| t.normal).chain(part(|t| t.shear)).collect();
         let mut next = self.clone();
-        let change = next.settle(self.crack.contact()?, &normal, &shear)?;
+        next.passes = 0;
+        next.go_to(load, MOST_HALVINGS)?;
+        next.moved = &next.slip - &self.slip;
         let root = self.crack.length().sqrt();
         let k = k_of_density() * self.crack.system.rule.tip_leg.sqrt() * root
             / self.crack.contact()?.tip;
@@ -106,111 +94,49 @@ impl Faces {
             // borders as unknowns: below 1e-4 of the intensity and of that without contact.
             let sizes = [linear, next.intensity].map(|k| k.K_I.hypot(k.K_II));
             next.intensity.error += 1e-4 * (sizes[0] + sizes[1]);
-            let scale = largest(&normal).max(largest(&shear));
-            next.intensity.error += change * scale * (PI * self.crack.length()).sqrt();
         }
         Ok(next)
     }
 
-    /// Pressure for known shear, shear for known pressure, until the pressure settles; its last
-    /// change over the largest traction.
-    fn settle(
-        &mut self,
-        contact: &Contact,
-        normal: &Array1<f64>,
-        shear: &Array1<f64>,
-    ) -> Result<f64, Error> {
-        let n = normal.len();
+    /// Takes the faces to a load, at once or in halves.
+    fn go_to(&mut self, load: Array1<f64>, halvings: usize) -> Result<(), Error> {
+        let n = self.slip.len();
+        let contact = self.crack.contact()?;
         let before = self.slip.clone();
-        let mut carried = Array1::zeros(n);
-        let mut pressure: Option<Array1<f64>> = None;
-        let mut change = f64::INFINITY;
-        for pass in 1..=MOST_PASSES {
-            let load = normal + &contact.nt.dot(&(&carried - shear));
-            let mut open = self.open.clone();
-            let Some(opening) = contact.open(&load, &mut open) else {
-                break;
-            };
-            let known = shear + &contact.tn.dot(&opening.gap);
-            self.open = open;
-            let scale = largest(normal).max(largest(shear));
-            change = pressure.as_ref().map_or(f64::INFINITY, |last| {
-                largest(&(last - &opening.normal)) / scale.max(f64::MIN_POSITIVE)
-            });
-            pressure = Some(opening.normal.clone());
-            self.opening = opening;
-            if self.friction == 0.0 {
-                self.slip = contact.tt_inverse.dot(&-known);
-                self.shear = Array1::zeros(n);
-                self.moving = vec![1; n];
-                return Ok(0.0);
-            }
-            carried = self.stick(contact, &known, &before).ok_or(Error::Faces {
-                length: self.crack.length(),
-                passes: MOST_PASSES,
-                change,
-            })?;
-            if change <= LEAST_CHANGE || (pass == MOST_PASSES && change <= BEARABLE) {
-                self.shear = carried;
-                return Ok(change);
-            }
-        }
-        Err(Error::Faces {
-            length: self.crack.length(),
-            passes: MOST_PASSES,
-            change,
-        })
-    }
-
-    /// Slip under a known pressure; the shear traction that the faces carry.
-    ///
-    /// Active set: stuck points beyond Coulomb's bound slip, points that would slip against their
-    /// shear stick.
-    fn stick(
-        &mut self,
-        contact: &Contact,
-        known: &Array1<f64>,
-        before: &Array1<f64>,
-    ) -> Option<Array1<f64>> {
-        let n = known.len();
-        let bound = self.opening.normal.mapv(|s| self.friction * (-s).max(0.0));
-        let held = known + &contact.tt.dot(before);
-        let scale = largest(&held).max(largest(&bound));
-        for _ in 0..MOST_PASSES {
-            let target = |k: usize| {
-                if self.opening.open[k] {
-                    0.0
-                } else {
-                    f64::from(self.moving[k]) * bound[k]
-                }
-            };
-            let free: Vec<usize> = (0..n)
-                .filter(|k| self.opening.open[*k] || self.moving[*k] != 0)
-                .collect();
-            let right = Array1::from_shape_fn(n, |k| target(k) - held[k]);
-            let moved = solve(&contact.tt, &free, &right)?;
-            let carried = &held + &contact.tt.dot(&moved);
-            let tight = ZERO * largest(&moved);
-            let mut changed = false;
-            for k in 0..n {
-                if self.opening.open[k] {
-                    continue;
-                }
-                let next = match self.moving[k] {
-                    0 if carried[k].abs() > bound[k] + ZERO * scale => carried[k].signum() as i8,
-                    sign if sign != 0 && moved[k] * f64::from(sign) < -tight => 0,
-                    same => same,
+        let instant = Instant {
+            load: &load,
+            most: self.most.max(largest(&load)),
+            friction: self.friction,
+            before: &before,
+        };
+        let unsettled = match contact.settle(&instant, &self.states) {
+            Ok(found) => {
+                self.passes += found.passes;
+                self.slip = found.jumps.slice(s![n..]).to_owned();
+                self.shear = found.tractions.slice(s![n..]).to_owned();
+                self.opening = Opening {
+                    open: found.states.iter().map(|of| of.0 == State::Open).collect(),
+                    gap: found.jumps.slice(s![..n]).to_owned(),
+                    normal: found.tractions.slice(s![..n]).to_owned(),
                 };
-                changed |= next != self.moving[k];
-                self.moving[k] = next;
+                (self.most, self.states, self.load) = (instant.most, found.states, load);
+                return Ok(());
             }
-            if !changed {
-                self.slip = before + &moved;
-                self.moved = moved;
-                return Some(carried);
-            }
+            Err(unsettled) => unsettled,
+        };
+        self.passes += unsettled.passes;
+        if halvings == 0 || self.passes > MOST_PASSES {
+            return Err(Error::Faces {
+                length: self.crack.length(),
+                friction: self.friction,
+                passes: self.passes,
+                at_fault: unsettled.at_fault,
+                points: n,
+            });
         }
-        None
+        let middle = 0.5 * (&self.load + &load);
+        self.go_to(middle, halvings - 1)?;
+        self.go_to(load, halvings - 1)
     }
 
     /// States of the faces from the mouth to the tip: state, begin and end over the crack's length.
@@ -219,16 +145,15 @@ impl Faces {
     /// zero: the opening, or the slip since the last instant.
     pub fn parts(&self) -> Result<Vec<(State, f64, f64)>, Error> {
         let s = &self.crack.contact()?.s;
-        let states: Vec<State> = (0..s.len()).map(|k| self.state(k)).collect();
         let mut parts = Vec::new();
         let mut begin = 0.0;
         for k in (0..s.len()).rev() {
             let last = k == 0;
-            if !last && states[k - 1] == states[k] && self.sign(k - 1) == self.sign(k) {
+            if !last && self.states[k - 1] == self.states[k] {
                 continue;
             }
             let end = if last { 1.0 } else { self.border(s, k - 1, k) };
-            parts.push((states[k], begin, end));
+            parts.push((self.states[k].0, begin, end));
             begin = end;
         }
         Ok(parts)
@@ -239,25 +164,6 @@ impl Faces {
         let parts = self.parts()?;
         let open = parts.iter().filter(|part| part.0 == State::Open);
         Ok(open.fold(0.0, |sum, (_, begin, end)| sum + end - begin))
-    }
-
-    fn state(&self, k: usize) -> State {
-        if self.opening.open[k] {
-            State::Open
-        } else if self.friction > 0.0 && self.moving[k] == 0 {
-            State::Stick
-        } else {
-            State::Slip
-        }
-    }
-
-    /// Sign of slip, 0 elsewhere.
-    fn sign(&self, k: usize) -> i8 {
-        if self.state(k) == State::Slip {
-            self.moving[k]
-        } else {
-            0
-        }
     }
 
     /// The border between the points k and k + 1 (nearer to the mouth).
@@ -293,7 +199,7 @@ impl Faces {
     }
 
     fn rank(&self, k: usize) -> u8 {
-        match self.state(k) {
+        match self.states[k].0 {
             State::Open => 0,
             State::Slip => 1,
             State::Stick => 2,

@@ -44,14 +44,14 @@ mod stress;
 mod threshold;
 
 pub use arrest::{Arrest, Verdict};
-pub use closure::Opening;
+pub use closure::{Opening, State};
 pub use crack::{Crack, Intensity};
 pub use curve::{Curve, Extremes};
 pub use direction::{Direction, kinked};
 pub use ellipse::ellipse_factor;
 pub use error::Error;
 pub use film::Film;
-pub use friction::{Faces, State};
+pub use friction::Faces;
 pub use grow::{End, Growing, Grown, Tip, grow};
 pub use life::{Growth, Life, Rate};
 pub use path::{Leg, Path};

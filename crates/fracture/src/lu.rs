@@ -1,6 +1,10 @@
-//! Dense linear systems: LU factors with partial pivoting.
+//! Dense linear systems: LU factors with partial pivoting, in blocks of columns.
 
-use ndarray::{Array1, Array2};
+use ndarray::linalg::general_mat_mul;
+use ndarray::{Array1, Array2, Axis, s};
+
+/// Columns that are eliminated together.
+const BLOCK: usize = 48;
 
 /// Factors of a square matrix with its rows exchanged.
 #[derive(Clone, Debug)]
@@ -16,29 +20,27 @@ impl Lu {
     pub(crate) fn new(mut factors: Array2<f64>) -> Option<Self> {
         let n = factors.nrows();
         let mut rows: Vec<usize> = (0..n).collect();
-        let a = factors.as_slice_mut()?;
-        for k in 0..n {
-            let size = |i: &usize| a[i * n + k].abs();
-            let pivot = (k..n).max_by(|i, j| size(i).total_cmp(&size(j)))?;
-            let largest = size(&pivot);
-            if !(largest > 0.0 && largest.is_finite()) {
-                return None;
-            }
-            if pivot != k {
-                for j in 0..n {
-                    a.swap(k * n + j, pivot * n + j);
-                }
-                rows.swap(k, pivot);
-            }
-            let (above, below) = a.split_at_mut((k + 1) * n);
-            let upper = &above[k * n..];
-            for row in below.chunks_exact_mut(n) {
-                let factor = row[k] / upper[k];
-                row[k] = factor;
-                for (x, u) in row[k + 1..].iter_mut().zip(&upper[k + 1..]) {
-                    *x -= factor * u;
+        for first in (0..n).step_by(BLOCK) {
+            let last = (first + BLOCK).min(n);
+            eliminate(factors.as_slice_mut()?, &mut rows, first, last)?;
+            let (mut above, mut below) = factors.view_mut().split_at(Axis(0), last);
+            let (left, mut right) = above
+                .slice_mut(s![first.., first..])
+                .split_at(Axis(1), last - first);
+            for i in 1..last - first {
+                for k in 0..i {
+                    let (known, mut row) = right.multi_slice_mut((s![k, ..], s![i, ..]));
+                    row.scaled_add(-left[[i, k]], &known);
                 }
             }
+            let left = below.slice(s![.., first..last]).to_owned();
+            general_mat_mul(
+                -1.0,
+                &left,
+                &right,
+                1.0,
+                &mut below.slice_mut(s![.., last..]),
+            );
         }
         Some(Self { factors, rows })
     }
@@ -48,26 +50,45 @@ impl Lu {
         let n = self.rows.len();
         let mut x: Array1<f64> = self.rows.iter().map(|row| right[*row]).collect();
         for i in 0..n {
-            let sum: f64 = (0..i).map(|j| self.factors[[i, j]] * x[j]).sum();
+            let sum = self.factors.slice(s![i, ..i]).dot(&x.slice(s![..i]));
             x[i] -= sum;
         }
         for i in (0..n).rev() {
-            let sum: f64 = (i + 1..n).map(|j| self.factors[[i, j]] * x[j]).sum();
-            x[i] = (x[i] - sum) / self.factors[[i, i]];
+            let (row, known) = (self.factors.slice(s![i, i + 1..]), x.slice(s![i + 1..]));
+            x[i] = (x[i] - row.dot(&known)) / self.factors[[i, i]];
         }
         x
     }
+}
 
-    /// The inverse of the matrix.
-    pub(crate) fn inverse(&self) -> Array2<f64> {
-        let n = self.rows.len();
-        let mut inverse = Array2::zeros((n, n));
-        for j in 0..n {
-            let unit = Array1::from_shape_fn(n, |i| f64::from(u8::from(i == j)));
-            inverse.column_mut(j).assign(&self.solve(&unit));
+/// Eliminates the columns `first..last` of the rows from `first` on of a square matrix, within these
+/// columns. Nothing for a singular matrix.
+fn eliminate(a: &mut [f64], rows: &mut [usize], first: usize, last: usize) -> Option<()> {
+    let n = rows.len();
+    for k in first..last {
+        let size = |i: &usize| a[i * n + k].abs();
+        let pivot = (k..n).max_by(|i, j| size(i).total_cmp(&size(j)))?;
+        let largest = size(&pivot);
+        if !(largest > 0.0 && largest.is_finite()) {
+            return None;
         }
-        inverse
+        if pivot != k {
+            for j in 0..n {
+                a.swap(k * n + j, pivot * n + j);
+            }
+            rows.swap(k, pivot);
+        }
+        let (above, below) = a.split_at_mut((k + 1) * n);
+        let upper = &above[k * n..];
+        for row in below.chunks_exact_mut(n) {
+            let factor = row[k] / upper[k];
+            row[k] = factor;
+            for (x, u) in row[k + 1..last].iter_mut().zip(&upper[k + 1..last]) {
+                *x -= factor * u;
+            }
+        }
     }
+    Some(())
 }
 
 /// Largest absolute entry.
