@@ -317,7 +317,7 @@ TEMPLATES = Path(__file__).parents[1] / "crates" / "fret-cli" / "templates"
 @pytest.mark.parametrize(
     ("slip", "says"),
     [
-        ("body1.E=210", "smaller than the bodies' radius R = "),
+        ("body1.E=210", "a contact with a/R = 1"),
         ("body1.shape.{of}.R=50", "R = 50 m is large"),
         ("path.0.W=3e8", "W = 3"),
         ("grid.extent=1e-5", "the grid is 1.0000e-5 m"),

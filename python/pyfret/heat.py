@@ -24,7 +24,7 @@ from pyfret._core import Material
 from pyfret._util.lazy import xr
 from pyfret._util.names import listing
 from pyfret.fatigue.cycles import cycle_increments
-from pyfret.scene.warnings import doubt_numbers
+from pyfret.scene.warnings import doubt_numbers, doubts_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -58,6 +58,14 @@ class Conductor:
         doubt_numbers("conductivity", stacklevel=4, conductivity=self.conductivity)
         doubt_numbers("heat capacity", stacklevel=4, heat_capacity=self.heat_capacity)
 
+    @property
+    def doubts(self) -> list[str]:
+        """Numbers that are hardly meant, one sentence each."""
+        return [
+            *doubts_of("conductivity", conductivity=self.conductivity),
+            *doubts_of("heat capacity", heat_capacity=self.heat_capacity),
+        ]
+
     @classmethod
     def of(cls, material: Material) -> Conductor:
         """Give what a material has as ``conductivity``, ``density`` and ``specific_heat``.
@@ -73,11 +81,14 @@ class Conductor:
 Conductors = Conductor | Material | Sequence[Conductor | Material]
 
 
-def _of_layers(conductors: Conductors, layers: int) -> list[tuple[float, float]]:
+def _of_layers(conductors: Conductors, layers: int) -> list[Conductor]:
     if not isinstance(conductors, Sequence):
         conductors = [conductors] * layers
-    each = [Conductor.of(c) if isinstance(c, Material) else c for c in conductors]
-    return [(c.conductivity, c.heat_capacity) for c in each]
+    return [Conductor.of(c) if isinstance(c, Material) else c for c in conductors]
+
+
+def _numbers(layers: list[Conductor]) -> list[tuple[float, float]]:
+    return [(c.conductivity, c.heat_capacity) for c in layers]
 
 
 def _ends(result: Run, kept: NDArray[np.int64], wave: str) -> NDArray[np.float64]:
@@ -178,7 +189,8 @@ def temperature(
         where heat that rises elsewhere crosses the contact); ``peak`` over ``time``, the largest
         temperature of the surfaces at each part of the period. Attributes: ``maximum`` with
         ``maximum_x``, ``maximum_y`` [m] and ``maximum_body``, ``heat_into_body1`` and
-        ``heat_into_body2`` [W], ``bulk`` and ``frequency``.
+        ``heat_into_body2`` [W], ``bulk`` and ``frequency``; ``doubts``, a line for each number of a
+        conductor that is hardly meant.
 
     Raises
     ------
@@ -205,9 +217,12 @@ def temperature(
         harmonics = min(kept.size // 2, HARMONICS)
     if harmonics < 0:
         raise ValueError(f"harmonics = {harmonics}: must be 0 or more")
+    layers1 = _of_layers(conductor1, len(body1.coatings) + 1)
+    layers2 = _of_layers(conductor2, len(body2.coatings) + 1)
+    doubts = [doubt for layer in (*layers1, *layers2) for doubt in layer.doubts]
     found = _core.cycle_temperature(
-        _of_layers(conductor1, len(body1.coatings) + 1),
-        _of_layers(conductor2, len(body2.coatings) + 1),
+        _numbers(layers1),
+        _numbers(layers2),
         body1=body1,
         body2=body2,
         grid=scene.grid,
@@ -224,6 +239,7 @@ def temperature(
     yardsticks = {k: v for k, v in result.dataset.attrs.items() if k in ("a_H", "p_H")}
     return table.assign_attrs(
         yardsticks,
+        **({"doubts": "\n".join(dict.fromkeys(doubts))} if doubts else {}),
         frequency=frequency,
         heat_into_body1=into1,
         heat_into_body2=float(found["heat"].sum() * area) - into1,

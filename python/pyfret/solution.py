@@ -103,8 +103,8 @@ def solve(
 
 
 def told(result: Result) -> Result:
-    """The result, whose doubts are warned of."""
-    doubt_run(result.doubts)
+    """The result; warned of is what the run came to, after :func:`doubt_scene`."""
+    doubt_run(result.doubts, result.scene)
     return result
 
 
@@ -179,7 +179,7 @@ def march(
     running = _core.March(scene)
     for scalars in running:
         yield Increment(running, scalars)
-    doubt_run(running.doubts())
+    doubt_run(running.doubts(), scene)
 
 
 class Increment(Snapshot):

@@ -51,7 +51,7 @@ pub(super) fn conclude(
     if let Some(errors) = errors {
         set("path_error", json!(errors));
     }
-    let doubts = reached.doubts(scene);
+    let doubts = reached.all_doubts(scene);
     if !doubts.is_empty() {
         set(DOUBTS, json!(doubts.join("\n")));
     }

@@ -245,7 +245,10 @@ pub(super) fn attributes(run: &WearRun, status: &str) -> Value {
         json!({ "kind": kind, "cycles": e.cycles, "body": e.body, "coating": e.coating, "x": e.x, "y": e.y })
     });
     let (scene, hertz) = (run.scene(), run.scene().hertz());
+    let mut doubts = scene.doubts();
+    doubts.extend(run.wear().doubts());
     json!({
+        "doubts": doubts.join("\n"),
         "title": scene.title,
         "schema": SCHEMA,
         "version": env!("CARGO_PKG_VERSION"),

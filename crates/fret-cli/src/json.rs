@@ -34,7 +34,7 @@ pub(crate) fn run(scene: &Scene, increments: &[Increment]) -> Value {
         "units": units(scene),
         "branches": branches,
         "cycles": cycles,
-        "doubts": reached.doubts(scene),
+        "doubts": reached.all_doubts(scene),
     })
 }
 

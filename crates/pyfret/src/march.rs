@@ -74,7 +74,7 @@ impl March {
     /// What the increments so far came to that is hardly meant, one sentence each.
     fn doubts(&mut self) -> Vec<String> {
         let reached = self.reached.clone();
-        reached.doubts(self.inner().scene())
+        reached.all_doubts(self.inner().scene())
     }
 
     fn __iter__(slf: PyRef<'_, Self>) -> PyRef<'_, Self> {

@@ -84,7 +84,7 @@ def report(
         title=html(str(result.dataset.attrs["title"]) or "Fretting contact"),
         version=html(str(result.dataset.attrs.get("version", __version__))),
         status=html(result.status),
-        doubts="".join(f"<p>Doubted: {html(doubt)}.</p>" for doubt in doubted(result)),
+        doubts="".join(f"<p>Doubted: {html(doubt)}.</p>" for doubt in result.doubts),
         scene=scene_html(result.scene),
         ends=ends_table(result),
         bars=bars(result),
@@ -101,11 +101,6 @@ def report(
     )
     with beside(place) as unfinished:
         unfinished.write_text(page, encoding="utf-8")
-
-
-def doubted(result: Run) -> list[str]:
-    """What is hardly meant of the scene, and what the run came to, each once."""
-    return list(dict.fromkeys([*result.scene.doubts(), *result.doubts]))
 
 
 def drawing() -> str:

@@ -61,10 +61,11 @@ class OfRun(Labelled):
 
     @property
     def doubts(self) -> list[str]:
-        """What the run came to that is hardly meant or known, one sentence each.
+        """Numbers of the scene and of the run that are hardly meant or known, one sentence each.
 
-        A contact of few cells, a pressure that no metal bears, error bars that could not be told;
-        what is to be doubted of the scene itself says :meth:`Scene.doubts`.
+        First those of the scene (:meth:`Scene.doubts`), then those that the solution shows: few
+        cells across the contact, a contact that is wide for a body, a pressure above the yield
+        stress of metals, error bars that could not be computed.
         """
         return str(self.dataset.attrs.get("doubts", "")).splitlines()
 

@@ -11,7 +11,7 @@ from pyfret import _core
 if TYPE_CHECKING:
     from pyfret._core import Grid, Scene
 
-__all__ = ["SceneWarning", "doubt_layers", "doubt_numbers", "doubt_run", "doubt_scene"]
+__all__ = ["SceneWarning", "doubt_layers", "doubt_numbers", "doubt_run", "doubt_scene", "doubts_of"]
 
 
 class SceneWarning(UserWarning):
@@ -24,24 +24,36 @@ def doubt_scene(scene: Scene) -> None:
         warnings.warn(doubt, SceneWarning, stacklevel=3)
 
 
-def doubt_run(doubts: list[str]) -> None:
-    """Warn of what a run has come to."""
+def doubt_run(doubts: list[str], scene: Scene) -> None:
+    """Warn of the doubts of a run that its scene alone does not raise."""
+    before = scene.doubts()
     for doubt in doubts:
-        warnings.warn(doubt, SceneWarning, stacklevel=3)
+        if doubt not in before:
+            warnings.warn(doubt, SceneWarning, stacklevel=3)
 
 
-def doubt_numbers(
-    quantity: str, /, *, stacklevel: int = 3, **numbers: float | Sequence[float] | None
-) -> None:
-    """Warn of numbers of a quantity, by their names, that are hardly meant: another unit.
+def doubts_of(quantity: str, /, **numbers: float | Sequence[float] | None) -> list[str]:
+    """Give the doubts of numbers of a quantity, by their names: another unit.
 
     Sequences are looked at one by one, None and missing ones are left out.
     """
+    found = []
     for name, given in numbers.items():
         for value in () if given is None else given if isinstance(given, Sequence) else (given,):
             doubt = _core.doubt(quantity, name, value)
             if doubt is not None:
-                warnings.warn(doubt, SceneWarning, stacklevel=stacklevel)
+                found.append(doubt)
+    return found
+
+
+def doubt_numbers(
+    quantity: str, /, *, stacklevel: int = 3, **numbers: float | Sequence[float] | None
+) -> list[str]:
+    """Warn of the doubts of numbers, :func:`doubts_of`, and give them."""
+    found = doubts_of(quantity, **numbers)
+    for doubt in found:
+        warnings.warn(doubt, SceneWarning, stacklevel=stacklevel)
+    return found
 
 
 def doubt_layers(interfaces: list[float], grid: Grid) -> None:

@@ -185,7 +185,13 @@ class WearResult(Labelled):
         for body in (1, 2):
             laws = says.get(f"body{body}", {}).get("laws", [])
             lines += [f"law of body {body}: {written(law)}" for law in laws]
+        lines += [f"doubted: {doubt}" for doubt in self.doubts]
         return shown("\n".join(lines))
+
+    @property
+    def doubts(self) -> list[str]:
+        """Numbers of the scene and of the wear that are hardly meant, one sentence each."""
+        return str(self.dataset.attrs.get("doubts", "")).splitlines()
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the result to a Zarr folder (``.zarr``) or a NetCDF file (``.nc``).

@@ -71,7 +71,7 @@ def answer(scene: Scene, counts: list[int] | None = None) -> Answer:
             most = below.maximum("von_mises")
     except (NoConvergenceError, OffGridError) as error:
         raise ValueError(str(error)) from error
-    doubts = [*scene.doubts(), *result.doubts]
+    doubts = result.doubts
     names = layer_names(len(scene.body2.coatings))
     unit = scene.grid.unit_of("J")
     loops = result.loops()

@@ -1,11 +1,13 @@
 //! Largest values of a run, and warnings that follow from them.
 
 use super::{Increment, shear_errors};
+use crate::digits::short;
 use crate::error::Error;
-use crate::scene::{LARGE_STRAIN, PathGrid, Scene};
+use crate::scene::{Breadth, LARGE_STRAIN, PathGrid, Scene};
 
-/// Upper bound of the hardness of metals and most ceramics over Young's modulus.
-const HARD: f64 = 0.05;
+/// Pressure over the Young's modulus of the softest layer, above which metals yield: their hardness
+/// is 0.005 to 0.05 of it.
+const HARD: f64 = 0.01;
 /// Equivalent plastic strain beyond which strains are not small.
 const LARGE_PLASTIC_STRAIN: f64 = 0.06;
 /// A warning names the error of the increments if it exceeds the tolerance of the path by this
@@ -19,6 +21,8 @@ const YIELDS: f64 = 1e9;
 pub struct Reached {
     /// Cells across the radius of the contact.
     pub cells_per_radius: f64,
+    /// Radius of the contact, of a line contact half its width \[m\].
+    pub contact_radius: f64,
     /// Pressure \[Pa\].
     pub p_max: f64,
     /// Equivalent plastic strain.
@@ -40,6 +44,7 @@ impl Reached {
     /// Takes another increment into account.
     pub fn see(&mut self, increment: &Increment) {
         self.cells_per_radius = self.cells_per_radius.max(increment.cells_per_radius);
+        self.contact_radius = self.contact_radius.max(increment.contact_radius);
         self.p_max = self.p_max.max(increment.p_max);
         self.plastic_strain = self.plastic_strain.max(increment.yielded.largest);
         if increment.point.ends_branch {
@@ -47,13 +52,37 @@ impl Reached {
         }
     }
 
-    /// Fails if the contact has fewer than [`FEWEST_CELLS`](crate::scene::FEWEST_CELLS) across its
-    /// radius where it is largest, on the grid or on the path grid.
+    /// Fails if the contact, where it is largest, has fewer than
+    /// [`FEWEST_CELLS`](crate::scene::FEWEST_CELLS) across its radius, on the grid or on the path
+    /// grid, or is as wide as a body.
     pub fn check(&self, scene: &Scene) -> Result<(), Error> {
         if self.cells_per_radius > 0.0 {
-            return scene.check_cells(self.cells_per_radius, 1.0);
+            scene.check_cells(self.cells_per_radius, 1.0)?;
         }
-        Ok(())
+        self.breadth(scene).map_or(Ok(()), |of| scene.refuse(&of))
+    }
+
+    /// The half width of the contact beside the radius of a body, where their ratio is largest.
+    fn breadth(&self, scene: &Scene) -> Option<Breadth> {
+        let line = scene.grid.plane_strain;
+        let a = if line || scene.hertz().is_some() {
+            self.contact_radius
+        } else {
+            // Curved along one direction alone: the smaller semi-axis lies along it.
+            self.cells_per_radius * scene.grid.dx.min(scene.grid.dy)
+        };
+        scene.hertz_breadth_of(a)
+    }
+
+    /// All that is to be doubted of a run: [`Scene::doubts`], then [`Self::doubts`]. What the scene
+    /// estimates of the contact is left out once the run has it.
+    pub fn all_doubts(&self, scene: &Scene) -> Vec<String> {
+        if self.cells_per_radius == 0.0 {
+            return scene.doubts();
+        }
+        let mut all = scene.doubts_of_numbers();
+        all.extend(self.doubts(scene));
+        all
     }
 
     /// The estimated error of the shear at the end of every branch whose increments were chosen
@@ -103,16 +132,17 @@ impl Reached {
                 100.0 * LARGE_PLASTIC_STRAIN
             ));
         }
-        let bodies = [&scene.body1, &scene.body2];
-        let softest = bodies.map(|body| body.outermost().E);
-        let softest = softest[0].min(softest[1]);
+        let breadth = self.breadth(scene);
+        doubts.extend(breadth.and_then(|of| scene.doubt_of_breadth(&of)));
         let p = self.p_max;
-        if softest >= YIELDS && softest.is_finite() && p > HARD * softest {
+        if let Some((layer, E)) = softest_elastic(scene, self.contact_radius)
+            && p > HARD * E
+        {
             doubts.push(format!(
-                "the pressure comes to {:.1} GPa, {:.2} of Young's modulus at the surface: more than metals and most ceramics \
-                 bear (hardness over E is 0.01 to 0.05); the solution is elastic",
-                1e-9 * p,
-                p / softest
+                "the pressure comes to {} GPa, E/{:.0} of {layer} (E = {E:.3e} Pa): metals yield above E/100 or before (hardness over E \
+                 is 0.005 to 0.05); the solution is elastic there",
+                short(1e-9 * p),
+                E / p
             ));
         } else if let Some(hertz) = scene.hertz()
             && p > LARGE_STRAIN * hertz.E_star
@@ -124,4 +154,29 @@ impl Reached {
         }
         doubts
     }
+}
+
+/// The layer of the lowest Young's modulus that stays elastic in the computation, is no rubber, and
+/// lies within `depth` of the surface \[m\].
+fn softest_elastic(scene: &Scene, depth: f64) -> Option<(String, f64)> {
+    let bodies = [("body1", &scene.body1), ("body2", &scene.body2)];
+    let mut layers = Vec::new();
+    for (key, body) in bodies {
+        let mut top = 0.0;
+        for (n, coating) in body.coatings.iter().enumerate() {
+            let name = format!("{key}.coatings[{n}]");
+            layers.push((n, top, body, name, coating.material.E));
+            top += coating.thickness;
+        }
+        let substrate = body.coatings.len();
+        layers.push((substrate, top, body, key.to_owned(), body.substrate.E));
+    }
+    layers
+        .into_iter()
+        .filter(|(n, top, body, _, E)| {
+            let solid = *E >= YIELDS && E.is_finite();
+            solid && *top <= depth && body.plastic(*n).is_none()
+        })
+        .map(|(_, _, _, name, E)| (name, E))
+        .min_by(|a, b| a.1.total_cmp(&b.1))
 }

@@ -6,14 +6,12 @@
 use plausible::{UNITS, doubt, quantity};
 
 use super::shape::Shape;
+use super::validity::stiffest;
 use super::{Body, Coating, Elastic, Grid, Prescribed, RigidMotion, Scene, SurfaceMap};
 use crate::error::Error;
-use crate::hertz::Hertz;
 
 /// Peak pressure over the contact modulus, or bulk strain, beyond which strains are not small.
 pub(crate) const LARGE_STRAIN: f64 = 0.1;
-/// Contact radius over the radius of the bodies beyond which they are no half-spaces.
-const WIDE: f64 = 0.1;
 /// Young's moduli below those of rubber, which in MPa are those of all solids \[Pa\]; and lengths
 /// that then are hardly in metres: of a grid, of a radius \[m\].
 const GEL: f64 = 2e6;
@@ -28,7 +26,7 @@ const COARSE_MAP: f64 = 2.0;
 const CERTAIN: f64 = 0.97;
 
 impl Scene {
-    /// Fails at impossible values: an approach beyond the radius, heights beyond the length of
+    /// Fails at impossible values: a contact as wide as a body, heights beyond the length of
     /// their map.
     pub(crate) fn check_sense(&self) -> Result<(), Error> {
         for (key, body) in [("body1", &self.body1), ("body2", &self.body2)] {
@@ -47,22 +45,7 @@ impl Scene {
                 }
             }
         }
-        let Some(hertz) = self.hertz() else {
-            return Ok(());
-        };
-        let radius = 1.0 / self.principal_curvatures().0;
-        if hertz.a > radius {
-            let contact = format!(
-                "a contact of radius {:.3e} m (W = {:.3e} {}, E* = {:.3e} Pa)",
-                hertz.a,
-                hertz.W,
-                self.grid.unit_of("N"),
-                hertz.E_star
-            );
-            let allowed = format!("smaller than the bodies' radius R = {radius:.3e} m: {UNITS}");
-            return Err(Error::invalid("path", contact, allowed));
-        }
-        Ok(())
+        self.check_breadth()
     }
 
     /// Fails if the contact is certain to leave the grid, even if each body were of its stiffest
@@ -120,10 +103,16 @@ impl Scene {
 
     /// Allowed but implausible values, one sentence each with the interpretation used.
     pub fn doubts(&self) -> Vec<String> {
-        let hertz = self.hertz();
-        let mut doubts = self.doubts_of_values();
-        doubts.extend(hertz.and_then(|hertz| self.doubt_of_half_spaces(&hertz)));
+        let mut doubts = self.doubts_of_numbers();
+        let breadth = self.hertz_breadth();
+        doubts.extend(breadth.and_then(|of| self.doubt_of_breadth(&of)));
         doubts.extend(self.doubts_of_cells());
+        doubts
+    }
+
+    /// Those that do not follow from an estimate of the contact.
+    pub(crate) fn doubts_of_numbers(&self) -> Vec<String> {
+        let mut doubts = self.doubts_of_values();
         let wide = self.grid.wide();
         for (key, body) in [("body1", &self.body1), ("body2", &self.body2)] {
             doubts.extend(self.doubt_of_thin_layers(key, body));
@@ -194,22 +183,6 @@ impl Scene {
         }
         doubts.extend(doubt("friction", "friction.mu", self.friction.mu));
         doubts
-    }
-
-    /// That a contact is too wide for bodies that are taken as half-spaces.
-    fn doubt_of_half_spaces(&self, hertz: &Hertz) -> Option<String> {
-        let Hertz {
-            p0, E_star, W, a, ..
-        } = *hertz;
-        let wide = a * self.principal_curvatures().0;
-        let unit = self.grid.unit_of("N");
-        (wide > WIDE).then(|| {
-            format!(
-                "a_H/R = {wide:.2}, the peak pressure is {:.2} E* (W = {W:.3e} {unit}, E* = {E_star:.3e} Pa, a_H = {a:.3e} m): \
-                 half-spaces and small strains hold up to a/R = {WIDE}; {UNITS}",
-                p0 / E_star
-            )
-        })
     }
 
     /// That the outermost interface lies within a cell below the surface, if what is below it
@@ -289,16 +262,6 @@ impl Scene {
         }
         doubts
     }
-}
-
-/// The body as if it were of its stiffest material.
-fn stiffest(body: &Body) -> Body {
-    let coatings = body.coatings.iter().map(|c| c.material);
-    let modulus = |m: &Elastic| m.E / (1.0 - m.nu * m.nu);
-    let substrate = coatings.fold(body.substrate, |s, m| {
-        if modulus(&m) > modulus(&s) { m } else { s }
-    });
-    Body::homogeneous(substrate, body.shape.clone())
 }
 
 /// The body as if it were of its softest material.

@@ -21,6 +21,7 @@ mod resolution;
 mod settings;
 mod shape;
 mod surface_map;
+mod validity;
 
 pub use crate::material::{Bond, Coating, Elastic, dundurs_beta};
 pub use body::{Body, check_plastic};
@@ -44,6 +45,7 @@ pub use settings::{
 };
 pub use shape::{Rough, Shape};
 pub use surface_map::SurfaceMap;
+pub use validity::Breadth;
 
 pub(crate) use self::doubts::LARGE_STRAIN;
 pub(crate) use self::settings::MOST_ALIASES;

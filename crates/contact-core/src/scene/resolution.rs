@@ -124,7 +124,7 @@ impl Scene {
     }
 
     /// The direction in which the gap is steepest.
-    fn steepest(&self) -> [f64; 2] {
+    pub(super) fn steepest(&self) -> [f64; 2] {
         let (one, other) = (self.body1.shape.curvature(), self.body2.shape.curvature());
         let [xx, xy, yy]: [f64; 3] = std::array::from_fn(|i| one[i] + other[i]);
         let angle = 0.5 * (2.0 * xy).atan2(xx - yy);

@@ -2,7 +2,7 @@
 
 use contact_core::Scene;
 use contact_core::march::{Increment, Reached};
-use contact_core::scene::{Coating, Elastic, Friction, Grid, LoadPath, Shape};
+use contact_core::scene::{Coating, Elastic, Friction, Grid, LoadPath, Plastic, Shape};
 
 use super::{STEEL, W, sphere};
 
@@ -40,7 +40,7 @@ fn slips_of_the_pen_are_told_once() {
         scene.body1.shape = Shape::Sphere { R: 5.0 };
         scene.grid = Grid::centred(0.17, 64).expect("a grid");
     });
-    told("a_H/R = 0.1", |scene| {
+    told("a/R = 0.1", |scene| {
         scene.path = LoadPath::start().normal(1500.0 * W, 1);
     });
     told("of a cell", |scene| {
@@ -90,18 +90,157 @@ fn a_grid_that_is_too_small_for_a_slip_of_the_pen_says_so() {
 }
 
 #[test]
-fn a_pressure_that_no_metal_bears_is_told() {
-    let scene = usual();
-    let of = |p_max: f64| {
+fn a_pressure_above_a_hundredth_of_the_softest_modulus_is_told() {
+    let mut scene = usual();
+    let of = |scene: &Scene, p_max: f64| {
         Reached {
             cells_per_radius: 20.0,
+            contact_radius: 1e-4,
             p_max,
             ..Reached::default()
         }
-        .doubts(&scene)
+        .doubts(scene)
     };
-    assert!(of(5e9).is_empty());
-    let told = of(13.9e9);
-    assert!(told.len() == 1 && told[0].contains("13.9 GPa"), "{told:?}");
+    let told = |scene: &Scene, layer: &str| {
+        let found = of(scene, 2.2e9);
+        assert!(
+            found.len() == 1 && found[0].contains("2.2 GPa") && found[0].contains(layer),
+            "{found:?}"
+        );
+    };
+    assert!(of(&scene, 2.0e9).is_empty());
+    told(&scene, "body1 (");
+    let film = |E: f64, thickness: f64| {
+        let material = Elastic { E, nu: 0.3 };
+        vec![Coating {
+            material,
+            thickness,
+        }]
+    };
+    // A hard film leaves the substrate below it the softest, unless that lies deep.
+    scene.body1.substrate.E = 500e9;
+    scene.body2.coatings = film(500e9, 2e-6);
+    told(&scene, "body2 (");
+    scene.body2.coatings = film(500e9, 2e-3);
+    assert!(of(&scene, 2.2e9).is_empty());
+    scene.body2.coatings = film(100e9, 2e-6);
+    told(&scene, "body2.coatings[0]");
+    // A layer that yields in the computation is no elastic one.
+    scene.body2.coatings.clear();
+    scene.body2.plastic = vec![Some(Plastic {
+        s_y: 1e9,
+        hardening: 0.0,
+        kinematic: 0.0,
+    })];
+    assert!(of(&scene, 2.2e9).is_empty());
     assert_eq!(Reached::of(&[] as &[Increment]).doubts(&scene), [""; 0]);
+}
+
+/// A contact in plane strain or not, of bodies with these radii along x and y (infinite for flat),
+/// whose half width along x is `half_width`.
+fn pressed(first: [f64; 2], second: [f64; 2], half_width: f64, line: bool) -> Scene {
+    let mut scene = usual();
+    let shape = |[R_x, R_y]: [f64; 2]| match (R_x.is_infinite(), R_y.is_infinite()) {
+        (true, true) => Shape::Flat,
+        (false, true) => Shape::cylinder(R_x),
+        _ => Shape::Ellipsoid {
+            R_x,
+            R_y,
+            angle: 0.0,
+        },
+    };
+    (scene.body1.shape, scene.body2.shape) = (shape(first), shape(second));
+    let extent = 4.0 * half_width;
+    scene.grid = if line {
+        Grid::strip(extent, 64, 1.0).expect("a grid")
+    } else {
+        Grid::centred(extent, 64).expect("a grid")
+    };
+    // Loads go as the square of the half width of a line, as the cube of that of a ball.
+    scene.path = LoadPath::start().normal(1.0, 1);
+    let one = scene.hertz_breadth().expect("curved").half_width;
+    let power = if line { 2 } else { 3 };
+    scene.path = LoadPath::start().normal((half_width / one).powi(power), 1);
+    scene
+}
+
+#[test]
+fn a_contact_is_held_against_the_radius_of_each_body() {
+    let flat = [f64::INFINITY; 2];
+    let cases: [([f64; 2], [f64; 2], bool, Option<&str>); 8] = [
+        ([0.01, 0.01], flat, false, None),
+        (flat, [0.01, 0.01], false, None),
+        ([0.01, f64::INFINITY], flat, true, None),
+        // Two equal balls: the relative radius is half of either.
+        ([0.01, 0.01], [0.01, 0.01], false, None),
+        // An ellipse whose longer axis lies along the smaller curvature.
+        ([0.01, 0.1], flat, false, None),
+        // A hip socket, a bushing, a ball in a groove.
+        (
+            [0.01, 0.01],
+            [-0.0101, -0.0101],
+            false,
+            Some("body2 (R = -0.0101 m)"),
+        ),
+        (
+            [0.01, f64::INFINITY],
+            [-0.0101, f64::INFINITY],
+            true,
+            Some("body2 (R = -0.0101 m)"),
+        ),
+        (
+            [0.01, 0.01],
+            [-0.011, f64::INFINITY],
+            false,
+            Some("body2 (R = -0.011 m)"),
+        ),
+    ];
+    for (first, second, line, conforms) in cases {
+        for ratio in [0.05, 0.099, 0.101, 0.2, 0.9, 0.99, 1.01, 2.0] {
+            let scene = pressed(first, second, ratio * 0.01, line);
+            let breadth = scene.hertz_breadth().expect("curved");
+            let case = format!("{first:?} {second:?} {ratio} {breadth:?}");
+            assert!((breadth.ratio() - ratio).abs() < 1e-6 * ratio, "{case}");
+            let told: Vec<_> = scene.doubts();
+            let told: Vec<_> = told.iter().filter(|d| d.contains("a/R = ")).collect();
+            assert_eq!(
+                told.len(),
+                usize::from(ratio > 0.1 && ratio < 1.0),
+                "{case} {told:?}"
+            );
+            let refused = scene.check();
+            assert_eq!(refused.is_err(), ratio > 1.0, "{case} {refused:?}");
+            let words = told.first().map(ToString::to_string);
+            let words = words
+                .into_iter()
+                .chain(refused.err().map(|e| e.to_string()));
+            for words in words {
+                let conformal = words.contains("conformal contact with");
+                assert_eq!(conformal, conforms.is_some(), "{words}");
+                assert!(words.contains(conforms.unwrap_or("body")), "{words}");
+            }
+        }
+    }
+}
+
+/// What the solution shows counts, where the scene alone cannot know it.
+#[test]
+fn a_contact_that_comes_out_wide_is_told_and_refused() {
+    let scene = pressed([0.01, 0.01], [f64::INFINITY; 2], 0.0005, false);
+    let reached = |a: f64| Reached {
+        cells_per_radius: 20.0,
+        contact_radius: a,
+        ..Reached::default()
+    };
+    assert!(reached(0.0009).all_doubts(&scene).is_empty());
+    let told = reached(0.0015).all_doubts(&scene);
+    assert!(
+        told.len() == 1 && told[0].contains("a/R = 0.15"),
+        "{told:?}"
+    );
+    assert!(reached(0.0099).check(&scene).is_ok());
+    let refused = reached(0.0101)
+        .check(&scene)
+        .expect_err("as wide as the ball");
+    assert!(refused.to_string().contains("a/R = 1.01"), "{refused}");
 }

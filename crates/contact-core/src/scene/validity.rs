@@ -1,0 +1,187 @@
+//! Whether the bodies may be taken as half-spaces: the half width of the contact over the radius of
+//! each body, as a body. The relative radius of a shaft in its bushing is large, the shaft is not.
+
+use plausible::UNITS;
+
+use super::shape::Shape;
+use super::{Body, Scene};
+use crate::digits::short;
+use crate::error::Error;
+use crate::hertz::hertz_ellipse;
+
+/// Half width over radius up to which half-spaces hold to some per cent.
+const WIDE: f64 = 0.1;
+/// Half width over radius from which on the surface is no parabola and the body no half-space.
+const WIDEST: f64 = 1.0;
+
+/// The half width of a contact beside the radius of a body, where their ratio is largest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Breadth {
+    /// Half width of the contact along the principal direction of the body \[m\].
+    pub half_width: f64,
+    /// Principal radius of the body in that direction \[m\], negative for a hollow one.
+    pub R: f64,
+    /// The body, 1 or 2.
+    pub body: usize,
+    /// Radius of the other body in that direction, if one is hollow and holds the other \[m\].
+    pub conforms_to: Option<f64>,
+}
+
+impl Breadth {
+    /// Half width over radius.
+    pub fn ratio(&self) -> f64 {
+        self.half_width / self.R.abs()
+    }
+
+    /// What it is, for people.
+    fn told(&self) -> String {
+        let Self {
+            half_width,
+            R,
+            body,
+            conforms_to,
+        } = *self;
+        let conformal = conforms_to.map_or(String::new(), |other| {
+            format!(
+                ", in a conformal contact with body{} (R = {} m)",
+                3 - body,
+                short(other)
+            )
+        });
+        format!(
+            "a/R = {:.2}: the half width of the contact is {} m, the radius of body{body} {} m{conformal}",
+            self.ratio(),
+            short(half_width),
+            short(R)
+        )
+    }
+}
+
+impl Scene {
+    /// The largest half width over radius of a body, for a contact of that half width \[m\] in
+    /// every direction \[rad\]; `None` where no body is curved.
+    pub fn breadth(&self, half_width: impl Fn(f64) -> f64) -> Option<Breadth> {
+        let bodies = [&self.body1, &self.body2];
+        let mut all = Vec::new();
+        for (n, body) in bodies.into_iter().enumerate() {
+            for (k, azimuth) in self.principal(&body.shape) {
+                let other = normal_curvature(bodies[1 - n].shape.curvature(), azimuth);
+                all.push(Breadth {
+                    half_width: half_width(azimuth),
+                    R: 1.0 / k,
+                    body: n + 1,
+                    conforms_to: (k * other < 0.0).then(|| 1.0 / other),
+                });
+            }
+        }
+        all.into_iter()
+            .max_by(|a, b| a.ratio().total_cmp(&b.ratio()))
+    }
+
+    /// That of the Hertz contact of the substrates under the largest load of the path.
+    pub fn hertz_breadth(&self) -> Option<Breadth> {
+        self.hertz_breadth_of(self.hertz()?.a)
+    }
+
+    /// That of a contact of the Hertz shape and such a mean radius or half width \[m\]. Of bodies
+    /// without a Hertz contact it is taken as round.
+    pub(crate) fn hertz_breadth_of(&self, a: f64) -> Option<Breadth> {
+        let (steep, shallow) = self.principal_curvatures();
+        if self.grid.plane_strain || shallow <= 1e-9 * steep {
+            return self.breadth(|_| a);
+        }
+        let of = hertz_ellipse(1.0 / shallow, 1.0 / steep, 1.0, 1.0);
+        let mean = (of.a_x * of.a_y).sqrt();
+        let [cos, sin] = self.steepest();
+        let (long, short) = (a * of.a_x / mean, a * of.a_y / mean);
+        self.breadth(|azimuth| {
+            let (s, c) = azimuth.sin_cos();
+            (short * (c * cos + s * sin)).hypot(long * (s * cos - c * sin))
+        })
+    }
+
+    /// Fails if the contact is certain to be wider than a body, even if each were of its stiffest
+    /// material alone.
+    pub(super) fn check_breadth(&self) -> Result<(), Error> {
+        let stiff = Self {
+            body1: stiffest(&self.body1),
+            body2: stiffest(&self.body2),
+            ..self.clone()
+        };
+        let breadth = stiff.hertz_breadth();
+        breadth.map_or(Ok(()), |breadth| stiff.refuse(&breadth))
+    }
+
+    /// Fails at a contact that is as wide as a body.
+    pub(crate) fn refuse(&self, breadth: &Breadth) -> Result<(), Error> {
+        if breadth.ratio() < WIDEST {
+            return Ok(());
+        }
+        let load = self.hertz().map_or(String::new(), |hertz| {
+            format!(
+                " (W = {:.3e} {}, E* = {:.3e} Pa)",
+                hertz.W,
+                self.grid.unit_of("N"),
+                hertz.E_star
+            )
+        });
+        Err(Error::invalid(
+            "path",
+            format!("a contact with {}{load}", breadth.told()),
+            format!(
+                "below a/R = {WIDEST}: half-spaces hold up to a/R = {WIDE}, and a conformal contact needs another method; {UNITS}"
+            ),
+        ))
+    }
+
+    /// The doubt of a contact that is wide for a body; none of one that is refused.
+    pub(crate) fn doubt_of_breadth(&self, breadth: &Breadth) -> Option<String> {
+        let pressure = self.hertz().map_or(String::new(), |hertz| {
+            format!(", the peak pressure {:.2} E*", hertz.p0 / hertz.E_star)
+        });
+        (WIDE..WIDEST).contains(&breadth.ratio()).then(|| {
+            format!(
+                "{}{pressure}: half-spaces hold up to a/R = {WIDE}; {UNITS}",
+                breadth.told()
+            )
+        })
+    }
+
+    /// The principal curvatures of a shape that are not zero \[1/m\], with their directions
+    /// \[rad\]; of line contacts that along x.
+    fn principal(&self, shape: &Shape) -> Vec<(f64, f64)> {
+        let [xx, xy, yy] = shape.curvature();
+        if self.grid.plane_strain {
+            return if xx == 0.0 {
+                Vec::new()
+            } else {
+                vec![(xx, 0.0)]
+            };
+        }
+        let (mean, half) = (0.5 * (xx + yy), (0.5 * (xx - yy)).hypot(xy));
+        let azimuth = 0.5 * xy.atan2(0.5 * (xx - yy));
+        let both = [
+            (mean + half, azimuth),
+            (mean - half, azimuth + std::f64::consts::FRAC_PI_2),
+        ];
+        let flat = 1e-9 * mean.abs().max(half);
+        let curved = both.into_iter().filter(|(k, _)| k.abs() > flat);
+        curved.collect()
+    }
+}
+
+/// Curvature along a direction, of second derivatives xx, xy, yy \[1/m\].
+fn normal_curvature([xx, xy, yy]: [f64; 3], azimuth: f64) -> f64 {
+    let (s, c) = azimuth.sin_cos();
+    xx * c * c + 2.0 * xy * s * c + yy * s * s
+}
+
+/// The body as if it were of its stiffest material.
+pub(super) fn stiffest(body: &Body) -> Body {
+    let coatings = body.coatings.iter().map(|c| c.material);
+    let modulus = |m: &crate::scene::Elastic| m.E / (1.0 - m.nu * m.nu);
+    let substrate = coatings.fold(body.substrate, |s, m| {
+        if modulus(&m) > modulus(&s) { m } else { s }
+    });
+    Body::homogeneous(substrate, body.shape.clone())
+}
