@@ -42,7 +42,6 @@ def random_coatings(random: np.random.Generator) -> list[fret.Coating]:
 PATH = fret.LoadPath.start().normal(W, increments=1).tangential(0.6 * 0.3 * W, increments=1)
 
 
-@pytest.mark.xfail(strict=False, reason="the search of the whole body loses interfaces")
 @pytest.mark.solves
 @pytest.mark.timeout(600)
 @pytest.mark.filterwarnings("ignore::pyfret.errors.SceneWarning")
@@ -58,7 +57,11 @@ def test_chosen_depths_find_the_largest_stress_of_random_layered_contacts() -> N
         chosen, finer = last.stress(), last.stress(np.unique(many), y=0.0)
         for of in ("von_mises", "s_1", "interface_shear"):
             found, truth = chosen.maximum(of), finer.maximum(of)
-            difference = abs(found.value - truth.value) / truth.value
+            # Both are values at points: the larger is nearer to the largest of the body.
+            there = last.stress([found.z], x=found.x, y=found.y)
+            own = there.dataset.layer.values == found.layer
+            assert there.measure(of).values[own] == pytest.approx(found.value, rel=0.01)
+            difference = max(truth.value - found.value, 0.0) / truth.value
             assert difference <= OFF, (scene.body2, of, found, truth)
             worst = max(worst, difference)
             covered.append(difference <= found.error / truth.value + 1e-9)

@@ -915,6 +915,7 @@ class Envelope:
         of: Sequence[str],
         x: float | None = None,
         y: float | None = None,
+        azimuth: float | None = None,
         body_number: int = 2,
         residual: Sequence[float] | None = None,
     ) -> Envelope: ...
@@ -2271,7 +2272,7 @@ class Subsurface:
         azimuth: float | None = None,
         only: int | None = None,
         anywhere: bool = False,
-        error_bars: tuple[float, float] | None = None,
+        error_bar: float | None = None,
     ) -> tuple[
         tuple[
             float,
@@ -2280,6 +2281,7 @@ class Subsurface:
             float,
             int,
             str | None,
+            float,
             tuple[float, float, float, float, float | None],
         ]
         | None,
@@ -2701,6 +2703,18 @@ def criterion_on(
 ) -> dict[str, NDArray[np.float64]]:
     """A criterion on stresses of shape (time, points, 6): arrays over the points."""
 
+def cycle_sections(
+    grid: Grid,
+    moments: Callable[[list[int] | None], tuple[list[Any], ...] | None],
+    count: int,
+) -> list[tuple[float | None, float | None, float | None]]:
+    """
+    x, y and azimuth of the sections in which a cycle of a contact is looked at by default.
+
+    The first along the shear; a second across it, where the contact or its shear has no axis of its
+    own there. `moments` and `count` are those of :class:`CycleSection`.
+    """
+
 def cycle_temperature(
     conductor1: Sequence[tuple[float, float]],
     conductor2: Sequence[tuple[float, float]],
@@ -2851,14 +2865,12 @@ def loops(
 ) -> list[dict[str, float]]:
     """Energy and stiffness of every cycle of a history; use :meth:`pyfret.Result.loops`."""
 
-def main_sections(
-    outlines: Sequence[Outline], *, stretched: bool = False
-) -> list[tuple[float | None, float | None, float | None]]:
+def main_sections(outline: Outline) -> list[tuple[float | None, float | None, float | None]]:
     """
-    x, y and azimuth of the sections in which a cycle of a contact is looked at by default.
+    x, y and azimuth of the sections in which a contact is looked at by default.
 
-    Of the outlines of its moments: the first along the shear; a second across it, where the
-    contact or its shear has no axis of its own there. `stretched`: there is a bulk stress along x.
+    The first along the shear; a second across it, where the contact or its shear has no axis of its
+    own there.
     """
 
 def material_quantities() -> list[tuple[str, str, str]]:
@@ -3163,6 +3175,7 @@ __all__ = [
     "crack_of_states",
     "criteria",
     "criterion_on",
+    "cycle_sections",
     "cycle_temperature",
     "dang_van_path",
     "depths",

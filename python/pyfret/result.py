@@ -17,6 +17,7 @@ from pyfret.run.summary import summary
 from pyfret.run.tables import run_html
 from pyfret.snapshot import Figures, Snapshot
 from pyfret.subsurface import fields
+from pyfret.subsurface.moments import lines_of
 
 if TYPE_CHECKING:
     import os
@@ -73,6 +74,7 @@ class Result(Run):
         *,
         x: float | None = None,
         y: float | None = None,
+        azimuth: float | None = None,
         of: Sequence[str] = ("von_mises",),
         body_number: int = 2,
         bulk: bool = True,
@@ -81,15 +83,21 @@ class Result(Run):
         """Extremes of stress over the increments whose fields were kept, on a section or on planes.
 
         Use :func:`pyfret.subsurface.envelope` with :func:`pyfret.march` for all increments of a
-        path without keeping their fields; parameters and result are those of that function.
+        path without keeping their fields; parameters and result are those of that function. Without
+        depths and place the section stands along the shear of these increments, through the centre
+        of the largest contact.
         """
-        kept = (self.at(int(n)) for n in self.dataset.saved_increment.values)
+        saved = self.dataset.saved_increment.values
+        if z is None and x is None and y is None and azimuth is None:
+            x, y, azimuth = lines_of(self, saved, body_number)[0]
+        kept = (self.at(int(n)) for n in saved)
         return fields.envelope(
             self.scene,
             kept,
             z,
             x=x,
             y=y,
+            azimuth=azimuth,
             of=of,
             body_number=body_number,
             bulk=bulk,

@@ -148,9 +148,9 @@ impl Store {
         Array2::from_shape_vec((nx, ny), values).map_err(|e| failed(&e))
     }
 
-    /// The error bars of pressure and shear as fields, over their largest, of the branch of an
-    /// increment, from 1; `None` where the run has none.
-    pub fn field_errors(&self, increment: usize) -> Result<Option<[f64; 2]>, Error> {
+    /// The error bar of the stress below the branch of an increment, from 1, over the stress; `None`
+    /// where the run has none. Stores of before have those of pressure and shear as fields.
+    pub fn stress_error(&self, increment: usize) -> Result<Option<f64>, Error> {
         let bars = &self.attributes()["error_bars"];
         if bars.is_null() {
             return Ok(None);
@@ -158,7 +158,8 @@ impl Store {
         let branches = self.column("branch_of_increment")?;
         let branch = increment.checked_sub(1).and_then(|row| branches.get(row));
         let bar = |name: &str| bars[*branch? as usize][name]["total"].as_f64();
-        Ok(bar("p").zip(bar("q")).map(|(p, q)| [p, q]))
+        let fields = bar("p").zip(bar("q")).map(|(p, q)| p.hypot(q));
+        Ok(bar("stress").or(fields))
     }
 
     fn array(&self, name: &str) -> Result<Stored<'_>, Error> {

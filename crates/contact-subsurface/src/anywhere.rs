@@ -53,6 +53,8 @@ const FLAT: f64 = 1e-3;
 struct Sampled {
     line: Line,
     depths: Vec<Depth>,
+    /// The depths on an interface.
+    on_one: Vec<bool>,
     along: Vec<f64>,
     values: Array2<f64>,
 }
@@ -81,6 +83,7 @@ pub fn largest_anywhere(
     layers.dedup();
     layers.retain(|n| layer.is_none_or(|layer| layer == *n));
     let mut sampled = Vec::new();
+    let both = on_interfaces(depths);
     for n in &layers {
         let rows: Vec<usize> = (0..depths.len())
             .filter(|k| depths[*k].layer == *n)
@@ -88,6 +91,7 @@ pub fn largest_anywhere(
         sampled.push(Sampled {
             line,
             depths: rows.iter().map(|k| depths[*k]).collect(),
+            on_one: rows.iter().map(|k| both[*k]).collect(),
             along: line.places(grid),
             values: samples.select(Axis(0), &rows),
         });
@@ -104,6 +108,7 @@ pub fn largest_anywhere(
             sampled.push(Sampled {
                 line: across,
                 depths: of,
+                on_one: sampled[n].on_one.clone(),
                 along: across.places(grid),
                 values,
             });
@@ -126,7 +131,7 @@ pub fn largest_anywhere(
     for one in &sampled {
         let rows = one.values.rows().into_iter();
         let tops: Vec<_> = rows.map(|row| top_of_line(&row, &one.along)).collect();
-        let hills = hills_of(&probe, &tops, &one.depths, layer);
+        let hills = hills_of(&probe, &tops, (&one.depths, &one.on_one), layer);
         starts.extend(
             hills
                 .iter()
@@ -140,7 +145,6 @@ pub fn largest_anywhere(
             Line::AlongX(0.0).places(grid),
             Line::AlongY(0.0).places(grid),
         );
-        let both = on_interfaces(depths);
         for (depth, on_one) in depths.iter().zip(both) {
             let asked = layer.is_none_or(|layer| layer == depth.layer);
             if !asked || !(on_one || depth.z <= 0.0) || (measure.of_interfaces && !on_one) {
@@ -184,7 +188,7 @@ pub fn largest_anywhere(
         for one in sampled.iter().filter(|one| one.line == line) {
             let rows = one.values.rows().into_iter();
             let tops: Vec<_> = rows.map(|row| top_of_line(&row, &one.along)).collect();
-            let hills = hills_of(&probe, &tops, &one.depths, layer);
+            let hills = hills_of(&probe, &tops, (&one.depths, &one.on_one), layer);
             starts.extend(
                 hills
                     .iter()

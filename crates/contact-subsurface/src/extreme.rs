@@ -33,8 +33,8 @@ pub struct Errors {
     /// Of the tractions: change of the value under the tractions on cells twice as large, within
     /// four cells of a border on a layer thinner than that 2.4 times that; `None` if not computed.
     pub tractions: Option<f64>,
-    /// Of the solution: the error of its pressure and shear ([`Extreme::with_error_bars`]); `None`
-    /// without error bars.
+    /// Of the solution: the error of the stress by that of its tractions
+    /// ([`Extreme::with_error_bars`]); `None` without error bars.
     pub solution: Option<f64>,
 }
 
@@ -56,19 +56,27 @@ impl Errors {
         }
     }
 
-    /// The sum of all.
+    /// Their sum: of a number that is no linear function of the stress, such as that of a fatigue
+    /// criterion, in which they may act together.
     pub fn sum(&self) -> f64 {
         let known = [self.tractions, self.solution].into_iter().flatten();
         self.x + self.y + self.z + known.sum::<f64>()
     }
+
+    /// All of them together: the root of the sum of their squares, since none causes another.
+    pub fn total(&self) -> f64 {
+        let known = [self.tractions, self.solution].into_iter().flatten();
+        let parts = [self.x, self.y, self.z].into_iter().chain(known);
+        parts.map(|part| part * part).sum::<f64>().sqrt()
+    }
 }
 
 impl Extreme {
-    /// With the error of the solution, from the error bars of pressure and shear as fields over
-    /// their largest ([`contact_core::estimate::ErrorBars::p`] and `q`): the stress is off by that part.
+    /// With the error of the solution, from that of the stress over its size
+    /// ([`contact_core::estimate::ErrorBars::stress`]).
     #[must_use]
-    pub fn with_error_bars(mut self, p: f64, q: f64) -> Self {
-        self.error.solution = Some(p.hypot(q) * self.value.abs());
+    pub fn with_error_bars(mut self, stress: f64) -> Self {
+        self.error.solution = Some(stress * self.value.abs());
         self
     }
 

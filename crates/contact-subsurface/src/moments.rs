@@ -5,9 +5,14 @@ use std::sync::atomic::AtomicBool;
 
 use contact_core::Error;
 use contact_core::convolution::Tractions;
+use contact_core::scene::Grid;
+use contact_core::zones::Outline;
 use ndarray::Array2;
 
-use crate::{States, TwiceAsLarge};
+use crate::{Line, States, TwiceAsLarge};
+
+/// Moments of a cycle, about, by which its sections find their place.
+const PLACED_BY: usize = 16;
 
 /// Tractions and bulk stress at several moments.
 #[derive(Clone, Debug, Default)]
@@ -83,6 +88,31 @@ impl Moments {
             sigma_B: self.sigma_B.clone(),
         }
     }
+}
+
+/// The sections in which a body is looked at over a cycle, where none is asked for:
+/// [`Line::of_outlines`] of the outlines of its moments.
+pub fn main_sections(cycle: &dyn OverCycle, grid: &Grid) -> Result<Vec<Line>, Error> {
+    let which: Vec<usize> = (0..cycle.count())
+        .step_by((cycle.count() / PLACED_BY).max(1))
+        .collect();
+    let (mut outlines, mut stretched) = (Vec::new(), false);
+    for n in which {
+        let now = cycle.moments(&[n])?;
+        for ([q_x, q_y, p], sigma_B) in now.tractions.iter().zip(&now.sigma_B) {
+            let own = Tractions {
+                q_x: q_x.as_slice(),
+                q_y: q_y.as_slice(),
+                p: p.as_slice(),
+            };
+            if let Some(outline) = Outline::new(grid, &own) {
+                outlines.push(outline);
+                stretched |= *sigma_B != 0.0;
+            }
+        }
+    }
+    let all: Vec<&Outline> = outlines.iter().collect();
+    Ok(Line::of_outlines(&all, stretched))
 }
 
 /// Difference of the tractions at the end and at the start of a cycle, over the largest at the end:

@@ -118,7 +118,7 @@ impl Search {
         };
         let lines = samples.rows().into_iter();
         let tops: Vec<_> = lines.map(|line| top_of_line(&line, along)).collect();
-        let hills = hills_of(probe, &tops, depths, layer);
+        let hills = hills_of(probe, &tops, (depths, &on_interfaces(depths)), layer);
         let starts = hills
             .iter()
             .flat_map(|hill| self.starts(line, hill, along, false));
@@ -229,7 +229,7 @@ impl Search {
                 known,
             })
         };
-        let hills = hills_of(probe, tops, depths, layer);
+        let hills = hills_of(probe, tops, (depths, &on_interfaces(depths)), layer);
         let starts = hills.iter().flat_map(both).collect();
         let cell = |v: f64, n: usize, d: f64| {
             (v / d + (n - 1) as f64 / 2.0)
@@ -414,15 +414,15 @@ fn lives_on_interfaces(probe: &Probe) -> bool {
     matches!(probe, Probe::Stress(m) if m.of_interfaces)
 }
 
-/// The hills of a layer, or of all, that are evaluated.
+/// The hills of a layer, or of all, that are evaluated, from the tops at the depths; which of them
+/// lie on an interface ([`on_interfaces`]) only all depths of the body show.
 pub(super) fn hills_of<const D: usize>(
     probe: &Probe,
     tops: &[Option<Top<D>>],
-    depths: &[Depth],
+    (depths, on_one): (&[Depth], &[bool]),
     layer: Option<usize>,
 ) -> Vec<Hill<D>> {
     let of_interfaces = lives_on_interfaces(probe);
-    let on_one = on_interfaces(depths);
     let asked = |k: usize| {
         layer.is_none_or(|layer| depths[k].layer == layer) && (!of_interfaces || on_one[k])
     };

@@ -12,8 +12,8 @@ pub(crate) struct Largest<'a> {
     /// Coatings of the body.
     pub(crate) layers: usize,
     pub(crate) increment: usize,
-    /// Error bars of p and q as fields, over their largest.
-    pub(crate) errors: Option<[f64; 2]>,
+    /// Error bar of the stress, over it.
+    pub(crate) error: Option<f64>,
     /// Whether lines are JSON objects, for programs.
     pub(crate) json: bool,
 }
@@ -22,7 +22,7 @@ impl Largest<'_> {
     /// The largest value of a probe with its error, and where it is; `axes` are those that were
     /// looked along.
     pub(crate) fn line(&self, probe: &Probe, m: &Extreme, axes: &[&str]) -> String {
-        let m = self.errors.map_or(*m, |[p, q]| m.with_error_bars(p, q));
+        let m = self.error.map_or(*m, |stress| m.with_error_bars(stress));
         let Extreme {
             value,
             depth,
@@ -44,7 +44,7 @@ impl Largest<'_> {
             } = error;
             return serde_json::json!({
                 "increment": self.increment, "name": probe.name(), "unit": probe.unit(),
-                "value": value, "error": error.sum(),
+                "value": value, "error": error.total(),
                 "errors": {
                     "x": x, "y": y, "z": z, "tractions": tractions, "solution": solution
                 },
@@ -61,7 +61,7 @@ impl Largest<'_> {
             .scene
             .hertz()
             .filter(|_| matches!(probe, Probe::Stress(_)));
-        let left = error.sum();
+        let left = error.total();
         let value = hertz.map_or_else(
             || {
                 format!(

@@ -14,8 +14,8 @@ pub(crate) struct Loads {
     stick: Array2<bool>,
     /// Bulk stress of the body in Pa.
     pub(crate) sigma_B: f64,
-    /// Error bars of p and q as fields, over their largest.
-    pub(crate) errors: Option<[f64; 2]>,
+    /// Error bar of the stress, over it.
+    pub(crate) error: Option<f64>,
 }
 
 impl Loads {
@@ -59,7 +59,7 @@ impl Loads {
         Ok(Self {
             increment: kept[place],
             sigma_B,
-            errors: store.field_errors(kept[place])?,
+            error: store.stress_error(kept[place])?,
             q_x: store.field("q_x", place)?,
             q_y: store.field("q_y", place)?,
             p: store.field("p", place)?,

@@ -8,10 +8,11 @@ use clap::Args;
 use contact_core::Error;
 use contact_core::convolution::Tractions;
 use contact_core::scene::{Body, Scene};
+use contact_core::zones::Outline;
 use contact_store::{ImageData, Store, StressStore, VolumeSink, write_volume};
 use contact_subsurface::{
-    Depth, Line, Probe, Search, Section, Side, Slices, States, chosen_depths, depths,
-    residual_of_layers,
+    Depth, Line, Loads as Below, Probe, Search, Section, Side, Slices, States, chosen_depths,
+    depths, largest_anywhere, residual_of_layers,
 };
 use ndarray::Axis;
 
@@ -47,7 +48,8 @@ pub(crate) struct Options {
         conflicts_with = "volume"
     )]
     along_y: Option<f64>,
-    /// The whole volume under the grid, plane by plane (default: the section along x at y = 0)
+    /// The whole volume under the grid, plane by plane (default: the section along the shear
+    /// through the centre of the contact, and the largest values of the whole body)
     #[arg(long)]
     volume: bool,
     /// Print one JSON object per measure, for programs
@@ -137,14 +139,11 @@ struct Task {
 pub(crate) fn stress(options: &Options) -> Result<(), Failure> {
     check_ending(options).map_err(Failure::BadInput)?;
     let task = Task::new(options, stop_on_interrupt()).map_err(Failure::BadInput)?;
-    let line = match (options.along_x, options.along_y, options.volume) {
-        (_, _, true) => None,
-        (_, Some(x), _) => Some(Line::AlongY(x)),
-        (y, None, _) => Some(Line::AlongX(y.unwrap_or(0.0))),
-    };
-    let lines = match line {
-        Some(line) => task.section(options, line),
-        None => task.volume(options),
+    let lines = match (options.along_x, options.along_y, options.volume) {
+        (_, _, true) => task.volume(options),
+        (_, Some(x), _) => task.section(options, Line::AlongY(x), false),
+        (Some(y), None, _) => task.section(options, Line::AlongX(y), false),
+        (None, None, _) => task.section(options, task.main_section(), true),
     };
     let lines = lines.map_err(|error| match error {
         Error::Interrupted { .. } => Failure::Stopped,
@@ -248,7 +247,7 @@ impl Task {
             scene: &self.scene,
             layers: self.body().coatings.len(),
             increment: self.loads.increment,
-            errors: self.loads.errors,
+            error: self.loads.error,
             json: self.json,
         }
     }
@@ -281,7 +280,16 @@ impl Task {
         }
     }
 
-    fn section(&self, options: &Options, line: Line) -> Result<Vec<String>, Error> {
+    /// The section along the shear, through the centre of the contact.
+    fn main_section(&self) -> Line {
+        let outline = Outline::new(&self.scene.grid, &self.loads.tractions());
+        let outlines: Vec<&Outline> = outline.iter().collect();
+        let lines = Line::of_outlines(&outlines, false);
+        lines.first().copied().unwrap_or(Line::AlongX(0.0))
+    }
+
+    /// A section; the largest values are those below its line, or `anywhere` in the body.
+    fn section(&self, options: &Options, line: Line, anywhere: bool) -> Result<Vec<String>, Error> {
         let grid = &self.scene.grid;
         if is_image(options) {
             let allowed = "a Zarr folder: image data (.vti) is of a --volume";
@@ -291,13 +299,16 @@ impl Task {
         let (tractions, stick) = ([self.loads.tractions()], self.loads.stick());
         let states = self.states(&tractions, &stick);
         let search = Search::new(self.body(), self.side, grid, Some(line), &states)?;
-        let section = Section::new(self.body(), self.side, grid, line, states)?;
+        let section = Section::new(self.body(), self.side, grid, line, states.clone())?;
         let (axis, along) = (line.name(), line.places(grid));
         let mut all: Vec<Depth> = self.chosen.clone();
         all.extend(self.depths.iter().filter(|d| !self.chosen.contains(d)));
         all.sort_by(|a, b| a.z.total_cmp(&b.z).then(a.layer.cmp(&b.layer)));
         let rows: Vec<usize> = (0..all.len())
             .filter(|n| self.depths.contains(&all[*n]))
+            .collect();
+        let of_chosen: Vec<usize> = (0..all.len())
+            .filter(|n| self.chosen.contains(&all[*n]))
             .collect();
         let found = section.probe(&all, &along, &self.probes, &search)?;
         let largest_of = self.largest();
@@ -306,12 +317,51 @@ impl Task {
             if let Some(store) = &store {
                 store.put_section(n, &values.select(Axis(0), &rows))?;
             }
-            if let Some(m) = largest {
-                lines.push(largest_of.line(probe, m, &[axis]));
+            match probe {
+                Probe::Stress(measure) if anywhere => {
+                    let samples = values.select(Axis(0), &of_chosen);
+                    let samples = (&self.chosen[..], &samples.view());
+                    let found = largest_anywhere(
+                        self.below(&states),
+                        measure,
+                        (line, true),
+                        samples,
+                        None,
+                    )?;
+                    self.say_rising(probe, &found.still_rises);
+                    let axes: &[&str] = if grid.plane_strain {
+                        &["x"]
+                    } else {
+                        &["x", "y"]
+                    };
+                    lines.extend(found.largest.map(|m| largest_of.line(probe, &m, axes)));
+                }
+                _ => lines.extend(largest.map(|m| largest_of.line(probe, &m, &[axis]))),
             }
         }
         store.map_or(Ok(()), StressStore::finish)?;
         Ok(lines)
+    }
+
+    /// The body under the loads.
+    fn below<'a>(&'a self, states: &'a States<'a>) -> Below<'a> {
+        Below {
+            body: self.body(),
+            side: self.side,
+            grid: &self.scene.grid,
+            states,
+        }
+    }
+
+    /// Warns of layers whose stress still rises at the end of the longest section.
+    fn say_rising(&self, probe: &Probe, layers: &[usize]) {
+        for layer in layers {
+            say(&format!(
+                "fret: warning: {} in layer {layer} still rises 8 lengths of the grid away from it: a larger value \
+                 may lie beyond; use a longer grid",
+                probe.name()
+            ));
+        }
     }
 
     fn volume(&self, options: &Options) -> Result<Vec<String>, Error> {

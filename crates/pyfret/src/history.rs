@@ -33,7 +33,7 @@ pub(crate) struct Envelope {
 #[pymethods]
 impl Envelope {
     #[new]
-    #[pyo3(signature = (body, grid, path, z: "Sequence[float]", layer: "Sequence[int]", *, of, x: "float | None" = None, y: "float | None" = None, body_number: "int" = 2, residual: "Sequence[float] | None" = None))]
+    #[pyo3(signature = (body, grid, path, z: "Sequence[float]", layer: "Sequence[int]", *, of, x: "float | None" = None, y: "float | None" = None, azimuth: "float | None" = None, body_number: "int" = 2, residual: "Sequence[float] | None" = None))]
     fn new(
         py: Python<'_>,
         body: Body,
@@ -44,13 +44,14 @@ impl Envelope {
         of: List<String>,
         #[pyo3(from_py_with = number)] x: Option<f64>,
         #[pyo3(from_py_with = number)] y: Option<f64>,
+        #[pyo3(from_py_with = number)] azimuth: Option<f64>,
         #[pyo3(from_py_with = number)] body_number: u8,
         residual: Option<List<f64>>,
     ) -> PyResult<Self> {
         let cycles = core::cycles(&path.0);
         let line = match (x, y) {
             (None, None) => None,
-            _ => Some(line(x, y, None)?),
+            _ => Some(line(x, y, azimuth)?),
         };
         let along = line.map_or_else(Vec::new, |line| line.places(&grid.0));
         let of_largest = line.unwrap_or(Line::AlongX(0.0));
@@ -162,7 +163,7 @@ impl Envelope {
                         self.largest.line.along(m.x, m.y),
                         m.depth.z,
                         layer,
-                        m.error.sum(),
+                        m.error.total(),
                     ])
                 });
                 let rows = Array2::from(rows.collect::<Vec<_>>());

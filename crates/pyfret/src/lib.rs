@@ -52,7 +52,7 @@ mod _core {
     use pyo3::prelude::*;
 
     #[pymodule_export]
-    use crate::assess::{CriterionBelow, CycleSection, YieldBelow};
+    use crate::assess::{CriterionBelow, CycleSection, YieldBelow, cycle_sections};
     #[pymodule_export]
     use crate::command_line::run_command;
     #[pymodule_export]

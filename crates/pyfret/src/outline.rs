@@ -111,16 +111,12 @@ impl Outline {
     }
 }
 
-/// x, y and azimuth of the sections in which a cycle of a contact is looked at by default.
+/// x, y and azimuth of the sections in which a contact is looked at by default.
 ///
-/// Of the outlines of its moments: the first along the shear; a second across it, where the
-/// contact or its shear has no axis of its own there. `stretched`: there is a bulk stress along x.
+/// The first along the shear; a second across it, where the contact or its shear has no axis of its
+/// own there.
 #[pyfunction]
-#[pyo3(signature = (outlines: "Sequence[Outline]", *, stretched = false))]
-pub(crate) fn main_sections(outlines: Vec<Py<Outline>>, stretched: bool) -> Vec<LineName> {
-    let all: Vec<&core::Outline> = outlines.iter().map(|one| &one.get().0).collect();
-    Line::of_outlines(&all, stretched)
-        .into_iter()
-        .map(name_of)
-        .collect()
+pub(crate) fn main_sections(outline: PyRef<'_, Outline>) -> Vec<LineName> {
+    let lines = Line::of_outlines(&[&outline.0], false);
+    lines.into_iter().map(name_of).collect()
 }

@@ -104,5 +104,5 @@ pub(crate) fn largest_of_samples(
         )));
     }
     let found = core::largest_of_samples(&samples, &depths, core::Line::AlongX(0.0), &along);
-    Ok(found.map(|m| (m.value, m.x, m.depth.z, m.depth.layer, m.error.sum())))
+    Ok(found.map(|m| (m.value, m.x, m.depth.z, m.depth.layer, m.error.total())))
 }

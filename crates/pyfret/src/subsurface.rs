@@ -199,7 +199,8 @@ pub(crate) struct Subsurface {
     stick: Option<Vec<bool>>,
 }
 
-/// A largest value: itself, x, y, z, layer, the border that it lies on, its errors.
+/// A largest value: itself, x, y, z, layer, the border that it lies on, its error and its errors by
+/// source.
 type Found = (
     f64,
     f64,
@@ -207,6 +208,7 @@ type Found = (
     f64,
     usize,
     Option<&'static str>,
+    f64,
     (f64, f64, f64, f64, Option<f64>),
 );
 
@@ -384,13 +386,13 @@ impl Subsurface {
 
     /// Largest value of a measure on a section, between its samples; in the layer `only`.
     ///
-    /// Value, x, y, z, layer, the border that it lies on, and the parts of its error along x, y
-    /// and z, of the tractions and, from the `error_bars` of p and q as fields, of the solution;
+    /// Value, x, y, z, layer, the border that it lies on, its error, and the parts of it along x, y
+    /// and z, of the tractions and, from the `error_bar` of the stress over it, of the solution;
     /// and the layers whose stress still rises at the end of the longest section. `anywhere`: also
     /// beside the section.
     #[pyo3(signature = (
         of, samples, z: "Sequence[float]", layer: "Sequence[int]", *, x: "float | None" = None, y: "float | None" = None, azimuth: "float | None" = None, only: "int | None" = None, anywhere = false,
-        error_bars: "tuple[float, float] | None" = None
+        error_bar: "float | None" = None
     ))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn maximum(
@@ -405,7 +407,7 @@ impl Subsurface {
         #[pyo3(from_py_with = number)] azimuth: Option<f64>,
         #[pyo3(from_py_with = number)] only: Option<usize>,
         anywhere: bool,
-        #[pyo3(from_py_with = number)] error_bars: Option<(f64, f64)>,
+        #[pyo3(from_py_with = number)] error_bar: Option<f64>,
     ) -> PyResult<(Option<Found>, Vec<usize>)> {
         let (depths, line) = (Self::depths(&z, &layer)?, line(x, y, azimuth)?);
         let grid = &self.grid.0;
@@ -435,7 +437,8 @@ impl Subsurface {
         })?;
         let found = found.map_err(to_python)?;
         let largest = found.largest.map(|m| {
-            let m = error_bars.map_or(m, |(p, q)| m.with_error_bars(p, q));
+            let m = error_bar.map_or(m, |stress| m.with_error_bars(stress));
+            let total = m.error.total();
             let core::Errors {
                 x,
                 y,
@@ -445,7 +448,16 @@ impl Subsurface {
             } = m.error;
             let error = (x, y, z, tractions.unwrap_or(f64::NAN), solution);
             let at = m.at.map(zone_name);
-            (m.value, m.x, m.y, m.depth.z, m.depth.layer, at, error)
+            (
+                m.value,
+                m.x,
+                m.y,
+                m.depth.z,
+                m.depth.layer,
+                at,
+                total,
+                error,
+            )
         });
         Ok((largest, found.still_rises))
     }

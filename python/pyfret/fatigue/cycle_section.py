@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,7 +11,7 @@ from pyfret._util.arrays import plain
 from pyfret._util.lazy import xr
 from pyfret.fatigue.cycles import cycle_increments, moment_before
 from pyfret.subsurface.fields import coordinates, interfaces
-from pyfret.subsurface.line import Line
+from pyfret.subsurface.moments import lines_of, moments_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -23,9 +23,6 @@ if TYPE_CHECKING:
     from pyfret.run import Run
 
 __all__ = ["body_of", "depths_of", "labelled", "over_cycle", "placed", "side_by_side"]
-
-#: Moments of a cycle, about, by which its sections find their place.
-MOMENTS = 16
 
 
 def body_of(result: Run, section: Section) -> Body:
@@ -43,31 +40,13 @@ def placed(result: Run, section: Section) -> list[Section]:
     if section.is_placed:
         return [section]
     kept = cycle_increments(result, section.cycle)
-    states = [result.at(int(n)) for n in kept[:: max(1, len(kept) // MOMENTS)]]
-    outlines = [now.outline for now in states if now.outline is not None]
-    stretched = any(now.bulk_stress(section.body_number) != 0.0 for now in states)
-    lines = _core.main_sections(outlines, stretched=stretched)
-    return [section.below(Line(*line)) for line in lines]
+    return [section.below(line) for line in lines_of(result, kept, section.body_number)]
 
 
 def over_cycle(result: Run, section: Section) -> _core.CycleSection:
     """A section at one place over its cycle."""
     kept = cycle_increments(result, section.cycle)
-    before = moment_before(result, kept)
-
-    def moments(which: Sequence[int] | None) -> tuple[list[Any], ...] | None:
-        if which is None and before is None:
-            return None
-        increments = [before] if which is None else [int(kept[n]) for n in which]
-        now = [result.at(int(n)) for n in increments if n is not None]
-        fields = [
-            [np.ascontiguousarray(one.dataset[name].values, dtype=float) for one in now]
-            for name in ("q_x", "q_y", "p")
-        ]
-        stick = [np.ascontiguousarray(one.dataset["stick"].values, dtype=bool) for one in now]
-        bulk = [one.bulk_stress(section.body_number) for one in now]
-        return (*fields, stick, bulk)
-
+    moments = moments_of(result, kept, section.body_number, moment_before(result, kept))
     return _core.CycleSection(
         body_of(result, section),
         result.scene.grid,

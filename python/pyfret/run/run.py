@@ -166,7 +166,8 @@ class Run(OfRun):
         Parts are ``total``, and what makes it: ``cells``, told by runs on two coarser grids and, of
         numbers on up to 256 x 256 cells, by one on a finer grid, ``path``, told by a run with fewer
         increments, and ``solver``, its tolerance. ``p`` and ``q`` are the tractions as fields: L2
-        norms over the largest of the path. The runs are those of ``solve(..., error=True)`` and
+        norms over the largest of the path. ``stress`` is that of the stress in the bodies, over the
+        stress. The runs are those of ``solve(..., error=True)`` and
         ``fret run --error``.
         """
         bars = self.dataset.attrs.get("error_bars")
@@ -177,7 +178,7 @@ class Run(OfRun):
         parts = list(bars[0]["q"])
         table = xr.Dataset(coords={"branch": [bar["branch"] for bar in bars], "part": parts})
         for name in (name for name in bars[0] if name != "branch"):
-            of_field = name in ("p", "q")
+            of_field = name in ("p", "q", "stress")
             values = np.array([[bar[name][part] for part in parts] for bar in bars], dtype=float)
             attrs = {"units": "1"} if of_field else self.dataset[name].attrs
             table[name] = (("branch", "part"), values, attrs)

@@ -116,7 +116,7 @@ def ends(result: Result) -> list[int]:
 
 
 def tension(result: Result, candidate: Candidate, duty: Duty) -> Found:
-    """The largest principal stress of the plane y = 0 at the ends of the branches of the cycle."""
+    """The largest principal stress of the body at the ends of the branches of the cycle."""
     last = candidate.layers - 1
     numbers: dict[str, Answer] = {}
     places: dict[str, float] = {}
@@ -126,7 +126,7 @@ def tension(result: Result, candidate: Candidate, duty: Duty) -> Found:
             continue
         found = [
             result.at(n)
-            .stress(y=0.0, body_number=duty.body_number, residual=candidate.residual)
+            .stress(body_number=duty.body_number, residual=candidate.residual)
             .maximum("s_1", layer=layer)
             for n in ends(result)
         ]
@@ -144,7 +144,7 @@ def tension(result: Result, candidate: Candidate, duty: Duty) -> Found:
 def first_yield(result: Result, candidate: Candidate, duty: Duty) -> Found:
     """The least load factor of first yield over the cycle, by von Mises' condition."""
     factors = result.load_factors(
-        candidate.yields, y=0.0, body_number=duty.body_number, residual=candidate.residual
+        candidate.yields, body_number=duty.body_number, residual=candidate.residual
     )
     least = factors.least("von_mises")
     places = {"first_yield_layer": float(least.layer), "first_yield_z": least.z}
@@ -186,7 +186,6 @@ def life(result: Result, candidate: Candidate, duty: Duty) -> Found:
     found = result.life(
         candidate.of_layers,
         duty.criterion,
-        y=0.0,
         body_number=duty.body_number,
         residual=candidate.residual,
     )

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from pyfret import _core
 from pyfret.scene.warnings import doubt_layers
 from pyfret.subsurface import fields
@@ -53,7 +55,7 @@ def stress_below(
         **state.tractions(),
     )
     yardsticks = {k: v for k, v in state.dataset.attrs.items() if k in ("a_H", "p_H")}
-    return below.assign_attrs(yardsticks | tractions_error(state) | {"anywhere": int(chosen)})
+    return below.assign_attrs(yardsticks | stress_error(state) | {"anywhere": int(chosen)})
 
 
 def line_below(
@@ -76,16 +78,19 @@ def line_below(
         return Line(x, y), False
     if outline is None:
         return Line(None, 0.0), True
-    return Line(*_core.main_sections([outline])[0]), True
+    return Line(*_core.main_sections(outline)[0]), True
 
 
-def tractions_error(state: State) -> dict[str, tuple[float, float]]:
-    """The errors of p and q as fields over their largest, where the run has error bars."""
+def stress_error(state: State) -> dict[str, float]:
+    """The error bar of the stress over its size, where the run has error bars."""
     bars = state.dataset.attrs.get("error_bars")
     if not bars:
         return {}
     of_branch = bars[int(state.dataset.branch_of_increment)]
-    return {"tractions_error": (of_branch["p"]["total"], of_branch["q"]["total"])}
+    if "stress" not in of_branch:
+        # A store of before has those of the fields alone.
+        return {"stress_error": float(np.hypot(*(of_branch[k]["total"] for k in ("p", "q"))))}
+    return {"stress_error": of_branch["stress"]["total"]}
 
 
 def displacement_below(

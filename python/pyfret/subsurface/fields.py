@@ -283,6 +283,7 @@ def envelope(
     *,
     x: float | None = None,
     y: float | None = None,
+    azimuth: float | None = None,
     of: Sequence[str] = ("von_mises",),
     body_number: int = 2,
     bulk: bool = True,
@@ -296,8 +297,9 @@ def envelope(
         With the load path that the increments are of.
     increments : iterable of Snapshot
         What :func:`pyfret.march` yields, or some snapshots of a result.
-    z, x, y, body_number
-        The section, as in :func:`stress`: `x` or `y`, or neither for whole planes.
+    z, x, y, azimuth, body_number
+        The section, as in :func:`stress`: `x` or `y`, or both and its direction; without depths and
+        place that along x at y = 0, with depths alone whole planes.
     of : sequence of str
         Measures, as in :class:`Stress`.
     bulk : bool
@@ -310,15 +312,15 @@ def envelope(
     xarray.Dataset
         For each measure ``<name>_max``, ``<name>_min`` and ``<name>_increment`` (of the largest
         value) over depth and x or y, ``<name>_amplitude`` and ``<name>_mean`` over cycle, depth
-        and x or y; a cycle is the closed piece of the path between ``first_branch`` and
+        and x, y or s; a cycle is the closed piece of the path between ``first_branch`` and
         ``last_branch``. On a section also over ``increment``: the largest value on it,
-        ``<name>_largest``, and where it is between the samples, ``<name>_largest_x`` (or ``_y``),
-        ``<name>_largest_z`` and ``<name>_largest_layer``. At the rims of the contact and the
-        borders of the stick zone it is evaluated, elsewhere it is that of a parabola between the
-        samples, of which ``<name>_largest_error`` tells.
+        ``<name>_largest``, and where it is between the samples, ``<name>_largest_x`` (``_y``,
+        ``_s``), ``<name>_largest_z`` and ``<name>_largest_layer``. At the rims of the contact and
+        the borders of the stick zone it is evaluated, elsewhere it is that of a parabola between
+        the samples, of which ``<name>_largest_error`` tells.
     """
-    if x is not None and y is not None:
-        raise ValueError("give x or y for a section, or neither for whole planes")
+    if (x is not None and y is not None) != (azimuth is not None):
+        raise ValueError("give x or y for a section, both with its azimuth, or neither for planes")
     if isinstance(of, str):
         of = (of,)
     body = scene.body1 if body_number == 1 else scene.body2
@@ -337,6 +339,7 @@ def envelope(
         of=list(of),
         x=x,
         y=y,
+        azimuth=azimuth,
         body_number=body_number,
         residual=residual,
     )
@@ -346,11 +349,11 @@ def envelope(
         number, branch = (int(snapshot.dataset[k]) for k in ("increment", "branch_of_increment"))
         sigma_B = snapshot.bulk_stress(body_number) if bulk else 0.0
         stream.push(number, branch, stick=stick, sigma_B=sigma_B, **fields)
-    coords = coordinates(scene.grid, depths, layers, x, y)
-    along = [name for name, at in (("x", x), ("y", y)) if at is None]
+    result = xr.Dataset(coords=coordinates(scene.grid, depths, layers, x, y, azimuth))
+    free = [name for name, at in (("x", x), ("y", y)) if at is None]
+    along = free if azimuth is None else ["s"]
     dims = ("depth", *along)
-    shape = (len(depths), *(getattr(scene.grid, name).size for name in along))
-    result = xr.Dataset(coords=coords)
+    shape = tuple(result.sizes[name] for name in dims)
     for name, kept in stream.finish().items():
         meaning = LABELS[name][1]
         for key in ("max", "min"):

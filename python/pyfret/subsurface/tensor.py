@@ -37,8 +37,8 @@ class Errors(NamedTuple):
     #: By how much the value differs under the tractions of cells twice as large; NaN where that was
     #: not looked at.
     tractions: float
-    #: The error of the tractions themselves, by the error bars of the fields p and q; None without
-    #: these (``solve(..., error=True)``).
+    #: The error of the stress that the errors of the tractions cause; None without error bars
+    #: (``solve(..., error=True)``).
     solution: float | None
 
 
@@ -57,7 +57,7 @@ class Extreme(NamedTuple):
     #: The border that it lies on, "rim" or "stick border", or none. At the rim a value depends on
     #: how well the tractions are known there: fatigue wants a mean over a critical distance.
     at: str | None
-    #: What may be wrong with the value, all together [Pa].
+    #: Error of the value: the root of the sum of squares of those by source [Pa].
     error: float
     #: The same by its sources [Pa].
     errors: Errors
@@ -173,7 +173,7 @@ class Stress(Labelled):
             depths,
             layers,
             only=layer,
-            error_bars=self.dataset.attrs.get("tractions_error"),
+            error_bar=self.dataset.attrs.get("stress_error"),
             anywhere=bool(self.dataset.attrs.get("anywhere", 0)),
             **line_of(self.dataset).named(),
         )
@@ -189,10 +189,8 @@ class Stress(Labelled):
             raise ValueError(f"{of}: no interface lies among the depths of the section")
         if found is None:
             raise ValueError("the section holds no number")
-        value, x, y, z, in_layer, at, errors = found
-        by_source = Errors(*errors)
-        known = [error for error in by_source if error is not None]
-        return Extreme(value, x, y, z, in_layer, at, float(np.nansum(known)), by_source)
+        value, x, y, z, in_layer, at, error, errors = found
+        return Extreme(value, x, y, z, in_layer, at, error, Errors(*errors))
 
     def on_surface(self) -> Stress:
         """Give the stress at the first depth alone."""

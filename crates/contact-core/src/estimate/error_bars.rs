@@ -101,6 +101,9 @@ pub struct ErrorBars {
     pub p: Bar,
     /// Of the shear as a field: L2 norm, over the largest of the path.
     pub q: Bar,
+    /// Of the stress in the bodies, over its size ([`of_stress`]).
+    #[serde(default)]
+    pub stress: Bar,
 }
 
 impl ErrorBars {
@@ -212,6 +215,7 @@ fn bars(
     let [delta_z, phi_x, phi_y, delta_x, delta_y, phi_z] =
         [0, 1, 2, 3, 4, 5].map(|k| bar(MOTIONS + k));
     let [W, M_x, M_y, T_x, T_y, M_z] = [0, 1, 2, 3, 4, 5].map(|k| bar(LOADS + k));
+    let known = [CONTACT_RADIUS, STICK_RATIO, P_MAX].map(|n| bar(n).cells);
     ErrorBars {
         branch: fine.branch,
         contact_radius: bar(CONTACT_RADIUS),
@@ -232,7 +236,27 @@ fn bars(
         dissipated: bar(DISSIPATED),
         p: Bar::new(of_grids.fields[0], path.p, tolerance),
         q: Bar::new(of_grids.fields[1], path.q, tolerance),
+        stress: of_stress(fine, known, path, tolerance),
     }
+}
+
+/// The error of the stress that the errors of the tractions cause, over the stress, from the errors
+/// of contact radius, stick ratio and largest pressure by the cells.
+///
+/// The errors of cells lie at the rim and at the border of the stick zone, change sign from cell to
+/// cell, and cancel in the stress a few cells away from there; near them the change to cells twice
+/// as large shows them. Farther away the stress errs by as much as the size and the height of the
+/// tractions do: da/a, dp_max/p_max, and dS/2, since half of the shear has its border there. The
+/// errors of increments are smooth: they count whole.
+fn of_stress(
+    fine: &BranchSummary,
+    [radius, stick, p_max]: [f64; 3],
+    path: &PathError,
+    tolerance: f64,
+) -> Bar {
+    let over = |error: f64, value: f64| if value > 0.0 { error / value } else { 0.0 };
+    let size = over(radius, fine.contact_radius).hypot(over(p_max, fine.p_max));
+    Bar::new(size.hypot(0.5 * stick), path.p.hypot(path.q), tolerance)
 }
 
 /// Error of each number within a tolerance, in its unit: for most numbers tol times the number.

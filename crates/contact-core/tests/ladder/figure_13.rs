@@ -74,7 +74,7 @@ fn stressed(ratio: f64, (n, across): (usize, usize)) -> Stressed {
         surface: (
             on.value / hertz.p0,
             on.x / hertz.a,
-            on.error.sum() / hertz.p0,
+            on.error.total() / hertz.p0,
         ),
         below: (below.value / hertz.p0, Depth { z, ..below.depth }),
     }

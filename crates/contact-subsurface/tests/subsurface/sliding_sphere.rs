@@ -189,7 +189,7 @@ fn the_tension_at_the_trailing_edge_is_the_largest() {
             let error = (m.value - exact).abs();
             assert!(error < tolerance * exact, "mu = {mu}, {n}: {error}");
             assert!(
-                error < m.error.sum() + 2e-3,
+                error < m.error.total() + 2e-3,
                 "mu = {mu}, {n}: {error} {m:?}"
             );
             assert!(m.at == Some(Zone::Contact) && (m.x + 1.0).abs() < 0.2 * 2.4 / n as f64);

@@ -10,7 +10,7 @@ use contact_core::scene::text_of;
 use contact_store::Store;
 use contact_store::StoredCycle;
 use contact_subsurface::{Line, Side, chosen_depths, depths, residual_of_layers};
-use contact_subsurface::{OverCycle, unsettled};
+use contact_subsurface::{OverCycle, main_sections, unsettled};
 use fatigue::{Material, Search, find, materials, read};
 use serde_json::json;
 
@@ -64,9 +64,10 @@ fn judged(options: &Options) -> Result<Vec<String>, Error> {
         cycle: &cycle,
         stop: stop_on_interrupt(),
     };
-    let line = match options.along_y {
-        Some(x) => Line::AlongY(x),
-        None => Line::AlongX(options.along_x.unwrap_or(0.0)),
+    let lines = match (options.along_x, options.along_y) {
+        (_, Some(x)) => vec![Line::AlongY(x)],
+        (Some(y), None) => vec![Line::AlongX(y)],
+        (None, None) => main_sections(&cycle, &scene.grid)?,
     };
     let mut notes = of[0].notes.clone();
     if let Some(much) = unsettled(&cycle)?.filter(|much| *much > UNSETTLED) {
@@ -77,7 +78,7 @@ fn judged(options: &Options) -> Result<Vec<String>, Error> {
         ));
     }
     let found: Vec<Row> = if let Some(length) = options.distance {
-        let of_each = of.iter().map(|of| mean(options, &site, line, length, of));
+        let of_each = of.iter().map(|of| mean(options, &site, &lines, length, of));
         of_each.collect::<Result<_, _>>()?
     } else {
         let last = cycle.moments(&[cycle.count() - 1])?;
@@ -87,12 +88,15 @@ fn judged(options: &Options) -> Result<Vec<String>, Error> {
         } else {
             depths(body, &options.depths)?
         };
-        let judged = judge(&site, line, &asked, &of)?;
+        let below = lines.iter().map(|line| judge(&site, *line, &asked, &of));
+        let below = below.collect::<Result<Vec<_>, _>>()?;
         if let Some(out) = &options.out {
-            table::write(out, &judged[0], &of[0])?;
+            table::write(out, &below[0][0], &of[0])?;
         }
-        let each = judged.iter().zip(&of);
-        let rows = each.map(|(judged, of)| points(&site, judged, of, body));
+        let rows = of.iter().enumerate().map(|(n, of)| {
+            let judged: Vec<_> = below.iter().map(|judged| &judged[n]).collect();
+            points(&site, &judged, of, body)
+        });
         rows.collect::<Result<Vec<_>, _>>()?.concat()
     };
     if found.iter().any(|row| row.at_rim) {

@@ -26,7 +26,9 @@ pub(crate) struct Options {
     /// Body below (2) or above (1) the contact plane
     #[arg(long, default_value = "2", value_parser = clap::value_parser!(u8).range(1..=2))]
     pub(super) body: u8,
-    /// Section along x at this y, in metres (default: 0)
+    /// Section along x at this y, in metres (default: the section along the shear through the centre
+    /// of the largest contact of the cycle, and the one across it unless a round contact is sheared
+    /// along one line)
     #[arg(
         long,
         value_name = "Y",

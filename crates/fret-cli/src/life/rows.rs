@@ -23,33 +23,43 @@ pub(super) struct Row {
     pub(super) at_rim: bool,
 }
 
-/// The worst point of every layer that is judged, the one that decides marked.
+/// The worst point of every layer that is judged, of all sections, the one that decides marked.
 pub(super) fn points(
     site: &Site<'_>,
-    judged: &Judged<AtPoint>,
+    sections: &[&Judged<AtPoint>],
     of: &ByCriterion,
     body: &Body,
 ) -> Result<Vec<Row>, Error> {
-    let mut all: Vec<(Worst<AtPoint>, &Assessment)> = Vec::new();
+    let mut all: Vec<(Worst<AtPoint>, &Assessment, Line)> = Vec::new();
     for layer in 0..=body.coatings.len() {
-        if let Some(assessment) = of.of(layer) {
-            all.extend(worst(site, judged, of, layer)?.map(|worst| (worst, assessment)));
+        let Some(assessment) = of.of(layer) else {
+            continue;
+        };
+        let mut found: Option<(Worst<AtPoint>, Line)> = None;
+        for judged in sections {
+            let here = worst(site, judged, of, layer)?;
+            if let Some(worst) = here
+                && found.is_none_or(|(known, _)| worst.extreme.value > known.extreme.value)
+            {
+                found = Some((worst, judged.line));
+            }
         }
+        all.extend(found.map(|(worst, line)| (worst, assessment, line)));
     }
-    let margin = |(w, a): &(Worst<AtPoint>, &Assessment)| a.margin(w.extreme.value);
+    let margin = |(w, a, _): &(Worst<AtPoint>, &Assessment, Line)| a.margin(w.extreme.value);
     let least =
         all.iter().map(margin).fold(
             f64::INFINITY,
             |least, margin| if margin < least { margin } else { least },
         );
     let rows = all.iter().map(|one| {
-        let (w, a) = one;
+        let (w, a, line_of) = one;
         let margin = margin(one);
         let decides = !(margin > least);
         let name = if a.gives_lives() { "life" } else { "safety_factor" };
         let (criterion, unit) = (a.criterion.name(), a.criterion.unit());
         let normal = a.criterion.has_plane().then_some(w.found.normal);
-        let angle = normal.map(|n| inclination(n, judged.line).to_degrees());
+        let angle = normal.map(|n| inclination(n, *line_of).to_degrees());
         let at = w.extreme.at.map(|zone| match zone {
             Zone::Contact => "rim of the contact",
             Zone::Stick => "border of the stick zone",
@@ -92,7 +102,7 @@ pub(super) fn points(
 pub(super) fn mean(
     options: &Options,
     site: &Site<'_>,
-    line: Line,
+    lines: &[Line],
     length: f64,
     of: &ByCriterion,
 ) -> Result<Row, Error> {
@@ -115,14 +125,18 @@ pub(super) fn mean(
         length,
         layer,
     };
-    let found = average(site, line, &distance, of)?;
-    let along = line.places(site.grid);
-    let judged = found
-        .iter()
-        .zip(&along)
-        .filter_map(|(f, s)| Some((f.as_ref()?, *s)));
-    let most = judged.max_by(|a, b| a.0.value.total_cmp(&b.0.value));
-    let Some((most, place)) = most else {
+    let mut most: Option<(AtPoint, f64, Line)> = None;
+    for line in lines {
+        let found = average(site, *line, &distance, of)?;
+        for (found, place) in found.into_iter().zip(line.places(site.grid)) {
+            if let Some(found) = found
+                && most.is_none_or(|(known, ..)| found.value > known.value)
+            {
+                most = Some((found, place, *line));
+            }
+        }
+    }
+    let Some((most, place, line)) = most else {
         let allowed = "so short that the mean stays above the grid";
         return Err(Error::invalid("--distance", length, allowed));
     };

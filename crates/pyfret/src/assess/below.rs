@@ -41,12 +41,7 @@ impl Below {
                 stop: stop.clone(),
             })
         })?;
-        let raised = self
-            .given
-            .raised
-            .lock()
-            .ok()
-            .and_then(|mut raised| raised.take());
+        let raised = self.given.taken();
         raised.map_or_else(|| found.map_err(to_python), Err)
     }
 }

@@ -3,6 +3,7 @@
 use std::sync::Mutex;
 
 use contact_core::Error;
+use contact_core::scene::Grid;
 use contact_subsurface::{Moments, OverCycle};
 use ndarray::Ix2;
 use pyo3::exceptions::PyValueError;
@@ -16,14 +17,28 @@ type Sticking<'py> = List<Mask<'py, Ix2>>;
 /// The moments of a cycle that an object of Python gives: fields of shape (nx, ny) of each and bulk stresses.
 pub(super) struct Given {
     /// Called with the numbers of moments, or with none for the start of the cycle.
-    pub(super) give: Py<PyAny>,
-    pub(super) count: usize,
-    pub(super) shape: (usize, usize),
+    give: Py<PyAny>,
+    count: usize,
+    shape: (usize, usize),
     /// What Python raised.
-    pub(super) raised: Mutex<Option<PyErr>>,
+    raised: Mutex<Option<PyErr>>,
 }
 
 impl Given {
+    pub(super) fn new(give: Py<PyAny>, count: usize, grid: &Grid) -> Self {
+        Self {
+            give,
+            count,
+            shape: (grid.nx, grid.ny),
+            raised: Mutex::new(None),
+        }
+    }
+
+    /// What Python raised, once.
+    pub(super) fn taken(&self) -> Option<PyErr> {
+        self.raised.lock().ok().and_then(|mut raised| raised.take())
+    }
+
     fn ask(&self, which: Option<&[usize]>) -> Result<Option<Moments>, Error> {
         Python::attach(|py| self.asked(py, which)).map_err(|error| {
             if let Ok(mut raised) = self.raised.lock() {

@@ -5,7 +5,7 @@ mod criterion;
 mod given;
 mod yielding;
 
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 
 use contact_assess::{self as core, Averaging, ByCriterion, ByYield, Distance, Judged};
 use contact_subsurface::residual_of_layers;
@@ -23,7 +23,25 @@ use crate::argument::to_python;
 use crate::arguments::{List, number, side};
 use crate::fatigue::Material;
 use crate::scene::{Body, Grid};
-use crate::subsurface::{Subsurface, line};
+use crate::subsurface::{LineName, Subsurface, line, name_of};
+
+/// x, y and azimuth of the sections in which a cycle of a contact is looked at by default.
+///
+/// The first along the shear; a second across it, where the contact or its shear has no axis of its
+/// own there. `moments` and `count` are those of :class:`CycleSection`.
+#[pyfunction]
+#[pyo3(signature = (grid, moments: "Callable[[list[int] | None], tuple[list[Any], ...] | None]", count: "int"))]
+pub(crate) fn cycle_sections(
+    py: Python<'_>,
+    grid: Grid,
+    moments: Py<PyAny>,
+    #[pyo3(from_py_with = number)] count: usize,
+) -> PyResult<Vec<LineName>> {
+    let given = Given::new(moments, count, &grid.0);
+    let lines = py.detach(|| contact_subsurface::main_sections(&given, &grid.0));
+    let lines = lines.map_err(|error| given.taken().unwrap_or_else(|| to_python(error)))?;
+    Ok(lines.into_iter().map(name_of).collect())
+}
 
 /// A section of a body below a contact over a cycle.
 ///
@@ -55,12 +73,7 @@ impl CycleSection {
             side: side(body_number)?,
             line: line(x, y, azimuth)?,
             residual: residual.map_err(to_python)?,
-            given: Given {
-                give: moments,
-                count,
-                shape: (grid.0.nx, grid.0.ny),
-                raised: Mutex::new(None),
-            },
+            given: Given::new(moments, count, &grid.0),
             body: body.0,
             grid: grid.0,
         };

@@ -241,7 +241,7 @@ fn coated_spheres_agree_with_hankel_quadrature() {
                         Some(layer) => truth[format!("{of}_layers")][layer][0].as_f64().unwrap(),
                     };
                     let m = largest(&scene, &fields, of, layer);
-                    let (value, said) = (m.value / h.p0, m.error.sum() / h.p0);
+                    let (value, said) = (m.value / h.p0, m.error.total() / h.p0);
                     let off = value - right;
                     println!(
                         "E1/E2 = {}, h = {} a, n = {n}, {of}, {layer:?}: {value:.4} +- {said:.4}, right {right:.4}, off by {:.2} %",
@@ -280,7 +280,7 @@ fn a_bare_sphere_is_right_on_every_grid() {
                 fields.q_x = mu * &fields.p;
                 fields.stick.fill(mu == 0.0);
                 let m = largest(&scene, &fields, of, None);
-                let (value, said) = (m.value / h.p0, m.error.sum() / h.p0);
+                let (value, said) = (m.value / h.p0, m.error.total() / h.p0);
                 println!("mu = {mu}, n = {n}, {of}: {value:.4} +- {said:.4}, right {right:.4}");
                 assert!(
                     (value - right).abs() <= f64::max(0.02 * right, 1.5 * said),

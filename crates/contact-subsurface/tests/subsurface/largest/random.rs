@@ -145,7 +145,7 @@ impl Drawn {
         let p_max = truth.p.iter().copied().fold(0.0, f64::max);
         let of = |scene: &Scene, fields: &Fields, of: &str| {
             let m = on_section(scene, fields, of, self.extent / 2.3);
-            let error = m.error.sum() / p_max;
+            let error = m.error.total() / p_max;
             let value = m.value / p_max;
             (Extreme { value, ..m }, error)
         };
