@@ -2290,8 +2290,8 @@ class Subsurface:
         """
         Largest value of a measure on a section, between its samples; in the layer `only`.
 
-        Value, x, y, z, layer, the border that it lies on, and the parts of its error along x, y
-        and z, of the tractions and, from the `error_bars` of p and q as fields, of the solution;
+        Value, x, y, z, layer, the border that it lies on, its error, and the parts of it along x, y
+        and z, of the tractions and, from the `error_bar` of the stress over it, of the solution;
         and the layers whose stress still rises at the end of the longest section. `anywhere`: also
         beside the section.
         """
