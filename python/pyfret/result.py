@@ -21,19 +21,12 @@ from pyfret.subsurface.moments import lines_of
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Sequence
 
     import xarray as xr
-    from matplotlib.figure import Figure
     from numpy.typing import ArrayLike
-    from typing_extensions import Unpack
 
     from pyfret.export.frame import Frame
-    from pyfret.fatigue.criteria import CriterionName
-    from pyfret.fatigue.factors import LoadFactors, YieldStresses
-    from pyfret.fatigue.lives import Life, Materials
-    from pyfret.fatigue.section import SectionOptions
-    from pyfret.wear.result import WearResult
 
 __all__ = ["Result", "open"]
 
@@ -46,6 +39,15 @@ class Result(Run):
     ``mu``. Every variable carries ``units`` and ``long_name``. Its scalars are attributes as well,
     e.g. ``result.T_x``; fields are those of an increment, e.g. ``result.at(-1).p``.
     """
+
+    life = fatigue.life
+    load_factors = fatigue.load_factors
+    crack = fracture.crack
+    grow_crack = fracture.grow
+    temperature = heating.temperature
+    summary = summary
+    report = report
+    _repr_html_ = run_html
 
     @property
     def plot(self) -> Figures:
@@ -104,132 +106,6 @@ class Result(Run):
             residual=residual,
         )
 
-    def life(
-        self,
-        materials: Materials,
-        criterion: CriterionName,
-        z: ArrayLike | None = None,
-        *,
-        tolerance: float = 1e-3,
-        **section: Unpack[SectionOptions],
-    ) -> Life:
-        """Judge a section below the contact, or several, over a closed cycle by a criterion.
-
-        Parameters and result are those of :func:`pyfret.fatigue.life`.
-        """
-        return fatigue.life(self, materials, criterion, z, tolerance=tolerance, **section)
-
-    def load_factors(
-        self,
-        s_y: YieldStresses,
-        z: ArrayLike | None = None,
-        **section: Unpack[SectionOptions],
-    ) -> LoadFactors:
-        """Give load factors of first yield and shakedown below the contact over a closed cycle.
-
-        Parameters and result are those of :func:`pyfret.fatigue.load_factors`.
-        """
-        return fatigue.load_factors(self, s_y, z, **section)
-
-    def crack(
-        self,
-        x: float | None = None,
-        *,
-        lengths: ArrayLike | None = None,
-        angle: float = 0.0,
-        kink: tuple[float, float] | None = None,
-        azimuth: float | None = None,
-        aspect: float | None = None,
-        friction: float = 0.0,
-        body_number: int = 2,
-        cycle: int | None = -1,
-        residual: Sequence[float] | None = None,
-    ) -> fracture.Cracks:
-        """Take the stress of a closed cycle to the tips of cracks of several lengths.
-
-        Parameters and result are those of :func:`pyfret.fracture.crack`.
-        """
-        return fracture.crack(
-            self,
-            x,
-            lengths=lengths,
-            angle=angle,
-            kink=kink,
-            azimuth=azimuth,
-            aspect=aspect,
-            friction=friction,
-            body_number=body_number,
-            cycle=cycle,
-            residual=residual,
-        )
-
-    def grow_crack(
-        self,
-        x: float | None = None,
-        *,
-        start: float | None = None,
-        end: float | None = None,
-        angle: float = 0.0,
-        azimuth: float | None = None,
-        direction: Literal["tangential_stress", "opening_intensity"] = "tangential_stress",
-        tolerance: float = 1e-2,
-        friction: float = 0.0,
-        body_number: int = 2,
-        cycle: int | None = -1,
-        residual: Sequence[float] | None = None,
-    ) -> fracture.Cracks:
-        """Let a crack grow in the direction of the largest range over a closed cycle.
-
-        Parameters and result are those of :func:`pyfret.fracture.grow`.
-        """
-        return fracture.grow(
-            self,
-            x,
-            start=start,
-            end=end,
-            angle=angle,
-            azimuth=azimuth,
-            direction=direction,
-            tolerance=tolerance,
-            friction=friction,
-            body_number=body_number,
-            cycle=cycle,
-            residual=residual,
-        )
-
-    def temperature(
-        self,
-        conductor1: heating.Conductors,
-        conductor2: heating.Conductors,
-        *,
-        frequency: float,
-        bulk: float | tuple[float, float] = 0.0,
-        wave: Literal["sine", "linear"] = "sine",
-        harmonics: int | None = None,
-        cycle: int = -1,
-    ) -> xr.Dataset:
-        """Give the surface temperature under the frictional heat of a closed cycle.
-
-        Parameters and result are those of :func:`pyfret.heat.temperature`.
-        """
-        return heating.temperature(
-            self,
-            conductor1,
-            conductor2,
-            frequency=frequency,
-            bulk=bulk,
-            wave=wave,
-            harmonics=harmonics,
-            cycle=cycle,
-        )
-
-    def summary(self) -> str:
-        """Tabulate what the run ended with: a line per branch, then one per cycle.
-
-        Over a_H and p_H, or in um and MPa; in plane strain a is half the width of the contact.
-        """
-        return summary(self)
-
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the result to a Zarr folder (``.zarr``) or a NetCDF file (``.nc``).
 
@@ -276,22 +152,6 @@ class Result(Run):
             mesh=mesh,
             points=points,
         )
-
-    def report(
-        self,
-        path: str | os.PathLike[str],
-        *,
-        wear: WearResult | None = None,
-        crack: fracture.Cracks | None = None,
-        threshold: fracture.Threshold | None = None,
-        figures: Mapping[str, Figure] | None = None,
-    ) -> None:
-        """Write one page for a browser, for people without pyfret: :meth:`pyfret.Result.report`."""
-        report(self, path, wear=wear, crack=crack, threshold=threshold, figures=figures)
-
-    def _repr_html_(self) -> str:
-        """Tables for notebooks."""
-        return run_html(self)
 
 
 def open(path: str | os.PathLike[str]) -> Result:
