@@ -328,7 +328,7 @@ impl Task {
                         samples,
                         None,
                     )?;
-                    self.say_rising(probe, &found.still_rises);
+                    say_rising(probe, &found.still_rises);
                     let axes: &[&str] = if grid.plane_strain {
                         &["x"]
                     } else {
@@ -350,17 +350,6 @@ impl Task {
             side: self.side,
             grid: &self.scene.grid,
             states,
-        }
-    }
-
-    /// Warns of layers whose stress still rises at the end of the longest section.
-    fn say_rising(&self, probe: &Probe, layers: &[usize]) {
-        for layer in layers {
-            say(&format!(
-                "fret: warning: {} in layer {layer} still rises 8 lengths of the grid away from it: a larger value \
-                 may lie beyond; use a longer grid",
-                probe.name()
-            ));
         }
     }
 
@@ -428,4 +417,15 @@ fn say_thin(scene: &Scene, body: &Body) {
 fn is_image(options: &Options) -> bool {
     let extension = options.out.as_ref().and_then(|out| out.extension());
     extension.is_some_and(|e| e.eq_ignore_ascii_case("vti"))
+}
+
+/// Warns of layers whose stress still rises at the end of the longest section.
+fn say_rising(probe: &Probe, layers: &[usize]) {
+    for layer in layers {
+        say(&format!(
+            "fret: warning: {} in layer {layer} still rises 8 lengths of the grid away from it: a larger value \
+             may lie beyond; use a longer grid",
+            probe.name()
+        ));
+    }
 }

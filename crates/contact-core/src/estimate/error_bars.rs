@@ -101,7 +101,7 @@ pub struct ErrorBars {
     pub p: Bar,
     /// Of the shear as a field: L2 norm, over the largest of the path.
     pub q: Bar,
-    /// Of the stress in the bodies, over its size ([`of_stress`]).
+    /// Of the stress in the bodies, over its size.
     #[serde(default)]
     pub stress: Bar,
 }

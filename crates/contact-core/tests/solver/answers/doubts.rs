@@ -164,10 +164,13 @@ fn pressed(first: [f64; 2], second: [f64; 2], half_width: f64, line: bool) -> Sc
     scene
 }
 
+/// Radii of body 1 and body 2, whether they are lines, and the body that the other one fits.
+type Pair = ([f64; 2], [f64; 2], bool, Option<&'static str>);
+
 #[test]
 fn a_contact_is_held_against_the_radius_of_each_body() {
     let flat = [f64::INFINITY; 2];
-    let cases: [([f64; 2], [f64; 2], bool, Option<&str>); 8] = [
+    let cases: [Pair; 8] = [
         ([0.01, 0.01], flat, false, None),
         (flat, [0.01, 0.01], false, None),
         ([0.01, f64::INFINITY], flat, true, None),
