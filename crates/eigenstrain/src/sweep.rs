@@ -114,7 +114,8 @@ pub(crate) fn sweep(
         displacement(chunk, &u, surface);
     }
     let mut stresses = stresses.chunks_exact_mut(COMPONENTS);
-    for element in 0..mesh.elements() {
+    let lowest = wanted.iter().rposition(|wanted| *wanted);
+    for element in 0..lowest.map_or(0, |plane| plane / PLANES_PER_ELEMENT + 1) {
         let [middle, lower] = below(chunk, element, scratch, &u);
         let nodes = [&u, &middle, &lower];
         let lame = mesh.lame(element);
@@ -155,7 +156,12 @@ fn of_surface(chunk: &Chunk, right: &Node) -> Node {
 /// The pass up: right-hand sides, condensed; returns that of the surface.
 fn up(mesh: &Mesh, chunk: &Chunk, rows: Rows<'_>, scratch: &mut Scratch) -> Node {
     let mut below = ZERO_NODE;
-    for element in (0..mesh.elements()).rev() {
+    let lowest = rows.filled.iter().rposition(|filled| *filled);
+    let sources = lowest.map_or(0, |plane| plane / PLANES_PER_ELEMENT + 1);
+    // Nothing comes from below the lowest source.
+    scratch.right[sources..].fill(ZERO_NODE);
+    scratch.middle[sources..].fill(ZERO_NODE);
+    for element in (0..sources).rev() {
         let mut f = [ZERO_NODE; 3];
         for (side, shapes) in Shapes::of(mesh.height(element)).iter().enumerate() {
             let plane = PLANES_PER_ELEMENT * element + side;

@@ -1,6 +1,7 @@
 //! `fret check`.
 
 use clap::Args;
+use contact_core::estimate::first_yield;
 use contact_core::memory::available_memory;
 use contact_core::plan::Plan;
 use contact_core::scene::{Body, Bond, Elastic};
@@ -164,6 +165,9 @@ fn description(scene: &Scene, plan: &Plan) -> Vec<(&'static str, String)> {
             grid.unit_of("N")
         ),
     );
+    if let Some(text) = yielding(scene) {
+        line("yielding", text);
+    }
     line("work", work(scene, plan));
     let (needed, available) = (plan.memory(scene), available_memory());
     line(
@@ -174,6 +178,34 @@ fn description(scene: &Scene, plan: &Plan) -> Vec<(&'static str, String)> {
         line("plan", rule.to_string());
     }
     lines
+}
+
+/// Where yielding begins; none where no body may yield.
+fn yielding(scene: &Scene) -> Option<String> {
+    if !scene.yields() {
+        return None;
+    }
+    let found = match first_yield(scene) {
+        Ok(found) => found?,
+        Err(error) => {
+            return Some(format!(
+                "the load at which it begins was not found: {error}"
+            ));
+        }
+    };
+    let body = [&scene.body1, &scene.body2][found.body - 1];
+    let layer = if found.layer == body.coatings.len() {
+        "substrate".to_owned()
+    } else {
+        format!("coatings[{}]", found.layer)
+    };
+    Some(format!(
+        "begins at about W = {:.3} {} without friction, in body{}, {layer}, {} deep",
+        found.W,
+        scene.grid.unit_of("N"),
+        found.body,
+        um(found.depth),
+    ))
 }
 
 /// The materials of a body from the surface down, its layers in metres and in cells.

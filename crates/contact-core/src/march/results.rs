@@ -153,6 +153,10 @@ pub struct Yield {
     pub volume: f64,
     /// Largest equivalent plastic strain of a point so far.
     pub largest: f64,
+    /// Passes of the fixed point: each a contact, a stress and a return; none where bodies have stayed
+    /// elastic.
+    #[serde(default)]
+    pub passes: usize,
 }
 
 /// One increment of the load path: scalars, residuals, work.

@@ -194,6 +194,7 @@ impl Increment {
             },
             yielded: Yield {
                 work: self.yielded.work + second.yielded.work,
+                passes: self.yielded.passes + second.yielded.passes,
                 ..second.yielded
             },
             work: Work {

@@ -113,8 +113,11 @@ impl March {
         };
         yields.bodies.begin(before);
         let from = Offsets::of(&yields.bodies.residual(), &arms, mirror);
+        if let Some(factor) = start.going_on(point) {
+            yields.bodies.guess(before, factor);
+        }
         let mut convolutions = 0.0;
-        for _ in 0..MOST_PASSES {
+        for pass in 1..=MOST_PASSES {
             let Some(yields) = &self.yielding else { break };
             let to = Offsets::of(&yields.bodies.residual(), &arms, mirror);
             self.state.clone_from(&start);
@@ -140,6 +143,7 @@ impl March {
                     work: now.work - before.work,
                     volume: now.volume,
                     largest: now.largest,
+                    passes: pass,
                 };
                 self.state.yielded = Some(Box::new(now));
                 increment.work.convolutions = convolutions;

@@ -22,6 +22,7 @@ mod settings;
 mod shape;
 mod surface_map;
 mod validity;
+mod yields;
 
 pub use crate::material::{Bond, Coating, Elastic, dundurs_beta};
 pub use body::{Body, check_plastic};
@@ -46,6 +47,7 @@ pub use settings::{
 pub use shape::{Rough, Shape};
 pub use surface_map::SurfaceMap;
 pub use validity::Breadth;
+pub use yields::FirstYield;
 
 pub(crate) use self::doubts::LARGE_STRAIN;
 pub(crate) use self::settings::MOST_ALIASES;
@@ -169,36 +171,6 @@ impl Scene {
             body2: self.body2.elastic(),
             ..self.clone()
         }
-    }
-
-    /// Fails where a layer may yield and the loads are such that this is not computed.
-    fn check_yielding(&self) -> Result<(), Error> {
-        let Some(number) = [&self.body1, &self.body2]
-            .iter()
-            .position(|body| body.yields())
-        else {
-            return Ok(());
-        };
-        let key = format!("body{}.plastic", number + 1);
-        let refuse = |found: &str, allowed: &str| Err(Error::invalid(&key, found, allowed));
-        for branch in &self.path.branches {
-            if branch.to.rolled != 0.0 {
-                return refuse("given, and path.rolled", "left out where the bodies roll");
-            }
-            if branch.to.sigma_B != 0.0 || branch.to.sigma_B1 != 0.0 {
-                return refuse(
-                    "given, and a bulk stress",
-                    "left out with path.sigma_B and path.sigma_B1",
-                );
-            }
-        }
-        if self.settings.kernel.method != KernelMethod::Hankel {
-            return refuse(
-                "given, and another kernel.method",
-                "left out, or kernel.method = \"hankel\"",
-            );
-        }
-        Ok(())
     }
 
     /// Fails if fields are to be kept of increments that the path does not have.

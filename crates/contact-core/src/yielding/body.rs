@@ -16,8 +16,12 @@ use crate::scene::Body;
 pub(super) const TOLERANCE: f64 = 1e-4;
 /// Largest change of the residual displacement in a pass, over its largest.
 const DISPLACEMENT: f64 = 1e-4;
-/// Scale of the displacements in the fixed point, beside strains: ten yield strains.
-const SCALE: f64 = 10.0;
+/// Scale of the displacements in the fixed point, beside strains: small enough that the strains decide
+/// the mixing.
+const SCALE: f64 = 0.3;
+/// Part of the yield stress that a plane must reach in the first pass of an increment to be computed in
+/// the others.
+const NEAR: f64 = 0.75;
 /// No slot.
 const NONE: u32 = u32::MAX;
 
@@ -28,7 +32,11 @@ pub(super) struct YieldingBody {
     operator: Operator,
     /// Law and shear modulus of each plane \[Pa\].
     laws: Vec<Option<(Plastic, f64)>>,
+    /// Planes that may yield, and those of them that are computed in the present increment.
+    may_yield: Vec<bool>,
     wanted: Vec<bool>,
+    /// Whether the increment has had a pass.
+    passed: bool,
     /// Plastic strain of the present x, as `operator` takes it.
     strain: Vec<f64>,
     /// Residual displacement of the present x, and its image.
@@ -64,9 +72,12 @@ impl YieldingBody {
         let laws: Vec<_> = (0..mesh.planes()).map(law).collect();
         let cells = volume.cells.len();
         let operator = Operator::new(mesh);
+        let may_yield: Vec<bool> = laws.iter().map(Option::is_some).collect();
         Ok(Self {
             number,
-            wanted: laws.iter().map(Option::is_some).collect(),
+            wanted: may_yield.clone(),
+            may_yield,
+            passed: false,
             strain: vec![0.0; operator.len()],
             stress: vec![0.0; operator.len()],
             displacement: vec![0.0; 3 * cells],
@@ -104,6 +115,8 @@ impl YieldingBody {
             }
         }
         self.displacement.fill(0.0);
+        self.wanted.clone_from(&self.may_yield);
+        self.passed = false;
         let Some(state) = state else { return };
         self.displacement.copy_from_slice(&state.displacement);
         for known in &state.points {
@@ -127,6 +140,22 @@ impl YieldingBody {
         }
     }
 
+    /// A guess of x: the state at the start of the increment, grown by `factor` times the growth of the
+    /// last one.
+    pub(super) fn guess(&mut self, state: &PlasticState, factor: f64) {
+        for (u, growth) in self.displacement.iter_mut().zip(&state.growth) {
+            *u += factor * growth;
+        }
+        let cells = self.cells();
+        for known in &state.points {
+            let point = known.plane as usize * cells + known.cell as usize;
+            for (c, growth) in known.growth.iter().enumerate() {
+                let at = self.at(point, c);
+                self.strain[at] += factor * growth;
+            }
+        }
+    }
+
     /// One pass: stress, return, displacement. True where neither strain nor displacement would change
     /// beyond the tolerance.
     pub(super) fn pass(&mut self, tractions: &[Vec<f64>; 3]) -> bool {
@@ -140,9 +169,11 @@ impl YieldingBody {
             &self.active,
         );
         let block = COMPONENTS * cells;
-        let of_plane = |plane: usize| -> Vec<(usize, Returned)> {
-            let Some((law, mu)) = &laws[plane] else {
-                return Vec::new();
+        let wanted = &self.wanted;
+        // What yields of a plane, and its largest stress over the yield stress, squared.
+        let of_plane = |plane: usize| -> (Vec<(usize, Returned)>, f64) {
+            let (Some((law, mu)), true) = (&laws[plane], wanted[plane]) else {
+                return (Vec::new(), 0.0);
             };
             let (stress, strain) = (
                 &stress[plane * block..][..block],
@@ -150,12 +181,14 @@ impl YieldingBody {
             );
             let slots = &slot[plane * cells..][..cells];
             let mut found = Vec::new();
+            let (limit, mut most) = (law.s_y * (1.0 + YIELDS), 0.0_f64);
             for cell in 0..cells {
                 let s: Tensor = std::array::from_fn(|c| stress[c * cells + cell]);
                 if slots[cell] == NONE {
                     let s_dev = deviator(&s);
-                    let limit = law.s_y * (1.0 + YIELDS);
-                    if 1.5 * contraction(&s_dev, &s_dev) > limit * limit {
+                    let square = 1.5 * contraction(&s_dev, &s_dev);
+                    most = most.max(square);
+                    if square > limit * limit {
                         found.push((plane * cells + cell, Point::default().at(law, *mu, &s)));
                     }
                     continue;
@@ -166,11 +199,16 @@ impl YieldingBody {
                 });
                 found.push((plane * cells + cell, start.at(law, *mu, &trial)));
             }
-            found
+            (found, most / (law.s_y * law.s_y))
         };
-        let found: Vec<Vec<_>> = (0..laws.len()).into_par_iter().map(of_plane).collect();
+        let found: Vec<_> = (0..laws.len()).into_par_iter().map(of_plane).collect();
+        if !std::mem::replace(&mut self.passed, true) {
+            for (wanted, (points, most)) in self.wanted.iter_mut().zip(&found) {
+                *wanted = !points.is_empty() || *most > NEAR * NEAR;
+            }
+        }
         let mut off = 0.0_f64;
-        for (point, returned) in found.into_iter().flatten() {
+        for (point, returned) in found.into_iter().flat_map(|(points, _)| points) {
             if self.slot[point] == NONE {
                 self.slot[point] = self.active.len() as u32;
                 self.active.push((point, Point::default(), returned));
@@ -260,7 +298,7 @@ impl YieldingBody {
             .map(|(law, mu)| law.s_y / mu)
             .fold(f64::INFINITY, f64::min);
         let mesh = self.mesh();
-        let planes = (0..mesh.planes()).filter(|plane| self.wanted[*plane]);
+        let planes = (0..mesh.planes()).filter(|plane| self.may_yield[*plane]);
         let height: f64 = planes.map(|plane| mesh.weight(plane)).sum();
         strain * height / SCALE
     }
@@ -286,7 +324,7 @@ impl YieldingBody {
     }
 
     /// The state at the end of the increment: the returned strain of the last pass.
-    pub(super) fn commit(&self) -> PlasticState {
+    pub(super) fn commit(&self, before: Option<&PlasticState>) -> PlasticState {
         let cells = self.cells();
         let points = self
             .active
@@ -295,15 +333,23 @@ impl YieldingBody {
         PlasticState {
             body: self.number,
             points: points
-                .map(|(point, _, end)| PlasticPoint {
+                .map(|(point, start, end)| PlasticPoint {
                     plane: (point / cells) as u32,
                     cell: (point % cells) as u32,
                     strain: end.strain,
                     equivalent: end.equivalent,
                     flow: end.flow,
+                    growth: std::array::from_fn(|c| end.strain[c] - start.strain[c]),
                 })
                 .collect(),
             displacement: self.displacement.clone(),
+            growth: match before {
+                Some(before) => {
+                    let pairs = self.displacement.iter().zip(&before.displacement);
+                    pairs.map(|(now, before)| now - before).collect()
+                }
+                None => self.displacement.clone(),
+            },
         }
     }
 
@@ -344,6 +390,30 @@ impl YieldingBody {
         points.map(|(_, _, end)| end.equivalent).fold(0.0, f64::max)
     }
 
+    /// Largest stress of von Mises over the yield stress without plastic strain: that ratio, body, layer,
+    /// depth \[m\].
+    pub(super) fn nearest_to_yield(
+        &mut self,
+        tractions: &[Vec<f64>; 3],
+    ) -> Option<(f64, usize, usize, f64)> {
+        self.begin(None);
+        self.respond(tractions);
+        let cells = self.cells();
+        let of_plane = |plane: usize| {
+            let (law, _) = self.laws[plane].as_ref()?;
+            let of = &self.stress[plane * COMPONENTS * cells..][..COMPONENTS * cells];
+            let mises = (0..cells).map(|cell| {
+                let s: Tensor = std::array::from_fn(|c| of[c * cells + cell]);
+                equivalent_stress(&deviator(&s))
+            });
+            Some((mises.fold(0.0, f64::max) / law.s_y, plane))
+        };
+        let planes = (0..self.laws.len()).filter_map(of_plane);
+        let (ratio, plane) = planes.max_by(|a, b| a.0.total_cmp(&b.0))?;
+        let mesh = self.mesh();
+        Some((ratio, self.number, mesh.layer(plane), mesh.depth(plane)))
+    }
+
     /// Stress of a state on all planes, in the axes of the scene \[Pa\].
     pub(super) fn stress_of(
         &mut self,
@@ -354,7 +424,7 @@ impl YieldingBody {
         let signed = tractions.map(|tractions| self.facing(tractions));
         let mut stress = vec![0.0; self.operator.len()];
         let mut displacement = vec![0.0; self.displacement.len()];
-        let wanted = vec![true; self.wanted.len()];
+        let wanted = vec![true; self.may_yield.len()];
         let tractions = signed.as_ref().map(|[x, y, z]| [&x[..], &y[..], &z[..]]);
         self.operator.apply(
             Sources {

@@ -79,6 +79,13 @@ impl Yielding {
         }
     }
 
+    /// Guesses x where the path goes on, by `factor` of the last increment.
+    pub(crate) fn guess(&mut self, state: &Yielded, factor: f64) {
+        for (body, state) in self.bodies.iter_mut().zip(&state.bodies) {
+            body.guess(state, factor);
+        }
+    }
+
     /// The residual displacement of the present x.
     pub(crate) fn residual(&self) -> Residual {
         let bodies = self.bodies.iter();
@@ -159,7 +166,10 @@ impl Yielding {
 
     /// Ends the increment: the state that the next one begins with.
     pub(crate) fn commit(&self, before: &Yielded) -> Yielded {
-        let bodies: Vec<PlasticState> = self.bodies.iter().map(YieldingBody::commit).collect();
+        let bodies = self.bodies.iter().enumerate();
+        let bodies: Vec<PlasticState> = bodies
+            .map(|(n, body)| body.commit(before.bodies.get(n)))
+            .collect();
         let done: f64 = self.bodies.iter().map(|body| body.work(&self.volume)).sum();
         Yielded {
             work: before.work + done,
@@ -184,6 +194,7 @@ impl Yielding {
             body: body.number,
             points: Vec::new(),
             displacement: vec![0.0; 3 * cells],
+            growth: vec![0.0; 3 * cells],
         };
         Yielded {
             bodies: self.bodies.iter().map(body).collect(),
@@ -203,6 +214,18 @@ impl Yielding {
         let tractions =
             tractions.map(|[p, q_x, q_y]| [q_x, q_y, p].map(|field| self.volume.to_volume(field)));
         Some(self.bodies[n].stress_of(state.bodies.get(n)?, tractions.as_ref()))
+    }
+
+    /// Where the stress of von Mises under tractions is largest over the yield stress, before anything has
+    /// yielded: that ratio, body, layer, depth \[m\].
+    pub(crate) fn nearest_to_yield(
+        &mut self,
+        [p, q_x, q_y]: [&Array2<f64>; 3],
+    ) -> Option<(f64, usize, usize, f64)> {
+        let tractions = [q_x, q_y, p].map(|field| self.volume.to_volume(field));
+        let bodies = self.bodies.iter_mut();
+        let places = bodies.filter_map(|body| body.nearest_to_yield(&tractions));
+        places.max_by(|a, b| a.0.total_cmp(&b.0))
     }
 
     /// The mesh of a body that yields.

@@ -16,6 +16,8 @@ pub struct PlasticPoint {
     pub equivalent: f64,
     /// Direction of flow in the last increment; zero if it did not yield there.
     pub flow: Tensor,
+    /// Growth of the plastic strain in the last increment, from which the next one is guessed.
+    pub growth: Tensor,
 }
 
 /// The plastic state of a body.
@@ -28,6 +30,8 @@ pub struct PlasticState {
     /// Residual displacement u_x, u_y, u_z of the surface on the cells of the volume grid \[m\], one
     /// after the other, with z into the body.
     pub displacement: Vec<f64>,
+    /// Its growth in the last increment \[m\].
+    pub growth: Vec<f64>,
 }
 
 /// The plastic state after an increment.

@@ -15,13 +15,17 @@ const YIELDING: f64 = 0.9;
 const DEPTHS: [f64; 2] = [1.0, 3.0];
 /// Depth of the last element, in which stresses can be read, over that radius.
 const REACH: f64 = 4.0;
+/// Height of an element over that radius: its two planes are then a 24th of it apart.
+const HEIGHT: f64 = 1.0 / 12.0;
+/// Least and largest height over the side of a cell.
+const HEIGHTS: [f64; 2] = [1.0, 2.0];
 
 /// The cells of the volume grid: those of the contact, or squares of them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Volume {
     /// Its cells.
     pub cells: Cells,
-    /// Depth down to which its elements are as high as a cell is long \[m\], of bodies 1 and 2.
+    /// Depth down to which its elements are of that height \[m\], of bodies 1 and 2.
     pub depth: [f64; 2],
     /// Height of an element \[m\].
     pub height: f64,
@@ -34,8 +38,8 @@ pub struct Volume {
 }
 
 impl Volume {
-    /// Chosen for a scene: at most 64 cells along a side (256 of a line), elements as high as a cell,
-    /// down to where a point load of the largest force leaves 0.9 of the yield stress.
+    /// Chosen for a scene: at most 64 cells along a side (256 of a line), elements of a twelfth of
+    /// the radius of the elastic contact, one to two cells high, down to where a point load of the largest force leaves 0.9 of the yield stress.
     pub(super) fn of(scene: &Scene) -> Self {
         let grid = scene.grid;
         let most = if grid.plane_strain {
@@ -62,11 +66,12 @@ impl Volume {
             dy: along_y as f64 * grid.dy,
             plane_strain: grid.plane_strain,
         };
-        let height = if grid.plane_strain {
+        let side = if grid.plane_strain {
             cells.dx
         } else {
             cells.dx.min(cells.dy)
         };
+        let height = (HEIGHT * length_of(scene)).clamp(HEIGHTS[0] * side, HEIGHTS[1] * side);
         Self {
             cells,
             depth: [&scene.body1, &scene.body2].map(|body| depth(scene, body)),

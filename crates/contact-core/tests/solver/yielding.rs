@@ -3,6 +3,7 @@
 
 use std::path::Path;
 
+use contact_core::estimate::first_yield;
 use contact_core::march::{Increment, March};
 use contact_core::scene::{
     Body, Branch, Coating, Elastic, Friction, Given, Grid, LoadPath, Loads, Plastic, Scene, Shape,
@@ -49,11 +50,12 @@ fn number(of: &Value, key: &str) -> [f64; 2] {
 
 #[test]
 fn indentation_follows_finite_elements() {
-    let file =
-        Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/data/plastic/indentation.json");
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/data/plastic/rows.json");
     let text = std::fs::read_to_string(file).expect("the table");
     let table: Value = serde_json::from_str(&text).expect("a table");
-    for row in table["normal"].as_array().expect("rows") {
+    let rows = table["normal"].as_array().expect("rows");
+    let bare = |row: &&Value| row["coatings"].as_array().is_some_and(Vec::is_empty);
+    for row in rows.iter().filter(bare) {
         let law = &row["substrate"];
         let yields = Plastic {
             s_y: law["yield_stress"].as_f64().expect("a stress"),
@@ -144,4 +146,60 @@ fn a_run_goes_on_from_its_state_to_the_same_bits() {
         .collect();
     assert_eq!(whole[2..], rest[..]);
     assert_eq!(ended.state(), second.state());
+}
+
+#[test]
+fn yielding_begins_where_hertz_says() {
+    let law = Plastic {
+        s_y: 1e9,
+        hardening: 0.0,
+        kinematic: 0.0,
+    };
+    let to = Loads {
+        W: 400.0,
+        ..Loads::default()
+    };
+    let grid = Grid::centred(6e-4, 64).expect("a grid");
+    let scene = indentation(0.01, law, grid, vec![Branch::new(to, 4, 1.0)]);
+    let found = first_yield(&scene).expect("a scene").expect("a load");
+    // Johnson, Contact Mechanics, eq. (6.8) with p_0 = 1.613 Y for nu = 0.3, at 0.48 a.
+    let modulus = STEEL.E / (1.0 - STEEL.nu * STEEL.nu);
+    let p_0: f64 = 1.613 * law.s_y;
+    let W = (std::f64::consts::PI * p_0).powi(3) * 1e-4 / (6.0 * modulus * modulus);
+    assert!((found.W / W - 1.0).abs() < 0.02, "{} for {W}", found.W);
+    let a = std::f64::consts::PI * p_0 * 0.01 / (2.0 * modulus);
+    assert!(
+        (found.depth / a - 0.48).abs() < 0.08,
+        "{:?}",
+        found.depth / a
+    );
+    assert_eq!((found.body, found.layer), (2, 0));
+}
+
+#[test]
+fn a_mean_pressure_that_nothing_bears_is_refused_with_its_load() {
+    let law = Plastic {
+        s_y: 1e8,
+        hardening: 0.0,
+        kinematic: 0.0,
+    };
+    let to = |W: f64| Loads {
+        W,
+        ..Loads::default()
+    };
+    let grid = Grid::centred(1e-3, 32).expect("a grid");
+    let scene =
+        |W: f64, law: Plastic| indentation(0.01, law, grid, vec![Branch::new(to(W), 4, 1.0)]);
+    let said = scene(100.0, law).check().expect_err("too much").to_string();
+    assert!(
+        said.contains("body2.plastic.hardening") && said.contains("2.8 s_y"),
+        "{said}"
+    );
+    // 356 times the load of first yield, 0.0398 N.
+    assert!(said.contains("1.4") && said.contains("e1 N"), "{said}");
+    scene(13.0, law).check().expect("less than that");
+    let hardening = 1e9;
+    scene(100.0, Plastic { hardening, ..law })
+        .check()
+        .expect("it hardens");
 }

@@ -1,0 +1,115 @@
+//! Bodies that may yield: where yielding begins in closed form, and what is refused.
+
+use super::{KernelMethod, Scene, Shape};
+use crate::error::Error;
+
+/// Largest pressure over the yield stress at which a body below a round contact begins to yield after von
+/// Mises: a fit for nu = 0.2 to 0.5 (D. J. Chang et al., after K. L. Johnson, Contact Mechanics, 1985,
+/// section 6.1: 1.60 for nu = 0.3).
+fn begins(nu: f64) -> f64 {
+    1.234 + 1.256 * nu
+}
+
+/// Mean pressure over the yield stress that a body without hardening bears.
+const MOST_PRESSURE: f64 = 2.8;
+/// Loads at which the mean pressure comes to that, over that of first yield: 0.94 (w/w_c)^1.263 at the
+/// approach w = 110 w_c (L. Kogut, I. Etsion, J. Appl. Mech. 69 (2002) 657-662, eqs. 13, 14).
+const FULLY: f64 = 356.0;
+
+/// Where yielding begins under a growing normal load.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FirstYield {
+    /// Normal force \[N\].
+    pub W: f64,
+    /// 1 or 2.
+    pub body: usize,
+    /// Layer from the surface down, from 0; the last one is the substrate.
+    pub layer: usize,
+    /// Depth of the point \[m\].
+    pub depth: f64,
+}
+
+impl Scene {
+    /// Fails where a layer may yield and the loads are such that this is not computed.
+    pub(super) fn check_yielding(&self) -> Result<(), Error> {
+        let Some(number) = [&self.body1, &self.body2]
+            .iter()
+            .position(|body| body.yields())
+        else {
+            return Ok(());
+        };
+        let key = format!("body{}.plastic", number + 1);
+        let refuse = |found: &str, allowed: &str| Err(Error::invalid(&key, found, allowed));
+        for branch in &self.path.branches {
+            if branch.to.rolled != 0.0 {
+                return refuse("given, and path.rolled", "left out where the bodies roll");
+            }
+            if branch.to.sigma_B != 0.0 || branch.to.sigma_B1 != 0.0 {
+                return refuse(
+                    "given, and a bulk stress",
+                    "left out with path.sigma_B and path.sigma_B1",
+                );
+            }
+        }
+        if self.settings.kernel.method != KernelMethod::Hankel {
+            return refuse(
+                "given, and another kernel.method",
+                "left out, or kernel.method = \"hankel\"",
+            );
+        }
+        self.check_mean_pressure(number + 1)
+    }
+
+    /// Fails where the mean pressure is more than a homogeneous body without hardening bears.
+    fn check_mean_pressure(&self, number: usize) -> Result<(), Error> {
+        let bodies = [&self.body1, &self.body2];
+        let perfect = |number: usize| {
+            let body = bodies[number - 1];
+            let law = body.plastic(0).filter(|law| law.is_perfect())?;
+            body.coatings
+                .is_empty()
+                .then_some((law.s_y, body.substrate.nu))
+        };
+        let Some((s_y, nu)) = perfect(number) else {
+            return Ok(());
+        };
+        let W = self.path.W_max();
+        let fully = if let Some(radius) = self.punch() {
+            MOST_PRESSURE * s_y * std::f64::consts::PI * radius * radius
+        } else {
+            let round = self
+                .hertz()
+                .filter(|_| !self.grid.plane_strain && self.is_round());
+            let Some(hertz) = round else {
+                return Ok(());
+            };
+            // Loads grow with the cube of the largest pressure.
+            FULLY * hertz.W * (begins(nu) * s_y / hertz.p0).powi(3)
+        };
+        if W <= fully {
+            return Ok(());
+        }
+        Err(Error::invalid(
+            format!("body{number}.plastic.hardening"),
+            format!("0 (none), and W = {W:.3e} N"),
+            format!(
+                "above 0, or a W of at most {fully:.3e} N: the mean pressure then comes to {MOST_PRESSURE} s_y, \
+                 the most that a body without hardening bears"
+            ),
+        ))
+    }
+
+    /// Radius of a flat punch that is pressed on a flat \[m\].
+    fn punch(&self) -> Option<f64> {
+        match (&self.body1.shape, &self.body2.shape) {
+            (Shape::FlatPunch { radius, .. }, Shape::Flat)
+            | (Shape::Flat, Shape::FlatPunch { radius, .. }) => Some(*radius),
+            _ => None,
+        }
+    }
+
+    fn is_round(&self) -> bool {
+        let (k_1, k_2) = self.principal_curvatures();
+        k_1 - k_2 <= 1e-9 * k_1
+    }
+}

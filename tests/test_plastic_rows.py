@@ -1,0 +1,59 @@
+"""Bodies that yield beside finite and spectral elements: every row of data/plastic/rows.json."""
+
+from __future__ import annotations
+
+import pytest
+
+from plastic_rows import Compared, drawn, fretted, indented, rows
+
+STATES = [(name, n) for name, row in rows("normal").items() for n in range(len(row["states"]))]
+
+
+def within(found: Compared) -> None:
+    """Fail where a number is out of its bar."""
+    assert not found.over(), f"{found}\n{found.over()}"
+
+
+@pytest.mark.solves
+@pytest.mark.parametrize(
+    ("name", "number"), [("bare_hardening", 0), ("hard_thick", 0), ("soft_layer", 0)]
+)
+def test_an_indentation_on_few_cells(name: str, number: int) -> None:
+    """Load, plastic strain and volume, imprint, residual stress."""
+    within(indented(rows("normal")[name], number, n=24))
+
+
+@pytest.mark.solves
+def test_a_load_that_is_given() -> None:
+    """The approach of the row follows from its load."""
+    within(indented(rows("normal")["bare_hardening"], 0, n=24, given="load"))
+
+
+@pytest.mark.solves
+def test_a_cylinder_on_few_cells() -> None:
+    """Pressure, works, loop, residual stress and imprint after three cycles."""
+    within(drawn(rows("line")["line_hard_coating"], n=64))
+
+
+@pytest.mark.slow
+@pytest.mark.solves
+@pytest.mark.parametrize(("name", "number"), STATES)
+def test_every_indentation(name: str, number: int) -> None:
+    """Every state of every row, 48 x 48 cells."""
+    within(indented(rows("normal")[name], number, n=48, increments=16 if number == 0 else 8))
+
+
+@pytest.mark.slow
+@pytest.mark.solves
+@pytest.mark.parametrize("name", rows("fretting"))
+def test_every_ball_that_frets(name: str) -> None:
+    """Forces, pressure and works of every stroke."""
+    within(fretted(rows("fretting")[name], n=36))
+
+
+@pytest.mark.slow
+@pytest.mark.solves
+@pytest.mark.parametrize("name", rows("line"))
+def test_every_cylinder_that_frets(name: str) -> None:
+    """As on few cells, 128 of them."""
+    within(drawn(rows("line")[name], n=128))
