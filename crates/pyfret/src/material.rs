@@ -42,7 +42,7 @@ impl<'py> FromPyObject<'_, 'py> for Material {
     type Error = PyErr;
 
     const INPUT_TYPE: PyStaticExpr =
-        type_hint_union!(Elastic::TYPE_HINT, crate::scene::Body::TYPE_HINT);
+        type_hint_union!(Elastic::TYPE_HINT, PyStaticExpr::Name { id: "Body" });
 
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         if let Ok(material) = value.extract::<Elastic>() {
