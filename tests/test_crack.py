@@ -414,3 +414,28 @@ def test_command(pulled: fret.Result, tmp_path: Path, capsys: pytest.CaptureFixt
     assert commands.main(kinked) == 0
     assert commands.main([*grown, "--kink", "5e-5,20"]) == 2
     assert "--grow" in capsys.readouterr().err
+
+
+def test_what_becomes_of_a_crack_has_the_error_of_k() -> None:
+    """K falls as 1/l: it stops where dK (1 +- 5 %) is the threshold, and the margin has 5 %."""
+    lengths = np.geomspace(1e-5, 1e-3, 400)
+    plain = fracture.Cracks.from_arrays(lengths, 3e6 * (1e-4 / lengths), np.zeros(400))
+    error = (0.05 * plain.dataset.K_I).assign_attrs(units="Pa m^0.5")
+    cracks = fracture.Cracks(plain.dataset.assign(error=error))
+    threshold = fracture.Threshold(dK_th=3e6)
+    without, found = plain.arrest(threshold), cracks.arrest(threshold)
+    assert without.margin_error is None
+    assert without.lengths is None
+    assert "(estimate)" in without.told()
+    assert found.verdict == "stops"
+    assert found.is_sure
+    assert found.length == pytest.approx(1e-4, rel=2e-3)
+    assert found.lengths == pytest.approx((0.95e-4, 1.05e-4), rel=2e-3)
+    assert found.margin_error == pytest.approx(0.05 * found.margin, rel=1e-6)
+    assert "100 (95 to 105) um" in found.told()
+    assert "+-" in found.told()
+    # At 1.02 times the threshold at its first length the error leaves two verdicts.
+    unsure = cracks.arrest(fracture.Threshold(dK_th=3e7 / 1.02))
+    assert (unsure.verdict, set(unsure.verdicts)) == ("stops", {"stops", "dormant"})
+    assert "is dormant" in unsure.told()
+    assert not unsure.is_sure

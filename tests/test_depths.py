@@ -57,6 +57,8 @@ def test_chosen_depths_find_the_largest_stress_of_random_layered_contacts() -> N
         chosen, finer = last.stress(), last.stress(np.unique(many), y=0.0)
         for of in ("von_mises", "s_1", "interface_shear"):
             found, truth = chosen.maximum(of), finer.maximum(of)
+            if of == "interface_shear":
+                assert min(abs(found.z - z) for z in scene.interfaces()) < 1e-12
             # Both are values at points: the larger is nearer to the largest of the body.
             there = last.stress([found.z], x=found.x, y=found.y)
             own = there.dataset.layer.values == found.layer

@@ -155,7 +155,12 @@ pub fn largest_anywhere(
                 (measure.value)(&planes.each_ref().map(|of| of[cell]))
             });
             starts.extend(top_of_plane(&plane, &x, &y).map(|top| {
-                let step = depth_step(depths, *depth);
+                // Off its interface a measure of interfaces has no meaning.
+                let step = if measure.of_interfaces {
+                    0.0
+                } else {
+                    depth_step(depths, *depth)
+                };
                 search.start_at(top.place, *depth, step)
             }));
             if depth.z <= 0.0 {

@@ -181,7 +181,11 @@ def _rows(cracks: Cracks, threshold: Threshold | None) -> list[dict[str, object]
                 "verdict": found.verdict,
                 "length": found.length,
                 "margin": found.margin,
+                "margin_error": found.margin_error,
                 "margin_at": found.margin_at,
+                "lengths": found.lengths,
+                "verdicts": found.verdicts,
+                "told": found.told(),
             }
         )
     return rows
@@ -192,13 +196,7 @@ def _line(row: dict[str, object]) -> str:
     number = {name: value for name, value in row.items() if isinstance(value, float)}
     if "verdict" in row:
         place = f"crack from x = {number['x']:.4e} m"
-        said = {
-            "dormant": "does not grow",
-            "stops": f"stops at {number.get('length', 0.0) * 1e6:.4g} um",
-            "grows": "grows through all lengths",
-        }[str(row["verdict"])]
-        at = number["margin_at"] * 1e6
-        text = f"{place} {said}; least dK/dK_th {number['margin']:.4g} at {at:.4g} um"
+        text = f"{place} {row['told']}"
         return text + (f"; {number['cycles']:.4g} cycles" if "cycles" in row else "")
     line = f"l = {number['length'] * 1e6:.4g} um: K_I {number['K_min'] / 1e6:.4g} to "
     line += f"{number['K_max'] / 1e6:.4g} MPa m^0.5 (+- {number['error'] / 1e6:.2g}), "

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
+from pyfret._core import with_error
 from pyfret.fatigue.cycle_section import placed
 from pyfret.fatigue.cycles import history
 from pyfret.fatigue.section import Section
@@ -39,13 +40,22 @@ class FirstToFail(NamedTuple):
     interface: float
     #: Smallest range of K over its threshold of a crack that has come through the coatings.
     substrate: float
+    #: Error of `substrate` by that of K; the other two are estimates.
+    substrate_error: float | None = None
 
     @property
     def first(self) -> Part | None:
         """The part with the largest of the three; None where none fails."""
-        loads = [-math.inf if math.isnan(load) else load for load in self]
+        parts = (self.film, self.interface, self.substrate)
+        loads = [-math.inf if math.isnan(load) else load for load in parts]
         largest = int(np.argmax(loads))
         return PARTS[largest] if loads[largest] >= 1.0 else None
+
+    def __repr__(self) -> str:
+        """The three with their errors."""
+        errors = {"substrate": self.substrate_error}
+        parts = (f"{of} {with_error(getattr(self, of), errors.get(of))}" for of in PARTS)
+        return f"FirstToFail({', '.join(parts)}; first: {self.first or 'none'})"
 
 
 def first_to_fail(
@@ -98,6 +108,7 @@ def first_to_fail(
     if not body.coatings:
         raise ValueError(f"body {body_number} has no coating and no interface")
     film = interface = substrate = math.nan
+    error = None
     if toughness is not None:
         if not (toughness > 0.0 and np.isfinite(toughness)):
             raise ValueError(f"toughness = {toughness}: must be positive, in J/m^2")
@@ -138,5 +149,6 @@ def first_to_fail(
         cracks = crack(
             result, x, lengths=lengths, body_number=body_number, cycle=cycle, residual=residual
         )
-        substrate = cracks.arrest(threshold).margin
-    return FirstToFail(film, interface, substrate)
+        found_crack = cracks.arrest(threshold)
+        substrate, error = found_crack.margin, found_crack.margin_error
+    return FirstToFail(film, interface, substrate, error)

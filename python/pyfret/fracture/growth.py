@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
 from pyfret import _core
+from pyfret._core import with_error, with_range
 from pyfret._util.arrays import plain, together
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
@@ -21,6 +23,9 @@ if TYPE_CHECKING:
     from pyfret._core import Material
 
 __all__ = ["Arrest", "CrackLife", "Cracks", "Paris", "Threshold"]
+
+#: What a crack does.
+Verdict: TypeAlias = Literal["dormant", "stops", "grows"]
 
 
 @dataclass(frozen=True)
@@ -133,13 +138,49 @@ class Arrest:
         Lengths at which the range of K crosses its threshold [m].
     margin, margin_at : float
         Smallest range of K over its threshold, below 1 where the crack stops, and where [m].
+    margin_error : float
+        Error of the margin by that of K; None where K came without an error.
+    lengths : (float, float), optional
+        Where it stops with the range of K less and more its error [m]: the shortest and the
+        longest; infinite where it grows through all lengths. None where K came without an error.
+    verdicts : tuple of str
+        The verdicts that the error of K leaves, the one above first.
     """
 
-    verdict: Literal["dormant", "stops", "grows"]
+    verdict: Verdict
     length: float | None
     crossings: tuple[float, ...]
     margin: float
     margin_at: float
+    margin_error: float | None = None
+    lengths: tuple[float, float] | None = None
+    verdicts: tuple[Verdict, ...] = ()
+
+    @property
+    def is_sure(self) -> bool:
+        """Whether the error of K leaves one verdict."""
+        return len(self.verdicts) == 1
+
+    def told(self) -> str:
+        """Verdict, length and margin with their errors, as a sentence."""
+        said = {
+            "dormant": "does not grow",
+            "stops": f"stops at {self.told_length()}",
+            "grows": "grows through all lengths",
+        }
+        others = [of for of in self.verdicts if of != self.verdict]
+        unsure = f" (within the error of K it also {' or '.join(others)})" if others else ""
+        unsure = unsure.replace("dormant", "is dormant")
+        margin = with_error(self.margin, self.margin_error)
+        at = f"{1e6 * self.margin_at:.4g} um"
+        return f"{said[self.verdict]}{unsure}; least dK/dK_th {margin} at {at}"
+
+    def told_length(self) -> str:
+        """The length at which the crack stops, with its range [um]."""
+        if self.length is None:
+            return "no length"
+        low, high = self.lengths or (math.nan, math.nan)
+        return f"{with_range(1e6 * self.length, 1e6 * low, 1e6 * high)} um"
 
 
 @dataclass(frozen=True)
@@ -193,6 +234,14 @@ class Cracks(Labelled):
         """Smallest K_I of the cycle at each length [Pa m^0.5]."""
         return np.asarray(self.dataset.K_I.min("increment").values)
 
+    @property
+    def error(self) -> NDArray[np.float64]:
+        """Error of the largest K_I at each length [Pa m^0.5]; NaN where none came with it."""
+        if "error" not in self.dataset:
+            return np.full(self.lengths.shape, np.nan)
+        at = self.dataset.K_I.argmax("increment")
+        return np.asarray(self.dataset.error.isel(increment=at).values, float)
+
     def scaled(self, factor: float) -> Cracks:
         """Give the same with every K times a factor, such as that of :func:`ellipse_factor`."""
         return Cracks(
@@ -217,13 +266,33 @@ class Cracks(Labelled):
         return self.lengths.tolist(), self.K_max.tolist(), self.K_min.tolist()
 
     def arrest(self, threshold: Threshold, *, start: float | None = None) -> Arrest:
-        """Say whether a crack of the length `start` [m] (default: the shortest) grows and stops."""
-        lengths, K_max, K_min = self._curve()
+        """Say whether a crack of the length `start` [m] (default: the shortest) grows and stops.
+
+        With the errors of K its verdict, length and margin have theirs: the crack is followed again
+        with K_max less and more its error.
+        """
+        lengths = self.lengths.tolist()
         start = lengths[0] if start is None else start
-        verdict, length, crossings, margin, at = _core.arrest(
-            lengths, K_max, K_min, threshold._numbers(), start
-        )
-        return Arrest(verdict, length, tuple(crossings), margin, at)
+
+        def followed(more: NDArray[np.float64] | float) -> tuple[Any, ...]:
+            largest = np.maximum(self.K_max + more, self.K_min)
+            return _core.arrest(
+                lengths, largest.tolist(), self.K_min.tolist(), threshold._numbers(), start
+            )
+
+        verdict, length, crossings, margin, at = followed(0.0)
+        if "error" not in self.dataset:
+            return Arrest(verdict, length, tuple(crossings), margin, at)
+        error = self.error
+        ends = [followed(-error), followed(error)]
+        off = max(abs(end[3] - margin) for end in ends)
+        stops = [
+            {"dormant": start, "grows": math.inf}.get(end[0], end[1])
+            for end in (*ends, [verdict, length])
+        ]
+        verdicts = tuple(dict.fromkeys([verdict, *(end[0] for end in ends)]))
+        reach = (float(min(stops)), float(max(stops)))
+        return Arrest(verdict, length, tuple(crossings), margin, at, off, reach, verdicts)
 
     def life(
         self,

@@ -21,11 +21,6 @@ __all__ = ["Crack"]
 
 MICRO, MEGA = 1e6, 1e-6
 #: What became of a crack, in words.
-SAID = {
-    "dormant": "does not grow from its first length",
-    "stops": "stops at {length} µm",
-    "grows": "grows through all lengths",
-}
 
 
 @dataclass(frozen=True)
@@ -52,13 +47,7 @@ class Crack:
         if found is None:
             lengths = MICRO * self.cracks.lengths
             return f"{begun}, {in_words(lengths[0], 3)} to {in_words(lengths[-1], 3)} µm long."
-        what = SAID[found.verdict].format(length=in_words(MICRO * (found.length or 0.0), 3))
-        if found.length is not None:
-            return f"{begun} {what}."
-        return (
-            f"{begun} {what}; its range of K is {found.margin:.3g} times the threshold where that "
-            f"ratio is least, at {in_words(MICRO * found.margin_at, 3)} µm."
-        )
+        return f"{begun} {found.told()}."
 
     def drawn(
         self, deepest: float, place: Callable[[NDArray[np.float64]], list[float]]

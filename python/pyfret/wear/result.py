@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pyfret._core import Scene
+from pyfret._core import Scene, with_error
 from pyfret._util import files
 from pyfret._util.labelled import Labelled
 from pyfret._util.text import shown
@@ -158,29 +158,32 @@ class WearResult(Labelled):
         ]
         for body in (1, 2):
             if last[f"volume{body}"] > 0:
+                part = last["depth_error"]
+                depth, lost = 1e6 * last[f"depth{body}"], last[f"volume{body}"]
                 lines.append(
-                    f"body {body}: {1e6 * last[f'depth{body}']:.4g} um deep "
-                    f"(+- {last['depth_error']:.1%}), {last[f'volume{body}']:.4g} "
-                    f"{volume}"
+                    f"body {body}: {with_error(depth, part * depth)} um deep, "
+                    f"{with_error(lost, part * lost)} {volume}"
                 )
         if self.debris_kept:
             lines.append(
-                f"debris: {self.debris_kept:g} of it stays in the contact, {last['debris']:.4g} "
-                f"{volume}"
+                f"debris: {self.debris_kept:g} of it stays in the contact, "
+                f"{with_error(last['debris'], last['depth_error'] * last['debris'])} {volume}"
             )
         lines.append(
-            f"energy: {last['dissipated']:.4g} {energy}, {last['dissipated_per_cycle']:.4g} in "
-            "the last cycle"
+            f"energy: {with_error(last['dissipated'])} {energy}, "
+            f"{with_error(last['dissipated_per_cycle'])} in the last cycle"
         )
         lines.append(
-            f"largest pressure: {1e-6 * last['p_max']:.4g} MPa, stick ratio "
-            f"{last['stick_ratio']:.3f}"
+            f"largest pressure: {with_error(1e-6 * last['p_max'])} MPa, stick ratio "
+            f"{with_error(last['stick_ratio'])}"
         )
-        lines += [
-            f"{event['kind']} after {event['cycles']:.0f} cycles: body {event['body']}, coating "
-            f"{event['coating']}, at x = {1e6 * event['x']:.1f} um, y = {1e6 * event['y']:.1f} um"
-            for event in self.events
-        ]
+        for event in self.events:
+            cycles = with_error(event["cycles"], last["depth_error"] * event["cycles"])
+            lines.append(
+                f"{event['kind']} after {cycles} cycles: body {event['body']}, coating "
+                f"{event['coating']}, at x = {1e6 * event['x']:.1f} um, "
+                f"y = {1e6 * event['y']:.1f} um"
+            )
         says = self.table
         for body in (1, 2):
             laws = says.get(f"body{body}", {}).get("laws", [])

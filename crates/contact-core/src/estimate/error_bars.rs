@@ -215,7 +215,7 @@ fn bars(
     let [delta_z, phi_x, phi_y, delta_x, delta_y, phi_z] =
         [0, 1, 2, 3, 4, 5].map(|k| bar(MOTIONS + k));
     let [W, M_x, M_y, T_x, T_y, M_z] = [0, 1, 2, 3, 4, 5].map(|k| bar(LOADS + k));
-    let known = [CONTACT_RADIUS, STICK_RATIO, P_MAX].map(|n| bar(n).cells);
+    let known = [STICK_RATIO, P_MAX].map(|n| bar(n).cells);
     ErrorBars {
         branch: fine.branch,
         contact_radius: bar(CONTACT_RADIUS),
@@ -241,22 +241,25 @@ fn bars(
 }
 
 /// The error of the stress that the errors of the tractions cause, over the stress, from the errors
-/// of contact radius, stick ratio and largest pressure by the cells.
+/// of stick ratio and largest pressure by the cells.
 ///
 /// The errors of cells lie at the rim and at the border of the stick zone, change sign from cell to
 /// cell, and cancel in the stress a few cells away from there; near them the change to cells twice
-/// as large shows them. Farther away the stress errs by as much as the size and the height of the
-/// tractions do: da/a, dp_max/p_max, and dS/2, since half of the shear has its border there. The
-/// errors of increments are smooth: they count whole.
+/// as large shows them. Farther away the stress errs by as much as the height of the tractions does,
+/// dp_max/p_max. The shear that a border at a wrong place moves has no resultant: a tenth of dS is
+/// taken. The errors of increments are smooth: they count whole.
 fn of_stress(
     fine: &BranchSummary,
-    [radius, stick, p_max]: [f64; 3],
+    [stick, p_max]: [f64; 2],
     path: &PathError,
     tolerance: f64,
 ) -> Bar {
-    let over = |error: f64, value: f64| if value > 0.0 { error / value } else { 0.0 };
-    let size = over(radius, fine.contact_radius).hypot(over(p_max, fine.p_max));
-    Bar::new(size.hypot(0.5 * stick), path.p.hypot(path.q), tolerance)
+    let height = if fine.p_max > 0.0 {
+        p_max / fine.p_max
+    } else {
+        0.0
+    };
+    Bar::new(height.hypot(0.1 * stick), path.p.hypot(path.q), tolerance)
 }
 
 /// Error of each number within a tolerance, in its unit: for most numbers tol times the number.
