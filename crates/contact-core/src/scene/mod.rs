@@ -6,6 +6,7 @@
 mod body;
 mod bulk_stress;
 mod case;
+mod compliant_bonds;
 mod doubts;
 mod files;
 mod friction;
@@ -151,6 +152,7 @@ impl Scene {
             }
         }
         self.check_sense()?;
+        self.check_bonds()?;
         self.check_yardsticks()?;
         self.settings.check()?;
         self.check_yielding()?;
