@@ -1,4 +1,3 @@
-from builtins import Body as Body2
 from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
 from typing import Any, Final, Literal, final
@@ -315,7 +314,7 @@ class CattaneoMindlin:
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self, /) -> int: ...
     def __new__(
-        cls, /, hertz: Hertz, *, bodies: tuple[Elastic | Body2, Elastic | Body2], mu: float
+        cls, /, hertz: Hertz, *, bodies: tuple[Elastic | Body, Elastic | Body], mu: float
     ) -> CattaneoMindlin: ...
     def __reduce__(self, /) -> tuple[Any, tuple[Any, ...]]: ...
     def __repr__(self, /) -> str: ...
@@ -1680,7 +1679,7 @@ class Lubkin:
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self, /) -> int: ...
     def __new__(
-        cls, /, hertz: Hertz, *, bodies: tuple[Elastic | Body2, Elastic | Body2], mu: float
+        cls, /, hertz: Hertz, *, bodies: tuple[Elastic | Body, Elastic | Body], mu: float
     ) -> Lubkin: ...
     def __reduce__(self, /) -> tuple[Any, tuple[Any, ...]]: ...
     def __repr__(self, /) -> str: ...
@@ -2204,7 +2203,7 @@ class Springs:
         largest: Hertz,
         *,
         R: float,
-        bodies: tuple[Elastic | Body2, Elastic | Body2],
+        bodies: tuple[Elastic | Body, Elastic | Body],
         mu: float,
         n: int = 1500,
         loads: Sequence[tuple[float, float, int]] = ...,
@@ -2634,7 +2633,7 @@ def chosen_depths(
     """
 
 def coated_indentation(
-    *, R: float, indenter: Elastic | Body2, coating: Coating, substrate: Elastic | Body2, W: float
+    *, R: float, indenter: Elastic | Body, coating: Coating, substrate: Elastic | Body, W: float
 ) -> CoatedIndentation:
     """Contact of a sphere of radius `R` [m] with a coated body under `W` [N], without friction."""
 
@@ -2743,7 +2742,7 @@ def depths(body: Body, z: Sequence[float]) -> tuple[list[float], list[int]]:
 def doubt(quantity: str, key: str, value: float) -> str | None:
     """The doubt of a number, if it is hardly meant, by the name of its quantity."""
 
-def dundurs_beta(body1: Elastic | Body2, body2: Elastic | Body2) -> float:
+def dundurs_beta(body1: Elastic | Body, body2: Elastic | Body) -> float:
     """
     Dundurs' parameter beta of the pair: the coupling of normal and tangential directions.
 
@@ -2794,7 +2793,7 @@ def graded(*, E: Profile, nu: Profile, thickness: float, layers: int) -> list[Co
         If a profile, the thickness or the number of layers is out of its range.
     """
 
-def hertz(*, R: float, bodies: tuple[Elastic | Body2, Elastic | Body2], W: float) -> Hertz:
+def hertz(*, R: float, bodies: tuple[Elastic | Body, Elastic | Body], W: float) -> Hertz:
     """Hertz contact of a sphere of relative radius `R` [m] under the force `W` [N]."""
 
 def hertz_ellipse(*, R_x: float, R_y: float, E_star: float, W: float) -> HertzEllipse:
@@ -2839,7 +2838,7 @@ def largest_of_samples(
     """
 
 def line_contact(
-    *, R: float, bodies: tuple[Elastic | Body2, Elastic | Body2], W: float
+    *, R: float, bodies: tuple[Elastic | Body, Elastic | Body], W: float
 ) -> LineContact:
     """Line contact of cylinders of relative radius `R` [m] under `W` [N/m]."""
 

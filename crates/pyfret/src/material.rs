@@ -1,7 +1,7 @@
 //! Elastic materials, alone and as layers.
 
 use contact_core::scene as core;
-use pyo3::inspect::PyStaticExpr;
+use pyo3::inspect::{PyStaticConstant, PyStaticExpr};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use pyo3::{PyTypeInfo, type_hint_union};
@@ -41,8 +41,13 @@ pub(crate) struct Material(pub(crate) core::Elastic);
 impl<'py> FromPyObject<'_, 'py> for Material {
     type Error = PyErr;
 
-    const INPUT_TYPE: PyStaticExpr =
-        type_hint_union!(Elastic::TYPE_HINT, PyStaticExpr::Name { id: "Body" });
+    // By its name: the class stands above this file.
+    const INPUT_TYPE: PyStaticExpr = type_hint_union!(
+        Elastic::TYPE_HINT,
+        PyStaticExpr::Constant {
+            value: PyStaticConstant::Str("Body")
+        }
+    );
 
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         if let Ok(material) = value.extract::<Elastic>() {
