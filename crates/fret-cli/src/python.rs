@@ -3,11 +3,12 @@
 //! Studies take functions of the user and clusters of Dask, reports and figures libraries of
 //! Python: there is one implementation, and this hands the command line over to it. The interpreter
 //! looks for modules where it is installed, never in the folder in which the command is given: a
-//! `numpy.py` that lies there is not run.
+//! `numpy.py` or a `sitecustomize.py` that lies there is not run. An empty part of `PYTHONPATH`, which
+//! a shell makes of `PYTHONPATH=$PYTHONPATH:folder`, means that folder, and is left out.
 
-use std::ffi::OsString;
+use std::ffi::{OsStr, OsString};
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use clap::Args;
@@ -18,6 +19,8 @@ use crate::Failure;
 /// Names the interpreter that has pyfret, if neither that beside `fret` nor the first one on PATH
 /// is it.
 const INTERPRETER: &str = "FRET_PYTHON";
+/// Folders in which Python looks for modules.
+const PATH: &str = "PYTHONPATH";
 /// Runs the package, without the current folder among those in which modules are looked for.
 const PROGRAM: &str = "import sys
 sys.path[:] = [place for place in sys.path if place not in ('', '.')]
@@ -48,6 +51,8 @@ pub(crate) fn run(command: &str, arguments: &[OsString]) -> Result<u8, Failure> 
     python
         // Processes that it starts leave the current folder out as well.
         .env("PYTHONSAFEPATH", "1")
+        .env_remove(PATH)
+        .envs(std::env::var_os(PATH).and_then(|path| Some((PATH, named_parts(&path)?))))
         .args(["-c", PROGRAM, command])
         .args(arguments);
     ended_as(&mut python).map_err(|e| {
@@ -59,6 +64,16 @@ pub(crate) fn run(command: &str, arguments: &[OsString]) -> Result<u8, Failure> 
             ),
         })
     })
+}
+
+/// The folders of a path that have a name, the current one left out; none if no other is left.
+fn named_parts(path: &OsStr) -> Option<OsString> {
+    let current = |part: &PathBuf| part.as_os_str().is_empty() || part == Path::new(".");
+    let parts: Vec<PathBuf> = std::env::split_paths(path)
+        .filter(|part| !current(part))
+        .collect();
+    let joined = std::env::join_paths(&parts).ok();
+    joined.filter(|_| !parts.is_empty())
 }
 
 #[cfg(unix)]
@@ -89,4 +104,21 @@ fn interpreter() -> PathBuf {
     beside
         .filter(|python| python.is_file())
         .unwrap_or_else(|| name.into())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[cfg(unix)]
+    #[test]
+    fn empty_parts_of_a_path_are_left_out() {
+        let kept = |path: &str| named_parts(OsStr::new(path));
+        for path in ["", ":", ".", ":.:", "./:"] {
+            assert_eq!(kept(path), None, "{path}");
+        }
+        for path in [":/a:/b", "/a::/b", "/a:/b:", "/a:.:/b"] {
+            assert_eq!(kept(path), Some("/a:/b".into()), "{path}");
+        }
+    }
 }

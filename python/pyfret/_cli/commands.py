@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import errno
+import importlib
 import json
 import os
 import signal
@@ -175,6 +176,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     That nobody reads on is no failure; what cannot be written is one.
     """
     signal.signal(signal.SIGTERM, stop)
+    pass_over_matplotlibrc()
     try:
         code = run(arguments)
         sys.stdout.flush()
@@ -186,6 +188,20 @@ def main(arguments: Sequence[str] | None = None) -> int:
         say(f"fret: standard output: {error.strerror}", file=sys.stderr)
         return UNWRITTEN
     return code
+
+
+def pass_over_matplotlibrc() -> None:
+    """Load matplotlib without the settings in the current folder: they may name programs to run.
+
+    Those of the user and of ``MATPLOTLIBRC`` hold.
+    """
+    if Path("matplotlibrc").exists():
+        here = Path.cwd()
+        os.chdir(Path(__file__).parent)
+        try:
+            importlib.import_module("matplotlib")
+        finally:
+            os.chdir(here)
 
 
 def stop(*_: object) -> None:
