@@ -87,6 +87,10 @@ kill: ## a hundred kills of a running solve and of a run of wear, and what check
 	FRET_KILLS=100 FRET_KILL_REPORT=$(CURDIR)/docs/reliability.md \
 		cargo test --release --locked --workspace --test kill -- --include-ignored --nocapture --test-threads=1
 
+plastic: setup ## bodies that yield: every row of truth, a pair on both sides of shakedown, 300 random contacts audited
+	FRET_PLASTIC=300 $(PY) -m pytest -q tests/test_plastic_rows.py tests/test_plastic_campaign.py \
+		tests/test_shakedown_of_yielding.py
+
 wear: ## 300 random runs of wear, audited, and partial slip fully worn on 256 x 256 cells
 	FRET_WEAR=300 FRET_WEAR_CELLS=256 cargo test --release --locked --workspace --test wear -- \
 		--include-ignored --nocapture --test-threads=1 random partial_slip

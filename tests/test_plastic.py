@@ -90,3 +90,15 @@ def test_stress_of_elastic_bodies_is_refused() -> None:
     result = fret.solve(indentation(), progress=False)
     with pytest.raises(fret.errors.ArgumentError, match="plastic"):
         result.at(-1).stress()
+
+
+def test_a_material_of_the_table_yields_only_when_asked() -> None:
+    """Its yield stress is that of the table; a material without one is refused."""
+    assert fret.material("titanium_6Al4V").plastic is None
+    alloy = fret.material("titanium_6Al4V", plastic=True)
+    assert alloy.plastic == fret.Plastic(s_y=1185e6)
+    with (
+        pytest.warns(fret.errors.SceneWarning),
+        pytest.raises(ValueError, match=r"no yield stress.*plastic=Plastic\(s_y"),
+    ):
+        fret.material("CrN", plastic=True)

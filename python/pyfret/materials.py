@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 from typing import TYPE_CHECKING
 
-from pyfret._core import Elastic
+from pyfret._core import Elastic, Plastic
 from pyfret.fatigue import Materials
 from pyfret.fatigue.ranges import known_as
 from pyfret.scene.warnings import SceneWarning
@@ -21,7 +21,11 @@ NU = 0.25
 
 
 def material(
-    name: str, file: str | os.PathLike[str] | None = None, *, nu: float | None = None
+    name: str,
+    file: str | os.PathLike[str] | None = None,
+    *,
+    nu: float | None = None,
+    plastic: bool = False,
 ) -> Elastic:
     """Give a material of the table that comes with the package by its name, for bodies and layers.
 
@@ -38,13 +42,15 @@ def material(
         A table of your own (TOML), over that of the package.
     nu : float, optional
         Poisson's ratio in place of that of the table.
+    plastic : bool
+        Whether it yields at the yield stress of the table, without hardening (default False).
 
     Raises
     ------
     KeyError
         There is no such material; the message lists those that there are.
     ValueError
-        The table has no modulus of it.
+        The table has no modulus of it, or, with ``plastic``, no yield stress.
 
     Warns
     -----
@@ -73,4 +79,13 @@ def material(
             stacklevel=2,
         )
         nu = NU
-    return Elastic(E=found.number("E"), nu=found.number("nu") if nu is None else nu)
+    law = None
+    if plastic:
+        if "s_y" not in sources:
+            raise ValueError(
+                f"{name}: the table has no yield stress of it; give your own, "
+                "Elastic(E=..., nu=..., plastic=Plastic(s_y=...))"
+            )
+        law = Plastic(s_y=found.number("s_y"))
+    nu = found.number("nu") if nu is None else nu
+    return Elastic(E=found.number("E"), nu=nu, plastic=law)

@@ -1,0 +1,97 @@
+"""Random contacts of bodies that yield, audited; `make plastic` draws 300 of them."""
+
+from __future__ import annotations
+
+import os
+
+import numpy as np
+import pytest
+
+import pyfret as fret
+
+DRAWN = int(os.environ.get("FRET_PLASTIC", "10"))
+
+
+def drawn(seed: int) -> fret.Scene:
+    """Draw bodies with up to two layers, a law, a path of loads or of motions."""
+    rng = np.random.default_rng(seed)
+    line = rng.random() < 0.3
+    E = 10 ** rng.uniform(10.5, 11.5)
+    s_y = E * rng.uniform(2e-3, 8e-3)
+    law = fret.Plastic(
+        s_y=s_y,
+        hardening=E * rng.choice([0.0, 0.01, 0.05]) + 1e-3 * E,
+        kinematic=E * rng.choice([0.0, 0.0, 0.05]),
+    )
+    nu = rng.uniform(0.1, 0.4)
+    R = 10 ** rng.uniform(-3, -1)
+    upper = fret.Elastic(E=E * rng.choice([1.0, 3.0]), nu=nu)
+    # Largest pressure over that of first yield, of the uncoated bodies.
+    p_0 = 1.65 * s_y * rng.uniform(0.8, 1.8)
+    modulus = 1 / ((1 - nu**2) / upper.E + (1 - nu**2) / E)
+    a = (2 if line else np.pi / 2) * p_0 * R / modulus
+    W = np.pi / 2 * a * p_0 if line else 2 / 3 * np.pi * a**2 * p_0
+    layers = []
+    for _ in range(rng.integers(0, 3)):
+        own = fret.Plastic(s_y=s_y * rng.uniform(0.7, 2.0), hardening=0.02 * E)
+        material = fret.Elastic(
+            E=E * rng.uniform(0.5, 2.0), nu=0.3, plastic=own if rng.random() < 0.4 else None
+        )
+        layers.append(fret.Coating(material, thickness=a * rng.uniform(0.1, 0.5)))
+    mu = rng.choice([0.0, rng.uniform(0.05, 0.7)])
+    path = fret.LoadPath.start().normal(W, increments=4)
+    if mu > 0:
+        T = mu * W * rng.uniform(0.3, 0.9)
+        path = path.tangential([T, -T], increments=4)
+    else:
+        path = path.normal(0.1 * W, increments=2)
+    shape = fret.Cylinder(R=R) if line else fret.Sphere(R=R)
+    grid = (
+        fret.Grid.strip(extent=3.2 * a, n=48) if line else fret.Grid.centred(extent=3.2 * a, n=20)
+    )
+    return fret.Scene(
+        body1=fret.Body(upper, shape=shape),
+        body2=fret.Body(fret.Elastic(E=E, nu=nu, plastic=law), coatings=layers),
+        mu=mu,
+        grid=grid,
+        path=path,
+    )
+
+
+def over_the_yield_surface(scene: fret.Scene, found: object) -> float:
+    """Give the largest stress over the yield stress, the back stress taken off, less one."""
+    body = scene.body2
+    materials = [*(c.material for c in body.coatings), body.substrate]
+    dataset = found.dataset
+    most = -1.0
+    for plane, layer in enumerate(dataset.layer.to_numpy()):
+        law = materials[int(layer)].plastic
+        if law is None:
+            continue
+        stress, strain = (dataset[n].isel(z=plane).to_numpy() for n in ("stress", "strain"))
+        s = stress - law.kinematic / 1.5 * strain
+        s[:3] -= s[:3].mean(axis=0)
+        mises = np.sqrt(1.5 * ((s[:3] ** 2).sum(axis=0) + 2 * (s[3:] ** 2).sum(axis=0)))
+        yield_stress = law.s_y + law.hardening * dataset.equivalent.isel(z=plane).to_numpy()
+        most = max(most, float((mises / yield_stress).max()) - 1)
+    return most
+
+
+@pytest.mark.solves
+@pytest.mark.filterwarnings("ignore::pyfret.errors.SceneWarning")
+@pytest.mark.parametrize("seed", range(DRAWN))
+def test_a_random_contact_holds_what_holds_for_all(seed: int) -> None:
+    """Balance, Coulomb's law, the yield condition, energy; plastic work is never given back."""
+    scene = drawn(seed)
+    for increment in fret.march(scene):
+        p = increment.dataset.p.to_numpy()
+        area = scene.grid.cell_area
+        assert p.sum() * area == pytest.approx(float(increment.W), rel=1e-6)
+        if scene.friction.mu > 0:
+            q = np.hypot(increment.dataset.q_x.to_numpy(), increment.dataset.q_y.to_numpy())
+            assert (q <= scene.friction.mu * p * (1 + 1e-6)).all()
+        assert abs(float(increment.residual_energy)) < 1e-4
+        assert float(increment.plastic_work) >= 0.0
+        assert float(increment.dissipated) >= -1e-4 * abs(float(increment.work))
+        # Stress changes by 1e-4 of the yield stress in the last pass.
+        assert over_the_yield_surface(scene, increment.plastic()) < 1e-2
