@@ -78,3 +78,52 @@ def test_a_coating_thinner_than_a_cell_is_told() -> None:
     path = fret.LoadPath.start().normal(10.0, increments=1)
     with pytest.warns(fret.errors.SceneWarning, match="thick"):
         fret.Grid.for_contact(ball, film, path, error=0.02)
+
+
+@pytest.mark.solves
+@pytest.mark.parametrize("of", ["p_max", "s_xx", "loop"])
+def test_a_grid_for_a_number_keeps_its_error(of: str) -> None:
+    """The number on the grid is that on twice as many cells again, to the error asked for."""
+    ball, load, mu, error = fret.Body(STEEL, shape=fret.Sphere(R=0.01)), 20.0, 0.4, 0.03
+    path = fret.LoadPath.start().normal(load, increments=2)
+    for T in (0.6, -0.6, 0.6):
+        path = path.force(T_x=T * mu * load, increments=4)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        grid = fret.Grid.for_contact(ball, FLAT, path, error=error, mu=mu, of=of)
+    side = grid.nx * grid.dx
+
+    def number(n: int) -> float:
+        grid = fret.Grid.centred(extent=side, n=n)
+        scene = fret.Scene(body1=ball, body2=FLAT, mu=mu, grid=grid, path=path)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            result = fret.solve(scene, progress=False)
+            if of == "p_max":
+                return float(result.at(-1).p_max)
+            if of == "s_xx":
+                return result.at(-1).stress().maximum("s_xx").value
+        return float(result.dissipated.sum())
+
+    assert number(grid.nx) == pytest.approx(number(2 * grid.nx), rel=error)
+
+
+def test_a_grid_for_a_number_needs_friction_and_a_name() -> None:
+    path = fret.LoadPath.start().normal(20.0, increments=1)
+    ball = fret.Body(STEEL, shape=fret.Sphere(R=0.01))
+    with pytest.raises(ValueError, match="mu: must be given with of = 'loop'"):
+        fret.Grid.for_contact(ball, FLAT, path, of="loop")
+    with pytest.raises(ValueError, match="of = 's_yy': must be one of p, p_max, s_xx, loop"):
+        fret.Grid.for_contact(ball, FLAT, path, of="s_yy")  # type: ignore[arg-type]
+
+
+@pytest.mark.solves
+def test_a_grid_holds_a_contact_that_moments_move() -> None:
+    ball = fret.Body(STEEL, shape=fret.Sphere(R=0.01))
+    plain = fret.LoadPath.start().normal(20.0, increments=1)
+    a = fret.reference.hertz(R=0.01, bodies=(STEEL, STEEL), W=20.0).a
+    # M/W = a moves the contact by its radius.
+    path = plain.force(M_y=20.0 * a, increments=1)
+    grid = fret.Grid.for_contact(ball, FLAT, path, error=0.05)
+    assert grid.nx * grid.dx > 1.5 * 1.2 * 2 * a
+    assert p_max(ball, FLAT, path, grid)[0] == pytest.approx(np.pi * a**2, rel=0.03)

@@ -1141,6 +1141,7 @@ class Grid:
         plane_strain: bool = False,
         wear: Mapping[str, Any] | None = None,
         mu: float | Friction | None = None,
+        of: Literal["p", "p_max", "s_xx", "loop"] = "p",
     ) -> Grid:
         """Choose a grid for the contact that comes out of two bodies and a load path.
 
@@ -1158,8 +1159,8 @@ class Grid:
         path : LoadPath
             The loads.
         error : float
-            Error of the pressure that is wanted, root mean square over that of the pressure; that
-            of radius and approach is a tenth of it. Error bars tell what it came to.
+            Error that is wanted: of the pressure, root mean square over that of the pressure, and
+            a tenth of it of radius and approach; or of the number that `of` names.
         room : float
             Side of the grid over the length of the contact: 1.2 (default), 2 or more where wear or
             rolling makes the contact longer.
@@ -1173,19 +1174,26 @@ class Grid:
             `error` is then that of the contact at the end, and the first contact has eight cells
             in its radius.
         mu : float or Friction, optional
-            Coefficient of friction, which decides where wear slips: to be given with `wear`.
+            Coefficient of friction, which decides where wear slips: to be given with `wear`, and
+            with ``of="s_xx"`` or ``of="loop"``.
+        of : "p", "p_max", "s_xx" or "loop"
+            What `error` is of. ``"p"``: the pressure as a field. The others are solved on grids
+            of twice as many cells each until they agree to `error`. ``"p_max"``: the largest
+            pressure and the area. ``"s_xx"``: the largest tension along x in the lower body at
+            the end of the path. ``"loop"``: the dissipated energy and the ranges of forces and
+            shifts.
 
         Raises
         ------
         ValueError
-            Nothing is pressed together, no size was found that fits, as of two flats, or `wear`
-            comes without `mu`.
+            Nothing is pressed together, no size was found that fits, as of two flats, or `wear`,
+            ``"s_xx"`` or ``"loop"`` comes without `mu`.
 
         Warns
         -----
         SceneWarning
-            Area or largest pressure still change by more than `error` on 512 x 512 cells, or an
-            outermost coating is thinner than a cell.
+            The numbers still change by more than `error` on 512 x 512 cells, or an outermost
+            coating is thinner than a cell.
 
         Examples
         --------

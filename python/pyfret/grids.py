@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from pyfret._core import Body, Friction
+    from pyfret.result import Result
 
 __all__ = ["for_contact", "offer"]
 
@@ -57,6 +58,14 @@ UNSEEN = 0.01
 MOST_TRIED = 512 * 512
 #: Fewest and most cells along a side.
 FEWEST, MOST = 24, 4096
+#: What an error may be asked of, and the numbers in which two grids agree then.
+Number: TypeAlias = Literal["p", "p_max", "s_xx", "loop"]
+NUMBERS: dict[Number, str] = {
+    "p": "area or largest pressure",
+    "p_max": "area or largest pressure",
+    "s_xx": "the largest tension along x",
+    "loop": "the energy or a range of the loop",
+}
 
 
 def for_contact(
@@ -70,6 +79,7 @@ def for_contact(
     plane_strain: bool = False,
     wear: Mapping[str, Any] | None = None,
     mu: float | Friction | None = None,
+    of: Literal["p", "p_max", "s_xx", "loop"] = "p",
 ) -> Grid:
     """Choose a grid for the contact that comes out of two bodies and a load path.
 
@@ -87,8 +97,8 @@ def for_contact(
     path : LoadPath
         The loads.
     error : float
-        Error of the pressure that is wanted, root mean square over that of the pressure; that
-        of radius and approach is a tenth of it. Error bars tell what it came to.
+        Error that is wanted: of the pressure, root mean square over that of the pressure, and
+        a tenth of it of radius and approach; or of the number that `of` names.
     room : float
         Side of the grid over the length of the contact: 1.2 (default), 2 or more where wear or
         rolling makes the contact longer.
@@ -102,19 +112,26 @@ def for_contact(
         `error` is then that of the contact at the end, and the first contact has eight cells
         in its radius.
     mu : float or Friction, optional
-        Coefficient of friction, which decides where wear slips: to be given with `wear`.
+        Coefficient of friction, which decides where wear slips: to be given with `wear`, and
+        with ``of="s_xx"`` or ``of="loop"``.
+    of : "p", "p_max", "s_xx" or "loop"
+        What `error` is of. ``"p"``: the pressure as a field. The others are solved on grids
+        of twice as many cells each until they agree to `error`. ``"p_max"``: the largest
+        pressure and the area. ``"s_xx"``: the largest tension along x in the lower body at
+        the end of the path. ``"loop"``: the dissipated energy and the ranges of forces and
+        shifts.
 
     Raises
     ------
     ValueError
-        Nothing is pressed together, no size was found that fits, as of two flats, or `wear`
-        comes without `mu`.
+        Nothing is pressed together, no size was found that fits, as of two flats, or `wear`,
+        ``"s_xx"`` or ``"loop"`` comes without `mu`.
 
     Warns
     -----
     SceneWarning
-        Area or largest pressure still change by more than `error` on 512 x 512 cells, or an
-        outermost coating is thinner than a cell.
+        The numbers still change by more than `error` on 512 x 512 cells, or an outermost
+        coating is thinner than a cell.
 
     Examples
     --------
@@ -130,6 +147,10 @@ def for_contact(
         raise ValueError(f"error = {error}: must be a part of the pressure, such as 0.005")
     if not room >= 1.1:
         raise ValueError(f"room = {room}: must be 1.1 or more, or the contact reaches its border")
+    if of not in NUMBERS:
+        raise ValueError(f"of = {of!r}: must be one of {', '.join(NUMBERS)}")
+    if of in ("s_xx", "loop") and mu is None:
+        raise ValueError(f"mu: must be given with of = {of!r}, which depends on it")
     pressed = _pressed(path)
     smooth1, smooth2 = (body.replace(shape=_smooth(body.shape)) for body in (body1, body2))
     lengths = _lengths(smooth1, smooth2, pressed, start, plane_strain=plane_strain)
@@ -149,8 +170,19 @@ def for_contact(
     if wear is not None:
         size = min(size, first / IN_A_FIRST)
     n = [2 * math.ceil(side / size / 2) for side in sides]
-    if wear is None and max(n) <= MOST and not (_is_plain(body1.shape) and _is_plain(body2.shape)):
-        n = _refined(body1, body2, pressed, sides, n, error, plane_strain=plane_strain)
+    plain = _is_plain(body1.shape) and _is_plain(body2.shape)
+    if wear is None and max(n) <= MOST and not (plain and of == "p"):
+        if of != "p":
+            n = [max(FEWEST, 2 * math.ceil(cells / 4)) for cells in n]
+        whole = of in ("s_xx", "loop")
+        scene = Scene(
+            body1=body1,
+            body2=body2,
+            mu=mu if whole and mu is not None else 0.0,
+            grid=_square(sides[0], plane_strain=plane_strain),
+            path=path if whole else pressed,
+        )
+        n = _refined(scene, sides, n, error, of)
     _doubt_films(body1, body2, [side / of for side, of in zip(sides, n, strict=True)])
     if max(n) > MOST:
         raise ValueError(
@@ -163,7 +195,16 @@ def for_contact(
 
 
 def _pressed(path: LoadPath) -> LoadPath:
-    """A path to the largest normal load of another, or to its largest approach."""
+    """A path to the largest normal load of another, or to its largest approach.
+
+    Where moments tilt the bodies, it goes on to each branch with one, since the contact moves.
+    """
+    tilted = [b for b in path.branches if b.W and (b.M_x or b.M_y)]
+    if tilted:
+        found = LoadPath.start().normal(max(b.W for b in path.branches if b.W), increments=1)
+        for b in tilted:
+            found = found.force(W=b.W, M_x=b.M_x or 0.0, M_y=b.M_y or 0.0, increments=1)
+        return found
     loads = [b.W for b in path.branches if b.W]
     shifts = [b.delta_z for b in path.branches if b.delta_z]
     if loads:
@@ -239,7 +280,7 @@ def _box(scene: Scene) -> tuple[float, float] | None:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            at = solve(scene, progress=False).at(-1)
+            result = solve(scene, progress=False, save="branches")
     except OffGridError:
         return None
     except InvalidSceneError as error:
@@ -248,10 +289,11 @@ def _box(scene: Scene) -> tuple[float, float] | None:
         if "cells across" in str(error):
             return 0.0, 0.0
         raise
-    contact = at.contact.values.astype(bool)
+    d = result.dataset
+    contact = (d.p > 0).any("saved").values
     if not contact.any():
         return 0.0, 0.0
-    return _reach(contact, at.dataset, scene.grid)
+    return _reach(contact, d, scene.grid)
 
 
 def _reach(touched: NDArray[np.bool_], d: xr.Dataset, grid: Grid) -> tuple[float, float]:
@@ -358,34 +400,39 @@ def _is_plain(shape: object) -> bool:
     )
 
 
-def _refined(
-    body1: Body,
-    body2: Body,
-    pressed: LoadPath,
-    sides: list[float],
-    n: list[int],
-    error: float,
-    *,
-    plane_strain: bool,
-) -> list[int]:
-    """Cells along the sides, doubled until area and largest pressure agree to `error`.
+def _numbers(result: Result, of: Number) -> NDArray[np.float64]:
+    """The numbers of a run that two grids have to agree in."""
+    if of == "loop":
+        d = result.dataset
+        ranges = [float(np.ptp(d[name].values)) for name in ("T_x", "T_y", "delta_x", "delta_y")]
+        found = np.array([float(d.dissipated.sum()), *ranges])
+        return found[found > 1e-6 * np.abs(found).max()] if found.any() else np.ones(1)
+    at = result.at(-1)
+    if of == "s_xx":
+        return np.array([at.stress().maximum("s_xx").value])
+    return np.array([float(at.contact_area), float(at.p_max)])
+
+
+def _refined(scene: Scene, sides: list[float], n: list[int], error: float, of: Number) -> list[int]:
+    """Cells along the sides, doubled until the numbers asked for agree to `error`.
 
     The last of two grids that agree is given; where none of at most MOST_TRIED cells do, the finest
     one, with a warning.
     """
+    flat = scene.grid.plane_strain
 
-    def numbers(of: list[int]) -> NDArray[np.float64]:
-        if plane_strain:
-            grid = Grid.strip(extent=sides[0], n=of[0])
+    def numbers(cells: list[int]) -> NDArray[np.float64]:
+        if flat:
+            grid = Grid.strip(extent=sides[0], n=cells[0])
         else:
-            grid = Grid.from_spacing((of[0], of[1]), (sides[0] / of[0], sides[1] / of[1]))
-        scene = Scene(body1=body1, body2=body2, mu=0.0, grid=grid, path=pressed)
+            grid = Grid.from_spacing(
+                (cells[0], cells[1]), (sides[0] / cells[0], sides[1] / cells[1])
+            )
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            at = solve(scene, progress=False).at(-1)
-        return np.array([float(at.contact_area), float(at.p_max)])
+            return _numbers(solve(scene.replace(grid=grid), progress=False), of)
 
-    most = MOST if plane_strain else MOST_TRIED
+    most = MOST if flat else MOST_TRIED
     before, change = None, math.inf
     while True:
         try:
@@ -394,18 +441,18 @@ def _refined(
             if "cells" not in str(refused):
                 raise
             now = None
-        if now is not None and before is not None:
+        if now is not None and before is not None and now.shape == before.shape:
             change = float(np.abs(now / before - 1.0).max())
             if change <= error:
                 return n
-        finer = [2 * of for of in n]
-        if math.prod(finer[: 1 if plane_strain else 2]) > most:
+        finer = [2 * cells for cells in n]
+        if math.prod(finer[: 1 if flat else 2]) > most:
             break
         before, n = now, finer
     if math.isfinite(change):
         warnings.warn(
-            f"area or largest pressure still changes by {100 * change:.2g} % from half as many "
-            f"cells to {n[0]}, more than error = {error:g}: an edge or short waves need more",
+            f"{NUMBERS[of]} still changes by {100 * change:.2g} % from half as many cells to "
+            f"{n[0]}, more than error = {error:g}: an edge or short waves need more",
             SceneWarning,
             stacklevel=3,
         )
