@@ -3,11 +3,20 @@
 from __future__ import annotations
 
 import itertools
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
+import xarray as xr
 
 import pyfret as fret
+from pyfret import _core
+from pyfret.subsurface.plastic import YIELDED
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+pytestmark = pytest.mark.solves
 
 STEEL = fret.Elastic(E=210e9, nu=0.3, plastic=fret.Plastic(s_y=1e9, hardening=1e10))
 
@@ -85,11 +94,186 @@ def test_numbers_without_meaning_are_refused_by_name(numbers: dict[str, float], 
         fret.Plastic(**numbers)
 
 
-def test_stress_of_elastic_bodies_is_refused() -> None:
-    """A section would lack the residual stress."""
+def test_a_store_keeps_the_plastic_strain(tmp_path: Path) -> None:
+    """Memory, store, copy and march have the same one."""
+    scene = indentation()
+    kept = fret.solve(scene, progress=False)
+    stored = fret.solve(scene, out=tmp_path / "run", progress=False)
+    stored.save(tmp_path / "copy.zarr")
+    copied = fret.open(tmp_path / "copy.zarr")
+    *_, live = fret.march(scene)
+    state = kept.at(-1).plastic
+    assert state.dataset.equivalent.dims == ("z", "y", "x")
+    assert state.volume() == pytest.approx(float(kept.plastic_volume[-1]))
+    assert state.largest() == float(kept.largest_plastic_strain[-1])
+    # The increment under load has a plastic strain of its own.
+    assert kept.at(3).plastic.volume() > 0
+    for other in (stored.at(-1), copied.at(-1), live):
+        xr.testing.assert_identical(other.plastic.dataset, state.dataset)
+
+
+def test_a_run_that_was_stopped_goes_on_to_the_same_plastic_strain(tmp_path: Path) -> None:
+    """Points of the increments before and after the stop, each once."""
+    scene = indentation().replace(save="all")
+
+    def stop(index: int, _: int) -> None:
+        if index == 3:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        _core.solve(scene, store=tmp_path / "run", checkpoint=0.0, on_increment=stop)
+    assert fret.open(tmp_path / "run").status != "done"
+    resumed = fret.resume(tmp_path / "run", progress=False)
+    whole = fret.solve(scene, progress=False)
+    for name in YIELDED:
+        np.testing.assert_array_equal(resumed.dataset[name], whole.dataset[name])
+
+
+def test_the_stress_below_is_that_which_is_there() -> None:
+    """At the points of the volume grid it is the stress of the plastic state."""
     result = fret.solve(indentation(), progress=False)
-    with pytest.raises(fret.errors.ArgumentError, match="plastic"):
-        result.at(-1).stress()
+    loaded = result.at(3)
+    plastic = loaded.plastic.dataset
+    z = plastic.z.values[2:12:3]
+    row = plastic.y.values[13]
+    below = loaded.stress(z, y=row)
+    own = plastic.sel(z=z, y=row)
+    scale = float(np.abs(own.residual_stress).max())
+    assert scale > 1e8
+    without = fret.subsurface.stress(
+        result.scene.body2.replace(substrate=fret.Elastic(E=210e9, nu=0.3)),
+        result.scene.grid,
+        z,
+        y=row,
+        rim=True,
+        stick=loaded.stick.values,
+        **loaded.tractions(),
+    )
+    for name in ("xx", "yy", "zz", "xz"):
+        left = (below.dataset[f"s_{name}"] - without.dataset[f"s_{name}"]).values
+        np.testing.assert_allclose(
+            left, own.residual_stress.sel(component=name).values, atol=1e-6 * scale
+        )
+    # A point, a plane, a history and an envelope have it, too.
+    at = loaded.stress(z, x=plastic.x.values[9], y=row)
+    np.testing.assert_allclose(at.s_xx, below.s_xx[:, 9], rtol=1e-6)
+    plane = loaded.stress(z)
+    np.testing.assert_allclose(plane.s_xx[:, :, 13], below.s_xx, rtol=1e-6)
+    history = fret.fatigue.history(result, z, y=row, cycle=None)
+    np.testing.assert_allclose(history.sel(increment=3)[..., 0], below.s_xx, rtol=1e-6)
+    envelope = result.envelope(z, y=row, of=("s_xx",))
+    assert float(envelope.s_xx_max.max()) >= float(below.s_xx.max())
+
+
+def test_tractions_alone_do_not_say_what_has_yielded() -> None:
+    """The stress of a body that yields needs its run."""
+    scene = indentation()
+    with pytest.raises(ValueError, match=r"plastic.*from their run"):
+        fret.subsurface.stress(scene.body2, scene.grid, p=np.ones((24, 24)))
+
+
+def test_stress_of_bodies_that_have_not_yielded_has_the_bits_of_elastic_ones() -> None:
+    """Below the surface as on it; the summary says how far they are from it."""
+    hard = fret.Elastic(E=210e9, nu=0.3, plastic=fret.Plastic(s_y=5e9))
+    elastic = fret.solve(indentation(fret.Elastic(E=210e9, nu=0.3)), progress=False)
+    found = fret.solve(indentation(hard), progress=False)
+    below, other = (run.at(3).stress(y=0.0).dataset for run in (found, elastic))
+    for name in ("s_xx", "s_zz", "s_xz"):
+        np.testing.assert_array_equal(below[name], other[name])
+    assert found.at(3).plastic.volume() == 0.0
+    ratio = float(found.yield_ratio.max())
+    # 0.62 p_H below a sphere for nu = 0.3.
+    assert ratio == pytest.approx(0.62 * found.p_H / 5e9, rel=0.02)
+    assert f"{ratio:.3g} of the yield stress" in found.summary()
+    assert "yield stress" not in elastic.summary()
+    assert float(elastic.yield_ratio.max()) == 0.0
+
+
+def test_what_is_left_after_unloading(recwarn: pytest.WarningsRecorder) -> None:
+    """Residual stress without tractions, and the imprint as the shape of the next scene."""
+    scene = indentation()
+    result = fret.solve(scene, progress=False)
+    left = result.unloaded()
+    plastic = result.at(-1).plastic
+    row = plastic.dataset.y.values[12]
+    z = plastic.dataset.z.values[1:9]
+    found = left.stress(z, y=row)
+    own = plastic.dataset.residual_stress.sel(z=z, y=row, component="xx")
+    np.testing.assert_allclose(found.s_xx, own, rtol=1e-5, atol=1e3)
+    # Nothing is carried by the surface.
+    surface = left.stress([0.0], y=row)
+    for name in ("s_zz", "s_xz", "s_yz"):
+        assert float(np.abs(surface.dataset[name]).max()) == 0.0
+    assert left.depth() == pytest.approx(float(plastic.dataset.imprint.max()), rel=1e-3)
+    assert left.depth(1) == 0.0
+    # The ball rests deeper in the imprint than on the flat, and more softly.
+    deeper = scene.replace(
+        body2=fret.Body(fret.Elastic(E=210e9, nu=0.3), shape=left.shape(2)),
+        path=fret.LoadPath.start().normal(20.0, increments=1),
+    )
+    resting = fret.solve(deeper, progress=False)
+    flat = fret.solve(deeper.replace(body2=fret.Body(STEEL.replace(plastic=None))), progress=False)
+    sunk = float(resting.delta_z[-1] - flat.delta_z[-1])
+    assert 0.4 * left.depth() < sunk < left.depth()
+    assert float(resting.p_max[-1]) < 0.9 * float(flat.p_max[-1])
+    assert not [w for w in recwarn if "in reverse" in str(w.message)]
+    with pytest.raises(ValueError, match="stay elastic"):
+        flat.unloaded()
+
+
+def sheared(s_y: float, cycles: int) -> fret.Result:
+    """A cylinder on a flat that yields, to and fro under a force."""
+    yielding = fret.Plastic(s_y=s_y, kinematic=5e9)
+    scene = fret.Scene(
+        body1=fret.Body(fret.Elastic(E=115e9, nu=0.32), shape=fret.Cylinder(R=0.05)),
+        body2=fret.Body(fret.Elastic(E=115e9, nu=0.32, plastic=yielding)),
+        mu=0.4,
+        grid=fret.Grid.strip(extent=3.6e-3, n=48),
+    )
+    path = fret.LoadPath.start().force(W=1.2e6, increments=2)
+    return fret.solve(
+        scene, path.cycles(cycles, T_x=0.9 * 0.4 * 1.2e6, increments=3), progress=False
+    )
+
+
+def test_the_verdict_of_cycles() -> None:
+    """Elastic, shaken down and alternating, with the works of every cycle."""
+    elastic = sheared(2e9, 1).verdict()
+    assert elastic.kind == "elastic"
+    assert elastic.work == (0.0,)
+    assert 0.0 < elastic.yield_ratio < 1.0
+    shaken = sheared(480e6, 3).verdict()
+    assert shaken.kind == "shakes down"
+    assert shaken.after is not None
+    assert 0 < shaken.after < 3
+    assert str(shaken) == f"shakes down after {shaken.after} of 3 cycles"
+    result = sheared(380e6, 3)
+    found = result.verdict()
+    assert found.kind == "alternates"
+    # To and fro: much is added up and little is left.
+    assert 0.0 <= found.net_strain < 0.5 * found.strain
+    assert sum(found.work) <= float(result.plastic_work.sum())
+    assert found.where is not None
+    assert found.where.body_number == 2
+    assert "alternates" in str(found)
+    with pytest.raises(ValueError, match=r"body2\.plastic.*verdict"):
+        result.load_factors(380e6)
+    with pytest.raises(ValueError, match="no closed cycle"):
+        fret.solve(indentation(), progress=False).verdict()
+
+
+def test_figures_of_what_has_yielded(tmp_path: Path) -> None:
+    """The zone and the residual stress, of states and runs, and in the report."""
+    result = fret.solve(indentation(), progress=False)
+    zone = result.plot.plastic_zone()
+    assert zone.get_ylim()[0] > zone.get_ylim()[1] == 0.0
+    left = result.at(-1).plot.residual_stress(units="SI")
+    assert "MPa" in left.get_ylabel()
+    result.report(tmp_path / "page.html")
+    page = (tmp_path / "page.html").read_text(encoding="utf-8")
+    assert "Plastic strain on the section y = 0 of the lower body" in page
+    assert "Residual stress below the middle" in page
+    assert "largest plastic strain" in page
 
 
 def test_a_material_of_the_table_yields_only_when_asked() -> None:

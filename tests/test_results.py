@@ -37,6 +37,7 @@ SCALARS = [
     "plastic_work",
     "plastic_volume",
     "largest_plastic_strain",
+    "yield_ratio",
     "work",
     "elastic",
     "dissipated",

@@ -52,6 +52,10 @@ FIGURES: dict[str, dict[str, str]] = {
         "stress_history": "fret.plot.stress_history(result.envelope(y=0.0))",
         "stress_maps": "fret.plot.stress_maps({2.0: result})",
     },
+    "Bodies that yield": {
+        "plastic_zone": "fret.plot.plastic_zone(yielding.at(4))",
+        "residual_stress": "fret.plot.residual_stress(yielding)",
+    },
     "Fatigue, yield, cracks": {
         "criterion_map": "fret.plot.criterion_map(life)",
         "load_factor_map": "fret.plot.load_factor_map(rig.load_factors(880e6))",
@@ -90,6 +94,20 @@ OTHERS = {
     "paper_figures": "writes figures 4 to 13 of the paper from its four runs",
     "style": "sets the look inside a `with` block, for figures of your own beside these",
 }
+
+
+def yielding() -> Any:
+    """A hard film on titanium that yields, pressed and let go."""
+    titanium = fret.Elastic(E=115e9, nu=0.32, plastic=fret.Plastic(s_y=900e6, hardening=2e9))
+    film = fret.Coating(fret.Elastic(E=460e9, nu=0.2), thickness=30e-6)
+    scene = fret.Scene(
+        body1=fret.Body(fret.RIGID, shape=fret.Sphere(R=5e-3)),
+        body2=fret.Body(titanium, coatings=film),
+        mu=0.0,
+        grid=fret.Grid.centred(extent=7.2e-4, n=32),
+    )
+    path = fret.LoadPath.start().normal(340.0, increments=4).normal(0.5, increments=2)
+    return fret.solve(scene, path, progress=False)
 
 
 def names() -> dict[str, Any]:
@@ -197,6 +215,7 @@ def names() -> dict[str, Any]:
     return {
         "fret": fret,
         "result": result,
+        "yielding": yielding(),
         "many": many,
         "rig": rig,
         "life": life,

@@ -129,6 +129,9 @@ class Body:
     @property
     def substrate(self, /) -> Elastic:
         """Material below the coatings."""
+    @property
+    def yields(self, /) -> bool:
+        """Whether a layer of it may yield."""
 
 @final
 class Bond:
@@ -736,8 +739,9 @@ class CycleSection:
     A section of a body below a contact over a cycle.
 
     `moments` is called with a list of numbers from 0 to `count` - 1, or with None for the moment
-    before the cycle: lists of q_x, q_y, p [Pa] and stick, of shape (nx, ny) each, and of the bulk
-    stress [Pa]; or None.
+    before the cycle: lists of q_x, q_y, p [Pa] and stick, of shape (nx, ny) each, of the bulk
+    stress [Pa], and of the residual stress of plastic strain, empty for a body that stays elastic;
+    or None.
     """
 
     def __new__(
@@ -819,6 +823,10 @@ class Cylinder:
         """Length along the axis [m]; infinite for one that leaves the grid."""
     def replace(self, /, **changes: Any) -> Self:
         """The same with some of its parts exchanged, named as in the constructor."""
+
+@final
+class Eigenstress:
+    """Residual stress that plastic strain leaves."""
 
 @final
 class Elastic:
@@ -935,6 +943,7 @@ class Envelope:
         q_y: ArrayLike,
         stick: NDArray[bool_],
         sigma_B: float = 0.0,
+        eigenstress: Eigenstress | None = None,
     ) -> None:
         """Take an increment: tractions [Pa], cells that stick, bulk stress of the body [Pa]."""
 
@@ -1730,8 +1739,6 @@ class March:
         """Increments solved so far."""
     def doubts(self, /) -> list[str]:
         """What the increments so far came to that is hardly meant, one sentence each."""
-    def plastic(self, /, body: int) -> dict[str, Any] | None:
-        """Plastic strain, stress and imprint of a body; None where it stays elastic."""
     @property
     def scene(self, /) -> Scene:
         """The scene that is being solved."""
@@ -1897,6 +1904,36 @@ class Plastic:
     @property
     def s_y(self, /) -> float:
         """Yield stress [Pa]."""
+
+@final
+class PlasticBody:
+    """
+    A body of a scene that may yield, with its volume grid; use :meth:`Snapshot.plastic`.
+
+    The points that have yielded are given as columns, in the order of :func:`yielded_columns`.
+    """
+
+    def __new__(cls, /, scene: Scene, body_number: int) -> PlasticBody: ...
+    def eigenstress(self, /, rows: Sequence[NDArray[np.float64]]) -> Eigenstress | None:
+        """The residual stress, for :class:`Subsurface`; None where nothing has yielded."""
+    def fields(
+        self, /, rows: Sequence[NDArray[np.float64]], p: ArrayLike, q_x: ArrayLike, q_y: ArrayLike
+    ) -> dict[str, NDArray[np.float64]]:
+        """
+        Equivalent plastic strain, plastic strain and stress over planes, components and cells.
+
+        The stress with the tractions, and the residual stress without [Pa].
+        """
+    def grid(self, /) -> dict[str, Any]:
+        """Depth and height of each plane of the volume grid [m], its layer, x, y of its cells."""
+    def imprint(self, /, rows: Sequence[NDArray[np.float64]]) -> dict[str, NDArray[np.float64]]:
+        """
+        Displacements that the surfaces have without tractions, on the grid of the contact [m].
+
+        Growth of the gap by both bodies, u(2) - u(1) along x and y; the depth of this body.
+        """
+    def unloads_elastically(self, /, rows: Sequence[NDArray[np.float64]]) -> bool:
+        """Whether the stress without tractions yields nowhere."""
 
 @final
 class Profile:
@@ -2256,6 +2293,7 @@ class Subsurface:
         body_number: int = 2,
         sigma_B: float = 0.0,
         residual: Sequence[float] | None = None,
+        eigenstress: Sequence[Eigenstress | None] | None = None,
         rim: bool = False,
         stick: NDArray[bool_] | None = None,
     ) -> Subsurface: ...
@@ -2957,6 +2995,7 @@ def section_of_states(
     stick: NDArray[bool_],
     sigma_B: Sequence[float],
     residual: Sequence[float] | None = None,
+    eigenstress: Sequence[Eigenstress | None] | None = None,
     x: float | None = None,
     y: float | None = None,
     azimuth: float | None = None,
@@ -3080,6 +3119,9 @@ def with_error(value: float, error: float | None = None) -> str:
 def with_range(value: float, low: float, high: float) -> str:
     """A number and the range that it lies in, with the digits that the range leaves."""
 
+def yielded_columns() -> list[str]:
+    """Names of the columns of the points that have yielded, in their order."""
+
 def yielding_on(
     stress: ArrayLike, *, s_y: float, constant: tuple[float, float, float, float, float, float]
 ) -> dict[str, NDArray[np.float64]]:
@@ -3129,6 +3171,7 @@ __all__ = [
     "CrownedRoller",
     "CycleSection",
     "Cylinder",
+    "Eigenstress",
     "Elastic",
     "Ellipsoid",
     "Envelope",
@@ -3152,6 +3195,7 @@ __all__ = [
     "Outline",
     "PerRange",
     "Plastic",
+    "PlasticBody",
     "Profile",
     "Rough",
     "Scene",
@@ -3227,5 +3271,6 @@ __all__ = [
     "wear_of_file",
     "with_error",
     "with_range",
+    "yielded_columns",
     "yielding_on",
 ]

@@ -205,7 +205,7 @@ def temperature(
     """
     scene = result.scene
     for name, body in (("body1", scene.body1), ("body2", scene.body2)):
-        if any(layer.plastic for layer in (body.substrate, *(c.material for c in body.coatings))):
+        if body.yields:
             raise ValueError(
                 f"{name}.plastic: must be left out: the heat of plastic work is not computed"
             )

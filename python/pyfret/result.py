@@ -18,6 +18,7 @@ from pyfret.run.tables import run_html
 from pyfret.snapshot import Figures, Snapshot
 from pyfret.subsurface import fields
 from pyfret.subsurface.moments import lines_of
+from pyfret.subsurface.unloaded import Unloaded
 
 if TYPE_CHECKING:
     import os
@@ -42,6 +43,7 @@ class Result(Run):
 
     life = fatigue.life
     load_factors = fatigue.load_factors
+    verdict = fatigue.verdict
     crack = fracture.crack
     grow_crack = fracture.grow
     temperature = heating.temperature
@@ -69,6 +71,32 @@ class Result(Run):
             The fields of that increment were not kept; the message lists those that were.
         """
         return Snapshot(*self._kept(which))
+
+    def unloaded(self, which: float = -1) -> Unloaded:
+        """Take the contact apart: residual stress, and the imprint as a shape.
+
+        Parameters
+        ----------
+        which : int or float
+            The increment, as in :meth:`at` (default: the last that kept its fields).
+
+        Raises
+        ------
+        ValueError
+            Both bodies stay elastic.
+
+        Warns
+        -----
+        SceneWarning
+            Taking the load off would yield in reverse.
+
+        Examples
+        --------
+        >>> left = result.unloaded()  # doctest: +SKIP
+        >>> left.stress(y=0.0).maximum("s_xx")  # doctest: +SKIP
+        >>> scene.body2.replace(shape=left.shape(2))  # doctest: +SKIP
+        """
+        return Unloaded(self.at(which))
 
     def envelope(
         self,

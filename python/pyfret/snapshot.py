@@ -9,6 +9,7 @@ from pyfret.export.write import write as export
 from pyfret.run import Run, State
 from pyfret.run.tables import state_html
 from pyfret.subsurface import contact
+from pyfret.subsurface.plastic import PlasticState
 from pyfret.subsurface.tensor import LABELS
 from pyfret.subsurface.zones import Zone, zone
 
@@ -86,6 +87,24 @@ class Snapshot(State):
         stresses = {of: f"it is a stress, snapshot.stress().{of}" for of in LABELS}
         return {**stresses, **super()._elsewhere(name)}
 
+    @property
+    def plastic(self) -> PlasticState:
+        """The plastic strain of the body that yields, the stress there and the imprint.
+
+        Of the lower body if both yield; ``state.plastic(body_number=1)`` is that of the upper one.
+
+        Raises
+        ------
+        ValueError
+            Both bodies stay elastic.
+
+        Examples
+        --------
+        >>> result.at(-1).plastic.volume()  # doctest: +SKIP
+        >>> result.at(-1).plastic.dataset.residual_stress  # doctest: +SKIP
+        """
+        return PlasticState(self)
+
     def stress(
         self,
         z: ArrayLike | None = None,
@@ -98,6 +117,9 @@ class Snapshot(State):
         residual: Sequence[float] | None = None,
     ) -> Stress:
         """Stress below the contact, in the lower body unless `body_number` is 1.
+
+        The stress of the tractions and, in a body that has yielded, the residual stress of its
+        plastic strain.
 
         Parameters
         ----------

@@ -14,7 +14,6 @@ from pyfret.result import Result, open
 from pyfret.run.dataset import dataset
 from pyfret.scene.warnings import doubt_run, doubt_scene
 from pyfret.snapshot import Snapshot
-from pyfret.subsurface.plastic import PlasticState
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -207,34 +206,6 @@ class Increment(Snapshot):
                 labelled.attrs["doubts"] = "\n".join(doubts)
             self._labelled = labelled
         return self._labelled
-
-    def plastic(self, *, body_number: int = 2) -> PlasticState:
-        """Plastic strain of a body, the stress there, and what is left after unloading.
-
-        Parameters
-        ----------
-        body_number : 1 or 2
-            The body.
-
-        Raises
-        ------
-        RuntimeError
-            The march has gone on.
-        ValueError
-            No layer of the body yields.
-        """
-        mine, reached = self._scalars["increment"], self._running.done
-        if mine != reached:
-            raise RuntimeError(
-                f"the march has gone on to increment {reached}; "
-                f"ask for the plastic strain of increment {mine} before that"
-            )
-        found = self._running.plastic(body_number)
-        if found is None:
-            raise ValueError(
-                f"body{body_number} stays elastic: give its material plastic=Plastic(s_y=..)"
-            )
-        return PlasticState(found)
 
     def __reduce__(self) -> tuple[type[Snapshot], tuple[xr.Dataset]]:
         """Pickle the snapshot, without the march."""

@@ -5,16 +5,20 @@ use std::sync::Arc;
 use contact_core::Error;
 use serde_json::Value;
 
-use super::catalogue::Kind;
+use super::catalogue::{Kind, POINTS};
 use super::folder::Folder;
 use super::variable::Variable;
 
 /// Increments in a chunk of a scalar.
-const SCALAR_CHUNK: u64 = 1024;
+pub(super) const SCALAR_CHUNK: usize = 1024;
+/// Points in a chunk of a column over points.
+pub(super) const POINT_CHUNK: usize = 1 << 15;
 
 /// A variable of one dimension whose values come one by one.
 pub(super) struct Column {
     variable: Variable,
+    /// Values in a chunk.
+    chunk: usize,
     /// Values of the chunks that are not full.
     tail: Vec<f64>,
     /// Values in all.
@@ -29,12 +33,18 @@ impl Column {
         dim: &str,
         attributes: &[(&str, Value)],
     ) -> Self {
-        let variable = Variable::new(name, kind, words, &[dim], vec![0], vec![SCALAR_CHUNK]);
+        let chunk = if dim == POINTS {
+            POINT_CHUNK
+        } else {
+            SCALAR_CHUNK
+        };
+        let variable = Variable::new(name, kind, words, &[dim], vec![0], vec![chunk as u64]);
         let variable = attributes.iter().fold(variable, |v, (key, value)| {
             v.with_attribute(key, value.clone())
         });
         Self {
             variable,
+            chunk,
             tail: Vec::new(),
             length: 0,
         }
@@ -53,7 +63,7 @@ impl Column {
     /// Stores what came since the last flush; the metadata is left to the caller.
     pub(super) fn flush(&mut self, folder: &Arc<Folder>) -> Result<(), Error> {
         self.variable.set_length(self.length);
-        let chunk = SCALAR_CHUNK as usize;
+        let chunk = self.chunk;
         let first = (self.length - self.tail.len()) / chunk;
         for (i, values) in self.tail.chunks(chunk).enumerate() {
             let values = values.iter().copied();
@@ -73,9 +83,9 @@ impl Column {
         &self.variable
     }
 
-    /// The checksums of a column of these values.
-    pub(super) fn checksums_of(kind: Kind, values: &[f64]) -> Vec<u32> {
-        let chunks = values.chunks(SCALAR_CHUNK as usize);
+    /// The checksums of a column of these values, of chunks of so many.
+    pub(super) fn checksums_of(kind: Kind, values: &[f64], chunk: usize) -> Vec<u32> {
+        let chunks = values.chunks(chunk);
         chunks.map(|chunk| kind.checksum(chunk)).collect()
     }
 }

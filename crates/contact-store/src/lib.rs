@@ -48,7 +48,10 @@ mod worn_read;
 mod writer;
 
 pub use attributes::group_attributes;
-pub use catalogue::{AXES, Axis, FIELDS, Field, FieldView, Kind, SCALARS, STATUS_MEANINGS, Scalar};
+pub use catalogue::{
+    AXES, Axis, FIELDS, Field, FieldView, Kind, OfPoint, POINTS, SCALARS, STATUS_MEANINGS, Scalar,
+    YIELDED, rows_of, state_of,
+};
 pub use error_bars::{write_error_bars, write_no_error_bars};
 pub use image_data::ImageData;
 pub use memory::{Columns, KeptField};

@@ -8,7 +8,7 @@ use ndarray::Array2;
 use serde_json::{Map, Value};
 
 use super::attributes::{conclude, group_attributes};
-use super::catalogue::{FIELDS, FieldView, SCALARS};
+use super::catalogue::{FIELDS, FieldView, SCALARS, YIELDED, rows_of};
 use super::error_bars::{doubt_bars, told};
 
 /// The fields of one name of all increments that keep theirs, each of shape (nx, ny).
@@ -29,6 +29,8 @@ pub struct Columns {
     pub saved: Vec<(usize, f64)>,
     /// Their fields, as in [`FIELDS`].
     pub fields: Vec<KeptField>,
+    /// The points that have yielded in them, as in [`YIELDED`](super::YIELDED); empty where no body may.
+    pub points: Vec<Vec<f64>>,
     /// The attributes of the run.
     pub attributes: Map<String, Value>,
     last: Option<LoadPoint>,
@@ -54,6 +56,13 @@ impl Columns {
 
     fn keep(&mut self, index: usize, t: f64, fields: &Fields) {
         self.saved.push((index, t));
+        if let Some(yielded) = &fields.yielded {
+            self.points.resize(YIELDED.len(), Vec::new());
+            let rows = rows_of(index, yielded);
+            for (column, rows) in self.points.iter_mut().zip(rows) {
+                column.extend(rows);
+            }
+        }
         if self.fields.is_empty() {
             let none = FIELDS.iter().map(|field| match (field.values)(fields) {
                 FieldView::Real(_) => KeptField::Real(Vec::new()),

@@ -11,7 +11,9 @@ use rayon::prelude::*;
 use serde_json::{Map, Value, json};
 
 use super::attributes::group_attributes;
-use super::catalogue::{AXES, FIELDS, FieldView, Kind, SCALARS, STATUS_MEANINGS};
+use super::catalogue::{
+    AXES, FIELDS, FieldView, Kind, POINTS, SCALARS, STATUS_MEANINGS, YIELDED, rows_of,
+};
 use super::checkpoint::Checkpoints;
 use super::consolidated::{Checksums, Consolidated, FILE};
 use super::folder::Folder;
@@ -35,6 +37,8 @@ pub(super) struct Open {
     /// x, y, `saved_increment`, `saved_t`.
     others: Vec<Column>,
     fields: Vec<Variable>,
+    /// Over the points that have yielded, as in [`YIELDED`]; none where no body may.
+    points: Vec<Column>,
     last: Option<(usize, LoadPoint)>,
     /// The most that the increments came to.
     pub(super) reached: Reached,
@@ -86,6 +90,9 @@ impl Open {
         let fields = FIELDS
             .iter()
             .map(|f| Variable::field(f.name, f.kind, (f.units, f.long_name), (grid.nx, grid.ny)));
+        let may_yield = YIELDED.iter().filter(|_| scene.yields());
+        let points =
+            may_yield.map(|p| Column::new(p.name, p.kind, (p.units, p.long_name), POINTS, &[]));
         let mut attributes = group_attributes(scene, plan);
         attributes.insert("coordinates".into(), json!(COORDINATES));
         Self {
@@ -94,6 +101,7 @@ impl Open {
             scalars: scalars.collect(),
             others: others.collect(),
             fields: fields.collect(),
+            points: points.collect(),
             last: None,
             reached: Reached::default(),
             saved: 0,
@@ -125,14 +133,28 @@ impl Open {
     }
 
     /// Takes up what a run has left: its increments, of which those that `keeps` says keep their
-    /// fields, and a store on the disk that holds `on_disk` of them or more, with these checksums.
+    /// fields, a store on the disk that holds `on_disk` of them or more, with these checksums, and the
+    /// points that have yielded in the increments that keep their fields.
     pub(super) fn take_up(
         &mut self,
         checkpoints: Checkpoints,
         increments: &[Increment],
         (on_disk, checksums): (usize, &Checksums),
+        points: &[Vec<f64>],
         keeps: impl Fn(&Increment) -> bool,
     ) {
+        let kept: Vec<usize> = increments
+            .iter()
+            .filter(|i| keeps(i))
+            .map(|i| i.index)
+            .collect();
+        if let Some(of) = points.first() {
+            for (column, values) in self.points.iter_mut().zip(points) {
+                let rows = of.iter().zip(values);
+                let own = rows.filter(|(increment, _)| kept.contains(&(**increment as usize)));
+                own.for_each(|(_, value)| column.push(*value));
+            }
+        }
         self.checkpoints = Some(checkpoints);
         self.on_disk = on_disk;
         for increment in increments {
@@ -200,6 +222,11 @@ impl Open {
                     variable.store_last(folder, saved, values)
                 }
             })?;
+        if let Some(yielded) = &fields.yielded {
+            for (column, rows) in self.points.iter_mut().zip(rows_of(index, yielded)) {
+                rows.into_iter().for_each(|value| column.push(value));
+            }
+        }
         self.count_saved(index, &point);
         Ok(())
     }
@@ -232,12 +259,13 @@ impl Open {
             return self.write_metadata(metadata);
         }
         let (scalars, others) = (&mut self.scalars, &mut self.others);
-        let mut columns: Vec<_> = scalars.iter_mut().chain(others).collect();
+        let columns = scalars.iter_mut().chain(others).chain(&mut self.points);
+        let mut columns: Vec<_> = columns.collect();
         columns
             .par_iter_mut()
             .try_for_each(|column| column.flush(&self.folder))?;
         let (mut documents, mut checksums) = (self.group_documents(), Checksums::new());
-        let columns = self.scalars.iter().chain(&self.others);
+        let columns = self.scalars.iter().chain(&self.others).chain(&self.points);
         for variable in columns.map(Column::variable).chain(&self.fields) {
             let name = variable.name();
             documents.insert(format!("{name}/.zarray"), variable.zarray());

@@ -5,14 +5,19 @@ use std::sync::Arc;
 
 use contact_core::Error;
 use contact_core::scene::Scene;
+use contact_core::yielding::Yielded;
 use ndarray::Array2;
 use serde_json::Value;
 use zarrs::array::ArraySubset;
 
+use super::catalogue::{OfPoint, YIELDED, state_of};
 use super::consolidated::{Consolidated, FILE};
 use super::folder::Folder;
 use super::stored::Stored;
 use super::whole::{self, Found};
+
+/// Most points of an increment that may have yielded.
+const MOST_POINTS: usize = 1 << 24;
 
 /// A result store as it was when it was opened.
 pub struct Store {
@@ -146,6 +151,51 @@ impl Store {
         let part = ArraySubset::new_with_ranges(&[part, 0..nx as u64, 0..ny as u64]);
         let values = stored.numbers(&part).map_err(|e| failed(&e))?;
         Array2::from_shape_vec((nx, ny), values).map_err(|e| failed(&e))
+    }
+
+    /// The points that have yielded in the increments whose fields are saved: a column for each of
+    /// [`YIELDED`]; none of a run whose bodies stay elastic.
+    pub(super) fn points(&self) -> Result<Vec<Vec<f64>>, Error> {
+        if !self.scene.yields() || self.consolidated.length(YIELDED[0].name) == 0 {
+            return Ok(Vec::new());
+        }
+        let longest = self.saved.saturating_mul(MOST_POINTS) as u64;
+        let column = |of: &OfPoint| {
+            let failed =
+                |e: &dyn std::fmt::Display| self.folder.error(&format!("{}: {e}", of.name));
+            let stored = self.array(of.name)?;
+            let shape = stored.shape();
+            if shape.len() != 1 || shape[0] > longest {
+                return Err(failed(&format!(
+                    "is of shape {shape:?}, no column of points"
+                )));
+            }
+            stored.numbers(&stored.all()).map_err(|e| failed(&e))
+        };
+        let points: Vec<Vec<f64>> = YIELDED.iter().map(column).collect::<Result<_, _>>()?;
+        if points.iter().any(|column| column.len() != points[0].len()) {
+            let message = "the columns of the points that have yielded differ in length";
+            return Err(self.folder.error(&message));
+        }
+        Ok(points)
+    }
+
+    /// The plastic state of the increment `increment`, from 1; empty where nothing has yielded, `None` of
+    /// a run whose bodies stay elastic.
+    pub fn yielded(&self, increment: usize) -> Result<Option<Yielded>, Error> {
+        if !self.scene.yields() {
+            return Ok(None);
+        }
+        let mut points = self.points()?;
+        if let Some(of) = points.first() {
+            let own = of.iter().map(|n| *n as usize == increment);
+            let own: Vec<bool> = own.collect();
+            for column in &mut points {
+                let mut mine = own.iter();
+                column.retain(|_| mine.next().copied().unwrap_or(false));
+            }
+        }
+        Ok(Some(state_of(&points)))
     }
 
     /// The error bar of the stress below the branch of an increment, from 1, over the stress; `None`

@@ -9,9 +9,9 @@ use contact_core::march::{Increment, March};
 use contact_core::scene::OwnFriction;
 use serde_json::json;
 
-use super::catalogue::{FIELDS, Kind};
+use super::catalogue::{FIELDS, Kind, YIELDED};
 use super::checkpoint::{Checkpoints, Found};
-use super::column::Column;
+use super::column::{Column, POINT_CHUNK, SCALAR_CHUNK};
 use super::consolidated::Consolidated;
 use super::folder::Folder;
 use super::given_law::with_law;
@@ -89,10 +89,11 @@ pub fn resume_by(
     };
     let kept = (1..=store.increments()).filter(|&index| keeps(index));
     let kept = kept.count().min(store.saved());
-    let metadata = begun_again(&store, kept)?;
+    let points = points_kept(&store, kept)?;
+    let metadata = begun_again(&store, kept, &points)?;
     let mut open = Open::new(store.folder().clone(), scene, march.plan());
     let on_disk = (store.increments(), &metadata.checksums);
-    open.take_up(checkpoints, &increments, on_disk, |increment| {
+    open.take_up(checkpoints, &increments, on_disk, &points, |increment| {
         keeps(increment.index)
     });
     open.write_metadata(metadata)?;
@@ -105,7 +106,7 @@ pub fn resume_by(
 
 /// The metadata of a store whose run is resumed: without the fields that were saved only because it
 /// had stopped.
-fn begun_again(store: &Store, kept: usize) -> Result<Consolidated, Error> {
+fn begun_again(store: &Store, kept: usize, points: &[Vec<f64>]) -> Result<Consolidated, Error> {
     let mut metadata = store.consolidated().clone();
     metadata.documents[".zattrs"]["status"] = json!("running");
     let of_saved = FIELDS.iter().map(|f| f.name);
@@ -117,9 +118,32 @@ fn begun_again(store: &Store, kept: usize) -> Result<Consolidated, Error> {
     for (name, kind) in SAVED {
         if store.saved() > 0 {
             let column = store.column(name)?;
-            let checksums = Column::checksums_of(kind, &column[..kept]);
+            let checksums = Column::checksums_of(kind, &column[..kept], SCALAR_CHUNK);
             metadata.checksums.insert(name.to_owned(), checksums);
         }
     }
+    for (of, values) in YIELDED.iter().zip(points) {
+        if let Some(array) = metadata.documents.get_mut(&format!("{}/.zarray", of.name)) {
+            array["shape"][0] = json!(values.len());
+            let checksums = Column::checksums_of(of.kind, values, POINT_CHUNK);
+            metadata.checksums.insert(of.name.to_owned(), checksums);
+        }
+    }
     Ok(metadata)
+}
+
+/// The points that have yielded in the first `kept` of the increments that keep their fields.
+fn points_kept(store: &Store, kept: usize) -> Result<Vec<Vec<f64>>, Error> {
+    let mut points = store.points()?;
+    let last = match kept.checked_sub(1) {
+        Some(last) => store.column("saved_increment")?[last],
+        None => 0.0,
+    };
+    let rows = points
+        .first()
+        .map_or(0, |of| of.partition_point(|increment| *increment <= last));
+    for column in &mut points {
+        column.truncate(rows);
+    }
+    Ok(points)
 }

@@ -2,7 +2,7 @@
 
 use contact_core::Error;
 use contact_core::scene::Branch;
-use contact_subsurface::{Moments, OverCycle, Side, cycles};
+use contact_subsurface::{Eigenstresses, Moments, OverCycle, Side, cycles};
 
 use crate::Store;
 
@@ -17,6 +17,8 @@ pub struct StoredCycle<'a> {
     sigma_B: Vec<f64>,
     /// Increment of every index, from 1.
     increments: Vec<usize>,
+    /// Of a body that yields.
+    eigenstresses: Option<Eigenstresses>,
 }
 
 impl<'a> StoredCycle<'a> {
@@ -56,7 +58,10 @@ impl<'a> StoredCycle<'a> {
                 "at least 2: solve with save = \"all\" or more of them",
             ));
         }
+        let scene = store.scene();
+        let yields = side.body(scene).yields();
         Ok(Self {
+            eigenstresses: yields.then(|| Eigenstresses::of(scene, side)),
             store,
             kept,
             before,
@@ -84,6 +89,10 @@ impl<'a> StoredCycle<'a> {
                 Error::invalid("saved_increment", self.increments[place], allowed)
             })?;
             moments.sigma_B.push(sigma_B);
+            if let Some(of) = &self.eigenstresses {
+                let yielded = self.store.yielded(self.increments[place])?;
+                moments.eigenstress.push(of.at(yielded.as_ref())?);
+            }
         }
         Ok(moments)
     }

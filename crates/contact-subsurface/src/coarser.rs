@@ -6,7 +6,7 @@ use contact_core::convolution::Tractions;
 use contact_core::scene::{Body, Grid};
 use stress_tensor::StressTensor;
 
-use super::{Border, Depth, Line, Point, Points, Side, States};
+use super::{Border, Depth, Eigenstress, Line, Point, Points, Side, States};
 
 /// Cells of twice the length along each axis.
 pub struct TwiceAsLarge {
@@ -97,9 +97,13 @@ impl Coarser {
         let stick: Option<Vec<bool>> = stick.map(|stick| cells.any(stick));
         let stick: Vec<&[bool]> = stick.iter().map(Vec::as_slice).collect();
         let line = line.map(|line| line.seen_from(middle).0);
+        let eigenstress = states.eigenstress.iter().take(1);
+        let seen = |left: &Option<Eigenstress>| left.as_ref().map(|left| left.seen_from(middle));
+        let eigenstress: Vec<_> = eigenstress.map(seen).collect();
         let states = States {
             tractions: &tractions,
             stick: states.stick.map(|_| &stick[..]),
+            eigenstress: &eigenstress,
             ..states.clone()
         };
         let points = Points::new(body, side, &cells.grid, states)?;

@@ -2,7 +2,7 @@
 
 use contact_core::Error;
 use contact_core::kernels::{Stack, refuse_rigid};
-use contact_core::scene::Body;
+use contact_core::scene::{Body, Scene};
 
 /// A depth and the layer in which the stress is taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,6 +27,14 @@ pub enum Side {
 }
 
 impl Side {
+    /// The body of a scene.
+    pub fn body(self, scene: &Scene) -> &Body {
+        match self {
+            Self::Body1 => &scene.body1,
+            Self::Body2 => &scene.body2,
+        }
+    }
+
     /// Sign of the shear on the body, and of components with one index z, in the body's own frame
     /// (z into the body).
     pub(super) fn sign(self) -> f64 {

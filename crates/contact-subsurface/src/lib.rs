@@ -10,8 +10,9 @@
 //!
 //! Depth z is counted into the body; components are those of the axes of `docs/conventions.md`, in
 //! body 1 as well. At an interface s_xx, s_yy and s_xy have two values: a [`Depth`] names the
-//! layer. The stress is that of the tractions plus, if given, the bulk stress of the body and the
-//! residual stress of its layers; displacements are those of the tractions alone.
+//! layer. The stress is that of the tractions plus, if given, the bulk stress of the body, the residual
+//! stress of its layers and that of its plastic strain ([`Eigenstress`]); displacements are those of the
+//! tractions alone.
 //!
 //! From a depth of eight cells on, the uniform load of a cell is replaced by point loads
 //! on it and its neighbours that act alike to 1e-9 of the traction there; nearer to the surface it
@@ -25,6 +26,7 @@ mod climb;
 mod coarser;
 mod depth;
 mod divided;
+mod eigenstress;
 mod energy;
 mod envelope;
 mod extreme;
@@ -52,6 +54,7 @@ pub use anywhere::{Anywhere, Loads, largest_anywhere};
 pub use borders::{Border, Zone, borders};
 pub use coarser::TwiceAsLarge;
 pub use depth::{Depth, Point, Side, chosen_depths, depths};
+pub use eigenstress::{Eigenstress, Eigenstresses};
 pub use energy::{Cycle, Direction, LoopPoint, cycles, loops};
 pub use envelope::{DepthEnvelope, Envelope, Extremes};
 pub use extreme::{Errors, Extreme};

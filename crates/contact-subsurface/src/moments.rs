@@ -9,7 +9,7 @@ use contact_core::scene::Grid;
 use contact_core::zones::Outline;
 use ndarray::Array2;
 
-use crate::{Line, States, TwiceAsLarge};
+use crate::{Eigenstress, Line, States, TwiceAsLarge};
 
 /// Moments of a cycle, about, by which its sections find their place.
 const PLACED_BY: usize = 16;
@@ -23,6 +23,8 @@ pub struct Moments {
     pub stick: Vec<Array2<bool>>,
     /// Bulk stress of the body \[Pa\].
     pub sigma_B: Vec<f64>,
+    /// Residual stress of the plastic strain; empty for a body that stays elastic.
+    pub eigenstress: Vec<Option<Eigenstress>>,
 }
 
 /// The moments of a cycle, read a few at a time.
@@ -61,6 +63,7 @@ impl Moments {
             tractions: &tractions,
             sigma_B: &self.sigma_B,
             residual,
+            eigenstress: &self.eigenstress,
             stick: Some(&stick),
             stop: stop.clone(),
         })
@@ -78,6 +81,8 @@ impl Moments {
             let marked = cells.any(&field.iter().copied().collect::<Vec<_>>());
             Array2::from_shape_fn(shape, |(i, j)| marked[i * shape.1 + j])
         };
+        let seen =
+            |left: &Option<Eigenstress>| left.as_ref().map(|left| left.seen_from(cells.middle));
         Self {
             tractions: self
                 .tractions
@@ -86,6 +91,7 @@ impl Moments {
                 .collect(),
             stick: self.stick.iter().map(any).collect(),
             sigma_B: self.sigma_B.clone(),
+            eigenstress: self.eigenstress.iter().map(seen).collect(),
         }
     }
 }

@@ -100,10 +100,14 @@ impl Points {
             }
         })?;
         for (state, stresses) in all.iter_mut().enumerate() {
-            for (stress, (_, _, depth)) in stresses.iter_mut().zip(points) {
+            for (stress, (x, y, depth)) in stresses.iter_mut().zip(points) {
                 let uniform = self.loaded.uniform(state % states, *depth);
                 for (s, uniform) in stress.iter_mut().zip(uniform) {
                     *s += uniform;
+                }
+                let left = self.loaded.left(state % states, (*x, *y), *depth);
+                for (s, left) in stress.iter_mut().zip(left.into_iter().flatten()) {
+                    *s += left;
                 }
             }
         }

@@ -3,8 +3,8 @@
 use contact_core::Error;
 use contact_core::march::{Increment, March, Observer};
 
-use crate::Side;
 use crate::moments::{Moments, OverCycle};
+use crate::{Eigenstresses, Side};
 
 /// Records the states of a body in the increments of some branches of a march.
 pub struct Recorded {
@@ -12,6 +12,8 @@ pub struct Recorded {
     branches: (usize, usize),
     moments: Moments,
     start: Option<Moments>,
+    /// Set up with the first increment.
+    eigenstresses: Option<Eigenstresses>,
 }
 
 impl Recorded {
@@ -23,6 +25,7 @@ impl Recorded {
             branches,
             moments: Moments::default(),
             start: None,
+            eigenstresses: None,
         }
     }
 }
@@ -35,6 +38,13 @@ impl Observer for Recorded {
             return Ok(());
         }
         let (fields, loads) = (march.fields(), &increment.point.loads);
+        let (side, scene) = (self.side, march.scene());
+        let eigenstresses = self
+            .eigenstresses
+            .get_or_insert_with(|| Eigenstresses::of(scene, side));
+        let yields = side.body(scene).yields();
+        let left = yields.then(|| eigenstresses.at(fields.yielded.as_deref()));
+        let left = left.transpose()?;
         let mut before = Moments::default();
         let moments = if branch < first {
             &mut before
@@ -43,6 +53,7 @@ impl Observer for Recorded {
         };
         moments.tractions.push([fields.q_x, fields.q_y, fields.p]);
         moments.stick.push(fields.stick);
+        moments.eigenstress.extend(left);
         moments.sigma_B.push(match self.side {
             Side::Body1 => loads.sigma_B1,
             Side::Body2 => loads.sigma_B,
@@ -65,6 +76,10 @@ impl OverCycle for Recorded {
             tractions: which.iter().map(|n| of.tractions[*n].clone()).collect(),
             stick: which.iter().map(|n| of.stick[*n].clone()).collect(),
             sigma_B: which.iter().map(|n| of.sigma_B[*n]).collect(),
+            eigenstress: which
+                .iter()
+                .filter_map(|n| of.eigenstress.get(*n).cloned())
+                .collect(),
         })
     }
 

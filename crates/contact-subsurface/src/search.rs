@@ -81,6 +81,7 @@ impl Search {
         let first = [states.tractions.first().copied().unwrap_or_default()];
         let states = States {
             tractions: &first,
+            eigenstress: states.eigenstress.get(..1).unwrap_or_default(),
             ..states.clone()
         };
         let coarser = Coarser::new(body, side, grid, line, &states)?;

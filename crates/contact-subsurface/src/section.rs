@@ -31,6 +31,8 @@ enum Way {
 struct Rows {
     loaded: Loaded,
     line: Line,
+    /// x, y of the places along it \[m\].
+    places: Vec<(f64, f64)>,
     plane: Plane,
     /// For loads on cells and for point loads; the latter may serve all depths asked for.
     rows: [LineTransform; 2],
@@ -169,8 +171,10 @@ impl Rows {
         let [cells, points] = Source::ALL.map(|source| {
             LineTransform::new(&plane, side, place, states.tractions, source, &states.stop)
         });
+        let along = line.places(grid).into_iter();
         Ok(Self {
             loaded,
+            places: along.map(|s| line.at(s)).collect(),
             line,
             plane,
             rows: [cells?, points?],
@@ -196,6 +200,12 @@ impl Rows {
             let uniform = self.loaded.uniform(state, depth);
             for (mut row, uniform) in line.rows_mut().into_iter().zip(uniform) {
                 row += uniform;
+            }
+            for (at, mut stress) in self.places.iter().zip(line.columns_mut()) {
+                let Some(left) = self.loaded.left(state, *at, depth) else {
+                    break;
+                };
+                stress += &ArrayView1::from(&left);
             }
         }
         Ok(lines)

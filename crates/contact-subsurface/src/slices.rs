@@ -54,6 +54,19 @@ impl Slices {
             for (plane, uniform) in planes.iter_mut().zip(uniform) {
                 *plane += uniform;
             }
+            let grid = &self.loaded.grid;
+            let cells = (0..grid.cells()).into_par_iter();
+            let left = |n: usize| {
+                let (i, j) = (n / grid.ny, n % grid.ny);
+                let left = self.loaded.left(state, (grid.x(i), grid.y(j)), depth)?;
+                Some(((i, j), left))
+            };
+            let left: Vec<_> = cells.filter_map(left).collect();
+            for (cell, left) in left {
+                for (plane, left) in planes.iter_mut().zip(left) {
+                    plane[cell] += left;
+                }
+            }
         }
         Ok(planes)
     }

@@ -9,10 +9,11 @@ use contact_core::convolution::Tractions;
 use contact_core::kernels::{DepthKernel, Quantity, Stack, refuse_rigid};
 use contact_core::scene::{Body, Grid};
 use contact_core::stop::unless;
+use stress_tensor::StressTensor;
 
 use super::near_rim::NearRim;
 use super::uniform::Uniform;
-use super::{Depth, Side};
+use super::{Depth, Eigenstress, Side};
 
 /// Tractions and uniform stresses of a body in one or several states of a contact. A slice or array
 /// of [`Tractions`] converts to states with all else at its default.
@@ -26,6 +27,10 @@ pub struct States<'a> {
     /// Residual stress of every layer from the surface down, the substrate's last \[Pa\], tension
     /// positive: [`super::residual_of_layers`] (default: none).
     pub residual: &'a [f64],
+    /// Residual stress of the plastic strain of the body in each state; `None` where nothing has yielded.
+    /// A body that may yield asks for one in each state ([`super::Eigenstresses`]); another has none
+    /// (default: none).
+    pub eigenstress: &'a [Option<Eigenstress>],
     /// The cells that stick in each state. If given, the tractions are taken for those of contacts
     /// (states beyond the list slip at their rim) and vary within the cells near the rim, the stick
     /// zone and the surface (default: `None`, tractions constant in each cell).
@@ -88,7 +93,13 @@ impl Loaded {
             side,
             grid: *grid,
             states: states.tractions.len(),
-            uniform: Uniform::new(body, states.sigma_B, states.residual, grid)?,
+            uniform: Uniform::new(
+                (body, grid),
+                states.sigma_B,
+                states.residual,
+                states.eigenstress,
+                states.tractions.len(),
+            )?,
             rim: states.stick.map(near),
             stop: states.stop.clone(),
         })
@@ -110,5 +121,15 @@ impl Loaded {
     /// s_xx and s_yy of a state at a depth that are the same all over the layer \[Pa\].
     pub(super) fn uniform(&self, state: usize, depth: Depth) -> [f64; 2] {
         self.uniform.stress(&self.body, state, depth.layer)
+    }
+
+    /// What plastic strain leaves in a state, at a place \[Pa\]; `None` where nothing has yielded.
+    pub(super) fn left(
+        &self,
+        state: usize,
+        place: (f64, f64),
+        depth: Depth,
+    ) -> Option<StressTensor> {
+        self.uniform.left(state, place, depth)
     }
 }

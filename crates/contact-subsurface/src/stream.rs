@@ -14,7 +14,10 @@ use contact_core::scene::{Body, Grid};
 use ndarray::Array2;
 use stress_tensor::StressTensor;
 
-use super::{Border, Depth, Line, Points, Section, Side, Slices, States, residual_of_layers};
+use super::{
+    Border, Depth, Eigenstress, Eigenstresses, Line, Points, Section, Side, Slices, States,
+    residual_of_layers,
+};
 
 /// Increments whose stresses below a line are computed together: the kernels of a depth cost about
 /// as much as the product with the tractions of ten increments.
@@ -84,8 +87,8 @@ impl<A: Accumulate, B: Accumulate> Accumulate for (A, B) {
     }
 }
 
-/// A moment, its tractions q_x, q_y, p and the cells that stick.
-type Waiting = (Moment, [Array2<f64>; 3], Array2<bool>);
+/// A moment, its tractions q_x, q_y, p, the cells that stick and what plastic strain leaves.
+type Waiting = (Moment, [Array2<f64>; 3], Array2<bool>, Option<Eigenstress>);
 
 /// The stresses below a line, or on whole planes, over a load path. As an [`Observer`] it takes
 /// every increment of a run; [`Self::push`] takes those of a store.
@@ -103,6 +106,8 @@ pub struct Stream<A: Accumulate> {
     /// Of every layer.
     residual: Vec<f64>,
     waiting: Vec<Waiting>,
+    /// Set up with the first increment of a march.
+    eigenstresses: Option<Eigenstresses>,
     stop: Arc<AtomicBool>,
 }
 
@@ -139,6 +144,7 @@ impl<A: Accumulate> Stream<A> {
             rim: false,
             residual: residual_of_layers(body, &[])?,
             waiting: Vec::with_capacity(BATCH),
+            eigenstresses: None,
             stop: Arc::default(),
         })
     }
@@ -164,12 +170,13 @@ impl<A: Accumulate> Stream<A> {
     }
 
     /// Takes the tractions q_x, q_y, p of a moment \[Pa\] and the cells that stick, each of shape
-    /// (nx, ny).
+    /// (nx, ny), and the residual stress of plastic strain where the body has yielded.
     pub fn push(
         &mut self,
         moment: Moment,
         tractions: [Array2<f64>; 3],
         stick: Array2<bool>,
+        eigenstress: Option<Eigenstress>,
     ) -> Result<(), Error> {
         let shape = (self.grid.nx, self.grid.ny);
         let [q_x, q_y, p] = &tractions;
@@ -180,7 +187,7 @@ impl<A: Accumulate> Stream<A> {
                 return Err(Error::invalid(key, format!("of shape {found:?}"), allowed));
             }
         }
-        self.waiting.push((moment, tractions, stick));
+        self.waiting.push((moment, tractions, stick, eigenstress));
         let batch = if self.line.is_some() {
             BATCH
         } else {
@@ -205,19 +212,22 @@ impl<A: Accumulate> Stream<A> {
         let tractions: Vec<_> = self
             .waiting
             .iter()
-            .map(|(_, [q_x, q_y, p], _)| Tractions {
+            .map(|(_, [q_x, q_y, p], ..)| Tractions {
                 q_x: q_x.as_slice(),
                 q_y: q_y.as_slice(),
                 p: p.as_slice(),
             })
             .collect();
         let sigma_B: Vec<f64> = self.waiting.iter().map(|(m, ..)| m.sigma_B).collect();
-        let stick = self.waiting.iter().map(|(.., stick)| stick.as_slice());
+        let stick = self.waiting.iter().map(|(_, _, stick, _)| stick.as_slice());
         let stick: Vec<&[bool]> = stick.map(Option::unwrap_or_default).collect();
+        let left = self.waiting.iter().map(|(.., left)| left.clone());
+        let eigenstress: Vec<_> = left.collect();
         let states = States {
             tractions: &tractions,
             sigma_B: &sigma_B,
             residual: &self.residual,
+            eigenstress: &eigenstress,
             stick: self.rim.then_some(&stick[..]),
             stop: self.stop.clone(),
         };
@@ -261,6 +271,7 @@ fn on_borders(
         let own = States {
             tractions: std::slice::from_ref(tractions),
             sigma_B: states.sigma_B.get(n..=n).unwrap_or_default(),
+            eigenstress: states.eigenstress.get(n..=n).unwrap_or_default(),
             stick: Some(stick.map_or(&[], std::slice::from_ref)),
             ..states.clone()
         };
@@ -278,6 +289,12 @@ impl<A: Accumulate> Observer for Stream<A> {
     fn on_increment(&mut self, march: &March, increment: &Increment) -> Result<(), Error> {
         let fields = march.fields();
         let moment = Moment::of(increment, self.side);
-        self.push(moment, [fields.q_x, fields.q_y, fields.p], fields.stick)
+        let (side, scene) = (self.side, march.scene());
+        let eigenstresses = self
+            .eigenstresses
+            .get_or_insert_with(|| Eigenstresses::of(scene, side));
+        let left = eigenstresses.at(fields.yielded.as_deref())?;
+        let tractions = [fields.q_x, fields.q_y, fields.p];
+        self.push(moment, tractions, fields.stick, left)
     }
 }

@@ -1,6 +1,6 @@
 //! Output of the commands for programs: SI units, names of the store.
 
-use contact_core::march::{BranchSummary, Increment, Reached, summarise};
+use contact_core::march::{BranchSummary, Increment, Reached, Yield, summarise};
 use contact_core::scene::{RigidMotion, Scene};
 use contact_subsurface::{Cycle, Direction, LoopPoint, loops};
 use serde_json::{Map, Value, json};
@@ -16,8 +16,9 @@ pub(crate) fn run(scene: &Scene, increments: &[Increment]) -> Value {
     let branches: Vec<Value> = branches
         .iter()
         .map(|b| {
+            let own = &increments[done..done + b.increments];
             done += b.increments;
-            branch(scene, b, &increments[done - 1], errors[b.branch])
+            branch(scene, b, own, errors[b.branch])
         })
         .collect();
     let cycles: Vec<Value> = cycles(scene, increments)
@@ -59,8 +60,9 @@ fn length_of(scene: &Scene) -> &'static str {
     }
 }
 
-fn branch(scene: &Scene, b: &BranchSummary, last: &Increment, error: Option<f64>) -> Value {
+fn branch(scene: &Scene, b: &BranchSummary, own: &[Increment], error: Option<f64>) -> Value {
     let mut of = Map::new();
+    let last = &own[own.len() - 1];
     let mut set = |key: &str, value: Value| of.insert(key.to_owned(), value);
     set("branch", json!(b.branch));
     set("t", json!(last.point.t));
@@ -74,6 +76,15 @@ fn branch(scene: &Scene, b: &BranchSummary, last: &Increment, error: Option<f64>
     set("status", json!(state(last.status).replace(' ', "_")));
     set("p_max", json!(b.p_max));
     set("dissipated", json!(b.dissipated));
+    if scene.yields() {
+        let Yield {
+            volume, largest, ..
+        } = last.yielded;
+        set("plastic_work", json!(plastic_work(own)));
+        set("plastic_volume", json!(volume));
+        set("largest_plastic_strain", json!(largest));
+        set("yield_ratio", json!(yield_ratio(own)));
+    }
     set("increments", json!(b.increments));
     set("convolutions", json!(b.work.convolutions));
     set("path_error", json!(error));
@@ -95,6 +106,16 @@ fn cycle(direction: Direction, c: &Cycle) -> Value {
         "sliding_ratio": c.sliding_ratio(),
         "sliding_ratio_error": c.sliding_ratio_error(),
     })
+}
+
+/// Plastic work in increments \[J\].
+pub(crate) fn plastic_work(own: &[Increment]) -> f64 {
+    own.iter().map(|i| i.yielded.work).sum()
+}
+
+/// Largest stress of von Mises in increments over the yield stress, 1 where a body yields.
+pub(crate) fn yield_ratio(own: &[Increment]) -> f64 {
+    own.iter().map(|i| i.yielded.reached).fold(0.0, f64::max)
 }
 
 /// The cycles of the motions that the path drives.

@@ -3,6 +3,7 @@
 use contact_core::Error;
 use contact_core::convolution::Tractions;
 use contact_store::Store;
+use contact_subsurface::{Eigenstress, Eigenstresses, Side};
 use ndarray::Array2;
 
 /// The tractions of one increment.
@@ -14,6 +15,8 @@ pub(crate) struct Loads {
     stick: Array2<bool>,
     /// Bulk stress of the body in Pa.
     pub(crate) sigma_B: f64,
+    /// Residual stress of the plastic strain of the body, if it may yield.
+    pub(crate) eigenstress: Vec<Option<Eigenstress>>,
     /// Error bar of the stress, over it.
     pub(crate) error: Option<f64>,
 }
@@ -56,7 +59,14 @@ impl Loads {
         } else {
             0.0
         };
+        let side = if body == 1 { Side::Body1 } else { Side::Body2 };
+        let mut eigenstress = Vec::new();
+        if side.body(store.scene()).yields() {
+            let yielded = store.yielded(kept[place])?;
+            eigenstress.push(Eigenstresses::of(store.scene(), side).at(yielded.as_ref())?);
+        }
         Ok(Self {
+            eigenstress,
             increment: kept[place],
             sigma_B,
             error: store.stress_error(kept[place])?,

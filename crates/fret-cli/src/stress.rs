@@ -275,6 +275,7 @@ impl Task {
             tractions,
             sigma_B: std::slice::from_ref(&self.loads.sigma_B),
             residual: &self.residual,
+            eigenstress: &self.loads.eigenstress,
             stick: Some(stick),
             stop: self.stop.clone(),
         }

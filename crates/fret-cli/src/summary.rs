@@ -108,6 +108,49 @@ fn energy(scene: &Scene) -> (&'static str, f64) {
 /// The data of a row of the table: a branch, its last increment.
 type Row<'a> = (&'a BranchSummary, &'a Increment);
 
+/// Columns of bodies that yield, and the end of the table: how far they are from it if they never do.
+fn yield_columns(scene: &Scene, increments: &[Increment]) -> Vec<Column> {
+    let (joule, joules) = energy(scene);
+    // Cubes of micrometres, in plane strain squares.
+    let (cube, per_cube) = if scene.grid.plane_strain {
+        ("um^2", MICRO * MICRO)
+    } else {
+        ("um^3", MICRO * MICRO * MICRO)
+    };
+    let works: Vec<f64> = summarise(increments)
+        .iter()
+        .scan(0, |done, branch| {
+            let own = &increments[*done..*done + branch.increments];
+            *done += branch.increments;
+            Some(json::plastic_work(own))
+        })
+        .collect();
+    let first = increments.first().map_or(0, |i| i.point.branch);
+    vec![
+        column(format!("plastic\nwork [{joule}]"), move |b, _| {
+            let work = works.get(b.branch - first).copied().unwrap_or_default();
+            short(work * joules)
+        }),
+        column(format!("yielded\n[{cube}]"), move |_, last| {
+            short(last.yielded.volume * per_cube)
+        }),
+        column("largest\nstrain [%]", |_, last| {
+            short(100.0 * last.yielded.largest)
+        }),
+    ]
+}
+
+/// How far bodies that may yield are from it, where none has.
+fn far_from_yield(scene: &Scene, increments: &[Increment]) -> Option<String> {
+    let ratio = json::yield_ratio(increments);
+    (scene.yields() && ratio < 1.0).then(|| {
+        format!(
+            "nothing yields: the largest stress of von Mises is {} of the yield stress (on the volume grid)",
+            short(ratio)
+        )
+    })
+}
+
 /// A column of the table: title, and its cell for a branch.
 type Column = (String, Box<dyn Fn(&Row<'_>) -> String>);
 
@@ -164,6 +207,9 @@ fn columns(scene: &Scene, increments: &[Increment], wide: bool) -> Vec<Column> {
         }),
         column("incre-\nments", |b, _| b.increments.to_string()),
     ]);
+    if scene.yields() && json::yield_ratio(increments) >= 1.0 {
+        columns.extend(yield_columns(scene, increments));
+    }
     let errors = Reached::of(increments).shear_errors(scene);
     if errors.iter().any(Option::is_some) {
         columns.push(column("error\nof q", move |b, _| {
@@ -362,6 +408,7 @@ pub(crate) fn table(scene: &Scene, increments: &[Increment], wide: bool) -> Stri
     let lines = cycle_lines(scene, increments);
     std::iter::once(table.to_string())
         .chain(lines)
+        .chain(far_from_yield(scene, increments))
         .collect::<Vec<_>>()
         .join("\n")
 }

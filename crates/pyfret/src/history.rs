@@ -18,6 +18,7 @@ use crate::interruptible::interruptible;
 use crate::scene::{Body, Grid, LoadPath};
 use crate::stress::measures;
 use crate::subsurface::{Subsurface, line};
+use crate::yielding::Eigenstress;
 
 /// Extremes of stress below a line; use :func:`pyfret.subsurface.envelope`.
 #[pyclass(module = "pyfret")]
@@ -96,7 +97,7 @@ impl Envelope {
     }
 
     /// Take an increment: tractions [Pa], cells that stick, bulk stress of the body [Pa].
-    #[pyo3(signature = (increment: "int", branch: "int", *, p, q_x, q_y, stick, sigma_B: "float" = 0.0))]
+    #[pyo3(signature = (increment: "int", branch: "int", *, p, q_x, q_y, stick, sigma_B: "float" = 0.0, eigenstress: "Eigenstress | None" = None))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn push(
         &mut self,
@@ -108,6 +109,7 @@ impl Envelope {
         q_y: Field<'_>,
         stick: Mask<'_, Ix2>,
         #[pyo3(from_py_with = number)] sigma_B: f64,
+        eigenstress: Option<Py<Eigenstress>>,
     ) -> PyResult<()> {
         let tractions = [q_x, q_y, p].map(|f| f.as_array().as_standard_layout().into_owned());
         let mut stream = self.stream.take().ok_or_else(finished)?;
@@ -119,7 +121,9 @@ impl Envelope {
         let stick = stick.as_array().as_standard_layout().into_owned();
         let stop = Arc::<AtomicBool>::default();
         stream.stop_on(stop.clone());
-        interruptible(py, &stop, || stream.push(moment, tractions, stick))?.map_err(to_python)?;
+        let left = eigenstress.map(|left| left.get().0.clone());
+        let push = || stream.push(moment, tractions, stick, left);
+        interruptible(py, &stop, push)?.map_err(to_python)?;
         self.stream = Some(stream);
         Ok(())
     }

@@ -112,6 +112,8 @@ mod _core {
     use crate::text::{read_bytes, read_text, shown, with_error, with_range};
     #[pymodule_export]
     use crate::wear::{resume_wear, verify_wear, wear, wear_of_file};
+    #[pymodule_export]
+    use crate::yielding::{Eigenstress, PlasticBody, yielded_columns};
 
     #[allow(non_upper_case_globals)] // Python's name
     #[pymodule_export]

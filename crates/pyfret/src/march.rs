@@ -14,7 +14,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde_json::Value;
 
-use crate::arguments::{Field, number};
+use crate::arguments::Field;
 use crate::error::to_python;
 use crate::interruptible::interruptible;
 use crate::scene::{Grid, Scene};
@@ -122,18 +122,8 @@ impl March {
             variables.increment(increment, &grid)?;
         }
         variables.cells(&grid)?;
-        variables.fields(&march.fields())?;
+        variables.fields(march.state().increments, &march.fields())?;
         Ok(variables.finish())
-    }
-
-    /// Plastic strain, stress and imprint of a body; None where it stays elastic.
-    #[pyo3(signature = (body: "int") -> "dict[str, Any] | None")]
-    fn plastic<'py>(
-        &mut self,
-        py: Python<'py>,
-        #[pyo3(from_py_with = number)] body: usize,
-    ) -> PyResult<Option<Bound<'py, PyDict>>> {
-        crate::yielding::plastic(py, self.inner(), body)
     }
 
     /// What a result says of the run, as JSON.

@@ -18,6 +18,7 @@ use crate::argument::to_python;
 use crate::arguments::{Array, Field, List, Mask, number, side};
 use crate::interruptible::interruptible;
 use crate::scene::{Body, Grid};
+use crate::yielding::{Eigenstress, of_states};
 
 /// x, y, z and the layer of a point.
 type Place = (f64, f64, f64, usize);
@@ -103,7 +104,7 @@ pub(crate) fn chosen_depths(
 /// Tractions [Pa] and cells that stick are of shape (states, nx, ny); near the surface tractions
 /// vary within the cells. States share the kernels, which cost as much as about ten of them.
 #[pyfunction]
-#[pyo3(signature = (body, grid, z: "Sequence[float]", layer: "Sequence[int]", *, p, q_x, q_y, stick, sigma_B: "Sequence[float]", residual: "Sequence[float] | None" = None, x: "float | None" = None, y: "float | None" = None, azimuth: "float | None" = None, body_number: "int" = 2) -> "NDArray[np.float64]")]
+#[pyo3(signature = (body, grid, z: "Sequence[float]", layer: "Sequence[int]", *, p, q_x, q_y, stick, sigma_B: "Sequence[float]", residual: "Sequence[float] | None" = None, eigenstress: "Sequence[Eigenstress | None] | None" = None, x: "float | None" = None, y: "float | None" = None, azimuth: "float | None" = None, body_number: "int" = 2) -> "NDArray[np.float64]")]
 #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
 pub(crate) fn section_of_states<'py>(
     py: Python<'py>,
@@ -117,6 +118,7 @@ pub(crate) fn section_of_states<'py>(
     stick: Mask<'_, Ix3>,
     sigma_B: List<f64>,
     residual: Option<List<f64>>,
+    eigenstress: Option<List<Option<Py<Eigenstress>>>>,
     #[pyo3(from_py_with = number)] x: Option<f64>,
     #[pyo3(from_py_with = number)] y: Option<f64>,
     #[pyo3(from_py_with = number)] azimuth: Option<f64>,
@@ -154,11 +156,13 @@ pub(crate) fn section_of_states<'py>(
     );
     let stop = Arc::default();
     let residual = residual.unwrap_or_default();
+    let eigenstress = of_states(eigenstress);
     let found = interruptible(py, &stop, || {
         let states = core::States {
             tractions: &tractions,
             sigma_B: &sigma_B,
             residual: &residual,
+            eigenstress: &eigenstress,
             stick: Some(&stick),
             stop: stop.clone(),
         };
@@ -193,6 +197,7 @@ pub(crate) struct Subsurface {
     side: Side,
     sigma_B: f64,
     residual: Vec<f64>,
+    eigenstress: Vec<Option<core::Eigenstress>>,
     fields: [Option<Vec<f64>>; 3],
     /// Whether they are those of a contact, and the cells that stick.
     rim: bool,
@@ -244,6 +249,7 @@ impl Subsurface {
             tractions: &tractions,
             sigma_B: &[self.sigma_B],
             residual: &self.residual,
+            eigenstress: &self.eigenstress,
             stick: self.rim.then_some(&stick[..]),
             stop: stop.clone(),
         };
@@ -268,7 +274,7 @@ impl Subsurface {
 #[pymethods]
 impl Subsurface {
     #[new]
-    #[pyo3(signature = (body, grid, *, p = None, q_x = None, q_y = None, body_number: "int" = 2, sigma_B: "float" = 0.0, residual: "Sequence[float] | None" = None, rim = false, stick = None))]
+    #[pyo3(signature = (body, grid, *, p = None, q_x = None, q_y = None, body_number: "int" = 2, sigma_B: "float" = 0.0, residual: "Sequence[float] | None" = None, eigenstress: "Sequence[Eigenstress | None] | None" = None, rim = false, stick = None))]
     fn new(
         body: Body,
         grid: Grid,
@@ -278,6 +284,7 @@ impl Subsurface {
         #[pyo3(from_py_with = number)] body_number: u8,
         #[pyo3(from_py_with = number)] sigma_B: f64,
         residual: Option<List<f64>>,
+        eigenstress: Option<List<Option<Py<Eigenstress>>>>,
         rim: bool,
         stick: Option<Mask<'_, Ix2>>,
     ) -> PyResult<Self> {
@@ -304,6 +311,7 @@ impl Subsurface {
             side: side(body_number)?,
             sigma_B,
             residual: residual.unwrap_or_default().0,
+            eigenstress: of_states(eigenstress),
             body,
             grid,
         })

@@ -3,7 +3,8 @@
 use contact_core::march::{Fields, Increment};
 use contact_core::scene::Grid;
 use contact_store::{
-    AXES, Columns, FIELDS, FieldView, InMemory, KeptField, Kind, SCALARS, STATUS_MEANINGS,
+    AXES, Columns, FIELDS, FieldView, InMemory, KeptField, Kind, POINTS, SCALARS, STATUS_MEANINGS,
+    YIELDED, rows_of,
 };
 use ndarray::{Array1, Array2, Array3, ArrayD, Axis, IxDyn};
 use numpy::{Element, IntoPyArray, PyArray1, ToPyArray};
@@ -67,9 +68,21 @@ impl<'py> Variables<'py> {
         Ok(())
     }
 
-    /// The fields of one increment over (x, y).
-    pub(crate) fn fields(&self, fields: &Fields) -> PyResult<()> {
+    /// The points that have yielded.
+    fn points(&self, columns: Vec<Vec<f64>>) -> PyResult<()> {
+        for (of, values) in YIELDED.iter().zip(columns) {
+            let values = self.typed(of.kind, Array1::from_vec(values).into_dyn());
+            self.put(of.name, &[POINTS], values, (of.units, of.long_name))?;
+        }
+        Ok(())
+    }
+
+    /// The fields of the increment of a number over (x, y).
+    pub(crate) fn fields(&self, increment: usize, fields: &Fields) -> PyResult<()> {
         let py = self.0.py();
+        if let Some(yielded) = &fields.yielded {
+            self.points(rows_of(increment, yielded))?;
+        }
         for field in FIELDS {
             let values = match (field.values)(fields) {
                 FieldView::Real(values) => values.to_pyarray(py).into_any(),
@@ -88,6 +101,7 @@ impl<'py> Variables<'py> {
     /// The numbers of all increments, and the fields of those that are kept.
     pub(crate) fn columns(&self, columns: Columns, grid: &Grid) -> PyResult<()> {
         let py = self.0.py();
+        self.points(columns.points)?;
         let on_grid = SCALARS.iter().map(|scalar| scalar.on(grid));
         for (scalar, values) in on_grid.zip(columns.scalars) {
             let values = self.typed(scalar.kind, Array1::from_vec(values).into_dyn());

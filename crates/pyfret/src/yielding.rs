@@ -1,12 +1,49 @@
-//! Plastic strain below a contact, for a march that goes on.
+//! Plastic strain below a contact: the volume grid of a body, what is left of stress, the imprint.
 
-use contact_core::march::March;
 use contact_core::scene::Grid;
+use contact_core::yielding::{Yielded, Yielding};
+use contact_store::{YIELDED, state_of};
+use contact_subsurface as core;
+use contact_subsurface::Eigenstresses;
 use eigenstrain::{COMPONENTS, Mesh};
 use ndarray::{Array2, Array3, Array4};
 use numpy::{IntoPyArray, PyArray1};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+
+use crate::arguments::{Field, List, number, side};
+use crate::error::to_python;
+use crate::scene::Scene;
+
+/// Residual stress that plastic strain leaves.
+#[pyclass(frozen, module = "pyfret")]
+#[derive(Clone)]
+pub(crate) struct Eigenstress(pub(crate) core::Eigenstress);
+
+/// Names of the columns of the points that have yielded, in their order.
+#[pyfunction]
+pub(crate) fn yielded_columns() -> Vec<&'static str> {
+    YIELDED.iter().map(|of| of.name).collect()
+}
+
+/// Of each of several states; None where nothing has yielded.
+pub(crate) fn of_states(
+    given: Option<List<Option<Py<Eigenstress>>>>,
+) -> Vec<Option<core::Eigenstress>> {
+    let of = |of: Option<Py<Eigenstress>>| of.map(|of| of.get().0.clone());
+    given.unwrap_or_default().into_iter().map(of).collect()
+}
+
+/// A body of a scene that may yield, with its volume grid; use :meth:`Snapshot.plastic`.
+///
+/// The points that have yielded are given as columns, in the order of :func:`yielded_columns`.
+#[pyclass(frozen, module = "pyfret")]
+pub(crate) struct PlasticBody {
+    number: usize,
+    grid: Grid,
+    of: Eigenstresses,
+}
 
 /// Centres of cells along a side \[m\].
 fn centres(cells: usize, length: f64) -> Vec<f64> {
@@ -14,79 +51,182 @@ fn centres(cells: usize, length: f64) -> Vec<f64> {
     (0..cells).map(|i| (i as f64 - middle) * length).collect()
 }
 
-/// The plastic strain of a body after the last increment, the stress there and the residual
-/// displacement of the surfaces; None where the body stays elastic.
-pub(crate) fn plastic<'py>(
-    py: Python<'py>,
-    march: &mut March,
-    body: usize,
-) -> PyResult<Option<Bound<'py, PyDict>>> {
-    let Some(yielded) = march.state().yielded.clone() else {
-        return Ok(None);
-    };
-    let (Some(residual), [p, q_x, q_y]) = (march.residual(), march.tractions()) else {
-        return Ok(None);
-    };
-    let grid: Grid = march.scene().grid;
-    let Some(yielding) = march.yielding() else {
-        return Ok(None);
-    };
-    let (Some(loaded), Some(left)) = (
-        yielding.stress(&yielded, Some([&p, &q_x, &q_y]), body),
-        yielding.stress(&yielded, None, body),
-    ) else {
-        return Ok(None);
-    };
-    let Some(mesh) = yielding.mesh(body) else {
-        return Ok(None);
-    };
-    let Some(state) = yielded.bodies.iter().find(|state| state.body == body) else {
-        return Ok(None);
-    };
-    let (planes, nx, ny) = (mesh.planes(), mesh.cells.nx, mesh.cells.ny);
-    let mut equivalent = Array3::<f64>::zeros((planes, nx, ny));
-    let mut strain = Array4::<f64>::zeros((planes, COMPONENTS, nx, ny));
-    for point in &state.points {
-        let (plane, cell) = (point.plane as usize, point.cell as usize);
-        let (i, j) = (cell / ny, cell % ny);
-        equivalent[(plane, i, j)] = point.equivalent;
-        for (c, value) in point.strain.iter().enumerate() {
-            // z points into body 2 in the axes of the scene.
-            let turned = body == 1 && c >= 4;
-            strain[(plane, c, i, j)] = if turned { -value } else { *value };
+/// The plastic state of columns.
+fn read(rows: List<List<f64>>) -> PyResult<Yielded> {
+    let rows: Vec<Vec<f64>> = rows.into_iter().map(|column| column.0).collect();
+    let count = rows.first().map_or(0, Vec::len);
+    if rows.len() != YIELDED.len() || rows.iter().any(|column| column.len() != count) {
+        return Err(PyValueError::new_err(format!(
+            "points that have yielded: must be {} columns of equal length",
+            YIELDED.len()
+        )));
+    }
+    Ok(state_of(&rows))
+}
+
+impl PlasticBody {
+    /// Does `work` with the bodies that yield.
+    fn with<T: Send>(
+        &self,
+        py: Python<'_>,
+        work: impl FnOnce(&mut Yielding) -> T + Send,
+    ) -> PyResult<T> {
+        let found = py.detach(|| self.of.with(work)).map_err(to_python)?;
+        found.ok_or_else(|| self.stays_elastic())
+    }
+
+    fn stays_elastic(&self) -> PyErr {
+        PyValueError::new_err(format!(
+            "body{} stays elastic: give its material plastic=Plastic(s_y=..)",
+            self.number
+        ))
+    }
+}
+
+#[pymethods]
+impl PlasticBody {
+    #[new]
+    #[pyo3(signature = (scene, body_number: "int"))]
+    fn new(scene: Scene, #[pyo3(from_py_with = number)] body_number: u8) -> PyResult<Self> {
+        let side = side(body_number)?;
+        let made = Self {
+            number: body_number.into(),
+            grid: scene.0.grid,
+            of: Eigenstresses::of(&scene.0, side),
+        };
+        if side.body(&scene.0).yields() {
+            Ok(made)
+        } else {
+            Err(made.stays_elastic())
         }
     }
-    let stress = |values: Vec<f64>| {
-        Array4::from_shape_vec((planes, COMPONENTS, nx, ny), values)
-            .unwrap_or_else(|_| Array4::zeros((planes, COMPONENTS, nx, ny)))
-    };
-    let of_planes = |of: &dyn Fn(&Mesh, usize) -> f64| {
-        PyArray1::from_vec(py, (0..planes).map(|n| of(mesh, n)).collect())
-    };
-    let found = PyDict::new(py);
-    found.set_item("z", of_planes(&|mesh, n| mesh.depth(n)))?;
-    found.set_item("height", of_planes(&|mesh, n| mesh.weight(n)))?;
-    found.set_item("layer", of_planes(&|mesh, n| mesh.layer(n) as f64))?;
-    found.set_item("x", PyArray1::from_vec(py, centres(nx, mesh.cells.dx)))?;
-    found.set_item("y", PyArray1::from_vec(py, centres(ny, mesh.cells.dy)))?;
-    found.set_item("area", mesh.cells.area())?;
-    found.set_item("equivalent", equivalent.into_pyarray(py))?;
-    found.set_item("strain", strain.into_pyarray(py))?;
-    found.set_item("stress", stress(loaded).into_pyarray(py))?;
-    found.set_item("residual_stress", stress(left).into_pyarray(py))?;
-    let on_grid = |field: Array2<f64>| field.into_pyarray(py);
-    let [u_x, u_y] = residual.u;
-    found.set_item("imprint", on_grid(residual.gap))?;
-    found.set_item("residual_x", on_grid(u_x))?;
-    found.set_item("residual_y", on_grid(u_y))?;
-    let cells = |n: usize, at: &dyn Fn(usize) -> f64| (0..n).map(at).collect::<Vec<f64>>();
-    found.set_item(
-        "grid_x",
-        PyArray1::from_vec(py, cells(grid.nx, &|i| grid.x(i))),
-    )?;
-    found.set_item(
-        "grid_y",
-        PyArray1::from_vec(py, cells(grid.ny, &|j| grid.y(j))),
-    )?;
-    Ok(Some(found))
+
+    /// Depth and height of each plane of the volume grid [m], its layer, x, y of its cells.
+    #[pyo3(signature = () -> "dict[str, Any]")]
+    fn grid<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let number = self.number;
+        let of_mesh = |mesh: &Mesh| {
+            let of = |of: &dyn Fn(usize) -> f64| (0..mesh.planes()).map(of).collect::<Vec<f64>>();
+            (
+                of(&|n| mesh.depth(n)),
+                of(&|n| mesh.weight(n)),
+                (0..mesh.planes())
+                    .map(|n| mesh.layer(n))
+                    .collect::<Vec<_>>(),
+                mesh.cells,
+            )
+        };
+        let found = self.with(py, |yielding| yielding.mesh(number).map(of_mesh))?;
+        let (z, height, layer, cells) = found.ok_or_else(|| self.stays_elastic())?;
+        let found = PyDict::new(py);
+        found.set_item("z", PyArray1::from_vec(py, z))?;
+        found.set_item("height", PyArray1::from_vec(py, height))?;
+        found.set_item("layer", PyArray1::from_vec(py, layer))?;
+        found.set_item("x", PyArray1::from_vec(py, centres(cells.nx, cells.dx)))?;
+        found.set_item("y", PyArray1::from_vec(py, centres(cells.ny, cells.dy)))?;
+        found.set_item("area", cells.area())?;
+        Ok(found)
+    }
+
+    /// Equivalent plastic strain, plastic strain and stress over planes, components and cells.
+    ///
+    /// The stress with the tractions, and the residual stress without [Pa].
+    #[pyo3(signature = (rows: "Sequence[NDArray[np.float64]]", p, q_x, q_y) -> "dict[str, NDArray[np.float64]]")]
+    fn fields<'py>(
+        &self,
+        py: Python<'py>,
+        rows: List<List<f64>>,
+        p: Field<'py>,
+        q_x: Field<'py>,
+        q_y: Field<'py>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let yielded = read(rows)?;
+        let shape = (self.grid.nx, self.grid.ny);
+        let tractions = [p, q_x, q_y].map(|f| f.as_array().to_owned());
+        if tractions.iter().any(|f| f.dim() != shape) {
+            let message = format!("p, q_x, q_y: must be of the shape of the grid, {shape:?}");
+            return Err(PyValueError::new_err(message));
+        }
+        let body = self.number;
+        let found = self.with(py, |yielding| {
+            yielding.check(&yielded)?;
+            let [p, q_x, q_y] = &tractions;
+            let loaded = yielding.stress(&yielded, Some([p, q_x, q_y]), body);
+            let left = yielding.stress(&yielded, None, body);
+            let mesh = yielding.mesh(body);
+            let shape = mesh.map(|mesh| (mesh.planes(), mesh.cells.nx, mesh.cells.ny));
+            Ok((loaded, left, shape))
+        })?;
+        let (Some(loaded), Some(left), Some((planes, nx, ny))) = found.map_err(to_python)? else {
+            return Err(self.stays_elastic());
+        };
+        let mut equivalent = Array3::<f64>::zeros((planes, nx, ny));
+        let mut strain = Array4::<f64>::zeros((planes, COMPONENTS, nx, ny));
+        let own = yielded.bodies.iter().filter(|state| state.body == body);
+        for point in own.flat_map(|state| &state.points) {
+            let (plane, cell) = (point.plane as usize, point.cell as usize);
+            let (i, j) = (cell / ny, cell % ny);
+            equivalent[(plane, i, j)] = point.equivalent;
+            for (c, value) in point.strain.iter().enumerate() {
+                // z points into body 2 in the axes of the scene.
+                let turned = body == 1 && c >= 4;
+                strain[(plane, c, i, j)] = if turned { -value } else { *value };
+            }
+        }
+        let stress = |values: Vec<f64>| {
+            Array4::from_shape_vec((planes, COMPONENTS, nx, ny), values)
+                .unwrap_or_else(|_| Array4::zeros((planes, COMPONENTS, nx, ny)))
+        };
+        let found = PyDict::new(py);
+        found.set_item("equivalent", equivalent.into_pyarray(py))?;
+        found.set_item("strain", strain.into_pyarray(py))?;
+        found.set_item("stress", stress(loaded).into_pyarray(py))?;
+        found.set_item("residual_stress", stress(left).into_pyarray(py))?;
+        Ok(found)
+    }
+
+    /// Displacements that the surfaces have without tractions, on the grid of the contact [m].
+    ///
+    /// Growth of the gap by both bodies, u(2) - u(1) along x and y; the depth of this body.
+    #[pyo3(signature = (rows: "Sequence[NDArray[np.float64]]") -> "dict[str, NDArray[np.float64]]")]
+    fn imprint<'py>(&self, py: Python<'py>, rows: List<List<f64>>) -> PyResult<Bound<'py, PyDict>> {
+        let yielded = read(rows)?;
+        let body = self.number;
+        let found = self.with(py, |yielding| {
+            yielding.check(&yielded)?;
+            let whole = yielding.completed(&yielded);
+            let both = yielding.residual_of(&whole);
+            let mut own = whole;
+            own.bodies.retain(|state| state.body == body);
+            Ok((both, yielding.residual_of(&own).gap))
+        })?;
+        let (both, depth) = found.map_err(to_python)?;
+        let found = PyDict::new(py);
+        let on_grid = |field: Array2<f64>| field.into_pyarray(py);
+        let [u_x, u_y] = both.u;
+        found.set_item("imprint", on_grid(both.gap))?;
+        found.set_item("residual_x", on_grid(u_x))?;
+        found.set_item("residual_y", on_grid(u_y))?;
+        found.set_item("depth", on_grid(depth))?;
+        Ok(found)
+    }
+
+    /// Whether the stress without tractions yields nowhere.
+    #[pyo3(signature = (rows: "Sequence[NDArray[np.float64]]"))]
+    fn unloads_elastically(&self, py: Python<'_>, rows: List<List<f64>>) -> PyResult<bool> {
+        let yielded = read(rows)?;
+        let found = self.with(py, |yielding| {
+            yielding.check(&yielded)?;
+            Ok(yielding.unloads_elastically(&yielded))
+        })?;
+        found.map_err(to_python)
+    }
+
+    /// The residual stress, for :class:`Subsurface`; None where nothing has yielded.
+    #[pyo3(signature = (rows: "Sequence[NDArray[np.float64]]"))]
+    fn eigenstress(&self, py: Python<'_>, rows: List<List<f64>>) -> PyResult<Option<Eigenstress>> {
+        let yielded = read(rows)?;
+        let found = py.detach(|| self.of.at(Some(&yielded)));
+        Ok(found.map_err(to_python)?.map(Eigenstress))
+    }
 }

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from pyfret import _core
 from pyfret._util.arrays import plain
 from pyfret.export.frame import Frame
 from pyfret.subsurface import fields
+from pyfret.subsurface.contact import loaded_by
 
 if TYPE_CHECKING:
     import os
@@ -167,16 +167,7 @@ def stress(
     body = state.body(body_number)
     tops = np.concatenate([[0.0], fields.interfaces(body)])
     layer = np.searchsorted(tops, depth, side="right") - 1
-    below = _core.Subsurface(
-        body,
-        state.scene.grid,
-        body_number=body_number,
-        sigma_B=state.bulk_stress(body_number) if bulk else 0.0,
-        residual=residual,
-        rim=True,
-        stick=state.dataset["stick"].values.astype(bool),
-        **state.tractions(),
-    )
+    below = loaded_by(state, body_number, bulk=bulk, residual=residual)
     asked = [
         (x, y, z, n)
         for x, y, z, n in zip(

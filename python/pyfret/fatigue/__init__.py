@@ -35,6 +35,7 @@ from pyfret.fatigue.frictional_work import ruiz
 from pyfret.fatigue.lives import Errors, Life, Worst, life, lives
 from pyfret.fatigue.ranges import LifeRange, Range
 from pyfret.fatigue.section import Section
+from pyfret.fatigue.verdict import Verdict, Where, verdict
 
 __all__ = [
     "COMPONENTS",
@@ -51,6 +52,8 @@ __all__ = [
     "OverDistance",
     "Range",
     "Section",
+    "Verdict",
+    "Where",
     "Worst",
     "assess",
     "average",
@@ -68,5 +71,6 @@ __all__ = [
     "rainflow",
     "ruiz",
     "to_pylife",
+    "verdict",
 ]
 __dir__ = listing(__all__)

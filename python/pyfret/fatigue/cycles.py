@@ -13,6 +13,7 @@ from pyfret.fatigue.criteria import COMPONENTS
 from pyfret.subsurface.contact import stress_below
 from pyfret.subsurface.fields import coordinates
 from pyfret.subsurface.line import Line
+from pyfret.subsurface.plastic import eigenstress
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -120,6 +121,7 @@ def history(
             **fields,
             sigma_B=[now.bulk_stress(body_number) for now in moments],
             residual=residual,
+            eigenstress=[of for now in moments for of in eigenstress(now, body_number)],
             x=x,
             y=y,
             azimuth=azimuth,

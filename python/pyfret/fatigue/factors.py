@@ -202,15 +202,21 @@ def load_factors(
     Raises
     ------
     ValueError
-        As :func:`pyfret.fatigue.life`; a yield stress is not positive, or the residual stress alone
-        is beyond it.
+        As :func:`pyfret.fatigue.life`; a yield stress is not positive, the residual stress alone is
+        beyond it, or the run has yielded.
 
     Examples
     --------
     >>> result.load_factors(900e6).least("shakedown")  # doctest: +SKIP
     """
     where, *others = placed(result, Section(**section))
-    limits = _yield_stresses(s_y, len(body_of(result, where).coatings) + 1)
+    body = body_of(result, where)
+    if body.yields and float(result.largest_plastic_strain.max()) > 0.0:
+        raise ValueError(
+            f"body{where.body_number}.plastic: must be left out for load factors, which are those "
+            "of elastic bodies; result.verdict() says what bodies that yield come to"
+        )
+    limits = _yield_stresses(s_y, len(body.coatings) + 1)
     depths = depths_of(result, where, z, limits, "yield stress")
     meanings = {
         "von_mises": "load factor of first yield, von Mises",

@@ -15,6 +15,7 @@ from pyfret.fatigue.cycle_section import placed
 from pyfret.fatigue.cycles import cycle_increments
 from pyfret.fatigue.section import Section
 from pyfret.fracture.growth import Cracks
+from pyfret.subsurface.plastic import eigenstress
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -228,6 +229,9 @@ class Cycle:
         }
         fields["stick"] = fields["stick"].astype(bool)
         fields["sigma_B"] = [now.bulk_stress(self.body_number) for now in self.states]
+        fields["eigenstress"] = [
+            of for now in self.states for of in eigenstress(now, self.body_number)
+        ]
         fields["residual"] = None if self.residual is None else list(self.residual)
         scene = self.states[0].scene
         return scene.body1 if self.body_number == 1 else scene.body2, scene.grid, fields

@@ -37,6 +37,7 @@ from pyfret.plot.stresses import (
 from pyfret.plot.studies import study_map
 from pyfret.plot.style import style
 from pyfret.plot.wear import depth_map, wear_history, wear_loops, wear_profiles
+from pyfret.plot.yielding import plastic_zone, residual_stress
 
 __all__ = [
     "animate",
@@ -62,8 +63,10 @@ __all__ = [
     "loop_evolution",
     "overview",
     "paper_figures",
+    "plastic_zone",
     "pressure_map",
     "pressure_profile",
+    "residual_stress",
     "running_map",
     "section_map",
     "shear_profile",

@@ -19,6 +19,7 @@ from pyfret.report.crack import Crack
 from pyfret.run.summary import directions
 from pyfret.run.tables import cycles_table, ends_table
 from pyfret.scene.tables import scene_html, table
+from pyfret.subsurface.plastic import PlasticState
 
 if TYPE_CHECKING:
     import os
@@ -92,7 +93,9 @@ def report(
         plan=plan(result),
         sources=cited(result),
         worn="" if wear is None else f"<pre>{html(wear.summary())}</pre>",
-        more="".join(picture(caption, of) for caption, of in (figures or {}).items()),
+        more="".join(
+            picture(caption, of) for caption, of in {**yielded(result), **(figures or {})}.items()
+        ),
         toml=html(result.scene.to_toml()),
         css=(HERE / "page.css").read_text(encoding="utf-8"),
         js=(HERE / "page.js").read_text(encoding="utf-8"),
@@ -101,6 +104,23 @@ def report(
     )
     with beside(place) as unfinished:
         unfinished.write_text(page, encoding="utf-8")
+
+
+def yielded(result: Run) -> dict[str, Figure]:
+    """Figures of bodies that have yielded: the zone and what it leaves, of each body."""
+    from pyfret import plot
+
+    state = result.at(-1)
+    found = {}
+    for body_number in (n for n in (1, 2) if state.body(n).yields):
+        if PlasticState(state, body_number).volume() == 0.0:
+            continue
+        of = f"the {'upper' if body_number == 1 else 'lower'} body at the last increment"
+        zone = plot.plastic_zone(state, body_number=body_number, units="SI")
+        found[f"Plastic strain on the section y = 0 of {of}"] = zone.figure
+        left = plot.residual_stress(state, body_number=body_number, units="SI")
+        found[f"Residual stress below the middle of {of}, the contact taken apart"] = left.figure
+    return found
 
 
 def drawing() -> str:

@@ -27,6 +27,7 @@ SUMMED = frozenset(
         "dissipated",
         "opening",
         "quadrature",
+        "plastic_work",
         "convolutions",
         "alternations",
         "normal_iterations",
@@ -158,6 +159,9 @@ class Run(OfRun):
         fields = self.dataset.isel(saved=place)
         increment = int(saved[place])
         here = fields.sel(increment=increment).drop_vars(("saved_increment", "saved_t"))
+        if "yielded_increment" in here:
+            own = np.flatnonzero(here.yielded_increment.values == increment)
+            here = here.isel(yielded=slice(own[0], own[-1] + 1) if own.size else slice(0))
         return here, self.scene
 
     def error_bars(self) -> xr.Dataset:

@@ -62,6 +62,7 @@ class State(OfRun):
     plastic_work: xr.DataArray
     plastic_volume: xr.DataArray
     largest_plastic_strain: xr.DataArray
+    yield_ratio: xr.DataArray
     work: xr.DataArray
     elastic: xr.DataArray
     dissipated: xr.DataArray

@@ -51,6 +51,14 @@ def columns(result: Run, ends: xr.Dataset) -> list[list[str]]:
         ("delta_x [um]", "delta_x", 1e6),
         (f"dissipated [{joules}]", "dissipated", energy),
     ]
+    if yield_ratio(result) >= 1.0:
+        volume = "um^2" if ends.plastic_volume.attrs["units"] == "m^3/m" else "um^3"
+        per_cube = 1e12 if volume == "um^2" else 1e18
+        numbers += [
+            (f"plastic work [{joules}]", "plastic_work", energy),
+            (f"yielded [{volume}]", "plastic_volume", per_cube),
+            ("largest plastic strain [%]", "largest_plastic_strain", 1e2),
+        ]
     others = [(f"T_y [{force}]", "T_y", 1.0), ("delta_y [um]", "delta_y", 1e6)]
     torsion = [(f"M_z [{moment}]", "M_z", 1.0), ("phi_z [urad]", "phi_z", 1e6)]
     for pair in (others, torsion):
@@ -117,7 +125,27 @@ def summary(result: Run) -> str:
     ]
     title = f"{result.dataset.attrs['title'] or 'run'}: {result.status}"
     doubts = [f"doubted: {doubt}" for doubt in result.doubts]
-    return shown("\n".join([title, *rows, *cycle_lines(result), *doubts]))
+    lines = [*cycle_lines(result), *far_from_yield(result)]
+    return shown("\n".join([title, *rows, *lines, *doubts]))
+
+
+def yield_ratio(result: Run) -> float:
+    """Largest stress of von Mises of the run over the yield stress, 1 where a body yields.
+
+    0 for bodies that stay elastic.
+    """
+    return float(result.dataset.yield_ratio.max()) if "yield_ratio" in result.dataset else 0.0
+
+
+def far_from_yield(result: Run) -> list[str]:
+    """How far bodies that may yield are from it, where none has."""
+    ratio = yield_ratio(result)
+    if not 0.0 < ratio < 1.0:
+        return []
+    return [
+        "nothing yields: the largest stress of von Mises is "
+        f"{in_words(ratio, 3)} of the yield stress (on the volume grid)"
+    ]
 
 
 def cycle_lines(result: Run) -> list[str]:

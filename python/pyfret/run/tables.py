@@ -35,6 +35,9 @@ ENDS = {
     "p_max": "p<sub>max</sub>",
     "stick_ratio": "stick ratio",
     "dissipated": "dissipated",
+    "plastic_work": "plastic work",
+    "plastic_volume": "yielded",
+    "largest_plastic_strain": "largest plastic strain",
     "path_error": "error of q",
 }
 #: Units that people read numbers in, with their factors, by those of the numbers.
@@ -44,6 +47,8 @@ SHOWN_IN = {
     "Pa": (1e-6, "MPa"),
     "J": (1e6, "µJ"),
     "J/m": (1e3, "mJ/m"),
+    "m^3": (1e18, "µm³"),
+    "m^3/m": (1e12, "µm²"),
 }
 
 

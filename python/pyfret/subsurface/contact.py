@@ -10,6 +10,7 @@ from pyfret import _core
 from pyfret.scene.warnings import doubt_layers
 from pyfret.subsurface import fields
 from pyfret.subsurface.line import Line, along
+from pyfret.subsurface.plastic import eigenstress
 from pyfret.subsurface.tensor import Stress
 
 if TYPE_CHECKING:
@@ -39,23 +40,28 @@ def stress_below(
     body, grid = state.body(body_number), state.scene.grid
     doubt_layers(fields.interfaces(body), grid)
     line, chosen = line_below(state, z, x, y, azimuth)
-    below = fields.stress(
-        body,
-        grid,
-        z,
-        x=line.x,
-        y=line.y,
-        azimuth=line.azimuth,
-        body_number=body_number,
-        sigma_B=state.bulk_stress(body_number) if bulk else 0.0,
-        rim=True,
-        stick=state.dataset["stick"].values,
-        length=state.length,
-        residual=residual,
-        **state.tractions(),
-    )
+    loaded = loaded_by(state, body_number, bulk=bulk, residual=residual)
+    below = fields.sampled_stress(loaded, body, grid, z, line, state.length)
     yardsticks = {k: v for k, v in state.dataset.attrs.items() if k in ("a_H", "p_H")}
     return below.assign_attrs(yardsticks | stress_error(state) | {"anywhere": int(chosen)})
+
+
+def loaded_by(
+    state: State, body_number: int, *, bulk: bool, residual: Sequence[float] | None
+) -> _core.Subsurface:
+    """A body under the tractions of an increment, with what its plastic strain leaves."""
+    p, q_x, q_y = (state.tractions()[name] for name in ("p", "q_x", "q_y"))
+    return fields.subsurface(
+        state.body(body_number),
+        state.scene.grid,
+        (p, q_x, q_y),
+        body_number,
+        state.bulk_stress(body_number) if bulk else 0.0,
+        residual,
+        left=eigenstress(state, body_number),
+        rim=True,
+        stick=state.dataset["stick"].values,
+    )
 
 
 def line_below(
@@ -128,17 +134,12 @@ def write_below(
     residual: Sequence[float] | None = None,
 ) -> None:
     """Write the volume below the contact of an increment: :meth:`pyfret.Snapshot.write_volume`."""
-    fields.write_volume(
+    fields.write(
+        loaded_by(state, body_number, bulk=bulk, residual=residual),
         state.body(body_number),
-        state.scene.grid,
         out,
         z,
-        of=of,
-        body_number=body_number,
-        sigma_B=state.bulk_stress(body_number) if bulk else 0.0,
-        residual=residual,
-        rim=True,
-        stick=state.dataset["stick"].values,
-        title=repr(state),
-        **state.tractions(),
+        fields.loaded_length(state.scene.grid, *state.tractions().values()),
+        of,
+        repr(state),
     )

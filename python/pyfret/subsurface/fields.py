@@ -10,6 +10,7 @@ from pyfret import _core
 from pyfret._util.arrays import plain
 from pyfret._util.lazy import xr
 from pyfret.subsurface.line import Line
+from pyfret.subsurface.plastic import eigenstress
 from pyfret.subsurface.tensor import COMPONENTS, DISPLACEMENTS, LABELS, Stress
 
 if TYPE_CHECKING:
@@ -83,7 +84,7 @@ def coordinates(
     return coords
 
 
-def _subsurface(
+def subsurface(
     body: Body,
     grid: Grid,
     loads: tuple[ArrayLike | None, ArrayLike | None, ArrayLike | None],
@@ -91,9 +92,11 @@ def _subsurface(
     sigma_B: float = 0.0,
     residual: Sequence[float] | None = None,
     *,
+    left: Sequence[_core.Eigenstress | None] | None = None,
     rim: bool = False,
     stick: ArrayLike | None = None,
 ) -> _core.Subsurface:
+    """A body with the tractions p, q_x, q_y on it, and what stress it has without them."""
     p, q_x, q_y = loads
     return _core.Subsurface(
         body,
@@ -104,6 +107,7 @@ def _subsurface(
         body_number=body_number,
         sigma_B=sigma_B,
         residual=residual,
+        eigenstress=left,
         rim=rim,
         stick=None if stick is None else np.asarray(stick, dtype=bool),
     )
@@ -169,10 +173,17 @@ def stress(
         Of dims (depth, x), (depth, y), (depth) or (depth, x, y).
     """
     loads = (p, q_x, q_y)
-    below = _subsurface(body, grid, loads, body_number, sigma_B, residual, rim=rim, stick=stick)
-    at = Line(*_line(z, x, y), azimuth)
+    below = subsurface(body, grid, loads, body_number, sigma_B, residual, rim=rim, stick=stick)
     length = loaded_length(grid, *loads) if length is None else length
-    sampled = _sampled(below, body, grid, _depths(body, z, length), at, displacement=False)
+    return sampled_stress(below, body, grid, z, Line(x, y, azimuth), length)
+
+
+def sampled_stress(
+    below: _core.Subsurface, body: Body, grid: Grid, z: ArrayLike | None, at: Line, length: float
+) -> Stress:
+    """The stress of what is loaded, on planes, below a line or below a point."""
+    line = Line(*_line(z, at.x, at.y), at.azimuth)
+    sampled = _sampled(below, body, grid, _depths(body, z, length), line, displacement=False)
     return Stress(sampled.assign_attrs(interfaces=interfaces(body), length=length), below)
 
 
@@ -201,7 +212,7 @@ def displacement(
 
     They are those that the tractions cause; what a bulk stress stretches comes on top.
     """
-    below = _subsurface(body, grid, (p, q_x, q_y), body_number)
+    below = subsurface(body, grid, (p, q_x, q_y), body_number)
     length = loaded_length(grid, p, q_x, q_y) if length is None else length
     depths = _depths(body, z, length)
     return _sampled(below, body, grid, depths, Line(*_line(z, x, y), azimuth), displacement=True)
@@ -268,10 +279,23 @@ def write_volume(
     title : str
         What the Zarr group calls itself.
     """
-    depths, layers = _depths(body, z, loaded_length(grid, p, q_x, q_y))
-    once = [n for n, depth in enumerate(depths) if n == 0 or depth != depths[n - 1]]
     loads = (p, q_x, q_y)
-    below = _subsurface(body, grid, loads, body_number, sigma_B, residual, rim=rim, stick=stick)
+    below = subsurface(body, grid, loads, body_number, sigma_B, residual, rim=rim, stick=stick)
+    write(below, body, out, z, loaded_length(grid, *loads), of, title)
+
+
+def write(
+    below: _core.Subsurface,
+    body: Body,
+    out: str | os.PathLike[str],
+    z: ArrayLike | None,
+    length: float,
+    of: Sequence[str],
+    title: str,
+) -> None:
+    """Write what is asked for of what is loaded, plane by plane."""
+    depths, layers = _depths(body, z, length)
+    once = [n for n, depth in enumerate(depths) if n == 0 or depth != depths[n - 1]]
     z_once, layer_once = [depths[n] for n in once], [layers[n] for n in once]
     below.volume(out, z_once, layer_once, of=list(of), title=title)
 
@@ -348,7 +372,8 @@ def envelope(
         stick = snapshot.dataset["stick"].values.astype(bool)
         number, branch = (int(snapshot.dataset[k]) for k in ("increment", "branch_of_increment"))
         sigma_B = snapshot.bulk_stress(body_number) if bulk else 0.0
-        stream.push(number, branch, stick=stick, sigma_B=sigma_B, **fields)
+        left = next(iter(eigenstress(snapshot, body_number)), None)
+        stream.push(number, branch, stick=stick, sigma_B=sigma_B, eigenstress=left, **fields)
     result = xr.Dataset(coords=coordinates(scene.grid, depths, layers, x, y, azimuth))
     free = [name for name, at in (("x", x), ("y", y)) if at is None]
     along = free if azimuth is None else ["s"]

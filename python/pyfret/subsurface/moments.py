@@ -8,6 +8,7 @@ import numpy as np
 
 from pyfret import _core
 from pyfret.subsurface.line import Line
+from pyfret.subsurface.plastic import eigenstress
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -20,11 +21,16 @@ __all__ = ["lines_of", "moments_of"]
 
 
 def moments_of(
-    result: Run, kept: NDArray[np.int64], body_number: int, before: int | None = None
+    result: Run,
+    kept: NDArray[np.int64],
+    body_number: int,
+    before: int | None = None,
+    *,
+    with_left: bool = True,
 ) -> Callable[[Sequence[int] | None], tuple[list[Any], ...] | None]:
     """Give the fields of some of the kept increments, by their numbers from 0.
 
-    None asks for the increment `before` the cycle.
+    None asks for the increment `before` the cycle. `with_left`: and what plastic strain leaves.
     """
 
     def moments(which: Sequence[int] | None) -> tuple[list[Any], ...] | None:
@@ -38,7 +44,9 @@ def moments_of(
         ]
         stick = [np.ascontiguousarray(one.dataset["stick"].values, dtype=bool) for one in now]
         bulk = [one.bulk_stress(body_number) for one in now]
-        return (*fields, stick, bulk)
+        each = now if with_left else []
+        left = [of for one in each for of in eigenstress(one, body_number)]
+        return (*fields, stick, bulk, left)
 
     return moments
 
@@ -49,6 +57,6 @@ def lines_of(result: Run, kept: NDArray[np.int64], body_number: int) -> list[Lin
     A second one stands across the first, unless the largest stress lies in the plane of the shear:
     below a round contact that is sheared to and fro along one line.
     """
-    moments = moments_of(result, kept, body_number)
+    moments = moments_of(result, kept, body_number, with_left=False)
     lines = _core.cycle_sections(result.scene.grid, moments, len(kept))
     return [Line(*line) for line in lines]

@@ -2,87 +2,224 @@
 
 from __future__ import annotations
 
+import hashlib
+from dataclasses import dataclass, field
+from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from pyfret import _core
 from pyfret._util.lazy import xr
 
 if TYPE_CHECKING:
     import xarray
+    from numpy.typing import NDArray
 
-__all__ = ["PlasticState"]
+    from pyfret._core import Scene
+    from pyfret.run import State
+
+__all__ = ["PlasticState", "body_of", "columns_of", "eigenstress", "plastic_points"]
 
 COMPONENTS = ["xx", "yy", "zz", "xy", "xz", "yz"]
+#: Columns of the points that have yielded, as a store has them.
+YIELDED = tuple(_core.yielded_columns())
+#: Bodies and residual stresses that are kept: one of each takes up to 100 and 10 MB.
+KEPT_BODIES, KEPT_STRESSES = 2, 8
+
+
+@dataclass(frozen=True)
+class _Of:
+    """A body of a run, known by the text of its scene."""
+
+    text: str
+    body_number: int
+    scene: Scene = field(compare=False)
+
+
+@dataclass(frozen=True)
+class _Strained:
+    """The points of a body that have yielded, known by a digest of their numbers."""
+
+    of: _Of
+    digest: bytes
+    columns: list[NDArray[np.float64]] = field(compare=False)
+
+
+@lru_cache(maxsize=KEPT_BODIES)
+def _body(of: _Of) -> _core.PlasticBody:
+    """The volume grid of a body."""
+    return _core.PlasticBody(of.scene, of.body_number)
+
+
+@lru_cache(maxsize=KEPT_STRESSES)
+def _stress(strained: _Strained) -> _core.Eigenstress | None:
+    """The residual stress of the points of a body."""
+    return _body(strained.of).eigenstress(strained.columns)
+
+
+def columns_of(state: State) -> list[NDArray[np.float64]]:
+    """The points of both bodies that have yielded, as the core takes them."""
+    return [np.asarray(state.dataset[name].values, dtype=float) for name in YIELDED]
+
+
+def body_of(state: State, body_number: int) -> _core.PlasticBody:
+    """The volume grid of a body; a ValueError where it stays elastic."""
+    return _body(_of(state, body_number))
+
+
+def _of(state: State, body_number: int) -> _Of:
+    return _Of(str(state.dataset.attrs["scene"]), body_number, state.scene)
+
+
+def _strained(state: State, body_number: int) -> _Strained:
+    """The points of a body that have yielded, as the core takes them."""
+    columns = columns_of(state)
+    own = columns[YIELDED.index("yielded_body")] == body_number
+    columns = [np.ascontiguousarray(column[own]) for column in columns]
+    # The increment is no part of what has yielded.
+    digest = hashlib.sha256(b"".join(column.tobytes() for column in columns[1:])).digest()
+    return _Strained(_of(state, body_number), digest, columns)
+
+
+def eigenstress(state: State, body_number: int) -> list[_core.Eigenstress | None]:
+    """What plastic strain leaves in a body of a state, as the core takes it.
+
+    Empty for a body that stays elastic; None stands for one that may yield and has not.
+    """
+    if not state.body(body_number).yields:
+        return []
+    return [_stress(_strained(state, body_number))]
+
+
+def plastic_points(state: State, body_number: int) -> xarray.Dataset:
+    """The points of a body that have yielded: strain, equivalent strain, place and layer."""
+    columns = dict(zip(YIELDED, _strained(state, body_number).columns, strict=True))
+    grid = body_of(state, body_number).grid()
+    plane, cell = (columns[f"yielded_{name}"].astype(int) for name in ("plane", "cell"))
+    i, j = cell // grid["y"].size, cell % grid["y"].size
+    strain = np.transpose([columns[f"plastic_strain_{name}"] for name in COMPONENTS])
+    return xr.Dataset(
+        {
+            "strain": (("point", "component"), strain),
+            "equivalent": ("point", columns["equivalent_plastic_strain"]),
+            "plane": ("point", plane),
+            "cell": ("point", cell),
+            "x": ("point", grid["x"][i]),
+            "y": ("point", grid["y"][j]),
+            "z": ("point", grid["z"][plane]),
+            "layer": ("point", grid["layer"][plane]),
+        }
+    )
 
 
 class PlasticState:
-    """The plastic state of a body after an increment, on the cells and planes of its volume grid.
+    """The plastic state of a body after an increment, on the planes and cells of its volume grid.
 
     Planes are those of the Gauss points: two in each element in depth. Tension is positive, z
-    points into the body, components are in the axes of the scene.
+    points into the body, components are in the axes of the scene. Called itself, it gives the state
+    of the other body: ``state.plastic(body_number=1)``.
+
+    Parameters
+    ----------
+    state : Snapshot
+        The increment.
+    body_number : 1 or 2, optional
+        The body (default: the lower one, or the upper one where that alone yields).
+
+    Raises
+    ------
+    ValueError
+        No layer of the body yields.
     """
 
-    def __init__(self, found: dict[str, Any]) -> None:
-        tensor = ("z", "component", "x", "y")
-        stress = {"units": "Pa"}
-        self.dataset: xarray.Dataset = xr.Dataset(
-            {
-                "equivalent": (
-                    ("z", "x", "y"),
-                    found["equivalent"],
-                    {"units": "1", "long_name": "equivalent plastic strain"},
-                ),
-                "strain": (
-                    tensor,
-                    found["strain"],
-                    {"units": "1", "long_name": "plastic strain"},
-                ),
-                "stress": (
-                    tensor,
-                    found["stress"],
-                    {**stress, "long_name": "stress, residual stress included"},
-                ),
-                "residual_stress": (
-                    tensor,
-                    found["residual_stress"],
-                    {**stress, "long_name": "stress without the tractions of the contact"},
-                ),
-                "imprint": (
-                    ("grid_x", "grid_y"),
-                    found["imprint"],
-                    {"units": "m", "long_name": "growth of the gap by plastic strain"},
-                ),
-            },
+    def __init__(self, state: State, body_number: int | None = None) -> None:
+        self._state = state
+        if body_number is None:
+            body_number = 1 if state.body(1).yields and not state.body(2).yields else 2
+        self._of = _of(state, body_number)
+        #: The body, 1 or 2.
+        self.body_number = body_number
+        _body(self._of)
+
+    def __call__(self, *, body_number: int = 2) -> PlasticState:
+        """Give the plastic state of a body."""
+        return PlasticState(self._state, body_number)
+
+    @cached_property
+    def _columns(self) -> list[NDArray[np.float64]]:
+        return _strained(self._state, self.body_number).columns
+
+    @cached_property
+    def _grid(self) -> dict[str, Any]:
+        return _body(self._of).grid()
+
+    def _column(self, name: str) -> NDArray[np.float64]:
+        return self._columns[YIELDED.index(name)]
+
+    @cached_property
+    def dataset(self) -> xarray.Dataset:
+        """Equivalent plastic strain, plastic strain, stress and residual stress [Pa], imprint [m].
+
+        Over (z, y, x), tensors over (z, component, y, x) as well; ``layer`` and ``height`` belong
+        to z. The ``imprint`` is the growth of the gap by the plastic strain of both bodies, on the
+        cells of the contact.
+        """
+        columns = self._columns
+        found = _body(self._of).fields(columns, **self._state.tractions())
+        left = _body(self._of).imprint(columns_of(self._state))
+        scalar, tensor = ("z", "y", "x"), ("z", "component", "y", "x")
+
+        def over_y_x(name: str) -> NDArray[np.float64]:
+            return np.swapaxes(found[name], -1, -2)
+
+        grid = self._grid
+        of_state = self._state.dataset
+        metre = {"units": "m"}
+        labels = {
+            "equivalent": ("1", "equivalent plastic strain, added up over the path"),
+            "strain": ("1", "plastic strain"),
+            "stress": ("Pa", "stress, residual stress included"),
+            "residual_stress": ("Pa", "stress without the tractions of the contact"),
+        }
+        variables: dict[str, Any] = {
+            name: (
+                scalar if name == "equivalent" else tensor,
+                over_y_x(name),
+                {"units": unit, "long_name": meaning},
+            )
+            for name, (unit, meaning) in labels.items()
+        }
+        about = {**metre, "long_name": "growth of the gap by plastic strain"}
+        variables["imprint"] = (("grid_y", "grid_x"), left["imprint"].T, about)
+        return xr.Dataset(
+            variables,
             coords={
-                "z": ("z", found["z"], {"units": "m"}),
-                "x": ("x", found["x"], {"units": "m"}),
-                "y": ("y", found["y"], {"units": "m"}),
-                "grid_x": ("grid_x", found["grid_x"], {"units": "m"}),
-                "grid_y": ("grid_y", found["grid_y"], {"units": "m"}),
+                **{name: (name, grid[name], metre) for name in ("z", "y", "x")},
+                "grid_y": ("grid_y", of_state.y.values, metre),
+                "grid_x": ("grid_x", of_state.x.values, metre),
                 "component": COMPONENTS,
-                "layer": ("z", found["layer"].astype(int)),
-                "height": ("z", found["height"], {"units": "m"}),
+                "layer": ("z", grid["layer"]),
+                "height": ("z", grid["height"], metre),
             },
         )
-        self._area = float(found["area"])
 
     def largest(self) -> float:
-        """Give the largest equivalent plastic strain.
+        """Give the largest equivalent plastic strain, 0 where nothing has yielded.
 
         At the border of slip and at the rim of a soft layer it grows with every refinement.
         """
-        return float(self.dataset["equivalent"].max())
+        return float(self._column("equivalent_plastic_strain").max(initial=0.0))
 
     def volume(self) -> float:
         """Give the volume that has yielded [m^3], per length in plane strain [m^2]."""
-        yielded = (self.dataset["equivalent"] > 0).sum(("x", "y"))
-        return float((yielded * self.dataset["height"]).sum()) * self._area
+        planes = self._column("yielded_plane").astype(int)
+        return float(np.sum(self._grid["height"][planes])) * float(self._grid["area"])
 
     def depth(self) -> float:
         """Give the depth of the lowest point that has yielded [m], 0 where none has."""
-        yielded = (self.dataset["equivalent"] > 0).any(("x", "y")).to_numpy()
-        return float(np.max(self.dataset["z"].to_numpy(), where=yielded, initial=0.0))
+        planes = self._column("yielded_plane").astype(int)
+        return float(self._grid["z"][planes].max(initial=0.0))
 
     def on_axis(self, name: str) -> xarray.DataArray:
         """Give a variable in the middle x = y = 0, continued there from the cells around it.
@@ -112,7 +249,8 @@ class PlasticState:
 
     def __repr__(self) -> str:
         """Give the numbers of the zone."""
+        unit = "m^2" if self._state.scene.grid.plane_strain else "m^3"
         return (
-            f"PlasticState(largest={self.largest():.3g}, volume={self.volume():.3g} m^3, "
-            f"depth={self.depth():.3g} m)"
+            f"PlasticState(body {self.body_number}, largest={self.largest():.3g}, "
+            f"volume={self.volume():.3g} {unit}, depth={self.depth():.3g} m)"
         )

@@ -6,6 +6,7 @@ use super::domain::on_grid;
 use super::{March, Motion, State};
 use crate::convolution;
 use crate::plan::Half;
+use crate::yielding::Yielded;
 use crate::zones::Outline;
 
 /// p, `q_x`, `q_y` \[Pa\], each of shape (nx, ny).
@@ -41,6 +42,8 @@ pub struct Fields {
     /// Those of them whose shear is at the limit of friction; their slip is within the solver's
     /// tolerance.
     pub at_limit: Array2<bool>,
+    /// Plastic strain of bodies that yield, with a grid of its own.
+    pub yielded: Option<Box<Yielded>>,
 }
 
 impl March {
@@ -124,6 +127,7 @@ impl March {
             contact,
             stick,
             at_limit,
+            yielded: self.state.yielded.clone(),
         }
     }
 }

@@ -157,6 +157,10 @@ pub struct Yield {
     /// elastic.
     #[serde(default)]
     pub passes: usize,
+    /// Largest stress of von Mises at the end of the increment over the yield stress there, of the points
+    /// of the volume grid; 1 where one yields.
+    #[serde(default)]
+    pub reached: f64,
 }
 
 /// One increment of the load path: scalars, residuals, work.

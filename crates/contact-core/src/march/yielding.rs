@@ -88,7 +88,14 @@ impl March {
         };
         yields.bodies.begin(&before);
         if yields.bodies.pass([&p, &q_x, &q_y]) {
-            return Ok(Some(increment));
+            let reached = yields.bodies.reached();
+            return Ok(Some(Increment {
+                yielded: Yield {
+                    reached,
+                    ..Yield::default()
+                },
+                ..increment
+            }));
         }
         self.state = start;
         Ok(None)
@@ -144,6 +151,7 @@ impl March {
                     volume: now.volume,
                     largest: now.largest,
                     passes: pass,
+                    reached: yields.bodies.reached(),
                 };
                 self.state.yielded = Some(Box::new(now));
                 increment.work.convolutions = convolutions;

@@ -45,6 +45,9 @@ pub(super) struct YieldingBody {
     stress: Vec<f64>,
     /// Largest change of the stress in the last pass, over the yield stress.
     pub(super) off: f64,
+    /// Largest stress of von Mises in the last pass over the yield stress, of points that have not
+    /// yielded; above 1 where a point yields.
+    pub(super) reached: f64,
     /// Slot of each point of the planes and cells.
     slot: Vec<u32>,
     /// Point (plane times cells plus cell), its state at the start of the increment and the returned one.
@@ -85,6 +88,7 @@ impl YieldingBody {
             slot: vec![NONE; laws.len() * cells],
             active: Vec::new(),
             off: 0.0,
+            reached: 0.0,
             laws,
             operator,
         })
@@ -118,7 +122,9 @@ impl YieldingBody {
         self.wanted.clone_from(&self.may_yield);
         self.passed = false;
         let Some(state) = state else { return };
-        self.displacement.copy_from_slice(&state.displacement);
+        if state.displacement.len() == self.displacement.len() {
+            self.displacement.copy_from_slice(&state.displacement);
+        }
         for known in &state.points {
             let point = known.plane as usize * cells + known.cell as usize;
             self.slot[point] = self.active.len() as u32;
@@ -197,7 +203,11 @@ impl YieldingBody {
                 let trial = std::array::from_fn(|c| {
                     s[c] + 2.0 * mu * (strain[c * cells + cell] - start.strain[c])
                 });
-                found.push((plane * cells + cell, start.at(law, *mu, &trial)));
+                let returned = start.at(law, *mu, &trial);
+                if returned.flow != [0.0; COMPONENTS] {
+                    most = most.max(law.s_y * law.s_y);
+                }
+                found.push((plane * cells + cell, returned));
             }
             (found, most / (law.s_y * law.s_y))
         };
@@ -207,6 +217,8 @@ impl YieldingBody {
                 *wanted = !points.is_empty() || *most > NEAR * NEAR;
             }
         }
+        let reached = found.iter().map(|(_, most)| *most);
+        self.reached = reached.fold(0.0, f64::max).sqrt();
         let mut off = 0.0_f64;
         for (point, returned) in found.into_iter().flat_map(|(points, _)| points) {
             if self.slot[point] == NONE {
@@ -414,13 +426,14 @@ impl YieldingBody {
         Some((ratio, self.number, mesh.layer(plane), mesh.depth(plane)))
     }
 
-    /// Stress of a state on all planes, in the axes of the scene \[Pa\].
-    pub(super) fn stress_of(
+    /// Stress of a state on all planes, in the axes of the scene \[Pa\], and displacement of the surface by
+    /// its plastic strain, with z into the body \[m\].
+    pub(super) fn response(
         &mut self,
-        state: &PlasticState,
+        state: Option<&PlasticState>,
         tractions: Option<&[Vec<f64>; 3]>,
-    ) -> Vec<f64> {
-        self.begin(Some(state));
+    ) -> (Vec<f64>, Vec<f64>) {
+        self.begin(state);
         let signed = tractions.map(|tractions| self.facing(tractions));
         let mut stress = vec![0.0; self.operator.len()];
         let mut displacement = vec![0.0; self.displacement.len()];
@@ -448,6 +461,6 @@ impl YieldingBody {
                 }
             }
         }
-        stress
+        (stress, displacement)
     }
 }

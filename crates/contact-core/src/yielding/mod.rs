@@ -29,6 +29,8 @@ pub use self::volume::Volume;
 use crate::error::Error;
 use crate::scene::Scene;
 
+/// Excess over the yield stress that is no yielding in reverse.
+const UNLOADS: f64 = 1e-2;
 /// Most passes of an increment.
 pub(crate) const MOST_PASSES: usize = 120;
 
@@ -127,6 +129,12 @@ impl Yielding {
         (off.fold(0.0, f64::max), TOLERANCE)
     }
 
+    /// Largest stress of von Mises of the last pass over the yield stress there, 1 where a point yields.
+    pub(crate) fn reached(&self) -> f64 {
+        let reached = self.bodies.iter().map(|body| body.reached);
+        reached.fold(0.0, f64::max).min(1.0)
+    }
+
     /// One pass under the tractions p, q_x, q_y of the contact \[Pa\]: whether x is settled. Otherwise
     /// x is the next one to try.
     pub(crate) fn pass(&mut self, [p, q_x, q_y]: [&Array2<f64>; 3]) -> bool {
@@ -210,10 +218,59 @@ impl Yielding {
         tractions: Option<[&Array2<f64>; 3]>,
         body: usize,
     ) -> Option<Vec<f64>> {
-        let n = self.bodies.iter().position(|b| b.number == body)?;
         let tractions =
             tractions.map(|[p, q_x, q_y]| [q_x, q_y, p].map(|field| self.volume.to_volume(field)));
-        Some(self.bodies[n].stress_of(state.bodies.get(n)?, tractions.as_ref()))
+        let own = self.bodies.iter_mut().find(|b| b.number == body)?;
+        let state = state.bodies.iter().find(|state| state.body == body);
+        Some(own.response(state, tractions.as_ref()).0)
+    }
+
+    /// A state whose residual displacements are those of its plastic strain, of one that has the strain
+    /// alone.
+    pub fn completed(&mut self, state: &Yielded) -> Yielded {
+        let bodies = self.bodies.iter_mut().map(|body| {
+            let known = state.bodies.iter().find(|known| known.body == body.number);
+            PlasticState {
+                body: body.number,
+                points: known.map_or_else(Vec::new, |known| known.points.clone()),
+                displacement: body.response(known, None).1,
+                growth: Vec::new(),
+            }
+        });
+        Yielded {
+            bodies: bodies.collect(),
+            ..state.clone()
+        }
+    }
+
+    /// Whether the stress of a state without tractions yields nowhere, by a hundredth of the yield stress.
+    pub fn unloads_elastically(&mut self, state: &Yielded) -> bool {
+        let whole = self.completed(state);
+        self.begin(&whole);
+        let none = Array2::zeros((self.volume.grid().nx, self.volume.grid().ny));
+        self.pass([&none; 3]);
+        self.residuals().0 < UNLOADS
+    }
+
+    /// Fails where a state has points beyond the volume grid.
+    pub fn check(&self, state: &Yielded) -> Result<(), Error> {
+        for known in &state.bodies {
+            let own = self.bodies.iter().find(|body| body.number == known.body);
+            let (planes, cells) = own.map_or((0, 0), |body| {
+                (body.mesh().planes(), body.mesh().cells.len())
+            });
+            let beyond = |point: &&PlasticPoint| {
+                point.plane as usize >= planes || point.cell as usize >= cells
+            };
+            if let Some(point) = known.points.iter().find(beyond) {
+                let found = format!("plane {}, cell {}", point.plane, point.cell);
+                let allowed = format!(
+                    "{planes} planes of {cells} cells, those of the volume grid of its scene: solve it again"
+                );
+                return Err(Error::invalid("plastic strain", found, allowed));
+            }
+        }
+        Ok(())
     }
 
     /// Where the stress of von Mises under tractions is largest over the yield stress, before anything has

@@ -82,6 +82,11 @@ impl Volume {
         }
     }
 
+    /// The grid of the contact.
+    pub(super) fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
     /// Means of a field of the contact over the cells of the volume.
     pub(super) fn to_volume(&self, field: &Array2<f64>) -> Vec<f64> {
         let ratio = [

@@ -237,5 +237,6 @@ fn unloaded(scene: &Scene) -> Fields {
         contact: nowhere.clone(),
         stick: nowhere.clone(),
         at_limit: nowhere,
+        yielded: None,
     }
 }

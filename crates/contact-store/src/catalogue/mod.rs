@@ -2,9 +2,11 @@
 
 mod fields;
 mod scalars;
+mod yielded;
 
 pub use self::fields::FIELDS;
 pub use self::scalars::SCALARS;
+pub use self::yielded::{OfPoint, POINTS, YIELDED, rows_of, state_of};
 
 use contact_core::march::{Fields, Increment};
 use contact_core::scene::Grid;

@@ -154,6 +154,12 @@ pub const SCALARS: &[Scalar] = &[
         |i| i.yielded.largest,
     ),
     real(
+        "yield_ratio",
+        "1",
+        "largest stress of von Mises over the yield stress, 1 where a body yields",
+        |i| i.yielded.reached,
+    ),
+    real(
         "work",
         "J",
         "work of the applied forces in the increment",

@@ -10,6 +10,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::arguments::{Array, List, Mask};
+use crate::yielding::{Eigenstress, of_states};
 
 /// Fields of several moments.
 type Fields<'py> = List<Array<'py, Ix2>>;
@@ -53,12 +54,13 @@ impl Given {
         if given.is_none(py) {
             return Ok(None);
         }
-        let (q_x, q_y, p, stick, sigma_B): (
+        let (q_x, q_y, p, stick, sigma_B, eigenstress): (
             Fields<'_>,
             Fields<'_>,
             Fields<'_>,
             Sticking<'_>,
             Vec<f64>,
+            List<Option<Py<Eigenstress>>>,
         ) = given.extract(py)?;
         let lengths = [q_x.len(), q_y.len(), p.len(), stick.len(), sigma_B.len()];
         let shapes = q_x
@@ -82,6 +84,7 @@ impl Given {
                 .map(|f| f.as_array().as_standard_layout().into_owned())
                 .collect(),
             sigma_B,
+            eigenstress: of_states(Some(eigenstress)),
         }))
     }
 }

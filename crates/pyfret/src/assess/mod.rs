@@ -46,8 +46,9 @@ pub(crate) fn cycle_sections(
 /// A section of a body below a contact over a cycle.
 ///
 /// `moments` is called with a list of numbers from 0 to `count` - 1, or with None for the moment
-/// before the cycle: lists of q_x, q_y, p [Pa] and stick, of shape (nx, ny) each, and of the bulk
-/// stress [Pa]; or None.
+/// before the cycle: lists of q_x, q_y, p [Pa] and stick, of shape (nx, ny) each, of the bulk
+/// stress [Pa], and of the residual stress of plastic strain, empty for a body that stays elastic;
+/// or None.
 #[pyclass(frozen, module = "pyfret.fatigue")]
 pub(crate) struct CycleSection {
     below: Arc<Below>,

@@ -17,6 +17,7 @@ use crate::arguments::{Array, List, Mask, number, side};
 use crate::error::to_python;
 use crate::interruptible::interruptible;
 use crate::scene::{Body, Grid};
+use crate::yielding::{Eigenstress, of_states};
 
 /// States of a contact above cracks, as arrays over (state, x, y).
 #[derive(FromPyObject)]
@@ -33,6 +34,8 @@ pub(crate) struct ContactStates<'py> {
     sigma_B: List<f64>,
     #[pyo3(item)]
     residual: Option<List<f64>>,
+    #[pyo3(item)]
+    eigenstress: List<Option<Py<Eigenstress>>>,
 }
 
 /// What `f` finds below a contact in its states.
@@ -69,12 +72,14 @@ fn below_contact<T: Send>(
         grid: &grid.0,
     };
     let sigma_B = given.sigma_B.0;
+    let eigenstress = of_states(Some(given.eigenstress));
     let stop = Arc::default();
     let found = interruptible(py, &stop, || {
         let states = States {
             tractions: &tractions,
             sigma_B: &sigma_B,
             residual: &residual,
+            eigenstress: &eigenstress,
             stick: Some(&stick),
             stop: stop.clone(),
         };

@@ -62,6 +62,12 @@ impl Body {
         Elastic(self.0.substrate, self.0.plastic(self.0.coatings.len()))
     }
 
+    /// Whether a layer of it may yield.
+    #[getter]
+    fn yields(&self) -> bool {
+        self.0.yields()
+    }
+
     /// Layers from the surface down.
     #[getter]
     fn coatings(&self) -> Vec<Coating> {

@@ -1,0 +1,148 @@
+//! The variables over the points that have yielded, of all increments that keep their fields.
+
+use contact_core::yielding::{PlasticPoint, PlasticState, Yielded};
+
+use super::Kind;
+
+/// Dimension of the points, those of one increment after those of another.
+pub const POINTS: &str = "yielded";
+
+/// A number of every point.
+#[derive(Clone, Copy, Debug)]
+pub struct OfPoint {
+    /// Name.
+    pub name: &'static str,
+    /// Unit; `1` for a number without.
+    pub units: &'static str,
+    /// What it is.
+    pub long_name: &'static str,
+    /// How it is stored.
+    pub kind: Kind,
+    /// Its value at a point of an increment and a body.
+    pub value: fn(usize, usize, &PlasticPoint) -> f64,
+}
+
+const fn count(
+    name: &'static str,
+    long_name: &'static str,
+    value: fn(usize, usize, &PlasticPoint) -> f64,
+) -> OfPoint {
+    OfPoint {
+        name,
+        units: "1",
+        long_name,
+        kind: Kind::Count,
+        value,
+    }
+}
+
+const fn strain(
+    name: &'static str,
+    long_name: &'static str,
+    value: fn(usize, usize, &PlasticPoint) -> f64,
+) -> OfPoint {
+    OfPoint {
+        name,
+        units: "1",
+        long_name,
+        kind: Kind::Real,
+        value,
+    }
+}
+
+/// The variables over [`POINTS`] of a scene that may yield.
+pub const YIELDED: &[OfPoint] = &[
+    count(
+        "yielded_increment",
+        "increment whose plastic strain is kept",
+        |increment, _, _| increment as f64,
+    ),
+    count("yielded_body", "body of the point, 1 or 2", |_, body, _| {
+        body as f64
+    }),
+    count(
+        "yielded_plane",
+        "plane of Gauss points of the volume grid",
+        |_, _, point| f64::from(point.plane),
+    ),
+    count(
+        "yielded_cell",
+        "cell of the volume grid, x first",
+        |_, _, point| f64::from(point.cell),
+    ),
+    strain(
+        "equivalent_plastic_strain",
+        "equivalent plastic strain, added up over the path",
+        |_, _, point| point.equivalent,
+    ),
+    strain("plastic_strain_xx", "plastic strain xx", |_, _, point| {
+        point.strain[0]
+    }),
+    strain("plastic_strain_yy", "plastic strain yy", |_, _, point| {
+        point.strain[1]
+    }),
+    strain("plastic_strain_zz", "plastic strain zz", |_, _, point| {
+        point.strain[2]
+    }),
+    strain("plastic_strain_xy", "plastic strain xy", |_, _, point| {
+        point.strain[3]
+    }),
+    strain(
+        "plastic_strain_xz",
+        "plastic strain xz, z into the body",
+        |_, _, point| point.strain[4],
+    ),
+    strain(
+        "plastic_strain_yz",
+        "plastic strain yz, z into the body",
+        |_, _, point| point.strain[5],
+    ),
+];
+
+/// The rows of an increment: a column for each of [`YIELDED`].
+pub fn rows_of(increment: usize, yielded: &Yielded) -> Vec<Vec<f64>> {
+    let column = |of: &OfPoint| {
+        let bodies = yielded.bodies.iter();
+        let of_body = |body: &PlasticState| {
+            let points = body.points.iter();
+            points
+                .map(|point| (of.value)(increment, body.body, point))
+                .collect::<Vec<_>>()
+        };
+        bodies.flat_map(of_body).collect()
+    };
+    YIELDED.iter().map(column).collect()
+}
+
+/// The plastic state of rows; the numbers of a point are those that [`rows_of`] has made of it.
+pub fn state_of(rows: &[Vec<f64>]) -> Yielded {
+    let mut yielded = Yielded::default();
+    let count = rows.first().map_or(0, Vec::len);
+    if rows.len() != YIELDED.len() || rows.iter().any(|column| column.len() != count) {
+        return yielded;
+    }
+    for n in 0..count {
+        let at = |column: usize| rows[column][n];
+        let number = at(1) as usize;
+        let point = PlasticPoint {
+            plane: at(2) as u32,
+            cell: at(3) as u32,
+            equivalent: at(4),
+            strain: std::array::from_fn(|c| at(5 + c)),
+            flow: [0.0; 6],
+            growth: [0.0; 6],
+        };
+        yielded.largest = yielded.largest.max(point.equivalent);
+        let known = yielded.bodies.iter_mut().find(|body| body.body == number);
+        match known {
+            Some(body) => body.points.push(point),
+            None => yielded.bodies.push(PlasticState {
+                body: number,
+                points: vec![point],
+                displacement: Vec::new(),
+                growth: Vec::new(),
+            }),
+        }
+    }
+    yielded
+}

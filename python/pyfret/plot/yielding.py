@@ -1,0 +1,165 @@
+"""Bodies that yield: the zone that has, and the stress that it leaves."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.ticker import MaxNLocator
+
+from pyfret._util.depths import thin
+from pyfret.plot.depth_axis import stretch as stretch_axis
+from pyfret.plot.scales import Units, last_of, of_snapshot
+from pyfret.plot.stresses import COLOURS, SYMBOLS
+from pyfret.plot.style import axes, styled
+from pyfret.subsurface.fields import interfaces
+from pyfret.subsurface.plastic import PlasticState
+from pyfret.subsurface.unloaded import Unloaded
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from pyfret.run import Run, State
+
+#: Room around the zone that has yielded, over its width and depth.
+ROOM = 0.25
+
+
+@styled
+def plastic_zone(
+    shown: State | Run,
+    *,
+    body_number: int | None = None,
+    units: Units = "auto",
+    ax: Axes | None = None,
+) -> Axes:
+    """Equivalent plastic strain on the section y = 0 of a body that yields, depth downwards.
+
+    Parameters
+    ----------
+    shown : Snapshot or Result
+        The contact; of a result the last increment that it has kept.
+    body_number : 1 or 2, optional
+        The body (default: as in :attr:`Snapshot.plastic`).
+    units : "auto", "dimensionless" or "SI"
+        Lengths over a_H (default where there is a Hertz contact), or in um.
+    ax : matplotlib Axes, optional
+        Where to draw.
+    """
+    state = last_of(shown)
+    plastic = PlasticState(state, body_number)
+    by = of_snapshot(state, units)
+    field = plastic.dataset["equivalent"]
+    middle = field.isel(y=0) if field.sizes["y"] == 1 else field.interp(y=0.0)
+    percent = 100.0 * np.nan_to_num(middle.values)
+    x, z = middle.x.values / by.length.value, middle.z.values / by.length.value
+    layers = middle.layer.values
+    yielded = percent > 0.0
+    deepest, widest = z[-1], np.abs(x).max()
+    if yielded.any():
+        deepest = z[yielded.any(axis=1)].max()
+        widest = np.abs(x[yielded.any(axis=0)]).max()
+    deepest *= 1.0 + ROOM
+    widest = min(widest * (1.0 + ROOM), float(np.abs(x).max()))
+    if ax is None:
+        high = np.clip(3.3 * deepest / (2.0 * widest) + 0.7, 1.8, 6.0)
+        ax = plt.figure(figsize=(4.8, float(high))).add_subplot()
+    inner = [d / by.length.value for d in interfaces(state.body(plastic.body_number))]
+    borders = np.array([0.0, *(d for d in inner if d < deepest), deepest])
+    if thin(borders) and borders.size > 2:
+        stretch_axis(ax, borders, "y")
+    image = None
+    if yielded.any():
+        steps = MaxNLocator(9).tick_values(0.0, percent.max())
+        for layer in np.unique(layers):
+            here = layers == layer
+            if np.count_nonzero(here) < 2 or not yielded[here].any():
+                continue
+            # What has not yielded stays white.
+            shown_part = np.ma.masked_less_equal(percent[here], 0.0)
+            image = ax.contourf(x, z[here], shown_part, levels=steps, cmap=COLOURS)
+            ax.contour(x, z[here], percent[here], levels=steps[1:], colors="0.2", linewidths=0.4)
+    else:
+        ax.text(0.5, 0.5, "nothing has yielded", transform=ax.transAxes, ha="center")
+    for depth in inner:
+        if depth < deepest:
+            ax.axhline(depth, color="0.2", linewidth=0.8, linestyle=(0, (6, 3)))
+    touched = state.dataset["contact"].values.astype(bool).any(axis=1)
+    if touched.any():
+        ends = state.dataset.x.values[touched][[0, -1]] / by.length.value
+        ax.plot(ends, [0.0, 0.0], color="k", linewidth=3.0, clip_on=False, zorder=5)
+    label = "equivalent plastic strain [%]"
+    if image is not None:
+        beside = ax.inset_axes((1.03, 0.0, 0.05, 1.0))
+        bar = ax.get_figure().colorbar(image, cax=beside)  # type: ignore[union-attr]
+        bar.outline.set_visible(False)
+        bar.set_label(label)
+    else:
+        ax.set_title(label)
+    ax.set_xlim(-widest, widest)
+    ax.set_ylim(deepest, 0.0)
+    ax.set_xlabel(by.length.label("x"))
+    ax.set_ylabel(by.length.label("z"))
+    if not thin(borders):
+        ax.set_aspect("equal")
+    ax.grid(visible=False)
+    return ax
+
+
+@styled
+def residual_stress(
+    shown: State | Run,
+    *,
+    body_number: int | None = None,
+    of: tuple[str, ...] = ("s_xx", "s_yy", "s_zz"),
+    x: float = 0.0,
+    y: float = 0.0,
+    units: Units = "auto",
+    ax: Axes | None = None,
+) -> Axes:
+    """Residual stress of plastic strain below a point over the depth, tension upwards.
+
+    That with the contact taken apart.
+
+    Parameters
+    ----------
+    shown : Snapshot or Result
+        The contact; of a result the last increment that it has kept.
+    body_number : 1 or 2, optional
+        The body (default: as in :attr:`Snapshot.plastic`).
+    of : sequence of str
+        Measures, as in :class:`pyfret.subsurface.Stress`.
+    x, y : float
+        The point [m] (default: the middle of the grid).
+    units : "auto", "dimensionless" or "SI"
+        Over p_H and a_H (default where there is a Hertz contact), or in MPa and um.
+    ax : matplotlib Axes, optional
+        Where to draw.
+    """
+    state = last_of(shown)
+    number = PlasticState(state, body_number).body_number
+    ax, by = axes(ax), of_snapshot(state, units)
+    below = Unloaded(state, warn=False).stress(x=x, y=y, body_number=number)
+    z, layer = below.dataset.z.values / by.length.value, below.dataset.layer.values
+    inner = [d / by.length.value for d in interfaces(state.body(number))]
+    borders = np.array([z[0], *(d for d in inner if d < z[-1]), z[-1]])
+    if thin(borders) and borders.size > 2:
+        stretch_axis(ax, borders, "x")
+    for n, name in enumerate(of):
+        values = below.measure(name).values / by.stress.value
+        for part in np.unique(layer):
+            here = layer == part
+            label = f"${SYMBOLS.get(name, name)}$" if part == layer[0] else None
+            # On an axis of symmetry two of the stresses are one line.
+            dashes = (0, (3, 3)) if name == "s_yy" else "-"
+            ax.plot(z[here], values[here], color=f"C{n}", linestyle=dashes, label=label)
+    ax.axhline(0.0, color="0.6", linewidth=0.8, zorder=0)
+    for depth in borders[1:-1]:
+        ax.axvline(depth, color="0.6", linewidth=0.8, linestyle=(0, (6, 3)), zorder=0)
+    ax.set_xlim(z[0], z[-1])
+    ax.set_xlabel(by.length.label("z"))
+    symbol = r"\sigma_\mathrm{residual}"
+    ax.set_ylabel(by.stress.label(symbol))
+    ax.legend()
+    return ax
