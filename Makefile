@@ -68,9 +68,10 @@ error-bars: ## error bars against the true errors in 160 random scenes; the numb
 	FRET_ERROR_BARS=160 FRET_ERROR_BARS_REPORT=$(CURDIR)/docs/error_bars.md \
 		cargo test --release --locked --workspace --test campaigns -- --include-ignored --nocapture error_bars::
 
-fuzz: ## ten minutes of hostile input for each reader; the numbers go to docs/reliability.md
+fuzz: setup ## ten minutes of hostile input for each reader, 20 000 hostile calls of all public callables; the numbers go to docs/reliability.md
 	FRET_FUZZ=600 FRET_FUZZ_REPORT=$(CURDIR)/docs/reliability.md \
 		cargo test --release --locked --workspace --test fuzz -- --include-ignored --nocapture --test-threads=1
+	FRET_HOSTILE=20000 $(PY) -m pytest --quiet tests/test_hostile.py
 
 ablation: ## what each numerical method buys, switched off alone: docs/ablation.md
 	cargo run --release --locked --example ablation > docs/ablation.md

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import importlib
 import re
 from collections.abc import Callable
 from pathlib import Path
+
+import pytest
 
 ROOT = Path(__file__).parents[1]
 #: Types of the binding that hold numbers.
@@ -47,6 +50,23 @@ def closing(text: str, start: int, pair: str = "{}") -> int:
     raise ValueError("a bracket that does not close")
 
 
+def test_lists_and_arrays_of_the_binding_come_through_the_door() -> None:
+    """No list is laid out by the length that it says, and no array is read around the door."""
+    wrong = []
+    for file in sorted((ROOT / "crates/pyfret/src").rglob("*.rs")):
+        text = file.read_text()
+        for start in re.finditer(r"#\[new\]|#\[pyfunction", text):
+            head = text[start.end() : text.index("{", text.index("fn ", start.end()))]
+            wrong += [
+                f"{file.stem}: {one}" for one in re.findall(r"\w+: Vec<\(?[\w:, ]+\)?>", head)
+            ]
+        if file.stem != "arguments":
+            wrong += [f"{file.stem}: {one}" for one in re.findall(r"PyArrayLike\w*<[^>]*>", text)]
+    # Fields that a run of wear has written, and what the command line is given.
+    known = {"wear: PyArrayLike2<'py, f64>", "command_line: arguments: Vec<OsString>"}
+    assert {one for one in wrong if "Py<" not in one} - known == set()
+
+
 def test_the_binding_reads_all_its_numbers_by_the_door(
     record_property: Callable[[str, object], None],
 ) -> None:
@@ -54,3 +74,20 @@ def test_the_binding_reads_all_its_numbers_by_the_door(
     record_property("parameters", len(found))
     assert len(found) > 150
     assert [where for where, _, by_door in found if not by_door] == []
+
+
+@pytest.mark.solves
+@pytest.mark.filterwarnings("ignore")
+def test_every_public_callable_is_called_with_hostile_values(
+    monkeypatch: pytest.MonkeyPatch, record_property: Callable[[str, object], None]
+) -> None:
+    """Found by introspection: none is forgotten by ``tests/hostile``."""
+    monkeypatch.syspath_prepend(str(Path(__file__).with_name("hostile")))
+    public = importlib.import_module("public")
+    found = dict(public.public())
+    called = {name for name, call in found.items() if public.good(name, call) is not None}
+    record_property("callables", len(found))
+    assert len(found) > 330
+    # Constructors of the criteria take their numbers by name, whatever they are.
+    forgotten = set(found) - called - set(public.LEFT_OUT)
+    assert {name for name in forgotten if not name.startswith("fatigue.Criterion.")} == set()

@@ -17,9 +17,12 @@ CALLS = Path(__file__).with_name("hostile")
 LONGEST = 60.0
 
 
-def batch(start: int) -> tuple[list[str], int | None]:
-    """What the calls from `start` on did wrong, and the number of the one that was the last."""
-    command = [sys.executable, str(CALLS), str(start)]
+def batch(start: int, *which: str, refused: bool = False) -> tuple[list[str], int | None]:
+    """What the calls from `start` on did wrong, and the number of the one that was the last.
+
+    `which` are the other calls of ``tests/hostile``; with `refused` an answer is wrong.
+    """
+    command = [sys.executable, str(CALLS), str(start), *which]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL) as process:
         assert process.stdout is not None
         wrong, rest, last, text = [], b"", None, "the imports"
@@ -38,18 +41,40 @@ def batch(start: int) -> tuple[list[str], int | None]:
                     return wrong, None
                 if number:
                     last, text = int(number), words
-                elif words.startswith("BAD") or (
-                    text.endswith("as it should be") and words.startswith("refused")
+                elif (
+                    words.startswith("BAD")
+                    or (text.endswith("as it should be") and words.startswith("refused"))
+                    or (refused and words == "answered")
                 ):
                     wrong.append(f"{text}: {words}")
+
+
+def wrong_of(*which: str, refused: bool = False) -> list[str]:
+    """What all calls did wrong, each in a process that lives on after it."""
+    wrong: list[str] = []
+    start: int | None = 0
+    while start is not None:
+        more, start = batch(start, *which, refused=refused)
+        wrong += more
+    return wrong
 
 
 @pytest.mark.timeout(600)
 def test_hostile_values_are_answered_or_refused() -> None:
     """In a process of its own, under a limit of memory; none may end it or keep it for long."""
-    wrong: list[str] = []
-    start: int | None = 0
-    while start is not None:
-        more, start = batch(start)
-        wrong += more
+    wrong = wrong_of()
+    assert not wrong, "\n".join(wrong)
+
+
+@pytest.mark.timeout(600)
+def test_no_public_callable_takes_for_a_number_what_is_none() -> None:
+    """True, NaN, complex numbers, masked values and texts, for every number of every callable."""
+    wrong = wrong_of("never", refused=True)
+    assert not wrong, "\n".join(wrong)
+
+
+@pytest.mark.timeout(36_000)
+def test_random_hostile_calls_of_all_public_callables() -> None:
+    """Under 8 GB of address space; ``FRET_HOSTILE`` says how many (``make fuzz``: 20 000)."""
+    wrong = wrong_of(os.environ.get("FRET_HOSTILE", "400"))
     assert not wrong, "\n".join(wrong)

@@ -22,6 +22,7 @@ from pyfret._core import (
     Sum,
     SurfaceMap,
 )
+from pyfret._util.door import numbers_only
 from pyfret.scene.warnings import SceneWarning
 from pyfret.solution import solve
 from pyfret.wear.runs import solve as wear_off
@@ -68,6 +69,7 @@ NUMBERS: dict[Number, str] = {
 }
 
 
+@numbers_only
 def for_contact(
     body1: Body,
     body2: Body,

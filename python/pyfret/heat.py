@@ -21,6 +21,7 @@ import numpy as np
 
 from pyfret import _core
 from pyfret._core import Material
+from pyfret._util.door import numbers_only
 from pyfret._util.lazy import xr
 from pyfret._util.names import listing
 from pyfret.fatigue.cycles import cycle_increments
@@ -38,6 +39,7 @@ __dir__ = listing(__all__)
 HARMONICS = 32
 
 
+@numbers_only
 @dataclass(frozen=True, kw_only=True)
 class Conductor:
     """A material that conducts heat.
@@ -143,6 +145,7 @@ def _maximum(table: xr.Dataset, bulk: tuple[float, float]) -> dict[str, Any]:
     }
 
 
+@numbers_only
 def temperature(
     result: Run,
     conductor1: Conductors,

@@ -1,4 +1,4 @@
-"""One door for what was saved: a run, a run of wear, a study."""
+"""One door for what was saved: runs, runs of wear, studies, fits, cracks."""
 
 from __future__ import annotations
 
@@ -7,17 +7,32 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pyfret import result, study, wear
-from pyfret._core import read_bytes
+from pyfret._core import StoreError, read_bytes, shown
 from pyfret._util import files
+from pyfret.fit.stored import found_of
+from pyfret.fracture.growth import Cracks
+from pyfret.study.ledger import FILE
+from pyfret.study.outcome import Study
 
 if TYPE_CHECKING:
     import os
+    from collections.abc import Callable
+
+    import xarray as xr
 
 __all__ = ["open"]
 
+#: What `save` has written of things that have no store, by their kind.
+COPIES: dict[Any, Callable[[xr.Dataset], Any]] = {
+    "study": Study,
+    "Study": Study,
+    "Cracks": Cracks,
+    "Found": found_of,
+}
+
 
 def open(path: str | os.PathLike[str]) -> Any:
-    """Open the store of a run, of wear or of a study, or a copy of it (``.zarr``, ``.nc``).
+    """Open what pyfret has saved: a run, wear, a study, a fit, cracks (``.zarr``, ``.nc``).
 
     Fields are read when they are asked for. Every file of a store is checked before: what is read
     is what was written. What ``save`` wrote has no checksums and is not checked. What the metadata
@@ -25,7 +40,7 @@ def open(path: str | os.PathLike[str]) -> Any:
 
     Returns
     -------
-    Result, WearResult or Study
+    Result, WearResult, Study, Found or Cracks
         By what is there.
 
     Raises
@@ -35,8 +50,17 @@ def open(path: str | os.PathLike[str]) -> Any:
     """
     files.checked(path)
     attributes = _attributes(Path(path))
-    if attributes.get("kind") == "study":
+    kind = attributes.get("kind")
+    if kind == "study" and (Path(path) / FILE).exists():
         return study.open(path)
+    if kind in COPIES:
+        dataset = files.opened(path)
+        if kind != "study":
+            del dataset.attrs["kind"]
+        try:
+            return COPIES[kind](dataset)
+        except StoreError as error:
+            raise StoreError(shown(f"{path}: {error}")) from error
     if "wear" in attributes:
         return wear.open(path)
     return result.open(path)

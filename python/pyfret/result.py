@@ -134,16 +134,18 @@ class Result(Run):
             residual=residual,
         )
 
-    def save(self, path: str | os.PathLike[str]) -> None:
+    def save(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
         """Write the result to a Zarr folder (``.zarr``) or a NetCDF file (``.nc``).
 
-        :func:`pyfret.open` opens both. The place must be free. NetCDF needs the package h5netcdf or
+        :func:`pyfret.open` opens both. NetCDF needs the package h5netcdf or
         netCDF4: ``pip install "fretting[netcdf]"``.
 
         Parameters
         ----------
         path : path
             Where to write; its ending says in which format.
+        overwrite : bool
+            Whether what pyfret saved there is replaced (default: the place must be free).
 
         Raises
         ------
@@ -152,7 +154,7 @@ class Result(Run):
         ValueError
             The ending is another.
         """
-        files.write(self.dataset, path)
+        files.write(self.dataset, path, overwrite=overwrite)
 
     def export(
         self,

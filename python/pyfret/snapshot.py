@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING, Any, Literal
 
+from pyfret._util.door import numbers_only
 from pyfret.export.write import write as export
 from pyfret.run import Run, State
 from pyfret.run.tables import state_html
@@ -176,6 +177,7 @@ class Snapshot(State):
             self, z, x=x, y=y, azimuth=azimuth, body_number=body_number
         )
 
+    @numbers_only
     def stick_zone(self, *, y: float = 0.0) -> Zone:
         """Where the stick zone begins and ends along a line of constant `y` [m], within the cells.
 
@@ -184,6 +186,7 @@ class Snapshot(State):
         """
         return zone(self, "stick", y)
 
+    @numbers_only
     def contact_zone(self, *, y: float = 0.0) -> Zone:
         """Where the contact begins and ends along a line of constant `y`, as :meth:`stick_zone`."""
         return zone(self, "contact", y)

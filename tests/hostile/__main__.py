@@ -1,14 +1,20 @@
-"""Calls every public function and constructor with hostile values; run by ``test_hostile.py``.
+"""Calls public functions and constructors with hostile values; run by ``test_hostile.py``.
 
-``python tests/hostile START`` makes the calls from number START on, one line before and one
-after each, under a limit of memory. Whoever reads along knows which call ended the process.
+``python tests/hostile START`` makes the calls of the written list from number START on, one line
+before and one after each, under a limit of memory. Whoever reads along knows which call ended the
+process. ``python tests/hostile START COUNT`` makes random calls of all public callables, and
+``python tests/hostile START never`` gives each of them values that are no numbers.
 """
 
 from __future__ import annotations
 
+import random
+import re
 import resource
 import sys
+import warnings
 from collections.abc import Callable, Iterator
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +29,8 @@ import pyfret as fret
 
 #: Address space beyond what is taken after the imports [bytes].
 MEMORY = 3 << 30
+#: Address space of the random calls [bytes].
+MEMORY_OF_RANDOM = 8 << 30
 CALLS = [*scenes.CALLS, *closed_forms.CALLS, *fields.CALLS, *follows.CALLS]
 
 
@@ -60,28 +68,85 @@ def outcome(call: Callable[..., Any], arguments: dict[str, Any]) -> str:
         if not text.strip() or not (whole or isinstance(error, TypeError)):
             return f"BAD: {type(error).__name__} says {text[:200]!r}"
         return f"refused: {type(error).__name__}: {text[:150]}"
+    except AttributeError as error:
+        # What takes any object of a kind says what it was given in its place.
+        kinds = (type(value).__name__ for value in arguments.values())
+        if any(f"{kind}' object has no attribute" in str(error) for kind in kinds):
+            return f"refused: AttributeError: {error}"
+        return f"BAD: AttributeError: {error}"
+    except RuntimeError as error:
+        # A map over loads says at which of them there is no answer, and why.
+        if re.match(r"[TW] = ", str(error)):
+            return f"refused: RuntimeError: {error}"
+        return f"BAD: RuntimeError: {error}"
     except BaseException as error:
         return f"BAD: {type(error).__name__}: {str(error)[:200]!r}"
     given = list(flat([*by_position, *by_name.values()]))
     if all(np.all(np.isfinite(v)) for v in given if np.asarray(v).dtype.kind == "f"):
-        for values in found if isinstance(found, (list, tuple)) else [found]:
+        # A record says with NaN what was not asked.
+        for values in found if type(found) in (list, tuple) else [found]:
             numbers = isinstance(values, (float, np.ndarray)) and np.asarray(values).dtype.kind
             if numbers in ("f", "c") and np.any(np.isnan(values)):
                 return "BAD: finite numbers in, nan out"
     return "answered"
 
 
-def main(start: int) -> None:
+def random_cases(count: int) -> Iterator[tuple[str, Callable[..., Any], dict[str, Any]]]:
+    """Calls of public callables found by introspection, with one to three hostile arguments.
+
+    The call of a number is the same however many were made before it.
+    """
+    import public
+
+    known = [(name, call, public.good(name, call)) for name, call in public.public()]
+    known = [one for one in known if one[0] not in public.LEFT_OUT and one[2] is not None]
+    for number in range(count):
+        rng = random.Random(number)
+        name, call, (needed, free) = rng.choice(known)  # type: ignore[misc]
+        changed = rng.sample(free, min(len(free), rng.choice((1, 1, 1, 2, 3))))
+        other = {
+            key: rng.choice(public.unlike(needed.get(key, public.GOOD.get(key)))) for key in changed
+        }
+        said = ", ".join(f"{key} = {of!r}"[:100] for key, of in other.items())
+        text = " ".join(f"{name}({said})".split())
+        yield text, lambda call=call, **k: public.invoked(call, k), needed | other
+
+
+def no_numbers() -> Iterator[tuple[str, Callable[..., Any], dict[str, Any]]]:
+    """Every public callable with values that are no numbers where it takes numbers."""
+    import public
+
+    for name, call in public.public():
+        found = public.good(name, call)
+        if name in public.LEFT_OUT or found is None:
+            continue
+        for key in found[1]:
+            if public.free_of(name, key):
+                continue
+            for other in public.never(found[0].get(key, public.GOOD.get(key))):
+                text = " ".join(f"{name}({key} = {other!r})".split())[:200]
+                yield text, lambda call=call, **k: public.invoked(call, k), found[0] | {key: other}
+
+
+def main(start: int, more: str = "") -> None:
     """Makes the calls, with a line before and after each."""
+    warnings.simplefilter("ignore")
+    found = no_numbers() if more == "never" else random_cases(int(more)) if more else cases()
+    import public
+
+    first = next(found)
     size = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
-    resource.setrlimit(resource.RLIMIT_AS, (size + MEMORY, resource.RLIM_INFINITY))
-    for number, (text, call, arguments) in enumerate(cases()):
+    limit = size + MEMORY if not more else MEMORY_OF_RANDOM
+    resource.setrlimit(resource.RLIMIT_AS, (limit, resource.RLIM_INFINITY))
+    for number, (text, call, arguments) in enumerate(chain([first], found)):
         if number < start:
             continue
         print(f"{number}\t{text}", flush=True)
         print(f"\t{' '.join(outcome(call, arguments).split())}", flush=True)
+        if more:
+            public.close()
     print("done", flush=True)
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]))
+    main(int(sys.argv[1]), *sys.argv[2:])

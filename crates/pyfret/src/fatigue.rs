@@ -259,16 +259,16 @@ pub(crate) struct Material(pub(crate) core::Material);
 #[pymethods]
 impl Material {
     #[new]
-    #[pyo3(signature = (name, numbers: "Sequence[tuple[str, float, str]]", title = None, also: "Sequence[str]" = Vec::new()))]
+    #[pyo3(signature = (name, numbers: "Sequence[tuple[str, float, str]]", title = None, also: "Sequence[str]" = List::default()))]
     fn new(
         name: &str,
         numbers: List<(String, f64, String)>,
         title: Option<&str>,
-        also: Vec<String>,
+        also: List<String>,
     ) -> PyResult<Self> {
         let made = core::Material::new(name, title.unwrap_or(name), numbers);
         let mut made = made.map_err(refused)?;
-        made.also = also;
+        made.also = also.0;
         Ok(Self(made))
     }
 

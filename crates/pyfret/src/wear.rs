@@ -7,12 +7,14 @@ use std::sync::{Arc, Mutex, PoisonError};
 use contact_core::scene::Reach;
 use contact_store::{WearColumns, WearStore, resume_wear_by as take_up, verify_wear as verify};
 use contact_wear::{self as core, Law, WearRun, WornStart};
-use numpy::{PyArrayLike1, PyArrayLike2, ToPyArray};
+use ndarray::Ix1;
+use numpy::{PyArrayLike2, ToPyArray};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::argument::to_python;
+use crate::arguments::{Array, List};
 use crate::document::Document;
 use crate::error::to_python as scene_to_python;
 use crate::interruptible::interruptible;
@@ -43,7 +45,7 @@ impl Law for Own {
                 cycle.cycles,
             );
             let found = self.0.bind(py).call1(given)?;
-            let found: PyArrayLike1<'_, f64, numpy::AllowTypeChange> = found.extract()?;
+            let found: Array<'_, Ix1> = found.extract()?;
             let found = found.as_array();
             if found.len() != depth.len() {
                 return Err(PyTypeError::new_err(format!(
@@ -155,8 +157,8 @@ pub(crate) fn verify_wear(py: Python<'_>, store: PathBuf) -> PyResult<()> {
 
 /// The scene of a file and its table `[wear]`, as the text of a scene file each.
 #[pyfunction]
-#[pyo3(signature = (path, set: "Sequence[str]" = Vec::new()))]
-pub(crate) fn wear_of_file(path: PathBuf, set: Vec<String>) -> PyResult<(Scene, String)> {
+#[pyo3(signature = (path, set: "Sequence[str]" = List::default()))]
+pub(crate) fn wear_of_file(path: PathBuf, set: List<String>) -> PyResult<(Scene, String)> {
     let read = core::Wear::from_file(path, &set, Reach::Folder);
     let (scene, wear) = read.map_err(scene_to_python)?;
     Ok((Scene(scene), wear.to_toml()))

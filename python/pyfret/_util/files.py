@@ -40,14 +40,18 @@ def unfolded(value: Any) -> Any:
     return json.loads(value[len(JSON) :]) if text else value
 
 
-def write(dataset: xr.Dataset, path: str | os.PathLike[str]) -> None:
+def write(dataset: xr.Dataset, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
     """Write a dataset to a Zarr folder (``.zarr``) or a NetCDF file (``.nc``).
 
-    It is written beside its place and put there at once.
+    It is written beside its place and put there at once. With `overwrite` it replaces what
+    pyfret or xarray wrote there, and nothing else.
     """
     place = Path(path)
-    if place.exists():
-        raise FileExistsError(f"{place}: is there already")
+    if place.exists() and not (overwrite and replaceable(place)):
+        raise FileExistsError(
+            f"{place}: is there already"
+            + (", and is no store or file of results: choose another place" if overwrite else "")
+        )
     if place.suffix not in (".zarr", ".nc"):
         raise ValueError(f"{place}: must end in .zarr or .nc")
     with beside(place) as unfinished:
@@ -58,6 +62,13 @@ def write(dataset: xr.Dataset, path: str | os.PathLike[str]) -> None:
             attrs = {k: flat(v) for k, v in dataset.attrs.items()}
             reserve(unfinished, dataset.nbytes)
             dataset.assign_attrs(attrs).to_netcdf(unfinished)
+
+
+def replaceable(place: Path) -> bool:
+    """Whether it is a file or a folder of results."""
+    if place.is_dir():
+        return any((place / name).is_file() for name in (".zgroup", ".zmetadata", "zarr.json"))
+    return place.suffix == ".nc" and place.is_file()
 
 
 def gzip() -> dict[str, Any]:
@@ -74,7 +85,14 @@ def beside(place: Path) -> Iterator[Path]:
     unfinished = place.with_name(f".{place.name}.{os.getpid()}.unfinished{place.suffix}")
     try:
         yield unfinished
-        unfinished.replace(place)
+        if place.is_dir():
+            # A folder with files takes no other one in its place.
+            old = place.with_name(f".{place.name}.{os.getpid()}.old")
+            place.replace(old)
+            unfinished.replace(place)
+            shutil.rmtree(old, ignore_errors=True)
+        else:
+            unfinished.replace(place)
     finally:
         if unfinished.is_dir():
             shutil.rmtree(unfinished, ignore_errors=True)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from pyfret import reference
 from pyfret import wear as wearing
 from pyfret._core import Body, Coating, Cylinder, Elastic, Grid, LoadPath, Scene, Sphere
+from pyfret._util.door import numbers_only
 from pyfret.shapes import FlatPunch
 
 if TYPE_CHECKING:
@@ -130,6 +131,7 @@ def line(R: float, W: float, slip: float, mu: float, half_width: float, n: int =
     )
 
 
+@numbers_only
 def fouvry2007(coating: str = "TiC", *, slip: float = 75e-6, mu: float = 0.45) -> Experiment:
     """Alumina ball on a hard coating in gross slip, 100 N: S. Fouvry, C. Paulin, T. Liskiewicz.
 
@@ -172,6 +174,7 @@ def fouvry2007(coating: str = "TiC", *, slip: float = 75e-6, mu: float = 0.45) -
     )
 
 
+@numbers_only
 def fouvry2017(test: str, *, debris_kept: float = KEPT) -> Experiment:
     """Ti-6Al-4V cylinder on flat, gross slip of 75 um: a row of S. Fouvry and others' appendix A.
 
@@ -223,6 +226,7 @@ def fouvry2017(test: str, *, debris_kept: float = KEPT) -> Experiment:
     )
 
 
+@numbers_only
 def arnaud2021(*, debris_kept: float = KEPT) -> Experiment:
     """Worn profile of Ti-6Al-4V, U-shaped: P. Arnaud, S. Baydoun, S. Fouvry.
 
@@ -280,6 +284,7 @@ def baydoun2019(n: int) -> Experiment:
     )
 
 
+@numbers_only
 def icf13(test: str, *, Q: float | None = None, n: int = 256) -> Experiment:
     """Crack threshold of a steel cylinder on a flat in partial slip, with or without bulk stress.
 

@@ -32,6 +32,21 @@ STEPS = 8
 OUTSIDE = 1e-9
 #: Part of the load that may lie outside all faces: rounding.
 LOST = 1e-9
+#: Nodes of a triangle, a quadrilateral, and of those with nodes between the corners.
+NODES = (3, 4, 6, 8)
+
+
+def checked(rows: ArrayLike, nodes: int) -> NDArray[np.int64]:
+    """The nodes of faces of one kind; a ValueError for what is none."""
+    found = np.asarray(plain(rows, "faces"), dtype=np.int64)
+    if found.size and (found.ndim != 2 or found.shape[1] not in NODES):
+        raise ValueError(
+            f"faces: an array of the shape {found.shape}: must be (faces, nodes of each), "
+            f"with {', '.join(map(str, NODES))} nodes"
+        )
+    if found.size and not (found.min() >= 0 and found.max() < nodes):
+        raise ValueError(f"faces: indices of nodes must be from 0 to {nodes - 1}")
+    return found
 
 
 def nodal_forces(
@@ -74,12 +89,14 @@ def nodal_forces(
     sign = body_sign(body_number)
     nodes = plain(points, "points")
     at = frame.contact_place(nodes)[:, :2]
-    tables = [np.asarray(rows, dtype=np.int64) for rows in faces]
+    tables = [checked(rows, len(nodes)) for rows in faces]
     if not any(rows.size for rows in tables):
         raise ValueError("no face of the mesh lies in the plane z = 0 of the frame")
     grid = state.scene.grid
     x, y, p, q = cells_of(state)
     shortest = min(float(_sides(at, rows).min()) for rows in tables if rows.size)
+    if shortest == 0:
+        raise ValueError("faces: one has two nodes at one place: must have sides of some length")
     parts = int(np.clip(np.ceil(max(grid.dx, grid.dy) / (PART * shortest)), 1, MOST))
     cut = (np.arange(parts) + 0.5) / parts - 0.5
     s, t = (v.ravel() for v in np.meshgrid(cut * grid.dx, cut * grid.dy, indexing="ij"))

@@ -8,6 +8,7 @@ import numpy as np
 
 from pyfret._core import Material
 from pyfret._util.arrays import number
+from pyfret._util.door import numbers_only
 from pyfret._util.lazy import xr
 from pyfret.fatigue.cycle_section import body_of, over_cycle, placed
 from pyfret.fatigue.fields import described
@@ -38,6 +39,7 @@ def critical_distance(material: Material) -> float:
     return (material.number("dK_th") / (2.0 * material.number("s_D"))) ** 2 / np.pi
 
 
+@numbers_only
 def average(
     result: Run,
     material: Materials,

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, get_args
 import numpy as np
 
 from pyfret._core import Material, with_error
+from pyfret._util.door import numbers_only
 from pyfret._util.labelled import Labelled
 from pyfret._util.numbers import place
 from pyfret.fatigue.cycle_section import (
@@ -170,6 +171,7 @@ def _yield_stresses(given: YieldStresses, layers: int) -> list[float | None]:
     return [one.number("s_y") if isinstance(one, Material) else one for one in each]
 
 
+@numbers_only
 def load_factors(
     result: Run,
     s_y: YieldStresses,

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from pyfret._util.door import numbers_only
 from pyfret._util.lazy import xr
 from pyfret.fatigue.cycles import cycle_increments, history
 from pyfret.fatigue.section import Section
@@ -31,6 +32,7 @@ def _work_until(result: Run, increment: int, y: float) -> xr.DataArray:
     return work.drop_vars(set(work.coords) - {"x"})
 
 
+@numbers_only
 def ruiz(result: Run, **section: Unpack[SectionOptions]) -> xr.Dataset:
     """Give Ruiz' two parameters along a line of the surface over a closed cycle.
 

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from pyfret._core import with_error, with_range
+from pyfret._util.door import numbers_only
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
 from pyfret._util.numbers import place
@@ -384,6 +385,7 @@ class Life(Labelled):
         )
 
 
+@numbers_only
 def life(
     result: Run,
     materials: Materials,
@@ -426,6 +428,7 @@ def life(
     return lives(result, materials, [criterion], z, tolerance=tolerance, **section)[criterion]
 
 
+@numbers_only
 def lives(
     result: Run,
     materials: Materials,

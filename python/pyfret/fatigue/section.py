@@ -9,7 +9,8 @@ from typing import Any, TypedDict
 import numpy as np
 
 from pyfret._core import Material
-from pyfret._util.arrays import plain
+from pyfret._util.arrays import items, plain
+from pyfret._util.door import numbers_only
 from pyfret.subsurface.line import Line
 
 __all__ = ["Materials", "Section", "SectionOptions", "for_each_layer"]
@@ -31,6 +32,7 @@ class SectionOptions(TypedDict, total=False):
     residual: Sequence[float] | None
 
 
+@numbers_only
 @dataclass(frozen=True, kw_only=True)
 class Section:
     """A section of a body, or several side by side, over a closed cycle of the load path.
@@ -130,7 +132,7 @@ def for_each_layer(given: Any, layers: int, one: str, several: str) -> list[Any]
         raise TypeError(f"{given!r}: must be one of the {several}, or one for each layer")
     if isinstance(given, Material):
         given = [None] * (layers - 1) + [given]
-    each = list(given) if isinstance(given, Sequence) else [given] * layers
+    each = items(given, several) if isinstance(given, Sequence) else [given] * layers
     if len(each) != layers:
         raise ValueError(
             f"{len(each)} {several}: must be one, or one for each of the {layers} layers "

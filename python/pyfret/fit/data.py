@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from pyfret._util.arrays import together
+from pyfret._util.door import numbers_only
 from pyfret._util.holds_arrays import HoldsArrays
 from pyfret.fit import tables
 
@@ -40,6 +41,7 @@ TURN = 0.3
 END, SLIDING = 0.25, 0.3
 
 
+@numbers_only
 @dataclass(frozen=True, eq=False, repr=False)
 class Loops(HoldsArrays):
     """Friction loops: force over shift, branch by branch.
@@ -147,6 +149,7 @@ class Loops(HoldsArrays):
         return Loops(*points, W, noise, moved, tilt, drift)
 
 
+@numbers_only
 @dataclass(frozen=True, eq=False, repr=False)
 class Indentation(HoldsArrays):
     """An indentation curve: approach [m] over normal force [N].
@@ -172,6 +175,7 @@ class Indentation(HoldsArrays):
         return Indentation(force[loaded], approach[loaded], noise, frame)
 
 
+@numbers_only
 @dataclass(frozen=True, eq=False, repr=False)
 class Scar(HoldsArrays):
     """A worn profile along x: depth [m] of a body, or of both together (``body=0``).
@@ -199,6 +203,7 @@ class Scar(HoldsArrays):
         return Scar(place, worn, wear, body, noise)
 
 
+@numbers_only
 @dataclass(frozen=True, eq=False, repr=False)
 class Lives(HoldsArrays):
     """Cycles to the end of a coating in several tests.
@@ -236,6 +241,7 @@ class Measured(HoldsArrays):
     labels: tuple[str, str]
 
 
+@numbers_only
 def loops(
     path: str | os.PathLike[str],
     *,
@@ -284,6 +290,7 @@ def loops(
     return Loops.of(rows[:, shift], rows[:, force], W=W, noise=noise, tilt=tilt, drift=drift)
 
 
+@numbers_only
 def indentation(
     path: str | os.PathLike[str],
     *,
@@ -306,6 +313,7 @@ def indentation(
     return Indentation.of(rows[:, force], rows[:, approach], noise=noise, frame=frame)
 
 
+@numbers_only
 def scar(
     path: str | os.PathLike[str],
     *,
@@ -330,6 +338,7 @@ def scar(
     return Scar.of(rows[:, place], rows[:, worn], wear=wear, body=body, noise=noise)
 
 
+@numbers_only
 def lives(
     path: str | os.PathLike[str],
     *,

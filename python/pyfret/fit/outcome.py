@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass
 from itertools import combinations
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from pyfret._core import with_error
 from pyfret._util.holds_arrays import HoldsArrays
+from pyfret._util.kept import Kept
+from pyfret._util.lazy import xr
+from pyfret._util.packed import packed
 from pyfret.fit.data import Loops
+from pyfret.scene.parts import refuse_unknown
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -54,7 +59,7 @@ class Known:
 
 
 @dataclass(frozen=True, eq=False)
-class Found(HoldsArrays):
+class Found(Kept, HoldsArrays):
     """The unknowns of a scene as data tell them.
 
     Attributes
@@ -106,12 +111,35 @@ class Found(HoldsArrays):
         return self.known[key].value
 
     @property
+    def dataset(self) -> xr.Dataset:
+        """Best values and 95 % confidence over ``unknown``, and all that :meth:`save` keeps."""
+        arrays: dict[str, NDArray[Any]] = {}
+        tree = json.dumps(packed(self, arrays))
+        known = {
+            name: ("unknown", [float(getattr(one, name)) for one in self.known.values()])
+            for name in ("value", "low", "high")
+        }
+        parts = {
+            name: (tuple(f"{name}_{n}" for n in range(of.ndim)), of) for name, of in arrays.items()
+        }
+        return xr.Dataset(
+            {**known, **parts},
+            coords={"unknown": np.array(list(self.known), dtype=str)},
+            attrs={"title": "fit", "found": tree},
+        )
+
+    def __dir__(self) -> list[str]:
+        """The names of the class; the values are `found[key]`."""
+        return sorted(object.__dir__(self))
+
+    @property
     def values(self) -> dict[str, float]:
         """Values of the unknowns."""
         return {key: known.value for key, known in self.known.items()}
 
-    def plot(self, *, data: int = 0, ax: Axes | None = None) -> Drawn:
+    def plot(self, *, ax: Axes | None = None, data: int = 0, **options: Any) -> Drawn:
         """Draw what was measured, and what the values found make of it."""
+        refuse_unknown("plot", options, ["ax", "data"])
         from pyfret.fit.figures import curves
 
         return curves(self.sets[data], self.computed[data], self.values, ax)

@@ -10,6 +10,7 @@ import numpy as np
 
 from pyfret import _core
 from pyfret._util.arrays import plain
+from pyfret._util.door import numbers_only
 from pyfret._util.lazy import xr
 from pyfret.fatigue.cycle_section import placed
 from pyfret.fatigue.cycles import cycle_increments
@@ -36,6 +37,7 @@ FIT = 0.05
 UNITS = {"units": "Pa m^0.5"}
 
 
+@numbers_only
 def crack(
     result: Run,
     x: float | None = None,
@@ -117,6 +119,7 @@ def crack(
     return Cracks(estimate.dataset.assign(error=error).assign_attrs(aspect=aspect))
 
 
+@numbers_only
 def grow(
     result: Run,
     x: float | None = None,

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pyfret import _core
+from pyfret._util.door import numbers_only
 
 if TYPE_CHECKING:
     from pyfret._core import Coating, Elastic
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
 __all__ = ["channel_release", "film_intensity"]
 
 
+@numbers_only
 def channel_release(coating: Coating, below: Elastic, stress: float) -> float:
     """Give what a crack releases that channels through a film under tension [J/m^2].
 
@@ -43,6 +45,7 @@ def channel_release(coating: Coating, below: Elastic, stress: float) -> float:
     return float(Z * max(stress, 0.0) ** 2 * coating.thickness * (1.0 - nu * nu) / E)
 
 
+@numbers_only
 def film_intensity(coating: Coating, below: Elastic, depth: float, stress: float) -> float:
     """Give K_I of a crack normal to the surface that ends in the film [Pa m^0.5].
 

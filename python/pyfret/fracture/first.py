@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
 import numpy as np
 
 from pyfret._core import with_error
+from pyfret._util.door import numbers_only
 from pyfret.fatigue.cycle_section import placed
 from pyfret.fatigue.cycles import history
 from pyfret.fatigue.section import Section
@@ -58,6 +59,7 @@ class FirstToFail(NamedTuple):
         return f"FirstToFail({', '.join(parts)}; first: {self.first or 'none'})"
 
 
+@numbers_only
 def first_to_fail(
     result: Run,
     *,

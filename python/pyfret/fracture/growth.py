@@ -11,6 +11,8 @@ import numpy as np
 from pyfret import _core
 from pyfret._core import with_error, with_range
 from pyfret._util.arrays import plain, together
+from pyfret._util.door import numbers_only
+from pyfret._util.kept import Kept
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
 from pyfret.scene.warnings import doubt_numbers
@@ -28,6 +30,7 @@ __all__ = ["Arrest", "CrackLife", "Cracks", "Paris", "Threshold"]
 Verdict: TypeAlias = Literal["dormant", "stops", "grows"]
 
 
+@numbers_only
 @dataclass(frozen=True)
 class Threshold:
     """The range of K below which a crack does not grow.
@@ -97,6 +100,7 @@ class Threshold:
         return np.reshape(found, lengths.shape)
 
 
+@numbers_only
 @dataclass(frozen=True)
 class Paris:
     """Paris' law, dl/dN = C (dK/(1 MPa m^0.5))^m, dK the equivalent range at R = 0.
@@ -202,13 +206,15 @@ class CrackLife:
     stopped: bool
 
 
-class Cracks(Labelled):
+class Cracks(Kept, Labelled):
     """K of a cycle over the length of a crack, and what follows.
 
     ``dataset`` has ``K_I`` and ``K_II`` over (increment, length), their ``error``, ``open``, the
     share of the crack that is open, and ``K_I_linear``, ``K_II_linear`` with faces that may pass
     through each other [Pa m^0.5]; the tip of each length is at ``x``, ``z`` [m].
     """
+
+    figure = "intensity"
 
     @classmethod
     def from_arrays(cls, lengths: ArrayLike, K_max: ArrayLike, K_min: ArrayLike) -> Cracks:
@@ -242,6 +248,7 @@ class Cracks(Labelled):
         at = self.dataset.K_I.argmax("increment")
         return np.asarray(self.dataset.error.isel(increment=at).values, float)
 
+    @numbers_only
     def scaled(self, factor: float) -> Cracks:
         """Give the same with every K times a factor, such as that of :func:`ellipse_factor`."""
         return Cracks(
@@ -253,6 +260,20 @@ class Cracks(Labelled):
                 attrs=self.dataset.attrs,
             )
         )
+
+    def summary(self) -> str:
+        """Tabulate K of the cycle over the length: um, and MPa m^0.5."""
+        rows = ["length [um]  K_max  K_min  range [MPa m^0.5]"]
+        for length, most, least, span in zip(
+            self.lengths, self.K_max, self.K_min, self.dK(), strict=True
+        ):
+            rows.append(
+                f"{1e6 * length:11.4g}  {1e-6 * most:5.3g}  {1e-6 * least:5.3g}  {1e-6 * span:.4g}"
+            )
+        if "error" in self.dataset:
+            error = 1e-6 * float(self.dataset["error"].max())
+            rows.append(f"error of K: {error:.2g} MPa m^0.5 at most")
+        return "\n".join(rows)
 
     def dK(self, threshold: Threshold | None = None) -> NDArray[np.float64]:
         """Positive part of the range of K_I at each length, at R = 0 with a threshold's R rule."""

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from pyfret._util.door import numbers_only
 from pyfret._util.lazy import xr
 from pyfret.fatigue.cycle_section import placed
 from pyfret.fatigue.cycles import history
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 __all__ = ["Buckling", "buckling_release", "edge_release", "over_cycle"]
 
 
+@numbers_only
 def over_cycle(
     result: Run,
     *,
@@ -119,6 +121,7 @@ def _half_chord(path: np.ndarray) -> np.ndarray:
     return longest / 2
 
 
+@numbers_only
 def edge_release(coating: Coating, stress: float) -> float:
     """Give what a coating releases that parts from its substrate along a straight front [J/m^2].
 
@@ -150,6 +153,7 @@ class Buckling(NamedTuple):
     release: float
 
 
+@numbers_only
 def buckling_release(coating: Coating, stress: float, width: float) -> Buckling:
     """Give how a compressed coating buckles above a long debonded strip, and what that releases.
 
@@ -177,6 +181,11 @@ def buckling_release(coating: Coating, stress: float, width: float) -> Buckling:
     E, nu, h = coating.material.E, coating.material.nu, coating.thickness
     plane = E / (1.0 - nu * nu)
     critical = np.pi**2 / 12.0 * plane * (2.0 * h / width) ** 2
+    if not critical > 0:
+        raise ValueError(
+            f"coating: E = {E:g} Pa, {h:g} m thick on a strip of {width:g} m, has a buckling "
+            "stress of 0: must be stiffer, or the strip narrower"
+        )
     s = -stress
     if s <= critical:
         return Buckling(float(critical), 0.0, 0.0)

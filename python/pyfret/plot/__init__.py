@@ -9,7 +9,7 @@ from pyfret._util.names import listing
 from pyfret.plot.animation import animate
 from pyfret.plot.comparison import comparison
 from pyfret.plot.crack_section import crack_panels, crack_path
-from pyfret.plot.cracks import crack_arrest, intensity_history, kitagawa
+from pyfret.plot.cracks import crack_arrest, intensity, intensity_history, kitagawa
 from pyfret.plot.design_chart import design_chart
 from pyfret.plot.fretting_map import arrest_map, fretting_map, running_map
 from pyfret.plot.heat import temperature, temperature_map
@@ -55,6 +55,7 @@ __all__ = [
     "fretting_loop",
     "fretting_map",
     "haigh_diagram",
+    "intensity",
     "intensity_history",
     "kitagawa",
     "life_over_distance",

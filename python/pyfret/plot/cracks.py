@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from pyfret._util.door import numbers_only
 from pyfret.plot.style import axes, styled
 
 if TYPE_CHECKING:
@@ -13,12 +14,39 @@ if TYPE_CHECKING:
 
     from pyfret.fracture.growth import Cracks, Threshold
 
-__all__ = ["crack_arrest", "intensity_history", "kitagawa"]
+__all__ = ["crack_arrest", "intensity", "intensity_history", "kitagawa"]
 
 MICRO, MEGA = 1e6, 1e-6
 
 
 @styled
+def intensity(cracks: Cracks, *, ax: Axes | None = None) -> Axes:
+    """Largest and smallest K_I of the cycle over the length of the crack, with their error."""
+    ax = axes(ax)
+    d = cracks.dataset
+    for name, label, colour in (
+        ("K_max", r"largest $K_\mathrm{I}$", "C0"),
+        ("K_min", r"smallest $K_\mathrm{I}$", "C1"),
+    ):
+        error = MEGA * np.asarray(d["error"].max("increment")) if "error" in d else None
+        ax.errorbar(
+            cracks.lengths * MICRO,
+            getattr(cracks, name) * MEGA,
+            yerr=error,
+            color=colour,
+            marker=".",
+            label=label,
+            elinewidth=0.6,
+        )
+    ax.axhline(0.0, color="0.7", linewidth=0.5, zorder=0)
+    ax.set_xlabel("length of the crack [µm]")
+    ax.set_ylabel(r"$K$ [MPa m$^{1/2}$]")
+    ax.legend()
+    return ax
+
+
+@styled
+@numbers_only
 def intensity_history(cracks: Cracks, length: float, *, ax: Axes | None = None) -> Axes:
     """K_I and K_II over the kept increments of the cycle, with their error bars.
 

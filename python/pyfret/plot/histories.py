@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.ticker import EngFormatter, MaxNLocator
 
 from pyfret._core import LoadPath
+from pyfret._util.door import numbers_only
 from pyfret.plot.scales import MICRO, Scale, Units, bears, run_of, scales
 from pyfret.plot.style import axes, note, styled
 
@@ -154,6 +155,7 @@ DRIVEN = {
 
 
 @styled
+@numbers_only
 def load_path(path: LoadPath | Run, *, mu: float | None = None, ax: Axes | None = None) -> Axes:
     r"""Loads and motions that a path drives over :math:`t/\tau`, the end of which is 1.
 

@@ -140,6 +140,8 @@ def section_map(
     stretch = thin(borders) if stretch is None else stretch
     if stretch and borders.size > 2:
         stretch_axis(ax, borders, "y")
+    if not levels >= 1:
+        raise ValueError(f"levels = {levels}: must be 1 or more")
     steps = MaxNLocator(levels).tick_values(np.nanmin(field), np.nanmax(field))
     image = None
     for part in np.unique(layer):

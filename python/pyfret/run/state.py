@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pyfret import _core
+from pyfret._util.door import numbers_only
 from pyfret._util.guesses import no_attribute
 from pyfret._util.numbers import in_words
 from pyfret.run.attributes import OfRun
@@ -170,6 +171,7 @@ class State(OfRun):
         p = self.dataset["p"]
         return p.copy(data=_core.continued_pressure(p.values, self.scene.grid))
 
+    @numbers_only
     def along_x(self, *, y: float = 0.0) -> xr.Dataset:
         """Fields along the line of constant `y` [m], linear between the rows of cells."""
         rows = self.dataset.y.values

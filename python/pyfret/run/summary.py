@@ -22,6 +22,9 @@ __all__ = ["summary"]
 #: Motions in the plane, and the loads that drive them.
 IN_PLANE = (("delta_x", "T_x"), ("delta_y", "T_y"), ("phi_z", "M_z"))
 
+#: Bulk stresses of the bodies.
+BULK = ("sigma_B", "sigma_B1")
+
 
 def half_length(ends: xr.Dataset) -> str:
     """Name of the radius of the contact, of a line contact half its width."""
@@ -61,6 +64,8 @@ def columns(result: Run, ends: xr.Dataset) -> list[list[str]]:
         ]
     others = [(f"T_y [{force}]", "T_y", 1.0), ("delta_y [um]", "delta_y", 1e6)]
     torsion = [(f"M_z [{moment}]", "M_z", 1.0), ("phi_z [urad]", "phi_z", 1e6)]
+    bulk = [(f"{name} [MPa]", name, 1e-6) for name in BULK if drives(result, name)]
+    numbers[3:3] = bulk
     for pair in (others, torsion):
         if any(drives(result, name) for _, name, _ in pair):
             numbers[3:3] = pair

@@ -7,6 +7,7 @@ from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any, Literal
 
 from pyfret._core import Material
+from pyfret._util.door import numbers_only
 from pyfret.fatigue.section import for_each_layer
 
 if TYPE_CHECKING:
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
 __all__ = ["Candidate", "Duty", "candidate"]
 
 
+@numbers_only
 @dataclass(frozen=True)
 class Candidate:
     """A body that is compared with others, and what is known of its layers.

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
 from pyfret._core import Grid, InvalidSceneError, LoadPath, Scene
+from pyfret._util.door import numbers_only
 from pyfret.errors import SceneWarning
 from pyfret.fatigue.criteria import CriterionName
 from pyfret.solution import read
@@ -33,6 +34,7 @@ __all__ = ["compare"]
 COARSER = 2
 
 
+@numbers_only
 def compare(
     bodies: Mapping[str, Body | Candidate],
     scene: Scene | str | os.PathLike[str],

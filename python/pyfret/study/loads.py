@@ -9,6 +9,7 @@ import numpy as np
 
 from pyfret._core import LoadPath, Scene
 from pyfret._util.arrays import number, plain
+from pyfret._util.door import numbers_only
 from pyfret._util.lazy import xr
 from pyfret.study.loop import solve
 
@@ -40,6 +41,7 @@ BULK = "largest bulk stress"
 AMPLITUDE = "amplitude"
 
 
+@numbers_only
 def running_conditions(
     scene: Scene,
     *,
@@ -143,6 +145,7 @@ def running_conditions(
     return table.assign_attrs(sigma_B=float(bulk[0]))
 
 
+@numbers_only
 def arrest_map(
     scene: Scene,
     *,

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from pyfret import fracture, wear
+from pyfret._util.door import numbers_only
 from pyfret._util.lazy import xr
 from pyfret.run.summary import directions
 from pyfret.study.identity import identity
@@ -108,6 +109,7 @@ MEASURES: dict[str, tuple[str, str, Callable[[Result], float]]] = {
 }
 
 
+@numbers_only
 @dataclass(frozen=True)
 class Wear(wear.Wear):
     """A measure: what many cycles wear off, by :func:`pyfret.wear.solve` on the scene of the point.
@@ -146,6 +148,7 @@ class Wear(wear.Wear):
         return numbers
 
 
+@numbers_only
 @dataclass(frozen=True)
 class Cracking:
     """A measure: the smallest margin of a fatigue criterion over the last closed cycle.
@@ -178,6 +181,7 @@ class Cracking:
         }
 
 
+@numbers_only
 @dataclass(frozen=True)
 class Arrest:
     """A measure: whether a crack below the last closed cycle stops.
@@ -217,6 +221,7 @@ class Arrest:
         }
 
 
+@numbers_only
 @dataclass(frozen=True)
 class FirstToFail:
     """A measure: whether film, interface or substrate goes first below the last closed cycle.

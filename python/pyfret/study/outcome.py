@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from pyfret._util.kept import Kept
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
 from pyfret._util.text import html, shown
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
 __all__ = ["Study", "open"]
 
 
-class Study(Labelled):
+class Study(Kept, Labelled):
     """The measures of all points of a study.
 
     Attributes
@@ -35,6 +36,8 @@ class Study(Labelled):
         a point has none; ``status`` (0 open, 1 done, 2 failed), ``reason``, ``nx`` and ``ny``,
         the cells that the point took, and ``seconds``, its processor time.
     """
+
+    figure = "study_map"
 
     @property
     def parameters(self) -> list[str]:
@@ -134,6 +137,38 @@ class Study(Labelled):
             attrs={"long_name": f"part of the variance of {chosen}", "units": "1"},
         )
 
+    def summary(self) -> str:
+        """Say how many points are done, what parameters and measures span, and what failed."""
+        rows = [
+            ("", "from, to", "unit"),
+            *((name, span, unit) for _, name, span, unit in self._spans()),
+        ]
+        widths = [max(len(row[n]) for row in rows) for n in range(3)]
+        counts = ", ".join(f"{n} {name}" for name, n in self.count().items() if n)
+        lines = [f"{self._title()}: {counts}"]
+        lines += [
+            "  ".join(c.ljust(w) for c, w in zip(r, widths, strict=True)).rstrip() for r in rows
+        ]
+        for values, why in self.failed():
+            at = ", ".join(f"{name} = {value}" for name, value in values.items())
+            lines.append(f"failed at {at}: {' '.join(why.split())}")
+        return shown("\n".join(lines))
+
+    def _spans(self) -> list[tuple[str, str, str, str]]:
+        """Kind, name, range and unit of every parameter and measure."""
+        d = self.dataset
+        rows = []
+        for kind, names in (("parameter", self.parameters), ("measure", self.measures)):
+            for name in names:
+                values = d[name].values
+                if values.dtype.kind in "ifb" and np.isfinite(values).any():
+                    span = f"{number(np.nanmin(values))} to {number(np.nanmax(values))}"
+                else:
+                    span = f"{np.unique(values).size} values"
+                unit = str(d[name].attrs.get("units", ""))
+                rows.append((kind, name, span, "" if unit == "1" else unit))
+        return rows
+
     def map(self, of: str | None = None, *, ax: Axes | None = None, **options: Any) -> Drawn:
         """Draw a measure over the parameters: :func:`pyfret.plot.study_map`."""
         from pyfret.plot import study_map
@@ -154,17 +189,7 @@ class Study(Labelled):
 
 def study_html(study: Study) -> str:
     """A study as a table: range of every parameter and measure."""
-    d = study.dataset
-    rows = []
-    for kind, names in (("parameter", study.parameters), ("measure", study.measures)):
-        for name in names:
-            values = d[name].values
-            if values.dtype.kind in "ifb" and np.isfinite(values).any():
-                span = f"{number(np.nanmin(values))} to {number(np.nanmax(values))}"
-            else:
-                span = f"{np.unique(values).size} values"
-            unit = str(d[name].attrs.get("units", ""))
-            rows.append([kind, html(name), span, "" if unit == "1" else html(unit)])
+    rows = [[kind, html(name), span, html(unit)] for kind, name, span, unit in study._spans()]
     counts = ", ".join(f"{n} {name}" for name, n in study.count().items() if n)
     return f"<p><b>Study</b>: {counts}</p>{table(['', '', 'from, to', 'unit'], rows)}"
 

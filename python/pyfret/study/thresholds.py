@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from pyfret._core import Grid, Scene
+from pyfret._util.door import numbers_only
 from pyfret._util.extras import needed
 from pyfret._util.holds_arrays import HoldsArrays
 from pyfret._util.lazy import xr
@@ -40,6 +41,7 @@ Source: TypeAlias = "Scene | str | os.PathLike[str] | Callable[[dict[str, Any]],
 MOST = 24
 
 
+@numbers_only
 @dataclass(frozen=True)
 class Averaged:
     """A measure: the smallest margin of a criterion on the stress averaged over a distance.
@@ -104,6 +106,7 @@ class Threshold:
         return self.value
 
 
+@numbers_only
 def threshold(
     scene: Source,
     parameter: str,
@@ -300,6 +303,7 @@ class Limits(HoldsArrays):
 LESS = 0.9
 
 
+@numbers_only
 def fit_limits(
     tests: Sequence[tuple[Callable[[float], Scene], float]],
     material: Material,

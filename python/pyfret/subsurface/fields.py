@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import functools
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from pyfret import _core
 from pyfret._util.arrays import plain
+from pyfret._util.door import numbers_only
 from pyfret._util.lazy import xr
 from pyfret.subsurface.line import Line
 from pyfret.subsurface.plastic import eigenstress
@@ -113,6 +115,7 @@ def subsurface(
     )
 
 
+@functools.partial(numbers_only, but=("stick",))
 def stress(
     body: Body,
     grid: Grid,
@@ -194,6 +197,7 @@ def _line(
     return (x, 0.0) if z is None and x is None and y is None else (x, y)
 
 
+@functools.partial(numbers_only, but=("stick",))
 def displacement(
     body: Body,
     grid: Grid,
@@ -248,6 +252,7 @@ def _sampled(
     return xr.Dataset(variables, coords=coords)
 
 
+@functools.partial(numbers_only, but=("stick",))
 def write_volume(
     body: Body,
     grid: Grid,
@@ -300,6 +305,7 @@ def write(
     below.volume(out, z_once, layer_once, of=list(of), title=title)
 
 
+@functools.partial(numbers_only, but=("stick",))
 def envelope(
     scene: Scene,
     increments: Iterable[State],

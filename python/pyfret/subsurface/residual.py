@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pyfret._core import Material
+from pyfret._util.door import numbers_only
 
 if TYPE_CHECKING:
     from pyfret._core import Elastic
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
 __all__ = ["thermal_stress"]
 
 
+@numbers_only
 def thermal_stress(
     coating: Elastic | Material,
     *,

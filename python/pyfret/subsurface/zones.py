@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 import numpy as np
 
 from pyfret import _core
+from pyfret._util.door import numbers_only
 
 if TYPE_CHECKING:
     from pyfret.run import State
@@ -33,6 +34,7 @@ class Zone(NamedTuple):
         return (self.right - self.left) / 2
 
 
+@numbers_only
 def zone(state: State, of: Literal["contact", "stick"], y: float = 0.0) -> Zone:
     """The outermost borders of the contact or of its stick zone along the line of constant y."""
     d, grid = state.dataset, state.scene.grid

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pyfret._core import Scene, with_error
-from pyfret._util import files
+from pyfret._util.door import numbers_only
+from pyfret._util.kept import Kept
 from pyfret._util.labelled import Labelled
 from pyfret._util.text import shown
 from pyfret.fatigue.ranges import Range
@@ -21,8 +22,6 @@ else:
     import tomli as tomllib
 
 if TYPE_CHECKING:
-    import os
-
     import xarray as xr
 
 __all__ = ["WearResult"]
@@ -31,7 +30,7 @@ __all__ = ["WearResult"]
 SCATTER = 3.0
 
 
-class WearResult(Labelled):
+class WearResult(Kept, Labelled):
     """Worn surfaces over blocks of cycles, and the numbers of every jump.
 
     ``dataset`` has the scalars over ``jump`` (coordinate ``cycles``): ``volume1``, ``volume2``,
@@ -40,6 +39,8 @@ class WearResult(Labelled):
     ``p``, ``stick`` over ``block``, ``x``, ``y`` (coordinate ``block_cycles``), and the friction
     loops ``loop_delta_x``, ``loop_T_x``, ... over ``block``, ``corner``.
     """
+
+    figure = "wear_profiles"
 
     def __getattr__(self, name: str) -> Any:
         """Give a variable or an attribute of the dataset."""
@@ -56,6 +57,7 @@ class WearResult(Labelled):
         total: xr.DataArray = self.dataset.worn1 + self.dataset.worn2
         return total
 
+    @numbers_only
     def cycles_to(
         self,
         *,
@@ -102,6 +104,7 @@ class WearResult(Labelled):
         name, target = ("volume", volume) if depth is None else ("depth", depth)
         return reached(self.dataset, f"{name}{body}", float(target or 0.0))
 
+    @numbers_only
     def range_of_cycles(self, *, scatter: float = SCATTER, **to: Any) -> Range:
         """Cycles after which a body has worn so far as a range of 10 to 90 %: low, best, high.
 
@@ -195,20 +198,6 @@ class WearResult(Labelled):
     def doubts(self) -> list[str]:
         """Numbers of the scene and of the wear that are hardly meant, one sentence each."""
         return str(self.dataset.attrs.get("doubts", "")).splitlines()
-
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the result to a Zarr folder (``.zarr``) or a NetCDF file (``.nc``).
-
-        :func:`open` opens both. The place must be free.
-
-        Raises
-        ------
-        FileExistsError
-            There is something already.
-        ValueError
-            The ending is another.
-        """
-        files.write(self.dataset.load().drop_encoding(), path)
 
     @property
     def events(self) -> list[dict[str, Any]]:

@@ -97,6 +97,8 @@ def solve(
 
 def surfaces(start: WearResult) -> tuple[float, float, list[NDArray[np.float64]]]:
     """The worn surfaces at the end of a run."""
+    if not isinstance(start, WearResult):
+        raise TypeError(f"start = {start!r:.60}: must be the result of a run of wear")
     d = start.dataset
     names = ("worn1", "worn2", "energy1", "energy2", "slid")
     fields = [np.asarray(d[name][-1].values, dtype=float) for name in names]

@@ -12,6 +12,7 @@ if sys.version_info >= (3, 11):
 else:
     import tomli as tomllib
 
+from pyfret._util.door import numbers_only
 from pyfret.scene.parts import Replaceable, refuse_unknown
 
 if TYPE_CHECKING:
@@ -25,6 +26,7 @@ __all__ = ["Archard", "DissipatedEnergy", "Wear"]
 Factor = tuple[str, "Sequence[tuple[float, float]]"]
 
 
+@numbers_only
 @dataclass(frozen=True)
 class Archard(Replaceable):
     """Archard's law: the worn depth is k times pressure times sliding distance.
@@ -49,6 +51,7 @@ class Archard(Replaceable):
         fix(self)
 
 
+@numbers_only
 @dataclass(frozen=True)
 class DissipatedEnergy(Replaceable):
     """Wear by the energy dissipated: the worn volume is alpha times the energy.
@@ -79,6 +82,7 @@ Function = Callable[..., "NDArray[Any]"]
 Law = Archard | DissipatedEnergy | Function
 
 
+@numbers_only
 @dataclass(frozen=True)
 class Wear(Replaceable):
     """What wears, over how many cycles, and how.

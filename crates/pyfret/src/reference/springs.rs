@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 
 use super::{Hertz, pair};
 use crate::argument::to_python;
-use crate::arguments::number;
+use crate::arguments::{List, number};
 use crate::material::{Elastic, Material};
 use crate::parts::made;
 
@@ -59,14 +59,14 @@ made!(changing Springs by "Springs": largest, R, bodies, mu, n, loads);
 #[pymethods]
 impl Springs {
     #[new]
-    #[pyo3(signature = (largest, *, R: "float", bodies, mu: "float", n: "int" = 1500, loads: "Sequence[tuple[float, float, int]]" = Vec::new()))]
+    #[pyo3(signature = (largest, *, R: "float", bodies, mu: "float", n: "int" = 1500, loads: "Sequence[tuple[float, float, int]]" = List::default()))]
     fn new(
         largest: Hertz,
         #[pyo3(from_py_with = number)] R: f64,
         bodies: (Material, Material),
         #[pyo3(from_py_with = number)] mu: f64,
         #[pyo3(from_py_with = number)] n: usize,
-        loads: Vec<(f64, f64, usize)>,
+        loads: List<(f64, f64, usize)>,
     ) -> PyResult<Self> {
         let (body1, body2) = pair(bodies)?;
         positive("R", R)

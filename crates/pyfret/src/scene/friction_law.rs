@@ -3,9 +3,12 @@
 use std::sync::Arc;
 
 use contact_core::scene::{self as core, CellHistory, LawError};
-use numpy::{PyArrayLikeDyn, ToPyArray};
+use ndarray::IxDyn;
+use numpy::ToPyArray;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
+
+use crate::arguments::Array;
 
 /// The word for a law of which only that it exists is known.
 pub(crate) const OWN: &str = "own";
@@ -20,14 +23,14 @@ impl core::FrictionLaw for Own {
             let fields = [cells.x, cells.y, cells.p, cells.slip, cells.dissipated];
             let [x, y, p, slip, dissipated] = fields.map(|field| field.to_pyarray(py));
             let found = self.0.bind(py).call1((x, y, p, slip, dissipated))?;
-            let found: PyArrayLikeDyn<'_, f64, numpy::AllowTypeChange> =
-                found.extract().map_err(|_| {
-                    PyTypeError::new_err(format!(
-                        "friction law {}: gave {found}, must be an array of real numbers, a coefficient for each \
-                         cell, or one number",
-                        self.0
-                    ))
-                })?;
+            let found: Array<'_, IxDyn> = found.extract().map_err(|why: PyErr| {
+                PyTypeError::new_err(format!(
+                    "friction law {}: gave {found}, must be an array of real numbers, a coefficient for each cell, \
+                     or one number: {}",
+                    self.0,
+                    why.value(py)
+                ))
+            })?;
             let found = found.as_array();
             match (found.ndim(), found.len()) {
                 (0, _) => mu.fill(found.sum()),

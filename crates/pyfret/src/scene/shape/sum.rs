@@ -11,6 +11,7 @@ use super::map::SurfaceMap;
 use super::rough::Rough;
 use super::round::{CrownedRoller, Cylinder, Ellipsoid, Sphere};
 use super::waviness::Waviness;
+use crate::arguments::List;
 use crate::error::must_be;
 use crate::parts::parts;
 
@@ -35,7 +36,7 @@ impl Sum {
 impl Sum {
     #[new]
     #[pyo3(signature = (parts: "Sequence[Flat | Sphere | Ellipsoid | Cylinder | CrownedRoller | Cone | Wedge | FlatPunch | Waviness | Rough | SurfaceMap | Sum]"))]
-    fn new(parts: Vec<Shape>) -> Self {
+    fn new(parts: List<Shape>) -> Self {
         Self(parts.into_iter().map(core::Shape::from).collect())
     }
 

@@ -1,0 +1,103 @@
+"""The door of a function or a class: its parameters that are numbers take numbers.
+
+Which parameters are numbers follows from their annotations, so that a signature is the one place
+that says so. The rules for the values are those of :mod:`pyfret._util.arrays`.
+"""
+
+from __future__ import annotations
+
+import functools
+import inspect
+import math
+import re
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import numpy as np
+
+from pyfret._util.arrays import items, numbers, truths
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+__all__ = ["numbers_only"]
+
+T = TypeVar("T")
+#: Annotations of a number, of what may be one, and of an array.
+NUMBER = re.compile(r"(float|int)( \| None)?")
+PERHAPS = re.compile(r"\b(float|int|YieldStresses)\b")
+SEVERAL, TEXT = re.compile(r"Sequence\[float"), re.compile(r"\b(str|Literal)\b")
+ARRAY = re.compile(r"(ArrayLike|NDArray\[np\.float64\])( \| None)?")
+#: Annotations that have other meanings for True, or hold the numbers deeper.
+ELSE = re.compile(r"\b(bool|Callable|Mapping|dict|Any)\b")
+
+
+def numbers_only(of: T, *, but: tuple[str, ...] = ()) -> T:
+    """Refuse, by the name of the parameter, what is no number where a number is meant.
+
+    Booleans, complex numbers and missing values are refused wherever the annotation names a
+    number. `but` names parameters that have a rule of their own: masks, arrays with holes.
+    """
+    if isinstance(of, type):
+        of.__init__ = numbers_only(of.__init__, but=but)  # type: ignore[misc]
+        return of
+    call: Callable[..., Any] = of  # type: ignore[assignment]
+    signature = inspect.signature(call)
+    parameters = signature.parameters.items()
+    kinds = {n: None if n in but else kind(str(one.annotation)) for n, one in parameters}
+    defaults = {name: one.default for name, one in parameters}
+    names = list(kinds)
+
+    @functools.wraps(call)
+    def checked(*values: Any, **given: Any) -> Any:
+        for name, value in [*zip(names, values, strict=False), *given.items()]:
+            if value is not None and value is not defaults.get(name, inspect.Parameter.empty):
+                check(value, name, kinds.get(name))
+        return call(*values, **given)
+
+    return checked  # type: ignore[return-value]
+
+
+def kind(annotation: str) -> str | None:
+    """What a parameter takes: a number, an array, several numbers or other things beside one."""
+    if ELSE.search(annotation):
+        return None
+    if NUMBER.fullmatch(annotation):
+        return "number"
+    if ARRAY.fullmatch(annotation):
+        return "array"
+    if not PERHAPS.search(annotation):
+        return None
+    if TEXT.search(annotation):
+        return "number or text"
+    return "number or several" if SEVERAL.search(annotation) else "number or else"
+
+
+def check(value: Any, name: str, of: str | None) -> None:
+    """Refuse a value that is no number, or a missing one.
+
+    Raises
+    ------
+    TypeError
+        It is of another type.
+    ValueError
+        It is not a number, NaN.
+    """
+    if of is None or (hasattr(value, "magnitude") and hasattr(value, "units")):
+        return
+    if of == "array":
+        numbers(value, name)
+        return
+    if truths(value):
+        raise TypeError(f"{name} = {value!r:.60}: must be a number, which True and False are not")
+    if isinstance(value, complex | np.complexfloating) or value is np.ma.masked:
+        raise TypeError(f"{name} = {value!r:.60}: must be a real number")
+    if isinstance(value, float | np.floating) and math.isnan(value):
+        raise ValueError(f"{name} = nan: must be a number")
+    if of == "number or several" and isinstance(value, Sequence | np.ndarray):
+        found = value if isinstance(value, np.ndarray) else items(value, name)
+        numbers([one for one in found if one is not None], name)
+    if of != "number or text" and isinstance(value, str | bytes):
+        raise TypeError(f"{name} = {value!r:.60}: must be a number, not a text")
+    if of == "number" and not hasattr(value, "__float__") and not hasattr(value, "__index__"):
+        raise TypeError(f"{name} = {value!r:.60}: must be a number")

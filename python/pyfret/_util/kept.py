@@ -1,0 +1,110 @@
+"""One manner for all that is computed: a summary, a figure, a page, a file, a notebook view."""
+
+from __future__ import annotations
+
+import base64
+import io
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol
+
+from pyfret._util import files
+from pyfret._util.text import html
+
+if TYPE_CHECKING:
+    import os
+
+    import xarray as xr
+    from matplotlib.axes import Axes
+
+    class Shown(Protocol):
+        """What can be kept: it has a dataset, says what it found and draws it."""
+
+        @property
+        def dataset(self) -> xr.Dataset:
+            """Variables with units and meaning."""
+
+        def summary(self) -> str:
+            """Say what was found."""
+
+        def plot(self) -> Any:
+            """Draw what was found."""
+
+        def _title(self) -> str: ...
+
+        def _repr_html_(self) -> str: ...
+else:
+    Shown = object
+
+__all__ = ["Kept"]
+
+#: The page, with its title, the view for notebooks, the figure and the summary.
+PAGE = """<!doctype html><html lang="en"><meta charset="utf-8"><title>{title}</title>
+<style>body{{font-family:sans-serif;margin:2em}}td,th{{padding:.3em .8em;text-align:left;
+border-bottom:1px solid #ddd}}img{{max-width:100%}}pre{{overflow:auto}}</style>
+<h1>{title}</h1>{view}<p><img alt="the figure of what was found"
+src="data:image/svg+xml;base64,{figure}"></p>
+<pre>{summary}</pre></html>
+"""
+
+
+class Kept:
+    """What was computed, with a dataset, a summary and a figure.
+
+    Its class names the figure of :mod:`pyfret.plot`. The figure is found when it is drawn, by the
+    public face of the package: figures know what they draw, and not the other way round.
+    """
+
+    figure: ClassVar[str]
+
+    def plot(self, *, ax: Axes | None = None, **options: Any) -> Any:
+        """Draw it, by a figure of :mod:`pyfret.plot`; `options` are those of that figure."""
+        draw = getattr(sys.modules[__name__.partition(".")[0]].plot, type(self).figure)
+        return draw(self, ax=ax, **options)
+
+    def save(self: Shown, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
+        """Write it to a Zarr folder (``.zarr``) or a NetCDF file (``.nc``); `pyfret.open` opens it.
+
+        Parameters
+        ----------
+        path : path
+            Where to write; its ending says in which format.
+        overwrite : bool
+            Whether what pyfret saved there is replaced (default: the place must be free).
+
+        Raises
+        ------
+        FileExistsError
+            There is something at the place.
+        ValueError
+            The ending is another.
+        """
+        dataset = self.dataset.load().drop_encoding()
+        # Wear and the stores of studies say in their own way what they are.
+        if not {"wear", "kind"} & set(dataset.attrs):
+            dataset = dataset.assign_attrs(kind=type(self).__name__)
+        files.write(dataset, path, overwrite=overwrite)
+
+    def report(self: Shown, path: str | os.PathLike[str]) -> None:
+        """Write one page for a browser: the numbers, the figure and the summary in one file."""
+        drawn = io.BytesIO()
+        figure = self.plot()
+        getattr(figure, "figure", figure).savefig(drawn, format="svg", bbox_inches="tight")
+        page = PAGE.format(
+            title=html(self._title()),
+            view=self._repr_html_(),
+            figure=base64.b64encode(drawn.getvalue()).decode(),
+            summary=html(self.summary()),
+        )
+        Path(path).write_text(page, encoding="utf-8")
+
+    def _title(self: Shown) -> str:
+        return str(self.dataset.attrs.get("title") or type(self).__name__)
+
+    def _repr_html_(self: Shown) -> str:
+        """The summary, for notebooks."""
+        return f"<pre>{html(self.summary())}</pre>"
+
+    def __dir__(self: Shown) -> list[str]:
+        """The names of the class, and those of the numbers."""
+        return sorted({*object.__dir__(self), *map(str, self.dataset.variables)})

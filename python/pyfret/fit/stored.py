@@ -1,0 +1,39 @@
+"""A fit from a file."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING
+
+from pyfret._core import StoreError
+from pyfret._util.packed import unpacked
+from pyfret.fit.data import Indentation, Lives, Loops, Measured, Scar
+from pyfret.fit.outcome import Found, Known
+from pyfret.fit.posterior import Posterior
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+__all__ = ["found_of"]
+
+#: What a file may hold; nothing else is made of it.
+PARTS: dict[str, type] = {
+    of.__name__: of for of in (Found, Known, Posterior, Measured, Loops, Indentation, Scar, Lives)
+}
+
+
+def found_of(dataset: xr.Dataset) -> Found:
+    """The fit of a dataset.
+
+    Raises
+    ------
+    StoreError
+        The dataset holds no fit.
+    """
+    try:
+        made = unpacked(json.loads(dataset.attrs["found"]), dataset.load(), PARTS)
+    except (LookupError, TypeError, ValueError, AttributeError) as error:
+        raise StoreError(f"is no fit: {' '.join(str(error).split())}") from error
+    if not isinstance(made, Found):
+        raise StoreError("is no fit")
+    return made

@@ -1,0 +1,147 @@
+"""One manner for all results: summary, figure, page, file, notebook view, names."""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+
+import pyfret as fret
+from conftest import W, sphere_on_flat
+from pyfret.fit.data import Loops, Measured
+from pyfret.fit.outcome import Found, Known
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+pytestmark = [pytest.mark.solves, pytest.mark.filterwarnings("ignore::UserWarning")]
+
+
+def path() -> fret.LoadPath:
+    """A cycle of partial slip under a bulk stress in phase."""
+    start = fret.LoadPath.start().normal(W, increments=1)
+    for sign in (1.0, -1.0, 1.0):
+        start = start.force(T_x=50.0 * sign, sigma_B=4e7 * sign, increments=2)
+    return start
+
+
+def results() -> dict[str, Any]:
+    """One of every kind."""
+    scene = sphere_on_flat(n=16)
+    run = fret.solve(scene, path(), save="all", progress=False)
+    worn = fret.wear.solve(
+        scene,
+        path=path(),
+        cycles=100,
+        body2=fret.wear.Archard(1e-15),
+        first_branch=2,
+        jumps=2,
+        progress=False,
+    )
+    study = fret.study.solve(
+        scene.replace(path=path()),
+        {"mu": [0.3, 0.4]},
+        measure="p_max",
+        executor=ThreadPoolExecutor(1),
+        progress=False,
+    )
+    loops = Loops.of(
+        delta=np.array([0.0, 1e-6, 0.0, -1e-6, 0.0]), T=np.array([0.0, 5.0, 0.0, -5.0, 0.0]), W=W
+    )
+    measured = Measured(loops, loops.T, loops.delta, ("shift [um]", "force [N]"))
+    found = Found(
+        known={"friction.mu": Known(0.4, 0.38, 0.42, 0.01, 0.005, at_bound=False)},
+        offsets={"offset of the force [N]": 0.1},
+        offset_errors={"offset of the force [N]": 0.01},
+        correlation=np.ones((1, 1)),
+        residual=[np.zeros(5)],
+        computed=[loops.T],
+        sets=[measured],
+        noise=[0.0],
+        solves=3,
+        solver_known=True,
+        converged=True,
+        scene=scene.replace(path=path()),
+    )
+    return {
+        "Result": run,
+        "WearResult": worn,
+        "Study": study,
+        "Found": found,
+        "Cracks": run.crack(0.0, lengths=np.geomspace(1e-6, 1e-4, 5)),
+    }
+
+
+@pytest.fixture(scope="module")
+def every() -> dict[str, Any]:
+    """The results, computed once."""
+    return results()
+
+
+KINDS = ["Result", "WearResult", "Study", "Found", "Cracks"]
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_result_has_the_same_manner(every: dict[str, Any], kind: str, tmp_path: Path) -> None:
+    one = every[kind]
+    assert type(one).__name__ == kind
+    said = one.summary()
+    assert said
+    assert one._repr_html_()
+    drawn = one.plot()
+    assert hasattr(getattr(drawn, "figure", drawn), "savefig")
+    one.report(tmp_path / "page.html")
+    page = (tmp_path / "page.html").read_text(encoding="utf-8")
+    assert "http" not in page.replace("http://www.w3.org", "").split("<body")[0]
+    names = [str(name) for name in one.dataset.data_vars if kind not in ("Found", "Result")]
+    assert set(names) <= set(dir(one))
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("ending", ["zarr", "nc"])
+def test_what_is_saved_is_opened_as_what_it_was(
+    every: dict[str, Any], kind: str, ending: str, tmp_path: Path
+) -> None:
+    one, place = every[kind], tmp_path / f"saved.{ending}"
+    one.save(place)
+    with pytest.raises(FileExistsError, match="there already"):
+        one.save(place)
+    one.save(place, overwrite=True)
+    again = fret.open(place)
+    assert type(again) is type(one)
+    assert again.summary() == one.summary()
+    if kind != "Result":
+        assert again == one
+
+
+def test_overwriting_takes_no_other_file(every: dict[str, Any], tmp_path: Path) -> None:
+    other = tmp_path / "mine.zarr"
+    other.mkdir()
+    (other / "notes.txt").write_text("mine")
+    for one in every.values():
+        with pytest.raises(FileExistsError, match="no store or file of results"):
+            one.save(other, overwrite=True)
+    assert (other / "notes.txt").read_text() == "mine"
+
+
+def test_the_summary_has_the_bulk_stress(every: dict[str, Any]) -> None:
+    said = every["Result"].summary()
+    assert "sigma_B [MPa]" in said
+    assert " -40" in said
+
+
+def test_dir_of_a_result_has_its_numbers(every: dict[str, Any]) -> None:
+    assert {"T_x", "p_max", "contact_radius", "W"} <= set(dir(every["Result"]))
+    assert {"depth2", "volume2"} <= set(dir(every["WearResult"]))
+
+
+def test_a_saved_fit_makes_nothing_but_parts_of_a_fit(
+    every: dict[str, Any], tmp_path: Path
+) -> None:
+    dataset = every["Found"].dataset
+    text = dataset.attrs["found"].replace('"part": "Known"', '"part": "Path"')
+    dataset.assign_attrs(found=text, kind="Found").to_netcdf(tmp_path / "fit.nc")
+    with pytest.raises(fret.errors.StoreError, match=r"fit.nc: is no fit"):
+        fret.open(tmp_path / "fit.nc")
