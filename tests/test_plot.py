@@ -9,6 +9,7 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+import xarray as xr
 from PIL import Image
 
 import pyfret as fret
@@ -116,3 +117,20 @@ def test_the_figures_of_the_paper_in_one_call(coated: fret.Result, tmp_path: Pat
         with Image.open(figure) as image:
             assert min(image.size) > 500
             assert len(image.convert("L").getcolors() or []) > 20, f"{figure.name} is empty"
+
+
+def test_text_of_others_is_shown_as_it_is_in_figures_of_studies() -> None:
+    """Names of parameters and meanings of measures: no formula, no turn of the reading."""
+    values = xr.DataArray(
+        [1.0, 2.0, 3.0],
+        {"a$b\u202e": [1.0, 2.0, 3.0]},
+        ("a$b\u202e",),
+        attrs={"long_name": "x$^{y\u202e", "units": "1"},
+    )
+    study = fret.study.Study(
+        xr.Dataset({"of": values, "status": xr.ones_like(values).astype(np.int8)})
+    )
+    axes = fret.plot.study_map(study, "of")
+    assert axes.get_xlabel() == r"a\$b\u{202e}"
+    assert axes.get_ylabel() == r"x\$^{y\u{202e}"
+    axes.figure.canvas.draw()

@@ -65,6 +65,7 @@ FIGURES: dict[str, dict[str, str]] = {
         "life_over_distance": "fret.plot.life_over_distance(life.over_distance(lengths))",
         "crack_arrest": "fret.plot.crack_arrest(cracks, threshold)",
         "kitagawa": "fret.plot.kitagawa(cracks, threshold)",
+        "intensity": "fret.plot.intensity(cracks)",
         "intensity_history": "fret.plot.intensity_history(cracks, 1e-4)",
         "crack_panels": "fret.plot.crack_panels(rig, cracks, threshold)",
     },

@@ -208,7 +208,7 @@ fn told_of(event: &Event) -> String {
         EventKind::WornThrough => format!(
             "fret: after {cycles:.0} cycles coating {} of body {body} is worn through {place}; the response \
              stays that of the whole layer",
-            event.coating
+            event.coating + 1
         ),
     }
 }

@@ -157,6 +157,7 @@ class Life(Labelled):
         at_rim = [RIM] if self.worst.at == "contact" and self.range.distance is None else []
         return [*self._notes, *self.range.notes, *at_rim]
 
+    @numbers_only
     def section(self, place: float) -> Life:
         """Give the one of several sections that is nearest to a place on the axis across [m]."""
         if self.dataset.value.ndim == 2:
@@ -225,6 +226,7 @@ class Life(Labelled):
         """The highest margin of :attr:`range`."""
         return self.range.high
 
+    @numbers_only
     def range_of(
         self, layer: int, *, scatter: float | None = None, L: float | None = None
     ) -> LifeRange:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 import matplotlib.pyplot as plt
 import numpy as np
 
+from pyfret._util.text import literal
 from pyfret.plot.style import MARK, REFERENCE, STICK, styled
 
 if TYPE_CHECKING:
@@ -84,7 +85,7 @@ def comparison(of: SideBySide) -> Figure:
         draw(ax, panel)
     for ax in axes.flat[len(panels) :]:
         ax.set_axis_off()
-    axes[0, 0].set_yticks(range(len(candidates)), candidates)
+    axes[0, 0].set_yticks(range(len(candidates)), [literal(one) for one in candidates])
     return figure
 
 

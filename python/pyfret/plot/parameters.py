@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 
+from pyfret._util.text import literal
+
 __all__ = ["parameter_label"]
 
 #: The last part of a key: words, unit, and how many of its SI unit that is.
@@ -79,7 +81,7 @@ def parameter_label(key: str, *, per_metre: bool = False) -> tuple[str, float]:
     place = place_in_words(whole)
     # A name without a point is that of the user's own function, whatever its unit is.
     if last not in MEANINGS or place is None or not (whole or last == "mu"):
-        return key, 1.0
+        return literal(key), 1.0
     words, unit, size = MEANINGS[last]
     if more:
         place = ""

@@ -11,6 +11,7 @@ import numpy as np
 from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 
+from pyfret._util.text import literal
 from pyfret.plot.parameters import parameter_label
 from pyfret.plot.style import REFERENCE, axes, styled
 
@@ -137,8 +138,8 @@ PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 
 def in_figures(values: xr.DataArray) -> tuple[xr.DataArray, str]:
     """A measure in a unit that its numbers are short in, and its meaning with that unit."""
-    unit = str(values.attrs.get("units", "1"))
-    name = str(values.attrs.get("long_name", values.name))
+    unit = literal(values.attrs.get("units", "1"))
+    name = literal(values.attrs.get("long_name", values.name))
     if unit not in ("J", "Pa", "m", "N", "N/m", "J/m", "N/m per m"):
         return values, name if unit == "1" else f"{name} [{unit}]"
     largest = float(np.abs(values).max())

@@ -89,11 +89,11 @@ def wear_history(result: WearResult, *, ax: Axes | None = None) -> Axes:
         for n, layer in enumerate(coated.coatings):
             bottom += 1e6 * layer.thickness
             if bottom < 3 * depth[-1]:
-                told = f"bottom of coating {n} of body {body}"
+                told = f"bottom of coating {n + 1} of body {body}"
                 ax.axhline(bottom, color=line.get_color(), linestyle=":", linewidth=1, label=told)
     for event in result.events:
         if event["kind"] == "worn through":
-            label = f"coating {event['coating']} of body {event['body']} is worn through"
+            label = f"coating {event['coating'] + 1} of body {event['body']} is worn through"
             ax.axvline(event["cycles"], color="0.5", linestyle="--", linewidth=1, label=label)
     ax.set_xlabel("cycles")
     ax.set_ylabel("deepest worn depth [µm]")

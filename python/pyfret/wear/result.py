@@ -184,7 +184,7 @@ class WearResult(Kept, Labelled):
             cycles = with_error(event["cycles"], last["depth_error"] * event["cycles"])
             lines.append(
                 f"{event['kind']} after {cycles} cycles: body {event['body']}, coating "
-                f"{event['coating']}, at x = {1e6 * event['x']:.1f} um, "
+                f"{event['coating'] + 1}, at x = {1e6 * event['x']:.1f} um, "
                 f"y = {1e6 * event['y']:.1f} um"
             )
         says = self.table
