@@ -63,8 +63,7 @@ const MOST_OF_BRANCH: usize = 1000;
 pub fn choose_increments(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene, Error> {
     if !scene.path.is_open() {
         let known = scene.path.branches.iter().all(|b| b.path_error.is_some());
-        let coarser = matches!(scene.settings.solver.path_grid, PathGrid::Cells(_));
-        return if coarser && !known {
+        return if scene.path_grid().is_some() && !known {
             with_path_errors(scene, stop)
         } else {
             Ok(scene.clone())

@@ -45,6 +45,7 @@ pub(super) fn choose_path_grid(scene: &mut Scene, stop: &Arc<AtomicBool>) -> Res
     let given = scene.settings.solver.path_grid;
     let ratios: Vec<usize> = match given {
         PathGrid::Same => return Ok(()),
+        PathGrid::Cells(_) if scene.path_grid().is_none() => return Ok(()),
         PathGrid::Cells(cells) => vec![nx / cells],
         PathGrid::Auto => {
             scene.settings.solver.path_grid = PathGrid::Same;
@@ -105,7 +106,7 @@ pub(super) fn path_grid_errors(
     scene: &Scene,
     stop: &Arc<AtomicBool>,
 ) -> Result<Vec<PathError>, Error> {
-    let PathGrid::Cells(cells) = scene.settings.solver.path_grid else {
+    let Some(Grid { nx: cells, .. }) = scene.path_grid() else {
         return Ok(Vec::new());
     };
     let ratio = scene.grid.nx / cells;

@@ -30,7 +30,7 @@ use super::coupling::coupling;
 use super::{Increment, March, Motion, State};
 use crate::error::Error;
 use crate::plan::Plan;
-use crate::scene::{LoadPoint, PathGrid, SaveFields, Scene};
+use crate::scene::{LoadPoint, PathGrid, Scene};
 
 /// Tolerance of increments that start from a carried state, over that of the scene.
 const CARRIED_SHARE: f64 = 0.25;
@@ -49,7 +49,7 @@ impl March {
         let Some(grid) = scene.path_grid() else {
             return Ok(None);
         };
-        if scene.settings.save == SaveFields::All || scene.yields() {
+        if scene.yields() {
             return Ok(None);
         }
         let product = scene.friction.mu * coupling(scene);

@@ -6,7 +6,7 @@
 use plausible::UNITS;
 
 use super::doubts::softest;
-use super::{Grid, PathGrid, Scene};
+use super::{Grid, PathGrid, SaveFields, Scene};
 use crate::error::Error;
 use crate::hertz::hertz_ellipse;
 
@@ -75,11 +75,15 @@ impl Scene {
         Some((grid.nx, cells * self.grid.dx / grid.dx))
     }
 
-    /// The grid that the path is solved on where that is not the grid of the scene.
+    /// The grid that the path is solved on where that is not the grid of the scene: none where the
+    /// fields of every increment are kept.
     pub(crate) fn path_grid(&self) -> Option<Grid> {
         let PathGrid::Cells(cells) = self.settings.solver.path_grid else {
             return None;
         };
+        if self.settings.save == SaveFields::All {
+            return None;
+        }
         let Grid { nx, ny, dx, dy, .. } = self.grid;
         let ratio = nx / cells;
         let length = ratio as f64;

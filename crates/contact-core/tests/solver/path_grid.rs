@@ -203,6 +203,17 @@ fn a_path_grid_that_is_given_has_its_error() {
                 .any(|doubt| doubt.contains("path_grid"))
         );
     }
+    // A path grid that is not used, since all fields are kept, has no error.
+    let mut whole = coarse(64, 2.4, "16");
+    whole.settings.save = SaveFields::All;
+    let known = choose_increments(&whole, &Arc::default()).expect("the scene itself");
+    assert_eq!(known, whole);
+    assert!(
+        known
+            .doubts()
+            .iter()
+            .all(|doubt| !doubt.contains("path_grid"))
+    );
     let refused = coarse(64, 20.0, "16")
         .check_fit()
         .expect_err("too few cells");
