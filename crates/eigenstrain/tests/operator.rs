@@ -235,3 +235,133 @@ fn stress_under_a_hertz_pressure() {
         assert!(worst.iter().all(|e| *e < 4e-3), "{n}: {worst:?}");
     }
 }
+
+/// A Gaussian of e_zz and e_xz around the depth c, on the cells of a mesh.
+fn gaussian(mesh: &Mesh, c: f64) -> Vec<f64> {
+    let Cells { nx, ny, dx, dy, .. } = mesh.cells;
+    let s = c / 3.0;
+    let mut e = vec![0.0; mesh.planes() * COMPONENTS * nx * ny];
+    for plane in 0..mesh.planes() {
+        let z = mesh.depth(plane) - c;
+        for cell in 0..nx * ny {
+            let (x, y) = (centre(nx, cell / ny, dx), centre(ny, cell % ny, dy));
+            let value = 1e-3 * (-0.5 * (x * x + y * y + z * z) / (s * s)).exp();
+            for component in [2, 4] {
+                e[(plane * COMPONENTS + component) * nx * ny + cell] = value;
+            }
+        }
+    }
+    e
+}
+
+/// A component of the stress on two planes, continued to a depth.
+fn continued(
+    mesh: &Mesh,
+    stress: &[f64],
+    planes: [usize; 2],
+    component: usize,
+    z: f64,
+) -> Vec<f64> {
+    let cells = mesh.cells.len();
+    let [near, far] = planes.map(|plane| mesh.depth(plane));
+    let part = (z - near) / (far - near);
+    let of = |plane: usize| &stress[(plane * COMPONENTS + component) * cells..][..cells];
+    let pairs = of(planes[0]).iter().zip(of(planes[1]));
+    pairs
+        .map(|(near, far)| near + part * (far - near))
+        .collect()
+}
+
+#[test]
+fn tractions_of_the_surface_and_of_interfaces_fall_with_second_order() {
+    let coating = Layer {
+        E: 630e9,
+        nu: 0.25,
+        thickness: 1.0,
+    };
+    let off = [8, 16, 32].map(|elements: usize| {
+        let h = 1.0 / elements as f64;
+        let bottoms = (1..=2 * elements).map(|n| n as f64 * h).collect();
+        let mesh = Mesh::new(square(24, 0.15), vec![coating, STEEL], bottoms).expect("a mesh");
+        let e = gaussian(&mesh, 0.7);
+        let mut operator = Operator::new(mesh.clone());
+        let (stress, _) = answer(
+            &mut operator,
+            Sources {
+                eigenstrain: Some(&e),
+                tractions: None,
+            },
+        );
+        let most = stress.iter().fold(0.0_f64, |m, s| m.max(s.abs()));
+        let (mut surface, mut jump) = (0.0_f64, 0.0_f64);
+        for component in [2, 4, 5] {
+            for s in continued(&mesh, &stress, [0, 1], component, 0.0) {
+                surface = surface.max(s.abs() / most);
+            }
+            let last = 2 * elements - 1;
+            let above = continued(&mesh, &stress, [last, last - 1], component, 1.0);
+            let below = continued(&mesh, &stress, [last + 1, last + 2], component, 1.0);
+            for (above, below) in above.iter().zip(&below) {
+                jump = jump.max((above - below).abs() / most);
+            }
+        }
+        [surface, jump]
+    });
+    for kind in 0..2 {
+        let [coarse, middle, fine] = off.map(|of| of[kind]);
+        assert!(fine < 3e-3, "{off:?}");
+        assert!(coarse / middle > 3.2 && middle / fine > 3.4, "{off:?}");
+    }
+}
+
+#[test]
+fn a_wider_grid_gives_the_same_answer() {
+    for plane_strain in [false, true] {
+        let d = 0.15;
+        let cells = |n: usize| {
+            if plane_strain {
+                line(n, d)
+            } else {
+                square(n, d)
+            }
+        };
+        let coating = Layer {
+            E: 90e9,
+            nu: 0.35,
+            thickness: 0.4,
+        };
+        let answers = [24, 48].map(|n| {
+            let layers = vec![coating, STEEL];
+            let mesh = Mesh::graded(cells(n), layers, 1.8, 0.15, 1.8).expect("a mesh");
+            let e = gaussian(&mesh, 0.6);
+            let mut operator = Operator::new(mesh);
+            let sources = Sources {
+                eigenstrain: Some(&e),
+                tractions: None,
+            };
+            answer(&mut operator, sources)
+        });
+        let rows = if plane_strain { 1 } else { 24 };
+        let all = |n: usize| if plane_strain { n } else { n * n };
+        let [narrow, wide] = &answers;
+        for (narrow, wide) in [(&narrow.0, &wide.0), (&narrow.1, &wide.1)] {
+            let most = narrow.iter().fold(0.0_f64, |m, s| m.max(s.abs()));
+            let fields = narrow.len() / all(24);
+            let mut worst = 0.0_f64;
+            for (field, i, j) in (0..fields)
+                .flat_map(|f| (0..24).flat_map(move |i| (0..rows).map(move |j| (f, i, j))))
+            {
+                let (a, b) = if plane_strain {
+                    (field * 24 + i, field * 48 + i + 12)
+                } else {
+                    (
+                        field * 576 + i * 24 + j,
+                        field * 2304 + (i + 12) * 48 + j + 12,
+                    )
+                };
+                worst = worst.max((narrow[a] - wide[b]).abs() / most);
+            }
+            assert!(worst < 1e-3, "plane strain {plane_strain}: {worst:e}");
+        }
+    }
+}
