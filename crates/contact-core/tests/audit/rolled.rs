@@ -35,6 +35,7 @@ impl Audit {
             contact: marked(&f.contact),
             stick: marked(&f.stick),
             at_limit: marked(&f.at_limit),
+            yielded: f.yielded.clone(),
         };
         let of_tractions = self.response.of(&fields);
         let ny = self.scene.grid.ny;
