@@ -120,7 +120,9 @@ def test_a_line_is_the_mean_of_the_rows_beside_it(coated: fret.Result) -> None:
 
 def test_the_summary_has_a_line_per_branch(coated: fret.Result) -> None:
     title, header, *lines = coated.summary().splitlines()
-    rows = [line for line in lines if not line.startswith("cycle")]
+    doubted = [line for line in lines if line.startswith("doubted: ")]
+    assert [line.removeprefix("doubted: ") for line in doubted] == coated.doubts
+    rows = [line for line in lines if not line.startswith(("cycle", "doubted"))]
     cycles = [line for line in lines if line.startswith("cycle")]
     assert title == "E1/E2 = 2: done"
     assert "stick ratio" in header
