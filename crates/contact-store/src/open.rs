@@ -224,7 +224,9 @@ impl Open {
             })?;
         if let Some(yielded) = &fields.yielded {
             for (column, rows) in self.points.iter_mut().zip(rows_of(index, yielded)) {
-                rows.into_iter().for_each(|value| column.push(value));
+                for value in rows {
+                    column.push(value);
+                }
             }
         }
         self.count_saved(index, &point);

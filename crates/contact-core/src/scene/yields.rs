@@ -65,7 +65,7 @@ impl Scene {
         let bodies = [&self.body1, &self.body2];
         let perfect = |number: usize| {
             let body = bodies[number - 1];
-            let law = body.plastic(0).filter(|law| law.is_perfect())?;
+            let law = body.plastic(0).filter(plasticity::Plastic::is_perfect)?;
             body.coatings
                 .is_empty()
                 .then_some((law.s_y, body.substrate.nu))
