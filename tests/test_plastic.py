@@ -258,6 +258,9 @@ def test_the_verdict_of_cycles() -> None:
     assert "alternates" in str(found)
     with pytest.raises(ValueError, match=r"body2\.plastic.*verdict"):
         result.load_factors(380e6)
+    steel = fret.fatigue.Materials()["titanium_6Al4V"]
+    with pytest.raises(ValueError, match=r"smith_watson_topper.*dang_van"):
+        result.life(steel, "smith_watson_topper", y=0.0)
     with pytest.raises(ValueError, match="no closed cycle"):
         fret.solve(indentation(), progress=False).verdict()
 
