@@ -118,7 +118,8 @@ def test_a_crack_is_in_the_section_with_its_numbers(result: fret.Result) -> None
     found = crack.arrest(threshold)
     assert found.verdict == "stops"
     assert found.length is not None
-    assert f"stops at {1e6 * found.length:.3g} µm" in numbers["crack"]["says"]
+    # The length with its range.
+    assert f"stops at {1e6 * found.length:.3g} (" in numbers["crack"]["says"]
     drawn = numbers["stress"]["crack"]
     # A normal crack: straight down from its mouth to where it stops, and on from there.
     mouth = 1e6 * crack.dataset.attrs["x"]
