@@ -116,9 +116,12 @@ fn processor() -> f64 {
     (ticks(11) + ticks(12)) / 100.0
 }
 
+/// A scene by its name.
+type Named = (&'static str, fn() -> Scene);
+
 fn main() {
     let asked: Vec<String> = std::env::args().skip(1).collect();
-    let scenes: [(&str, fn() -> Scene); 3] = [
+    let scenes: [Named; 3] = [
         ("indentation", indentation),
         ("line", line),
         ("paper", paper),

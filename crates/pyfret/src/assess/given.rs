@@ -15,6 +15,15 @@ use crate::yielding::{Eigenstress, of_states};
 /// Fields of several moments.
 type Fields<'py> = List<Array<'py, Ix2>>;
 type Sticking<'py> = List<Mask<'py, Ix2>>;
+/// q_x, q_y, p, where it sticks, bulk stress, and the stress of what has yielded.
+type GivenMoments<'py> = (
+    Fields<'py>,
+    Fields<'py>,
+    Fields<'py>,
+    Sticking<'py>,
+    Vec<f64>,
+    List<Option<Py<Eigenstress>>>,
+);
 /// The moments of a cycle that an object of Python gives: fields of shape (nx, ny) of each and bulk stresses.
 pub(super) struct Given {
     /// Called with the numbers of moments, or with none for the start of the cycle.
@@ -54,14 +63,7 @@ impl Given {
         if given.is_none(py) {
             return Ok(None);
         }
-        let (q_x, q_y, p, stick, sigma_B, eigenstress): (
-            Fields<'_>,
-            Fields<'_>,
-            Fields<'_>,
-            Sticking<'_>,
-            Vec<f64>,
-            List<Option<Py<Eigenstress>>>,
-        ) = given.extract(py)?;
+        let (q_x, q_y, p, stick, sigma_B, eigenstress): GivenMoments<'_> = given.extract(py)?;
         let lengths = [q_x.len(), q_y.len(), p.len(), stick.len(), sigma_B.len()];
         let shapes = q_x
             .iter()
