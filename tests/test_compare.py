@@ -75,8 +75,7 @@ def test_numbers_are_those_of_single_runs(compared: tuple[fret.study.Comparison,
         assert float(here.first_yield) == pytest.approx(least.factor)
         ends = np.flatnonzero(np.diff(result.dataset.branch_of_increment.values, append=-1)) + 1
         most = max(
-            result.at(int(n)).stress(y=0.0, residual=of.residual).maximum("s_1").value
-            for n in ends[-2:]
+            result.at(int(n)).stress(residual=of.residual).maximum("s_1").value for n in ends[-2:]
         )
         assert float(here.tension) == pytest.approx(most)
         life = result.life(of.of_layers, "smith_watson_topper", residual=of.residual)

@@ -36,6 +36,8 @@ TURN = np.linspace(0.0, 6.0 * np.pi, 900)
 #: A value of every class that needs no run; the members of enumerations are values as well.
 VALUES: list[Any] = [
     fret.subsurface.Zone(-1e-4, 2e-4, 0),
+    fret.fatigue.Where(2, 0.0, 0.0, 1e-4, 0),
+    fret.fatigue.Verdict("shakes down", 1, (1e-6, 0.0), (1e-3, 1e-3), 0.0, 0.0, None, 1.0),
     STEEL,
     COATING,
     BODY,

@@ -9,6 +9,7 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
 use crate::arguments::Array;
+use crate::error::InvalidSceneError;
 
 /// The word for a law of which only that it exists is known.
 pub(crate) const OWN: &str = "own";
@@ -24,11 +25,16 @@ impl core::FrictionLaw for Own {
             let [x, y, p, slip, dissipated] = fields.map(|field| field.to_pyarray(py));
             let found = self.0.bind(py).call1((x, y, p, slip, dissipated))?;
             let found: Array<'_, IxDyn> = found.extract().map_err(|why: PyErr| {
+                let why = why.value(py);
+                if why.is_instance_of::<PyValueError>() {
+                    return InvalidSceneError::new_err(format!(
+                        "friction.law = {found}: must be a finite coefficient >= 0 in each cell: {why}"
+                    ));
+                }
                 PyTypeError::new_err(format!(
                     "friction law {}: gave {found}, must be an array of real numbers, a coefficient for each cell, \
-                     or one number: {}",
+                     or one number: {why}",
                     self.0,
-                    why.value(py)
                 ))
             })?;
             let found = found.as_array();
