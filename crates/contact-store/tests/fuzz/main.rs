@@ -106,6 +106,13 @@ fn folder() -> tempfile::TempDir {
     }
 }
 
+/// Each mistake of a scene file is a sentence on a line of its own.
+fn a_sentence_each(error: &contact_core::Error) {
+    let text = error.to_string();
+    let told = |line: &str| !line.trim().is_empty();
+    assert!(!text.is_empty() && text.lines().all(told), "{text:?}");
+}
+
 /// An error is one sentence.
 fn one_sentence(error: &contact_core::Error) {
     let text = error.to_string();

@@ -93,7 +93,7 @@ fn scene_files() {
     crate::fuzz("scene files", texts, |text| match take(text) {
         Ok(_) => true,
         Err(error) => {
-            crate::one_sentence(&error);
+            crate::a_sentence_each(&error);
             false
         }
     });

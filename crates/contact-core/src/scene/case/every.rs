@@ -105,10 +105,25 @@ fn mend(root: &mut Table, fault: &Fault) -> bool {
         }
         return true;
     }
-    if let Some((_, value)) = STAND_INS.iter().find(|(of, _)| of == name) {
+    if let Some(value) = stand_in(name) {
         return apply(root, &format!("{}={value}", path.join("."))).is_ok();
     }
-    table_at(root, table).is_some_and(|table| table.remove(*name).is_some())
+    let Some(rest) = table_at(root, table) else {
+        return false;
+    };
+    let found = rest.remove(*name).is_some();
+    let above = table.last().filter(|_| rest.is_empty());
+    // A table of which nothing is left is missing as a whole.
+    if let Some(value) = above.and_then(|name| stand_in(name)) {
+        return apply(root, &format!("{}={value}", table.join("."))).is_ok();
+    }
+    found
+}
+
+/// What stands for a key of this name.
+fn stand_in(name: &str) -> Option<&'static str> {
+    let found = STAND_INS.iter().find(|(of, _)| *of == name);
+    found.map(|(_, value)| *value)
 }
 
 /// The table at the end of a path.
