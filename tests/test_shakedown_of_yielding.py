@@ -33,12 +33,19 @@ def scene(lower: fret.Elastic, cycles: int, *, save: str = "branches") -> fret.S
 
 @pytest.mark.slow
 @pytest.mark.solves
-@pytest.mark.parametrize(("part", "bar"), [(1.05, 1e-3), (0.72, 2e-2)])
+@pytest.mark.parametrize(
+    ("part", "bar"),
+    [
+        (1.05, 1e-3),
+        pytest.param(0.8, 2e-2, marks=pytest.mark.xfail(reason="0.8 % of the friction work")),
+        (0.72, 2e-2),
+    ],
+)
 def test_the_bound_parts_shakedown_from_alternating_plasticity(part: float, bar: float) -> None:
-    """1.05 of the yield stress that load factors ask for shakes down, 0.72 of it alternates.
+    """1.05 of the yield stress that load factors ask for shakes down, 0.8 of it should alternate.
 
-    The bound is that of the worst point, in the surface at the rim of the contact. In between the
-    residual shape relieves the tractions: at 0.8 a cycle's plastic work is 0.8 % of friction's.
+    The bound is that of the worst point, in the surface at the rim of the contact. At 0.8 of it the
+    plastic work of a cycle is 0.8 % of the friction work, at 0.72 it is above 2 %.
     """
     elastic = fret.solve(scene(STEEL, 1, save="all"), progress=False)
     trial = 1e9
