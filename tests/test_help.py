@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import ast
 import inspect
+import pkgutil
 from collections.abc import Iterator
+from importlib import import_module
 from types import ModuleType
 from typing import Any
 
@@ -58,6 +60,23 @@ def test_every_public_name_has_its_docstring() -> None:
                     if not (doc or "").strip():
                         empty.append(f"{name}.{member}")
     assert not empty
+
+
+def test_a_name_of_a_class_has_one_meaning() -> None:
+    # A class may be a kind of its namesake, as the measure of wear is settings of wear.
+    owners: dict[str, list[type]] = {}
+    for module in pkgutil.walk_packages(fret.__path__, "pyfret."):
+        if "._" in module.name:
+            continue
+        for name in getattr(import_module(module.name), "__all__", ()):
+            thing = getattr(import_module(module.name), name)
+            if inspect.isclass(thing) and thing not in owners.setdefault(name, []):
+                owners[name].append(thing)
+    assert len(owners) > 100
+    several = {n: of for n, of in owners.items() if len(of) > 1}
+    assert all(
+        any(issubclass(a, b) for a in of for b in of if a is not b) for of in several.values()
+    ), several
 
 
 def test_the_stub_has_the_members_of_the_module() -> None:

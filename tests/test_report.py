@@ -18,7 +18,7 @@ import pyfret as fret
 from conftest import ROOT, W, sphere_on_flat
 from pyfret import verification
 from pyfret.report import content
-from pyfret.report.crack import Crack
+from pyfret.report.crack import CrackSection
 
 pytestmark = pytest.mark.solves
 
@@ -114,7 +114,7 @@ def cracked(result: fret.Result, tmp_path_factory: Any) -> Path:
 def test_a_crack_is_in_the_section_with_its_numbers(result: fret.Result) -> None:
     crack = result.crack(lengths=np.geomspace(5e-6, 4e-4, 12))
     threshold = fret.fracture.Threshold(3e6, 300e6)
-    numbers = content.figures(result, None, Crack(crack, threshold))
+    numbers = content.figures(result, None, CrackSection(crack, threshold))
     found = crack.arrest(threshold)
     assert found.verdict == "stops"
     assert found.length is not None
@@ -131,7 +131,7 @@ def test_a_crack_is_in_the_section_with_its_numbers(result: fret.Result) -> None
     np.testing.assert_allclose(numbers["crack"]["K_I"], 1e-6 * nearest.K_I, rtol=1e-3, atol=1e-9)
     diagram, truth = numbers["crack"]["kitagawa"], crack.kitagawa(threshold)
     np.testing.assert_allclose(diagram["limit"], 1e-6 * truth["limit"], rtol=1e-3)
-    alone = content.figures(result, None, Crack(crack, None))["crack"]
+    alone = content.figures(result, None, CrackSection(crack, None))["crack"]
     assert alone["kitagawa"] is None
     assert "stops" not in alone["says"]
     with pytest.raises(ValueError, match="needs a crack"):

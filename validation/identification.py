@@ -95,7 +95,7 @@ def draw(seed: int, *, pressed: bool) -> dict[str, Any]:
         data.append(indentation(true, rng))
     unknown = {key: (low / WIDER, high * WIDER) for key, (low, high) in TRUE.items()}
     started = time.perf_counter()
-    found = fret.fit.fit(scene(COARSE), data, unknown=unknown, workers=1)
+    found = fret.fit.fit(scene(COARSE), data, unknown=unknown, executor=1)
     return {
         "seed": seed,
         "true": true,

@@ -76,7 +76,6 @@ from pyfret.materials import material
 from pyfret.opening import open
 from pyfret.result import Result
 from pyfret.scene.surfaces import read_surface
-from pyfret.scene.tables import show_in_notebooks
 from pyfret.settings import Settings
 from pyfret.snapshot import Snapshot
 from pyfret.solution import march, resume, solve
@@ -136,7 +135,6 @@ __all__ = [
 ]
 __dir__ = listing(__all__)
 
-show_in_notebooks()
 offer_grids()
 
 

@@ -42,9 +42,9 @@ LEFT_OUT = {
     "fatigue.OverDistance.of": "made by `over_distance`",
 }
 #: Classes of results: pyfret makes them, nobody else.
-RESULTS = (tuple, BaseException, *(getattr(fret.study, n) for n in ("Limits", "Threshold")))
+RESULTS = (tuple, BaseException, *(getattr(fret.study, n) for n in ("Limits", "ThresholdLoad")))
 MADE = {
-    *("Posterior", "Found", "Arrest", "CrackLife", "Comparison", "Experiment", "Criterion"),
+    *("Posterior", "Found", "CrackArrest", "CrackLife", "Comparison", "Experiment", "Criterion"),
     *("Life", "LoadFactors", "OverDistance", "Preset", "Check", "Verification"),
 }
 

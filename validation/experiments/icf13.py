@@ -55,7 +55,7 @@ def page(out: Path) -> Page:
                 between=(0.05 * W, 0.79 * W),
                 tolerance=0.01,
             )
-            assert isinstance(found, fret.study.Threshold)
+            assert isinstance(found, fret.study.ThresholdLoad)
             ratios[name] = found.value / measured
             said = f"{1e-3 * found.value:.0f} +- {1e-3 * found.error:.0f}"
         cells.append(

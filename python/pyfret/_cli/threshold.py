@@ -10,7 +10,7 @@ from pyfret import fatigue
 from pyfret._cli.parser import added
 from pyfret._cli.say import say
 from pyfret.study.design import varied
-from pyfret.study.thresholds import Averaged, Threshold, threshold
+from pyfret.study.thresholds import Averaged, ThresholdLoad, threshold
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -93,7 +93,7 @@ def run(options: argparse.Namespace) -> int:
         value=options.value,
         over=over,
     )
-    if isinstance(found, Threshold):
+    if isinstance(found, ThresholdLoad):
         rows = [{"threshold": found.value, "error": found.error, "solves": found.solves}]
     else:
         name = next(iter(over or {}))

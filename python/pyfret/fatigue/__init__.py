@@ -32,7 +32,7 @@ from pyfret.fatigue.cycles import cycle_increments, history
 from pyfret.fatigue.distance import OverDistance
 from pyfret.fatigue.factors import Least, LoadFactors, load_factors
 from pyfret.fatigue.frictional_work import ruiz
-from pyfret.fatigue.lives import Errors, Life, Worst, life, lives
+from pyfret.fatigue.lives import Life, Worst, life, lives
 from pyfret.fatigue.ranges import LifeRange, Range
 from pyfret.fatigue.section import Section
 from pyfret.fatigue.verdict import Verdict, Where, verdict
@@ -42,7 +42,6 @@ __all__ = [
     "CRITERIA",
     "Assessment",
     "Criterion",
-    "Errors",
     "Least",
     "Life",
     "LifeRange",

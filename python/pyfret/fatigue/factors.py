@@ -29,8 +29,8 @@ from pyfret.fatigue.cycle_section import (
     placed,
     side_by_side,
 )
-from pyfret.fatigue.lives import Errors
 from pyfret.fatigue.section import Section, for_each_layer
+from pyfret.subsurface.tensor import Errors
 
 if TYPE_CHECKING:
     import xarray as xr

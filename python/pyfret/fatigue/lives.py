@@ -37,6 +37,7 @@ from pyfret.fatigue.fields import described, margin_name
 from pyfret.fatigue.ranges import DISTANCE, LifeRange, Range, of_error, scatter_of, told_of
 from pyfret.fatigue.section import Materials, Section, for_each_layer
 from pyfret.scene.tables import table
+from pyfret.subsurface.tensor import Errors
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -48,7 +49,7 @@ if TYPE_CHECKING:
     from pyfret.fatigue.section import SectionOptions
     from pyfret.run import Run
 
-__all__ = ["Errors", "Life", "Materials", "Worst", "life", "lives"]
+__all__ = ["Life", "Materials", "Worst", "life", "lives"]
 
 #: Part of the largest traction by which the ends of a cycle may differ before that is told.
 UNSETTLED = 0.02
@@ -57,23 +58,6 @@ RIM = (
     "the worst point is at the rim of the contact: a point value depends on the grid, use a "
     "critical distance (fatigue.average)"
 )
-
-
-class Errors(NamedTuple):
-    """What may be wrong with the value at a worst point, by its sources, in its unit."""
-
-    #: What the search along x and y leaves.
-    x: float
-    y: float
-    #: What the search over the depths leaves.
-    z: float
-    #: By how much the tractions on cells twice as large give another value.
-    tractions: float | None
-
-    @property
-    def sum(self) -> float:
-        """All together."""
-        return self.x + self.y + self.z + (self.tractions or 0.0)
 
 
 class Worst(NamedTuple):

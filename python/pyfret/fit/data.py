@@ -178,7 +178,7 @@ class Indentation(HoldsArrays):
 @numbers_only
 @dataclass(frozen=True, eq=False, repr=False)
 class Scar(HoldsArrays):
-    """A worn profile along x: depth [m] of a body, or of both together (``body=0``).
+    """A worn profile along x: depth [m] of a body, or of both together (``body_number=0``).
 
     ``wear`` holds the arguments of the run that made it, such as ``cycles`` and ``body2``.
     """
@@ -186,7 +186,7 @@ class Scar(HoldsArrays):
     x: NDArray[np.float64]
     depth: NDArray[np.float64]
     wear: Mapping[str, Any]
-    body: int = 2
+    body_number: int = 2
     noise: float | None = None
 
     @staticmethod
@@ -195,12 +195,12 @@ class Scar(HoldsArrays):
         depth: ArrayLike,
         *,
         wear: Mapping[str, Any],
-        body: int = 2,
+        body_number: int = 2,
         noise: float | None = None,
     ) -> Scar:
         """A profile of points; those with a missing value are left out."""
         place, worn = together(x=x, depth=depth, holes=True)
-        return Scar(place, worn, wear, body, noise)
+        return Scar(place, worn, wear, body_number, noise)
 
 
 @numbers_only
@@ -226,7 +226,7 @@ class Lives(HoldsArrays):
     settings: Sequence[Mapping[str, Any]]
     wear: Mapping[str, Any]
     part: float = 1.0
-    body: int = 2
+    body_number: int = 2
     noise: float | None = field(default=None)
 
 
@@ -318,7 +318,7 @@ def scar(
     path: str | os.PathLike[str],
     *,
     wear: Mapping[str, Any],
-    body: int = 2,
+    body_number: int = 2,
     x: str | None = None,
     depth: str | None = None,
     units: dict[str, str] | None = None,
@@ -335,7 +335,7 @@ def scar(
             "place and depth"
         )
     rows = np.concatenate(table.blocks)
-    return Scar.of(rows[:, place], rows[:, worn], wear=wear, body=body, noise=noise)
+    return Scar.of(rows[:, place], rows[:, worn], wear=wear, body_number=body_number, noise=noise)
 
 
 @numbers_only
@@ -345,7 +345,7 @@ def lives(
     wear: Mapping[str, Any],
     cycles: str = "cycles",
     part: float = 1.0,
-    body: int = 2,
+    body_number: int = 2,
     units: dict[str, str] | None = None,
     skip: int = 0,
     noise: float | None = None,
@@ -364,7 +364,7 @@ def lives(
         }
         for row in rows
     ]
-    return Lives(rows[:, of], settings, wear, part, body, noise)
+    return Lives(rows[:, of], settings, wear, part, body_number, noise)
 
 
 def turning(delta: NDArray[np.float64]) -> list[int]:

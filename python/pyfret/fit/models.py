@@ -197,7 +197,7 @@ def of_scar(data: Scar) -> Model:
         arguments = jumping(wear_arguments(data.wear, values), finer)
         d = growing(scene, lambda s: wear.solve(s, progress=False, **arguments)).dataset
         fields = {1: d.worn1, 2: d.worn2, 0: d.worn1 + d.worn2}
-        profile = fields[data.body][-1].sel(y=0.0, method="nearest")
+        profile = fields[data.body_number][-1].sel(y=0.0, method="nearest")
         x, depth = d.x.values, profile.values
 
         def at(offsets: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -222,7 +222,7 @@ def of_lives(data: Lives) -> Model:
             arguments = jumping(wear_arguments(data.wear, {**values, **split(settings)[1]}), finer)
             arguments.setdefault("cycles", 4 * float(data.cycles[n]))
             worn = wear.solve(varied(scene, split(settings)[0]), progress=False, **arguments)
-            cycles = worn.cycles_to(part_of_coating=data.part, body=data.body)
+            cycles = worn.cycles_to(part_of_coating=data.part, body_number=data.body_number)
             # A coating that outlives the run by far counts as one that lives four times as long.
             found.append(min(cycles, 4 * float(data.cycles[n])))
         logs = np.log(found)

@@ -7,14 +7,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-__all__ = ["Range", "ranges"]
+__all__ = ["SearchRange", "ranges"]
 
 #: Step of the differences, of ln of an unknown or of its range.
 STEP = 0.02
 
 
 @dataclass(frozen=True)
-class Range:
+class SearchRange:
     """Where an unknown is searched: u from 0 to 1 between its ends, by the logarithm if so."""
 
     key: str
@@ -49,7 +49,7 @@ class Range:
         return float(way / self.width)
 
 
-def ranges(unknown: Mapping[str, tuple[float, ...]]) -> list[Range]:
+def ranges(unknown: Mapping[str, tuple[float, ...]]) -> list[SearchRange]:
     """The ranges of the unknowns, checked."""
     if not unknown:
         raise ValueError('unknown: none, give some, such as {"mu": (0.1, 1.5)}')
@@ -62,5 +62,5 @@ def ranges(unknown: Mapping[str, tuple[float, ...]]) -> list[Range]:
             ends = (low, float(middle), high)
         if len(ends) != 3 or not ends[0] <= ends[1] <= ends[2] or not ends[0] < ends[2]:
             raise ValueError(f"unknown: {key} = {given}: must be (low, high) or (low, start, high)")
-        found.append(Range(key, *ends))
+        found.append(SearchRange(key, *ends))
     return found

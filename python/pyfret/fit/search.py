@@ -15,8 +15,9 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -27,7 +28,7 @@ from pyfret.fit.data import Data
 from pyfret.fit.models import Model, model_of, split
 from pyfret.fit.outcome import Found, Known
 from pyfret.fit.posterior import Posterior, sampled
-from pyfret.fit.ranges import Range, ranges
+from pyfret.fit.ranges import SearchRange, ranges
 from pyfret.study.design import varied
 
 if TYPE_CHECKING:
@@ -42,6 +43,8 @@ MOST = 13
 #: Half-width of a confidence, of ln of an unknown or of its range, beyond which its profile is
 #: computed, and the most that its ends are farther than those of the linear model.
 WIDE, FARTHER = 0.15, 3.0
+#: Threads that solve contacts side by side where nothing is said.
+THREADS = 2
 #: Noise of data that tell none, over their range, to weigh sets of data against one another.
 NOISE = 0.02
 
@@ -51,7 +54,7 @@ def fit(
     data: Data | Sequence[Data],
     *,
     unknown: Mapping[str, tuple[float, ...]],
-    workers: int = 2,
+    executor: int | Executor | None = None,
     posterior: int = 0,
     seed: int = 0,
 ) -> Found:
@@ -68,8 +71,9 @@ def fit(
         ``"body2.coatings.0.E"``, ``"body2.coatings.0.thickness"``, ``"body1.shape.sphere.R"``, and
         of its wear, ``"wear.body2.alpha"``, ``"wear.body2.share"``. Positive ranges are searched
         by their logarithm.
-    workers : int
-        Contacts solved side by side.
+    executor : int or Executor, optional
+        What solves contacts side by side: so many threads (default: two), or an executor of
+        ``concurrent.futures``.
     posterior : int
         Number of samples of the posterior (default: none), by ``emcee``, of a quadratic model of
         the contact around the best values; 16 more solves for three unknowns. The prior is flat
@@ -100,7 +104,7 @@ def fit(
     if not isinstance(scene, Scene):
         scene = Scene.from_file(scene)
     sets: list[Data] = list(data) if isinstance(data, Sequence) else [data]
-    search = Search(scene, [model_of(one) for one in sets], ranges(unknown), workers)
+    search = Search(scene, [model_of(one) for one in sets], ranges(unknown), executor)
     with warnings.catch_warnings():
         # Scenes on the way may be odd; that of the end is told of by who solves it.
         warnings.simplefilter("ignore")
@@ -126,8 +130,8 @@ class Search:
 
     scene: Scene
     models: list[Model]
-    ranges: list[Range]
-    workers: int
+    ranges: list[SearchRange]
+    executor: int | Executor | None
     solves: int = 0
     #: Whether cells twice as wide and half of the increments could be solved, too.
     solver_known: bool = True
@@ -165,8 +169,12 @@ class Search:
         fresh = [u for u in dict.fromkeys(points) if u not in self.known]
         if not fresh:
             return
-        with ThreadPoolExecutor(max(self.workers, 1)) as pool:
-            done = list(pool.map(lambda u: self.predictions(self.scene, u), fresh))
+        predict = partial(self.predictions, self.scene)
+        if isinstance(self.executor, Executor):
+            done = list(self.executor.map(predict, fresh))
+        else:
+            with ThreadPoolExecutor(self.executor or THREADS) as pool:
+                done = list(pool.map(predict, fresh))
         self.solves += len(fresh) * sum(model.solves for model in self.models)
         self.known |= dict(zip(fresh, done, strict=True))
 

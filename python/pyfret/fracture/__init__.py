@@ -21,18 +21,18 @@ from pyfret._core import Crack, ellipse_factor
 from pyfret._util.names import listing
 from pyfret.fracture.below import crack, grow
 from pyfret.fracture.film import channel_release, film_intensity
-from pyfret.fracture.first import PARTS, FirstToFail, first_to_fail
-from pyfret.fracture.growth import Arrest, CrackLife, Cracks, Paris, Threshold
+from pyfret.fracture.first import PARTS, FailureOrder, first_to_fail
+from pyfret.fracture.growth import CrackArrest, CrackLife, Cracks, Paris, Threshold
 from pyfret.fracture.interface import Buckling, buckling_release, edge_release, over_cycle
 
 __all__ = [
     "PARTS",
-    "Arrest",
     "Buckling",
     "Crack",
+    "CrackArrest",
     "CrackLife",
     "Cracks",
-    "FirstToFail",
+    "FailureOrder",
     "Paris",
     "Threshold",
     "buckling_release",

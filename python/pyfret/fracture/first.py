@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from pyfret.fracture.growth import Threshold
     from pyfret.run import Run
 
-__all__ = ["PARTS", "FirstToFail", "first_to_fail"]
+__all__ = ["PARTS", "FailureOrder", "first_to_fail"]
 
 Part: TypeAlias = Literal["film", "interface", "substrate"]
 #: What may fail, from the surface down.
@@ -32,7 +32,7 @@ PARTS: tuple[Part, ...] = ("film", "interface", "substrate")
 BELOW, LENGTHS = 1.5, 16
 
 
-class FirstToFail(NamedTuple):
+class FailureOrder(NamedTuple):
     """Load over what it can bear, 1 at failure; NaN where no limit was given."""
 
     #: Root of the energy that a channel crack releases over the toughness of the film.
@@ -56,7 +56,7 @@ class FirstToFail(NamedTuple):
         """The three with their errors."""
         errors = {"substrate": self.substrate_error}
         parts = (f"{of} {with_error(getattr(self, of), errors.get(of))}" for of in PARTS)
-        return f"FirstToFail({', '.join(parts)}; first: {self.first or 'none'})"
+        return f"FailureOrder({', '.join(parts)}; first: {self.first or 'none'})"
 
 
 @numbers_only
@@ -72,7 +72,7 @@ def first_to_fail(
     lengths: Sequence[float] | None = None,
     body_number: int = 2,
     cycle: int | None = -1,
-) -> FirstToFail:
+) -> FailureOrder:
     """Compare what a closed cycle does to film, interface and substrate in the plane of the shear.
 
     All three are proportional to the stress, so that without residual stress the largest goes first
@@ -153,4 +153,4 @@ def first_to_fail(
         )
         found_crack = cracks.arrest(threshold)
         substrate, error = found_crack.margin, found_crack.margin_error
-    return FirstToFail(film, interface, substrate, error)
+    return FailureOrder(film, interface, substrate, error)

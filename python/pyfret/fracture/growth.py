@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     from pyfret._core import Material
 
-__all__ = ["Arrest", "CrackLife", "Cracks", "Paris", "Threshold"]
+__all__ = ["CrackArrest", "CrackLife", "Cracks", "Paris", "Threshold"]
 
 #: What a crack does.
 Verdict: TypeAlias = Literal["dormant", "stops", "grows"]
@@ -129,7 +129,7 @@ class Paris:
 
 
 @dataclass(frozen=True)
-class Arrest:
+class CrackArrest:
     """What becomes of a crack.
 
     Parameters
@@ -286,7 +286,7 @@ class Cracks(Kept, Labelled):
     def _curve(self) -> tuple[list[float], list[float], list[float]]:
         return self.lengths.tolist(), self.K_max.tolist(), self.K_min.tolist()
 
-    def arrest(self, threshold: Threshold, *, start: float | None = None) -> Arrest:
+    def arrest(self, threshold: Threshold, *, start: float | None = None) -> CrackArrest:
         """Say whether a crack of the length `start` [m] (default: the shortest) grows and stops.
 
         With the errors of K its verdict, length and margin have theirs: the crack is followed again
@@ -303,7 +303,7 @@ class Cracks(Kept, Labelled):
 
         verdict, length, crossings, margin, at = followed(0.0)
         if "error" not in self.dataset:
-            return Arrest(verdict, length, tuple(crossings), margin, at)
+            return CrackArrest(verdict, length, tuple(crossings), margin, at)
         error = self.error
         ends = [followed(-error), followed(error)]
         off = max(abs(end[3] - margin) for end in ends)
@@ -313,7 +313,7 @@ class Cracks(Kept, Labelled):
         ]
         verdicts = tuple(dict.fromkeys([verdict, *(end[0] for end in ends)]))
         reach = (float(min(stops)), float(max(stops)))
-        return Arrest(verdict, length, tuple(crossings), margin, at, off, reach, verdicts)
+        return CrackArrest(verdict, length, tuple(crossings), margin, at, off, reach, verdicts)
 
     def life(
         self,

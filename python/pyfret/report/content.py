@@ -8,7 +8,7 @@ import numpy as np
 
 from pyfret._util.depths import stretched, thin
 from pyfret._util.numbers import in_words
-from pyfret.report.crack import Crack
+from pyfret.report.crack import CrackSection
 from pyfret.report.digits import short
 from pyfret.run.summary import directions
 from pyfret.subsurface.contact import stress_below
@@ -119,7 +119,7 @@ def loop(result: Run) -> dict[str, Any]:
     }
 
 
-def stress(result: Run, crack: Crack | None = None) -> dict[str, Any] | None:
+def stress(result: Run, crack: CrackSection | None = None) -> dict[str, Any] | None:
     """Von Mises stress on the section along the shear at the last increment, with the crack in it.
 
     Of the lower body, or of that with the crack.
@@ -193,7 +193,7 @@ def closed(corners: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def figures(
-    result: Run, worn: WearResult | None = None, crack: Crack | None = None
+    result: Run, worn: WearResult | None = None, crack: CrackSection | None = None
 ) -> dict[str, Any]:
     """All numbers of the figures of a page."""
     return {

@@ -15,16 +15,16 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from pyfret.fracture.growth import Arrest, Cracks, Threshold
+    from pyfret.fracture.growth import CrackArrest, Cracks, Threshold
 
-__all__ = ["Crack"]
+__all__ = ["CrackSection"]
 
 MICRO, MEGA = 1e6, 1e-6
 #: What became of a crack, in words.
 
 
 @dataclass(frozen=True)
-class Crack:
+class CrackSection:
     """Cracks of several lengths, and the threshold below which they stop, if it is known."""
 
     cracks: Cracks
@@ -35,7 +35,7 @@ class Crack:
         """Where the crack is."""
         return self.cracks.dataset.attrs
 
-    def found(self) -> Arrest | None:
+    def found(self) -> CrackArrest | None:
         """Whether it stops."""
         return None if self.threshold is None else self.cracks.arrest(self.threshold)
 

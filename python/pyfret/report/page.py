@@ -15,7 +15,7 @@ from pyfret._util.files import beside
 from pyfret._util.text import html
 from pyfret.citation import sources
 from pyfret.report.content import figures as numbers
-from pyfret.report.crack import Crack
+from pyfret.report.crack import CrackSection
 from pyfret.run.summary import directions
 from pyfret.run.tables import cycles_table, ends_table
 from pyfret.scene.tables import scene_html, table
@@ -80,7 +80,7 @@ def report(
         raise ValueError(f"{place}: must end in .html")
     if threshold is not None and crack is None:
         raise ValueError("threshold: needs a crack, such as crack=result.crack()")
-    cracked = None if crack is None else Crack(crack, threshold)
+    cracked = None if crack is None else CrackSection(crack, threshold)
     page = Template((HERE / "page.html").read_text(encoding="utf-8")).substitute(
         title=html(str(result.dataset.attrs["title"]) or "Fretting contact"),
         version=html(str(result.dataset.attrs.get("version", __version__))),

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from pyfret._core import Body, Branch, Grid
 
-__all__ = ["number", "path_html", "scene_html", "show_in_notebooks", "table"]
+__all__ = ["number", "path_html", "scene_html", "table"]
 
 #: Loads and motions of a branch: what they are called, and their units; those whose unit is empty
 #: are lengths.
@@ -132,9 +132,3 @@ def path_html(path: LoadPath, grid: Grid | None = None) -> str:
         for n, branch in enumerate(path.branches)
     ]
     return table(["branch", "t", "leads to", "increments"], rows, words=True)
-
-
-def show_in_notebooks() -> None:
-    """Let scenes and load paths be shown as tables."""
-    for kind, table_of in ((Scene, scene_html), (LoadPath, path_html)):
-        setattr(kind, "_repr_html_", table_of)  # noqa: B010

@@ -17,7 +17,7 @@ from pyfret.study.loads import arrest_map, running_conditions
 from pyfret.study.loop import solve
 from pyfret.study.measures import MEASURES, Arrest, Cracking, FirstToFail, Wear
 from pyfret.study.outcome import Study, open
-from pyfret.study.thresholds import Averaged, Limits, Threshold, fit_limits, threshold
+from pyfret.study.thresholds import Averaged, Limits, ThresholdLoad, fit_limits, threshold
 
 __all__ = [
     "MEASURES",
@@ -29,7 +29,7 @@ __all__ = [
     "FirstToFail",
     "Limits",
     "Study",
-    "Threshold",
+    "ThresholdLoad",
     "Wear",
     "arrest_map",
     "compare",

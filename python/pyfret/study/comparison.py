@@ -28,13 +28,13 @@ if TYPE_CHECKING:
     from pyfret.plot.comparison import Panel
     from pyfret.study.outcome import Study
 
-__all__ = ["Comparison", "Verdict"]
+__all__ = ["Comparison", "Preference"]
 
 #: Digits of a number without an error.
 DIGITS = 4
 
 
-class Verdict(NamedTuple):
+class Preference(NamedTuple):
     """Which of the candidates a number speaks for."""
 
     #: Those that no other one is better than, beyond the errors.
@@ -133,7 +133,7 @@ class Comparison(Labelled):
         """Names of the numbers that at least one candidate has."""
         return [name for name in NUMBERS if name in self.dataset]
 
-    def verdict(self, of: str) -> Verdict:
+    def verdict(self, of: str) -> Preference:
         """Give who is best in a number, and who is worse beyond the errors.
 
         A candidate is worse where its range does not overlap with that of the best one.
@@ -155,7 +155,7 @@ class Comparison(Labelled):
         values = {name: sign * float(d[of].sel(candidate=name)) for name in known}
         least = known[max(values, key=lambda name: values[name])][0]
         best = [name for name, (_, most) in known.items() if most >= least]
-        return Verdict(best, [name for name in known if name not in best])
+        return Preference(best, [name for name in known if name not in best])
 
     def rows(self) -> list[list[str]]:
         """The table as text: a head, then a line for every number."""

@@ -141,7 +141,7 @@ class Wear(wear.Wear):
         numbers["depth_error"] = worn["depth_error"][-1]
         for body in (1, 2):
             if (result.scene.body1 if body == 1 else result.scene.body2).coatings:
-                life = run.cycles_to(part_of_coating=self.part, body=body)
+                life = run.cycles_to(part_of_coating=self.part, body_number=body)
                 attrs = {"units": "cycles", "long_name": f"life of the coating of body {body}"}
                 found = life if math.isfinite(life) else math.nan
                 numbers[f"coating_life{body}"] = xr.DataArray(found, attrs=attrs)

@@ -232,7 +232,7 @@ def wear(result: Result, candidate: Candidate, duty: Duty) -> Found:
     depth = float(run.dataset[f"depth{duty.body_number}"][-1])
     numbers = {"worn_depth": Answer.within(depth, part * depth)}
     if candidate.layers > 1:
-        cycles = run.cycles_to(part_of_coating=1.0, body=duty.body_number)
+        cycles = run.cycles_to(part_of_coating=1.0, body_number=duty.body_number)
         numbers["wear_through"] = Answer(cycles, cycles / (1.0 + part), cycles * (1.0 + part))
         if float(run.cycles[-1]) < duty.cycles:
             # The run ends where the coating does.

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from pyfret.fatigue.averages import Averaging
     from pyfret.fatigue.criteria import CriterionName
 
-__all__ = ["Averaged", "Limits", "Threshold", "fit_limits", "threshold"]
+__all__ = ["Averaged", "Limits", "ThresholdLoad", "fit_limits", "threshold"]
 
 #: A scene, its file, or a function that makes one of the value of the parameters.
 Source: TypeAlias = "Scene | str | os.PathLike[str] | Callable[[dict[str, Any]], Scene]"
@@ -81,7 +81,7 @@ class Averaged:
 
 
 @dataclass(frozen=True)
-class Threshold:
+class ThresholdLoad:
     """A load at which a measure reaches its value.
 
     Attributes
@@ -117,7 +117,7 @@ def threshold(
     over: Mapping[str, Sequence[float]] | None = None,
     tolerance: float = 5e-3,
     error: bool = True,
-) -> Threshold | xr.Dataset:
+) -> ThresholdLoad | xr.Dataset:
     """Find the load at which a measure reaches a value.
 
     Parameters
@@ -144,7 +144,7 @@ def threshold(
 
     Returns
     -------
-    Threshold, or Dataset over the other parameters
+    ThresholdLoad, or Dataset over the other parameters
         ``threshold``, its ``error`` and the number of ``solves``.
 
     Raises
@@ -191,7 +191,7 @@ def one(
     tolerance: float,
     *,
     error: bool,
-) -> Threshold:
+) -> ThresholdLoad:
     """One threshold."""
     low, high = (float(v) for v in between)
     if not 0 < low < high:
@@ -238,7 +238,7 @@ def one(
         of_grid = abs(margin(math.exp(root), 2) - at(root)) / max(abs(slope), 1e-3) * math.exp(root)
         solves += 1
     path = tuple((load, value * math.exp(m)) for load, m in tried.items())
-    return Threshold(math.exp(root), bracket + of_grid, solves, path)
+    return ThresholdLoad(math.exp(root), bracket + of_grid, solves, path)
 
 
 def steepness(points: list[tuple[float, float]], root: float) -> float:

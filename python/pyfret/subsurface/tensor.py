@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -26,7 +27,7 @@ COMPONENTS = ("s_xx", "s_yy", "s_zz", "s_xy", "s_xz", "s_yz")
 
 
 class Errors(NamedTuple):
-    """What may be wrong with a largest value, by its sources, in the unit of the value."""
+    """What may be wrong with the value at a worst point by its sources, in its unit."""
 
     #: What the search along x leaves.
     x: float
@@ -39,7 +40,12 @@ class Errors(NamedTuple):
     tractions: float
     #: The error of the stress that the errors of the tractions cause; None without error bars
     #: (``solve(..., error=True)``).
-    solution: float | None
+    solution: float | None = None
+
+    @property
+    def sum(self) -> float:
+        """All together: of a number that is no linear function of the stress."""
+        return sum(error for error in self if error is not None and not math.isnan(error))
 
 
 class Extreme(NamedTuple):

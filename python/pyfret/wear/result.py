@@ -64,7 +64,7 @@ class WearResult(Kept, Labelled):
         depth: float | None = None,
         part_of_coating: float | None = None,
         volume: float | None = None,
-        body: int = 2,
+        body_number: int = 2,
         coating: int = 0,
     ) -> float:
         """Cycles after which a body has worn so far; infinite if the run does not get there.
@@ -80,7 +80,7 @@ class WearResult(Kept, Labelled):
             The deepest depth, as a part of a coating's thickness: 1 is worn through.
         volume : float
             Volume lost [m^3].
-        body : 1 or 2
+        body_number : 1 or 2
             The body.
         coating : int
             The coating, 0 the outermost; those above it are worn through before.
@@ -93,16 +93,18 @@ class WearResult(Kept, Labelled):
         given = {"depth": depth, "part_of_coating": part_of_coating, "volume": volume}
         if sum(value is not None for value in given.values()) != 1:
             raise ValueError(f"{', '.join(given)}: give one of them")
-        if body not in (1, 2):
-            raise ValueError(f"body = {body}: must be 1 or 2")
+        if body_number not in (1, 2):
+            raise ValueError(f"body_number = {body_number}: must be 1 or 2")
         if part_of_coating is not None:
-            coatings = (self.scene.body1 if body == 1 else self.scene.body2).coatings
+            coatings = (self.scene.body1 if body_number == 1 else self.scene.body2).coatings
             if not 0 <= coating < len(coatings):
-                raise ValueError(f"coating = {coating}: body {body} has {len(coatings)} coatings")
+                raise ValueError(
+                    f"coating = {coating}: body {body_number} has {len(coatings)} coatings"
+                )
             above = sum(layer.thickness for layer in coatings[:coating])
             depth = above + part_of_coating * coatings[coating].thickness
         name, target = ("volume", volume) if depth is None else ("depth", depth)
-        return reached(self.dataset, f"{name}{body}", float(target or 0.0))
+        return reached(self.dataset, f"{name}{body_number}", float(target or 0.0))
 
     @numbers_only
     def range_of_cycles(self, *, scatter: float = SCATTER, **to: Any) -> Range:

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from pyfret._core import Scene
     from pyfret.result import Result
 
-__all__ = ["FEWER", "Answer", "answer"]
+__all__ = ["FEWER", "PageAnswer", "answer"]
 
 #: A preview has the increments of the neighbouring scene over this, a least number in a branch.
 FEWER, LEAST = 3, 4
@@ -28,7 +28,7 @@ ZONES = [[0.0, "#ffffff"], [0.5, "#F2C9A9"], [1.0, "#0072B2"]]
 
 
 @dataclass(frozen=True)
-class Answer:
+class PageAnswer:
     """What a contact came to."""
 
     #: Numbers as the page shows them, by their names.
@@ -43,7 +43,7 @@ class Answer:
     figure: Any
 
 
-def answer(scene: Scene, counts: list[int] | None = None) -> Answer:
+def answer(scene: Scene, counts: list[int] | None = None) -> PageAnswer:
     """Solve a scene and draw it.
 
     Parameters
@@ -86,7 +86,7 @@ def answer(scene: Scene, counts: list[int] | None = None) -> Answer:
     }
     found = np.bincount(result.dataset.branch_of_increment.values)
     taken = [int(n) for n in found if n]
-    return Answer(
+    return PageAnswer(
         numbers,
         most.value,
         doubts[0] if doubts else "",

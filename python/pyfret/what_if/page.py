@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from pyfret._util.extras import needed
 from pyfret.solution import read
-from pyfret.what_if.answer import FEWER, Answer, answer
+from pyfret.what_if.answer import FEWER, PageAnswer, answer
 from pyfret.what_if.controls import changed, controls
 
 if TYPE_CHECKING:
@@ -207,7 +207,7 @@ def answers(app: Any, scene: Scene, dash: Any) -> None:
         values = {of.name: 10.0**place for of, place in zip(shown, places, strict=True)}
         return changed(scene, values, n=cells)
 
-    def panel(found: Answer, state: str) -> list[Any]:
+    def panel(found: PageAnswer, state: str) -> list[Any]:
         html = dash.html
         rows = [html.Tr([html.Td(f"{k}: "), html.Td(v)]) for k, v in found.numbers.items()]
         rows.append(html.Tr([], **{"data-largest": repr(found.largest)}, id="largest"))

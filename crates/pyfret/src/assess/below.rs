@@ -62,7 +62,8 @@ pub(super) fn place<'py, F>(
         found.set_item(name, value)?;
     }
     found.set_item("layer", depth.layer)?;
-    found.set_item("errors", (error.x, error.y, error.z, error.tractions))?;
+    let tractions = error.tractions.unwrap_or(f64::NAN);
+    found.set_item("errors", (error.x, error.y, error.z, tractions))?;
     found.set_item(
         "at",
         worst.extreme.at.map(|zone| match zone {

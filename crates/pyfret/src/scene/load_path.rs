@@ -436,6 +436,11 @@ impl LoadPath {
         true
     }
 
+    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        let tables = slf.py().import("pyfret.scene.tables")?;
+        tables.call_method1("path_html", (slf,))
+    }
+
     pub(crate) fn __repr__(&self) -> String {
         let branches = &self.0.branches;
         let given: usize = branches.iter().filter_map(|b| b.increments).sum();

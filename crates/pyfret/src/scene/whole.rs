@@ -291,6 +291,11 @@ impl Scene {
         self.0.hertz().map(Hertz)
     }
 
+    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        let tables = slf.py().import("pyfret.scene.tables")?;
+        tables.call_method1("scene_html", (slf,))
+    }
+
     fn __repr__(&self) -> String {
         format!(
             "Scene(title={:?}, body1={}, body2={}, mu={}, grid={}, path={})",
