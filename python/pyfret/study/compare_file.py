@@ -2,27 +2,20 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Mapping
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pyfret._core import Scene
-from pyfret._util.text import read_text
 from pyfret.fatigue.criteria import Materials
 from pyfret.fracture import Threshold
 from pyfret.heat import Conductor
 from pyfret.study.candidate import Candidate
 from pyfret.study.compare import compare
 from pyfret.study.design import toml
-from pyfret.study.file import known
+from pyfret.study.keys import known, place_of, read
 from pyfret.wear import Archard, DissipatedEnergy
-
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
 
 if TYPE_CHECKING:
     from pyfret.study.comparison import Comparison
@@ -65,15 +58,7 @@ def run_file(
         The file is no comparison; the message names the key and what is allowed.
     """
     file = Path(path)
-    try:
-        says = tomllib.loads(read_text(file))
-    except tomllib.TOMLDecodeError as error:
-        raise ValueError(f"{file}: {error}") from error
-    for key in says:
-        known(key, KEYS, str(file))
-    for key in ("scene", "candidates"):
-        if key not in says:
-            raise ValueError(f"{file}: the key `{key}` is missing")
+    says = read(file, KEYS, ("scene", "candidates"))
     table = says["candidates"]
     if not (isinstance(table, dict) and table and all(isinstance(v, dict) for v in table.values())):
         raise ValueError(f"{file}: `candidates`: must be tables, such as [candidates.TiN]")
@@ -84,11 +69,11 @@ def run_file(
         for name, of in table.items()
     }
     others = {
-        f"other_{name}": read(says[f"other_{name}"], f"{file}: other_{name}", materials)
-        for name, read in (("wear", wear_of), ("conductor", conductor_of))
+        f"other_{name}": made(says[f"other_{name}"], f"{file}: other_{name}", materials)
+        for name, made in (("wear", wear_of), ("conductor", conductor_of))
         if f"other_{name}" in says
     }
-    place = Path(out) if out is not None else file.parent / says.get("out", f"{file.stem}.zarr")
+    place = place_of(file, says, out)
     given = {key: says[key] for key in GIVEN if key in says}
     found = compare(
         bodies, Scene.from_file(scene), executor=executor, out=place, again=again, **given, **others

@@ -2,21 +2,14 @@
 
 from __future__ import annotations
 
-import difflib
-import sys
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pyfret._util.text import read_text
+from pyfret.study.keys import known, place_of, read
 from pyfret.study.loop import DEFAULT, solve
-
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
 
 if TYPE_CHECKING:
     from pyfret.study.outcome import Study
@@ -55,23 +48,10 @@ def run_file(
         The file is no study; the message names the key and what is allowed.
     """
     file = Path(path)
-    try:
-        says = tomllib.loads(read_text(file))
-    except tomllib.TOMLDecodeError as error:
-        raise ValueError(f"{file}: {error}") from error
-    for key in says:
-        known(key, KEYS, str(file))
-    for key in ("scene", "parameters"):
-        if key not in says:
-            raise ValueError(f"{file}: the key `{key}` is missing")
-    for key in ("scene", "out"):
-        if not isinstance(says.get(key, ""), str):
-            raise ValueError(
-                f"{file}: `{key}` = {says[key]!r}: must be the name of a file in quotes"
-            )
+    says = read(file, KEYS, ("scene", "parameters"))
     if not isinstance(says["parameters"], dict):
         raise ValueError(f"{file}: `parameters`: must be a table of keys and values")
-    place = Path(out) if out is not None else file.parent / says.get("out", f"{file.stem}.zarr")
+    place = place_of(file, says, out)
     parameters = {k: values(v, f"{file}: parameters.{k}") for k, v in says["parameters"].items()}
     found = solve(
         file.parent / says["scene"],
@@ -84,13 +64,6 @@ def run_file(
         again=again,
     )
     return found, place
-
-
-def known(key: str, keys: tuple[str, ...], where: str) -> None:
-    """Refuse an unknown key and name the nearest one."""
-    if key not in keys:
-        nearest = difflib.get_close_matches(key, keys, n=1, cutoff=0.0)[0]
-        raise ValueError(f"{where}: unknown key `{key}`: the nearest valid key is `{nearest}`")
 
 
 def values(given: Any, where: str) -> list[Any]:
