@@ -73,6 +73,11 @@ def test_rows_are_what_python_finds(store: Path, tmp_path: Path) -> None:
         assert abs(row["inclination"]) <= 90.0
         assert row["error"] >= row["error_z"] >= 0.0
         assert row["x"] == 1e-4
+        told = found.range_of(row["layer"])
+        assert [row[key] for key in ("low", "best", "high", "L")] == pytest.approx(
+            [told.low, told.best, told.high, told.L], rel=1e-9
+        )
+        assert row["notes"][: len(told.notes)] == list(told.notes)
     assert [row["decides"] for row in rows].count(True) == 1
     table = np.genfromtxt(fields, delimiter=",", skip_header=1)
     np.testing.assert_allclose(table[:, 4], found.dataset.value.values.ravel(), rtol=1e-12)

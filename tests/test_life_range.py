@@ -10,7 +10,7 @@ import pytest
 
 import pyfret as fret
 from pyfret import experiments, fatigue
-from pyfret.fatigue.ranges import DISTANCE, LIFE, LifeRange, Range, known_as
+from pyfret.fatigue.ranges import known_as
 
 R, W, MU = 76e-3, 300e3, 0.55
 ALLOYS = (
@@ -48,7 +48,7 @@ def life() -> fatigue.Life:
 def test_a_life_has_low_best_and_high(life: fatigue.Life) -> None:
     assert life.low < life.best < life.high
     assert life.range.factor < 10.0
-    assert life.range.material == LIFE["known"]
+    assert life.range.material == 3.0
     assert f"{life.best:.2g} ({life.low:.2g} to {life.high:.2g})" in repr(life)
     # Twice as much scatter, a wider range; none leaves stress and distance.
     layer = life.worst.layer
@@ -57,17 +57,6 @@ def test_a_life_has_low_best_and_high(life: fatigue.Life) -> None:
     assert widths[0] > 1.0
     with pytest.raises(ValueError, match="scatter"):
         life.range_of(layer, scatter=0.5)
-
-
-def test_parts_add_as_squares_of_logarithms() -> None:
-    stress, distance = Range(5e4, 1e5, 2e5), Range(8e4, 1e5, 1.25e5)
-    found = LifeRange.of(stress, (4.0, ""), distance, 1e-5, [])
-    down = math.sqrt(math.log(2.0) ** 2 + math.log(2.0) ** 2 + math.log(1.25) ** 2)
-    assert found.low == pytest.approx(1e5 * math.exp(-down))
-    assert found.high == pytest.approx(1e5 * math.exp(down))
-    endless = LifeRange.of(Range(1e7, math.inf, math.inf), (4.0, ""), None, None, [])
-    assert endless.low == pytest.approx(5e6)
-    assert endless.high == math.inf
 
 
 def test_the_best_is_that_of_the_mean_over_the_critical_distance(life: fatigue.Life) -> None:
@@ -147,9 +136,17 @@ def test_estimates_follow_their_rules() -> None:
         fatigue.Material("ours", numbers).estimated("copper")
 
 
-def test_estimates_widen_the_range(life: fatigue.Life) -> None:
-    assert DISTANCE["estimate"] > DISTANCE["known"]
-    assert LIFE["estimate"] > LIFE["known"]
+def test_estimates_widen_the_range() -> None:
+    numbers = [("s_D", 4e8, "tests"), ("t_D", 2.5e8, "tests")]
+    tests = fatigue.Material("ours", numbers)
+    rule = fatigue.Material("ours", [(n, v, f"estimate: {s}") for n, v, s in numbers])
+    factors = []
+    for material in (tests, rule):
+        of = material.assessment("crossland")
+        _, (low, _, high), _, notes = of.range_at(2e8, 0.0, material)
+        factors.append(high / low)
+        assert bool(notes) == (material is rule)
+    assert factors == pytest.approx([1.2, 1.5])
 
 
 @pytest.mark.parametrize(("coating", "failed"), [("TiC", 0.8), ("TiN", 0.7)])

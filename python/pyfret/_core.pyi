@@ -60,6 +60,19 @@ class Assessment:
     @property
     def limit(self, /) -> float | None:
         """The limit, or nothing where the criterion gives lives."""
+    def range_at(
+        self,
+        /,
+        value: float,
+        error: float,
+        material: Material | None = None,
+        *,
+        scatter: float | None = None,
+    ) -> tuple[tuple[float, float, float], tuple[float, float, float], float, list[str]]:
+        """
+        Low, best and high margin of a value with an error, and their range by the scatter of a
+        material, 10 to 90 %; `scatter` takes the place of its default.
+        """
     def safety_factor(self, /, value: float) -> float:
         """Factor by which the history may grow until the limit, for values of the criterion."""
 
@@ -684,6 +697,8 @@ class CriterionBelow:
         """Depths [m] and their layers."""
     def fields(self, /) -> dict[str, NDArray[np.float64]]:
         """Arrays over (depth, place), NaN where not judged."""
+    def largest_mean(self, /, L: float, method: str, layer: int) -> float | None:
+        """The largest mean over a distance L [m] in a layer; None if it fits nowhere on the grid."""
     @property
     def notes(self, /) -> list[str]:
         """What a reader should know of the materials."""
@@ -1785,6 +1800,14 @@ class Material:
         """Other names that it is found by."""
     def assessment(self, /, criterion: str) -> Assessment:
         """The criterion of that name with the limit or life curve of the material."""
+    def critical_distance(self, /) -> float:
+        """
+        Critical distance L = (dK_th/(2 s_D))^2/pi [m].
+
+        ``dK_th`` is the threshold range of the stress intensity and 2 ``s_D`` the range of the
+        fatigue limit, both fully reversed: D. Taylor, The Theory of Critical Distances, Elsevier
+        (2007). A ValueError says which of the two is missing.
+        """
     def doubts(self, /) -> list[str]:
         """Numbers that look like those of another unit, in words."""
     def estimated(self, /, family: str) -> Material:
@@ -2873,6 +2896,9 @@ def influence_coefficients(
         the offset (0, 0) is in the middle.
     """
 
+def known_as(source: str) -> Literal["known", "estimate", "recalled"]:
+    """How a number of a material is known, by its source: "known", "estimate" or "recalled"."""
+
 def labels() -> dict[str, tuple[str, str]]:
     """Units and meaning of every variable of a result, scalars and fields."""
 
@@ -2936,6 +2962,42 @@ def principal(stress: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float6
 
 def probe_labels() -> dict[str, tuple[str, str]]:
     """Units and meaning of everything that follows from the stress."""
+
+def range_of_life(
+    sections: Sequence[CriterionBelow],
+    layer: int,
+    material: Material | None,
+    worst: tuple[float, float],
+    *,
+    method: str,
+    scatter: float | None = None,
+    L: float | None = None,
+) -> tuple[
+    tuple[float, float, float],
+    tuple[float, float, float],
+    float,
+    tuple[float, float, float] | None,
+    float | None,
+    list[str],
+]:
+    """
+    The range of the margin of a layer.
+
+    Parameters
+    ----------
+    sections : list of CriterionBelow
+        The sections that the layer was judged in.
+    worst : (float, float)
+        Value of the criterion at the worst point, and its error.
+    scatter, L : float, optional
+        In place of the scatter of the material and of its critical distance [m].
+
+    Returns
+    -------
+    tuple[Any, ...]
+        Low, best, high; the same of the stress alone; highest over lowest by the scatter of the
+        material; the range of the distance, None at a point; L [m]; notes.
+    """
 
 def read_bytes(path: str | PathLike[str]) -> bytes:
     """
@@ -3240,6 +3302,7 @@ __all__ = [
     "hertz",
     "hertz_ellipse",
     "influence_coefficients",
+    "known_as",
     "labels",
     "largest_of_samples",
     "line_contact",
@@ -3253,6 +3316,7 @@ __all__ = [
     "partial_crack",
     "principal",
     "probe_labels",
+    "range_of_life",
     "read_bytes",
     "read_text",
     "residual_of_layers",

@@ -6,7 +6,8 @@
 //! few depths at a time, so that memory is bounded for any number of increments ([`OverCycle`](contact_subsurface::OverCycle)
 //! gives them, from a store or from arrays); [`worst`] finds the worst point of a layer, between
 //! the samples and on the rim of the contact, by judging the stress there; [`average`] judges means
-//! over a critical distance of the material. [`crack`] gives the stress intensity of a crack under
+//! over a critical distance of the material, and [`range_of_life`] gives the low, best and high
+//! margin. [`crack`] gives the stress intensity of a crack under
 //! the stress below a contact.
 
 #![forbid(unsafe_code)]
@@ -17,6 +18,7 @@ mod by_yield;
 mod climb;
 pub mod crack;
 mod judged;
+mod range;
 mod site;
 mod worst;
 
@@ -24,5 +26,6 @@ pub use average::{Averaging, Distance, average};
 pub use by_criterion::{ByCriterion, inclination, materials_of_layers, of_criteria};
 pub use by_yield::ByYield;
 pub use judged::{Judge, Judged, judge};
+pub use range::{LargestMean, RangeOfLife, RangeOptions, largest_mean, range_of_life};
 pub use site::Site;
 pub use worst::{Worst, worst};

@@ -13,6 +13,11 @@ pub fn short(x: f64) -> String {
     digits(x, DIGITS)
 }
 
+/// A number with two digits, which is known to no more.
+pub fn rough(x: f64) -> String {
+    digits(x, OF_ERRORS)
+}
+
 /// A number and its error, with the decimals of the first two digits of the error. Without an error
 /// (`None`, NaN or infinite) two digits and the word "estimate"; without a number "not known". An
 /// error of 0 gives the number alone.

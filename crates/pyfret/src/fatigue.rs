@@ -204,6 +204,29 @@ impl Assessment {
         }
     }
 
+    /// Low, best and high margin of a value with an error, and their range by the scatter of a
+    /// material, 10 to 90 %; `scatter` takes the place of its default.
+    #[pyo3(signature = (value: "float", error: "float", material = None, *, scatter: "float | None" = None) -> "tuple[tuple[float, float, float], tuple[float, float, float], float, list[str]]")]
+    #[expect(clippy::type_complexity, reason = "the parts of a range")]
+    fn range_at(
+        &self,
+        #[pyo3(from_py_with = number)] value: f64,
+        #[pyo3(from_py_with = number)] error: f64,
+        material: Option<Material>,
+        #[pyo3(from_py_with = number)] scatter: Option<f64>,
+    ) -> PyResult<((f64, f64, f64), (f64, f64, f64), f64, Vec<String>)> {
+        let material = material.as_ref().map(|material| &material.0);
+        let (factor, note) = self.0.scatter(material, scatter).map_err(refused)?;
+        let found = core::LifeRange::of(self.0.margins(value, error), factor, None);
+        let three = |of: core::Range| (of.low, of.best, of.high);
+        Ok((
+            three(found.stress),
+            three(found.range),
+            factor,
+            note.into_iter().collect(),
+        ))
+    }
+
     /// Factor by which the history may grow until the limit, for values of the criterion.
     #[pyo3(signature = (value: "float"))]
     fn safety_factor(&self, #[pyo3(from_py_with = number)] value: f64) -> f64 {
@@ -283,6 +306,15 @@ impl Material {
         self.0.also.clone()
     }
 
+    /// Critical distance L = (dK_th/(2 s_D))^2/pi [m].
+    ///
+    /// ``dK_th`` is the threshold range of the stress intensity and 2 ``s_D`` the range of the
+    /// fatigue limit, both fully reversed: D. Taylor, The Theory of Critical Distances, Elsevier
+    /// (2007). A ValueError says which of the two is missing.
+    fn critical_distance(&self) -> PyResult<f64> {
+        self.0.critical_distance().map_err(refused)
+    }
+
     /// The material with the numbers that it lacks, as far as published rules give them.
     fn estimated(&self, family: &str) -> PyResult<Self> {
         let family = core::Family::named(family).map_err(refused)?;
@@ -348,6 +380,13 @@ pub(crate) fn materials(file: Option<PathBuf>) -> PyResult<Vec<Material>> {
         }
     };
     Ok(found.into_values().map(Material).collect())
+}
+
+/// How a number of a material is known, by its source: "known", "estimate" or "recalled".
+#[pyfunction]
+#[pyo3(signature = (source) -> "Literal['known', 'estimate', 'recalled']")]
+pub(crate) fn known_as(source: &str) -> &'static str {
+    core::Known::of(source).name()
 }
 
 /// Names of the criteria, and how they are written in figures.

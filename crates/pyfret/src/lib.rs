@@ -52,7 +52,7 @@ mod _core {
     use pyo3::prelude::*;
 
     #[pymodule_export]
-    use crate::assess::{CriterionBelow, CycleSection, YieldBelow, cycle_sections};
+    use crate::assess::{CriterionBelow, CycleSection, YieldBelow, cycle_sections, range_of_life};
     #[pymodule_export]
     use crate::command_line::run_command;
     #[pymodule_export]
@@ -87,7 +87,7 @@ mod _core {
 
     #[pymodule_export]
     use crate::fatigue::{
-        Assessment, Criterion, Material, criteria, criterion_on, dang_van_path,
+        Assessment, Criterion, Material, criteria, criterion_on, dang_van_path, known_as,
         material_quantities, materials, yielding_on,
     };
     #[pymodule_export]

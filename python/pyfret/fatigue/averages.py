@@ -34,9 +34,9 @@ def critical_distance(material: Material) -> float:
 
     ``dK_th`` is the threshold range of the stress intensity and 2 ``s_D`` the range of the fatigue
     limit, both fully reversed: D. Taylor, The Theory of Critical Distances, Elsevier (2007). A
-    ValueError says which of the two is missing.
+    ValueError names the number that is missing.
     """
-    return (material.number("dK_th") / (2.0 * material.number("s_D"))) ** 2 / np.pi
+    return material.critical_distance()
 
 
 @numbers_only

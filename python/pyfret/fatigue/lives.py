@@ -16,13 +16,12 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from pyfret._core import with_error, with_range
+from pyfret._core import range_of_life, with_error, with_range
 from pyfret._util.door import numbers_only
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
 from pyfret._util.numbers import place
 from pyfret._util.text import html
-from pyfret.fatigue.averages import average, critical_distance
 from pyfret.fatigue.cycle_section import (
     body_of,
     depths_of,
@@ -34,13 +33,13 @@ from pyfret.fatigue.cycle_section import (
 )
 from pyfret.fatigue.distance import OverDistance
 from pyfret.fatigue.fields import described, margin_name
-from pyfret.fatigue.ranges import DISTANCE, LifeRange, Range, of_error, scatter_of, told_of
+from pyfret.fatigue.ranges import LifeRange, Range, of_mean
 from pyfret.fatigue.section import Materials, Section, for_each_layer
 from pyfret.scene.tables import table
 from pyfret.subsurface.tensor import Errors
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
     from typing_extensions import Unpack
 
     from pyfret._core import CriterionBelow, Material
@@ -113,10 +112,10 @@ class Life(Labelled):
         dataset: xr.Dataset,
         sections: Sequence[CriterionBelow],
         notes: Sequence[str],
-        judged: Judged | None = None,
+        materials: Sequence[Material | None],
     ) -> None:
         super().__init__(dataset)
-        self._judged = judged
+        self._materials = list(materials)
         self._ranges: dict[int, LifeRange] = {}
         self._sections = list(sections)
         self._assessments = self._sections[0].assessments
@@ -151,7 +150,9 @@ class Life(Labelled):
         n = int(np.abs(self.dataset[across].values - place).argmin())
         if self._parts:
             return self._parts[n]
-        return Life(self.dataset.isel({across: n}), [self._sections[n]], self._notes, self._judged)
+        return Life(
+            self.dataset.isel({across: n}), [self._sections[n]], self._notes, self._materials
+        )
 
     def worst_of(self, layer: int) -> Worst:
         """Give the worst point of a layer; a ValueError where it is not judged."""
@@ -237,30 +238,25 @@ class Life(Labelled):
         default = scatter is None and L is None
         if default and layer in self._ranges:
             return self._ranges[layer]
-        worst, assessment = self.worst_of(layer), self._assessments[layer]
-        assert assessment is not None
-        material = self._judged.materials[layer] if self._judged else None
-        value, distance, notes = worst.value, None, []
-        if L is None and material is not None:
-            with suppress(ValueError):
-                L = critical_distance(material)
-        if L is not None and self._judged is not None:
-            step = DISTANCE[scatter_of(material, ("dK_th", "s_D"))] ** 0.5
-            try:
-                value, *ends = (self._judged.mean(L * f, layer) for f in (1.0, 1 / step, step))
-            except ValueError as reason:
-                notes.append(f"the value is that at a point, no mean over a distance: {reason}")
-            else:
-                distance = Range(
-                    *(of_error(assessment, v, 0.0).best for v in (ends[0], value, ends[1]))
-                )
-        part = worst.error / worst.value if worst.value > 0.0 else 0.0
-        found = LifeRange.of(
-            of_error(assessment, value, part * value),
-            told_of(assessment, material, scatter),
-            distance,
-            L if distance is not None else None,
-            notes,
+        if not self._sections:
+            raise ValueError("a life that was unpickled has no stress: judge the result again")
+        worst = self.worst_of(layer)
+        low_to_high, stress, of_material, distance, length, notes = range_of_life(
+            self._sections,
+            layer,
+            self._materials[layer],
+            (worst.value, worst.error),
+            method="line",
+            scatter=scatter,
+            L=L,
+        )
+        found = LifeRange(
+            *low_to_high,
+            stress=Range(*stress),
+            material=of_material,
+            distance=None if distance is None else Range(*distance),
+            L=length,
+            notes=tuple(notes),
         )
         if default:
             self._ranges[layer] = found
@@ -294,21 +290,21 @@ class Life(Labelled):
         ValueError
             The life was unpickled, or a distance reaches beyond the layer.
         """
-        if self._judged is None:
+        if not self._sections:
             raise ValueError("a life that was unpickled has no stress: judge the result again")
         there = self.worst.layer if layer is None else layer
         worst, assessment = self.worst_of(there), self._assessments[there]
         assert assessment is not None
+        material = self._materials[there]
         part = worst.error / worst.value if worst.value > 0.0 else 0.0
-        factor = told_of(assessment, self._judged.materials[there], None)
         rows = []
         lengths = np.atleast_1d(np.asarray(L, float))
         for length in lengths.tolist():
-            value = self._judged.mean(length, there, method)
-            stress = of_error(assessment, value, part * value)
-            rows.append(LifeRange.of(stress, factor, None, length, []))
+            means = [section.largest_mean(length, method, there) for section in self._sections]
+            value = max((mean for mean in means if mean is not None), default=np.nan)
+            rows.append(of_mean(assessment, material, value, part * value, length))
         name, meaning = margin_name(self._assessments)
-        return OverDistance.of(lengths, rows, name, meaning, method, critical(self._judged, there))
+        return OverDistance.of(lengths, rows, name, meaning, method, critical(material))
 
     @property
     def worst(self) -> Worst:
@@ -332,7 +328,7 @@ class Life(Labelled):
         if self.dataset.value.ndim > 2 and not parts:
             across = str(self.dataset.value.dims[2])
             parts = [self.section(place) for place in self.dataset[across].values.tolist()]
-        return {**self.__dict__, "_sections": [], "_parts": parts, "_judged": None}
+        return {**self.__dict__, "_sections": [], "_parts": parts}
 
     def _repr_html_(self) -> str:
         """The worst point of every layer, for notebooks."""
@@ -473,56 +469,14 @@ def lives(
                 )
 
     def of(name: CriterionName) -> Life:
-        judged = Judged(result, each, name, section, tolerance)
         whole = side_by_side(result, where, shown[name]).assign_attrs(criterion=name)
-        return Life(whole, found[name], [*found[name][0].notes, *notes], judged)
+        return Life(whole, found[name], [*found[name][0].notes, *notes], each)
 
     return {name: of(name) for name in names}
 
 
-class Judged(NamedTuple):
-    """What was judged, so that means over a distance can be judged as well."""
-
-    result: Run
-    materials: list[Material | None]
-    criterion: CriterionName
-    section: SectionOptions
-    tolerance: float
-
-    def mean(self, L: float, layer: int, method: Averaging = "line") -> float:
-        """The largest value of the criterion on the stress averaged over a distance."""
-        where = placed(self.result, Section(**self.section))
-        largest = []
-        for one in (at for section in where for at in section.each()):
-            options: SectionOptions = {**self.section}
-            options.update({"x": one.x, "y": one.y, "azimuth": one.azimuth})
-            found = average(
-                self.result,
-                self.materials,
-                self.criterion,
-                L=L,
-                method=method,
-                layer=layer,
-                tolerance=self.tolerance,
-                **options,
-            )
-            largest.append(peak(found.value.values))
-        return max(largest)
-
-
-def peak(values: NDArray[np.float64]) -> float:
-    """The largest value between samples, by the parabola through the highest and its sides."""
-    n = int(np.nanargmax(values))
-    if not 0 < n < values.size - 1 or not np.isfinite(values[n - 1 : n + 2]).all():
-        return float(values[n])
-    left, middle, right = values[n - 1 : n + 2]
-    bend = left - 2.0 * middle + right
-    return float(middle - (right - left) ** 2 / (8.0 * bend) if bend < 0.0 else middle)
-
-
-def critical(judged: Judged, layer: int) -> float | None:
-    """The critical distance of the material of a layer; none if it has no such number."""
-    material = judged.materials[layer]
+def critical(material: Material | None) -> float | None:
+    """The critical distance of a material; none if it has no such number."""
     with suppress(ValueError):
-        return None if material is None else critical_distance(material)
+        return None if material is None else material.critical_distance()
     return None

@@ -1,6 +1,6 @@
 //! Material data: every number has a source, and criteria give back what their weights are from.
 
-use fatigue::{Assessment, Judge, Material, materials, read};
+use fatigue::{Assessment, CRITERIA, Judge, LifeRange, Material, Range, materials, read};
 
 use super::{Tensor, one};
 
@@ -97,4 +97,41 @@ fn wrong_files_and_missing_numbers() {
         .unwrap_err()
         .to_string();
     assert!(error.contains("one of crossland"), "{error}");
+}
+
+#[test]
+fn parts_of_a_range_add_as_squares_of_logarithms() {
+    let range = |low, best, high| Range { low, best, high };
+    let (stress, distance) = (range(5e4, 1e5, 2e5), range(8e4, 1e5, 1.25e5));
+    let found = LifeRange::of(stress, 4.0, Some(distance)).range;
+    let half = (2.0 * 2f64.ln().powi(2) + 1.25f64.ln().powi(2)).sqrt();
+    assert!((found.low / (1e5 * (-half).exp()) - 1.0).abs() < 1e-12);
+    assert!((found.high / (1e5 * half.exp()) - 1.0).abs() < 1e-12);
+    let endless = LifeRange::of(range(1e7, f64::INFINITY, f64::INFINITY), 4.0, None).range;
+    assert!((endless.low - 5e6).abs() < 1.0);
+    assert_eq!(endless.high, f64::INFINITY);
+}
+
+#[test]
+fn every_material_that_is_judged_has_a_critical_distance_and_says_how_it_is_known() {
+    for (name, material) in materials() {
+        let judged = CRITERIA
+            .iter()
+            .filter_map(|of| Assessment::of(of.name, &material).ok())
+            .collect::<Vec<_>>();
+        if judged.is_empty() {
+            continue;
+        }
+        let length = material.critical_distance();
+        assert!(
+            length.as_ref().is_ok_and(|L| (5e-6..3e-4).contains(L)),
+            "{name}: {length:?}"
+        );
+        for of in judged {
+            let (factor, note) = of.scatter(Some(&material), None).unwrap();
+            // A wider range comes with its reason.
+            let wide = factor > if of.gives_lives() { 3.0 } else { 1.2 };
+            assert_eq!(wide, note.is_some(), "{name}: {factor}, {note:?}");
+        }
+    }
 }

@@ -15,7 +15,7 @@ use fatigue::{Material, Search, find, materials, read};
 use serde_json::json;
 
 pub(crate) use self::options::Options;
-use self::rows::{Row, mean, points};
+use self::rows::{Judging, Row};
 use crate::failure::Failure;
 use crate::printed::print;
 use crate::stress::stop_on_interrupt;
@@ -77,28 +77,38 @@ fn judged(options: &Options) -> Result<Vec<String>, Error> {
             100.0 * much
         ));
     }
-    let found: Vec<Row> = if let Some(length) = options.distance {
-        let of_each = of.iter().map(|of| mean(options, &site, &lines, length, of));
-        of_each.collect::<Result<_, _>>()?
+    let last = cycle.moments(&[cycle.count() - 1])?;
+    let length = scene.length(&last.tractions[0][2]);
+    let asked = if options.depths.is_empty() {
+        chosen_depths(body, length, 2.0 * length, 1.0)?
     } else {
-        let last = cycle.moments(&[cycle.count() - 1])?;
-        let length = scene.length(&last.tractions[0][2]);
-        let asked = if options.depths.is_empty() {
-            chosen_depths(body, length, 2.0 * length, 1.0)?
-        } else {
-            depths(body, &options.depths)?
-        };
-        let below = lines.iter().map(|line| judge(&site, *line, &asked, &of));
-        let below = below.collect::<Result<Vec<_>, _>>()?;
-        if let Some(out) = &options.out {
-            table::write(out, &below[0][0], &of[0])?;
-        }
-        let rows = of.iter().enumerate().map(|(n, of)| {
-            let judged: Vec<_> = below.iter().map(|judged| &judged[n]).collect();
-            points(&site, &judged, of, body)
-        });
-        rows.collect::<Result<Vec<_>, _>>()?.concat()
+        depths(body, &options.depths)?
     };
+    let below = lines.iter().map(|line| judge(&site, *line, &asked, &of));
+    let below = below.collect::<Result<Vec<_>, _>>()?;
+    if let Some(out) = &options.out {
+        table::write(out, &below[0][0], &of[0])?;
+    }
+    let judging = Judging {
+        options,
+        site: &site,
+        lines: &lines,
+        body,
+        materials: &of_layers,
+    };
+    let rows = of.iter().enumerate().map(|(n, of)| {
+        let judged: Vec<_> = below.iter().map(|judged| &judged[n]).collect();
+        match options.distance {
+            Some(length) => judging.mean(&judged, of, length).map(|row| vec![row]),
+            None => judging.points(&judged, of),
+        }
+    });
+    let found = rows.collect::<Result<Vec<_>, _>>()?.concat();
+    for note in found.iter().flat_map(|row| &row.notes) {
+        if !notes.contains(note) {
+            notes.push(note.clone());
+        }
+    }
     if found.iter().any(|row| row.at_rim) {
         notes.push(
             "the worst point is at the rim of the contact: a point value depends on the grid, use a critical distance \

@@ -1,87 +1,210 @@
-//! The lines of `fret life`: a worst point of each layer, or a mean.
+//! The lines of `fret life`: the range of a layer, and its worst point or its largest mean.
 
-use crate::units::{mega, um};
 use std::fmt::Write as _;
 
 use contact_assess::{
-    Averaging, ByCriterion, Distance, Judged, Site, Worst, average, inclination, worst,
+    Averaging, ByCriterion, Distance, Judged, LargestMean, RangeOfLife, RangeOptions, Site, Worst,
+    inclination, largest_mean, range_of_life, worst,
 };
 use contact_core::Error;
-use contact_core::digits::{short, with_range};
+use contact_core::digits::{rough, with_range};
 use contact_core::scene::Body;
 use contact_subsurface::{Line, Zone};
-use fatigue::{Assessment, AtPoint};
-use serde_json::json;
+use fatigue::{Assessment, AtPoint, Material, Range};
+use serde_json::{Value, json};
 
 use super::options::Options;
+use crate::units::{mega, um};
 
-/// The lines of a layer.
+/// The line of a layer.
 #[derive(Clone)]
 pub(super) struct Row {
     pub(super) line: String,
-    pub(super) json: serde_json::Value,
+    pub(super) json: Value,
+    pub(super) notes: Vec<String>,
+    /// Whether the value is that at a point on the rim of the contact.
     pub(super) at_rim: bool,
 }
 
-/// The worst point of every layer that is judged, of all sections, the one that decides marked.
-pub(super) fn points(
-    site: &Site<'_>,
-    sections: &[&Judged<AtPoint>],
-    of: &ByCriterion,
-    body: &Body,
-) -> Result<Vec<Row>, Error> {
-    let mut all: Vec<(Worst<AtPoint>, &Assessment, Line)> = Vec::new();
-    for layer in 0..=body.coatings.len() {
+/// A layer that is judged: its worst point of all sections, and its range.
+struct Layer<'a> {
+    worst: Worst<AtPoint>,
+    line: Line,
+    of: &'a Assessment,
+    range: RangeOfLife,
+}
+
+/// What the layers of a body are judged by.
+pub(super) struct Judging<'a> {
+    pub(super) options: &'a Options,
+    pub(super) site: &'a Site<'a>,
+    pub(super) lines: &'a [Line],
+    pub(super) body: &'a Body,
+    pub(super) materials: &'a [Option<Material>],
+}
+
+impl Judging<'_> {
+    /// A line for every layer that is judged, the one that decides marked.
+    pub(super) fn points(
+        &self,
+        sections: &[&Judged<AtPoint>],
+        of: &ByCriterion,
+    ) -> Result<Vec<Row>, Error> {
+        let mut all = Vec::new();
+        for layer in 0..=self.body.coatings.len() {
+            all.extend(self.layer(sections, of, layer)?);
+        }
+        let margin = |layer: &Layer<'_>| layer.of.margin(layer.worst.extreme.value);
+        let least =
+            all.iter().map(margin).fold(
+                f64::INFINITY,
+                |least, margin| if margin < least { margin } else { least },
+            );
+        let row = |layer: &Layer<'_>| layer.point(!(margin(layer) > least));
+        Ok(all.iter().map(row).collect())
+    }
+
+    /// The line of the mean over the distance of the options.
+    pub(super) fn mean(
+        &self,
+        sections: &[&Judged<AtPoint>],
+        of: &ByCriterion,
+        length: f64,
+    ) -> Result<Row, Error> {
+        let outermost = of.assessments.iter().position(Option::is_some);
+        let layer = self.options.layer.or(outermost).unwrap_or_default();
+        if of.of(layer).is_none() {
+            let allowed = "a layer that has a material";
+            return Err(Error::invalid("--layer", layer, allowed));
+        }
+        let (mean, line) = self.largest(of, layer, length)?;
+        let Some(found) = self.layer(sections, of, layer)? else {
+            let allowed = "a layer that has a depth";
+            return Err(Error::invalid("--layer", layer, allowed));
+        };
+        Ok(found.mean(&mean, line, self.options, length))
+    }
+
+    /// The worst point of a layer and its range; `None` if the layer is not judged.
+    fn layer<'b>(
+        &self,
+        sections: &[&Judged<AtPoint>],
+        of: &'b ByCriterion,
+        layer: usize,
+    ) -> Result<Option<Layer<'b>>, Error> {
         let Some(assessment) = of.of(layer) else {
-            continue;
+            return Ok(None);
         };
         let mut found: Option<(Worst<AtPoint>, Line)> = None;
         for judged in sections {
-            let here = worst(site, judged, of, layer)?;
+            let here = worst(self.site, judged, of, layer)?;
             if let Some(worst) = here
                 && found.is_none_or(|(known, _)| worst.extreme.value > known.extreme.value)
             {
                 found = Some((worst, judged.line));
             }
         }
-        all.extend(found.map(|(worst, line)| (worst, assessment, line)));
+        let Some((worst, line)) = found else {
+            return Ok(None);
+        };
+        let options = RangeOptions {
+            scatter: self.options.scatter,
+            length: self.options.distance,
+        };
+        let at = (worst.extreme.value, worst.extreme.error.sum());
+        let mean = |length: f64| match self.largest(of, layer, length) {
+            Err(stopped @ Error::Interrupted { .. }) => Err(stopped),
+            found => Ok(found.map(|(mean, _)| mean.value)),
+        };
+        let material = self.materials.get(layer).and_then(Option::as_ref);
+        let range = range_of_life(assessment, material, at, &options, mean)?;
+        Ok(Some(Layer {
+            worst,
+            line,
+            of: assessment,
+            range,
+        }))
     }
-    let margin = |(w, a, _): &(Worst<AtPoint>, &Assessment, Line)| a.margin(w.extreme.value);
-    let least =
-        all.iter().map(margin).fold(
-            f64::INFINITY,
-            |least, margin| if margin < least { margin } else { least },
-        );
-    let rows = all.iter().map(|one| {
-        let (w, a, line_of) = one;
-        let margin = margin(one);
-        let decides = !(margin > least);
-        let name = if a.gives_lives() { "life" } else { "safety_factor" };
-        let (criterion, unit) = (a.criterion.name(), a.criterion.unit());
-        let normal = a.criterion.has_plane().then_some(w.found.normal);
-        let angle = normal.map(|n| inclination(n, *line_of).to_degrees());
-        let at = w.extreme.at.map(|zone| match zone {
+
+    /// The largest mean over a distance along all lines.
+    fn largest(
+        &self,
+        of: &ByCriterion,
+        layer: usize,
+        length: f64,
+    ) -> Result<(LargestMean, Line), Error> {
+        let named = Averaging::ALL
+            .iter()
+            .find(|(name, _)| *name == self.options.method);
+        let distance = Distance {
+            method: named.map_or(Averaging::Line, |(_, method)| *method),
+            length,
+            layer,
+        };
+        let mut most: Option<(LargestMean, Line)> = None;
+        for line in self.lines {
+            let found = largest_mean(self.site, *line, &distance, of)?;
+            if let Some(found) = found
+                && most.is_none_or(|(known, _)| found.value > known.value)
+            {
+                most = Some((found, *line));
+            }
+        }
+        most.ok_or_else(|| {
+            let allowed = "so short that the mean stays above the grid";
+            Error::invalid("--distance", length, allowed)
+        })
+    }
+}
+
+impl Layer<'_> {
+    fn name(&self) -> &'static str {
+        if self.of.gives_lives() {
+            "life"
+        } else {
+            "safety_factor"
+        }
+    }
+
+    /// The range and the worst point.
+    fn point(&self, decides: bool) -> Row {
+        let extreme = &self.worst.extreme;
+        let (criterion, unit) = (self.of.criterion.name(), self.of.criterion.unit());
+        let normal = self.of.criterion.has_plane();
+        let normal = normal.then_some(self.worst.found.normal);
+        let angle = normal.map(|n| inclination(n, self.line).to_degrees());
+        let at = extreme.at.map(|zone| match zone {
             Zone::Contact => "rim of the contact",
             Zone::Stick => "border of the stick zone",
         });
-        let error = w.extreme.error.sum();
-        let [low, high] = a.range(w.extreme.value, error);
-        let json = json!({
-            "criterion": criterion, name: margin, "low": low, "high": high, "value": w.extreme.value, "unit": unit, "error": error,
-            "error_x": w.extreme.error.x, "error_y": w.extreme.error.y, "error_z": w.extreme.error.z,
-            "error_tractions": w.extreme.error.tractions, "x": w.extreme.x, "y": w.extreme.y, "z": w.extreme.depth.z,
-            "layer": w.extreme.depth.layer, "at": at, "normal": normal, "inclination": angle,
+        let error = extreme.error.sum();
+        let point = self.of.margins(extreme.value, error);
+        let mut json = self.json();
+        let own = json!({
+            self.name(): point.best, "at_point": [point.low, point.high],
+            "value": extreme.value, "error": error, "error_x": extreme.error.x,
+            "error_y": extreme.error.y, "error_z": extreme.error.z,
+            "error_tractions": extreme.error.tractions, "x": extreme.x, "y": extreme.y,
+            "z": extreme.depth.z, "at": at, "normal": normal, "inclination": angle,
             "decides": decides,
         });
+        merge(&mut json, own);
+        let over = self.range.length.map_or(String::new(), |length| {
+            format!(
+                ", mean over L = {}; at the worst point {}",
+                um(length),
+                said(&point, self.of)
+            )
+        });
         let mut line = format!(
-            "layer {}: {}, {criterion} {} +- {} at x = {}, y = {}, z = {}",
-            w.extreme.depth.layer,
-            said(margin, [low, high], a),
-            mega(w.extreme.value, unit),
+            "layer {}: {}{over}, {criterion} {} +- {} at x = {}, y = {}, z = {}",
+            extreme.depth.layer,
+            self.told(),
+            mega(extreme.value, unit),
             mega(error, unit),
-            um(w.extreme.x),
-            um(w.extreme.y),
-            um(w.extreme.depth.z)
+            um(extreme.x),
+            um(extreme.y),
+            um(extreme.depth.z)
         );
         if let Some(angle) = angle.filter(|angle| angle.is_finite()) {
             let _ = write!(line, ", plane {angle:.1} degrees from the surface normal");
@@ -92,90 +215,78 @@ pub(super) fn points(
         if decides {
             line.push_str(", decides");
         }
-        let at_rim = w.extreme.at == Some(Zone::Contact);
-        Row { line, json, at_rim }
-    });
-    Ok(rows.collect())
-}
-
-/// The worst place of a mean over a critical distance.
-pub(super) fn mean(
-    options: &Options,
-    site: &Site<'_>,
-    lines: &[Line],
-    length: f64,
-    of: &ByCriterion,
-) -> Result<Row, Error> {
-    let outermost = of
-        .assessments
-        .iter()
-        .position(Option::is_some)
-        .unwrap_or_default();
-    let layer = options.layer.unwrap_or(outermost);
-    let Some(assessment) = of.of(layer) else {
-        let allowed = "a layer that has a material";
-        return Err(Error::invalid("--layer", layer, allowed));
-    };
-    let named = Averaging::ALL
-        .iter()
-        .find(|(name, _)| *name == options.method);
-    let method = named.map_or(Averaging::Line, |(_, method)| *method);
-    let distance = Distance {
-        method,
-        length,
-        layer,
-    };
-    let mut most: Option<(AtPoint, f64, Line)> = None;
-    for line in lines {
-        let found = average(site, *line, &distance, of)?;
-        for (found, place) in found.into_iter().zip(line.places(site.grid)) {
-            if let Some(found) = found
-                && most.is_none_or(|(known, ..)| found.value > known.value)
-            {
-                most = Some((found, place, *line));
-            }
+        Row {
+            line,
+            json,
+            notes: self.range.notes.clone(),
+            at_rim: extreme.at == Some(Zone::Contact) && self.range.length.is_none(),
         }
     }
-    let Some((most, place, line)) = most else {
-        let allowed = "so short that the mean stays above the grid";
-        return Err(Error::invalid("--distance", length, allowed));
-    };
-    let margin = assessment.margin(most.value);
-    let name = if assessment.gives_lives() {
-        "life"
-    } else {
-        "safety_factor"
-    };
-    let axis = line.name();
-    let (criterion, unit) = (assessment.criterion.name(), assessment.criterion.unit());
-    let json = json!({
-        "criterion": criterion, name: margin, "value": most.value, "unit": unit, "L": length,
-        "method": options.method, axis: place, "layer": layer,
-    });
-    let line = format!(
-        "layer {layer}: {}, {criterion} {} at {axis} = {}, {} method with L = {}",
-        // The error of a mean is not known.
-        said(margin, [f64::NAN; 2], assessment),
-        mega(most.value, unit),
-        um(place),
-        options.method,
-        um(length)
-    );
-    Ok(Row {
-        line,
-        json,
-        at_rim: false,
-    })
+
+    /// The range and the largest mean.
+    fn mean(&self, mean: &LargestMean, along: Line, options: &Options, length: f64) -> Row {
+        let (criterion, unit) = (self.of.criterion.name(), self.of.criterion.unit());
+        let axis = along.name();
+        let mut json = self.json();
+        let own = json!({
+            self.name(): self.of.margin(mean.value), "value": mean.value,
+            "method": options.method, axis: mean.place,
+        });
+        merge(&mut json, own);
+        let line = format!(
+            "layer {}: {}, {criterion} {} at {axis} = {}, {} method with L = {}",
+            self.worst.extreme.depth.layer,
+            self.told(),
+            mega(mean.value, unit),
+            um(mean.place),
+            options.method,
+            um(length)
+        );
+        Row {
+            line,
+            json,
+            notes: self.range.notes.clone(),
+            at_rim: false,
+        }
+    }
+
+    /// The range in words.
+    fn told(&self) -> String {
+        format!("{}, 10 to 90 %", said(&self.range.of.range, self.of))
+    }
+
+    /// The range as numbers.
+    fn json(&self) -> Value {
+        let Range { low, best, high } = self.range.of.range;
+        let three = |of: Range| [of.low, of.best, of.high];
+        json!({
+            "layer": self.worst.extreme.depth.layer, "criterion": self.of.criterion.name(),
+            "unit": self.of.criterion.unit(), "low": low, "best": best, "high": high,
+            "of_stress": three(self.range.of.stress), "of_material": self.range.of.material,
+            "of_distance": self.range.of.distance.map(three), "L": self.range.length,
+        })
+    }
+}
+
+/// Adds the entries of a table to another.
+fn merge(table: &mut Value, other: Value) {
+    if let (Value::Object(table), Value::Object(other)) = (table, other) {
+        table.extend(other);
+    }
 }
 
 /// A margin and its range in words.
-fn said(margin: f64, range: [f64; 2], of: &Assessment) -> String {
-    match (of.gives_lives(), margin.is_finite()) {
-        (true, true) => format!("{} cycles", with_range(margin, range)),
-        (true, false) if range[0].is_finite() => {
-            format!("endless life (at least {} cycles)", short(range[0]))
+fn said(range: &Range, of: &Assessment) -> String {
+    let Range { low, best, high } = *range;
+    match (of.gives_lives(), best.is_finite()) {
+        (true, true) if high.is_infinite() => {
+            format!("life {} cycles ({} or more)", rough(best), rough(low))
+        }
+        (true, true) => format!("life {} cycles", with_range(best, [low, high])),
+        (true, false) if low.is_finite() => {
+            format!("endless life (at least {} cycles)", rough(low))
         }
         (true, false) => "endless life".into(),
-        (false, _) => format!("safety factor {}", with_range(margin, range)),
+        (false, _) => format!("safety factor {}", with_range(best, [low, high])),
     }
 }

@@ -2,16 +2,20 @@
 
 use std::sync::Arc;
 
-use contact_assess::{self as core, ByCriterion, Judged};
-use fatigue::AtPoint;
+use contact_assess::{self as core, Averaging, ByCriterion, Distance, Judged, RangeOptions};
+use contact_core::Error;
+use fatigue::{AtPoint, Range};
 use ndarray::{Array2, Array3};
 use numpy::IntoPyArray;
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use super::below::{Below, depths_of, place};
+use crate::arguments::List;
 use crate::arguments::number;
-use crate::fatigue::{AT_POINT, Assessment};
+use crate::error::to_python;
+use crate::fatigue::{AT_POINT, Assessment, Material};
 
 /// What a criterion found on a section.
 #[pyclass(frozen, module = "pyfret.fatigue")]
@@ -57,6 +61,23 @@ impl CriterionBelow {
         arrays(py, &rows, |row| self.of.of(self.judged.depths[row].layer))
     }
 
+    /// The largest mean over a distance L [m] in a layer; None if it fits nowhere on the grid.
+    #[pyo3(signature = (L: "float", method, layer: "int"))]
+    fn largest_mean(
+        &self,
+        py: Python<'_>,
+        #[pyo3(from_py_with = number)] L: f64,
+        method: &str,
+        #[pyo3(from_py_with = number)] layer: usize,
+    ) -> PyResult<Option<f64>> {
+        let distance = Distance {
+            method: averaging(method)?,
+            length: L,
+            layer,
+        };
+        self.largest(py, &distance)?.map_err(to_python)
+    }
+
     /// The worst point of a layer, None where it is not judged.
     #[pyo3(signature = (layer: "int") -> "dict[str, Any] | None")]
     fn worst<'py>(
@@ -82,6 +103,113 @@ impl CriterionBelow {
         }
         Ok(Some(found))
     }
+}
+
+/// A range: low, best, high.
+type Three = (f64, f64, f64);
+
+fn three(of: Range) -> Three {
+    (of.low, of.best, of.high)
+}
+
+impl CriterionBelow {
+    /// The largest mean over a distance; the inner error if the distance is refused.
+    fn largest(&self, py: Python<'_>, distance: &Distance) -> PyResult<Result<Option<f64>, Error>> {
+        self.below.at(py, true, |site| {
+            match core::largest_mean(site, self.below.line, distance, &self.of) {
+                Err(stopped @ Error::Interrupted { .. }) => Err(stopped),
+                found => Ok(found.map(|found| found.map(|mean| mean.value))),
+            }
+        })
+    }
+}
+
+/// A failure of the core or of Python.
+struct Raised(PyErr);
+
+impl From<Error> for Raised {
+    fn from(error: Error) -> Self {
+        Self(to_python(error))
+    }
+}
+
+/// The range of the margin of a layer.
+///
+/// Parameters
+/// ----------
+/// sections : list of CriterionBelow
+///     The sections that the layer was judged in.
+/// worst : (float, float)
+///     Value of the criterion at the worst point, and its error.
+/// scatter, L : float, optional
+///     In place of the scatter of the material and of its critical distance [m].
+///
+/// Returns
+/// -------
+/// tuple
+///     Low, best, high; the same of the stress alone; highest over lowest by the scatter of the
+///     material; the range of the distance, None at a point; L [m]; notes.
+#[pyfunction]
+#[pyo3(signature = (sections: "Sequence[CriterionBelow]", layer: "int", material, worst: "tuple[float, float]", *, method, scatter: "float | None" = None, L: "float | None" = None))]
+#[expect(clippy::type_complexity, reason = "the parts of a range")]
+pub(crate) fn range_of_life(
+    py: Python<'_>,
+    sections: List<Py<CriterionBelow>>,
+    #[pyo3(from_py_with = number)] layer: usize,
+    material: Option<Material>,
+    #[pyo3(from_py_with = number)] worst: (f64, f64),
+    method: &str,
+    #[pyo3(from_py_with = number)] scatter: Option<f64>,
+    #[pyo3(from_py_with = number)] L: Option<f64>,
+) -> PyResult<(Three, Three, f64, Option<Three>, Option<f64>, Vec<String>)> {
+    let method = averaging(method)?;
+    let judged = sections
+        .first()
+        .and_then(|one| one.get().of.of(layer).copied());
+    let Some(assessment) = judged else {
+        let message = format!("layer = {layer}: has no material");
+        return Err(PyValueError::new_err(message));
+    };
+    let mean = |length: f64| {
+        let distance = Distance {
+            method,
+            length,
+            layer,
+        };
+        let mut most: Option<f64> = None;
+        for section in sections.iter() {
+            match section.get().largest(py, &distance).map_err(Raised)? {
+                Ok(found) => {
+                    let larger = found.filter(|value| most.is_none_or(|most| *value > most));
+                    most = larger.or(most);
+                }
+                Err(refused) => return Ok(Err(refused)),
+            }
+        }
+        let allowed = "so short that the mean stays above the grid";
+        Ok(most.ok_or_else(|| Error::invalid("L", length, allowed)))
+    };
+    let options = RangeOptions { scatter, length: L };
+    let material = material.as_ref().map(|material| &material.0);
+    let found = core::range_of_life(&assessment, material, worst, &options, mean);
+    let found = found.map_err(|Raised(error)| error)?;
+    Ok((
+        three(found.of.range),
+        three(found.of.stress),
+        found.of.material,
+        found.of.distance.map(three),
+        found.length,
+        found.notes,
+    ))
+}
+
+/// What is averaged over, by its name.
+pub(super) fn averaging(method: &str) -> PyResult<Averaging> {
+    let named = Averaging::ALL.iter().find(|(name, _)| *name == method);
+    named.map(|(_, method)| *method).ok_or_else(|| {
+        let names = Averaging::ALL.map(|(name, _)| name).join(", ");
+        PyValueError::new_err(format!("method = {method:?}: must be one of {names}"))
+    })
 }
 
 /// Arrays over (rows, places) of what a criterion found, NaN where nothing was judged.

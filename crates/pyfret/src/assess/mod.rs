@@ -7,7 +7,7 @@ mod yielding;
 
 use std::sync::Arc;
 
-use contact_assess::{self as core, Averaging, ByCriterion, ByYield, Distance, Judged};
+use contact_assess::{self as core, ByCriterion, ByYield, Distance, Judged};
 use contact_subsurface::residual_of_layers;
 use fatigue::{AtPoint, Search};
 use pyo3::exceptions::PyValueError;
@@ -15,8 +15,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use self::below::Below;
-pub(crate) use self::criterion::CriterionBelow;
-use self::criterion::arrays;
+pub(crate) use self::criterion::{CriterionBelow, range_of_life};
+use self::criterion::{arrays, averaging};
 use self::given::Given;
 pub(crate) use self::yielding::YieldBelow;
 use crate::argument::to_python;
@@ -151,19 +151,13 @@ impl CycleSection {
         criterion: &str,
         #[pyo3(from_py_with = number)] tolerance: f64,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let named = Averaging::ALL.iter().find(|(name, _)| *name == method);
-        let Some((_, method)) = named else {
-            let names = Averaging::ALL.map(|(name, _)| name).join(", ");
-            let message = format!("method = {method:?}: must be one of {names}");
-            return Err(PyValueError::new_err(message));
-        };
         let of = criterion_of(&self.below, &materials, criterion, tolerance)?;
         let Some(assessment) = of.of(layer).copied() else {
             let message = format!("layer = {layer}: has no material");
             return Err(PyValueError::new_err(message));
         };
         let distance = Distance {
-            method: *method,
+            method: averaging(method)?,
             length: L,
             layer,
         };

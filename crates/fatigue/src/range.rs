@@ -1,0 +1,157 @@
+//! A life is a range: from the error of the stress, the scatter of the material and its critical
+//! distance.
+//!
+//! The logarithms of the three parts are independent, so they add as squares. With the best value m
+//! and the ends m_i of part i, ln(m/low)^2 = sum_i ln(m/m_i)^2, and likewise for the high end.
+
+use std::f64::consts::PI;
+
+use crate::assessment::Assessment;
+use crate::error::Error;
+use crate::known::Known;
+use crate::material::Material;
+
+/// Numbers of a material that a strain-life curve has.
+const CURVE: [&str; 4] = ["s_f", "b", "e_f", "c"];
+/// Numbers that single criteria of lives have beside it.
+const OWN: [&str; 3] = ["k", "s_y", "S"];
+/// Numbers of criteria with a limit.
+const LIMITS: [&str; 2] = ["s_D", "t_D"];
+/// Numbers of the critical distance.
+const DISTANCE: [&str; 2] = ["dK_th", "s_D"];
+
+/// A number and the range that it lies in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Range {
+    /// The lowest.
+    pub low: f64,
+    /// The best estimate.
+    pub best: f64,
+    /// The highest.
+    pub high: f64,
+}
+
+/// A life \[cycles\] or a safety factor: its range of 10 to 90 %, and the parts of the range.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LifeRange {
+    /// Low, best and high.
+    pub range: Range,
+    /// The part of the error of the stress.
+    pub stress: Range,
+    /// Highest over lowest by the scatter of the material.
+    pub material: f64,
+    /// The part of the critical distance; `None` for a value at a point.
+    pub distance: Option<Range>,
+}
+
+impl LifeRange {
+    /// Combines the parts. `material` is the highest over the lowest by its scatter.
+    pub fn of(stress: Range, material: f64, distance: Option<Range>) -> Self {
+        let (best, half) = (stress.best, 0.5 * material.ln());
+        let parts = || std::iter::once(stress).chain(distance);
+        let least = |of: Range| of.low.min(of.best).min(of.high);
+        let most = |of: Range| of.low.max(of.best).max(of.high);
+        let sum = |of: &dyn Fn(Range) -> f64| parts().map(|r| of(r).powi(2)).sum::<f64>();
+        let down = (half.powi(2) + sum(&|r| ratio(best, least(r)))).sqrt();
+        let up = (half.powi(2) + sum(&|r| ratio(most(r), best))).sqrt();
+        // A life without end has the least end of its parts.
+        let low = if best.is_finite() {
+            best * (-down).exp()
+        } else {
+            parts().map(least).fold(f64::INFINITY, f64::min) * (-half).exp()
+        };
+        let high = best * up.exp();
+        Self {
+            range: Range { low, best, high },
+            stress,
+            material,
+            distance,
+        }
+    }
+}
+
+/// Logarithm of a ratio, 0 or more; infinite where the larger number is.
+fn ratio(larger: f64, smaller: f64) -> f64 {
+    if larger <= smaller {
+        0.0
+    } else if larger.is_infinite() || smaller <= 0.0 {
+        f64::INFINITY
+    } else {
+        (larger / smaller).ln()
+    }
+}
+
+/// Life, or strength, that 90 % of the specimens reach less than over that which 10 % do: defaults
+/// where no scatter was measured.
+fn scatter(lives: bool, kind: Known) -> f64 {
+    match (lives, kind) {
+        (true, Known::Known) => 3.0,
+        (true, _) => 5.0,
+        (false, Known::Known) => 1.2,
+        (false, _) => 1.5,
+    }
+}
+
+impl Assessment {
+    /// The margin of a value of the criterion with its error: the lowest is that of value + error.
+    pub fn margins(&self, value: f64, error: f64) -> Range {
+        Range {
+            low: self.margin(value + error),
+            best: self.margin(value),
+            high: self.margin((value - error).max(0.0)),
+        }
+    }
+
+    /// Highest over lowest margin by the scatter of a material, and a note where numbers of it are
+    /// not from a source. `given` takes the place of the default.
+    pub fn scatter(
+        &self,
+        material: Option<&Material>,
+        given: Option<f64>,
+    ) -> Result<(f64, Option<String>), Error> {
+        if let Some(given) = given.filter(|given| !(*given >= 1.0 && given.is_finite())) {
+            let allowed = "1 or more, the highest over the lowest";
+            return Err(Error::argument("scatter", given, allowed));
+        }
+        let lives = self.gives_lives();
+        let names: Vec<&str> = if lives {
+            let own = OWN.into_iter();
+            let own = own.filter(|name| self.criterion.number(name).is_some());
+            CURVE.into_iter().chain(own).collect()
+        } else {
+            LIMITS.to_vec()
+        };
+        let kind = material.map_or(Known::Known, |material| material.known(&names));
+        let factor = given.unwrap_or_else(|| scatter(lives, kind));
+        let note = material.filter(|_| kind != Known::Known).map(|material| {
+            let of = material.numbers.iter();
+            let of = of.filter(|(name, of)| names.contains(name) && Known::of(&of.source) == kind);
+            let which: Vec<_> = of.map(|(name, _)| *name).collect();
+            let how = if kind == Known::Estimate {
+                "estimates by a rule"
+            } else {
+                "from memory, without a source"
+            };
+            let (which, name) = (which.join(", "), &material.name);
+            format!("{which} of {name} are {how}: take numbers of your own")
+        });
+        Ok((factor, note))
+    }
+}
+
+impl Material {
+    /// Critical distance L = (dK_th/(2 s_D))^2/pi \[m\], both fully reversed (D. Taylor, The Theory
+    /// of Critical Distances, Elsevier 2007); fails with the number that is missing.
+    pub fn critical_distance(&self) -> Result<f64, Error> {
+        Ok((self.number("dK_th")? / (2.0 * self.number("s_D")?)).powi(2) / PI)
+    }
+
+    /// Longest over shortest critical distance, which goes with the square of a threshold over a
+    /// strength: a default.
+    pub fn scatter_of_distance(&self) -> f64 {
+        match self.known(&DISTANCE) {
+            Known::Known => 2.0,
+            Known::Estimate | Known::Recalled => 3.0,
+        }
+    }
+}
