@@ -99,8 +99,8 @@ wear: ## 300 random runs of wear, audited, and partial slip fully worn on 256 x 
 	FRET_WEAR=300 FRET_WEAR_CELLS=256 cargo test --release --locked --workspace --test wear -- \
 		--include-ignored --nocapture --test-threads=1 random partial_slip
 
-wear-jumps: ## implicit jumps over cycles beside the explicit ones that are as exact; the numbers go to docs/wear.md
-	cargo run --release --locked --example wear_jumps -- $(CURDIR)/docs/wear.md
+wear-jumps: ## implicit jumps over cycles beside the explicit ones that are as exact; the numbers go to docs/wear_evidence.md
+	cargo run --release --locked --example wear_jumps -- $(CURDIR)/docs/wear_evidence.md
 
 # In release mode, so that build scripts and macros are compiled once for checks, tests and wheel.
 check: setup ## formats, lints, circles of imports, types, spelling

@@ -37,7 +37,7 @@ FULLY_WORN = (
 )
 CELLS_NEEDED = (
     "Under a cylinder the cell that the border of the stick zone runs through wears in part "
-    "([Wear](../wear.md)). That is much: by the closed form a change of c by one part in a hundred "
+    "([Wear: how we know](../wear_evidence.md)). That is much: by the closed form a change of c by one part in a hundred "
     "moves the worn area by 13 of them at T = 0.3 mu W and by 6.4 at 0.5. Which cells the march "
     "has stick is told by whole cells. Under a sphere the border runs through its cells at all "
     "places, and its mean is known to a twentieth of one, of which the worn volume at "
@@ -54,7 +54,7 @@ LATE = (
 MEASURED = (
     "A cylinder (R = 6 mm) on a flat, both bodies wearing, 18 000 cycles of gross slip: R. McColl, "
     "J. Ding, S. B. Leen, Wear 256 (2004) 1114-1127. What is known of the stroke and what is "
-    "chosen: [Wear](../wear.md)."
+    "chosen: [Wear: how we know](../wear_evidence.md)."
 )
 
 

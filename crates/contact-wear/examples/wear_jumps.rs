@@ -1,7 +1,7 @@
 //! What jumps over cycles cost: implicit ones against the explicit ones that are no less exact.
 //!
 //! `wear_jumps [DOCUMENT]` writes a table in Markdown to the standard output, and between the marks
-//! of a document (`make wear-jumps`: docs/wear.md). Errors are those of the worn profile of both
+//! of a document (`make wear-jumps`: docs/wear_evidence.md). Errors are those of the worn profile of both
 //! bodies (root mean square over the deepest depth) and of the pressure at the end (over its own
 //! root mean square) against a run of the shortest implicit jumps. Explicit jumps are halved until
 //! neither error is larger than that of the implicit ones. Work that does not jitter: cycles

@@ -61,7 +61,7 @@ impl CriterionBelow {
         arrays(py, &rows, |row| self.of.of(self.judged.depths[row].layer))
     }
 
-    /// The largest mean over a distance L [m] in a layer; None if it fits nowhere on the grid.
+    /// The largest mean over L [m] in a layer; None if it fits nowhere on the grid.
     #[pyo3(signature = (L: "float", method, layer: "int"))]
     fn largest_mean(
         &self,

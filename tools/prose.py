@@ -1,0 +1,129 @@
+"""Sentences of the Use book that are too long, and words that readers do not know.
+
+``python tools/prose.py`` prints them with file and line and ends with 1 if there are any;
+``python tools/prose.py FILES`` reads other documents. The rules are those of CONTRIBUTING.md: one
+fact a sentence, at most 25 words, nouns of the field as subjects.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+#: Pages of the Use book that keep the rules. Those that still break them are in LATER.
+USE = (
+    "README.md",
+    "docs/index.md",
+    "docs/install.md",
+    "docs/tutorial.md",
+    "docs/howto/*.md",
+    "docs/stress.md",
+    "docs/fatigue.md",
+    "docs/cracks.md",
+    "docs/heat.md",
+    "docs/wear.md",
+    "docs/studies.md",
+    "docs/report.md",
+    "docs/plastic.md",
+    "docs/conventions.md",
+    "docs/scene_file.md",
+    "docs/result_store.md",
+    "docs/reference/*.md",
+)
+#: Words of a sentence, at most.
+MOST = 25
+#: What a reader cannot point at, and what a program does not do.
+RIDDLES = (
+    r"\bone of its own\b",
+    r"\bof one's own\b",
+    r"\bthat of those\b",
+    r"\b(?:run|page|program|error|message|result|table|it) (?:says|tells|knows|hears|sees|asks)\b",
+    r"\bwhat .{3,40} (?:leaves|leave|errs by|buys)\b",
+    r"\bas far as\b",
+    r"\bbut for\b",
+)
+#: Ends of a sentence that are none.
+ABBREVIATIONS = re.compile(r"\b(?:e\.g|i\.e|cf|vs|Fig|Eq|No|St|Dr|pp|al|Int|J|Proc|Inst|Mech|Eng)\.$")
+
+
+def blocks(text: str) -> Iterator[tuple[int, str]]:
+    """Paragraphs, items and cells of a document with their first line."""
+    fenced, start, held = False, 0, []
+    for number, line in enumerate([*text.splitlines(), ""], 1):
+        stripped = line.strip()
+        if stripped.startswith("```"):
+            fenced = not fenced
+            stripped = ""
+        elif fenced or stripped.startswith(("#", "<", "!", "$$", "(", ":")):
+            stripped = ""
+        elif line.startswith("    ") and not held:
+            continue
+        if stripped.startswith("|"):
+            for cell in re.split(r"(?<!\\)\|", stripped):
+                if cell.strip():
+                    yield number, cell.strip()
+            stripped = ""
+        item = re.match(r"(?:[-*]|\d+\.)\s+", stripped)
+        if held and (not stripped or item):
+            yield start, " ".join(held)
+            held = []
+        if stripped:
+            if not held:
+                start = number
+            held.append(stripped[item.end() :] if item else stripped)
+
+
+def plain(text: str) -> str:
+    """The text as it is read: links by their words, code and formulas as one word."""
+    text = re.sub(r"`[^`]*`", "CODE", text)
+    text = re.sub(r"\$[^$]*\$", "FORMULA", text)
+    text = re.sub(r"!?\[([^]]*)\]\([^)]*\)", r"\1", text)
+    return re.sub(r"[*_]{1,2}(\S.*?)[*_]{1,2}", r"\1", text)
+
+
+def sentences(text: str) -> Iterator[str]:
+    """The sentences of a paragraph."""
+    held = ""
+    for part in re.split(r"(?<=[.!?])\s+", plain(text)):
+        held = f"{held} {part}".strip()
+        # A citation has its initials and journals; a sentence goes on after an abbreviation.
+        if ABBREVIATIONS.search(held) or re.search(r"\b[A-Z]\.$", held):
+            continue
+        yield held
+        held = ""
+    if held:
+        yield held
+
+
+def words(sentence: str) -> int:
+    """Words of a sentence, citations in brackets aside."""
+    outside = re.sub(r"\([^()]*\)", "", sentence)
+    return len(re.findall(r"[A-Za-z][\w'/-]*", outside))
+
+
+def faults(document: Path) -> Iterator[str]:
+    """What breaks the rules in a document."""
+    name = document.relative_to(ROOT) if document.is_relative_to(ROOT) else document
+    for line, block in blocks(document.read_text(encoding="utf-8")):
+        for sentence in sentences(block):
+            if (count := words(sentence)) > MOST:
+                yield f"{name}:{line}: {count} words: {sentence}"
+            for riddle in RIDDLES:
+                if found := re.search(riddle, sentence):
+                    yield f"{name}:{line}: {found[0]!r}: {sentence}"
+
+
+def main(arguments: list[str]) -> int:
+    """Print what breaks the rules."""
+    given = [Path(argument).resolve() for argument in arguments]
+    documents = given or [path for glob in USE for path in sorted(ROOT.glob(glob))]
+    found = [fault for document in documents for fault in faults(document)]
+    print("\n".join(found))
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
