@@ -46,7 +46,9 @@ RIDDLES = (
     r"\bbut for\b",
 )
 #: Ends of a sentence that are none.
-ABBREVIATIONS = re.compile(r"\b(?:e\.g|i\.e|cf|vs|Fig|Eq|No|St|Dr|pp|al|Int|J|Proc|Inst|Mech|Eng)\.$")
+ABBREVIATIONS = re.compile(
+    r"\b(?:e\.g|i\.e|cf|vs|Fig|Eq|No|St|Dr|pp|al|Int|J|Proc|Inst|Mech|Eng|Sci)\.$"
+)
 
 
 def blocks(text: str) -> Iterator[tuple[int, str]]:

@@ -37,7 +37,8 @@ FULLY_WORN = (
 )
 CELLS_NEEDED = (
     "Under a cylinder the cell that the border of the stick zone runs through wears in part "
-    "([Wear: how we know](../wear_evidence.md)). That is much: by the closed form a change of c by one part in a hundred "
+    "([Wear: how we know](../wear_evidence.md)). That is much: by the closed form a change of c by "
+    "one part in a hundred "
     "moves the worn area by 13 of them at T = 0.3 mu W and by 6.4 at 0.5. Which cells the march "
     "has stick is told by whole cells. Under a sphere the border runs through its cells at all "
     "places, and its mean is known to a twentieth of one, of which the worn volume at "

@@ -70,8 +70,9 @@ class Assessment:
         scatter: float | None = None,
     ) -> tuple[tuple[float, float, float], tuple[float, float, float], float, list[str]]:
         """
-        Low, best and high margin of a value with an error, and their range by the scatter of a
-        material, 10 to 90 %; `scatter` takes the place of its default.
+        Low, best and high margin of a value with an error, and their range of 10 to 90 %.
+
+        The range has the scatter of the material; `scatter` takes the place of its default.
         """
     def safety_factor(self, /, value: float) -> float:
         """Factor by which the history may grow until the limit, for values of the criterion."""
@@ -698,7 +699,7 @@ class CriterionBelow:
     def fields(self, /) -> dict[str, NDArray[np.float64]]:
         """Arrays over (depth, place), NaN where not judged."""
     def largest_mean(self, /, L: float, method: str, layer: int) -> float | None:
-        """The largest mean over a distance L [m] in a layer; None if it fits nowhere on the grid."""
+        """The largest mean over L [m] in a layer; None if it fits nowhere on the grid."""
     @property
     def notes(self, /) -> list[str]:
         """What a reader should know of the materials."""

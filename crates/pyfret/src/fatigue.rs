@@ -204,8 +204,9 @@ impl Assessment {
         }
     }
 
-    /// Low, best and high margin of a value with an error, and their range by the scatter of a
-    /// material, 10 to 90 %; `scatter` takes the place of its default.
+    /// Low, best and high margin of a value with an error, and their range of 10 to 90 %.
+    ///
+    /// The range has the scatter of the material; `scatter` takes the place of its default.
     #[pyo3(signature = (value: "float", error: "float", material = None, *, scatter: "float | None" = None) -> "tuple[tuple[float, float, float], tuple[float, float, float], float, list[str]]")]
     #[expect(clippy::type_complexity, reason = "the parts of a range")]
     fn range_at(
