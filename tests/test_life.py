@@ -126,7 +126,7 @@ def test_each_layer_with_its_own_material(cycled: fret.Result) -> None:
         cycled.life(STEEL, "crossland", [0.0, 2e-4])
     with pytest.raises(ValueError, match="no layer has a material"):
         cycled.life([None, None], "crossland")
-    with pytest.raises(ValueError, match="residual = 1 numbers"):
+    with pytest.raises(ValueError, match="residual = 1 of them"):
         cycled.life(BOTH, "crossland", residual=[1e6])
     with pytest.raises(ValueError, match=r"alumina`\.s_D"):
         cycled.life(fatigue.Materials()["alumina"], "crossland")

@@ -88,6 +88,10 @@ class Body:
         Material below the coatings.
     coatings : sequence of Coating
         Layers from the surface down: ``coatings[0]`` is the outermost (default: none).
+    residual : float or array_like, optional
+        Residual stress of the substrate [Pa], tension positive (default: none): a stress, s_xx =
+        s_yy, or a table with the rows ``[depth, s]`` or ``[depth, s_xx, s_yy]``, the depth [m]
+        below the top of the layer. Linear between the depths, constant beyond them.
     shape : Flat, Sphere, Ellipsoid, Cylinder, ... or a sum of them
         Undeformed surface (default: flat).
     """
@@ -102,6 +106,7 @@ class Body:
         substrate: Elastic,
         *,
         coatings: Coating | Sequence[Coating] = ...,
+        residual: ArrayLike | None = None,
         shape: Flat
         | Sphere
         | Ellipsoid
@@ -122,6 +127,9 @@ class Body:
         """Layers from the surface down."""
     def replace(self, /, **changes: Any) -> Self:
         """The same with some of its parts exchanged, named as in the constructor."""
+    @property
+    def residual(self, /) -> float | list[list[float]] | None:
+        """Residual stress of the substrate [Pa], or its table; None where it has none."""
     @property
     def shape(
         self, /
@@ -417,13 +425,23 @@ class Coating:
         Thickness [m], positive.
     bond : Bond
         Bond to what is below it (default: perfect).
+    residual : float or array_like, optional
+        Residual stress of the layer [Pa], as :class:`Body` takes that of its substrate.
     """
 
     def __eq__(self, value: object, /) -> bool: ...
     def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
     def __hash__(self, /) -> int: ...
     def __ne__(self, value: object, /) -> bool: ...
-    def __new__(cls, /, material: Elastic, *, thickness: float, bond: Bond = ...) -> Coating: ...
+    def __new__(
+        cls,
+        /,
+        material: Elastic,
+        *,
+        thickness: float,
+        bond: Bond = ...,
+        residual: ArrayLike | None = None,
+    ) -> Coating: ...
     def __replace__(self, /, **changes: Any) -> Self: ...
     def __repr__(self, /) -> str: ...
     @property
@@ -434,6 +452,9 @@ class Coating:
         """Material of the layer."""
     def replace(self, /, **changes: Any) -> Self:
         """The same with some of its parts exchanged, named as in the constructor."""
+    @property
+    def residual(self, /) -> float | list[list[float]] | None:
+        """Residual stress [Pa], or its table; None where it has none."""
     @property
     def thickness(self, /) -> float:
         """Thickness [m]."""
@@ -772,7 +793,7 @@ class CycleSection:
         y: float | None = None,
         azimuth: float | None = None,
         body_number: int = 2,
-        residual: Sequence[float] | None = None,
+        residual: Sequence[ArrayLike] | None = None,
     ) -> CycleSection: ...
     def by_criteria(
         self,
@@ -941,7 +962,7 @@ class Envelope:
         y: float | None = None,
         azimuth: float | None = None,
         body_number: int = 2,
-        residual: Sequence[float] | None = None,
+        residual: Sequence[ArrayLike] | None = None,
     ) -> Envelope: ...
     @property
     def cycles(self, /) -> list[tuple[int, int]]:
@@ -2318,7 +2339,7 @@ class Subsurface:
         q_y: ArrayLike | None = None,
         body_number: int = 2,
         sigma_B: float = 0.0,
-        residual: Sequence[float] | None = None,
+        residual: Sequence[ArrayLike] | None = None,
         eigenstress: Sequence[Eigenstress | None] | None = None,
         rim: bool = False,
         stick: NDArray[bool_] | None = None,
@@ -3010,9 +3031,6 @@ def read_bytes(path: str | PathLike[str]) -> bytes:
 def read_text(path: str | PathLike[str]) -> str:
     """The text of a file of numbers, in UTF-8, UTF-16 or Latin-1."""
 
-def residual_of_layers(body: Body, residual: Sequence[float] | None = None) -> NDArray[np.float64]:
-    """Residual stress of every layer of a body [Pa]: those given, or zero."""
-
 def resume(
     store: str | PathLike[str],
     *,
@@ -3059,7 +3077,7 @@ def section_of_states(
     q_y: ArrayLike,
     stick: NDArray[bool_],
     sigma_B: Sequence[float],
-    residual: Sequence[float] | None = None,
+    residual: Sequence[ArrayLike] | None = None,
     eigenstress: Sequence[Eigenstress | None] | None = None,
     x: float | None = None,
     y: float | None = None,
@@ -3320,7 +3338,6 @@ __all__ = [
     "range_of_life",
     "read_bytes",
     "read_text",
-    "residual_of_layers",
     "resume",
     "resume_wear",
     "run_command",

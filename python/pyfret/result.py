@@ -108,7 +108,7 @@ class Result(Run):
         of: Sequence[str] = ("von_mises",),
         body_number: int = 2,
         bulk: bool = True,
-        residual: Sequence[float] | None = None,
+        residual: Sequence[ArrayLike] | None = None,
     ) -> xr.Dataset:
         """Extremes of stress over the increments whose fields were kept, on a section or on planes.
 

@@ -115,7 +115,7 @@ class Snapshot(State):
         azimuth: float | None = None,
         body_number: int = 2,
         bulk: bool = True,
-        residual: Sequence[float] | None = None,
+        residual: Sequence[ArrayLike] | None = None,
     ) -> Stress:
         """Stress below the contact, in the lower body unless `body_number` is 1.
 
@@ -138,9 +138,9 @@ class Snapshot(State):
             The body.
         bulk : bool
             Whether its bulk stress is part of the stress.
-        residual : sequence of float, optional
-            Residual stress of every layer from the surface down, the substrate's last [Pa], tension
-            positive: biaxial and uniform, added to s_xx and s_yy. It has no effect on the contact.
+        residual : sequence, optional
+            Residual stress of every layer from the surface down, the substrate's last, in place of
+            that of the body: each a stress [Pa] or a table over depth, as :class:`Body` takes it.
 
         Warns
         -----
@@ -199,7 +199,7 @@ class Snapshot(State):
         of: Sequence[str] = ("von_mises",),
         body_number: int = 2,
         bulk: bool = True,
-        residual: Sequence[float] | None = None,
+        residual: Sequence[ArrayLike] | None = None,
     ) -> None:
         """Write stress, displacement in the volume: :func:`pyfret.subsurface.write_volume`."""
         contact.write_below(

@@ -104,7 +104,10 @@ pub fn average<J: Judge>(
     let inside: Vec<usize> = (0..along.len())
         .filter(|n| mean.index_axis(Axis(1), *n).iter().all(|v| v.is_finite()))
         .collect();
-    let judged = judge.judge(layer, &mean.select(Axis(1), &inside).view(), &site.stop)?;
+    // The depth of a mean: the middle of its region.
+    let z = vec![top + 0.5 * length; inside.len()];
+    let stress = mean.select(Axis(1), &inside);
+    let judged = judge.judge(layer, &z, &stress.view(), &site.stop)?;
     let mut found = vec![None; along.len()];
     for (n, one) in inside.into_iter().zip(judged) {
         found[n] = Some(one);

@@ -88,6 +88,7 @@ impl Judge for ByCriterion {
     fn judge(
         &self,
         layer: usize,
+        _: &[f64],
         stress: &ArrayView3<'_, f64>,
         stop: &AtomicBool,
     ) -> Result<Vec<AtPoint>, Error> {

@@ -3,8 +3,9 @@
 use std::sync::atomic::AtomicBool;
 
 use contact_core::Error;
+use contact_core::scene::ResidualStress;
 use fatigue::{Yield, yielding};
-use ndarray::ArrayView3;
+use ndarray::{ArrayView3, Axis};
 
 use super::by_criterion::of_criteria;
 use super::judged::Judge;
@@ -15,8 +16,8 @@ pub struct ByYield {
     /// Yield stress of every layer from the surface down, the substrate's last \[Pa\]; none where
     /// it is not judged.
     pub s_y: Vec<Option<f64>>,
-    /// Residual stress of every layer \[Pa\], which does not grow with the load.
-    pub residual: Vec<f64>,
+    /// Residual stress of the layers, which does not grow with the load.
+    pub residual: ResidualStress,
     /// The factor by which points are ranked.
     pub of: fn(&Yield) -> f64,
 }
@@ -31,15 +32,25 @@ impl Judge for ByYield {
     fn judge(
         &self,
         layer: usize,
+        z: &[f64],
         stress: &ArrayView3<'_, f64>,
         stop: &AtomicBool,
     ) -> Result<Vec<Yield>, Error> {
         let Some(s_y) = self.s_y.get(layer).copied().flatten() else {
             return Ok(Vec::new());
         };
-        let residual = self.residual.get(layer).copied().unwrap_or(0.0);
-        let constant = [residual, residual, 0.0, 0.0, 0.0, 0.0];
-        yielding(stress, s_y, &constant, stop).map_err(of_criteria)
+        let residual = z.iter().map(|z| self.residual.at(layer, *z));
+        let residual: Vec<[f64; 2]> = residual.collect();
+        // Points of one residual stress together, as those of a depth are.
+        let mut found = Vec::with_capacity(residual.len());
+        for same in residual.chunk_by(|a, b| a == b) {
+            let [xx, yy] = same[0];
+            let some = found.len()..found.len() + same.len();
+            let here = stress.slice_axis(Axis(1), some.into());
+            let constant = [xx, yy, 0.0, 0.0, 0.0, 0.0];
+            found.extend(yielding(&here, s_y, &constant, stop).map_err(of_criteria)?);
+        }
+        Ok(found)
     }
 
     fn score(&self, found: &Yield) -> f64 {

@@ -212,13 +212,18 @@ impl<J: Judge> Climb<'_, J> {
             return Ok(Vec::new());
         }
         let points: Vec<Point> = places.iter().map(|place| self.point(*place)).collect();
-        let found = self.judged(&at.history(&points)?)?;
+        let found = self.judged(&points, &at.history(&points)?)?;
         Ok(found.iter().map(|f| self.judge.score(f)).collect())
     }
 
-    pub(super) fn judged(&self, history: &History) -> Result<Vec<J::Found>, Error> {
+    pub(super) fn judged(
+        &self,
+        points: &[Point],
+        history: &History,
+    ) -> Result<Vec<J::Found>, Error> {
+        let z: Vec<f64> = points.iter().map(|(_, _, depth)| depth.z).collect();
         self.judge
-            .judge(self.layer, &history.view(), &self.site.stop)
+            .judge(self.layer, &z, &history.view(), &self.site.stop)
     }
 
     /// The score of the tractions on cells twice as large, on the same border if it lies on one.

@@ -15,10 +15,12 @@ pub trait Judge: Sync {
     type Found: Copy + Send + Sync;
     /// Whether it judges a layer, from the surface down.
     fn judges(&self, layer: usize) -> bool;
-    /// The judgements of stresses of shape (moments, points, 6) in a layer that it judges \[Pa\].
+    /// The judgements of stresses of shape (moments, points, 6) in a layer that it judges \[Pa\], at the
+    /// depths `z` below the surface of the body \[m\], one for each point.
     fn judge(
         &self,
         layer: usize,
+        z: &[f64],
         stress: &ArrayView3<'_, f64>,
         stop: &AtomicBool,
     ) -> Result<Vec<Self::Found>, Error>;
@@ -54,11 +56,12 @@ pub fn judge<J: Judge>(
     let mut found: Vec<Vec<Option<Vec<J::Found>>>> = vec![vec![None; depths.len()]; judges.len()];
     site.on_line(line, &some, |first, histories| {
         let of_depth = |(k, history): (usize, &super::site::History)| {
-            let layer = some[first + k].layer;
+            let Depth { z, layer } = some[first + k];
+            let z = vec![z; along.len()];
             let of_judge = |judge: &J| {
                 judge
                     .judges(layer)
-                    .then(|| judge.judge(layer, &history.view(), &site.stop))
+                    .then(|| judge.judge(layer, &z, &history.view(), &site.stop))
                     .transpose()
             };
             judges

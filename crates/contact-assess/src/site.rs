@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use contact_core::Error;
-use contact_core::scene::{Body, Grid};
+use contact_core::scene::{Body, Grid, ResidualStress};
 use contact_subsurface::{
     Depth, Line, Moments, OverCycle, Point, Points, Section, Side, TwiceAsLarge,
 };
@@ -26,9 +26,8 @@ pub struct Site<'a> {
     pub side: Side,
     /// Grid of the contact.
     pub grid: &'a Grid,
-    /// Residual stress of every layer from the surface down, the substrate's last \[Pa\]; none if
-    /// empty.
-    pub residual: &'a [f64],
+    /// Residual stress of the layers.
+    pub residual: &'a ResidualStress,
     /// The states over the cycle.
     pub cycle: &'a dyn OverCycle,
     /// Once raised, ends the computation with [`Error::Interrupted`].
@@ -60,7 +59,7 @@ impl Site<'_> {
             let mut histories = vec![Array3::zeros((moments, places, 6)); some.len()];
             for which in all.chunks(TOGETHER) {
                 let now = self.cycle.moments(which)?;
-                now.with_states(self.residual, &self.stop, |states| {
+                now.with_states(Some(self.residual), &self.stop, |states| {
                     let section = Section::new(self.body, self.side, self.grid, line, states)?;
                     section.pass_stress(some, &mut histories, |history, _, stresses| {
                         for (k, stress) in which.iter().zip(stresses) {
@@ -86,7 +85,7 @@ impl Site<'_> {
     }
 
     fn at(&self, grid: &Grid, moments: &Moments, middle: (f64, f64)) -> Result<At, Error> {
-        let points = moments.with_states(self.residual, &self.stop, |states| {
+        let points = moments.with_states(Some(self.residual), &self.stop, |states| {
             Points::new(self.body, self.side, grid, states)
         })?;
         Ok(At {

@@ -80,7 +80,7 @@ pub fn worst<J: Judge>(
     } else {
         site.whole(&[point], false)?
     };
-    let Some(mut found) = climb.judged(&history)?.first().copied() else {
+    let Some(mut found) = climb.judged(&[point], &history)?.first().copied() else {
         return Ok(None);
     };
     let (mut place, mut point, mut score) = (place, point, judge.score(&found));

@@ -26,6 +26,7 @@ fn coefficients(n: usize) -> InfluenceCoefficients {
         coatings: vec![coating],
         bonds: Vec::new(),
         plastic: Vec::new(),
+        residual: Vec::new(),
         shape: Shape::Flat,
     };
     let grid = Grid::centred(1.2e-3, n).expect("a positive extent");

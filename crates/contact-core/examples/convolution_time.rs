@@ -55,6 +55,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         }],
         bonds: Vec::new(),
         plastic: Vec::new(),
+        residual: Vec::new(),
         shape: Shape::Flat,
     };
     println!("cells,threads,seconds");

@@ -195,7 +195,7 @@ impl Eigenstresses {
         let plane_strain = self.scene.grid.plane_strain;
         let found = self.with(|yielding| {
             yielding.check(yielded)?;
-            let stress = yielding.stress(yielded, None, number);
+            let stress = yielding.stress_of_changes(yielded, None, number);
             let (Some(stress), Some(mesh)) = (stress, yielding.mesh(number)) else {
                 return Ok(None);
             };

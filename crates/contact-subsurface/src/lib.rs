@@ -71,4 +71,3 @@ pub use section::Section;
 pub use slices::Slices;
 pub use states::States;
 pub use stream::{Accumulate, Moment, Stream};
-pub use uniform::residual_of_layers;

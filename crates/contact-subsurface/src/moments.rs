@@ -5,7 +5,7 @@ use std::sync::atomic::AtomicBool;
 
 use contact_core::Error;
 use contact_core::convolution::Tractions;
-use contact_core::scene::Grid;
+use contact_core::scene::{Grid, ResidualStress};
 use contact_core::zones::Outline;
 use ndarray::Array2;
 
@@ -38,10 +38,10 @@ pub trait OverCycle: Sync {
 }
 
 impl Moments {
-    /// The states of the body that they are, with the residual stress of its layers \[Pa\].
+    /// The states of the body that they are, with a residual stress in place of that of the body.
     pub fn with_states<T>(
         &self,
-        residual: &[f64],
+        residual: Option<&ResidualStress>,
         stop: &Arc<AtomicBool>,
         f: impl FnOnce(States<'_>) -> Result<T, Error>,
     ) -> Result<T, Error> {

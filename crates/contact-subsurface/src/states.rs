@@ -7,7 +7,7 @@ use std::sync::atomic::AtomicBool;
 use contact_core::Error;
 use contact_core::convolution::Tractions;
 use contact_core::kernels::{DepthKernel, Quantity, Stack, refuse_rigid};
-use contact_core::scene::{Body, Grid};
+use contact_core::scene::{Body, Grid, ResidualStress};
 use contact_core::stop::unless;
 use stress_tensor::StressTensor;
 
@@ -24,9 +24,8 @@ pub struct States<'a> {
     /// Bulk stress of the body in each state \[Pa\] (default: 0, also for states beyond the list).
     /// In each layer it enters with that layer's modulus.
     pub sigma_B: &'a [f64],
-    /// Residual stress of every layer from the surface down, the substrate's last \[Pa\], tension
-    /// positive: [`super::residual_of_layers`] (default: none).
-    pub residual: &'a [f64],
+    /// Residual stress of the layers in place of that of the body (default: that of the body).
+    pub residual: Option<&'a ResidualStress>,
     /// Residual stress of the plastic strain of the body in each state; `None` where nothing has yielded.
     /// A body that may yield asks for one in each state ([`super::Eigenstresses`]); another has none
     /// (default: none).
@@ -118,9 +117,9 @@ impl Loaded {
         DepthKernel::new(&self.stack, place, reach, (dx, dy))
     }
 
-    /// s_xx and s_yy of a state at a depth that are the same all over the layer \[Pa\].
+    /// s_xx and s_yy of a state at a depth that are the same all over the depth \[Pa\].
     pub(super) fn uniform(&self, state: usize, depth: Depth) -> [f64; 2] {
-        self.uniform.stress(&self.body, state, depth.layer)
+        self.uniform.stress(&self.body, state, depth)
     }
 
     /// What plastic strain leaves in a state, at a place \[Pa\]; `None` where nothing has yielded.

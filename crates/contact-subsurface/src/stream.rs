@@ -10,13 +10,12 @@ use std::sync::atomic::AtomicBool;
 use contact_core::Error;
 use contact_core::convolution::Tractions;
 use contact_core::march::{Increment, March, Observer};
-use contact_core::scene::{Body, Grid};
+use contact_core::scene::{Body, Grid, Profile, ResidualStress};
 use ndarray::Array2;
 use stress_tensor::StressTensor;
 
 use super::{
     Border, Depth, Eigenstress, Eigenstresses, Line, Points, Section, Side, Slices, States,
-    residual_of_layers,
 };
 
 /// Increments whose stresses below a line are computed together: the kernels of a depth cost about
@@ -103,8 +102,7 @@ pub struct Stream<A: Accumulate> {
     kept: Vec<A::Kept>,
     /// Whether the tractions are taken for those of contacts.
     rim: bool,
-    /// Of every layer.
-    residual: Vec<f64>,
+    residual: ResidualStress,
     waiting: Vec<Waiting>,
     /// Set up with the first increment of a march.
     eigenstresses: Option<Eigenstresses>,
@@ -142,7 +140,7 @@ impl<A: Accumulate> Stream<A> {
             accumulate,
             kept,
             rim: false,
-            residual: residual_of_layers(body, &[])?,
+            residual: ResidualStress::of(body),
             waiting: Vec::with_capacity(BATCH),
             eigenstresses: None,
             stop: Arc::default(),
@@ -163,9 +161,9 @@ impl<A: Accumulate> Stream<A> {
         self
     }
 
-    /// Adds the residual stress of every layer \[Pa\]: [`States::residual`] (default: none).
-    pub fn residual(mut self, residual: &[f64]) -> Result<Self, Error> {
-        self.residual = residual_of_layers(&self.body, residual)?;
+    /// Takes the residual stress of every layer in place of that of the body: [`ResidualStress::given`].
+    pub fn residual(mut self, residual: &[Profile]) -> Result<Self, Error> {
+        self.residual = ResidualStress::given(&self.body, residual)?;
         Ok(self)
     }
 
@@ -226,7 +224,7 @@ impl<A: Accumulate> Stream<A> {
         let states = States {
             tractions: &tractions,
             sigma_B: &sigma_B,
-            residual: &self.residual,
+            residual: Some(&self.residual),
             eigenstress: &eigenstress,
             stick: self.rim.then_some(&stick[..]),
             stop: self.stop.clone(),

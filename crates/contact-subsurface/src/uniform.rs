@@ -2,7 +2,7 @@
 //! that of its plastic strain.
 
 use contact_core::Error;
-use contact_core::scene::{Body, Grid};
+use contact_core::scene::{Body, Grid, ResidualStress};
 use stress_tensor::StressTensor;
 
 use super::{Depth, Eigenstress};
@@ -12,19 +12,19 @@ use super::{Depth, Eigenstress};
 pub(super) struct Uniform {
     sigma_B: Vec<f64>,
     plane_strain: bool,
-    /// Of every layer.
-    residual: Vec<f64>,
+    /// Of the layers, over depth.
+    residual: ResidualStress,
     /// Of the plastic strain in each state.
     eigenstress: Vec<Option<Eigenstress>>,
 }
 
 impl Uniform {
-    /// Bulk stress of each state and residual stress of each layer \[Pa\], what plastic strain leaves in each
-    /// of `states`; fails where the body yields and this is not said.
+    /// Bulk stress of each state and residual stress of the layers \[Pa\], by default that of the body, what
+    /// plastic strain leaves in each of `states`; fails where the body yields and this is not said.
     pub(super) fn new(
         (body, grid): (&Body, &Grid),
         sigma_B: &[f64],
-        residual: &[f64],
+        residual: Option<&ResidualStress>,
         eigenstress: &[Option<Eigenstress>],
         states: usize,
     ) -> Result<Self, Error> {
@@ -36,17 +36,19 @@ impl Uniform {
         Ok(Self {
             sigma_B: sigma_B.to_vec(),
             plane_strain: grid.plane_strain,
-            residual: residual_of_layers(body, residual)?,
+            residual: residual
+                .cloned()
+                .unwrap_or_else(|| ResidualStress::of(body)),
             eigenstress: eigenstress.to_vec(),
         })
     }
 
-    /// s_xx and s_yy of a state that are the same all over a layer of the body \[Pa\].
-    pub(super) fn stress(&self, body: &Body, state: usize, layer: usize) -> [f64; 2] {
+    /// s_xx and s_yy of a state that are the same all over a depth of the body \[Pa\].
+    pub(super) fn stress(&self, body: &Body, state: usize, depth: Depth) -> [f64; 2] {
         let sigma_B = self.sigma_B.get(state).copied().unwrap_or(0.0);
-        let residual = self.residual.get(layer).copied().unwrap_or(0.0);
-        body.bulk_stress(sigma_B, self.plane_strain, layer)
-            .map(|s| s + residual)
+        let [xx, yy] = self.residual.at(depth.layer, depth.z);
+        let [along, across] = body.bulk_stress(sigma_B, self.plane_strain, depth.layer);
+        [along + xx, across + yy]
     }
 
     /// What plastic strain leaves in a state, at a place \[Pa\]; `None` where nothing has yielded.
@@ -59,28 +61,4 @@ impl Uniform {
         let left = self.eigenstress.get(state)?.as_ref()?;
         Some(left.stress(x, y, depth))
     }
-}
-
-/// Residual stress of every layer of a body from the surface down, the substrate's last \[Pa\]:
-/// those given, or zero where none is.
-///
-/// It is biaxial, s_xx = s_yy, uniform in its layer, and has no effect on the contact. Fails for
-/// another number of layers, and where a stress is not finite.
-pub fn residual_of_layers(body: &Body, given: &[f64]) -> Result<Vec<f64>, Error> {
-    let layers = body.coatings.len() + 1;
-    if given.is_empty() {
-        return Ok(vec![0.0; layers]);
-    }
-    if given.len() != layers {
-        let allowed = format!(
-            "one for each of the {layers} layers from the surface down, the substrate last"
-        );
-        let found = format!("{} numbers", given.len());
-        return Err(Error::invalid("residual", found, allowed));
-    }
-    if let Some(n) = given.iter().position(|s| !s.is_finite()) {
-        let key = format!("residual[{n}]");
-        return Err(Error::invalid(key, given[n], "a finite stress in Pa"));
-    }
-    Ok(given.to_vec())
 }

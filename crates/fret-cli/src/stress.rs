@@ -7,12 +7,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::Args;
 use contact_core::Error;
 use contact_core::convolution::Tractions;
-use contact_core::scene::{Body, Scene};
+use contact_core::scene::{Body, Profile, ResidualStress, Scene};
 use contact_core::zones::Outline;
 use contact_store::{ImageData, Store, StressStore, VolumeSink, write_volume};
 use contact_subsurface::{
     Depth, Line, Loads as Below, Probe, Search, Section, Side, Slices, States, chosen_depths,
-    depths, largest_anywhere, residual_of_layers,
+    depths, largest_anywhere,
 };
 use ndarray::Axis;
 
@@ -129,10 +129,15 @@ struct Task {
     json: bool,
     probes: Vec<Probe>,
     loads: Loads,
-    /// Residual stress of every layer in Pa.
-    residual: Vec<f64>,
+    residual: ResidualStress,
     /// Raised by Ctrl-C.
     stop: Arc<AtomicBool>,
+}
+
+/// Residual stress of a body: a stress given for each layer \[Pa\], or its own.
+pub(crate) fn given_residual(body: &Body, given: &[f64]) -> Result<ResidualStress, Error> {
+    let layers: Vec<_> = given.iter().copied().map(Profile::uniform).collect();
+    ResidualStress::given(body, &layers)
 }
 
 /// Computes the stress below the contact of a result.
@@ -223,7 +228,7 @@ impl Task {
         }
         say_thin(&scene, body);
         Ok(Self {
-            residual: residual_of_layers(body, &options.residual)?,
+            residual: given_residual(body, &options.residual)?,
             probes,
             loads,
             scene,
@@ -274,7 +279,7 @@ impl Task {
         States {
             tractions,
             sigma_B: std::slice::from_ref(&self.loads.sigma_B),
-            residual: &self.residual,
+            residual: Some(&self.residual),
             eigenstress: &self.loads.eigenstress,
             stick: Some(stick),
             stop: self.stop.clone(),

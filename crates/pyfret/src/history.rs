@@ -15,6 +15,7 @@ use pyo3::types::PyDict;
 use crate::argument::to_python;
 use crate::arguments::{Field, List, Mask, number, side};
 use crate::interruptible::interruptible;
+use crate::residual_stress::Profiles;
 use crate::scene::{Body, Grid, LoadPath};
 use crate::stress::measures;
 use crate::subsurface::{Subsurface, line};
@@ -34,7 +35,7 @@ pub(crate) struct Envelope {
 #[pymethods]
 impl Envelope {
     #[new]
-    #[pyo3(signature = (body, grid, path, z: "Sequence[float]", layer: "Sequence[int]", *, of, x: "float | None" = None, y: "float | None" = None, azimuth: "float | None" = None, body_number: "int" = 2, residual: "Sequence[float] | None" = None))]
+    #[pyo3(signature = (body, grid, path, z: "Sequence[float]", layer: "Sequence[int]", *, of, x: "float | None" = None, y: "float | None" = None, azimuth: "float | None" = None, body_number: "int" = 2, residual = None))]
     fn new(
         py: Python<'_>,
         body: Body,
@@ -47,7 +48,7 @@ impl Envelope {
         #[pyo3(from_py_with = number)] y: Option<f64>,
         #[pyo3(from_py_with = number)] azimuth: Option<f64>,
         #[pyo3(from_py_with = number)] body_number: u8,
-        residual: Option<List<f64>>,
+        residual: Profiles,
     ) -> PyResult<Self> {
         let cycles = core::cycles(&path.0);
         let line = match (x, y) {
@@ -75,9 +76,14 @@ impl Envelope {
         let depths = Subsurface::depths(&z, &layer)?;
         let side = side(body_number)?;
         let largest = accumulate.1.clone();
+        let residual = residual
+            .unwrap_or_default()
+            .into_iter()
+            .map(|layer| layer.0);
+        let residual: Vec<_> = residual.collect();
         let new = || {
             let stream = Stream::new(&body.0, side, &grid.0, line, depths, accumulate)?;
-            stream.residual(&residual.unwrap_or_default())
+            stream.residual(&residual)
         };
         let stream = interruptible(py, &Arc::default(), new)?;
         let stream = stream.map_err(to_python)?;

@@ -36,6 +36,7 @@ mod outline;
 mod parts;
 mod quantity;
 mod reference;
+mod residual_stress;
 mod result;
 mod scene;
 mod stress;
@@ -105,8 +106,7 @@ mod _core {
     use crate::stress::{largest_of_samples, measure, principal, probe_labels};
     #[pymodule_export]
     use crate::subsurface::{
-        Subsurface, chosen_depths, depths, line_places, line_through, residual_of_layers,
-        section_of_states,
+        Subsurface, chosen_depths, depths, line_places, line_through, section_of_states,
     };
     #[pymodule_export]
     use crate::text::{read_bytes, read_text, shown, with_error, with_range};

@@ -10,6 +10,7 @@ use crate::arguments::number;
 use crate::error::{must_be, takes, to_python};
 use crate::parts::parts;
 use crate::quantity::{Given, known};
+use crate::residual_stress::{Profile, Shown, shown, text};
 
 /// A homogeneous isotropic elastic material.
 ///
@@ -273,22 +274,30 @@ impl Bond {
 ///     Thickness [m], positive.
 /// bond : Bond
 ///     Bond to what is below it (default: perfect).
+/// residual : float or array_like, optional
+///     Residual stress of the layer [Pa], as :class:`Body` takes that of its substrate.
 #[pyclass(frozen, eq, module = "pyfret")]
-#[derive(Clone, Copy, PartialEq)]
-pub(crate) struct Coating(
-    pub(crate) core::Coating,
-    pub(crate) core::Bond,
-    pub(crate) Option<core::Plastic>,
-);
+#[derive(Clone, PartialEq)]
+pub(crate) struct Coating {
+    pub(crate) layer: core::Coating,
+    pub(crate) bond: core::Bond,
+    pub(crate) plastic: Option<core::Plastic>,
+    pub(crate) residual: core::Profile,
+}
 
 impl Coating {
     /// A layer that is perfectly bonded.
-    pub(crate) fn perfect(coating: core::Coating) -> Self {
-        Self(coating, core::Bond::PERFECT, None)
+    pub(crate) fn perfect(layer: core::Coating) -> Self {
+        Self {
+            layer,
+            bond: core::Bond::PERFECT,
+            plastic: None,
+            residual: core::Profile::default(),
+        }
     }
 }
 
-parts!(Coating: material, thickness, bond);
+parts!(Coating: material, thickness, bond, residual);
 takes!(
     Coating,
     "a coating, such as Coating(Elastic(E=300e9, nu=0.25), thickness=3e-6)"
@@ -298,52 +307,75 @@ takes!(
 impl Coating {
     #[new]
     #[pyo3(
-        signature = (material, *, thickness: "float", bond = Bond(core::Bond::PERFECT), **unknown),
-        text_signature = "(material, *, thickness, bond=...)"
+        signature = (material, *, thickness: "float", bond = Bond(core::Bond::PERFECT), residual = None, **unknown),
+        text_signature = "(material, *, thickness, bond=..., residual=None)"
     )]
     fn new(
         material: Elastic,
         #[pyo3(from_py_with = Given::thickness)] thickness: f64,
         bond: Bond,
+        residual: Option<Profile>,
         unknown: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
-        known("Coating", unknown, &["material", "thickness", "bond"])?;
+        known(
+            "Coating",
+            unknown,
+            &["material", "thickness", "bond", "residual"],
+        )?;
         let coating = core::Coating {
             material: material.0,
             thickness,
         };
         coating.check("coating").map_err(to_python)?;
-        Ok(Self(coating, bond.0, material.1))
+        let residual = residual.unwrap_or_default().0;
+        residual.check("coating.residual").map_err(to_python)?;
+        Ok(Self {
+            layer: coating,
+            bond: bond.0,
+            plastic: material.1,
+            residual,
+        })
     }
 
     /// Material of the layer.
     #[getter]
     fn material(&self) -> Elastic {
-        Elastic(self.0.material, self.2)
+        Elastic(self.layer.material, self.plastic)
     }
 
     /// Thickness [m].
     #[getter]
     fn thickness(&self) -> f64 {
-        self.0.thickness
+        self.layer.thickness
     }
 
     /// Bond to what is below it.
     #[getter]
     fn bond(&self) -> Bond {
-        Bond(self.1)
+        Bond(self.bond)
+    }
+
+    /// Residual stress [Pa], or its table; None where it has none.
+    #[getter]
+    fn residual(&self) -> Option<Shown> {
+        shown(&self.residual)
     }
 
     pub(crate) fn __repr__(&self) -> String {
-        let bond = if self.1 == core::Bond::PERFECT {
+        let bond = if self.bond == core::Bond::PERFECT {
             String::new()
         } else {
             format!(", bond={}", self.bond().__repr__())
         };
+        let residual = if self.residual.rows.is_empty() {
+            String::new()
+        } else {
+            format!(", residual={}", text(&self.residual))
+        };
         format!(
-            "Coating({}, thickness={:?}{bond})",
+            "Coating({}, thickness={:?}{bond}{residual})",
             self.material().__repr__(),
-            self.0.thickness
+            self.layer.thickness
         )
     }
 }

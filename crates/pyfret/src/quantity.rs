@@ -9,7 +9,7 @@ use crate::arguments::number;
 use crate::document::quantity;
 
 /// The number in SI of a quantity that has this name in a scene file.
-fn si(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
+pub(crate) fn si(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     let text = if value.is_instance_of::<PyString>() {
         value.extract()?
     } else if value.hasattr("magnitude")? && value.hasattr("units")? {

@@ -5,18 +5,19 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use contact_core::convolution::Tractions;
-use contact_core::scene;
+use contact_core::scene::{self, ResidualStress};
 use contact_store::{ImageData, StressStore, VolumeSink, write_volume};
 use contact_subsurface as core;
 use contact_subsurface::{Depth, Line, Side};
 use ndarray::{Array2, Axis, Ix2, Ix3};
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArray4};
+use numpy::{IntoPyArray, PyArray2, PyArray3, PyArray4};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::argument::to_python;
 use crate::arguments::{Array, Field, List, Mask, number, side};
 use crate::interruptible::interruptible;
+use crate::residual_stress::{Profiles, of_body};
 use crate::scene::{Body, Grid};
 use crate::yielding::{Eigenstress, of_states};
 
@@ -104,7 +105,7 @@ pub(crate) fn chosen_depths(
 /// Tractions [Pa] and cells that stick are of shape (states, nx, ny); near the surface tractions
 /// vary within the cells. States share the kernels, which cost as much as about ten of them.
 #[pyfunction]
-#[pyo3(signature = (body, grid, z: "Sequence[float]", layer: "Sequence[int]", *, p, q_x, q_y, stick, sigma_B: "Sequence[float]", residual: "Sequence[float] | None" = None, eigenstress: "Sequence[Eigenstress | None] | None" = None, x: "float | None" = None, y: "float | None" = None, azimuth: "float | None" = None, body_number: "int" = 2) -> "NDArray[np.float64]")]
+#[pyo3(signature = (body, grid, z: "Sequence[float]", layer: "Sequence[int]", *, p, q_x, q_y, stick, sigma_B: "Sequence[float]", residual = None, eigenstress: "Sequence[Eigenstress | None] | None" = None, x: "float | None" = None, y: "float | None" = None, azimuth: "float | None" = None, body_number: "int" = 2) -> "NDArray[np.float64]")]
 #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
 pub(crate) fn section_of_states<'py>(
     py: Python<'py>,
@@ -117,7 +118,7 @@ pub(crate) fn section_of_states<'py>(
     q_y: Array<'_, Ix3>,
     stick: Mask<'_, Ix3>,
     sigma_B: List<f64>,
-    residual: Option<List<f64>>,
+    residual: Profiles,
     eigenstress: Option<List<Option<Py<Eigenstress>>>>,
     #[pyo3(from_py_with = number)] x: Option<f64>,
     #[pyo3(from_py_with = number)] y: Option<f64>,
@@ -155,13 +156,13 @@ pub(crate) fn section_of_states<'py>(
         side(body_number)?,
     );
     let stop = Arc::default();
-    let residual = residual.unwrap_or_default();
+    let residual = of_body(&body, residual)?;
     let eigenstress = of_states(eigenstress);
     let found = interruptible(py, &stop, || {
         let states = core::States {
             tractions: &tractions,
             sigma_B: &sigma_B,
-            residual: &residual,
+            residual: Some(&residual),
             eigenstress: &eigenstress,
             stick: Some(&stick),
             stop: stop.clone(),
@@ -174,19 +175,6 @@ pub(crate) fn section_of_states<'py>(
     Ok(stacked.into_pyarray(py))
 }
 
-/// Residual stress of every layer of a body [Pa]: those given, or zero.
-#[pyfunction]
-#[pyo3(signature = (body, residual: "Sequence[float] | None" = None) -> "NDArray[np.float64]")]
-pub(crate) fn residual_of_layers(
-    py: Python<'_>,
-    body: Body,
-    residual: Option<List<f64>>,
-) -> PyResult<Bound<'_, PyArray1<f64>>> {
-    let given = residual.unwrap_or_default();
-    let of_layers = core::residual_of_layers(&body.0, &given).map_err(to_python)?;
-    Ok(of_layers.into_pyarray(py))
-}
-
 /// Tractions on a body, and what they cause below its surface.
 ///
 /// Use :func:`pyfret.subsurface.stress`, which labels what this one gives.
@@ -196,7 +184,7 @@ pub(crate) struct Subsurface {
     grid: Grid,
     side: Side,
     sigma_B: f64,
-    residual: Vec<f64>,
+    residual: ResidualStress,
     eigenstress: Vec<Option<core::Eigenstress>>,
     fields: [Option<Vec<f64>>; 3],
     /// Whether they are those of a contact, and the cells that stick.
@@ -248,7 +236,7 @@ impl Subsurface {
         let states = core::States {
             tractions: &tractions,
             sigma_B: &[self.sigma_B],
-            residual: &self.residual,
+            residual: Some(&self.residual),
             eigenstress: &self.eigenstress,
             stick: self.rim.then_some(&stick[..]),
             stop: stop.clone(),
@@ -274,7 +262,7 @@ impl Subsurface {
 #[pymethods]
 impl Subsurface {
     #[new]
-    #[pyo3(signature = (body, grid, *, p = None, q_x = None, q_y = None, body_number: "int" = 2, sigma_B: "float" = 0.0, residual: "Sequence[float] | None" = None, eigenstress: "Sequence[Eigenstress | None] | None" = None, rim = false, stick = None))]
+    #[pyo3(signature = (body, grid, *, p = None, q_x = None, q_y = None, body_number: "int" = 2, sigma_B: "float" = 0.0, residual = None, eigenstress: "Sequence[Eigenstress | None] | None" = None, rim = false, stick = None))]
     fn new(
         body: Body,
         grid: Grid,
@@ -283,7 +271,7 @@ impl Subsurface {
         q_y: Option<Field<'_>>,
         #[pyo3(from_py_with = number)] body_number: u8,
         #[pyo3(from_py_with = number)] sigma_B: f64,
-        residual: Option<List<f64>>,
+        residual: Profiles,
         eigenstress: Option<List<Option<Py<Eigenstress>>>>,
         rim: bool,
         stick: Option<Mask<'_, Ix2>>,
@@ -310,7 +298,7 @@ impl Subsurface {
             fields: [cells("q_x", q_x)?, cells("q_y", q_y)?, cells("p", p)?],
             side: side(body_number)?,
             sigma_B,
-            residual: residual.unwrap_or_default().0,
+            residual: of_body(&body, residual)?,
             eigenstress: of_states(eigenstress),
             body,
             grid,

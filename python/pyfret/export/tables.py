@@ -126,7 +126,7 @@ def stress(
     frame: Frame | None = None,
     body_number: int = 2,
     bulk: bool = True,
-    residual: Sequence[float] | None = None,
+    residual: Sequence[ArrayLike] | None = None,
 ) -> NDArray[np.float64]:
     """Stress of a contact at the points of another model, and a table of it.
 
@@ -143,8 +143,8 @@ def stress(
         As in :func:`tractions`.
     bulk : bool
         Whether the body's bulk stress is part of the stress.
-    residual : sequence of float, optional
-        Residual stress of every layer [Pa], as in :func:`pyfret.subsurface.stress`.
+    residual : sequence, optional
+        Residual stress of every layer, as in :func:`pyfret.subsurface.stress`.
 
     Returns
     -------

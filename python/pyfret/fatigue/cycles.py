@@ -76,7 +76,7 @@ def history(
     azimuth: float | None = None,
     body_number: int = 2,
     cycle: int | None = -1,
-    residual: Sequence[float] | None = None,
+    residual: Sequence[ArrayLike] | None = None,
 ) -> xr.DataArray:
     """Stress over a closed cycle of a run whose increments were kept, ready for a criterion.
 
@@ -89,9 +89,8 @@ def history(
     cycle : int, optional
         Which of the closed cycles of the load path, the last by default; None for all increments
         that were kept.
-    residual : sequence of float, optional
-        Residual stress of every layer from the surface down, the substrate's last [Pa]: biaxial
-        and uniform, added to s_xx and s_yy. It has no effect on the contact.
+    residual : sequence, optional
+        Residual stress of every layer, as in :class:`Section`.
 
     Returns
     -------
@@ -148,7 +147,7 @@ def _of_snapshots(
     x: float | None,
     y: float | None,
     body_number: int,
-    residual: Sequence[float] | None,
+    residual: Sequence[ArrayLike] | None,
 ) -> xr.DataArray:
     """The stress of every increment by itself, where it is no section."""
     snapshots = (

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any, TypedDict
+from typing import TYPE_CHECKING, Any, TypedDict
 
 import numpy as np
 
@@ -12,6 +12,9 @@ from pyfret._core import Material
 from pyfret._util.arrays import items, plain
 from pyfret._util.door import numbers_only
 from pyfret.subsurface.line import Line
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
 __all__ = ["Materials", "Section", "SectionOptions", "for_each_layer"]
 
@@ -29,7 +32,7 @@ class SectionOptions(TypedDict, total=False):
     azimuth: float | None
     body_number: int
     cycle: int | None
-    residual: Sequence[float] | None
+    residual: Sequence[ArrayLike] | None
 
 
 @numbers_only
@@ -51,9 +54,9 @@ class Section:
     body_number: int = 2
     #: Which of the closed cycles, the last by default; None for all increments that were kept.
     cycle: int | None = -1
-    #: Residual stress of every layer from the surface down, the substrate's last [Pa], tension
-    #: positive: biaxial and uniform, added to s_xx and s_yy. It has no effect on the contact.
-    residual: Sequence[float] | None = None
+    #: Residual stress of every layer from the surface down, the substrate's last, in place of that
+    #: of the body: each a stress [Pa] or a table over depth, as :class:`pyfret.Body` takes it.
+    residual: Sequence[ArrayLike] | None = None
 
     def __post_init__(self) -> None:
         """Refuse what is no section."""

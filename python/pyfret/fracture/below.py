@@ -50,7 +50,7 @@ def crack(
     friction: float = 0.0,
     body_number: int = 2,
     cycle: int | None = -1,
-    residual: Sequence[float] | None = None,
+    residual: Sequence[ArrayLike] | None = None,
 ) -> Cracks:
     """Take the stress of a closed cycle to the tips of cracks of several lengths.
 
@@ -133,7 +133,7 @@ def grow(
     friction: float = 0.0,
     body_number: int = 2,
     cycle: int | None = -1,
-    residual: Sequence[float] | None = None,
+    residual: Sequence[ArrayLike] | None = None,
 ) -> Cracks:
     """Let a crack grow below a contact in the direction of the largest range over a closed cycle.
 
@@ -192,7 +192,7 @@ class Cycle:
     result: Run
     cycle: int | None
     body_number: int
-    residual: Sequence[float] | None
+    residual: Sequence[ArrayLike] | None
 
     @cached_property
     def increments(self) -> NDArray[np.int64]:

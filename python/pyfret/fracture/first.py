@@ -20,6 +20,8 @@ from pyfret.scene.warnings import doubt_numbers
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from numpy.typing import ArrayLike
+
     from pyfret.fracture.growth import Threshold
     from pyfret.run import Run
 
@@ -67,7 +69,7 @@ def first_to_fail(
     peel_strength: float | None = None,
     shear_strength: float | None = None,
     threshold: Threshold | None = None,
-    residual: Sequence[float] | None = None,
+    residual: Sequence[ArrayLike] | None = None,
     x: float | None = None,
     lengths: Sequence[float] | None = None,
     body_number: int = 2,
@@ -85,13 +87,14 @@ def first_to_fail(
     toughness : float, optional
         Energy release rate at which a crack channels through the outermost coating [J/m^2]. Its
         stress is the largest of the cycle along that plane at the top and the bottom of the
-        coating, residual stress included: on the safe side where that varies through the thickness.
+        coating and at the depths of a table of its residual stress, residual stress included: on
+        the safe side where that varies through the thickness.
     peel_strength, shear_strength : float, optional
         Strengths of the interfaces [Pa], both or neither: :func:`over_cycle`.
     threshold : Threshold, optional
         Of the substrate, for a normal crack that has come through the coatings: :func:`crack`.
-    residual : sequence of float, optional
-        Residual stress of every layer from the surface down, the substrate's last [Pa].
+    residual : sequence, optional
+        Residual stress of every layer, as in :class:`pyfret.fatigue.Section`.
     x : float, optional
         Its mouth [m] (default: the rim of the contact below which the range of K is larger).
     lengths : array, optional
@@ -117,18 +120,23 @@ def first_to_fail(
         doubt_numbers("toughness", toughness=toughness)
         coating = body.coatings[0]
         below = body.coatings[1].material if len(body.coatings) > 1 else body.substrate
-        # The surface, and both sides of the first interface: the upper one is the film's.
+        # The surface, the depths of a table of residual stress, and both sides of the first
+        # interface: the upper one is the film's.
+        film_stress = coating if residual is None else coating.replace(residual=residual[0])
+        table = film_stress.residual
+        rows = table if isinstance(table, list) else []
+        inside = [row[0] for row in rows if 0.0 < row[0] < coating.thickness]
         where = Section(body_number=body_number, cycle=cycle, residual=residual)
         line = placed(result, where)[0].line
         stress = history(
             result,
-            [0.0, coating.thickness],
+            [0.0, *inside, coating.thickness],
             **line.named(),
             body_number=body_number,
             cycle=cycle,
             residual=residual,
         )
-        of_film = stress.isel(depth=slice(0, 2))
+        of_film = stress.isel(depth=stress.layer.values == 0)
         xx, yy, xy = (of_film.sel(component=name, drop=True) for name in ("s_xx", "s_yy", "s_xy"))
         cos, sin = np.cos(line.angle), np.sin(line.angle)
         largest = float((cos**2 * xx + 2.0 * cos * sin * xy + sin**2 * yy).max())

@@ -11,6 +11,8 @@ from pyfret._util.door import numbers_only
 from pyfret.fatigue.section import for_each_layer
 
 if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
     from pyfret._core import Body
     from pyfret.fatigue.criteria import CriterionName
     from pyfret.fatigue.factors import YieldStresses
@@ -47,8 +49,9 @@ class Candidate:
     materials: Materials | None = None
     #: Yield stress of the substrate, or of every layer [Pa] (default: that of the materials).
     s_y: YieldStresses | None = None
-    #: Residual stress of every layer [Pa], tension positive.
-    residual: Sequence[float] | None = None
+    #: Residual stress of every layer, each a stress [Pa] or a table over depth (default: that of
+    #: the body).
+    residual: Sequence[ArrayLike] | None = None
     #: Energy release rate at which a crack channels through the outermost coating [J/m^2].
     toughness: float | None = None
     #: Strengths of the interfaces [Pa].

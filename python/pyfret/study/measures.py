@@ -17,6 +17,8 @@ from pyfret.study.identity import identity
 from pyfret.subsurface.tensor import LABELS
 
 if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
     from pyfret.fatigue.criteria import CriterionName
     from pyfret.fatigue.lives import Materials
     from pyfret.result import Result
@@ -206,7 +208,7 @@ class Arrest:
     aspect: float | None = None
     friction: float = 0.0
     body_number: int = 2
-    residual: Sequence[float] | None = None
+    residual: Sequence[ArrayLike] | None = None
 
     def __call__(self, result: Result) -> dict[str, xr.DataArray]:
         """Follow the crack."""
@@ -240,7 +242,7 @@ class FirstToFail:
     peel_strength: float | None = None
     shear_strength: float | None = None
     threshold: fracture.Threshold | None = None
-    residual: Sequence[float] | None = None
+    residual: Sequence[ArrayLike] | None = None
     x: float | None = None
     lengths: Sequence[float] | None = None
     body_number: int = 2

@@ -34,7 +34,7 @@ def stress_below(
     azimuth: float | None = None,
     body_number: int = 2,
     bulk: bool = True,
-    residual: Sequence[float] | None = None,
+    residual: Sequence[ArrayLike] | None = None,
 ) -> Stress:
     """Stress below the contact of an increment: :meth:`pyfret.Snapshot.stress`."""
     body, grid = state.body(body_number), state.scene.grid
@@ -47,7 +47,7 @@ def stress_below(
 
 
 def loaded_by(
-    state: State, body_number: int, *, bulk: bool, residual: Sequence[float] | None
+    state: State, body_number: int, *, bulk: bool, residual: Sequence[ArrayLike] | None
 ) -> _core.Subsurface:
     """A body under the tractions of an increment, with what its plastic strain leaves."""
     p, q_x, q_y = (state.tractions()[name] for name in ("p", "q_x", "q_y"))
@@ -131,7 +131,7 @@ def write_below(
     of: Sequence[str] = ("von_mises",),
     body_number: int = 2,
     bulk: bool = True,
-    residual: Sequence[float] | None = None,
+    residual: Sequence[ArrayLike] | None = None,
 ) -> None:
     """Write the volume below the contact of an increment: :meth:`pyfret.Snapshot.write_volume`."""
     fields.write(

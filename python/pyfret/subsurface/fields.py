@@ -92,7 +92,7 @@ def subsurface(
     loads: tuple[ArrayLike | None, ArrayLike | None, ArrayLike | None],
     body_number: int,
     sigma_B: float = 0.0,
-    residual: Sequence[float] | None = None,
+    residual: Sequence[ArrayLike] | None = None,
     *,
     left: Sequence[_core.Eigenstress | None] | None = None,
     rim: bool = False,
@@ -132,7 +132,7 @@ def stress(
     rim: bool = False,
     stick: ArrayLike | None = None,
     length: float | None = None,
-    residual: Sequence[float] | None = None,
+    residual: Sequence[ArrayLike] | None = None,
 ) -> Stress:
     """Stress in a body under tractions on its surface.
 
@@ -166,9 +166,9 @@ def stress(
     length : float, optional
         Radius of the contact [m], for the choice of depths (default: half the longer side of the
         box around the cells that are loaded).
-    residual : sequence of float, optional
-        Residual stress of every layer from the surface down, the substrate's last [Pa], tension
-        positive: biaxial and uniform, added to s_xx and s_yy.
+    residual : sequence, optional
+        Residual stress of every layer from the surface down, the substrate's last, in place of that
+        of the body: each a stress [Pa] or a table over depth, as :class:`pyfret.Body` takes it.
 
     Returns
     -------
@@ -265,7 +265,7 @@ def write_volume(
     of: Sequence[str] = ("von_mises",),
     body_number: int = 2,
     sigma_B: float = 0.0,
-    residual: Sequence[float] | None = None,
+    residual: Sequence[ArrayLike] | None = None,
     rim: bool = False,
     stick: ArrayLike | None = None,
     title: str = "",
@@ -317,7 +317,7 @@ def envelope(
     of: Sequence[str] = ("von_mises",),
     body_number: int = 2,
     bulk: bool = True,
-    residual: Sequence[float] | None = None,
+    residual: Sequence[ArrayLike] | None = None,
 ) -> xr.Dataset:
     """Extremes of stress over a load path, none of whose increments is kept.
 
@@ -334,8 +334,8 @@ def envelope(
         Measures, as in :class:`Stress`.
     bulk : bool
         Whether the body's bulk stress is part of the stress.
-    residual : sequence of float, optional
-        Residual stress of the layers [Pa], as in :func:`stress`.
+    residual : sequence, optional
+        Residual stress of the layers, as in :func:`stress`.
 
     Returns
     -------

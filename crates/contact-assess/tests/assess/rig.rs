@@ -11,7 +11,8 @@ use contact_assess::{
 };
 use contact_core::march::solve;
 use contact_core::scene::{
-    Body, Coating, Elastic, Friction, Grid, LoadPath, Scene, Settings, Shape,
+    Body, Coating, Elastic, Friction, Grid, LoadPath, Profile, ResidualStress, Scene, Settings,
+    Shape,
 };
 use contact_subsurface::{Line, Side, chosen_depths, cycles};
 use contact_subsurface::{OverCycle, Recorded, unsettled};
@@ -78,7 +79,7 @@ fn recorded(scene: &Scene) -> Recorded {
     kept
 }
 
-fn site<'a>(scene: &'a Scene, cycle: &'a dyn OverCycle, residual: &'a [f64]) -> Site<'a> {
+fn site<'a>(scene: &'a Scene, cycle: &'a dyn OverCycle, residual: &'a ResidualStress) -> Site<'a> {
     Site {
         body: &scene.body2,
         side: Side::Body2,
@@ -108,7 +109,8 @@ fn worst_point_of_the_titanium_rig() {
     for n in [128, 200, 256] {
         let scene = rig(n, vec![], 5);
         let cycle = recorded(&scene);
-        let site = site(&scene, &cycle, &[]);
+        let none = ResidualStress::default();
+        let site = site(&scene, &cycle, &none);
         let of = swt(&scene.body2, vec![Some(material("titanium", 116e9))]);
         let judged = section(&site, &of);
         let worst = worst(&site, &judged, &of, 0).unwrap().unwrap();
@@ -150,7 +152,9 @@ fn below_a_coating() {
     };
     let scene = rig(64, vec![coating], 3);
     let cycle = recorded(&scene);
-    let site = site(&scene, &cycle, &[-2.5e9, 0.0]);
+    let layers = [-2.5e9, 0.0].map(Profile::uniform);
+    let residual = ResidualStress::given(&scene.body2, &layers).unwrap();
+    let site = site(&scene, &cycle, &residual);
     let of = swt(&scene.body2, vec![Some(material("titanium", 150e9))]);
     assert!(!of.judges(0) && of.judges(1));
     assert!(
@@ -197,7 +201,7 @@ fn below_a_coating() {
     assert!(much > 0.02, "{much}");
     let yields = ByYield {
         s_y: vec![None, Some(9e8)],
-        residual: vec![0.0, 0.0],
+        residual: ResidualStress::default(),
         of: |found| found.von_mises,
     };
     let judged = section(&site, &yields);

@@ -1,6 +1,6 @@
 //! Bodies: a substrate, the coatings bonded to it, and a surface shape.
 
-use super::Shape;
+use super::{Profile, Shape};
 use crate::error::Error;
 use crate::material::{Bond, Coating, Elastic};
 use plasticity::Plastic;
@@ -22,6 +22,8 @@ pub struct Body {
     pub bonds: Vec<Bond>,
     /// How each layer yields, from the surface down, the substrate last; missing ones stay elastic.
     pub plastic: Vec<Option<Plastic>>,
+    /// Residual stress of each layer, from the surface down, the substrate last; missing ones have none.
+    pub residual: Vec<Profile>,
     /// Shape of the undeformed surface.
     pub shape: Shape,
 }
@@ -34,6 +36,7 @@ impl Body {
             coatings: Vec::new(),
             bonds: Vec::new(),
             plastic: Vec::new(),
+            residual: Vec::new(),
             shape,
         }
     }
@@ -100,6 +103,38 @@ impl Body {
             .collect()
     }
 
+    /// The key of a layer of the body `key`.
+    pub(crate) fn key_of(&self, layer: usize, key: &str) -> String {
+        match self.coatings.get(layer) {
+            Some(_) => format!("{key}.coatings[{layer}]"),
+            None => key.to_owned(),
+        }
+    }
+
+    /// Fails if a residual stress has no meaning, or is more than its layer bears; `key` names the body.
+    pub fn check_residual(&self, key: &str) -> Result<(), Error> {
+        let layers = self.coatings.len() + 1;
+        if self.residual.len() > layers {
+            let allowed = format!("{layers}, one for each layer, or fewer");
+            let key = format!("{key}.residual");
+            return Err(Error::invalid(key, self.residual.len(), allowed));
+        }
+        for (layer, profile) in self.residual.iter().enumerate() {
+            let key = format!("{}.residual", self.key_of(layer, key));
+            profile.check(&key)?;
+            let limit = self.plastic(layer).map_or(f64::INFINITY, |law| law.s_y);
+            let alone = profile.von_mises();
+            if alone > limit {
+                let allowed = format!(
+                    "within the yield stress of its layer, {limit:e} Pa: give the s_y that the layer has with it"
+                );
+                let found = format!("{alone:e} Pa by von Mises");
+                return Err(Error::invalid(key, found, allowed));
+            }
+        }
+        Ok(())
+    }
+
     /// Fails if a layer yields by numbers without meaning, or in a body that this is not computed for.
     fn check_plastic(&self, key: &str) -> Result<(), Error> {
         let layers = self.coatings.len() + 1;
@@ -112,10 +147,7 @@ impl Body {
             return Ok(());
         }
         for layer in 0..layers {
-            let key = match self.coatings.get(layer) {
-                Some(_) => format!("{key}.coatings[{layer}]"),
-                None => key.to_owned(),
-            };
+            let key = self.key_of(layer, key);
             let material = self
                 .coatings
                 .get(layer)
@@ -159,6 +191,7 @@ impl Body {
             bond.check(&format!("{key}.coatings[{i}].bond"))?;
         }
         self.check_plastic(key)?;
+        self.check_residual(key)?;
         self.shape.check(&format!("{key}.shape"))
     }
 }

@@ -167,6 +167,15 @@ impl Scene {
                 stiffest = stiffest.max(E);
                 doubts.extend(doubt("modulus", &name, E));
             }
+            for (layer, profile) in body.residual.iter().enumerate() {
+                let name = format!("{}.residual", body.key_of(layer, key));
+                let stresses = profile.rows.iter().flat_map(|[_, xx, yy]| [*xx, *yy]);
+                let largest = stresses.fold(
+                    0.0,
+                    |most: f64, s| if s.abs() > most.abs() { s } else { most },
+                );
+                doubts.extend(doubt("residual stress", &name, largest));
+            }
             for R in radii(&body.shape) {
                 radius = radius.max(R);
                 doubts.extend(doubt("radius", &format!("{key}.shape.R"), R));

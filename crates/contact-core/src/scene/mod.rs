@@ -18,6 +18,7 @@ mod magnitude;
 mod missing;
 mod motion;
 mod number_files;
+mod residual_stress;
 mod resolution;
 mod settings;
 mod shape;
@@ -40,6 +41,7 @@ pub use missing::Missing;
 pub use motion::{Prescribed, RigidMotion};
 pub use number_files::{FileOfNumbers, tolerant as text_of_numbers};
 pub use plasticity::Plastic;
+pub use residual_stress::{Profile, ResidualStress};
 pub use resolution::{FEW_CELLS, FEWEST_CELLS};
 pub use settings::{
     KernelMethod, KernelSettings, PathGrid, Preset, SaveFields, Settings, SkipSettings,

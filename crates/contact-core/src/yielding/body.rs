@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use super::state::{PlasticPoint, PlasticState};
 use super::volume::Volume;
 use crate::error::Error;
-use crate::scene::Body;
+use crate::scene::{Body, ResidualStress};
 
 /// Largest change of the stress in a pass, over the yield stress, of a plastic strain that is taken.
 pub(super) const TOLERANCE: f64 = 1e-4;
@@ -32,6 +32,8 @@ pub(super) struct YieldingBody {
     operator: Operator,
     /// Law and shear modulus of each plane \[Pa\].
     laws: Vec<Option<(Plastic, f64)>>,
+    /// Residual stress s_xx, s_yy of each plane before the first load \[Pa\].
+    initial: Vec<[f64; 2]>,
     /// Planes that may yield, and those of them that are computed in the present increment.
     may_yield: Vec<bool>,
     wanted: Vec<bool>,
@@ -73,6 +75,9 @@ impl YieldingBody {
             body.plastic(layer).map(|law| (law, mu))
         };
         let laws: Vec<_> = (0..mesh.planes()).map(law).collect();
+        let residual = ResidualStress::of(body);
+        let initial = (0..mesh.planes()).map(|n| residual.at(mesh.layer(n), mesh.depth(n)));
+        let initial = initial.collect();
         let cells = volume.cells.len();
         let operator = Operator::new(mesh);
         let may_yield: Vec<bool> = laws.iter().map(Option::is_some).collect();
@@ -90,6 +95,7 @@ impl YieldingBody {
             off: 0.0,
             reached: 0.0,
             laws,
+            initial,
             operator,
         })
     }
@@ -175,7 +181,7 @@ impl YieldingBody {
             &self.active,
         );
         let block = COMPONENTS * cells;
-        let wanted = &self.wanted;
+        let (wanted, initial) = (&self.wanted, &self.initial);
         // What yields of a plane, and its largest stress over the yield stress, squared.
         let of_plane = |plane: usize| -> (Vec<(usize, Returned)>, f64) {
             let (Some((law, mu)), true) = (&laws[plane], wanted[plane]) else {
@@ -189,7 +195,9 @@ impl YieldingBody {
             let mut found = Vec::new();
             let (limit, mut most) = (law.s_y * (1.0 + YIELDS), 0.0_f64);
             for cell in 0..cells {
-                let s: Tensor = std::array::from_fn(|c| stress[c * cells + cell]);
+                let mut s: Tensor = std::array::from_fn(|c| stress[c * cells + cell]);
+                s[0] += initial[plane][0];
+                s[1] += initial[plane][1];
                 if slots[cell] == NONE {
                     let s_dev = deviator(&s);
                     let square = 1.5 * contraction(&s_dev, &s_dev);
@@ -402,8 +410,9 @@ impl YieldingBody {
         points.map(|(_, _, end)| end.equivalent).fold(0.0, f64::max)
     }
 
-    /// Largest stress of von Mises over the yield stress without plastic strain: that ratio, body, layer,
-    /// depth \[m\].
+    /// Largest inverse of the factor by which the stress of tractions grows, beside the residual stress, until
+    /// a point yields, without plastic strain: that inverse, body, layer, depth \[m\]. Without residual stress it is
+    /// the stress of von Mises over the yield stress.
     pub(super) fn nearest_to_yield(
         &mut self,
         tractions: &[Vec<f64>; 3],
@@ -414,16 +423,33 @@ impl YieldingBody {
         let of_plane = |plane: usize| {
             let (law, _) = self.laws[plane].as_ref()?;
             let of = &self.stress[plane * COMPONENTS * cells..][..COMPONENTS * cells];
-            let mises = (0..cells).map(|cell| {
+            let [xx, yy] = self.initial[plane];
+            let constant = deviator(&[xx, yy, 0.0, 0.0, 0.0, 0.0]);
+            let reached = (0..cells).map(|cell| {
                 let s: Tensor = std::array::from_fn(|c| of[c * cells + cell]);
-                equivalent_stress(&deviator(&s))
+                part_of_yield(&deviator(&s), &constant, law.s_y)
             });
-            Some((mises.fold(0.0, f64::max) / law.s_y, plane))
+            Some((reached.fold(0.0, f64::max), plane))
         };
         let planes = (0..self.laws.len()).filter_map(of_plane);
         let (ratio, plane) = planes.max_by(|a, b| a.0.total_cmp(&b.0))?;
         let mesh = self.mesh();
         Some((ratio, self.number, mesh.layer(plane), mesh.depth(plane)))
+    }
+
+    /// Adds the residual stress before the first load to a stress on all planes \[Pa\].
+    pub(super) fn add_initial(&self, stress: &mut [f64]) {
+        let cells = self.cells();
+        for (of_plane, initial) in stress
+            .chunks_exact_mut(COMPONENTS * cells)
+            .zip(&self.initial)
+        {
+            for (field, initial) in of_plane.chunks_exact_mut(cells).zip(initial) {
+                for s in field.iter_mut() {
+                    *s += initial;
+                }
+            }
+        }
     }
 
     /// Stress of a state on all planes, in the axes of the scene \[Pa\], and displacement of the surface by
@@ -462,5 +488,21 @@ impl YieldingBody {
             }
         }
         (stress, displacement)
+    }
+}
+
+/// 1/f of the factor f > 0 at which the deviator f s + constant has the stress of von Mises s_y; `constant`
+/// lies within. 0 where none has.
+fn part_of_yield(s: &Tensor, constant: &Tensor, s_y: f64) -> f64 {
+    let a = 1.5 * contraction(s, s);
+    let b = 1.5 * contraction(s, constant);
+    let free = s_y * s_y - 1.5 * contraction(constant, constant);
+    // a f^2 + 2 b f = free, with g = 1/f.
+    if free > 0.0 {
+        (b + (b * b + a * free).sqrt()) / free
+    } else if b > 0.0 {
+        f64::INFINITY
+    } else {
+        a / (-2.0 * b)
     }
 }

@@ -210,9 +210,22 @@ impl Yielding {
         }
     }
 
-    /// Stress under tractions and plastic strain of a state in a body, on the planes of its mesh: for
-    /// each plane six components on the cells of the volume grid \[Pa\], in the axes of the scene.
+    /// Stress under tractions, residual stress and plastic strain of a state in a body, on the planes of its
+    /// mesh: for each plane six components on the cells of the volume grid \[Pa\], in the axes of the scene.
     pub fn stress(
+        &mut self,
+        state: &Yielded,
+        tractions: Option<[&Array2<f64>; 3]>,
+        body: usize,
+    ) -> Option<Vec<f64>> {
+        let mut stress = self.stress_of_changes(state, tractions, body)?;
+        let own = self.bodies.iter().find(|b| b.number == body)?;
+        own.add_initial(&mut stress);
+        Some(stress)
+    }
+
+    /// The same without the residual stress before the first load.
+    pub fn stress_of_changes(
         &mut self,
         state: &Yielded,
         tractions: Option<[&Array2<f64>; 3]>,

@@ -4,7 +4,7 @@ use eigenstrain::Cells;
 use ndarray::Array2;
 
 use super::resampled::resampled;
-use crate::scene::{Body, Grid, Scene};
+use crate::scene::{Body, Grid, Profile, Scene};
 
 /// Most cells of the volume grid along a side of a point contact, and along a line contact.
 const MOST_CELLS: usize = 64;
@@ -129,8 +129,15 @@ fn length_of(scene: &Scene) -> f64 {
 /// point load, 9/(4 pi) W/z^2 for incompressible bodies on the axis, or of a line load, about W/z over 2.
 fn depth(scene: &Scene, body: &Body) -> f64 {
     let length = length_of(scene);
-    let layers = (0..=body.coatings.len()).filter_map(|layer| body.plastic(layer));
-    let weakest = layers.map(|law| law.s_y).fold(f64::INFINITY, f64::min);
+    // What the residual stress leaves of the yield stress, a hundredth at least.
+    let left = |layer: usize| {
+        let law = body.plastic(layer)?;
+        let before = body.residual.get(layer).map_or(0.0, Profile::von_mises);
+        Some((law.s_y - before).max(0.01 * law.s_y))
+    };
+    let weakest = (0..=body.coatings.len())
+        .filter_map(left)
+        .fold(f64::INFINITY, f64::min);
     let p_0 = scene.hertz().map_or(weakest, |hertz| hertz.p0);
     let far = if scene.grid.plane_strain {
         length * p_0 / (YIELDING * weakest)

@@ -6,7 +6,8 @@ use std::path::Path;
 use contact_core::estimate::first_yield;
 use contact_core::march::{Increment, March};
 use contact_core::scene::{
-    Body, Branch, Coating, Elastic, Friction, Given, Grid, LoadPath, Loads, Plastic, Scene, Shape,
+    Body, Branch, Coating, Elastic, Friction, Given, Grid, LoadPath, Loads, Plastic, Profile,
+    Scene, Shape,
 };
 use serde_json::Value;
 
@@ -207,4 +208,82 @@ fn a_mean_pressure_that_nothing_bears_is_refused_with_its_load() {
     scene(100.0, Plastic { hardening, ..law })
         .check()
         .expect("it hardens");
+}
+
+/// Below a ball s_xx - s_zz of the contact is positive: a residual compression s_R = s_xx = s_yy is added to the
+/// yield stress, so that loads of first yield grow as ((s_y - s_R)/s_y)^3.
+#[test]
+fn residual_compression_moves_first_yield_as_it_does_by_hand() {
+    let law = Plastic {
+        s_y: 1e9,
+        hardening: 0.0,
+        kinematic: 0.0,
+    };
+    let grid = Grid::centred(6e-4, 32).expect("a grid");
+    let of = |W: f64, residual: Vec<Profile>| {
+        let to = Loads {
+            W,
+            ..Loads::default()
+        };
+        let mut scene = indentation(0.01, law, grid, vec![Branch::new(to, 1, 1.0)]);
+        scene.body2.residual = residual;
+        scene
+    };
+    let begins = |residual: Vec<Profile>| {
+        let found = first_yield(&of(400.0, residual)).expect("a scene");
+        found.expect("a load")
+    };
+    let bare = begins(Vec::new());
+    let s_R = -3e8;
+    let pressed = begins(vec![Profile::uniform(s_R)]);
+    let ratio = pressed.W / bare.W;
+    assert!((ratio / 1.3_f64.powi(3) - 1.0).abs() < 0.01, "{ratio}");
+    // Compression at the surface, which ends above the point that yields: the load is that without.
+    let shallow = Profile {
+        rows: vec![[0.0, s_R, s_R], [0.3 * bare.depth, 0.0, 0.0]],
+    };
+    let ratio = begins(vec![shallow]).W / bare.W;
+    assert!((ratio - 1.0).abs() < 0.01, "{ratio}");
+    // Tension s along x alone: von Mises of (s_r + s, s_r, s_z) with d = s_r - s_z, over s_y.
+    let s = 0.2_f64;
+    let mises = |d: f64| (((d + s).powi(2) + d * d + s * s) / 2.0).sqrt();
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if mises(middle) < 1.0 {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    let along = Profile {
+        rows: vec![[0.0, 2e8, 0.0]],
+    };
+    let ratio = begins(vec![along]).W / bare.W;
+    assert!(
+        (ratio / low.powi(3) - 1.0).abs() < 0.02,
+        "{ratio} for {}",
+        low.powi(3)
+    );
+
+    // How far a load is from yielding, and that it yields beyond.
+    let run_at = |W: f64| run(&of(W, vec![Profile::uniform(s_R)])).0[0].clone();
+    let below = run_at(1.5 * bare.W);
+    let reached = 1.5_f64.cbrt() + s_R / law.s_y;
+    assert!(
+        (below.yielded.reached / reached - 1.0).abs() < 0.02,
+        "{below:?}"
+    );
+    assert_eq!(below.yielded.work, 0.0);
+    assert!(run_at(2.4 * bare.W).yielded.work > 0.0);
+    assert!(run(&of(1.5 * bare.W, Vec::new())).0[0].yielded.work > 0.0);
+    // A residual stress that alone is beyond the yield stress is refused.
+    let said = of(1.0, vec![Profile::uniform(-1.1e9)])
+        .check()
+        .expect_err("too much");
+    let said = said.to_string();
+    assert!(
+        said.contains("body2.residual = 1.1e9 Pa by von Mises"),
+        "{said}"
+    );
 }

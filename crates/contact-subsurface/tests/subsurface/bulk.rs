@@ -4,7 +4,8 @@ use contact_core::Error;
 use contact_core::convolution::Tractions;
 use contact_core::march::{March, Observer};
 use contact_core::scene::{
-    Body, Coating, Elastic, Friction, Grid, LoadPath, Scene, Settings, Shape,
+    Body, Coating, Elastic, Friction, Grid, LoadPath, Profile, ResidualStress, Scene, Settings,
+    Shape,
 };
 use contact_subsurface::{
     Accumulate, Depth, Line, Moment, Points, Section, Side, Slices, States, Stream, depths,
@@ -247,15 +248,20 @@ fn residual_stress_is_added_in_its_layer_alone() {
     let q = tractions(&grid);
     let tractions = [states(&q)];
     let residual = [-3.0, 0.5, 0.25];
+    let given = |layers: &[f64]| {
+        let layers: Vec<_> = layers.iter().copied().map(Profile::uniform).collect();
+        ResidualStress::given(&body, &layers)
+    };
     let with = |residual| States {
-        residual,
+        residual: Some(residual),
         sigma_B: &[SIGMA],
         ..States::from(&tractions)
     };
     let (line, side) = (Line::AlongX(0.4), Side::Body2);
     let depths = depths(&body, &[0.0, 4.0, 9.5, 11.0, 40.0]).unwrap();
     let section = |states| Section::new(&body, side, &grid, line, states).unwrap();
-    let [bare, pressed] = [&[][..], &residual].map(|given| {
+    let [none, whole] = [&[][..], &residual].map(|layers| given(layers).unwrap());
+    let [bare, pressed] = [&none, &whole].map(|given| {
         let below = section(with(given)).stress(&depths).unwrap().remove(0);
         let slices = Slices::new(&body, side, &grid, with(given)).unwrap();
         let points = Points::new(&body, side, &grid, with(given)).unwrap();
@@ -282,14 +288,14 @@ fn residual_stress_is_added_in_its_layer_alone() {
     for (wrong, message) in [
         (
             &[1.0, 2.0][..],
-            "residual = 2 numbers: must be one for each of the 3 layers",
+            "residual = 2 of them: must be one for each of the 3 layers",
         ),
         (
             &[0.0, f64::NAN, 0.0],
             "residual[1] = NaN: must be a finite stress",
         ),
     ] {
-        let error = Slices::new(&body, side, &grid, with(wrong)).err().unwrap();
+        let error = given(wrong).unwrap_err();
         assert!(error.to_string().starts_with(message), "{error}");
     }
 }

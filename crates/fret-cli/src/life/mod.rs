@@ -9,7 +9,7 @@ use contact_core::Error;
 use contact_core::scene::text_of;
 use contact_store::Store;
 use contact_store::StoredCycle;
-use contact_subsurface::{Line, Side, chosen_depths, depths, residual_of_layers};
+use contact_subsurface::{Line, Side, chosen_depths, depths};
 use contact_subsurface::{OverCycle, main_sections, unsettled};
 use fatigue::{Material, Search, find, materials, read};
 use serde_json::json;
@@ -18,7 +18,7 @@ pub(crate) use self::options::Options;
 use self::rows::{Judging, Row};
 use crate::failure::Failure;
 use crate::printed::print;
-use crate::stress::stop_on_interrupt;
+use crate::stress::{given_residual, stop_on_interrupt};
 use crate::terminal::say;
 
 /// Difference of the ends of a cycle over the largest traction, above which a note is printed.
@@ -55,7 +55,7 @@ fn judged(options: &Options) -> Result<Vec<String>, Error> {
         .map(named)
         .collect::<Result<_, _>>()?;
     let cycle = StoredCycle::of(&store, Some(options.cycle), side)?;
-    let residual = residual_of_layers(body, &options.residual)?;
+    let residual = given_residual(body, &options.residual)?;
     let site = Site {
         body,
         side,

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use contact_assess::{self as core, Judged, Site};
-use contact_core::{Error, scene};
+use contact_core::Error;
+use contact_core::scene::{self, ResidualStress};
 use contact_subsurface::{Depth, Line, Side, Zone};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -18,7 +19,7 @@ pub(super) struct Below {
     pub(super) grid: scene::Grid,
     pub(super) side: Side,
     pub(super) line: Line,
-    pub(super) residual: Vec<f64>,
+    pub(super) residual: ResidualStress,
     pub(super) given: Given,
 }
 
@@ -30,13 +31,13 @@ impl Below {
         residual: bool,
         work: impl FnOnce(&Site<'_>) -> Result<T, Error> + Send,
     ) -> PyResult<T> {
-        let stop = Arc::default();
+        let (stop, none) = (Arc::default(), ResidualStress::default());
         let found = interruptible(py, &stop, || {
             work(&Site {
                 body: &self.body,
                 side: self.side,
                 grid: &self.grid,
-                residual: if residual { &self.residual } else { &[] },
+                residual: if residual { &self.residual } else { &none },
                 cycle: &self.given,
                 stop: stop.clone(),
             })

@@ -8,7 +8,6 @@ mod yielding;
 use std::sync::Arc;
 
 use contact_assess::{self as core, ByCriterion, ByYield, Distance, Judged};
-use contact_subsurface::residual_of_layers;
 use fatigue::{AtPoint, Search};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -22,6 +21,7 @@ pub(crate) use self::yielding::YieldBelow;
 use crate::argument::to_python;
 use crate::arguments::{List, number, side};
 use crate::fatigue::Material;
+use crate::residual_stress::{Profiles, of_body};
 use crate::scene::{Body, Grid};
 use crate::subsurface::{LineName, Subsurface, line, name_of};
 
@@ -57,7 +57,7 @@ pub(crate) struct CycleSection {
 #[pymethods]
 impl CycleSection {
     #[new]
-    #[pyo3(signature = (body, grid, moments: "Callable[[list[int] | None], tuple[list[Any], ...] | None]", count: "int", *, x: "float | None" = None, y: "float | None" = None, azimuth: "float | None" = None, body_number: "int" = 2, residual: "Sequence[float] | None" = None))]
+    #[pyo3(signature = (body, grid, moments: "Callable[[list[int] | None], tuple[list[Any], ...] | None]", count: "int", *, x: "float | None" = None, y: "float | None" = None, azimuth: "float | None" = None, body_number: "int" = 2, residual = None))]
     fn new(
         body: Body,
         grid: Grid,
@@ -67,13 +67,12 @@ impl CycleSection {
         #[pyo3(from_py_with = number)] y: Option<f64>,
         #[pyo3(from_py_with = number)] azimuth: Option<f64>,
         #[pyo3(from_py_with = number)] body_number: u8,
-        residual: Option<List<f64>>,
+        residual: Profiles,
     ) -> PyResult<Self> {
-        let residual = residual_of_layers(&body.0, &residual.unwrap_or_default());
         let below = Below {
             side: side(body_number)?,
             line: line(x, y, azimuth)?,
-            residual: residual.map_err(to_python)?,
+            residual: of_body(&body, residual)?,
             given: Given::new(moments, count, &grid.0),
             body: body.0,
             grid: grid.0,

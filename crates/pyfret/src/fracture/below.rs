@@ -16,6 +16,7 @@ use super::told::{named, set_path};
 use crate::arguments::{Array, List, Mask, number, side};
 use crate::error::to_python;
 use crate::interruptible::interruptible;
+use crate::residual_stress::{Profiles, of_body};
 use crate::scene::{Body, Grid};
 use crate::yielding::{Eigenstress, of_states};
 
@@ -33,7 +34,7 @@ pub(crate) struct ContactStates<'py> {
     #[pyo3(item)]
     sigma_B: List<f64>,
     #[pyo3(item)]
-    residual: Option<List<f64>>,
+    residual: Profiles,
     #[pyo3(item)]
     eigenstress: List<Option<Py<Eigenstress>>>,
 }
@@ -64,8 +65,7 @@ fn below_contact<T: Send>(
     };
     let tractions: Vec<_> = (0..shape.0).map(tractions).collect();
     let stick: Vec<&[bool]> = stick.chunks(cells).collect();
-    let residual = given.residual.unwrap_or_default();
-    let residual = contact_subsurface::residual_of_layers(&body.0, &residual).map_err(to_python)?;
+    let residual = of_body(body, given.residual)?;
     let below = core::Below {
         body: &body.0,
         side: side(body_number)?,
@@ -78,7 +78,7 @@ fn below_contact<T: Send>(
         let states = States {
             tractions: &tractions,
             sigma_B: &sigma_B,
-            residual: &residual,
+            residual: Some(&residual),
             eigenstress: &eigenstress,
             stick: Some(&stick),
             stop: stop.clone(),

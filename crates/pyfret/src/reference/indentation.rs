@@ -151,10 +151,10 @@ pub(crate) fn coated_indentation(
     #[pyo3(from_py_with = number)] W: f64,
 ) -> PyResult<CoatedIndentation> {
     positive("R", R).and(positive("W", W)).map_err(to_python)?;
-    pair((indenter, Material(coating.0.material)))?;
-    pair((Material(coating.0.material), substrate))?;
-    let given = coating;
-    let (indenter, coating, substrate) = (indenter.0, coating.0, substrate.0);
+    pair((indenter, Material(coating.layer.material)))?;
+    pair((Material(coating.layer.material), substrate))?;
+    let given = coating.clone();
+    let (indenter, coating, substrate) = (indenter.0, coating.layer, substrate.0);
     positive("coating.thickness", coating.thickness).map_err(to_python)?;
     let found = core::coated_indentation(R, indenter, coating, substrate, W);
     Ok(CoatedIndentation {

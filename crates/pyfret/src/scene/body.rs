@@ -8,10 +8,11 @@ use pyo3::types::PyDict;
 use pyo3::{PyTypeInfo, type_hint_union};
 
 use super::shape::{Flat, Shape};
-use crate::error::{must_be, takes};
+use crate::error::{must_be, takes, to_python};
 use crate::material::{Coating, Elastic};
 use crate::parts::parts;
 use crate::quantity::known;
+use crate::residual_stress::{Profile, Shown, shown, text};
 
 /// An elastic half-space under its coatings and a gently curved surface.
 ///
@@ -21,13 +22,17 @@ use crate::quantity::known;
 ///     Material below the coatings.
 /// coatings : sequence of Coating
 ///     Layers from the surface down: ``coatings[0]`` is the outermost (default: none).
+/// residual : float or array_like, optional
+///     Residual stress of the substrate [Pa], tension positive (default: none): a stress, s_xx =
+///     s_yy, or a table with the rows ``[depth, s]`` or ``[depth, s_xx, s_yy]``, the depth [m]
+///     below the top of the layer. Linear between the depths, constant beyond them.
 /// shape : Flat, Sphere, Ellipsoid, Cylinder, ... or a sum of them
 ///     Undeformed surface (default: flat).
 #[pyclass(frozen, eq, module = "pyfret")]
 #[derive(Clone, PartialEq)]
 pub(crate) struct Body(pub(crate) core::Body);
 
-parts!(Body: substrate, coatings, shape);
+parts!(Body: substrate, coatings, residual, shape);
 takes!(
     Body,
     "a body, such as Body(Elastic(E=210e9, nu=0.3), shape=Sphere(R=5e-3))"
@@ -37,23 +42,31 @@ takes!(
 impl Body {
     #[new]
     #[pyo3(
-        signature = (substrate, *, coatings = Coatings(Vec::new()), shape = Shape::Flat(Flat), **unknown),
-        text_signature = "(substrate, *, coatings=..., shape=...)"
+        signature = (substrate, *, coatings = Coatings(Vec::new()), residual = None, shape = Shape::Flat(Flat), **unknown),
+        text_signature = "(substrate, *, coatings=..., residual=None, shape=...)"
     )]
     fn new(
         substrate: Elastic,
         coatings: Coatings,
+        residual: Option<Profile>,
         shape: Shape,
         unknown: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
-        known("Body", unknown, &["substrate", "coatings", "shape"])?;
-        Ok(Self(core::Body {
+        known(
+            "Body",
+            unknown,
+            &["substrate", "coatings", "residual", "shape"],
+        )?;
+        let body = Self(core::Body {
             substrate: substrate.0,
+            residual: coatings.residual(residual),
             bonds: coatings.bonds(),
             plastic: coatings.plastic(substrate),
-            coatings: coatings.0.into_iter().map(|c| c.0).collect(),
+            coatings: coatings.0.into_iter().map(|c| c.layer).collect(),
             shape: shape.into(),
-        }))
+        });
+        body.0.check_residual("body").map_err(to_python)?;
+        Ok(body)
     }
 
     /// Material below the coatings.
@@ -73,8 +86,19 @@ impl Body {
     fn coatings(&self) -> Vec<Coating> {
         let layers = self.0.coatings.iter().enumerate();
         layers
-            .map(|(n, c)| Coating(*c, self.0.bond(n), self.0.plastic(n)))
+            .map(|(n, c)| Coating {
+                layer: *c,
+                bond: self.0.bond(n),
+                plastic: self.0.plastic(n),
+                residual: self.of_layer(n),
+            })
             .collect()
+    }
+
+    /// Residual stress of the substrate [Pa], or its table; None where it has none.
+    #[getter]
+    fn residual(&self) -> Option<Shown> {
+        shown(&self.of_layer(self.0.coatings.len()))
     }
 
     /// Undeformed surface.
@@ -89,10 +113,21 @@ impl Body {
             let layers: Vec<_> = self.coatings().iter().map(Coating::__repr__).collect();
             parts.push(format!("coatings=[{}]", layers.join(", ")));
         }
+        let residual = self.of_layer(self.0.coatings.len());
+        if !residual.rows.is_empty() {
+            parts.push(format!("residual={}", text(&residual)));
+        }
         if self.0.shape != core::Shape::Flat {
             parts.push(format!("shape={}", self.shape().repr()));
         }
         format!("Body({})", parts.join(", "))
+    }
+}
+
+impl Body {
+    /// Residual stress of a layer.
+    fn of_layer(&self, layer: usize) -> core::Profile {
+        self.0.residual.get(layer).cloned().unwrap_or_default()
     }
 }
 
@@ -102,16 +137,25 @@ struct Coatings(Vec<Coating>);
 impl Coatings {
     /// How the layers yield, the substrate last; none where all stay elastic.
     fn plastic(&self, substrate: Elastic) -> Vec<Option<core::Plastic>> {
-        let laws = self.0.iter().map(|c| c.2).chain([substrate.1]);
+        let laws = self.0.iter().map(|c| c.plastic).chain([substrate.1]);
         if laws.clone().all(|law| law.is_none()) {
             return Vec::new();
         }
         laws.collect()
     }
 
+    /// Residual stress of the layers, the substrate last; none where no layer has any.
+    fn residual(&self, substrate: Option<Profile>) -> Vec<core::Profile> {
+        let own = substrate.unwrap_or_default().0;
+        let layers = self.0.iter().map(|c| c.residual.clone()).chain([own]);
+        let layers: Vec<_> = layers.collect();
+        let none = layers.iter().all(|layer| layer.rows.is_empty());
+        if none { Vec::new() } else { layers }
+    }
+
     /// Their bonds; none where all are perfect.
     fn bonds(&self) -> Vec<core::Bond> {
-        let bonds = self.0.iter().map(|c| c.1);
+        let bonds = self.0.iter().map(|c| c.bond);
         if bonds.clone().all(|bond| bond == core::Bond::PERFECT) {
             return Vec::new();
         }

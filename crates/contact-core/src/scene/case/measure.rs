@@ -63,7 +63,15 @@ impl Measure {
 /// The kinds of the keys of a scene file, by their last names; others are numbers without a unit.
 const KINDS: [(&[&str], Kind); 8] = [
     (
-        &["E", "sigma_B", "sigma_B1", "s_y", "hardening", "kinematic"],
+        &[
+            "E",
+            "sigma_B",
+            "sigma_B1",
+            "s_y",
+            "hardening",
+            "kinematic",
+            "residual",
+        ],
         Kind::Stress,
     ),
     (
@@ -81,6 +89,7 @@ const KINDS: [(&[&str], Kind); 8] = [
             "longest",
             "shortest",
             "thickness",
+            "depth",
             "extent",
             "spacing",
             "delta_x",
@@ -128,6 +137,16 @@ pub(super) fn has_unit(text: &str) -> bool {
 
 /// The number in SI: given as such, as a text with its unit, or in one of the measures.
 pub(super) fn number(key: &str, value: &Value, measures: &[Measure]) -> Result<f64, Fault> {
+    number_named(key, key, value, measures)
+}
+
+/// The same of a value that is what another key would be, such as a depth in a table.
+pub(super) fn number_named(
+    key: &str,
+    name: &str,
+    value: &Value,
+    measures: &[Measure],
+) -> Result<f64, Fault> {
     let plain = match value {
         Value::Float(x) => Some(*x),
         Value::Integer(n) => Some(*n as f64),
@@ -136,7 +155,7 @@ pub(super) fn number(key: &str, value: &Value, measures: &[Measure]) -> Result<f
     if let Some(x) = plain.filter(|x| !x.is_nan()) {
         return Ok(x);
     }
-    let kind = kind_of(key);
+    let kind = kind_of(name);
     let wrong = || Fault::value(key, value, &allowed(kind, measures));
     let in_measure = |name: &str, number: f64| {
         let measure = measures.iter().find(|m| m.name == name).ok_or_else(wrong)?;

@@ -11,7 +11,7 @@ use super::section::{Section, count, pair};
 use super::settings::settings;
 use super::shape::shape;
 use crate::scene::files::Files;
-use crate::scene::{Body, Bond, Coating, Elastic, Grid, Plastic, Scene};
+use crate::scene::{Body, Bond, Coating, Elastic, Grid, Plastic, Profile, Scene};
 
 /// The version of the scene file that is read and written.
 pub(super) const SCHEMA: i64 = 1;
@@ -19,7 +19,7 @@ pub(super) const ROOT: [&str; 13] = [
     "schema", "title", "body1", "body2", "friction", "grid", "path", "kernel", "solver", "skip",
     "output", "wear", "rig",
 ];
-const BODY: [&str; 5] = ["shape", "E", "nu", "coatings", "plastic"];
+const BODY: [&str; 6] = ["shape", "E", "nu", "coatings", "plastic", "residual"];
 
 /// The whole scene, not yet checked for meaning.
 pub(super) fn scene(table: &Table, files: &Files<'_>) -> Result<Scene, Fault> {
@@ -75,6 +75,8 @@ pub(super) fn scene(table: &Table, files: &Files<'_>) -> Result<Scene, Fault> {
     scene.body2.bonds = bonds(&bodies[1])?;
     scene.body1.plastic = plastic(&bodies[0])?;
     scene.body2.plastic = plastic(&bodies[1])?;
+    scene.body1.residual = residual(&bodies[0])?;
+    scene.body2.residual = residual(&bodies[1])?;
     scene.grid = grid(&root, a_H)?;
     Ok(scene)
 }
@@ -95,13 +97,14 @@ fn uncoated(section: &Section<'_>, files: &Files<'_>) -> Result<Body, Fault> {
     Ok(Body::homogeneous(substrate, shape(section, files)?))
 }
 
-const COATING: [&str; 6] = [
+const COATING: [&str; 7] = [
     "E",
     "nu",
     "thickness",
     "bond_normal",
     "bond_shear",
     "plastic",
+    "residual",
 ];
 const PLASTIC: [&str; 3] = ["s_y", "hardening", "kinematic"];
 
@@ -122,6 +125,57 @@ fn plastic(body: &Section<'_>) -> Result<Vec<Option<Plastic>>, Fault> {
     let laws = laws.collect::<Result<Vec<_>, Fault>>()?;
     let elastic = laws.iter().all(Option::is_none);
     Ok(if elastic { Vec::new() } else { laws })
+}
+
+/// Residual stress of the layers, the substrate last; none where no layer has any.
+fn residual(body: &Section<'_>) -> Result<Vec<Profile>, Fault> {
+    let of = |section: &Section<'_>| -> Result<Profile, Fault> {
+        let key = section.path("residual");
+        section
+            .get("residual")
+            .map_or_else(|| Ok(Profile::default()), |value| profile(&key, value))
+    };
+    let coatings = body.sections("coatings", &COATING)?;
+    let layers = coatings.iter().map(of).chain([of(body)]);
+    let layers = layers.collect::<Result<Vec<_>, Fault>>()?;
+    let none = layers.iter().all(|profile| profile.rows.is_empty());
+    Ok(if none { Vec::new() } else { layers })
+}
+
+/// A stress, or a table of depth and stress.
+fn profile(key: &str, value: &Value) -> Result<Profile, Fault> {
+    const WHAT: &str = "a stress in Pa, or a table of depth and stress, [[depth, s], ..] or \
+                        [[depth, s_xx, s_yy], ..]";
+    let Value::Array(rows) = value else {
+        return measure::number(key, value, &[]).map(Profile::uniform);
+    };
+    let row = |(n, row): (usize, &Value)| {
+        let wrong = || Fault::value(key, value, WHAT);
+        let row = row.as_array().ok_or_else(wrong)?;
+        let number = |column: usize, name: &str| {
+            let key = format!("{key}[{n}][{column}]");
+            measure::number_named(&key, name, &row[column], &[])
+        };
+        match row.len() {
+            2 => {
+                let s = number(1, "residual")?;
+                Ok([number(0, "depth")?, s, s])
+            }
+            3 => Ok([
+                number(0, "depth")?,
+                number(1, "residual")?,
+                number(2, "residual")?,
+            ]),
+            _ => Err(wrong()),
+        }
+    };
+    if rows.is_empty() {
+        return Err(Fault::value(key, value, WHAT));
+    }
+    let rows = rows.iter().enumerate().map(row);
+    Ok(Profile {
+        rows: rows.collect::<Result<_, Fault>>()?,
+    })
 }
 
 /// The bonds of the coatings; none where all are perfect.

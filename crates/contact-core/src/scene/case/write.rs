@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use toml::Value;
 
 use super::read::SCHEMA;
-use crate::scene::{Body, Bond, Elastic, Loads, Plastic, RigidMotion, Scene, Spacing};
+use crate::scene::{Body, Bond, Elastic, Loads, Plastic, Profile, RigidMotion, Scene, Spacing};
 
 impl Scene {
     /// The scene in the format of the scene file, every number in SI, nothing left to a default.
@@ -28,6 +28,9 @@ impl Scene {
                 }
                 if let Some(law) = body.plastic(n) {
                     line(format_args!("{}", plastic(law)));
+                }
+                if let Some(text) = residual(body, n) {
+                    line(format_args!("{text}"));
                 }
             }
         }
@@ -88,6 +91,16 @@ fn plastic(law: Plastic) -> String {
     format!("plastic = {{ s_y = {s_y:?}, hardening = {hardening:?}, kinematic = {kinematic:?} }}")
 }
 
+/// Residual stress of a layer, if it has any.
+fn residual(body: &Body, layer: usize) -> Option<String> {
+    let Profile { rows } = body.residual.get(layer)?;
+    match rows.as_slice() {
+        [] => None,
+        [[_, xx, yy]] if xx == yy => Some(format!("residual = {xx:?}")),
+        rows => Some(format!("residual = {rows:?}")),
+    }
+}
+
 fn quoted(text: &str) -> String {
     Value::String(text.to_owned()).to_string()
 }
@@ -96,7 +109,12 @@ fn substrate(body: &Body) -> String {
     let shape = super::shape::text(&body.shape);
     let law = body.plastic(body.coatings.len());
     let law = law.map_or_else(String::new, |law| format!("\n{}", plastic(law)));
-    format!("shape = {shape}\n{}{law}", material(body.substrate))
+    let residual = residual(body, body.coatings.len());
+    let residual = residual.map_or_else(String::new, |text| format!("\n{text}"));
+    format!(
+        "shape = {shape}\n{}{law}{residual}",
+        material(body.substrate)
+    )
 }
 
 fn material(material: Elastic) -> String {

@@ -7,7 +7,7 @@ use std::sync::atomic::AtomicBool;
 use contact_assess::{ByCriterion, ByYield, Judge, Site, judge, worst};
 use contact_core::Error;
 use contact_core::march::Fields;
-use contact_core::scene::Scene;
+use contact_core::scene::{ResidualStress, Scene};
 use contact_subsurface::{Line, Side, chosen_depths};
 use contact_subsurface::{Moments, OverCycle};
 use fatigue::{Material, Search};
@@ -59,7 +59,7 @@ pub(crate) fn judged(scene: &Scene, end: &Fields, stop: &Arc<AtomicBool>) -> Res
         body,
         side: Side::Body2,
         grid: &scene.grid,
-        residual: &[],
+        residual: &ResidualStress::default(),
         cycle: &cycle,
         stop: stop.clone(),
     };
@@ -69,7 +69,7 @@ pub(crate) fn judged(scene: &Scene, end: &Fields, stop: &Arc<AtomicBool>) -> Res
     let E = body.substrate.E;
     let of_yield = ByYield {
         s_y: vec![Some(1e-2 * E); layers],
-        residual: vec![0.0; layers],
+        residual: ResidualStress::default(),
         of: |found| found.von_mises,
     };
     looked_at(&site, &of_yield, a)?;

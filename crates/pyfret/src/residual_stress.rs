@@ -1,0 +1,107 @@
+//! Residual stress as Python gives it: a stress, or a table over depth.
+
+use contact_core::scene::{Profile as Core, ResidualStress};
+use pyo3::exceptions::PyValueError;
+use pyo3::inspect::PyStaticExpr;
+use pyo3::prelude::*;
+use pyo3::types::PyString;
+
+use crate::arguments::List;
+use crate::error::to_python;
+use crate::hints::ARRAY_LIKE;
+use crate::quantity::si;
+use crate::scene::Body;
+
+/// Residual stress of one layer: a number, or rows of depth and stress.
+#[derive(Clone, Default)]
+pub(crate) struct Profile(pub(crate) Core);
+
+/// Of every layer, where it is given.
+pub(crate) type Profiles = Option<List<Profile>>;
+
+/// The residual stress of a body: what is given for each layer, or its own.
+pub(crate) fn of_body(body: &Body, given: Profiles) -> PyResult<ResidualStress> {
+    let layers = given.unwrap_or_default().into_iter().map(|layer| layer.0);
+    ResidualStress::given(&body.0, &layers.collect::<Vec<_>>()).map_err(to_python)
+}
+
+impl<'py> FromPyObject<'_, 'py> for Profile {
+    type Error = PyErr;
+
+    const INPUT_TYPE: PyStaticExpr = ARRAY_LIKE;
+
+    fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        let has = |name: &str| value.hasattr(name).unwrap_or(false);
+        let is_table =
+            !value.is_instance_of::<PyString>() && !has("magnitude") && value.len().is_ok();
+        if !is_table {
+            return si("residual", &value).map(|stress| Self(Core::uniform(stress)));
+        }
+        // Tables of pandas hold their rows elsewhere.
+        let rows = if has("iterrows") {
+            value.call_method0("to_numpy")?
+        } else {
+            value.to_owned()
+        };
+        let row = |row: PyResult<Bound<'py, PyAny>>| -> PyResult<[f64; 3]> {
+            let row: Vec<Bound<'py, PyAny>> = row?.try_iter()?.collect::<PyResult<_>>()?;
+            let stress = |n: usize| si("residual", &row[n]);
+            match row.len() {
+                2 => {
+                    let s = stress(1)?;
+                    Ok([si("depth", &row[0])?, s, s])
+                }
+                3 => Ok([si("depth", &row[0])?, stress(1)?, stress(2)?]),
+                _ => Err(wrong()),
+            }
+        };
+        let rows = rows.try_iter()?.map(|one| {
+            row(one).map_err(|error| {
+                // A row that is none: a number, for one.
+                if error.is_instance_of::<PyValueError>(value.py()) {
+                    error
+                } else {
+                    wrong()
+                }
+            })
+        });
+        let rows: Vec<_> = rows.collect::<PyResult<_>>()?;
+        if rows.is_empty() {
+            return Err(wrong());
+        }
+        let profile = Core { rows };
+        profile.check("residual").map_err(to_python)?;
+        Ok(Self(profile))
+    }
+}
+
+fn wrong() -> PyErr {
+    PyValueError::new_err(
+        "residual: must be a stress in Pa, or a table of depth and stress, [[depth, s], ..] or \
+         [[depth, s_xx, s_yy], ..]",
+    )
+}
+
+/// As it is given: a number, or rows.
+#[derive(IntoPyObject)]
+pub(crate) enum Shown {
+    Uniform(f64),
+    Rows(Vec<Vec<f64>>),
+}
+
+/// A number or rows, as they are given; None where there is no stress.
+pub(crate) fn shown(of: &Core) -> Option<Shown> {
+    match of.rows.as_slice() {
+        [] => None,
+        [[_, xx, yy]] if xx == yy => Some(Shown::Uniform(*xx)),
+        rows => Some(Shown::Rows(rows.iter().map(|row| row.to_vec()).collect())),
+    }
+}
+
+/// The text that makes it again.
+pub(crate) fn text(of: &Core) -> String {
+    match of.rows.as_slice() {
+        [[_, xx, yy]] if xx == yy => format!("{xx:?}"),
+        rows => format!("{rows:?}"),
+    }
+}
