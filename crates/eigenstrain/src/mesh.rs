@@ -6,6 +6,8 @@ use crate::error::Error;
 pub const PLANES_PER_ELEMENT: usize = 2;
 /// Position of the Gauss points in an element, from -1 to 1: -+ 1/sqrt(3).
 pub(crate) const GAUSS_POINT: f64 = 0.577_350_269_189_625_8;
+/// Growth of the height per distance from the nearest end of a layer.
+const SLOPE: f64 = 0.2;
 /// Growth of the height from one element to the next below the zone.
 const GROWTH: f64 = 1.6;
 
@@ -109,6 +111,60 @@ pub struct Mesh {
     of_layer: Vec<usize>,
 }
 
+/// Heights of elements that grow with the distance from an end of a layer: fine + SLOPE z, at most
+/// `height`.
+struct Heights {
+    fine: f64,
+    height: f64,
+}
+
+impl Heights {
+    /// Elements down to a distance from an end, int dz/h(z).
+    fn count(&self, z: f64) -> f64 {
+        let (full, of_growth) = self.full();
+        if z <= full {
+            return (SLOPE * z / self.fine).ln_1p() / SLOPE;
+        }
+        of_growth + (z - full) / self.height
+    }
+
+    /// The distance down to which there are so many.
+    fn depth(&self, count: f64) -> f64 {
+        let (full, of_growth) = self.full();
+        if count <= of_growth {
+            return self.fine * (SLOPE * count).exp_m1() / SLOPE;
+        }
+        full + (count - of_growth) * self.height
+    }
+
+    /// The distance from which elements have the full height, and the elements down to there.
+    fn full(&self) -> (f64, f64) {
+        let growth = (self.height / self.fine).max(1.0);
+        (self.fine * (growth - 1.0) / SLOPE, growth.ln() / SLOPE)
+    }
+
+    /// The edges between the elements of a layer of a thickness, fine at its top, or at both ends;
+    /// two elements at least.
+    fn of_layer(&self, thickness: f64, both: bool) -> Vec<f64> {
+        let half = self.count(0.5 * thickness);
+        let count = if both {
+            2.0 * half
+        } else {
+            self.count(thickness)
+        };
+        let wanted = (count - 1e-9).ceil().max(2.0);
+        let edge = |i: usize| {
+            let at = i as f64 / wanted * count;
+            if both && at > half {
+                thickness - self.depth(count - at)
+            } else {
+                self.depth(at)
+            }
+        };
+        (1..wanted as usize).map(edge).collect()
+    }
+}
+
 impl Mesh {
     /// From the edges of the elements: their lower ends \[m\], increasing. The interfaces must be among
     /// them, and the last one must lie in the substrate or at its upper end.
@@ -158,16 +214,22 @@ impl Mesh {
         })
     }
 
-    /// With elements of about `height` \[m\] down to `depth` \[m\], at least two in each layer that
-    /// begins there, and growing ones below: through the layers, and at least down to `reach` \[m\].
+    /// With elements of about `fine` \[m\] at the surface and at interfaces, growing with the distance
+    /// from there to `height` \[m\], down to `depth` \[m\]; at least two in each layer that begins there,
+    /// and growing ones below: through the layers, and at least down to `reach` \[m\].
     pub fn graded(
         cells: Cells,
         layers: Vec<Layer>,
         depth: f64,
-        height: f64,
+        [fine, height]: [f64; 2],
         reach: f64,
     ) -> Result<Self, Error> {
-        for (key, length) in [("depth", depth), ("height", height), ("reach", reach)] {
+        for (key, length) in [
+            ("depth", depth),
+            ("fine", fine),
+            ("height", height),
+            ("reach", reach),
+        ] {
             if !(length > 0.0 && length.is_finite()) {
                 return Err(Error::new(key, length, "a positive length in m"));
             }
@@ -178,12 +240,11 @@ impl Mesh {
             let end = top + layer.thickness;
             let fine_end = depth.min(end);
             if top < depth {
-                let wanted = ((fine_end - top) / height - 1e-9).ceil().max(2.0);
-                let n = wanted as usize;
-                let h = (fine_end - top) / wanted;
-                bottoms.extend((1..n).map(|i| top + i as f64 * h));
+                let heights = Heights { fine, height };
+                let inside = heights.of_layer(fine_end - top, fine_end == end);
+                bottoms.extend(inside.iter().map(|z| top + z));
+                coarse = fine_end - bottoms.last().map_or(top, |last| last.max(top));
                 bottoms.push(fine_end);
-                coarse = h;
                 top = fine_end;
             }
             let end = if end.is_finite() { end } else { reach.max(top) };

@@ -52,7 +52,8 @@ fn dilatation(n: usize, extent: f64) -> [f64; 2] {
     let (c, e_0) = (1.0, 1e-3);
     let s = c / 6.0;
     let d = extent / n as f64;
-    let mesh = Mesh::graded(square(n, d), vec![STEEL], 2.0 * c, c / 16.0, 2.0 * c).expect("a mesh");
+    let mesh =
+        Mesh::graded(square(n, d), vec![STEEL], 2.0 * c, [c / 16.0; 2], 2.0 * c).expect("a mesh");
     let mut operator = Operator::new(mesh);
     let mut e = vec![0.0; operator.len()];
     let cells = n * n;
@@ -104,7 +105,7 @@ fn the_surface_of_a_homogeneous_column_is_exact_on_any_mesh() {
             square(8, 1.0),
             vec![STEEL],
             1.0,
-            1.0 / f64::from(elements),
+            [1.0 / f64::from(elements); 2],
             1.0,
         );
         let mesh = mesh.expect("a mesh");
@@ -140,7 +141,7 @@ fn work_of_tractions_and_of_eigenstrains_is_reciprocal() {
                 ..square(4 + rng.usize(0..9), 0.2)
             }
         };
-        let mesh = Mesh::graded(cells, layers, 0.6 + rng.f64(), 0.3, 2.0).expect("a mesh");
+        let mesh = Mesh::graded(cells, layers, 0.6 + rng.f64(), [0.3; 2], 2.0).expect("a mesh");
         let mut operator = Operator::new(mesh.clone());
         let n = cells.len();
         let mut random = |n: usize| -> Vec<f64> { (0..n).map(|_| rng.f64() - 0.5).collect() };
@@ -193,8 +194,8 @@ fn stress_under_a_hertz_pressure() {
     for n in [32, 64] {
         let (a, p_0, nu) = (1.0_f64, 1e9, STEEL.nu);
         let d = 3.2 * a / n as f64;
-        let mesh =
-            Mesh::graded(square(n, d), vec![STEEL], 1.5 * a, a / 16.0, 1.5 * a).expect("a mesh");
+        let mesh = Mesh::graded(square(n, d), vec![STEEL], 1.5 * a, [a / 16.0; 2], 1.5 * a)
+            .expect("a mesh");
         let mut operator = Operator::new(mesh.clone());
         // Means over the cells: 8 x 8 points in each.
         let mut p = vec![0.0; n * n];
@@ -332,7 +333,7 @@ fn a_wider_grid_gives_the_same_answer() {
         };
         let answers = [24, 48].map(|n| {
             let layers = vec![coating, STEEL];
-            let mesh = Mesh::graded(cells(n), layers, 1.8, 0.15, 1.8).expect("a mesh");
+            let mesh = Mesh::graded(cells(n), layers, 1.8, [0.15; 2], 1.8).expect("a mesh");
             let e = gaussian(&mesh, 0.6);
             let mut operator = Operator::new(mesh);
             let sources = Sources {

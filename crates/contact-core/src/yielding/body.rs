@@ -67,7 +67,7 @@ impl YieldingBody {
             .collect();
         layers.push(layer(body.substrate.E, body.substrate.nu, f64::INFINITY));
         let depth = volume.depth[number - 1];
-        let mesh = Mesh::graded(volume.cells, layers, depth, volume.height, volume.reach)
+        let mesh = Mesh::graded(volume.cells, layers, depth, volume.heights, volume.reach)
             .map_err(refused)?;
         let law = |plane: usize| {
             let layer = mesh.layer(plane);

@@ -27,8 +27,8 @@ pub struct Volume {
     pub cells: Cells,
     /// Depth down to which its elements are of that height \[m\], of bodies 1 and 2.
     pub depth: [f64; 2],
-    /// Height of an element \[m\].
-    pub height: f64,
+    /// Heights of elements at the surface and at interfaces, and far from them \[m\].
+    pub heights: [f64; 2],
     /// Depth down to which there are elements \[m\].
     pub reach: f64,
     /// Cells of the contact along a side of one of the volume.
@@ -38,8 +38,9 @@ pub struct Volume {
 }
 
 impl Volume {
-    /// Chosen for a scene: at most 64 cells along a side (256 of a line), elements of a twelfth of
-    /// the radius of the elastic contact, one to two cells high, down to where a point load of the largest force leaves 0.9 of the yield stress.
+    /// Chosen for a scene: at most 64 cells along a side (256 of a line), elements of a cell at
+    /// the surface and at interfaces, growing to a twelfth of the radius of the elastic contact, one to two
+    /// cells, down to where a point load of the largest force leaves 0.9 of the yield stress.
     pub(super) fn of(scene: &Scene) -> Self {
         let grid = scene.grid;
         let most = if grid.plane_strain {
@@ -75,7 +76,7 @@ impl Volume {
         Self {
             cells,
             depth: [&scene.body1, &scene.body2].map(|body| depth(scene, body)),
-            height,
+            heights: [HEIGHTS[0] * side, height],
             reach: REACH * length_of(scene),
             ratio,
             grid,
