@@ -13,6 +13,13 @@ from scipy.interpolate import PchipInterpolator
 
 import pyfret as fret
 
+#: What the energy balance of a cycle is made of.
+ENERGIES = ("delta_z", "plastic_work", "dissipated", "elastic")
+#: States whose row has a residual stress in the substrate below the interface that contradicts
+#: that in the film: nothing yields there, so that the strain is continuous, but 247 MPa in the
+#: film (E/(1 - nu) = 560 GPa) go with 139 MPa in the substrate (300 GPa), and the row has 249 MPa.
+#: The strain is compared.
+CONTRADICTORY = {("hard_thin", 0)}
 ROWS = Path(__file__).parent / "data" / "plastic" / "rows.json"
 
 
@@ -59,6 +66,20 @@ class Compared:
         for n, (value, wanted, error) in enumerate(truth):
             self.see(f"{what}[{n}]", value, wanted, allowed + error)
 
+    def balance(self, what: str, of: dict[str, Any], W: float, cycle: slice) -> None:
+        """Note the energy balance of a cycle under a constant W, beside 1 % of what is lost.
+
+        Loop and W d(delta_z) are friction, plastic work and the growth of the elastic energy;
+        that of the residual stress settles with the cycles.
+        """
+        loop = float(np.trapezoid(of["T_x"][cycle], of["delta_x"][cycle]))
+        inside = slice(cycle.start + 1, cycle.stop)
+        friction, plastic, elastic = (
+            float(np.sum(of[name][inside])) for name in ("dissipated", "plastic_work", "elastic")
+        )
+        given = loop + W * float(of["delta_z"][cycle.stop - 1] - of["delta_z"][cycle.start])
+        self.see(what, given - elastic, friction + plastic, 0.01 * (friction + plastic))
+
     def over(self) -> list[str]:
         """Give what is out of its bar."""
         return [
@@ -83,6 +104,14 @@ def beside(of_axis: Any, depth: float, layer: int) -> float:
     z, values = inside.z.to_numpy() - depth, inside.to_numpy()
     near = np.argsort(np.abs(z))[:3]
     return float(np.polyval(np.polyfit(z[near], values[near], len(near) - 1), 0.0))
+
+
+def strain_along(row: dict[str, Any], stress: Any, layer: int) -> Any:
+    """Give the elastic strain along the surface on the axis, of the planes of a layer."""
+    inside = stress.isel(z=np.flatnonzero(stress.layer.to_numpy() == layer))
+    of = [*row["coatings"], row["substrate"]][layer]
+    xx, zz = (inside.sel(component=name) for name in ("xx", "zz"))
+    return ((1 - of["nu"]) * xx - of["nu"] * zz) / of["E"]
 
 
 def middle(field: Any) -> float:
@@ -157,7 +186,14 @@ def indented(
         edges = np.cumsum([c["thickness"] for c in row["coatings"]])
         sides = [(z, n + side) for n, z in enumerate(edges) for side in (0, 1)]
         values = [beside(stress.sel(component="xx"), z, layer) for z, layer in sides]
-        found.table("interface", values, interfaces, 0.03 * most)
+        if (row["name"], number) in CONTRADICTORY:
+            interfaces = {name: of_row[:1] for name, of_row in interfaces.items()}
+            below = strain_along(row, stress, 1)[:1]
+            above = strain_along(row, stress, 0)
+            line = np.polyfit(above.z, above, 2)
+            wanted = float(np.polyval(line, below.z)[0])
+            found.see("continuous strain", float(below[0]), wanted, 0.03 * abs(wanted))
+        found.table("interface", values[: len(interfaces["value"])], interfaces, 0.03 * most)
     imprint = left["imprint_depth"]
     depth = middle(unloaded.dataset.imprint.to_numpy())
     allowed = imprint["error"] + 0.015 * abs(imprint["value"])
@@ -214,6 +250,11 @@ def fretted(row: dict[str, Any], *, n: int = 48, room: float = 1.3, **changes: A
             key=lambda pair: abs(pair[0]) / pair[1],
         )
         found.see(name, worst[0], 0.0, worst[1])
+    columns = {n: result.dataset[n].to_numpy() for n in ("T_x", "delta_x", *ENERGIES)}
+    # The trapezoidal rule of the loop, of eight increments a stroke, leaves 2 %: it is told.
+    columns["elastic"] = columns["elastic"] - result.dataset.quadrature.to_numpy()
+    for k, start in enumerate((9, 17)):
+        found.balance(f"energy[{k}]", columns, row["W"], slice(start, start + 17))
     ends = [5, 9, 17, 25, 33]
     for name, bar in (("plastic", 0.06), ("friction", 0.03)):
         wanted, error = row[f"{name}_work"], row[f"{name}_work_error"]
@@ -249,7 +290,7 @@ def drawn(row: dict[str, Any], *, n: int = 128, room: float = 1.5, **changes: An
         path=path,
         **changes,
     )
-    names = ("p_max", "plastic_volume", "plastic_work", "dissipated", "T_x", "delta_x")
+    names = ("p_max", "plastic_volume", "T_x", "delta_x", *ENERGIES)
     rows_ = []
     for increment in fret.march(scene):
         rows_.append([float(getattr(increment, name)) for name in names])
@@ -268,6 +309,8 @@ def drawn(row: dict[str, Any], *, n: int = 128, room: float = 1.5, **changes: An
         floor = 1e-6 * max(row[key]["value"])
         for k, (value, wanted, error) in enumerate(truth):
             found.see(f"{name}[{k}]", value, wanted, error + bar * abs(wanted) + floor)
+    for k, start in enumerate((15, 31, 47, 63)):
+        found.balance(f"energy[{k}]", columns, row["W"], slice(start, start + 33))
     cycle = slice(63, 96)
     loop = float(np.trapezoid(columns["T_x"][cycle], columns["delta_x"][cycle]))
     wanted = row["loop_of_the_last_cycle"]

@@ -110,7 +110,7 @@ fn cycle(direction: Direction, c: &Cycle) -> Value {
 
 /// Plastic work in increments \[J\].
 pub(crate) fn plastic_work(own: &[Increment]) -> f64 {
-    own.iter().map(|i| i.yielded.work).sum()
+    own.iter().map(|i| i.energy.plastic).sum()
 }
 
 /// Largest stress of von Mises in increments over the yield stress, 1 where a body yields.

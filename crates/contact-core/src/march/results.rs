@@ -84,16 +84,20 @@ pub struct Energy {
     /// Work of the loads, W d(delta_z) + T . d(delta) + M . d(phi), of the bulk stress on the
     /// displacements of the contact, and of the drive of rolling bodies.
     pub work: f64,
-    /// Change of the elastic energy, 1/2 sum of traction times displacement.
+    /// Change of the elastic energy: 1/2 sum of traction times displacement, and in bodies that yield
+    /// that of the residual stress, -1/2 int sigma : e_p dV without tractions.
     pub elastic: f64,
     /// Energy dissipated by friction, sum of g_m |ds| dA with the mean bound g_m of the increment,
     /// since a cell slips at its bound; >= 0 up to the solver's tolerance.
     pub dissipated: f64,
+    /// Plastic work, int sigma : de_p dV along the hardening curve of each point.
+    #[serde(default)]
+    pub plastic: f64,
     /// Work of the tractions on cells that close or open, -sum of p dh dA, and of the shear on the
     /// motion of cells before they enter; a discretisation error that vanishes with the increment.
     pub opening: f64,
-    /// `dissipated` less -sum of q . ds dA by the trapezoidal rule, which the other terms use; it
-    /// vanishes with the increment.
+    /// `dissipated` and `plastic` less -sum of q . ds dA and int sigma : de_p dV by the trapezoidal
+    /// rule, which the other terms use; it vanishes with the increment.
     pub quadrature: f64,
 }
 
@@ -101,7 +105,8 @@ impl Energy {
     /// Error of the energy balance \[J\]: zero up to the solver's tolerance, for any size of the
     /// increment.
     pub fn imbalance(&self) -> f64 {
-        self.work - self.elastic - (self.dissipated - self.quadrature) - self.opening
+        let lost = self.dissipated + self.plastic - self.quadrature;
+        self.work - self.elastic - lost - self.opening
     }
 }
 
@@ -147,8 +152,6 @@ pub struct Work {
 /// What has yielded.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Yield {
-    /// Plastic work in the increment \[J\], int sigma : de_p dV.
-    pub work: f64,
     /// Volume that has yielded so far \[m^3\].
     pub volume: f64,
     /// Largest equivalent plastic strain of a point so far.

@@ -179,6 +179,7 @@ impl Increment {
                 work: e.work + f.work,
                 elastic: e.elastic + f.elastic,
                 dissipated: e.dissipated + f.dissipated,
+                plastic: e.plastic + f.plastic,
                 opening: e.opening + f.opening,
                 quadrature: e.quadrature + f.quadrature,
             },
@@ -193,7 +194,6 @@ impl Increment {
                 energy: s.energy,
             },
             yielded: Yield {
-                work: self.yielded.work + second.yielded.work,
                 passes: self.yielded.passes + second.yielded.passes,
                 ..second.yielded
             },

@@ -3,10 +3,12 @@
 
 use ndarray::Array2;
 
+use super::accounts::of_tractions;
 use super::offsets::{Offsets, replace};
 use super::{Increment, March, Yield};
 use crate::error::Error;
 use crate::scene::LoadPoint;
+use crate::solvers::Interface;
 use crate::yielding::{MOST_PASSES, Residual, Yielded, Yielding};
 
 /// Equivalent plastic strain at which a run ends: the equations are those of small strains.
@@ -146,8 +148,19 @@ impl March {
                     );
                     return Err(Error::invalid("plastic", found, allowed));
                 }
+                let stored = |interface: &Interface, yielded: &Yielded| {
+                    of_tractions(&self.problem, interface) + yielded.locked
+                };
+                let elastic =
+                    stored(&self.state.interface, &now) - stored(&start.interface, before);
+                let energy = &mut increment.energy;
+                // The tractions did work on the residual displacements: by reciprocity this is the
+                // plastic work and the change of the energy of the residual stress.
+                let trapezoidal = energy.elastic - elastic;
+                energy.elastic = elastic;
+                energy.plastic = now.work - before.work;
+                energy.quadrature += energy.plastic - trapezoidal;
                 increment.yielded = Yield {
-                    work: now.work - before.work,
                     volume: now.volume,
                     largest: now.largest,
                     passes: pass,

@@ -45,6 +45,8 @@ pub(super) struct YieldingBody {
     pub(super) displacement: Vec<f64>,
     pub(super) next_displacement: Vec<f64>,
     stress: Vec<f64>,
+    /// Tractions of the last pass, with z into the body \[Pa\].
+    tractions: [Vec<f64>; 3],
     /// Largest change of the stress in the last pass, over the yield stress.
     pub(super) off: f64,
     /// Largest stress of von Mises in the last pass over the yield stress, of points that have not
@@ -92,6 +94,7 @@ impl YieldingBody {
             next_displacement: vec![0.0; 3 * cells],
             slot: vec![NONE; laws.len() * cells],
             active: Vec::new(),
+            tractions: Default::default(),
             off: 0.0,
             reached: 0.0,
             laws,
@@ -253,7 +256,8 @@ impl YieldingBody {
 
     /// Stress of the tractions and the present strain, displacement of the strain alone.
     fn respond(&mut self, tractions: &[Vec<f64>; 3]) {
-        let [x, y, z] = &self.facing(tractions);
+        self.tractions = self.facing(tractions);
+        let [x, y, z] = &self.tractions;
         let yields = !self.active.is_empty();
         self.operator.apply(
             Sources {
@@ -389,6 +393,22 @@ impl YieldingBody {
             mesh.weight(plane) * (isotropic + kinematic)
         };
         volume.cells.area() * self.active.iter().map(of_point).sum::<f64>()
+    }
+
+    /// Elastic energy of the residual stress \[J\] in the last pass, -1/2 int sigma_res : e dV. The
+    /// stress is that of the tractions t, too, whose work on the strain is that on its displacement u[e]
+    /// (Betti): 1/2 (sum t . u[e] dA - int sigma : e dV).
+    pub(super) fn locked(&self, volume: &Volume) -> f64 {
+        let cells = self.cells();
+        let of_point = |(point, ..): &(usize, Point, Returned)| {
+            let [stress, strain]: [Tensor; 2] = [&self.stress, &self.strain]
+                .map(|field| std::array::from_fn(|c| field[self.at(*point, c)]));
+            self.mesh().weight(point / cells) * contraction(&stress, &strain)
+        };
+        let of_stress: f64 = self.active.iter().map(of_point).sum();
+        let displaced = self.tractions.iter().flatten().zip(&self.next_displacement);
+        let of_tractions: f64 = displaced.map(|(t, u)| t * u).sum();
+        0.5 * volume.cells.area() * (of_tractions - of_stress)
     }
 
     /// Volume of the points that have yielded \[m^3\].

@@ -181,6 +181,9 @@ impl Yielding {
         let done: f64 = self.bodies.iter().map(|body| body.work(&self.volume)).sum();
         Yielded {
             work: before.work + done,
+            locked: (self.bodies.iter())
+                .map(|body| body.locked(&self.volume))
+                .sum(),
             volume: self
                 .bodies
                 .iter()

@@ -41,6 +41,9 @@ pub struct Yielded {
     pub bodies: Vec<PlasticState>,
     /// Plastic work over the path \[J\].
     pub work: f64,
+    /// Elastic energy of the residual stress \[J\].
+    #[serde(default)]
+    pub locked: f64,
     /// Volume that has yielded \[m^3\].
     pub volume: f64,
     /// Largest equivalent plastic strain of a point.

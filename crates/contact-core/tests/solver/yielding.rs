@@ -86,7 +86,7 @@ fn indentation_follows_finite_elements() {
             0.06,
         );
         // What unloads does not yield anew.
-        assert_eq!(increments[5].yielded.work, 0.0);
+        assert_eq!(increments[5].energy.plastic, 0.0);
         let imprint = march.residual().expect("an imprint").gap;
         let depth = imprint.iter().fold(0.0_f64, |m, h| m.max(*h));
         close(
@@ -95,6 +95,40 @@ fn indentation_follows_finite_elements() {
             number(&state["unloaded"], "imprint_depth"),
             0.02,
         );
+    }
+}
+
+#[test]
+fn the_energy_of_the_residual_stress_is_left_after_unloading() {
+    let law = Plastic {
+        s_y: 1e9,
+        hardening: 1e10,
+        kinematic: 0.0,
+    };
+    let grid = Grid::centred(6e-4, 24).expect("a grid");
+    let path = vec![approach(6e-6, 4, 1.0), approach(-2e-6, 2, 2.0)];
+    let (increments, mut march) = run(&indentation(0.01, law, grid, path));
+    let left: f64 = increments.iter().map(|i| i.energy.elastic).sum();
+    let state = march.state().yielded.clone().expect("plastic strain");
+    let bodies = march.yielding().expect("a body that yields");
+    let stress = bodies.stress(&state, None, 2).expect("residual stress");
+    let (mesh, cells) = (bodies.mesh(2).expect("a mesh"), grid.nx * grid.ny);
+    // -1/2 int sigma : e dV, without any traction.
+    let of_point = |point: &contact_core::yielding::PlasticPoint| {
+        let (plane, cell) = (point.plane as usize, point.cell as usize);
+        let at = |c: usize| stress[(plane * 6 + c) * cells + cell];
+        let sum = |c: usize| (if c < 3 { 1.0 } else { 2.0 }) * at(c) * point.strain[c];
+        -0.5 * grid.cell_area() * mesh.weight(plane) * (0..6).map(sum).sum::<f64>()
+    };
+    let locked: f64 = state.bodies[0].points.iter().map(of_point).sum();
+    assert!(
+        locked > 0.0 && (left / locked - 1.0).abs() < 2e-3,
+        "{left:e}, {locked:e}"
+    );
+    let done: f64 = increments.iter().map(|i| i.energy.plastic).sum();
+    assert!(locked < 0.2 * done, "{locked:e} of {done:e}");
+    for increment in &increments {
+        assert!(increment.energy.imbalance().abs() < 1e-6 * done);
     }
 }
 

@@ -139,7 +139,7 @@ pub const SCALARS: &[Scalar] = &[
         |i| i.q_scatter.unwrap_or(f64::NAN),
     ),
     real("plastic_work", "J", "plastic work in the increment", |i| {
-        i.yielded.work
+        i.energy.plastic
     }),
     real(
         "plastic_volume",
@@ -168,7 +168,7 @@ pub const SCALARS: &[Scalar] = &[
     real(
         "elastic",
         "J",
-        "change of the elastic energy in the increment",
+        "change of the elastic energy in the increment, that of the residual stress included",
         |i| i.energy.elastic,
     ),
     real(
@@ -186,7 +186,7 @@ pub const SCALARS: &[Scalar] = &[
     real(
         "quadrature",
         "J",
-        "dissipated less what the trapezoidal rule makes of it",
+        "dissipated and plastic_work less what the trapezoidal rule makes of them",
         |i| i.energy.quadrature,
     ),
     real(

@@ -1,6 +1,7 @@
 //! Energies of an increment.
 
 use crate::cells::sums;
+use crate::march::problem::Problem;
 use crate::march::setup::Setup;
 use crate::march::{Energy, Motion};
 use crate::scene::LoadPoint;
@@ -61,9 +62,20 @@ pub(super) fn energies(
         work: work_of_loads(setup, point, motion) + bulk + rolling,
         elastic,
         dissipated,
+        plastic: 0.0,
         opening,
         quadrature,
     }
+}
+
+/// Elastic energy of the tractions \[J\], 1/2 sum of traction times displacement.
+pub(in crate::march) fn of_tractions(problem: &Problem, interface: &Interface) -> f64 {
+    let Interface { p, q, u, u_z, .. } = interface;
+    let fields = [&p[..], &q[0], &q[1], u_z, &u[0], &u[1]];
+    let [sum] = sums(fields, |_, [p, q_x, q_y, u_z, u_x, u_y]| {
+        [p * u_z + q_x * u_x + q_y * u_y]
+    });
+    0.5 * problem.cell_area() * sum
 }
 
 /// Work of the loads in the increment \[J\], by the trapezoidal rule.

@@ -5,6 +5,7 @@ mod energy;
 mod history;
 mod scatter;
 
+pub(super) use self::energy::of_tractions;
 pub(super) use self::history::{Closing, Stuck, close, growth};
 pub(super) use self::scatter::SAMPLES;
 use super::setup::{Setup, count};
