@@ -174,3 +174,34 @@ def test_published_lives_lie_in_their_ranges(coating: str, failed: float) -> Non
         lived = row["cycles_to_failure"]
         inside.append(scale * found.low <= lived <= scale * found.high)
     assert sum(inside) >= 0.8 * len(rows)
+
+
+#: Limits and distance of the page on these tests, fitted to plain fretting.
+FITTED = [("s_D", 443e6, "fitted to plain fretting"), ("t_D", 297e6, "fitted to plain fretting")]
+
+
+def test_published_thresholds_lie_in_their_ranges() -> None:
+    """At a measured threshold the range of the safety factor holds 1, in eight of ten tests."""
+    steel = fatigue.Material("35NCD16", FITTED)
+    inside = []
+    for row in experiments.table("icf13_952_thresholds"):
+        result = fret.solve(experiments.icf13(str(row["test"]), n=48).scene, progress=False)
+        found = result.life(steel, "crossland").range_of(0, L=39e-6)
+        assert found.factor < 2.0
+        inside.append(found.low <= 1.0 <= found.high)
+    assert sum(inside) >= 0.8 * len(inside)
+
+
+def test_a_threshold_has_the_range_of_its_margin() -> None:
+    steel = fatigue.Material("35NCD16", FITTED)
+    found = fret.study.threshold(
+        lambda values: experiments.icf13("FF_1", Q=values["Q"], n=48).scene,
+        "Q",
+        measure=fret.study.Averaged(steel, "crossland", 39e-6),
+        between=(1.5e5, 6e5),
+        tolerance=0.05,
+    )
+    assert found.low < found.value < found.high
+    # The measured threshold lies within it; the range is that of strengths, not of lives.
+    assert found.low <= 2.73e5 <= found.high
+    assert found.high / found.low < 2.0

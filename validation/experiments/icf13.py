@@ -43,10 +43,11 @@ def page(out: Path) -> Page:
     }
     measure = limits.measure("crossland")
     ratios = {str(r["test"]): float(q) for r, q in zip(plain, limits.ratios, strict=True)}
-    cells = []
+    cells, inside = [], []
     for r in rows:
         W, name, measured = r["W_N_per_m"], str(r["test"]), r["Q_threshold_N_per_m"]
         found, said = None, f"{1e-3 * ratios[name] * measured:.0f}" if name in ratios else ""
+        told = ""
         if name not in ratios:
             found = fret.study.threshold(
                 partial(scene_of, name),
@@ -58,6 +59,8 @@ def page(out: Path) -> Page:
             assert isinstance(found, fret.study.ThresholdLoad)
             ratios[name] = found.value / measured
             said = f"{1e-3 * found.value:.0f} +- {1e-3 * found.error:.0f}"
+            told = f"{1e-3 * found.low:.0f} to {1e-3 * found.high:.0f}"
+            inside.append(found.low <= measured <= found.high)
         cells.append(
             [
                 name,
@@ -66,6 +69,7 @@ def page(out: Path) -> Page:
                 f"{1e-6 * r['sigma_bulk_max_Pa']:.0f}",
                 f"{1e-3 * measured:.0f}",
                 said,
+                told,
                 f"{ratios[name]:.2f}",
                 "" if found is None else str(found.solves),
                 "fitted" if found is None else "predicted",
@@ -91,6 +95,7 @@ def page(out: Path) -> Page:
         "bulk [MPa]",
         "Q [N/mm]",
         "computed",
+        "10 to 90 %",
         "ratio",
         "solves",
         "",
@@ -113,10 +118,18 @@ def page(out: Path) -> Page:
         comparison=[
             table(head, cells),
             drawn(out, "experiment_icf13", draw),
-            "The error is that of the search for the threshold.",
+            "The error is that of the search for the threshold. The range is that of 10 to 90 % of "
+            "the specimens (`ThresholdLoad.low`, `high`): error of the stress, scatter of the limits, "
+            "critical distance.",
         ],
         claims=[
             Claim("FF", "each within 20 %", spread(predicted, 0.20), bool(off.max() <= 0.20)),
+            Claim(
+                "FF, measured value in the range that is told",
+                "8 of 10",
+                f"{sum(inside)} of {len(inside)}",
+                sum(inside) >= 0.8 * len(inside),
+            ),
             Claim("mean of FF", "within 10 %", f"{mean:.2f}", abs(mean - 1) <= 0.10),
         ],
         verdict="Six tests determine the distance badly: with unknown limits the fit would choose "

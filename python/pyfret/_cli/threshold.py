@@ -94,7 +94,15 @@ def run(options: argparse.Namespace) -> int:
         over=over,
     )
     if isinstance(found, ThresholdLoad):
-        rows = [{"threshold": found.value, "error": found.error, "solves": found.solves}]
+        rows = [
+            {
+                "threshold": found.value,
+                "error": found.error,
+                "low": found.low,
+                "high": found.high,
+                "solves": found.solves,
+            }
+        ]
     else:
         name = next(iter(over or {}))
         rows = [
@@ -102,6 +110,8 @@ def run(options: argparse.Namespace) -> int:
                 name: float(found[name][n]),
                 "threshold": float(found.threshold[n]),
                 "error": float(found.error[n]),
+                "low": float(found.low[n]),
+                "high": float(found.high[n]),
                 "solves": int(found.solves[n]),
             }
             for n in range(found.sizes[name])

@@ -214,7 +214,12 @@ class Life(Labelled):
 
     @numbers_only
     def range_of(
-        self, layer: int, *, scatter: float | None = None, L: float | None = None
+        self,
+        layer: int,
+        *,
+        scatter: float | None = None,
+        L: float | None = None,
+        method: Averaging = "line",
     ) -> LifeRange:
         """Give low, best and high of a life or of a safety factor, the range of 10 to 90 %.
 
@@ -234,8 +239,10 @@ class Life(Labelled):
             (default: 1.2, or 1.5).
         L : float, optional
             Critical distance [m] (default: that of the material).
+        method : "point", "line", "area" or "volume"
+            How the stress is averaged over it, as in :func:`pyfret.fatigue.average`.
         """
-        default = scatter is None and L is None
+        default = scatter is None and L is None and method == "line"
         if default and layer in self._ranges:
             return self._ranges[layer]
         if not self._sections:
@@ -246,7 +253,7 @@ class Life(Labelled):
             layer,
             self._materials[layer],
             (worst.value, worst.error),
-            method="line",
+            method=method,
             scatter=scatter,
             L=L,
         )

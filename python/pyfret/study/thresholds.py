@@ -22,6 +22,7 @@ from pyfret._util.holds_arrays import HoldsArrays
 from pyfret._util.lazy import xr
 from pyfret.fatigue.averages import average
 from pyfret.fatigue.criteria import Material
+from pyfret.fatigue.lives import life
 from pyfret.solution import solve
 from pyfret.study.design import varied
 
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
 
     from pyfret.fatigue.averages import Averaging
     from pyfret.fatigue.criteria import CriterionName
+    from pyfret.fatigue.ranges import LifeRange
 
 __all__ = ["Averaged", "Limits", "ThresholdLoad", "fit_limits", "threshold"]
 
@@ -79,6 +81,11 @@ class Averaged:
         margin = found.life if "life" in found else found.safety_factor
         return float(margin.min())
 
+    def range_of(self, result: Any) -> LifeRange:
+        """The range of the margin of a result, 10 to 90 %: stress, material and distance."""
+        judged = life(result, self.material, self.criterion, body_number=self.body_number)
+        return judged.range_of(judged.worst.layer, L=self.L, method=self.method)
+
 
 @dataclass(frozen=True)
 class ThresholdLoad:
@@ -94,12 +101,17 @@ class ThresholdLoad:
         Contacts solved.
     path : tuple of (float, float)
         Loads tried and what was measured.
+    low, high : float
+        The range of 10 to 90 % of the specimens, by the range of the margin at the threshold (of
+        :class:`Averaged`); NaN where the measure has no range or ``error=False``.
     """
 
     value: float
     error: float
     solves: int
     path: tuple[tuple[float, float], ...] = field(repr=False)
+    low: float = math.nan
+    high: float = math.nan
 
     def __float__(self) -> float:
         """The threshold."""
@@ -145,7 +157,7 @@ def threshold(
     Returns
     -------
     ThresholdLoad, or Dataset over the other parameters
-        ``threshold``, its ``error`` and the number of ``solves``.
+        ``threshold``, its ``error``, ``low`` and ``high`` of its range, and ``solves``.
 
     Raises
     ------
@@ -172,6 +184,8 @@ def threshold(
     fields = {
         "threshold": np.reshape([f.value for f in found], shape),
         "error": np.reshape([f.error for f in found], shape),
+        "low": np.reshape([f.low for f in found], shape),
+        "high": np.reshape([f.high for f in found], shape),
         "solves": np.reshape([f.solves for f in found], shape),
     }
     return xr.Dataset(
@@ -203,9 +217,7 @@ def one(
         scene = scene_of(source, {**others, parameter: load})
         if coarser > 1:
             scene = scene.replace(grid=wider(scene.grid, coarser))
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            found = float(measure(solve(scene, progress=False)))
+        found = float(measure(quiet(scene)))
         if not found > 0:
             raise ValueError(f"{parameter} = {load:g}: the measure is {found}: must be above 0")
         # A life without end counts as long.
@@ -232,13 +244,34 @@ def one(
     near = min(points, key=lambda p: abs(p[1]))
     root = near[0] if abs(near[1]) < abs(tried[math.exp(root)]) else root
     bracket = 0.5 * tolerance * math.exp(root)
-    solves, of_grid = len(tried), 0.0
+    solves, of_grid, spread = len(tried), 0.0, (math.nan, math.nan)
     if error:
         slope = steepness(points, root)
         of_grid = abs(margin(math.exp(root), 2) - at(root)) / max(abs(slope), 1e-3) * math.exp(root)
         solves += 1
+        if isinstance(measure, Averaged):
+            there = scene_of(source, {**others, parameter: math.exp(root)})
+            spread = scattered(measure.range_of(quiet(there)), math.exp(root), slope)
+            solves += 1
     path = tuple((load, value * math.exp(m)) for load, m in tried.items())
-    return ThresholdLoad(math.exp(root), bracket + of_grid, solves, path)
+    return ThresholdLoad(math.exp(root), bracket + of_grid, solves, path, *spread)
+
+
+def scattered(margin: LifeRange, load: float, slope: float) -> tuple[float, float]:
+    """The range of a threshold, for a margin that goes as the load to the power of the slope.
+
+    A margin m of the range stands for specimens whose threshold is off by (m/best)^(-1/slope).
+    """
+    power = -1.0 / math.copysign(max(abs(slope), 0.05), slope)
+    ends = [load * (m / margin.best) ** power for m in (margin.low, margin.high)]
+    return min(ends), max(ends)
+
+
+def quiet(scene: Scene) -> Any:
+    """The result of a scene, its doubts unsaid."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return solve(scene, progress=False)
 
 
 def steepness(points: list[tuple[float, float]], root: float) -> float:
