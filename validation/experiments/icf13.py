@@ -119,8 +119,8 @@ def page(out: Path) -> Page:
             table(head, cells),
             drawn(out, "experiment_icf13", draw),
             "The error is that of the search for the threshold. The range is that of 10 to 90 % of "
-            "the specimens (`ThresholdLoad.low`, `high`). It has the error of the stress, the scatter "
-            "of the limits, and the critical distance.",
+            "the specimens (`ThresholdLoad.low`, `high`). It has the error of the stress, the "
+            "scatter of the limits, and the critical distance.",
         ],
         claims=[
             Claim("FF", "each within 20 %", spread(predicted, 0.20), bool(off.max() <= 0.20)),
