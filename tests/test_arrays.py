@@ -114,8 +114,57 @@ def test_a_hole_is_masked_or_nan() -> None:
 
 def test_points_are_not_paired_by_place_where_they_have_names() -> None:
     force = pd.Series([1.0, 2.0, 3.0], index=[0, 1, 2])
+    approach = 1e-6 * force
     with pytest.raises(ValueError, match="other labels"):
-        fret.fit.Indentation.of(force, force.sort_index(ascending=False))
+        fret.fit.Indentation.of(force, approach.sort_index(ascending=False))
     with pytest.raises(ValueError, match="as many"):
         fret.fit.Scar.of([0.0, 1.0], [0.0], wear={})
-    assert fret.fit.Indentation.of(force, force).W.size == 3
+    assert fret.fit.Indentation.of(force, approach).W.size == 3
+
+
+STEEL = fret.Elastic(E=210e9, nu=0.3)
+GRID = fret.Grid.from_spacing((4, 3), (1e-5, 2e-5))
+FIELD = xr.DataArray(
+    np.arange(12.0).reshape(4, 3) * 1e6,
+    dims=("x", "y"),
+    coords={"x": GRID.x, "y": GRID.y},
+)
+#: What takes a field of the cells, or of the points of a map.
+FIELDS: dict[str, Callable[[Any], Any]] = {
+    "displacement": lambda p: fret.SurfaceOperator(
+        fret.Body(STEEL), fret.Body(STEEL), GRID
+    ).displacement(p=p),
+    "stress": lambda p: fret.subsurface.stress(fret.Body(STEEL), GRID, [1e-5], p=p, y=0.0).s_zz,
+    "map": lambda z: fret.SurfaceMap(1e-15 * z, spacing=(1e-5, 2e-5)).values,
+}
+
+
+@pytest.mark.parametrize("take", FIELDS)
+def test_a_field_is_taken_by_its_coordinates(take: str) -> None:
+    """In any order; coordinates of another grid are refused."""
+    right = np.asarray(FIELDS[take](FIELD.values))
+    for same in (FIELD, FIELD.T, FIELD[::-1], FIELD.T[::-1], FIELD.drop_vars("x")):
+        np.testing.assert_allclose(FIELDS[take](same), right, rtol=1e-12)
+    for other, told in (
+        (FIELD.assign_coords(x=1e3 * GRID.x), "along x lie"),
+        (FIELD.assign_coords(y=range(3)), "along y lie"),
+        (FIELD.assign_coords(x=[0.0, 1e-5, 2e-5, 4e-5]), "evenly spaced"),
+        (FIELD.rename(x="i"), "order is not known|must be an array"),
+    ):
+        with pytest.raises((ValueError, TypeError), match=told):
+            FIELDS[take](other)
+
+
+def test_a_table_of_wear_is_pairs_of_numbers() -> None:
+    for wrong, told in (
+        (np.ma.masked_equal([[0.0, 1.0], [9.0, 2.0]], 2.0), "masked"),
+        ([(0.0, True), (9.0, False)], "no numbers"),
+        (pd.DataFrame({"cycles": [0.0, 9.0], "factor": [1.0, 2.0]}), "order is not known"),
+        ({0.0: 1.0, 9.0: 2.0}, "must be a list"),
+        ([0.0, 1.0, 2.0], "pair|list"),
+        ([(0.0, 1.0), (9.0, np.nan)], "finite"),
+    ):
+        with pytest.raises((ValueError, TypeError), match=told):
+            fret.wear.Archard(1e-14, factor=("cycles", wrong))
+    table = fret.wear.Archard(1e-14, factor=("cycles", np.array([[0.0, 1.0], [9.0, 2.0]])))
+    assert table.factor == ("cycles", ((0.0, 1.0), (9.0, 2.0)))

@@ -8,11 +8,14 @@ import signal
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
+from decimal import Decimal
+from fractions import Fraction
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 import xarray as xr
 
@@ -20,6 +23,8 @@ import pyfret as fret
 from conftest import MU, ROOT, R, W, sphere_on_flat
 from pyfret import citation
 from pyfret.plot.parameters import parameter_label
+from pyfret.study.design import Design
+from pyfret.study.measures import variables
 
 pytestmark = pytest.mark.solves
 
@@ -368,3 +373,44 @@ def test_a_store_of_another_friction_law_is_another_study(tmp_path: Path) -> Non
     solve(constant)
     with pytest.raises(fret.errors.StoreError, match=r"another study.*law"):
         solve(higher)
+
+
+@pytest.mark.parametrize(
+    ("parameters", "told"),
+    [
+        ({"path.0.W": [10.0], "path[0].W": [9.0]}, "set path.0.W twice"),
+        ({"mu": {0.2, 0.3}}, "must be a list"),
+        ({"mu": {0.2: 1}}, "must be a list"),
+        ({"mu": np.ma.masked_equal([0.2, 0.3], 0.3)}, "masked"),
+        ({"mu": [0.2j]}, "must be a number, a text"),
+        ({"mu": xr.DataArray([[0.2]], dims=("a", "b"))}, "axes a, b"),
+    ],
+)
+def test_values_of_parameters_come_through_the_door(
+    parameters: dict[str, object], told: str
+) -> None:
+    with pytest.raises((ValueError, TypeError), match=told):
+        Design.of(parameters, "grid").check(SCENE)
+
+
+def test_values_of_parameters_in_any_form() -> None:
+    for values in (
+        np.array([0.2, 0.3]),
+        xr.DataArray([0.2, 0.3], dims="q"),
+        pd.Series([0.2, 0.3], index=[7, 1]),
+        [Decimal("0.2"), Fraction(3, 10)],
+        (np.float32(0.2), 0.3),
+    ):
+        found = Design.of({"mu": values}, "grid").parameters["mu"]
+        assert found == pytest.approx([0.2, 0.3])
+    assert Design.of({"grid.n": range(8, 12, 2)}, "grid").parameters["grid.n"] == [8, 10]
+
+
+def test_what_a_measure_gives_is_a_number_or_missing() -> None:
+    given = {"masked": np.ma.masked, "none": None, "truth": True, "series": xr.DataArray(2.0)}
+    found = variables(given, "all")
+    assert np.isnan([float(found[name]) for name in ("masked", "none")]).all()
+    assert [float(found[name]) for name in ("truth", "series")] == [1.0, 2.0]
+    for wrong in (np.zeros(3), 1j, "a", xr.DataArray(np.array([object()]), dims="k")):
+        with pytest.raises((TypeError, ValueError)):
+            variables(wrong, "all")

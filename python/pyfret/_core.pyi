@@ -1651,12 +1651,13 @@ class LoadPath:
         """Visit the normal forces `W` [N] in turn, as `tangential` does: fretting mode II."""
     def replace(self, /, **changes: Any) -> Self:
         """The same with some of its parts exchanged, named as in the constructor."""
-    def rig(self, /, stiffness: float | None) -> LoadPath:
+    def rig(self, /, stiffness: float | str | None) -> LoadPath:
         """
         The same path through a rig of a stiffness K [N/m], a spring along x.
 
         It is in series with the contact: ``delta_x`` is the shift of the spring's far end, given or
         read, and the contact's own shift is ``delta_x - T_x/K``. None takes the spring out.
+        A text may have its unit, ``"20 N/um"``.
         """
     @property
     def rig_stiffness(self, /) -> float | None:
@@ -2832,8 +2833,8 @@ def dang_van_path(stress: ArrayLike) -> NDArray[np.float64]:
 def depths(body: Body, z: Sequence[float]) -> tuple[list[float], list[int]]:
     """Depths [m] with their layers; on an interface both, the upper one first."""
 
-def doubt(quantity: str, key: str, value: float) -> str | None:
-    """The doubt of a number, if it is hardly meant, by the name of its quantity."""
+def doubt(key: str, shown: str, value: float) -> str | None:
+    """The doubt of a number, if it is hardly meant, by its key and the name that it is shown by."""
 
 def dundurs_beta(body1: Elastic | Body, body2: Elastic | Body) -> float:
     """
@@ -2975,6 +2976,9 @@ def materials(file: str | PathLike[str] | None = None) -> list[Material]:
 
 def measure(name: str, stress: ArrayLike) -> NDArray[np.float64]:
     """Give what follows from stresses of shape (6, n), by its name."""
+
+def measured_by(key: str) -> tuple[str, str] | None:
+    """What the number of a key measures, and its unit in SI; none of a key that is unknown."""
 
 def partial_crack(film_: Elastic, below: Elastic, depth: float) -> float:
     """Factor F of a crack with its tip in a film; use :func:`pyfret.fracture.film_intensity`."""
@@ -3170,6 +3174,12 @@ def threshold_at(
 ) -> tuple[list[float], float]:
     """Threshold range of K at R = 0 [Pa m^0.5] at lengths [m], and El Haddad's a_0 [m]."""
 
+def unit_of(name: str) -> tuple[str, float] | None:
+    """What a unit measures, and its size in SI; none of a name that is no unit."""
+
+def units(kinds: str) -> str:
+    """The names of the units that measure one of some kinds, such as ``"length, force"``."""
+
 def verify(store: str | PathLike[str]) -> str:
     """Checks a store and gives the attributes of its group as JSON."""
 
@@ -3332,6 +3342,7 @@ __all__ = [
     "material_quantities",
     "materials",
     "measure",
+    "measured_by",
     "partial_crack",
     "principal",
     "probe_labels",
@@ -3349,6 +3360,8 @@ __all__ = [
     "stress_coefficients",
     "surface_frf",
     "threshold_at",
+    "unit_of",
+    "units",
     "verify",
     "verify_wear",
     "wear",

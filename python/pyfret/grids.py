@@ -23,7 +23,7 @@ from pyfret._core import (
     SurfaceMap,
 )
 from pyfret._util.door import numbers_only
-from pyfret.scene.warnings import SceneWarning
+from pyfret._util.doubts import SceneWarning
 from pyfret.solution import solve
 from pyfret.wear.runs import solve as wear_off
 

@@ -21,11 +21,12 @@ import numpy as np
 
 from pyfret import _core
 from pyfret._core import Material
+from pyfret._util.arrays import items
 from pyfret._util.door import numbers_only
+from pyfret._util.doubts import doubts_of
 from pyfret._util.lazy import xr
 from pyfret._util.names import listing
 from pyfret.fatigue.cycles import cycle_increments
-from pyfret.scene.warnings import doubt_numbers, doubts_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -55,18 +56,10 @@ class Conductor:
     #: Heat capacity of the volume, density times specific heat [J/(m^3 K)].
     heat_capacity: float
 
-    def __post_init__(self) -> None:
-        """Warn of numbers that are hardly meant."""
-        doubt_numbers("conductivity", stacklevel=4, conductivity=self.conductivity)
-        doubt_numbers("heat capacity", stacklevel=4, heat_capacity=self.heat_capacity)
-
     @property
     def doubts(self) -> list[str]:
         """Numbers that are hardly meant, one sentence each."""
-        return [
-            *doubts_of("conductivity", conductivity=self.conductivity),
-            *doubts_of("heat capacity", heat_capacity=self.heat_capacity),
-        ]
+        return doubts_of("Conductor", **vars(self))
 
     @classmethod
     def of(cls, material: Material) -> Conductor:
@@ -83,10 +76,15 @@ class Conductor:
 Conductors = Conductor | Material | Sequence[Conductor | Material]
 
 
-def _of_layers(conductors: Conductors, layers: int) -> list[Conductor]:
-    if not isinstance(conductors, Sequence):
-        conductors = [conductors] * layers
-    return [Conductor.of(c) if isinstance(c, Material) else c for c in conductors]
+def _of_layers(conductors: Conductors, layers: int, name: str) -> list[Conductor]:
+    several = isinstance(conductors, list | tuple)
+    found: list[Any] = items(conductors, name) if several else [conductors] * layers
+    for one in found:
+        if not isinstance(one, Conductor | Material):
+            raise TypeError(
+                f"{name} = {one!r:.60}: must be a Conductor or a Material, or one for each layer"
+            )
+    return [Conductor.of(c) if isinstance(c, Material) else c for c in found]
 
 
 def _numbers(layers: list[Conductor]) -> list[tuple[float, float]]:
@@ -220,8 +218,8 @@ def temperature(
         harmonics = min(kept.size // 2, HARMONICS)
     if harmonics < 0:
         raise ValueError(f"harmonics = {harmonics}: must be 0 or more")
-    layers1 = _of_layers(conductor1, len(body1.coatings) + 1)
-    layers2 = _of_layers(conductor2, len(body2.coatings) + 1)
+    layers1 = _of_layers(conductor1, len(body1.coatings) + 1, "conductor1")
+    layers2 = _of_layers(conductor2, len(body2.coatings) + 1, "conductor2")
     doubts = [doubt for layer in (*layers1, *layers2) for doubt in layer.doubts]
     found = _core.cycle_temperature(
         _numbers(layers1),

@@ -6,9 +6,9 @@ import warnings
 from typing import TYPE_CHECKING
 
 from pyfret._core import Elastic, Plastic
+from pyfret._util.doubts import SceneWarning
 from pyfret.fatigue import Materials
 from pyfret.fatigue.ranges import known_as
-from pyfret.scene.warnings import SceneWarning
 
 if TYPE_CHECKING:
     import os

@@ -34,9 +34,9 @@ COPIES: dict[Any, Callable[[xr.Dataset], Any]] = {
 def open(path: str | os.PathLike[str]) -> Any:
     """Open what pyfret has saved: a run, wear, a study, a fit, cracks (``.zarr``, ``.nc``).
 
-    Fields are read when they are asked for. Every file of a store is checked before: what is read
-    is what was written. What ``save`` wrote has no checksums and is not checked. What the metadata
-    ask for beside being read, such as a codec of another program, is refused by name.
+    Fields are read when they are asked for. Every file of a store is checked before, and what
+    ``save`` wrote of up to 256 MB: what is read is what was written. What the metadata ask for
+    beside being read, such as a codec of another program, is refused by name.
 
     Returns
     -------

@@ -10,6 +10,7 @@ from pyfret import _core, fatigue, fracture
 from pyfret import heat as heating
 from pyfret._core import StoreError
 from pyfret._util import files
+from pyfret._util.door import numbers_only
 from pyfret.export.write import write as export
 from pyfret.report.page import report
 from pyfret.run import Run
@@ -98,6 +99,7 @@ class Result(Run):
         """
         return Unloaded(self.at(which))
 
+    @numbers_only
     def envelope(
         self,
         z: ArrayLike | None = None,

@@ -106,6 +106,7 @@ class Snapshot(State):
         """
         return PlasticState(self)
 
+    @numbers_only
     def stress(
         self,
         z: ArrayLike | None = None,
@@ -191,6 +192,7 @@ class Snapshot(State):
         """Where the contact begins and ends along a line of constant `y`, as :meth:`stick_zone`."""
         return zone(self, "contact", y)
 
+    @numbers_only
     def write_volume(
         self,
         out: str | os.PathLike[str],

@@ -4,7 +4,7 @@ use std::fmt::Debug;
 use std::sync::Arc;
 
 use contact_core::Error;
-use plausible::doubt;
+use plausible::doubt_of;
 
 use super::variable::Of;
 
@@ -100,7 +100,7 @@ impl Law for Archard {
     }
 
     fn doubts(&self, key: &str) -> Vec<String> {
-        let k = doubt("wear coefficient", &format!("{key}.k"), self.k.max(0.0));
+        let k = doubt_of("Archard.k", &format!("{key}.k"), self.k.max(0.0));
         k.into_iter().collect()
     }
 
@@ -146,11 +146,8 @@ impl Law for DissipatedEnergy {
     }
 
     fn doubts(&self, key: &str) -> Vec<String> {
-        let alpha = doubt(
-            "energy wear coefficient",
-            &format!("{key}.alpha"),
-            self.alpha.max(0.0),
-        );
+        let key = format!("{key}.alpha");
+        let alpha = doubt_of("DissipatedEnergy.alpha", &key, self.alpha.max(0.0));
         alpha.into_iter().collect()
     }
 

@@ -162,17 +162,9 @@ impl Material {
 
     /// Warnings for numbers that seem to be in another unit.
     pub fn doubts(&self) -> Vec<String> {
-        let row = |name: &str| match (name, QUANTITIES.iter().find(|q| q.name == name)?.unit) {
-            (_, "Pa") => Some("material stress"),
-            (_, "Pa m^0.5") => Some("threshold"),
-            ("conductivity", _) => Some("conductivity"),
-            ("density", _) => Some("density"),
-            ("specific_heat", _) => Some("specific heat"),
-            _ => None,
-        };
         let doubt = |(name, of): (&&str, &Sourced)| {
             let key = format!("material {}: {name}", self.name);
-            plausible::doubt(row(name)?, &key, of.value)
+            plausible::doubt_of(name, &key, of.value)
         };
         self.numbers.iter().filter_map(doubt).collect()
     }

@@ -2,16 +2,23 @@
 //!
 //! A number outside its range is allowed and doubted: nearly always its unit is another one. Scene,
 //! wear, heat, fatigue, cracks and fits take their doubts from this table, in Rust, in Python and on
-//! the command line. What is compared with another number of the scene, such as a contact radius with
-//! the grid, has no row here.
+//! the command line; and so do the texts with units that a number may be given as ([`unit`]). What is
+//! compared with another number of the scene, such as a contact radius with the grid, has no row here.
+
+pub mod unit;
+
+use unit::Kind;
 
 /// A row of the table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quantity {
     /// Name.
     pub name: &'static str,
-    /// Unit; empty for a number.
-    pub unit: &'static str,
+    /// What it measures, and so its units.
+    pub kind: Kind,
+    /// Its keys: last names of keys of a scene file, parameters of functions, with what stands before
+    /// them where the last name alone has several meanings: `body2.k`, `Archard.k`.
+    pub keys: &'static [&'static str],
     /// Smallest size that is meant; 0 where any is. Zero itself is not doubted.
     pub least: f64,
     /// Largest size that is meant; infinite where any is.
@@ -27,35 +34,26 @@ pub const UNITS: &str =
     "lengths are in m, moduli in Pa, forces in N: 3 um is 3e-6, 114 GPa is 114e9";
 const STRESSES: &str = "stresses are in Pa: 300 MPa is 300e6";
 const WEAR: &str = "1e-5 mm^3/(N m) is 1e-14 m^2/N, and 1e-5 mm^3/J is 1e-14 m^3/J";
+const ANY: f64 = f64::INFINITY;
 
-const fn below(
-    name: &'static str,
-    unit: &'static str,
-    least: f64,
-    outside: &'static str,
-    usual: &'static str,
-) -> Quantity {
-    Quantity {
-        name,
-        unit,
-        least,
-        most: f64::INFINITY,
-        outside,
-        usual,
-    }
+/// A quantity that may have any size.
+const fn any(name: &'static str, kind: Kind, keys: &'static [&'static str]) -> Quantity {
+    of(name, kind, keys, (0.0, ANY), "", "")
 }
 
-const fn above(
+const fn of(
     name: &'static str,
-    unit: &'static str,
-    most: f64,
+    kind: Kind,
+    keys: &'static [&'static str],
+    (least, most): (f64, f64),
     outside: &'static str,
     usual: &'static str,
 ) -> Quantity {
     Quantity {
         name,
-        unit,
-        least: 0.0,
+        kind,
+        keys,
+        least,
         most,
         outside,
         usual,
@@ -64,106 +62,282 @@ const fn above(
 
 /// All rows.
 pub const QUANTITIES: &[Quantity] = &[
-    below(
+    of(
         "modulus",
-        "Pa",
-        1e3,
+        Kind::Stress,
+        &["E"],
+        (1e3, ANY),
         "less than that of the softest gel",
         UNITS,
     ),
-    above("radius", "m", 1.0, "large", UNITS),
-    above(
+    of(
+        "radius",
+        Kind::Length,
+        &["R", "R_x", "R_y"],
+        (0.0, 1.0),
+        "large",
+        UNITS,
+    ),
+    any(
+        "length",
+        Kind::Length,
+        &[
+            "length",
+            "crown",
+            "radius",
+            "edge",
+            "amplitude",
+            "wavelength",
+            "rms",
+            "longest",
+            "shortest",
+            "depth",
+            "extent",
+            "spacing",
+            "delta_x",
+            "delta_y",
+            "delta_z",
+            "rolled",
+        ],
+    ),
+    of(
+        "thickness",
+        Kind::Length,
+        &["thickness"],
+        (0.0, 0.1),
+        "more than that of any layer",
+        UNITS,
+    ),
+    of(
+        "measured shift",
+        Kind::Length,
+        &["Loops.delta", "Indentation.delta_z", "Scar.depth"],
+        (0.0, 5e-3),
+        "far for a contact",
+        UNITS,
+    ),
+    of(
+        "place on a scar",
+        Kind::Length,
+        &["Scar.x"],
+        (0.0, 0.1),
+        "far for a contact",
+        UNITS,
+    ),
+    of(
+        "length of a crack",
+        Kind::Length,
+        &["lengths", "Crack.length"],
+        (0.0, 0.1),
+        "long for a crack",
+        "lengths are in m: 10 um is 1e-5",
+    ),
+    any(
+        "angle",
+        Kind::Angle,
+        &["angle", "phase", "phi_x", "phi_y", "phi_z"],
+    ),
+    any("force", Kind::Force, &["W", "T_x", "T_y"]),
+    any("moment", Kind::Moment, &["M_x", "M_y", "M_z"]),
+    of(
+        "stiffness",
+        Kind::Stiffness,
+        &["stiffness", "rig_stiffness"],
+        (100.0, ANY),
+        "less than any rig has",
+        "20 N/um is 20e6 N/m",
+    ),
+    any("frequency", Kind::Frequency, &["frequency"]),
+    any("time", Kind::Time, &["t"]),
+    of(
         "friction",
-        "",
-        3.0,
+        Kind::Number,
+        &["mu", "mu_y", "kinetic", "friction"],
+        (0.0, 3.0),
         "more than surfaces have",
         "it is a number, not per cent: 30 % is 0.3",
     ),
-    below(
+    of(
+        "compliance of a bond",
+        Kind::Compliance,
+        &["bond_normal", "Bond.normal"],
+        (0.0, 1e-6),
+        "more than any joint has",
+        "1 um/MPa is 1e-12 m/Pa",
+    ),
+    // A large one is an interface without friction.
+    any(
+        "compliance of a bond in shear",
+        Kind::Compliance,
+        &["bond_shear", "Bond.shear"],
+    ),
+    of(
         "bulk stress",
-        "Pa",
-        1e4,
+        Kind::Stress,
+        &["sigma_B", "sigma_B1"],
+        (1e4, ANY),
         "less than any fatigue load",
         STRESSES,
     ),
-    below(
+    of(
+        "stress history",
+        Kind::Stress,
+        &["assess.stress", "first_yield.stress", "moving_load.stress"],
+        (1e3, ANY),
+        "less than any fatigue load",
+        STRESSES,
+    ),
+    of(
         "residual stress",
-        "Pa",
-        1e4,
+        Kind::Stress,
+        &["residual"],
+        (1e4, ANY),
         "less than any process leaves",
         STRESSES,
     ),
-    below(
+    of(
         "material stress",
-        "Pa",
-        1e5,
+        Kind::Stress,
+        &[
+            "s_y",
+            "s_u",
+            "s_D",
+            "t_D",
+            "s_f",
+            "dS_0",
+            "hardening",
+            "kinematic",
+            "stress_amplitude",
+        ],
+        (1e5, ANY),
         "less than any solid has",
         STRESSES,
     ),
-    below(
+    of(
         "strength",
-        "Pa",
-        1e3,
+        Kind::Stress,
+        &["peel_strength", "shear_strength"],
+        (1e3, ANY),
         "less than any interface has",
         STRESSES,
     ),
-    below(
+    of(
         "threshold",
-        "Pa m^0.5",
-        1e3,
+        Kind::Intensity,
+        &["dK_th"],
+        (1e3, ANY),
         "less than any solid has",
         "4 MPa m^0.5 is 4e6 Pa m^0.5",
     ),
-    above(
+    of(
         "toughness",
-        "J/m^2",
-        1e7,
+        Kind::Toughness,
+        &["toughness"],
+        (0.0, 1e7),
         "more than any solid has",
         "an energy per area: 90 J/m^2 is 90",
     ),
-    above(
+    of(
+        "crack growth",
+        Kind::Growth,
+        &["Paris.C", "paris_C"],
+        (1e-16, 1e-6),
+        "outside of what solids have",
+        "it is the growth at 1 MPa m^0.5: 5e-9 mm per cycle is 5e-12",
+    ),
+    of(
         "wear coefficient",
-        "m^2/N",
-        1e-10,
+        Kind::Wear,
+        &["Archard.k", "body1.k", "body2.k"],
+        (0.0, 1e-10),
         "more than any surface wears by",
         WEAR,
     ),
-    above(
+    of(
         "energy wear coefficient",
-        "m^3/J",
-        1e-10,
+        Kind::EnergyWear,
+        &["DissipatedEnergy.alpha", "body1.alpha", "body2.alpha"],
+        (0.0, 1e-10),
         "more than any surface wears by",
         WEAR,
     ),
-    below(
+    of(
+        "thermal expansion",
+        Kind::Expansion,
+        &["alpha_T", "alpha_coating", "alpha_substrate"],
+        (0.0, 1e-3),
+        "more than any solid has",
+        "9.4 um/(m K) is 9.4e-6 1/K",
+    ),
+    of(
         "conductivity",
-        "W/(m K)",
-        0.1,
+        Kind::Conductivity,
+        &["conductivity"],
+        (0.1, ANY),
         "less than any solid has that bears a contact",
         "0.045 W/(mm K) is 45 W/(m K)",
     ),
-    below(
+    of(
         "heat capacity",
-        "J/(m^3 K)",
-        1e4,
+        Kind::HeatCapacity,
+        &["heat_capacity"],
+        (1e4, ANY),
         "less than any solid has",
         "density times specific heat: steel has 7850 kg/m^3 times 460 J/(kg K), 3.6e6",
     ),
-    below(
+    of(
         "density",
-        "kg/m^3",
-        50.0,
+        Kind::Density,
+        &["density"],
+        (50.0, ANY),
         "less than any solid has",
         "7.85 g/cm^3 is 7850 kg/m^3",
     ),
-    below(
+    of(
         "specific heat",
-        "J/(kg K)",
-        10.0,
+        Kind::SpecificHeat,
+        &["specific_heat"],
+        (10.0, ANY),
         "less than any solid has",
         "0.46 J/(g K) is 460 J/(kg K)",
     ),
 ];
+
+/// The row of a key such as `body2.coatings[0].E`, `Archard.k`: that of the longest end that is
+/// known.
+pub fn of_key(key: &str) -> Option<&'static Quantity> {
+    let parts = key.split('[').enumerate();
+    let plain: String = parts
+        .map(|(n, part)| {
+            if n == 0 {
+                part
+            } else {
+                part.split_once(']').map_or("", |of| of.1)
+            }
+        })
+        .collect();
+    let ends = |end: &&str| {
+        plain
+            .strip_suffix(*end)
+            .is_some_and(|before| before.is_empty() || before.ends_with('.'))
+    };
+    let length = |q: &&Quantity| {
+        q.keys
+            .iter()
+            .filter(|end| ends(end))
+            .map(|end| end.len())
+            .max()
+    };
+    QUANTITIES
+        .iter()
+        .filter(|q| length(q).is_some())
+        .max_by_key(length)
+}
+
+/// The doubt of a value, by its key and the name that it is shown by.
+pub fn doubt_of(key: &str, shown: &str, value: f64) -> Option<String> {
+    of_key(key)?.doubt(shown, value)
+}
 
 /// The row of a name.
 ///
@@ -180,10 +354,9 @@ impl Quantity {
     pub fn doubt(&self, key: &str, value: f64) -> Option<String> {
         let size = value.abs();
         let meant = size == 0.0 || !size.is_finite() || (self.least <= size && size <= self.most);
-        let unit = if self.unit.is_empty() {
-            String::new()
-        } else {
-            format!(" {}", self.unit)
+        let unit = match self.kind.unit() {
+            "" => String::new(),
+            unit => format!(" {unit}"),
         };
         let value = if (1e-3..1e6).contains(&size) {
             value.to_string()
@@ -194,22 +367,16 @@ impl Quantity {
     }
 }
 
-/// The doubt of a value of a quantity.
-///
-/// # Panics
-///
-/// As [`quantity`].
-pub fn doubt(name: &str, key: &str, value: f64) -> Option<String> {
-    quantity(name).doubt(key, value)
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{QUANTITIES, doubt};
+    use super::{QUANTITIES, of_key, quantity};
 
     #[test]
     fn every_row_doubts_what_lies_outside_and_nothing_else() {
-        for row in QUANTITIES {
+        for row in QUANTITIES
+            .iter()
+            .filter(|q| q.least > 0.0 || q.most.is_finite())
+        {
             let inside = [row.least, row.most].into_iter().filter(|v| v.is_finite());
             assert!(
                 inside.clone().all(|v| row.doubt("x", v).is_none()),
@@ -223,15 +390,34 @@ mod tests {
             for value in [outside, -outside] {
                 let told = row.doubt("x", value).unwrap();
                 assert!(
-                    told.contains(row.unit) && told.starts_with("x = "),
+                    told.contains(row.kind.unit()) && told.starts_with("x = "),
                     "{told}"
                 );
             }
             for value in [0.0, f64::INFINITY, f64::NAN] {
                 assert_eq!(row.doubt("x", value), None);
             }
-            assert_eq!(QUANTITIES.iter().filter(|q| q.name == row.name).count(), 1);
         }
+    }
+
+    #[test]
+    fn a_name_and_a_key_have_one_row() {
+        for row in QUANTITIES {
+            assert_eq!(QUANTITIES.iter().filter(|q| q.name == row.name).count(), 1);
+            for key in row.keys {
+                assert_eq!(of_key(key), Some(row), "{key}");
+                assert_eq!(of_key(&format!("a.b[3].{key}[1]")), Some(row), "{key}");
+                assert_eq!(of_key(&format!("un{key}")), None, "{key}");
+            }
+        }
+        // The same name elsewhere has another meaning.
+        assert_eq!(of_key("Criterion.findley.k"), None);
+        assert_eq!(of_key("path.1.delta_x").unwrap().name, "length");
+        assert_eq!(
+            of_key("Indentation.delta_z").unwrap().name,
+            "measured shift"
+        );
+        assert_eq!(of_key("nu"), None);
     }
 
     #[test]
@@ -251,9 +437,15 @@ mod tests {
             ("heat capacity", 3.6e6, 3.6e-3),
             ("density", 7850.0, 7.85),
             ("specific heat", 460.0, 0.46),
+            ("stiffness", 2e7, 20.0),
+            ("thickness", 3e-6, 3.0),
+            ("length of a crack", 1e-5, 10.0),
+            ("thermal expansion", 9.4e-6, 9.4),
+            ("compliance of a bond", 1e-12, 1.0),
+            ("measured shift", 1e-5, 10.0),
         ] {
-            assert_eq!(doubt(name, "x", meant), None, "{name}");
-            assert!(doubt(name, "x", slip).is_some(), "{name}");
+            assert_eq!(quantity(name).doubt("x", meant), None, "{name}");
+            assert!(quantity(name).doubt("x", slip).is_some(), "{name}");
         }
     }
 }

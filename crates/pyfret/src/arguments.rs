@@ -7,6 +7,7 @@ use std::ops::Deref;
 
 use crate::hints::sequence_of;
 use contact_core::memory::available_memory;
+use contact_core::scene::Grid;
 use contact_subsurface::Side;
 use ndarray::{Dimension, Ix2};
 use numpy::{AllowTypeChange, PyArrayLike, PyReadonlyArray};
@@ -45,11 +46,17 @@ fn refuse_truths(value: &Bound<'_, PyAny>) -> PyResult<()> {
 
 /// An array of numbers, or what makes one, by the rules of `pyfret._util.arrays`; copies of it fit into
 /// memory.
-pub(crate) struct Array<'py, D: Dimension>(PyArrayLike<'py, f64, D, AllowTypeChange>);
+pub(crate) struct Array<'py, D: Dimension> {
+    numbers: PyArrayLike<'py, f64, D, AllowTypeChange>,
+    /// Distances of the points along x and y that the labels say \[m\].
+    pitch: [Option<f64>; 2],
+}
 
 /// A field on the grid.
 pub(crate) type Field<'py> = Array<'py, Ix2>;
 
+/// Part of the distance of points by which their coordinates may differ from it.
+const UNEVEN: f64 = 1e-3;
 /// Copies of an array that are made of it at most.
 const COPIES: f64 = 4.0;
 
@@ -57,7 +64,41 @@ impl<'py, D: Dimension> Deref for Array<'py, D> {
     type Target = PyArrayLike<'py, f64, D, AllowTypeChange>;
 
     fn deref(&self) -> &Self::Target {
-        &self.0
+        &self.numbers
+    }
+}
+
+impl Field<'_> {
+    /// The numbers in row-major order; refused, by the name of the field, if it is not one on the
+    /// cells of the grid.
+    pub(crate) fn on_grid(&self, name: &str, grid: &Grid) -> PyResult<Vec<f64>> {
+        let (shape, numbers) = ((grid.nx, grid.ny), self.as_array());
+        if numbers.dim() != shape {
+            return Err(PyValueError::new_err(format!(
+                "{name} has the shape {:?}: must be that of the grid, {shape:?}",
+                numbers.dim(),
+            )));
+        }
+        self.must_have_pitch(name, "cells of the grid", (grid.dx, grid.dy))?;
+        Ok(numbers.iter().copied().collect())
+    }
+
+    /// Refuses labels that say other distances of the points than are given \[m\].
+    pub(crate) fn must_have_pitch(
+        &self,
+        name: &str,
+        what: &str,
+        given: (f64, f64),
+    ) -> PyResult<()> {
+        for (axis, found, given) in [("x", self.pitch[0], given.0), ("y", self.pitch[1], given.1)] {
+            if let Some(found) = found.filter(|found| (found / given - 1.0).abs() > UNEVEN) {
+                return Err(PyValueError::new_err(format!(
+                    "{name}: its coordinates along {axis} lie {found:.6e} m apart, and the {what} \
+                     {given:.6e} m"
+                )));
+            }
+        }
+        Ok(())
     }
 }
 
@@ -91,7 +132,18 @@ impl<'py, D: Dimension + 'py> Array<'py, D> {
         let array: PyArrayLike<'py, f64, D, AllowTypeChange> =
             door.call((value, "the array"), Some(&options))?.extract()?;
         must_fit(array.as_array().len(), 8.0)?;
-        Ok(Self(array))
+        let pitch = if value.hasattr("dims")? {
+            py.import("pyfret._util.arrays")?
+                .getattr("pitch")?
+                .call1((value, "the array"))?
+                .extract()?
+        } else {
+            [None, None]
+        };
+        Ok(Self {
+            numbers: array,
+            pitch,
+        })
     }
 }
 

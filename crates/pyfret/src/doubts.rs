@@ -1,20 +1,36 @@
-//! Doubts of numbers that are allowed and hardly meant.
+//! Units, and doubts of numbers that are allowed and hardly meant.
 
-use pyo3::exceptions::PyValueError;
+use plausible::unit;
 use pyo3::prelude::*;
 
 use crate::arguments::number;
 
-/// The doubt of a number, if it is hardly meant, by the name of its quantity.
+/// The doubt of a number, if it is hardly meant, by its key and the name that it is shown by.
 #[pyfunction]
-#[pyo3(signature = (quantity, key, value: "float"))]
+#[pyo3(signature = (key, shown, value: "float"))]
 pub(crate) fn doubt(
-    quantity: &str,
     key: &str,
+    shown: &str,
     #[pyo3(from_py_with = number)] value: f64,
-) -> PyResult<Option<String>> {
-    if plausible::QUANTITIES.iter().all(|q| q.name != quantity) {
-        return Err(PyValueError::new_err(format!("no quantity {quantity:?}")));
-    }
-    Ok(plausible::doubt(quantity, key, value))
+) -> Option<String> {
+    plausible::doubt_of(key, shown, value)
+}
+
+/// What the number of a key measures, and its unit in SI; none of a key that is unknown.
+#[pyfunction]
+pub(crate) fn measured_by(key: &str) -> Option<(&'static str, &'static str)> {
+    let kind = plausible::of_key(key)?.kind;
+    Some((kind.name(), kind.unit()))
+}
+
+/// The names of the units that measure one of some kinds, such as ``"length, force"``.
+#[pyfunction]
+pub(crate) fn units(kinds: &str) -> String {
+    unit::names_of(&kinds.split(", ").collect::<Vec<_>>())
+}
+
+/// What a unit measures, and its size in SI; none of a name that is no unit.
+#[pyfunction]
+pub(crate) fn unit_of(name: &str) -> Option<(&'static str, f64)> {
+    unit::named(name).map(|(kind, size)| (kind.name(), size))
 }

@@ -57,7 +57,7 @@ mod _core {
     #[pymodule_export]
     use crate::command_line::run_command;
     #[pymodule_export]
-    use crate::doubts::doubt;
+    use crate::doubts::{doubt, measured_by, unit_of, units};
     #[pymodule_export]
     use crate::error::{
         ArgumentError, InvalidSceneError, KernelInaccurateError, NoConvergenceError, OffGridError,

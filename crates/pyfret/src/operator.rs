@@ -5,7 +5,6 @@ use std::sync::{Arc, Mutex, PoisonError};
 use contact_core::convolution::{self, Displacements, Tractions};
 use ndarray::{Array3, ArrayViewMut2, Axis};
 use numpy::{PyArray3, ToPyArray};
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::arguments::Field;
@@ -43,8 +42,6 @@ pub(crate) struct SurfaceOperator {
 }
 
 made!(SurfaceOperator by "SurfaceOperator": body1, body2, grid, settings);
-
-/// A field on the grid.
 
 #[pymethods]
 impl SurfaceOperator {
@@ -89,11 +86,12 @@ impl SurfaceOperator {
         q_x: Option<Field<'py>>,
         q_y: Option<Field<'py>>,
     ) -> PyResult<Bound<'py, PyArray3<f64>>> {
-        let (p, q_x, q_y) = (
-            self.cells("p", p)?,
-            self.cells("q_x", q_x)?,
-            self.cells("q_y", q_y)?,
-        );
+        let cells = |name: &str, field: Option<Field<'_>>| {
+            field
+                .map(|field| field.on_grid(name, &self.grid.0))
+                .transpose()
+        };
+        let (p, q_x, q_y) = (cells("p", p)?, cells("q_x", q_x)?, cells("q_y", q_y)?);
         let mut u = Array3::zeros((3, self.shape.0, self.shape.1));
         interruptible(py, &Arc::default(), || {
             let mut parts = u
@@ -113,21 +111,5 @@ impl SurfaceOperator {
             operator.apply(tractions, displacements);
         })?;
         Ok(u.to_pyarray(py))
-    }
-}
-
-impl SurfaceOperator {
-    /// The field in row-major order, if it has the shape of the grid.
-    fn cells(&self, name: &str, field: Option<Field<'_>>) -> PyResult<Option<Vec<f64>>> {
-        let Some(field) = field else { return Ok(None) };
-        let field = field.as_array();
-        if field.dim() != self.shape {
-            return Err(PyValueError::new_err(format!(
-                "{name} has the shape {:?}: must be that of the grid, {:?}",
-                field.dim(),
-                self.shape
-            )));
-        }
-        Ok(Some(field.iter().copied().collect()))
     }
 }

@@ -277,13 +277,8 @@ impl Subsurface {
         stick: Option<Mask<'_, Ix2>>,
     ) -> PyResult<Self> {
         let shape = (grid.0.nx, grid.0.ny);
-        let cells = |name: &str, field: Option<Field<'_>>| match field {
-            None => Ok(None),
-            Some(field) if field.as_array().dim() != shape => Err(PyValueError::new_err(format!(
-                "{name} has the shape {:?}: must be that of the grid, {shape:?}",
-                field.as_array().dim()
-            ))),
-            Some(field) => Ok(Some(field.as_array().iter().copied().collect())),
+        let cells = |name: &str, field: Option<Field<'_>>| {
+            field.map(|field| field.on_grid(name, &grid.0)).transpose()
         };
         let stick = stick.map(|stick| stick.as_array().to_owned());
         if let Some(stick) = stick.as_ref().filter(|stick| stick.dim() != shape) {

@@ -38,6 +38,8 @@ COMPONENTS = ("s_xx", "s_yy", "s_zz", "s_xy", "s_xz", "s_yz")
 TIMES = ("increment", "time", "t", "instant", "saved", "saved_increment", "moment", "load_step")
 #: Axes of a field on the grid, in the order of arrays without labels.
 PLANE = ("x", "y")
+#: Part of the distance of points by which they may lie off an even grid.
+UNEVEN = 1e-3
 #: Kinds of numpy's types that are numbers: integers and floating point.
 NUMBERS = "iuf"
 
@@ -134,6 +136,31 @@ def labels(values: object) -> tuple[Hashable, ...]:
     if hasattr(values, "iloc") and hasattr(values, "index"):
         return ("index", "columns")[: getattr(values, "ndim", 1)]
     return ()
+
+
+def pitch(values: Any, name: str) -> tuple[float | None, float | None]:
+    """How far the points of a field with labels lie apart along x and y, if they say so [m].
+
+    Raises
+    ------
+    ValueError
+        They lie on no even grid.
+    """
+    found: list[float | None] = []
+    for axis in PLANE:
+        at = values.coords[axis].values if axis in labels(values) and axis in values.coords else ()
+        if len(at) < 2:
+            found.append(None)
+            continue
+        steps = np.diff(np.sort(plain(at, f"coordinates of {name} along {axis}")))
+        step = float(np.mean(steps))
+        if not step > 0.0 or np.ptp(steps) > UNEVEN * step:
+            raise ValueError(
+                f"{name}: its coordinates along {axis} lie {steps.min():g} to {steps.max():g} m "
+                "apart: must be evenly spaced"
+            )
+        found.append(step)
+    return found[0], found[1]
 
 
 def index(values: Any) -> NDArray[Any] | None:

@@ -1,7 +1,8 @@
-"""The door of a function or a class: its parameters that are numbers take numbers.
+"""The door of a function or a class: its parameters that are numbers take numbers, in SI units.
 
 Which parameters are numbers follows from their annotations, so that a signature is the one place
-that says so. The rules for the values are those of :mod:`pyfret._util.arrays`.
+that says so. The rules for the values are those of :mod:`pyfret._util.arrays`; numbers that seem to
+have another unit are doubted by :mod:`pyfret._util.doubts`.
 """
 
 from __future__ import annotations
@@ -15,7 +16,9 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
+from pyfret import _core
 from pyfret._util.arrays import items, numbers, truths
+from pyfret._util.doubts import doubt_numbers
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -36,26 +39,35 @@ def numbers_only(of: T, *, but: tuple[str, ...] = ()) -> T:
     """Refuse, by the name of the parameter, what is no number where a number is meant.
 
     Booleans, complex numbers and missing values are refused wherever the annotation names a
-    number. `but` names parameters that have a rule of their own: masks, arrays with holes.
+    number. `but` names parameters that have a rule of their own: masks, arrays with holes. A number
+    outside the range that its quantity is meant in is warned of.
     """
     if isinstance(of, type):
-        of.__init__ = numbers_only(of.__init__, but=but)  # type: ignore[misc]
+        of.__init__ = guarded(of.__init__, of.__qualname__, but)  # type: ignore[misc]
         return of
-    call: Callable[..., Any] = of  # type: ignore[assignment]
+    call: Any = of
+    return guarded(call, call.__qualname__, but)  # type: ignore[no-any-return]
+
+
+def guarded(call: Callable[..., Any], owner: str, but: tuple[str, ...]) -> Any:
+    """A function, or the constructor of a class, `owner`, behind the door."""
     signature = inspect.signature(call)
     parameters = signature.parameters.items()
     kinds = {n: None if n in but else kind(str(one.annotation)) for n, one in parameters}
     defaults = {name: one.default for name, one in parameters}
     names = list(kinds)
+    ranged = {n for n in names if _core.measured_by(f"{owner}.{n}")}
 
     @functools.wraps(call)
     def checked(*values: Any, **given: Any) -> Any:
         for name, value in [*zip(names, values, strict=False), *given.items()]:
             if value is not None and value is not defaults.get(name, inspect.Parameter.empty):
                 check(value, name, kinds.get(name))
+                if name in ranged:
+                    doubt_numbers(owner, **{name: value})
         return call(*values, **given)
 
-    return checked  # type: ignore[return-value]
+    return checked
 
 
 def kind(annotation: str) -> str | None:
@@ -99,5 +111,6 @@ def check(value: Any, name: str, of: str | None) -> None:
         numbers([one for one in found if one is not None], name)
     if of != "number or text" and isinstance(value, str | bytes):
         raise TypeError(f"{name} = {value!r:.60}: must be a number, not a text")
-    if of == "number" and not hasattr(value, "__float__") and not hasattr(value, "__index__"):
-        raise TypeError(f"{name} = {value!r:.60}: must be a number")
+    one = (hasattr(value, "__float__") or hasattr(value, "__index__")) and np.ndim(value) == 0
+    if of == "number" and not one:
+        raise TypeError(f"{name} = {' '.join(repr(value).split()):.60}: must be a number")

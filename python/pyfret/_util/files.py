@@ -1,4 +1,8 @@
-"""Results in files: Zarr stores and NetCDF."""
+"""Results in files: Zarr stores and NetCDF.
+
+A file of :func:`write` has checksums of its attributes and its numbers, which :func:`read`
+compares. Files that xarray wrote have none and are read as they are.
+"""
 
 from __future__ import annotations
 
@@ -6,10 +10,13 @@ import errno
 import json
 import os
 import shutil
+import zlib
 from contextlib import contextmanager
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from pyfret._core import StoreError, read_bytes, shown
 from pyfret._util.lazy import xr
@@ -25,6 +32,9 @@ MARGIN = 1 << 20
 
 #: How many times as large as the file the numbers of a NetCDF file may be: it is not compressed.
 RATIO = 1100
+#: Attribute with the checksums, and bytes of numbers up to which they are compared when a file is
+#: opened; the numbers of larger files are read when they are asked for.
+SUMS, COMPARED = "copy_crc32", 1 << 28
 #: What marks an attribute as JSON, where a file has no room for what it is.
 JSON = "json:"
 
@@ -38,6 +48,62 @@ def unfolded(value: Any) -> Any:
     """The attribute that :func:`flat` was given."""
     text = isinstance(value, str) and value.startswith(JSON)
     return json.loads(value[len(JSON) :]) if text else value
+
+
+def plain(value: Any) -> Any:
+    """An attribute of which every format gives the same back."""
+    if isinstance(value, np.ndarray | np.generic):
+        value = value.tolist()
+    if isinstance(value, list | tuple):
+        return plain(value[0]) if len(value) == 1 else [plain(one) for one in value]
+    if isinstance(value, dict):
+        return {str(key): plain(one) for key, one in value.items()}
+    return float(value) if isinstance(value, int | float) else value
+
+
+def content(values: Any) -> bytes:
+    """Numbers and texts of which every format gives the same back."""
+    array = np.asarray(values)
+    if array.dtype.kind in "biuf":
+        return np.ascontiguousarray(array, "<f8" if array.dtype.kind == "f" else "<i8").tobytes()
+    return json.dumps([str(one) for one in array.ravel().tolist()]).encode()
+
+
+def sums_of(dataset: xr.Dataset, *, numbers: bool) -> dict[str, int]:
+    """Checksums of the attributes (its name is empty) and of each variable with its labels.
+
+    Without `numbers` those of the variables are of their labels alone.
+    """
+    attributes = {k: v for k, v in dataset.attrs.items() if k != SUMS}
+    found = {"": zlib.crc32(json.dumps(plain(attributes), sort_keys=True).encode())}
+    for name, of in dataset.variables.items():
+        head = [list(map(str, of.dims)), list(of.shape), plain(of.attrs)]
+        sum_of = zlib.crc32(json.dumps(head, sort_keys=True).encode())
+        found[f"{name} labels"] = sum_of
+        if numbers:
+            found[str(name)] = zlib.crc32(content(of.values), sum_of)
+    return found
+
+
+def compare(dataset: xr.Dataset) -> xr.Dataset:
+    """The dataset without its checksums, which are compared.
+
+    Raises
+    ------
+    ValueError
+        Something is not what was written; the message names it.
+    """
+    said = dataset.attrs.pop(SUMS, None)
+    if said is None:
+        return dataset
+    numbers = dataset.nbytes <= COMPARED
+    found = sums_of(dataset.load() if numbers else dataset, numbers=numbers)
+    there = {k: v for k, v in dict(said).items() if numbers or not k or k.endswith(" labels")}
+    wrong = [name for name in {**there, **found} if there.get(name) != found.get(name)]
+    if wrong:
+        what = wrong[0].removesuffix(" labels") or "an attribute"
+        raise ValueError(f"{what} is damaged: it is not what was written")
+    return dataset
 
 
 def write(dataset: xr.Dataset, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
@@ -54,6 +120,7 @@ def write(dataset: xr.Dataset, path: str | os.PathLike[str], *, overwrite: bool 
         )
     if place.suffix not in (".zarr", ".nc"):
         raise ValueError(f"{place}: must end in .zarr or .nc")
+    dataset = dataset.assign_attrs({SUMS: sums_of(dataset, numbers=True)})
     with beside(place) as unfinished:
         if place.suffix == ".zarr":
             encoding = {name: gzip() for name in dataset.variables}
@@ -130,7 +197,7 @@ def read(path: str | os.PathLike[str]) -> xr.Dataset:
     for variable in dataset.variables.values():
         # How it lies in this file is of no use to the next one, and its codecs would not do there.
         variable.encoding.clear()
-    return dataset
+    return compare(dataset)
 
 
 def opened(path: str | os.PathLike[str]) -> xr.Dataset:

@@ -138,8 +138,8 @@ def check_size(of: Mapping[str, Any], where: Path, root: Path, word: str) -> Non
     grid = of.get("chunk_grid") or {}
     inner = grid.get("configuration", {}) if isinstance(grid, dict) else {}
     chunks = of.get("chunks") or (inner.get("chunk_shape") if isinstance(inner, dict) else None)
-    for sizes, what in ((of.get("shape"), "shape"), (chunks, "chunks")):
-        whole = isinstance(sizes, list) and all(type(n) is int and n >= 0 for n in sizes)
+    for sizes, what, least in ((of.get("shape"), "shape", 0), (chunks, "chunks", 1)):
+        whole = isinstance(sizes, list) and all(type(n) is int and n >= least for n in sizes)
         if not whole:
             raise Refused(f"{where.name}: has no {what} but {sizes!r}")
     digits = re.search(r"\d+", word)

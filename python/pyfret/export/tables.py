@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from pyfret._util.arrays import plain
+from pyfret._util.door import numbers_only
 from pyfret.export.frame import Frame
 from pyfret.subsurface import fields
 from pyfret.subsurface.contact import loaded_by
@@ -118,6 +119,7 @@ def tractions(
     _write(path, head, values, " ", end="#FIN_TABLE\n")
 
 
+@numbers_only
 def stress(
     state: State,
     points: ArrayLike,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import functools
 import warnings
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Literal, get_args
@@ -12,8 +13,9 @@ import numpy as np
 from pyfret import _core
 from pyfret._core import Assessment, Criterion, Material
 from pyfret._util.arrays import COMPONENTS, histories, number, plain
+from pyfret._util.door import numbers_only
+from pyfret._util.doubts import SceneWarning
 from pyfret._util.lazy import xr
-from pyfret.scene.warnings import SceneWarning
 
 if TYPE_CHECKING:
     import os
@@ -97,6 +99,7 @@ class Materials(Mapping[str, Material]):
         return f"Materials({', '.join(self._materials)})"
 
 
+@functools.partial(numbers_only, but=("stress",))
 def evaluate(stress: ArrayLike, criterion: Criterion, *, tolerance: float = 1e-3) -> xr.Dataset:
     """Give the value of a criterion at every point, and the critical plane.
 
@@ -152,6 +155,7 @@ def evaluate(stress: ArrayLike, criterion: Criterion, *, tolerance: float = 1e-3
     return result.assign_coords(axis=["x", "y", "z"])
 
 
+@functools.partial(numbers_only, but=("stress",))
 def assess(
     stress: ArrayLike,
     material: Material,
@@ -184,6 +188,7 @@ def assess(
     return result
 
 
+@functools.partial(numbers_only, but=("stress",))
 def first_yield(
     stress: ArrayLike, *, s_y: float, constant: Sequence[float] = (0, 0, 0, 0, 0, 0)
 ) -> xr.Dataset:
@@ -224,6 +229,7 @@ def first_yield(
     return result
 
 
+@functools.partial(numbers_only, but=("stress",))
 def moving_load(stress: ArrayLike, *, s_y: float) -> NDArray[np.float64]:
     """Give the load factor of elastic shakedown under a load that moves along the surface.
 

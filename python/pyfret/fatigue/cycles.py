@@ -8,6 +8,7 @@ import numpy as np
 
 from pyfret import _core
 from pyfret._util.arrays import plain
+from pyfret._util.door import numbers_only
 from pyfret._util.lazy import xr
 from pyfret.fatigue.criteria import COMPONENTS
 from pyfret.subsurface.contact import stress_below
@@ -67,6 +68,7 @@ def _inside(result: Run, saved: NDArray[np.int64], cycle: int) -> NDArray[np.boo
     return np.asarray((branch >= int(ends.first_branch)) & (branch <= int(ends.last_branch)))
 
 
+@numbers_only
 def history(
     result: Run,
     z: ArrayLike,

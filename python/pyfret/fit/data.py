@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
+from pyfret import _core
 from pyfret._util.arrays import together
 from pyfret._util.door import numbers_only
 from pyfret._util.holds_arrays import HoldsArrays
@@ -350,12 +351,19 @@ def lives(
     skip: int = 0,
     noise: float | None = None,
 ) -> Lives:
-    """Read lives of a file: a column of cycles, the others named by the keys of a scene file."""
+    """Read lives of a file: a column of cycles, the others named by the keys of a scene file.
+
+    A column of a key that has a unit names it, as in ``W [N]``.
+    """
     table = tables.read(path, units, skip=skip)
     if cycles not in table.names:
         raise ValueError(f"{table.place}: has no column {cycles!r}, but {', '.join(table.names)}")
     rows = np.concatenate(table.blocks)
     of = table.names.index(cycles)
+    for at, name in enumerate(table.names):
+        kind, unit = _core.measured_by(name) or ("", "")
+        if at != of and unit:
+            table.must_measure(at, kind)
     settings = [
         {
             name: float(v)

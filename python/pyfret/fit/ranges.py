@@ -7,6 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from pyfret._util.arrays import items, number
+from pyfret._util.doubts import doubt_numbers
+
 __all__ = ["SearchRange", "ranges"]
 
 #: Step of the differences, of ln of an unknown or of its range.
@@ -50,17 +53,18 @@ class SearchRange:
 
 
 def ranges(unknown: Mapping[str, tuple[float, ...]]) -> list[SearchRange]:
-    """The ranges of the unknowns, checked."""
+    """The ranges of the unknowns, checked; ends that are hardly meant are warned of."""
     if not unknown:
         raise ValueError('unknown: none, give some, such as {"mu": (0.1, 1.5)}')
     found = []
     for key, given in unknown.items():
-        ends = tuple(float(v) for v in given)
+        ends = tuple(number(v, f"unknown: {key}") for v in items(given, f"unknown: {key}"))
         if len(ends) == 2:
             low, high = ends
             middle = np.sqrt(low * high) if low > 0 else 0.5 * (low + high)
             ends = (low, float(middle), high)
         if len(ends) != 3 or not ends[0] <= ends[1] <= ends[2] or not ends[0] < ends[2]:
             raise ValueError(f"unknown: {key} = {given}: must be (low, high) or (low, start, high)")
+        doubt_numbers("", stacklevel=4, **{key: (ends[0], ends[-1])})
         found.append(SearchRange(key, *ends))
     return found

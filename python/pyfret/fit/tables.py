@@ -16,38 +16,19 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-__all__ = ["UNITS", "Table", "read"]
+__all__ = ["Table", "read"]
 
-#: Units of the columns of a table: what they measure, and how much of SI.
-UNITS: dict[str, tuple[str, float]] = {
-    "m": ("length", 1.0),
-    "mm": ("length", 1e-3),
-    "um": ("length", 1e-6),
-    "µm": ("length", 1e-6),
-    "μm": ("length", 1e-6),
-    "micron": ("length", 1e-6),
-    "nm": ("length", 1e-9),
-    "N": ("force", 1.0),
-    "mN": ("force", 1e-3),
-    "kN": ("force", 1e3),
-    "N/m": ("force", 1.0),
-    "N/mm": ("force", 1e3),
-    "s": ("time", 1.0),
-    "ms": ("time", 1e-3),
-    "1": ("number", 1.0),
-    "-": ("number", 1.0),
-    "cycles": ("number", 1.0),
-    "Pa": ("pressure", 1.0),
-    "MPa": ("pressure", 1e6),
-    "GPa": ("pressure", 1e9),
-}
 #: A unit of each kind that a column is asked for, as an example.
-USUAL = {"length": "um", "force": "N"}
+USUAL = {"length": "um", "force": "N", "stress": "MPa", "stiffness": "N/um", "angle": "rad"}
+#: What the columns of a table measure.
+KINDS = "length, force, stress, stiffness, time, number"
+#: Words of spreadsheets for a value that there is not, which begin like a comment.
+NO_VALUE = re.compile(r"#(DIV/0|N/A|NV|WERT|VALUE|REF|BEZUG|NUM|ZAHL|NAME|NULL)\b")
 #: A unit at the end of a head: ``[um]``, ``(um)``, ``/ um`` or ``_um``.
 UNIT = re.compile(r"^(.*?)\s*(?:\[([^\]]*)\]|\(([^)]*)\)|/\s*(\S+)|_([^_\s]+))\s*$")
 #: Lines from which what parts the columns is found.
 SAMPLE = 200
-NUMBER = re.compile(r"^[+-]?(\d+[.,]?\d*|[.,]\d+)([eE][+-]?\d+)?$")
+NUMBER = re.compile(r"^[+-]?(\d+[.,]?\d*|[.,]\d+)([eE][+-]?\d+)?$", re.ASCII)
 
 
 @dataclass(frozen=True)
@@ -67,15 +48,9 @@ class Table:
                     f"{self.place}: has no column {given!r}, but {', '.join(self.names)}"
                 )
             at = self.names.index(given)
-            if not self.units[at] or UNITS[self.units[at]][0] != kind:
-                told = f"[{self.units[at]}]" if self.units[at] else "without a unit"
-                raise ValueError(
-                    f"{self.place}: column {given!r} {told}: must have a unit of {kind}; write it "
-                    f"into the head, as in {given} [{USUAL[kind]}], or give "
-                    f'units={{"{given}": "{USUAL[kind]}"}}'
-                )
+            self.must_measure(at, kind)
             return at
-        of_kind = [n for n, unit in enumerate(self.units) if UNITS.get(unit, ("", 0))[0] == kind]
+        of_kind = [n for n, unit in enumerate(self.units) if kind_of(unit) == kind]
         if len(of_kind) > 1:
             named = [n for n in of_kind if self.names[n].lower().startswith(names)]
             of_kind = named or of_kind
@@ -87,6 +62,30 @@ class Table:
             f"{self.place}: {what} with a unit of {kind} ({heads}): name the column, or write its "
             "unit into the head, as in delta [um];T [N]"
         )
+
+    def must_measure(self, at: int, kind: str) -> None:
+        """Refuse a column without a unit of that kind; a force per length is a stiffness, too."""
+        unit, name = self.units[at], self.names[at]
+        if kind_of(unit) == kind or (kind == "stiffness" and "N/m" in unit):
+            return
+        told = f"[{unit}]" if unit else "without a unit"
+        usual = USUAL.get(kind, "SI")
+        raise ValueError(
+            f"{self.place}: column {name!r} {told}: must have a unit of {kind}; write it "
+            f'into the head, as in {name} [{usual}], or give units={{"{name}": "{usual}"}}'
+        )
+
+
+def kind_of(unit: str) -> str:
+    """What a unit measures, nothing for none."""
+    found = _core.unit_of(unit) if unit else None
+    return found[0] if found else ""
+
+
+def size_of(unit: str) -> float:
+    """A known unit in SI; 1 for none."""
+    found = _core.unit_of(unit) if unit else None
+    return found[1] if found else 1.0
 
 
 def read(
@@ -111,7 +110,7 @@ def read(
     """
     place = Path(path)
     lines = list(enumerate(_core.read_text(place).splitlines(), 1))[skip:]
-    kept = [(n, line.strip(" \r")) for n, line in lines if not line.startswith(("#", "%"))]
+    kept = [(n, line.strip(" \r")) for n, line in lines if not is_comment(line)]
     filled = [(n, line) for n, line in kept if line.strip()]
     if len(filled) < 2:
         raise ValueError(f"{place}: must be a head and rows of numbers")
@@ -128,7 +127,7 @@ def read(
         raise ValueError(f"{place}:{n}: must be numbers: {line}")
     below = [cell.strip("[]()") for cell in rows[first - 1]]
     # Units may have a line of their own.
-    is_row = first > 1 and all(unit in UNITS or not unit for unit in below) and any(below)
+    is_row = first > 1 and all(kind_of(unit) or not unit for unit in below) and any(below)
     head = first - 2 if is_row else first - 1
     heads, line_of_head = rows[head], filled[head][0]
     if len(heads) != len(rows[first]):
@@ -136,15 +135,17 @@ def read(
             f"{place}:{filled[first][0]}: {len(rows[first])} numbers, where the head, line "
             f"{line_of_head}, has {len(heads)}: skip=n leaves out n lines at the top"
         )
-    if is_row:
-        units = {**dict(zip(heads, below, strict=True)), **(units or {})}
-    parted = [named(head, units or {}) for head in heads]
+    said = dict(zip(heads, below, strict=True)) if is_row else {}
+    check_units(place, heads, said, units or {})
+    units = said | (units or {})
+    parted = [named(head, units) for head in heads]
     for name, unit in parted:
-        if unit and unit not in UNITS:
+        if unit and not kind_of(unit):
+            known = _core.units(KINDS)
             raise ValueError(
-                f"{place}:{line_of_head}: {name}: unit {unit!r}: must be one of {', '.join(UNITS)}"
+                f"{place}:{line_of_head}: {name}: unit {unit!r}: must be one of {known}"
             )
-    factors = np.array([UNITS[unit][1] if unit else 1.0 for _, unit in parted])
+    factors = np.array([size_of(unit) for _, unit in parted])
     blocks: list[list[list[float]]] = [[]]
     for n, line in kept:
         if n < filled[first][0]:
@@ -160,7 +161,7 @@ def read(
         if len(row) != len(heads):
             raise ValueError(f"{place}:{n}: {len(row)} numbers, where the head has {len(heads)}")
         try:
-            blocks[-1].append([float(cell.replace(",", ".")) for cell in row])
+            blocks[-1].append([number(cell) for cell in row])
         except ValueError:
             raise ValueError(f"{place}:{n}: must be numbers: {line}") from None
     arrays = tuple(np.array(block) * factors for block in blocks if block)
@@ -170,6 +171,27 @@ def read(
         raise ValueError(f"{place}: has numbers that are not finite")
     names = tuple(name for name, _ in parted)
     return Table(str(place), names, tuple(unit for _, unit in parted), arrays)
+
+
+def check_units(place: Path, heads: list[str], said: dict[str, str], units: dict[str, str]) -> None:
+    """Refuse units of columns that are not there, or of which the file says another one."""
+    for name, unit in units.items():
+        of = [head for head in heads if name in (head, own(head)[0])]
+        if not of:
+            raise ValueError(f"{place}: units: has no column {name!r}, but {', '.join(heads)}")
+        there = said.get(of[0]) or own(of[0])[1]
+        if kind_of(there) and _core.unit_of(there) != _core.unit_of(unit):
+            raise ValueError(
+                f"{place}: units: {name!r} is given in {unit!r}, and the file says {there!r}: "
+                "leave it out"
+            )
+
+
+def number(cell: str) -> float:
+    """The number of a cell, with a decimal point or comma."""
+    if not NUMBER.match(cell):
+        raise ValueError(cell)
+    return float(cell.replace(",", "."))
 
 
 def parting(lines: list[str]) -> str | None:
@@ -183,6 +205,11 @@ def parting(lines: list[str]) -> str | None:
 
     # The first of the best.
     return max((";", "\t", None, ","), key=numeric)
+
+
+def is_comment(line: str) -> bool:
+    """Whether a line is left out."""
+    return line.startswith(("#", "%")) and not NO_VALUE.match(line)
 
 
 def is_numeric(row: list[str]) -> bool:
@@ -202,18 +229,25 @@ def first_row(rows: list[list[str]]) -> int | None:
 def cells(line: str, separator: str | None) -> list[str]:
     """The cells of a line, without quotes."""
     parts = re.split(r"\s+(?![\[(/])", line) if separator is None else line.split(separator)
-    return [cell.strip().strip('"') for cell in parts]
+    found = [cell.strip().strip('"') for cell in parts]
+    # Some programs end a line as they part its columns.
+    return found[:-1] if len(found) > 1 and not found[-1] else found
 
 
 def named(head: str, units: dict[str, str]) -> tuple[str, str]:
-    """The name and the unit of a column."""
+    """The name and the unit of a column, that of `units` where it is there."""
     if head in units:
         return head, units[head]
+    name, unit = own(head)
+    return name, units.get(name, unit)
+
+
+def own(head: str) -> tuple[str, str]:
+    """The name and the unit in the head of a column."""
     found = UNIT.match(head)
     if not found:
         return head, ""
     unit = next((u for u in found.groups()[1:] if u is not None), "").strip()
-    if found.group(5) is not None and unit not in UNITS:
+    if found.group(5) is not None and not kind_of(unit):
         return head, ""
-    name = found.group(1).strip()
-    return name, units.get(name, unit)
+    return found.group(1).strip(), unit

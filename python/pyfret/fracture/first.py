@@ -15,7 +15,6 @@ from pyfret.fatigue.section import Section
 from pyfret.fracture.below import Cycle, crack
 from pyfret.fracture.film import channel_release
 from pyfret.fracture.interface import over_cycle
-from pyfret.scene.warnings import doubt_numbers
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -117,7 +116,6 @@ def first_to_fail(
     if toughness is not None:
         if not (toughness > 0.0 and np.isfinite(toughness)):
             raise ValueError(f"toughness = {toughness}: must be positive, in J/m^2")
-        doubt_numbers("toughness", toughness=toughness)
         coating = body.coatings[0]
         below = body.coatings[1].material if len(body.coatings) > 1 else body.substrate
         # The surface, the depths of a table of residual stress, and both sides of the first

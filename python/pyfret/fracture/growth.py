@@ -15,7 +15,6 @@ from pyfret._util.door import numbers_only
 from pyfret._util.kept import Kept
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
-from pyfret.scene.warnings import doubt_numbers
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -67,8 +66,6 @@ class Threshold:
     def __post_init__(self) -> None:
         """Refuse values that no material has."""
         _core.threshold_at(self._numbers(), [])
-        doubt_numbers("threshold", stacklevel=4, dK_th=self.dK_th)
-        doubt_numbers("material stress", stacklevel=4, dS_0=self.dS_0)
 
     @classmethod
     def of(cls, material: Material, *, Y: float = 1.0, walker: float | None = None) -> Threshold:

@@ -11,7 +11,6 @@ from pyfret._util.lazy import xr
 from pyfret.fatigue.cycle_section import placed
 from pyfret.fatigue.cycles import history
 from pyfret.fatigue.section import Section
-from pyfret.scene.warnings import doubt_numbers
 from pyfret.subsurface.fields import interfaces
 
 if TYPE_CHECKING:
@@ -74,7 +73,6 @@ def over_cycle(
     for name, value in strengths.items():
         if value is not None and not (value > 0.0 and np.isfinite(value)):
             raise ValueError(f"{name} = {value}: must be a positive stress in Pa")
-    doubt_numbers("strength", peel_strength=peel_strength, shear_strength=shear_strength)
     along = where.along
     stress = history(
         result,

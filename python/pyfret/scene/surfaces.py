@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from pyfret._core import StoreError, SurfaceMap, read_bytes
-from pyfret.scene.warnings import SceneWarning
+from pyfret._core import StoreError, SurfaceMap, read_bytes, unit_of
+from pyfret._util.doubts import SceneWarning
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -21,8 +21,6 @@ __all__ = ["read_surface"]
 
 #: Endings of files of numbers alone. What they hold decides: a binary one is an instrument's.
 PLAIN = frozenset((".npy", ".csv", ".txt", ".dat", ".tsv", ".asc", ".xyz", ".prn", ".grd", ""))
-#: Sizes of units of length [m].
-METRES = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "nm": 1e-9}
 #: Bytes at the beginning of a file that tell text from other content.
 BEGINNING = 4096
 
@@ -89,6 +87,7 @@ def read_surface(
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             reader = open_topography(opened(place))
+            must_be_whole(place, reader)
             chosen = chosen_channel(reader, channel)
             surface = measured(reader, chosen, spacing, unit)
             if surface.dim == 2:
@@ -124,6 +123,17 @@ def opened(path: Path) -> str | io.BytesIO:
     if not content.startswith(b"aBCR-1.0"):
         return fspath(path)
     return io.BytesIO(content.replace(b"aBCR-1.0", b"aISO-1.0", 1))
+
+
+def must_be_whole(path: Path, reader: Any) -> None:
+    """Refuse a text that begins as ISO 25178-71 has it and that only another reader takes."""
+    with path.open("rb") as file:
+        start = file.read(8)
+    if start[1:5] in (b"ISO-", b"BCR-") and reader.format() != "sdf":
+        raise StoreError(
+            f"begins as {start.decode('latin-1')}, and its head or its points are not those of "
+            "ISO 25178-71 without compression"
+        )
 
 
 def is_plain(path: Path) -> bool:
@@ -191,9 +201,9 @@ def measured(
     if of.physical_sizes is None:
         if spacing is None:
             raise StoreError("does not say the distance of its points: give spacing=2e-6, in m")
-        size = METRES.get(str(of.unit or unit))
-        if size is None:
-            raise StoreError(f"unit {of.unit or unit!r}: must be one of {', '.join(METRES)}")
+        kind, size = unit_of(str(of.unit or unit)) or ("", 1.0)
+        if kind != "length":
+            raise StoreError(f"unit {of.unit or unit!r}: must be a unit of length, such as um")
         pitch = np.broadcast_to(np.asarray(spacing, dtype=float) / size, len(of.nb_grid_pts))
         sizes = zip(of.nb_grid_pts, pitch, strict=True)
         options["physical_sizes"] = tuple(float(n * d) for n, d in sizes)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from pyfret._core import Grid, InvalidSceneError, LoadPath, Scene
 from pyfret._util.door import numbers_only
-from pyfret.errors import SceneWarning
+from pyfret._util.doubts import SceneWarning
 from pyfret.fatigue.criteria import CriterionName
 from pyfret.solution import read
 from pyfret.study.candidate import Candidate, Duty, candidate

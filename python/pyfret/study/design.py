@@ -9,8 +9,10 @@ import re
 import sys
 import warnings
 import zlib
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass
+from decimal import Decimal
+from fractions import Fraction
 from os import PathLike
 from pathlib import Path
 from typing import Any, Literal, Protocol, TypeAlias, runtime_checkable
@@ -18,9 +20,10 @@ from typing import Any, Literal, Protocol, TypeAlias, runtime_checkable
 import numpy as np
 
 from pyfret._core import InvalidSceneError, Scene
+from pyfret._util.arrays import items, labels
+from pyfret._util.doubts import SceneWarning, doubt_numbers
 from pyfret._util.lazy import xr
 from pyfret._util.text import read_text
-from pyfret.errors import SceneWarning
 from pyfret.study.identity import identity
 
 if sys.version_info >= (3, 11):
@@ -44,6 +47,8 @@ class Described(Protocol):
         """All that its scenes follow from."""
 
 
+#: The place in a list, ``path[0].W``.
+PLACE = re.compile(r"\[(\d+|\*)\]")
 #: Parameters with a short name, and their keys in a scene file.
 SHORT = {"mu": "friction.mu"}
 #: The dimension of a study whose parameters change together.
@@ -87,7 +92,8 @@ def varied(scene: Scene | str | PathLike[str], values: Mapping[str, Any]) -> Sce
 def spread(key: str, value: Any, scene: Scene | str | PathLike[str]) -> Iterator[tuple[str, Any]]:
     """The keys that one stands for, each with its value."""
     for part in key.split(","):
-        one = part.strip().removeprefix("-")
+        # The place in a list may stand in brackets, as messages write it.
+        one = PLACE.sub(r".\1", part.strip().removeprefix("-"))
         each = -value if part.strip().startswith("-") else value
         if ".*." in one:
             whole = scene if isinstance(scene, Scene) else Scene.from_file(scene)
@@ -150,6 +156,45 @@ def function_name(of: object) -> str:
     return f"function {name} {identity(of)}"
 
 
+def listed(values: Any, key: str) -> list[Any]:
+    """The values of a parameter in a list, of arrays those of their one axis.
+
+    Raises
+    ------
+    TypeError
+        One of them is nothing that a scene file has.
+    ValueError
+        They have no order, values are missing, or the array has several axes with names.
+    """
+    if isinstance(values, str | Mapping | Set) or not hasattr(values, "__len__"):
+        raise ValueError(f"{key} = {values!r:.60}: must be a list of values")
+    array = values
+    if axes := labels(values):
+        if len(axes) != 1:
+            raise ValueError(f"{key} has the axes {', '.join(map(str, axes))}: must have one")
+        array = np.asanyarray(values)
+    if np.ma.isMaskedArray(array):
+        if np.ma.is_masked(array):
+            raise ValueError(f"{key} has masked values: must have a value at every point")
+        array = array.filled()
+    return [plain(value, key) for value in items(array, key)]
+
+
+def plain(value: Any, key: str) -> Any:
+    """A value as a scene file has it: a number, a text, a list or a table."""
+    if isinstance(value, np.generic | np.ndarray):
+        value = value.tolist()
+    if isinstance(value, Decimal | Fraction):
+        value = float(value)
+    try:
+        json.dumps(value)
+    except (TypeError, ValueError):
+        raise TypeError(
+            f"{key} = {value!r:.60}: must be a number, a text, or what else a scene file has"
+        ) from None
+    return value
+
+
 @dataclass(frozen=True)
 class Design:
     """The points of a study.
@@ -183,12 +228,10 @@ class Design:
     @staticmethod
     def of(parameters: Mapping[str, Any], combine: Combine) -> Design:
         """The design of values in any form: lists, arrays, ranges."""
-        plain: dict[str, list[Any]] = {}
-        for key, values in parameters.items():
-            if isinstance(values, str) or not hasattr(values, "__len__"):
-                raise ValueError(f"{key} = {values!r}: must be a list of values")
-            plain[key] = [v.tolist() if isinstance(v, np.generic) else v for v in values]
-        return Design(plain, combine)
+        found = {key: listed(values, key) for key, values in parameters.items()}
+        for key, values in found.items():
+            doubt_numbers("", stacklevel=4, **{SHORT.get(key, key): values})
+        return Design(found, combine)
 
     @property
     def sizes(self) -> dict[str, int]:

@@ -347,13 +347,16 @@ def measured(result: Result, measures: Sequence[Measure]) -> dict[str, xr.Variab
 
 def variables(value: Any, name: str) -> dict[str, xr.Variable]:
     """What a user's function gave, as variables: a number, an array of xarray, or several."""
-    if isinstance(value, xr.Dataset):
-        return {str(k): v.variable for k, v in value.data_vars.items()}
-    if isinstance(value, Mapping):
+    if isinstance(value, xr.Dataset | Mapping):
         return {str(k): v for key, of in value.items() for k, v in variables(of, str(key)).items()}
     if isinstance(value, xr.DataArray):
+        if value.dtype.kind not in "biufUS":
+            raise TypeError(f"measure {name}: gave values of the type {value.dtype}, no numbers")
         return {name: value.variable}
-    number = np.asarray(value, dtype=float)
+    # Nothing and a masked value are missing ones.
+    masked = np.ma.isMaskedArray(value) and np.ma.is_masked(value)
+    number = np.ma.filled(np.ma.asarray(value, dtype=float), np.nan) if masked else value
+    number = np.asarray(number, dtype=float)
     if number.ndim:
         raise TypeError(
             f"measure {name}: gave an array of shape {number.shape}; arrays need names of their "

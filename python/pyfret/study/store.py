@@ -226,16 +226,20 @@ def refused_name(name: str, taken: Iterable[str]) -> str:
         return "is one that the study has itself: give another"
     if not name or name.startswith((".", "_")) or "/" in name or "\\" in name:
         return "must be that of an array in a store: not empty, no . or _ first, no / or \\ in it"
+    if not name.isprintable() or len(name.encode()) > LONGEST:
+        return f"must be that of a folder: at most {LONGEST} bytes, all of them printed"
     return ""
+
+
+#: Longest name of an array of a store, as file systems have it [bytes].
+LONGEST = 250
 
 
 def check_names(design: Design, measures: Sequence[Measure]) -> None:
     """Refuse names of parameters and measures that the store of the study needs itself."""
     for key in design.parameters:
-        if key in OWN or key == TOGETHER:
-            raise ValueError(
-                f"parameter {key!r}: is a name that the study has itself: give another"
-            )
+        if why := refused_name(key, {*OWN, TOGETHER}):
+            raise ValueError(f"parameter {key!r}: {why}")
     for name in names_of(measures):
         if why := refused_name(name, {*OWN, *design.parameters, *design.sizes}):
             raise ValueError(f"measure {name!r} {why}")

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from pyfret import _core
+from pyfret._util.doubts import SceneWarning
 from pyfret._util.guesses import no_attribute
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
 from pyfret._util.numbers import in_words, place
 from pyfret.scene.tables import table
-from pyfret.scene.warnings import SceneWarning
 from pyfret.subsurface.line import line_of
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pyfret._core import SurfaceMap
-from pyfret.scene.warnings import SceneWarning
+from pyfret._util.doubts import SceneWarning
 from pyfret.subsurface import fields
 from pyfret.subsurface.line import Line, along
 from pyfret.subsurface.plastic import body_of, columns_of, eigenstress

@@ -12,6 +12,7 @@ if sys.version_info >= (3, 11):
 else:
     import tomli as tomllib
 
+from pyfret._util.arrays import items, plain
 from pyfret._util.door import numbers_only
 from pyfret.scene.parts import Replaceable, refuse_unknown
 
@@ -173,10 +174,28 @@ class Wear(Replaceable):
 
 
 def fix(law: Archard | DissipatedEnergy) -> None:
-    """The pairs of a factor as tuples."""
-    if law.factor is not None:
-        of, pairs = law.factor
-        object.__setattr__(law, "factor", (of, tuple(tuple(pair) for pair in pairs)))
+    """The pairs of a factor as tuples of numbers.
+
+    Raises
+    ------
+    TypeError, ValueError
+        They are no pairs of finite numbers.
+    """
+    if law.factor is None:
+        return
+    try:
+        of, given = law.factor
+    except (TypeError, ValueError):
+        raise TypeError(
+            f"factor = {law.factor!r:.60}: must be what it changes with and its table, as in "
+            '("cycles", [(0.0, 1.0), (1e4, 0.5)])'
+        ) from None
+    name = f"factor over {of}"
+    array = hasattr(given, "__array__")
+    table = plain(given if array else items(given, name), name)
+    if table.ndim != 2 or table.shape[1] != 2:
+        raise ValueError(f"{name} has the shape {table.shape}: must be pairs")
+    object.__setattr__(law, "factor", (of, tuple(map(tuple, table.tolist()))))
 
 
 def listed(laws: Law | Sequence[Law | None] | None) -> list[Law | None]:

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pyfret._core import NoConvergenceError, OffGridError
+from pyfret._util.doubts import SceneWarning
 from pyfret._util.extras import needed
-from pyfret.errors import SceneWarning
 from pyfret.solution import solve
 from pyfret.study.comparison import layer_names
 from pyfret.what_if.controls import in_increments

@@ -3,11 +3,11 @@
 //! Everything is compared with something else of the scene, never with what is usual, so that a
 //! scene in units of its own is a scene like any other.
 
-use plausible::{UNITS, doubt, quantity};
+use plausible::{UNITS, doubt_of, quantity};
 
 use super::shape::Shape;
 use super::validity::stiffest;
-use super::{Body, Coating, Elastic, Grid, Prescribed, RigidMotion, Scene, SurfaceMap};
+use super::{Body, Coating, Elastic, Friction, Grid, Prescribed, RigidMotion, Scene, SurfaceMap};
 use crate::error::Error;
 
 /// Peak pressure over the contact modulus, or bulk strain, beyond which strains are not small.
@@ -160,12 +160,22 @@ impl Scene {
         let mut stiffest: f64 = 0.0;
         let mut radius: f64 = 0.0;
         for (key, body) in [("body1", &self.body1), ("body2", &self.body2)] {
-            let layers = body.coatings.iter().enumerate();
-            let layers = layers.map(|(i, c)| (format!("{key}.coatings[{i}].E"), c.material.E));
-            let all = layers.chain([(format!("{key}.E"), body.substrate.E)]);
-            for (name, E) in all.filter(|(_, E)| E.is_finite()) {
-                stiffest = stiffest.max(E);
-                doubts.extend(doubt("modulus", &name, E));
+            for n in 0..=body.coatings.len() {
+                let coating = body.coatings.get(n);
+                let E = coating.map_or(body.substrate, |c| c.material).E;
+                let at = match coating {
+                    Some(_) => format!("{key}.coatings[{n}]"),
+                    None => key.to_owned(),
+                };
+                stiffest = stiffest.max(if E.is_finite() { E } else { 0.0 });
+                let mut ask = |name: String, value| doubts.extend(doubt_of(&name, &name, value));
+                ask(format!("{at}.E"), E);
+                if let Some(law) = body.plastic(n) {
+                    ask(format!("{at}.plastic.s_y"), law.s_y);
+                    ask(format!("{at}.plastic.hardening"), law.hardening);
+                    ask(format!("{at}.plastic.kinematic"), law.kinematic);
+                }
+                ask(format!("{at}.bond_normal"), body.bond(n).normal);
             }
             for (layer, profile) in body.residual.iter().enumerate() {
                 let name = format!("{}.residual", body.key_of(layer, key));
@@ -178,7 +188,7 @@ impl Scene {
             }
             for R in radii(&body.shape) {
                 radius = radius.max(R);
-                doubts.extend(doubt("radius", &format!("{key}.shape.R"), R));
+                doubts.extend(doubt_of("R", &format!("{key}.shape.R"), R));
             }
         }
         let (extent, _) = self.grid.extent();
@@ -190,7 +200,17 @@ impl Scene {
                  are taken as m, N and Pa, and results carry these units; {UNITS}"
             ));
         }
-        doubts.extend(doubt("friction", "friction.mu", self.friction.mu));
+        let Friction {
+            mu, mu_y, kinetic, ..
+        } = self.friction;
+        let numbers = [
+            ("friction.mu", Some(mu)),
+            ("friction.mu_y", mu_y),
+            ("friction.kinetic", kinetic),
+            ("rig.stiffness", self.path.rig_stiffness),
+        ];
+        let ask = |(key, value): (&str, Option<f64>)| doubt_of(key, key, value?);
+        doubts.extend(numbers.into_iter().filter_map(ask));
         doubts
     }
 
@@ -249,7 +269,7 @@ impl Scene {
                 ("sigma_B1", branch.to.sigma_B1, &self.body1),
             ];
             for (name, sigma_B, body) in bulk {
-                doubts.extend(doubt("bulk stress", &format!("path[{i}].{name}"), sigma_B));
+                doubts.extend(doubt_of(name, &format!("path[{i}].{name}"), sigma_B));
                 let [strain, _] = body.bulk_strain(sigma_B, self.grid.plane_strain);
                 if strain.abs() > LARGE_STRAIN {
                     doubts.push(format!(

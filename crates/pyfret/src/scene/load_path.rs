@@ -67,8 +67,9 @@ impl LoadPath {
     ///
     /// It is in series with the contact: ``delta_x`` is the shift of the spring's far end, given or
     /// read, and the contact's own shift is ``delta_x - T_x/K``. None takes the spring out.
-    #[pyo3(signature = (stiffness: "float | None"))]
-    fn rig(&self, #[pyo3(from_py_with = number)] stiffness: Option<f64>) -> Self {
+    /// A text may have its unit, ``"20 N/um"``.
+    #[pyo3(signature = (stiffness: "float | str | None"))]
+    fn rig(&self, #[pyo3(from_py_with = Optional::stiffness)] stiffness: Option<f64>) -> Self {
         Self(core::LoadPath {
             rig_stiffness: stiffness,
             ..self.0.clone()

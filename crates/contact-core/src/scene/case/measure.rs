@@ -60,59 +60,10 @@ impl Measure {
     }
 }
 
-/// The kinds of the keys of a scene file, by their last names; others are numbers without a unit.
-const KINDS: [(&[&str], Kind); 8] = [
-    (
-        &[
-            "E",
-            "sigma_B",
-            "sigma_B1",
-            "s_y",
-            "hardening",
-            "kinematic",
-            "residual",
-        ],
-        Kind::Stress,
-    ),
-    (
-        &[
-            "R",
-            "R_x",
-            "R_y",
-            "length",
-            "crown",
-            "radius",
-            "edge",
-            "amplitude",
-            "wavelength",
-            "rms",
-            "longest",
-            "shortest",
-            "thickness",
-            "depth",
-            "extent",
-            "spacing",
-            "delta_x",
-            "delta_y",
-            "delta_z",
-            "rolled",
-        ],
-        Kind::Length,
-    ),
-    (&["angle", "phase", "phi_x", "phi_y", "phi_z"], Kind::Angle),
-    (&["W", "T_x", "T_y"], Kind::Force),
-    (&["M_x", "M_y", "M_z"], Kind::Moment),
-    (&["stiffness", "rig_stiffness"], Kind::Stiffness),
-    (&["frequency"], Kind::Frequency),
-    (&["t"], Kind::Time),
-];
-
-/// The kind of a key: that of its last name, `spacing` of `grid.spacing[1]`.
+/// The kind of a key, `grid.spacing[1]`; none of a number without a unit.
 fn kind_of(key: &str) -> Option<Kind> {
-    let last = key.rsplit('.').next()?;
-    let name = last.split('[').next()?;
-    let found = KINDS.iter().find(|(names, _)| names.contains(&name));
-    found.map(|(_, kind)| *kind)
+    let kind = plausible::of_key(key)?.kind;
+    (kind != Kind::Number).then_some(kind)
 }
 
 /// A number and the word behind it, `3 um`.

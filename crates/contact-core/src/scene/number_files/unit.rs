@@ -1,127 +1,6 @@
-//! Units that stand in files.
+//! Units in titles of files.
 
-/// The quantity of a unit.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::scene) enum Kind {
-    Length,
-    Force,
-    Moment,
-    Angle,
-    Stress,
-    Time,
-    Stiffness,
-    Frequency,
-}
-
-impl Kind {
-    /// Its unit in SI.
-    pub(in crate::scene) fn unit(self) -> &'static str {
-        match self {
-            Self::Length => "m",
-            Self::Force => "N",
-            Self::Moment => "N m",
-            Self::Angle => "rad",
-            Self::Stress => "Pa",
-            Self::Time => "s",
-            Self::Stiffness => "N/m",
-            Self::Frequency => "Hz",
-        }
-    }
-
-    /// The size in SI of a unit of this kind, by its name; a force per length is a stiffness, too.
-    pub(in crate::scene) fn size(self, name: &str) -> Option<f64> {
-        let (kind, size) = named(name)?;
-        let per_length = (kind, self) == (Self::Force, Self::Stiffness) && name.contains('/');
-        (kind == self || per_length).then_some(size)
-    }
-}
-
-/// A unit: what it measures, and its size in SI units. Forces and moments of line contacts are per
-/// metre.
-pub(in crate::scene) type Unit = (Kind, f64);
-
-const UNITS: [(&str, Kind, f64); 57] = {
-    use Kind::{Angle, Force, Frequency, Length, Moment, Stiffness, Stress, Time};
-    [
-        ("m", Length, 1.0),
-        ("cm", Length, 1e-2),
-        ("mm", Length, 1e-3),
-        ("um", Length, 1e-6),
-        ("micron", Length, 1e-6),
-        ("microns", Length, 1e-6),
-        ("micrometer", Length, 1e-6),
-        ("micrometre", Length, 1e-6),
-        ("nm", Length, 1e-9),
-        ("pm", Length, 1e-12),
-        ("å", Length, 1e-10),
-        ("angstrom", Length, 1e-10),
-        ("in", Length, 0.0254),
-        ("inch", Length, 0.0254),
-        ("N", Force, 1.0),
-        ("uN", Force, 1e-6),
-        ("mN", Force, 1e-3),
-        ("kN", Force, 1e3),
-        ("MN", Force, 1e6),
-        ("N/m", Force, 1.0),
-        ("N/mm", Force, 1e3),
-        ("kN/m", Force, 1e3),
-        ("kN/mm", Force, 1e6),
-        ("MN/m", Force, 1e6),
-        ("Nm", Moment, 1.0),
-        ("N m", Moment, 1.0),
-        ("N*m", Moment, 1.0),
-        ("N.m", Moment, 1.0),
-        ("mNm", Moment, 1e-3),
-        ("Nmm", Moment, 1e-3),
-        ("N mm", Moment, 1e-3),
-        ("N*mm", Moment, 1e-3),
-        ("kNm", Moment, 1e3),
-        ("rad", Angle, 1.0),
-        ("mrad", Angle, 1e-3),
-        ("urad", Angle, 1e-6),
-        ("deg", Angle, std::f64::consts::PI / 180.0),
-        ("°", Angle, std::f64::consts::PI / 180.0),
-        ("Pa", Stress, 1.0),
-        ("kPa", Stress, 1e3),
-        ("MPa", Stress, 1e6),
-        ("N/mm2", Stress, 1e6),
-        ("N/mm^2", Stress, 1e6),
-        ("N/mm²", Stress, 1e6),
-        ("GPa", Stress, 1e9),
-        ("s", Time, 1.0),
-        ("sec", Time, 1.0),
-        ("ms", Time, 1e-3),
-        ("min", Time, 60.0),
-        ("h", Time, 3600.0),
-        ("N/um", Stiffness, 1e6),
-        ("kN/um", Stiffness, 1e9),
-        ("N/nm", Stiffness, 1e9),
-        ("Hz", Frequency, 1.0),
-        ("kHz", Frequency, 1e3),
-        ("1/s", Frequency, 1.0),
-        ("1/min", Frequency, 1.0 / 60.0),
-    ]
-};
-
-/// The unit of that name, if it is one; the micro sign may be u, the first letter of words for
-/// lengths large.
-pub(in crate::scene) fn named(name: &str) -> Option<Unit> {
-    let plain = name.trim().replace(['µ', 'μ'], "u").replace('·', "*");
-    let exact = UNITS.iter().find(|(word, ..)| *word == plain);
-    let lower = plain.to_lowercase();
-    let word = || {
-        UNITS
-            .iter()
-            .find(|(word, ..)| *word == lower && (word.len() > 3 || lower == "å"))
-    };
-    exact.or_else(word).map(|(_, kind, size)| (*kind, *size))
-}
-
-/// The names of the units of a kind.
-pub(in crate::scene) fn names(kind: Kind) -> String {
-    let names = UNITS.iter().filter(|(_, of, _)| *of == kind);
-    names.map(|(name, ..)| *name).collect::<Vec<_>>().join(", ")
-}
+pub(in crate::scene) use plausible::unit::{Kind, named, names};
 
 /// The name and the unit of a title such as `T_x [N]`, `height (um)`, `X_(microns)`; without
 /// brackets all is name.
@@ -142,8 +21,11 @@ const BRACKETS: [char; 4] = ['[', ']', '(', ')'];
 /// Whether every field of a line of titles that says something is a unit.
 fn is_row_of_units(fields: &[String]) -> bool {
     let words = fields.iter().map(|field| field.trim_matches(BRACKETS));
-    let mut words = words.filter(|word| !is_none(word)).peekable();
-    words.peek().is_some() && words.all(|word| named(word).is_some())
+    let kinds = words
+        .filter(|word| !is_none(word))
+        .map(|word| Some(named(word)?.0));
+    let kinds: Option<Vec<Kind>> = kinds.collect();
+    kinds.is_some_and(|kinds| kinds.iter().any(|kind| *kind != Kind::Number))
 }
 
 /// Words for a number without a unit.
@@ -246,8 +128,5 @@ mod tests {
         }
         let (names, units) = of_titles(&[line("a,b")], 2);
         assert!(names == ["a", "b"] && units == [None, None]);
-        assert_eq!(named("kN"), Some((Kind::Force, 1e3)));
-        assert_eq!(named("Micrometer"), Some((Kind::Length, 1e-6)));
-        assert!(named("counts").is_none() && named("mn").is_none());
     }
 }

@@ -49,6 +49,7 @@ impl SurfaceMap {
                 InvalidSceneError::new_err(error.value(values.py()).to_string())
             }
         })?;
+        numbers.must_have_pitch("values", "points of the map, spacing,", spacing.0)?;
         let numbers = numbers.as_array().to_owned();
         let map = core::SurfaceMap::new(numbers, spacing.0, word(missing)?);
         said(values.py(), map.map_err(to_python)?)

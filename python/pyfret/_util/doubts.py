@@ -1,0 +1,62 @@
+"""Doubts of numbers that are allowed and hardly meant: nearly always their unit is another one.
+
+A row of the table of quantities (the crate ``plausible``) belongs to each key that it knows: the
+last name of a key of a scene file, or a parameter with the function or class that takes it.
+"""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import numpy as np
+
+from pyfret import _core
+
+__all__ = ["SceneWarning", "doubt_numbers", "doubts_of"]
+
+
+class SceneWarning(UserWarning):
+    """Something of a scene is allowed but hardly meant; the message says what was understood."""
+
+
+def doubts_of(of: str, /, **numbers: Any) -> list[str]:
+    """Give the doubts of numbers by their names, parameters of `of` or keys of a scene file.
+
+    Of lists each number is looked at, of arrays the largest; what is no number is left out.
+    """
+    found = []
+    for name, given in numbers.items():
+        for value in sizes(given):
+            doubt = _core.doubt(f"{of}.{name}" if of else name, name, value)
+            if doubt is not None and doubt not in found:
+                found.append(doubt)
+    return found
+
+
+def doubt_numbers(of: str, /, *, stacklevel: int = 3, **numbers: Any) -> None:
+    """Warn of the doubts of numbers, :func:`doubts_of`."""
+    for doubt in doubts_of(of, **numbers):
+        warnings.warn(doubt, SceneWarning, stacklevel=stacklevel)
+
+
+def sizes(given: Any) -> Iterator[float]:
+    """The numbers that may be doubted in what is given."""
+    if isinstance(given, (bool, str, bytes)) or given is None:
+        return
+    if isinstance(given, (list, tuple)):
+        for value in given:
+            yield from sizes(value)
+        return
+    if isinstance(given, (int, float, np.number)):
+        if math.isfinite(given):
+            yield float(given)
+        return
+    if isinstance(given, Sequence) or not hasattr(given, "__array__"):
+        return
+    array = np.asarray(given)
+    if array.dtype.kind in "iuf" and array.size:
+        finite = np.abs(array[np.isfinite(array)])
+        yield from (float(finite.max()),) if finite.size else ()
