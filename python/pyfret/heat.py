@@ -77,8 +77,9 @@ Conductors = Conductor | Material | Sequence[Conductor | Material]
 
 
 def _of_layers(conductors: Conductors, layers: int, name: str) -> list[Conductor]:
-    several = isinstance(conductors, list | tuple)
-    found: list[Any] = items(conductors, name) if several else [conductors] * layers
+    given: Any = conductors
+    several = isinstance(given, list | tuple)
+    found: list[Any] = items(given, name) if several else [given] * layers
     for one in found:
         if not isinstance(one, Conductor | Material):
             raise TypeError(

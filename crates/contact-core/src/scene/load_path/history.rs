@@ -172,8 +172,8 @@ mod tests {
                 "line 3, column 2: `2.5 N` is no number",
             ),
             (
-                "W [kgf],T_x\n1,2\n",
-                "W is in `kgf`: must be a unit of force",
+                "W [ozf],T_x\n1,2\n",
+                "W is in `ozf`: must be a unit of force",
             ),
             (
                 "W,T_x [mm]\n1,2\n",
