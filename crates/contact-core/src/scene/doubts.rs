@@ -184,7 +184,7 @@ impl Scene {
                     0.0,
                     |most: f64, s| if s.abs() > most.abs() { s } else { most },
                 );
-                doubts.extend(doubt("residual stress", &name, largest));
+                doubts.extend(doubt_of(&name, &name, largest));
             }
             for R in radii(&body.shape) {
                 radius = radius.max(R);
