@@ -103,11 +103,12 @@ wear-jumps: ## implicit jumps over cycles beside the explicit ones that are as e
 	cargo run --release --locked --example wear_jumps -- $(CURDIR)/docs/wear_evidence.md
 
 # In release mode, so that build scripts and macros are compiled once for checks, tests and wheel.
-check: setup ## formats, lints, circles of imports, types, spelling
+check: setup ## formats, lints, circles of imports, types, spelling, sentences
 	cargo fmt --all --check
 	cargo clippy --workspace --all-targets --locked --release -- -D warnings
 	RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked --release --quiet
 	$(PY) tools/acyclic.py
+	$(PY) tools/prose.py
 	$(BIN)/ruff format --check
 	$(BIN)/ruff check
 	$(BIN)/mypy

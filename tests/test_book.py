@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -78,3 +80,35 @@ def test_every_page_has_one_title() -> None:
     for source in PAGES:
         text = re.sub(r"```.*?```", "", source.read_text(encoding="utf-8"), flags=re.DOTALL)
         assert len(re.findall(r"^# ", text, flags=re.MULTILINE)) == 1, source
+
+
+#: Words that a practitioner looks for, and the page of the Use book that has the answer.
+WORDS = {
+    "bushing": "howto/limits",
+    "taper": "howto/limits",
+    "hip stem": "howto/limits",
+    "connector": "howto/limits",
+    "rises over cycles": "howto/limits",
+    "rounded corners": "howto/flat_pads",
+    "which one is better": "howto/which_of_two_coatings",
+    "tilted": "howto/measured_loop",
+    "backlash": "howto/measured_loop",
+    "trailing edge": "howto/rig_life",
+    "cycles to initiation": "howto/rig_life",
+    "polymer": "wear",
+    "q_scatter": "result_store",
+    "delamination": "howto/crack_and_arrest",
+}
+
+
+@pytest.mark.parametrize(("word", "name"), WORDS.items())
+def test_words_of_the_trade_are_in_their_pages(word: str, name: str) -> None:
+    text = " ".join((DOCS / f"{name}.md").read_text(encoding="utf-8").split())
+    assert word in text.lower()
+
+
+def test_sentences_of_the_use_book_are_short_and_plain() -> None:
+    found = subprocess.run(
+        [sys.executable, ROOT / "tools" / "prose.py"], capture_output=True, text=True, check=False
+    )
+    assert found.returncode == 0, found.stdout

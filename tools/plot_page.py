@@ -258,10 +258,10 @@ def page() -> str:
     lines = [
         "# All figures",
         "",
-        "Every figure takes `ax=` to be laid over others or into a figure of yours, and `units=`",
-        "where it is over a_H and p_H; each is a method of what it shows, too, such as",
-        "`result.plot.fretting_loop()`. Parameters are in the [reference](plot.md). The code above",
-        "each is what drew it: `result` is the run of a coated ball, `rig` one of a cylinder on",
+        "Every figure takes `ax=`, to be drawn over others or into a figure of yours. Figures over",
+        "a_H and p_H take `units=`. Each is also a method of its result, such as",
+        "`result.plot.fretting_loop()`. Parameters are in the [reference](plot.md). Each picture",
+        "stands below its code. `result` is the run of a coated ball, `rig` that of a cylinder on",
         "titanium with a bulk stress. Written by `tools/plot_page.py`.",
     ]
     for title, figures in FIGURES.items():
