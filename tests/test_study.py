@@ -161,6 +161,43 @@ def test_an_interrupted_study_goes_on(whole: fret.study.Study, tmp_path: Path) -
     assert numbers(study).identical(numbers(whole))
 
 
+def test_points_have_the_increments_of_the_middle_one_in_any_order(tmp_path: Path) -> None:
+    """Where increments are chosen, a point depends on its scene and on the middle one alone."""
+    coated = sphere_on_flat(ratio=2.0, n=32)
+    path = fret.LoadPath.start().normal(W).tangential(T_x=[150.0, -150.0])
+    scene = coated.replace(path=path, title="chosen")
+    parameters = {"mu": [0.3, 0.35, 0.4]}
+
+    def solved(**options: Any) -> fret.study.Study:
+        return fret.study.solve(
+            scene, parameters, measure=counted, executor=HERE, progress=False, **options
+        )
+
+    def stop(done: int, _: int) -> None:
+        if done == 1:
+            raise KeyboardInterrupt
+
+    whole = numbers(solved())
+    with pytest.raises(KeyboardInterrupt):
+        solved(out=tmp_path / "s.zarr", on_point=stop)
+    assert numbers(solved(out=tmp_path / "s.zarr")).drop_attrs().identical(whole.drop_attrs())
+    middle = fret.study.varied(scene, {"mu": 0.35})
+    alone = counted(fret.solve(middle, progress=False))
+    for n, mu in enumerate(parameters["mu"]):
+        point = whole.isel(mu=n)
+        like = fret.solve(fret.study.varied(scene, {"mu": mu}), like=middle, progress=False)
+        assert float(point["shift"]) == counted(like)["shift"]
+        assert float(point["increments"]) == alone["increments"]
+
+
+def counted(result: fret.Result) -> dict[str, float]:
+    """The increments, and the shift at the end."""
+    return {
+        "increments": float(result.dataset.sizes["increment"]),
+        "shift": float(result.delta_x[-1]),
+    }
+
+
 def test_the_store_of_another_study_is_refused(tmp_path: Path) -> None:
     place = tmp_path / "s.zarr"
     fret.study.solve(SCENE, {"mu": [0.3]}, measure="p_max", executor=HERE, out=place)

@@ -3105,17 +3105,24 @@ def solve(
     checkpoint: float = 5.0,
     overwrite: bool = False,
     error: bool = False,
+    like: Scene | None = None,
     on_increment: Callable[[int, int], object] | None = None,
 ) -> None:
     """
     Run a scene into a new result store; use :func:`pyfret.solve`, which opens it.
+
+    Increments are chosen like those of the scene `like`.
 
     `on_increment` is called with the number of each increment solved and their number in all,
     which is known once they are chosen.
     """
 
 def solve_in_memory(
-    scene: Scene, *, error: bool = False, on_increment: Callable[[int, int], object] | None = None
+    scene: Scene,
+    *,
+    error: bool = False,
+    like: Scene | None = None,
+    on_increment: Callable[[int, int], object] | None = None,
 ) -> tuple[dict[str, Variable], str]:
     """
     Run a scene in memory; use :func:`pyfret.solve`, which labels what this one gives.

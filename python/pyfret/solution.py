@@ -34,6 +34,7 @@ def solve(
     checkpoint: float = 5.0,
     overwrite: bool = False,
     error: bool = False,
+    like: Scene | None = None,
     progress: bool = True,
 ) -> Result:
     """Run through the load path and give the scalars of all increments and the fields of some.
@@ -63,6 +64,10 @@ def solve(
     error : bool
         Whether to run the path again on coarser and finer grids and with fewer increments, some
         times as long, for :meth:`Result.error_bars`.
+    like : Scene, optional
+        A neighbouring scene with the same kind of path, where increments are chosen: those that it
+        needs are the first guess, which one comparison checks. Its own are chosen once in a
+        process. The result depends on the two scenes alone.
     progress : bool
         Whether to draw a progress bar on a terminal or in a notebook.
 
@@ -94,10 +99,11 @@ def solve(
                 checkpoint=seconds,
                 overwrite=overwrite,
                 error=error,
+                like=like,
                 on_increment=bar.update,
             )
             return told(open(out))
-        run = _core.solve_in_memory(scene, error=error, on_increment=bar.update)
+        run = _core.solve_in_memory(scene, error=error, like=like, on_increment=bar.update)
     return told(Result(dataset(*run)))
 
 

@@ -7,7 +7,9 @@ use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 use contact_core::Error;
-use contact_core::estimate::{BranchEnds, ErrorBars, choose_increments, error_bars};
+use contact_core::estimate::{
+    BranchEnds, ErrorBars, choose_increments, choose_increments_like, error_bars,
+};
 use contact_core::march::{Increment, March, Observer};
 use contact_store::{Columns, Resumed, StoreWriter};
 use pyo3::prelude::*;
@@ -93,10 +95,18 @@ fn check(scene: &Scene) -> PyResult<()> {
 type Bars = Result<Vec<ErrorBars>, Error>;
 
 /// Goes through the whole path; gives the error bars if `error`.
-fn whole(scene: &Scene, error: bool, watch: &mut dyn Observer) -> Result<Option<Bars>, Error> {
+fn whole(
+    scene: &Scene,
+    like: Option<&Scene>,
+    error: bool,
+    watch: &mut dyn Observer,
+) -> Result<Option<Bars>, Error> {
     let stop = watch.stop().unwrap_or_default();
     let mut ends = BranchEnds::beside(watch);
-    let scene = &choose_increments(&scene.0, &stop)?;
+    let scene = &match like {
+        Some(like) => choose_increments_like(&scene.0, &like.0, &stop)?,
+        None => choose_increments(&scene.0, &stop)?,
+    };
     let increments = contact_core::march::solve(scene, &mut ends)?;
     if !error {
         return Ok(None);
@@ -109,10 +119,13 @@ fn whole(scene: &Scene, error: bool, watch: &mut dyn Observer) -> Result<Option<
 
 /// Run a scene into a new result store; use :func:`pyfret.solve`, which opens it.
 ///
+/// Increments are chosen like those of the scene `like`.
+///
 /// `on_increment` is called with the number of each increment solved and their number in all,
 /// which is known once they are chosen.
 #[pyfunction]
-#[pyo3(signature = (scene, *, store, checkpoint: "float" = 5.0, overwrite = false, error = false, on_increment: "Callable[[int, int], object] | None" = None))]
+#[pyo3(signature = (scene, *, store, checkpoint: "float" = 5.0, overwrite = false, error = false, like = None, on_increment: "Callable[[int, int], object] | None" = None))]
+#[allow(clippy::too_many_arguments, reason = "named arguments of Python")]
 pub(crate) fn solve(
     py: Python<'_>,
     scene: Scene,
@@ -120,6 +133,7 @@ pub(crate) fn solve(
     #[pyo3(from_py_with = number)] checkpoint: f64,
     overwrite: bool,
     error: bool,
+    like: Option<Scene>,
     on_increment: Option<Py<PyAny>>,
 ) -> PyResult<()> {
     check(&scene)?;
@@ -127,7 +141,7 @@ pub(crate) fn solve(
         .map_err(to_python)?
         .with_interval(interval(checkpoint)?);
     let run = |watch: &mut dyn Observer| {
-        match whole(&scene, error, watch)? {
+        match whole(&scene, like.as_ref(), error, watch)? {
             Some(Ok(bars)) => contact_store::write_error_bars(&store, &bars)?,
             Some(Err(why)) => drop(contact_store::write_no_error_bars(&store, &why)?),
             None => {}
@@ -142,15 +156,16 @@ pub(crate) fn solve(
 /// These are the variables, each with dimensions, values and attributes as xarray takes them, and
 /// what a store says of the run, as JSON.
 #[pyfunction]
-#[pyo3(signature = (scene, *, error = false, on_increment: "Callable[[int, int], object] | None" = None) -> "tuple[dict[str, Variable], str]")]
+#[pyo3(signature = (scene, *, error = false, like = None, on_increment: "Callable[[int, int], object] | None" = None) -> "tuple[dict[str, Variable], str]")]
 pub(crate) fn solve_in_memory(
     py: Python<'_>,
     scene: Scene,
     error: bool,
+    like: Option<Scene>,
     on_increment: Option<Py<PyAny>>,
 ) -> PyResult<(Bound<'_, PyDict>, String)> {
     check(&scene)?;
-    let run = |watch: &mut dyn Observer| whole(&scene, error, watch);
+    let run = |watch: &mut dyn Observer| whole(&scene, like.as_ref(), error, watch);
     let (mut columns, bars) = watched(py, Columns::default(), on_increment, run)?;
     if let Some(bars) = bars {
         columns.set_error_bars(&bars, &scene.0.grid);

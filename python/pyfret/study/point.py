@@ -58,7 +58,13 @@ def grown(grid: Grid) -> Grid:
 
 
 def solve_point(
-    scene: Scene, measures: Sequence[Measure], *, grow: bool, threads: int | None, home: int
+    scene: Scene,
+    measures: Sequence[Measure],
+    *,
+    like: Scene | None,
+    grow: bool,
+    threads: int | None,
+    home: int,
 ) -> Outcome:
     """Solve a scene and measure its result.
 
@@ -68,6 +74,8 @@ def solve_point(
         The scene with its load path.
     measures : sequence of str or callable
         What is kept.
+    like : Scene, optional
+        The scene of the study whose increments are the first guess.
     grow : bool
         Whether a grid that is too small grows.
     threads : int, optional
@@ -84,7 +92,7 @@ def solve_point(
             result: Any = None
             for left in reversed(range(GROWTHS + 1)):
                 try:
-                    result = solve(scene, progress=False)
+                    result = solve(scene, like=like, progress=False)
                     break
                 except OffGridError:
                     if not (grow and left):

@@ -211,13 +211,14 @@ def one(
     if not 0 < low < high:
         raise ValueError(f"between = {between}: must be two loads above 0, the smaller one first")
     optimize = needed("scipy.optimize", "fit")
+    first = scene_of(source, {**others, parameter: low})
     tried: dict[float, float] = {}
 
     def margin(load: float, coarser: int = 1) -> float:
         scene = scene_of(source, {**others, parameter: load})
         if coarser > 1:
             scene = scene.replace(grid=wider(scene.grid, coarser))
-        found = float(measure(quiet(scene)))
+        found = float(measure(quiet(scene, like=first)))
         if not found > 0:
             raise ValueError(f"{parameter} = {load:g}: the measure is {found}: must be above 0")
         # A life without end counts as long.
@@ -251,7 +252,7 @@ def one(
         solves += 1
         if isinstance(measure, Averaged):
             there = scene_of(source, {**others, parameter: math.exp(root)})
-            spread = scattered(measure.range_of(quiet(there)), math.exp(root), slope)
+            spread = scattered(measure.range_of(quiet(there, like=first)), math.exp(root), slope)
             solves += 1
     path = tuple((load, value * math.exp(m)) for load, m in tried.items())
     return ThresholdLoad(math.exp(root), bracket + of_grid, solves, path, *spread)
@@ -267,11 +268,11 @@ def scattered(margin: LifeRange, load: float, slope: float) -> tuple[float, floa
     return min(ends), max(ends)
 
 
-def quiet(scene: Scene) -> Any:
-    """The result of a scene, its doubts unsaid."""
+def quiet(scene: Scene, *, like: Scene) -> Any:
+    """The result of a scene with increments like those of a neighbour, its doubts unsaid."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        return solve(scene, progress=False)
+        return solve(scene, like=like, progress=False)
 
 
 def steepness(points: list[tuple[float, float]], root: float) -> float:

@@ -43,7 +43,9 @@ class PageAnswer:
     figure: Any
 
 
-def answer(scene: Scene, counts: list[int] | None = None) -> PageAnswer:
+def answer(
+    scene: Scene, counts: list[int] | None = None, *, like: Scene | None = None
+) -> PageAnswer:
     """Solve a scene and draw it.
 
     Parameters
@@ -53,6 +55,8 @@ def answer(scene: Scene, counts: list[int] | None = None) -> PageAnswer:
     counts : list of int, optional
         Increments of the branches of a neighbouring scene, for a preview (default: those that the
         tolerance of the path asks for).
+    like : Scene, optional
+        A neighbouring scene whose increments are the first guess of those that are chosen.
 
     Raises
     ------
@@ -65,7 +69,7 @@ def answer(scene: Scene, counts: list[int] | None = None) -> PageAnswer:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", SceneWarning)
-            result = solve(scene.replace(save="branches"), progress=False)
+            result = solve(scene.replace(save="branches"), like=like, progress=False)
             last = result.at(-1)
             below = last.stress(y=0.0)
             most = below.maximum("von_mises")

@@ -207,6 +207,10 @@ def answers(app: Any, scene: Scene, dash: Any) -> None:
         values = {of.name: 10.0**place for of, place in zip(shown, places, strict=True)}
         return changed(scene, values, n=cells)
 
+    def begun(cells: int) -> Scene:
+        """The scene that the page begins with, whose increments are the first guess of others."""
+        return changed(scene, {}, n=cells).replace(save="branches")
+
     def panel(found: PageAnswer, state: str) -> list[Any]:
         html = dash.html
         rows = [html.Tr([html.Td(f"{k}: "), html.Td(v)]) for k, v in found.numbers.items()]
@@ -274,7 +278,7 @@ def answers(app: Any, scene: Scene, dash: Any) -> None:
 
     def full(places: tuple[float, ...], cells: int) -> list[Any]:
         try:
-            found = answer(made(places, cells))
+            found = answer(made(places, cells), like=begun(cells))
         except ValueError as error:
             return [*refused(error), dash.no_update]
         state = f"full answer: {cells} cells along x, {sum(found.counts)} chosen increments"

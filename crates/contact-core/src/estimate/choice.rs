@@ -73,9 +73,14 @@ pub fn choose_increments(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene,
     if scene.yields() {
         return choose_for_yielding(scene, stop);
     }
-    let mut chosen = scene.clone();
-    chosen.settings.solver.tolerance = Some(scene.tolerance());
-    begin(&mut chosen.path, scene.friction.mu > 0.0);
+    let mut chosen = by_trial(scene, stop)?;
+    choose_path_grid(&mut chosen, stop)?;
+    Ok(chosen)
+}
+
+/// The increments of elastic bodies, each branch with its error, before the path grid is chosen.
+pub(super) fn by_trial(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene, Error> {
+    let mut chosen = begun(scene);
     if scene.friction.mu == 0.0 {
         // Without friction the pressure depends on the loads alone, not on the path.
         let branches = chosen.path.branches.iter_mut();
@@ -93,8 +98,15 @@ pub fn choose_increments(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene,
             branch.path_error = Some(error.q);
         }
     }
-    choose_path_grid(&mut chosen, stop)?;
     Ok(chosen)
+}
+
+/// The scene with the increments of the first round and its tolerance.
+pub(super) fn begun(scene: &Scene) -> Scene {
+    let mut begun = scene.clone();
+    begun.settings.solver.tolerance = Some(scene.tolerance());
+    begin(&mut begun.path, scene.friction.mu > 0.0);
+    begun
 }
 
 /// The scene with the estimated error of the shear at the end of each branch.
@@ -129,8 +141,8 @@ fn choose_for_yielding(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene, E
 }
 
 /// The increments as chosen so far.
-struct Choice {
-    path: LoadPath,
+pub(super) struct Choice {
+    pub(super) path: LoadPath,
     /// Branches whose increments are chosen.
     open: Vec<bool>,
     /// Increments and error of a branch in the last round in which it was refined.
@@ -143,7 +155,8 @@ struct Choice {
 }
 
 impl Choice {
-    fn new(scene: &Scene, path: LoadPath) -> Self {
+    /// Of the branches of a scene that have none, starting from those of `path`.
+    pub(super) fn new(scene: &Scene, path: LoadPath) -> Self {
         let branches = scene.path.branches.iter();
         let open: Vec<bool> = branches.map(|b| b.increments.is_none()).collect();
         Self {
@@ -183,6 +196,20 @@ impl Choice {
             }
         }
         Ok(false)
+    }
+
+    /// The path up to the last branch that repeats no other.
+    pub(super) fn without_repeats(&self) -> LoadPath {
+        let mut part = self.path.clone();
+        part.branches.truncate(self.repeats.last() + 1);
+        part
+    }
+
+    /// Whether these errors are allowed, or nearly: those branches get more increments.
+    pub(super) fn stands(&mut self, errors: &[PathError]) -> bool {
+        let unsettled = self.refine(errors);
+        self.repeats.fill(&mut self.path.branches);
+        unsettled.is_none()
     }
 
     /// Refines the branches whose error is too large; returns the first that needs another round.

@@ -21,6 +21,8 @@ const SLIDING_ORDER: f64 = 1.0;
 /// Solver tolerance of these runs over the tolerance of the path: the errors of the increments add
 /// up.
 const SOLVER_SHARE: f64 = 1e-2;
+/// The same of runs of half of the increments, whose errors are three times as large.
+const HALF_SHARE: f64 = 3e-2;
 /// A grid is not halved below CELLS cells.
 const CELLS: usize = 32 * 32;
 /// Error of the increments on a grid of RESOLVED_CELLS cells or more, over that on coarser ones: coarser
@@ -28,12 +30,15 @@ const CELLS: usize = 32 * 32;
 /// wider there.
 const RESOLVED_CELLS: usize = 64 * 64;
 const MISSED: f64 = 1.25;
+/// Cells of the shorter side of the grid on which the increments of a neighbouring scene are checked.
+const FEW: usize = 32;
 /// Contact cells that a grid must have.
 const CONTACT: usize = 300;
 
 /// The same scene twice, for few increments and for many.
 pub(crate) struct Trial {
     runs: TwoRuns,
+    cells: (usize, usize),
     /// The error on the grid of the scene over that on the grid of the trial.
     missed: f64,
     /// Substeps in which a contact grows, as in the run itself.
@@ -43,15 +48,44 @@ pub(crate) struct Trial {
 }
 
 impl Trial {
-    /// On the coarsest grid on which the contact has at least [`CONTACT`] cells.
+    /// On the coarsest grid of halvings on which the contact has at least [`CONTACT`] cells.
     pub(crate) fn new(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Self, Error> {
-        let mut grids = vec![scene.grid];
-        while let Some(coarse) = grids.last().and_then(halved) {
-            grids.push(coarse);
+        Self::on_one_of(halvings(scene), scene, SOLVER_SHARE, stop)
+    }
+
+    /// For half of the increments and of the substeps of growth, on so many cells. If none are given,
+    /// smooth bodies are solved on [`FEW`] along the shorter side where no grid of halvings has as few.
+    pub(crate) fn of_half(
+        scene: &Scene,
+        cells: Option<(usize, usize)>,
+        stop: &Arc<AtomicBool>,
+    ) -> Result<Self, Error> {
+        let mut grids = halvings(scene);
+        match cells {
+            Some(cells) => grids = vec![with_cells(&scene.grid, cells)],
+            None => grids.extend(grids.last().and_then(|grid| few(scene, grid))),
         }
+        let mut trial = Self::on_one_of(grids, scene, HALF_SHARE, stop)?;
+        trial.growth_steps /= 2;
+        Ok(trial)
+    }
+
+    /// Cells along x and along y.
+    pub(crate) fn cells(&self) -> (usize, usize) {
+        self.cells
+    }
+
+    /// On the last of these grids on which the contact has enough cells, to this share of the
+    /// tolerance of the path.
+    fn on_one_of(
+        mut grids: Vec<Grid>,
+        scene: &Scene,
+        share: f64,
+        stop: &Arc<AtomicBool>,
+    ) -> Result<Self, Error> {
         let mut trial = scene.clone();
         let solver = &mut trial.settings.solver;
-        solver.tolerance = Some(solver.path_tolerance * SOLVER_SHARE);
+        solver.tolerance = Some(solver.path_tolerance * share);
         solver.path_grid = PathGrid::Same;
         let rolls = scene.path.branches.iter().any(|b| b.to.rolled != 0.0);
         while let Some(grid) = grids.pop() {
@@ -74,6 +108,7 @@ impl Trial {
         let coarse = trial.grid != scene.grid && trial.grid.nx * trial.grid.ny < RESOLVED_CELLS;
         Ok(Self {
             growth_steps: runs.growth_steps(),
+            cells: (trial.grid.nx, trial.grid.ny),
             runs,
             missed: if coarse && !scene.grid.plane_strain {
                 MISSED
@@ -148,6 +183,42 @@ fn most_contact(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<usize, Error> {
         most = most.max(of_trial(increment)?.contact_area);
     }
     Ok((most / cell_area).round() as usize)
+}
+
+/// The grid of a scene and the coarser ones that it can be halved to.
+fn halvings(scene: &Scene) -> Vec<Grid> {
+    let mut grids = vec![scene.grid];
+    while let Some(coarse) = grids.last().and_then(halved) {
+        grids.push(coarse);
+    }
+    grids
+}
+
+/// A grid of [`FEW`] cells along its shorter side, for smooth bodies.
+fn few(scene: &Scene, grid: &Grid) -> Option<Grid> {
+    let Grid { nx, ny, .. } = *grid;
+    let shorter = nx.min(ny);
+    if shorter <= FEW || grid.plane_strain || !scene.is_plain() {
+        return None;
+    }
+    let cells = |n: usize| 2 * ((n * FEW) as f64 / (2 * shorter) as f64).round() as usize;
+    Some(with_cells(grid, (cells(nx), cells(ny))))
+}
+
+/// The grid cut into so many cells.
+fn with_cells(grid: &Grid, (nx, ny): (usize, usize)) -> Grid {
+    let (length, width) = grid.extent();
+    Grid {
+        nx,
+        ny,
+        dx: length / nx as f64,
+        dy: if ny == grid.ny {
+            grid.dy
+        } else {
+            width / ny as f64
+        },
+        ..*grid
+    }
 }
 
 /// The grid of half as many cells each way, if that is fine enough.

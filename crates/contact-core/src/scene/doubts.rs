@@ -89,7 +89,7 @@ impl Scene {
     }
 
     /// Whether both surfaces are sums of paraboloids alone, so that nothing keeps a contact small.
-    pub(super) fn is_plain(&self) -> bool {
+    pub(crate) fn is_plain(&self) -> bool {
         fn plain(shape: &Shape) -> bool {
             match shape {
                 Shape::Flat | Shape::Sphere { .. } | Shape::Ellipsoid { .. } => true,

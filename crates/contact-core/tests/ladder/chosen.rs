@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use contact_core::estimate::choose_increments;
+use contact_core::estimate::{choose_increments, choose_increments_like};
 use contact_core::march::Increment;
 use contact_core::scene::{Elastic, LoadPath, Scene};
 use contact_reference::CattaneoMindlin;
@@ -135,6 +135,59 @@ fn cycles_get_the_increments_of_the_first() {
     let error = distance(&shear(&chosen), &shear(&many));
     let tolerance = scene.settings.solver.path_tolerance;
     assert!(error < tolerance, "{error:.2e} of {tolerance:.0e}");
+}
+
+/// The increments of a neighbour stand where one comparison allows them; a scene like itself, and one
+/// whose path is of another kind, get what they get alone. Nothing depends on what was chosen before.
+#[test]
+fn increments_of_a_neighbour_are_the_first_guess() {
+    let fretted = fretted(LoadPath::start().normal(W, None));
+    let coated_with = |E: f64, mu: f64, path: &LoadPath| {
+        let lower = Elastic { E: 100e9, nu: 0.3 };
+        let scene = sphere_on_flat(STEEL, lower, mu, (2.4, 48), path.clone());
+        let a = hertz_of(&scene).a;
+        coated(scene, Elastic { E, nu: 0.3 }, a)
+    };
+    let like = |scene: &Scene, neighbour: &Scene| {
+        choose_increments_like(scene, neighbour, &Arc::default()).expect("increments")
+    };
+    let neighbour = coated_with(420e9, MU, &fretted);
+    let alone = chosen(&neighbour);
+    assert_eq!(like(&neighbour, &neighbour), alone);
+    let mut pressed = neighbour.clone();
+    pressed.path.branches.truncate(2);
+    assert_eq!(like(&pressed, &neighbour), chosen(&pressed));
+    let counts = |of: &Scene| -> Vec<_> { of.path.branches.iter().map(|b| b.increments).collect() };
+    let mut kept = 0;
+    for (E, mu) in [(350e9, MU), (500e9, MU), (420e9, 0.5), (100e9, 0.6)] {
+        // With friction the loads are given as forces: the same part of mu W.
+        let mut path = fretted.clone();
+        for branch in &mut path.branches {
+            branch.to.T_x *= mu / MU;
+        }
+        let scene = coated_with(E, mu, &path);
+        let first = like(&scene, &neighbour);
+        assert_eq!(like(&scene, &neighbour), first);
+        kept += usize::from(counts(&first) == counts(&alone));
+        let tolerance = scene.settings.solver.path_tolerance;
+        for branch in &first.path.branches[1..] {
+            let error = branch.path_error.expect("an error");
+            assert!(error <= tolerance, "{E:e}, {mu}: {error:.2e}");
+        }
+        let mut many = first.clone();
+        for branch in &mut many.path.branches {
+            branch.increments = branch.increments.map(|n| 4 * n);
+        }
+        let error = distance(&shear(&first), &shear(&many));
+        assert!(
+            error < tolerance,
+            "{E:e}, {mu}: {error:.2e} of {tolerance:.0e}"
+        );
+    }
+    assert!(
+        kept >= 2,
+        "{kept} of 4 have the increments of the neighbour"
+    );
 }
 
 /// The shear at the end of a path.

@@ -1,0 +1,181 @@
+//! The increments of a scene from those of a neighbouring one.
+//!
+//! The increments n that were chosen for the neighbour are the first guess, and one comparison checks
+//! them: e is the change of the shear from n/4 to n/2 increments at the end of a branch, on a grid of
+//! few cells. The error E with n increments follows from that of the neighbour (0):
+//!
+//! ```text
+//! E = E_0 e/e_0
+//! ```
+//!
+//! The numbers stand where every error is allowed. A branch whose error is less than twice the allowed
+//! one gets more increments; beyond that they are chosen anew. The result depends on the two
+//! scenes alone, so that a study gives the same bits in any order and after an interruption. What is
+//! known of neighbours is kept for the process: a scene is the neighbour of many.
+
+use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use super::choice::{Choice, begun, by_trial, choose_increments};
+use super::path_grid::choose_path_grid;
+use super::trial::Trial;
+use super::two_runs::PathError;
+use crate::error::Error;
+use crate::scene::{LoadPath, Scene};
+
+/// Neighbours that are kept.
+const KEPT: usize = 16;
+
+/// What is known of scenes that others were compared with, the latest last.
+static KNOWN: Mutex<Vec<(Scene, Arc<Known>)>> = Mutex::new(Vec::new());
+
+/// The increments of a scene, and what a comparison of half of them gives.
+struct Known {
+    chosen: Scene,
+    /// Cells of the grid of the comparison.
+    cells: (usize, usize),
+    /// Changes e of the branches that repeat no other.
+    changes: Vec<f64>,
+}
+
+impl Known {
+    /// Chosen and compared.
+    fn new(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Self, Error> {
+        let chosen = by_trial(scene, stop)?;
+        let mut trial = Trial::of_half(&chosen, None, stop)?;
+        let path = Choice::new(scene, chosen.path.clone()).without_repeats();
+        let changes = trial.errors(&halved(path), |_| true)?;
+        Ok(Self {
+            chosen,
+            cells: trial.cells(),
+            changes: changes.iter().map(|change| change.q).collect(),
+        })
+    }
+
+    /// Of a scene, computed once in a process.
+    fn of(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Arc<Self>, Error> {
+        let store = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+        let found = |all: &[(Scene, Arc<Self>)]| {
+            let found = all.iter().find(|(of, _)| of == scene);
+            found.map(|(_, known)| known.clone())
+        };
+        if let Some(known) = found(&store()) {
+            return Ok(known);
+        }
+        let known = Arc::new(Self::new(scene, stop)?);
+        let mut all = store();
+        if all.len() == KEPT {
+            all.remove(0);
+        }
+        all.push((scene.clone(), known.clone()));
+        Ok(known)
+    }
+}
+
+/// As [`choose_increments`], with those of a neighbouring scene as the first guess.
+///
+/// They are chosen anew where the branches of the two paths are of different kinds, a branch of one of
+/// them has its number, the bodies yield, or one comparison says that an error is more than twice the
+/// allowed one. Ends when `stop` is raised: [`Error::Interrupted`] after increment 0.
+pub fn choose_increments_like(
+    scene: &Scene,
+    neighbour: &Scene,
+    stop: &Arc<AtomicBool>,
+) -> Result<Scene, Error> {
+    if !(is_open(scene) && is_open(neighbour)) {
+        return choose_increments(scene, stop);
+    }
+    scene.check()?;
+    if neighbour.check().is_err() {
+        return choose_increments(scene, stop);
+    }
+    let known = match Known::of(&plain(neighbour), stop) {
+        Ok(known) => known,
+        Err(error @ Error::Interrupted { .. }) => return Err(error),
+        // A neighbour that has no solution says nothing of the scene.
+        Err(_) => return choose_increments(scene, stop),
+    };
+    let scene_alone = plain(scene);
+    let found = if plain(neighbour) == scene_alone {
+        Some(known.chosen.path.clone())
+    } else {
+        checked(scene, &known, stop)?
+    };
+    let Some(path) = found else {
+        return choose_increments(scene, stop);
+    };
+    let mut chosen = begun(scene);
+    chosen.path = path;
+    choose_path_grid(&mut chosen, stop)?;
+    Ok(chosen)
+}
+
+/// Whether all increments of a scene are to be chosen by trial.
+fn is_open(scene: &Scene) -> bool {
+    let mut branches = scene.path.branches.iter();
+    branches.all(|branch| branch.increments.is_none())
+        && scene.friction.mu > 0.0
+        && !scene.friction.varies()
+        && !scene.yields()
+}
+
+/// The scene without what does not change its increments.
+fn plain(scene: &Scene) -> Scene {
+    let mut plain = scene.clone();
+    plain.title.clear();
+    plain
+}
+
+/// The path with the increments of a neighbour, if one comparison allows them.
+fn checked(
+    scene: &Scene,
+    known: &Known,
+    stop: &Arc<AtomicBool>,
+) -> Result<Option<LoadPath>, Error> {
+    let mut begun = begun(scene);
+    let of_neighbour = &known.chosen.path.branches;
+    let kinds = begun.path.branches.iter().zip(of_neighbour);
+    let cells = |of: &Scene| (of.grid.nx, of.grid.ny, of.grid.plane_strain);
+    let alike = cells(scene) == cells(&known.chosen)
+        && begun.path.branches.len() == of_neighbour.len()
+        && kinds
+            .into_iter()
+            .all(|(of, other)| of.spacing == other.spacing);
+    if !alike {
+        return Ok(None);
+    }
+    for (branch, other) in begun.path.branches.iter_mut().zip(of_neighbour) {
+        branch.increments = other.increments;
+    }
+    let mut choice = Choice::new(scene, begun.path.clone());
+    let path = choice.without_repeats();
+    if path.branches.len() != known.changes.len() {
+        return Ok(None);
+    }
+    let mut trial = Trial::of_half(&begun, Some(known.cells), stop)?;
+    let changes = match trial.errors(&halved(path), |_| true) {
+        Ok(changes) => changes,
+        Err(error @ Error::Interrupted { .. }) => return Err(error),
+        Err(_) => return Ok(None),
+    };
+    let of_neighbour = of_neighbour.iter().zip(&known.changes);
+    let errors: Option<Vec<PathError>> = changes
+        .into_iter()
+        .zip(of_neighbour)
+        .map(|(change, (branch, before))| {
+            let error = branch.path_error?;
+            let ratio = error / before;
+            ratio.is_finite().then(|| change.times(ratio))
+        })
+        .collect();
+    let stands = errors.is_some_and(|errors| choice.stands(&errors));
+    Ok(stands.then_some(choice.path))
+}
+
+/// The path with half of the increments.
+fn halved(mut path: LoadPath) -> LoadPath {
+    for branch in &mut path.branches {
+        branch.set_equal_increments((branch.equal_increments() / 2).max(1));
+    }
+    path
+}
