@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -110,3 +112,69 @@ def test_a_response_of_ones_own_is_converted_as_the_paper_does() -> None:
 def test_a_response_of_another_shape_is_refused() -> None:
     with pytest.raises(ValueError, match="one matrix per wave vector"):
         fret.kernels.convert(lambda k_x, k_y: np.ones((5, 3, 3), dtype=complex), GRID)
+
+
+@pytest.mark.parametrize(
+    "grid",
+    [fret.Grid.strip(extent=2e-4, n=24), fret.Grid.from_spacing((12, 9), (1e-5, 2e-5))],
+    ids=["line", "plane"],
+)
+def test_eigenstrains_and_tractions_answer_each_other_alike(grid: fret.Grid) -> None:
+    """Reciprocity of a coated body: t . u[e] over the surface is sigma[t] : e over the volume."""
+    layer = fret.Coating(fret.Elastic(E=400e9, nu=0.2), thickness=20e-6)
+    body = fret.Body(fret.Elastic(E=210e9, nu=0.3), coatings=[layer])
+    operator = fret.kernels.EigenstrainOperator(body, grid, depth=6e-5, height=1e-5)
+    assert set(operator.layer) == {0, 1}
+    assert (np.diff(operator.z) > 0.0).all()
+    rng = np.random.default_rng(3)
+    e = rng.normal(size=(operator.z.size, 6, grid.nx, grid.ny))
+    t = rng.normal(size=(3, grid.nx, grid.ny))
+    _, u = operator.apply(e)
+    stress, _ = operator.apply(q_x=t[0], q_y=t[1], p=t[2])
+    twice = np.array([1.0, 1.0, 1.0, 2.0, 2.0, 2.0])[:, None, None]
+    parts = stress * e * twice * operator.weights[:, None, None, None]
+    assert abs((u * t).sum() - parts.sum()) < 1e-10 * np.abs(parts).sum()
+
+
+def test_a_uniform_thermal_strain_of_a_layer_presses_it() -> None:
+    """A heated layer, 128 times as wide as thick, is under -E alpha dT/(1 - nu) along x and y."""
+    E, nu, strain = 210e9, 0.3, 1e-3
+    grid = fret.Grid.centred(extent=64e-6, n=32)
+    operator = fret.kernels.EigenstrainOperator(
+        fret.Body(fret.Elastic(E=E, nu=nu)), grid, depth=5e-7, height=2.5e-7
+    )
+    e = np.zeros((operator.z.size, 6, 32, 32))
+    e[operator.z < 5e-7, :3] = strain
+    stress, _ = operator.apply(e)
+    middle = stress[0, :, 15, 15]
+    biaxial = -E * strain / (1.0 - nu)
+    np.testing.assert_allclose(middle[:2], biaxial, rtol=0.03)
+    assert abs(middle[2]) < 0.03 * abs(biaxial)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"depth": 0.0}, "depth"),
+        ({"height": float("nan")}, "height"),
+        ({"height": 1e-12}, "height"),
+        ({"body": fret.Body(fret.RIGID)}, "E"),
+    ],
+)
+def test_an_eigenstrain_operator_without_meaning_is_refused(
+    change: dict[str, Any], message: str
+) -> None:
+    """Lengths that are none, and a rigid body."""
+    given = {
+        "body": fret.Body(fret.Elastic(E=210e9, nu=0.3)),
+        "grid": fret.Grid.centred(extent=1e-4, n=8),
+        "depth": 2e-5,
+        "height": 1e-5,
+    }
+    with pytest.raises(ValueError, match=message):
+        fret.kernels.EigenstrainOperator(**{**given, **change})
+    operator = fret.kernels.EigenstrainOperator(**given)
+    with pytest.raises(ValueError, match="eigenstrain has the shape"):
+        operator.apply(np.zeros((1, 6, 8, 8)))
+    with pytest.raises(ValueError, match="must be a finite number"):
+        operator.apply(p=np.full((8, 8), np.inf))

@@ -3,6 +3,7 @@ from os import PathLike
 from typing import Any, Final, Literal, final
 
 import numpy as np
+from _typeshed import Incomplete
 from numpy import bool_, float64
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import Self
@@ -860,6 +861,99 @@ class Cylinder:
         """Length along the axis [m]; infinite for one that leaves the grid."""
     def replace(self, /, **changes: Any) -> Self:
         """The same with some of its parts exchanged, named as in the constructor."""
+
+@final
+class EigenstrainOperator:
+    """
+    Stress and surface displacement that eigenstrains and tractions cause in a body.
+
+    An eigenstrain e is a strain without stress: plastic strain, thermal strain, a misfit::
+
+        sigma = C : (eps(u) - e),   div sigma = 0,   sigma_iz = -t_i at z = 0,   u -> 0 below
+
+    with z into the body, tension positive, bonded layers, and t = q_x, q_y, p on the surface. Fields
+    are trigonometric polynomials on the cells; in depth they are quadratic elements with two Gauss
+    points each. There are no periodic images, and t . u[e] = sigma[t] : e holds to rounding.
+
+    Parameters
+    ----------
+    body : Body
+        Homogeneous or coated; its shape does not matter.
+    grid : Grid
+        Cells on which eigenstrain and tractions are given.
+    depth : float
+        Depth down to which the elements are of equal height [m]. Growing ones follow down to twice
+        that depth, and through the coatings.
+    height : float
+        Height of an element [m]; a layer has two at least.
+
+    Examples
+    --------
+    >>> from pyfret import Body, Elastic, Grid
+    >>> from pyfret.kernels import EigenstrainOperator
+    >>> steel = Body(Elastic(E=210e9, nu=0.3))
+    >>> grid = Grid.centred(extent=4e-4, n=16)
+    >>> operator = EigenstrainOperator(steel, grid, depth=1e-4, height=2e-5)
+    >>> stress, displacement = operator.apply(p=[[0.0] * 16] * 16)
+    >>> stress.shape == (operator.z.size, 6, 16, 16), displacement.shape
+    (True, (3, 16, 16))
+    """
+
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self, /) -> int: ...
+    def __new__(
+        cls, /, body: Body, grid: Grid, *, depth: float, height: float
+    ) -> EigenstrainOperator: ...
+    def __reduce__(self, /) -> tuple[Any, tuple[Any, ...]]: ...
+    def __repr__(self, /) -> str: ...
+    def apply(
+        self,
+        /,
+        eigenstrain: ArrayLike | None = None,
+        *,
+        p: ArrayLike | None = None,
+        q_x: ArrayLike | None = None,
+        q_y: ArrayLike | None = None,
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """
+        Stress on the planes [Pa] and displacement of the surface [m].
+
+        Parameters
+        ----------
+        eigenstrain : array of shape (planes, 6, nx, ny), optional
+            xx, yy, zz, xy, xz, yz on each plane, tensor components (default: none).
+        p, q_x, q_y : array of shape (nx, ny), optional
+            Tractions on the body [Pa] (default: none).
+
+        Returns
+        -------
+        stress : array of shape (planes, 6, nx, ny)
+            [Pa]
+        displacement : array of shape (3, nx, ny)
+            u_x, u_y, u_z, with z into the body [m]. In plane strain that of tractions is relative to a
+            point far away.
+        """
+    @property
+    def body(self, /) -> Body:
+        """The body."""
+    @property
+    def depth(self, /) -> float:
+        """Depth down to which the elements are of equal height [m]."""
+    @property
+    def grid(self, /) -> Grid:
+        """Its cells."""
+    @property
+    def height(self, /) -> float:
+        """Height of an element [m]."""
+    @property
+    def layer(self, /) -> Incomplete:
+        """Layer of each plane, from the surface down."""
+    @property
+    def weights(self, /) -> Incomplete:
+        """Height that each plane stands for [m]: an integral over depth is the sum with these."""
+    @property
+    def z(self, /) -> Incomplete:
+        """Depth of each plane of Gauss points [m]."""
 
 @final
 class Eigenstress:
@@ -1911,10 +2005,16 @@ class PerRange:
 @final
 class Plastic:
     """
-    Yielding after von Mises, with linear isotropic and linear kinematic hardening.
+    Yielding after von Mises, with isotropic and kinematic hardening.
 
-    The yield stress is s_y + hardening p, with p the equivalent plastic strain. The back stress is
-    2/3 kinematic e_p (Prager).
+    The yield stress is the sum of what is given, with p the equivalent plastic strain::
+
+        R(p) = s_y + hardening p + voce_Q (1 - exp(-voce_b p)) + s_y ((1 + p/swift_e_0)^swift_n - 1)
+
+    The back stress is 2/3 kinematic e_p (Prager) and the sum of up to three terms with recall
+    (Chaboche)::
+
+        dX_i = 2/3 C_i de_p - gamma_i X_i dp
 
     Parameters
     ----------
@@ -1922,13 +2022,21 @@ class Plastic:
         Yield stress [Pa], positive.
     hardening : float
         Growth of the yield stress per equivalent plastic strain [Pa], 0 or more (default 0).
+    voce_Q, voce_b : float
+        Growth of the yield stress at which it saturates [Pa], and rate (default 0, none).
+    swift_e_0, swift_n : float
+        Strain and exponent of a power law (default 0, none).
     kinematic : float
-        Kinematic hardening [Pa], 0 or more (default 0).
+        Linear kinematic hardening [Pa], 0 or more (default 0).
+    chaboche_C, chaboche_gamma : float or sequence of float
+        Moduli [Pa] and rates of recall of up to three back stresses (default none).
 
     Examples
     --------
     >>> Elastic(E=210e9, nu=0.3, plastic=Plastic(s_y=900e6, hardening=5e9)).plastic.s_y
     900000000.0
+    >>> Plastic(s_y="250 MPa", chaboche_C=["60 GPa", "5 GPa"], chaboche_gamma=[400, 20]).chaboche_C
+    [60000000000.0, 5000000000.0]
     """
 
     def __eq__(self, value: object, /) -> bool: ...
@@ -1936,21 +2044,50 @@ class Plastic:
     def __hash__(self, /) -> int: ...
     def __ne__(self, value: object, /) -> bool: ...
     def __new__(
-        cls, /, *, s_y: float, hardening: float = 0.0, kinematic: float = 0.0
+        cls,
+        /,
+        *,
+        s_y: float,
+        hardening: float = 0.0,
+        voce_Q: float = 0.0,
+        voce_b: float = 0.0,
+        swift_e_0: float = 0.0,
+        swift_n: float = 0.0,
+        kinematic: float = 0.0,
+        chaboche_C: float | Sequence[float] | None = None,
+        chaboche_gamma: float | Sequence[float] | None = None,
     ) -> Plastic: ...
     def __replace__(self, /, **changes: Any) -> Self: ...
     def __repr__(self, /) -> str: ...
     @property
+    def chaboche_C(self, /) -> list[float]:
+        """Moduli of the back stresses with recall [Pa]."""
+    @property
+    def chaboche_gamma(self, /) -> list[float]:
+        """Their rates of recall."""
+    @property
     def hardening(self, /) -> float:
-        """Isotropic hardening [Pa]."""
+        """Linear isotropic hardening [Pa]."""
     @property
     def kinematic(self, /) -> float:
-        """Kinematic hardening [Pa]."""
+        """Linear kinematic hardening [Pa]."""
     def replace(self, /, **changes: Any) -> Self:
         """The same with some of its parts exchanged, named as in the constructor."""
     @property
     def s_y(self, /) -> float:
         """Yield stress [Pa]."""
+    @property
+    def swift_e_0(self, /) -> float:
+        """Strain of Swift's hardening."""
+    @property
+    def swift_n(self, /) -> float:
+        """Exponent of Swift's hardening."""
+    @property
+    def voce_Q(self, /) -> float:
+        """Growth of the yield stress at which Voce's hardening saturates [Pa]."""
+    @property
+    def voce_b(self, /) -> float:
+        """Rate of Voce's hardening."""
 
 @final
 class PlasticBody:
@@ -3271,6 +3408,7 @@ __all__ = [
     "CrownedRoller",
     "CycleSection",
     "Cylinder",
+    "EigenstrainOperator",
     "Eigenstress",
     "Elastic",
     "Ellipsoid",

@@ -1,4 +1,4 @@
-"""The response of a body to tractions on its surface, for people who build their own models.
+"""The response of a body to tractions and eigenstrains, for people who build their own models.
 
 Columns of every response are the tractions q_x, q_y, p on the body; tension is positive in
 stresses, and displacements are those of the surface of body 2, z pointing into it.
@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pyfret import _core
-from pyfret._core import influence_coefficients, stress_at, stress_coefficients
+from pyfret._core import EigenstrainOperator, influence_coefficients, stress_at, stress_coefficients
 from pyfret._util.arrays import plain
 from pyfret._util.names import listing
 
@@ -22,7 +22,14 @@ if TYPE_CHECKING:
 
     from pyfret._core import Body, Grid
 
-__all__ = ["convert", "influence_coefficients", "stress_at", "stress_coefficients", "surface_frf"]
+__all__ = [
+    "EigenstrainOperator",
+    "convert",
+    "influence_coefficients",
+    "stress_at",
+    "stress_coefficients",
+    "surface_frf",
+]
 __dir__ = listing(__all__)
 
 

@@ -19,9 +19,8 @@ const STEEL: Elastic = Elastic { E: 210e9, nu: 0.3 };
 
 fn law(s_y: f64, hardening: f64) -> Plastic {
     Plastic {
-        s_y,
-        hardening,
-        kinematic: 0.0,
+        hardening: hardening,
+        ..Plastic::perfect(s_y)
     }
 }
 

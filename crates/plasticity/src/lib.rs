@@ -1,19 +1,22 @@
 //! Bodies that yield: von Mises plasticity with isotropic and kinematic hardening, on plain arrays.
 //!
 //! ```text
-//! f = sqrt(3/2) |s - X| - R(p) <= 0,   R = s_y + H p,   X = 2/3 C e_p
+//! f = sqrt(3/2) |s - X| - R(p) <= 0,   X = 2/3 C e_p + sum X_i
 //! de_p = dp N,   N = 3/2 (s - X)/(sqrt(3/2) |s - X|),   dp = sqrt(2/3 de_p : de_p)
+//! dX_i = 2/3 C_i de_p - gamma_i X_i dp
 //! ```
 //!
 //! with s the deviator of the stress, e_p the plastic strain (no change of volume), p the equivalent
-//! plastic strain, H the isotropic and C the linear kinematic hardening (Prager). A [`Plastic`] is
+//! plastic strain. R(p) is the sum of the isotropic laws ([`ISOTROPIC`]: linear, Voce, Swift), C the linear
+//! kinematic hardening (W. Prager, 1956), C_i and gamma_i those with recall (P. J. Armstrong, C. O.
+//! Frederick, CEGB report RD/B/N 731, 1966; J.-L. Chaboche, Int. J. Plast. 2 (1986) 149-188). A [`Plastic`] is
 //! these numbers; [`Point::at`] is the return of one point to its yield surface within an increment.
 //! Components are xx, yy, zz, xy, xz, yz, tensor components of the strain.
 //!
 //! ```
 //! use plasticity::{Plastic, Point};
 //!
-//! let steel = Plastic { s_y: 900e6, hardening: 5e9, kinematic: 0.0 };
+//! let steel = Plastic { hardening: 5e9, ..Plastic::perfect(900e6) };
 //! steel.check("plastic")?;
 //! // A strain in shear of 1 %, held: the stress falls back to the yield surface.
 //! let mu = 80e9;
@@ -30,7 +33,7 @@
 mod law;
 mod point;
 
-pub use law::{Error, Plastic};
+pub use law::{BACK_STRESSES, Error, ISOTROPIC, Isotropic, NUMBERS, Number, Plastic};
 pub use point::{Point, Returned, YIELDS};
 
 /// Components of a symmetric tensor.

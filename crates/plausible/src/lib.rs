@@ -207,6 +207,8 @@ pub const QUANTITIES: &[Quantity] = &[
             "dS_0",
             "hardening",
             "kinematic",
+            "voce_Q",
+            "chaboche_C",
             "stress_amplitude",
         ],
         (1e5, ANY),

@@ -172,7 +172,7 @@ impl<'a, 'py, D: Dimension + 'py> FromPyObject<'a, 'py> for Mask<'py, D> {
 
 /// Refuses arrays of so many numbers of so many bytes whose copies do not fit: one that repeats its numbers takes no memory,
 /// a copy of it does.
-fn must_fit(numbers: usize, bytes: f64) -> PyResult<()> {
+pub(crate) fn must_fit(numbers: usize, bytes: f64) -> PyResult<()> {
     if COPIES * bytes * numbers as f64 > available_memory() {
         return Err(PyMemoryError::new_err(format!(
             "an array of {numbers} numbers does not fit into memory"

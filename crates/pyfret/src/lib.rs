@@ -20,6 +20,7 @@ mod assess;
 mod command_line;
 mod document;
 mod doubts;
+mod eigenstrain;
 mod error;
 mod fatigue;
 mod forked;
@@ -58,6 +59,8 @@ mod _core {
     use crate::command_line::run_command;
     #[pymodule_export]
     use crate::doubts::{doubt, measured_by, unit_of, units};
+    #[pymodule_export]
+    use crate::eigenstrain::EigenstrainOperator;
     #[pymodule_export]
     use crate::error::{
         ArgumentError, InvalidSceneError, KernelInaccurateError, NoConvergenceError, OffGridError,

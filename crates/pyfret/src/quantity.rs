@@ -50,6 +50,7 @@ macro_rules! taken {
 taken! {
     E thickness R R_x R_y length crown radius edge amplitude wavelength angle phase slope
     W T_x T_y M_x M_y M_z delta_x delta_y phi_z sigma_B sigma_B1 rolled stiffness
+    s_y hardening voce_Q kinematic
 }
 
 /// Refuses an argument that is unknown, with the nearest one.

@@ -1,6 +1,6 @@
 //! Residual stress as Python gives it: a stress, or a table over depth.
 
-use contact_core::scene::{Profile as Core, ResidualStress};
+use contact_core::scene::{Body, Profile as Core, ResidualStress};
 use pyo3::exceptions::PyValueError;
 use pyo3::inspect::PyStaticExpr;
 use pyo3::prelude::*;
@@ -10,7 +10,6 @@ use crate::arguments::List;
 use crate::error::to_python;
 use crate::hints::ARRAY_LIKE;
 use crate::quantity::si;
-use crate::scene::Body;
 
 /// Residual stress of one layer: a number, or rows of depth and stress.
 #[derive(Clone, Default)]
@@ -22,7 +21,7 @@ pub(crate) type Profiles = Option<List<Profile>>;
 /// The residual stress of a body: what is given for each layer, or its own.
 pub(crate) fn of_body(body: &Body, given: Profiles) -> PyResult<ResidualStress> {
     let layers = given.unwrap_or_default().into_iter().map(|layer| layer.0);
-    ResidualStress::given(&body.0, &layers.collect::<Vec<_>>()).map_err(to_python)
+    ResidualStress::given(body, &layers.collect::<Vec<_>>()).map_err(to_python)
 }
 
 impl<'py> FromPyObject<'_, 'py> for Profile {

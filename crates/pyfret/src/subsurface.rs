@@ -156,7 +156,7 @@ pub(crate) fn section_of_states<'py>(
         side(body_number)?,
     );
     let stop = Arc::default();
-    let residual = of_body(&body, residual)?;
+    let residual = of_body(&body.0, residual)?;
     let eigenstress = of_states(eigenstress);
     let found = interruptible(py, &stop, || {
         let states = core::States {
@@ -293,7 +293,7 @@ impl Subsurface {
             fields: [cells("q_x", q_x)?, cells("q_y", q_y)?, cells("p", p)?],
             side: side(body_number)?,
             sigma_B,
-            residual: of_body(&body, residual)?,
+            residual: of_body(&body.0, residual)?,
             eigenstress: of_states(eigenstress),
             body,
             grid,

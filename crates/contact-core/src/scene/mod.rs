@@ -22,6 +22,7 @@ mod residual_stress;
 mod resolution;
 mod settings;
 mod shape;
+mod stress_profile;
 mod surface_map;
 mod validity;
 mod yields;
@@ -40,14 +41,15 @@ pub use loads::{Given, Loads};
 pub use missing::Missing;
 pub use motion::{Prescribed, RigidMotion};
 pub use number_files::{FileOfNumbers, tolerant as text_of_numbers};
-pub use plasticity::Plastic;
-pub use residual_stress::{Profile, ResidualStress};
+pub use plasticity::{BACK_STRESSES, Plastic};
+pub use residual_stress::ResidualStress;
 pub use resolution::{FEW_CELLS, FEWEST_CELLS};
 pub use settings::{
     KernelMethod, KernelSettings, PathGrid, Preset, SaveFields, Settings, SkipSettings,
     SolverSettings,
 };
 pub use shape::{Rough, Shape};
+pub use stress_profile::Profile;
 pub use surface_map::SurfaceMap;
 pub use validity::Breadth;
 pub use yields::FirstYield;

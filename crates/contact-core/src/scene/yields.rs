@@ -10,7 +10,8 @@ fn begins(nu: f64) -> f64 {
     1.234 + 1.256 * nu
 }
 
-/// Mean pressure over the yield stress that a body without hardening bears.
+/// Mean pressure over the largest yield stress that a body bears whose hardening ends: its hardness (D. Tabor,
+/// The Hardness of Metals, 1951; K. L. Johnson, Contact Mechanics, 1985, section 6.3).
 const MOST_PRESSURE: f64 = 2.8;
 /// Loads at which the mean pressure comes to that, over that of first yield: 0.94 (w/w_c)^1.263 at the
 /// approach w = 110 w_c (L. Kogut, I. Etsion, J. Appl. Mech. 69 (2002) 657-662, eqs. 13, 14).
@@ -60,17 +61,16 @@ impl Scene {
         self.check_mean_pressure(number + 1)
     }
 
-    /// Fails where the mean pressure is more than a homogeneous body without hardening bears.
+    /// Fails where the mean pressure is more than a homogeneous body bears whose hardening ends.
     fn check_mean_pressure(&self, number: usize) -> Result<(), Error> {
         let bodies = [&self.body1, &self.body2];
-        let perfect = |number: usize| {
+        let most_of = |number: usize| {
             let body = bodies[number - 1];
-            let law = body.plastic(0).filter(plasticity::Plastic::is_perfect)?;
-            body.coatings
-                .is_empty()
-                .then_some((law.s_y, body.substrate.nu))
+            let most = body.plastic(0).map(|law| law.most());
+            let most = most.filter(|most| most.is_finite() && body.coatings.is_empty())?;
+            Some((most, body.substrate.nu))
         };
-        let Some((s_y, nu)) = perfect(number) else {
+        let Some((s_y, nu)) = most_of(number) else {
             return Ok(());
         };
         let W = self.path.W_max();
@@ -91,10 +91,10 @@ impl Scene {
         }
         Err(Error::invalid(
             format!("body{number}.plastic.hardening"),
-            format!("0 (none), and W = {W:.3e} N"),
+            format!("0 (none), with a yield stress of at most {s_y:.3e} Pa, and W = {W:.3e} N"),
             format!(
-                "above 0, or a W of at most {fully:.3e} N: the mean pressure then comes to {MOST_PRESSURE} s_y, \
-                 the most that a body without hardening bears"
+                "above 0, or a W of at most {fully:.3e} N: the mean pressure then comes to {MOST_PRESSURE} s_y of \
+                 that stress, the most that a body without more hardening bears"
             ),
         ))
     }

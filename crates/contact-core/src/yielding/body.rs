@@ -1,16 +1,15 @@
 //! One body that yields.
 
-use eigenstrain::{Answer, COMPONENTS, Layer, Mesh, Operator, Sources};
+use eigenstrain::{Answer, COMPONENTS, Cells, Layer, Mesh, Operator, Sources};
 use plasticity::{
-    Plastic, Point, Returned, Tensor, YIELDS, contraction, deviator, equivalent_strain,
-    equivalent_stress,
+    Plastic, Point, Returned, Tensor, YIELDS, contraction, deviator, equivalent_stress,
 };
 use rayon::prelude::*;
 
 use super::state::{PlasticPoint, PlasticState};
 use super::volume::Volume;
 use crate::error::Error;
-use crate::scene::{Body, ResidualStress};
+use crate::scene::{Body, Bond, ResidualStress};
 
 /// Largest change of the stress in a pass, over the yield stress, of a plastic strain that is taken.
 pub(super) const TOLERANCE: f64 = 1e-4;
@@ -58,19 +57,33 @@ pub(super) struct YieldingBody {
     active: Vec<(usize, Point, Returned)>,
 }
 
+/// The mesh of a body: [`Mesh::graded`] of its layers, lengths in \[m\].
+pub fn mesh_of(
+    body: &Body,
+    cells: Cells,
+    depth: f64,
+    heights: [f64; 2],
+    reach: f64,
+) -> Result<Mesh, Error> {
+    let bonds = (0..body.coatings.len()).map(|layer| body.bond(layer));
+    if bonds.into_iter().any(|bond| bond != Bond::PERFECT) {
+        let allowed = "left out: layers are bonded perfectly here";
+        return Err(Error::invalid("bond", "compliant", allowed));
+    }
+    let layer = |E: f64, nu: f64, thickness: f64| Layer { E, nu, thickness };
+    let coatings = body.coatings.iter();
+    let mut layers: Vec<Layer> = coatings
+        .map(|c| layer(c.material.E, c.material.nu, c.thickness))
+        .collect();
+    layers.push(layer(body.substrate.E, body.substrate.nu, f64::INFINITY));
+    Mesh::graded(cells, layers, depth, heights, reach)
+        .map_err(|e| Error::invalid(e.key, e.value, e.allowed))
+}
+
 impl YieldingBody {
     pub(super) fn new(number: usize, body: &Body, volume: &Volume) -> Result<Self, Error> {
-        let key = format!("body{number}.plastic");
-        let refused = |e: eigenstrain::Error| Error::invalid(&key, e.value, e.allowed);
-        let layer = |E: f64, nu: f64, thickness: f64| Layer { E, nu, thickness };
-        let coatings = body.coatings.iter();
-        let mut layers: Vec<Layer> = coatings
-            .map(|c| layer(c.material.E, c.material.nu, c.thickness))
-            .collect();
-        layers.push(layer(body.substrate.E, body.substrate.nu, f64::INFINITY));
         let depth = volume.depth[number - 1];
-        let mesh = Mesh::graded(volume.cells, layers, depth, volume.heights, volume.reach)
-            .map_err(refused)?;
+        let mesh = mesh_of(body, volume.cells, depth, volume.heights, volume.reach)?;
         let law = |plane: usize| {
             let layer = mesh.layer(plane);
             let [_, mu] = mesh.layers()[layer].lame();
@@ -141,13 +154,9 @@ impl YieldingBody {
                 strain: known.strain,
                 equivalent: known.equivalent,
                 flow: known.flow,
+                back: known.back,
             };
-            let unchanged = Returned {
-                strain: known.strain,
-                equivalent: known.equivalent,
-                flow: [0.0; COMPONENTS],
-            };
-            self.active.push((point, start, unchanged));
+            self.active.push((point, start, start.unchanged()));
             for c in 0..COMPONENTS {
                 let at = self.at(point, c);
                 self.strain[at] = known.strain[c];
@@ -363,6 +372,7 @@ impl YieldingBody {
                     strain: end.strain,
                     equivalent: end.equivalent,
                     flow: end.flow,
+                    back: end.back,
                     growth: std::array::from_fn(|c| end.strain[c] - start.strain[c]),
                 })
                 .collect(),
@@ -377,8 +387,7 @@ impl YieldingBody {
         }
     }
 
-    /// Plastic work of the increment \[J\], int sigma : de_p = R dp + d(C/2 e_eq^2) at the yield
-    /// surface.
+    /// Plastic work of the increment \[J\].
     pub(super) fn work(&self, volume: &Volume) -> f64 {
         let (mesh, cells) = (self.mesh(), self.cells());
         let of_point = |(point, start, end): &(usize, Point, Returned)| {
@@ -386,24 +395,23 @@ impl YieldingBody {
             let Some((law, _)) = &self.laws[plane] else {
                 return 0.0;
             };
-            let (p, q) = (start.equivalent, end.equivalent);
-            let [before, after] = [&start.strain, &end.strain].map(equivalent_strain);
-            let isotropic = (q - p) * (law.s_y + 0.5 * law.hardening * (p + q));
-            let kinematic = 0.5 * law.kinematic * (after * after - before * before);
-            mesh.weight(plane) * (isotropic + kinematic)
+            mesh.weight(plane) * start.work(law, end)
         };
         volume.cells.area() * self.active.iter().map(of_point).sum::<f64>()
     }
 
     /// Elastic energy of the residual stress \[J\] in the last pass, -1/2 int sigma_res : e dV. The
     /// stress is that of the tractions t, too, whose work on the strain is that on its displacement u[e]
-    /// (Betti): 1/2 (sum t . u[e] dA - int sigma : e dV).
+    /// (Betti): 1/2 (sum t . u[e] dA - int sigma : e dV). A residual stress s_R before the first load is in
+    /// balance without tractions, so that it adds -int s_R : e dV.
     pub(super) fn locked(&self, volume: &Volume) -> f64 {
         let cells = self.cells();
         let of_point = |(point, ..): &(usize, Point, Returned)| {
             let [stress, strain]: [Tensor; 2] = [&self.stress, &self.strain]
                 .map(|field| std::array::from_fn(|c| field[self.at(*point, c)]));
-            self.mesh().weight(point / cells) * contraction(&stress, &strain)
+            let [xx, yy] = self.initial[point / cells];
+            let initial = xx * strain[0] + yy * strain[1];
+            self.mesh().weight(point / cells) * (contraction(&stress, &strain) + 2.0 * initial)
         };
         let of_stress: f64 = self.active.iter().map(of_point).sum();
         let displaced = self.tractions.iter().flatten().zip(&self.next_displacement);

@@ -23,6 +23,7 @@ mod volume;
 use ndarray::Array2;
 
 use self::anderson::Anderson;
+pub use self::body::mesh_of;
 use self::body::{TOLERANCE, YieldingBody};
 pub use self::state::{PlasticPoint, PlasticState, Yielded};
 pub use self::volume::Volume;

@@ -1,6 +1,6 @@
 //! The plastic state that the next increment depends on.
 
-use plasticity::Tensor;
+use plasticity::{BACK_STRESSES, Tensor};
 use serde::{Deserialize, Serialize};
 
 /// A point that has yielded.
@@ -16,6 +16,8 @@ pub struct PlasticPoint {
     pub equivalent: f64,
     /// Direction of flow in the last increment; zero if it did not yield there.
     pub flow: Tensor,
+    /// Back stresses with recall \[Pa\], with z into the body.
+    pub back: [Tensor; BACK_STRESSES],
     /// Growth of the plastic strain in the last increment, from which the next one is guessed.
     pub growth: Tensor,
 }

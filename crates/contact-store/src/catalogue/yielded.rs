@@ -50,6 +50,17 @@ const fn strain(
     }
 }
 
+const fn back_stress(
+    name: &'static str,
+    long_name: &'static str,
+    value: fn(usize, usize, &PlasticPoint) -> f64,
+) -> OfPoint {
+    OfPoint {
+        units: "Pa",
+        ..strain(name, long_name, value)
+    }
+}
+
 /// The variables over [`POINTS`] of a scene that may yield.
 pub const YIELDED: &[OfPoint] = &[
     count(
@@ -97,7 +108,42 @@ pub const YIELDED: &[OfPoint] = &[
         "plastic strain yz, z into the body",
         |_, _, point| point.strain[5],
     ),
+    back_stress(
+        "back_stress_xx",
+        "back stress with recall xx",
+        |_, _, point| of_back(point, 0),
+    ),
+    back_stress(
+        "back_stress_yy",
+        "back stress with recall yy",
+        |_, _, point| of_back(point, 1),
+    ),
+    back_stress(
+        "back_stress_zz",
+        "back stress with recall zz",
+        |_, _, point| of_back(point, 2),
+    ),
+    back_stress(
+        "back_stress_xy",
+        "back stress with recall xy",
+        |_, _, point| of_back(point, 3),
+    ),
+    back_stress(
+        "back_stress_xz",
+        "back stress with recall xz, z into the body",
+        |_, _, point| of_back(point, 4),
+    ),
+    back_stress(
+        "back_stress_yz",
+        "back stress with recall yz, z into the body",
+        |_, _, point| of_back(point, 5),
+    ),
 ];
+
+/// The sum of the back stresses with recall.
+fn of_back(point: &PlasticPoint, component: usize) -> f64 {
+    point.back.iter().map(|back| back[component]).sum()
+}
 
 /// The rows of an increment: a column for each of [`YIELDED`].
 pub fn rows_of(increment: usize, yielded: &Yielded) -> Vec<Vec<f64>> {
@@ -114,7 +160,8 @@ pub fn rows_of(increment: usize, yielded: &Yielded) -> Vec<Vec<f64>> {
     YIELDED.iter().map(column).collect()
 }
 
-/// The plastic state of rows; the numbers of a point are those that [`rows_of`] has made of it.
+/// The plastic state of rows; the numbers of a point are those that [`rows_of`] has made of it. The sum of
+/// its back stresses stands in the first: the yield surface lies where it lay.
 pub fn state_of(rows: &[Vec<f64>]) -> Yielded {
     let mut yielded = Yielded::default();
     let count = rows.first().map_or(0, Vec::len);
@@ -130,6 +177,7 @@ pub fn state_of(rows: &[Vec<f64>]) -> Yielded {
             equivalent: at(4),
             strain: std::array::from_fn(|c| at(5 + c)),
             flow: [0.0; 6],
+            back: [std::array::from_fn(|c| at(11 + c)), [0.0; 6], [0.0; 6]],
             growth: [0.0; 6],
         };
         yielded.largest = yielded.largest.max(point.equivalent);

@@ -72,7 +72,7 @@ impl CycleSection {
         let below = Below {
             side: side(body_number)?,
             line: line(x, y, azimuth)?,
-            residual: of_body(&body, residual)?,
+            residual: of_body(&body.0, residual)?,
             given: Given::new(moments, count, &grid.0),
             body: body.0,
             grid: grid.0,

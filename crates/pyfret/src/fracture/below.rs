@@ -65,7 +65,7 @@ fn below_contact<T: Send>(
     };
     let tractions: Vec<_> = (0..shape.0).map(tractions).collect();
     let stick: Vec<&[bool]> = stick.chunks(cells).collect();
-    let residual = of_body(body, given.residual)?;
+    let residual = of_body(&body.0, given.residual)?;
     let below = core::Below {
         body: &body.0,
         side: side(body_number)?,

@@ -1,6 +1,7 @@
 //! The values of a scene, in the order that their measures need: a_H needs the substrates, the
 //! shapes and the loads; the coatings and the grid may be given in a_H.
 
+use plasticity::NUMBERS;
 use toml::{Table, Value};
 
 use super::fault::Fault;
@@ -106,19 +107,41 @@ const COATING: [&str; 7] = [
     "plastic",
     "residual",
 ];
-const PLASTIC: [&str; 3] = ["s_y", "hardening", "kinematic"];
 
 /// How the layers yield, the substrate last; none where all stay elastic.
 fn plastic(body: &Section<'_>) -> Result<Vec<Option<Plastic>>, Fault> {
     let law = |section: &Section<'_>| -> Result<Option<Plastic>, Fault> {
-        let Some(law) = section.section("plastic", &PLASTIC)? else {
+        let names = NUMBERS.map(|number| number.name);
+        let Some(given) = section.section("plastic", &names)? else {
             return Ok(None);
         };
-        Ok(Some(Plastic {
-            s_y: law.number("s_y", "a yield stress in Pa", &[])?,
-            hardening: law.number_or("hardening", 0.0, &[])?,
-            kinematic: law.number_or("kinematic", 0.0, &[])?,
-        }))
+        let mut law = Plastic::perfect(given.number("s_y", "a yield stress in Pa", &[])?);
+        for number in &NUMBERS {
+            let Some(value) = given.get(number.name) else {
+                continue;
+            };
+            let (key, room) = (given.path(number.name), (number.of)(&mut law));
+            let one = std::slice::from_ref(value);
+            let values = value.as_array().map_or(one, Vec::as_slice);
+            if values.is_empty()
+                || values.len() > room.len()
+                || (room.len() == 1 && value.is_array())
+            {
+                let what = match room.len() {
+                    1 => "one number".to_owned(),
+                    most => format!("one to {most} numbers, one for each back stress"),
+                };
+                return Err(Fault::value(&key, value, &what));
+            }
+            for (n, value) in values.iter().enumerate() {
+                let key = match room.len() {
+                    1 => key.clone(),
+                    _ => format!("{key}[{n}]"),
+                };
+                room[n] = measure::number(&key, value, &[])?;
+            }
+        }
+        Ok(Some(law))
     };
     let coatings = body.sections("coatings", &COATING)?;
     let laws = coatings.iter().map(law).chain([law(body)]);

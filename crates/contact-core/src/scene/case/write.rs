@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use plasticity::NUMBERS;
 use toml::Value;
 
 use super::read::SCHEMA;
@@ -82,13 +83,20 @@ impl Scene {
     }
 }
 
-fn plastic(law: Plastic) -> String {
-    let Plastic {
-        s_y,
-        hardening,
-        kinematic,
-    } = law;
-    format!("plastic = {{ s_y = {s_y:?}, hardening = {hardening:?}, kinematic = {kinematic:?} }}")
+/// All numbers that are not zero; lists as far as they are not.
+fn plastic(mut law: Plastic) -> String {
+    let mut entries = Vec::new();
+    for number in &NUMBERS {
+        let values = (number.of)(&mut law);
+        let room = values.len();
+        let used = values.iter().rposition(|value| *value != 0.0);
+        match used {
+            None => {}
+            Some(_) if room == 1 => entries.push(format!("{} = {:?}", number.name, values[0])),
+            Some(last) => entries.push(format!("{} = {:?}", number.name, &values[..=last])),
+        }
+    }
+    format!("plastic = {{ {} }}", entries.join(", "))
 }
 
 /// Residual stress of a layer, if it has any.

@@ -127,11 +127,7 @@ fn a_pressure_above_a_hundredth_of_the_softest_modulus_is_told() {
     told(&scene, "body2.coatings[0]");
     // A layer that yields in the computation is no elastic one.
     scene.body2.coatings.clear();
-    scene.body2.plastic = vec![Some(Plastic {
-        s_y: 1e9,
-        hardening: 0.0,
-        kinematic: 0.0,
-    })];
+    scene.body2.plastic = vec![Some(Plastic::perfect(1e9))];
     assert!(of(&scene, 2.2e9).is_empty());
     assert_eq!(Reached::of(&[] as &[Increment]).doubts(&scene), [""; 0]);
 }

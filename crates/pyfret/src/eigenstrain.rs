@@ -1,0 +1,219 @@
+//! Stress and displacement of eigenstrains, for people who build their own models.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use contact_core::yielding::mesh_of;
+use eigenstrain::{Answer, COMPONENTS, Cells, Operator, Sources};
+use ndarray::{Array3, Array4, Ix4};
+use numpy::{IntoPyArray, PyArray1, PyArray3, PyArray4};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::arguments::{Array, Field, must_fit, number};
+use crate::error::to_python;
+use crate::interruptible::interruptible;
+use crate::parts::made;
+use crate::scene::{Body, Grid};
+
+/// Stress and surface displacement that eigenstrains and tractions cause in a body.
+///
+/// An eigenstrain e is a strain without stress: plastic strain, thermal strain, a misfit::
+///
+///     sigma = C : (eps(u) - e),   div sigma = 0,   sigma_iz = -t_i at z = 0,   u -> 0 below
+///
+/// with z into the body, tension positive, bonded layers, and t = q_x, q_y, p on the surface. Fields
+/// are trigonometric polynomials on the cells; in depth they are quadratic elements with two Gauss
+/// points each. There are no periodic images, and t . u[e] = sigma[t] : e holds to rounding.
+///
+/// Parameters
+/// ----------
+/// body : Body
+///     Homogeneous or coated; its shape does not matter.
+/// grid : Grid
+///     Cells on which eigenstrain and tractions are given.
+/// depth : float
+///     Depth down to which the elements are of equal height [m]. Growing ones follow down to twice
+///     that depth, and through the coatings.
+/// height : float
+///     Height of an element [m]; a layer has two at least.
+///
+/// Examples
+/// --------
+/// >>> from pyfret import Body, Elastic, Grid
+/// >>> from pyfret.kernels import EigenstrainOperator
+/// >>> steel = Body(Elastic(E=210e9, nu=0.3))
+/// >>> grid = Grid.centred(extent=4e-4, n=16)
+/// >>> operator = EigenstrainOperator(steel, grid, depth=1e-4, height=2e-5)
+/// >>> stress, displacement = operator.apply(p=[[0.0] * 16] * 16)
+/// >>> stress.shape == (operator.z.size, 6, 16, 16), displacement.shape
+/// (True, (3, 16, 16))
+#[pyclass(frozen, module = "pyfret.kernels")]
+pub(crate) struct EigenstrainOperator {
+    /// The body.
+    #[pyo3(get)]
+    body: Body,
+    /// Its cells.
+    #[pyo3(get)]
+    grid: Grid,
+    /// Depth down to which the elements are of equal height [m].
+    #[pyo3(get)]
+    depth: f64,
+    /// Height of an element [m].
+    #[pyo3(get)]
+    height: f64,
+    inner: Mutex<Operator>,
+}
+
+made!(EigenstrainOperator by "EigenstrainOperator": body, grid, depth, height);
+
+impl EigenstrainOperator {
+    /// Does `f` with the operator.
+    fn with<T>(&self, f: impl FnOnce(&mut Operator) -> T) -> T {
+        f(&mut self.inner.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// A number of each plane.
+    fn of_planes<T>(&self, f: impl Fn(&Operator, usize) -> T) -> Vec<T> {
+        self.with(|own| (0..own.mesh().planes()).map(|n| f(own, n)).collect())
+    }
+}
+
+#[pymethods]
+impl EigenstrainOperator {
+    #[new]
+    #[pyo3(signature = (body, grid, *, depth: "float", height: "float"))]
+    fn new(
+        py: Python<'_>,
+        body: Body,
+        grid: Grid,
+        #[pyo3(from_py_with = number)] depth: f64,
+        #[pyo3(from_py_with = number)] height: f64,
+    ) -> PyResult<Self> {
+        let of = &grid.0;
+        let cells = Cells {
+            nx: of.nx,
+            ny: of.ny,
+            dx: of.dx,
+            dy: of.dy,
+            plane_strain: of.plane_strain,
+        };
+        // Before a mesh of so many elements is made.
+        if depth / height > 1e5 {
+            let message = format!("height = {height}: must be above 1e-5 of the depth, {depth}");
+            return Err(PyValueError::new_err(message));
+        }
+        let mesh = mesh_of(&body.0, cells, depth, [height, height], 2.0 * depth);
+        let mesh = mesh.map_err(to_python)?;
+        must_fit(mesh.planes() * COMPONENTS * cells.len(), 8.0)?;
+        let operator = interruptible(py, &Arc::default(), || Operator::new(mesh))?;
+        Ok(Self {
+            body,
+            grid,
+            depth,
+            height,
+            inner: Mutex::new(operator),
+        })
+    }
+
+    /// Depth of each plane of Gauss points [m].
+    #[getter]
+    fn z<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_vec(py, self.of_planes(|own, n| own.mesh().depth(n)))
+    }
+
+    /// Height that each plane stands for [m]: an integral over depth is the sum with these.
+    #[getter]
+    fn weights<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_vec(py, self.of_planes(|own, n| own.mesh().weight(n)))
+    }
+
+    /// Layer of each plane, from the surface down.
+    #[getter]
+    fn layer<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<usize>> {
+        PyArray1::from_vec(py, self.of_planes(|own, n| own.mesh().layer(n)))
+    }
+
+    /// Stress on the planes [Pa] and displacement of the surface [m].
+    ///
+    /// Parameters
+    /// ----------
+    /// eigenstrain : array of shape (planes, 6, nx, ny), optional
+    ///     xx, yy, zz, xy, xz, yz on each plane, tensor components (default: none).
+    /// p, q_x, q_y : array of shape (nx, ny), optional
+    ///     Tractions on the body [Pa] (default: none).
+    ///
+    /// Returns
+    /// -------
+    /// stress : array of shape (planes, 6, nx, ny)
+    ///     [Pa]
+    /// displacement : array of shape (3, nx, ny)
+    ///     u_x, u_y, u_z, with z into the body [m]. In plane strain that of tractions is relative to a
+    ///     point far away.
+    #[pyo3(signature = (eigenstrain = None, *, p = None, q_x = None, q_y = None) -> "tuple[NDArray[np.float64], NDArray[np.float64]]")]
+    fn apply<'py>(
+        &self,
+        py: Python<'py>,
+        eigenstrain: Option<Array<'py, Ix4>>,
+        p: Option<Field<'py>>,
+        q_x: Option<Field<'py>>,
+        q_y: Option<Field<'py>>,
+    ) -> PyResult<(Bound<'py, PyArray4<f64>>, Bound<'py, PyArray3<f64>>)> {
+        let (nx, ny) = (self.grid.0.nx, self.grid.0.ny);
+        let planes = self.with(|own| own.mesh().planes());
+        let shape = (planes, COMPONENTS, nx, ny);
+        let strain: Option<Vec<f64>> = match &eigenstrain {
+            None => None,
+            Some(given) if given.as_array().dim() == shape => {
+                Some(given.as_array().iter().copied().collect())
+            }
+            Some(given) => {
+                return Err(PyValueError::new_err(format!(
+                    "eigenstrain has the shape {:?}: must be {shape:?}, that of the planes and the grid",
+                    given.as_array().dim()
+                )));
+            }
+        };
+        let mut tractions = Vec::new();
+        for (name, field) in [("q_x", q_x), ("q_y", q_y), ("p", p)] {
+            let field = match &field {
+                None => vec![0.0; nx * ny],
+                Some(field) if field.as_array().dim() == (nx, ny) => {
+                    field.as_array().iter().copied().collect()
+                }
+                Some(field) => {
+                    return Err(PyValueError::new_err(format!(
+                        "{name} has the shape {:?}: must be that of the grid, {:?}",
+                        field.as_array().dim(),
+                        (nx, ny)
+                    )));
+                }
+            };
+            tractions.push(field);
+        }
+        let mut stress = vec![0.0; planes * COMPONENTS * nx * ny];
+        let mut displacement = vec![0.0; 3 * nx * ny];
+        interruptible(py, &Arc::default(), || {
+            self.with(|own| {
+                own.apply(
+                    Sources {
+                        eigenstrain: strain.as_deref(),
+                        tractions: Some([&tractions[0], &tractions[1], &tractions[2]]),
+                    },
+                    Answer {
+                        stress: &mut stress,
+                        wanted: &vec![true; planes],
+                        displacement: &mut displacement,
+                        of_tractions: true,
+                    },
+                );
+            });
+        })?;
+        let stress = Array4::from_shape_vec(shape, stress);
+        let displacement = Array3::from_shape_vec((3, nx, ny), displacement);
+        let wrong = |error: ndarray::ShapeError| PyValueError::new_err(error.to_string());
+        Ok((
+            stress.map_err(wrong)?.into_pyarray(py),
+            displacement.map_err(wrong)?.into_pyarray(py),
+        ))
+    }
+}
