@@ -871,9 +871,9 @@ class EigenstrainOperator:
 
         sigma = C : (eps(u) - e),   div sigma = 0,   sigma_iz = -t_i at z = 0,   u -> 0 below
 
-    with z into the body, tension positive, bonded layers, and t = q_x, q_y, p on the surface. Fields
-    are trigonometric polynomials on the cells; in depth they are quadratic elements with two Gauss
-    points each. There are no periodic images, and t . u[e] = sigma[t] : e holds to rounding.
+    with z into the body, tension positive, bonded layers, and t = q_x, q_y, p on the surface.
+    Fields are trigonometric polynomials on the cells; in depth they are quadratic elements with two
+    Gauss points each. There are no periodic images, and t . u[e] = sigma[t] : e to rounding.
 
     Parameters
     ----------
@@ -930,8 +930,8 @@ class EigenstrainOperator:
         stress : array of shape (planes, 6, nx, ny)
             [Pa]
         displacement : array of shape (3, nx, ny)
-            u_x, u_y, u_z, with z into the body [m]. In plane strain that of tractions is relative to a
-            point far away.
+            u_x, u_y, u_z, with z into the body [m]. In plane strain that of tractions is relative
+            to a point far away.
         """
     @property
     def body(self, /) -> Body:
