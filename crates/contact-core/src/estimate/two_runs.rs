@@ -31,6 +31,8 @@ pub(crate) struct PathError {
     pub(crate) reached: f64,
     /// The shear that friction can bear there over the largest of the path (L2).
     pub(crate) bearable: f64,
+    /// Mean width of the ring of slip there \[m\].
+    pub(crate) ring: f64,
 }
 
 /// Above SLIDING times the limit of friction shift and energy grow without bound while the shear
@@ -147,6 +149,7 @@ impl TwoRuns {
                     driven: given.delta_x.is_none() && given.delta_y.is_none(),
                     reached: many.q() / q,
                     bearable: self.mu * many.p() / q,
+                    ring: (1.0 - many.summary.stick_ratio.sqrt()) * many.summary.contact_radius,
                 }
             })
             .collect())

@@ -190,6 +190,26 @@ fn increments_of_a_neighbour_are_the_first_guess() {
     );
 }
 
+/// A ring of slip of 1.4 cells of the grid on which increments are chosen, in an unlike pair that is
+/// sheared back: the error of the increments is five times as large where the grid resolves the ring.
+#[test]
+fn the_error_in_a_narrow_ring_of_slip_is_told() {
+    let T = 0.3 * 0.4 * W;
+    let path = indentation(16).tangential(&[T, -T], None);
+    let metal = Elastic { E: 70e9, nu: 0.33 };
+    let scene = sphere_on_flat(STEEL, metal, 0.4, (2.6, 128), path);
+    let known = chosen(&scene);
+    let told = known.path.branches[2].path_error.expect("an error");
+    let mut many = known.clone();
+    for branch in &mut many.path.branches[1..] {
+        branch.increments = branch.increments.map(|n| 4 * n);
+    }
+    let error = distance(&shear(&known), &shear(&many));
+    let tolerance = scene.settings.solver.path_tolerance;
+    assert!(error < 1.5 * told, "{error:.2e} of {told:.2e}");
+    assert!(error < tolerance, "{error:.2e} of {tolerance:.0e}");
+}
+
 /// The shear at the end of a path.
 fn shear(scene: &Scene) -> [Array2<f64>; 2] {
     let mut q = None;
