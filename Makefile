@@ -95,6 +95,9 @@ plastic: setup ## bodies that yield: every row of truth, a pair on both sides of
 	FRET_PLASTIC=300 $(PY) -m pytest -q tests/test_plastic_rows.py tests/test_plastic_campaign.py \
 		tests/test_shakedown_of_yielding.py
 
+plastic-bars: setup ## error bars of 60 random contacts of bodies that yield beside their true errors
+	FRET_PLASTIC_BARS=60 $(PY) -m pytest -q -s tests/test_plastic_error_bars.py
+
 wear: ## 300 random runs of wear, audited, and partial slip fully worn on 256 x 256 cells
 	FRET_WEAR=300 FRET_WEAR_CELLS=256 cargo test --release --locked --workspace --test wear -- \
 		--include-ignored --nocapture --test-threads=1 random partial_slip

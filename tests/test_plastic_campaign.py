@@ -3,11 +3,17 @@
 from __future__ import annotations
 
 import os
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
 
 import pyfret as fret
+from pyfret import _core
+from pyfret.subsurface.plastic import YIELDED
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 DRAWN = int(os.environ.get("FRET_PLASTIC", "10"))
 
@@ -77,12 +83,40 @@ def over_the_yield_surface(scene: fret.Scene, found: object) -> float:
     return most
 
 
+def of_strain(found: fret.Result) -> dict[str, object]:
+    """Give what has yielded and the scalars of the path."""
+    names = (*YIELDED, "W", "T_x", "delta_z", "plastic_work", "elastic", "dissipated")
+    return {name: found.dataset[name].to_numpy() for name in names}
+
+
+@pytest.mark.solves
+@pytest.mark.filterwarnings("ignore::pyfret.errors.SceneWarning")
+@pytest.mark.parametrize("seed", range(max(1, DRAWN // 10)))
+def test_a_random_contact_that_was_stopped_goes_on_to_the_same_bits(
+    seed: int, tmp_path: Path
+) -> None:
+    """Stopped after a random increment, and resumed."""
+    scene = drawn(seed).replace(save="all")
+    last = int(np.random.default_rng(seed).integers(1, 6))
+
+    def stop(index: int, _: int) -> None:
+        if index == last:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        _core.solve(scene, store=tmp_path / "run", checkpoint=0.0, on_increment=stop)
+    resumed = of_strain(fret.resume(tmp_path / "run", progress=False))
+    for name, whole in of_strain(fret.solve(scene, progress=False)).items():
+        np.testing.assert_array_equal(resumed[name], whole)
+
+
 @pytest.mark.solves
 @pytest.mark.filterwarnings("ignore::pyfret.errors.SceneWarning")
 @pytest.mark.parametrize("seed", range(DRAWN))
 def test_a_random_contact_holds_what_holds_for_all(seed: int) -> None:
     """Balance, Coulomb's law, the yield condition, energy; plastic work is never given back."""
     scene = drawn(seed)
+    work = kept = 0.0
     for increment in fret.march(scene):
         p = increment.dataset.p.to_numpy()
         area = scene.grid.cell_area
@@ -92,6 +126,9 @@ def test_a_random_contact_holds_what_holds_for_all(seed: int) -> None:
             assert (q <= scene.friction.mu * p * (1 + 1e-6)).all()
         assert abs(float(increment.residual_energy)) < 1e-4
         assert float(increment.plastic_work) >= 0.0
+        # The energy that is kept, that of the residual stress included, is part of the work done.
+        work, kept = work + float(increment.work), kept + float(increment.elastic)
+        assert 0.0 < kept <= work * (1 + 1e-6)
         assert float(increment.dissipated) >= -1e-4 * abs(float(increment.work))
         # Stress changes by 1e-4 of the yield stress in the last pass.
         assert over_the_yield_surface(scene, increment.plastic()) < 1e-2

@@ -37,6 +37,7 @@ SCALARS = [
     "plastic_work",
     "plastic_volume",
     "largest_plastic_strain",
+    "strain_at_rim",
     "yield_ratio",
     "work",
     "elastic",

@@ -16,6 +16,11 @@ RIGID: Final[Elastic]
 A material that does not deform.
 """
 
+STRAIN_AT_A_RIM: Final[str]
+"""
+What is to be known of a largest plastic strain at a rim.
+"""
+
 TOO_FEW_INCREMENTS: Final[str]
 """
 Why a cycle has no stiffness, and what to do.
@@ -3390,6 +3395,7 @@ class SlidingError(SolveError):
 
 __all__ = [
     "RIGID",
+    "STRAIN_AT_A_RIM",
     "TOO_FEW_INCREMENTS",
     "ArgumentError",
     "Assessment",

@@ -8,6 +8,7 @@ use contact_core::digits::{short, with_error};
 use contact_core::estimate::{Bar, ErrorBars};
 use contact_core::march::{BranchSummary, Increment, Reached, summarise};
 use contact_core::scene::{Branch, RigidMotion};
+use contact_core::yielding::Rim;
 use contact_subsurface::{Cycle, Direction};
 
 use crate::json;
@@ -108,15 +109,19 @@ fn energy(scene: &Scene) -> (&'static str, f64) {
 /// The data of a row of the table: a branch, its last increment.
 type Row<'a> = (&'a BranchSummary, &'a Increment);
 
-/// Columns of bodies that yield, and the end of the table: how far they are from it if they never do.
-fn yield_columns(scene: &Scene, increments: &[Increment]) -> Vec<Column> {
-    let (joule, joules) = energy(scene);
-    // Cubes of micrometres, in plane strain squares.
-    let (cube, per_cube) = if scene.grid.plane_strain {
+/// Volumes for people: cubes of micrometres, in plane strain squares.
+fn volume(scene: &Scene) -> (&'static str, f64) {
+    if scene.grid.plane_strain {
         ("um^2", MICRO * MICRO)
     } else {
         ("um^3", MICRO * MICRO * MICRO)
-    };
+    }
+}
+
+/// Columns of bodies that yield, and the end of the table: how far they are from it if they never do.
+fn yield_columns(scene: &Scene, increments: &[Increment]) -> Vec<Column> {
+    let (joule, joules) = energy(scene);
+    let (cube, per_cube) = volume(scene);
     let works: Vec<f64> = summarise(increments)
         .iter()
         .scan(0, |done, branch| {
@@ -138,6 +143,12 @@ fn yield_columns(scene: &Scene, increments: &[Increment]) -> Vec<Column> {
             short(100.0 * last.yielded.largest)
         }),
     ]
+}
+
+/// What is to be known of a largest strain that does not converge.
+fn strain_at_a_rim(increments: &[Increment]) -> Option<String> {
+    let last = increments.last()?;
+    (last.yielded.at_rim && last.yielded.largest > 0.0).then(|| Rim::TOLD.to_owned())
 }
 
 /// How far bodies that may yield are from it, where none has.
@@ -330,6 +341,15 @@ pub(crate) fn error_table(scene: &Scene, increments: &[Increment], bars: &[Error
     let Measures { radius, pressure } = Measures::of(scene);
     let answers = answers(scene);
     let (joule, joules) = energy(scene);
+    let (cube, per_cube) = volume(scene);
+    let yields = scene.yields() && json::yield_ratio(increments) >= 1.0;
+    let of_yielding = [
+        format!("plastic\nwork [{joule}]"),
+        format!("yielded\n[{cube}]"),
+        "largest\nstrain [%]".to_owned(),
+    ];
+    let of_yielding = of_yielding.into_iter().filter(|_| yields);
+    let left = yields.then(|| "residual\nstress [%]".to_owned());
     let mut table = Table::new();
     table
         .load_style(presets::ASCII_BORDERS_ONLY_CONDENSED)
@@ -344,8 +364,10 @@ pub(crate) fn error_table(scene: &Scene, increments: &[Increment], bars: &[Error
                 format!("dissipated\n[{joule}]"),
             ]
             .into_iter()
+            .chain(of_yielding)
             .chain(answers.iter().map(|answer| answer.title.clone()))
-            .chain(["p, field\n[%]".to_owned(), "q, field\n[%]".to_owned()]),
+            .chain(["p, field\n[%]".to_owned(), "q, field\n[%]".to_owned()])
+            .chain(left),
         );
     for (of, bar) in summarise(increments).iter().zip(bars) {
         let mut numbers = vec![
@@ -356,8 +378,16 @@ pub(crate) fn error_table(scene: &Scene, increments: &[Increment], bars: &[Error
             (of.motion.delta_x, bar.delta_x, MICRO),
             (of.dissipated, bar.dissipated, joules),
         ];
+        if yields {
+            numbers.extend([
+                (of.plastic_work, bar.plastic_work, joules),
+                (of.plastic_volume, bar.plastic_volume, per_cube),
+                (of.largest_plastic_strain, bar.largest_plastic_strain, 100.0),
+            ]);
+        }
         numbers.extend(answers.iter().map(|answer| (answer.of)(of, bar)));
-        let fields = [bar.p, bar.q];
+        let mut fields = vec![bar.p, bar.q];
+        fields.extend(yields.then_some(bar.residual_stress));
         let number = |&(value, bar, unit): &(f64, Bar, f64)| {
             with_error(value * unit, Some(bar.total * unit))
         };
@@ -409,6 +439,7 @@ pub(crate) fn table(scene: &Scene, increments: &[Increment], wide: bool) -> Stri
     std::iter::once(table.to_string())
         .chain(lines)
         .chain(far_from_yield(scene, increments))
+        .chain(strain_at_a_rim(increments))
         .collect::<Vec<_>>()
         .join("\n")
 }

@@ -171,7 +171,9 @@ class Run(OfRun):
         numbers on up to 256 x 256 cells, by one on a finer grid, ``path``, told by a run with fewer
         increments, and ``solver``, its tolerance. ``p`` and ``q`` are the tractions as fields: L2
         norms over the largest of the path. ``stress`` is that of the stress in the bodies, over the
-        stress. The runs are those of ``solve(..., error=True)`` and
+        stress, ``residual_stress`` that of bodies that yield at a point, over its largest below the
+        middle of the grid. A largest strain at the border of slip or at the rim of a coating does
+        not converge. The runs are those of ``solve(..., error=True)`` and
         ``fret run --error``.
         """
         bars = self.dataset.attrs.get("error_bars")
@@ -182,7 +184,7 @@ class Run(OfRun):
         parts = list(bars[0]["q"])
         table = xr.Dataset(coords={"branch": [bar["branch"] for bar in bars], "part": parts})
         for name in (name for name in bars[0] if name != "branch"):
-            of_field = name in ("p", "q", "stress")
+            of_field = name in ("p", "q", "stress", "residual_stress")
             values = np.array([[bar[name][part] for part in parts] for bar in bars], dtype=float)
             attrs = {"units": "1"} if of_field else self.dataset[name].attrs
             table[name] = (("branch", "part"), values, attrs)

@@ -63,6 +63,7 @@ class State(OfRun):
     plastic_work: xr.DataArray
     plastic_volume: xr.DataArray
     largest_plastic_strain: xr.DataArray
+    strain_at_rim: xr.DataArray
     yield_ratio: xr.DataArray
     work: xr.DataArray
     elastic: xr.DataArray

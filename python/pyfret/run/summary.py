@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from pyfret._core import TOO_FEW_INCREMENTS, with_error
+from pyfret._core import STRAIN_AT_A_RIM, TOO_FEW_INCREMENTS, with_error
 from pyfret._util.numbers import in_words
 from pyfret._util.text import shown
 from pyfret.run.loops import STATUS
@@ -130,7 +130,7 @@ def summary(result: Run) -> str:
     ]
     title = f"{result.dataset.attrs['title'] or 'run'}: {result.status}"
     doubts = [f"doubted: {doubt}" for doubt in result.doubts]
-    lines = [*cycle_lines(result), *far_from_yield(result)]
+    lines = [*cycle_lines(result), *far_from_yield(result), *strain_at_rim(result)]
     return shown("\n".join([title, *rows, *lines, *doubts]))
 
 
@@ -151,6 +151,14 @@ def far_from_yield(result: Run) -> list[str]:
         "nothing yields: the largest stress of von Mises is "
         f"{in_words(ratio, 3)} of the yield stress (on the volume grid)"
     ]
+
+
+def strain_at_rim(result: Run) -> list[str]:
+    """What is to be known of a largest strain that does not converge."""
+    last = result.dataset.get("strain_at_rim")
+    if last is None or not last.size or last.values[-1] == 0.0:
+        return []
+    return [STRAIN_AT_A_RIM]
 
 
 def cycle_lines(result: Run) -> list[str]:

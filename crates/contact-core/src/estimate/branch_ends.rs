@@ -5,12 +5,15 @@ use std::sync::atomic::AtomicBool;
 
 use crate::error::Error;
 use crate::march::{Increment, March, Observer, Tractions};
+use crate::yielding::Yielded;
 
 /// Keeps the tractions at the ends of the branches for an observer who watches the run.
 pub struct BranchEnds<'a> {
     watcher: &'a mut dyn Observer,
     /// The tractions of the branches that are done.
     pub tractions: Vec<Tractions>,
+    /// What had yielded there.
+    pub(super) yielded: Vec<Option<Yielded>>,
 }
 
 impl<'a> BranchEnds<'a> {
@@ -19,6 +22,7 @@ impl<'a> BranchEnds<'a> {
         Self {
             watcher,
             tractions: Vec::new(),
+            yielded: Vec::new(),
         }
     }
 }
@@ -27,6 +31,7 @@ impl Observer for BranchEnds<'_> {
     fn on_increment(&mut self, march: &March, increment: &Increment) -> Result<(), Error> {
         if increment.point.ends_branch {
             self.tractions.push(march.tractions());
+            self.yielded.push(march.state().yielded.as_deref().cloned());
         }
         self.watcher.on_increment(march, increment)
     }

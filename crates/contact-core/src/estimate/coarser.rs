@@ -9,7 +9,9 @@ use super::branch_ends::BranchEnds;
 use super::numbers::{MOTIONS, NUMBERS, numbers};
 use crate::error::Error;
 use crate::march::{BranchSummary, March, Tractions, summarise};
+use crate::plan::Plan;
 use crate::scene::{Grid, PathGrid, RigidMotion, SaveFields, Scene};
+use crate::yielding::{Below, Yielding};
 
 /// Cells of the coarser grids each way, over those of the grid.
 const PARTS: [f64; 2] = [0.5, 0.375];
@@ -35,6 +37,8 @@ pub(super) struct GridErrors {
     pub(super) numbers: [f64; NUMBERS],
     /// Errors of pressure and shear (L2), over the largest of the path.
     pub(super) fields: [f64; 2],
+    /// Error of the residual stress of bodies that yield, over its largest.
+    pub(super) residual: f64,
 }
 
 /// For the branches of a run that ended with these tractions.
@@ -45,13 +49,25 @@ pub(super) fn coarser_grids(
     stop: &Arc<AtomicBool>,
 ) -> Result<Vec<GridErrors>, Error> {
     let mut of_branches = vec![GridErrors::default(); fine.len()];
+    let mut left: Vec<Left> = Vec::new();
     for (k, part) in PARTS.into_iter().enumerate() {
         let coarser = coarser(scene, part)?;
+        let mut plan = Plan::new(&coarser);
+        let most = plan.methods.volume_cells as f64;
+        plan.methods.volume_cells = (part * most).round() as usize;
+        let volume_cells = plan.methods.volume_cells;
         let mut nobody = ();
         let mut ends = BranchEnds::beside(&mut nobody);
-        let march = March::until(&coarser, stop)?;
+        let march = March::planned(&coarser, plan, stop)?;
         let coarse = summarise(&march.run(Vec::new(), &mut ends)?);
         let ratio = ratio(&coarser.grid, &scene.grid);
+        if let Some(mut bodies) = Yielding::on_cells(&coarser, volume_cells)? {
+            let states = ends.yielded.iter().flatten();
+            left.push(Left {
+                ratio,
+                below: states.map(|state| bodies.below_the_middle(state)).collect(),
+            });
+        }
         for ((of_branches, fine), coarse) in of_branches.iter_mut().zip(fine).zip(&coarse) {
             let (f, c) = (numbers(fine), numbers(coarse));
             for n in 0..NUMBERS {
@@ -67,7 +83,45 @@ pub(super) fn coarser_grids(
             }
         }
     }
+    if let [finer, coarser] = &left[..] {
+        let whole = coarser.ratio.powf(LEFT) - finer.ratio.powf(LEFT);
+        let pairs = finer.below.iter().zip(&coarser.below);
+        for (of_branch, (finer, coarser)) in of_branches.iter_mut().zip(pairs) {
+            of_branch.residual = apart(finer, coarser) / whole;
+        }
+    }
     Ok(of_branches)
+}
+
+/// Order m of the residual stress.
+const LEFT: f64 = 1.5;
+
+/// Residual stress below the middle of a grid.
+struct Left {
+    /// Cells of the grid over those of the scene.
+    ratio: f64,
+    /// Of each branch the planes.
+    below: Vec<Vec<Below>>,
+}
+
+/// Largest difference of two residual stresses at the planes of the second, over its largest; linear
+/// between the planes of a layer of the first.
+fn apart(first: &[Below], second: &[Below]) -> f64 {
+    let (mut most, mut off) = (f64::MIN_POSITIVE, 0.0_f64);
+    for at in second {
+        let own: Vec<&Below> = first.iter().filter(|of| of.layer == at.layer).collect();
+        let below = own.partition_point(|of| of.depth < at.depth);
+        let above = below.checked_sub(1).and_then(|above| own.get(above));
+        for c in 0..3 {
+            most = most.max(at.stress[c].abs());
+            if let Some((top, bottom)) = above.zip(own.get(below)) {
+                let part = (at.depth - top.depth) / (bottom.depth - top.depth);
+                let stress = top.stress[c] + part * (bottom.stress[c] - top.stress[c]);
+                off = off.max((stress - at.stress[c]).abs());
+            }
+        }
+    }
+    off / most
 }
 
 /// The scene on the coarsest grid of the error estimate. Fails if there is none.

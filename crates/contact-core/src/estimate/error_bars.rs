@@ -30,7 +30,8 @@ use super::choice::choose_increments;
 use super::coarser::{GridErrors, ORDER, coarser_grids};
 use super::finer::Finer;
 use super::numbers::{
-    CONTACT_RADIUS, DISSIPATED, LOADS, MOTIONS, NUMBERS, P_MAX, STICK_RATIO, is_given, numbers,
+    CONTACT_RADIUS, DISSIPATED, LOADS, MOTIONS, NUMBERS, P_MAX, PLASTIC, STICK_RATIO, is_given,
+    numbers,
 };
 use super::path_error::path_errors;
 use super::two_runs::PathError;
@@ -101,6 +102,19 @@ pub struct ErrorBars {
     pub p: Bar,
     /// Of the shear as a field: L2 norm, over the largest of the path.
     pub q: Bar,
+    /// Of the plastic work in the branch \[J\]; this and the next three are zero where nothing yields.
+    #[serde(default)]
+    pub plastic_work: Bar,
+    /// Of the volume that has yielded \[m^3\].
+    #[serde(default)]
+    pub plastic_volume: Bar,
+    /// Of the largest equivalent plastic strain, which at the border of slip and at the rim of a coating
+    /// does not converge.
+    #[serde(default)]
+    pub largest_plastic_strain: Bar,
+    /// Of the residual stress at a point, over the largest below the middle of the grid.
+    #[serde(default)]
+    pub residual_stress: Bar,
     /// Of the stress in the bodies, over its size.
     #[serde(default)]
     pub stress: Bar,
@@ -157,6 +171,10 @@ pub fn error_bars(
         })
         .collect())
 }
+
+/// Error of what has yielded that the fixed point of an increment leaves: it ends where the stress changes
+/// by 1e-4 of the yield stress.
+const RETURNED: f64 = 1e-3;
 
 /// Errors of a branch from a finer grid.
 struct Differs {
@@ -215,7 +233,14 @@ fn bars(
     let [delta_z, phi_x, phi_y, delta_x, delta_y, phi_z] =
         [0, 1, 2, 3, 4, 5].map(|k| bar(MOTIONS + k));
     let [W, M_x, M_y, T_x, T_y, M_z] = [0, 1, 2, 3, 4, 5].map(|k| bar(LOADS + k));
+    let [plastic_work, plastic_volume, largest_plastic_strain] =
+        [0, 1, 2].map(|k| bar(PLASTIC + k));
     let known = [STICK_RATIO, P_MAX].map(|n| bar(n).cells);
+    let left = if fine.plastic_volume > 0.0 {
+        Bar::new(of_grids.residual, path.residual, RETURNED)
+    } else {
+        Bar::default()
+    };
     ErrorBars {
         branch: fine.branch,
         contact_radius: bar(CONTACT_RADIUS),
@@ -236,6 +261,10 @@ fn bars(
         dissipated: bar(DISSIPATED),
         p: Bar::new(of_grids.fields[0], path.p, tolerance),
         q: Bar::new(of_grids.fields[1], path.q, tolerance),
+        plastic_work,
+        plastic_volume,
+        largest_plastic_strain,
+        residual_stress: left,
         stress: of_stress(fine, known, path, tolerance),
     }
 }
@@ -270,6 +299,9 @@ fn of_stress(
 fn solver_parts(scene: &Scene, fine: &BranchSummary, tolerance: f64) -> [f64; NUMBERS] {
     let value = numbers(fine).map(f64::abs);
     let mut parts = value.map(|value| tolerance * value);
+    for n in PLASTIC..NUMBERS {
+        parts[n] = parts[n].max(RETURNED * value[n]);
+    }
     if may_slip(scene) {
         let mu = scene.friction.mu;
         let slip = TANGENTIAL_SHARE * tolerance * mu;

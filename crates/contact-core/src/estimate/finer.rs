@@ -33,10 +33,10 @@ pub(crate) struct Finer {
 }
 
 impl Finer {
-    /// For a scene whose increments are chosen. None if a finer grid is too large or its run fails;
-    /// fails only once `stop` is raised.
+    /// For a scene whose increments are chosen. None if a finer grid is too large, if bodies yield, whose
+    /// volume grid has at most as many cells, or if its run fails; fails only once `stop` is raised.
     pub(crate) fn solve(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Option<Self>, Error> {
-        let Some(fine) = finest(scene) else {
+        let Some(fine) = finest(scene).filter(|_| !scene.yields()) else {
             return Ok(None);
         };
         let few = Scene {

@@ -12,8 +12,10 @@ pub(crate) const DISSIPATED: usize = 3;
 /// [`RigidMotion::ALL`](crate::scene::RigidMotion::ALL).
 pub(crate) const MOTIONS: usize = 4;
 pub(crate) const LOADS: usize = MOTIONS + 6;
+/// Of bodies that yield: plastic work, volume that has yielded, largest plastic strain.
+pub(crate) const PLASTIC: usize = LOADS + 6;
 /// How many there are.
-pub(crate) const NUMBERS: usize = LOADS + 6;
+pub(crate) const NUMBERS: usize = PLASTIC + 3;
 
 /// The numbers of a branch that have an error bar.
 pub(crate) fn numbers(branch: &BranchSummary) -> [f64; NUMBERS] {
@@ -23,7 +25,12 @@ pub(crate) fn numbers(branch: &BranchSummary) -> [f64; NUMBERS] {
     numbers[P_MAX] = branch.p_max;
     numbers[DISSIPATED] = branch.dissipated;
     numbers[MOTIONS..LOADS].copy_from_slice(&branch.motion.motions());
-    numbers[LOADS..].copy_from_slice(&branch.loads.forces());
+    numbers[LOADS..PLASTIC].copy_from_slice(&branch.loads.forces());
+    numbers[PLASTIC..].copy_from_slice(&[
+        branch.plastic_work,
+        branch.plastic_volume,
+        branch.largest_plastic_strain,
+    ]);
     numbers
 }
 
@@ -33,7 +40,7 @@ pub(crate) fn is_given(branch: &BranchSummary, number: usize) -> bool {
     let given = branch.loads.given.motions().map(|motion| motion.is_some());
     match number.checked_sub(MOTIONS) {
         Some(motion) if motion < 6 => given[motion],
-        Some(load) => !given[load - 6],
-        None => false,
+        Some(load) if load < 12 => !given[load - 6],
+        _ => false,
     }
 }

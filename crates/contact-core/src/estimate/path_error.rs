@@ -36,8 +36,8 @@ pub(super) fn with_path_errors(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<
 /// Errors at the end of each branch of a path whose increments are all given: of the increments and
 /// of the grid that the path is solved on.
 pub(crate) fn path_errors(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Vec<PathError>, Error> {
-    if scene.friction.mu == 0.0 {
-        // Without friction the pressure depends on the loads alone, not on the path.
+    if scene.friction.mu == 0.0 && !scene.yields() {
+        // Without friction the pressure of elastic bodies depends on the loads alone, not on the path.
         let branches = scene.path.branches.iter();
         return Ok(branches.map(|_| PathError::default()).collect());
     }

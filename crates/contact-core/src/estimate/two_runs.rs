@@ -22,6 +22,8 @@ pub(crate) struct PathError {
     pub(crate) p: f64,
     /// In the numbers of the branch, each in its unit: less those with many increments.
     pub(crate) numbers: [f64; NUMBERS],
+    /// In the residual displacement of bodies that yield: L2 norm, over the largest of the path.
+    pub(crate) residual: f64,
     /// The larger of the errors of the shift and of the dissipated energy, each over the largest of
     /// the path.
     pub(crate) motion: f64,
@@ -61,6 +63,7 @@ impl PathError {
         Self {
             q: factor * self.q,
             p: factor * self.p,
+            residual: factor * self.residual,
             motion: factor * self.motion,
             numbers: self.numbers.map(|n| factor * n),
             ..self
@@ -131,6 +134,18 @@ impl TwoRuns {
                 energy.max(end.summary.dissipated),
             );
         }
+        let left = |end: &End, from: Option<&End>| -> f64 {
+            let of = |end: &End| -> Vec<f64> {
+                let bodies = end.state.yielded.iter().flat_map(|yielded| &yielded.bodies);
+                bodies.flat_map(|body| body.displacement.clone()).collect()
+            };
+            let (own, other) = (of(end), from.map_or_else(Vec::new, of));
+            let other = other.into_iter().chain(std::iter::repeat(0.0));
+            let squares = own.iter().zip(other).map(|(a, b)| (a - b) * (a - b));
+            squares.sum::<f64>().sqrt()
+        };
+        let most = many.iter().map(|end| left(end, None));
+        let most = most.fold(f64::MIN_POSITIVE, f64::max);
         let ((p, q), (shift, energy)) = (self.largest, self.moved);
         let pairs = few.iter().zip(many);
         Ok(pairs
@@ -145,6 +160,7 @@ impl TwoRuns {
                     motion: (shifts / shift).max(energies / energy),
                     q: off(1).hypot(off(2)) / q,
                     p: off(0) / p,
+                    residual: left(many, Some(few)) / most,
                     numbers: std::array::from_fn(|n| f[n] - m[n]),
                     driven: given.delta_x.is_none() && given.delta_y.is_none(),
                     reached: many.q() / q,

@@ -95,7 +95,7 @@ impl March {
         plan.check_memory(scene)?;
         let coarse = Self::on_path_grid(scene, &plan, stop)?;
         let domain = Domain::new(scene, &plan, stop)?;
-        let yielding = Yields::of(scene, plan.mirror)?.map(Box::new);
+        let yielding = Yields::of(scene, &plan)?.map(Box::new);
         let mut solved = scene.clone();
         solved.settings.solver.tolerance = Some(scene.tolerance());
         Ok(Self {

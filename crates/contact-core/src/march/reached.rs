@@ -27,6 +27,8 @@ pub struct Reached {
     pub p_max: f64,
     /// Equivalent plastic strain.
     pub plastic_strain: f64,
+    /// Whether what has yielded reaches the border of its grid.
+    pub yields_at_border: bool,
     /// The increments that ended branches.
     pub ends: Vec<Increment>,
 }
@@ -47,6 +49,7 @@ impl Reached {
         self.contact_radius = self.contact_radius.max(increment.contact_radius);
         self.p_max = self.p_max.max(increment.p_max);
         self.plastic_strain = self.plastic_strain.max(increment.yielded.largest);
+        self.yields_at_border |= increment.yielded.at_border;
         if increment.point.ends_branch {
             self.ends.push(*increment);
         }
@@ -131,6 +134,12 @@ impl Reached {
                 100.0 * self.plastic_strain,
                 100.0 * LARGE_PLASTIC_STRAIN
             ));
+        }
+        if self.yields_at_border {
+            doubts.push(
+                "the plastic zone reaches the border of its grid, beyond which bodies are taken to be elastic: choose a wider grid"
+                    .into(),
+            );
         }
         let breadth = self.breadth(scene);
         doubts.extend(breadth.and_then(|of| scene.doubt_of_breadth(&of)));

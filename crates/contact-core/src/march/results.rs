@@ -156,6 +156,13 @@ pub struct Yield {
     pub volume: f64,
     /// Largest equivalent plastic strain of a point so far.
     pub largest: f64,
+    /// Whether that point lies in the uppermost element under friction, at the border of slip, or in a
+    /// coating, at its rim: there the strain grows with every refinement.
+    #[serde(default)]
+    pub at_rim: bool,
+    /// Whether what has yielded reaches the border of the volume grid.
+    #[serde(default)]
+    pub at_border: bool,
     /// Passes of the fixed point: each a contact, a stress and a return; none where bodies have stayed
     /// elastic.
     #[serde(default)]

@@ -97,6 +97,12 @@ pub struct BranchSummary {
     pub p_max: f64,
     /// Energy dissipated in it \[J\].
     pub dissipated: f64,
+    /// Plastic work in it \[J\].
+    pub plastic_work: f64,
+    /// Volume that has yielded at its end \[m^3\].
+    pub plastic_volume: f64,
+    /// Largest equivalent plastic strain at its end.
+    pub largest_plastic_strain: f64,
     /// Work done by the solvers in it.
     pub work: Work,
 }
@@ -157,6 +163,9 @@ pub fn summarise(increments: &[Increment]) -> Vec<BranchSummary> {
                 stick_ratio: end.stick_ratio(),
                 p_max: end.p_max,
                 dissipated: of_branch.iter().map(|i| i.energy.dissipated).sum(),
+                plastic_work: of_branch.iter().map(|i| i.energy.plastic).sum(),
+                plastic_volume: end.yielded.volume,
+                largest_plastic_strain: end.yielded.largest,
                 work,
             })
         })

@@ -9,7 +9,7 @@ use super::{Increment, March, Yield};
 use crate::error::Error;
 use crate::scene::LoadPoint;
 use crate::solvers::Interface;
-use crate::yielding::{MOST_PASSES, Residual, Yielded, Yielding};
+use crate::yielding::{MOST_PASSES, Residual, Rim, Yielded, Yielding};
 
 /// Equivalent plastic strain at which a run ends: the equations are those of small strains.
 const LARGEST_STRAIN: f64 = 0.15;
@@ -163,6 +163,9 @@ impl March {
                 increment.yielded = Yield {
                     volume: now.volume,
                     largest: now.largest,
+                    at_border: now.at_border,
+                    at_rim: now.at_rim == Some(Rim::Coating)
+                        || now.at_rim == Some(Rim::Surface) && self.problem.scene.friction.mu > 0.0,
                     passes: pass,
                     reached: yields.bodies.reached(),
                 };

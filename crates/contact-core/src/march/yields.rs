@@ -1,7 +1,7 @@
 //! The bodies of a march that yield.
 
 use crate::error::Error;
-use crate::plan::Mirror;
+use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::yielding::{Yielded, Yielding};
 
@@ -14,10 +14,11 @@ pub(super) struct Yields {
 
 impl Yields {
     /// Those of a scene; none where no body yields.
-    pub(super) fn of(scene: &Scene, mirror: Mirror) -> Result<Option<Self>, Error> {
-        Ok(Yielding::of(scene)?.map(|bodies| Self {
+    pub(super) fn of(scene: &Scene, plan: &Plan) -> Result<Option<Self>, Error> {
+        let bodies = Yielding::on_cells(scene, plan.methods.volume_cells)?;
+        Ok(bodies.map(|bodies| Self {
             bodies,
-            bare: mirror.fold(&scene.h_init()),
+            bare: plan.mirror.fold(&scene.h_init()),
         }))
     }
 

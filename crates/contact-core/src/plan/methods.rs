@@ -1,6 +1,7 @@
 //! The numerical methods of a run.
 
 use crate::scene::{KernelMethod, Preset, Scene};
+use crate::yielding::volume_cells;
 
 /// How the tangential problem is solved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,6 +51,9 @@ pub struct Methods {
     /// Continue zones to their borders within the cells: areas and radii; without it whole cells
     /// count (default true).
     pub partial_cells: bool,
+    /// Most cells of the volume grid of bodies that yield along a side (default 64, of a line contact 256);
+    /// elements grow with the cells.
+    pub volume_cells: usize,
     /// Keep the threads of the pool awake while an increment is solved (default true).
     pub busy_threads: bool,
     /// Solve in a window around the contact (default: the rule of the plan).
@@ -85,6 +89,7 @@ impl Methods {
             anderson: true,
             retries: true,
             partial_cells: true,
+            volume_cells: volume_cells(scene.grid.plane_strain),
             busy_threads: true,
             window,
             single_precision,

@@ -6,7 +6,7 @@ use plasticity::{
 };
 use rayon::prelude::*;
 
-use super::state::{PlasticPoint, PlasticState};
+use super::state::{PlasticPoint, PlasticState, Rim};
 use super::volume::Volume;
 use crate::error::Error;
 use crate::scene::{Body, Bond, ResidualStress};
@@ -432,10 +432,29 @@ impl YieldingBody {
                 .sum::<f64>()
     }
 
-    /// Largest equivalent plastic strain.
-    pub(super) fn largest(&self) -> f64 {
-        let points = self.active.iter();
-        points.map(|(_, _, end)| end.equivalent).fold(0.0, f64::max)
+    /// Whether a point has yielded in a cell at the border or on the lowest plane.
+    pub(super) fn reaches_the_border(&self) -> bool {
+        let (cells, planes) = (self.mesh().cells, self.mesh().planes());
+        let ends = |i: usize, n: usize| i == 0 || i + 1 == n;
+        self.active.iter().any(|(point, _, end)| {
+            let (plane, cell) = (point / cells.len(), point % cells.len());
+            let across = !cells.plane_strain && ends(cell % cells.ny, cells.ny);
+            let beside = ends(cell / cells.ny, cells.nx) || across;
+            end.equivalent > 0.0 && (beside || plane + 1 == planes)
+        })
+    }
+
+    /// Largest equivalent plastic strain, and whether it lies at a rim.
+    pub(super) fn largest(&self) -> Option<(f64, Option<Rim>)> {
+        let (point, _, end) =
+            (self.active.iter()).max_by(|a, b| a.2.equivalent.total_cmp(&b.2.equivalent))?;
+        let (plane, mesh) = (point / self.cells(), self.mesh());
+        let rim = if mesh.layer(plane) + 1 < mesh.layers().len() {
+            Some(Rim::Coating)
+        } else {
+            (plane < eigenstrain::PLANES_PER_ELEMENT).then_some(Rim::Surface)
+        };
+        Some((end.equivalent, rim))
     }
 
     /// Largest inverse of the factor by which the stress of tractions grows, beside the residual stress, until

@@ -25,8 +25,9 @@ use ndarray::Array2;
 use self::anderson::Anderson;
 pub use self::body::mesh_of;
 use self::body::{TOLERANCE, YieldingBody};
-pub use self::state::{PlasticPoint, PlasticState, Yielded};
+pub use self::state::{PlasticPoint, PlasticState, Rim, Yielded};
 pub use self::volume::Volume;
+pub(crate) use self::volume::volume_cells;
 use crate::error::Error;
 use crate::scene::Scene;
 
@@ -52,13 +53,28 @@ pub struct Residual {
     pub gap: Array2<f64>,
 }
 
+/// Residual stress at a depth.
+pub(crate) struct Below {
+    /// Body and layer.
+    pub(crate) layer: [usize; 2],
+    /// Depth \[m\].
+    pub(crate) depth: f64,
+    /// xx, yy, zz \[Pa\].
+    pub(crate) stress: [f64; 3],
+}
+
 impl Yielding {
     /// Of a scene whose bodies may yield; `None` where none does.
     pub fn of(scene: &Scene) -> Result<Option<Self>, Error> {
+        Self::on_cells(scene, volume_cells(scene.grid.plane_strain))
+    }
+
+    /// As [`Self::of`], with a volume grid of at most so many cells along a side.
+    pub(crate) fn on_cells(scene: &Scene, most: usize) -> Result<Option<Self>, Error> {
         if !scene.yields() {
             return Ok(None);
         }
-        let volume = Volume::of(scene);
+        let volume = Volume::of(scene, most);
         let bodies = [(1, &scene.body1), (2, &scene.body2)];
         let bodies = bodies.into_iter().filter(|(_, body)| body.yields());
         let bodies = bodies.map(|(number, body)| YieldingBody::new(number, body, &volume));
@@ -179,6 +195,8 @@ impl Yielding {
         let bodies: Vec<PlasticState> = bodies
             .map(|(n, body)| body.commit(before.bodies.get(n)))
             .collect();
+        let strains = self.bodies.iter().filter_map(YieldingBody::largest);
+        let largest = strains.max_by(|a, b| a.0.total_cmp(&b.0));
         let done: f64 = self.bodies.iter().map(|body| body.work(&self.volume)).sum();
         Yielded {
             work: before.work + done,
@@ -190,11 +208,9 @@ impl Yielding {
                 .iter()
                 .map(|body| body.plastic_volume(&self.volume))
                 .sum(),
-            largest: self
-                .bodies
-                .iter()
-                .map(YieldingBody::largest)
-                .fold(0.0, f64::max),
+            largest: largest.map_or(0.0, |(strain, _)| strain),
+            at_border: self.bodies.iter().any(YieldingBody::reaches_the_border),
+            at_rim: largest.and_then(|(_, rim)| rim),
             bodies,
         }
     }
@@ -240,6 +256,34 @@ impl Yielding {
         let own = self.bodies.iter_mut().find(|b| b.number == body)?;
         let state = state.bodies.iter().find(|state| state.body == body);
         Some(own.response(state, tractions.as_ref()).0)
+    }
+
+    /// Residual stress of a state on every plane below the middle of the grid.
+    pub(crate) fn below_the_middle(&mut self, state: &Yielded) -> Vec<Below> {
+        let cells = self.volume.cells;
+        // The middle of an even number of cells lies between two of them.
+        let around = |n: usize| [(n - 1) / 2, n / 2];
+        let near: Vec<usize> = (around(cells.nx).iter())
+            .flat_map(|i| around(cells.ny).map(|j| i * cells.ny + j))
+            .collect();
+        let mut found = Vec::new();
+        for body in &mut self.bodies {
+            let of_body = state.bodies.iter().find(|known| known.body == body.number);
+            let (stress, _) = body.response(of_body, None);
+            let mesh = body.mesh();
+            found.extend((0..mesh.planes()).map(|plane| {
+                let mean = |c: usize| {
+                    let field = &stress[(plane * eigenstrain::COMPONENTS + c) * cells.len()..];
+                    near.iter().map(|cell| field[*cell]).sum::<f64>() / near.len() as f64
+                };
+                Below {
+                    layer: [body.number, mesh.layer(plane)],
+                    depth: mesh.depth(plane),
+                    stress: [0, 1, 2].map(mean),
+                }
+            }));
+        }
+        found
     }
 
     /// A state whose residual displacements are those of its plastic strain, of one that has the strain

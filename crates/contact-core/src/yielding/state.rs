@@ -50,4 +50,25 @@ pub struct Yielded {
     pub volume: f64,
     /// Largest equivalent plastic strain of a point.
     pub largest: f64,
+    /// Where that point lies, if it is a place where strains do not converge.
+    #[serde(default)]
+    pub at_rim: Option<Rim>,
+    /// Whether a point has yielded at the border of the volume grid.
+    #[serde(default)]
+    pub at_border: bool,
+}
+
+/// A place where strains grow with every refinement.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Rim {
+    /// The uppermost element of a substrate, at the border of slip.
+    Surface,
+    /// A coating, at the rim of the contact.
+    Coating,
+}
+
+impl Rim {
+    /// What is to be known of a largest strain that lies there.
+    pub const TOLD: &str = "the largest plastic strain lies at the border of slip or at the rim of a coating, where it grows \
+        with every refinement: judge the works, the volume and the strain below";
 }

@@ -9,6 +9,16 @@ use crate::scene::{Body, Grid, Profile, Scene};
 /// Most cells of the volume grid along a side of a point contact, and along a line contact.
 const MOST_CELLS: usize = 64;
 const MOST_CELLS_OF_A_LINE: usize = 256;
+
+/// Most cells of the volume grid along a side.
+pub(crate) fn volume_cells(plane_strain: bool) -> usize {
+    if plane_strain {
+        MOST_CELLS_OF_A_LINE
+    } else {
+        MOST_CELLS
+    }
+}
+
 /// Stress of von Mises, over the yield stress, down to which points may yield.
 const YIELDING: f64 = 0.9;
 /// Least and largest depth over the radius of the elastic contact.
@@ -38,16 +48,11 @@ pub struct Volume {
 }
 
 impl Volume {
-    /// Chosen for a scene: at most 64 cells along a side (256 of a line), elements of a cell at
+    /// Chosen for a scene: at most so many cells along a side, elements of a cell at
     /// the surface and at interfaces, growing to a twelfth of the radius of the elastic contact, one to two
     /// cells, down to where a point load of the largest force leaves 0.9 of the yield stress.
-    pub(super) fn of(scene: &Scene) -> Self {
+    pub(super) fn of(scene: &Scene, most: usize) -> Self {
         let grid = scene.grid;
-        let most = if grid.plane_strain {
-            MOST_CELLS_OF_A_LINE
-        } else {
-            MOST_CELLS
-        };
         let sides = if grid.plane_strain {
             [grid.nx, 0]
         } else {
@@ -72,7 +77,9 @@ impl Volume {
         } else {
             cells.dx.min(cells.dy)
         };
-        let height = (HEIGHT * length_of(scene)).clamp(HEIGHTS[0] * side, HEIGHTS[1] * side);
+        let coarser = volume_cells(grid.plane_strain) as f64 / most as f64;
+        let height =
+            (coarser * HEIGHT * length_of(scene)).clamp(HEIGHTS[0] * side, HEIGHTS[1] * side);
         Self {
             cells,
             depth: [&scene.body1, &scene.body2].map(|body| depth(scene, body)),

@@ -150,8 +150,14 @@ pub const SCALARS: &[Scalar] = &[
     real(
         "largest_plastic_strain",
         "1",
-        "largest equivalent plastic strain so far; at the border of slip it does not converge",
+        "largest equivalent plastic strain so far",
         |i| i.yielded.largest,
+    ),
+    real(
+        "strain_at_rim",
+        "1",
+        "1 where that strain lies at the border of slip or in a coating, where it does not converge",
+        |i| f64::from(u8::from(i.yielded.at_rim)),
     ),
     real(
         "yield_ratio",
