@@ -74,6 +74,30 @@ def test_a_fast_cycle_hardly_swings(sliding: fret.Result) -> None:
     assert float(abs(steady.flash).max()) == 0.0
 
 
+@pytest.mark.parametrize("harmonics", [8, 16, 32, 64])
+def test_heat_that_stops_at_once_does_not_overshoot(sliding: fret.Result, harmonics: int) -> None:
+    """At a constant rate the heat of gross slip is even, and ends at the reversal."""
+    a, K = sliding.a_H, STEEL.conductivity
+    slowest = 1e-4 * K / STEEL.heat_capacity / a**2
+    found = sliding.temperature(
+        STEEL, STEEL, frequency=slowest, wave="linear", harmonics=harmonics
+    ).attrs
+    # Quasi-steady: pi q_0 a/(8 K) for q_0 = mu p_H times the speed, four ways in a period.
+    q_0 = 1.5 * MU * LOAD / (np.pi * a**2) * 4.0 * SHIFT * slowest
+    right = np.pi * q_0 * a / (8.0 * K)
+    assert found["maximum"] == pytest.approx(right, rel=0.01)
+    assert 0.0 < found["maximum_error"] < 0.03 * right
+    for times in (1e2, 1e4, 1e6):
+        many, few = (
+            sliding.temperature(
+                STEEL, STEEL, frequency=times * slowest, wave="linear", harmonics=n
+            ).attrs
+            for n in (128, harmonics)
+        )
+        assert few["maximum"] == pytest.approx(many["maximum"], rel=0.01)
+        assert abs(few["maximum"] - many["maximum"]) <= few["maximum_error"]
+
+
 def test_surfaces_agree_where_they_touch(coated: fret.Result) -> None:
     found = coated.temperature(STEEL, [POOR, STEEL], frequency=50.0, bulk=(293.0, 298.0))
     contact = np.any(coated.dataset.contact.values[5:], axis=0)

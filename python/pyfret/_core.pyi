@@ -2962,6 +2962,7 @@ def cycle_temperature(
     heat: ArrayLike,
     contact: NDArray[bool_],
     harmonics: int,
+    jumps: bool,
 ) -> dict[str, Any]:
     """Temperature over a cycle; use :meth:`pyfret.Result.temperature`."""
 

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from pyfret import _core
-from pyfret._core import Material
+from pyfret._core import Grid, Material
 from pyfret._util.arrays import items
 from pyfret._util.door import numbers_only
 from pyfret._util.doubts import doubts_of
@@ -190,7 +190,9 @@ def temperature(
         ``share``, the part of it that flows into body 1 (NaN where there is none; outside 0 to 1
         where heat that rises elsewhere crosses the contact); ``peak`` over ``time``, the largest
         temperature of the surfaces at each part of the period. Attributes: ``maximum`` with
-        ``maximum_x``, ``maximum_y`` [m] and ``maximum_body``, ``heat_into_body1`` and
+        ``maximum_error`` (what half of the harmonics and cells twice as wide change it by; not the
+        error of the heat itself), ``maximum_x``, ``maximum_y`` [m] and ``maximum_body``,
+        ``heat_into_body1`` and
         ``heat_into_body2`` [W], ``bulk`` and ``frequency``; ``doubts``, a line for each number of a
         conductor that is hardly meant.
 
@@ -214,6 +216,7 @@ def temperature(
     kept = cycle_increments(result, cycle)
     heat, contact = _heat(result, kept)
     body1, body2 = scene.body1, scene.body2
+    ends = _ends(result, kept, wave).tolist()
     bulk = (bulk[0], bulk[1]) if isinstance(bulk, Sequence) else (bulk, bulk)
     if harmonics is None:
         harmonics = min(kept.size // 2, HARMONICS)
@@ -222,19 +225,26 @@ def temperature(
     layers1 = _of_layers(conductor1, len(body1.coatings) + 1, "conductor1")
     layers2 = _of_layers(conductor2, len(body2.coatings) + 1, "conductor2")
     doubts = [doubt for layer in (*layers1, *layers2) for doubt in layer.doubts]
-    found = _core.cycle_temperature(
-        _numbers(layers1),
-        _numbers(layers2),
-        body1=body1,
-        body2=body2,
-        grid=scene.grid,
-        bulk=bulk,
-        frequency=frequency,
-        ends=_ends(result, kept, wave).tolist(),
-        heat=heat,
-        contact=contact,
-        harmonics=harmonics,
-    )
+
+    def solved(grid: Grid, heat: NDArray[np.float64], contact: NDArray[np.bool_]) -> dict[str, Any]:
+        return _core.cycle_temperature(
+            _numbers(layers1),
+            _numbers(layers2),
+            body1=body1,
+            body2=body2,
+            grid=grid,
+            bulk=bulk,
+            frequency=frequency,
+            ends=ends,
+            heat=heat,
+            contact=contact,
+            harmonics=harmonics,
+            jumps=wave == "linear",
+        )
+
+    found = solved(scene.grid, heat, contact)
+    coarse = solved(*_on_coarser_cells(scene.grid, heat, contact))
+    of_cells = float(found["largest"].max() - coarse["largest"].max())
     table = _table(result, found)
     area = scene.grid.dx * scene.grid.dy
     into1 = float(found["flux"].sum() * area)
@@ -246,7 +256,22 @@ def temperature(
         heat_into_body1=into1,
         heat_into_body2=float(found["heat"].sum() * area) - into1,
         **_maximum(table, bulk),
+        maximum_error=float(np.hypot(found["error"], of_cells)),
     )
+
+
+def _on_coarser_cells(
+    grid: Grid, heat: NDArray[np.float64], contact: NDArray[np.bool_]
+) -> tuple[Grid, NDArray[np.float64], NDArray[np.bool_]]:
+    """The heat of a cycle on cells twice as wide; an odd number gets a row without heat."""
+    odd_x, odd_y = grid.nx % 2, grid.ny % 2
+    heat = np.pad(heat, ((0, 0), (0, odd_x), (0, odd_y)))
+    contact = np.pad(contact, ((0, odd_x), (0, odd_y)))
+    count, nx, ny = heat.shape
+    wide = grid.replace(nx=nx // 2, ny=ny // 2, dx=2 * grid.dx, dy=2 * grid.dy)
+    blocks = heat.reshape(count, nx // 2, 2, ny // 2, 2).mean(axis=(2, 4))
+    touches = np.asarray(contact.reshape(nx // 2, 2, ny // 2, 2).any(axis=(1, 3)))
+    return wide, blocks, touches
 
 
 def _table(result: Run, found: dict[str, Any]) -> xr.Dataset:

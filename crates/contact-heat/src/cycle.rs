@@ -8,8 +8,11 @@ use contact_core::kernels::Complex64;
 use contact_core::memory::fits;
 use contact_core::scene::Grid;
 use contact_core::stop::unless;
-use ndarray::{Array2, Zip};
+use ndarray::Array2;
+use rayon::prelude::*;
+use rustfft::FftPlanner;
 
+use super::beyond::{Beyond, LAST};
 use super::conduction::Conduction;
 use super::conductor::Layers;
 use super::partition::{Partition, partition};
@@ -20,6 +23,8 @@ pub const MOST_HARMONICS: usize = 256;
 const INSTANTS: usize = 8;
 /// Memory of the amplitudes of a cell, for each harmonic \[bytes\].
 const AMPLITUDES: f64 = 64.0;
+/// Cells whose temperature over time is summed together.
+const TOGETHER: usize = 64;
 
 /// The heat of a cycle.
 #[derive(Clone, Debug)]
@@ -32,6 +37,9 @@ pub struct Cycle<'a> {
     pub heat: &'a [Array2<f64>],
     /// The cells that take heat.
     pub contact: &'a Array2<bool>,
+    /// Whether the rate of the heat may jump from an increment to the next: then the harmonics
+    /// beyond those that are solved are estimated. Increments of a smooth rate are samples of it.
+    pub jumps: bool,
 }
 
 /// The surface temperature of two bodies in the periodic state.
@@ -49,6 +57,8 @@ pub struct Temperature {
     pub instants: Vec<f64>,
     /// The largest temperature of either surface at these.
     pub peaks: Vec<f64>,
+    /// What half of the harmonics change the largest temperature of all by.
+    pub error: f64,
 }
 
 impl Cycle<'_> {
@@ -96,19 +106,26 @@ impl Cycle<'_> {
 
     /// The amplitude of harmonic n of the heat \[W/m^2\]: q(t) is the real part of the sum of
     /// q_0 and of 2 q_n exp(2 pi i n f t).
-    fn harmonic(&self, n: usize) -> Vec<Complex64> {
+    pub(super) fn harmonic(&self, n: usize) -> Vec<Complex64> {
         let mut amplitude = vec![Complex64::ZERO; self.contact.len()];
-        let starts = std::iter::once(&0.0).chain(self.ends);
-        for ((start, end), heat) in starts.zip(self.ends).zip(self.heat) {
-            let half = PI * n as f64 * (end - start);
-            let spread = if half == 0.0 { 1.0 } else { half.sin() / half };
-            let phase = -PI * n as f64 * (start + end);
-            let factor = Complex64::from_polar(self.frequency * spread, phase);
+        for (factor, heat) in self.factors(n).into_iter().zip(self.heat) {
             for (amplitude, heat) in amplitude.iter_mut().zip(heat) {
                 *amplitude += factor * heat;
             }
         }
         amplitude
+    }
+
+    /// What a unit heat of each increment adds to the amplitude of harmonic n \[1/s\].
+    pub(super) fn factors(&self, n: usize) -> Vec<Complex64> {
+        let starts = std::iter::once(&0.0).chain(self.ends);
+        let of_increment = |(start, end): (&f64, &f64)| {
+            let half = PI * n as f64 * (end - start);
+            let spread = if half == 0.0 { 1.0 } else { half.sin() / half };
+            let phase = -PI * n as f64 * (start + end);
+            Complex64::from_polar(self.frequency * spread, phase)
+        };
+        starts.zip(self.ends).map(of_increment).collect()
     }
 }
 
@@ -147,41 +164,77 @@ pub fn temperature(
             partition([&mut one, &mut two], &cycle.harmonic(n), &contact, warmer)
         })
         .collect::<Result<Vec<_>, Error>>()?;
-    Ok(over_time(&answers, bulk, (grid.nx, grid.ny)))
+    let beyond = (cycle.jumps && harmonics > 0)
+        .then(|| Beyond::new(bodies, grid, cycle, harmonics, &contact))
+        .transpose()?;
+    let shape = (grid.nx, grid.ny);
+    let mut found = over_time(&answers, beyond.as_ref(), bulk, shape);
+    if harmonics > 0 {
+        let half = over_time(&answers[..=harmonics / 2], beyond.as_ref(), bulk, shape);
+        let hottest = |of: &[f64]| of.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        found.error = (hottest(&found.peaks) - hottest(&half.peaks)).abs();
+    }
+    Ok(found)
 }
 
 /// The series of the harmonics at the instants of a cycle.
-fn over_time(answers: &[Partition], bulk: [f64; 2], shape: (usize, usize)) -> Temperature {
+fn over_time(
+    answers: &[Partition],
+    beyond: Option<&Beyond>,
+    bulk: [f64; 2],
+    shape: (usize, usize),
+) -> Temperature {
     let field = |values: &[Complex64], above: f64| {
         let values = values.iter().map(|v| v.re + above).collect();
         Array2::from_shape_vec(shape, values).expect("a number for each cell")
     };
     let (steady, swings) = answers.split_first().expect("harmonic 0");
     let mean = [0, 1].map(|body| field(&steady.rise[body], bulk[body]));
-    let count = INSTANTS * (swings.len() + 1);
+    let count = beyond.map_or(INSTANTS * (swings.len() + 1), |_| 2 * LAST);
     let instants: Vec<f64> = (0..count).map(|m| m as f64 / count as f64).collect();
-    let mut largest = mean.clone();
-    if !swings.is_empty() {
-        for of in &mut largest {
-            of.fill(f64::NEG_INFINITY);
-        }
-    }
-    let mut peaks = Vec::with_capacity(count);
-    for t in &instants {
-        let mut peak = f64::NEG_INFINITY;
-        for (body, largest) in largest.iter_mut().enumerate() {
-            let mut now = mean[body].clone();
-            for (n, swing) in (1..).zip(swings) {
-                let turn = Complex64::from_polar(2.0, 2.0 * PI * f64::from(n) * t);
-                for (now, rise) in now.iter_mut().zip(&swing.rise[body]) {
-                    *now += (turn * rise).re;
-                }
+    let transform = FftPlanner::new().plan_fft_inverse(count);
+    let cells: Vec<usize> = (0..shape.0 * shape.1).collect();
+    let coldest = || vec![f64::NEG_INFINITY; count];
+    let mut peaks = coldest();
+    let largest = [0, 1].map(|body| {
+        let over_period = |cell: usize| {
+            let mut series = vec![Complex64::ZERO; count];
+            series[0] = (steady.rise[body][cell].re + bulk[body]).into();
+            for (amplitude, swing) in series[1..].iter_mut().zip(swings) {
+                *amplitude = 2.0 * swing.rise[body][cell];
             }
-            peak = now.iter().copied().fold(peak, f64::max);
-            Zip::from(largest).and(&now).for_each(|l, n| *l = l.max(*n));
+            if let Some(beyond) = beyond {
+                beyond.add(body, cell, swings.len(), &mut series);
+            }
+            transform.process(&mut series);
+            series
+        };
+        let some = |some: &[usize]| {
+            let mut peaks = coldest();
+            let tops: Vec<f64> = (some.iter())
+                .map(|cell| {
+                    let series = over_period(*cell);
+                    for (peak, now) in peaks.iter_mut().zip(&series) {
+                        *peak = peak.max(now.re);
+                    }
+                    series
+                        .iter()
+                        .map(|v| v.re)
+                        .fold(f64::NEG_INFINITY, f64::max)
+                })
+                .collect();
+            (tops, peaks)
+        };
+        let parts: Vec<_> = cells.par_chunks(TOGETHER).map(some).collect();
+        let mut tops = Vec::with_capacity(cells.len());
+        for (of_cells, of_instants) in parts {
+            tops.extend(of_cells);
+            for (peak, now) in peaks.iter_mut().zip(of_instants) {
+                *peak = peak.max(now);
+            }
         }
-        peaks.push(peak);
-    }
+        Array2::from_shape_vec(shape, tops).expect("a number for each cell")
+    });
     let [one, two] = &steady.flux;
     let heat: Vec<_> = one.iter().zip(two).map(|(a, b)| a + b).collect();
     Temperature {
@@ -191,5 +244,6 @@ fn over_time(answers: &[Partition], bulk: [f64; 2], shape: (usize, usize)) -> Te
         flux: field(one, 0.0),
         instants,
         peaks,
+        error: 0.0,
     }
 }

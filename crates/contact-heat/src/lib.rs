@@ -18,6 +18,7 @@
 
 #![forbid(unsafe_code)]
 
+mod beyond;
 mod coefficients;
 mod conduction;
 mod conductor;

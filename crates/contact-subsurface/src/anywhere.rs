@@ -3,10 +3,10 @@
 //! Samples on a section through the contact, on the section across it, on the surface and on both
 //! sides of every interface give the starting points, and so does the rim of the contact; the
 //! ascent from the highest is free in all three directions. Where the samples of a layer still rise
-//! at their end, its section is made longer: the tractions are known, so that the field is known
-//! beyond the grid.
+//! at their end, its section is made longer, and where the substrate's rise at the deepest of them,
+//! deeper: the tractions are known, so that the field is known beyond the grid.
 
-use ndarray::{Array2, ArrayView2, Axis};
+use ndarray::{Array1, Array2, ArrayView1, ArrayView2, Axis};
 
 use super::climb::Start;
 use super::depth::on_interfaces;
@@ -21,6 +21,11 @@ use contact_core::zones::Outline;
 /// the distances of successive samples from its end, the first a cell from it.
 const LONGER: f64 = 8.0;
 const RATIO: f64 = 1.35;
+/// How much deeper the substrate is sampled than the given depths, the ratio of successive depths,
+/// and the part of its highest sample that those at the deepest must reach.
+const DEEPER: f64 = 8.0;
+const DOWN: f64 = 1.2;
+const HIGH: f64 = 0.8;
 /// Samples rise at the end of a line if they do so there above this part of the highest of the
 /// layer.
 const COUNTS: f64 = 0.05;
@@ -120,23 +125,22 @@ pub fn largest_anywhere(
         Search::new(body, side, grid, Some(line), states)?
     };
     let mut still_rises = Vec::new();
+    let mut reached = depths.to_vec();
     for one in &mut sampled {
-        if one.made_longer(&search, grid, measure)? {
+        let longer = one.made_longer(&search, grid, measure)?;
+        let substrate = one.depths[0].layer == body.coatings.len();
+        let deeper = substrate && one.made_deeper(&search, measure)?;
+        if longer || deeper {
             still_rises.push(one.depths[0].layer);
         }
+        let deepest = reached.last().map_or(0.0, |depth| depth.z);
+        reached.extend(one.depths.iter().filter(|depth| depth.z > deepest));
     }
     still_rises.sort_unstable();
     still_rises.dedup();
     let mut starts: Vec<Start> = Vec::new();
     for one in &sampled {
-        let rows = one.values.rows().into_iter();
-        let tops: Vec<_> = rows.map(|row| top_of_line(&row, &one.along)).collect();
-        let hills = hills_of(&probe, &tops, (&one.depths, &one.on_one), layer);
-        starts.extend(
-            hills
-                .iter()
-                .flat_map(|hill| search.starts(one.line, hill, &one.along, free)),
-        );
+        starts.extend(one.starts(&search, &probe, layer, free));
     }
     let mut surface = None;
     if free {
@@ -185,22 +189,15 @@ pub fn largest_anywhere(
             (0..along.len()).min_by(|&a, &b| (along[a] - s).abs().total_cmp(&(along[b] - s).abs()));
         nearest.map_or(f64::NAN, |n| samples[(0, n)])
     };
-    let mut largest = search.climbed(&probe, starts, depths, layer, &near)?;
+    let mut largest = search.climbed(&probe, starts, &reached, layer, &near)?;
     if free {
         // A narrow ridge along the section is followed on it to its top.
         let search = Search::new(body, side, grid, Some(line), states)?;
         let mut starts: Vec<Start> = Vec::new();
         for one in sampled.iter().filter(|one| one.line == line) {
-            let rows = one.values.rows().into_iter();
-            let tops: Vec<_> = rows.map(|row| top_of_line(&row, &one.along)).collect();
-            let hills = hills_of(&probe, &tops, (&one.depths, &one.on_one), layer);
-            starts.extend(
-                hills
-                    .iter()
-                    .flat_map(|hill| search.starts(line, hill, &one.along, false)),
-            );
+            starts.extend(one.starts(&search, &probe, layer, false));
         }
-        let on_line = search.climbed(&probe, starts, depths, layer, &near)?;
+        let on_line = search.climbed(&probe, starts, &reached, layer, &near)?;
         largest = match (largest, on_line) {
             (Some(free), Some(on_line)) if on_line.value > free.value => Some(on_line),
             (free, on_line) => free.or(on_line),
@@ -230,6 +227,66 @@ fn values_of(section: &Section, measure: &Measure, depths: &[Depth]) -> Result<A
 }
 
 impl Sampled {
+    /// Where the ascent starts on the hills of the samples.
+    fn starts(
+        &self,
+        search: &Search,
+        probe: &Probe,
+        layer: Option<usize>,
+        free: bool,
+    ) -> Vec<Start> {
+        let rows = self.values.rows().into_iter();
+        let tops: Vec<_> = rows.map(|row| top_of_line(&row, &self.along)).collect();
+        let hills = hills_of(probe, &tops, (&self.depths, &self.on_one), layer);
+        let of_hill = |hill| search.starts(self.line, hill, &self.along, free);
+        hills.iter().flat_map(of_hill).collect()
+    }
+
+    /// Adds deeper and deeper samples while the highest stand at the deepest of them and rise by
+    /// more than [`FLAT`]; whether they still do.
+    fn made_deeper(&mut self, search: &Search, measure: &Measure) -> Result<bool, Error> {
+        let (Some(last), false) = (self.depths.last().copied(), measure.of_interfaces) else {
+            return Ok(false);
+        };
+        let limit = DEEPER * last.z;
+        let top_of = |values: &ArrayView1<'_, f64>| {
+            let numbers = values.iter().filter(|v| !v.is_nan());
+            numbers.copied().fold(0.0, f64::max)
+        };
+        let mut depth = last;
+        loop {
+            let tops: Vec<f64> = self
+                .values
+                .rows()
+                .into_iter()
+                .map(|row| top_of(&row))
+                .collect();
+            let [.., before, deepest] = tops[..] else {
+                return Ok(false);
+            };
+            let top = tops.iter().copied().fold(0.0, f64::max);
+            if deepest < HIGH * top || deepest - before <= FLAT * top {
+                return Ok(false);
+            }
+            depth.z *= DOWN;
+            if depth.z > limit {
+                return Ok(true);
+            }
+            let points: Vec<Point> = self
+                .along
+                .iter()
+                .map(|s| self.line.point(*s, depth))
+                .collect();
+            let stress = search.points.stress(&points)?.swap_remove(0);
+            let row: Array1<f64> = stress.iter().map(measure.value).collect();
+            self.values
+                .push_row(row.view())
+                .expect("a value for each place");
+            self.depths.push(depth);
+            self.on_one.push(false);
+        }
+    }
+
     /// The depths at which the samples rise towards an end of the line.
     fn rising(&self) -> Vec<usize> {
         let numbers = self.values.iter().filter(|v| !v.is_nan());

@@ -299,7 +299,9 @@ impl Search {
         let there = point(place, start.layer);
         let at = self.in_space(there);
         let border = self.border_at(at);
-        let unsure = self.points.rim_is_unknown(at);
+        // Under the rim of a thin layer the samples of an interface follow the cells of the border.
+        let of_steps = lives_on_interfaces(probe) && self.thin && self.is_near_border(at);
+        let unsure = of_steps || self.points.rim_is_unknown(at);
         let inwards = if unsure {
             self.beside(there)
         } else {

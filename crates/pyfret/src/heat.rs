@@ -31,7 +31,7 @@ fn layers(conductors: &Conductors, body: &Body, key: &str) -> PyResult<core::Lay
 
 /// Temperature over a cycle; use :meth:`pyfret.Result.temperature`.
 #[pyfunction]
-#[pyo3(signature = (conductor1: "Sequence[tuple[float, float]]", conductor2: "Sequence[tuple[float, float]]", *, body1, body2, grid, bulk: "tuple[float, float]", frequency: "float", ends: "Sequence[float]", heat, contact, harmonics: "int") -> "dict[str, Any]")]
+#[pyo3(signature = (conductor1: "Sequence[tuple[float, float]]", conductor2: "Sequence[tuple[float, float]]", *, body1, body2, grid, bulk: "tuple[float, float]", frequency: "float", ends: "Sequence[float]", heat, contact, harmonics: "int", jumps: "bool") -> "dict[str, Any]")]
 pub(crate) fn cycle_temperature<'py>(
     py: Python<'py>,
     conductor1: Conductors,
@@ -45,6 +45,7 @@ pub(crate) fn cycle_temperature<'py>(
     heat: Array<'py, Ix3>,
     contact: Mask<'py, Ix2>,
     #[pyo3(from_py_with = number)] harmonics: usize,
+    jumps: bool,
 ) -> PyResult<Bound<'py, PyDict>> {
     let one = layers(&conductor1, &body1, "conductor1")?;
     let two = layers(&conductor2, &body2, "conductor2")?;
@@ -59,6 +60,7 @@ pub(crate) fn cycle_temperature<'py>(
         ends: &ends,
         heat: &heat,
         contact: &contact,
+        jumps,
     };
     let stop = Arc::<AtomicBool>::default();
     let bulk = [bulk.0, bulk.1];
@@ -75,5 +77,6 @@ pub(crate) fn cycle_temperature<'py>(
     result.set_item("flux", found.flux.into_pyarray(py))?;
     result.set_item("instants", found.instants)?;
     result.set_item("peaks", found.peaks)?;
+    result.set_item("error", found.error)?;
     Ok(result)
 }

@@ -37,6 +37,10 @@ Data: TypeAlias = "Loops | Indentation | Scar | Lives"
 
 #: Part of the range of the shift that a turn has to go back to count as one.
 TURN = 0.3
+#: Points on each side of a turn whose parabolas meet there: least, most, over those of a branch.
+BESIDE, MOST_BESIDE, OF_BRANCH = 4, 12, 0.1
+#: Part of the way from the outermost point to a turn that is its error.
+OF_WAY = 0.25
 #: Part of a branch at its end whose slope is that of sliding, and the largest slope there, over
 #: that of the flank, of a loop that slides: at 0.9 mu W a ball in partial slip has 0.46.
 END, SLIDING = 0.25, 0.3
@@ -65,7 +69,7 @@ class Loops(HoldsArrays):
         Whether a spring parallel to the contact is fitted; None: if the loops slide.
     drifts : bool, optional
         Whether drifts of both gauges, linear in the number of the point, are fitted; None: if
-        there are several cycles.
+        there are several cycles or two turns within the record.
     """
 
     delta: NDArray[np.float64]
@@ -77,6 +81,9 @@ class Loops(HoldsArrays):
     drift: tuple[float, float] = (0.0, 0.0)
     tilt: bool | None = None
     drifts: bool | None = None
+    #: Turns within the record, (n, 3): number of the point, between two points as a rule, shift
+    #: there and its error [m]; :func:`turns_between`.
+    turns: NDArray[np.float64] | None = None
 
     @property
     def sliding_slope(self) -> float | None:
@@ -147,7 +154,8 @@ class Loops(HoldsArrays):
         ]
         moved = (middles[0][1] - middles[0][0], middles[1][1] - middles[1][0])
         points = (shift[order], force[order], down[order], cycle[order])
-        return Loops(*points, W, noise, moved, tilt, drift)
+        between = turns_between(shift, turns) - [order[0], 0.0, 0.0]
+        return Loops(*points, W, noise, moved, tilt, drift, between)
 
 
 @numbers_only
@@ -277,7 +285,7 @@ def loops(
         of another stiffness looks alike).
     drift : bool, optional
         Whether drifts of shift and force are unknowns: both grow in proportion to the number of the
-        point (default: if there are several cycles).
+        point (default: if there are several cycles or two turns within the record).
 
     Raises
     ------
@@ -373,6 +381,36 @@ def lives(
         for row in rows
     ]
     return Lives(rows[:, of], settings, wear, part, body_number, noise)
+
+
+def turns_between(delta: NDArray[np.float64], turns: list[int]) -> NDArray[np.float64]:
+    """The turns within a record: number of the point, shift there and its error, (n, 3).
+
+    A parabola through the points before a turn and one through those after it: the shift is the
+    lower of both on an upper turn, and turns where that is largest. Points rarely lie on the turn.
+    """
+    found = []
+    for n, at in enumerate(turns):
+        before = at - turns[n - 1] if n > 0 else at
+        after = turns[n + 1] - at if n + 1 < len(turns) else delta.size - 1 - at
+        many = min(max(BESIDE, int(OF_BRANCH * min(before, after))), MOST_BESIDE)
+        if min(before, after) < many:
+            continue
+        sign = 1.0 if delta[at] > delta[at - many] else -1.0
+        way = np.linspace(-1.0, 1.0, 401)
+        sides = []
+        for side in (np.arange(-many, 0), np.arange(1, many + 1)):
+            parabola = np.polyfit(side, sign * delta[at + side], 2)
+            rest = sign * delta[at + side] - np.polyval(parabola, side)
+            sides.append((np.polyval(parabola, way), float(np.sqrt(rest @ rest / (many - 3)))))
+        lower = np.minimum(sides[0][0], sides[1][0])
+        top = int(lower.argmax())
+        # Not below the outermost point, unless that stands out by its noise.
+        noise = max(sides[0][1], sides[1][1])
+        turn = max(float(lower[top]), sign * float(delta[at]) - 2.0 * noise)
+        error = OF_WAY * abs(turn - sign * float(delta[at])) + noise
+        found.append((at + float(way[top]), sign * turn, error))
+    return np.array(found).reshape(-1, 3)
 
 
 def turning(delta: NDArray[np.float64]) -> list[int]:

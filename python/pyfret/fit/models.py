@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 __all__ = ["Model", "model_of", "wear_arguments"]
 
 T = TypeVar("T")
+#: What should have been measured, of offsets and of how far what is unsure is moved.
+Predicted: TypeAlias = "Callable[[NDArray[np.float64], float], NDArray[np.float64]]"
 Curve: TypeAlias = "Callable[[NDArray[np.float64]], NDArray[np.float64]]"
 
 #: Increments of a way of the loop and of an indentation, where the scene's path says nothing else.
@@ -50,17 +52,15 @@ class Model(Measured):
     solves : int
         Solves that one prediction takes.
     predict : callable
-        What the numbers measured should have been under a scene, given offsets afterwards; with
-        the usual increments and jumps, or ``finer`` = 1/2 for half as many.
+        What the numbers measured should have been under a scene, given offsets afterwards, and
+        with what the record leaves unsure (the turns of a loop) ``moved`` by so many of its errors;
+        with the usual increments and jumps, or ``finer`` = 1/2 for half as many.
     """
 
     offsets: tuple[str, ...]
     scales: NDArray[np.float64]
     solves: int
-    predict: Callable[
-        [Scene, Mapping[str, float], float],
-        Callable[[NDArray[np.float64]], NDArray[np.float64]],
-    ]
+    predict: Callable[[Scene, Mapping[str, float], float], Predicted]
     noise: float | None
     zeros: NDArray[np.float64]
 
@@ -103,18 +103,20 @@ def through(x: NDArray[np.float64], y: NDArray[np.float64]) -> Curve:
 def of_loops(data: Loops) -> Model:
     """Loops: the closed cycle between the ends of the measured shift, under the scene's W."""
     cycles = range(int(data.cycle.max()) + 1)
-    drifts = data.drifts if data.drifts is not None else len(cycles) > 1
+    many = len(cycles) > 1 or (data.turns is not None and len(data.turns) > 1)
+    drifts = data.drifts if data.drifts is not None else many
     time = np.linspace(-0.5, 0.5, data.delta.size)
     steady = data.delta - (drift_of_turns(data.delta, time) * time if drifts else 0.0)
     of_cycle = [steady[data.cycle == n] for n in cycles]
     reach = 0.5 * float(np.median([np.ptp(shift) for shift in of_cycle]))
     middle = float(np.median([0.5 * (s.max() + s.min()) for s in of_cycle]))
+    unsure = 0.0
+    if known := reach_of_turns(data, drifts=drifts):
+        reach, unsure = known
     force = 0.5 * float(np.median([np.ptp(data.T[data.cycle == n]) for n in cycles]))
     tilts = data.tilt if data.tilt is not None else data.sliding_slope is not None
 
-    def predict(
-        scene: Scene, _: Mapping[str, float], finer: float
-    ) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
+    def predict(scene: Scene, _: Mapping[str, float], finer: float) -> Predicted:
         W = data.W if data.W is not None else normal_force(scene)
         path = LoadPath.start().normal(W, increments=1).rig(scene.path.rig_stiffness)
         for to, ways in ((reach, 0.5), (-reach, 1.0), (reach, 1.0)):
@@ -128,10 +130,14 @@ def of_loops(data: Loops) -> Model:
             ways = np.r_[first - 1, np.flatnonzero(branch == n)]
             curves.append(through(shift[ways], T[ways]))
 
-        def at(offsets: NDArray[np.float64]) -> NDArray[np.float64]:
+        def at(offsets: NDArray[np.float64], moved: float = 0.0) -> NDArray[np.float64]:
             more = dict(zip(named, offsets, strict=True))
             where = data.delta - middle - more[SHIFT] - more.get(DRIFTS[0], 0.0) * time
-            down, up = (curve(where) for curve in curves)
+            # Turns farther out move the branches apart.
+            down, up = (
+                curve(where - way * moved * unsure)
+                for way, curve in zip((1.0, -1.0), curves, strict=True)
+            )
             beside = more[FORCE] + more.get(DRIFTS[1], 0.0) * time + more.get(TILT, 0.0) * where
             return np.asarray(np.where(data.down, down, up) + beside)
 
@@ -149,6 +155,30 @@ def of_loops(data: Loops) -> Model:
     return Model(data, data.T, along, labels, names, scales, 1, predict, data.noise, zeros)
 
 
+def reach_of_turns(data: Loops, *, drifts: bool) -> tuple[float, float] | None:
+    """Half the way between lower and upper turns, the same in all cycles, and its error [m].
+
+    Least squares of middle, reach and drift; None where the record has too few turns.
+    """
+    if data.turns is None:
+        return None
+    at, shift, error = data.turns.T
+    upper = shift > 0.5 * (data.delta.max() + data.delta.min())
+    columns = [np.where(upper, 1.0, -1.0), np.ones(at.size)]
+    if drifts:
+        columns.append(at / data.delta.size - 0.5)
+    if at.size < len(columns) or upper.all() or not upper.any():
+        return None
+    matrix = np.stack(columns, axis=1)
+    found = np.linalg.lstsq(matrix, shift, rcond=None)[0]
+    rest = shift - matrix @ found
+    spare = at.size - len(columns)
+    scatter = float(np.sqrt(rest @ rest / spare)) if spare else 0.0
+    each = max(scatter, float(np.sqrt(np.mean(error**2))))
+    of_reach = float(np.sqrt(np.linalg.inv(matrix.T @ matrix)[0, 0]))
+    return float(found[0]), each * of_reach
+
+
 def drift_of_turns(delta: NDArray[np.float64], time: NDArray[np.float64]) -> float:
     """Slope of the shift at its turns over time, the same for both ends of the loop [m]."""
     # The ends of a record need not be turns.
@@ -164,9 +194,7 @@ def of_indentation(data: Indentation) -> Model:
     """An indentation curve: the approach at the measured forces."""
     most = float(data.W.max())
 
-    def predict(
-        scene: Scene, _: Mapping[str, float], finer: float
-    ) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
+    def predict(scene: Scene, _: Mapping[str, float], finer: float) -> Predicted:
         path = LoadPath.start()
         steps = np.linspace(0, 1, round(INDENTATION * finer) + 1)[1:] ** 1.5
         for part in steps:
@@ -175,7 +203,12 @@ def of_indentation(data: Indentation) -> Model:
         # Over W^(2/3) the curve of a homogeneous sphere is straight.
         curve = through(np.r_[0.0, d.W.values] ** (2 / 3), np.r_[0.0, d.delta_z.values])
         found = curve(data.W ** (2 / 3))
-        return lambda offsets: found + offsets[0] + (offsets[1] * data.W if data.frame else 0.0)
+        frame = data.W if data.frame else np.zeros_like(data.W)
+
+        def at(offsets: NDArray[np.float64], _: float = 0.0) -> NDArray[np.float64]:
+            return np.asarray(found + offsets[0] + offsets[-1] * frame)
+
+        return at
 
     reach = float(np.ptp(data.delta_z))
     scales, zeros = np.array([reach, reach / most]), np.zeros(2)
@@ -191,16 +224,14 @@ def of_scar(data: Scar) -> Model:
     """A scar: the worn depth along x at the end of a run of wear."""
     half = float(np.ptp(data.x[data.depth > 0.1 * data.depth.max()])) / 2
 
-    def predict(
-        scene: Scene, values: Mapping[str, float], finer: float
-    ) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
+    def predict(scene: Scene, values: Mapping[str, float], finer: float) -> Predicted:
         arguments = jumping(wear_arguments(data.wear, values), finer)
         d = growing(scene, lambda s: wear.solve(s, progress=False, **arguments)).dataset
         fields = {1: d.worn1, 2: d.worn2, 0: d.worn1 + d.worn2}
         profile = fields[data.body_number][-1].sel(y=0.0, method="nearest")
         x, depth = d.x.values, profile.values
 
-        def at(offsets: NDArray[np.float64]) -> NDArray[np.float64]:
+        def at(offsets: NDArray[np.float64], _: float = 0.0) -> NDArray[np.float64]:
             return np.asarray(np.interp(data.x - offsets[0], x, depth, left=0.0, right=0.0))
 
         return at
@@ -214,9 +245,7 @@ def of_scar(data: Scar) -> Model:
 def of_lives(data: Lives) -> Model:
     """Lives: ln of the cycles to a part of the thickness in each test."""
 
-    def predict(
-        scene: Scene, values: Mapping[str, float], finer: float
-    ) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
+    def predict(scene: Scene, values: Mapping[str, float], finer: float) -> Predicted:
         found = []
         for n, settings in enumerate(data.settings):
             arguments = jumping(wear_arguments(data.wear, {**values, **split(settings)[1]}), finer)
@@ -226,7 +255,11 @@ def of_lives(data: Lives) -> Model:
             # A coating that outlives the run by far counts as one that lives four times as long.
             found.append(min(cycles, 4 * float(data.cycles[n])))
         logs = np.log(found)
-        return lambda offsets: logs
+
+        def at(_: NDArray[np.float64], __: float = 0.0) -> NDArray[np.float64]:
+            return logs
+
+        return at
 
     labels = ("test", "ln of the cycles")
     count = len(data.cycles)

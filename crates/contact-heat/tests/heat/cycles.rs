@@ -36,6 +36,7 @@ fn slow_and_fast_cycles() {
             ends: &ends,
             heat: &heat,
             contact: &contact,
+            jumps: false,
         };
         temperature(
             [&steel(), &steel()],
@@ -97,6 +98,7 @@ fn what_makes_no_sense_is_refused() {
         ends: &ends,
         heat: &heat,
         contact: &contact,
+        jumps: false,
     };
     let refused = |cycle: &Cycle<'_>, bulk: f64, harmonics: usize| {
         let bodies = [&steel(), &steel()];
