@@ -175,8 +175,22 @@ def branches(rng: random.Random, made: dict[str, object], W: float, extent: floa
     return path
 
 
-def draw(seed: int) -> str:
-    """The scene of a seed, as the text of its file."""
+def give_way(seed: int, W: float, extent: float, *bodies: dict[str, object]) -> None:
+    """Bonds that give way, below some of the layers: about as much as the bodies approach."""
+    rng = random.Random(f"bonds {seed}")
+    mean = W / (0.27 * extent) ** 2
+    for body in bodies:
+        coatings = body.get("coatings", [])
+        assert isinstance(coatings, list)
+        for coating in coatings:
+            if rng.random() < 0.5:
+                compliance = (0.27 * extent) ** 2 / R / mean
+                coating["bond_normal"] = compliance * power(rng, -3.0, 1.0)
+                coating["bond_shear"] = rng.choice([0.0, compliance * power(rng, -3.0, 2.0)])
+
+
+def draw(seed: int, *, bonds: bool = False) -> str:
+    """The scene of a seed, as the text of its file; with `bonds` some of its layers give way."""
     rng = random.Random(seed)
     n = rng.choice([16, 20, 24, 32])
     cells: object = n if rng.random() < 0.7 else [n, n + rng.choice([-3, 1, 4])]
@@ -195,6 +209,8 @@ def draw(seed: int) -> str:
     stiff = [b["E"] for b in (one, two) if isinstance(b["E"], float)]
     E_star = 1.0 / sum(1.0 / E for E in stiff)
     W = 4 / 3 * E_star * (half_width(rng) * extent) ** 3 / R
+    if bonds:
+        give_way(seed, W, extent, one, *([two] if two is not one else []))
     path, rolled = [], 0
     for branch in branches(rng, made, W, extent):
         assert isinstance(branch, dict)

@@ -1,8 +1,9 @@
 """Runs scenes of the campaign: ``python tests/campaign/run.py FIRST COUNT``.
 
 Says what became of them, and names the scenes that failed or violate an equation; with ``--json``
-each line is a scene: its seed, what became of it, the seconds it took. Scenes run in processes of
-their own, so that one that does not end can be ended.
+each line is a scene: its seed, what became of it, the seconds it took. With ``--whole`` layers have
+bonds that give way, and of every result heat, cracks and wear follow, some under laws of one's own
+(:mod:`follow`). Scenes run in processes of their own, so that one that does not end can be ended.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ import select
 import subprocess
 import sys
 import time
+import warnings
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -24,14 +26,16 @@ sys.path.insert(0, str(Path(__file__).parent))
 LIMIT = 60.0
 
 
-def fate(seed: int) -> dict[str, object]:
-    """What becomes of the scene of a seed."""
+def fate(seed: int, *, whole: bool = False) -> dict[str, object]:
+    """What becomes of the scene of a seed, and of all that follows from it."""
     from audit import Audit
     from draw import draw
+    from follow import follows
 
     import pyfret as fret
 
-    text = draw(seed)
+    text = draw(seed, bonds=whole)
+    after: dict[str, str] = {}
     worst: dict[str, tuple[float, int]] = {}
     number = 0
     try:
@@ -41,6 +45,8 @@ def fate(seed: int) -> dict[str, object]:
             for name, off in audit.look(increment).items():
                 if off > worst.get(name, (0.0, 0))[0]:
                     worst[name] = (off, number)
+        if whole:
+            after = dict(follows(audit.scene, seed))
     except fret.errors.InvalidSceneError as error:
         kind = "off grid" if isinstance(error, fret.errors.OffGridError) else "refused"
         return {"fate": kind, "why": str(error), "worst": worst, "increment": number}
@@ -51,15 +57,16 @@ def fate(seed: int) -> dict[str, object]:
     except BaseException as error:
         kind = type(error).__name__
         return {"fate": f"raised {kind}", "why": str(error), "worst": worst, "increment": number}
-    return {"fate": "solved", "why": "", "worst": worst, "increment": number}
+    return {"fate": "solved", "why": "", "worst": worst, "increment": number, "after": after}
 
 
-def work(first: int, last: int, stride: int) -> None:
+def work(first: int, last: int, stride: int, *, whole: bool) -> None:
     """Tells of each scene before and after it."""
+    warnings.simplefilter("ignore")
     for seed in range(first, last, stride):
         print(json.dumps({"seed": seed}), flush=True)
         begun = time.process_time()
-        of = fate(seed)
+        of = fate(seed, whole=whole)
         print(json.dumps({"seed": seed, **of, "seconds": time.process_time() - begun}), flush=True)
 
 
@@ -93,7 +100,9 @@ class Worker:
         return work > limit or all_of_it > 10 * limit
 
 
-def campaign(first: int, count: int, limit: float = LIMIT) -> Iterator[dict[str, object]]:
+def campaign(
+    first: int, count: int, limit: float = LIMIT, *, whole: bool = False
+) -> Iterator[dict[str, object]]:
     """What becomes of `count` scenes, as they end; two processes at a time."""
     stride, last = 2, first + count
     environment = os.environ | {"RAYON_NUM_THREADS": "1"}
@@ -102,6 +111,7 @@ def campaign(first: int, count: int, limit: float = LIMIT) -> Iterator[dict[str,
     while starts or running:
         for start in (seed for seed in starts if seed < last):
             command = [sys.executable, __file__, "work", str(start), str(last), str(stride)]
+            command += ["--whole"] if whole else []
             process = subprocess.Popen(command, stdout=subprocess.PIPE, env=environment)
             running.append(Worker(process, start, (0.0, time.monotonic())))
         starts = []
@@ -141,6 +151,12 @@ def told(outcomes: list[dict[str, object]]) -> tuple[list[str], bool]:
     """What became of all scenes, in lines; and whether all is right."""
     fates = Counter(str(of["fate"]) for of in outcomes)
     lines = [f"{n:6d} {fate}" for fate, n in fates.most_common()]
+    followed = Counter(
+        f"{name} {'refused' if why else 'found'}"
+        for of in outcomes
+        for name, why in dict(of.get("after") or {}).items()  # type: ignore[call-overload]
+    )
+    lines += [f"{n:6d} {what}" for what, n in sorted(followed.items())]
     wrong = [of for of in outcomes if of["fate"] not in RIGHT]
     lines += [f"scene {of['seed']}: {of['fate']}: {of.get('why', '')}" for of in wrong]
     for of in outcomes:
@@ -157,10 +173,11 @@ def told(outcomes: list[dict[str, object]]) -> tuple[list[str], bool]:
 
 if __name__ == "__main__":
     if sys.argv[1] == "work":
-        work(*(int(n) for n in sys.argv[2:5]))
+        work(*(int(n) for n in sys.argv[2:5]), whole="--whole" in sys.argv)
     else:
         outcomes = []
-        for outcome in campaign(int(sys.argv[1]), int(sys.argv[2])):
+        whole = "--whole" in sys.argv
+        for outcome in campaign(int(sys.argv[1]), int(sys.argv[2]), whole=whole):
             outcomes.append(outcome)
             if "--json" in sys.argv:
                 print(json.dumps(outcome), flush=True)

@@ -34,6 +34,10 @@ pub fn group_attributes(scene: &Scene, plan: &Plan) -> Map<String, Value> {
     attributes
 }
 
+/// Attributes that the end of a run sets, [`conclude`] and its error bars: a process may die when one
+/// of the two documents that hold them is written.
+pub(super) const CONCLUDED: [&str; 4] = ["status", "path_error", DOUBTS, "error_bars"];
+
 /// Adds what is known at the end of a run: how it ended, the errors of its shear, what is to be
 /// doubted of it.
 pub(super) fn conclude(

@@ -6,6 +6,7 @@ use contact_core::Error;
 use rayon::prelude::*;
 use serde_json::Value;
 
+use super::attributes::CONCLUDED;
 use super::consolidated::{Consolidated, FILE};
 use super::folder::Folder;
 use super::schema::SCHEMA;
@@ -103,7 +104,7 @@ fn document(folder: &Folder, consolidated: &Consolidated, key: &str) -> Result<(
     let what_stays = |document: &Value| {
         let mut document = document.clone();
         if let Value::Object(entries) = &mut document {
-            entries.retain(|key, _| key != "status" && key != "error_bars");
+            entries.retain(|key, _| !CONCLUDED.contains(&key.as_str()));
         }
         document
     };

@@ -27,7 +27,7 @@ __all__ = ["numbers_only"]
 
 T = TypeVar("T")
 #: Annotations of a number, of what may be one, and of an array.
-NUMBER = re.compile(r"(float|int)( \| None)?")
+NUMBER, COUNT = re.compile(r"(float|int)( \| None)?"), re.compile(r"int( \| None)?")
 PERHAPS = re.compile(r"\b(float|int|YieldStresses)\b")
 SEVERAL, TEXT = re.compile(r"Sequence\[float"), re.compile(r"\b(str|Literal)\b")
 ARRAY = re.compile(r"(ArrayLike|NDArray\[np\.float64\])( \| None)?")
@@ -71,9 +71,11 @@ def guarded(call: Callable[..., Any], owner: str, but: tuple[str, ...]) -> Any:
 
 
 def kind(annotation: str) -> str | None:
-    """What a parameter takes: a number, an array, several numbers or other things beside one."""
+    """What a parameter takes: a count, a number, an array, several, or other things beside one."""
     if ELSE.search(annotation):
         return None
+    if COUNT.fullmatch(annotation):
+        return "count"
     if NUMBER.fullmatch(annotation):
         return "number"
     if ARRAY.fullmatch(annotation):
@@ -112,5 +114,7 @@ def check(value: Any, name: str, of: str | None) -> None:
     if of != "number or text" and isinstance(value, str | bytes):
         raise TypeError(f"{name} = {value!r:.60}: must be a number, not a text")
     one = (hasattr(value, "__float__") or hasattr(value, "__index__")) and np.ndim(value) == 0
+    if of == "count" and not (hasattr(value, "__index__") and np.ndim(value) == 0):
+        raise TypeError(f"{name} = {value!r:.60}: must be a whole number")
     if of == "number" and not one:
         raise TypeError(f"{name} = {' '.join(repr(value).split()):.60}: must be a number")

@@ -182,6 +182,8 @@ def _filled(
     limit: float | None,
 ) -> ContourSet | None:
     """The filled contours of every layer and, bold, those of the limit."""
+    if levels < 1:
+        raise ValueError(f"levels = {levels}: must be 1 or more")
     field, layers = shown.values, shown.layer.values
     if not np.isfinite(field).any():
         return None

@@ -11,9 +11,16 @@
 //! ```
 //!
 //! With the largest D that the layers can have, E h^3/(12 (1 - nu^2)) of the stiffest one and nu = 1/2,
-//! this is less than the bodies approach, whatever the substrate adds.
+//! this is less than the bodies approach, whatever the substrate adds. Where the approach is given the
+//! plate bends over about its length
+//!
+//! ```text
+//! l = (c D)^(1/4),
+//! ```
+//!
+//! and what of it lies beyond the grid is not there to resist.
 
-use super::{Body, Scene};
+use super::{Body, Prescribed, RigidMotion, Scene};
 use crate::error::Error;
 
 /// 12 (1 - nu^2) at nu = 1/2.
@@ -21,12 +28,31 @@ const BENDING: f64 = 9.0;
 
 impl Scene {
     /// Fails where the load of the path makes a bond alone give way by more than the length of the
-    /// grid.
+    /// grid, or where a given approach bends the layers above a bond over more than that.
     pub(super) fn check_bonds(&self) -> Result<(), Error> {
         let W = self.path.W_max();
+        let given = |branch: &super::Branch| {
+            matches!(
+                branch.to.prescribed(RigidMotion::DeltaZ),
+                Prescribed::Motion(_)
+            )
+        };
+        let approach_is_given = self.path.branches.iter().any(given);
         for (key, body) in [("body1", &self.body1), ("body2", &self.body2)] {
             for (n, c) in (0..body.coatings.len()).map(|n| (n, body.bond(n).normal)) {
                 let (most, D) = (self.grid.extent().0, bending_stiffness(body, n));
+                let bends = (c * D).powf(0.25);
+                if approach_is_given && bends > most {
+                    return Err(Error::invalid(
+                        format!("{key}.coatings[{n}].bond_normal"),
+                        c,
+                        format!(
+                            "at most {:.1e} m/Pa: where delta_z is given, this bond lets the layers above it bend over \
+                             {bends:.1e} m, more than the length of the grid, {most:.1e} m",
+                            most.powi(4) / D
+                        ),
+                    ));
+                }
                 let sinks = self.sinks(W, c, D);
                 if c > 0.0 && sinks > most {
                     // w grows with c^(1/2), of a line load with c^(3/4).
@@ -79,15 +105,34 @@ mod tests {
 
     /// A sphere of steel on a coated flat with a bond of a compliance; W = 100 N, 0.56 mm of grid.
     fn refused(bond: f64) -> Option<String> {
+        refused_under("W = 100.0", bond)
+    }
+
+    fn refused_under(drive: &str, bond: f64) -> Option<String> {
         let text = format!(
             "schema = 1\nbody1 = {{ shape.sphere.R = 0.01, E = 210e9, nu = 0.3 }}\nfriction.mu = 0.3\n\
-             grid = {{ n = 48, extent = {{ a_H = 3.0 }} }}\npath = [{{ W = 100.0, increments = 2 }}]\n\
+             grid = {{ n = 48, extent = 5.6e-4 }}\npath = [{{ {drive}, increments = 2 }}]\n\
              [body2]\nshape = \"flat\"\nE = 210e9\nnu = 0.3\n\
-             [[body2.coatings]]\nE = 300e9\nnu = 0.25\nthickness = {{ a_H = 0.25 }}\nbond_normal = {bond:e}\n"
+             [[body2.coatings]]\nE = 300e9\nnu = 0.25\nthickness = 4.7e-5\nbond_normal = {bond:e}\n"
         );
         let scene = Scene::from_toml_str(&text, "bond", &[]);
         let checked = scene.and_then(|scene| scene.check());
         checked.err().map(|error| error.to_string())
+    }
+
+    #[test]
+    fn under_a_given_approach_the_layers_bend_on_the_grid() {
+        for bond in [0.0, 1e-15, 1e-13, 1e-11] {
+            assert_eq!(refused_under("delta_z = 2e-6", bond), None, "{bond:e}");
+        }
+        for bond in [1e-10, 1e-6, 1e12] {
+            let said = refused_under("delta_z = 2e-6", bond).expect("a refusal");
+            assert!(said.contains("body2.coatings[0].bond_normal"), "{said}");
+            assert!(said.contains("where delta_z is given"), "{said}");
+            let most = said.split("at most ").nth(1).expect("a bound");
+            let most: f64 = most.split(' ').next().unwrap().parse().unwrap();
+            assert_eq!(refused_under("delta_z = 2e-6", 0.9 * most), None, "{said}");
+        }
     }
 
     #[test]

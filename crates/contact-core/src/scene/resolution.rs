@@ -38,11 +38,11 @@ impl Scene {
     /// Fails if a contact of so many cells across its radius, `more` times as many at most, has fewer
     /// than [`FEWEST_CELLS`] on the grid or on the path grid.
     pub(crate) fn check_cells(&self, cells: f64, more: f64) -> Result<(), Error> {
-        if more * cells < FEWEST_CELLS {
+        if more * cells < FEWEST_CELLS - ROUNDING {
             return Err(self.grid.too_coarse(cells));
         }
         match self.cells_on_path_grid(cells) {
-            Some((of, cells)) if more * cells < FEWEST_CELLS => Err(Error::invalid(
+            Some((of, cells)) if more * cells < FEWEST_CELLS - ROUNDING => Err(Error::invalid(
                 "solver.path_grid",
                 of,
                 format!(

@@ -1,0 +1,232 @@
+"""Damages and kills of what is saved: runs, wear, studies, fits.
+
+``python tests/campaign/damage.py 300 60`` damages 300 stores and files of each kind and kills 60
+processes that write each kind. What is opened after a damage is what was written, or it is refused
+by name; after a kill a place holds nothing, or what is whole, and the work goes on to the same
+numbers.
+"""
+
+from __future__ import annotations
+
+import os
+import random
+import shutil
+import signal
+import sys
+import tempfile
+import time
+import traceback
+import warnings
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+import pyfret as fret
+from pyfret.fit import Found, Loops
+from pyfret.fit.data import Measured
+from pyfret.fit.outcome import Known
+
+STEEL = fret.Elastic(E=210e9, nu=0.3)
+PATH = fret.LoadPath.start().normal(10.0, increments=3).tangential([1.0, -1.0, 1.0], increments=3)
+SCENE = fret.Scene(
+    body1=fret.Body(STEEL, shape=fret.Sphere(R=5e-3)),
+    body2=fret.Body(STEEL),
+    mu=0.3,
+    grid=fret.Grid.centred(extent=2e-4, n=16),
+    path=PATH,
+)
+WEAR = fret.wear.Wear(cycles=1e3, body2=fret.wear.Archard(1e-15), first_branch=2, jumps=6)
+MU = {"mu": [0.2, 0.3, 0.4, 0.5, 0.6, 0.7]}
+#: What differs from run to run: times.
+TIMES = ("seconds", "elapsed", "wall_time", "time_of_checkpoints")
+
+
+def damage(file: Path, rng: random.Random) -> None:
+    """Flips a bit, cuts, lengthens, removes or swaps."""
+    content = bytearray(file.read_bytes())
+    kind = rng.randrange(6)
+    if kind == 0 or not content:
+        file.unlink()
+    elif kind == 1:
+        file.write_bytes(content[: rng.randrange(len(content))])
+    elif kind == 2:
+        file.write_bytes(content + bytes(rng.randrange(1, 9)))
+    elif kind == 3:
+        other = rng.choice(sorted(f for f in file.parent.iterdir() if f.is_file()))
+        file.write_bytes(other.read_bytes())
+    else:
+        place = rng.randrange(len(content))
+        content[place] ^= 1 << rng.randrange(8)
+        file.write_bytes(content)
+
+
+def a_fit() -> Found:
+    """A fit of a loop, its numbers made up."""
+    loops = Loops.of(
+        delta=1e-6 * np.array([0.0, 1.0, 2.0, 1.0, 0.0, -1.0, 0.0]),
+        T=np.array([0.0, 3.0, 5.0, 0.0, -4.0, -5.0, 0.0]),
+        W=10.0,
+    )
+    measured = Measured(loops, loops.T, loops.delta, ("shift [m]", "force [N]"))
+    return Found(
+        known={"mu": Known(0.5, 0.48, 0.53, 0.02, 1e-3, at_bound=False)},
+        offsets={"offset of the shift [m]": 1e-8},
+        offset_errors={"offset of the shift [m]": 1e-9},
+        correlation=np.ones((1, 1)),
+        residual=[0.01 * loops.T],
+        computed=[0.99 * loops.T],
+        sets=[measured],
+        noise=[0.05],
+        solves=12,
+        solver_known=True,
+        converged=True,
+        scene=SCENE,
+    )
+
+
+def run(place: Path) -> None:
+    """A run, or the rest of one."""
+    if place.exists():
+        fret.resume(place, progress=False)
+    else:
+        fret.solve(SCENE, out=place, progress=False)
+
+
+def wear(place: Path) -> None:
+    """A run of wear, or the rest of one."""
+    if place.exists():
+        fret.wear.resume(place, progress=False)
+    else:
+        fret.wear.solve(SCENE, WEAR, out=place, progress=False)
+
+
+def study(place: Path) -> None:
+    """A study, or the rest of one."""
+    fret.study.solve(
+        SCENE, MU, measure="p_max", executor=ThreadPoolExecutor(1), out=place, progress=False
+    )
+
+
+def fit(place: Path) -> None:
+    """A fit, saved again and again."""
+    found = a_fit()
+    for _ in range(20):
+        found.save(place, overwrite=True)
+
+
+WRITES: dict[str, tuple[Callable[[Path], None], str]] = {
+    "run": (run, ".zarr"),
+    "wear": (wear, ".zarr"),
+    "study": (study, ".zarr"),
+    "fit": (fit, ".zarr"),
+    "fit in NetCDF": (fit, ".nc"),
+}
+
+
+def numbers(place: Path) -> xr.Dataset:
+    """All that is there but times."""
+    dataset: xr.Dataset = fret.open(place).dataset.load()
+    return dataset.drop_vars([name for name in dataset.variables if name in TIMES])
+
+
+def same(one: xr.Dataset, other: xr.Dataset) -> bool:
+    """Whether variables and their labels are the same."""
+    return bool(one.drop_attrs().identical(other.drop_attrs()))
+
+
+def damaged(kind: str, count: int, folder: Path, rng: random.Random) -> str:
+    """What `count` damages of a store did wrong, or how many were refused."""
+    write, ending = WRITES[kind]
+    good, bad = folder / f"good{ending}", folder / f"bad{ending}"
+    write(good)
+    right = numbers(good)
+    files = sorted(f.relative_to(good) for f in good.rglob("*") if f.is_file())
+    refused = 0
+    for n in range(count):
+        shutil.rmtree(bad, ignore_errors=True)
+        if good.is_dir():
+            shutil.copytree(good, bad)
+            name = Path(".zmetadata") if n % 8 == 0 else rng.choice(files)
+            damage(bad / name, rng)
+        else:
+            name = Path()
+            shutil.copy(good, bad)
+            damage(bad, rng)
+        try:
+            read = numbers(bad)
+        except fret.errors.StoreError as error:
+            right_so = str(bad) in str(error)
+            refused += 1
+            why = str(error)
+        else:
+            right_so, why = same(read, right), "read as other numbers"
+        if not right_so:
+            raise AssertionError(f"{kind} {n}, {name}: {why}")
+    return f"{count} damages of a {kind}: {refused} refused by name, the others read as written"
+
+
+def killed(kind: str, count: int, folder: Path, rng: random.Random) -> str:
+    """What became of places of which the writing process was killed `count` times."""
+    write, ending = WRITES[kind]
+    good = folder / f"whole{ending}"
+    begun = time.monotonic()
+    child(lambda: write(good))
+    length = time.monotonic() - begun
+    left = 0
+    for n in range(count):
+        place = folder / f"killed{n}{ending}"
+        child(lambda place=place: write(place), after=rng.uniform(0.02, 1.0) * length)
+        left += place.exists()
+        if place.exists():
+            child(lambda place=place: fret.open(place) and None)
+        child(lambda place=place: write(place))
+        child(lambda place=place: must_be(place, good))
+        shutil.rmtree(place, ignore_errors=True)
+    return f"{count} kills of a {kind}: {left} left one behind, all of it whole; all went on"
+
+
+def must_be(place: Path, good: Path) -> None:
+    """Refuse a place with other numbers."""
+    assert same(numbers(place), numbers(good)), f"{place}: other numbers"
+
+
+def child(work: Callable[[], Any], after: float | None = None) -> None:
+    """Do something in a process of its own, which is killed after a time [s]."""
+    sys.stdout.flush()
+    of = os.fork()
+    if of == 0:
+        try:
+            work()
+        except BaseException:
+            traceback.print_exc()
+            os._exit(1)
+        os._exit(0)
+    if after is not None:
+        time.sleep(after)
+        os.kill(of, signal.SIGKILL)
+    _, status = os.waitpid(of, 0)
+    if after is None and status:
+        raise AssertionError(f"status {status}")
+
+
+def main(damages: int, kills: int) -> None:
+    """All kinds."""
+    warnings.simplefilter("ignore")
+    rng = random.Random(5)
+    with tempfile.TemporaryDirectory(prefix="damage-") as name:
+        folder = Path(name)
+        # Kills first: a process that has computed is not copied.
+        for many, of in ((killed, kills), (damaged, damages)):
+            for kind in WRITES:
+                place = folder / f"{many.__name__} {kind}"
+                place.mkdir()
+                print(many(kind, of, place, rng), flush=True)
+                shutil.rmtree(place)
+
+
+if __name__ == "__main__":
+    main(*(int(n) for n in sys.argv[1:3]))
