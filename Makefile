@@ -16,7 +16,7 @@ unexport PYTHONDONTWRITEBYTECODE
 RUST := $(shell find crates -name '*.rs' -o -name '*.toml') Cargo.toml Cargo.lock
 
 .DEFAULT_GOAL := help
-.PHONY: help setup constants ablation largest stub demo figure-13 loads validation quick test test-all stress path-errors turned layers error-bars kill wear wear-jumps memory fuzz deny check format bench bench-kernels bench-stress bench-peers docs wheel wheel-test clean
+.PHONY: help setup constants ablation largest stub demo figure-13 loads validation quick test test-all stress whole path-errors turned layers error-bars kill wear wear-jumps memory fuzz deny check format bench bench-kernels bench-stress bench-peers docs wheel wheel-test clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
@@ -57,6 +57,9 @@ stress: ## 10 000 random scenes, 30 minutes at most; the numbers go to docs/reli
 path-errors: ## the estimated error of the path against the true one in 50 random scenes
 	FRET_PATH_ERRORS=50 cargo test --release --locked --workspace --test campaigns -- --include-ignored --nocapture path_error::
 
+whole: setup ## 1000 random contacts with bonds, laws of one's own, heat, cracks and wear with debris
+	$(PY) tests/campaign/run.py 0 1000 --whole
+
 turned: setup ## largest stress, life, crack and load factor of 40 random scenes that are turned and mirrored
 	FRET_TURNED=40 $(PY) -m pytest -q -m slow tests/test_turned.py
 
@@ -90,9 +93,10 @@ memory: ## what runs allocate against what `fret check` announces; the numbers g
 	FRET_MEMORY=1024 FRET_MEMORY_REPORT=$(CURDIR)/docs/reliability.md \
 		cargo test --release --locked --workspace --test memory -- --nocapture
 
-kill: ## a hundred kills of a running solve and of a run of wear, and what checkpoints cost; the numbers go to docs/reliability.md
+kill: setup ## a hundred kills of a running solve and of a run of wear, what checkpoints cost (docs/reliability.md); 60 kills and 300 damages of each kind of store and file
 	FRET_KILLS=100 FRET_KILL_REPORT=$(CURDIR)/docs/reliability.md \
 		cargo test --release --locked --workspace --test kill -- --include-ignored --nocapture --test-threads=1
+	$(PY) tests/campaign/damage.py 300 60
 
 plastic: setup ## bodies that yield: every row of truth, a pair on both sides of shakedown, 300 random contacts audited
 	FRET_PLASTIC=300 $(PY) -m pytest -q tests/test_plastic_rows.py tests/test_plastic_campaign.py \

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
 import sys
 from pathlib import Path
 from types import SimpleNamespace
@@ -70,6 +72,30 @@ def test_scenes_of_everything_are_solved_or_rightly_refused() -> None:
     """A slice of the campaign through scene files: `python tests/campaign/run.py 0 5000`."""
     lines, right = told(list(campaign(0, 80)))
     assert right, "\n".join(lines)
+
+
+@pytest.mark.slow
+def test_what_follows_from_random_contacts_is_found_or_refused_for_a_reason() -> None:
+    """A slice of `make whole`: bonds, laws of one's own, heat, cracks, wear with debris."""
+    outcomes = list(campaign(0, 24, whole=True))
+    lines, right = told(outcomes)
+    assert right, "\n".join(lines)
+    found = [
+        name for of in outcomes for name, why in dict(of.get("after") or {}).items() if not why
+    ]  # type: ignore[call-overload]
+    assert {"heat", "crack", "wear"} <= set(found)
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="processes of Unix")
+def test_all_that_is_saved_is_killed_and_damaged() -> None:
+    """A slice of `make kill`: runs, wear, studies, fits, in both formats."""
+    program = Path(__file__).parent / "campaign" / "damage.py"
+    done = subprocess.run(
+        [sys.executable, str(program), "8", "1"], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr[-2000:]
+    assert len(done.stdout.splitlines()) == 10
 
 
 def test_the_papers_method_solves_contacts_that_slide_far() -> None:
