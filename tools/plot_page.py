@@ -84,7 +84,7 @@ FIGURES: dict[str, dict[str, str]] = {
         "fretting_map": "fret.plot.fretting_map(table)",
         "arrest_map": "fret.plot.arrest_map(stopping)",
         "design_chart": (
-            'fret.plot.design_chart(first, "friction.mu", "body2.coatings.0.thickness", labels=of)'
+            'fret.plot.design_chart(first, "friction.mu", "body2.coatings.0.thickness")'
         ),
     },
 }
@@ -232,7 +232,6 @@ def names() -> dict[str, Any]:
         "stopping": stopping,
         "compared": compared,
         "first": first,
-        "of": ("friction coefficient", "thickness [m]"),
     }
 
 

@@ -37,10 +37,4 @@ study = fret.study.solve(
     ),
     progress=False,
 )
-thickness = 1e6 * study.dataset["body2.coatings.0.thickness"]
-ax = fret.plot.design_chart(
-    study.dataset.assign_coords({"body2.coatings.0.thickness": thickness}),
-    "friction.mu",
-    "body2.coatings.0.thickness",
-    labels=("coefficient of friction", "thickness of the film [µm]"),
-)
+ax = fret.plot.design_chart(study.dataset, "friction.mu", "body2.coatings.0.thickness")

@@ -65,6 +65,7 @@ pub fn with_error(value: f64, error: Option<f64>) -> String {
 ///
 /// assert_eq!(with_range(52_345.0, [51_900.0, 52_800.0]), "52350 (51900 to 52800)");
 /// assert_eq!(with_range(52_345.0, [11_900.0, f64::INFINITY]), "52000 (12000 to inf)");
+/// assert_eq!(with_range(1.83e7, [4.4e6, 1.07e8]), "1.8e7 (4.4e6 to 1.1e8)");
 /// ```
 pub fn with_range(value: f64, [low, high]: [f64; 2]) -> String {
     if value.is_nan() {
@@ -81,7 +82,18 @@ pub fn with_range(value: f64, [low, high]: [f64; 2]) -> String {
     } else {
         OF_ERRORS
     };
-    let told = |x: f64| digits(x, count);
+    // One form for the three.
+    let sizes = [value, low, high]
+        .into_iter()
+        .filter(|x| x.is_finite() && *x != 0.0);
+    let plain = sizes.map(power).all(|size| PLAIN.contains(&size));
+    let told = |x: f64| {
+        if plain || x == 0.0 || !x.is_finite() {
+            digits(x, count)
+        } else {
+            format!("{x:.*e}", (count - 1) as usize)
+        }
+    };
     format!("{} ({} to {})", told(value), told(low), told(high))
 }
 

@@ -127,13 +127,14 @@ impl Assessment {
             let of = material.numbers.iter();
             let of = of.filter(|(name, of)| names.contains(name) && Known::of(&of.source) == kind);
             let which: Vec<_> = of.map(|(name, _)| *name).collect();
-            let how = if kind == Known::Estimate {
-                "estimates by a rule"
-            } else {
-                "from memory, without a source"
+            let how = match (kind, which.len()) {
+                (Known::Estimate, 1) => "is an estimate by a rule",
+                (Known::Estimate, _) => "are estimates by a rule",
+                (_, 1) => "is from memory, without a source",
+                _ => "are from memory, without a source",
             };
             let (which, name) = (which.join(", "), &material.name);
-            format!("{which} of {name} are {how}: take numbers of your own")
+            format!("{which} of {name} {how}: take numbers of your own")
         });
         Ok((factor, note))
     }

@@ -6,6 +6,15 @@ use contact_subsurface::{Errors, Extreme, Probe, Zone};
 use crate::units::{mega, um};
 use contact_core::digits::short;
 
+/// Units of stresses and lengths.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum Units {
+    /// MPa and um.
+    Si,
+    /// Over Hertz's pressure and radius, where the contact has them.
+    Hertz,
+}
+
 /// Prints the largest values of an increment and their places.
 pub(crate) struct Largest<'a> {
     pub(crate) scene: &'a Scene,
@@ -16,6 +25,8 @@ pub(crate) struct Largest<'a> {
     pub(crate) error: Option<f64>,
     /// Whether lines are JSON objects, for programs.
     pub(crate) json: bool,
+    /// Units of the lines.
+    pub(crate) units: Units,
 }
 
 impl Largest<'_> {
@@ -60,7 +71,7 @@ impl Largest<'_> {
         let hertz = self
             .scene
             .hertz()
-            .filter(|_| matches!(probe, Probe::Stress(_)));
+            .filter(|_| self.units == Units::Hertz && matches!(probe, Probe::Stress(_)));
         let left = error.total();
         let value = hertz.map_or_else(
             || {
@@ -76,7 +87,7 @@ impl Largest<'_> {
         let layer = match (self.layers, depth.layer) {
             (0, _) => String::new(),
             (layers, n) if n == layers => ", in the substrate".into(),
-            (_, n) => format!(", in coating {n}"),
+            (_, n) => format!(", in coating {}", n + 1),
         };
         let on = on.map_or_else(String::new, |on| format!(", at the {on}"));
         let name = probe.name();
@@ -86,8 +97,8 @@ impl Largest<'_> {
 
     fn length(&self, v: f64) -> String {
         match self.scene.hertz() {
-            Some(hertz) => format!("{:.4} a_H", v / hertz.a),
-            None => um(v),
+            Some(hertz) if self.units == Units::Hertz => format!("{:.4} a_H", v / hertz.a),
+            _ => um(v),
         }
     }
 }

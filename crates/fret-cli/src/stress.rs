@@ -17,7 +17,7 @@ use contact_subsurface::{
 use ndarray::Axis;
 
 use crate::failure::Failure;
-use crate::largest::Largest;
+use crate::largest::{Largest, Units};
 use crate::loads::Loads;
 use crate::printed::print;
 use crate::terminal::say;
@@ -55,6 +55,9 @@ pub(crate) struct Options {
     /// Print one JSON object per measure, for programs
     #[arg(long)]
     json: bool,
+    /// Units of the lines: MPa and um, or over Hertz's pressure and radius
+    #[arg(long, value_enum, default_value = "si")]
+    units: Units,
     /// Residual stress of each layer from the surface down, the substrate's last [Pa], tension
     /// positive; write --residual=-1e9,0 if the first is negative
     #[arg(
@@ -127,6 +130,7 @@ struct Task {
     chosen: Vec<Depth>,
     /// Whether lines are for programs.
     json: bool,
+    units: Units,
     probes: Vec<Probe>,
     loads: Loads,
     residual: ResidualStress,
@@ -236,6 +240,7 @@ impl Task {
             depths: written,
             chosen,
             json: options.json,
+            units: options.units,
             stop,
         })
     }
@@ -254,6 +259,7 @@ impl Task {
             increment: self.loads.increment,
             error: self.loads.error,
             json: self.json,
+            units: self.units,
         }
     }
 

@@ -11,6 +11,7 @@ pub(crate) fn um(length: f64) -> String {
 pub(crate) fn mega(value: f64, unit: &str) -> String {
     match unit {
         "Pa" => format!("{} MPa", short(1e-6 * value)),
+        "1" => short(value),
         _ => format!("{} {unit}", short(value)),
     }
 }

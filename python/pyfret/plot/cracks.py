@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from pyfret._util.door import numbers_only
 from pyfret.plot.style import axes, styled
@@ -76,6 +77,7 @@ def intensity_history(cracks: Cracks, length: float, *, ax: Axes | None = None) 
             elinewidth=0.6,
         )
         ax.plot(one.increment, one[f"{name}_linear"] * MEGA, color=colour, linewidth=0.5)
+    ax.plot([], [], color="0.3", linewidth=0.5, label="faces that pass through each other")
     ax.axhline(0.0, color="0.7", linewidth=0.5, zorder=0)
     ax.set_title(rf"$l = {float(one.length) * MICRO:.3g}$ µm")
     ax.set_xlabel("increment")
@@ -119,6 +121,13 @@ def crack_arrest(cracks: Cracks, threshold: Threshold, *, ax: Axes | None = None
     return ax
 
 
+def plain_ticks(ax: Axes) -> None:
+    """Numbers without powers of ten at 1, 2 and 5 of each decade of the axis upwards."""
+    ax.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    ax.yaxis.set_minor_formatter(NullFormatter())
+
+
 @styled
 def kitagawa(cracks: Cracks, threshold: Threshold, *, ax: Axes | None = None) -> Axes:
     """Kitagawa and Takahashi's diagram with the curve of the load in it.
@@ -144,6 +153,7 @@ def kitagawa(cracks: Cracks, threshold: Threshold, *, ax: Axes | None = None) ->
         ax.axhline(threshold.dS_0 * MEGA, color="0.6", linestyle=":", label=r"$\Delta\sigma_0$")
     ax.set_xscale("log")
     ax.set_yscale("log")
+    plain_ticks(ax)
     ax.set_xlabel(r"crack length $l$ [µm]")
     ax.set_ylabel(r"range of stress $\Delta K/(Y\sqrt{\pi l})$ [MPa]")
     ax.legend()

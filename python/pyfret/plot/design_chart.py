@@ -10,6 +10,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from pyfret.fracture.first import PARTS
+from pyfret.plot.parameters import parameter_label
 from pyfret.plot.style import axes, styled
 
 if TYPE_CHECKING:
@@ -45,13 +46,17 @@ def design_chart(
     x, y : str
         The parameters along the axes.
     labels : (str, str), optional
-        Of the axes (default: the names of the parameters).
+        Of the axes, in SI units (default: the names of the parameters in words, with units that
+        engineers read).
     ax : matplotlib Axes, optional
         Where to draw.
     """
     ax = axes(ax)
     table = table.transpose(y, x)
-    at_x, at_y = table[x].values, table[y].values
+    names, units = zip(*(parameter_label(name) for name in (x, y)), strict=True)
+    if labels is not None:
+        names, units = labels, (1.0, 1.0)
+    at_x, at_y = table[x].values / units[0], table[y].values / units[1]
     first = table["first"].values
     colours = ListedColormap([colour for _, colour in FIRST.values()])
     norm = BoundaryNorm(np.arange(-0.5, 4.0), colours.N)
@@ -69,7 +74,6 @@ def design_chart(
             ax.contour(at_x, at_y, load, levels=[1.0], colors="0.2", linestyles=style)
             label = f"limit of the {name}"
             entries.append(Line2D([], [], color="0.2", linestyle=style, label=label))
-    names = labels if labels is not None else (x, y)
     ax.set_xlabel(names[0])
     ax.set_ylabel(names[1])
     ax.grid(visible=False)

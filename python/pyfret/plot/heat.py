@@ -92,7 +92,7 @@ def temperature_map(
     half_x, half_y = (x[1] - x[0]) / 2, (y[1] - y[0]) / 2
     extent = (x[0] - half_x, x[-1] + half_x, y[0] - half_y, y[-1] + half_y)
     values = found[of].sel(body=body_number).values
-    look = {"cmap": "YlOrRd", "aspect": ax.get_aspect(), **image}
+    look = {"cmap": "YlGnBu", "aspect": ax.get_aspect(), **image}
     drawn = ax.imshow(values.T, origin="lower", extent=extent, **look)
     place = found.attrs["maximum_x"] / length.value, found.attrs["maximum_y"] / length.value
     ax.plot(*place, marker="x", color="0.1", markersize=5)

@@ -267,7 +267,7 @@ def critical_plane_rose(stress: ArrayLike, criterion: fatigue.Criterion) -> Axes
     ax = plt.figure(figsize=(4.4, 4.4)).add_subplot(projection="polar")
     ax.set_theta_direction(-1)  # type: ignore[attr-defined]
     ax.plot(angle, s_n, color="C0", label=r"$\sigma_\mathrm{n,max}$ [MPa]")
-    ax.plot(angle, tau, color="C1", label=r"$\tau_\mathrm{a}$ [MPa]")
+    ax.plot(angle, tau, color="C2", label=r"$\tau_\mathrm{a}$ [MPa]")
     reach = 1.05 * max(s_n.max(), tau.max())
     # Of a normal and its opposite, the one within a right angle of x.
     at = float(np.arctan2(normal[2], normal[0]))

@@ -62,7 +62,7 @@ def depth_map(
     d = result.dataset
     depth = 1e6 * _depth(result, of)[block].T
     drawn = ax.pcolormesh(
-        1e3 * d.x, 1e3 * d.y, depth, cmap="viridis", shading="nearest", rasterized=True
+        1e3 * d.x, 1e3 * d.y, depth, cmap="YlGnBu", shading="nearest", rasterized=True
     )
     ax.figure.colorbar(drawn, ax=ax, label="worn depth [µm]", shrink=0.8)
     ax.set_xlabel("$x$ [mm]")

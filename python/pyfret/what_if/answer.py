@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pyfret._core import NoConvergenceError, OffGridError
+from pyfret._core import NoConvergenceError, OffGridError, with_error
 from pyfret._util.doubts import SceneWarning
 from pyfret._util.extras import needed
 from pyfret.solution import solve
@@ -81,7 +81,8 @@ def answer(
     loops = result.loops()
     energy = float(loops.dissipated[-1]) if loops.sizes["cycle"] else None
     numbers = {
-        "largest von Mises stress": f"{1e-6 * most.value:.4g} MPa in the {names[most.layer]}",
+        "largest von Mises stress": f"{with_error(1e-6 * most.value, 1e-6 * most.error)} MPa in "
+        f"the {names[most.layer]}",
         "largest pressure": f"{1e-6 * float(result.p_max[-1]):.4g} MPa",
         "stick ratio": f"{float(result.stick_ratio[-1]):.3f}",
         "energy of the last cycle": "no closed cycle"
@@ -107,7 +108,12 @@ def figure(result: Result, below: Any, most: Any) -> Any:
     drawn = panels.make_subplots(
         rows=2,
         cols=2,
-        subplot_titles=("loop", "stick (blue) and slip", "traction along x", "von Mises stress"),
+        subplot_titles=(
+            "loop",
+            "stick (blue) and slip",
+            "pressure p (green), shear q_x (purple) along x",
+            "von Mises stress",
+        ),
         horizontal_spacing=0.12,
         vertical_spacing=0.16,
     )
@@ -123,11 +129,10 @@ def figure(result: Result, below: Any, most: Any) -> Any:
     drawn.add_trace(plotly.Heatmap(x=x, y=y, z=zones.T, **heat), 1, 2)
     row = last.along_x()
     along = 1e6 * row.x.values
-    for name, title in (("p", "p"), ("q_x", "q_x")):
-        drawn.add_trace(
-            plotly.Scatter(x=along, y=1e-6 * row[name].values, mode="lines", name=title), 2, 1
-        )
-    axes += [("x [µm]", "[MPa]"), ("x [µm]", "depth [µm]")]
+    for name, colour in (("p", "#009E73"), ("q_x", "#AB63FA")):
+        values, line = 1e-6 * row[name].values, {"color": colour}
+        drawn.add_trace(plotly.Scatter(x=along, y=values, mode="lines", name=name, line=line), 2, 1)
+    axes += [("x [µm]", "p, q_x [MPa]"), ("x [µm]", "depth [µm]")]
     stress = 1e-6 * below.measure("von_mises")
     dims = [str(dim) for dim in stress.dims]
     values = stress.values if dims[-1] == "x" else stress.values.T
@@ -152,6 +157,9 @@ def figure(result: Result, below: Any, most: Any) -> Any:
         drawn.update_xaxes(title_text=along_x, row=n // 2 + 1, col=n % 2 + 1)
         drawn.update_yaxes(title_text=along_y, row=n // 2 + 1, col=n % 2 + 1)
     drawn.update_yaxes(autorange="reversed", row=2, col=2)
+    # A round contact is drawn round.
+    drawn.update_yaxes(scaleanchor="x2", constrain="domain", row=1, col=2)
+    drawn.update_xaxes(constrain="domain", row=1, col=2)
     drawn.update_layout(
         height=640, showlegend=False, margin={"l": 60, "r": 20, "t": 40, "b": 50}, uirevision="x"
     )
