@@ -53,9 +53,12 @@ impl Profile {
         let mut before = None;
         for (n, [depth, xx, yy]) in self.rows.iter().enumerate() {
             let uniform = self.rows.len() == 1;
-            let name = |column: usize| match uniform {
-                true => key.to_owned(),
-                false => format!("{key}[{n}][{column}]"),
+            let name = |column: usize| {
+                if uniform {
+                    key.to_owned()
+                } else {
+                    format!("{key}[{n}][{column}]")
+                }
             };
             if !(*depth >= 0.0 && depth.is_finite()) {
                 let allowed = "a depth in m below the top of the layer, 0 or more";
