@@ -168,3 +168,18 @@ def test_a_table_of_wear_is_pairs_of_numbers() -> None:
             fret.wear.Archard(1e-14, factor=("cycles", wrong))
     table = fret.wear.Archard(1e-14, factor=("cycles", np.array([[0.0, 1.0], [9.0, 2.0]])))
     assert table.factor == ("cycles", ((0.0, 1.0), (9.0, 2.0)))
+
+
+class Liar(list[Any]):
+    """A list that says that it is very long."""
+
+    def __len__(self) -> int:
+        return 1 << 60
+
+
+def test_what_a_list_says_of_its_length_is_not_handed_on() -> None:
+    for call in (
+        lambda: fret.wear.Wear(cycles=1.0, body2=Liar([fret.wear.Archard(1e-14)])).document(),
+        lambda: fatigue.first_yield(HISTORY, s_y=3e8, constant=Liar([0.0] * 6)),
+    ):
+        assert call() is not None

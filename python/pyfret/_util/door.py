@@ -65,9 +65,18 @@ def guarded(call: Callable[..., Any], owner: str, but: tuple[str, ...]) -> Any:
                 check(value, name, kinds.get(name))
                 if name in ranged:
                     doubt_numbers(owner, **{name: value})
-        return call(*values, **given)
+        # What a sequence says of its length is not handed on.
+        places = [honest(value, name) for name, value in zip(names, values, strict=False)]
+        others = {name: honest(value, name) for name, value in given.items()}
+        return call(*places, *values[len(places) :], **others)
 
     return checked
+
+
+def honest(value: Any, name: str) -> Any:
+    """A list of a class of its own as a plain one, everything else as it is."""
+    own = isinstance(value, list) and type(value) is not list
+    return items(value, name) if own else value
 
 
 def kind(annotation: str) -> str | None:

@@ -202,7 +202,7 @@ def listed(laws: Law | Sequence[Law | None] | None) -> list[Law | None]:
     """The laws of a body, none or one or several, in a list."""
     if laws is None:
         return []
-    return list(laws) if isinstance(laws, list | tuple) else [laws]  # type: ignore[list-item]
+    return items(laws, "laws") if isinstance(laws, list | tuple) else [laws]  # type: ignore[list-item]
 
 
 def own(laws: Law | Sequence[Law | None] | None) -> list[Function]:
