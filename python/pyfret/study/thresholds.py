@@ -210,6 +210,8 @@ def one(
     low, high = (float(v) for v in between)
     if not 0 < low < high:
         raise ValueError(f"between = {between}: must be two loads above 0, the smaller one first")
+    if not 0 < value < math.inf:
+        raise ValueError(f"value = {value}: must be above 0")
     optimize = needed("scipy.optimize", "fit")
     first = scene_of(source, {**others, parameter: low})
     tried: dict[float, float] = {}
