@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -250,3 +251,70 @@ def test_the_frame_gives_way_under_an_indentation() -> None:
     known, name = found.known["body2.E"], "compliance of the frame [m/N]"
     assert known.low < 210e9 < known.high, found.summary()
     assert abs(found.offsets[name] - 2e-9) < found.offset_errors[name] < 2e-9
+
+
+class ClosedForm:
+    """A ball's loop by Mindlin and Deresiewicz (1953) with a rig in series, without a solve."""
+
+    def __init__(self, mu: float, rig: float, reach: float) -> None:
+        self.mu, self.rig, self.reach = mu, rig, reach
+        a = fret.reference.hertz(R=5e-3, bodies=(STEEL, STEEL), W=W).a
+        self.stuck = 2.0 * (2.0 - STEEL.nu) / STEEL.G / (8.0 * a)
+        force = np.linspace(0.0, mu * W, 2001)
+        self.turn = float(np.interp(reach, self.way(force), force))
+
+    def way(self, force: np.ndarray) -> np.ndarray:
+        """Shift of contact and rig under a force that grows from nothing."""
+        part = np.clip(force / (self.mu * W), 0.0, 1.0)
+        contact = 1.5 * self.mu * W * self.stuck * (1.0 - (1.0 - part) ** (2.0 / 3.0))
+        return np.asarray(contact + force / self.rig)
+
+    def down(self, shift: np.ndarray) -> np.ndarray:
+        """The force on the way back, twice the first way (Masing)."""
+        force = np.linspace(0.0, self.turn, 2001)
+        back = np.interp((self.reach - shift) / 2.0, self.way(force), force)
+        return np.asarray(self.turn - 2.0 * back)
+
+    @staticmethod
+    def solve(scene: fret.Scene, path: fret.LoadPath, **_: object) -> SimpleNamespace:
+        """What :func:`pyfret.solve` gives of a loop."""
+        rig = path.rig_stiffness
+        assert rig is not None
+        reach = max(float(branch.delta_x or 0.0) for branch in path.branches)
+        of = ClosedForm(float(scene.mu), rig, reach)
+        ways = np.linspace(reach, -reach, 25)
+        branch = np.repeat([1, 2, 3], [1, 24, 24])
+        shift = np.r_[ways, -ways[1:]]
+        force = np.r_[of.down(ways), -of.down(ways)[1:]]
+        columns = {"branch_of_increment": branch, "delta_x": shift, "T_x": force}
+        values = {name: SimpleNamespace(values=v) for name, v in columns.items()}
+        return SimpleNamespace(dataset=SimpleNamespace(**values))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("wave", ["sine", "triangle"])
+def test_ninety_of_a_hundred_records_lie_within_the_95_percent(
+    monkeypatch: pytest.MonkeyPatch, wave: str
+) -> None:
+    """Records of 2.5 cycles from anywhere, 5 % tilt, drifts, offsets, 2 % noise."""
+    monkeypatch.setattr(fret.fit.models, "solve", ClosedForm.solve)
+    inside = {"mu": 0, "rig.stiffness": 0}
+    for seed in range(100):
+        random = np.random.default_rng(seed)
+        true = {"mu": random.uniform(0.4, 0.8), "rig.stiffness": 10 ** random.uniform(6.6, 7.4)}
+        stuck = ClosedForm(0.5, 1e7, 1e-6).stuck
+        slides = true["mu"] * W * (1.5 * stuck + 1.0 / true["rig.stiffness"])
+        of = ClosedForm(true["mu"], true["rig.stiffness"], slides * random.uniform(1.5, 3.0))
+        phase = np.linspace(0.0, 2.5, 300) + random.uniform()
+        along = 4.0 * np.abs(phase % 1.0 - 0.5) - 1.0
+        shift = of.reach * (along if wave == "triangle" else np.cos(2.0 * np.pi * phase))
+        force = np.where(phase % 1.0 < 0.5, of.down(shift), -of.down(-shift))
+        time, half = np.linspace(-0.5, 0.5, 300), 0.5 * np.ptp(force)
+        force = force + 0.05 * half / of.reach * shift + random.normal(0.0, 0.04 * half, 300)
+        force += half * (random.uniform(-0.1, 0.1) + random.uniform(-0.1, 0.1) * time)
+        shift = shift + of.reach * (random.uniform(-0.3, 0.3) + random.uniform(-0.05, 0.05) * time)
+        ranges = {"mu": (0.2, 1.2), "rig.stiffness": (1e6, 1e8)}
+        found = fret.fit(ball(16), fret.fit.Loops.of(shift, force), unknown=ranges)
+        for key, value in true.items():
+            inside[key] += found.known[key].low < value < found.known[key].high
+    assert min(inside.values()) >= 90, inside
