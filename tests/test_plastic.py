@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import subprocess
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,6 +18,8 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 pytestmark = pytest.mark.solves
+
+FRET = ROOT / "target" / "release" / "fret"
 
 STEEL = fret.Elastic(E=210e9, nu=0.3, plastic=fret.Plastic(s_y=1e9, hardening=1e10))
 
@@ -221,7 +224,7 @@ def test_what_is_left_after_unloading(recwarn: pytest.WarningsRecorder) -> None:
         flat.unloaded()
 
 
-def sheared(s_y: float, cycles: int) -> fret.Result:
+def sheared(s_y: float, cycles: int, out: Path | None = None) -> fret.Result:
     """A cylinder on a flat that yields, to and fro under a force."""
     yielding = fret.Plastic(s_y=s_y, kinematic=5e9)
     scene = fret.Scene(
@@ -232,11 +235,11 @@ def sheared(s_y: float, cycles: int) -> fret.Result:
     )
     path = fret.LoadPath.start().force(W=1.2e6, increments=2)
     return fret.solve(
-        scene, path.cycles(cycles, T_x=0.9 * 0.4 * 1.2e6, increments=3), progress=False
+        scene, path.cycles(cycles, T_x=0.9 * 0.4 * 1.2e6, increments=3), out=out, progress=False
     )
 
 
-def test_the_verdict_of_cycles() -> None:
+def test_the_verdict_of_cycles(tmp_path: Path) -> None:
     """Elastic, shaken down and alternating, with the works of every cycle."""
     elastic = sheared(2e9, 1).verdict()
     assert elastic.kind == "elastic"
@@ -247,7 +250,8 @@ def test_the_verdict_of_cycles() -> None:
     assert shaken.after is not None
     assert 0 < shaken.after < 3
     assert str(shaken) == f"shakes down after {shaken.after} of 3 cycles"
-    result = sheared(380e6, 3)
+    store = tmp_path / "sheared.zarr"
+    result = sheared(380e6, 3, store)
     found = result.verdict()
     assert found.kind == "alternates"
     # To and fro: much is added up and little is left.
@@ -261,6 +265,14 @@ def test_the_verdict_of_cycles() -> None:
     steel = fret.fatigue.Materials()["titanium_6Al4V"]
     with pytest.raises(ValueError, match=r"smith_watson_topper.*dang_van"):
         result.life(steel, "smith_watson_topper", y=0.0)
+    # The command has the same rule.
+    life = [FRET, "life", store, "--material", "titanium_6Al4V", "--criterion"]
+    said = subprocess.run(
+        [*life, "smith_watson_topper"], capture_output=True, text=True, check=False
+    )
+    assert said.returncode == 2
+    assert "plastic strain grows in this cycle" in said.stderr
+    assert subprocess.run([*life, "crossland"], capture_output=True, check=False).returncode == 0
     with pytest.raises(ValueError, match="no closed cycle"):
         fret.solve(indentation(), progress=False).verdict()
 

@@ -71,6 +71,7 @@ pub fn average<J: Judge>(
     distance: &Distance,
     judge: &J,
 ) -> Result<Vec<Option<J::Found>>, Error> {
+    judge.accepts(site.cycle)?;
     let top = checked(site, distance)?;
     let Distance {
         method,

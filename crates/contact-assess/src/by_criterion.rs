@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 use contact_core::Error;
 use contact_core::error::Raised;
 use contact_core::scene::Body;
-use contact_subsurface::Line;
+use contact_subsurface::{Line, OverCycle};
 use fatigue::{Assessment, AtPoint, Material, Search, evaluate};
 use ndarray::ArrayView3;
 
@@ -96,6 +96,20 @@ impl Judge for ByCriterion {
             return Ok(Vec::new());
         };
         evaluate(&of.criterion, stress, &self.search, stop).map_err(of_criteria)
+    }
+
+    /// A criterion of strain takes the strain of the stress: it is right where the plastic strain is constant.
+    fn accepts(&self, cycle: &dyn OverCycle) -> Result<(), Error> {
+        let mut criteria = self.assessments.iter().flatten().map(|of| &of.criterion);
+        let Some(strained) = criteria.find(|criterion| criterion.number("E").is_some()) else {
+            return Ok(());
+        };
+        if !cycle.yielding()?.is_some_and(|of| of.grows()) {
+            return Ok(());
+        }
+        let allowed = "a criterion of stress such as dang_van, or a cycle after shakedown: it takes the strain of \
+                       the stress, and the plastic strain grows in this cycle";
+        Err(Error::invalid("criterion", strained.name(), allowed))
     }
 
     fn score(&self, found: &AtPoint) -> f64 {

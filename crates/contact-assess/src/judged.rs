@@ -3,7 +3,7 @@
 use std::sync::atomic::AtomicBool;
 
 use contact_core::Error;
-use contact_subsurface::{Depth, Line};
+use contact_subsurface::{Depth, Line, OverCycle};
 use ndarray::ArrayView3;
 use rayon::prelude::*;
 
@@ -24,6 +24,10 @@ pub trait Judge: Sync {
         stress: &ArrayView3<'_, f64>,
         stop: &AtomicBool,
     ) -> Result<Vec<Self::Found>, Error>;
+    /// Fails for a cycle that it cannot judge.
+    fn accepts(&self, _: &dyn OverCycle) -> Result<(), Error> {
+        Ok(())
+    }
     /// The severity of a judgement: the larger the worse.
     fn score(&self, found: &Self::Found) -> f64;
 }
@@ -48,6 +52,9 @@ pub fn judge<J: Judge>(
     depths: &[Depth],
     judges: &[J],
 ) -> Result<Vec<Judged<J::Found>>, Error> {
+    for judge in judges {
+        judge.accepts(site.cycle)?;
+    }
     let along = line.places(site.grid);
     let wanted: Vec<usize> = (0..depths.len())
         .filter(|n| judges.iter().any(|judge| judge.judges(depths[*n].layer)))

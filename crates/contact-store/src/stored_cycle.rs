@@ -2,7 +2,7 @@
 
 use contact_core::Error;
 use contact_core::scene::Branch;
-use contact_subsurface::{Eigenstresses, Moments, OverCycle, Side, cycles};
+use contact_subsurface::{Eigenstresses, Moments, OverCycle, Side, Yielding, cycles};
 
 use crate::Store;
 
@@ -110,6 +110,30 @@ impl OverCycle for StoredCycle<'_> {
 
     fn start(&self) -> Result<Option<Moments>, Error> {
         self.before.map(|place| self.at(&[place])).transpose()
+    }
+
+    fn yielding(&self) -> Result<Option<Yielding>, Error> {
+        let kept = self.increments();
+        let (Some(first), Some(last), true) =
+            (kept.first(), kept.last(), self.eigenstresses.is_some())
+        else {
+            return Ok(None);
+        };
+        let [plastic, rubbed] = [
+            self.store.column("plastic_work")?,
+            self.store.column("dissipated")?,
+        ];
+        // Increments count from 1: those after the first that was kept.
+        let inside = |column: &[f64]| column.get(*first..*last).map_or(0.0, |of| of.iter().sum());
+        let friction: f64 = inside(&rubbed);
+        Ok(Some(Yielding {
+            plastic: inside(&plastic),
+            beside: if friction > 0.0 {
+                friction
+            } else {
+                plastic.iter().sum()
+            },
+        }))
     }
 }
 

@@ -62,7 +62,7 @@ pub use largest::{DepthTops, Largest, MomentTops, largest_of_samples};
 pub use line::Line;
 pub use maximum::{Top, top_of_line, top_of_plane};
 pub use measure::{MEASURES, Measure, measure_named};
-pub use moments::{Moments, OverCycle, main_sections, unsettled};
+pub use moments::{Moments, OverCycle, SHAKEN, Yielding, main_sections, unsettled};
 pub use points::Points;
 pub use probe::{Component, DISPLACEMENTS, Probe};
 pub use recorded::Recorded;

@@ -27,6 +27,26 @@ pub struct Moments {
     pub eigenstress: Vec<Option<Eigenstress>>,
 }
 
+/// Plastic work of a cycle over its friction work, or without friction over the plastic work of the path,
+/// below which bodies have shaken down.
+pub const SHAKEN: f64 = 1e-3;
+
+/// What yields in a cycle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Yielding {
+    /// Plastic work \[J\].
+    pub plastic: f64,
+    /// Friction work, or without friction the plastic work of the whole path \[J\].
+    pub beside: f64,
+}
+
+impl Yielding {
+    /// Whether plastic strain still grows.
+    pub fn grows(&self) -> bool {
+        self.plastic > SHAKEN * self.beside
+    }
+}
+
 /// The moments of a cycle, read a few at a time.
 pub trait OverCycle: Sync {
     /// How many there are.
@@ -35,6 +55,10 @@ pub trait OverCycle: Sync {
     fn moments(&self, which: &[usize]) -> Result<Moments, Error>;
     /// The start of the cycle: the moment before its first, if stored.
     fn start(&self) -> Result<Option<Moments>, Error>;
+    /// What yields in the cycle; `None` of a body that stays elastic.
+    fn yielding(&self) -> Result<Option<Yielding>, Error> {
+        Ok(None)
+    }
 }
 
 impl Moments {

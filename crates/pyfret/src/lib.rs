@@ -127,6 +127,10 @@ mod _core {
     /// What is to be known of a largest plastic strain at a rim.
     #[pymodule_export]
     const STRAIN_AT_A_RIM: &str = contact_core::yielding::Rim::TOLD;
+    /// Plastic work of a cycle over its friction work, or without friction over the plastic work of the
+    /// path, below which bodies have shaken down.
+    #[pymodule_export]
+    const SHAKEN: f64 = contact_subsurface::SHAKEN;
     /// A material that does not deform.
     #[pymodule_export]
     const RIGID: Elastic = Elastic::RIGID;

@@ -10,7 +10,7 @@ from pyfret._core import Material
 from pyfret._util.arrays import number
 from pyfret._util.door import numbers_only
 from pyfret._util.lazy import xr
-from pyfret.fatigue.cycle_section import body_of, over_cycle, placed, refuse_growing
+from pyfret.fatigue.cycle_section import body_of, over_cycle, placed
 from pyfret.fatigue.fields import described
 from pyfret.fatigue.section import Section, for_each_layer
 from pyfret.subsurface.fields import coordinates
@@ -104,7 +104,6 @@ def average(
         raise ValueError(f"L = {L}: must be a positive length in m")
     if method not in get_args(Averaging):
         raise ValueError(f"method = {method!r}: must be one of {', '.join(get_args(Averaging))}")
-    refuse_growing(result, where, [criterion])
     below = over_cycle(result, where)
     found = below.mean(L, method, there, each, criterion, tolerance=tolerance)
     assessments = [None if m is None else m.assessment(criterion) for m in each]

@@ -10,7 +10,6 @@ from pyfret import _core
 from pyfret._util.arrays import plain
 from pyfret._util.lazy import xr
 from pyfret.fatigue.cycles import cycle_increments, moment_before
-from pyfret.fatigue.verdict import SHAKEN
 from pyfret.subsurface.fields import coordinates, interfaces
 from pyfret.subsurface.moments import lines_of, moments_of
 
@@ -23,16 +22,12 @@ if TYPE_CHECKING:
     from pyfret.fatigue.section import Section
     from pyfret.run import Run
 
-#: Criteria of strain.
-STRAIN = frozenset(("brown_miller", "fatemi_socie", "smith_watson_topper"))
-
 __all__ = [
     "body_of",
     "depths_of",
     "labelled",
     "over_cycle",
     "placed",
-    "refuse_growing",
     "side_by_side",
 ]
 
@@ -67,23 +62,19 @@ def over_cycle(result: Run, section: Section) -> _core.CycleSection:
         **section.line.named(),
         body_number=section.body_number,
         residual=section.residual,
+        yielding=yielding_of(result, section),
     )
 
 
-def refuse_growing(result: Run, section: Section, criteria: Sequence[str]) -> None:
-    """Refuse criteria of strain where plastic strain still grows: they take that of the stress."""
-    strained = sorted(STRAIN & set(criteria))
-    if not strained or not body_of(result, section).yields:
-        return
+def yielding_of(result: Run, section: Section) -> tuple[float, float] | None:
+    """Plastic work of the cycle, and the work beside which it is small [J]; None of elastic bodies."""
+    if not body_of(result, section).yields:
+        return None
     d, kept = result.dataset, cycle_increments(result, section.cycle)
     inside = ((d.increment > kept[0]) & (d.increment <= kept[-1])).values
     rubbed = float(d.dissipated.values[inside].sum())
-    limit = SHAKEN * (rubbed if rubbed > 0.0 else float(d.plastic_work.sum()))
-    if float(d.plastic_work.values[inside].sum()) > limit:
-        raise ValueError(
-            f"{strained[0]}: takes the strain of the stress, and the plastic strain grows in this "
-            "cycle; use a criterion of stress such as dang_van, or a cycle after shakedown"
-        )
+    beside = rubbed if rubbed > 0.0 else float(d.plastic_work.sum())
+    return float(d.plastic_work.values[inside].sum()), beside
 
 
 def depths_of(

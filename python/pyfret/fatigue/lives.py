@@ -28,7 +28,6 @@ from pyfret.fatigue.cycle_section import (
     labelled,
     over_cycle,
     placed,
-    refuse_growing,
     side_by_side,
 )
 from pyfret.fatigue.distance import OverDistance
@@ -458,7 +457,6 @@ def lives(
     shown: dict[CriterionName, list[xr.Dataset]] = {name: [] for name in names}
     notes: list[str] = []
     for one in [*where.each(), *others]:
-        refuse_growing(result, one, names)
         below = over_cycle(result, one)
         judged = below.by_criteria(*depths, each, names, tolerance=tolerance)
         for name, by in zip(names, judged, strict=True):

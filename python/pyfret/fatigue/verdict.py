@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
+from pyfret._core import SHAKEN
 from pyfret._util.numbers import in_words
 from pyfret.subsurface.plastic import plastic_points
 
@@ -15,9 +16,6 @@ if TYPE_CHECKING:
 __all__ = ["Verdict", "Where", "verdict"]
 
 Kind: TypeAlias = Literal["elastic", "shakes down", "settles", "alternates", "ratchets"]
-#: Plastic work of a cycle over its friction work, or without friction over the plastic work of the
-#: path, below which bodies have shaken down.
-SHAKEN = 1e-3
 #: Plastic work of a cycle over that of the one before, below which a run has not settled.
 SETTLES = 0.8
 #: Net strain of a cycle over the strain that it adds up, from which a body ratchets.

@@ -4,7 +4,7 @@ use std::sync::Mutex;
 
 use contact_core::Error;
 use contact_core::scene::Grid;
-use contact_subsurface::{Moments, OverCycle};
+use contact_subsurface::{Moments, OverCycle, Yielding};
 use ndarray::Ix2;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -30,6 +30,8 @@ pub(super) struct Given {
     give: Py<PyAny>,
     count: usize,
     shape: (usize, usize),
+    /// Plastic work of the cycle, and that beside which it is small [J].
+    yielding: Option<(f64, f64)>,
     /// What Python raised.
     raised: Mutex<Option<PyErr>>,
 }
@@ -40,8 +42,14 @@ impl Given {
             give,
             count,
             shape: (grid.nx, grid.ny),
+            yielding: None,
             raised: Mutex::new(None),
         }
+    }
+
+    /// With what yields in it.
+    pub(super) fn yields(self, yielding: Option<(f64, f64)>) -> Self {
+        Self { yielding, ..self }
     }
 
     /// What Python raised, once.
@@ -105,5 +113,10 @@ impl OverCycle for Given {
 
     fn start(&self) -> Result<Option<Moments>, Error> {
         self.ask(None)
+    }
+
+    fn yielding(&self) -> Result<Option<Yielding>, Error> {
+        let of = |(plastic, beside)| Yielding { plastic, beside };
+        Ok(self.yielding.map(of))
     }
 }

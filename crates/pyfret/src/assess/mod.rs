@@ -48,7 +48,7 @@ pub(crate) fn cycle_sections(
 /// `moments` is called with a list of numbers from 0 to `count` - 1, or with None for the moment
 /// before the cycle: lists of q_x, q_y, p [Pa] and stick, of shape (nx, ny) each, of the bulk
 /// stress [Pa], and of the residual stress of plastic strain, empty for a body that stays elastic;
-/// or None.
+/// or None. `yielding` is the plastic work of the cycle and the work beside which it is small [J].
 #[pyclass(frozen, module = "pyfret.fatigue")]
 pub(crate) struct CycleSection {
     below: Arc<Below>,
@@ -57,7 +57,7 @@ pub(crate) struct CycleSection {
 #[pymethods]
 impl CycleSection {
     #[new]
-    #[pyo3(signature = (body, grid, moments: "Callable[[list[int] | None], tuple[list[Any], ...] | None]", count: "int", *, x: "float | None" = None, y: "float | None" = None, azimuth: "float | None" = None, body_number: "int" = 2, residual = None))]
+    #[pyo3(signature = (body, grid, moments: "Callable[[list[int] | None], tuple[list[Any], ...] | None]", count: "int", *, x: "float | None" = None, y: "float | None" = None, azimuth: "float | None" = None, body_number: "int" = 2, residual = None, yielding: "tuple[float, float] | None" = None))]
     fn new(
         body: Body,
         grid: Grid,
@@ -68,12 +68,13 @@ impl CycleSection {
         #[pyo3(from_py_with = number)] azimuth: Option<f64>,
         #[pyo3(from_py_with = number)] body_number: u8,
         residual: Profiles,
+        #[pyo3(from_py_with = number)] yielding: Option<(f64, f64)>,
     ) -> PyResult<Self> {
         let below = Below {
             side: side(body_number)?,
             line: line(x, y, azimuth)?,
             residual: of_body(&body.0, residual)?,
-            given: Given::new(moments, count, &grid.0),
+            given: Given::new(moments, count, &grid.0).yields(yielding),
             body: body.0,
             grid: grid.0,
         };
