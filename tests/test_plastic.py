@@ -11,6 +11,7 @@ import pytest
 import xarray as xr
 
 import pyfret as fret
+from conftest import ROOT
 from pyfret import _core
 from pyfret.subsurface.plastic import YIELDED
 

@@ -16,6 +16,12 @@ RIGID: Final[Elastic]
 A material that does not deform.
 """
 
+SHAKEN: Final[float]
+"""
+Plastic work of a cycle over its friction work, or without friction over the plastic work of the
+path, below which bodies have shaken down.
+"""
+
 STRAIN_AT_A_RIM: Final[str]
 """
 What is to be known of a largest plastic strain at a rim.
@@ -784,7 +790,7 @@ class CycleSection:
     `moments` is called with a list of numbers from 0 to `count` - 1, or with None for the moment
     before the cycle: lists of q_x, q_y, p [Pa] and stick, of shape (nx, ny) each, of the bulk
     stress [Pa], and of the residual stress of plastic strain, empty for a body that stays elastic;
-    or None.
+    or None. `yielding` is the plastic work of the cycle and the work beside which it is small [J].
     """
 
     def __new__(
@@ -800,6 +806,7 @@ class CycleSection:
         azimuth: float | None = None,
         body_number: int = 2,
         residual: Sequence[ArrayLike] | None = None,
+        yielding: tuple[float, float] | None = None,
     ) -> CycleSection: ...
     def by_criteria(
         self,
@@ -3396,6 +3403,7 @@ class SlidingError(SolveError):
 
 __all__ = [
     "RIGID",
+    "SHAKEN",
     "STRAIN_AT_A_RIM",
     "TOO_FEW_INCREMENTS",
     "ArgumentError",

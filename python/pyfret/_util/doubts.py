@@ -25,7 +25,8 @@ class SceneWarning(UserWarning):
 def doubts_of(of: str, /, **numbers: Any) -> list[str]:
     """Give the doubts of numbers by their names, parameters of `of` or keys of a scene file.
 
-    Of lists each number is looked at, of arrays the largest; what is no number is left out.
+    Of lists each number is looked at, of arrays the largest, of tables the largest of the last
+    column; what is no number is left out.
     """
     found = []
     for name, given in numbers.items():
@@ -42,11 +43,24 @@ def doubt_numbers(of: str, /, *, stacklevel: int = 3, **numbers: Any) -> None:
         warnings.warn(doubt, SceneWarning, stacklevel=stacklevel)
 
 
+def is_row(given: Any) -> bool:
+    """Whether it is a row of a table of two numbers or more."""
+    return (
+        isinstance(given, (list, tuple))
+        and len(given) > 1
+        and all(isinstance(value, (int, float, str)) for value in given)
+    )
+
+
 def sizes(given: Any) -> Iterator[float]:
     """The numbers that may be doubted in what is given."""
     if isinstance(given, (bool, str, bytes)) or given is None:
         return
     if isinstance(given, (list, tuple)):
+        if given and all(is_row(row) for row in given):
+            # A table: its last column is the quantity, the others say where.
+            yield max((abs(size) for row in given for size in sizes(row[-1])), default=0.0)
+            return
         for value in given:
             yield from sizes(value)
         return

@@ -67,7 +67,7 @@ def over_cycle(result: Run, section: Section) -> _core.CycleSection:
 
 
 def yielding_of(result: Run, section: Section) -> tuple[float, float] | None:
-    """Plastic work of the cycle, and the work beside which it is small [J]; None of elastic bodies."""
+    """Plastic work of the cycle and the work beside which it is small [J]; None if elastic."""
     if not body_of(result, section).yields:
         return None
     d, kept = result.dataset, cycle_increments(result, section.cycle)
