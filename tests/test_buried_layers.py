@@ -35,6 +35,7 @@ def stack(random: np.random.Generator, a: float) -> list[Layer]:
     return [*layers, Layer(205e9, 0.28, np.inf)]
 
 
+@pytest.mark.slow
 @pytest.mark.solves
 @pytest.mark.timeout(1800)
 @pytest.mark.parametrize("seed", range(STACKS))
