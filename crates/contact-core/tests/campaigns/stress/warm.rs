@@ -57,6 +57,7 @@ pub(crate) fn warmed(
         ends: &ends,
         heat: &heat,
         contact: &contact,
+        jumps: false,
     };
     let answer = |bodies: [&Layers; 2]| -> Result<Temperature, String> {
         let told = |error: Error| format!("heat: {error}");
