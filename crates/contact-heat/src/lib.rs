@@ -25,9 +25,11 @@ mod conductor;
 mod cycle;
 mod partition;
 mod response;
+mod temperature;
 
 pub use conduction::Conduction;
 pub use conductor::{Conductor, Layers};
-pub use cycle::{Cycle, MOST_HARMONICS, Temperature, temperature};
+pub use cycle::Cycle;
 pub use partition::{Partition, partition};
 pub use response::surface_response;
+pub use temperature::{MOST_HARMONICS, Temperature, temperature};
