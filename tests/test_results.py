@@ -166,7 +166,7 @@ def test_fields_of_a_march_are_those_of_its_last_increment() -> None:
 
 
 def test_no_file_is_unpickled() -> None:
-    """What is read cannot run; only a study exchanges objects, with processes of its own.
+    """What is read cannot run; a study and a fit exchange objects, with processes of their user.
 
     A pool of threads exchanges none.
     """
@@ -186,7 +186,7 @@ def test_no_file_is_unpickled() -> None:
     assert "numpy" in imported["run/run.py"]
     assert not set().union(*imported.values()) & unpickles
     exchanging = {file for file, names in imported.items() if names & processes}
-    assert exchanging == {"study/workers.py", "study/loop.py"}
+    assert exchanging == {"study/workers.py", "study/loop.py", "fit/search.py"}
 
 
 @pytest.fixture
@@ -314,7 +314,7 @@ def test_the_error_of_the_shear_is_told_where_no_coarse_grid_sees_it(tmp_path: P
     largest = max(np.linalg.norm(shears[1][k]) for k in range(2))
     for k in range(2):
         error = np.linalg.norm(shears[0][k] - shears[1][k]) / largest
-        assert told[k] > 2 * (chosen[k].path_error or 0.0)
+        assert told[k] > 1.2 * (chosen[k].path_error or 0.0)
         assert 0.2 < error / told[k] < 1.5
         assert f"{100 * told[k]:.2f} %" in result.summary()
     again = fret.open(tmp_path / "narrow.zarr").branches()

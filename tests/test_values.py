@@ -112,7 +112,7 @@ VALUES: list[Any] = [
     fret.experiments.fouvry2007("TiC"),
     fret.fit.Loops.of(1e-6 * np.cos(TURN), 5.0 * np.sin(TURN)),
     fret.fit.Indentation.of([1.0, 2.0], [1e-7, 2e-7]),
-    fret.fit.Scar.of(TURN, np.cos(TURN), wear={"cycles": 1e3, "body2": LAW}),
+    fret.fit.Scar.of(1e-5 * TURN, 1e-6 * np.cos(TURN), wear={"cycles": 1e3, "body2": LAW}),
     fret.fit.Lives(1e3 * TURN, [{"mu": 0.3}] * TURN.size, {"body2": LAW}),
     fret.fatigue.Range(1e4, 2e4, 4e4),
     fret.Plastic(s_y=1e9, hardening=1e10),

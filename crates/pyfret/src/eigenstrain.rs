@@ -15,6 +15,9 @@ use crate::interruptible::interruptible;
 use crate::parts::made;
 use crate::scene::{Body, Grid};
 
+/// Stress on the planes, and displacement of the surface.
+type StressAndDisplacement<'py> = (Bound<'py, PyArray4<f64>>, Bound<'py, PyArray3<f64>>);
+
 /// Stress and surface displacement that eigenstrains and tractions cause in a body.
 ///
 /// An eigenstrain e is a strain without stress: plastic strain, thermal strain, a misfit::
@@ -157,7 +160,7 @@ impl EigenstrainOperator {
         p: Option<Field<'py>>,
         q_x: Option<Field<'py>>,
         q_y: Option<Field<'py>>,
-    ) -> PyResult<(Bound<'py, PyArray4<f64>>, Bound<'py, PyArray3<f64>>)> {
+    ) -> PyResult<StressAndDisplacement<'py>> {
         let (nx, ny) = (self.grid.0.nx, self.grid.0.ny);
         let planes = self.with(|own| own.mesh().planes());
         let shape = (planes, COMPONENTS, nx, ny);
