@@ -2047,7 +2047,7 @@ class Plastic:
     --------
     >>> Elastic(E=210e9, nu=0.3, plastic=Plastic(s_y=900e6, hardening=5e9)).plastic.s_y
     900000000.0
-    >>> Plastic(s_y="250 MPa", chaboche_C=["60 GPa", "5 GPa"], chaboche_gamma=[400, 20]).chaboche_C
+    >>> Plastic(s_y="250 MPa", chaboche_C=[60e9, 5e9], chaboche_gamma=[400, 20]).chaboche_C
     [60000000000.0, 5000000000.0]
     """
 
