@@ -207,6 +207,8 @@ def agree(kind: str, finest: int, grids: tuple[int, ...]) -> None:
                 assert low <= truth <= high, f"{kind}, {n} cells, {of}: {worst}, {truth}"
 
 
+@pytest.mark.slow
+@pytest.mark.timeout(1800)
 @pytest.mark.parametrize("kind", ["line bare", "line coated"])
 def test_least_factors_and_lives_of_lines_do_not_depend_on_the_grid(kind: str) -> None:
     # Just after a reversal the ring of reverse slip is narrower than a cell of all but the finest.
