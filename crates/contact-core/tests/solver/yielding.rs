@@ -282,7 +282,7 @@ fn residual_compression_moves_first_yield_as_it_does_by_hand() {
     );
 
     // How far a load is from yielding, and that it yields beyond.
-    let run_at = |W: f64| run(&of(W, vec![Profile::uniform(s_R)])).0[0].clone();
+    let run_at = |W: f64| run(&of(W, vec![Profile::uniform(s_R)])).0[0];
     let below = run_at(1.5 * bare.W);
     let reached = 1.5_f64.cbrt() + s_R / law.s_y;
     assert!(
