@@ -19,7 +19,7 @@ const STEEL: Elastic = Elastic { E: 210e9, nu: 0.3 };
 
 fn law(s_y: f64, hardening: f64) -> Plastic {
     Plastic {
-        hardening: hardening,
+        hardening,
         ..Plastic::perfect(s_y)
     }
 }
