@@ -36,7 +36,6 @@ SLIPS: dict[str, tuple[Callable[[], Any], str]] = {
     "strength in MPa": (lambda: fracture.Threshold(dK_th=4e6, dS_0=500.0), "dS_0 = 500 Pa"),
     "growth in SI": (lambda: fracture.Paris(C=5e-30, m=3.0), "at 1 MPa"),
     "yield stress in MPa": (lambda: fatigue.first_yield(HISTORY, s_y=300.0), "s_y = 300 Pa"),
-    "moving load in MPa": (lambda: fatigue.moving_load(HISTORY / 1e6, s_y=3e8), "stress = 100 Pa"),
     "stress in MPa": (
         lambda: fatigue.assess(HISTORY / 1e6, fatigue.Materials()["steel_42CrMo4"], "crossland"),
         "stress = 100 Pa",

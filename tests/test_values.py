@@ -36,6 +36,7 @@ TURN = np.linspace(0.0, 6.0 * np.pi, 900)
 #: A value of every class that needs no run; the members of enumerations are values as well.
 VALUES: list[Any] = [
     fret.subsurface.Zone(-1e-4, 2e-4, 0),
+    fret.kernels.EigenstrainOperator(BODY, GRID, depth=1e-4, height=5e-5),
     fret.fatigue.Where(2, 0.0, 0.0, 1e-4, 0),
     fret.fatigue.Verdict("shakes down", 1, (1e-6, 0.0), (1e-3, 1e-3), 0.0, 0.0, None, 1.0),
     STEEL,
@@ -106,7 +107,7 @@ VALUES: list[Any] = [
     fret.study.FirstToFail(toughness=90.0),
     fret.fracture.FailureOrder(1.1, 0.5, 0.2),
     fret.study.Averaged(MATERIAL, "crossland", L=5e-5),
-    fret.study.ThresholdLoad(1e3, 5.0, 2, ((900.0, 1.1), (1100.0, 0.9))),
+    fret.study.ThresholdLoad(1e3, 5.0, 2, ((900.0, 1.1), (1100.0, 0.9)), 900.0, 1100.0),
     fret.study.Limits(MATERIAL, 5e-5, 0.9, 0.1, np.array([0.9, np.nan, 1.1]), (2e-5, 1e-4)),
     fret.experiments.icf13("FF_1", n=64),
     fret.experiments.fouvry2007("TiC"),

@@ -353,6 +353,7 @@ OF: dict[str, dict[str, Any]] = {
     "fatigue.Life.over_distance": {"L": [1e-5, 2e-5]},
     "kernels.stress_coefficients": {"z": 1e-5, "layer": 0},
     "kernels.stress_at": {"layer": 0},
+    "kernels.EigenstrainOperator": {"depth": 2e-5, "height": 1e-5},
 }
 #: Instances whose methods are called.
 INSTANCES: dict[str, Any] = {

@@ -100,6 +100,12 @@ impl EigenstrainOperator {
             dy: of.dy,
             plane_strain: of.plane_strain,
         };
+        for (name, value) in [("depth", depth), ("height", height)] {
+            if !(value > 0.0 && value.is_finite()) {
+                let message = format!("{name} = {value}: must be a positive length in m");
+                return Err(PyValueError::new_err(message));
+            }
+        }
         // Before a mesh of so many elements is made.
         if depth / height > 1e5 {
             let message = format!("height = {height}: must be above 1e-5 of the depth, {depth}");

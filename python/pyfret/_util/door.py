@@ -60,15 +60,19 @@ def guarded(call: Callable[..., Any], owner: str, but: tuple[str, ...]) -> Any:
 
     @functools.wraps(call)
     def checked(*values: Any, **given: Any) -> Any:
+        doubted: dict[str, Any] = {}
         for name, value in [*zip(names, values, strict=False), *given.items()]:
             if value is not None and value is not defaults.get(name, inspect.Parameter.empty):
                 check(value, name, kinds.get(name))
                 if name in ranged:
-                    doubt_numbers(owner, **{name: value})
+                    doubted[name] = value
         # What a sequence says of its length is not handed on.
         places = [honest(value, name) for name, value in zip(names, values, strict=False)]
         others = {name: honest(value, name) for name, value in given.items()}
-        return call(*places, *values[len(places) :], **others)
+        found = call(*places, *values[len(places) :], **others)
+        # What is refused is not doubted.
+        doubt_numbers(owner, **doubted)
+        return found
 
     return checked
 
