@@ -11,7 +11,7 @@ pub(crate) const RECALLED: &str = "recalled: ";
 pub enum Known {
     /// From a source.
     Known,
-    /// By a published rule, [`estimate`].
+    /// By a published rule, such as the uniform material law.
     Estimate,
     /// From memory: the source was not looked up.
     Recalled,

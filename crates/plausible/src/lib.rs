@@ -2,7 +2,7 @@
 //!
 //! A number outside its range is allowed and doubted: nearly always its unit is another one. Scene,
 //! wear, heat, fatigue, cracks and fits take their doubts from this table, in Rust, in Python and on
-//! the command line; and so do the texts with units that a number may be given as ([`unit`]). What is
+//! the command line; and so do the texts with units that a number may be given as ([`mod@unit`]). What is
 //! compared with another number of the scene, such as a contact radius with the grid, has no row here.
 
 pub mod unit;
