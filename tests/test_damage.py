@@ -10,29 +10,11 @@ import pytest
 
 import pyfret as fret
 from conftest import W, sphere_on_flat
+from damaging import damage
 
 pytestmark = pytest.mark.solves
 
 STORES = 60
-
-
-def damage(file: Path, rng: random.Random) -> None:
-    """Flips a bit, cuts, empties, removes or swaps."""
-    content = bytearray(file.read_bytes())
-    kind = rng.randrange(6)
-    if kind == 0 or not content:
-        file.unlink()
-    elif kind == 1:
-        file.write_bytes(content[: rng.randrange(len(content))])
-    elif kind == 2:
-        file.write_bytes(content + bytes(rng.randrange(1, 9)))
-    elif kind == 3:
-        other = rng.choice(sorted(f for f in file.parent.iterdir() if f.is_file()))
-        file.write_bytes(other.read_bytes())
-    else:
-        place = rng.randrange(len(content))
-        content[place] ^= 1 << rng.randrange(8)
-        file.write_bytes(content)
 
 
 def test_a_damaged_store_is_read_as_it_was_or_refused_by_name(tmp_path: Path) -> None:

@@ -314,6 +314,7 @@ def test_the_error_of_the_shear_is_told_where_no_coarse_grid_sees_it(tmp_path: P
     largest = max(np.linalg.norm(shears[1][k]) for k in range(2))
     for k in range(2):
         error = np.linalg.norm(shears[0][k] - shears[1][k]) / largest
+        # The estimate of the choice has a part of the ring, too: 0.57 % there, 0.98 % here.
         assert told[k] > 1.2 * (chosen[k].path_error or 0.0)
         assert 0.2 < error / told[k] < 1.5
         assert f"{100 * told[k]:.2f} %" in result.summary()

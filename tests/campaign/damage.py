@@ -30,6 +30,9 @@ from pyfret.fit import Found, Loops
 from pyfret.fit.data import Measured
 from pyfret.fit.outcome import Known
 
+sys.path.append(str(Path(__file__).parents[1]))
+from damaging import damage
+
 STEEL = fret.Elastic(E=210e9, nu=0.3)
 PATH = fret.LoadPath.start().normal(10.0, increments=3).tangential([1.0, -1.0, 1.0], increments=3)
 SCENE = fret.Scene(
@@ -43,25 +46,6 @@ WEAR = fret.wear.Wear(cycles=1e3, body2=fret.wear.Archard(1e-15), first_branch=2
 MU = {"mu": [0.2, 0.3, 0.4, 0.5, 0.6, 0.7]}
 #: What differs from run to run: times.
 TIMES = ("seconds", "elapsed", "wall_time", "time_of_checkpoints")
-
-
-def damage(file: Path, rng: random.Random) -> None:
-    """Flips a bit, cuts, lengthens, removes or swaps."""
-    content = bytearray(file.read_bytes())
-    kind = rng.randrange(6)
-    if kind == 0 or not content:
-        file.unlink()
-    elif kind == 1:
-        file.write_bytes(content[: rng.randrange(len(content))])
-    elif kind == 2:
-        file.write_bytes(content + bytes(rng.randrange(1, 9)))
-    elif kind == 3:
-        other = rng.choice(sorted(f for f in file.parent.iterdir() if f.is_file()))
-        file.write_bytes(other.read_bytes())
-    else:
-        place = rng.randrange(len(content))
-        content[place] ^= 1 << rng.randrange(8)
-        file.write_bytes(content)
 
 
 def a_fit() -> Found:
