@@ -20,7 +20,8 @@ pub enum Error {
     #[error(
         "the faces of the crack of length {length:.4e} m, with the coefficient of friction {friction}, found no \
          state of opening, stick and slip in {passes} passes, the load cut into halves: {at_fault} of {points} \
-         points change from pass to pass; a smaller coefficient of friction helps"
+         points change from pass to pass{}",
+        if *friction > 0.0 { "; a smaller coefficient of friction helps" } else { "" }
     )]
     Faces {
         /// Length of the crack \[m\].

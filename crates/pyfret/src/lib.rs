@@ -35,6 +35,7 @@ mod material;
 mod operator;
 mod outline;
 mod parts;
+mod plastic;
 mod quantity;
 mod reference;
 mod residual_stress;

@@ -13,7 +13,8 @@ mod settings;
 mod shape;
 mod whole;
 
-pub(crate) use crate::material::{Bond, Coating, Elastic, Plastic};
+pub(crate) use crate::material::{Bond, Coating, Elastic};
+pub(crate) use crate::plastic::Plastic;
 pub(crate) use body::Body;
 pub(crate) use branch::{Branch, Spacing};
 pub(crate) use friction::{AnyFriction, Friction, History};
