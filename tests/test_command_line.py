@@ -95,6 +95,22 @@ def test_check_solves_nothing_and_says_what_is_skipped(scene_file: Path) -> None
 
 
 @pytest.mark.solves
+def test_the_summary_for_programs_has_the_error_bars(tmp_path: Path) -> None:
+    path = fret.LoadPath.start().normal(W, increments=4)
+    (tmp_path / "scene.toml").write_text(sphere_on_flat(n=32).replace(path=path).to_toml())
+    out = tmp_path / "out.zarr"
+    plain = fret_run("run", tmp_path / "scene.toml", "-o", out, "--json", "-q")
+    assert json.loads(plain.stdout)["error_bars"] is None
+    told = fret_run("run", tmp_path / "scene.toml", "-o", out, "--overwrite", "--json", "--error")
+    assert told.returncode == 0, told.stderr
+    (branch,) = json.loads(told.stdout)["error_bars"]
+    bars = fret.open(out).error_bars().isel(branch=0)
+    for number in ("p_max", "delta_z", "contact_radius"):
+        assert branch[number]["total"] > 0.0
+        assert branch[number]["total"] == float(getattr(bars, number).sel(part="total"))
+
+
+@pytest.mark.solves
 def test_stress_below_is_that_of_python(coated: fret.Result, tmp_path: Path) -> None:
     store = tmp_path / "out.zarr"
     result = fret.solve(coated.scene, out=store, progress=False)

@@ -1,5 +1,6 @@
 //! Output of the commands for programs: SI units, names of the store.
 
+use contact_core::estimate::ErrorBars;
 use contact_core::march::{BranchSummary, Increment, Reached, Yield, summarise};
 use contact_core::scene::{RigidMotion, Scene};
 use contact_subsurface::{Cycle, Direction, LoopPoint, loops};
@@ -7,8 +8,8 @@ use serde_json::{Map, Value, json};
 
 use crate::words::{state, word};
 
-/// A run: its branches and its cycles.
-pub(crate) fn run(scene: &Scene, increments: &[Increment]) -> Value {
+/// A run: its branches and its cycles, and the error bars of the branches where there are any.
+pub(crate) fn run(scene: &Scene, increments: &[Increment], bars: Option<&[ErrorBars]>) -> Value {
     let mut done = 0;
     let reached = Reached::of(increments);
     let errors = reached.shear_errors(scene);
@@ -35,6 +36,7 @@ pub(crate) fn run(scene: &Scene, increments: &[Increment]) -> Value {
         "units": units(scene),
         "branches": branches,
         "cycles": cycles,
+        "error_bars": bars,
         "doubts": reached.all_doubts(scene),
     })
 }

@@ -52,8 +52,13 @@ pub(crate) fn resume(options: &Options) -> Result<(), Failure> {
     let scene = march.scene().clone();
     let before = increments.clone();
     manner
-        .watch(&scene, &options.store, writer, increments, |watcher| {
-            march.run(before, watcher)
-        })
+        .watch(
+            &scene,
+            &options.store,
+            writer,
+            increments,
+            false,
+            |watcher| march.run(before, watcher),
+        )
         .map(drop)
 }

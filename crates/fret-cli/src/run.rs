@@ -71,7 +71,8 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
     let scene = choose_increments(&scene, &Arc::default()).map_err(ended)?;
     let writer = StoreWriter::create(out, options.out.overwrite).map_err(Failure::BadInput)?;
     let (mut increments, mut tractions) = (Vec::new(), Vec::new());
-    let stop = manner.watch(&scene, out, writer, Vec::new(), |watcher| {
+    let held = options.error && manner.json;
+    let stop = manner.watch(&scene, out, writer, Vec::new(), held, |watcher| {
         let mut ends = BranchEnds::beside(watcher);
         increments = solve(&scene, &mut ends)?;
         tractions = ends.tractions;
@@ -81,13 +82,21 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
         match error_bars(&scene, &increments, &tractions, &stop) {
             Ok(bars) => {
                 write_error_bars(out, &bars).map_err(ended)?;
-                if !manner.quiet && !manner.json {
+                if manner.json {
+                    print(&format!(
+                        "{:#}",
+                        json::run(&scene, &increments, Some(&bars))
+                    ))?;
+                } else if !manner.quiet {
                     print(&summary::error_table(&scene, &increments, &bars))?;
                 }
             }
             Err(stopped @ Error::Interrupted { .. }) => return Err(ended(stopped)),
             Err(why) => {
                 let doubt = write_no_error_bars(out, &why).map_err(ended)?;
+                if manner.json {
+                    print(&format!("{:#}", json::run(&scene, &increments, None)))?;
+                }
                 say(&format!("fret: warning: {doubt}"));
             }
         }
@@ -97,13 +106,15 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
 
 impl Manner {
     /// Watches a run of the scene into the store `out` that has done `increments` already, and
-    /// says how it ended. Returns the flag that Ctrl-C raises.
+    /// says how it ended. Returns the flag that Ctrl-C raises. A summary that is `held` is printed
+    /// only where the run fails: error bars are added to it.
     pub(crate) fn watch(
         &self,
         scene: &Scene,
         out: &Path,
         writer: StoreWriter,
         increments: Vec<Increment>,
+        held: bool,
         run: impl FnOnce(&mut dyn Observer) -> Result<Vec<Increment>, Error>,
     ) -> Result<Arc<AtomicBool>, Failure> {
         let begun = Instant::now();
@@ -125,9 +136,10 @@ impl Manner {
         } = watcher;
         progress.end();
         let mut printed = Ok(());
-        if (!self.quiet || self.json) && !increments.is_empty() {
+        let later = held && outcome.is_ok();
+        if (!self.quiet || self.json) && !increments.is_empty() && !later {
             let text = if self.json {
-                format!("{:#}", json::run(scene, &increments))
+                format!("{:#}", json::run(scene, &increments, None))
             } else {
                 summary::table(scene, &increments, self.wide)
             };
