@@ -63,7 +63,7 @@ def test_a_preview_has_fewer_increments_and_nearly_the_same_numbers() -> None:
     given = changed(scene(), {}, n=32)
     full = answer(given)
     result = fret.solve(given, progress=False)
-    assert full.largest == pytest.approx(result.at(-1).stress(y=0.0).maximum("von_mises").value)
+    assert full.largest == pytest.approx(result.at(-1).stress().maximum("von_mises").value)
     assert sum(full.counts) == result.dataset.sizes["increment"]
     near = changed(scene(), {"mu": 0.42}, n=32)
     early, late = answer(near, full.counts), answer(near)

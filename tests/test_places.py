@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
@@ -79,6 +80,31 @@ def test_the_outline_of_a_sheared_ball() -> None:
     section = at.stress()
     assert section.s_1.dims == ("depth", "s")
     assert float(section.dataset.azimuth) == pytest.approx(azimuth)
+
+
+def test_tractions_are_drawn_along_the_shear() -> None:
+    angle = np.radians(37.0)
+    straight, turned = sheared(0.0).at(-1), sheared(angle).at(-1)
+    along, cut = straight.along(), turned.along()
+    assert along.p.dims == ("x",)
+    assert cut.p.dims == ("s",)
+    assert float(cut.p.max()) == pytest.approx(float(along.p.max()), rel=0.01)
+    # The largest shear is a cusp between the cells; its integral is known better.
+    assert float(cut.q_s.integrate("s")) == pytest.approx(float(along.q_x.integrate("x")), rel=0.02)
+    assert float(abs(cut.q_t).max()) < 0.05 * float(abs(cut.q_s).max())
+    np.testing.assert_allclose(straight.along(y=0.0).p, straight.along_x().p)
+    across = straight.along(x=0.3 * A)
+    np.testing.assert_allclose(across.p, straight.p.interp(x=0.3 * A))
+    with pytest.raises(ValueError, match="a point is no line"):
+        straight.along(x=0.0, y=0.0)
+    for draw in (fret.plot.shear_profile, fret.plot.pressure_profile):
+        ax = draw(turned, units="SI")
+        assert ax.get_xlabel().startswith("$s$")
+        drawn = ax.lines[0].get_ydata()
+        assert np.abs(drawn).max() == pytest.approx(
+            1e-6 * float(abs(cut["p" if draw is fret.plot.pressure_profile else "q_s"]).max())
+        )
+    plt.close("all")
 
 
 def test_an_oblique_section_is_the_stress_at_its_points() -> None:

@@ -17,6 +17,7 @@ import pytest
 import pyfret as fret
 from conftest import ROOT, W, sphere_on_flat
 from pyfret import verification
+from pyfret._core import with_error
 from pyfret.report import content
 from pyfret.report.crack import CrackSection
 
@@ -77,8 +78,10 @@ def test_the_numbers_of_the_figures_are_those_of_the_result(result: fret.Result)
     assert numbers["fields"]["largest"]["p"] == pytest.approx(
         1e-6 * float(result.dataset.p.max()), rel=1e-2
     )
-    largest = 1e-6 * result.at(-1).stress().maximum().value
-    assert numbers["stress"]["largest"][2] == largest
+    largest = result.at(-1).stress().maximum()
+    told = numbers["stress"]["largest"]
+    assert told["value"] == with_error(1e-6 * largest.value, 1e-6 * largest.error)
+    assert told["at"] == [1e6 * largest.x, 1e6 * largest.y, 1e6 * largest.z]
     assert numbers["loop"]["y"][-1] == pytest.approx(200.0, rel=1e-4)
     assert content.short([1.23456, np.nan, 0.0, np.inf]) == [1.235, None, 0.0, None]
 

@@ -10,6 +10,7 @@ from pyfret.export.write import write as export
 from pyfret.run import Run, State
 from pyfret.run.tables import state_html
 from pyfret.subsurface import contact
+from pyfret.subsurface.line import fields_on
 from pyfret.subsurface.plastic import PlasticState
 from pyfret.subsurface.tensor import LABELS
 from pyfret.subsurface.zones import Zone, zone
@@ -105,6 +106,36 @@ class Snapshot(State):
         >>> result.at(-1).plastic.dataset.residual_stress  # doctest: +SKIP
         """
         return PlasticState(self)
+
+    @numbers_only
+    def along(
+        self, *, x: float | None = None, y: float | None = None, azimuth: float | None = None
+    ) -> xr.Dataset:
+        """Fields on a line of the surface, linear between the centres of the cells.
+
+        Parameters
+        ----------
+        x, y : float, optional
+            With `y`, the line along x at that y [m]; with `x`, that along y. Where nothing is
+            given, the line along the shear, through the centre of the contact: :attr:`outline`.
+        azimuth : float, optional
+            The line at this angle to the x axis [rad], through `x` and `y` (default: the centre of
+            the contact).
+
+        Returns
+        -------
+        xarray.Dataset
+            Over x, y or, on an oblique line, s [m]; there with `q_s` and `q_t`, the shear along s
+            and the shear to the left of it [Pa].
+
+        Raises
+        ------
+        ValueError
+            x and y are given without an azimuth.
+        """
+        if x is not None and y is not None and azimuth is None:
+            raise ValueError("give x or y, or an azimuth as well: a point is no line")
+        return fields_on(self, contact.line_below(self, None, x, y, azimuth)[0])
 
     @numbers_only
     def stress(

@@ -15,6 +15,7 @@ from pyfret._util.door import numbers_only
 from pyfret._util.kept import Kept
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
+from pyfret.subsurface.line import along
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from pyfret._core import Material
+    from pyfret.subsurface.line import Line
 
 __all__ = ["CrackArrest", "CrackLife", "Cracks", "Paris", "Threshold"]
 
@@ -221,6 +223,16 @@ class Cracks(Kept, Labelled):
         about = {"units": "m", "long_name": "crack length"}
         length = ("length", at, about)
         return cls(xr.Dataset({"K_I": (("increment", "length"), K)}, coords={"length": length}))
+
+    @property
+    def line(self) -> Line:
+        """The line on the surface in whose plane the cracks lie: through the axis of depth."""
+        return along(0.0, 0.0, float(self.dataset.attrs.get("azimuth", 0.0)))
+
+    def places(self, x: Any) -> Any:
+        """Places on :attr:`line` of distances `x` from the axis in the plane of the cracks [m]."""
+        azimuth = float(self.dataset.attrs.get("azimuth", 0.0))
+        return self.line.place(x * np.cos(azimuth), x * np.sin(azimuth))
 
     @property
     def lengths(self) -> NDArray[np.float64]:

@@ -1,4 +1,4 @@
-"""Fields of a line contact along x, in place of maps of the contact plane."""
+"""Fields along a line of the surface: the sight of a profile, line contacts in place of maps."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.patches import Patch
 
 from pyfret.plot.style import REFERENCE, SLIP, STICK, axes
+from pyfret.subsurface.line import Line
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -16,7 +17,16 @@ if TYPE_CHECKING:
     from pyfret.plot.scales import Scale, Scales
     from pyfret.run import State
 
-__all__ = ["field_along", "legend_of_zones", "look_along", "shear_along", "zones_along"]
+__all__ = [
+    "field_along",
+    "legend_of_zones",
+    "look_along",
+    "shear_along",
+    "zones_along",
+]
+
+#: The line of a line contact.
+MIDDLE = Line(None, 0.0)
 
 #: Room around a contact, over half its length.
 MARGIN = 0.3
@@ -35,16 +45,22 @@ def touched(snapshot: State, axis: int, length: Scale) -> tuple[float, float] | 
     return (low - margin) / length.value, (high + margin) / length.value
 
 
-def look_along(ax: Axes, snapshot: State, length: Scale, *, fresh: bool) -> None:
-    """Leave what is far from the contact out of a profile along x.
+def look_along(
+    ax: Axes, snapshot: State, length: Scale, line: Line = MIDDLE, *, fresh: bool
+) -> None:
+    """Leave the surface far from the contact out of a profile on a line.
 
-    On axes that have curves already what they show stays in sight.
+    On axes with curves already, the range that they show stays in sight.
     """
-    near = touched(snapshot, 0, length)
-    x, half = snapshot.dataset.x.values / length.value, snapshot.scene.grid.dx / 2 / length.value
-    if near is None:
+    contact = snapshot.dataset.contact.values.astype(bool)
+    if not contact.any():
         return
-    low, high = max(near[0], x[0] - half), min(near[1], x[-1] + half)
+    d, grid = snapshot.dataset, snapshot.scene.grid
+    s = line.place(*np.meshgrid(d.x.values, d.y.values, indexing="ij")) / length.value
+    cell = np.hypot(np.cos(line.angle) * grid.dx, np.sin(line.angle) * grid.dy) / length.value
+    low, high = s[contact].min() - cell / 2, s[contact].max() + cell / 2
+    margin = MARGIN * (high - low) / 2
+    low, high = max(low - margin, s.min() - cell / 2), min(high + margin, s.max() + cell / 2)
     if not fresh:
         low, high = min(low, ax.get_xlim()[0]), max(high, ax.get_xlim()[1])
     ax.set_xlim(low, high)

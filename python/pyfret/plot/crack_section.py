@@ -56,7 +56,7 @@ def crack_path(
     if units == "auto" and "a_H" not in ax.get_xlabel():
         scale = scales(dataset.attrs, "SI").length.value
     mouth = dataset.attrs["x"]
-    x = np.concatenate([[mouth], dataset.x.values]) / scale
+    x = cracks.places(np.concatenate([[mouth], dataset.x.values])) / scale
     z = np.concatenate([[0.0], dataset.z.values]) / scale
     s = np.concatenate([[0.0], cracks.lengths])
     stop = None if threshold is None else cracks.arrest(threshold).length
@@ -89,13 +89,11 @@ def crack_panels(result: Run, cracks: Cracks, threshold: Threshold) -> Figure:
     result : Result
         The run whose cycle the cracks are of.
     cracks : Cracks
-        From :meth:`Result.crack` or :meth:`Result.grow_crack`, in the plane y = 0.
+        From :meth:`Result.crack` or :meth:`Result.grow_crack`.
     threshold : Threshold
         Of the material.
     """
     about = cracks.dataset.attrs
-    if about.get("azimuth", 0.0) != 0.0:
-        raise ValueError(f"azimuth = {about['azimuth']} rad: the section shown is that of 0")
     figure, axes = plt.subplots(2, 2, figsize=(8.4, 6.6), layout="constrained")
     K_I = cracks.dataset.K_I
     shown = K_I.isel(length=int(K_I.max("increment").values.argmax()))
@@ -104,8 +102,13 @@ def crack_panels(result: Run, cracks: Cracks, threshold: Threshold) -> Figure:
     depths = np.linspace(0.0, DEEPEST * about["half_width"], DEPTHS)
     layered = (result.scene.body1 if body == 1 else result.scene.body2).coatings
     inner = np.cumsum([coating.thickness for coating in layered])
-    stress = stress_below(moment, np.union1d(depths, inner), y=0.0, body_number=body)
-    section_map(stress.s_xx, ax=axes[0, 0])
+    line = cracks.line
+    stress = stress_below(moment, np.union1d(depths, inner), **line.named(), body_number=body)
+    cos, sin = np.cos(line.angle), np.sin(line.angle)
+    # The normal stress across a crack along the depth.
+    across = cos**2 * stress.s_xx + 2.0 * sin * cos * stress.s_xy + sin**2 * stress.s_yy
+    names = {"x": r"\sigma_{xx}", "y": r"\sigma_{yy}", "s": r"\sigma_{ss}"}
+    section_map(across.assign_attrs(stress.s_xx.attrs), symbol=names[line.along], ax=axes[0, 0])
     crack_path(cracks, threshold, ax=axes[0, 0])
     found = cracks.arrest(threshold)
     length = cracks.lengths[len(cracks.lengths) // 2] if found.length is None else found.length

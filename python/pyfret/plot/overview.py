@@ -16,6 +16,7 @@ from pyfret.plot.stresses import stress_map
 from pyfret.plot.style import REFERENCE, apart, note, styled
 from pyfret.run import Run, State
 from pyfret.subsurface.contact import stress_below
+from pyfret.subsurface.line import fields_on, main_line, main_shear
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -83,17 +84,18 @@ def _history(shown: Run | State, ax: Axes, units: Units) -> None:
 
 
 def _tractions(ax: Axes, at: State, by: Scales) -> None:
-    """Pressure and shear along y = 0 on one scale, with the bounds of friction."""
-    cut = at.along_x(y=0.0 if at.dataset.y.size > 1 else float(at.dataset.y[0]))
-    x = cut.x / by.length.value
+    """Pressure and shear along the shear on one scale, with the bounds of friction."""
+    line = main_line(at)
+    cut = fields_on(at, line)
+    x = cut[line.along] / by.length.value
     ax.plot(x, cut.p / by.stress.value, label="$p$")
-    q = max(("q_x", "q_y"), key=lambda name: float(abs(cut[name]).max()))
+    q = main_shear(cut)
     ax.plot(x, cut[q] / by.stress.value, label=f"${q}$")
     if np.isfinite(at.mu):
         for sign, label in ((1, r"$\pm\mu p$"), (-1, None)):
             bound = sign * at.mu * cut.p / by.stress.value
             ax.plot(x, bound, color=REFERENCE, linestyle=":", linewidth=1.0, label=label)
-    look_along(ax, at, by.length, fresh=True)
-    ax.set_xlabel(by.length.label("x"))
+    look_along(ax, at, by.length, line, fresh=True)
+    ax.set_xlabel(by.length.label(line.along))
     ax.set_ylabel(f"traction [{by.stress.name}]" if by.stress.is_unit else r"traction over $p_H$")
     ax.legend(loc="upper right", ncols=3, bbox_to_anchor=(1.0, 1.12), borderpad=0.1)

@@ -1,4 +1,4 @@
-"""Tractions along the line y = 0."""
+"""Tractions along the shear, through the centre of the contact."""
 
 from __future__ import annotations
 
@@ -14,18 +14,23 @@ from pyfret.plot.along import look_along
 from pyfret.plot.histories import NAMES, driven
 from pyfret.plot.scales import Units, last_of, of_snapshot, run_of
 from pyfret.plot.style import REFERENCE, axes, styled
+from pyfret.subsurface.line import fields_on, main_line, main_shear
+from pyfret.subsurface.moments import lines_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from pyfret.run import Run, State
+    from pyfret.subsurface.line import Line
 
 
 @styled
 def pressure_profile(
     shown: State | Run, *, units: Units = "auto", ax: Axes | None = None, **line: Any
 ) -> Axes:
-    """Pressure along y = 0, over p_H and a_H or in MPa and um.
+    """Pressure along the shear, over p_H and a_H or in MPa and um.
+
+    On the line through the centre of the contact, as :meth:`Snapshot.along` gives it.
 
     Parameters
     ----------
@@ -40,10 +45,11 @@ def pressure_profile(
     """
     snapshot = last_of(shown)
     ax, by = axes(ax), of_snapshot(snapshot, units)
-    cut, fresh = snapshot.along_x(), not ax.lines
-    ax.plot(cut.x / by.length.value, cut.p / by.stress.value, **line)
-    look_along(ax, snapshot, by.length, fresh=fresh)
-    ax.set_xlabel(by.length.label("x"))
+    along, fresh = main_line(snapshot), not ax.lines
+    cut = fields_on(snapshot, along)
+    ax.plot(cut[along.along] / by.length.value, cut.p / by.stress.value, **line)
+    look_along(ax, snapshot, by.length, along, fresh=fresh)
+    ax.set_xlabel(by.length.label(along.along))
     ax.set_ylabel(by.stress.label("p"))
     return ax
 
@@ -52,56 +58,79 @@ def pressure_profile(
 def shear_profile(
     shown: State | Run,
     *,
-    of: Literal["q_x", "q_y"] | None = None,
+    of: Literal["q_x", "q_y", "q_s", "q_t"] | None = None,
     bound: bool = False,
     units: Units = "auto",
     ax: Axes | None = None,
     **line: Any,
 ) -> Axes:
-    r"""Shear traction along y = 0, :math:`q_x/(\mu p_H)` over :math:`x/a_H`, or in MPa over um.
+    r"""Shear along its direction, :math:`q_x/(\mu p_H)` over :math:`x/a_H`, or in MPa over um.
+
+    On the line through the centre of the contact, as :meth:`Snapshot.along` gives it.
 
     Parameters
     ----------
     shown, units, ax, **line
         As in :func:`pressure_profile`.
-    of : "q_x" or "q_y", optional
-        Which component (default: the larger one on the line, as q_y in torsion).
+    of : "q_x", "q_y", "q_s" or "q_t", optional
+        Which component (default: the larger one on the line, as q_y in torsion); q_s and q_t on an
+        oblique line alone.
     bound : bool
         Whether to draw the bounds of friction, plus and minus mu p, in grey.
     """
     snapshot = last_of(shown)
+    return _shear_on(main_line(snapshot), snapshot, of, units, ax, bound=bound, **line)
+
+
+def _shear_on(
+    along: Line,
+    snapshot: State,
+    of: str | None,
+    units: Units,
+    ax: Axes | None,
+    *,
+    bound: bool = False,
+    **line: Any,
+) -> Axes:
+    """The shear of an increment on a line."""
     ax, by = axes(ax), of_snapshot(snapshot, units)
-    cut, fresh = snapshot.along_x(), not ax.lines
-    name: str = of or max(("q_x", "q_y"), key=lambda component: float(abs(cut[component]).max()))
-    ax.plot(cut.x / by.length.value, cut[name] / by.shear.value, **line)
+    cut, fresh = fields_on(snapshot, along), not ax.lines
+    name = of or main_shear(cut)
+    if name not in cut:
+        components = ", ".join(str(k) for k in cut if str(k).startswith("q_"))
+        raise ValueError(f"of = {name!r}: must be one of {components} on this line")
+    s = cut[along.along] / by.length.value
+    ax.plot(s, cut[name] / by.shear.value, **line)
     if bound and np.isfinite(snapshot.mu):
         for sign in (1, -1):
             most = sign * snapshot.mu * cut.p / by.shear.value
-            ax.plot(cut.x / by.length.value, most, color=REFERENCE, linestyle=":", linewidth=1.0)
-    look_along(ax, snapshot, by.length, fresh=fresh)
-    ax.set_xlabel(by.length.label("x"))
+            ax.plot(s, most, color=REFERENCE, linestyle=":", linewidth=1.0)
+    look_along(ax, snapshot, by.length, along, fresh=fresh)
+    ax.set_xlabel(by.length.label(along.along))
     ax.set_ylabel(by.shear.label(name))
     return ax
 
 
 @styled
 def shear_profiles(result: Run, *, units: Units = "auto", ax: Axes | None = None) -> Axes:
-    """Shear traction along y = 0 for every increment whose fields were kept.
+    """Shear traction along its direction for every increment whose fields were kept.
 
+    On the line through the centre of the largest contact, along the shear of all increments.
     Of more than twelve load states a scale of colours tells the time, not a legend.
 
     A load state that was visited before is drawn as markers in the colour of its first visit:
     markers on a line show that the cycle has settled.
     """
-    last = run_of(result).at(-1).along_x()
+    run = run_of(result)
+    kept = run.dataset.saved_increment.values
+    along = lines_of(run, kept, 2)[0]
     ax = axes(ax)
-    name: Literal["q_x", "q_y"] = "q_x" if abs(last.q_x).max() >= abs(last.q_y).max() else "q_y"
+    name = main_shear(fields_on(run.at(-1), along))
     tau = float(result.dataset.t[-1])
     visits = load_states(result)
     states = 1 + max(state for state, _ in visits)
     colours = colormaps["viridis"](np.linspace(0.0, 0.88, states))
     few = len(visits) <= NAMED
-    kept = result.dataset.saved_increment.values
     times = result.dataset.saved_t.values
     for number, t, (state, visit) in zip(kept, times, visits, strict=True):
         line: dict[str, Any] = {"color": colours[state], "label": f"{round(float(t / tau), 3)}"}
@@ -117,7 +146,7 @@ def shear_profiles(result: Run, *, units: Units = "auto", ax: Axes | None = None
                 "markeredgewidth": 0.8,
                 "markevery": (((visit - 1) * every // 2) % every, every),
             }
-        shear_profile(result.at(int(number)), of=name, units=units, ax=ax, **line)
+        _shear_on(along, result.at(int(number)), name, units, ax, **line)
     if few:
         place = (1.0, 0.5)
         ax.legend(title=r"$t/\tau$", loc="center left", bbox_to_anchor=place, alignment="left")

@@ -6,13 +6,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from pyfret._core import with_error
 from pyfret._util.depths import stretched, thin
 from pyfret._util.numbers import in_words
 from pyfret.report.crack import CrackSection
 from pyfret.report.digits import short
 from pyfret.run.summary import directions
 from pyfret.subsurface.contact import stress_below
-from pyfret.subsurface.line import line_of
+from pyfret.subsurface.line import fields_on, main_line, main_shear
+from pyfret.subsurface.moments import lines_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -48,31 +50,40 @@ def chosen(n: int, most: int) -> NDArray[np.int64]:
 def frame(result: Run, snapshots: list[State]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Columns and rows of cells to show: the box around all contacts with some room."""
     touched = np.logical_or.reduce([at.contact.values.astype(bool) for at in snapshots])
-    found = []
-    for axis, n in ((1, touched.shape[0]), (0, touched.shape[1])):
-        inside = np.flatnonzero(touched.any(axis=axis))
-        first, last = (inside[0], inside[-1]) if inside.size else (0, n - 1)
-        room = max((last - first + 1) // 12, 1)
-        cells = np.arange(max(first - room, 0), min(last + room, n - 1) + 1)
-        found.append(cells[chosen(cells.size, SIDE)])
-    return found[0], found[1]
+    return around(touched.any(axis=1)), around(touched.any(axis=0))
+
+
+def around(touched: NDArray[np.bool_]) -> NDArray[np.int64]:
+    """The places of a line that are shown: the contact with some room."""
+    inside, n = np.flatnonzero(touched), touched.size
+    first, last = (inside[0], inside[-1]) if inside.size else (0, n - 1)
+    room = max((last - first + 1) // 12, 1)
+    places = np.arange(max(first - room, 0), min(last + room, n - 1) + 1)
+    return places[chosen(places.size, SIDE)]
 
 
 def increments(result: Run) -> dict[str, Any]:
-    """Pressure, shear and zones of the increments with fields, and their middle lines."""
+    """Pressure, shear and zones of the increments with fields, and tractions along the shear."""
     numbers = result.dataset.saved_increment.values
     snapshots = [result.at(int(numbers[k])) for k in chosen(numbers.size, KEPT)]
     columns, rows = frame(result, snapshots)
+    line = lines_of(result, numbers, 2)[0]
+    on_line = [fields_on(at, line) for at in snapshots]
+    # The same component at every increment: the largest at the last.
+    component = main_shear(on_line[-1])
+    near = around(np.logical_or.reduce([of.p.values > 0.0 for of in on_line]))
     force = result.dataset.W.attrs["units"]
     shown = []
-    for at in snapshots:
+    for at, cut in zip(snapshots, on_line, strict=True):
         d = at.dataset
         contact = d.contact.values.astype(bool)
         p = np.where(contact, d.p.values, np.nan)
         q = np.where(contact, np.hypot(d.q_x.values, d.q_y.values), np.nan)
         zone = np.where(contact, np.where(d.stick.values.astype(bool), 2.0, 1.0), np.nan)
-        line = at.along_x(y=0.0 if d.y.size > 1 else float(d.y[0]))
-        cut = {k: short(1e-6 * line[k].values[columns]) for k in ("p", "q_x")}
+        p_line, q_line = (1e-6 * cut[k].values[near] for k in ("p", component))
+        profile = {"p": short(p_line), "q": short(q_line)}
+        if np.isfinite(at.mu):
+            profile["bound"] = short(at.mu * p_line)
         pick = np.ix_(columns, rows)
         shown.append(
             {
@@ -84,9 +95,7 @@ def increments(result: Run) -> dict[str, Any]:
                     name: short(field[pick].T, 3)
                     for name, field in (("p", 1e-6 * p), ("q", 1e-6 * q), ("zone", zone))
                 },
-                "line": {**cut, "bound": short(at.mu * 1e-6 * line.p.values[columns])}
-                if np.isfinite(at.mu)
-                else cut,
+                "line": profile,
             }
         )
     x, y = (1e6 * result.dataset[k].values for k in ("x", "y"))
@@ -101,6 +110,11 @@ def increments(result: Run) -> dict[str, Any]:
         "shown": shown,
         "largest": largest,
         "flat": flat,
+        "line": {
+            "s": short(1e6 * on_line[-1][line.along].values[near]),
+            "along": line.along,
+            "component": component,
+        },
     }
 
 
@@ -120,19 +134,20 @@ def loop(result: Run) -> dict[str, Any]:
 
 
 def stress(result: Run, crack: CrackSection | None = None) -> dict[str, Any] | None:
-    """Von Mises stress on the section along the shear at the last increment, with the crack in it.
+    """Von Mises stress on the section along the shear at the last increment, of the lower body.
 
-    Of the lower body, or of that with the crack.
+    With a crack, on the plane of the crack in its body, and the crack in it.
     """
     at = result.at(-1)
     number = 2 if crack is None else int(crack.about["body_number"])
     body = result.scene.body1 if number == 1 else result.scene.body2
     if not bool(at.contact.any()) or not np.isfinite(body.substrate.E):
         return None
-    below = stress_below(at, body_number=number)
+    line = main_line(at) if crack is None else crack.line
+    shown = {} if line == main_line(at) else line.named()
+    below = stress_below(at, **shown, body_number=number)
     largest = below.maximum()
     values = 1e-6 * below.von_mises.values
-    line = line_of(below.dataset)
     z, x = below.von_mises.z.values, below.von_mises[line.along].values
     assert at.outline is not None
     ends = line.place(*at.outline.centre) + np.array(at.outline.border(line.angle))
@@ -158,9 +173,13 @@ def stress(result: Run, crack: CrackSection | None = None) -> dict[str, Any] | N
         "equal": not (stretch or flat),
         "values": short(values[np.ix_(depths, along)], 3),
         "interfaces": place(borders[1:-1]),
-        "largest": [1e6 * line.place(largest.x, largest.y), 1e6 * largest.z, 1e-6 * largest.value],
+        "along": line.along,
+        "plane": "shear through the middle of the contact" if crack is None else "crack",
+        "largest": {
+            "value": with_error(1e-6 * largest.value, 1e-6 * largest.error),
+            "at": [1e6 * largest.x, 1e6 * largest.y, 1e6 * largest.z],
+        },
         "mark": [1e6 * line.place(largest.x, largest.y), *place(np.array([1e6 * largest.z]))],
-        "error": 1e-6 * largest.error,
         "body": "upper" if number == 1 else "lower",
         "crack": None if crack is None else crack.drawn(1e6 * z[-1], place),
     }

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from pyfret.fracture.growth import CrackArrest, Cracks, Threshold
+    from pyfret.subsurface.line import Line
 
 __all__ = ["CrackSection"]
 
@@ -39,6 +40,11 @@ class CrackSection:
         """Whether it stops."""
         return None if self.threshold is None else self.cracks.arrest(self.threshold)
 
+    @property
+    def line(self) -> Line:
+        """The line on the surface in whose plane it lies."""
+        return self.cracks.line
+
     def verdict(self) -> str:
         """What the crack does, as a sentence."""
         about, found = self.about, self.found()
@@ -51,16 +57,11 @@ class CrackSection:
 
     def drawn(
         self, deepest: float, place: Callable[[NDArray[np.float64]], list[float]]
-    ) -> dict[str, Any] | None:
-        """Its way [µm] where depths [µm] are drawn at a place: to where it stops, and the rest.
-
-        Nothing in a plane other than that of the section.
-        """
-        if self.about.get("azimuth", 0.0) != 0.0:
-            return None
+    ) -> dict[str, Any]:
+        """Its way [µm] where depths [µm] are drawn at a place: to where it stops, and the rest."""
         d, found = self.cracks.dataset, self.found()
         s = np.concatenate([[0.0], self.cracks.lengths])
-        x = MICRO * np.concatenate([[self.about["x"]], d.x.values])
+        x = MICRO * self.cracks.places(np.concatenate([[self.about["x"]], d.x.values]))
         z = MICRO * np.concatenate([[0.0], d.z.values])
         stop = s[-1] if found is None or found.length is None else found.length
 

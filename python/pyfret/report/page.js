@@ -66,17 +66,19 @@
       });
     }
     const line = at.line;
+    const on = fields.line;
+    const shear = `q<sub>${on.component.slice(-1)}</sub>`;
     const lines = [
-      { x: fields.x, y: line.p, name: "p", line: { color: colours.first } },
-      { x: fields.x, y: line.q_x, name: "q<sub>x</sub>", line: { color: colours.second } },
+      { x: on.s, y: line.p, name: "p", line: { color: colours.first } },
+      { x: on.s, y: line.q, name: shear, line: { color: colours.second } },
     ];
     if (line.bound) {
       const below = line.bound.map((v) => (v === null ? null : -v));
       const grey = { color: colours.bound, dash: "dot", width: 1 };
-      lines.push({ x: fields.x, y: line.bound, name: "±µp", line: grey });
-      lines.push({ x: fields.x, y: below, showlegend: false, line: grey });
+      lines.push({ x: on.s, y: line.bound, name: "±µp", line: grey });
+      lines.push({ x: on.s, y: below, showlegend: false, line: grey });
     }
-    Plotly.react("profile", lines, layout("x [µm]", "[MPa]"), options);
+    Plotly.react("profile", lines, layout(`${on.along} [µm]`, "[MPa]"), options);
     const place = data.loop.increment.indexOf(at.increment);
     const dot = place < 0 ? [[], []] : [[data.loop.x[place]], [data.loop.y[place]]];
     Plotly.react("loop", [
@@ -93,7 +95,7 @@
 
   const stress = data.stress;
   if (stress) {
-    const section = layout("x [µm]", "z [µm]");
+    const section = layout(`${stress.along} [µm]`, "z [µm]");
     section.yaxis.autorange = "reversed";
     if (stress.ticks) {
       // Thin layers have room, each on a scale of its own.
@@ -107,7 +109,7 @@
     section.shapes = stress.interfaces.map((z) => ({
       type: "line", xref: "paper", x0: 0, x1: 1, y0: z, y1: z, line: { dash: "dash", width: 1 },
     }));
-    const [x, z, value] = stress.largest;
+    const [x, y, z] = stress.largest.at.map((of) => of.toPrecision(3));
     const crack = [];
     if (stress.crack) {
       const way = (of, line) => crack.push({ x: of.x, y: of.z, mode: "lines", line: { color: "black", ...line }, hoverinfo: "skip", showlegend: false });
@@ -118,13 +120,14 @@
       }
     }
     document.getElementById("body").textContent = stress.body;
+    document.getElementById("plane").textContent = stress.plane;
     Plotly.newPlot("stress", [
-      { type: "heatmap", x: stress.x, y: stress.place, z: stress.values, customdata: stress.z.map((z) => stress.x.map(() => z)), hovertemplate: "x %{x} µm, z %{customdata} µm: %{z} MPa<extra></extra>", colorscale: "YlGnBu", reversescale: true, colorbar: { title: { text: "[MPa]", side: "right" }, thickness: 12 } },
+      { type: "heatmap", x: stress.x, y: stress.place, z: stress.values, customdata: stress.z.map((z) => stress.x.map(() => z)), hovertemplate: stress.along + " %{x} µm, z %{customdata} µm: %{z} MPa<extra></extra>", colorscale: "YlGnBu", reversescale: true, colorbar: { title: { text: "[MPa]", side: "right" }, thickness: 12 } },
       { x: [stress.mark[0]], y: [stress.mark[1]], mode: "markers", marker: { symbol: "x-thin", size: 10, line: { width: 2, color: "black" } }, hoverinfo: "skip", showlegend: false },
       ...crack,
     ], section, options);
     document.getElementById("largest").textContent =
-      `the cross marks the largest, ${value.toPrecision(4)} MPa at x = ${x.toPrecision(3)} µm, z = ${z.toPrecision(3)} µm${stress.crack ? `; the line is the crack${stress.crack.end ? ", dashed beyond where it stops" : ""}` : ""}.`;
+      `the cross marks the largest, ${stress.largest.value} MPa at x = ${x} µm, y = ${y} µm, z = ${z} µm${stress.crack ? `; the line is the crack${stress.crack.end ? ", dashed beyond where it stops" : ""}` : ""}.`;
   } else {
     document.getElementById("below").remove();
   }

@@ -9,7 +9,7 @@ import numpy as np
 from pyfret import _core
 from pyfret.scene.warnings import doubt_layers
 from pyfret.subsurface import fields
-from pyfret.subsurface.line import Line, along
+from pyfret.subsurface.line import Line, along, main_line
 from pyfret.subsurface.plastic import eigenstress
 from pyfret.subsurface.tensor import Stress
 
@@ -82,9 +82,7 @@ def line_below(
         return along(x, y, azimuth), False
     if z is not None or x is not None or y is not None:
         return Line(x, y), False
-    if outline is None:
-        return Line(None, 0.0), True
-    return Line(*_core.main_sections(outline)[0]), True
+    return main_line(state), True
 
 
 def stress_error(state: State) -> dict[str, float]:

@@ -1,4 +1,4 @@
-"""The lines of the surface below which sections lie."""
+"""The lines of the surface below which sections lie, and the fields of a contact along them."""
 
 from __future__ import annotations
 
@@ -7,11 +7,14 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from pyfret import _core
+from pyfret._util.lazy import xr
 
 if TYPE_CHECKING:
-    import xarray as xr
+    from numpy.typing import NDArray
 
-__all__ = ["Line", "along", "line_of"]
+    from pyfret.run import State
+
+__all__ = ["Line", "along", "fields_on", "line_of", "main_line", "main_shear"]
 
 
 class Line(NamedTuple):
@@ -35,14 +38,14 @@ class Line(NamedTuple):
         """Angle of the line to the x axis [rad]."""
         return {"x": 0.0, "y": np.pi / 2}.get(self.along, self.azimuth or 0.0)
 
-    def place(self, x: float, y: float) -> float:
-        """The place along the line that is nearest to x, y [m]."""
+    def place(self, x: Any, y: Any) -> Any:
+        """The place along the line that is nearest to x, y [m], numbers or arrays."""
         if self.azimuth is None:
             return x if self.along == "x" else y
         assert self.x is not None
         assert self.y is not None
         cos, sin = np.cos(self.azimuth), np.sin(self.azimuth)
-        return float((x - self.x) * cos + (y - self.y) * sin)
+        return (x - self.x) * cos + (y - self.y) * sin
 
 
 def along(x: float, y: float, azimuth: float) -> Line:
@@ -59,3 +62,67 @@ def line_of(values: xr.Dataset | xr.DataArray) -> Line:
     back = float(values["s"][0])
     x, y = float(values["x"][0]), float(values["y"][0])
     return Line(x - back * np.cos(azimuth), y - back * np.sin(azimuth), azimuth)
+
+
+def main_line(state: State) -> Line:
+    """The line along the shear of an increment, through the centre of its contact.
+
+    Along x through the centre where the shear has no direction, along the middle without a contact.
+    """
+    outline = state.outline
+    return Line(None, 0.0) if outline is None else Line(*_core.main_sections(outline)[0])
+
+
+def fields_on(state: State, line: Line) -> xr.Dataset:
+    """The fields of an increment on a line, linear between the centres of the cells.
+
+    Over x, y or s, the place from the point that the line goes through. Oblique lines have `q_s`
+    and `q_t` as well, the shear along s and the shear to the left of it [Pa].
+    """
+    grid, d = state.scene.grid, state.dataset
+    metres = {"units": "m"}
+    if line.azimuth is None:
+        along = line.along
+        coords = {along: (along, d[along].values, metres)}
+        place = {"x": d.x.values, "y": d.y.values}
+        at = {k: place[k] if k == along else np.full(d[along].size, getattr(line, k)) for k in "xy"}
+        x, y = at["x"], at["y"]
+    else:
+        along = "s"
+        s, places = _core.line_places(grid, **line.named())
+        x, y = np.transpose(places)
+        coords = {k: ("s", v, metres) for k, v in {"s": np.asarray(s), "x": x, "y": y}.items()}
+    weights = [_between(d[k].values, at) for k, at in (("x", x), ("y", y))]
+    (left, right, u), (near, far, v) = weights
+
+    def on_line(field: NDArray[np.float64]) -> NDArray[np.float64]:
+        low = field[left, near] * (1 - v) + field[left, far] * v
+        return low * (1 - u) + (field[right, near] * (1 - v) + field[right, far] * v) * u
+
+    found = xr.Dataset(coords=coords)
+    for name, field in d.data_vars.items():
+        if field.dtype.kind == "f" and field.dims == ("x", "y"):
+            found[name] = (along, on_line(field.values), dict(field.attrs))
+    if line.azimuth is not None:
+        cos, sin = np.cos(line.azimuth), np.sin(line.azimuth)
+        found["q_s"] = (found.q_x * cos + found.q_y * sin).assign_attrs(units="Pa")
+        found["q_t"] = (found.q_y * cos - found.q_x * sin).assign_attrs(units="Pa")
+    return found
+
+
+def main_shear(cut: xr.Dataset) -> str:
+    """The component of the shear that is largest on a line."""
+    components = ("q_s", "q_t") if "q_s" in cut else ("q_x", "q_y")
+    return max(components, key=lambda of: float(abs(cut[of]).max()))
+
+
+def _between(
+    cells: NDArray[np.float64], at: NDArray[np.float64]
+) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]:
+    """The cells on both sides of places and the share of the second; at the border the last one."""
+    if cells.size == 1:
+        none = np.zeros(at.size, dtype=np.int64)
+        return none, none, np.zeros(at.size)
+    above = np.clip(np.searchsorted(cells, at), 1, cells.size - 1)
+    share = (at - cells[above - 1]) / (cells[above] - cells[above - 1])
+    return above - 1, above, np.clip(share, 0.0, 1.0)

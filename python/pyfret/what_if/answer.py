@@ -11,8 +11,10 @@ import numpy as np
 from pyfret._core import NoConvergenceError, OffGridError, with_error
 from pyfret._util.doubts import SceneWarning
 from pyfret._util.extras import needed
+from pyfret.run.summary import directions
 from pyfret.solution import solve
 from pyfret.study.comparison import layer_names
+from pyfret.subsurface.line import fields_on, line_of, main_shear
 from pyfret.what_if.controls import in_increments
 
 if TYPE_CHECKING:
@@ -24,6 +26,8 @@ __all__ = ["FEWER", "PageAnswer", "answer"]
 #: A preview has the increments of the neighbouring scene over this, a least number in a branch.
 FEWER, LEAST = 3, 4
 #: Colours of figures: stick, slip, none.
+#: Force and motion of a loop by what drives it.
+LOOPS = {"x": ("T_x", "delta_x"), "y": ("T_y", "delta_y"), "torsion": ("M_z", "phi_z")}
 ZONES = [[0.0, "#ffffff"], [0.5, "#F2C9A9"], [1.0, "#0072B2"]]
 
 
@@ -71,7 +75,7 @@ def answer(
             warnings.simplefilter("ignore", SceneWarning)
             result = solve(scene.replace(save="branches"), like=like, progress=False)
             last = result.at(-1)
-            below = last.stress(y=0.0)
+            below = last.stress()
             most = below.maximum("von_mises")
     except (NoConvergenceError, OffGridError) as error:
         raise ValueError(str(error)) from error
@@ -101,48 +105,50 @@ def answer(
 
 
 def figure(result: Result, below: Any, most: Any) -> Any:
-    """Loop, zones, tractions along x and stress on the section, in one figure."""
+    """Loop, zones, tractions and stress on the section along the shear, in one figure."""
     plotly = needed("plotly.graph_objects", "explore")
     panels = needed("plotly.subplots", "explore")
     d, last = result.dataset, result.at(-1)
+    section = line_of(below.dataset)
+    cut = fields_on(last, section)
+    q = main_shear(cut)
     drawn = panels.make_subplots(
         rows=2,
         cols=2,
         subplot_titles=(
             "loop",
             "stick (blue) and slip",
-            "pressure p (green), shear q_x (purple) along x",
+            f"pressure p (green), shear {q} (purple) along {section.along}",
             "von Mises stress",
         ),
         horizontal_spacing=0.12,
         vertical_spacing=0.16,
     )
-    force = result.scene.grid.unit_of("N")
-    shift = np.concatenate([[0.0], 1e6 * d["delta_x"].values])
-    loop = np.concatenate([[0.0], d["T_x"].values])
+    force, motion = LOOPS[next(iter(directions(result)), "x")]
+    shift = np.concatenate([[0.0], 1e6 * d[motion].values])
+    loop = np.concatenate([[0.0], d[force].values])
     drawn.add_trace(plotly.Scatter(x=shift, y=loop, mode="lines"), 1, 1)
-    axes = [("shift [µm]", f"T_x [{force}]"), ("x [µm]", "y [µm]")]
+    unit = "µrad" if d[motion].attrs["units"] == "rad" else "µm"
+    axes = [(f"{motion} [{unit}]", f"{force} [{d[force].attrs['units']}]"), ("x [µm]", "y [µm]")]
     x, contact, stick = 1e6 * last.p.x.values, last.contact.values, last.stick.values
     zones = np.where(contact, np.where(stick, 1.0, 0.5), 0.0)
     y = 1e6 * last.p.y.values
     heat = {"colorscale": ZONES, "zmin": 0.0, "zmax": 1.0, "showscale": False}
     drawn.add_trace(plotly.Heatmap(x=x, y=y, z=zones.T, **heat), 1, 2)
-    row = last.along_x()
-    along = 1e6 * row.x.values
-    for name, colour in (("p", "#009E73"), ("q_x", "#AB63FA")):
-        values, line = 1e-6 * row[name].values, {"color": colour}
+    along = 1e6 * cut[section.along].values
+    for name, colour in (("p", "#009E73"), (q, "#AB63FA")):
+        values, line = 1e-6 * cut[name].values, {"color": colour}
         drawn.add_trace(plotly.Scatter(x=along, y=values, mode="lines", name=name, line=line), 2, 1)
-    axes += [("x [µm]", "p, q_x [MPa]"), ("x [µm]", "depth [µm]")]
+    place = f"{section.along} [µm]"
+    axes += [(place, f"p, {q} [MPa]"), (place, "depth [µm]")]
     stress = 1e-6 * below.measure("von_mises")
-    dims = [str(dim) for dim in stress.dims]
-    values = stress.values if dims[-1] == "x" else stress.values.T
     # A depth on an interface stands twice; a hair's breadth keeps both rows.
     depth = 1e6 * below.dataset.z.values + 1e-6 * np.arange(below.dataset.z.size)
     drawn.add_trace(
         plotly.Heatmap(
-            x=1e6 * below.dataset.x.values,
+            x=1e6 * below.dataset[section.along].values,
             y=depth,
-            z=values,
+            z=stress.transpose("depth", section.along).values,
             colorscale="Viridis",
             colorbar={"title": "MPa", "len": 0.42, "y": 0.21, "thickness": 12},
         ),
@@ -151,11 +157,18 @@ def figure(result: Result, below: Any, most: Any) -> Any:
     )
     cross = {"symbol": "x", "color": "#D55E00", "size": 9}
     drawn.add_trace(
-        plotly.Scatter(x=[1e6 * most.x], y=[1e6 * most.z], mode="markers", marker=cross), 2, 2
+        plotly.Scatter(
+            x=[1e6 * section.place(most.x, most.y)],
+            y=[1e6 * most.z],
+            mode="markers",
+            marker=cross,
+        ),
+        2,
+        2,
     )
-    for n, (along_x, along_y) in enumerate(axes):
-        drawn.update_xaxes(title_text=along_x, row=n // 2 + 1, col=n % 2 + 1)
-        drawn.update_yaxes(title_text=along_y, row=n // 2 + 1, col=n % 2 + 1)
+    for n, (across, up) in enumerate(axes):
+        drawn.update_xaxes(title_text=across, row=n // 2 + 1, col=n % 2 + 1)
+        drawn.update_yaxes(title_text=up, row=n // 2 + 1, col=n % 2 + 1)
     drawn.update_yaxes(autorange="reversed", row=2, col=2)
     # A round contact is drawn round.
     drawn.update_yaxes(scaleanchor="x2", constrain="domain", row=1, col=2)

@@ -75,9 +75,10 @@ def explore(
     """Serve a page on which a contact answers while its parameters are dragged.
 
     Sliders: load, friction, thickness and modulus of the outermost coating, radius. At once: loop,
-    stick and slip, tractions along x, stress on the section y = 0 with its largest value and layer,
-    and the first doubt that applies. A preview comes first, with a third of the increments of the
-    neighbouring scene; the full answer replaces it. The page says which of the two it shows.
+    stick and slip, tractions and stress on the section along the shear with its largest value
+    and layer, and the first doubt that applies. A preview comes first, with a third of the
+    increments of the neighbouring scene; the full answer replaces it. The page says which of the
+    two it shows.
 
     The page is on 127.0.0.1 alone and needs no network. In a notebook the value of the cell shows
     it. Needs Dash: ``pip install "fretting[explore]"``.
