@@ -2120,8 +2120,12 @@ class PlasticBody:
 
         The stress with the tractions, and the residual stress without [Pa].
         """
-    def grid(self, /) -> dict[str, Any]:
-        """Depth and height of each plane of the volume grid [m], its layer, x, y of its cells."""
+    def grid(self, /, rows: Sequence[NDArray[np.float64]]) -> dict[str, Any]:
+        """
+        Depth and height of each plane of the volume grid [m], its layer, x, y of its cells.
+
+        Of the grid that holds the points; `place` is the cell of each of them, x first.
+        """
     def imprint(self, /, rows: Sequence[NDArray[np.float64]]) -> dict[str, NDArray[np.float64]]:
         """
         Displacements that the surfaces have without tractions, on the grid of the contact [m].

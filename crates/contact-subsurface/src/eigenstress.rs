@@ -151,8 +151,8 @@ fn weights(points: &[f64], at: f64) -> Weights {
 pub struct Eigenstresses {
     scene: Scene,
     side: Side,
-    /// Set up with the first state.
-    yielding: Mutex<Option<Yielding>>,
+    /// On the volume grid before and after it has grown, each set up with the first state that needs it.
+    yielding: Mutex<[Option<Yielding>; 2]>,
 }
 
 impl Eigenstresses {
@@ -173,13 +173,30 @@ impl Eigenstresses {
         }
     }
 
-    /// Does `work` with the bodies that yield; `None` where none may.
-    pub fn with<T>(&self, work: impl FnOnce(&mut Yielding) -> T) -> Result<Option<T>, Error> {
+    /// Does `work` with the bodies that yield, on the smallest volume grid that holds a state; `None` where none
+    /// may yield.
+    ///
+    /// # Errors
+    /// The state has points beyond both grids.
+    pub fn with<T>(
+        &self,
+        yielded: &Yielded,
+        work: impl FnOnce(&mut Yielding) -> T,
+    ) -> Result<Option<T>, Error> {
         let mut held = self.yielding.lock().unwrap_or_else(PoisonError::into_inner);
-        if held.is_none() {
-            *held = Yielding::of(&self.scene)?;
+        for (held, grown) in held.iter_mut().zip([false, true]) {
+            if held.is_none() {
+                *held = Yielding::of(&self.scene, grown)?;
+            }
+            let Some(bodies) = held else { return Ok(None) };
+            if bodies.holds(yielded) {
+                return Ok(Some(work(bodies)));
+            }
+            if grown {
+                bodies.check(yielded)?;
+            }
         }
-        Ok(held.as_mut().map(work))
+        Ok(None)
     }
 
     /// The residual stress of a state; `None` where nothing of the body has yielded.
@@ -193,22 +210,21 @@ impl Eigenstresses {
             return Ok(None);
         };
         let plane_strain = self.scene.grid.plane_strain;
-        let found = self.with(|yielding| {
-            yielding.check(yielded)?;
+        let found = self.with(yielded, |yielding| {
             let stress = yielding.stress_of_changes(yielded, None, number);
             let (Some(stress), Some(mesh)) = (stress, yielding.mesh(number)) else {
-                return Ok(None);
+                return None;
             };
             let (cells, planes) = (mesh.cells, 0..mesh.planes());
-            Ok(Some(Field {
+            Some(Field {
                 n: [cells.nx, cells.ny],
                 d: [cells.dx, cells.dy],
                 plane_strain,
                 planes: planes.map(|n| (mesh.depth(n), mesh.layer(n))).collect(),
                 stress: stress.into_iter().map(|s| s as f32).collect(),
-            }))
+            })
         })?;
-        Ok(found.transpose()?.flatten().map(|field| Eigenstress {
+        Ok(found.flatten().map(|field| Eigenstress {
             field: Arc::new(field),
             origin: (0.0, 0.0),
         }))

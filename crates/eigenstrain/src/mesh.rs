@@ -165,6 +165,21 @@ impl Heights {
     }
 }
 
+/// Appends elements from `top` to `end` \[m\] that grow from `height` \[m\]; gives the last height.
+fn growing(bottoms: &mut Vec<f64>, mut top: f64, end: f64, mut height: f64) -> f64 {
+    while end - top > 1e-9 * end {
+        height *= GROWTH;
+        let left = end - top;
+        top = if left < 1.5 * height {
+            end
+        } else {
+            top + height
+        };
+        bottoms.push(top);
+    }
+    height
+}
+
 impl Mesh {
     /// From the edges of the elements: their lower ends \[m\], increasing. The interfaces must be among
     /// them, and the last one must lie in the substrate or at its upper end.
@@ -248,19 +263,20 @@ impl Mesh {
                 top = fine_end;
             }
             let end = if end.is_finite() { end } else { reach.max(top) };
-            while end - top > 1e-9 * end {
-                coarse *= GROWTH;
-                let left = end - top;
-                top = if left < 1.5 * coarse {
-                    end
-                } else {
-                    top + coarse
-                };
-                bottoms.push(top);
-            }
+            coarse = growing(&mut bottoms, top, end, coarse);
             top = end;
         }
         Self::new(cells, layers, bottoms)
+    }
+
+    /// With growing elements below the last one, down to `factor` times its depth. Those above stay as they
+    /// are.
+    pub fn deepened(self, factor: f64) -> Result<Self, Error> {
+        let mut bottoms = self.bottoms.clone();
+        let last = self.elements() - 1;
+        let bottom = self.edges(last)[1];
+        growing(&mut bottoms, bottom, factor * bottom, self.height(last));
+        Self::new(self.cells, self.layers, bottoms)
     }
 
     /// Number of elements in depth.

@@ -65,13 +65,16 @@ fn read(rows: List<List<f64>>) -> PyResult<Yielded> {
 }
 
 impl PlasticBody {
-    /// Does `work` with the bodies that yield.
+    /// Does `work` with the bodies that yield, on the volume grid of a state.
     fn with<T: Send>(
         &self,
         py: Python<'_>,
+        yielded: &Yielded,
         work: impl FnOnce(&mut Yielding) -> T + Send,
     ) -> PyResult<T> {
-        let found = py.detach(|| self.of.with(work)).map_err(to_python)?;
+        let found = py
+            .detach(|| self.of.with(yielded, work))
+            .map_err(to_python)?;
         found.ok_or_else(|| self.stays_elastic())
     }
 
@@ -102,9 +105,12 @@ impl PlasticBody {
     }
 
     /// Depth and height of each plane of the volume grid [m], its layer, x, y of its cells.
-    #[pyo3(signature = () -> "dict[str, Any]")]
-    fn grid<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+    ///
+    /// Of the grid that holds the points; `place` is the cell of each of them, x first.
+    #[pyo3(signature = (rows: "Sequence[NDArray[np.float64]]") -> "dict[str, Any]")]
+    fn grid<'py>(&self, py: Python<'py>, rows: List<List<f64>>) -> PyResult<Bound<'py, PyDict>> {
         let number = self.number;
+        let yielded = read(rows)?;
         let of_mesh = |mesh: &Mesh| {
             let of = |of: &dyn Fn(usize) -> f64| (0..mesh.planes()).map(of).collect::<Vec<f64>>();
             (
@@ -116,8 +122,18 @@ impl PlasticBody {
                 mesh.cells,
             )
         };
-        let found = self.with(py, |yielding| yielding.mesh(number).map(of_mesh))?;
-        let (z, height, layer, cells) = found.ok_or_else(|| self.stays_elastic())?;
+        let own = yielded.bodies.iter().filter(|state| state.body == number);
+        let points: Vec<u32> = own
+            .flat_map(|state| &state.points)
+            .map(|point| point.cell)
+            .collect();
+        let found = self.with(py, &yielded, |yielding| {
+            let cells = points.iter();
+            let place = cells.filter_map(|cell| yielding.volume().cell(*cell));
+            let place: Vec<usize> = place.collect();
+            yielding.mesh(number).map(|mesh| (of_mesh(mesh), place))
+        })?;
+        let ((z, height, layer, cells), place) = found.ok_or_else(|| self.stays_elastic())?;
         let found = PyDict::new(py);
         found.set_item("z", PyArray1::from_vec(py, z))?;
         found.set_item("height", PyArray1::from_vec(py, height))?;
@@ -125,6 +141,7 @@ impl PlasticBody {
         found.set_item("x", PyArray1::from_vec(py, centres(cells.nx, cells.dx)))?;
         found.set_item("y", PyArray1::from_vec(py, centres(cells.ny, cells.dy)))?;
         found.set_item("area", cells.area())?;
+        found.set_item("place", PyArray1::from_vec(py, place))?;
         Ok(found)
     }
 
@@ -148,23 +165,24 @@ impl PlasticBody {
             return Err(PyValueError::new_err(message));
         }
         let body = self.number;
-        let found = self.with(py, |yielding| {
-            yielding.check(&yielded)?;
+        let found = self.with(py, &yielded, |yielding| {
             let [p, q_x, q_y] = &tractions;
             let loaded = yielding.stress(&yielded, Some([p, q_x, q_y]), body);
             let left = yielding.stress(&yielded, None, body);
             let mesh = yielding.mesh(body);
             let shape = mesh.map(|mesh| (mesh.planes(), mesh.cells.nx, mesh.cells.ny));
-            Ok((loaded, left, shape))
+            (loaded, left, shape, yielding.volume().clone())
         })?;
-        let (Some(loaded), Some(left), Some((planes, nx, ny))) = found.map_err(to_python)? else {
+        let (Some(loaded), Some(left), Some((planes, nx, ny)), volume) = found else {
             return Err(self.stays_elastic());
         };
         let mut equivalent = Array3::<f64>::zeros((planes, nx, ny));
         let mut strain = Array4::<f64>::zeros((planes, COMPONENTS, nx, ny));
         let own = yielded.bodies.iter().filter(|state| state.body == body);
         for point in own.flat_map(|state| &state.points) {
-            let (plane, cell) = (point.plane as usize, point.cell as usize);
+            let (plane, Some(cell)) = (point.plane as usize, volume.cell(point.cell)) else {
+                continue;
+            };
             let (i, j) = (cell / ny, cell % ny);
             equivalent[(plane, i, j)] = point.equivalent;
             for (c, value) in point.strain.iter().enumerate() {
@@ -192,15 +210,14 @@ impl PlasticBody {
     fn imprint<'py>(&self, py: Python<'py>, rows: List<List<f64>>) -> PyResult<Bound<'py, PyDict>> {
         let yielded = read(rows)?;
         let body = self.number;
-        let found = self.with(py, |yielding| {
-            yielding.check(&yielded)?;
+        let found = self.with(py, &yielded, |yielding| {
             let whole = yielding.completed(&yielded);
             let both = yielding.residual_of(&whole);
             let mut own = whole;
             own.bodies.retain(|state| state.body == body);
-            Ok((both, yielding.residual_of(&own).gap))
+            (both, yielding.residual_of(&own).gap)
         })?;
-        let (both, depth) = found.map_err(to_python)?;
+        let (both, depth) = found;
         let found = PyDict::new(py);
         let on_grid = |field: Array2<f64>| field.into_pyarray(py);
         let [u_x, u_y] = both.u;
@@ -215,11 +232,9 @@ impl PlasticBody {
     #[pyo3(signature = (rows: "Sequence[NDArray[np.float64]]"))]
     fn unloads_elastically(&self, py: Python<'_>, rows: List<List<f64>>) -> PyResult<bool> {
         let yielded = read(rows)?;
-        let found = self.with(py, |yielding| {
-            yielding.check(&yielded)?;
-            Ok(yielding.unloads_elastically(&yielded))
-        })?;
-        found.map_err(to_python)
+        self.with(py, &yielded, |yielding| {
+            yielding.unloads_elastically(&yielded)
+        })
     }
 
     /// The residual stress, for :class:`Subsurface`; None where nothing has yielded.

@@ -94,10 +94,11 @@ def eigenstress(state: State, body_number: int) -> list[_core.Eigenstress | None
 
 def plastic_points(state: State, body_number: int) -> xarray.Dataset:
     """The points of a body that have yielded: strain, equivalent strain, place and layer."""
-    columns = dict(zip(YIELDED, _strained(state, body_number).columns, strict=True))
-    grid = body_of(state, body_number).grid()
+    strained = _strained(state, body_number)
+    columns = dict(zip(YIELDED, strained.columns, strict=True))
+    grid = body_of(state, body_number).grid(strained.columns)
     plane, cell = (columns[f"yielded_{name}"].astype(int) for name in ("plane", "cell"))
-    i, j = cell // grid["y"].size, cell % grid["y"].size
+    i, j = np.divmod(grid["place"], grid["y"].size)
     strain = np.transpose([columns[f"plastic_strain_{name}"] for name in COMPONENTS])
     return xr.Dataset(
         {
@@ -152,7 +153,7 @@ class PlasticState:
 
     @cached_property
     def _grid(self) -> dict[str, Any]:
-        return _body(self._of).grid()
+        return _body(self._of).grid(self._columns)
 
     def _column(self, name: str) -> NDArray[np.float64]:
         return self._columns[YIELDED.index(name)]

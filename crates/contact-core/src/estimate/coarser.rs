@@ -61,7 +61,8 @@ pub(super) fn coarser_grids(
         let march = March::planned(&coarser, plan, stop)?;
         let coarse = summarise(&march.run(Vec::new(), &mut ends)?);
         let ratio = ratio(&coarser.grid, &scene.grid);
-        if let Some(mut bodies) = Yielding::on_cells(&coarser, volume_cells)? {
+        let grown = ends.yielded.iter().flatten().any(|state| state.grown);
+        if let Some(mut bodies) = Yielding::on_cells(&coarser, volume_cells, grown)? {
             let states = ends.yielded.iter().flatten();
             left.push(Left {
                 ratio,

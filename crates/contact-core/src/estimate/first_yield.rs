@@ -86,7 +86,7 @@ fn worst(trial: &Scene) -> Result<Option<(f64, FirstYield)>, Error> {
     };
     increment?;
     let [p, q_x, q_y] = march.tractions();
-    let Some(mut yielding) = Yielding::of(trial)? else {
+    let Some(mut yielding) = Yielding::of(trial, false)? else {
         return Ok(None);
     };
     let place = yielding.nearest_to_yield([&p, &q_x, &q_y]);

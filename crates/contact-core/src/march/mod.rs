@@ -154,6 +154,7 @@ impl March {
             return Err(Error::invalid("state", "without plastic strain", allowed));
         }
         march.state = state;
+        march.fit_volume()?;
         Ok(march)
     }
 

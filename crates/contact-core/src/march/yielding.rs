@@ -103,7 +103,36 @@ impl March {
         Ok(None)
     }
 
+    /// The increment on the volume grid of the state. Where a point yields at the border of that grid it is
+    /// repeated on the one that it grows to.
     fn settle(&mut self, point: &LoadPoint) -> Result<Increment, Error> {
+        let start = self.state.clone();
+        let increment = self.settle_on_grid(point)?;
+        let Some(now) = self.state.yielded.as_deref() else {
+            return Ok(increment);
+        };
+        if !now.at_border || now.grown {
+            return Ok(increment);
+        }
+        self.state = start;
+        if let Some(yielded) = &mut self.state.yielded {
+            yielded.grown = true;
+        }
+        let mut repeated = self.settle_on_grid(point)?;
+        repeated.work.convolutions += increment.work.convolutions;
+        Ok(repeated)
+    }
+
+    /// Takes the volume grid of the state.
+    pub(super) fn fit_volume(&mut self) -> Result<(), Error> {
+        if let (Some(yields), Some(state)) = (&mut self.yielding, &self.state.yielded) {
+            yields.fit(&self.problem.scene, state)?;
+        }
+        Ok(())
+    }
+
+    fn settle_on_grid(&mut self, point: &LoadPoint) -> Result<Increment, Error> {
+        self.fit_volume()?;
         if let Some(increment) = self.elastically(point)? {
             return Ok(increment);
         }

@@ -10,16 +10,30 @@ pub(super) struct Yields {
     pub(super) bodies: Yielding,
     /// Gap between the surfaces without offsets, on the kept cells of the whole grid \[m\].
     pub(super) bare: Vec<f64>,
+    /// Most cells of the volume grid along a side before it grows.
+    most: usize,
 }
 
 impl Yields {
     /// Those of a scene; none where no body yields.
     pub(super) fn of(scene: &Scene, plan: &Plan) -> Result<Option<Self>, Error> {
-        let bodies = Yielding::on_cells(scene, plan.methods.volume_cells)?;
+        let most = plan.methods.volume_cells;
+        let bodies = Yielding::on_cells(scene, most, false)?;
         Ok(bodies.map(|bodies| Self {
             bodies,
+            most,
             bare: plan.mirror.fold(&scene.h_init()),
         }))
+    }
+
+    /// Takes the volume grid that a state of the scene is on.
+    pub(super) fn fit(&mut self, scene: &Scene, state: &Yielded) -> Result<(), Error> {
+        if state.grown != self.bodies.volume().grown
+            && let Some(bodies) = Yielding::on_cells(scene, self.most, state.grown)?
+        {
+            self.bodies = bodies;
+        }
+        Ok(())
     }
 
     /// The state before anything has yielded.

@@ -1,6 +1,6 @@
 //! One body that yields.
 
-use eigenstrain::{Answer, COMPONENTS, Cells, Layer, Mesh, Operator, Sources};
+use eigenstrain::{Answer, COMPONENTS, Mesh, Operator, Sources};
 use plasticity::{
     Plastic, Point, Returned, Tensor, YIELDS, contraction, deviator, equivalent_stress,
 };
@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use super::state::{PlasticPoint, PlasticState, Rim};
 use super::volume::Volume;
 use crate::error::Error;
-use crate::scene::{Body, Bond, ResidualStress};
+use crate::scene::{Body, ResidualStress};
 
 /// Largest change of the stress in a pass, over the yield stress, of a plastic strain that is taken.
 pub(super) const TOLERANCE: f64 = 1e-4;
@@ -28,6 +28,7 @@ const NONE: u32 = u32::MAX;
 #[derive(Debug)]
 pub(super) struct YieldingBody {
     pub(super) number: usize,
+    volume: Volume,
     operator: Operator,
     /// Law and shear modulus of each plane \[Pa\].
     laws: Vec<Option<(Plastic, f64)>>,
@@ -36,13 +37,17 @@ pub(super) struct YieldingBody {
     /// Planes that may yield, and those of them that are computed in the present increment.
     may_yield: Vec<bool>,
     wanted: Vec<bool>,
+    /// Planes that the last pass has computed.
+    computed: Vec<bool>,
     /// Whether the increment has had a pass.
     passed: bool,
     /// Plastic strain of the present x, as `operator` takes it.
     strain: Vec<f64>,
-    /// Residual displacement of the present x, and its image.
+    /// Residual displacement of the present x below the contact, and its image.
     pub(super) displacement: Vec<f64>,
     pub(super) next_displacement: Vec<f64>,
+    /// That image on all cells.
+    next_everywhere: Vec<f64>,
     stress: Vec<f64>,
     /// Tractions of the last pass, with z into the body \[Pa\].
     tractions: [Vec<f64>; 3],
@@ -57,33 +62,9 @@ pub(super) struct YieldingBody {
     active: Vec<(usize, Point, Returned)>,
 }
 
-/// The mesh of a body: [`Mesh::graded`] of its layers, lengths in \[m\].
-pub fn mesh_of(
-    body: &Body,
-    cells: Cells,
-    depth: f64,
-    heights: [f64; 2],
-    reach: f64,
-) -> Result<Mesh, Error> {
-    let bonds = (0..body.coatings.len()).map(|layer| body.bond(layer));
-    if bonds.into_iter().any(|bond| bond != Bond::PERFECT) {
-        let allowed = "left out: layers are bonded perfectly here";
-        return Err(Error::invalid("bond", "compliant", allowed));
-    }
-    let layer = |E: f64, nu: f64, thickness: f64| Layer { E, nu, thickness };
-    let coatings = body.coatings.iter();
-    let mut layers: Vec<Layer> = coatings
-        .map(|c| layer(c.material.E, c.material.nu, c.thickness))
-        .collect();
-    layers.push(layer(body.substrate.E, body.substrate.nu, f64::INFINITY));
-    Mesh::graded(cells, layers, depth, heights, reach)
-        .map_err(|e| Error::invalid(e.key, e.value, e.allowed))
-}
-
 impl YieldingBody {
     pub(super) fn new(number: usize, body: &Body, volume: &Volume) -> Result<Self, Error> {
-        let depth = volume.depth[number - 1];
-        let mesh = mesh_of(body, volume.cells, depth, volume.heights, volume.reach)?;
+        let mesh = volume.mesh(number, body)?;
         let law = |plane: usize| {
             let layer = mesh.layer(plane);
             let [_, mu] = mesh.layers()[layer].lame();
@@ -98,13 +79,16 @@ impl YieldingBody {
         let may_yield: Vec<bool> = laws.iter().map(Option::is_some).collect();
         Ok(Self {
             number,
+            volume: volume.clone(),
             wanted: may_yield.clone(),
+            computed: Vec::new(),
             may_yield,
             passed: false,
             strain: vec![0.0; operator.len()],
             stress: vec![0.0; operator.len()],
-            displacement: vec![0.0; 3 * cells],
-            next_displacement: vec![0.0; 3 * cells],
+            displacement: vec![0.0; 3 * volume.cells_below_contact()],
+            next_displacement: vec![0.0; 3 * volume.cells_below_contact()],
+            next_everywhere: vec![0.0; 3 * cells],
             slot: vec![NONE; laws.len() * cells],
             active: Vec::new(),
             tractions: Default::default(),
@@ -130,9 +114,20 @@ impl YieldingBody {
         (point / cells * COMPONENTS + component) * cells + point % cells
     }
 
+    /// The plane times cells plus cell of a point of a state; `None` beyond the grid.
+    fn point(&self, known: &PlasticPoint) -> Option<usize> {
+        let (plane, cell) = (known.plane as usize, self.volume.cell(known.cell)?);
+        (plane < self.laws.len()).then(|| plane * self.cells() + cell)
+    }
+
+    /// The first point of a state that lies beyond the grid.
+    pub(super) fn beyond<'a>(&self, state: &'a PlasticState) -> Option<&'a PlasticPoint> {
+        let mut points = state.points.iter();
+        points.find(|known| self.point(known).is_none())
+    }
+
     /// From the state at the start of an increment.
     pub(super) fn begin(&mut self, state: Option<&PlasticState>) {
-        let cells = self.cells();
         for (point, ..) in std::mem::take(&mut self.active) {
             self.slot[point] = NONE;
             for c in 0..COMPONENTS {
@@ -148,7 +143,9 @@ impl YieldingBody {
             self.displacement.copy_from_slice(&state.displacement);
         }
         for known in &state.points {
-            let point = known.plane as usize * cells + known.cell as usize;
+            let Some(point) = self.point(known) else {
+                continue;
+            };
             self.slot[point] = self.active.len() as u32;
             let start = Point {
                 strain: known.strain,
@@ -170,9 +167,10 @@ impl YieldingBody {
         for (u, growth) in self.displacement.iter_mut().zip(&state.growth) {
             *u += factor * growth;
         }
-        let cells = self.cells();
         for known in &state.points {
-            let point = known.plane as usize * cells + known.cell as usize;
+            let Some(point) = self.point(known) else {
+                continue;
+            };
             for (c, growth) in known.growth.iter().enumerate() {
                 let at = self.at(point, c);
                 self.strain[at] += factor * growth;
@@ -183,7 +181,47 @@ impl YieldingBody {
     /// One pass: stress, return, displacement. True where neither strain nor displacement would change
     /// beyond the tolerance.
     pub(super) fn pass(&mut self, tractions: &[Vec<f64>; 3]) -> bool {
-        self.respond(tractions);
+        self.tractions = self.facing(tractions);
+        self.respond();
+        let found = self.returned();
+        let reached = found.iter().map(|(_, most)| *most);
+        self.reached = reached.fold(0.0, f64::max).sqrt();
+        if !std::mem::replace(&mut self.passed, true) {
+            for (wanted, (points, most)) in self.wanted.iter_mut().zip(&found) {
+                *wanted = !points.is_empty() || *most > NEAR * NEAR;
+            }
+        }
+        self.off = self.take(found);
+        let largest = self
+            .next_displacement
+            .iter()
+            .fold(0.0_f64, |m, u| m.max(u.abs()));
+        let pairs = self.next_displacement.iter().zip(&self.displacement);
+        let moved = pairs.fold(0.0_f64, |m, (to, from)| m.max((to - from).abs()));
+        self.off <= TOLERANCE && moved <= DISPLACEMENT * largest
+    }
+
+    /// Whether a point yields on the planes that the last pass has left out, under its tractions and strain.
+    /// Those planes are computed from then on.
+    pub(super) fn others_yield(&mut self) -> bool {
+        if self.computed == self.may_yield {
+            return false;
+        }
+        let others: Vec<bool> = (self.may_yield.iter().zip(&self.computed))
+            .map(|(may, computed)| *may && !computed)
+            .collect();
+        let wanted = std::mem::replace(&mut self.wanted, others);
+        self.respond();
+        let found = self.returned();
+        self.wanted = wanted;
+        for (wanted, (points, _)) in self.wanted.iter_mut().zip(&found) {
+            *wanted |= !points.is_empty();
+        }
+        self.take(found) > TOLERANCE
+    }
+
+    /// What yields of each plane that is computed, and its largest stress over the yield stress, squared.
+    fn returned(&self) -> Vec<(Vec<(usize, Returned)>, f64)> {
         let cells = self.cells();
         let (laws, stress, strain, slot, active) = (
             &self.laws,
@@ -194,7 +232,6 @@ impl YieldingBody {
         );
         let block = COMPONENTS * cells;
         let (wanted, initial) = (&self.wanted, &self.initial);
-        // What yields of a plane, and its largest stress over the yield stress, squared.
         let of_plane = |plane: usize| -> (Vec<(usize, Returned)>, f64) {
             let (Some((law, mu)), true) = (&laws[plane], wanted[plane]) else {
                 return (Vec::new(), 0.0);
@@ -231,14 +268,12 @@ impl YieldingBody {
             }
             (found, most / (law.s_y * law.s_y))
         };
-        let found: Vec<_> = (0..laws.len()).into_par_iter().map(of_plane).collect();
-        if !std::mem::replace(&mut self.passed, true) {
-            for (wanted, (points, most)) in self.wanted.iter_mut().zip(&found) {
-                *wanted = !points.is_empty() || *most > NEAR * NEAR;
-            }
-        }
-        let reached = found.iter().map(|(_, most)| *most);
-        self.reached = reached.fold(0.0, f64::max).sqrt();
+        (0..laws.len()).into_par_iter().map(of_plane).collect()
+    }
+
+    /// Takes the returned points; gives the largest change of the stress over the yield stress.
+    fn take(&mut self, found: Vec<(Vec<(usize, Returned)>, f64)>) -> f64 {
+        let cells = self.cells();
         let mut off = 0.0_f64;
         for (point, returned) in found.into_iter().flat_map(|(points, _)| points) {
             if self.slot[point] == NONE {
@@ -253,19 +288,12 @@ impl YieldingBody {
                 off = off.max(equivalent_stress(&change) * 2.0 * mu / law.s_y);
             }
         }
-        self.off = off;
-        let largest = self
-            .next_displacement
-            .iter()
-            .fold(0.0_f64, |m, u| m.max(u.abs()));
-        let pairs = self.next_displacement.iter().zip(&self.displacement);
-        let moved = pairs.fold(0.0_f64, |m, (to, from)| m.max((to - from).abs()));
-        off <= TOLERANCE && moved <= DISPLACEMENT * largest
+        off
     }
 
     /// Stress of the tractions and the present strain, displacement of the strain alone.
-    fn respond(&mut self, tractions: &[Vec<f64>; 3]) {
-        self.tractions = self.facing(tractions);
+    fn respond(&mut self) {
+        self.computed.clone_from(&self.wanted);
         let [x, y, z] = &self.tractions;
         let yields = !self.active.is_empty();
         self.operator.apply(
@@ -276,10 +304,12 @@ impl YieldingBody {
             Answer {
                 stress: &mut self.stress,
                 wanted: &self.wanted,
-                displacement: &mut self.next_displacement,
+                displacement: &mut self.next_everywhere,
                 of_tractions: false,
             },
         );
+        self.volume
+            .part_below_contact(&self.next_everywhere, &mut self.next_displacement);
     }
 
     /// Tractions on the body, with z into it: on body 1 the shear is the opposite.
@@ -368,7 +398,7 @@ impl YieldingBody {
             points: points
                 .map(|(point, start, end)| PlasticPoint {
                     plane: (point / cells) as u32,
-                    cell: (point % cells) as u32,
+                    cell: self.volume.of_largest(point % cells),
                     strain: end.strain,
                     equivalent: end.equivalent,
                     flow: end.flow,
@@ -388,7 +418,7 @@ impl YieldingBody {
     }
 
     /// Plastic work of the increment \[J\].
-    pub(super) fn work(&self, volume: &Volume) -> f64 {
+    pub(super) fn work(&self) -> f64 {
         let (mesh, cells) = (self.mesh(), self.cells());
         let of_point = |(point, start, end): &(usize, Point, Returned)| {
             let plane = point / cells;
@@ -397,14 +427,14 @@ impl YieldingBody {
             };
             mesh.weight(plane) * start.work(law, end)
         };
-        volume.cells.area() * self.active.iter().map(of_point).sum::<f64>()
+        self.volume.cells.area() * self.active.iter().map(of_point).sum::<f64>()
     }
 
     /// Elastic energy of the residual stress \[J\] in the last pass, -1/2 int sigma_res : e dV. The
     /// stress is that of the tractions t, too, whose work on the strain is that on its displacement u[e]
     /// (Betti): 1/2 (sum t . u[e] dA - int sigma : e dV). A residual stress s_R before the first load is in
     /// balance without tractions, so that it adds -int s_R : e dV.
-    pub(super) fn locked(&self, volume: &Volume) -> f64 {
+    pub(super) fn locked(&self) -> f64 {
         let cells = self.cells();
         let of_point = |(point, ..): &(usize, Point, Returned)| {
             let [stress, strain]: [Tensor; 2] = [&self.stress, &self.strain]
@@ -414,19 +444,19 @@ impl YieldingBody {
             self.mesh().weight(point / cells) * (contraction(&stress, &strain) + 2.0 * initial)
         };
         let of_stress: f64 = self.active.iter().map(of_point).sum();
-        let displaced = self.tractions.iter().flatten().zip(&self.next_displacement);
+        let displaced = self.tractions.iter().flatten().zip(&self.next_everywhere);
         let of_tractions: f64 = displaced.map(|(t, u)| t * u).sum();
-        0.5 * volume.cells.area() * (of_tractions - of_stress)
+        0.5 * self.volume.cells.area() * (of_tractions - of_stress)
     }
 
     /// Volume of the points that have yielded \[m^3\].
-    pub(super) fn plastic_volume(&self, volume: &Volume) -> f64 {
+    pub(super) fn plastic_volume(&self) -> f64 {
         let (mesh, cells) = (self.mesh(), self.cells());
         let yielded = self
             .active
             .iter()
             .filter(|(_, _, end)| end.equivalent > 0.0);
-        volume.cells.area()
+        self.volume.cells.area()
             * yielded
                 .map(|(point, ..)| mesh.weight(point / cells))
                 .sum::<f64>()
@@ -465,7 +495,8 @@ impl YieldingBody {
         tractions: &[Vec<f64>; 3],
     ) -> Option<(f64, usize, usize, f64)> {
         self.begin(None);
-        self.respond(tractions);
+        self.tractions = self.facing(tractions);
+        self.respond();
         let cells = self.cells();
         let of_plane = |plane: usize| {
             let (law, _) = self.laws[plane].as_ref()?;
@@ -509,7 +540,7 @@ impl YieldingBody {
         self.begin(state);
         let signed = tractions.map(|tractions| self.facing(tractions));
         let mut stress = vec![0.0; self.operator.len()];
-        let mut displacement = vec![0.0; self.displacement.len()];
+        let mut everywhere = vec![0.0; self.next_everywhere.len()];
         let wanted = vec![true; self.may_yield.len()];
         let tractions = signed.as_ref().map(|[x, y, z]| [&x[..], &y[..], &z[..]]);
         self.operator.apply(
@@ -520,10 +551,13 @@ impl YieldingBody {
             Answer {
                 stress: &mut stress,
                 wanted: &wanted,
-                displacement: &mut displacement,
+                displacement: &mut everywhere,
                 of_tractions: false,
             },
         );
+        let mut displacement = vec![0.0; self.displacement.len()];
+        self.volume
+            .part_below_contact(&everywhere, &mut displacement);
         if self.number == 1 {
             let cells = self.cells();
             for (n, field) in stress.chunks_exact_mut(cells).enumerate() {

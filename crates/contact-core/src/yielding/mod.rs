@@ -23,11 +23,10 @@ mod volume;
 use ndarray::Array2;
 
 use self::anderson::Anderson;
-pub use self::body::mesh_of;
 use self::body::{TOLERANCE, YieldingBody};
 pub use self::state::{PlasticPoint, PlasticState, Rim, Yielded};
-pub use self::volume::Volume;
 pub(crate) use self::volume::volume_cells;
+pub use self::volume::{Volume, mesh_of};
 use crate::error::Error;
 use crate::scene::Scene;
 
@@ -64,17 +63,18 @@ pub(crate) struct Below {
 }
 
 impl Yielding {
-    /// Of a scene whose bodies may yield; `None` where none does.
-    pub fn of(scene: &Scene) -> Result<Option<Self>, Error> {
-        Self::on_cells(scene, volume_cells(scene.grid.plane_strain))
+    /// Of a scene whose bodies may yield, on the volume grid that is chosen or on the one that it grows to;
+    /// `None` where none does.
+    pub fn of(scene: &Scene, grown: bool) -> Result<Option<Self>, Error> {
+        Self::on_cells(scene, volume_cells(scene.grid.plane_strain), grown)
     }
 
-    /// As [`Self::of`], with a volume grid of at most so many cells along a side.
-    pub(crate) fn on_cells(scene: &Scene, most: usize) -> Result<Option<Self>, Error> {
+    /// As [`Self::of`], with at most so many cells along a side before the grid grows.
+    pub(crate) fn on_cells(scene: &Scene, most: usize, grown: bool) -> Result<Option<Self>, Error> {
         if !scene.yields() {
             return Ok(None);
         }
-        let volume = Volume::of(scene, most);
+        let volume = Volume::of(scene, most, grown);
         let bodies = [(1, &scene.body1), (2, &scene.body2)];
         let bodies = bodies.into_iter().filter(|(_, body)| body.yields());
         let bodies = bodies.map(|(number, body)| YieldingBody::new(number, body, &volume));
@@ -121,7 +121,7 @@ impl Yielding {
         &self,
         bodies: &(impl Iterator<Item = (usize, &'a [f64])> + Clone),
     ) -> Residual {
-        let cells = self.volume.cells.len();
+        let cells = self.volume.cells_below_contact();
         let sum = |component: usize, sign: f64| {
             let mut sum = vec![0.0; cells];
             for (number, displacement) in bodies.clone() {
@@ -161,7 +161,13 @@ impl Yielding {
             settled &= body.pass(&tractions);
         }
         if settled {
-            return true;
+            // The planes that the increment has left out since its first pass yield neither.
+            for body in &mut self.bodies {
+                settled &= !body.others_yield();
+            }
+            if settled {
+                return true;
+            }
         }
         let bodies = self.bodies.iter();
         let mut x: Vec<f64> = bodies
@@ -197,27 +203,22 @@ impl Yielding {
             .collect();
         let strains = self.bodies.iter().filter_map(YieldingBody::largest);
         let largest = strains.max_by(|a, b| a.0.total_cmp(&b.0));
-        let done: f64 = self.bodies.iter().map(|body| body.work(&self.volume)).sum();
+        let done: f64 = self.bodies.iter().map(YieldingBody::work).sum();
         Yielded {
             work: before.work + done,
-            locked: (self.bodies.iter())
-                .map(|body| body.locked(&self.volume))
-                .sum(),
-            volume: self
-                .bodies
-                .iter()
-                .map(|body| body.plastic_volume(&self.volume))
-                .sum(),
+            locked: self.bodies.iter().map(YieldingBody::locked).sum(),
+            volume: self.bodies.iter().map(YieldingBody::plastic_volume).sum(),
             largest: largest.map_or(0.0, |(strain, _)| strain),
             at_border: self.bodies.iter().any(YieldingBody::reaches_the_border),
             at_rim: largest.and_then(|(_, rim)| rim),
+            grown: self.volume.grown,
             bodies,
         }
     }
 
     /// The state before anything has yielded.
     pub(crate) fn unyielded(&self) -> Yielded {
-        let cells = self.volume.cells.len();
+        let cells = self.volume.cells_below_contact();
         let body = |body: &YieldingBody| PlasticState {
             body: body.number,
             points: Vec::new(),
@@ -226,6 +227,7 @@ impl Yielding {
         };
         Yielded {
             bodies: self.bodies.iter().map(body).collect(),
+            grown: self.volume.grown,
             ..Yielded::default()
         }
     }
@@ -313,20 +315,26 @@ impl Yielding {
         self.residuals().0 < UNLOADS
     }
 
+    /// Whether all points of a state lie on the volume grid.
+    pub fn holds(&self, state: &Yielded) -> bool {
+        self.check(state).is_ok()
+    }
+
     /// Fails where a state has points beyond the volume grid.
     pub fn check(&self, state: &Yielded) -> Result<(), Error> {
         for known in &state.bodies {
             let own = self.bodies.iter().find(|body| body.number == known.body);
-            let (planes, cells) = own.map_or((0, 0), |body| {
-                (body.mesh().planes(), body.mesh().cells.len())
-            });
-            let beyond = |point: &&PlasticPoint| {
-                point.plane as usize >= planes || point.cell as usize >= cells
+            let beyond = match own {
+                Some(body) => body.beyond(known),
+                None => known.points.first(),
             };
-            if let Some(point) = known.points.iter().find(beyond) {
+            if let Some(point) = beyond {
+                let planes = own.map_or(0, |body| body.mesh().planes());
+                let cells = self.volume.cells;
                 let found = format!("plane {}, cell {}", point.plane, point.cell);
                 let allowed = format!(
-                    "{planes} planes of {cells} cells, those of the volume grid of its scene: solve it again"
+                    "within {planes} planes of {} x {} cells, those of the volume grid of its scene: solve it again",
+                    cells.nx, cells.ny
                 );
                 return Err(Error::invalid("plastic strain", found, allowed));
             }

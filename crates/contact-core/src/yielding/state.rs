@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 pub struct PlasticPoint {
     /// Plane of Gauss points of the body's mesh.
     pub plane: u32,
-    /// Cell of the volume grid, x first.
+    /// Cell of the volume grid that has grown, x first: the same number before and after.
     pub cell: u32,
     /// Plastic strain: xx, yy, zz, xy, xz, yz, with z into the body.
     pub strain: Tensor,
@@ -29,8 +29,8 @@ pub struct PlasticState {
     pub body: usize,
     /// The points that have yielded.
     pub points: Vec<PlasticPoint>,
-    /// Residual displacement u_x, u_y, u_z of the surface on the cells of the volume grid \[m\], one
-    /// after the other, with z into the body.
+    /// Residual displacement u_x, u_y, u_z of the surface on the cells of the volume grid below the contact
+    /// \[m\], one after the other, with z into the body.
     pub displacement: Vec<f64>,
     /// Its growth in the last increment \[m\].
     pub growth: Vec<f64>,
@@ -56,6 +56,9 @@ pub struct Yielded {
     /// Whether a point has yielded at the border of the volume grid.
     #[serde(default)]
     pub at_border: bool,
+    /// Whether the volume grid has grown: it does once, when a point yields at its border.
+    #[serde(default)]
+    pub grown: bool,
 }
 
 /// A place where strains grow with every refinement.

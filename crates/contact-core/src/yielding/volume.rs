@@ -1,10 +1,11 @@
 //! The volume grid: its cells, and the way between them and those of the contact.
 
-use eigenstrain::Cells;
+use eigenstrain::{Cells, Layer, Mesh};
 use ndarray::Array2;
 
 use super::resampled::resampled;
-use crate::scene::{Body, Grid, Profile, Scene};
+use crate::error::Error;
+use crate::scene::{Body, Bond, Grid, Profile, Scene};
 
 /// Most cells of the volume grid along a side of a point contact, and along a line contact.
 const MOST_CELLS: usize = 64;
@@ -29,8 +30,13 @@ const REACH: f64 = 4.0;
 const HEIGHT: f64 = 1.0 / 12.0;
 /// Least and largest height over the side of a cell.
 const HEIGHTS: [f64; 2] = [1.0, 2.0];
+/// Cells that a grown grid has more beyond each side of the contact's, over those of the contact's.
+const MARGIN: f64 = 0.25;
+/// Depth of a grown grid over that before.
+const DEEPER: f64 = 1.5;
 
-/// The cells of the volume grid: those of the contact, or squares of them.
+/// The cells of the volume grid: those of the contact, or squares of them. A grid that has grown has more of
+/// them beyond its sides, and planes below.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Volume {
     /// Its cells.
@@ -39,8 +45,13 @@ pub struct Volume {
     pub depth: [f64; 2],
     /// Heights of elements at the surface and at interfaces, and far from them \[m\].
     pub heights: [f64; 2],
-    /// Depth down to which there are elements \[m\].
+    /// Depth down to which there are elements before the grid grows \[m\].
     pub reach: f64,
+    /// Whether it has grown.
+    pub grown: bool,
+    /// Cells along x and y that the grid has when it has grown, and those that it has less at each side.
+    largest: [usize; 2],
+    left_out: [usize; 2],
     /// Cells of the contact along a side of one of the volume.
     ratio: usize,
     /// Grid of the contact.
@@ -51,7 +62,7 @@ impl Volume {
     /// Chosen for a scene: at most so many cells along a side, elements of a cell at
     /// the surface and at interfaces, growing to a twelfth of the radius of the elastic contact, one to two
     /// cells, down to where a point load of the largest force leaves 0.9 of the yield stress.
-    pub(super) fn of(scene: &Scene, most: usize) -> Self {
+    pub(super) fn of(scene: &Scene, most: usize, grown: bool) -> Self {
         let grid = scene.grid;
         let sides = if grid.plane_strain {
             [grid.nx, 0]
@@ -65,9 +76,16 @@ impl Volume {
         }
         let length = ratio as f64;
         let along_y = if grid.plane_strain { 1 } else { ratio };
+        let contact = [grid.nx / ratio, grid.ny / along_y];
+        let mut margin = contact.map(|n| (MARGIN * n as f64).ceil() as usize);
+        if grid.plane_strain {
+            margin[1] = 0;
+        }
+        let largest = [0, 1].map(|axis| contact[axis] + 2 * margin[axis]);
+        let [nx, ny] = if grown { largest } else { contact };
         let cells = Cells {
-            nx: grid.nx / ratio,
-            ny: grid.ny / along_y,
+            nx,
+            ny,
             dx: length * grid.dx,
             dy: along_y as f64 * grid.dy,
             plane_strain: grid.plane_strain,
@@ -85,6 +103,9 @@ impl Volume {
             depth: [&scene.body1, &scene.body2].map(|body| depth(scene, body)),
             heights: [HEIGHTS[0] * side, height],
             reach: REACH * length_of(scene),
+            grown,
+            largest,
+            left_out: if grown { [0, 0] } else { margin },
             ratio,
             grid,
         }
@@ -95,36 +116,109 @@ impl Volume {
         &self.grid
     }
 
-    /// Means of a field of the contact over the cells of the volume.
-    pub(super) fn to_volume(&self, field: &Array2<f64>) -> Vec<f64> {
-        let ratio = [
-            self.ratio,
-            if self.cells.plane_strain {
-                1
-            } else {
-                self.ratio
-            },
+    /// The mesh of body 1 or 2.
+    pub(super) fn mesh(&self, number: usize, body: &Body) -> Result<Mesh, Error> {
+        let depth = self.depth[number - 1];
+        let deeper = if self.grown { DEEPER } else { 1.0 };
+        let mesh = mesh_of(body, self.cells, depth, self.heights, self.reach)?;
+        (mesh.deepened(deeper)).map_err(|e| Error::invalid(e.key, e.value, e.allowed))
+    }
+
+    /// The cell of this grid that a cell of the grown one is; `None` beyond it.
+    pub fn cell(&self, of_largest: u32) -> Option<usize> {
+        let n = of_largest as usize;
+        let [i, j] = [n / self.largest[1], n % self.largest[1]];
+        let i = i.checked_sub(self.left_out[0])?;
+        let j = j.checked_sub(self.left_out[1])?;
+        (i < self.cells.nx && j < self.cells.ny).then_some(i * self.cells.ny + j)
+    }
+
+    /// A cell of this grid as one of the grown grid: the number that a state knows it by.
+    pub(super) fn of_largest(&self, cell: usize) -> u32 {
+        let [i, j] = [cell / self.cells.ny, cell % self.cells.ny];
+        ((i + self.left_out[0]) * self.largest[1] + j + self.left_out[1]) as u32
+    }
+
+    /// Cells of the volume below the contact: along x, y, and those beyond them at each side.
+    fn below_contact(&self) -> ([usize; 2], [usize; 2]) {
+        let ratio = [self.ratio, self.ratio_along_y()];
+        let contact = [self.grid.nx / ratio[0], self.grid.ny / ratio[1]];
+        let beyond = [
+            (self.cells.nx - contact[0]) / 2,
+            (self.cells.ny - contact[1]) / 2,
         ];
+        (contact, beyond)
+    }
+
+    /// Number of cells below the contact.
+    pub(super) fn cells_below_contact(&self) -> usize {
+        let ([nx, ny], _) = self.below_contact();
+        nx * ny
+    }
+
+    /// The part below the contact of three fields of the volume, one after the other.
+    pub(super) fn part_below_contact(&self, fields: &[f64], part: &mut [f64]) {
+        let ([nx, ny], beyond) = self.below_contact();
+        let own = fields.chunks_exact(self.cells.len());
+        for (field, part) in own.zip(part.chunks_exact_mut(nx * ny)) {
+            for (i, row) in part.chunks_exact_mut(ny).enumerate() {
+                let from = (i + beyond[0]) * self.cells.ny + beyond[1];
+                row.copy_from_slice(&field[from..from + ny]);
+            }
+        }
+    }
+
+    fn ratio_along_y(&self) -> usize {
+        if self.cells.plane_strain {
+            1
+        } else {
+            self.ratio
+        }
+    }
+
+    /// Means of a field of the contact over the cells of the volume; zero beyond the contact.
+    pub(super) fn to_volume(&self, field: &Array2<f64>) -> Vec<f64> {
+        let ratio = [self.ratio, self.ratio_along_y()];
+        let (_, beyond) = self.below_contact();
         let part = 1.0 / (ratio[0] * ratio[1]) as f64;
         let mut means = vec![0.0; self.cells.len()];
         for ((i, j), value) in field.indexed_iter() {
-            means[i / ratio[0] * self.cells.ny + j / ratio[1]] += part * value;
+            let (i, j) = (i / ratio[0] + beyond[0], j / ratio[1] + beyond[1]);
+            means[i * self.cells.ny + j] += part * value;
         }
         means
     }
 
-    /// A field of the volume at the cells of the contact.
+    /// A field on the cells of the volume below the contact at those of the contact.
     pub(super) fn to_contact(&self, field: &[f64]) -> Array2<f64> {
-        let along_y = if self.cells.plane_strain {
-            1
-        } else {
-            self.ratio
-        };
-        let shape = (self.cells.nx, self.cells.ny);
-        let fine = resampled(field, shape, [self.ratio, along_y]);
+        let ([nx, ny], _) = self.below_contact();
+        let fine = resampled(field, (nx, ny), [self.ratio, self.ratio_along_y()]);
         let shape = (self.grid.nx, self.grid.ny);
         Array2::from_shape_vec(shape, fine).unwrap_or_else(|_| Array2::zeros(shape))
     }
+}
+
+/// The mesh of a body: [`Mesh::graded`] of its layers, lengths in \[m\].
+pub fn mesh_of(
+    body: &Body,
+    cells: Cells,
+    depth: f64,
+    heights: [f64; 2],
+    reach: f64,
+) -> Result<Mesh, Error> {
+    let bonds = (0..body.coatings.len()).map(|layer| body.bond(layer));
+    if bonds.into_iter().any(|bond| bond != Bond::PERFECT) {
+        let allowed = "left out: layers are bonded perfectly here";
+        return Err(Error::invalid("bond", "compliant", allowed));
+    }
+    let layer = |E: f64, nu: f64, thickness: f64| Layer { E, nu, thickness };
+    let coatings = body.coatings.iter();
+    let mut layers: Vec<Layer> = coatings
+        .map(|c| layer(c.material.E, c.material.nu, c.thickness))
+        .collect();
+    layers.push(layer(body.substrate.E, body.substrate.nu, f64::INFINITY));
+    Mesh::graded(cells, layers, depth, heights, reach)
+        .map_err(|e| Error::invalid(e.key, e.value, e.allowed))
 }
 
 /// Radius of the elastic contact, or a quarter of the grid where there is none \[m\].

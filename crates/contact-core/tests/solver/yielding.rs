@@ -111,9 +111,11 @@ fn the_energy_of_the_residual_stress_is_left_after_unloading() {
     let bodies = march.yielding().expect("a body that yields");
     let stress = bodies.stress(&state, None, 2).expect("residual stress");
     let (mesh, cells) = (bodies.mesh(2).expect("a mesh"), grid.nx * grid.ny);
+    let volume = bodies.volume();
     // -1/2 int sigma : e dV, without any traction.
     let of_point = |point: &contact_core::yielding::PlasticPoint| {
-        let (plane, cell) = (point.plane as usize, point.cell as usize);
+        let plane = point.plane as usize;
+        let cell = volume.cell(point.cell).expect("on the grid");
         let at = |c: usize| stress[(plane * 6 + c) * cells + cell];
         let sum = |c: usize| (if c < 3 { 1.0 } else { 2.0 }) * at(c) * point.strain[c];
         -0.5 * grid.cell_area() * mesh.weight(plane) * (0..6).map(sum).sum::<f64>()
@@ -179,6 +181,119 @@ fn a_run_goes_on_from_its_state_to_the_same_bits() {
         .collect();
     assert_eq!(whole[2..], rest[..]);
     assert_eq!(ended.state(), second.state());
+}
+
+/// A hard film on a soft substrate, pressed by a rigid ball in one increment.
+fn hard_film() -> Scene {
+    let substrate = Plastic::perfect(3e8);
+    let to = Loads {
+        W: 300.0,
+        ..Loads::default()
+    };
+    let grid = Grid::centred(1.2e-3, 24).expect("a grid");
+    let mut scene = indentation(0.005, substrate, grid, vec![Branch::new(to, 1, 1.0)]);
+    scene.body2.substrate = Elastic { E: 115e9, nu: 0.32 };
+    scene.body2.coatings = vec![Coating {
+        material: Elastic { E: 460e9, nu: 0.2 },
+        thickness: 3e-5,
+    }];
+    let film = Plastic {
+        hardening: 1e10,
+        ..Plastic::perfect(3.1e9)
+    };
+    scene.body2.plastic = vec![Some(film), Some(substrate)];
+    scene
+}
+
+/// The film comes to 2.2 GPa on an elastic substrate, 0.72 of its yield stress, and to 3.3 GPa once the
+/// substrate has given way.
+#[test]
+fn no_point_is_beyond_its_yield_stress() {
+    let scene = hard_film();
+    let (_, mut march) = run(&scene);
+    let [p, q_x, q_y] = march.tractions();
+    let state = march.state().yielded.clone().expect("plastic strain");
+    let bodies = march.yielding().expect("a body that yields");
+    let stress = bodies.stress(&state, Some([&p, &q_x, &q_y]), 2);
+    let stress = stress.expect("a stress");
+    let (volume, mesh) = (bodies.volume(), bodies.mesh(2).expect("a mesh"));
+    let cells = volume.cells.len();
+    let mut hardened = vec![0.0; mesh.planes() * cells];
+    for point in &state.bodies[0].points {
+        let cell = volume.cell(point.cell).expect("on the grid");
+        hardened[point.plane as usize * cells + cell] = point.equivalent;
+    }
+    let mut worst = 0.0_f64;
+    for plane in 0..mesh.planes() {
+        let law = scene.body2.plastic[mesh.layer(plane)].expect("a law");
+        for cell in 0..cells {
+            let s: [f64; 6] = std::array::from_fn(|c| stress[(plane * 6 + c) * cells + cell]);
+            let mean = (s[0] + s[1] + s[2]) / 3.0;
+            let of = |c: usize| {
+                if c < 3 {
+                    (s[c] - mean).powi(2)
+                } else {
+                    2.0 * s[c] * s[c]
+                }
+            };
+            let mises = (1.5 * (0..6).map(of).sum::<f64>()).sqrt();
+            let limit = law.s_y + law.hardening * hardened[plane * cells + cell];
+            worst = worst.max(mises / limit);
+        }
+    }
+    assert!(worst < 1.0 + 1e-3, "{worst} of the yield stress");
+}
+
+#[test]
+fn the_volume_grid_grows_once_where_the_plastic_zone_reaches_its_border() {
+    // On a grid that holds the contact alone the zone beside it comes to the border.
+    let law = Plastic {
+        hardening: 2e10,
+        ..Plastic::perfect(4e8)
+    };
+    let scene = |extent: f64, n: usize, law: Plastic| {
+        let grid = Grid::centred(extent, n).expect("a grid");
+        indentation(0.01, law, grid, vec![approach(3.5e-6, 3, 1.0)])
+    };
+    let narrow = scene(5.2e-4, 16, law);
+    let (increments, march) = run(&narrow);
+    let state = march.state().yielded.clone().expect("plastic strain");
+    assert!(state.grown && !state.at_border);
+    assert!(
+        increments
+            .iter()
+            .all(|increment| !increment.yielded.at_border)
+    );
+    // The work is that on a grid that is wide from the beginning.
+    let (wide, _) = run(&scene(2.0 * 5.2e-4, 32, law));
+    let work = |of: &[Increment]| of.iter().map(|i| i.energy.plastic).sum::<f64>();
+    let (found, wanted) = (work(&increments), work(&wide));
+    assert!(
+        (found / wanted - 1.0).abs() < 5e-3,
+        "{found:e} for {wanted:e}"
+    );
+    // From every increment to the same bits, before the grid grows and after.
+    for kept in 1..increments.len() {
+        let mut first = March::new(&narrow).expect("a scene");
+        for _ in 0..kept {
+            first
+                .advance()
+                .expect("an increment")
+                .expect("an increment");
+        }
+        let mut second = March::resume(&narrow, first.state().clone()).expect("the state");
+        for wanted in &increments[kept..] {
+            let found = second
+                .advance()
+                .expect("an increment")
+                .expect("an increment");
+            assert_eq!(found, *wanted);
+        }
+        assert_eq!(second.state(), march.state());
+    }
+    // A zone that comes to the second border is doubted.
+    let (beyond, _) = run(&scene(5.2e-4, 16, Plastic { s_y: 1e8, ..law }));
+    assert!(beyond[2].yielded.at_border);
 }
 
 #[test]
