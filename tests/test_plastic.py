@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import subprocess
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
@@ -12,10 +12,12 @@ import xarray as xr
 
 import pyfret as fret
 from conftest import ROOT
+from plastic_rows import beside, body, rows
 from pyfret import _core
 from pyfret.subsurface.plastic import YIELDED
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from pathlib import Path
 
 pytestmark = pytest.mark.solves
@@ -302,3 +304,144 @@ def test_a_material_of_the_table_yields_only_when_asked() -> None:
         pytest.raises(ValueError, match=r"no yield stress.*plastic=Plastic\(s_y"),
     ):
         fret.material("CrN", plastic=True)
+
+
+def test_a_hard_film_is_in_tension_after_unloading() -> None:
+    """The bottom of the film on a substrate that yields, of finite elements; none by elasticity."""
+    row = rows("normal")["hard_thick"]
+    state = row["states"][2]
+    film = 30e-6
+    path = fret.LoadPath.start().displace(delta_z=state["approach"], increments=10)
+    scene = fret.Scene(
+        body1=fret.Body(fret.RIGID, shape=fret.Sphere(R=row["indenter"]["R"])),
+        body2=body(row),
+        mu=0.0,
+        grid=fret.Grid.centred(extent=2.6 * state["contact_radius_between"][1], n=32),
+        path=path.normal(1e-3 * state["load"]["value"], increments=2),
+    )
+    result = fret.solve(scene, progress=False)
+    bottom = []
+    for n in (10, 12):
+        s_xx = result.at(n).plastic.on_axis("stress").sel(component="xx")
+        bottom.append(beside(s_xx, film, 0))
+    left = state["unloaded"]["s_rr_at_interfaces"]
+    under_load = state["s_rr_at_interfaces_loaded"]
+    for found, table in zip(bottom, (under_load, left), strict=True):
+        allowed = table["error"][0] + 0.03 * left["value"][0]
+        assert found == pytest.approx(table["value"][0], abs=allowed)
+    # What a user reads, of the run and without its load.
+    z = [0.999 * film]
+    assert float(result.at(10).stress(z, x=0.0, y=0.0).s_xx[0]) == pytest.approx(472e6, abs=75e6)
+    unloaded = float(result.unloaded().stress(z, x=0.0, y=0.0).s_xx[0])
+    assert unloaded == pytest.approx(1676e6, abs=85e6)
+    elastic = scene.replace(
+        body2=fret.Body(fret.Elastic(E=115e9, nu=0.32), coatings=[elastic_film(row)])
+    )
+    under_the_largest = fret.solve(elastic, progress=False).at(10)
+    assert float(under_the_largest.stress(z, x=0.0, y=0.0).s_xx[0]) < -800e6
+
+
+def elastic_film(row: dict[str, Any]) -> fret.Coating:
+    """Make the film of a row."""
+    film = row["coatings"][0]
+    return fret.Coating(fret.Elastic(E=film["E"], nu=film["nu"]), thickness=film["thickness"])
+
+
+def test_a_run_of_wear_begins_with_an_imprint() -> None:
+    """A ball that frets in its imprint wears that shape, with a lower pressure."""
+    left = fret.solve(indentation(), progress=False).unloaded()
+    elastic = fret.Elastic(E=210e9, nu=0.3)
+
+    def worn(lower: fret.Body) -> fret.wear.WearResult:
+        path = fret.LoadPath.start().normal(20.0, increments=1)
+        for to in (4e-6, -4e-6, 4e-6):
+            path = path.displace(delta_x=to, increments=2)
+        scene = fret.Scene(
+            body1=fret.Body(elastic, shape=fret.Sphere(R=10e-3)),
+            body2=lower,
+            mu=0.5,
+            grid=fret.Grid.centred(extent=5.6e-4, n=24),
+            path=path,
+        )
+        law = fret.wear.Archard(1e-14)
+        return fret.wear.solve(scene, cycles=100, first_branch=2, body2=law, progress=False)
+
+    marked = worn(fret.Body(elastic, shape=left.shape(2)))
+    flat = worn(fret.Body(elastic))
+    # The imprint bears over a wider area: scars of about the same volume are shallower.
+    assert float(marked.volume2[-1]) == pytest.approx(float(flat.volume2[-1]), rel=0.1)
+    assert float(marked.depth2[-1]) < 0.9 * float(flat.depth2[-1])
+    with pytest.raises(fret.errors.InvalidSceneError, match=r"body2\.plastic.*imprint"):
+        worn(fret.Body(STEEL))
+
+
+def test_what_is_not_computed_of_bodies_that_yield_is_refused_by_name() -> None:
+    """Each with its key and with what to do."""
+    scene = indentation()
+    elastic = fret.Elastic(E=210e9, nu=0.3)
+    ball = fret.Body(elastic, shape=fret.Sphere(R=10e-3))
+    rubbed = scene.replace(body1=ball, mu=0.3)
+    pressed = fret.LoadPath.start().normal(50.0, increments=1)
+
+    def along(**columns: float) -> fret.Scene:
+        ends = {name: [value] for name, value in columns.items()}
+        return rubbed.replace(path=pressed.waypoints(increments=2, **ends))
+
+    rigid = fret.RIGID.replace(plastic=fret.Plastic(s_y=1e9))
+    soft = fret.Coating(STEEL, thickness=2e-5, bond=fret.Bond(normal=1e-17))
+    # 356 times the load of first yield with s_y = 100 MPa, 0.04 N.
+    perfect = fret.Elastic(E=210e9, nu=0.3, plastic=fret.Plastic(s_y=1e8))
+    refused: list[tuple[Callable[[], fret.Scene], str]] = [
+        (
+            lambda: scene.replace(body1=ball.replace(substrate=rigid)),
+            r"body1\.E.*leave plastic out",
+        ),
+        (lambda: along(rolled=4 * rubbed.grid.dx), r"body2\.plastic.*path\.rolled.*left out where"),
+        (lambda: along(sigma_B=1e8), r"body2\.plastic.*left out with path\.sigma_B"),
+        (
+            lambda: scene.replace(body2=fret.Body(elastic, coatings=[soft])),
+            r"body2\.coatings\[0\]\.bond.*left out in a body",
+        ),
+        (
+            lambda: indentation(perfect),
+            r"body2\.plastic\.hardening.*a W of at most 1\.4\d*e1 N.*2\.8 s_y",
+        ),
+    ]
+    for of, said in refused:
+        with pytest.raises(fret.errors.InvalidSceneError, match=f"(?s){said}"):
+            fret.solve(of(), progress=False)
+    path = pressed
+    for to in (1e-6, -1e-6, 1e-6):
+        path = path.displace(delta_x=to, increments=1)
+    result = fret.solve(rubbed.replace(path=path), progress=False)
+    metal = fret.heat.Conductor(conductivity=45.0, heat_capacity=3.6e6)
+    with pytest.raises(ValueError, match=r"body2\.plastic.*without plastic"):
+        result.temperature(metal, metal, frequency=50.0)
+
+
+@pytest.mark.filterwarnings("ignore::pyfret.errors.SceneWarning")
+def test_large_strains_are_doubted_and_end_a_run(tmp_path: Path) -> None:
+    """From 6 % on there is a doubt, at 15 % the run ends with what it has; it ends there again."""
+    soft = fret.Elastic(E=210e9, nu=0.3, plastic=fret.Plastic(s_y=1e9, hardening=2e10))
+    path = fret.LoadPath.start()
+    for W in (2e6, 6e6, 1e7):
+        path = path.force(W=W, increments=1)
+    scene = fret.Scene(
+        body1=fret.Body(fret.RIGID, shape=fret.Cylinder(R=2e-3)),
+        body2=fret.Body(soft),
+        mu=0.0,
+        grid=fret.Grid.strip(extent=3e-3, n=48),
+        path=path,
+        settings=fret.Settings(save="all"),
+    )
+    store = tmp_path / "large.zarr"
+    ends = "strains stay below 15 %"
+    with pytest.raises(fret.errors.InvalidSceneError, match=ends):
+        fret.solve(scene, out=store, progress=False)
+    kept = fret.open(store)
+    assert kept.status != "done"
+    assert 0.06 < float(kept.largest_plastic_strain.max()) < 0.15
+    assert "small strains" in kept.summary()
+    with pytest.raises(fret.errors.InvalidSceneError, match=ends):
+        fret.resume(store, progress=False)
+    np.testing.assert_array_equal(fret.open(store).W, kept.W)

@@ -211,7 +211,8 @@ def temperature(
     for name, body in (("body1", scene.body1), ("body2", scene.body2)):
         if body.yields:
             raise ValueError(
-                f"{name}.plastic: must be left out: the heat of plastic work is not computed"
+                f"{name}.plastic: must be left out: the heat of plastic work is not computed; "
+                "for the heat of friction solve the scene without plastic"
             )
     kept = cycle_increments(result, cycle)
     heat, contact = _heat(result, kept)

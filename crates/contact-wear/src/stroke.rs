@@ -121,7 +121,7 @@ fn check(scene: &Scene, first_branch: usize, rigid: bool) -> Result<(), Error> {
         let allowed = "flat where wear.cycling = \"sliding\" and body 1 is not";
         return refuse(
             "body2.shape".into(),
-            format!("{:?}", scene.body2.shape),
+            "curved, as that of body 1".into(),
             allowed,
         );
     }

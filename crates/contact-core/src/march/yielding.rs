@@ -170,7 +170,7 @@ impl March {
             if yields.bodies.pass([&p, &q_x, &q_y]) {
                 let now = yields.bodies.commit(before);
                 if now.largest > LARGEST_STRAIN {
-                    let found = format!("a strain of {:.0} %", 100.0 * now.largest);
+                    let found = format!("a strain of {:.1} %", 100.0 * now.largest);
                     let allowed = format!(
                         "such that strains stay below {:.0} %: a smaller load, or more hardening",
                         100.0 * LARGEST_STRAIN
