@@ -371,7 +371,7 @@ def test_a_run_of_wear_begins_with_an_imprint() -> None:
     # The imprint bears over a wider area: scars of about the same volume are shallower.
     assert float(marked.volume2[-1]) == pytest.approx(float(flat.volume2[-1]), rel=0.1)
     assert float(marked.depth2[-1]) < 0.9 * float(flat.depth2[-1])
-    with pytest.raises(fret.errors.InvalidSceneError, match=r"body2\.plastic.*imprint"):
+    with pytest.raises(fret.errors.ArgumentError, match=r"body2\.plastic.*imprint"):
         worn(fret.Body(STEEL))
 
 
