@@ -127,3 +127,64 @@ def test_a_grid_holds_a_contact_that_moments_move() -> None:
     grid = fret.Grid.for_contact(ball, FLAT, path, error=0.05)
     assert grid.nx * grid.dx > 1.5 * 1.2 * 2 * a
     assert p_max(ball, FLAT, path, grid)[0] == pytest.approx(np.pi * a**2, rel=0.03)
+
+
+def measured() -> shapes.SurfaceMap:
+    """A map of eight random waves along both axes."""
+    random, x = np.random.default_rng(5), 2e-6 * np.arange(100)
+    heights = np.zeros((100, 100))
+    for k in range(1, 9):
+        along, across = (
+            np.cos(2 * np.pi * k * x / 2e-4 + random.uniform(0.0, 6.0)) for _ in range(2)
+        )
+        heights += 4e-8 / k**1.5 * along[:, None] * across[None, :]
+    return shapes.SurfaceMap(heights, spacing=2e-6)
+
+
+#: Upper and lower surface, load [N or N/m], whether it is a line contact.
+SURFACES = {
+    "ball": (fret.Sphere(R=0.01), shapes.Flat(), 20.0, False),
+    "ellipsoid": (shapes.Ellipsoid(R_x=0.03, R_y=0.005), shapes.Flat(), 50.0, False),
+    "short roller": (shapes.Cylinder(R=0.01, length=1e-3), shapes.Flat(), 100.0, False),
+    "long roller": (shapes.Cylinder(R=0.005, length=8e-3), shapes.Flat(), 300.0, False),
+    "crowned roller": (
+        shapes.CrownedRoller(R=5e-3, length=1e-3, crown=0.5),
+        shapes.Flat(),
+        80.0,
+        False,
+    ),
+    "rounded punch": (shapes.FlatPunch(radius=5e-4, edge=1e-3), shapes.Flat(), 100.0, False),
+    "rounded strip": (shapes.FlatPunch(radius=2e-3, edge=3e-3), shapes.Flat(), 3e5, True),
+    "wedge": (shapes.Wedge(slope=1e-3), shapes.Flat(), 1e4, True),
+    "waves": (
+        fret.Sphere(R=5e-3),
+        shapes.Waviness(amplitude=2e-8, wavelength=3e-5),
+        5.0,
+        False,
+    ),
+    "map": (fret.Sphere(R=5e-3), measured(), 2.0, False),
+}
+
+
+@pytest.mark.solves
+@pytest.mark.parametrize("name", SURFACES)
+def test_a_grid_gives_the_numbers_of_the_finest_or_is_doubted(name: str) -> None:
+    upper, lower, load, strip = SURFACES[name]
+    bodies = fret.Body(STEEL, shape=upper), fret.Body(STEEL, shape=lower)
+    path = fret.LoadPath.start().normal(load, increments=1)
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        grid = fret.Grid.for_contact(*bodies, path, error=0.02, plane_strain=strip)
+    found = p_max(*bodies, path, grid)
+    finer = 8
+    while grid.nx * finer * (1 if strip else grid.ny * finer) > (4096 if strip else 7e5):
+        finer //= 2
+    if strip:
+        finest = fret.Grid.strip(extent=grid.nx * grid.dx, n=finer * grid.nx)
+    else:
+        cells = (finer * grid.nx, finer * grid.ny)
+        finest = fret.Grid.from_spacing(cells, (grid.dx / finer, grid.dy / finer))
+    right = p_max(*bodies, path, finest)
+    assert told or (finer > 1 and found == pytest.approx(right, rel=0.03))
+    # An edge without a radius has no largest pressure.
+    assert bool(told) == (name in ("short roller", "long roller", "wedge"))

@@ -57,6 +57,8 @@ LONGER, ROUGHLY = 1.5, 0.05
 UNSEEN = 0.01
 #: Most cells of a grid on which it is tried whether numbers still change.
 MOST_TRIED = 512 * 512
+#: How much longer a grid gets that the contact reaches, and how often.
+WIDER, WIDER_TIMES = 1.2, 4
 #: Fewest and most cells along a side.
 FEWEST, MOST = 24, 4096
 #: What an error may be asked of, and the numbers in which two grids agree then.
@@ -90,7 +92,7 @@ def for_contact(
     surfaces 15 % longer. It has as many cells as a smooth contact takes for `error`, and eight
     in the shortest wave of a rough, wavy or measured surface. On measured surfaces, on waves
     and where a body has edges, the number of cells is doubled until area and largest pressure
-    agree to `error`.
+    change by less than `error` from there on, as their last changes foretell.
 
     Parameters
     ----------
@@ -184,7 +186,7 @@ def for_contact(
             grid=_square(sides[0], plane_strain=plane_strain),
             path=path if whole else pressed,
         )
-        n = _refined(scene, sides, n, error, of)
+        sides, n = _refined(scene, sides, n, error, of)
     _doubt_films(body1, body2, [side / of for side, of in zip(sides, n, strict=True)])
     if max(n) > MOST:
         raise ValueError(
@@ -415,13 +417,19 @@ def _numbers(result: Result, of: Number) -> NDArray[np.float64]:
     return np.array([float(at.contact_area), float(at.p_max)])
 
 
-def _refined(scene: Scene, sides: list[float], n: list[int], error: float, of: Number) -> list[int]:
-    """Cells along the sides, doubled until the numbers asked for agree to `error`.
+def _refined(
+    scene: Scene, sides: list[float], n: list[int], error: float, of: Number
+) -> tuple[list[float], list[int]]:
+    """Sides and cells along them, doubled until the numbers asked for agree to `error`.
 
-    The last of two grids that agree is given; where none of at most MOST_TRIED cells do, the finest
-    one, with a warning.
+    The change c to twice as many cells goes on as a geometric series of the ratio r of the last two
+    changes: c r/(1 - r) remains. Of the first change r is unknown, and half of `error` is allowed.
+    Sides that the contact reaches grow. Where no grid of at most MOST_TRIED cells agrees, the
+    finest one is given, with a warning.
     """
     flat = scene.grid.plane_strain
+    axes = 1 if flat else 2
+    most = MOST if flat else MOST_TRIED
 
     def numbers(cells: list[int]) -> NDArray[np.float64]:
         if flat:
@@ -434,31 +442,53 @@ def _refined(scene: Scene, sides: list[float], n: list[int], error: float, of: N
             warnings.simplefilter("ignore")
             return _numbers(solve(scene.replace(grid=grid), progress=False), of)
 
-    most = MOST if flat else MOST_TRIED
-    before, change = None, math.inf
+    def too_many(cells: list[int]) -> bool:
+        return max(cells) > MOST or math.prod(cells[:axes]) > most
+
+    if too_many([2 * cells for cells in n]):
+        # No finer grid is tried: a coarser one tells what the cells do.
+        n = [max(FEWEST // 2, 2 * math.ceil(cells / 4)) for cells in n]
+    before, change, last, grown = None, math.inf, math.inf, 0
     while True:
         try:
             now = numbers(n)
-        except (OffGridError, InvalidSceneError) as refused:
+        except OffGridError:
+            # Ends and edges are wider than the coarse grid shows.
+            if grown == WIDER_TIMES:
+                raise
+            grown += 1
+            sides = [WIDER * side for side in sides]
+            n = [min(2 * math.ceil(WIDER * cells / 2), MOST) for cells in n]
+            before, change = None, math.inf
+            continue
+        except InvalidSceneError as refused:
             if "cells" not in str(refused):
                 raise
             now = None
         if now is not None and before is not None and now.shape == before.shape:
-            change = float(np.abs(now / before - 1.0).max())
-            if change <= error:
-                return n
+            last, change = change, float(np.abs(now / before - 1.0).max())
+            ratio = change / last if math.isfinite(last) else 0.0
+            left = change * ratio / (1.0 - ratio) if ratio < 1.0 else math.inf
+            allowed = error if math.isfinite(last) else error / 2.0
+            if change <= allowed and left <= error:
+                return sides, n
         finer = [2 * cells for cells in n]
-        if math.prod(finer[: 1 if flat else 2]) > most:
+        if too_many(finer):
             break
         before, n = now, finer
-    if math.isfinite(change):
+    changes = (
+        f"changes by {100 * change:.2g} % from half as many cells to"
+        if math.isfinite(change)
+        else "is not known from another grid to be right on"
+    )
+    if not change <= error / 2.0:
         warnings.warn(
-            f"{NUMBERS[of]} still changes by {100 * change:.2g} % from half as many cells to "
-            f"{n[0]}, more than error = {error:g}: an edge or short waves need more",
+            f"{NUMBERS[of]} still {changes} {n[0]}, where error = {error:g} was asked for: an edge "
+            "or short waves need more cells",
             SceneWarning,
             stacklevel=3,
         )
-    return n
+    return sides, n
 
 
 def _doubt_films(body1: Body, body2: Body, cells: list[float]) -> None:
