@@ -201,6 +201,21 @@ def indented(
     return found
 
 
+def end_point_friction(result: fret.Result) -> Any:
+    """Give the friction work of every increment by the rule of the rows: last shear times slip.
+
+    ``dissipated`` has the mean bound of the increment instead of the last one. In the four
+    increments of the first quarter of a cycle, in which the contact grows, it is 4 % lower.
+    """
+    d = result.dataset
+    area = result.scene.grid.dx * result.scene.grid.dy
+    powers = 0.0
+    for axis in "xy":
+        total = d[f"slip_{axis}"].to_numpy()
+        powers += d[f"q_{axis}"].to_numpy() * np.diff(total, axis=0, prepend=0.0)
+    return area * np.abs(powers.sum(axis=(1, 2)))
+
+
 def fretted(row: dict[str, Any], *, n: int = 48, room: float = 1.3, **changes: Any) -> Compared:
     """Go along the path of a ball that frets."""
     ball = row["ball"]
@@ -223,6 +238,7 @@ def fretted(row: dict[str, Any], *, n: int = 48, room: float = 1.3, **changes: A
         mu=row["friction"],
         grid=fret.Grid.centred(extent=2 * room * a, n=n),
         path=path,
+        settings=fret.Settings(save="all"),
         **changes,
     )
     result = fret.solve(scene, progress=False)
@@ -230,7 +246,7 @@ def fretted(row: dict[str, Any], *, n: int = 48, room: float = 1.3, **changes: A
     most = max(abs(T) for T in row["T"])
     done = {
         "plastic": np.cumsum(result.plastic_work.to_numpy()),
-        "friction": np.cumsum(result.dissipated.to_numpy()),
+        "friction": np.cumsum(end_point_friction(result)),
     }
     columns = (
         ("T", result.T_x.to_numpy(), 0.01 * most),
