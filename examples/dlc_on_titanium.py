@@ -1,7 +1,5 @@
 """An alumina ball on titanium with hard carbon on chromium, under a given shift."""
 
-import matplotlib.pyplot as plt
-
 import pyfret as fret
 
 alumina, titanium = fret.Elastic(E=380e9, nu=0.23), fret.Elastic(E=114e9, nu=0.34)
@@ -18,7 +16,5 @@ print(result.summary())  # states, energy per cycle, energy ratio, stiffness
 below = result.at(-1).stress()  # depths chosen from the layers
 for measure in ("von_mises", "interface_shear"):
     print(measure, below.maximum(measure))
-figure, ((a, b), (c, d)) = plt.subplots(2, 2, figsize=(9.6, 7.6), layout="constrained")
-fret.plot.fretting_loop(result, ax=a), fret.plot.stick_slip(result, ax=b)
-fret.plot.stress_map(below, ax=c), fret.plot.pressure_profile(result, ax=d)
+figure = result.plot(units="SI")  # without units over a_H, p_H and the Hertz approach
 figure.savefig("dlc_on_titanium.png")

@@ -46,15 +46,21 @@ def one_jump(scene: fret.Scene) -> fret.Scene:
 def front_page(results: dict[float, fret.Result], file: Path) -> None:
     """The README's figure: loops of all ratios, and stick and shear for E1/E2 = 2."""
     with fret.plot.style():
-        figure, (loops, zones, shear) = plt.subplots(1, 3, figsize=(10.2, 3.4))
+        figure, (loops, zones, shear) = plt.subplots(1, 3, figsize=(10.2, 3.6))
         for ratio, result in results.items():
-            fret.plot.fretting_loop(result, ax=loops, label=f"$E_1/E_2 = {ratio:g}$")
+            colour = fret.plot.paper.RATIO_COLOURS.get(ratio)
+            fret.plot.fretting_loop(result, ax=loops, label=f"$E_1/E_2 = {ratio:g}$", color=colour)
         loops.legend()
+        loops.set_box_aspect(1.0)
         fret.plot.stick_slip(results[2.0].at(1.0), ax=zones)
         fret.plot.shear_streamlines(results[2.0].at(0.9), ax=shear)
-        loops.set_title("Fretting loops")
-        zones.set_title(r"Stick and slip, $E_1/E_2 = 2$, $t = \tau$")
-        shear.set_title(r"Shear on the coated body, $t = 0.9\,\tau$")
+        # Above the legends of the maps.
+        for ax, title in (
+            (loops, "(a) fretting loops"),
+            (zones, r"(b) $E_1/E_2 = 2$, $t = \tau$"),
+            (shear, r"(c) shear, $E_1/E_2 = 2$, $t = 0.9\,\tau$"),
+        ):
+            ax.set_title(title, pad=18)
         figure.savefig(file, dpi=120)
         plt.close(figure)
 

@@ -24,7 +24,7 @@ from pyfret import plot
 DOCS = Path(__file__).parents[1] / "docs"
 PICTURES = DOCS / "figures" / "plots"
 #: Pixels of a picture for one inch of its figure, the most across, and its colours.
-PIXELS, WIDTH, COLOURS = 110, 900, 64
+PIXELS, WIDTH, COLOURS = 110, 900, 160
 
 #: What is drawn of what, by what a reader looks for.
 FIGURES: dict[str, dict[str, str]] = {
@@ -49,8 +49,8 @@ FIGURES: dict[str, dict[str, str]] = {
         "stress_along_depth": "fret.plot.stress_along_depth(result.at(-1).stress(x=0.0, y=0.0))",
         "section_map": "fret.plot.section_map(result.at(-1).stress().s_xx)",
         "envelope_maps": "fret.plot.envelope_maps(result.envelope(y=0.0))",
-        "stress_history": "fret.plot.stress_history(result.envelope(y=0.0))",
-        "stress_maps": "fret.plot.stress_maps({2.0: result})",
+        "stress_history": "fret.plot.stress_history(rig.envelope(y=0.0))",
+        "stress_maps": "fret.plot.stress_maps(by_ratio)",
     },
     "Bodies that yield": {
         "plastic_zone": "fret.plot.plastic_zone(yielding.at(4))",
@@ -127,7 +127,19 @@ def names() -> dict[str, Any]:
     result = fret.solve(scene, path, save="all", progress=False)
     small = scene.replace(grid=fret.Grid.centred(extent=2.4 * a, n=24))
     bare = small.replace(body2=fret.Body(steel))
-    many = fret.solve(small, pressed.cycles(4, T_x=0.8 * mu * W, increments=4), progress=False)
+    # Friction that rises as the surfaces rub.
+    rising = fret.Friction(mu, history=(fret.History.SLIP, [(0.0, 0.6), (2e-6, 1.2)]))
+    many = fret.solve(
+        small.replace(mu=rising), pressed.cycles(8, delta_x=2.5e-7, increments=8), progress=False
+    )
+    by_ratio = {2.0: result}
+    for ratio in (0.5, 4.0):
+        film = fret.Coating(fret.Elastic(E=ratio * 210e9, nu=0.3), thickness=0.5 * a)
+        by_ratio[ratio] = fret.solve(
+            scene.replace(body2=fret.Body(steel, coatings=film)),
+            pressed.cycles(1, T_x=0.8 * mu * W, increments=8),
+            progress=False,
+        )
 
     titanium = fret.material("titanium_6Al4V")
     line = fret.Scene(
@@ -150,7 +162,8 @@ def names() -> dict[str, Any]:
     hot = fret.solve(bare, slid, save="all", progress=False).temperature(
         table["titanium_6Al4V"], table["titanium_6Al4V"], frequency=60.0
     )
-    wide = bare.replace(grid=fret.Grid.centred(extent=4.5 * a, n=32))
+    wearing = fret.Friction(mu, history=(fret.History.CYCLES, [(0.0, 1.0), (2e4, 1.5)]))
+    wide = bare.replace(grid=fret.Grid.centred(extent=4.5 * a, n=32), mu=wearing)
     worn = fret.wear.solve(
         wide,
         path=pressed.cycles(1, delta_x=4e-6, increments=8),
@@ -161,8 +174,8 @@ def names() -> dict[str, Any]:
     study = fret.study.solve(
         small.replace(path=pressed.cycles(1, T_x=0.5 * mu * W, increments=2)),
         {
-            "body2.coatings.0.thickness": (a * np.geomspace(0.1, 1.0, 4)).tolist(),
-            "body2.coatings.0.E": [1e11, 2e11, 3e11, 4e11],
+            "body2.coatings.0.thickness": (a * np.geomspace(0.1, 1.0, 6)).tolist(),
+            "body2.coatings.0.E": [1e11, 1.5e11, 2e11, 2.5e11, 3e11, 4e11],
         },
         measure="loop_energy",
         executor=1,
@@ -172,8 +185,8 @@ def names() -> dict[str, Any]:
     stopping = fret.study.arrest_map(
         line,
         W=4e5,
-        T=np.linspace(2e4, 2.2e5, 5),
-        sigma_B=np.linspace(0.0, 3.5e8, 5),
+        T=np.linspace(2e4, 2.2e5, 9),
+        sigma_B=np.linspace(0.0, 3.5e8, 8),
         arrest=fret.study.Arrest(threshold),
     )
     nitride = fret.Coating(fret.Elastic(E=450e9, nu=0.25), thickness=2e-5)
@@ -183,8 +196,8 @@ def names() -> dict[str, Any]:
     first = fret.study.solve(
         line.replace(body2=fret.Body(titanium, coatings=nitride), path=pulled, save="all"),
         {
-            "friction.mu": [0.3, 0.5, 0.7, 0.9],
-            "body2.coatings.0.thickness": [1e-5, 2e-5, 4e-5, 6e-5],
+            "friction.mu": [0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9],
+            "body2.coatings.0.thickness": [1e-5, 1.6e-5, 2.5e-5, 4e-5, 6.3e-5],
         },
         measure=fret.study.FirstToFail(
             toughness=90.0,
@@ -198,7 +211,7 @@ def names() -> dict[str, Any]:
         progress=False,
     ).dataset
     running = fret.study.running_conditions(
-        bare, W=np.linspace(3, W, 4), delta=np.linspace(0.1e-6, 1.2e-6, 5), executor=1
+        bare, W=np.linspace(2, W, 5), delta=np.geomspace(0.05e-6, 1.2e-6, 6), executor=1
     )
     coated = fret.Body(titanium, coatings=nitride)
     compared = fret.compare(
@@ -218,6 +231,7 @@ def names() -> dict[str, Any]:
         "result": result,
         "yielding": yielding(),
         "many": many,
+        "by_ratio": by_ratio,
         "rig": rig,
         "life": life,
         "lengths": np.geomspace(5e-6, 1e-4, 9),
@@ -241,7 +255,9 @@ def picture(drawn: Any, place: Path) -> None:
     file = io.BytesIO()
     figure.savefig(file, dpi=min(PIXELS, WIDTH / figure.get_size_inches()[0]))
     plt.close(figure)
-    Image.open(file).convert("RGB").quantize(COLOURS).save(place, optimize=True)
+    # Colours of few pixels, such as those of marks, are kept.
+    few = Image.open(file).convert("RGB").quantize(COLOURS, method=Image.Quantize.MAXCOVERAGE)
+    few.save(place, optimize=True)
 
 
 def summary(name: str) -> str:

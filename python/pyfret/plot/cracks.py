@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 
 from pyfret._util.door import numbers_only
 from pyfret.plot.style import axes, styled
@@ -80,9 +80,13 @@ def intensity_history(cracks: Cracks, length: float, *, ax: Axes | None = None) 
     ax.plot([], [], color="0.3", linewidth=0.5, label="faces that pass through each other")
     ax.axhline(0.0, color="0.7", linewidth=0.5, zorder=0)
     ax.set_title(rf"$l = {float(one.length) * MICRO:.3g}$ µm")
+    ax.xaxis.set_major_locator(MaxNLocator(6, integer=True))
     ax.set_xlabel("increment")
     ax.set_ylabel(r"$K$ [MPa m$^{1/2}$]")
-    ax.legend()
+    # Room for the legend above the curves.
+    low, high = ax.get_ylim()
+    ax.set_ylim(low, high + 0.32 * (high - low))
+    ax.legend(loc="upper center", ncols=2)
     return ax
 
 
@@ -148,7 +152,7 @@ def kitagawa(cracks: Cracks, threshold: Threshold, *, ax: Axes | None = None) ->
     lengths = found.length * MICRO
     load = found["load"].where(found["load"] > 0.0)
     ax.plot(lengths, load * MEGA, color="C0", label="load")
-    ax.plot(lengths, found["limit"] * MEGA, color="k", label="limit")
+    ax.plot(lengths, found["limit"] * MEGA, "k--", label="limit")
     if threshold.dS_0 is not None:
         ax.axhline(threshold.dS_0 * MEGA, color="0.6", linestyle=":", label=r"$\Delta\sigma_0$")
     ax.set_xscale("log")

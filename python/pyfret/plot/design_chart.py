@@ -5,17 +5,17 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
-from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
 
 from pyfret.fracture.first import PARTS
+from pyfret.plot.areas import Raster
 from pyfret.plot.parameters import parameter_label
 from pyfret.plot.style import axes, styled
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
+    from matplotlib.patches import Patch
 
 __all__ = ["design_chart"]
 
@@ -38,6 +38,7 @@ def design_chart(
     """Film, interface or substrate: what fails first over two parameters of a study.
 
     Areas by what is loaded most over its limit; lines where each of the three reaches its own.
+    Between the points of the study the loads are interpolated.
 
     Parameters
     ----------
@@ -57,25 +58,21 @@ def design_chart(
     if labels is not None:
         names, units = labels, (1.0, 1.0)
     at_x, at_y = table[x].values / units[0], table[y].values / units[1]
-    first = table["first"].values
-    colours = ListedColormap([colour for _, colour in FIRST.values()])
-    norm = BoundaryNorm(np.arange(-0.5, 4.0), colours.N)
-    ax.pcolormesh(
-        at_x, at_y, np.ma.masked_invalid(first), cmap=colours, norm=norm, shading="nearest"
-    )
-    entries: list[Patch | Line2D] = [
-        Patch(facecolor=colour, edgecolor="0.6", label=name)
-        for n, (name, colour) in FIRST.items()
-        if n in first
-    ]
+    raster = Raster(at_x, at_y)
+    loads = np.array([raster.of(table[name].values) for name in PARTS])
+    known = np.isfinite(loads)
+    worst = np.where(known, loads, -np.inf)
+    first = np.where(worst.max(axis=0) >= 1.0, 1.0 + worst.argmax(axis=0), 0.0)
+    first[~known.any(axis=0)] = np.nan
+    entries: list[Patch | Line2D] = [*raster.draw(ax, first, FIRST)]
     for name, style in zip(PARTS, STYLES, strict=True):
-        load = np.ma.masked_invalid(table[name].values)
-        if min(load.shape) > 1 and load.count() and load.min() < 1.0 < load.max():
-            ax.contour(at_x, at_y, load, levels=[1.0], colors="0.2", linestyles=style)
+        load = table[name].values
+        if min(load.shape) > 1 and np.nanmin(load) < 1.0 < np.nanmax(load):
+            fine = raster.of(load)
+            ax.contour(raster.x, raster.y, fine, levels=[1.0], colors="0.2", linestyles=style)
             label = f"limit of the {name}"
             entries.append(Line2D([], [], color="0.2", linestyle=style, label=label))
     ax.set_xlabel(names[0])
     ax.set_ylabel(names[1])
-    ax.grid(visible=False)
     ax.legend(handles=entries, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2)
     return ax

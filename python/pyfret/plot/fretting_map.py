@@ -2,31 +2,38 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
-from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
+from matplotlib.ticker import MaxNLocator
 
+from pyfret.plot.areas import Raster
 from pyfret.plot.stresses import COLOURS
-from pyfret.plot.studies import in_figures
-from pyfret.plot.style import axes, styled
+from pyfret.plot.studies import in_figures, whole_labels
+from pyfret.plot.style import axes, beside, styled
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
+    from matplotlib.patches import Patch
     from numpy.typing import NDArray
 
 #: Running conditions by the codes of ``status``, each with its colour.
 CONDITIONS = {0: ("no contact", "#ffffff"), 1: ("full stick", "#9ecae1")}
 CONDITIONS |= {2: ("partial slip", "#deebf7"), 3: ("gross slip", "#fdd0a2")}
+#: What becomes of a crack.
+FATES = {0: ("no growth", "#ffffff"), 1: ("stops", "#9ecae1"), 2: ("grows", "#fdd0a2")}
 #: Axes of the map: factor and label.
 AXES = {"T": (1.0, r"$T$"), "delta": (1e6, r"$\delta$ [µm]")}
 #: Lives whose contours are drawn [cycles], and the levels of safety factors.
+SLIDES, PARTIAL = 3, 2
 LIVES = 10.0 ** np.arange(3, 10)
 FACTORS = np.array([0.3, 0.5, 1.0, 2.0, 4.0])
 CRACK, ENERGY, ARREST = "#a50f15", "0.35", "#08519c"
+#: Where no static solution exists.
+UNSOLVED = "0.85"
 #: Lengths of stopped cracks whose contours are drawn [µm].
 LENGTHS = np.array([10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0])
 
@@ -53,25 +60,52 @@ def fretting_map(table: xr.Dataset, *, ax: Axes | None = None) -> Axes:
     scale, label = AXES[driven]
     table = table.transpose(driven, "W", ...)
     W, amplitude = table.W.values, table[driven].values * scale
-    status = table.status.values
-    colours = ListedColormap([colour for _, colour in CONDITIONS.values()])
-    norm = BoundaryNorm(np.arange(-0.5, 4.0), colours.N)
-    ax.pcolormesh(W, amplitude, status, cmap=colours, norm=norm, shading="nearest", zorder=0)
-    entries: list[Patch | Line2D] = [
-        Patch(color=c, label=name) for n, (name, c) in CONDITIONS.items() if n in status
-    ]
+    raster = Raster(W, amplitude)
+    entries: list[Patch | Line2D] = [*raster.draw(ax, conditions(table, raster, scale), CONDITIONS)]
     energy, meaning = in_figures(table.dissipated)
     entries += lines(ax, W, amplitude, energy.values, None, ENERGY, "dashed", meaning)
     for name, levels in (("safety_factor", FACTORS), ("life", LIVES)):
         if name in table:
             meaning = {"safety_factor": "safety factor", "life": "life [cycles]"}[name]
             entries += lines(ax, W, amplitude, table[name].values, levels, CRACK, "solid", meaning)
-    entries += arrest_lines(ax, W, amplitude, table)
+    entries += arrest_lines(ax, raster, table)
     ax.set_xlabel(f"$W$ [{force_unit(table)}]")
     ax.set_ylabel(label if driven == "delta" else f"{label} [{force_unit(table)}]")
-    ax.grid(visible=False)
     ax.legend(handles=entries, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2)
     return ax
+
+
+def onset(table: xr.Dataset, raster: Raster, scale: float) -> NDArray[np.float64] | None:
+    """The amplitude of gross slip along the raster: a power of W between the forces."""
+    if "slides_from" not in table or not (table.slides_from > 0.0).all():
+        return None
+    W, limit = table.W.values, table.slides_from.values * scale
+    order = np.argsort(W)
+    return np.asarray(np.exp(np.interp(np.log(raster.x), np.log(W[order]), np.log(limit[order]))))
+
+
+def conditions(table: xr.Dataset, raster: Raster, scale: float) -> NDArray[np.float64]:
+    """Running conditions on the raster: gross slip above its onset, those of samples below it."""
+    status = table.status.values
+    codes = raster.nearest(status).astype(float)
+    limit = onset(table, raster, scale)
+    if limit is None:
+        return codes
+    below = [column[column < SLIDES] for column in status.T]
+    # A force that slides under the least amplitude is in partial slip below that.
+    least = np.array([column[-1] if column.size else PARTIAL for column in below])
+    under = raster.nearest(np.where(status == SLIDES, least, status)).astype(float)
+    return np.where(raster.y[:, None] >= limit, float(SLIDES), under)
+
+
+def carried(field: NDArray[Any], order: NDArray[np.int_]) -> NDArray[np.float64]:
+    """A field over (amplitude, W) whose last value of every column goes on to larger amplitudes."""
+    out = np.array(field[order], dtype=float)
+    for below, row in pairwise(out):
+        row[np.isnan(row)] = below[np.isnan(row)]
+    back = np.empty_like(out)
+    back[order] = out
+    return back
 
 
 def force_unit(table: xr.Dataset) -> str:
@@ -99,20 +133,22 @@ def lines(
     drawn = ax.contour(
         W, amplitude, shown, colors=colour, linestyles=style, linewidths=widths, **given
     )
-    ax.clabel(drawn, fontsize=7, fmt="%g")
+    whole_labels(ax, ax.clabel(drawn, fontsize=7, fmt="%g"))
     return [Line2D([], [], color=colour, linestyle=style, linewidth=1.0, label=meaning)]
 
 
-def arrest_lines(
-    ax: Axes, x: NDArray[Any], y: NDArray[Any], table: xr.Dataset, colour: str = ARREST
-) -> list[Line2D]:
+def arrest_lines(ax: Axes, raster: Raster, table: xr.Dataset, colour: str = ARREST) -> list[Line2D]:
     """Contours of the length at which cracks stop, and the line beyond which none does."""
     if "arrest_margin" not in table:
         return []
-    length = table.arrest_length.values * 1e6
+    x, y = raster.x, raster.y
+    length = raster.of(table.arrest_length.values * 1e6)
+    if "start_margin" in table:
+        # A crack that does not grow stops nowhere.
+        length = np.where(raster.of(table.start_margin.values) < 1.0, np.nan, length)
     meaning = "crack stops at [µm]"
     entries = lines(ax, x, y, length, LENGTHS, colour, "dotted", meaning)
-    margin = np.ma.masked_invalid(table.arrest_margin.values)
+    margin = np.ma.masked_invalid(raster.of(table.arrest_margin.values))
     if min(margin.shape) > 1 and margin.min() < 1.0 < margin.max():
         ax.contour(x, y, margin, levels=[1.0], colors=colour, linestyles="dotted", linewidths=2.2)
         line = Line2D([], [], color=colour, linestyle="dotted", linewidth=2.2)
@@ -138,30 +174,21 @@ def arrest_map(table: xr.Dataset, *, ax: Axes | None = None) -> Axes:
     ax = axes(ax)
     table = table.transpose("T", "sigma_B")
     bulk, T = table.sigma_B.values / 1e6, table["T"].values / 1e3
-    margin, length = table.arrest_margin.values, table.arrest_length.values
-    shortest = np.nanmin(length) if np.isfinite(length).any() else np.nan
-    fate = np.where(margin >= 1.0, 2.0, np.where(length <= shortest, 0.0, 1.0))
-    fate[np.isnan(margin)] = np.nan
-    names = ("no growth", "stops", "grows")
-    colours = ListedColormap(["#ffffff", "#9ecae1", "#fdd0a2"])
-    norm = BoundaryNorm(np.arange(-0.5, 3.0), colours.N)
-    ax.pcolormesh(bulk, T, np.ma.masked_invalid(fate), cmap=colours, norm=norm, shading="nearest")
-    entries: list[Patch | Line2D] = [
-        Patch(facecolor=colours(n), edgecolor="0.6", label=name)
-        for n, name in enumerate(names)
-        if n in fate
-    ]
+    raster = Raster(bulk, T)
+    start, most = (raster.of(table[name].values) for name in ("start_margin", "arrest_margin"))
+    fate = np.where(start < 1.0, 0.0, np.where(most < 1.0, 1.0, 2.0))
+    fate[np.isnan(most)] = np.nan
+    entries: list[Patch | Line2D] = [*raster.draw(ax, fate, FATES)]
     for name, levels, meaning in (
         ("safety_factor", FACTORS, "safety factor of initiation"),
         ("life", LIVES, "cycles to initiation"),
     ):
         if name in table:
             entries += lines(ax, bulk, T, table[name].values, levels, CRACK, "solid", meaning)
-    entries += arrest_lines(ax, bulk, T, table)
+    entries += arrest_lines(ax, raster, table)
     ax.set_xlabel(r"bulk stress $\sigma_\mathrm{B}$ [MPa]")
     unit = str(table["T"].attrs.get("units", "N"))
     ax.set_ylabel(f"$T$ [k{unit}]")
-    ax.grid(visible=False)
     ax.legend(handles=entries, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2)
     return ax
 
@@ -171,34 +198,36 @@ def running_map(table: xr.Dataset, *, ax: Axes | None = None) -> Axes:
     r"""Running conditions over W and the amplitude of T or of the shift, from the sweep.
 
     Coloured by the energy ratio, which tells gross slip (0.2 and more) from partial slip. Over
-    shifts a line parts them by the status; over forces it is grey where there is no static
-    solution, above the dashed line :math:`T = \mu W`. With `arrest` in the sweep dotted lines are
+    shifts a line parts them; over forces it is grey where there is no static solution, above the
+    dashed line :math:`T = \mu W`. With `arrest` in the sweep dotted lines are
     the lengths at which cracks stop, and a thick one begins where none does.
     """
     ax = axes(ax)
     driven = "T" if "T" in table.dims else "delta"
     scale, label = AXES[driven]
+    table = table.transpose(driven, "W", ...)
     W, amplitude = table.W.values, table[driven].values * scale
-    ratio = table.energy_ratio.transpose(driven, "W").values
-    slides = table.status.transpose(driven, "W").values == 3
-    image = ax.pcolormesh(
-        W, amplitude, np.ma.masked_invalid(ratio), cmap=COLOURS, shading="nearest"
-    )
-    unsolved = np.ma.masked_where(np.isfinite(ratio), np.ones_like(ratio))
-    ax.pcolormesh(W, amplitude, unsolved, cmap="Greys", vmin=0, vmax=3, shading="nearest")
-    bar = ax.get_figure().colorbar(image, ax=ax)  # type: ignore[union-attr]
-    bar.set_label("energy ratio")
-    limits = ax.get_xlim(), ax.get_ylim()
-    if driven == "delta" and slides.any() and not slides.all():
-        ax.contour(W, amplitude, slides, levels=[0.5], colors="0.2", linewidths=1.0)
+    raster = Raster(W, amplitude)
+    limit = onset(table, raster, scale)
+    # Nothing is solved where a force slides: the ratio of the last one that does not.
+    ratio = carried(table.energy_ratio.values, np.argsort(amplitude))
+    fine = np.ma.masked_invalid(raster.of(ratio))
+    gross = conditions(table, raster, scale) == SLIDES
     if driven == "T":
-        ends = np.array([0.0, W.max() * 1.1])
-        ax.plot(ends, table.attrs["mu"] * ends, color="0.2", linestyle="--", linewidth=0.9)
-    entries = arrest_lines(ax, W, amplitude, table.transpose(driven, "W"))
+        raster.draw(ax, np.where(gross, 1.0, np.nan), {1: ("", UNSOLVED)})
+        fine = np.ma.masked_where(gross, fine)
+    steps = MaxNLocator(10).tick_values(float(fine.min()), float(fine.max()))
+    image = ax.contourf(raster.x, raster.y, fine, levels=steps, cmap=COLOURS)
+    beside(ax, image, "energy ratio")
+    if limit is not None:
+        ax.plot(raster.x, limit, color="0.2", linestyle="-" if driven == "delta" else "--")
+    elif gross.any() and not gross.all():
+        ax.contour(raster.x, raster.y, gross, levels=[0.5], colors="0.2", linewidths=1.0)
+    entries = arrest_lines(ax, raster, table)
     if entries:
         ax.legend(handles=entries, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2)
-    ax.set_xlim(*limits[0])
-    ax.set_ylim(*limits[1])
+    ax.set_xlim(raster.x[0], raster.x[-1])
+    ax.set_ylim(raster.y[0], raster.y[-1])
     ax.set_xlabel(f"$W$ [{force_unit(table)}]")
     ax.set_ylabel(label if driven == "delta" else f"{label} [{force_unit(table)}]")
     ax.grid(visible=False)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from pyfret.plot.scales import Units, scales
-from pyfret.plot.style import axes, styled
+from pyfret.plot.style import axes, beside, styled
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -19,6 +19,8 @@ NAMES = {
     "largest": "largest temperature",
     "flash": "largest less mean temperature",
 }
+#: Relative difference of temperatures that a figure cannot show.
+SAME = 1e-3
 
 
 def _degrees(found: xr.Dataset) -> str:
@@ -45,14 +47,14 @@ def temperature(found: xr.Dataset, *, units: Units = "auto", ax: Axes | None = N
     length = scales(found.attrs, units).length
     cut = found.sel(y=found.attrs["maximum_y"])
     for name, shown, colour in (("largest", "largest", "C1"), ("steady", "mean", "C0")):
-        for body, style in ((1, "-"), (2, "--")):
-            ax.plot(
-                cut.x / length.value,
-                cut[name].sel(body=body),
-                color=colour,
-                linestyle=style,
-                label=f"{shown}, body {body}",
-            )
+        first, second = (cut[name].sel(body=body).values for body in (1, 2))
+        # One line where both are as hot.
+        same = bool(np.allclose(first, second, rtol=SAME, atol=0.0))
+        curves = [(first, "-", "both bodies" if same else "body 1")]
+        curves += [] if same else [(second, "--", "body 2")]
+        for values, style, body in curves:
+            label = f"{shown}, {body}"
+            ax.plot(cut.x / length.value, values, color=colour, linestyle=style, label=label)
     ax.legend()
     ax.set_xlabel(length.label("x"))
     ax.set_ylabel(rf"${_degrees(found)}$ [K]")
@@ -98,7 +100,5 @@ def temperature_map(
     ax.plot(*place, marker="x", color="0.1", markersize=5)
     ax.set_xlabel(length.label("x"))
     ax.set_ylabel(length.label("y"))
-    bar = ax.get_figure().colorbar(drawn, ax=ax, shrink=0.9, pad=0.02)  # type: ignore[union-attr]
-    bar.outline.set_visible(False)
-    bar.set_label(rf"{NAMES[of]} of body {body_number} [K]")
+    beside(ax, drawn, rf"{NAMES[of]} of body {body_number} [K]")
     return ax

@@ -16,7 +16,17 @@ from pyfret._util.depths import interfaces, thin
 from pyfret.plot.depth_axis import stretch as stretch_axis
 from pyfret.plot.scales import scales
 from pyfret.plot.stresses import COLOURS, FLAT, section_size
-from pyfret.plot.style import MARK, REFERENCE, STICK, axes, inside_legend, mark, note, styled
+from pyfret.plot.style import (
+    MARK,
+    REFERENCE,
+    STICK,
+    axes,
+    beside,
+    inside_legend,
+    mark,
+    note,
+    styled,
+)
 from pyfret.subsurface.line import line_of
 
 if TYPE_CHECKING:
@@ -37,6 +47,9 @@ NAMES = dict(_core.criteria())
 NO_MATERIAL: dict[str, Any] = {"fc": "white", "ec": "0.75", "hatch": "///", "lw": 0.0}
 #: Part of a limit below which a number is one of rounding.
 NOTHING = 1e-9
+#: Part of the largest value above which a place is shown, and the largest part of a section in
+#: either direction that is enlarged.
+HALF, SMALL = 0.5, 0.5
 #: Colour of what is not judged.
 UNJUDGED = "0.9"
 #: Lives beyond this are drawn as endless [cycles].
@@ -60,6 +73,7 @@ def criterion_map(
     units: Units = "auto",
     levels: int = 12,
     stretch: bool | None = None,
+    whole: bool = False,
     ax: Axes | None = None,
 ) -> Axes:
     """Contours of a criterion on a section, with the worst point and its margin.
@@ -78,6 +92,9 @@ def criterion_map(
         Number of contours, about.
     stretch : bool, optional
         Whether every layer gets room on the axis of depth (default: if one is too thin to be seen).
+    whole : bool
+        Whether the whole section is shown. By default a worst place that takes less than half of it
+        in both directions is enlarged: where the criterion reaches half of its largest value.
     ax : matplotlib Axes, optional
         Where to draw.
     """
@@ -87,6 +104,8 @@ def criterion_map(
     field, label = _shown(life)
     shown = life.dataset.value.copy(data=field).assign_attrs(life.dataset.attrs)
     ax = _contours(shown, label, units, levels, ax, stretch=stretch, limit=1.0 if safety else None)
+    if not whole:
+        _enlarge(ax, shown, life.dataset.value.values, units)
     at = (line_of(shown).place(worst.x, worst.y), worst.z)
     _mark(ax, at, f"worst point: {margin}", shown, units, lives=not safety)
     return ax
@@ -100,6 +119,7 @@ def load_factor_map(
     units: Units = "auto",
     levels: int = 12,
     stretch: bool | None = None,
+    whole: bool = False,
     ax: Axes | None = None,
 ) -> Axes:
     """Contours of load over limit on a section, with the least load factor and its place.
@@ -112,7 +132,7 @@ def load_factor_map(
         From :meth:`Result.load_factors`.
     of : "von_mises", "tresca" or "shakedown"
         First yield by one of the conditions, or shakedown.
-    units, levels, stretch, ax
+    units, levels, stretch, whole, ax
         As in :func:`criterion_map`.
     """
     least = factors.least(of)
@@ -120,6 +140,8 @@ def load_factor_map(
     name = {"von_mises": "First yield, von Mises", "tresca": "First yield, Tresca"}
     label = f"{name.get(of, 'Shakedown')}: load over limit"
     ax = _contours(shown, label, units, levels, ax, stretch=stretch, limit=1.0)
+    if not whole:
+        _enlarge(ax, shown, shown.values, units)
     at = (line_of(shown).place(least.x, least.y), least.z)
     _mark(ax, at, f"least factor {least.factor:.3g}", shown, units)
     return ax
@@ -162,15 +184,34 @@ def _contours(
     ax.set_xlim(x[0], x[-1])
     ax.set_ylim(z[-1], z[0])
     if image is not None:
-        bar = ax.get_figure().colorbar(image, ax=ax, shrink=0.9, pad=0.02)  # type: ignore[union-attr]
-        bar.outline.set_visible(False)
-        bar.set_label(label)
+        beside(ax, image, label)
     ax.set_xlabel(length.label(along))
     ax.set_ylabel(length.label("z"))
     flat = x[-1] - x[0] > FLAT * (z[-1] - z[0])
     ax.set_aspect("auto" if stretch or flat else "equal")
     ax.grid(visible=False)
     return ax
+
+
+def _enlarge(ax: Axes, shown: xr.DataArray, value: NDArray[np.float64], units: Units) -> None:
+    """Show the surroundings of the values above half of the largest, if they are few."""
+    if not np.nanmax(value, initial=0.0) > 0.0:
+        return
+    length = scales(shown.attrs, units).length
+    near = np.nan_to_num(value) >= HALF * np.nanmax(value)
+    places = [shown[str(shown.dims[1])].values / length.value, shown.z.values / length.value]
+    spans = []
+    for at, here in zip(places, (near.any(axis=0), near.any(axis=1)), strict=True):
+        low, high = float(at[here].min()), float(at[here].max())
+        # A margin of their own size, of three points at least.
+        room = max(high - low, 3.0 * float(np.ptp(at)) / at.size)
+        spans.append((max(low - room, float(at[0])), min(high + room, float(at[-1]))))
+    part = [(high - low) / float(np.ptp(at)) for (low, high), at in zip(spans, places, strict=True)]
+    if max(part) > SMALL:
+        return
+    ax.set_xlim(*spans[0])
+    ax.set_ylim(spans[1][1], spans[1][0])
+    ax.set_aspect("auto")
 
 
 def _filled(
@@ -277,7 +318,12 @@ def critical_plane_rose(stress: ArrayLike, criterion: fatigue.Criterion) -> Axes
         [at, at + np.pi], [share * reach] * 2, color=MARK, linewidth=1.6, label="critical normal"
     )
     ax.set_rmax(reach)  # type: ignore[attr-defined]
-    ax.set_rlabel_position(67.5)  # type: ignore[attr-defined]
+    # The numbers of the radius where the curves are nearest to the middle.
+    outer = np.maximum(s_n, tau) + np.where(np.abs(np.sin(angle - at)) < 0.2, reach, 0.0)
+    free = float(np.degrees(angle[int(outer.argmin())]))
+    ax.set_rlabel_position(free)  # type: ignore[attr-defined]
+    ax.set_xticks(np.radians([0, 45, 90, 135, 180, 225, 270, 315]))
+    ax.set_xticklabels(["x", "45°", "z", "135°", "-x", "225°", "-z", "315°"])
     ax.set_title(
         f"{NAMES[criterion.name]}, normal {np.degrees(at):.1f}° from x towards z", fontsize=9
     )

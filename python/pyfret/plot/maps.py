@@ -17,11 +17,9 @@ from pyfret.plot.along import (
     zones_along,
 )
 from pyfret.plot.scales import MICRO, Scale, Units, last_of, of_snapshot
-from pyfret.plot.style import SLIP, STICK, axes, styled
+from pyfret.plot.style import SLIP, STICK, axes, beside, styled
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from matplotlib.axes import Axes
     from matplotlib.image import AxesImage
     from numpy.typing import NDArray
@@ -150,7 +148,7 @@ def pressure_map(
         return field_along(ax, snapshot, shown_p, by.stress.label("p"), by.length)
     ax, drawn = field_map(ax, snapshot, values, by.stress, by.length, **{"vmin": 0, **image})
     if colorbar:
-        label_scale(ax.get_figure(), drawn, ax, by.stress.label("p"))
+        label_scale(drawn, ax, by.stress.label("p"))
     return ax
 
 
@@ -181,7 +179,7 @@ def slip_map(
     look = {"vmin": 0, "vmax": largest or None, **image}
     ax, drawn = field_map(ax, snapshot, slip, MICRO, by.length, **look)
     if colorbar:
-        label_scale(ax.get_figure(), drawn, ax, MICRO.label("|s|"))
+        label_scale(drawn, ax, MICRO.label("|s|"))
     return ax
 
 
@@ -222,7 +220,7 @@ def shear_streamlines(
     size = np.hypot(q_x, q_y)
     ax, image = field_map(ax, snapshot, size, by.shear, by.length, vmin=0, vmax=largest, alpha=0.75)
     if colorbar:
-        label_scale(ax.get_figure(), image, ax, by.shear.label("|q|"))
+        label_scale(image, ax, by.shear.label("|q|"))
     limits = ax.get_xlim(), ax.get_ylim()
     x, y = (d[k].values / by.length.value for k in ("x", "y"))
     if min(size.shape) > 1 and np.nanmax(size, initial=0.0) > 0.0:
@@ -231,18 +229,16 @@ def shear_streamlines(
     both = contact.any() and np.nanmin(stick) < np.nanmax(stick)
     if min(size.shape) > 1 and both:
         ax.contour(x, y, stick.T, levels=[0.5], colors=[STICK], linewidths=1.2)
+        ax.plot([], [], color=STICK, linewidth=1.2, label="edge of the stick zone")
+        ax.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), borderpad=0.1)
     ax.set_xlim(*limits[0])
     ax.set_ylim(*limits[1])
     return ax
 
 
-def label_scale(
-    figure: Any, image: AxesImage, ax: Axes | Sequence[Axes], label: str = r"$|q|/(\mu\, p_H)$"
-) -> None:
+def label_scale(image: AxesImage, ax: Axes, label: str) -> None:
     """Draw the colour scale of `image` beside `ax`."""
     values: Any = np.ma.masked_invalid(np.ma.asarray(image.get_array()))
     largest = image.get_clim()[1]
     extend = "max" if largest is not None and values.max() > largest else "neither"
-    bar = figure.colorbar(image, ax=ax, shrink=0.85, pad=0.02, extend=extend)
-    bar.set_label(label)
-    bar.outline.set_visible(False)
+    beside(ax, image, label, extend=extend)

@@ -44,14 +44,17 @@ def overview(shown: Run | State, *, units: Units = "auto") -> Figure:
     figure, grid = plt.subplots(2, 3, figsize=(11.8, 7.0))
     apart(figure)
     first, second, third, fourth, fifth, sixth = grid.ravel()
-    _history(shown, first, units)
+    names = ["", "tractions", "pressure", "shear", "stick and slip", "stress"]
+    names[0] = _history(shown, first, units)
     _tractions(second, at, by)
     if at.scene.grid.plane_strain:
+        names[1:5] = "tractions", "stick and slip", "slip", "stick area"
         stick_slip(at, units=units, ax=third)
         slip_map(at, units=units, ax=fourth)
         if isinstance(shown, Run):
             stick_ratio(shown, ax=fifth)
         else:
+            names[4] = "shear"
             shear_streamlines(at, units=units, ax=fifth)
     else:
         pressure_map(at, units=units, ax=third)
@@ -62,25 +65,28 @@ def overview(shown: Run | State, *, units: Units = "auto") -> Figure:
     else:
         sixth.set_axis_off()
         note(sixth, "the lower body is rigid" if at.contact.any() else "no contact")
+    for ax, letter, name in zip(grid.ravel(), "abcdef", names, strict=True):
+        ax.set_title(f"({letter}) {name}")
     title = literal(at.dataset.attrs["title"])
     when = f"increment {int(at.dataset.increment)}, t = {float(at.dataset.t):.4g}"
     figure.suptitle(f"{title}: {when}" if title else when, x=0.01, ha="left", fontsize=9)
     return figure
 
 
-def _history(shown: Run | State, ax: Axes, units: Units) -> None:
-    """The loop of a run; its loads, where it only presses; the slip of an increment."""
+def _history(shown: Run | State, ax: Axes, units: Units) -> str:
+    """The loop of a run; its loads, where it only presses; the slip of an increment: its name."""
     if not isinstance(shown, Run):
         if shown.scene.grid.plane_strain:
             shear_streamlines(shown, units=units, ax=ax)
-        else:
-            slip_map(shown, units=units, ax=ax)
-        return
+            return "shear"
+        slip_map(shown, units=units, ax=ax)
+        return "slip"
     force = {"x": "T_x", "y": "T_y", "torsion": "M_z"}[driven(shown.scene.path)]
     if np.any(shown.dataset[force].values):
         fretting_loop(shown, units=units, ax=ax)
-    else:
-        load_path(shown, ax=ax)
+        return "loop"
+    load_path(shown, ax=ax)
+    return "loads"
 
 
 def _tractions(ax: Axes, at: State, by: Scales) -> None:
@@ -98,4 +104,4 @@ def _tractions(ax: Axes, at: State, by: Scales) -> None:
     look_along(ax, at, by.length, line, fresh=True)
     ax.set_xlabel(by.length.label(line.along))
     ax.set_ylabel(f"traction [{by.stress.name}]" if by.stress.is_unit else r"traction over $p_H$")
-    ax.legend(loc="upper right", ncols=3, bbox_to_anchor=(1.0, 1.12), borderpad=0.1)
+    ax.legend(loc="upper right", ncols=3, bbox_to_anchor=(1.02, 1.12), borderpad=0.1)

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from pyfret.run import Run, State
 
 #: Line of each ratio E1/E2 wherever several share the axes.
-COLOURS = {0.5: "#0072B2", 1.0: "#000000", 2.0: "#D55E00", 4.0: "#009E73"}
+RATIO_COLOURS = {0.5: "#0072B2", 1.0: "#000000", 2.0: "#D55E00", 4.0: "#009E73"}
 
 
 def name(ratio: float) -> str:
@@ -44,7 +44,7 @@ def loading_history(result: Run, jump: Run) -> Figure:
     ends = result.dataset.branch_of_increment.values
     indented = int(np.flatnonzero(ends == ends[0])[-1]) + 1
     curves: list[tuple[State, str, dict[str, Any]]] = [
-        (result.at(indented), f"{indented} increments", {"color": COLOURS[2.0]}),
+        (result.at(indented), f"{indented} increments", {"color": RATIO_COLOURS[2.0]}),
         (jump.at(-1), "one increment", {"color": "0.25", "linestyle": "--"}),
     ]
     for run, label, line in curves:
@@ -102,7 +102,17 @@ def streamlines(results: Mapping[float, Run], times: tuple[float, ...]) -> Figur
         shear_streamlines(snapshot, ax=ax, largest=largest, colorbar=False)
         ax.set_title(rf"({letter})  {name(ratio)},  $t = {t:g}\,\tau$")
         ax.label_outer()
-    label_scale(figure, row[0][0].images[0], list(row[0]))
+        # One for all panels, which keep the line for their titles.
+        if (legend := ax.get_legend()) is not None:
+            legend.remove()
+    entries = {
+        text: line
+        for ax in row[0]
+        for line, text in zip(*ax.get_legend_handles_labels(), strict=True)
+    }
+    if entries:
+        figure.legend(list(entries.values()), list(entries), loc="outside lower center")
+    label_scale(row[0][0].images[0], row[0][-1], r"$|q|/(\mu\, p_H)$")
     return figure
 
 
@@ -111,11 +121,32 @@ def tau(result: Run) -> float:
     return float(result.dataset.t[-1])
 
 
+def stick_areas(results: Mapping[float, Run]) -> Figure:
+    """Figure 11: the stick area of every ratio, and beside it how far it is from that of 1."""
+    if 1.0 not in results or len(results) == 1:
+        return compare(stick_ratio, results, loc="lower center", ncols=4, columnspacing=1.2)
+    figure, (whole, apart) = plt.subplots(1, 2, figsize=(7.6, 3.4))
+    same = results[1.0]
+    for ratio, result in sorted(results.items()):
+        colour = RATIO_COLOURS.get(ratio)
+        stick_ratio(result, ax=whole, label=name(ratio), color=colour, linewidth=1.0)
+        t = result.dataset.t.values / tau(result)
+        other = np.interp(t, same.dataset.t.values / tau(same), same.stick_ratio.values)
+        apart.plot(t, result.stick_ratio.values - other, color=colour, linewidth=1.0)
+    whole.legend(loc="lower center", ncols=2, columnspacing=1.2)
+    whole.set_title("(a)")
+    apart.set_title("(b) difference from $E_1/E_2 = 1$")
+    apart.set_xlabel(r"$t/\tau$")
+    apart.set_xlim(0, 1)
+    apart.set_ylabel(r"$\Delta(A_\mathrm{st}/A_\mathrm{c})$")
+    return figure
+
+
 def compare(draw: Callable[..., Axes], results: Mapping[float, Run], **legend: Any) -> Figure:
-    """Figures 11 and 12: the same curve of every ratio."""
+    """Figure 12: the same curve of every ratio."""
     figure, ax = plt.subplots()
     for ratio, result in sorted(results.items()):
-        draw(result, ax=ax, label=name(ratio), color=COLOURS.get(ratio))
+        draw(result, ax=ax, label=name(ratio), color=RATIO_COLOURS.get(ratio))
     ax.legend(**legend)
     return figure
 
@@ -157,9 +188,7 @@ def paper_figures(
         for number, ratio in (("09", 0.5), ("10", 2.0)):
             if ratio in results:
                 figures[number] = streamlines({ratio: results[ratio]}, (0.8, 0.9, 1.0))
-        figures["11"] = compare(
-            stick_ratio, results, loc="lower center", ncols=4, columnspacing=1.2
-        )
+        figures["11"] = stick_areas(results)
         figures["12"] = compare(fretting_loop, results, loc="upper left")
         coated = {r: results[r] for r in (0.5, 2.0, 4.0) if r in results}
         if coated:

@@ -14,13 +14,13 @@ from pyfret._util.depths import interfaces, thin
 from pyfret._util.numbers import in_words
 from pyfret.plot.depth_axis import stretch as stretch_axis
 from pyfret.plot.scales import Scales, Units, scales
-from pyfret.plot.style import apart, axes, mark, styled
+from pyfret.plot.style import apart, axes, beside, mark, styled
 from pyfret.subsurface.contact import stress_below
 from pyfret.subsurface.line import Line, line_of
 from pyfret.subsurface.tensor import Stress
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     import xarray as xr
     from matplotlib.axes import Axes
@@ -82,6 +82,8 @@ def section_size(values: xr.DataArray, width: float = 4.8) -> tuple[float, float
 
 #: Length over depth of a section beyond which equal lengths leave it too low to be read.
 FLAT = 3.0
+#: Width of one of several sections side by side [inch]: three fill a page at the size of its text.
+PANEL = 2.9
 #: Light enough for black labels.
 COLOURS = ListedColormap(colormaps["YlGnBu"](np.linspace(0.0, 0.62, 256)))
 
@@ -94,7 +96,7 @@ def section_map(
     p_H: float | None = None,
     units: Units = "auto",
     symbol: str | None = None,
-    levels: int = 12,
+    levels: int | Sequence[float] = 12,
     maximum: Extreme | None = None,
     aspect: Literal["equal", "auto"] | None = None,
     stretch: bool | None = None,
@@ -113,8 +115,8 @@ def section_map(
         Over the yardsticks (default where there are any), or in um and MPa.
     symbol : str, optional
         What the field is called (default: by its name).
-    levels : int
-        Number of contours, about.
+    levels : int or sequence of float
+        Number of contours, about, or their values in the unit of the figure.
     maximum : Extreme, optional
         A largest value to mark by a cross with its value beside it.
     aspect : "equal" or "auto", optional
@@ -140,9 +142,11 @@ def section_map(
     stretch = thin(borders) if stretch is None else stretch
     if stretch and borders.size > 2:
         stretch_axis(ax, borders, "y")
-    if not levels >= 1:
-        raise ValueError(f"levels = {levels}: must be 1 or more")
-    steps = MaxNLocator(levels).tick_values(np.nanmin(field), np.nanmax(field))
+    if isinstance(levels, int):
+        if not levels >= 1:
+            raise ValueError(f"levels = {levels}: must be 1 or more")
+        levels = MaxNLocator(levels).tick_values(np.nanmin(field), np.nanmax(field))
+    steps = np.asarray(levels)
     image = None
     for part in np.unique(layer):
         here = layer == part
@@ -157,11 +161,7 @@ def section_map(
         _mark(ax, maximum, line_of(values), by)
     name = symbol if symbol is not None else SYMBOLS.get(str(values.name), str(values.name))
     if colorbar and image is not None:
-        # Within the axes, so that it is as high as the section.
-        beside = ax.inset_axes((1.03, 0.0, 0.05, 1.0))
-        bar = ax.get_figure().colorbar(image, cax=beside)  # type: ignore[union-attr]
-        bar.outline.set_visible(False)
-        bar.set_label(by.stress.label(name))
+        beside(ax, image, by.stress.label(name))
     else:
         ax.set_title(by.stress.label(name))
     ax.set_xlabel(by.length.label(along))
@@ -181,7 +181,7 @@ def stress_map(
     p_H: float | None = None,
     units: Units = "auto",
     of: str = "von_mises",
-    levels: int = 12,
+    levels: int | Sequence[float] = 12,
     aspect: Literal["equal", "auto"] | None = None,
     stretch: bool | None = None,
     colorbar: bool = True,
@@ -273,15 +273,17 @@ def envelope_maps(
     if envelope.sizes.get("cycle", 0) > 0:
         shown.append((envelope[f"{of}_amplitude"].isel(cycle=cycle), rf"\Delta {name}/2"))
         shown.append((envelope[f"{of}_mean"].isel(cycle=cycle), rf"\overline{{{name}}}"))
-    _, high = section_size(shown[0][0], 4.1)
+    _, high = section_size(shown[0][0], PANEL)
+    high = max(high, 0.75 * PANEL)
     figure, row = plt.subplots(
-        1, len(shown), figsize=(0.4 + 4.1 * len(shown), high), squeeze=False, layout="constrained"
+        1, len(shown), figsize=(PANEL * len(shown), high), squeeze=False, layout="constrained"
     )
     apart(figure)
     for ax, (values, symbol) in zip(row[0], shown, strict=True):
         field = values.assign_attrs(envelope.attrs)
         section_map(field, a_H=a_H, p_H=p_H, units=units, symbol=symbol, ax=ax)
         ax.label_outer()
+        ax.xaxis.set_major_locator(MaxNLocator(4))
     return figure
 
 
@@ -315,8 +317,7 @@ def stress_history(
         points.set_clim(0.0, float(envelope.z.max()) / by.length.value)
     ax.xaxis.set_major_locator(MaxNLocator(integer=True, min_n_ticks=1))
     ax.set_xlim(float(value.increment[0]) - 0.5, float(value.increment[-1]) + 0.5)
-    bar = ax.get_figure().colorbar(points, ax=ax)  # type: ignore[union-attr]
-    bar.set_label(by.length.label("z"))
+    beside(ax, points, by.length.label("z"))
     # Room above the largest value, and none below where it can't be negative.
     ax.margins(y=0.08)
     if float(value.min()) >= 0.0:
@@ -347,14 +348,25 @@ def stress_maps(
     of : str
         Measure of stress.
     """
-    n = len(results)
-    figure, row = plt.subplots(
-        1, n, figsize=(0.4 + 3.7 * n, 3.7), squeeze=False, layout="constrained"
-    )
-    apart(figure)
-    for ax, letter, (ratio, result) in zip(row[0], "abcdef", sorted(results.items()), strict=False):
+    below: dict[float, Stress] = {}
+    for ratio, result in sorted(results.items()):
         z = np.union1d(np.linspace(0.0, depth * result.a_H, layers), result.scene.interfaces())
-        stress_map(stress_below(result.at(-1), z, y=0.0), of=of, ax=ax)
+        below[ratio] = stress_below(result.at(-1), z, y=0.0)
+    fields = [stress.measure(of).values / results[ratio].p_H for ratio, stress in below.items()]
+    # One scale of colours for all.
+    levels = MaxNLocator(12).tick_values(
+        min(float(np.nanmin(field)) for field in fields),
+        max(float(np.nanmax(field)) for field in fields),
+    )
+    n = len(below)
+    figure, row = plt.subplots(
+        1, n, figsize=(0.9 + 2.4 * n, 3.0), squeeze=False, sharey=True, layout="constrained"
+    )
+    for ax, letter, (ratio, stress) in zip(row[0], "abcdef", below.items(), strict=False):
+        stress_map(stress, of=of, levels=levels, colorbar=ax is row[0][-1], ax=ax)
         ax.set_title(rf"({letter})  $E_1/E_2 = {ratio:g}$")
+        ax.xaxis.set_major_locator(MaxNLocator(4))
         ax.label_outer()
+        # Below the section, of which it would cover a third.
+        ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.22), borderpad=0.1)
     return figure

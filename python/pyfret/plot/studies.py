@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeAlias
 
 import numpy as np
 from matplotlib.patches import Patch
-from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
+from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from pyfret._util.text import literal
+from pyfret.plot.areas import geometric, logarithmic
 from pyfret.plot.parameters import parameter_label
 from pyfret.plot.style import REFERENCE, axes, styled
 
@@ -148,14 +149,6 @@ def in_figures(values: xr.DataArray) -> tuple[xr.DataArray, str]:
     return values / 10.0**power, f"{name} [{PREFIXES[power]}{unit}]"
 
 
-def geometric(values: np.ndarray) -> bool:
-    """Whether numbers are in geometric rather than in equal steps."""
-    if values.dtype.kind not in "if" or values.size < 3 or (values <= 0).any():
-        return False
-    steps, ratios = np.diff(values), np.diff(np.log(values))
-    return bool(np.ptp(ratios) / abs(ratios.mean()) < np.ptp(steps) / abs(steps.mean()))
-
-
 def of_line_contacts(d: xr.Dataset) -> bool:
     """Whether a study is of line contacts on one metre, as far as its scene is stored."""
     try:
@@ -186,12 +179,7 @@ def scale_axis(
         (ax.set_xticks if which == "x" else ax.set_yticks)(places, [str(v) for v in values])
         return places
     if geometric(values):
-        scale = ax.set_xscale if which == "x" else ax.set_yscale
-        scale("log")
-        axis = ax.xaxis if which == "x" else ax.yaxis
-        axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
-        axis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:g}"))
-        axis.set_minor_formatter(NullFormatter())
+        logarithmic(ax, which)
     elif values.dtype.kind in "if":
         # Small numbers as they are, none of them over a power at the end of the axis.
         axis = ax.xaxis if which == "x" else ax.yaxis

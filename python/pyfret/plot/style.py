@@ -118,6 +118,14 @@ def axes(ax: Axes | None, *, square: bool = False) -> Axes:
     return ax
 
 
+def beside(ax: Axes, image: Any, label: str, *, extend: str = "neither") -> None:
+    """The scale of colours of `image` beside the axes, as high as they are."""
+    place = ax.inset_axes((1.03, 0.0, 0.05, 1.0))
+    bar = ax.get_figure().colorbar(image, cax=place, extend=extend)  # type: ignore[union-attr]
+    bar.outline.set_visible(False)
+    bar.set_label(label)
+
+
 def mark(ax: Axes, at: tuple[float, float], text: str, *, marker: str = "x") -> None:
     """Mark a place of a section and say what it is in a legend inside the axes."""
     ax.plot(

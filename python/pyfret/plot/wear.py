@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Literal
 import matplotlib.pyplot as plt
 import numpy as np
 
-from pyfret.plot.style import axes, inside_legend, styled
+from pyfret.plot.style import axes, beside, inside_legend, styled
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -64,7 +64,7 @@ def depth_map(
     drawn = ax.pcolormesh(
         1e3 * d.x, 1e3 * d.y, depth, cmap="YlGnBu", shading="nearest", rasterized=True
     )
-    ax.figure.colorbar(drawn, ax=ax, label="worn depth [µm]", shrink=0.8)
+    beside(ax, drawn, "worn depth [µm]")
     ax.set_xlabel("$x$ [mm]")
     ax.set_ylabel("$y$ [mm]")
     return ax
@@ -107,10 +107,11 @@ def wear_loops(result: WearResult, *, ax: Axes | None = None) -> Axes:
     """Friction loops at the first and at the last block of cycles."""
     ax = axes(ax)
     d = result.dataset
-    for block in (0, -1):
+    # The last one dashed, so that the first is seen where they are alike.
+    for block, look in ((0, "-"), (-1, "--")):
         shift, force = (np.asarray(d[name][block]) for name in ("loop_delta_x", "loop_T_x"))
         cycles = f"after {float(d.block_cycles[block]):,.0f} cycles".replace(",", " ")
-        ax.plot(1e6 * np.r_[shift[-1], shift], np.r_[force[-1], force], ".-", label=cycles)
+        ax.plot(1e6 * np.r_[shift[-1], shift], np.r_[force[-1], force], look, label=cycles)
     ax.set_xlabel(r"$\delta_x$ [µm]")
     ax.set_ylabel(f"$T_x$ [{d.loop_T_x.attrs['units']}]")
     ax.legend()

@@ -16,8 +16,9 @@ from pyfret.study.loop import solve
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from numpy.typing import ArrayLike
+    from numpy.typing import ArrayLike, NDArray
 
+    from pyfret.run import Run
     from pyfret.study.measures import Arrest, Cracking, Measure
 
 __all__ = ["arrest_map", "running_conditions"]
@@ -36,7 +37,19 @@ SHOWN = {
     "delta": "delta",
     "stiffness": "stiffness",
 }
+#: What criteria and cracks add to a map.
+JUDGED = (
+    "safety_factor",
+    "life",
+    "crack_depth",
+    "start_margin",
+    "arrest_margin",
+    "arrest_length",
+)
 BULK = "largest bulk stress"
+#: Part of mu W that is missing where the shift to gross slip is read: a grid slides 3e-4 before it.
+#: There a ball has 1 - ALMOST^(2/3) = 0.99 of its shift (Mindlin 1949), by which it is divided.
+ALMOST = 1e-3
 #: Name of a parameter of the map whose measure is called the same.
 AMPLITUDE = "amplitude"
 
@@ -98,8 +111,10 @@ def running_conditions(
         Over W and T or delta: ``status`` (0 no contact, 1 full stick, 2 partial slip, 3 gross
         slip), ``energy_ratio``, ``sliding_ratio``, ``dissipated`` [J], ``stiffness`` [N/m], and
         ``delta`` [m] or ``T`` [N], half of their ranges, and with `cracking` its ``safety_factor``
-        or ``life`` [cycles] and ``crack_depth`` [m], with `arrest` ``arrest_margin`` and
-        ``arrest_length`` [m]; NaN where a force slides, except the status.
+        or ``life`` [cycles] and ``crack_depth`` [m], with `arrest` ``start_margin``,
+        ``arrest_margin`` and ``arrest_length`` [m]; NaN where a force slides, except the status.
+        ``slides_from`` over W is the amplitude from which on the contact slides, where its friction
+        is Coulomb's: mu W, or its shift, to 1 %.
 
     Raises
     ------
@@ -139,6 +154,10 @@ def running_conditions(
         if not reason.startswith(Slides.__name__):
             raise RuntimeError(f"W = {point['W']}, {driven} = {point[AMPLITUDE]}: {reason}")
     table = labelled(found.dataset, scene, driven)
+    if (limit := sliding_limit(scene, normal, driven, increments, executor)) is not None:
+        unit = table[driven].attrs["units"]
+        about = {"units": unit, "long_name": "amplitude of gross slip"}
+        table["slides_from"] = ("W", limit, about)
     if "sigma_B" in table.dims:
         table["sigma_B"] = table["sigma_B"].assign_attrs(units="Pa", long_name=BULK)
         return table
@@ -184,7 +203,8 @@ def arrest_map(
     Returns
     -------
     xarray.Dataset
-        Over T and sigma_B: ``arrest_margin``, ``arrest_length`` [m], with `cracking` its
+        Over T and sigma_B: ``start_margin``, ``arrest_margin``, ``arrest_length`` [m] as
+        :class:`pyfret.study.Arrest` gives them, with `cracking` its
         ``safety_factor`` or ``life`` [cycles] and ``crack_depth`` [m]; NaN where the force slides.
 
     Raises
@@ -205,8 +225,7 @@ def arrest_map(
     for point, reason in found.failed():
         if not reason.startswith(Slides.__name__):
             raise RuntimeError(f"T = {point['T']}, sigma_B = {point['sigma_B']} Pa: {reason}")
-    judged = ("arrest_margin", "arrest_length", "safety_factor", "life", "crack_depth")
-    table = found.dataset[[name for name in judged if name in found.dataset]]
+    table = found.dataset[[name for name in JUDGED if name in found.dataset]]
     unit = scene.grid.unit_of("N")
     table["T"] = table["T"].assign_attrs(units=unit, long_name="amplitude of the force")
     table["sigma_B"] = table["sigma_B"].assign_attrs(units="Pa", long_name=BULK)
@@ -216,9 +235,8 @@ def arrest_map(
 def labelled(found: xr.Dataset, scene: Scene, driven: str) -> xr.Dataset:
     """The study of the loads with the names of the map."""
     units = {"T": ("N", "amplitude of the force"), "delta": ("m", "amplitude of the shift")}
-    judged = ("safety_factor", "life", "crack_depth", "arrest_margin", "arrest_length")
     kept = {name: shown for shown, name in SHOWN.items() if name in found}
-    kept |= {name: name for name in judged if name in found}
+    kept |= {name: name for name in JUDGED if name in found}
     table = found[list(kept)].rename(kept).drop_vars(AMPLITUDE).rename({AMPLITUDE: driven})
     table["status"] = table["status"].fillna(SLIDES).assign_attrs(long_name=STATUS)
     unit, meaning = units[driven]
@@ -229,6 +247,43 @@ def labelled(found: xr.Dataset, scene: Scene, driven: str) -> xr.Dataset:
     )
     table["W"] = table["W"].assign_attrs(units=scene.grid.unit_of("N"), long_name="normal force")
     return table.assign_attrs({"title": scene.title, "mu": scene.mu})
+
+
+def sliding_limit(
+    scene: Scene, W: NDArray[np.float64], driven: str, increments: tuple[int, int], executor: Any
+) -> NDArray[np.float64] | None:
+    """The amplitude from which on the contact slides under each normal force."""
+    of = scene.friction
+    plain_law = of.law is None and of.history is None and of.map is None and of.kinetic is None
+    if not plain_law or not 0.0 < scene.mu < np.inf:
+        return None
+    if driven == "T":
+        return np.asarray(scene.mu * W)
+    found = solve(
+        Pushed(scene, increments), {"W": W}, measure=shift, executor=executor, progress=False
+    )
+    return np.asarray(found.dataset["shift"].values / (1.0 - ALMOST ** (2.0 / 3.0)))
+
+
+@dataclass(frozen=True)
+class Pushed:
+    """Makes the scene of a contact that is pushed until it all but slides."""
+
+    scene: Scene
+    increments: tuple[int, int]
+
+    def __call__(self, point: dict[str, float]) -> Scene:
+        """The scene under a normal force."""
+        W = point["W"]
+        indentation, stroke = self.increments
+        path = LoadPath.start().normal(W, increments=indentation)
+        path = path.force(T_x=(1.0 - ALMOST) * self.scene.mu * W, increments=max(stroke // 2, 1))
+        return self.scene.replace(path=path, save=[len(path)])
+
+
+def shift(result: Run) -> float:
+    """The shift along x at the end of the path [m]."""
+    return float(result.dataset["delta_x"].values[-1])
 
 
 class Slides(Exception):

@@ -190,7 +190,8 @@ class Arrest:
 
     Gives ``arrest_margin``, the smallest range of K over its threshold on the way, below 1 where a
     crack stops, and ``arrest_length`` [m], where it stops: the first length where it does not grow
-    at all, NaN where it grows through all lengths.
+    at all, NaN where it grows through all lengths. ``start_margin`` is the range of K over its
+    threshold at the first length, below 1 where the crack never starts.
 
     Parameters
     ----------
@@ -213,11 +214,15 @@ class Arrest:
     def __call__(self, result: Result) -> dict[str, xr.DataArray]:
         """Follow the crack."""
         options = {f.name: getattr(self, f.name) for f in fields(self) if f.name != "threshold"}
-        found = fracture.crack(result, **options).arrest(self.threshold)
+        cracks = fracture.crack(result, **options)
+        found = cracks.arrest(self.threshold)
+        first = cracks.dK(self.threshold)[0] / np.atleast_1d(self.threshold.at(cracks.lengths))[0]
         length = math.nan if found.length is None else found.length
         margin = {"units": "1", "long_name": "least range of K over its threshold"}
         metre = {"units": "m", "long_name": "length at which the crack stops"}
+        start = {"units": "1", "long_name": "range of K over its threshold at the first length"}
         return {
+            "start_margin": xr.DataArray(float(first), attrs=start),
             "arrest_margin": xr.DataArray(found.margin, attrs=margin),
             "arrest_length": xr.DataArray(length, attrs=metre),
         }
