@@ -18,16 +18,19 @@ pub enum Error {
     },
     /// The faces of a crack found no state of opening, stick and slip.
     #[error(
-        "the faces of the crack of length {length:.4e} m, with the coefficient of friction {friction}, found no \
-         state of opening, stick and slip in {passes} passes, the load cut into halves: {at_fault} of {points} \
-         points change from pass to pass{}",
-        if *friction > 0.0 { "; a smaller coefficient of friction helps" } else { "" }
+        "the faces of the crack of length {length:.4e} m, with the coefficient of friction {friction} and kinks of up \
+         to {:.0} degrees, found no state of opening, stick and slip in {passes} passes, the load cut into halves: \
+         {at_fault} of {points} points change from pass to pass; kinks below 30 degrees settle, or a smaller \
+         coefficient of friction",
+        kink.to_degrees()
     )]
     Faces {
         /// Length of the crack \[m\].
         length: f64,
         /// Coefficient of friction between the faces.
         friction: f64,
+        /// The largest change of the crack's direction at a kink \[rad\].
+        kink: f64,
         /// Linear systems solved.
         passes: usize,
         /// Points that broke their inequality after the last pass.

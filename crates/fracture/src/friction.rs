@@ -129,6 +129,7 @@ impl Faces {
             return Err(Error::Faces {
                 length: self.crack.length(),
                 friction: self.friction,
+                kink: self.crack.path().sharpest_kink(),
                 passes: self.passes,
                 at_fault: unsettled.at_fault,
                 points: n,

@@ -113,6 +113,14 @@ impl Path {
         self.legs.iter().map(Leg::length).sum()
     }
 
+    /// The largest change of direction between two legs \[rad\].
+    pub fn sharpest_kink(&self) -> f64 {
+        let turns = self.legs.windows(2);
+        turns
+            .map(|legs| (legs[1].start - legs[0].end()).abs())
+            .fold(0.0, f64::max)
+    }
+
     /// The part from the mouth to the length `s` \[m\] of the path.
     #[must_use]
     pub fn up_to(&self, s: f64) -> Self {

@@ -52,11 +52,7 @@ pub(crate) struct Rule {
 pub(crate) fn step(path: &Path) -> f64 {
     let first = path.legs.first().map_or(0.0, |leg| leg.start);
     let to_surface = std::f64::consts::FRAC_PI_2 - first.abs();
-    let kinks = path.legs.windows(2).map(|pair| {
-        let turn = (pair[1].start - pair[0].end()).abs();
-        std::f64::consts::PI - turn
-    });
-    let narrowest = kinks.fold(to_surface, f64::min);
+    let narrowest = to_surface.min(std::f64::consts::PI - path.sharpest_kink());
     (0.3 * narrowest).clamp(0.02, 0.08)
 }
 
