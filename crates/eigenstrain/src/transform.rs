@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use ndarray::linalg::general_mat_mul;
-use ndarray::{Array1, Array2, ArrayView2, ArrayViewMut2};
+use ndarray::{Array1, Array2, ArrayView2, ArrayViewMut2, Axis, Slice};
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use rustfft::num_complex::Complex64;
 use rustfft::{Fft, FftPlanner};
@@ -52,12 +52,13 @@ pub(crate) struct Buffers {
     plane: Vec<Complex64>,
     scratch: Vec<Complex64>,
     moments: Array2<f64>,
-    partial: Array2<f64>,
+    /// Of all fields: moments along the fast side, and values on the cells.
+    along: Array2<f64>,
+    dense: Array2<f64>,
     even: Array2<f64>,
     odd: Array2<f64>,
     real_waves: Array2<f64>,
     imaginary_waves: Array2<f64>,
-    dense: Array2<f64>,
 }
 
 /// Fields that are transformed together.
@@ -140,12 +141,12 @@ impl Transform {
             plane: vec![zero; self.periods.half() * self.slow_cells],
             scratch: vec![zero; scratch],
             moments: Array2::zeros((slow, fast)),
-            partial: Array2::zeros((slow, self.fast_cells)),
+            along: Array2::zeros((TOGETHER * self.slow_cells, fast)),
+            dense: Array2::zeros((TOGETHER * self.slow_cells, self.fast_cells)),
             even: rows(self.even.nrows()),
             odd: rows(self.odd.nrows()),
             real_waves: rows(self.small()),
             imaginary_waves: rows(self.small()),
-            dense: Array2::zeros((self.slow_cells, self.fast_cells)),
         }
     }
 
@@ -160,16 +161,22 @@ impl Transform {
         let cells = self.slow_cells * self.fast_cells;
         b.even.fill(0.0);
         b.odd.fill(0.0);
+        let rows = fields.len() / self.fast_cells;
+        if let Ok(view) = ArrayView2::from_shape((rows, self.fast_cells), fields) {
+            let mut along = b.along.slice_axis_mut(Axis(0), Slice::from(..rows));
+            general_mat_mul(1.0, &view, &self.fast_basis, 0.0, &mut along);
+        }
         for (n, (field, to)) in fields
             .chunks_exact(cells)
             .zip(to.chunks_exact_mut(stride))
             .enumerate()
         {
             self.transform(field, to, b);
-            let view = ArrayView2::from_shape((self.slow_cells, self.fast_cells), field);
-            let Ok(view) = view else { continue };
-            general_mat_mul(1.0, &self.slow_basis.t(), &view, 0.0, &mut b.partial);
-            general_mat_mul(1.0, &b.partial, &self.fast_basis, 0.0, &mut b.moments);
+            let along = b.along.slice_axis(
+                Axis(0),
+                Slice::from(n * self.slow_cells..(n + 1) * self.slow_cells),
+            );
+            general_mat_mul(1.0, &self.slow_basis.t(), &along, 0.0, &mut b.moments);
             let (mut even, mut odd) = (0, 0);
             for ((p, q), &moment) in b.moments.indexed_iter() {
                 if (p + q) % 2 == 0 {
@@ -201,6 +208,10 @@ impl Transform {
                 .forward
                 .process_with_scratch(&mut b.real, &mut b.half, &mut b.scratch);
             debug_assert!(done.is_ok(), "lengths are those of the plan");
+            if slow == 1 {
+                to[..half].copy_from_slice(&b.half);
+                return;
+            }
             for (m, value) in b.half.iter().enumerate() {
                 b.plane[m * self.slow_cells + i] = *value;
             }
@@ -210,9 +221,7 @@ impl Transform {
             let values = &b.plane[m * self.slow_cells..(m + 1) * self.slow_cells];
             row[..self.slow_cells].copy_from_slice(values);
             row[self.slow_cells..].fill(Complex64::default());
-            if slow > 1 {
-                self.slow_forward.process_with_scratch(row, &mut b.scratch);
-            }
+            self.slow_forward.process_with_scratch(row, &mut b.scratch);
         }
     }
 
@@ -236,7 +245,7 @@ impl Transform {
         }
         general_mat_mul(1.0, &b.real_waves, &self.even.t(), 0.0, &mut b.even);
         general_mat_mul(1.0, &b.imaginary_waves, &self.odd.t(), 0.0, &mut b.odd);
-        for (n, field) in fields.chunks_exact_mut(cells).enumerate() {
+        for n in 0..fields.len() / cells {
             let (mut even, mut odd) = (0, 0);
             for ((p, q), moment) in b.moments.indexed_iter_mut() {
                 if (p + q) % 2 == 0 {
@@ -247,12 +256,16 @@ impl Transform {
                     odd += 1;
                 }
             }
-            general_mat_mul(1.0, &b.moments, &self.fast_basis.t(), 0.0, &mut b.partial);
-            general_mat_mul(1.0, &self.slow_basis, &b.partial, 0.0, &mut b.dense);
-            let view = ArrayViewMut2::from_shape((self.slow_cells, self.fast_cells), field);
-            if let Ok(mut view) = view {
-                view += &b.dense;
-            }
+            let part = Slice::from(n * self.slow_cells..(n + 1) * self.slow_cells);
+            let mut along = b.along.slice_axis_mut(Axis(0), part);
+            general_mat_mul(1.0, &self.slow_basis, &b.moments, 0.0, &mut along);
+        }
+        let rows = fields.len() / self.fast_cells;
+        let along = b.along.slice_axis(Axis(0), Slice::from(..rows));
+        let mut dense = b.dense.slice_axis_mut(Axis(0), Slice::from(..rows));
+        general_mat_mul(1.0, &along, &self.fast_basis.t(), 0.0, &mut dense);
+        if let Ok(mut view) = ArrayViewMut2::from_shape((rows, self.fast_cells), fields) {
+            view += &dense;
         }
     }
 
@@ -264,13 +277,15 @@ impl Transform {
     ) {
         let (half, slow) = (self.periods.half(), self.periods.slow);
         for m in 0..half {
+            if slow == 1 {
+                b.plane[m] = wave(m);
+                continue;
+            }
             for (n, to) in b.row.iter_mut().enumerate() {
                 *to = wave(m * slow + n);
             }
-            if slow > 1 {
-                self.slow_backward
-                    .process_with_scratch(&mut b.row, &mut b.scratch);
-            }
+            self.slow_backward
+                .process_with_scratch(&mut b.row, &mut b.scratch);
             let to = &mut b.plane[m * self.slow_cells..(m + 1) * self.slow_cells];
             to.copy_from_slice(&b.row[..self.slow_cells]);
         }
