@@ -8,19 +8,27 @@
 //!
 //! The stiffness right after a reversal is that of the contact without slip. An increment gives a
 //! secant, which is lower: after a change of the force by f the ring of reverse slip has grown. The
-//! secants S of the first increments are extrapolated to f = 0 by a parabola in f; the line through
-//! two of them shows the error. Increments in gross slip have no part in it: there the shift does
-//! not depend on the force.
+//! secants S are extrapolated to f = 0 by the parabola in f of least squares, since the ring grows
+//! from cell to cell. Its difference from the line of least squares through the nearer of them and
+//! its standard error show how wrong it is. Increments in gross slip have no part in it: there the shift does not depend on the
+//! force.
 
+use contact_core::linear_system::solve;
 use contact_core::march::{Increment, Status};
 use contact_core::scene::{Branch, LoadPath, Loads, Prescribed, RigidMotion};
+use ndarray::Array2;
 
-/// Least distance of the forces whose secants are extrapolated, over the change of the force in the
-/// branch: the errors of closer ones are amplified.
-const APART: f64 = 0.05;
-/// Error of the parabola over its difference from the line: on 24 cells the secants of balls are up
-/// to 1.9 of these off.
+/// Changes of the force whose secants are fitted, over that of the whole branch: errors of the shift
+/// are amplified in smaller ones, and the secants bend where gross slip is near. Three secants are
+/// fitted in any case.
+const FITTED: (f64, f64) = (0.025, 0.6);
+const LEAST_FITTED: f64 = 3.2;
+/// Error of the parabola: its difference from the line times the first, its standard error times
+/// the second. Of 90 loops on 20 to 32 cells 57 have a stiffness, all within 1.5 %.
 const OF_PARABOLA: f64 = 2.0;
+const OF_SCATTER: f64 = 3.0;
+/// Changes of the force through whose secants the line is drawn, over the largest fitted.
+const OF_LINE: f64 = 0.7;
 /// Largest relative error with which a stiffness is given.
 const OF_STIFFNESS: f64 = 0.02;
 /// Largest error with which a sliding ratio is given.
@@ -267,26 +275,52 @@ fn tangent(branch: &[LoopPoint]) -> Option<[f64; 2]> {
     }
     let held = points.iter().take_while(|p| p.status != Status::GrossSlip);
     let secants: Vec<[f64; 2]> = held.filter_map(secant).collect();
-    let step = secants.first()?[0].max(APART * secants.last()?[0]);
-    let mut chosen: Vec<[f64; 2]> = Vec::new();
-    for n in 1..=3 {
-        let away = |s: &[f64; 2]| (s[0] - f64::from(n) * step).abs();
-        let nearest = secants.iter().min_by(|a, b| away(a).total_cmp(&away(b)))?;
-        if chosen.last().is_none_or(|last| nearest[0] > last[0]) {
-            chosen.push(*nearest);
-        }
-    }
-    let [a, b, rest @ ..] = &chosen[..] else {
+    let (first, whole) = (secants.first()?[0], secants.last()?[0]);
+    let (from, to) = (
+        FITTED.0 * whole,
+        (FITTED.1 * whole).max(LEAST_FITTED * first),
+    );
+    let near = secants.iter().filter(|s| from <= s[0] && s[0] <= to);
+    let fitted: Vec<[f64; 2]> = near.map(|[f, K]| [f / whole, *K]).collect();
+    if fitted.len() < 2 {
         return None;
+    }
+    let largest = fitted.last()?[0];
+    let near = fitted.iter().filter(|s| s[0] <= OF_LINE * largest).count();
+    let [by_line, _] = at_zero(&fitted[..near.max(2)], 1);
+    if fitted.len() == 2 {
+        return Some([by_line, (by_line - fitted[0][1]).abs()]);
+    }
+    let [parabola, scatter] = at_zero(&fitted, 2);
+    let error = OF_PARABOLA * (parabola - by_line).abs() + OF_SCATTER * scatter;
+    Some([parabola, error])
+}
+
+/// Value at 0 of the polynomial of least squares through points, and its standard error; 0 where it
+/// goes through all of them.
+fn at_zero(points: &[[f64; 2]], degree: usize) -> [f64; 2] {
+    let n = degree + 1;
+    let sum = |of: &dyn Fn(&[f64; 2]) -> f64| points.iter().map(of).sum::<f64>();
+    let normal = Array2::from_shape_fn((n, n), |(i, j)| sum(&|p| p[0].powi((i + j) as i32)));
+    // Beside the coefficients the first column of the inverse.
+    let right = Array2::from_shape_fn((n, 2), |(i, column)| match column {
+        0 => sum(&|p| p[1] * p[0].powi(i as i32)),
+        _ => f64::from(u8::from(i == 0)),
+    });
+    let found = solve(&normal, &right);
+    let value = |f: f64| {
+        (0..n)
+            .map(|i| found[(i, 0)] * f.powi(i as i32))
+            .sum::<f64>()
     };
-    // Aitken's scheme at f = 0.
-    let line = |a: &[f64; 2], b: &[f64; 2]| (a[1] * b[0] - b[1] * a[0]) / (b[0] - a[0]);
-    let by_line = line(a, b);
-    let Some(c) = rest.first() else {
-        return Some([by_line, (by_line - a[1]).abs()]);
+    let squares = sum(&|p| (p[1] - value(p[0])).powi(2));
+    let free = points.len() - n;
+    let variance = if free == 0 {
+        0.0
+    } else {
+        squares / free as f64
     };
-    let parabola = line(&[b[0], by_line], &[c[0], line(a, c)]);
-    Some([parabola, OF_PARABOLA * (parabola - by_line).abs()])
+    [found[(0, 0)], (variance * found[(0, 1)].max(0.0)).sqrt()]
 }
 
 /// Half the distance between the outermost shifts at which the force passes `middle`, and the bound
@@ -346,6 +380,30 @@ mod tests {
             .normal(10.0, 1)
             .torsion(&[0.2, -0.2, 0.2], 10);
         assert_eq!(cycles(&torsion), [(2, 3)]);
+    }
+
+    #[test]
+    fn a_parabola_is_found_and_its_scatter_told() {
+        let parabola = |f: f64| 3.0 - 2.0 * f + 0.5 * f * f;
+        let points: Vec<[f64; 2]> = (1..8)
+            .map(|n| f64::from(n) / 8.0)
+            .map(|f| [f, parabola(f)])
+            .collect();
+        let [found, error] = at_zero(&points, 2);
+        assert!(
+            (found - 3.0).abs() < 1e-9 && error < 1e-9,
+            "{found} {error}"
+        );
+        let mut wavy = points.clone();
+        for (n, point) in wavy.iter_mut().enumerate() {
+            point[1] += if n % 2 == 0 { 0.01 } else { -0.01 };
+        }
+        let [found, error] = at_zero(&wavy, 2);
+        assert!(
+            (found - 3.0).abs() < 2.0 * error && error < 0.05,
+            "{found} {error}"
+        );
+        assert_eq!(at_zero(&points[..2], 1)[1], 0.0);
     }
 
     #[test]
