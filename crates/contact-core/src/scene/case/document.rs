@@ -56,7 +56,7 @@ impl<'a> Document<'a> {
         let path = steps(&fault.key);
         let related = |setting: &&String| {
             let own = steps(setting.split('=').next().unwrap_or_default().trim());
-            own.iter().zip(&path).all(|(a, b)| a == b) && !path.is_empty()
+            own.iter().zip(&path).all(|(a, b)| a == b || *a == EVERY) && !path.is_empty()
         };
         if let Some(setting) = self.settings.iter().rev().find(related) {
             return Error::Setting {
@@ -120,13 +120,43 @@ pub(super) fn steps(key: &str) -> Vec<&str> {
         .collect()
 }
 
+/// Stands in a key for every element of a list.
+const EVERY: &str = "*";
+
 /// Applies `key=value` to the values; the message says what is wrong with it.
 pub(super) fn apply(root: &mut Table, setting: &str) -> Result<(), String> {
     let (key, value) = setting
         .split_once('=')
         .ok_or("a setting must be of the form key=value")?;
-    let value = parse_value(value.trim())?;
-    let path = steps(key);
+    put_each(root, &steps(key), &parse_value(value.trim())?)
+}
+
+/// Puts a value at a key, or at every element of the list before a star.
+fn put_each(root: &mut Table, path: &[&str], value: &Value) -> Result<(), String> {
+    let Some(star) = path.iter().position(|&step| step == EVERY) else {
+        return put(root, path, value.clone());
+    };
+    let list = path[..star].join(".");
+    let found = path[..star].split_first().and_then(|(first, way)| {
+        way.iter().try_fold(root.get(*first)?, |at, step| match at {
+            Value::Array(array) => array.get(step.parse::<usize>().ok()?),
+            at => at.get(step),
+        })
+    });
+    let Some(Value::Array(array)) = found else {
+        return Err(format!("{list} is no list: * stands for its elements"));
+    };
+    for n in 0..array.len() {
+        let place = n.to_string();
+        let mut one = path.to_vec();
+        one[star] = &place;
+        put_each(root, &one, value)?;
+    }
+    Ok(())
+}
+
+/// Puts a value at a key.
+fn put(root: &mut Table, path: &[&str], value: Value) -> Result<(), String> {
     let (last, way) = path.split_last().ok_or("the key is empty")?;
     let Some((first, way)) = way.split_first() else {
         root.insert((*last).to_owned(), value);

@@ -82,6 +82,22 @@ fn measures_become_si() {
 }
 
 #[test]
+fn a_star_stands_for_every_element_of_a_list() {
+    let scene = set(&["path.*.W=500", "body2.coatings[*].nu=0.25"]).unwrap();
+    assert!(scene.path.branches.iter().all(|b| b.to.W == 500.0));
+    assert_eq!(scene.body2.coatings[0].material.nu, 0.25);
+    for (setting, told) in [
+        ("grid.*.n=3", "setting grid.*.n=3: grid is no list"),
+        ("pat.*.W=3", "pat is no list"),
+        ("path.*.W=-1", "path.*.W=-1"),
+        ("path.*.X=1", "path.*.X=1"),
+    ] {
+        let text = complaint(set(&[setting]));
+        assert!(text.contains(told), "{text}");
+    }
+}
+
+#[test]
 fn settings_change_the_scene() {
     let scene = set(&[
         "friction.mu=0.5",
