@@ -1,12 +1,14 @@
 """Sentences of the Use book that are too long, and words that readers do not know.
 
-``python tools/prose.py`` prints them with file and line and ends with 1 if there are any;
-``python tools/prose.py FILES`` reads other documents. The rules are those of CONTRIBUTING.md: one
-fact a sentence, at most 25 words, nouns of the field as subjects.
+``python tools/prose.py`` prints them with file and line and ends with 1 if there are any, and those
+of the docstrings of :data:`CODE`. ``python tools/prose.py FILES`` reads other documents and
+modules. The rules are those of CONTRIBUTING.md: one fact a sentence, at most 25 words, nouns of the
+field as subjects.
 """
 
 from __future__ import annotations
 
+import ast
 import re
 import sys
 from collections.abc import Iterator
@@ -31,6 +33,14 @@ USE = (
     "docs/scene_file.md",
     "docs/result_store.md",
     "docs/reference/*.md",
+)
+#: Modules whose docstrings are read.
+CODE = (
+    "python/pyfret/*.py",
+    "python/pyfret/plot/*.py",
+    "python/pyfret/report/*.py",
+    "python/pyfret/run/*.py",
+    "python/pyfret/what_if/*.py",
 )
 #: Words of a sentence, at most.
 MOST = 25
@@ -105,10 +115,38 @@ def words(sentence: str) -> int:
     return len(re.findall(r"[A-Za-z][\w'/-]*", outside))
 
 
+def docstrings(text: str) -> Iterator[tuple[int, str]]:
+    """Paragraphs of the docstrings of a module with the line of what they belong to."""
+    named = ast.Module, ast.ClassDef, ast.FunctionDef
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, named) and (doc := ast.get_docstring(node)):
+            for _, block in blocks(paragraphs(doc)):
+                yield getattr(node, "lineno", 1), block
+
+
+def paragraphs(doc: str) -> str:
+    """A docstring as a document: no examples, heads of sections and names of parameters."""
+    lines = re.split(r"\n(?:Examples|See Also)\n-+\n", doc)[0].splitlines()
+    kept, code, table = [], False, False
+    for line, below in zip(lines, [*lines[1:], ""], strict=True):
+        # What is indented after two colons is code, and tables are ruled by equal signs.
+        code = code and (not line or line.startswith(" "))
+        table = bool(line) and (table or line.startswith("==="))
+        if code or table:
+            kept.append("")
+            continue
+        code = line.endswith("::")
+        head = re.fullmatch(r"-{3,}", below) or re.fullmatch(r"-{3,}", line)
+        entry = re.match(r"[\w*][\w*, ]* : ", line) or re.match(r"\S+$", line)
+        kept.append("" if head or entry else line.strip().replace("``", "`"))
+    return "\n".join(kept)
+
+
 def faults(document: Path) -> Iterator[str]:
-    """What breaks the rules in a document."""
+    """What breaks the rules in a document, or in the docstrings of a module."""
     name = document.relative_to(ROOT) if document.is_relative_to(ROOT) else document
-    for line, block in blocks(document.read_text(encoding="utf-8")):
+    read = docstrings if document.suffix == ".py" else blocks
+    for line, block in read(document.read_text(encoding="utf-8")):
         for sentence in sentences(block):
             if (count := words(sentence)) > MOST:
                 yield f"{name}:{line}: {count} words: {sentence}"
@@ -120,7 +158,7 @@ def faults(document: Path) -> Iterator[str]:
 def main(arguments: list[str]) -> int:
     """Print what breaks the rules."""
     given = [Path(argument).resolve() for argument in arguments]
-    documents = given or [path for glob in USE for path in sorted(ROOT.glob(glob))]
+    documents = given or [path for glob in (*USE, *CODE) for path in sorted(ROOT.glob(glob))]
     found = [fault for document in documents for fault in faults(document)]
     print("\n".join(found))
     return 1 if found else 0

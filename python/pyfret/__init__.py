@@ -1,6 +1,6 @@
 """Fretting contact of coated elastic bodies.
 
-Describe two bodies, each homogeneous or coated, a load history and a friction law; get the
+Describe two bodies, each homogeneous or coated, a load history and a friction law. You get the
 tractions, the stick and slip zones and the fretting loop at every load increment::
 
     import matplotlib.pyplot as plt

@@ -1,4 +1,4 @@
-"""A grid for a contact: as long as the contact that comes out, as fine as an error asks for."""
+"""A grid for a contact: as long as the contact that comes out, as fine as the wanted error."""
 
 from __future__ import annotations
 
@@ -87,12 +87,12 @@ def for_contact(
 ) -> Grid:
     """Choose a grid for the contact that comes out of two bodies and a load path.
 
-    The contact under the largest normal load of the path, coatings and all, is solved without
-    friction on 32 cells a side, roughness left out; the grid is `room` times as long, on rough
-    surfaces 15 % longer. It has as many cells as a smooth contact takes for `error`, and eight
-    in the shortest wave of a rough, wavy or measured surface. On measured surfaces, on waves
-    and where a body has edges, the number of cells is doubled until area and largest pressure
-    change by less than `error` from there on, as their last changes foretell.
+    The contact under the largest normal load of the path is solved without friction and roughness
+    on 32 cells a side. The grid is `room` times as long, on rough surfaces 15 % longer. It has as
+    many cells as a smooth contact takes for `error`, and eight in the shortest wave of a rough,
+    wavy or measured surface. On measured surfaces, on waves and where a body has edges, the number
+    of cells is doubled. The last changes of area and largest pressure foretell the next ones: the
+    doubling ends where these are below `error`.
 
     Parameters
     ----------
@@ -101,8 +101,8 @@ def for_contact(
     path : LoadPath
         The loads.
     error : float
-        Error that is wanted: of the pressure, root mean square over that of the pressure, and
-        a tenth of it of radius and approach; or of the number that `of` names.
+        Error that is wanted of the number that `of` names. Of the pressure it is the root mean
+        square over that of the pressure; radius and approach have a tenth of it.
     room : float
         Side of the grid over the length of the contact: 1.2 (default), 2 or more where wear or
         rolling makes the contact longer.
@@ -235,7 +235,7 @@ def _lengths(
     """Lengths of the box around the contact along x and y [m], centred on the grid.
 
     Each side of the grid is looked for by itself, since a roller is much longer than its contact is
-    wide: it grows while the contact reaches the border, and gets shorter while the contact fills
+    wide. A side grows while the contact reaches the border. It gets shorter while the contact fills
     few of its cells.
     """
     guess = _scene(body1, body2, path, (1e-3, 1e-3), plane_strain=plane_strain)
@@ -422,10 +422,10 @@ def _refined(
 ) -> tuple[list[float], list[int]]:
     """Sides and cells along them, doubled until the numbers asked for agree to `error`.
 
-    The change c to twice as many cells goes on as a geometric series of the ratio r of the last two
-    changes: c r/(1 - r) remains. Of the first change r is unknown, and half of `error` is allowed.
-    Sides that the contact reaches grow. Where no grid of at most MOST_TRIED cells agrees, the
-    finest one is given, with a warning.
+    The change c to twice as many cells goes on as a geometric series. Its ratio r is that of the
+    last two changes: c r/(1 - r) remains. Of the first change r is unknown, and half of `error` is
+    allowed. Sides that the contact reaches grow. Where no grid of at most MOST_TRIED cells agrees,
+    the finest one is given, with a warning.
     """
     flat = scene.grid.plane_strain
     axes = 1 if flat else 2

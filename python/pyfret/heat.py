@@ -174,8 +174,8 @@ def temperature(
         Temperature far from the contact, of both bodies or of each [K]; with 0 the result is the
         rise above it.
     wave : "sine" or "linear"
-        How loads go in time from one end of a branch to the other: as half a period of a sine, or
-        at a constant rate. Branches share the period as they share the path time t.
+        How loads go in time along a branch: as half a period of a sine, or at a constant rate.
+        Branches share the period as they share the path time t.
     harmonics : int, optional
         Harmonics of the heat in time; 0 for the mean alone (default: half the kept increments of
         the cycle, which is what these tell of it, up to 32).
@@ -186,21 +186,20 @@ def temperature(
     -------
     xarray.Dataset
         ``steady`` and ``largest`` over (body, x, y), mean and largest temperature of the cycle, and
-        ``flash``, their difference; ``heat`` over (x, y), mean frictional heat [W/m^2], and
-        ``share``, the part of it that flows into body 1 (NaN where there is none; outside 0 to 1
-        where heat that rises elsewhere crosses the contact); ``peak`` over ``time``, the largest
+        ``flash``, their difference. ``heat`` over (x, y), mean frictional heat [W/m^2]. ``share``
+        is the part of it that flows into body 1, NaN where there is no heat. It is outside 0 to 1
+        where heat that rises elsewhere crosses the contact. ``peak`` over ``time``, the largest
         temperature of the surfaces at each part of the period. Attributes: ``maximum`` with
-        ``maximum_error`` (what half of the harmonics and cells twice as wide change it by; not the
-        error of the heat itself), ``maximum_x``, ``maximum_y`` [m] and ``maximum_body``,
-        ``heat_into_body1`` and
-        ``heat_into_body2`` [W], ``bulk`` and ``frequency``; ``doubts``, a line for each number of a
-        conductor that is hardly meant.
+        ``maximum_x``, ``maximum_y`` [m] and ``maximum_body``. ``maximum_error`` is its change on
+        half of the harmonics and cells twice as wide, without the error of the heat itself. Further
+        ones are ``heat_into_body1`` and ``heat_into_body2`` [W], ``bulk`` and ``frequency``.
+        ``doubts`` has a line for each number of a conductor that is hardly meant.
 
     Raises
     ------
     ValueError
         There is no closed cycle, its increments were not kept, the contact is in plane strain, or a
-        number is out of its range; the message says which.
+        number is out of its range.
 
     Examples
     --------

@@ -1,7 +1,7 @@
 """The response of a body to tractions and eigenstrains, for people who build their own models.
 
-Columns of every response are the tractions q_x, q_y, p on the body; tension is positive in
-stresses, and displacements are those of the surface of body 2, z pointing into it.
+Columns of every response are the tractions q_x, q_y, p on the body. Tension is positive in
+stresses. Displacements are those of the surface of body 2, z pointing into it.
 """
 
 from __future__ import annotations
@@ -65,8 +65,9 @@ def convert(
     Parameters
     ----------
     frf : callable
-        Gives the response at arrays k_x, k_y of shape (n,) [1/m], never both zero: an array of
-        shape (n, 3, 3), rows u_x, u_y, u_z, columns q_x, q_y, p [m/Pa], with f(-k) = conj f(k).
+        Gives the response at arrays k_x, k_y of shape (n,) [1/m], never both zero. The response is
+        an array of shape (n, 3, 3) [m/Pa], rows u_x, u_y, u_z, columns q_x, q_y, p. It has f(-k) =
+        conj f(k).
     grid : Grid
         The cells; only their number and size matter.
     enlargement : int

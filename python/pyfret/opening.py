@@ -67,7 +67,7 @@ def open(path: str | os.PathLike[str]) -> Any:
 
 
 def _attributes(path: Path) -> dict[str, Any]:
-    """The attributes of a store or a copy, as far as they can be read; who opens it says more."""
+    """The attributes of a store or a copy, none where they cannot be read."""
     if path.suffix == ".nc":
         with files.opened(path) as dataset:
             return dict(dataset.attrs)

@@ -37,9 +37,9 @@ class Result(Run):
     """The result of a run.
 
     Its ``dataset`` has scalars over ``increment`` and fields over (``saved``, ``x``, ``y``) for the
-    increments whose fields were kept; ``attrs`` holds the scene, the version, ``a_H``, ``p_H`` and
-    ``mu``. Every variable carries ``units`` and ``long_name``. Its scalars are attributes as well,
-    e.g. ``result.T_x``; fields are those of an increment, e.g. ``result.at(-1).p``.
+    increments whose fields were kept. Its ``attrs`` hold the scene, the version, ``a_H``, ``p_H``
+    and ``mu``. Every variable carries ``units`` and ``long_name``. Its scalars are attributes as
+    well, e.g. ``result.T_x``; fields are those of an increment, e.g. ``result.at(-1).p``.
     """
 
     life = fatigue.life

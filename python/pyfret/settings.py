@@ -116,22 +116,23 @@ class Settings(Replaceable):
     preset : Preset
         Which algorithms (default ``Preset.FAST``).
     tolerance : float, optional
-        Relative tolerance of the solution (default 1e-6; where increments are chosen 1/125 of
-        ``path_tolerance`` if that is more, 1/2500 where loads only press): gap error in the
-        contact over the Hertz approach, tangential misfit over mu times it, change of the
-        tractions in the last pass.
+        Relative tolerance of the solution. It holds for the gap error over the Hertz approach h and
+        the tangential misfit over mu h. It holds for the last change of the tractions, too. Default
+        1e-6. Where increments are chosen it is 1/125 of ``path_tolerance`` if that is more, 1/2500
+        where loads only press.
     entering : bool
-        Reckon the slip of cells that come into contact from their entry (default True): one more
-        solution in increments in which the contact grows, and far fewer increments.
+        Reckon the slip of cells that come into contact from their entry (default True). It takes
+        far fewer increments, with one more solution in each in which the contact grows.
     path_tolerance : float
         Largest error of the shear at the ends of branches that ``increments="auto"`` leaves, over
         the largest shear of the path (L2, default 5e-3).
     path_grid : "auto", "same" or int
-        Cells along x of the grid for increments that are solved for the path alone (fields not
-        kept, not the end of a branch, constant normal force and tilting moments): a half or a
-        quarter of those of the grid; ``"same"``: the grid itself. ``"auto"`` (default): chosen with
-        the increments, such that ``path_tolerance`` holds; ``"same"`` where these are given. The
-        error that a number leaves is in ``path_error``, in the bars and in the doubts of a result.
+        Cells along x of the grid for increments that are solved for the path alone, a half or a
+        quarter of those of the grid. Their fields are not kept, they end no branch, and normal
+        force and tilting moments are constant. ``"same"``: the grid itself. ``"auto"`` (default):
+        chosen with the increments, such that ``path_tolerance`` holds; ``"same"`` where these are
+        given. The error that a number leaves is in ``path_error``, in the bars and in the doubts of
+        a result.
     turning : bool
         Let slip follow the turn of the shear within an increment (default True): the path becomes
         of second order.

@@ -125,8 +125,8 @@ class Snapshot(State):
         Returns
         -------
         xarray.Dataset
-            Over x, y or, on an oblique line, s [m]; there with `q_s` and `q_t`, the shear along s
-            and the shear to the left of it [Pa].
+            Over x, y or, on an oblique line, s [m]. An oblique line has `q_s` and `q_t`, the shear
+            along s and to the left of it [Pa].
 
         Raises
         ------
@@ -161,7 +161,7 @@ class Snapshot(State):
             the layers ask for, down to twice :attr:`length`).
         x, y : float, optional
             With `y`, the section along x at that y; with `x`, that along y; with both, the line
-            below a point; with neither, the whole plane at every depth given. Where nothing is
+            below a point. With neither, the whole plane at every depth given. Where nothing is
             given, the section along the shear, through the centre of the contact: :attr:`outline`.
         azimuth : float, optional
             The section at this angle to the x axis [rad], through `x` and `y` (default: the centre
@@ -172,7 +172,8 @@ class Snapshot(State):
             Whether its bulk stress is part of the stress.
         residual : sequence, optional
             Residual stress of every layer from the surface down, the substrate's last, in place of
-            that of the body: each a stress [Pa] or a table over depth, as :class:`Body` takes it.
+            that of the body. Each is a stress [Pa] or a table over depth, as :class:`Body` takes
+            it.
 
         Warns
         -----

@@ -83,8 +83,8 @@ def solve(
     Warns
     -----
     SceneWarning
-        Something of the scene is allowed but hardly meant, such as a number in another unit; or of
-        what the run came to, such as a contact of few cells (:attr:`Result.doubts`).
+        A number of the scene is allowed but hardly meant, such as one in another unit. Or the
+        result is doubtful, such as a contact of few cells (:attr:`Result.doubts`).
     """
     seconds = number(checkpoint, "checkpoint")
     scene = read(scene).replace(path=path, save=save)
@@ -137,7 +137,7 @@ def resume(
     Raises
     ------
     InvalidSceneError
-        The run has a friction law of one's own and none is given, or the other way about.
+        The run has a friction law that is a function and none is given, or the other way about.
     StoreError
         There is no store, another process writes it, or its checkpoint is damaged or of another
         version of pyfret.

@@ -1,7 +1,7 @@
 """Verification on the user's own machine: a part of the validation book, in minutes.
 
-Every number has a closed form as its truth, with its source, and the error that it had when it was
-last written down here; an error that is clearly more than that is a finding.
+Every number has a closed form as its truth, with its source. The error that it had when it was last
+written down stands beside it. An error that is clearly larger is a finding.
 """
 
 from __future__ import annotations
@@ -257,8 +257,8 @@ def verify(*, on_check: Callable[[Check], object] | None = None) -> Verification
     Returns
     -------
     Verification
-        Every number with its truth, its source, its error and the error that was last written
-        down; ``passed`` says whether no error is larger than that. Printed, it is a table.
+        Every number with its truth, its source, its error and the error that was last written down.
+        ``passed``: no error is larger than that. Printed, it is a table.
 
     Examples
     --------

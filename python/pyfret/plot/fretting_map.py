@@ -42,10 +42,10 @@ LENGTHS = np.array([10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0])
 def fretting_map(table: xr.Dataset, *, ax: Axes | None = None) -> Axes:
     """Running conditions as areas, over them contours of crack risk and of the energy of a cycle.
 
-    The crack risk is the criterion that the map was made with, as safety factor or as life in
-    cycles: full lines, thick where the factor is 1. Dashed lines are the energy that friction
-    dissipates in a cycle, to which wear is proportional. Dotted lines are lengths at which cracks
-    stop; where none stops any more a thick dotted line begins.
+    The crack risk is the criterion of the map, as safety factor or as life in cycles. It has full
+    lines, thick where the factor is 1. Dashed lines are the energy that friction dissipates in a
+    cycle, to which wear is proportional. Dotted lines are lengths at which cracks stop; where none
+    stops any more a thick dotted line begins.
 
     Parameters
     ----------
@@ -161,8 +161,8 @@ def arrest_lines(ax: Axes, raster: Raster, table: xr.Dataset, colour: str = ARRE
 def arrest_map(table: xr.Dataset, *, ax: Axes | None = None) -> Axes:
     """Where cracks stop over shear and bulk stress, and at which length.
 
-    Three areas: no crack grows from its first length, cracks stop, cracks grow; dotted lines are
-    the lengths at which they stop, full lines the criterion of initiation, if the map has one.
+    Three areas: no crack grows from its first length, cracks stop, cracks grow. Dotted lines are
+    the lengths at which they stop. Full lines are the criterion of initiation, if the map has one.
 
     Parameters
     ----------

@@ -159,9 +159,9 @@ DRIVEN = {
 def load_path(path: LoadPath | Run, *, mu: float | None = None, ax: Axes | None = None) -> Axes:
     r"""Loads and motions that a path drives over :math:`t/\tau`, the end of which is 1.
 
-    Normal forces are over their largest value, tangential ones over that of the normal force, times
-    `mu` where that is given; everything else over its own largest value, which the legend gives.
-    Of a result every increment is drawn, of a path the ends of its branches.
+    Normal forces are over their largest value W, tangential ones over W, or over `mu` W where that
+    is given. Everything else is over its own largest value, which the legend gives. Of a result
+    every increment is drawn, of a path the ends of its branches.
     """
     ax = axes(ax)
     t, columns = histories(path)

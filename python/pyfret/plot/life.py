@@ -78,9 +78,9 @@ def criterion_map(
 ) -> Axes:
     """Contours of a criterion on a section, with the worst point and its margin.
 
-    For criteria with a limit the value over the limit, the bold contour being the limit itself; for
-    the others the decimal logarithm of the life, empty beyond 1e9 cycles. Layers without a material
-    stay empty.
+    Criteria with a limit have the value over the limit; the bold contour is the limit itself. The
+    others have the decimal logarithm of the life, empty beyond 1e9 cycles. Layers without a
+    material stay empty.
 
     Parameters
     ----------
@@ -93,8 +93,8 @@ def criterion_map(
     stretch : bool, optional
         Whether every layer gets room on the axis of depth (default: if one is too thin to be seen).
     whole : bool
-        Whether the whole section is shown. By default a worst place that takes less than half of it
-        in both directions is enlarged: where the criterion reaches half of its largest value.
+        Whether the whole section is shown. By default the place where the criterion reaches half of
+        its largest value is enlarged, if it takes less than half of the section.
     ax : matplotlib Axes, optional
         Where to draw.
     """
@@ -283,10 +283,10 @@ def _mark(
 def critical_plane_rose(stress: ArrayLike, criterion: fatigue.Criterion) -> Axes:
     """What acts on the planes through one point whose normal lies in the x-z plane.
 
-    Over the angle of the normal from x towards z, downwards as in a section: the largest normal
-    stress where it is tension, half of the range of the shear within the x-z plane, and the normal
-    of the critical plane as a bar. For sections at y = 0 of contacts that are symmetric there, that
-    is all shear there is on these planes.
+    The angle is that of the normal from x towards z, downwards as in a section. Curves are the
+    largest tension and half of the range of the shear within the x-z plane. A bar is the normal of
+    the critical plane. For sections at y = 0 of contacts that are symmetric there, that is all
+    shear there is on these planes.
 
     Parameters
     ----------
@@ -364,12 +364,12 @@ def dang_van_diagram(
 def haigh_diagram(life: Life, *, material: Material | None = None, ax: Axes | None = None) -> Axes:
     """Amplitude over mean of the normal stress on the critical planes of all points of a section.
 
-    A cross marks the worst point of every layer. With a material, the limit of uniaxial stress:
-    from ``s_D`` fully reversed to ``s_u`` without amplitude (Goodman 1899) where there is ``s_u``,
-    else by Dang Van's criterion, s_D - (1 - s_D/(2 t_D)) times the mean.
+    A cross marks the worst point of every layer. With a material, the limit of uniaxial stress.
+    Where there is ``s_u``, it goes from ``s_D`` fully reversed to ``s_u`` without amplitude
+    (Goodman 1899). Else it is that of Dang Van's criterion, s_D - (1 - s_D/(2 t_D)) times the mean.
 
     The limit is meant for planes of the largest normal stress, such as those of
-    ``"smith_watson_topper"``; planes of shear have less normal stress at the same danger.
+    ``"smith_watson_topper"``. Planes of shear have less normal stress at the same danger.
 
     Parameters
     ----------
@@ -405,7 +405,7 @@ def haigh_diagram(life: Life, *, material: Material | None = None, ax: Axes | No
 
 
 def _limit_of_uniaxial_stress(ax: Axes, material: Material) -> None:
-    """The amplitude that a mean stress leaves, as far as there are points."""
+    """The amplitude that a mean stress leaves, where there are points."""
     slope, name = fatigue.mean_stress_slope(material)
     s_D = material.number("s_D") / 1e6
     left, right = ax.get_xlim()

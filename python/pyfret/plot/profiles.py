@@ -118,8 +118,8 @@ def shear_profiles(result: Run, *, units: Units = "auto", ax: Axes | None = None
     On the line through the centre of the largest contact, along the shear of all increments.
     Of more than twelve load states a scale of colours tells the time, not a legend.
 
-    A load state that was visited before is drawn as markers in the colour of its first visit:
-    markers on a line show that the cycle has settled.
+    A load state that was visited before is drawn as markers in the colour of its first visit.
+    Markers on a line show that the cycle has settled.
     """
     run = run_of(result)
     kept = run.dataset.saved_increment.values
@@ -167,8 +167,8 @@ MARKERS = ("o", "x", "s", "^")
 def load_states(result: Run) -> list[tuple[int, int]]:
     """Number the load states of the kept increments and count the visits of each.
 
-    Two increments share a state if the path gives them the same loads or motions, reached in the
-    same direction, to 1e-6 of the largest one.
+    Two increments share a state if their loads or motions agree to 1e-6 of the largest one and were
+    reached in the same direction.
     """
     d = result.dataset
     branches = result.scene.path.branches

@@ -150,7 +150,7 @@ def in_figures(values: xr.DataArray) -> tuple[xr.DataArray, str]:
 
 
 def of_line_contacts(d: xr.Dataset) -> bool:
-    """Whether a study is of line contacts on one metre, as far as its scene is stored."""
+    """Whether the stored scene of a study is a line contact on one metre."""
     try:
         grid = tomllib.loads(json.loads(d.attrs["study"])["scene"])["grid"]
     except (KeyError, ValueError):

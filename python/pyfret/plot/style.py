@@ -97,8 +97,8 @@ def show_once(figure: Figure) -> None:
 def settle(drawn: object) -> None:
     """Lay out a new figure until the labels of axes of equal lengths are all inside.
 
-    Such axes are narrower than their place, by how much depends on the layout, and a single layout
-    leaves room for the labels of axes as wide as their place.
+    Such axes are narrower than their place, by an amount that depends on the layout. A single
+    layout leaves room for the labels of axes as wide as their place.
     """
     figure = drawn.get_figure() if isinstance(drawn, Axes) else drawn
     if not isinstance(figure, Figure) or all(ax.get_aspect() == "auto" for ax in figure.axes):

@@ -48,9 +48,9 @@ def report(
 ) -> None:
     """Write a result as one page for a browser, which needs neither pyfret nor a network.
 
-    The page says what was solved and what was left out, has numbers with their error bars, the
-    loop, maps and profiles of every increment that kept its fields, the stress below the last one,
-    and the sources to cite.
+    The page has the scene, what was left out, and numbers with their error bars. It has the loop,
+    maps and profiles of every increment that kept its fields, and the stress below the last one. It
+    has the sources to cite.
 
     Parameters
     ----------

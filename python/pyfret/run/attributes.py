@@ -63,9 +63,9 @@ class OfRun(Labelled):
     def doubts(self) -> list[str]:
         """Numbers of the scene and of the run that are hardly meant or known, one sentence each.
 
-        First those of the scene (:meth:`Scene.doubts`), then those that the solution shows: few
-        cells across the contact, a contact that is wide for a body, a pressure above the yield
-        stress of metals, error bars that could not be computed.
+        First those of the scene (:meth:`Scene.doubts`), then those that the solution shows.
+        Examples are few cells across the contact, a contact that is wide for a body, a pressure
+        above the yield stress of metals.
         """
         return str(self.dataset.attrs.get("doubts", "")).splitlines()
 

@@ -41,9 +41,9 @@ class Run(OfRun):
     """What a run gave.
 
     Its ``dataset`` has scalars over ``increment`` and fields over (``saved``, ``x``, ``y``) for the
-    increments whose fields were kept; ``attrs`` holds the scene, the version, ``a_H``, ``p_H`` and
-    ``mu``. Every variable carries ``units`` and ``long_name``. Its scalars are attributes as well,
-    e.g. ``result.T_x``; fields are those of an increment, e.g. ``result.at(-1).p``.
+    increments whose fields were kept. Its ``attrs`` hold the scene, the version, ``a_H``, ``p_H``
+    and ``mu``. Every variable carries ``units`` and ``long_name``. Its scalars are attributes as
+    well, e.g. ``result.T_x``; fields are those of an increment, e.g. ``result.at(-1).p``.
     """
 
     def __getattr__(self, name: str) -> xr.DataArray:
@@ -77,8 +77,8 @@ class Run(OfRun):
     def length(self) -> float:
         """The length that results are measured in [m].
 
-        a_H, or where there is no Hertz contact half the longer side of the box around the contact
-        of the last increment whose fields were kept.
+        It is a_H. Where there is no Hertz contact, it is half the longer side of the box around the
+        contact of the last increment with fields.
         """
         return self.at(-1).length
 
@@ -167,14 +167,13 @@ class Run(OfRun):
     def error_bars(self) -> xr.Dataset:
         """Estimated errors of the numbers at the end of every branch: dims (branch, part).
 
-        Parts are ``total``, and what makes it: ``cells``, told by runs on two coarser grids and, of
-        numbers on up to 256 x 256 cells, by one on a finer grid, ``path``, told by a run with fewer
-        increments, and ``solver``, its tolerance. ``p`` and ``q`` are the tractions as fields: L2
-        norms over the largest of the path. ``stress`` is that of the stress in the bodies, over the
-        stress, ``residual_stress`` that of bodies that yield at a point, over its largest below the
+        Parts are ``total`` and its contributions. ``cells`` comes from runs on two coarser grids
+        and, up to 256 x 256 cells, on a finer one. ``path`` comes from a run with fewer increments,
+        ``solver`` from the tolerance. ``p`` and ``q`` are the tractions as fields: L2 norms over
+        the largest of the path. ``stress`` is that of the stress in the bodies, over the stress.
+        ``residual_stress`` is that of bodies that yield at a point, over its largest below the
         middle of the grid. A largest strain at the border of slip or at the rim of a coating does
-        not converge. The runs are those of ``solve(..., error=True)`` and
-        ``fret run --error``.
+        not converge. The runs are those of ``solve(..., error=True)`` and ``fret run --error``.
         """
         bars = self.dataset.attrs.get("error_bars")
         if not bars:
@@ -194,9 +193,9 @@ class Run(OfRun):
         """Scalars at the end of every branch; energies and work are sums over the branch.
 
         Where the increments were chosen, ``path_error`` is the estimated error that they leave in
-        the shear there: L2 norm, over the largest of the path. On fine grids it contains what the
-        run shows of it, and may be more than the ``path_error`` of the branch of the scene, which
-        was known before.
+        the shear there: L2 norm, over the largest of the path. On fine grids it holds what the run
+        adds to the estimate. So it may be larger than the ``path_error`` of the branch of the
+        scene.
         """
         of = self.dataset.branch_of_increment.values
         starts = np.flatnonzero(np.diff(of, prepend=of[0] - 1))
@@ -225,9 +224,9 @@ class Run(OfRun):
         -------
         xarray.Dataset
             Over ``cycle``: ``dissipated`` [J], half ranges ``T`` [N] and ``delta`` [m],
-            ``stiffness`` right after the reversals and ``secant_stiffness`` [N/m], half the
-            ``opening`` of the loop [m], ``energy_ratio``, ``sliding_ratio``, ``status``, and the
-            branches it spans. Of a line contact energies, forces and stiffness are per metre.
+            ``energy_ratio``, ``sliding_ratio`` and ``status``. ``stiffness`` right after the
+            reversals, ``secant_stiffness`` [N/m] and half the ``opening`` of the loop [m]. The
+            branches that it spans. Of a line contact energies, forces and stiffness are per metre.
         """
         return of_cycles(self.dataset, self.scene, direction)
 

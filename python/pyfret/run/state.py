@@ -167,7 +167,8 @@ class State(OfRun):
         """Pressure at the centres of the cells [Pa], that at the rim continued from inside.
 
         Cells at the rim carry what balances the others, up to a tenth more or less than the
-        pressure at their centres; this is nearer to that. The sum of ``p`` is the load.
+        pressure at their centres. The continued values are nearer to it. The sum of ``p`` is the
+        load.
         """
         p = self.dataset["p"]
         return p.copy(data=_core.continued_pressure(p.values, self.scene.grid))

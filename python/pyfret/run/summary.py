@@ -90,8 +90,8 @@ def columns(result: Run, ends: xr.Dataset) -> list[list[str]]:
 def told(result: Run, ends: xr.Dataset, name: str) -> NDArray[np.float64]:
     """Give a number at the end of every branch, 0 where the run cannot tell it from zero.
 
-    The slip in stick cells is held to `tolerance` mu times the approach; a shift that answers to a
-    load is no better known, nor is a force that answers to a shift than `tolerance` mu W. The arm
+    The slip in stick cells is held to `tolerance` mu times the approach. A shift that answers to a
+    load is no better known. A force that answers to a shift is known to `tolerance` mu W. The arm
     of rotations and moments is the radius of the contact.
     """
     values = ends[name].values

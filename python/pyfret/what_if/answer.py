@@ -65,7 +65,7 @@ def answer(
     Raises
     ------
     ValueError
-        The scene has no meaning or no solution; the message says why.
+        The scene has no meaning or no solution.
     """
     if counts is not None:
         fewer = [max(LEAST, count // FEWER) for count in counts]

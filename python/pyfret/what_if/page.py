@@ -1,7 +1,7 @@
 """The page: sliders, figures and numbers, served on this machine alone.
 
-The library is Dash: its figures are plotly's, which the reports have already; it serves all its
-files itself, so that it works offline; and its callbacks keep no state on the server. All that a
+The library is Dash. Its figures are plotly's, which the reports have already. It serves all its
+files itself, so that it works offline. Its callbacks keep no state on the server. All that a
 browser has changed lives in that browser, so that two of them cannot mix their scenes.
 """
 
@@ -75,10 +75,10 @@ def explore(
     """Serve a page on which a contact answers while its parameters are dragged.
 
     Sliders: load, friction, thickness and modulus of the outermost coating, radius. At once: loop,
-    stick and slip, tractions and stress on the section along the shear with its largest value
-    and layer, and the first doubt that applies. A preview comes first, with a third of the
-    increments of the neighbouring scene; the full answer replaces it. The page says which of the
-    two it shows.
+    stick and slip, tractions and stress on the section along the shear. The page has the largest
+    stress, its layer, and the first doubt that applies. A preview comes first, with a third of the
+    increments of the neighbouring scene; the full answer replaces it. The line above the numbers
+    begins with "preview" or "full answer".
 
     The page is on 127.0.0.1 alone and needs no network. In a notebook the value of the cell shows
     it. Needs Dash: ``pip install "fretting[explore]"``.
