@@ -21,6 +21,8 @@ use std::sync::atomic::AtomicBool;
 use super::repeats::Repeats;
 use super::two_runs::{PathError, TwoRuns};
 use crate::error::Error;
+use crate::march::is_remembered;
+use crate::plan::Plan;
 use crate::scene::{Grid, PathGrid, SaveFields, Scene};
 
 /// Cells of the shorter side of the path grid that is tried, at most.
@@ -72,6 +74,7 @@ pub(super) fn choose_path_grid(scene: &mut Scene, stop: &Arc<AtomicBool>) -> Res
         // A coarse grid may be too coarse for the scene.
         (Err(_), _) => return Ok(()),
     };
+    let remembered = is_remembered(scene, &Plan::new(scene));
     let worst = errors.iter().map(|error| error.q).fold(0.0, f64::max);
     for ratio in ratios {
         let of_grid = worst * extrapolation(tried, shorter / ratio, ratio);
@@ -82,8 +85,11 @@ pub(super) fn choose_path_grid(scene: &mut Scene, stop: &Arc<AtomicBool>) -> Res
                 branch.path_error = branch.path_error.map(|error| error.hypot(of_grid));
             }
         }
-        let largest = branches.iter().filter_map(|of| of.path_error);
-        let allowed = largest.fold(0.0, f64::max) <= scene.settings.solver.path_tolerance;
+        // The increments of an indentation whose stick zone is fitted were judged when they were chosen,
+        // by a shear with the scatter that the fit takes off.
+        let judged = branches.iter().skip(usize::from(remembered));
+        let largest = judged.filter_map(|of| of.path_error);
+        let allowed = largest.fold(of_grid, f64::max) <= scene.settings.solver.path_tolerance;
         if allowed || given != PathGrid::Auto {
             scene.settings.solver.path_grid = PathGrid::Cells(nx / ratio);
             scene.path.branches = branches;
@@ -131,6 +137,8 @@ fn pays(scene: &Scene) -> bool {
         f[..3] == g[..3] && m[..3] == n[..3]
     };
     let taken_over = (1..branches.len()).filter(|&k| steady(k));
+    let remembered = is_remembered(scene, &Plan::new(scene)).then_some(0);
+    let taken_over = taken_over.chain(remembered);
     let taken_over: usize = taken_over.map(|k| branches[k].count() - 1).sum();
     scene.settings.save != SaveFields::All
         && taken_over as f64 >= TAKEN_OVER * scene.path.increments() as f64
@@ -172,8 +180,10 @@ fn errors_of_trial(
     let mut runs = TwoRuns::new(&carried, &trial, stop)?;
     let substeps = runs.growth_steps() / 2;
     runs.grow_in([substeps; 2]);
-    // While the contact grows, both are solved on the finer grid.
-    runs.share(&trial.path, 1)?;
+    if !runs.remember() {
+        // While the contact grows, both are solved on the finer grid.
+        runs.share(&trial.path, 1)?;
+    }
     runs.change(&trial.path, &trial.path)
 }
 

@@ -104,6 +104,12 @@ impl TwoRuns {
         self.many.grow_in(many);
     }
 
+    /// Takes the end of an indentation from what the stick zone remembers in both runs, on the grid of
+    /// its path or on its own; returns whether it is a function of the radius.
+    pub(crate) fn remember(&mut self) -> bool {
+        self.many.march.remember_on_its_grid()
+    }
+
     /// Solves the first branches of a path, which are the same in both runs but for the grid of
     /// their path, once.
     pub(crate) fn share(&mut self, path: &LoadPath, branches: usize) -> Result<(), Error> {

@@ -46,6 +46,53 @@ pub(super) fn carried(problem: &Problem, state: &State, along: &Along, ratio: us
     carried
 }
 
+/// The state in a window of the fine grid of bodies that the coarse grid alone has pressed together,
+/// but for the last slip: pressure p^2 interpolated, shear between cells in contact.
+pub(super) fn pressed(
+    problem: &Problem,
+    window: (usize, usize),
+    now: &State,
+    ratio: usize,
+) -> State {
+    let mirror = problem.plan.mirror;
+    let kept = |(nx, ny): (usize, usize)| (nx, mirror.rows(ny));
+    let (coarse, fine) = (kept(now.window), kept(window));
+    let then = State::unloaded(now.window, coarse.0 * coarse.1, 0.0);
+    let change = Change::new(now, &then, (coarse, fine), (ratio, mirror));
+    let unloaded = State::unloaded(window, fine.0 * fine.1, 0.0);
+    let mut pressed = State {
+        increments: now.increments,
+        loads: now.loads,
+        motion: now.motion,
+        work: now.work,
+        without_slip: now.without_slip,
+        step: now.step,
+        ..unloaded
+    };
+    change.displacements_and_sums(&mut pressed);
+    let pressure = |p: &[f64]| -> Vec<f64> {
+        let squares: Vec<f64> = p.iter().map(|p| p * p).collect();
+        let on_fine = change.linear.of(&squares, Half::Even);
+        let roots: Vec<f64> = on_fine.iter().map(|p| p.sqrt()).collect();
+        let factor = (ratio * ratio) as f64 * total(p) / total(&roots).max(f64::MIN_POSITIVE);
+        roots.iter().map(|p| factor * p).collect()
+    };
+    pressed.interface.p = pressure(&now.interface.p);
+    pressed.p_before = pressure(&now.p_before);
+    let none = &then.interface.q;
+    for (c, half) in HALVES.into_iter().enumerate() {
+        pressed.interface.q[c] = change.of(&now.interface.q[c], &none[c], half);
+        pressed.q_before[c] = change.of(&now.q_before[c], &none[c], half);
+    }
+    let mark = |of: &[bool]| -> Vec<bool> {
+        let part = change.masked(|n| is(of[n]), Half::Even);
+        part.iter().map(|part| *part > 0.5).collect()
+    };
+    pressed.interface.slips = mark(&now.interface.slips);
+    pressed.at_limit = mark(&now.at_limit);
+    pressed
+}
+
 const HALVES: [Half; 2] = [Half::Even, Half::Odd];
 
 /// Change of the coarse grid since the fine one was solved last.

@@ -27,6 +27,7 @@ pub(super) fn first_guess(setup: &Setup<'_>, extrapolates: bool) -> Interface {
             extrapolate_shear(&mut guess, &state.q_before, setup.mu, factor);
         }
         Some(_) => {}
+        None if setup.stays() => {}
         None => guess.slips.fill(false),
     }
     let [sum] = sweep([], [&mut guess.p], |_, [], [p]| {

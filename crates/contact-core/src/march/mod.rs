@@ -23,6 +23,7 @@ mod offsets;
 mod path_grid;
 mod problem;
 mod reached;
+mod remembered;
 mod results;
 mod retry;
 mod rolled;
@@ -41,6 +42,7 @@ mod yields;
 pub use fields::{Fields, Tractions};
 pub(crate) use problem::TANGENTIAL_SHARE;
 pub use reached::Reached;
+pub(crate) use remembered::is_remembered;
 pub use results::{Energy, Increment, Motion, Residuals, Status, Work, Yield};
 pub use run::{BranchSummary, Observer, solve, summarise};
 pub use shear_errors::shear_errors;
@@ -112,6 +114,7 @@ impl March {
                 approach: scene.approach(),
                 cycles: 0.0,
                 share: 1.0,
+                remembers: false,
                 scene: solved,
                 plan,
                 stop: stop.clone(),
@@ -192,6 +195,13 @@ impl March {
         }
     }
 
+    /// Solves the end of an indentation again, from what its stick zone remembers on this grid, if it
+    /// is one of which a path grid takes that; returns whether it is.
+    pub(crate) fn remember_on_its_grid(&mut self) -> bool {
+        self.problem.remembers = is_remembered(&self.problem.scene, &self.problem.plan);
+        self.problem.remembers
+    }
+
     /// The scene, with the tolerance that it is solved with.
     pub fn scene(&self) -> &Scene {
         &self.problem.scene
@@ -225,6 +235,11 @@ impl March {
             self.advance_yielding(&point)
         } else if self.coarse.is_some() {
             self.on_both_grids(&point)
+        } else if self.problem.remembers && point.ends_branch && self.remembers(&point) {
+            self.advance_to(&point).and_then(|row| {
+                let (scene, after) = (self.problem.scene.clone(), self.state.clone());
+                self.remember(&point, (&scene, &after, &row), 1)
+            })
         } else {
             self.advance_to(&point)
         })

@@ -6,7 +6,9 @@
 //!
 //! - at the ends of branches and where fields are kept,
 //! - while the normal force or a tilting moment changes: a cell that comes into contact sticks
-//!   where it entered, and the coarse grid knows that only to within its own cells,
+//!   where it entered, and the coarse grid knows that only to within its own cells. In a first
+//!   indentation of round smooth bodies that is a function of the radius, and the end alone is
+//!   solved ([`remembered`](super::remembered)),
 //!
 //! each time from the state to which the change of the coarse grid has carried it
 //! ([`carried`](super::carried)). In between, a number x of an increment is
@@ -25,8 +27,9 @@ use std::borrow::Cow;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use super::carried::carried;
+use super::carried::{carried, pressed};
 use super::coupling::coupling;
+use super::state::Along;
 use super::{Increment, March, Motion, State};
 use crate::error::Error;
 use crate::plan::Plan;
@@ -77,8 +80,10 @@ impl March {
 
     /// The increment to a point: on the path grid, and on that of the scene where it is wanted.
     pub(super) fn on_both_grids(&mut self, point: &LoadPoint) -> Result<Increment, Error> {
-        let solves = self.is_wanted(point) || self.presses_anew(point);
-        let was_carried = solves && self.catch_up();
+        let remembers = self.remembers(point);
+        let solves = self.is_wanted(point) || (self.presses_anew(point) && !remembers);
+        let was_carried = solves && !remembers && self.catch_up();
+        let before = solves.then(|| self.state.along.clone());
         let on_coarse = match self.advance_on_path_grid() {
             Ok(increment) => increment,
             Err(error @ Error::Interrupted { .. }) => return Err(error),
@@ -91,8 +96,16 @@ impl March {
         if !solves {
             return Ok(self.in_between(&on_coarse));
         }
-        self.problem.share = if was_carried { CARRIED_SHARE } else { 1.0 };
-        let solved = self.advance_to(point);
+        self.problem.share = if was_carried || remembers {
+            CARRIED_SHARE
+        } else {
+            1.0
+        };
+        let solved = if remembers {
+            self.remember_path_grid(point, &on_coarse)
+        } else {
+            self.advance_to(point)
+        };
         self.problem.share = 1.0;
         let Some(along) = &mut self.state.along else {
             return solved;
@@ -104,10 +117,26 @@ impl March {
                 Ok(increment)
             }
             Err(error) => {
-                along.now = along.then.clone();
+                self.state.along = before.flatten();
                 Err(error)
             }
         }
+    }
+
+    /// The increment of an indentation from what the stick zone of the path grid remembers.
+    fn remember_path_grid(
+        &mut self,
+        point: &LoadPoint,
+        row: &Increment,
+    ) -> Result<Increment, Error> {
+        let ratio = self.ratio();
+        let (Some(coarse), Some(along)) = (self.coarse.take(), &self.state.along) else {
+            unreachable!("a march without a path grid");
+        };
+        let after = along.now.clone();
+        let solved = self.remember(point, (coarse.scene(), &after, row), ratio);
+        self.coarse = Some(coarse);
+        solved
     }
 
     /// Whether the fields at a point are kept, or it ends a branch.
@@ -145,14 +174,13 @@ impl March {
 
     /// Carries the state of the fine grid to the present increment; returns whether it was behind.
     fn catch_up(&mut self) -> bool {
-        let (ratio, problem) = (self.ratio(), &self.problem);
         let Some(along) = &self.state.along else {
             return false;
         };
         if !along.is_ahead() {
             return false;
         }
-        let mut now = carried(problem, &self.state, along, ratio);
+        let mut now = self.carried(along);
         if let Some(along) = &mut now.along {
             along.then = along.now.clone();
         }
@@ -163,19 +191,30 @@ impl March {
     /// The state with its fields at the present increment.
     pub(super) fn caught_up(&self) -> Cow<'_, State> {
         match &self.state.along {
-            Some(along) if along.is_ahead() => {
-                Cow::Owned(carried(&self.problem, &self.state, along, self.ratio()))
-            }
+            Some(along) if along.is_ahead() => Cow::Owned(self.carried(along)),
             _ => Cow::Borrowed(&self.state),
         }
+    }
+
+    /// The state carried to the present increment of the path grid; in an indentation that is solved
+    /// on it alone, what the path grid has.
+    fn carried(&self, along: &Along) -> State {
+        let (problem, ratio) = (&self.problem, self.ratio());
+        if self.remembers(&self.points[along.now.increments - 1]) {
+            let whole = (problem.scene.grid.nx, problem.scene.grid.ny);
+            return State {
+                along: self.state.along.clone(),
+                ..pressed(problem, whole, &along.now, ratio)
+            };
+        }
+        carried(problem, &self.state, along, ratio)
     }
 
     /// The increment that was solved on the coarse grid alone.
     fn in_between(&mut self, coarse: &Increment) -> Increment {
         let state = &mut self.state;
-        let Some([fine, then]) = state.along.as_ref().and_then(|along| along.rows) else {
-            return *coarse;
-        };
+        let rows = state.along.as_ref().and_then(|along| along.rows);
+        let [fine, then] = rows.unwrap_or([*coarse; 2]);
         let moved = |of: fn(&Increment) -> f64| of(&fine) + (of(coarse) - of(&then));
         let given = coarse.point.loads.given.motions();
         let motion = |k: usize| {
@@ -196,6 +235,7 @@ impl March {
             motion: Motion::from_motions(std::array::from_fn(motion)),
             contact_area: fine.contact_area,
             stick_area: coarse.stick_ratio() * fine.contact_area,
+            path_grid: coarse.path_grid,
             cells_per_radius: fine.cells_per_radius,
             p_max: moved(|i| i.p_max),
             q_max: moved(|i| i.q_max),

@@ -26,6 +26,8 @@ pub(super) struct Problem {
     pub(super) cycles: f64,
     /// Part of the tolerance that the increment is solved to.
     pub(super) share: f64,
+    /// Whether the end of an indentation is solved again from what its own stick zone remembers.
+    pub(super) remembers: bool,
     /// Raised from outside to end the run.
     pub(super) stop: Arc<AtomicBool>,
 }

@@ -116,6 +116,13 @@ impl Setup<'_> {
         }
     }
 
+    /// Whether loads and given motions stay as they are.
+    pub(super) fn stays(&self) -> bool {
+        let (state, loads) = (self.state, &self.point.loads);
+        let step = loads.since(&state.loads, state.motion.motions());
+        step.along(&step).is_none()
+    }
+
     /// Fails once the flag is raised.
     pub(super) fn unless_stopped(&self) -> Result<(), Error> {
         self.problem.unless_stopped(self.state.increments)

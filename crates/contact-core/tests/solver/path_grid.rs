@@ -75,7 +75,7 @@ fn ends_and_rows_are_those_of_the_grid_itself() {
     let off = distance(&on_path, &q);
     assert!(off < 2.5e-3, "the shear is {off:.1e} off");
     let fine = rows.iter().filter(|row| row.path_grid == 128).count();
-    assert_eq!(fine, 8 + 3, "the growth of the contact, and three ends");
+    assert_eq!(fine, 4, "the ends of the branches");
 
     // Largest difference of the values of a column, over the largest value.
     let column = |name: &str, of: fn(&Increment) -> f64, allowed: f64| {
@@ -86,7 +86,8 @@ fn ends_and_rows_are_those_of_the_grid_itself() {
     };
     column("delta_x", |row| row.motion.delta_x, 1e-3);
     column("delta_z", |row| row.motion.delta_z, 1e-4);
-    column("p_max", |row| row.p_max, 1e-3);
+    // While the contact grows it has a few cells of the path grid.
+    column("p_max", |row| row.p_max, 3e-3);
     // Beside a narrow slip ring the rim scatters by a quarter of a cell on the grid itself.
     let rim = 0.25 / rows[7].cells_per_radius;
     column("contact_area", |row| row.contact_area, 2.0 * rim);
@@ -124,14 +125,14 @@ fn a_run_goes_on_from_any_increment_with_the_same_bits() {
 #[test]
 fn increments_that_keep_their_fields_are_solved_on_the_grid() {
     let mut scene = scene(PAPER, &["solver.path_grid=64"]);
-    scene.settings.save = SaveFields::Indices(vec![12, 25]);
+    scene.settings.save = SaveFields::Indices(vec![3, 12, 25]);
     let (rows, _) = run(&scene);
     let fine: Vec<usize> = rows
         .iter()
         .filter(|row| row.path_grid == 128)
         .map(|row| row.index)
         .collect();
-    assert_eq!(fine, [1, 2, 3, 4, 5, 6, 7, 8, 12, 17, 25, 30, 43]);
+    assert_eq!(fine, [3, 8, 12, 17, 25, 30, 43]);
     scene.settings.save = SaveFields::All;
     let (rows, _) = run(&scene);
     assert!(rows.iter().all(|row| row.path_grid == 128));
@@ -291,4 +292,32 @@ fn the_path_grid_is_chosen_by_its_error() {
     let round =
         "path=[{ W = 1000.0 }, { T_x = 200.0 }, { T_y = 150.0 }, { W = 1200.0 }, { T_x = -200.0 }]";
     assert_ne!(chosen(&text, &["grid.n=256", round]), PathGrid::Cells(64));
+}
+
+/// Half-spaces of unlike metals with wide and narrow rings of slip. The shear after the indentation, over that of eight times the increments on the grid.
+#[test]
+fn an_indentation_on_the_path_grid_has_less_error_than_on_the_grid_itself() {
+    let text = |n: usize, mu: f64| {
+        format!(
+            "schema = 1\nbody1 = {{ shape.sphere.R = 0.01, E = 210e9, nu = 0.3 }}\nfriction.mu = {mu}\n\
+             grid = {{ n = {n}, extent = {{ a_H = 3.0 }} }}\nsolver.tolerance = 2e-5\n\
+             path = [{{ W = 100.0, increments = 21, spacing = \"equal_radius\" }}]\n\
+             [body2]\nshape = \"flat\"\nE = 70e9\nnu = 0.33\n"
+        )
+    };
+    for mu in [0.08, 0.15, 0.2] {
+        let end = |set: &[&str]| {
+            let (rows, shears) = run(&scene(&text(128, mu), set));
+            (rows[rows.len() - 1], shears)
+        };
+        let (row, exact) = end(&["path.0.increments=168", "solver.path_grid=same"]);
+        let (_, on_grid) = end(&["solver.path_grid=same"]);
+        let (_, on_path) = end(&["solver.path_grid=64"]);
+        let errors = [on_grid, on_path].map(|q| distance(&q, &exact));
+        println!(
+            "mu = {mu}, c/a = {:.3}: {errors:?}",
+            row.stick_ratio().sqrt()
+        );
+        assert!(errors[1] < 0.95 * errors[0], "mu = {mu}: {errors:?}");
+    }
 }

@@ -6,13 +6,13 @@ use crate::cells::{inverse, product};
 pub(super) const RIDGE: f64 = 1e-6;
 
 /// Normal equations of N terms for V right-hand sides; the first term has no ridge.
-pub(super) struct LeastSquares<const N: usize, const V: usize> {
+pub(in crate::march) struct LeastSquares<const N: usize, const V: usize> {
     gram: [[f64; N]; N],
     right: [[f64; N]; V],
 }
 
 impl<const N: usize, const V: usize> LeastSquares<N, V> {
-    pub(super) fn new() -> Self {
+    pub(in crate::march) fn new() -> Self {
         Self {
             gram: [[0.0; N]; N],
             right: [[0.0; N]; V],
@@ -20,7 +20,7 @@ impl<const N: usize, const V: usize> LeastSquares<N, V> {
     }
 
     /// Adds a place with the terms and the values there.
-    pub(super) fn add(&mut self, weight: f64, terms: [f64; N], values: [f64; V]) {
+    pub(in crate::march) fn add(&mut self, weight: f64, terms: [f64; N], values: [f64; V]) {
         for (row, term) in self.gram.iter_mut().zip(terms) {
             let weighted = weight * term;
             for (entry, other) in row.iter_mut().zip(terms) {
@@ -36,7 +36,7 @@ impl<const N: usize, const V: usize> LeastSquares<N, V> {
     }
 
     /// The coefficients of the terms, for each right-hand side.
-    pub(super) fn factors(&self) -> [[f64; N]; V] {
+    pub(in crate::march) fn factors(&self) -> [[f64; N]; V] {
         let mut ridged = self.gram;
         for (k, row) in ridged.iter_mut().enumerate().skip(1) {
             row[k] *= 1.0 + RIDGE;
@@ -46,7 +46,7 @@ impl<const N: usize, const V: usize> LeastSquares<N, V> {
     }
 
     /// Sum over the places of the terms with these coefficients times a right-hand side.
-    pub(super) fn fitted(&self, factors: &[f64; N], kind: usize) -> f64 {
+    pub(in crate::march) fn fitted(&self, factors: &[f64; N], kind: usize) -> f64 {
         let terms = factors.iter().zip(self.right[kind]);
         terms.map(|(factor, right)| factor * right).sum()
     }

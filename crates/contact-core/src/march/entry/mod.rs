@@ -17,6 +17,7 @@ mod view;
 
 use self::first_contact::solve_first_contact;
 use self::kept_contact::KeptContact;
+pub(super) use self::least_squares::LeastSquares;
 use super::setup::{Setup, Solution, Solver};
 use crate::error::Error;
 use crate::solvers::Interface;
@@ -83,7 +84,9 @@ fn on_old_cells(setup: &Setup<'_>, guess: &Interface) -> Interface {
 fn cells_enter(setup: &Setup<'_>) -> bool {
     let (plan, drives) = (&setup.problem.plan, &setup.drives);
     let Interface { p, q, .. } = &setup.state.interface;
-    let grows = if drives.normal.free[0] {
+    let grows = if setup.stays() {
+        false
+    } else if drives.normal.free[0] {
         let rounding = f64::EPSILON * p.len() as f64;
         drives.normal.sums[0] > p.iter().sum::<f64>() * (1.0 + rounding)
     } else {
