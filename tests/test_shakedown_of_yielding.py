@@ -31,7 +31,6 @@ def scene(lower: fret.Elastic, cycles: int, *, save: str = "branches") -> fret.S
     )
 
 
-@pytest.mark.filterwarnings("ignore:the plastic zone reaches the border")
 @pytest.mark.slow
 @pytest.mark.solves
 @pytest.mark.parametrize(
