@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
 #: Room around the zone that has yielded, over its width and depth.
 ROOM = 0.25
+#: Plastic strain that is coloured at all, over the first step of the colours.
+LEAST = 0.02
 
 
 @styled
@@ -72,13 +74,13 @@ def plastic_zone(
     image = None
     if yielded.any():
         steps = MaxNLocator(9).tick_values(0.0, percent.max())
+        # What has not yielded stays white.
+        levels = [LEAST * steps[1], *steps[1:]]
         for layer in np.unique(layers):
             here = layers == layer
             if np.count_nonzero(here) < 2 or not yielded[here].any():
                 continue
-            # What has not yielded stays white.
-            shown_part = np.ma.masked_less_equal(percent[here], 0.0)
-            image = ax.contourf(x, z[here], shown_part, levels=steps, cmap=COLOURS)
+            image = ax.contourf(x, z[here], percent[here], levels=levels, cmap=COLOURS)
             ax.contour(x, z[here], percent[here], levels=steps[1:], colors="0.2", linewidths=0.4)
     else:
         ax.text(0.5, 0.5, "nothing has yielded", transform=ax.transAxes, ha="center")
@@ -95,6 +97,7 @@ def plastic_zone(
         bar = ax.get_figure().colorbar(image, cax=beside)  # type: ignore[union-attr]
         bar.outline.set_visible(False)
         bar.set_label(label)
+        bar.set_ticks(steps[1:])
     else:
         ax.set_title(label)
     ax.set_xlim(-widest, widest)
