@@ -17,6 +17,8 @@ from pyfret import fatigue, shapes
 
 STEEL = fret.Elastic(E=210e9, nu=0.3)
 W, RADIUS, N = 60.0, 0.01, 48
+#: Range of K below which a crack counts as shut [Pa m^0.5]: thresholds are a hundred times that.
+SHUT = 1e4
 SCENES = int(os.environ.get("FRET_TURNED", "1"))
 
 
@@ -102,4 +104,6 @@ def test_numbers_do_not_depend_on_how_a_scene_is_turned(seed: int) -> None:
     turned = scene.turned(angle)
     for other in (turned, turned.mirrored()):
         for name, found in other.numbers().items():
-            assert found == pytest.approx(right[name], rel=0.01), (name, scene, np.degrees(angle))
+            least = SHUT if name == "dK" else 0.0
+            about = (name, scene, np.degrees(angle))
+            assert found == pytest.approx(right[name], rel=0.01, abs=least), about
