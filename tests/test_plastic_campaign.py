@@ -133,4 +133,4 @@ def test_a_random_contact_holds_what_holds_for_all(seed: int) -> None:
         assert 0.0 < kept <= work + 5e-3 * moved
         assert float(increment.dissipated) >= -1e-4 * abs(float(increment.work))
         # Stress changes by 1e-4 of the yield stress in the last pass.
-        assert over_the_yield_surface(scene, increment.plastic()) < 1e-2
+        assert over_the_yield_surface(scene, increment.plastic()) < 2e-3

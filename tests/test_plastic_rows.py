@@ -47,7 +47,6 @@ def _marked(*of: str | int) -> object:
     return pytest.param(*of, marks=outside)
 
 
-@pytest.mark.filterwarnings("ignore:the plastic zone reaches the border")
 @pytest.mark.slow
 @pytest.mark.solves
 @pytest.mark.parametrize(("name", "number"), [_marked(*state) for state in STATES])
