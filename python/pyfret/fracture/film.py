@@ -33,6 +33,11 @@ def channel_release(coating: Coating, below: Elastic, stress: float) -> float:
         Stress of the film, residual and of the load [Pa]; of a stress that varies through the
         thickness its largest value is on the safe side.
 
+    Raises
+    ------
+    ValueError
+        The film is too stiff for what it lies on, or the stress is not finite.
+
     References
     ----------
     J. L. Beuth, Int. J. Solids Struct. 29 (1992) 1657-1675; J. W. Hutchinson, Z. Suo, Adv. Appl.
@@ -41,7 +46,13 @@ def channel_release(coating: Coating, below: Elastic, stress: float) -> float:
     if not np.isfinite(stress):
         raise ValueError(f"stress = {stress}: must be finite")
     E, nu = coating.material.E, coating.material.nu
-    Z = np.pi / 2.0 * _core.channel_crack(coating.material, below)
+    try:
+        Z = np.pi / 2.0 * _core.channel_crack(coating.material, below)
+    except _core.InvalidSceneError as refused:
+        raise ValueError(
+            f"channel_release: no solution for a film of {E:.4g} Pa on {below.E:.4g} Pa; films of "
+            "up to 10 times the modulus of what they lie on have one"
+        ) from refused
     return float(Z * max(stress, 0.0) ** 2 * coating.thickness * (1.0 - nu * nu) / E)
 
 
