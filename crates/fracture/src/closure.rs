@@ -21,8 +21,10 @@
 //! inequality change their state, all of them at once: Newton's method of this complementarity
 //! problem, which is exact once no state changes (M. Hintermueller, K. Ito, K. Kunisch, SIAM J.
 //! Optim. 13 (2002) 865-888). Along straight cracks -M_nn and -M_tt have no positive entry beside the
-//! diagonal, and the method ends. At a kink with mu above about 0.6 slip can lift the faces that
-//! press it, and the states may change for ever: the number of passes is bounded.
+//! diagonal, and the method ends. At a kink slip can lift the faces that press it, and the states
+//! may change for ever: the number of passes is bounded. 160 random histories with kinks of up to 34
+//! degrees and mu up to 0.9 ended, and 80 with kinks of up to 52 degrees and mu up to 0.3; with mu of
+//! 0.9 a fifth of those did not. Where these passes do not end, Lemke's pivots end on a ray.
 //!
 //! Tractions below [`ZERO`] times the largest of the history count as zero, and so do the jumps that
 //! they cause: a crack that is unloaded is at rest, whatever the rounding of its stress.
