@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import importlib
+import inspect
 import re
 from collections.abc import Callable
 from pathlib import Path
+from types import FunctionType
 
 import pytest
+
+import pyfret as fret
+from pyfret._util.door import OBJECTS, is_own
 
 ROOT = Path(__file__).parents[1]
 #: Types of the binding that hold numbers.
@@ -91,3 +96,39 @@ def test_every_public_callable_is_called_with_hostile_values(
     # Constructors of the criteria take their numbers by name, whatever they are.
     forgotten = set(found) - called - set(public.LEFT_OUT)
     assert {name for name in forgotten if not name.startswith("fatigue.Criterion.")} == set()
+
+
+@pytest.mark.solves
+@pytest.mark.filterwarnings("ignore")
+def test_an_object_of_pyfret_is_no_plain_value(
+    monkeypatch: pytest.MonkeyPatch, record_property: Callable[[str, object], None]
+) -> None:
+    """Every parameter that takes one refuses a list by its name, before anything else is done."""
+    monkeypatch.syspath_prepend(str(Path(__file__).with_name("hostile")))
+    public = importlib.import_module("public")
+    asked = 0
+    for name, call in public.public():
+        found = None if name in public.LEFT_OUT else public.good(name, call)
+        if found is None or not isinstance(call, FunctionType):
+            continue
+        for one in inspect.signature(call).parameters.values():
+            annotation = str(one.annotation)
+            classes = [of for of in annotation.split(" | ") if of != "None"]
+            if not OBJECTS.fullmatch(annotation) or not all(is_own(of) for of in classes):
+                continue
+            asked += 1
+            said = rf"{one.name} = \[1\.0\]: must be|argument '{one.name}'|processing '{one.name}'"
+            with pytest.raises(TypeError, match=said):
+                public.invoked(call, found[0] | {one.name: [1.0]})
+    record_property("parameters", asked)
+    assert asked > 100
+
+
+def test_what_several_objects_are_is_no_text() -> None:
+    with pytest.raises(TypeError, match="increments = b'x': must be several of the class State"):
+        fret.subsurface.envelope(None, b"x")  # type: ignore[arg-type]
+
+
+def test_numbers_that_leave_nothing_are_refused() -> None:
+    with pytest.raises(ValueError, match="both must be positive"):
+        fret.experiments.fouvry2007(mu=5e-324)

@@ -120,6 +120,13 @@ def test_headers_say_spacing_and_unit(tmp_path: Path) -> None:
     grid.write_text(grid.read_text() + "7e-9\n")
     with pytest.raises(StoreError, match=r"has 7 numbers: must have ncols x nrows = 3 x 2"):
         fret.read_surface(grid)
+    whole = grid.read_text()
+    for count in ("99999999999", "-3", "3.5"):
+        grid.write_text(whole.replace("NCOLS 3", f"NCOLS {count}"))
+        with pytest.raises(
+            StoreError, match=rf"ncols = {count}: must be a whole number from 1 to 1e9"
+        ):
+            fret.read_surface(grid)
 
 
 @pytest.mark.parametrize(

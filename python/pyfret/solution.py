@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Literal
 from pyfret import _core
 from pyfret._core import Scene
 from pyfret._util.arrays import number
+from pyfret._util.door import numbers_only
 from pyfret._util.lazy import xr
 from pyfret._util.progress import Progress
 from pyfret.result import Result, open
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
 __all__ = ["Increment", "march", "resume", "solve"]
 
 
+@numbers_only
 def solve(
     scene: Scene | str | os.PathLike[str],
     path: LoadPath | None = None,
@@ -161,6 +163,7 @@ def read(scene: Scene | str | os.PathLike[str]) -> Scene:
     return Scene.from_file(scene)
 
 
+@numbers_only
 def march(
     scene: Scene | str | os.PathLike[str], path: LoadPath | None = None
 ) -> Iterator[Increment]:

@@ -13,6 +13,9 @@ use super::near_rim::NearRim;
 use super::states::Loaded;
 use super::{Border, Depth, Line, Point, Side, States};
 
+/// Most distance of a point from the middle of the grid, over the reach of the grid.
+const FARTHEST: f64 = 1e6;
+
 /// Stress and displacement at single points; each costs one kernel value per cell that is loaded in
 /// any state.
 pub struct Points {
@@ -141,12 +144,14 @@ impl Points {
         points: &[Point],
         more: impl Fn(&DepthKernel<Q, N, R>, Depth, usize, &mut Vec<[f64; R]>) + Sync,
     ) -> Result<Vec<Vec<[f64; R]>>, Error> {
+        let farthest = FARTHEST * self.plane.reach();
         // Points at one depth share its kernel.
         let mut by_depth: BTreeMap<(u64, usize), Vec<usize>> = BTreeMap::new();
         for (n, (x, y, depth)) in points.iter().enumerate() {
-            for (key, v) in [("x", x), ("y", y)] {
-                if !v.is_finite() {
-                    return Err(Error::invalid(key, v, "a finite place in m"));
+            for (key, v) in [("x", *x), ("y", *y), ("z", depth.z)] {
+                if !(v.abs() <= farthest) {
+                    let allowed = format!("a place in m, at most {farthest:.3e} from the middle");
+                    return Err(Error::invalid(key, v, allowed));
                 }
             }
             let key = (depth.z.to_bits(), depth.layer);

@@ -10,6 +10,8 @@ pub(crate) const GAUSS_POINT: f64 = 0.577_350_269_189_625_8;
 const SLOPE: f64 = 0.2;
 /// Growth of the height from one element to the next below the zone.
 const GROWTH: f64 = 1.6;
+/// Most that one side of a cell may be longer than the other: the number of waves grows with it.
+const MOST_ELONGATED: f64 = 100.0;
 
 /// A layer, or the substrate with an infinite thickness.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,6 +77,15 @@ impl Cells {
             if !(length > 0.0 && length.is_finite()) {
                 return Err(Error::new(key, length, "a positive length in m"));
             }
+        }
+        let ratio = (self.dx / self.dy).max(self.dy / self.dx);
+        if !self.plane_strain && ratio > MOST_ELONGATED {
+            let allowed = format!("sides of cells within {MOST_ELONGATED} times of each other");
+            return Err(Error::new(
+                "dx, dy",
+                format!("{}, {}", self.dx, self.dy),
+                allowed,
+            ));
         }
         if self.plane_strain && self.ny != 1 {
             return Err(Error::new("ny", self.ny, "1 in plane strain"));

@@ -1,4 +1,4 @@
-"""The door of a function or a class: its parameters that are numbers take numbers, in SI units.
+"""The door of a function or a class: its parameters take numbers in SI units, or pyfret's objects.
 
 Which parameters are numbers follows from their annotations, so that a signature is the one place
 that says so. The rules for the values are those of :mod:`pyfret._util.arrays`; numbers that seem to
@@ -11,6 +11,7 @@ import functools
 import inspect
 import math
 import re
+import sys
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -33,6 +34,12 @@ SEVERAL, TEXT = re.compile(r"Sequence\[float"), re.compile(r"\b(str|Literal)\b")
 ARRAY = re.compile(r"(ArrayLike|NDArray\[np\.float64\])( \| None)?")
 #: Annotations that have other meanings for True, or hold the numbers deeper.
 ELSE = re.compile(r"\b(bool|Callable|Mapping|dict|Any)\b")
+#: Annotations of objects alone, and of several of them.
+OBJECTS = re.compile(r"[A-Z]\w*( \| ([A-Z]\w*|None))*")
+SEVERAL_OBJECTS = re.compile(r"(Iterable|Sequence)\[([A-Z]\w*)\]")
+MAPPING = re.compile(r"Mapping\[.*\]( \| None)?")
+#: Types of Python and numpy that are none of pyfret's objects.
+PLAIN = (bool, int, float, complex, str, bytes, list, tuple, dict, set, np.ndarray, np.generic)
 
 
 def numbers_only(of: T, *, but: tuple[str, ...] = ()) -> T:
@@ -54,6 +61,7 @@ def guarded(call: Callable[..., Any], owner: str, but: tuple[str, ...]) -> Any:
     signature = inspect.signature(call)
     parameters = signature.parameters.items()
     kinds = {n: None if n in but else kind(str(one.annotation)) for n, one in parameters}
+    objects = {n: str(one.annotation) for n, one in parameters if n not in but}
     defaults = {name: one.default for name, one in parameters}
     names = list(kinds)
     ranged = {n for n in names if _core.measured_by(f"{owner}.{n}")}
@@ -64,6 +72,7 @@ def guarded(call: Callable[..., Any], owner: str, but: tuple[str, ...]) -> Any:
         for name, value in [*zip(names, values, strict=False), *given.items()]:
             if value is not None and value is not defaults.get(name, inspect.Parameter.empty):
                 check(value, name, kinds.get(name))
+                check_object(value, name, objects.get(name, ""))
                 if name in ranged:
                     doubted[name] = value
         # What a sequence says of its length is not handed on.
@@ -98,6 +107,37 @@ def kind(annotation: str) -> str | None:
     if TEXT.search(annotation):
         return "number or text"
     return "number or several" if SEVERAL.search(annotation) else "number or else"
+
+
+def check_object(value: Any, name: str, annotation: str) -> None:
+    """Refuse a number, a text or a list where an object of pyfret is meant.
+
+    Raises
+    ------
+    TypeError
+        It is of such a type.
+    """
+    if not isinstance(value, PLAIN):
+        return
+    text = " ".join(repr(value).split())
+    several = SEVERAL_OBJECTS.fullmatch(annotation)
+    if several and isinstance(value, str | bytes) and is_own(several[2]):
+        raise TypeError(f"{name} = {text:.60}: must be several of the class {several[2]}")
+    if MAPPING.fullmatch(annotation) and not isinstance(value, dict):
+        raise TypeError(f"{name} = {text:.60}: must be a mapping of names")
+    classes = [of for of in annotation.split(" | ") if of != "None"]
+    if OBJECTS.fullmatch(annotation) and all(is_own(of) for of in classes):
+        raise TypeError(f"{name} = {text:.60}: must be of the class {' or '.join(classes)}")
+
+
+@functools.cache
+def is_own(name: str) -> bool:
+    """Whether a class of pyfret has this name, and is no plain value under another name."""
+    own = [m for module, m in list(sys.modules.items()) if module.split(".")[0] == "pyfret"]
+    classes = [one for module in own if isinstance(one := vars(module).get(name), type)]
+    return any(
+        one.__module__.split(".")[0] == "pyfret" and not issubclass(one, PLAIN) for one in classes
+    )
 
 
 def check(value: Any, name: str, of: str | None) -> None:

@@ -155,6 +155,8 @@ def fouvry2007(coating: str = "TiC", *, slip: float = 75e-6, mu: float = 0.45) -
         path=to_and_fro(100.0, slip),
     )
     energy = 4 * mu * 100.0 * slip
+    if not energy > 0.0:
+        raise ValueError(f"slip = {slip}, mu = {mu}: both must be positive")
     law = wearing.DissipatedEnergy(row["alpha_m3_per_J"])
     return Experiment(
         "S. Fouvry, C. Paulin, T. Liskiewicz, Tribol. Int. 40 (2007) 1428-1440, "

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from pyfret._util.door import numbers_only
 from pyfret._util.lazy import xr
 
 if TYPE_CHECKING:
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
 __all__ = ["hysteresis"]
 
 
+@numbers_only
 def hysteresis(result: Run, *, direction: Literal["x", "y", "torsion"] = "x") -> xr.Dataset:
     """Hysteresis of a contact for the dynamics of a joint, as a table.
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from pyfret._util.door import numbers_only
 from pyfret.export.frame import Frame
 from pyfret.export.tables import TRACTIONS, body_sign
 
@@ -20,6 +21,7 @@ __all__ = ["image"]
 FIELDS = (*TRACTIONS, "contact", "stick")
 
 
+@numbers_only
 def image(
     state: State,
     path: str | os.PathLike[str],

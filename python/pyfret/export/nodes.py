@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pyfret._util.arrays import plain
+from pyfret._util.door import numbers_only
 from pyfret.export.frame import Frame
 from pyfret.export.meshes import faces_in_plane, read_mesh
 from pyfret.export.tables import body_sign, cells_of
@@ -49,6 +50,7 @@ def checked(rows: ArrayLike, nodes: int) -> NDArray[np.int64]:
     return found
 
 
+@numbers_only
 def nodal_forces(
     state: State,
     points: ArrayLike,
@@ -118,6 +120,7 @@ def nodal_forces(
     return forces
 
 
+@numbers_only
 def loads(
     state: State,
     mesh: str | os.PathLike[str],

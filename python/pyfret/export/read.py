@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pyfret._core import read_text
+from pyfret._util.door import numbers_only
 from pyfret.export.foreign import read_by_meshio
 from pyfret.export.frame import Frame
 from pyfret.export.numbers import numbers
@@ -35,6 +36,7 @@ FRD = (0, 3, 5, 3, 1, 4, 5, 4, 2)
 VOIGT = (0, 3, 4, 3, 1, 5, 4, 5, 2)
 
 
+@numbers_only
 def bulk_stress(
     path: str | os.PathLike[str], *, frame: Frame | None = None, field: str = "stress"
 ) -> float:
@@ -71,6 +73,7 @@ def bulk_stress(
     return float(frame.contact_stress(stress)[0, 0])
 
 
+@numbers_only
 def compliance(
     path: str | os.PathLike[str],
     force: float,

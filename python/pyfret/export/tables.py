@@ -56,6 +56,7 @@ def cells_of(
     return x.ravel(), y.ravel(), p[at].ravel(), np.stack([q_x[at].ravel(), q_y[at].ravel()], -1)
 
 
+@numbers_only
 def tractions(
     state: State,
     path: str | os.PathLike[str],

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
+from pyfret._util.door import numbers_only
 from pyfret.export.images import image
 from pyfret.export.nodes import loads
 from pyfret.export.tables import stress, tractions
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
 __all__ = ["write"]
 
 
+@numbers_only
 def write(
     state: State,
     path: str | os.PathLike[str],

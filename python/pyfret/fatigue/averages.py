@@ -29,6 +29,7 @@ __all__ = ["Averaging", "average", "critical_distance"]
 Averaging = Literal["point", "line", "area", "volume"]
 
 
+@numbers_only
 def critical_distance(material: Material) -> float:
     """Critical distance L = (dK_th/(2 s_D))^2/pi of a material [m].
 

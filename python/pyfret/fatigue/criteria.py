@@ -278,6 +278,7 @@ def dang_van_path(stress: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.fl
     return path[:, 0], path[:, 1]
 
 
+@numbers_only
 def mean_stress_slope(material: Material) -> tuple[float, str]:
     """Give how much amplitude of uniaxial stress a mean stress costs, and after whom.
 

@@ -29,6 +29,7 @@ __all__ = ["cycle_increments", "history", "moment_before"]
 TOGETHER = 32
 
 
+@numbers_only
 def cycle_increments(result: Run, cycle: int | None = -1) -> NDArray[np.int64]:
     """Give the kept increments of a closed cycle of the load path, from 1; all of them for None.
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
 import numpy as np
 
 from pyfret._core import SHAKEN
+from pyfret._util.door import numbers_only
 from pyfret._util.numbers import in_words
 from pyfret.subsurface.plastic import plastic_points
 
@@ -89,6 +90,7 @@ class Verdict(NamedTuple):
         return bool(self.friction_work and self.friction_work[-1] > 0.0)
 
 
+@numbers_only
 def verdict(result: Run) -> Verdict:
     """Say what bodies that yield come to over the closed cycles of a run.
 

@@ -270,7 +270,10 @@ def envelope_maps(
     """Largest value over the path, and amplitude and mean over a cycle, of a measure of stress."""
     name = SYMBOLS.get(of, of)
     shown = [(envelope[f"{of}_max"], rf"\max {name}")]
-    if envelope.sizes.get("cycle", 0) > 0:
+    cycles = envelope.sizes.get("cycle", 0)
+    if cycles > 0:
+        if not -cycles <= cycle < cycles:
+            raise ValueError(f"cycle = {cycle}: must be {-cycles} to {cycles - 1}")
         shown.append((envelope[f"{of}_amplitude"].isel(cycle=cycle), rf"\Delta {name}/2"))
         shown.append((envelope[f"{of}_mean"].isel(cycle=cycle), rf"\overline{{{name}}}"))
     _, high = section_size(shown[0][0], PANEL)

@@ -16,6 +16,8 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from pyfret._util.door import numbers_only
+
 #: Layouts after which labels keep their places to a hundredth of an inch, with the one of drawing.
 LAYOUTS = 3
 #: Colour of marks of largest values.
@@ -63,7 +65,7 @@ def styled(draw: Callable[P, T]) -> Callable[P, T]: ...
 
 
 def styled(draw: Callable[P, Any]) -> Callable[P, Any]:
-    """Make `draw` work in the shared look, whatever the user's own settings are."""
+    """Make `draw` work in the shared look, whatever the settings of the user."""
 
     @wraps(draw)
     def inside(*args: P.args, **kwargs: P.kwargs) -> Any:
@@ -75,7 +77,7 @@ def styled(draw: Callable[P, Any]) -> Callable[P, Any]:
             show_once(drawn)
         return drawn
 
-    return inside
+    return numbers_only(inside)
 
 
 def show_once(figure: Figure) -> None:

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 #: What is drawn of a worn pair.
 Which = Literal["body1", "body2", "both"]
+#: Most profiles in a figure.
+MOST_LINES = 50
 
 
 def _depth(result: WearResult, of: Which) -> np.ndarray:
@@ -28,7 +30,12 @@ def _depth(result: WearResult, of: Which) -> np.ndarray:
 def wear_profiles(
     result: WearResult, *, of: Which = "body2", lines: int = 8, ax: Axes | None = None
 ) -> Axes:
-    """Worn depth along y = 0 after several blocks of cycles, in um over x in mm, downwards."""
+    """Worn depth along y = 0 after several blocks of cycles, in um over x in mm, downwards.
+
+    At most `lines` of them are drawn, 1 to 50, at equal steps of the largest depth.
+    """
+    if not 1 <= lines <= MOST_LINES:
+        raise ValueError(f"lines = {lines}: must be 1 to {MOST_LINES}")
     ax = axes(ax)
     d = result.dataset
     depth = _depth(result, of)

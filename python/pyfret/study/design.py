@@ -219,6 +219,10 @@ class Design:
                 raise ValueError(f"{key}: has no values")
             if "/" in key:
                 raise ValueError(f'{key}: a "/" parts folders of the store; write "_" or "over"')
+            plain = [one for one in values if isinstance(one, int | float | str)]
+            if self.combine == "grid" and len(set(plain)) < len(plain):
+                twice = next(one for one in plain if plain.count(one) > 1)
+                raise ValueError(f"{key}: {twice!r:.60} stands twice, a grid has each value once")
         lengths = {key: len(values) for key, values in self.parameters.items()}
         if self.combine not in ("grid", "zip"):
             raise ValueError(f'combine = {self.combine!r}: must be "grid" or "zip"')

@@ -317,6 +317,8 @@ def checked(measure: Measure | Sequence[Measure]) -> list[Measure]:
     for one in measures:
         if isinstance(one, str) and one not in MEASURES:
             raise ValueError(f"measure {one!r}: must be a function or one of {', '.join(MEASURES)}")
+        if not (isinstance(one, str) or callable(one) or is_own(one)):
+            raise TypeError(f"measure = {one!r:.60}: must be a function or the name of a measure")
     names = names_of(measures)
     for n, name in enumerate(names):
         if name in names[:n] and not is_own(measures[n]):

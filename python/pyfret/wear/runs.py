@@ -10,6 +10,7 @@ import numpy as np
 from pyfret import _core
 from pyfret._core import Scene, StoreError
 from pyfret._util import files
+from pyfret._util.door import numbers_only
 from pyfret._util.progress import Progress
 from pyfret.run.dataset import dataset
 from pyfret.wear.result import WearResult
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
 __all__ = ["open", "resume", "solve"]
 
 
+@numbers_only
 def solve(
     scene: Scene | str | os.PathLike[str],
     wear: Wear | None = None,

@@ -113,6 +113,8 @@ const OTHERS: [(&str, &str); 6] = [
 ];
 /// What stands for no number where the header does not say it.
 const NODATA: f64 = -9999.0;
+/// Most samples along a side that a header may ask for.
+const MOST_SAMPLES: f64 = 1e9;
 
 impl EsriGrid {
     /// The grid of a text, if it begins as one.
@@ -149,10 +151,14 @@ impl EsriGrid {
                 .and_then(|n| entries[n])
         };
         let count = |key: &str| {
-            let whole = entry(key).filter(|n| *n >= 1.0 && n.fract() == 0.0 && *n < 1e9);
-            whole
-                .map(|n| n as usize)
-                .ok_or_else(|| format!("header: {key} must be a whole number >= 1"))
+            let found = entry(key).ok_or_else(|| format!("header: {key} is missing"))?;
+            if found >= 1.0 && found.fract() == 0.0 && found <= MOST_SAMPLES {
+                Ok(found as usize)
+            } else {
+                Err(format!(
+                    "header: {key} = {found}: must be a whole number from 1 to {MOST_SAMPLES:.0e}"
+                ))
+            }
         };
         let (nx, ny) = (count("ncols")?, count("nrows")?);
         let length = |key: &str| {
