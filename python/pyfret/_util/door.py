@@ -134,9 +134,13 @@ def check_object(value: Any, name: str, annotation: str) -> None:
 def is_own(name: str) -> bool:
     """Whether a class of pyfret has this name, and is no plain value under another name."""
     own = [m for module, m in list(sys.modules.items()) if module.split(".")[0] == "pyfret"]
-    classes = [one for module in own if isinstance(one := vars(module).get(name), type)]
-    return any(
-        one.__module__.split(".")[0] == "pyfret" and not issubclass(one, PLAIN) for one in classes
+    found = [vars(module)[name] for module in own if name in vars(module)]
+    # A name that stands for several types elsewhere takes what those take.
+    return bool(found) and all(
+        isinstance(one, type)
+        and one.__module__.split(".")[0] == "pyfret"
+        and not issubclass(one, PLAIN)
+        for one in found
     )
 
 
