@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import os
 from typing import TYPE_CHECKING, Literal
 
@@ -25,7 +26,8 @@ if TYPE_CHECKING:
 __all__ = ["Increment", "march", "resume", "solve"]
 
 
-@numbers_only
+# What goes into the scene is doubted with it.
+@functools.partial(numbers_only, but=("rig_stiffness",))
 def solve(
     scene: Scene | str | os.PathLike[str],
     path: LoadPath | None = None,

@@ -57,12 +57,12 @@ def curves(
 
 
 @styled
-def residuals(of: Measured, residual: NDArray[np.float64], ax: Axes | None = None) -> Axes:
+def residuals(of: Measured, left_over: NDArray[np.float64], ax: Axes | None = None) -> Axes:
     """Measured less computed; what is left should scatter about zero without a pattern."""
     ax = axes(ax)
     along, label = shown(of.labels[0], of.along)
     ax.set_xlabel(label)
-    left, label = shown(of.labels[1], residual)
+    left, label = shown(of.labels[1], left_over)
     down = getattr(of.data, "down", None)
     parts = {"": np.ones(along.size, bool)} if down is None else {"back": down, "forth": ~down}
     for name, part in parts.items():

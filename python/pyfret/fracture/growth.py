@@ -229,10 +229,12 @@ class Cracks(Kept, Labelled):
         """The line on the surface in whose plane the cracks lie: through the axis of depth."""
         return along(0.0, 0.0, float(self.dataset.attrs.get("azimuth", 0.0)))
 
-    def places(self, x: Any) -> Any:
+    @numbers_only
+    def places(self, x: ArrayLike) -> NDArray[np.float64]:
         """Places on :attr:`line` of distances `x` from the axis in the plane of the cracks [m]."""
         azimuth = float(self.dataset.attrs.get("azimuth", 0.0))
-        return self.line.place(x * np.cos(azimuth), x * np.sin(azimuth))
+        away = np.asarray(x, float)
+        return np.asarray(self.line.place(away * np.cos(azimuth), away * np.sin(azimuth)))
 
     @property
     def lengths(self) -> NDArray[np.float64]:

@@ -15,7 +15,11 @@
 
 use super::State;
 use super::problem::Problem;
+use crate::plan::Plan;
 use crate::scene::{LoadPoint, RigidMotion, Scene, Shape};
+
+/// Principal curvatures that differ by less than this part are those of a round contact.
+const ROUND: f64 = 1e-9;
 
 /// Tolerance in the number of steps, so that the same scene in other units gets the same number.
 const ROUNDING: f64 = 1e-9;
@@ -89,6 +93,20 @@ pub(super) fn are_paraboloids(scene: &Scene) -> bool {
     };
     let both = smooth(&scene.body1.shape) && smooth(&scene.body2.shape);
     both && !scene.grid.plane_strain && scene.hertz().is_some()
+}
+
+/// Whether the first branch of a path is an indentation whose stick zone remembers a function of the
+/// radius: round smooth bodies, coupled, with friction that is the same everywhere.
+pub(crate) fn is_remembered(scene: &Scene, plan: &Plan) -> bool {
+    let (steep, shallow) = scene.principal_curvatures();
+    let law = &scene.friction;
+    are_paraboloids(scene)
+        && steep - shallow <= ROUND * steep
+        && (plan.coupling && plan.friction && plan.methods.entry)
+        && law.map.is_none()
+        && !law.varies()
+        && law.stretch() == 1.0
+        && scene.path.branches[0].only_presses()
 }
 
 /// Whether a load or a motion along the plane is given.

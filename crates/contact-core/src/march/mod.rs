@@ -40,9 +40,9 @@ mod yielding;
 mod yields;
 
 pub use fields::{Fields, Tractions};
+pub(crate) use growing::is_remembered;
 pub(crate) use problem::TANGENTIAL_SHARE;
 pub use reached::Reached;
-pub(crate) use remembered::is_remembered;
 pub use results::{Energy, Increment, Motion, Residuals, Status, Work, Yield};
 pub use run::{BranchSummary, Observer, solve, summarise};
 pub use shear_errors::shear_errors;

@@ -29,11 +29,11 @@ use std::f64::consts::PI;
 use super::carried::pressed;
 use super::domain::embedded_state;
 use super::entry::LeastSquares;
-use super::growing::are_paraboloids;
+use super::growing::is_remembered;
 use super::{Increment, March, State};
 use crate::cells::size;
 use crate::error::Error;
-use crate::plan::{Mirror, Plan};
+use crate::plan::Mirror;
 use crate::scene::{Grid, LoadPoint, Scene};
 
 /// Terms of V. On 23 random scenes (path on 64 cells, 21 increments) the largest error of the shear, over
@@ -43,22 +43,6 @@ const TERMS: usize = 6;
 const BEHIND: f64 = 4.0;
 /// Cells of the ring nearer to the border than this part of c say nothing of that distance.
 const BESIDE: f64 = 0.02;
-/// Principal curvatures that differ by less than this part are those of a round contact.
-const ROUND: f64 = 1e-9;
-
-/// Whether the first branch of a path is an indentation whose stick zone remembers a function of the
-/// radius: round smooth bodies, coupled, with friction that is the same everywhere.
-pub(crate) fn is_remembered(scene: &Scene, plan: &Plan) -> bool {
-    let (steep, shallow) = scene.principal_curvatures();
-    let law = &scene.friction;
-    are_paraboloids(scene)
-        && steep - shallow <= ROUND * steep
-        && (plan.coupling && plan.friction && plan.methods.entry)
-        && law.map.is_none()
-        && !law.varies()
-        && law.stretch() == 1.0
-        && scene.path.branches[0].only_presses()
-}
 
 /// V, and the displacement behind the particles in the ring of slip.
 struct Remembered {
