@@ -1297,12 +1297,12 @@ class Grid:
     ) -> Grid:
         """Choose a grid for the contact that comes out of two bodies and a load path.
 
-        The contact under the largest normal load of the path, coatings and all, is solved without
-        friction on 32 cells a side, roughness left out; the grid is `room` times as long, on rough
-        surfaces 15 % longer. It has as many cells as a smooth contact takes for `error`, and eight
-        in the shortest wave of a rough, wavy or measured surface. On measured surfaces, on waves
-        and where a body has edges, the number of cells is doubled until area and largest pressure
-        agree to `error`.
+        The contact under the largest normal load of the path is solved without friction and roughness
+        on 32 cells a side. The grid is `room` times as long, on rough surfaces 15 % longer. It has as
+        many cells as a smooth contact takes for `error`, and eight in the shortest wave of a rough,
+        wavy or measured surface. On measured surfaces, on waves and where a body has edges, the number
+        of cells is doubled. The last changes of area and largest pressure foretell the next ones: the
+        doubling ends where these are below `error`.
 
         Parameters
         ----------
@@ -1311,8 +1311,8 @@ class Grid:
         path : LoadPath
             The loads.
         error : float
-            Error that is wanted: of the pressure, root mean square over that of the pressure, and
-            a tenth of it of radius and approach; or of the number that `of` names.
+            Error that is wanted of the number that `of` names. Of the pressure it is the root mean
+            square over that of the pressure; radius and approach have a tenth of it.
         room : float
             Side of the grid over the length of the contact: 1.2 (default), 2 or more where wear or
             rolling makes the contact longer.
