@@ -87,12 +87,13 @@ def for_contact(
 ) -> Grid:
     """Choose a grid for the contact that comes out of two bodies and a load path.
 
-    The contact under the largest normal load of the path is solved without friction and roughness
-    on 32 cells a side. The grid is `room` times as long, on rough surfaces 15 % longer. It has as
-    many cells as a smooth contact takes for `error`, and eight in the shortest wave of a rough,
-    wavy or measured surface. On measured surfaces, on waves and where a body has edges, the number
-    of cells is doubled. The last changes of area and largest pressure foretell the next ones: the
-    doubling ends where these are below `error`.
+    The contact under the largest normal load of the path is solved without friction and
+    roughness on 32 cells a side. The grid is `room` times as long, on rough surfaces 15 %
+    longer. It has as many cells as a smooth contact takes for `error`, and eight in the
+    shortest wave of a rough, wavy or measured surface. On measured surfaces, on waves and
+    where a body has edges, the number of cells is doubled. The last changes of area and
+    largest pressure foretell the next ones: the doubling ends where these are below
+    `error`.
 
     Parameters
     ----------
