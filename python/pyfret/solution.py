@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 import os
 from typing import TYPE_CHECKING, Literal
 
@@ -26,8 +25,7 @@ if TYPE_CHECKING:
 __all__ = ["Increment", "march", "resume", "solve"]
 
 
-# What goes into the scene is doubted with it.
-@functools.partial(numbers_only, but=("rig_stiffness",))
+@numbers_only
 def solve(
     scene: Scene | str | os.PathLike[str],
     path: LoadPath | None = None,

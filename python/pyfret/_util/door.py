@@ -64,7 +64,7 @@ def guarded(call: Callable[..., Any], owner: str, but: tuple[str, ...]) -> Any:
     objects = {n: str(one.annotation) for n, one in parameters if n not in but}
     defaults = {name: one.default for name, one in parameters}
     names = list(kinds)
-    ranged = {n for n in names if n not in but and _core.measured_by(f"{owner}.{n}")}
+    ranged = {n for n in names if _core.measured_by(f"{owner}.{n}")}
 
     @functools.wraps(call)
     def checked(*values: Any, **given: Any) -> Any:
