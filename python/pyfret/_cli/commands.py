@@ -17,7 +17,6 @@ from pyfret._cli import compare, crack, explore, export, fit, threshold
 from pyfret._cli.parser import Parser, added
 from pyfret._cli.say import say
 from pyfret._core import __version__
-from pyfret._util.door import numbers_only
 from pyfret.citation import cite as told
 from pyfret.citation import sources
 from pyfret.result import open as open_result
@@ -156,7 +155,6 @@ def verify(options: argparse.Namespace) -> int:
     return DONE if found.passed else ENDED_EARLY
 
 
-@numbers_only
 def cite(options: argparse.Namespace) -> int:
     """Say what to cite."""
     result = open_result(options.store) if options.store else None
