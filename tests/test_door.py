@@ -8,10 +8,12 @@ import re
 from collections.abc import Callable
 from pathlib import Path
 from types import FunctionType
+from typing import Any
 
 import pytest
 
 import pyfret as fret
+from pyfret._util import door
 from pyfret._util.door import OBJECTS, is_own
 
 ROOT = Path(__file__).parents[1]
@@ -122,6 +124,40 @@ def test_an_object_of_pyfret_is_no_plain_value(
                 public.invoked(call, found[0] | {one.name: [1.0]})
     record_property("parameters", asked)
     assert asked > 100
+
+
+def stands_behind(call: Any) -> bool:
+    """Whether a function of the door's module is this one, or one that it wraps."""
+    while call is not None:
+        if call.__code__.co_filename == door.__file__:
+            return True
+        call = getattr(call, "__wrapped__", None)
+    return False
+
+
+@pytest.mark.solves
+@pytest.mark.filterwarnings("ignore")
+def test_every_public_function_stands_behind_the_door(
+    monkeypatch: pytest.MonkeyPatch, record_property: Callable[[str, object], None]
+) -> None:
+    monkeypatch.syspath_prepend(str(Path(__file__).with_name("hostile")))
+    public = importlib.import_module("public")
+    asked, open_ones = 0, []
+    for name, call in public.public():
+        own = isinstance(call, FunctionType) and "." not in call.__qualname__
+        if not own or not inspect.signature(call).parameters:
+            continue
+        asked += 1
+        if not stands_behind(call):
+            open_ones.append(name)
+    record_property("functions", asked)
+    assert asked > 100
+    assert open_ones == []
+
+
+def test_nothing_is_no_number_where_one_is_needed() -> None:
+    with pytest.raises(TypeError, match="x = None: must be given"):
+        fret.fracture.Cracks.places(None, None)  # type: ignore[arg-type]
 
 
 def test_what_several_objects_are_is_no_text() -> None:

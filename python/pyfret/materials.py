@@ -6,6 +6,7 @@ import warnings
 from typing import TYPE_CHECKING
 
 from pyfret._core import Elastic, Plastic
+from pyfret._util.door import numbers_only
 from pyfret._util.doubts import SceneWarning
 from pyfret.fatigue import Materials
 from pyfret.fatigue.ranges import known_as
@@ -20,6 +21,7 @@ __all__ = ["material"]
 NU = 0.25
 
 
+@numbers_only
 def material(
     name: str,
     file: str | os.PathLike[str] | None = None,

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from pyfret import result, study, wear
 from pyfret._core import StoreError, read_bytes, shown
 from pyfret._util import files
+from pyfret._util.door import numbers_only
 from pyfret.fit.stored import found_of
 from pyfret.fracture.growth import Cracks
 from pyfret.study.ledger import FILE
@@ -31,6 +32,7 @@ COPIES: dict[Any, Callable[[xr.Dataset], Any]] = {
 }
 
 
+@numbers_only
 def open(path: str | os.PathLike[str]) -> Any:
     """Open what pyfret has saved: a run, wear, a study, a fit, cracks (``.zarr``, ``.nc``).
 

@@ -186,6 +186,7 @@ class Result(Run):
         )
 
 
+@numbers_only
 def open(path: str | os.PathLike[str]) -> Result:
     """Open a result: a Zarr store, or what :meth:`Result.save` wrote (``.zarr``, ``.nc``).
 

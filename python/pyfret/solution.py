@@ -115,6 +115,7 @@ def told(result: Result) -> Result:
     return result
 
 
+@numbers_only
 def resume(
     store: str | os.PathLike[str],
     *,

@@ -35,8 +35,10 @@ ARRAY = re.compile(r"(ArrayLike|NDArray\[np\.float64\])( \| None)?")
 #: Annotations that have other meanings for True, or hold the numbers deeper.
 ELSE = re.compile(r"\b(bool|Callable|Mapping|dict|Any)\b")
 #: Annotations of objects alone, and of several of them.
-OBJECTS = re.compile(r"[A-Z]\w*( \| ([A-Z]\w*|None))*")
+OBJECTS = re.compile(r"(\w+\.)?[A-Z]\w*( \| ((\w+\.)?[A-Z]\w*|None))*")
 SEVERAL_OBJECTS = re.compile(r"(Iterable|Sequence)\[([A-Z]\w*)\]")
+#: Classes of other libraries that are no plain values either.
+FOREIGN = re.compile(r"xr\.\w+|pd\.DataFrame|Axes|Figure")
 MAPPING = re.compile(r"Mapping\[.*\]( \| None)?")
 #: Types of Python and numpy that are none of pyfret's objects.
 PLAIN = (bool, int, float, complex, str, bytes, list, tuple, dict, set, np.ndarray, np.generic)
@@ -63,6 +65,8 @@ def guarded(call: Callable[..., Any], owner: str, but: tuple[str, ...]) -> Any:
     kinds = {n: None if n in but else kind(str(one.annotation)) for n, one in parameters}
     objects = {n: str(one.annotation) for n, one in parameters if n not in but}
     defaults = {name: one.default for name, one in parameters}
+    nothing = {n for n, of in objects.items() if "None" in of or defaults[n] is None}
+    needed = {n for n in objects if kinds[n]} - nothing
     names = list(kinds)
     ranged = {n for n in names if _core.measured_by(f"{owner}.{n}")}
 
@@ -70,6 +74,8 @@ def guarded(call: Callable[..., Any], owner: str, but: tuple[str, ...]) -> Any:
     def checked(*values: Any, **given: Any) -> Any:
         doubted: dict[str, Any] = {}
         for name, value in [*zip(names, values, strict=False), *given.items()]:
+            if value is None and name in needed:
+                raise TypeError(f"{name} = None: must be given")
             if value is not None and value is not defaults.get(name, inspect.Parameter.empty):
                 check(value, name, kinds.get(name))
                 check_object(value, name, objects.get(name, ""))
@@ -110,7 +116,7 @@ def kind(annotation: str) -> str | None:
 
 
 def check_object(value: Any, name: str, annotation: str) -> None:
-    """Refuse a number, a text or a list where an object of pyfret is meant.
+    """Refuse a number, a text or a list where an object is meant.
 
     Raises
     ------
@@ -132,7 +138,10 @@ def check_object(value: Any, name: str, annotation: str) -> None:
 
 @functools.cache
 def is_own(name: str) -> bool:
-    """Whether a class of pyfret has this name, and is no plain value under another name."""
+    """Whether a class of pyfret, or a foreign one, has this name, and is no plain value."""
+    if FOREIGN.fullmatch(name):
+        return True
+    name = name.rpartition(".")[2]
     own = [m for module, m in list(sys.modules.items()) if module.split(".")[0] == "pyfret"]
     found = [vars(module)[name] for module in own if name in vars(module)]
     # A name that stands for several types elsewhere takes what those take.

@@ -85,6 +85,7 @@ class Experiment:
         return wearing.solve(self.scene, progress=False, **{**self.arguments, **changes})
 
 
+@numbers_only
 def table(name: str) -> list[dict[str, Any]]:
     """Rows of a file of :data:`NAMES`: numbers where they are, else texts; None where empty."""
     if name not in NAMES:
@@ -249,6 +250,7 @@ def arnaud2021(*, debris_kept: float = KEPT) -> Experiment:
     return Experiment(ARNAUD, test.scene, row, test.arguments, remarks)
 
 
+@numbers_only
 def baydoun2019(n: int) -> Experiment:
     """Square steel flat on flat, 5 x 5 mm: the n-th row of S. Baydoun and others, from 0.
 
@@ -333,6 +335,7 @@ def icf13(test: str, *, Q: float | None = None, n: int = 256) -> Experiment:
     )
 
 
+@numbers_only
 def vanpeteghem2011(test: int) -> Experiment:
     """Ti-6Al-4V cylinder on flat, R = 80 mm, force constant: B. Van Peteghem, S. Fouvry, J. Petit.
 

@@ -258,6 +258,7 @@ def moving_load(stress: ArrayLike, *, s_y: float) -> NDArray[np.float64]:
     return np.asarray(first_yield(both, s_y=s_y).shakedown)
 
 
+@functools.partial(numbers_only, but=("stress",))
 def dang_van_path(stress: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Give the path of one point in Dang Van's plane.
 
@@ -294,6 +295,7 @@ def mean_stress_slope(material: Material) -> tuple[float, str]:
     return 1.0 - s_D / (2.0 * material.number("t_D")), "Dang Van"
 
 
+@functools.partial(numbers_only, but=("stress",))
 def to_pylife(stress: ArrayLike) -> pd.DataFrame:
     """Give a history as pyLife takes it: columns S11, S22, S33, S12, S13, S23, a row per instant.
 
@@ -310,6 +312,7 @@ def to_pylife(stress: ArrayLike) -> pd.DataFrame:
     return pd.DataFrame(rows, index=index, columns=["S11", "S22", "S33", "S12", "S13", "S23"])
 
 
+@functools.partial(numbers_only, but=("signal",))
 def rainflow(signal: ArrayLike) -> NDArray[np.float64]:
     """Count the cycles of a signal: rows of range, mean, count (1 or 1/2).
 

@@ -110,6 +110,7 @@ class Loops(HoldsArrays):
         return float(np.mean(ends))
 
     @staticmethod
+    @numbers_only
     def of(
         delta: ArrayLike,
         T: ArrayLike,
@@ -172,6 +173,7 @@ class Indentation(HoldsArrays):
     frame: bool = False
 
     @staticmethod
+    @numbers_only
     def of(
         W: ArrayLike, delta_z: ArrayLike, *, noise: float | None = None, frame: bool = False
     ) -> Indentation:
@@ -199,6 +201,7 @@ class Scar(HoldsArrays):
     noise: float | None = None
 
     @staticmethod
+    @numbers_only
     def of(
         x: ArrayLike,
         depth: ArrayLike,

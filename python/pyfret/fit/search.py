@@ -23,6 +23,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pyfret._core import Grid, Scene
+from pyfret._util.door import numbers_only
 from pyfret._util.extras import needed
 from pyfret.fit.data import Data
 from pyfret.fit.models import Model, model_of, split
@@ -51,6 +52,7 @@ SURE = 2.0
 NOISE = 0.02
 
 
+@numbers_only
 def fit(
     scene: Scene | str | os.PathLike[str],
     data: Data | Sequence[Data],

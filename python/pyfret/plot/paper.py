@@ -13,6 +13,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from pyfret._core import CattaneoMindlin
+from pyfret._util.door import numbers_only
 from pyfret.plot.histories import fretting_loop, load_path, stick_ratio
 from pyfret.plot.maps import label_scale, shear_streamlines
 from pyfret.plot.profiles import pressure_profile, shear_profile, shear_profiles
@@ -151,6 +152,7 @@ def compare(draw: Callable[..., Axes], results: Mapping[float, Run], **legend: A
     return figure
 
 
+@numbers_only
 def paper_figures(
     results: Mapping[float, Run],
     out: str | os.PathLike[str],

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from pyfret._core import StoreError, SurfaceMap, read_bytes, unit_of
+from pyfret._util.door import numbers_only
 from pyfret._util.doubts import SceneWarning
 
 if TYPE_CHECKING:
@@ -25,6 +26,7 @@ PLAIN = frozenset((".npy", ".csv", ".txt", ".dat", ".tsv", ".asc", ".xyz", ".prn
 BEGINNING = 4096
 
 
+@numbers_only
 def read_surface(
     path: str | PathLike[str],
     *,

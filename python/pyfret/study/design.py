@@ -21,6 +21,7 @@ import numpy as np
 
 from pyfret._core import InvalidSceneError, Scene
 from pyfret._util.arrays import items, labels
+from pyfret._util.door import numbers_only
 from pyfret._util.doubts import SceneWarning, doubt_numbers
 from pyfret._util.lazy import xr
 from pyfret._util.text import read_text
@@ -55,6 +56,7 @@ SHORT = {"mu": "friction.mu"}
 TOGETHER = "point"
 
 
+@numbers_only
 def varied(scene: Scene | str | PathLike[str], values: Mapping[str, Any]) -> Scene:
     """Give a scene with other values of its parameters.
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pyfret._core import OffGridError, Scene
+from pyfret._util.door import numbers_only
 from pyfret._util.progress import Progress
 from pyfret.study.design import Combine, Design, Source
 from pyfret.study.lock import writing
@@ -29,6 +30,7 @@ __all__ = ["solve"]
 DEFAULT = ("loop_energy", "energy_ratio", "stick_ratio", "p_max")
 
 
+@numbers_only
 def solve(
     scene: Source,
     parameters: Mapping[str, Any],

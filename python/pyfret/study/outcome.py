@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from pyfret._util.door import numbers_only
 from pyfret._util.kept import Kept
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
@@ -194,6 +195,7 @@ def study_html(study: Study) -> str:
     return f"<p><b>Study</b>: {counts}</p>{table(['', '', 'from, to', 'unit'], rows)}"
 
 
+@numbers_only
 def open(store: str | os.PathLike[str]) -> Study:
     """Open the store of a study, whether it is done or not.
 

@@ -107,6 +107,7 @@ def surfaces(start: WearResult) -> tuple[float, float, list[NDArray[np.float64]]
     return float(d.block_cycles[-1]), float(d.dissipated[-1]), fields
 
 
+@numbers_only
 def resume(
     store: str | os.PathLike[str],
     *,
@@ -138,6 +139,7 @@ def resume(
     return open(store)
 
 
+@numbers_only
 def open(store: str | os.PathLike[str]) -> WearResult:
     """Open the store of a run of :func:`solve` or ``fret wear``, or what was saved of one.
 
