@@ -798,7 +798,7 @@ class CycleSection:
         /,
         body: Body,
         grid: Grid,
-        moments: Callable[[list[int] | None], tuple[list[Any], ...] | None],
+        moments: Callable[[list[int] | None], States | None],
         count: int,
         *,
         x: float | None = None,
@@ -2476,6 +2476,28 @@ class Springs:
         """Springs on either side."""
 
 @final
+class States:
+    """
+    States of a contact: tractions [Pa], where it sticks, bulk stress [Pa], what has yielded.
+
+    Fields are of shape (nx, ny), one for each state; of `eigenstress` there is one for each state
+    of a body that may yield, and none of another.
+    """
+
+    def __new__(
+        cls,
+        /,
+        grid: Grid,
+        *,
+        p: Sequence[NDArray[np.float64]],
+        q_x: Sequence[NDArray[np.float64]],
+        q_y: Sequence[NDArray[np.float64]],
+        stick: Sequence[NDArray[np.bool_]],
+        sigma_B: Sequence[float],
+        eigenstress: Sequence[Eigenstress | None],
+    ) -> States: ...
+
+@final
 class Subsurface:
     """
     Tractions on a body, and what they cause below its surface.
@@ -2898,9 +2920,9 @@ def coupled_indentation(*, beta: float, mu: float) -> CoupledIndentation:
 
 def crack_growth_of_states(
     body: Body,
-    grid: Grid,
-    states: Mapping[str, Any],
+    states: States,
     *,
+    residual: Sequence[ArrayLike] | None = None,
     x: float,
     start: float,
     end: float,
@@ -2930,9 +2952,9 @@ def crack_life(
 
 def crack_of_states(
     body: Body,
-    grid: Grid,
-    states: Mapping[str, Any],
+    states: States,
     *,
+    residual: Sequence[ArrayLike] | None = None,
     x: float,
     lengths: Sequence[float],
     angle: float = 0.0,
@@ -2952,7 +2974,7 @@ def criterion_on(
     """A criterion on stresses of shape (time, points, 6): arrays over the points."""
 
 def cycle_sections(
-    grid: Grid, moments: Callable[[list[int] | None], tuple[list[Any], ...] | None], count: int
+    grid: Grid, moments: Callable[[list[int] | None], States | None], count: int
 ) -> list[tuple[float | None, float | None, float | None]]:
     """
     x, y and azimuth of the sections in which a cycle of a contact is looked at by default.
@@ -3227,17 +3249,11 @@ def run_command(arguments: Sequence[str]) -> int:
 
 def section_of_states(
     body: Body,
-    grid: Grid,
+    states: States,
     z: Sequence[float],
     layer: Sequence[int],
     *,
-    p: ArrayLike,
-    q_x: ArrayLike,
-    q_y: ArrayLike,
-    stick: NDArray[bool_],
-    sigma_B: Sequence[float],
     residual: Sequence[ArrayLike] | None = None,
-    eigenstress: Sequence[Eigenstress | None] | None = None,
     x: float | None = None,
     y: float | None = None,
     azimuth: float | None = None,
@@ -3246,8 +3262,8 @@ def section_of_states(
     """
     Stress [Pa] on a section in several states of a contact, shape (states, 6, depths, places).
 
-    Tractions [Pa] and cells that stick are of shape (states, nx, ny); near the surface tractions
-    vary within the cells. States share the kernels, which cost as much as about ten of them.
+    Near the surface tractions vary within the cells. States share the kernels, which cost as much
+    as about ten of them.
     """
 
 def shown(text: str) -> str:
@@ -3462,6 +3478,7 @@ __all__ = [
     "Spacing",
     "Sphere",
     "Springs",
+    "States",
     "StoreError",
     "Subsurface",
     "Sum",

@@ -41,6 +41,7 @@ mod reference;
 mod residual_stress;
 mod result;
 mod scene;
+mod states;
 mod stress;
 mod subsurface;
 mod text;
@@ -106,6 +107,8 @@ mod _core {
     use crate::history::{Envelope, loops};
     #[pymodule_export]
     use crate::outline::{Outline, main_sections};
+    #[pymodule_export]
+    use crate::states::States;
     #[pymodule_export]
     use crate::stress::{largest_of_samples, measure, principal, probe_labels};
     #[pymodule_export]

@@ -9,23 +9,24 @@ use contact_core::scene::{self, ResidualStress};
 use contact_store::{ImageData, StressStore, VolumeSink, write_volume};
 use contact_subsurface as core;
 use contact_subsurface::{Depth, Line, Side};
-use ndarray::{Array2, Axis, Ix2, Ix3};
+use ndarray::{Array2, Axis, Ix2};
 use numpy::{IntoPyArray, PyArray2, PyArray3, PyArray4};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::argument::to_python;
-use crate::arguments::{Array, Field, List, Mask, number, side};
+use crate::arguments::{Field, List, Mask, number, side};
 use crate::interruptible::interruptible;
 use crate::residual_stress::{Profiles, of_body};
 use crate::scene::{Body, Grid};
+use crate::states::States;
 use crate::yielding::{Eigenstress, of_states};
 
 /// x, y, z and the layer of a point.
 type Place = (f64, f64, f64, usize);
-/// Numbers for Python, one row per point.
 /// Places along a line and their x, y [m].
 type Places = (Vec<f64>, Vec<(f64, f64)>);
+/// Numbers for Python, one row per point.
 type Matrix<'py> = Bound<'py, PyArray2<f64>>;
 
 pub(crate) fn line(x: Option<f64>, y: Option<f64>, azimuth: Option<f64>) -> PyResult<Line> {
@@ -102,54 +103,24 @@ pub(crate) fn chosen_depths(
 
 /// Stress [Pa] on a section in several states of a contact, shape (states, 6, depths, places).
 ///
-/// Tractions [Pa] and cells that stick are of shape (states, nx, ny); near the surface tractions
-/// vary within the cells. States share the kernels, which cost as much as about ten of them.
+/// Near the surface tractions vary within the cells. States share the kernels, which cost as much
+/// as about ten of them.
 #[pyfunction]
-#[pyo3(signature = (body, grid, z: "Sequence[float]", layer: "Sequence[int]", *, p, q_x, q_y, stick, sigma_B: "Sequence[float]", residual = None, eigenstress: "Sequence[Eigenstress | None] | None" = None, x: "float | None" = None, y: "float | None" = None, azimuth: "float | None" = None, body_number: "int" = 2) -> "NDArray[np.float64]")]
+#[pyo3(signature = (body, states, z: "Sequence[float]", layer: "Sequence[int]", *, residual = None, x: "float | None" = None, y: "float | None" = None, azimuth: "float | None" = None, body_number: "int" = 2) -> "NDArray[np.float64]")]
 #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
 pub(crate) fn section_of_states<'py>(
     py: Python<'py>,
     body: Body,
-    grid: Grid,
+    states: PyRef<'_, States>,
     z: List<f64>,
     layer: List<usize>,
-    p: Array<'_, Ix3>,
-    q_x: Array<'_, Ix3>,
-    q_y: Array<'_, Ix3>,
-    stick: Mask<'_, Ix3>,
-    sigma_B: List<f64>,
     residual: Profiles,
-    eigenstress: Option<List<Option<Py<Eigenstress>>>>,
     #[pyo3(from_py_with = number)] x: Option<f64>,
     #[pyo3(from_py_with = number)] y: Option<f64>,
     #[pyo3(from_py_with = number)] azimuth: Option<f64>,
     #[pyo3(from_py_with = number)] body_number: u8,
 ) -> PyResult<Bound<'py, PyArray4<f64>>> {
-    let shape = (sigma_B.len(), grid.0.nx, grid.0.ny);
-    for (name, found) in [
-        ("p", p.as_array().dim()),
-        ("q_x", q_x.as_array().dim()),
-        ("q_y", q_y.as_array().dim()),
-        ("stick", stick.as_array().dim()),
-    ] {
-        if found != shape {
-            return Err(PyValueError::new_err(format!(
-                "{name} has the shape {found:?}: must be that of the states and the grid, {shape:?}"
-            )));
-        }
-    }
-    let cells = grid.0.cells();
-    let fields = [q_x, q_y, p].map(|f| f.as_array().iter().copied().collect::<Vec<_>>());
-    let stick: Vec<bool> = stick.as_array().iter().copied().collect();
-    let of = |state: usize, field: usize| &fields[field][state * cells..(state + 1) * cells];
-    let tractions: Vec<_> = (0..shape.0)
-        .map(|n| Tractions {
-            q_x: Some(of(n, 0)),
-            q_y: Some(of(n, 1)),
-            p: Some(of(n, 2)),
-        })
-        .collect();
-    let stick: Vec<&[bool]> = stick.chunks(cells).collect();
+    let (grid, moments) = states.parts();
     let (depths, line, side) = (
         Subsurface::depths(&z, &layer)?,
         line(x, y, azimuth)?,
@@ -157,17 +128,10 @@ pub(crate) fn section_of_states<'py>(
     );
     let stop = Arc::default();
     let residual = of_body(&body.0, residual)?;
-    let eigenstress = of_states(eigenstress);
     let found = interruptible(py, &stop, || {
-        let states = core::States {
-            tractions: &tractions,
-            sigma_B: &sigma_B,
-            residual: Some(&residual),
-            eigenstress: &eigenstress,
-            stick: Some(&stick),
-            stop: stop.clone(),
-        };
-        core::Section::new(&body.0, side, &grid.0, line, states)?.stress(&depths)
+        moments.with_states(Some(&residual), &stop, |states| {
+            core::Section::new(&body.0, side, grid, line, states)?.stress(&depths)
+        })
     })?;
     let found = found.map_err(to_python)?;
     let views: Vec<_> = found.iter().map(|state| state.view()).collect();

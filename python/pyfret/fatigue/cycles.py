@@ -14,7 +14,7 @@ from pyfret.fatigue.criteria import COMPONENTS
 from pyfret.subsurface.contact import stress_below
 from pyfret.subsurface.fields import coordinates
 from pyfret.subsurface.line import Line
-from pyfret.subsurface.plastic import eigenstress
+from pyfret.subsurface.moments import states_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -110,20 +110,12 @@ def history(
     parts = []
     for some in np.array_split(kept, int(np.ceil(kept.size / TOGETHER))):
         moments = [result.at(int(n)) for n in some]
-        fields = {
-            name: np.stack([now.dataset[name].values for now in moments])
-            for name in ("p", "q_x", "q_y", "stick")
-        }
-        fields["stick"] = fields["stick"].astype(bool)
         stress = _core.section_of_states(
             body,
-            scene.grid,
+            states_of(moments, body_number),
             depths,
             layers,
-            **fields,
-            sigma_B=[now.bulk_stress(body_number) for now in moments],
             residual=residual,
-            eigenstress=[of for now in moments for of in eigenstress(now, body_number)],
             x=x,
             y=y,
             azimuth=azimuth,

@@ -16,14 +16,13 @@ from pyfret.fatigue.cycle_section import placed
 from pyfret.fatigue.cycles import cycle_increments
 from pyfret.fatigue.section import Section
 from pyfret.fracture.growth import Cracks
-from pyfret.subsurface.plastic import eigenstress
+from pyfret.subsurface.moments import states_of
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from numpy.typing import ArrayLike, NDArray
 
-    from pyfret._core import Body, Grid
     from pyfret.run import Run, State
     from pyfret.subsurface.line import Line
 
@@ -224,28 +223,25 @@ class Cycle:
         return [one.line for one in placed(self.result, section)]
 
     @cached_property
-    def arguments(self) -> tuple[Body, Grid, dict[str, Any]]:
-        """Body, grid and states, as the core takes them."""
-        fields: dict[str, Any] = {
-            name: np.stack([now.dataset[name].values for now in self.states])
-            for name in ("p", "q_x", "q_y", "stick")
-        }
-        fields["stick"] = fields["stick"].astype(bool)
-        fields["sigma_B"] = [now.bulk_stress(self.body_number) for now in self.states]
-        fields["eigenstress"] = [
-            of for now in self.states for of in eigenstress(now, self.body_number)
-        ]
-        fields["residual"] = None if self.residual is None else list(self.residual)
+    def above(self) -> _core.States:
+        """The states, as the core takes them."""
+        return states_of(self.states, self.body_number)
+
+    def found(self, of: Callable[..., dict[str, Any]], options: dict[str, Any]) -> dict[str, Any]:
+        """What a function of the core finds in the body under its states."""
         scene = self.states[0].scene
-        return scene.body1 if self.body_number == 1 else scene.body2, scene.grid, fields
+        body = scene.body1 if self.body_number == 1 else scene.body2
+        residual = None if self.residual is None else list(self.residual)
+        options |= {"residual": residual, "body_number": self.body_number}
+        return of(body, self.above, **options)
 
     def intensity(self, **cracks: Any) -> dict[str, Any]:
         """K of cracks."""
-        return _core.crack_of_states(*self.arguments, body_number=self.body_number, **cracks)
+        return self.found(_core.crack_of_states, cracks)
 
     def growth(self, **crack: Any) -> dict[str, Any]:
         """K of a crack that grows."""
-        return _core.crack_growth_of_states(*self.arguments, body_number=self.body_number, **crack)
+        return self.found(_core.crack_growth_of_states, crack)
 
     def place(
         self, x: float | None, azimuth: float | None, angle: float, friction: float

@@ -15,9 +15,30 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from pyfret.run import Run
+    from pyfret.run import Run, State
 
-__all__ = ["lines_of", "moments_of"]
+__all__ = ["lines_of", "moments_of", "states_of"]
+
+
+def states_of(
+    snapshots: Sequence[State], body_number: int, *, with_left: bool = True
+) -> _core.States:
+    """Give snapshots of a run as the states above a body.
+
+    `with_left`: with what plastic strain leaves in it.
+    """
+
+    def fields(name: str, kind: type) -> list[Any]:
+        return [np.ascontiguousarray(one.dataset[name].values, dtype=kind) for one in snapshots]
+
+    each = snapshots if with_left else []
+    return _core.States(
+        snapshots[0].scene.grid,
+        **{name: fields(name, float) for name in ("p", "q_x", "q_y")},
+        stick=fields("stick", bool),
+        sigma_B=[one.bulk_stress(body_number) for one in snapshots],
+        eigenstress=[of for one in each for of in eigenstress(one, body_number)],
+    )
 
 
 def moments_of(
@@ -27,26 +48,18 @@ def moments_of(
     before: int | None = None,
     *,
     with_left: bool = True,
-) -> Callable[[Sequence[int] | None], tuple[list[Any], ...] | None]:
-    """Give the fields of some of the kept increments, by their numbers from 0.
+) -> Callable[[Sequence[int] | None], _core.States | None]:
+    """Give the states of some of the kept increments, by their numbers from 0.
 
     None asks for the increment `before` the cycle. `with_left`: and what plastic strain leaves.
     """
 
-    def moments(which: Sequence[int] | None) -> tuple[list[Any], ...] | None:
+    def moments(which: Sequence[int] | None) -> _core.States | None:
         if which is None and before is None:
             return None
         increments = [before] if which is None else [int(kept[n]) for n in which]
         now = [result.at(int(n)) for n in increments if n is not None]
-        fields = [
-            [np.ascontiguousarray(one.dataset[name].values, dtype=float) for one in now]
-            for name in ("q_x", "q_y", "p")
-        ]
-        stick = [np.ascontiguousarray(one.dataset["stick"].values, dtype=bool) for one in now]
-        bulk = [one.bulk_stress(body_number) for one in now]
-        each = now if with_left else []
-        left = [of for one in each for of in eigenstress(one, body_number)]
-        return (*fields, stick, bulk, left)
+        return states_of(now, body_number, with_left=with_left)
 
     return moments
 

@@ -30,7 +30,7 @@ use crate::subsurface::{LineName, Subsurface, line, name_of};
 /// The first along the shear; a second across it, where the contact or its shear has no axis of its
 /// own there. `moments` and `count` are those of :class:`CycleSection`.
 #[pyfunction]
-#[pyo3(signature = (grid, moments: "Callable[[list[int] | None], tuple[list[Any], ...] | None]", count: "int"))]
+#[pyo3(signature = (grid, moments: "Callable[[list[int] | None], States | None]", count: "int"))]
 pub(crate) fn cycle_sections(
     py: Python<'_>,
     grid: Grid,
@@ -57,7 +57,7 @@ pub(crate) struct CycleSection {
 #[pymethods]
 impl CycleSection {
     #[new]
-    #[pyo3(signature = (body, grid, moments: "Callable[[list[int] | None], tuple[list[Any], ...] | None]", count: "int", *, x: "float | None" = None, y: "float | None" = None, azimuth: "float | None" = None, body_number: "int" = 2, residual = None, yielding: "tuple[float, float] | None" = None))]
+    #[pyo3(signature = (body, grid, moments: "Callable[[list[int] | None], States | None]", count: "int", *, x: "float | None" = None, y: "float | None" = None, azimuth: "float | None" = None, body_number: "int" = 2, residual = None, yielding: "tuple[float, float] | None" = None))]
     fn new(
         body: Body,
         grid: Grid,

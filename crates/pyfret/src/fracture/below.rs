@@ -4,86 +4,38 @@ use std::sync::Arc;
 
 use ::fracture as of_cracks;
 use contact_assess::crack as core;
-use contact_core::convolution::Tractions;
-use contact_subsurface::States;
-use ndarray::{Array2, Ix3};
+use contact_subsurface as subsurface;
+use ndarray::Array2;
 use numpy::IntoPyArray;
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use super::told::{named, set_path};
-use crate::arguments::{Array, List, Mask, number, side};
+use crate::arguments::{List, number, side};
 use crate::error::to_python;
 use crate::interruptible::interruptible;
 use crate::residual_stress::{Profiles, of_body};
-use crate::scene::{Body, Grid};
-use crate::yielding::{Eigenstress, of_states};
-
-/// States of a contact above cracks, as arrays over (state, x, y).
-#[derive(FromPyObject)]
-pub(crate) struct ContactStates<'py> {
-    #[pyo3(item)]
-    p: Array<'py, Ix3>,
-    #[pyo3(item)]
-    q_x: Array<'py, Ix3>,
-    #[pyo3(item)]
-    q_y: Array<'py, Ix3>,
-    #[pyo3(item)]
-    stick: Mask<'py, Ix3>,
-    #[pyo3(item)]
-    sigma_B: List<f64>,
-    #[pyo3(item)]
-    residual: Profiles,
-    #[pyo3(item)]
-    eigenstress: List<Option<Py<Eigenstress>>>,
-}
+use crate::scene::Body;
+use crate::states::States;
 
 /// What `f` finds below a contact in its states.
 fn below_contact<T: Send>(
     py: Python<'_>,
     (body, body_number): (&Body, u8),
-    grid: &Grid,
-    given: ContactStates<'_>,
-    f: impl FnOnce(&core::Below<'_>, &States<'_>) -> Result<T, contact_core::Error> + Send,
+    states: &States,
+    residual: Profiles,
+    f: impl FnOnce(&core::Below<'_>, &subsurface::States<'_>) -> Result<T, contact_core::Error> + Send,
 ) -> PyResult<T> {
-    let shape = (given.sigma_B.len(), grid.0.nx, grid.0.ny);
-    let fields = [&given.q_x, &given.q_y, &given.p].map(|field| field.as_array());
-    if fields.iter().any(|s| s.dim() != shape) || given.stick.as_array().dim() != shape {
-        return Err(PyValueError::new_err(format!(
-            "p, q_x, q_y and stick must be of the shape {shape:?}, that of the states and the grid"
-        )));
-    }
-    let cells = grid.0.cells();
-    let fields = fields.map(|f| f.iter().copied().collect::<Vec<_>>());
-    let stick: Vec<bool> = given.stick.as_array().iter().copied().collect();
-    let of = |state: usize, field: usize| &fields[field][state * cells..(state + 1) * cells];
-    let tractions = |n: usize| Tractions {
-        q_x: Some(of(n, 0)),
-        q_y: Some(of(n, 1)),
-        p: Some(of(n, 2)),
-    };
-    let tractions: Vec<_> = (0..shape.0).map(tractions).collect();
-    let stick: Vec<&[bool]> = stick.chunks(cells).collect();
-    let residual = of_body(&body.0, given.residual)?;
+    let (grid, moments) = states.parts();
+    let residual = of_body(&body.0, residual)?;
     let below = core::Below {
         body: &body.0,
         side: side(body_number)?,
-        grid: &grid.0,
+        grid,
     };
-    let sigma_B = given.sigma_B.0;
-    let eigenstress = of_states(Some(given.eigenstress));
     let stop = Arc::default();
     let found = interruptible(py, &stop, || {
-        let states = States {
-            tractions: &tractions,
-            sigma_B: &sigma_B,
-            residual: Some(&residual),
-            eigenstress: &eigenstress,
-            stick: Some(&stick),
-            stop: stop.clone(),
-        };
-        f(&below, &states)
+        moments.with_states(Some(&residual), &stop, |states| f(&below, &states))
     })?;
     found.map_err(to_python)
 }
@@ -106,12 +58,12 @@ fn tables<'py>(py: Python<'py>, found: &[core::OverCycle]) -> PyResult<Bound<'py
 
 /// K of cracks below a contact in several of its states; use :meth:`pyfret.Result.crack`.
 #[pyfunction]
-#[pyo3(signature = (body, grid, states: "Mapping[str, Any]", *, x: "float", lengths: "Sequence[float]", angle: "float" = 0.0, kink: "tuple[float, float] | None" = None, azimuth: "float" = 0.0, friction: "float" = 0.0, body_number: "int" = 2) -> "dict[str, NDArray[np.float64]]")]
+#[pyo3(signature = (body, states, *, residual = None, x: "float", lengths: "Sequence[float]", angle: "float" = 0.0, kink: "tuple[float, float] | None" = None, azimuth: "float" = 0.0, friction: "float" = 0.0, body_number: "int" = 2) -> "dict[str, NDArray[np.float64]]")]
 pub(crate) fn crack_of_states<'py>(
     py: Python<'py>,
     body: Body,
-    grid: Grid,
-    states: ContactStates<'_>,
+    states: PyRef<'_, States>,
+    residual: Profiles,
     #[pyo3(from_py_with = number)] x: f64,
     lengths: List<f64>,
     #[pyo3(from_py_with = number)] angle: f64,
@@ -128,20 +80,24 @@ pub(crate) fn crack_of_states<'py>(
         lengths: lengths.0,
         friction,
     };
-    let found = below_contact(py, (&body, body_number), &grid, states, |below, states| {
-        core::over_cycle(below, states, &cracks)
-    })?;
+    let found = below_contact(
+        py,
+        (&body, body_number),
+        &states,
+        residual,
+        |below, states| core::over_cycle(below, states, &cracks),
+    )?;
     tables(py, &found)
 }
 
 /// A crack that grows below a contact; use :meth:`pyfret.Result.grow_crack`.
 #[pyfunction]
-#[pyo3(signature = (body, grid, states: "Mapping[str, Any]", *, x: "float", start: "float", end: "float", direction, tolerance: "float", angle: "float" = 0.0, azimuth: "float" = 0.0, friction: "float" = 0.0, body_number: "int" = 2) -> "dict[str, Any]")]
+#[pyo3(signature = (body, states, *, residual = None, x: "float", start: "float", end: "float", direction, tolerance: "float", angle: "float" = 0.0, azimuth: "float" = 0.0, friction: "float" = 0.0, body_number: "int" = 2) -> "dict[str, Any]")]
 pub(crate) fn crack_growth_of_states<'py>(
     py: Python<'py>,
     body: Body,
-    grid: Grid,
-    states: ContactStates<'_>,
+    states: PyRef<'_, States>,
+    residual: Profiles,
     #[pyo3(from_py_with = number)] x: f64,
     #[pyo3(from_py_with = number)] start: f64,
     #[pyo3(from_py_with = number)] end: f64,
@@ -164,9 +120,13 @@ pub(crate) fn crack_growth_of_states<'py>(
             tolerance,
         },
     };
-    let found = below_contact(py, (&body, body_number), &grid, states, |below, states| {
-        core::grown(below, states, &growth)
-    })?;
+    let found = below_contact(
+        py,
+        (&body, body_number),
+        &states,
+        residual,
+        |below, states| core::grown(below, states, &growth),
+    )?;
     let result = tables(py, &found.over)?;
     set_path(py, &result, &found.tips)?;
     result.set_item("path_error", found.error)?;
