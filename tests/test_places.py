@@ -165,3 +165,29 @@ def test_the_largest_stress_of_a_buried_layer_lies_beyond_the_grid() -> None:
     for n in (56,):
         short = largest(2.8, n)
         assert abs(short.value - wide.value) <= 0.03 * wide.value + short.error
+
+
+def test_worn_profiles_and_work_lie_along_the_shear() -> None:
+    """Sheared along y, wear and Ruiz' parameters are those along x, on the line along y."""
+    found = []
+    for name, angle in (("x", 0.0), ("y", np.pi / 2)):
+        run = sheared(angle, n=24)
+        worn = fret.wear.solve(
+            run.scene,
+            cycles=100,
+            first_branch=2,
+            body2=fret.wear.Archard(2e-14),
+            jumps=1,
+            progress=False,
+        )
+        cut, ruiz = worn.along(), fatigue.ruiz(run)
+        assert worn.direction == name
+        assert cut.worn2.dims == ("block", name)
+        assert fret.plot.wear_profiles(worn).get_xlabel() == f"${name}$ [mm]"
+        assert fret.plot.wear_loops(worn).get_ylabel() == f"$T_{name}$ [N]"
+        assert ruiz.F1.dims == (name,)
+        found.append((cut.worn2[-1].values, ruiz.F1.values, ruiz.F2.values))
+    plt.close("all")
+    for along_x, along_y in zip(*found, strict=True):
+        assert along_x.max() > 0.0
+        np.testing.assert_allclose(along_y, along_x, rtol=1e-2, atol=1e-3 * along_x.max())

@@ -289,7 +289,7 @@ def test_figures_of_what_has_yielded(tmp_path: Path) -> None:
     assert "MPa" in left.get_ylabel()
     result.report(tmp_path / "page.html")
     page = (tmp_path / "page.html").read_text(encoding="utf-8")
-    assert "Plastic strain on the section y = 0 of the lower body" in page
+    assert "on the section along the shear" in page
     assert "Residual stress below the middle" in page
     assert "largest plastic strain" in page
 

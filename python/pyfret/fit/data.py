@@ -189,7 +189,7 @@ class Indentation(HoldsArrays):
 @numbers_only
 @dataclass(frozen=True, eq=False, repr=False)
 class Scar(HoldsArrays):
-    """A worn profile along x: depth [m] of a body, or of both together (``body_number=0``).
+    """A worn profile along x at y = 0: depth [m] of a body, or of both with ``body_number=0``.
 
     ``wear`` holds the arguments of the run that made it, such as ``cycles`` and ``body2``.
     """

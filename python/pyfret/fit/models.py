@@ -221,7 +221,7 @@ def of_indentation(data: Indentation) -> Model:
 
 
 def of_scar(data: Scar) -> Model:
-    """A scar: the worn depth along x at the end of a run of wear."""
+    """A scar: the worn depth along x at y = 0, at the end of a run of wear."""
     half = float(np.ptp(data.x[data.depth > 0.1 * data.depth.max()])) / 2
 
     def predict(scene: Scene, values: Mapping[str, float], finer: float) -> Predicted:

@@ -16,7 +16,7 @@ from pyfret.plot.depth_axis import stretch as stretch_axis
 from pyfret.plot.scales import Scales, Units, scales
 from pyfret.plot.style import apart, axes, beside, mark, styled
 from pyfret.subsurface.contact import stress_below
-from pyfret.subsurface.line import Line, line_of
+from pyfret.subsurface.line import Line, line_of, main_line
 from pyfret.subsurface.tensor import Stress
 
 if TYPE_CHECKING:
@@ -340,6 +340,8 @@ def stress_maps(
 ) -> Figure:
     """Figure 13 of the paper: stress below the contact at the end of the path, for every ratio.
 
+    On the section along the shear, through the centre of the contact.
+
     Parameters
     ----------
     results : mapping of float to Result
@@ -354,7 +356,8 @@ def stress_maps(
     below: dict[float, Stress] = {}
     for ratio, result in sorted(results.items()):
         z = np.union1d(np.linspace(0.0, depth * result.a_H, layers), result.scene.interfaces())
-        below[ratio] = stress_below(result.at(-1), z, y=0.0)
+        last = result.at(-1)
+        below[ratio] = stress_below(last, z, **main_line(last).named())
     fields = [stress.measure(of).values / results[ratio].p_H for ratio, stress in below.items()]
     # One scale of colours for all.
     levels = MaxNLocator(12).tick_values(

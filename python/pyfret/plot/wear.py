@@ -10,6 +10,7 @@ import numpy as np
 from pyfret.plot.style import axes, beside, inside_legend, styled
 
 if TYPE_CHECKING:
+    import xarray as xr
     from matplotlib.axes import Axes
 
     from pyfret.wear.result import WearResult
@@ -20,8 +21,7 @@ Which = Literal["body1", "body2", "both"]
 MOST_LINES = 50
 
 
-def _depth(result: WearResult, of: Which) -> np.ndarray:
-    d = result.dataset
+def _depth(d: xr.Dataset, of: Which) -> np.ndarray:
     fields = {"body1": d.worn1, "body2": d.worn2, "both": d.worn1 + d.worn2}
     return np.asarray(fields[of])
 
@@ -30,16 +30,18 @@ def _depth(result: WearResult, of: Which) -> np.ndarray:
 def wear_profiles(
     result: WearResult, *, of: Which = "body2", lines: int = 8, ax: Axes | None = None
 ) -> Axes:
-    """Worn depth along y = 0 after several blocks of cycles, in um over x in mm, downwards.
+    """Worn depth on the line along the shear after several blocks of cycles, in um, downwards.
 
-    At most `lines` of them are drawn, 1 to 50, at equal steps of the largest depth.
+    The line goes through the centre of the last contact (:meth:`WearResult.along`). At most `lines`
+    profiles are drawn, 1 to 50, at equal steps of the largest depth.
     """
     if not 1 <= lines <= MOST_LINES:
         raise ValueError(f"lines = {lines}: must be 1 to {MOST_LINES}")
     ax = axes(ax)
-    d = result.dataset
-    depth = _depth(result, of)
-    middle = depth[:, :, depth.shape[2] // 2]
+    d = result.along()
+    middle = _depth(d, of)
+    along = str(d.worn2.dims[-1])
+    place = 1e3 * d[along].values
     last = len(middle) - 1
     wanted = np.linspace(middle.max() / lines, middle.max(), lines)
     chosen = sorted(
@@ -47,14 +49,15 @@ def wear_profiles(
     )
     colours = plt.get_cmap("viridis")(np.linspace(0.9, 0.0, len(chosen)))
     for block, colour in zip(chosen, colours, strict=True):
-        cycles = f"{float(d.block_cycles[block]):,.0f}".replace(",", " ")
-        ax.plot(1e3 * d.x, 1e6 * middle[block], color=colour, label=cycles)
+        cycles = f"{float(result.dataset.block_cycles[block]):,.0f}".replace(",", " ")
+        ax.plot(place, 1e6 * middle[block], color=colour, label=cycles)
     ax.invert_yaxis()
     worn = np.flatnonzero(middle[-1] > 1e-3 * middle.max())
     if len(worn):
-        reach = 1.25e3 * np.abs(np.asarray(d.x)[worn]).max()
-        ax.set_xlim(-reach, reach)
-    ax.set_xlabel("$x$ [mm]")
+        low, high = place[worn[[0, -1]]]
+        room = 0.125 * (high - low)
+        ax.set_xlim(low - room, high + room)
+    ax.set_xlabel(f"${along}$ [mm]")
     ax.set_ylabel("worn depth [µm]")
     ax.legend(title="cycles", fontsize="small")
     return ax
@@ -67,7 +70,7 @@ def depth_map(
     """Worn depth over the contact plane after a block of cycles, um."""
     ax = axes(ax, square=True)
     d = result.dataset
-    depth = 1e6 * _depth(result, of)[block].T
+    depth = 1e6 * _depth(d, of)[block].T
     drawn = ax.pcolormesh(
         1e3 * d.x, 1e3 * d.y, depth, cmap="YlGnBu", shading="nearest", rasterized=True
     )
@@ -111,15 +114,18 @@ def wear_history(result: WearResult, *, ax: Axes | None = None) -> Axes:
 
 @styled
 def wear_loops(result: WearResult, *, ax: Axes | None = None) -> Axes:
-    """Friction loops at the first and at the last block of cycles."""
+    """Friction loops at the first and at the last block of cycles, along x or y.
+
+    The axis is that of the largest force.
+    """
     ax = axes(ax)
-    d = result.dataset
+    d, way = result.dataset, result.direction
     # The last one dashed, so that the first is seen where they are alike.
     for block, look in ((0, "-"), (-1, "--")):
-        shift, force = (np.asarray(d[name][block]) for name in ("loop_delta_x", "loop_T_x"))
+        shift, force = (np.asarray(d[f"loop_{of}_{way}"][block]) for of in ("delta", "T"))
         cycles = f"after {float(d.block_cycles[block]):,.0f} cycles".replace(",", " ")
         ax.plot(1e6 * np.r_[shift[-1], shift], np.r_[force[-1], force], look, label=cycles)
-    ax.set_xlabel(r"$\delta_x$ [µm]")
-    ax.set_ylabel(f"$T_x$ [{d.loop_T_x.attrs['units']}]")
+    ax.set_xlabel(rf"$\delta_{way}$ [µm]")
+    ax.set_ylabel(f"$T_{way}$ [{d.loop_T_x.attrs['units']}]")
     ax.legend()
     return ax

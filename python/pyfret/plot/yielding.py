@@ -9,11 +9,13 @@ import numpy as np
 from matplotlib.ticker import MaxNLocator
 
 from pyfret._util.depths import thin
+from pyfret._util.lazy import xr
 from pyfret.plot.depth_axis import stretch as stretch_axis
 from pyfret.plot.scales import Units, last_of, of_snapshot
 from pyfret.plot.stresses import COLOURS, SYMBOLS
 from pyfret.plot.style import axes, styled
 from pyfret.subsurface.fields import interfaces
+from pyfret.subsurface.line import cut, main_line
 from pyfret.subsurface.plastic import PlasticState
 from pyfret.subsurface.unloaded import Unloaded
 
@@ -21,6 +23,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from pyfret.run import Run, State
+    from pyfret.subsurface.line import Line
 
 #: Room around the zone that has yielded, over its width and depth.
 ROOM = 0.25
@@ -36,7 +39,10 @@ def plastic_zone(
     units: Units = "auto",
     ax: Axes | None = None,
 ) -> Axes:
-    """Equivalent plastic strain on the section y = 0 of a body that yields, depth downwards.
+    """Equivalent plastic strain of a body that yields on the section along the shear.
+
+    The section goes through the centre of the contact, as that of :meth:`Snapshot.stress`; depth
+    is downwards.
 
     Parameters
     ----------
@@ -52,18 +58,19 @@ def plastic_zone(
     state = last_of(shown)
     plastic = PlasticState(state, body_number)
     by = of_snapshot(state, units)
-    field = plastic.dataset["equivalent"]
-    middle = field.isel(y=0) if field.sizes["y"] == 1 else field.interp(y=0.0)
-    percent = 100.0 * np.nan_to_num(middle.values)
-    x, z = middle.x.values / by.length.value, middle.z.values / by.length.value
-    layers = middle.layer.values
+    line = main_line(state)
+    middle = _on_line(plastic, state, line)
+    percent = 100.0 * middle.values
+    x, z = middle[line.along].values / by.length.value, plastic.dataset.z.values / by.length.value
+    layers = plastic.dataset.layer.values
     yielded = percent > 0.0
-    deepest, widest = z[-1], np.abs(x).max()
+    deepest, outline = z[-1], state.outline
+    middle_x = 0.0 if outline is None else line.place(*outline.centre) / by.length.value
+    widest = np.abs(x - middle_x).max()
     if yielded.any():
         deepest = z[yielded.any(axis=1)].max()
-        widest = np.abs(x[yielded.any(axis=0)]).max()
+        widest = min(np.abs(x[yielded.any(axis=0)] - middle_x).max() * (1.0 + ROOM), widest)
     deepest *= 1.0 + ROOM
-    widest = min(widest * (1.0 + ROOM), float(np.abs(x).max()))
     if ax is None:
         high = np.clip(3.3 * deepest / (2.0 * widest) + 0.7, 1.8, 6.0)
         ax = plt.figure(figsize=(4.8, float(high))).add_subplot()
@@ -87,9 +94,8 @@ def plastic_zone(
     for depth in inner:
         if depth < deepest:
             ax.axhline(depth, color="0.2", linewidth=0.8, linestyle=(0, (6, 3)))
-    touched = state.dataset["contact"].values.astype(bool).any(axis=1)
-    if touched.any():
-        ends = state.dataset.x.values[touched][[0, -1]] / by.length.value
+    if outline is not None:
+        ends = middle_x + np.array(outline.border(line.angle)) / by.length.value
         ax.plot(ends, [0.0, 0.0], color="k", linewidth=3.0, clip_on=False, zorder=5)
     label = "equivalent plastic strain [%]"
     if image is not None:
@@ -100,14 +106,29 @@ def plastic_zone(
         bar.set_ticks(steps[1:])
     else:
         ax.set_title(label)
-    ax.set_xlim(-widest, widest)
+    ax.set_xlim(middle_x - widest, middle_x + widest)
     ax.set_ylim(deepest, 0.0)
-    ax.set_xlabel(by.length.label("x"))
+    ax.set_xlabel(by.length.label(line.along))
     ax.set_ylabel(by.length.label("z"))
     if not thin(borders):
         ax.set_aspect("equal")
     ax.grid(visible=False)
     return ax
+
+
+def _on_line(plastic: PlasticState, state: State, line: Line) -> xr.DataArray:
+    """The equivalent strain below a line, over depth and place; 0 beside what may yield."""
+    d = plastic.dataset[["equivalent"]].transpose("z", "x", "y")
+    found: xr.DataArray = cut(d, state.scene.grid, line).equivalent
+    inside = np.ones(found.sizes[line.along], dtype=bool)
+    for name in ("x", "y"):
+        cells = d[name].values
+        if cells.size > 1:
+            at = found[name].values if name in found.coords else getattr(line, name)
+            half = 0.5 * (cells[1] - cells[0])
+            inside &= (at >= cells[0] - half) & (at <= cells[-1] + half)
+    found = found.where(xr.DataArray(inside, dims=line.along), 0.0).fillna(0.0)
+    return found
 
 
 @styled
@@ -116,8 +137,8 @@ def residual_stress(
     *,
     body_number: int | None = None,
     of: tuple[str, ...] = ("s_xx", "s_yy", "s_zz"),
-    x: float = 0.0,
-    y: float = 0.0,
+    x: float | None = None,
+    y: float | None = None,
     units: Units = "auto",
     ax: Axes | None = None,
 ) -> Axes:
@@ -133,8 +154,8 @@ def residual_stress(
         The body (default: as in :attr:`Snapshot.plastic`).
     of : sequence of str
         Measures, as in :class:`pyfret.subsurface.Stress`.
-    x, y : float
-        The point [m] (default: the middle of the grid).
+    x, y : float, optional
+        The point [m] (default: the centre of the contact).
     units : "auto", "dimensionless" or "SI"
         Over p_H and a_H (default where there is a Hertz contact), or in MPa and um.
     ax : matplotlib Axes, optional
@@ -143,6 +164,8 @@ def residual_stress(
     state = last_of(shown)
     number = PlasticState(state, body_number).body_number
     ax, by = axes(ax), of_snapshot(state, units)
+    centre = (0.0, 0.0) if state.outline is None else state.outline.centre
+    x, y = (c if at is None else at for at, c in zip((x, y), centre, strict=True))
     below = Unloaded(state, warn=False).stress(x=x, y=y, body_number=number)
     z, layer = below.dataset.z.values / by.length.value, below.dataset.layer.values
     inner = [d / by.length.value for d in interfaces(state.body(number))]

@@ -188,21 +188,23 @@ def stress(result: Run, crack: CrackSection | None = None) -> dict[str, Any] | N
 def wear(worn: WearResult) -> dict[str, Any]:
     """Depths over cycles, and the worn profiles of both bodies at the end."""
     d = worn.dataset
-    middle = d.sizes["y"] // 2
+    cut, way = worn.along(), worn.direction
+    along = str(cut.worn2.dims[-1])
     return {
         "cycles": short(d.cycles.values, 6),
         "depth": [short(1e6 * d[f"depth{n}"].values) for n in (1, 2)],
-        "x": short(1e6 * d.x.values),
-        "profile": [short(1e6 * d[f"worn{n}"][-1].values[:, middle]) for n in (1, 2)],
+        "along": along,
+        "x": short(1e6 * cut[along].values),
+        "profile": [short(1e6 * cut[f"worn{n}"][-1].values) for n in (1, 2)],
         "loops": [
             {
                 "name": f"after {in_words(float(d.block_cycles[block]))} cycles",
-                "x": short(1e6 * closed(d.loop_delta_x[block].values), 5),
-                "y": short(closed(d.loop_T_x[block].values), 5),
+                "x": short(1e6 * closed(d[f"loop_delta_{way}"][block].values), 5),
+                "y": short(closed(d[f"loop_T_{way}"][block].values), 5),
             }
             for block in (0, -1)
         ],
-        "force": f"T_x [{d.loop_T_x.attrs['units']}]",
+        "labels": [LOOPS[way][3], f"{LOOPS[way][2]} [{d.loop_T_x.attrs['units']}]"],
     }
 
 

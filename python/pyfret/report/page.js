@@ -162,12 +162,12 @@
   if (data.wear) {
     const bodies = ["upper body", "lower body"];
     const pair = (x, of) => bodies.map((name, n) => ({ x, y: of[n], name }));
-    const downwards = layout("x [µm]", "worn depth [µm]");
+    const downwards = layout(`${data.wear.along} [µm]`, "worn depth [µm]");
     downwards.yaxis.autorange = "reversed";
     Plotly.newPlot("depths", pair(data.wear.cycles, data.wear.depth), layout("cycles", "depth [µm]"), options);
     Plotly.newPlot("profiles", pair(data.wear.x, data.wear.profile), downwards, options);
     const loops = data.wear.loops.map((of, n) => ({ ...of, mode: "lines+markers", marker: { size: 4 }, line: { color: n ? colours.second : colours.first } }));
-    Plotly.newPlot("loops", loops, layout("δ_x [µm]", data.wear.force), options);
+    Plotly.newPlot("loops", loops, layout(...data.wear.labels), options);
   } else {
     document.getElementById("worn").remove();
   }

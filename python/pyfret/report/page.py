@@ -117,7 +117,7 @@ def yielded(result: Run) -> dict[str, Figure]:
             continue
         of = f"the {'upper' if body_number == 1 else 'lower'} body at the last increment"
         zone = plot.plastic_zone(state, body_number=body_number, units="SI")
-        found[f"Plastic strain on the section y = 0 of {of}"] = zone.figure
+        found[f"Plastic strain of {of}, on the section along the shear"] = zone.figure
         left = plot.residual_stress(state, body_number=body_number, units="SI")
         found[f"Residual stress below the middle of {of}, the contact taken apart"] = left.figure
     return found

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from pyfret.run import State
 
-__all__ = ["Line", "along", "fields_on", "line_of", "main_line", "main_shear"]
+__all__ = ["Line", "along", "cut", "fields_on", "line_of", "main_line", "main_shear"]
 
 
 class Line(NamedTuple):
@@ -79,7 +79,14 @@ def fields_on(state: State, line: Line) -> xr.Dataset:
     Over x, y or s, the place from the point that the line goes through. Oblique lines have `q_s`
     and `q_t` as well, the shear along s and the shear to the left of it [Pa].
     """
-    grid, d = state.scene.grid, state.dataset
+    return cut(state.dataset, state.scene.grid, line)
+
+
+def cut(d: xr.Dataset, grid: _core.Grid, line: Line) -> xr.Dataset:
+    """The fields of a grid on a line of it, as :func:`fields_on`.
+
+    Fields may have other dimensions before x and y, which stay.
+    """
     metres = {"units": "m"}
     if line.azimuth is None:
         along = line.along
@@ -96,14 +103,15 @@ def fields_on(state: State, line: Line) -> xr.Dataset:
     (left, right, u), (near, far, v) = weights
 
     def on_line(field: NDArray[np.float64]) -> NDArray[np.float64]:
-        low = field[left, near] * (1 - v) + field[left, far] * v
-        return low * (1 - u) + (field[right, near] * (1 - v) + field[right, far] * v) * u
+        low = field[..., left, near] * (1 - v) + field[..., left, far] * v
+        high = field[..., right, near] * (1 - v) + field[..., right, far] * v
+        return low * (1 - u) + high * u
 
     found = xr.Dataset(coords=coords)
     for name, field in d.data_vars.items():
-        if field.dtype.kind == "f" and field.dims == ("x", "y"):
-            found[name] = (along, on_line(field.values), dict(field.attrs))
-    if line.azimuth is not None:
+        if field.dtype.kind == "f" and field.dims[-2:] == ("x", "y"):
+            found[name] = ((*field.dims[:-2], along), on_line(field.values), dict(field.attrs))
+    if line.azimuth is not None and "q_x" in found:
         cos, sin = np.cos(line.azimuth), np.sin(line.azimuth)
         found["q_s"] = (found.q_x * cos + found.q_y * sin).assign_attrs(units="Pa")
         found["q_t"] = (found.q_y * cos - found.q_x * sin).assign_attrs(units="Pa")

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from pyfret import _core
 from pyfret._core import Scene, with_error
 from pyfret._util.door import numbers_only
 from pyfret._util.kept import Kept
@@ -15,6 +16,7 @@ from pyfret._util.labelled import Labelled
 from pyfret._util.text import shown
 from pyfret.fatigue.ranges import Range
 from pyfret.scene.tables import table
+from pyfret.subsurface.line import Line, cut
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -22,6 +24,8 @@ else:
     import tomli as tomllib
 
 if TYPE_CHECKING:
+    from typing import Literal
+
     import xarray as xr
 
 __all__ = ["WearResult"]
@@ -56,6 +60,33 @@ class WearResult(Kept, Labelled):
         """Depth worn off both bodies together, read with no shift between them, m."""
         total: xr.DataArray = self.dataset.worn1 + self.dataset.worn2
         return total
+
+    @property
+    def direction(self) -> Literal["x", "y"]:
+        """The axis along which the force of the last friction loop is largest."""
+        T = [float(abs(self.dataset[f"loop_T_{of}"][-1]).max()) for of in ("x", "y")]
+        return "y" if T[1] > T[0] else "x"
+
+    def along(self) -> xr.Dataset:
+        """Fields of the blocks on the line along the shear, through the centre of the last contact.
+
+        The direction is that of the largest force in the last friction loop.
+
+        Returns
+        -------
+        xarray.Dataset
+            Over block and x, y or, on an oblique line, s [m].
+        """
+        d, grid = self.dataset, self.scene.grid
+        p = np.asarray(d.p[-1], dtype=float)
+        line = Line(None, 0.0)
+        if p.any():
+            T = np.array([d[f"loop_T_{of}"][-1].values for of in ("x", "y")])
+            T = T[:, np.hypot(*T).argmax()]
+            # Shear in proportion to the pressure has the direction of the force.
+            q_x, q_y = (p * of / max(np.hypot(*T), 1e-300) for of in T)
+            line = Line(*_core.main_sections(_core.Outline(grid, p=p, q_x=q_x, q_y=q_y))[0])
+        return cut(d, grid, line)
 
     @numbers_only
     def cycles_to(
