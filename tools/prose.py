@@ -35,13 +35,7 @@ USE = (
     "docs/reference/*.md",
 )
 #: Modules whose docstrings are read.
-CODE = (
-    "python/pyfret/*.py",
-    "python/pyfret/plot/*.py",
-    "python/pyfret/report/*.py",
-    "python/pyfret/run/*.py",
-    "python/pyfret/what_if/*.py",
-)
+CODE = ("python/pyfret/**/*.py",)
 #: Words of a sentence, at most.
 MOST = 25
 #: What a reader cannot point at, and what a program does not do.

@@ -53,14 +53,14 @@ def number(value: object, name: str) -> float:
 
 
 def items(values: Iterable[T], name: str) -> list[T]:
-    """What a sequence holds, one by one; what it says of its length is not trusted.
+    """The items of a sequence, one by one, without trust in its ``len``.
 
     Raises
     ------
     TypeError
         It is a text, a mapping or no sequence.
     ValueError
-        It gives more than it says that it has.
+        It gives more items than its ``len``.
     """
     if isinstance(values, (str, bytes, Mapping)) or not hasattr(values, "__iter__"):
         raise TypeError(f"{name} = {values!r:.60}: must be a list")

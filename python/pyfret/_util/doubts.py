@@ -1,7 +1,7 @@
 """Doubts of numbers that are allowed and hardly meant: nearly always their unit is another one.
 
-A row of the table of quantities (the crate ``plausible``) belongs to each key that it knows: the
-last name of a key of a scene file, or a parameter with the function or class that takes it.
+The crate ``plausible`` holds a table of quantities with a row for each known key. A key is the last
+name of a key of a scene file, or a parameter with the function or class that takes it.
 """
 
 from __future__ import annotations
@@ -19,14 +19,14 @@ __all__ = ["SceneWarning", "doubt_numbers", "doubts_of"]
 
 
 class SceneWarning(UserWarning):
-    """Something of a scene is allowed but hardly meant; the message says what was understood."""
+    """A number of a scene is allowed but hardly meant; the message has it as it was read."""
 
 
 def doubts_of(of: str, /, **numbers: Any) -> list[str]:
     """Give the doubts of numbers by their names, parameters of `of` or keys of a scene file.
 
-    Of lists each number is looked at, of arrays the largest, of tables the largest of the last
-    column; what is no number is left out.
+    Of lists each number counts, of arrays the largest, of tables the largest of the last column.
+    Other values are left out.
     """
     found = []
     for name, given in numbers.items():

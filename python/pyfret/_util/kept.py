@@ -52,7 +52,7 @@ class Kept:
     """What was computed, with a dataset, a summary and a figure.
 
     Its class names the figure of :mod:`pyfret.plot`. The figure is found when it is drawn, by the
-    public face of the package: figures know what they draw, and not the other way round.
+    public face of the package. So figures depend on results, and results do not depend on figures.
     """
 
     figure: ClassVar[str]

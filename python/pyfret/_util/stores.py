@@ -1,7 +1,7 @@
 """Folders that are said to be stores: looked at before a library reads them.
 
 A store from somebody else is data. Its metadata name programs (codecs, filters) and types that a
-library would run or build; what pyfret does not write itself is refused by name, before a chunk is
+library would run or build. Those that pyfret does not write are refused by name before a chunk is
 read. So are sizes that the files do not bear out, and what is no file.
 """
 
@@ -46,8 +46,8 @@ def check_store(path: str | os.PathLike[str]) -> None:
     Raises
     ------
     StoreError
-        A codec, a filter or a type that pyfret does not write, a size that the files do not bear
-        out, or something that is neither a file nor a folder; the message names it.
+        The store holds a codec, a filter or a type that pyfret does not write. Or its files do not
+        bear out a size, or it is neither a file nor a folder. The message names the cause.
     """
     root = Path(path)
     try:

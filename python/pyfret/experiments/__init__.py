@@ -6,9 +6,9 @@ To be repeated and varied::
     worn = test.wear(tolerance=0.005)
     test.row["worn_volume_m3"], float(worn.volume1[-1] + worn.volume2[-1])
 
-Numbers are facts of the papers cited, typed from their tables or read off their figures by others
-and converted to SI units; ``remarks`` tell misprints and what is derived. None of the papers was
-read in full.
+Numbers are facts of the cited papers. They were typed from tables or read off figures by others and
+converted to SI units. ``remarks`` name misprints and derived numbers. None of the papers was read
+in full.
 """
 
 from pyfret._util.names import listing

@@ -1,7 +1,7 @@
 """From a contact to finite elements and back: tractions, stresses, forces on nodes, loops.
 
-Where the component lives is said by a :class:`Frame`: where the middle of the grid is and how its
-axes stand in the other model, and the model's unit of length. ::
+A :class:`Frame` places the component in the other model. It holds the middle of the grid, the
+directions of its axes, and the model's unit of length. ::
 
     frame = export.Frame(origin=(0.0, 0.0, 20.0), z=(0.0, 0.0, -1.0), unit="mm")
     export.tractions(result.at(-1), "tractions.csv", frame=frame)

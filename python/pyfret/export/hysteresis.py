@@ -41,9 +41,10 @@ def hysteresis(result: Run, *, direction: Literal["x", "y", "torsion"] = "x") ->
     -------
     xarray.Dataset
         Over ``amplitude``: ``delta``, ``T``, ``stiffness`` (dT/ddelta), ``secant_stiffness``,
-        ``dissipated`` (a loop). ``attrs``: ``W``, ``mu``, ``masing_error``: how far the energy of
-        the run's own last closed loop is from Masing's at its half range, over the former; NaN
-        without a closed loop. For CSV: ``hysteresis(result).to_dataframe().to_csv(path)``.
+        ``dissipated`` (a loop). ``attrs``: ``W``, ``mu``, ``masing_error``. The last is the
+        relative difference between the energy of the run's last closed loop and Masing's at its
+        half range. It is NaN without a closed loop. For CSV:
+        ``hysteresis(result).to_dataframe().to_csv(path)``.
 
     Raises
     ------

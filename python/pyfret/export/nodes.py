@@ -61,8 +61,8 @@ def nodal_forces(
 ) -> NDArray[np.float64]:
     """Forces on nodes, the work of which on the faces is that of the tractions.
 
-    Each cell's force goes to the nodes of the face that it lies in by the face's shape functions
-    N_i: F_i = sum over the cells of t A N_i. Sums of forces and moments are those of the contact,
+    Each cell lies in a face. The shape functions N_i of this face share the cell's force among its
+    nodes: F_i = sum over the cells of t A N_i. Sums of forces and moments are those of the contact,
     whatever the sizes of cells and faces.
 
     Parameters
@@ -131,8 +131,8 @@ def loads(
 ) -> NDArray[np.float64]:
     """Write the forces on the nodes of a mesh as ``*CLOAD`` for CalculiX and Abaqus.
 
-    The faces are those of the mesh that lie in the plane of the contact, z = 0 of `frame`; the
-    file is for ``*INCLUDE`` in a step.
+    The faces are those of the mesh in the plane of the contact, z = 0 of `frame`. A step takes the
+    file by ``*INCLUDE``.
 
     Parameters
     ----------

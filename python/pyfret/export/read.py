@@ -42,15 +42,15 @@ def bulk_stress(
 ) -> float:
     """Bulk stress along the contact's x at the contact, from the results of another program [Pa].
 
-    The component is computed without the contact; the stress at the middle of the grid is that of
-    the nearest nodes, weighted by the inverse squares of their distances.
+    The component is computed without the contact. The stress at the middle of the grid is a mean
+    over the nearest nodes. Its weights are the inverse squares of their distances.
 
     Parameters
     ----------
     path : path
-        ``.frd`` of CalculiX (``*NODE FILE`` S, the last step), ``.dat`` of CalculiX (``*EL PRINT``
-        S: the mean over the points printed last), or a mesh that meshio reads with a stress at its
-        nodes: six components xx, yy, zz, xy, xz, yz, or nine.
+        ``.frd`` of CalculiX: ``*NODE FILE`` S, the last step. ``.dat`` of CalculiX: ``*EL PRINT``
+        S, the mean over the points printed last. Or a mesh that meshio reads with a stress at its
+        nodes. It has six components xx, yy, zz, xy, xz, yz, or nine.
     frame : Frame, optional
         Where the contact lies in the model, and its units.
     field : str
@@ -136,8 +136,8 @@ def nodal(
 def _read_frd(path: Path, block: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Nodes and the last field of a name of a text ``.frd`` file.
 
-    CalculiX GraphiX manual, "frd: Result Format": the last number of the head of a block is its
-    format, 0 for numbers of nodes of five digits, 1 of ten, others binary.
+    CalculiX GraphiX manual, "frd: Result Format": the head of a block ends with its format. Format
+    0 has numbers of nodes of five digits, format 1 of ten. The others are binary.
     """
     points: dict[int, list[float]] = {}
     found: dict[int, list[float]] = {}

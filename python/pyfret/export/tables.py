@@ -79,10 +79,10 @@ def tractions(
     body_number : 1 or 2
         The body on which the tractions act.
     form : "csv", "abaqus" or "aster"
-        ``"csv"``: with a head: place, ``p``, ``q_x``, ``q_y`` along the contact's axes and the
-        vector ``t_1``, ``t_2``, ``t_3`` along those of the model, as Ansys' External Data and most
-        programs take them. ``"abaqus"``: place and one number, the point cloud of a mapped
-        analytical field. ``"aster"``: the same columns as ``"csv"`` for ``LIRE_TABLE`` of
+        ``"csv"``: with a head, as Ansys' External Data and most programs take it. The columns are
+        the place, ``p``, ``q_x``, ``q_y`` along the contact's axes and the vector ``t_1``, ``t_2``,
+        ``t_3`` along the model's axes. ``"abaqus"``: place and one number, the point cloud of a
+        mapped analytical field. ``"aster"``: the same columns as ``"csv"`` for ``LIRE_TABLE`` of
         code_aster.
     of : "p", "q_x" or "q_y"
         What ``"abaqus"`` writes. Shears are those along the contact's axes on the body.

@@ -33,9 +33,9 @@ Averaging = Literal["point", "line", "area", "volume"]
 def critical_distance(material: Material) -> float:
     """Critical distance L = (dK_th/(2 s_D))^2/pi of a material [m].
 
-    ``dK_th`` is the threshold range of the stress intensity and 2 ``s_D`` the range of the fatigue
-    limit, both fully reversed: D. Taylor, The Theory of Critical Distances, Elsevier (2007). A
-    ValueError names the number that is missing.
+    ``dK_th`` is the threshold range of the stress intensity, and 2 ``s_D`` the range of the fatigue
+    limit. Both are fully reversed. Source: D. Taylor, The Theory of Critical Distances, Elsevier
+    (2007). A ValueError names the number that is missing.
     """
     return material.critical_distance()
 
@@ -66,10 +66,10 @@ def average(
     L : float, optional
         Critical distance [m] (default: that of the material, :func:`critical_distance`).
     method : "point", "line", "area" or "volume"
-        Stress at L/2 below the top of the layer; its mean over the line from there to 2 L; over the
-        half disc of radius L in the plane of the section; over the half ball of radius L (D.
-        Taylor, as in :func:`critical_distance`). The ball reaches beyond the section on both
-        sides.
+        Point: the stress at L/2 below the top of the layer. Line: its mean from there to 2 L. Area:
+        its mean over the half disc of radius L in the plane of the section. Volume: its mean over
+        the half ball of radius L, which reaches beyond the section on both sides (D. Taylor, as in
+        :func:`critical_distance`).
     layer : int, optional
         The layer that holds the distance, from the surface down (default: the outermost that has a
         material; of one material alone the substrate).

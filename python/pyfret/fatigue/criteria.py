@@ -118,11 +118,11 @@ def evaluate(stress: ArrayLike, criterion: Criterion, *, tolerance: float = 1e-3
     -------
     xarray.Dataset
         Over the axes of the points, with their labels or named ``dim_0``, ``dim_1``, ...:
-        ``value``, and ``missed`` (no plane has more than value + missed); ``normal`` of the
-        critical plane (last dimension ``axis``; NaN without a plane); there ``shear_amplitude``
-        by the smallest circle, ``shear_chord`` (half of the longest chord), ``normal_max``,
-        ``normal_min``, ``normal_mean`` and ``normal_amplitude`` [Pa]. For Crossland's and Dang
-        Van's criteria ``shear_amplitude`` is sqrt(J2,a), or the mesoscopic shear when it
+        ``value``, and ``missed``: no plane has more than value + missed. ``normal`` of the critical
+        plane has the last dimension ``axis``, and is NaN without a plane. On this plane, in Pa:
+        ``shear_amplitude`` by the smallest circle, ``shear_chord`` (half of the longest chord),
+        ``normal_max``, ``normal_min``, ``normal_mean`` and ``normal_amplitude``. For Crossland's
+        and Dang Van's criteria ``shear_amplitude`` is sqrt(J2,a), or the mesoscopic shear when it
         decides, and ``normal_max`` the hydrostatic stress that goes with it.
 
     Raises
@@ -171,7 +171,7 @@ def assess(
     Raises
     ------
     ValueError
-        As :func:`evaluate`, and if the material lacks a number; the message says which.
+        As :func:`evaluate`, and if the material lacks a number. The message names it.
     """
     assessment = material.assessment(criterion)
     result = evaluate(stress, assessment.criterion, tolerance=tolerance)
@@ -233,12 +233,12 @@ def first_yield(
 def moving_load(stress: ArrayLike, *, s_y: float) -> NDArray[np.float64]:
     """Give the load factor of elastic shakedown under a load that moves along the surface.
 
-    What a load leaves behind that passes again and again, the same everywhere along its track,
-    depends on depth alone: its balance leaves s_xx, s_yy and s_xy, and no stress on planes parallel
-    to the surface. Melan's theorem with these alone is what K. L. Johnson, Contact Mechanics
-    (1985), section 9.2, does: for a cylinder p_0 = 4 k without friction, and p_0 = k/mu for
-    mu > 0.367, where the surface decides, k being s_y/sqrt 3. A history and its mirror image in the
-    surface, which turns s_xz and s_yz round, have a smallest sphere whose centre is such a stress.
+    A load that passes again and again leaves a residual stress that depends on depth alone. Its
+    balance leaves s_xx, s_yy and s_xy, and no stress on planes parallel to the surface. Melan's
+    theorem with these alone gives the limits of K. L. Johnson, Contact Mechanics (1985), section
+    9.2. A cylinder has p_0 = 4 k without friction, k being s_y/sqrt 3. For mu > 0.367 the surface
+    decides, and p_0 = k/mu. A history and its mirror image in the surface, which turns s_xz and
+    s_yz round, have a smallest sphere whose centre is such a stress.
 
     Parameters
     ----------
@@ -283,11 +283,10 @@ def dang_van_path(stress: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.fl
 def mean_stress_slope(material: Material) -> tuple[float, str]:
     """Give how much amplitude of uniaxial stress a mean stress costs, and after whom.
 
-    The limit is amplitude = s_D - slope mean. With the strength ``s_u``, s_D/s_u (J. Goodman,
-    Mechanics Applied to Engineering, 1899) where it has a source; else with ``t_D`` by Dang
-    Van's criterion, whose s_a/2 + alpha (s_a + s_m)/3 = t_D is slope = 1 - s_D/(2 t_D) with
-    alpha = 3 t_D/s_D - 3/2.
-    A ValueError says which number is missing.
+    The limit is amplitude = s_D - slope mean. Where the strength ``s_u`` has a source, slope =
+    s_D/s_u (J. Goodman, Mechanics Applied to Engineering, 1899). Else ``t_D`` gives it by Dang
+    Van's criterion, s_a/2 + alpha (s_a + s_m)/3 = t_D. There slope = 1 - s_D/(2 t_D), with alpha =
+    3 t_D/s_D - 3/2. A ValueError says which number is missing.
     """
     s_D = material.number("s_D")
     if any(name == "s_u" and "recalled" not in source for name, _, source in material.numbers()):

@@ -39,10 +39,10 @@ def body_of(result: Run, section: Section) -> Body:
 
 
 def placed(result: Run, section: Section) -> list[Section]:
-    """The section, or where it says no place those of the cycle, the first along its shear.
+    """The section, or without a place those of the cycle, the first along its shear.
 
-    A second one stands across the first, unless what is largest lies in the plane of the shear: a
-    round contact that is sheared to and fro along one line.
+    A second section stands across the first. A round contact that is sheared along one line needs
+    no second: its largest stress lies in the plane of the shear.
     """
     if section.is_placed:
         return [section]
@@ -82,8 +82,8 @@ def depths_of(
 ) -> tuple[list[float], list[int]]:
     """The depths of a section with their layers: those given, or those that the layers ask for.
 
-    `each` is what every layer is judged by, None where it is not, and `one` its name in the error:
-    a ValueError where no depth lies in a layer that is judged.
+    `each` holds what every layer is judged by, None where it is not judged. `one` is its name in
+    the error. A ValueError is raised where no depth lies in a judged layer.
     """
     body = body_of(result, section)
     if z is None:

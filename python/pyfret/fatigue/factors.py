@@ -1,8 +1,8 @@
 """Will it yield, and will it go on? First yield and elastic shakedown below a contact.
 
-Load factors say by how much the stresses that the loads cause may grow until something happens.
-A contact grows with its load: without coatings p_H may grow by the factor, with it W by its cube
-below a sphere and by its square below a cylinder, other forces keeping their ratio to W. ::
+A load factor is the ratio by which the stresses of the loads may grow until the body yields. A
+contact grows with its load. Without coatings p_H may grow by the factor. W then grows by its cube
+below a sphere and by its square below a cylinder, with a constant ratio of other forces to W. ::
 
     factors = result.load_factors(900e6)
     factors.least("von_mises")  # factor and place of first yield
@@ -190,11 +190,10 @@ def load_factors(
     z : array, optional
         Depths [m] (default: those that the layers ask for, both sides of every interface).
     **section
-        ``x`` or ``y`` (several for a volume), ``azimuth``, ``body_number``, ``cycle`` (None: the
-        whole path as far as its increments were kept), ``residual``: the fields of
-        :class:`pyfret.fatigue.Section`; the place by default as in :func:`pyfret.fatigue.life`. The
-        residual stress counts for first yield and does not grow with the load; shakedown finds its
-        own.
+        ``x`` or ``y`` (several for a volume), ``azimuth``, ``body_number``, ``cycle`` (None: all
+        kept increments of the path), ``residual``: the fields of :class:`pyfret.fatigue.Section`.
+        The default place is that of :func:`pyfret.fatigue.life`. The residual stress counts for
+        first yield and does not grow with the load; shakedown finds its own.
 
     Returns
     -------

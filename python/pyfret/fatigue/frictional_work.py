@@ -38,9 +38,10 @@ def _work_until(result: Run, increment: int, line: Line) -> xr.DataArray:
 def ruiz(result: Run, **section: Unpack[SectionOptions]) -> xr.Dataset:
     """Give Ruiz' two parameters along a line of the surface over a closed cycle.
 
-    F1 is the frictional work per area and cycle, F2 its product with the largest stress along the
-    line at the surface (s_xx on a line along x): C. Ruiz, P. H. B. Boddington, K. C. Chen,
-    Exp. Mech. 24 (1984) 208-217, in whose form F1 is the largest shear times the slip amplitude.
+    F1 is the frictional work per area and cycle. F2 is its product with the largest stress along
+    the line at the surface (s_xx on a line along x). In the form of the source, F1 is the largest
+    shear times the slip amplitude: C. Ruiz, P. H. B. Boddington, K. C. Chen, Exp. Mech. 24 (1984)
+    208-217.
 
     Parameters
     ----------

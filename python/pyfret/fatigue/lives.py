@@ -225,8 +225,8 @@ class Life(Labelled):
         Three parts make the range; their logarithms are independent and add as squares. *Stress*:
         the error of the value of the criterion. *Material*: its scatter. *Distance*: the stress is
         averaged along a line from the surface to 2 L, and L is known to a factor. A material
-        without a critical distance, and a layer that is thinner than 2 L, keep the value at the
-        worst point, which is on the safe side.
+        without a critical distance keeps the value at the worst point, which is on the safe side.
+        So does a layer that is thinner than 2 L.
 
         Parameters
         ----------
@@ -394,8 +394,8 @@ def life(
         Solved with ``save="all"``, or with the increments of the cycle. The bulk stress of the body
         is part of the stress as the path has it, in or out of phase with the other loads.
     materials : Material or sequence of Material or None
-        That of the substrate, or one for each layer from the surface down, the substrate's last;
-        layers of ``None``, and coatings where one material is given, are not judged.
+        That of the substrate, or one for each layer from the surface down, the substrate's last.
+        Layers of ``None`` are not judged, nor coatings where one material is given.
     criterion : str
         One of :data:`pyfret.fatigue.CRITERIA`.
     z : array, optional
@@ -405,14 +405,15 @@ def life(
     **section
         ``x`` or ``y`` (several for a volume), or ``x``, ``y`` and ``azimuth``; ``body_number``,
         ``cycle``, ``residual``: the fields of :class:`pyfret.fatigue.Section`. By default the
-        section stands along the shear, through the centre of the contact; the worst point is also
-        looked for in the section across it, unless a round contact is sheared along one line.
+        section stands along the shear, through the centre of the contact. The worst point is also
+        looked for in the section across it. A round contact that is sheared along one line does not
+        need that section.
 
     Raises
     ------
     ValueError
-        There is no closed cycle, too few of its increments were kept, a material lacks a number
-        that the criterion needs, or no depth lies in a layer that has one.
+        There is no closed cycle, or too few of its increments were kept. A material lacks a number
+        that the criterion needs, or no depth lies in a layer that has a material.
     """
     return lives(result, materials, [criterion], z, tolerance=tolerance, **section)[criterion]
 

@@ -72,7 +72,7 @@ class Section:
 
     @property
     def is_placed(self) -> bool:
-        """Whether it says where it lies."""
+        """Whether the section has a place."""
         return self.x is not None or self.y is not None
 
     @property
@@ -127,8 +127,8 @@ class Section:
 def for_each_layer(given: Any, layers: int, one: str, several: str) -> list[Any]:
     """What is given for all layers or for each from the surface down; None for those not judged.
 
-    One material alone is that of the substrate: it says nothing about coatings. `one` and `several`
-    name it in the errors: a ValueError for another number of layers, and where nothing is judged.
+    One material alone is that of the substrate: coatings are not judged. `one` and `several` name
+    it in the errors: a ValueError for another number of layers, and where nothing is judged.
     """
     if isinstance(given, str):
         # A sequence, but of letters.

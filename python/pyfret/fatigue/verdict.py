@@ -94,10 +94,11 @@ class Verdict(NamedTuple):
 def verdict(result: Run) -> Verdict:
     """Say what bodies that yield come to over the closed cycles of a run.
 
-    A run has shaken down where the plastic work of a cycle falls below 1e-3 of the friction work;
-    without friction it is compared with the plastic work of the path. It settles where the work of
-    the last cycle is below 0.8 of that before. Otherwise it ratchets where a point keeps half of
-    the strain that the last cycle adds up there, and alternates where it does not.
+    A run has shaken down where the plastic work of a cycle falls below 1e-3 of the friction work.
+    Without friction the plastic work of the path takes the place of the friction work. It settles
+    where the work of the last cycle is below 0.8 of that before. Otherwise it ratchets where a
+    point keeps half of the strain that the last cycle adds up there, and alternates where it does
+    not.
 
     The works of few increments err in first order; `strain` at the border of slip grows with every
     refinement.

@@ -1,7 +1,8 @@
 """Identification: what a measurement says of mu, a rig, a coating, wear.
 
-``data`` holds measured loops, indentation curves, scars and lives, ``models`` solves what they
-should have been, ``search`` finds the unknowns, ``outcome`` says how well they are known. ::
+``data`` holds measured loops, indentation curves, scars and lives. ``models`` solves what they
+should have been. ``search`` finds the unknowns, and ``outcome`` holds them with their confidence.
+::
 
     loops = fret.fit.loops("loop.csv")
     found = fret.fit(scene, loops, unknown={"mu": (0.1, 1.5), "rig.stiffness": (1e6, 1e8)})

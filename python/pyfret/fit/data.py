@@ -62,14 +62,14 @@ class Loops(HoldsArrays):
     W : float, optional
         Normal force [N]; None: that of the scene.
     noise : float, optional
-        Standard deviation of the force [N]; None: what the fit leaves.
+        Standard deviation of the force [N]; None: that of the residuals of the fit.
     drift : (float, float)
         How much shift [m] and force [N] of the middle of a cycle move from the first to the last.
     tilt : bool, optional
         Whether a spring parallel to the contact is fitted; None: if the loops slide.
     drifts : bool, optional
-        Whether drifts of both gauges, linear in the number of the point, are fitted; None: if
-        there are several cycles or two turns within the record.
+        Whether drifts of both gauges, linear in the number of the point, are fitted. None: if the
+        record has several cycles or two turns.
     """
 
     delta: NDArray[np.float64]
@@ -281,7 +281,7 @@ def loops(
     W : float, optional
         Normal force [N] (default: that of the scene).
     noise : float, optional
-        Standard deviation of the force [N] (default: what the fit leaves).
+        Standard deviation of the force [N] (default: that of the residuals of the fit).
     tilt : bool, optional
         Whether a spring parallel to the contact, such as a guide or a seal, is an unknown: its
         force is its stiffness times the shift (default: if the loops slide; in partial slip a rig
@@ -389,8 +389,9 @@ def lives(
 def turns_between(delta: NDArray[np.float64], turns: list[int]) -> NDArray[np.float64]:
     """The turns within a record: number of the point, shift there and its error, (n, 3).
 
-    A parabola through the points before a turn and one through those after it: the shift is the
-    lower of both on an upper turn, and turns where that is largest. Points rarely lie on the turn.
+    One parabola goes through the points before a turn and one through those after it. On an upper
+    turn the shift is the lower of both, and the turn lies where that is largest. Points rarely lie
+    on the turn.
     """
     found = []
     for n, at in enumerate(turns):

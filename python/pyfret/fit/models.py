@@ -52,9 +52,9 @@ class Model(Measured):
     solves : int
         Solves that one prediction takes.
     predict : callable
-        What the numbers measured should have been under a scene, given offsets afterwards, and
-        with what the record leaves unsure (the turns of a loop) ``moved`` by so many of its errors;
-        with the usual increments and jumps, or ``finer`` = 1/2 for half as many.
+        Computes the measured numbers under a scene; offsets are added afterwards. ``moved`` shifts
+        the uncertain parts of the record (the turns of a loop) by so many of their errors.
+        ``finer`` = 1/2 takes half as many increments and jumps as usual.
     """
 
     offsets: tuple[str, ...]

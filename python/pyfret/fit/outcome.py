@@ -1,4 +1,4 @@
-"""What a fit has found, how well it knows it, and what it cannot tell."""
+"""The unknowns that a fit has found, their confidence, and what the data cannot determine."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class Known:
     value, low, high : float
         Best value, and the ends of its 95 % confidence interval.
     noise, solver : float
-        Parts of the half-width: scatter of the data, and what cells and increments leave.
+        Parts of the half-width: scatter of the data, and the error of cells and increments.
     at_bound : bool
         Whether the best value lies at the end of what was allowed.
     """
@@ -82,8 +82,8 @@ class Found(Kept, HoldsArrays):
     solves : int
         Contacts solved.
     solver_known : bool
-        Whether cells twice as wide and half of the increments told what these leave; else the
-        confidence holds none of it.
+        Whether a solve on cells twice as wide and one with half of the increments gave the error of
+        the solver. Else the confidence does not contain it.
     converged : bool
         Whether the search ended by itself.
     scene : Scene

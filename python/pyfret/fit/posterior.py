@@ -1,9 +1,9 @@
 """The posterior of the unknowns: samples by ``emcee`` of a quadratic model of the contact.
 
-A sampler asks for ten thousands of solutions. Close to the best values what is computed is nearly
-quadratic in the unknowns: with L L^T the covariance of the linear model, y(u + L z) is fitted by a
-polynomial of second order in z through solves at |z| = 2, side by side, and compared with three
-further solves. The prior is flat in what is searched: the logarithm of positive ranges. Where the
+A sampler asks for ten thousands of solutions. Close to the best values the prediction is nearly
+quadratic in the unknowns. With L L^T the covariance of the linear model, a polynomial of second
+order in z is fitted to y(u + L z). Its points are solves at |z| = 2, side by side. Three further
+solves check it. The prior is flat in what is searched: the logarithm of positive ranges. Where the
 noise is not told, it is unknown as well, with the prior 1/sigma integrated out.
 """
 

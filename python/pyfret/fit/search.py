@@ -1,14 +1,15 @@
 """The search for the unknowns: least squares over solved contacts.
 
 Every evaluation is a solve, so the Jacobian takes one for each unknown, solved side by side. The
-offsets of gauges are unknowns as well, but cost none. The step of the differences is far above
-what the solver's tolerance leaves of a prediction. At the end the scene is solved once more on
-cells twice as wide, and once with half of the increments (of the jumps, where it wears); what
-these move the unknowns, to first order, is the solver's part of the confidence.
+offsets of gauges are unknowns as well, but cost none. The step of the differences is far above the
+error of a prediction by the solver's tolerance. At the end the scene is solved once more on cells
+twice as wide, and once with half of the increments (of the jumps, where it wears). To first order
+both move the unknowns; this is the solver's part of the confidence.
 
 The confidence of an unknown is that of the linear model where it is narrow. Where it is wide the
-model is not linear over it: each end is moved outwards to where the sum of squares, least over
-all other unknowns, has risen by what noise explains (a profile), one or two solves an end.
+model is not linear over it, and each end is moved outwards. It ends where the sum of squares, least
+over all other unknowns, has risen by what noise explains (a profile). This takes one or two solves
+an end.
 """
 
 from __future__ import annotations

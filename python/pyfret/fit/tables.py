@@ -96,8 +96,8 @@ def read(
     Parameters
     ----------
     path : path
-        Text in UTF-8, UTF-16 or Latin-1 with a head of names, and perhaps a line of units below it;
-        lines above the head are left out, and so are those that begin with ``#`` or ``%``.
+        Text in UTF-8, UTF-16 or Latin-1 with a head of names, and perhaps a line of units below it.
+        Lines above the head are left out. So are lines that begin with ``#`` or ``%``.
     units : dict of str to str, optional
         Units of columns whose head names none.
     skip : int

@@ -1,8 +1,8 @@
 """Will a crack stop, will the coating come off? Stress intensity, arrest, energy release.
 
 :func:`crack` (or :meth:`pyfret.Result.crack`) takes the stress of a contact's cycle to the tips of
-cracks, :func:`grow` (:meth:`pyfret.Result.grow_crack`) lets one choose its way; :class:`Cracks`
-says with a :class:`Threshold` where they stop and with :class:`Paris` how long that takes;
+cracks. With :func:`grow` (:meth:`pyfret.Result.grow_crack`) the crack chooses its way.
+:class:`Cracks` gives the length of arrest by a :class:`Threshold` and the cycles by :class:`Paris`.
 :class:`Crack` does so for any stress history, without a contact. ::
 
     cracks = result.crack()

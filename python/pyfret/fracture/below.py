@@ -73,9 +73,9 @@ def crack(
         (default: that of the shear; where the contact is not round, or sheared in several
         directions, that of the largest range of K in steps of 30 degrees from it).
     aspect : float, optional
-        Depth over half-length of a semi-elliptic crack, above 0 and up to 1: K is then an estimate
-        for its deepest point, the plane value times :func:`ellipse_factor`; the error has 5 % more
-        for the fit, and nothing for stress that falls along the front, where K is too high.
+        Depth over half-length of a semi-elliptic crack, above 0 and up to 1. K is then an estimate
+        for its deepest point, the plane value times :func:`ellipse_factor`. The error has 5 % more
+        for the fit. It has nothing for stress that falls along the front, where K is too high.
     friction : float
         Coefficient of friction between faces in contact, over the history of the cycle.
     body_number, cycle, residual
@@ -84,9 +84,9 @@ def crack(
     Returns
     -------
     Cracks
-        K over (increment, length). Its ``error`` has the part of the quadrature, that of the
-        tractions within the cells (their difference from constant ones) and, where layers differ,
-        what published cracks in films change: K is that of the homogeneous half-plane.
+        K over (increment, length). K is that of the homogeneous half-plane. Its ``error`` has the
+        part of the quadrature and that of the tractions within the cells (their difference from
+        constant ones). Where layers differ, it has the change of K of published cracks in films.
 
     Raises
     ------
@@ -136,8 +136,8 @@ def grow(
 ) -> Cracks:
     """Let a crack grow below a contact in the direction of the largest range over a closed cycle.
 
-    The crack is made of curved pieces, at the end of each of which it has no reason to turn; their
-    number doubles until the last tip moves less than the tolerance.
+    The crack is made of curved pieces. At the end of each piece it has no reason to turn. The
+    number of pieces doubles until the last tip moves less than the tolerance.
 
     Parameters
     ----------
@@ -157,10 +157,11 @@ def grow(
     Returns
     -------
     Cracks
-        K over (increment, length) with the tip at each end of a piece, ``x`` and ``z`` of the tips
-        [m]; the attribute ``path_error`` is how far the last tip may be off [m], ``end`` tells why
-        the crack ends: "reached" its length, "closed", as nothing opens it, "surface", to which it
-        comes back, or "kinks", where its direction jumps by more than 0.5 rad.
+        K over (increment, length) with the tip at each end of a piece, and ``x`` and ``z`` of the
+        tips [m]. The attribute ``path_error`` is how far the last tip may be off [m]. The attribute
+        ``end`` is the reason for which the crack ends. "reached": it has its length. "closed":
+        nothing opens it. "surface": it comes back to the surface. "kinks": its direction jumps by
+        more than 0.5 rad.
 
     Raises
     ------

@@ -30,8 +30,8 @@ def channel_release(coating: Coating, below: Elastic, stress: float) -> float:
     below : Elastic
         What it lies on, as a half-plane.
     stress : float
-        Stress of the film, residual and of the load [Pa]; of a stress that varies through the
-        thickness its largest value is on the safe side.
+        Stress of the film, residual and of the load [Pa]. Of a stress that varies through the
+        thickness the largest value is on the safe side.
 
     Raises
     ------
@@ -60,8 +60,9 @@ def channel_release(coating: Coating, below: Elastic, stress: float) -> float:
 def film_intensity(coating: Coating, below: Elastic, depth: float, stress: float) -> float:
     """Give K_I of a crack normal to the surface that ends in the film [Pa m^0.5].
 
-    Under a uniform stress, with the film's and the other material's constants; a film on a softer
-    material has more than the homogeneous one, 1.12 stress sqrt(pi depth), on a stiffer one less.
+    The stress is uniform, and the constants are those of the film and of the other material. The
+    homogeneous body has 1.12 stress sqrt(pi depth). A film on a softer material has more, one on a
+    stiffer material less.
 
     Parameters
     ----------

@@ -85,9 +85,9 @@ def first_to_fail(
         Of a coated body, solved with ``save="all"``, or with the increments of the cycle.
     toughness : float, optional
         Energy release rate at which a crack channels through the outermost coating [J/m^2]. Its
-        stress is the largest of the cycle along that plane at the top and the bottom of the
-        coating and at the depths of a table of its residual stress, residual stress included: on
-        the safe side where that varies through the thickness.
+        stress is the largest of the cycle along that plane, residual stress included. It is looked
+        for at the top and the bottom of the coating and at the depths of a table of its residual
+        stress. The result is on the safe side where the stress varies through the thickness.
     peel_strength, shear_strength : float, optional
         Strengths of the interfaces [Pa], both or neither: :func:`over_cycle`.
     threshold : Threshold, optional

@@ -73,9 +73,9 @@ class Threshold:
     def of(cls, material: Material, *, Y: float = 1.0, walker: float | None = None) -> Threshold:
         """Take the threshold from ``dK_th`` and ``s_D`` of a material, both fully reversed.
 
-        Of the range ``dK_th`` at R = -1 half is positive, and of the range 2 ``s_D`` of stress; a
-        material without one of them is refused by its name. The dependence on R is the material's
-        ``walker`` where it has one and none is given.
+        Half of the range ``dK_th`` at R = -1 is positive, and half of the range 2 ``s_D`` of
+        stress. A material without one of them is refused by its name. The dependence on R is the
+        material's ``walker`` where it has one and none is given.
         """
         known = {name: value for name, value, _ in material.numbers()}
         walker = known.get("walker") if walker is None else walker
@@ -144,8 +144,9 @@ class CrackArrest:
     margin_error : float
         Error of the margin by that of K; None where K came without an error.
     lengths : (float, float), optional
-        Where it stops with the range of K less and more its error [m]: the shortest and the
-        longest; infinite where it grows through all lengths. None where K came without an error.
+        Where it stops with the range of K less and more its error [m]. These are the shortest and
+        the longest length, infinite where it grows through all lengths. None where K came without
+        an error.
     verdicts : tuple of str
         The verdicts that the error of K leaves, the one above first.
     """
@@ -208,9 +209,9 @@ class CrackLife:
 class Cracks(Kept, Labelled):
     """K of a cycle over the length of a crack, and what follows.
 
-    ``dataset`` has ``K_I`` and ``K_II`` over (increment, length), their ``error``, ``open``, the
-    share of the crack that is open, and ``K_I_linear``, ``K_II_linear`` with faces that may pass
-    through each other [Pa m^0.5]; the tip of each length is at ``x``, ``z`` [m].
+    ``dataset`` has ``K_I`` and ``K_II`` over (increment, length) and their ``error`` [Pa m^0.5].
+    ``K_I_linear`` and ``K_II_linear`` belong to faces that may pass through each other [Pa m^0.5].
+    ``open`` is the share of the crack that is open. The tip of each length is at ``x``, ``z`` [m].
     """
 
     figure = "intensity"
@@ -356,8 +357,8 @@ class Cracks(Kept, Labelled):
     def kitagawa(self, threshold: Threshold) -> xr.Dataset:
         """Give Kitagawa and Takahashi's diagram: ranges of stress over the length of the crack.
 
-        ``limit`` is dK_th(l)/(Y sqrt(pi l)), ``load`` the range of K of the cycle over the same
-        Y sqrt(pi l) [Pa]: a crack grows where the load is above the limit.
+        ``limit`` is dK_th(l)/(Y sqrt(pi l)). ``load`` is the range of K of the cycle over the same
+        Y sqrt(pi l) [Pa]. A crack grows where the load is above the limit.
 
         References
         ----------

@@ -48,12 +48,12 @@ def over_cycle(
     Returns
     -------
     xarray.Dataset
-        Over (interface, x) or (interface, y): ``peel``, the largest s_zz of the cycle, 0 without
-        tension, ``shear``, the largest size of (s_xz, s_yz), ``shear_amplitude``, half the longest
-        chord of its path [Pa]; with strengths ``criterion``, the largest
-        (s_zz/Z)^2 + (s_xz^2 + s_yz^2)/S^2 of the cycle with s_zz where it is tension, which reaches
-        1 where the interface fails: J. C. Brewer, P. A. Lagace, J. Compos. Mater. 22 (1988)
-        1141-1155, with one shear strength for both directions.
+        Over (interface, x) or (interface, y), in Pa. ``peel``: the largest s_zz of the cycle, 0
+        without tension. ``shear``: the largest size of (s_xz, s_yz). ``shear_amplitude``: half the
+        longest chord of its path. With strengths also ``criterion``, the largest (s_zz/Z)^2 +
+        (s_xz^2 + s_yz^2)/S^2 of the cycle, with s_zz where it is tension. It reaches 1 where the
+        interface fails: J. C. Brewer, P. A. Lagace, J. Compos. Mater. 22 (1988) 1141-1155, with one
+        shear strength for both directions.
 
     Raises
     ------

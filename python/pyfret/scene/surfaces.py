@@ -48,16 +48,16 @@ def read_surface(
     spacing : float or (float, float), optional
         Distance of the points along x and y [m], where the file does not say it.
     unit : str, optional
-        Unit of plain numbers, in a list of points of x and y too, or of an instrument's heights
-        and lengths where its file says none, such as "um" (default: what the file says).
+        Unit of plain numbers, such as "um" (default: that of the file). It holds for a list of
+        points, x and y too, and for an instrument's heights and lengths without a unit.
     channel : str or int, optional
-        Which of several channels of heights: its name, or its index from 0 among those of the file
-        of an instrument; for points with several columns beside x and y the title, or the number
-        of the column from 1.
+        Which of several channels of heights. In the file of an instrument: its name, or its index
+        from 0. For points with several columns beside x and y: the title, or the number of the
+        column from 1.
     missing : "refuse", "crop" or "fill"
-        What becomes of points that were not measured: an error that says where they are; lines
-        taken off the edges; the mean of the neighbours, where at most a tenth of the points is
-        missing and no hole is wider than ten.
+        What becomes of points that were not measured. "refuse": an error with their place. "crop":
+        lines are taken off the edges. "fill": the mean of the neighbours, where at most a tenth of
+        the points is missing and no hole is wider than ten.
     detrend : str
         What SurfaceTopography takes off: ``center`` the mean, ``height`` the mean plane,
         ``curvature`` a paraboloid.
@@ -67,8 +67,9 @@ def read_surface(
     ImportError
         If the package SurfaceTopography is missing: ``pip install "fretting[surfaces]"``.
     StoreError
-        If the file cannot be read, has points that were not measured, several channels, a profile
-        instead of a map, or leaves something open; the message says what to give.
+        If the file cannot be read, holds a profile instead of a map, or has points that were not
+        measured. If it has several channels, or leaves something open. The message names the
+        argument to give.
     """
     place = Path(path)
     if place.suffix.lower() in PLAIN and (not place.is_file() or is_plain(place)):
@@ -182,7 +183,7 @@ def chosen_channel(reader: Any, channel: str | int | None) -> int:
 
 
 def is_height(channel: Any) -> bool:
-    """Whether a channel holds heights, as far as its file says what it holds."""
+    """Whether a channel holds heights; one without a kind in its file counts as such."""
     return bool(getattr(channel, "is_height_channel", True))
 
 

@@ -1,8 +1,8 @@
 """Studies: the same contact for many values of its parameters.
 
-``design`` says which points, ``measures`` what is kept of each result, ``point`` solves one,
-``workers`` shares them out, ``store`` writes them down, ``loop`` goes over all; ``loads`` is the
-study of the load path that a map of running conditions needs. ::
+``design`` makes the points, ``measures`` the numbers that are kept of each result. ``point`` solves
+one, ``workers`` shares them out, ``store`` writes them down, ``loop`` goes over all. ``loads`` is
+the study of the load path for a map of running conditions. ::
 
     found = fret.study.solve("scene.toml", {"friction.mu": [0.3, 0.5]}, measure="loop_energy")
     found.map()

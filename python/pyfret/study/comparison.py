@@ -56,8 +56,9 @@ class Comparison(Labelled):
     Attributes
     ----------
     dataset : xarray.Dataset
-        Over ``candidate``: the numbers in SI units, such as ``tension`` [Pa], and of each the range
-        that its error leaves, ``tension_low`` and ``tension_high``; NaN where a candidate has none.
+        Over ``candidate``: the numbers in SI units, such as ``tension`` [Pa]. The error of each
+        gives its range, ``tension_low`` and ``tension_high``. Numbers that a candidate does not
+        have are NaN.
     missing : mapping of str to str
         What was not known, by candidate and question.
     failed : mapping of str to str

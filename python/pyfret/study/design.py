@@ -68,8 +68,8 @@ def varied(scene: Scene | str | PathLike[str], values: Mapping[str, Any]) -> Sce
     values : mapping of str to value
         By the keys of a scene file, such as ``"body2.coatings.0.thickness"`` or
         ``"path.1.T_x.mu_W"``; ``"mu"`` is short for ``"friction.mu"``. ``"path.*.W"`` is that of
-        every branch; several keys with commas between get the same value, with a ``-`` before it
-        the opposite one: ``"path.1.T_x,-path.2.T_x,path.3.T_x"`` is an amplitude.
+        every branch. Several keys with commas between get the same value, and a key after a ``-``
+        the opposite one. So ``"path.1.T_x,-path.2.T_x,path.3.T_x"`` is an amplitude.
 
     Raises
     ------

@@ -33,8 +33,9 @@ def identity(of: Any) -> str:
     """A checksum of what a function does, equal in every process of one version of Python.
 
     It covers the code without comments and the docstring, defaults, closures, arguments of
-    ``functools.partial``, the fields of an object that is called, and the globals that the code
-    names: values, and functions of the same module. An attribute ``version`` replaces all of it.
+    ``functools.partial`` and the fields of an object that is called. It also covers the globals
+    that the code names: values, and functions of the same module. An attribute ``version`` replaces
+    all of it.
 
     Raises
     ------

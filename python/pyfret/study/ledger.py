@@ -1,10 +1,10 @@
 """The ledger of a study: a line for every point that has been written, with checksums.
 
 The file ``status/.points`` lies in the store, where no Zarr library looks for arrays. Its first
-line speaks of the layout, each other one of a point: its status and what stands in the arrays for
-it, as checksums of the values, not of files, which points share. A line ends in its own checksum. A
-point counts once its line is whole; the last line may be one that a killed process has not
-finished, and is left out then.
+line is that of the layout. Each other line is that of a point: its status, and checksums of its
+values in the arrays. These are checksums of values and not of files, which points share. A line
+ends in its own checksum. A point counts once its line is whole. A killed process may leave the last
+line unfinished; it is then left out.
 """
 
 from __future__ import annotations

@@ -109,17 +109,17 @@ def running_conditions(
     -------
     xarray.Dataset
         Over W and T or delta: ``status`` (0 no contact, 1 full stick, 2 partial slip, 3 gross
-        slip), ``energy_ratio``, ``sliding_ratio``, ``dissipated`` [J], ``stiffness`` [N/m], and
-        ``delta`` [m] or ``T`` [N], half of their ranges, and with `cracking` its ``safety_factor``
-        or ``life`` [cycles] and ``crack_depth`` [m], with `arrest` ``start_margin``,
-        ``arrest_margin`` and ``arrest_length`` [m]; NaN where a force slides, except the status.
-        ``slides_from`` over W is the amplitude from which on the contact slides, where its friction
-        is Coulomb's: mu W, or its shift, to 1 %.
+        slip), ``energy_ratio``, ``sliding_ratio``, ``dissipated`` [J], ``stiffness`` [N/m].
+        ``delta`` [m] or ``T`` [N] is half of its range. With `cracking` also its ``safety_factor``
+        or ``life`` [cycles] and ``crack_depth`` [m]. With `arrest` also ``start_margin``,
+        ``arrest_margin`` and ``arrest_length`` [m]. Where a force slides, all but the status are
+        NaN. ``slides_from`` over W is the amplitude from which on the contact slides, where its
+        friction is Coulomb's: mu W, or its shift, to 1 %.
 
     Raises
     ------
     RuntimeError
-        A point could not be solved; the message says which and why.
+        A point could not be solved. The message names the point and the reason.
     """
     driven = "T" if delta is None else "delta"
     given = T if delta is None else delta
@@ -180,8 +180,8 @@ def arrest_map(
 ) -> xr.Dataset:
     """Where cracks stop in fretting fatigue: a study over shear and bulk stress in phase.
 
-    At every point the pad is pressed on, then T and the bulk stress go to their largest values,
-    to -T and `bulk_ratio` times the bulk stress, and back.
+    At every point the pad is pressed on. Then T and the bulk stress go to their largest values, to
+    -T and `bulk_ratio` times the bulk stress, and back.
 
     Parameters
     ----------
@@ -210,7 +210,7 @@ def arrest_map(
     Raises
     ------
     RuntimeError
-        A point could not be solved; the message says which and why.
+        A point could not be solved. The message names the point and the reason.
     """
     loads = {
         "T": np.atleast_1d(plain(T, "T")),

@@ -60,10 +60,10 @@ def solve(
         Every combination of the values, or the values in step: the first of each, then the
         second of each. Samples (SALib, Latin hypercubes) are of the second kind.
     measure : str, callable, or sequence of these
-        What is kept of each result: names of :data:`pyfret.study.MEASURES`, or functions of
-        the :class:`Result` that give a number, an :class:`xarray.DataArray`, or a mapping or
-        dataset of these (default: energy and energy ratio of the last cycle, stick ratio at the
-        end, largest pressure).
+        What is kept of each result: names of :data:`pyfret.study.MEASURES`, or functions of the
+        :class:`Result`. A function gives a number, an :class:`xarray.DataArray`, or a mapping or
+        dataset of these. Default: energy and energy ratio of the last cycle, stick ratio at the
+        end, largest pressure.
     executor : int, Executor or distributed.Client, optional
         Who solves: so many processes of this machine (default: one for each processor, which
         they share out), an executor of ``concurrent.futures``, or a client of a Dask cluster.
@@ -88,7 +88,7 @@ def solve(
     Raises
     ------
     StoreError
-        At `out` there is something else, or another study; the message says in what they differ.
+        At `out` there is something else, or another study. The message names the difference.
     ValueError
         Parameters or measures have no meaning.
 

@@ -188,10 +188,10 @@ class Cracking:
 class Arrest:
     """A measure: whether a crack below the last closed cycle stops.
 
-    Gives ``arrest_margin``, the smallest range of K over its threshold on the way, below 1 where a
-    crack stops, and ``arrest_length`` [m], where it stops: the first length where it does not grow
-    at all, NaN where it grows through all lengths. ``start_margin`` is the range of K over its
-    threshold at the first length, below 1 where the crack never starts.
+    ``arrest_margin`` is the smallest range of K over its threshold on the way, below 1 where a
+    crack stops. ``arrest_length`` [m] is the first length where it does not grow at all, NaN where
+    it grows through all lengths. ``start_margin`` is the range of K over its threshold at the first
+    length, below 1 where the crack never starts.
 
     Parameters
     ----------
@@ -233,9 +233,9 @@ class Arrest:
 class FirstToFail:
     """A measure: whether film, interface or substrate goes first below the last closed cycle.
 
-    Gives ``film``, ``interface`` and ``substrate``, each the load over what it can bear, 1 where it
-    fails, NaN without its limit, and ``first``: 0 nothing fails, 1 the film, 2 the interface, 3 the
-    substrate, that with the largest of the three where it is 1 or more.
+    ``film``, ``interface`` and ``substrate`` are each the load over the limit: 1 where it fails,
+    NaN without a limit. ``first`` is the one with the largest of the three, where that is 1 or
+    more: 0 nothing fails, 1 the film, 2 the interface, 3 the substrate.
 
     Parameters
     ----------

@@ -33,9 +33,9 @@ class Study(Kept, Labelled):
     Attributes
     ----------
     dataset : xarray.Dataset
-        Over the parameters, or over ``point`` where they change together: the measures, NaN where
-        a point has none; ``status`` (0 open, 1 done, 2 failed), ``reason``, ``nx`` and ``ny``,
-        the cells that the point took, and ``seconds``, its processor time.
+        Over the parameters, or over ``point`` where they change together: the measures, NaN where a
+        point has none. Each point also has ``status`` (0 open, 1 done, 2 failed), ``reason``,
+        ``nx`` and ``ny``, its cells, and ``seconds``, its processor time.
     """
 
     figure = "study_map"

@@ -199,8 +199,8 @@ class Store:
 def fitting(outcome: Outcome, design: Design, shapes: dict[str, dict[str, int]]) -> Outcome:
     """The outcome, failed if a measure cannot stand beside the others.
 
-    That is one of a name, or with a dimension, that a study has itself, and a field of another
-    shape than that of the other points, `shapes`.
+    A measure fails if its name, or one of its dimensions, is that of the study itself. A field
+    fails if its shape is not that of the other points, `shapes`.
     """
     taken = {*OWN, *design.parameters, *design.sizes}
 

@@ -1,7 +1,7 @@
 """Thresholds: the load at which a criterion, a life or a yield factor reaches a value.
 
-A margin goes about as a power of the load, so its logarithm over that of the load is nearly
-straight, and few solves bracket the threshold.
+A margin is nearly a power of the load. Its logarithm over that of the load is nearly straight, so
+that few solves bracket the threshold.
 """
 
 from __future__ import annotations
@@ -162,7 +162,7 @@ def threshold(
     Raises
     ------
     ValueError
-        The measure is on one side of its value within the whole range; the message says on which.
+        The measure is on one side of its value within the whole range. The message names the side.
     """
     if over is None:
         return one(scene, parameter, measure, between, value, {}, tolerance, error=error)
@@ -353,16 +353,16 @@ def fit_limits(
     """Fit a critical distance and the limit of a criterion to tests at their thresholds.
 
     Both limits of the material, ``s_D`` and ``t_D``, are scaled alike. A margin m that falls with
-    the load as its power -s puts the threshold at m^(1/s) of the load: the distance is the one at
-    which these thresholds scatter least, the limit that which makes the mean of their logarithms 0.
-    A scatter of margins alone would favour distances at which no load matters. Few tests tell the
-    distance badly; how well the limits are `known` beforehand then counts beside them.
+    the load as its power -s puts the threshold at m^(1/s) of the load. The distance is the one at
+    which these thresholds scatter least. The limit makes the mean of their logarithms 0. A scatter
+    of margins alone would favour distances at which no load matters. Few tests determine the
+    distance badly. The uncertainty of the limits beforehand, `known`, then counts beside them.
 
     Parameters
     ----------
     tests : sequence of (callable, float)
-        The scene of a test as a function of its load, its increments kept over a closed cycle, and
-        the load at which a crack began.
+        The scene of a test as a function of its load, and the load at which a crack began. The
+        increments of a closed cycle are kept.
     material : Material
         Limits to begin with.
     criterion : str

@@ -49,7 +49,7 @@ def stress_below(
 def loaded_by(
     state: State, body_number: int, *, bulk: bool, residual: Sequence[ArrayLike] | None
 ) -> _core.Subsurface:
-    """A body under the tractions of an increment, with what its plastic strain leaves."""
+    """A body under the tractions of an increment and the residual stress of its plastic strain."""
     p, q_x, q_y = (state.tractions()[name] for name in ("p", "q_x", "q_y"))
     return fields.subsurface(
         state.body(body_number),

@@ -148,9 +148,9 @@ def stress(
     p, q_x, q_y : array of shape (nx, ny), optional
         Pressure, and shear tractions on body 2 [Pa] (default: none).
     x, y : float, optional
-        With `y`, the section along x at that y; with `x`, that along y; with both, the line
-        below a point; with neither, the whole plane at every depth given, or where none is, the
-        section at y = 0.
+        With `y`, the section along x at that y. With `x`, that along y. With both, the line below a
+        point. With neither, the whole plane at every given depth, or without depths the section at
+        y = 0.
     azimuth : float, optional
         With `x` and `y`, the section through this point at this angle to the x axis [rad].
     body_number : 1 or 2
@@ -158,9 +158,9 @@ def stress(
     sigma_B : float
         Bulk stress along x of its substrate [Pa]; coatings are stretched with it.
     rim : bool
-        Whether the tractions are those of a contact (default: no): near the surface, beside the
-        rim and the stick zone, the stress is then that of tractions which vary within the cells
-        and vanish at the rim like a root.
+        Whether the tractions are those of a contact (default: no). They then vary within the cells
+        and vanish at the rim like a root. This changes the stress near the surface, beside the rim
+        and the stick zone.
     stick : array of shape (nx, ny), optional
         With `rim`, the cells that stick (default: those at the rim slip).
     length : float, optional
@@ -168,7 +168,7 @@ def stress(
         box around the cells that are loaded).
     residual : sequence, optional
         Residual stress of every layer from the surface down, the substrate's last, in place of that
-        of the body: each a stress [Pa] or a table over depth, as :class:`pyfret.Body` takes it.
+        of the body. Each is a stress [Pa] or a table over depth, as :class:`pyfret.Body` takes it.
 
     Returns
     -------
@@ -275,7 +275,7 @@ def write_volume(
     Parameters
     ----------
     body, grid, z, p, q_x, q_y, body_number, sigma_B, residual, rim, stick
-        As in :func:`stress`; on an interface the value is that of the upper layer.
+        As in :func:`stress`. On an interface the value is that of the upper layer.
     out : path
         A ``.vti`` file (VTK image data for ParaView and PyVista; depths evenly spaced) or a Zarr
         folder. It must not exist.
@@ -328,8 +328,8 @@ def envelope(
     increments : iterable of Snapshot
         What :func:`pyfret.march` yields, or some snapshots of a result.
     z, x, y, azimuth, body_number
-        The section, as in :func:`stress`: `x` or `y`, or both and its direction; without depths and
-        place that along x at y = 0, with depths alone whole planes.
+        The section, as in :func:`stress`: `x` or `y`, or both and its direction. Without depths and
+        place it is the section along x at y = 0, with depths alone whole planes.
     of : sequence of str
         Measures, as in :class:`Stress`.
     bulk : bool
@@ -340,14 +340,14 @@ def envelope(
     Returns
     -------
     xarray.Dataset
-        For each measure ``<name>_max``, ``<name>_min`` and ``<name>_increment`` (of the largest
-        value) over depth and x or y, ``<name>_amplitude`` and ``<name>_mean`` over cycle, depth
-        and x, y or s; a cycle is the closed piece of the path between ``first_branch`` and
-        ``last_branch``. On a section also over ``increment``: the largest value on it,
-        ``<name>_largest``, and where it is between the samples, ``<name>_largest_x`` (``_y``,
-        ``_s``), ``<name>_largest_z`` and ``<name>_largest_layer``. At the rims of the contact and
-        the borders of the stick zone it is evaluated, elsewhere it is that of a parabola between
-        the samples, of which ``<name>_largest_error`` tells.
+        For each measure over depth and x or y: ``<name>_max``, ``<name>_min`` and
+        ``<name>_increment`` (of the largest value). Over cycle, depth and x, y or s:
+        ``<name>_amplitude`` and ``<name>_mean``. A cycle is the closed piece of the path between
+        ``first_branch`` and ``last_branch``. On a section also over ``increment``: the largest
+        value on it, ``<name>_largest``, and where it is between the samples, ``<name>_largest_x``
+        (``_y``, ``_s``), ``<name>_largest_z`` and ``<name>_largest_layer``. At the rims of the
+        contact and the borders of the stick zone it is evaluated. Elsewhere it is that of a
+        parabola between the samples, with the error ``<name>_largest_error``.
     """
     if (x is not None and y is not None) != (azimuth is not None):
         raise ValueError("give x or y for a section, both with its azimuth, or neither for planes")

@@ -25,7 +25,7 @@ def states_of(
 ) -> _core.States:
     """Give snapshots of a run as the states above a body.
 
-    `with_left`: with what plastic strain leaves in it.
+    `with_left`: with the residual stress of its plastic strain.
     """
 
     def fields(name: str, kind: type) -> list[Any]:
@@ -51,7 +51,8 @@ def moments_of(
 ) -> Callable[[Sequence[int] | None], _core.States | None]:
     """Give the states of some of the kept increments, by their numbers from 0.
 
-    None asks for the increment `before` the cycle. `with_left`: and what plastic strain leaves.
+    None asks for the increment `before` the cycle. `with_left`: and the residual stress of plastic
+    strain.
     """
 
     def moments(which: Sequence[int] | None) -> _core.States | None:
@@ -67,8 +68,8 @@ def moments_of(
 def lines_of(result: Run, kept: NDArray[np.int64], body_number: int) -> list[Line]:
     """Give the lines below which some kept increments are looked at, the first along their shear.
 
-    A second one stands across the first, unless the largest stress lies in the plane of the shear:
-    below a round contact that is sheared to and fro along one line.
+    A second line stands across the first. A round contact that is sheared along one line needs no
+    second: its largest stress lies in the plane of the shear.
     """
     moments = moments_of(result, kept, body_number, with_left=False)
     lines = _core.cycle_sections(result.scene.grid, moments, len(kept))

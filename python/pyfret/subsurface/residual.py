@@ -1,4 +1,4 @@
-"""Residual stress of coatings: what a change of temperature leaves."""
+"""Residual stress of coatings after a change of temperature."""
 
 from __future__ import annotations
 

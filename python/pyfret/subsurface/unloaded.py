@@ -30,8 +30,8 @@ class Unloaded:
     """The bodies of an increment with the contact taken apart.
 
     The plastic strain is that of the increment. Taking off the tractions changes the stress
-    elastically; where that would yield in reverse a :class:`SceneWarning` says so, and the load
-    path needs a branch that takes the load off.
+    elastically. Where that would yield in reverse, a :class:`SceneWarning` is given. The load path
+    then needs a branch that takes the load off.
 
     Parameters
     ----------

@@ -37,11 +37,12 @@ SCATTER = 3.0
 class WearResult(Kept, Labelled):
     """Worn surfaces over blocks of cycles, and the numbers of every jump.
 
-    ``dataset`` has the scalars over ``jump`` (coordinate ``cycles``): ``volume1``, ``volume2``,
-    ``depth1``, ``depth2``, ``debris``, ``dissipated``, ``p_max``, ``stick_ratio``,
-    ``depth_error``, ...; the fields ``worn1``, ``worn2``, ``energy1``, ``energy2``, ``slid``,
-    ``p``, ``stick`` over ``block``, ``x``, ``y`` (coordinate ``block_cycles``), and the friction
-    loops ``loop_delta_x``, ``loop_T_x``, ... over ``block``, ``corner``.
+    ``dataset`` has three groups of variables. The scalars lie over ``jump`` (coordinate
+    ``cycles``): ``volume1``, ``volume2``, ``depth1``, ``depth2``, ``debris``, ``dissipated``,
+    ``p_max``, ``stick_ratio``, ``depth_error``, ... The fields lie over ``block``, ``x``, ``y``
+    (coordinate ``block_cycles``): ``worn1``, ``worn2``, ``energy1``, ``energy2``, ``slid``, ``p``,
+    ``stick``. The friction loops ``loop_delta_x``, ``loop_T_x``, ... lie over ``block``,
+    ``corner``.
     """
 
     figure = "wear_profiles"

@@ -94,11 +94,11 @@ class Wear(Replaceable):
         Number of cycles.
     body1, body2 : Archard, DissipatedEnergy, callable, or list of these, optional
         How a body wears: one law, or one for each coating from the outermost on and one for the
-        substrate; None: the body or the layer does not wear. A callable takes
-        arrays over the cells, of one cycle: ``pressed_way`` (integral of the pressure over the way
-        slipped, Pa m), ``way`` (slipped, m), ``dissipated`` (energy per area, J/m^2), ``worn``
-        (depth so far, m), and the number ``cycles`` so far, and gives the depth that the cycle
-        takes, m.
+        substrate. None: the body or the layer does not wear. A callable takes arrays over the
+        cells, of one cycle, and gives the depth that the cycle takes, m. The arrays are
+        ``pressed_way`` (integral of the pressure over the way slipped, Pa m), ``way`` (slipped, m),
+        ``dissipated`` (energy per area, J/m^2) and ``worn`` (depth so far, m). It also takes the
+        number ``cycles`` so far.
     share1, share2 : float, optional
         Part of what its law says that a body loses (default 1).
     debris_kept : float
@@ -108,8 +108,9 @@ class Wear(Replaceable):
         First branch of the path that belongs to the cycle, counted from 0 (default: that of the
         last closed cycle); the cycle ends where it begins.
     cycling : "march" or "sliding"
-        "march" solves the increments of the cycle, with stick and slip; "sliding" is for gross slip
-        along x under given shifts, whatever the stroke: the normal contact alone at each place.
+        "march" solves the increments of the cycle, with stick and slip. "sliding" is for gross slip
+        along x under given shifts, whatever the stroke. It solves the normal contact alone at each
+        place.
     frequency : float, optional
         Cycles per second [Hz], for coefficients that are functions of the power density.
     rig_stiffness : float, optional
