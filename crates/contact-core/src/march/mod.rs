@@ -227,10 +227,7 @@ impl March {
     ///
     /// After an error the state is that of the last increment that was solved.
     pub fn advance(&mut self) -> Option<Result<Increment, Error>> {
-        let point = self.points.get(self.state.increments)?;
-        let end = &self.problem.scene.path.branches[point.branch].to;
-        let (forces, motions) = (self.state.loads.forces(), self.state.motion.motions());
-        let point = point.resolved(end, forces, motions);
+        let point = self.next_point()?;
         Some(if self.yielding.is_some() {
             self.advance_yielding(&point)
         } else if self.coarse.is_some() {
@@ -238,11 +235,22 @@ impl March {
         } else if self.problem.remembers && point.ends_branch && self.remembers(&point) {
             self.advance_to(&point).and_then(|row| {
                 let (scene, after) = (self.problem.scene.clone(), self.state.clone());
-                self.remember(&point, (&scene, &after, &row), 1)
+                match self.remember(&point, (&scene, &after, &row), 1) {
+                    Err(Error::NotConverged { .. }) => Ok(row),
+                    ended => ended,
+                }
             })
         } else {
             self.advance_to(&point)
         })
+    }
+
+    /// The loads at the end of the next increment; none at the end of the path.
+    fn next_point(&self) -> Option<LoadPoint> {
+        let point = self.points.get(self.state.increments)?;
+        let end = &self.problem.scene.path.branches[point.branch].to;
+        let (forces, motions) = (self.state.loads.forces(), self.state.motion.motions());
+        Some(point.resolved(end, forces, motions))
     }
 
     /// Computes the increment to a point.

@@ -21,7 +21,7 @@
 //! than the error of the coarse path where the fine grid takes over. The contact area is that of
 //! the fine grid: at constant normal force the shear moves the rim by less than a coarse cell. The
 //! area of the stick zone is the same part of it as on the coarse grid. If the coarse grid does not
-//! converge the run continues without it.
+//! converge the run continues without it, in a first indentation from its increments on the fine grid.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -30,7 +30,7 @@ use std::sync::atomic::AtomicBool;
 use super::carried::{carried, pressed};
 use super::coupling::coupling;
 use super::state::Along;
-use super::{Increment, March, Motion, State};
+use super::{Increment, March, Motion, State, Work};
 use crate::error::Error;
 use crate::plan::Plan;
 use crate::scene::{LoadPoint, PathGrid, Scene};
@@ -88,8 +88,12 @@ impl March {
             Ok(increment) => increment,
             Err(error @ Error::Interrupted { .. }) => return Err(error),
             Err(_) => {
+                self.coarse = None;
+                if remembers {
+                    return self.press_on_grid();
+                }
                 self.catch_up();
-                (self.coarse, self.state.along) = (None, None);
+                self.state.along = None;
                 return self.advance_to(point);
             }
         };
@@ -123,20 +127,57 @@ impl March {
         }
     }
 
-    /// The increment of an indentation from what the stick zone of the path grid remembers.
+    /// The increment of an indentation from what the stick zone of the path grid remembers; if that
+    /// does not converge, from the indentation on the grid itself.
     fn remember_path_grid(
         &mut self,
         point: &LoadPoint,
         row: &Increment,
     ) -> Result<Increment, Error> {
         let ratio = self.ratio();
-        let (Some(coarse), Some(along)) = (self.coarse.take(), &self.state.along) else {
+        let (Some(coarse), Some(along)) = (self.coarse.take(), self.state.along.clone()) else {
             unreachable!("a march without a path grid");
         };
-        let after = along.now.clone();
-        let solved = self.remember(point, (coarse.scene(), &after, row), ratio);
+        let begun = self.domain.work();
+        let solved = match self.remember(point, (coarse.scene(), &along.now, row), ratio) {
+            Err(error) if !matches!(error, Error::Interrupted { .. }) => {
+                let pressed = self.press_on_grid();
+                self.state.along = Some(along);
+                pressed
+            }
+            ended => ended,
+        };
         self.coarse = Some(coarse);
-        solved
+        solved.map(|mut row| {
+            // The failed attempt counts as work, too.
+            row.work.convolutions = (self.domain.work() - begun).count();
+            row
+        })
+    }
+
+    /// The next increment from all before it on the grid of the scene, as if there were no path grid;
+    /// their work and pieces are its own. The state that it leaves has no path grid, after a failure
+    /// it is as before.
+    fn press_on_grid(&mut self) -> Result<Increment, Error> {
+        let share = std::mem::replace(&mut self.problem.share, 1.0);
+        let anew = super::unloaded(&self.problem.scene, &self.domain, None);
+        let before = std::mem::replace(&mut self.state, anew);
+        let mut work = Work::default();
+        let ended = loop {
+            let point = self.next_point().expect("a point of the path");
+            let ended = self.advance_to(&point).map(|row| {
+                work = work + row.work;
+                Increment { work, ..row }
+            });
+            if ended.is_err() || self.state.increments > before.increments {
+                break ended;
+            }
+        };
+        if ended.is_err() {
+            self.state = before;
+        }
+        self.problem.share = share;
+        ended
     }
 
     /// Whether the fields at a point are kept, or it ends a branch.

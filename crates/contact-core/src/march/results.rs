@@ -149,6 +149,20 @@ pub struct Work {
     pub parts: usize,
 }
 
+impl std::ops::Add for Work {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            convolutions: self.convolutions + other.convolutions,
+            alternations: self.alternations + other.alternations,
+            normal_iterations: self.normal_iterations + other.normal_iterations,
+            tangential_iterations: self.tangential_iterations + other.tangential_iterations,
+            parts: self.parts + other.parts,
+        }
+    }
+}
+
 /// What has yielded.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Yield {

@@ -15,7 +15,7 @@ use super::growing::steps;
 use super::increment::increment;
 use super::problem::Problem;
 use super::setup::{Failure, Workspace};
-use super::{Energy, Increment, Residuals, State, Work, Yield};
+use super::{Energy, Increment, Residuals, State, Yield};
 use crate::error::Error;
 use crate::scene::{LoadPoint, Preset};
 
@@ -173,7 +173,6 @@ impl Increment {
     pub(super) fn followed_by(self, second: &Self) -> Self {
         let (e, f) = (self.energy, second.energy);
         let (r, s) = (self.residuals, second.residuals);
-        let (w, v) = (self.work, second.work);
         Self {
             energy: Energy {
                 work: e.work + f.work,
@@ -197,13 +196,7 @@ impl Increment {
                 passes: self.yielded.passes + second.yielded.passes,
                 ..second.yielded
             },
-            work: Work {
-                convolutions: w.convolutions + v.convolutions,
-                alternations: w.alternations + v.alternations,
-                normal_iterations: w.normal_iterations + v.normal_iterations,
-                tangential_iterations: w.tangential_iterations + v.tangential_iterations,
-                parts: w.parts + v.parts,
-            },
+            work: self.work + second.work,
             ..*second
         }
     }

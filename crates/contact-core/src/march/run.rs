@@ -146,14 +146,6 @@ pub fn summarise(increments: &[Increment]) -> Vec<BranchSummary> {
         .chunk_by(|a, b| a.point.branch == b.point.branch)
         .filter_map(|of_branch| {
             let end = of_branch.last()?;
-            let mut work = Work::default();
-            for w in of_branch.iter().map(|i| i.work) {
-                work.convolutions += w.convolutions;
-                work.alternations += w.alternations;
-                work.normal_iterations += w.normal_iterations;
-                work.tangential_iterations += w.tangential_iterations;
-                work.parts += w.parts;
-            }
             Some(BranchSummary {
                 branch: end.point.branch,
                 increments: of_branch.len(),
@@ -166,7 +158,7 @@ pub fn summarise(increments: &[Increment]) -> Vec<BranchSummary> {
                 plastic_work: of_branch.iter().map(|i| i.energy.plastic).sum(),
                 plastic_volume: end.yielded.volume,
                 largest_plastic_strain: end.yielded.largest,
-                work,
+                work: (of_branch.iter()).fold(Work::default(), |all, i| all + i.work),
             })
         })
         .collect()

@@ -315,3 +315,29 @@ fn an_indentation_on_the_path_grid_has_less_error_than_on_the_grid_itself() {
         assert!(errors[1] < 0.95 * errors[0], "mu = {mu}: {errors:?}");
     }
 }
+
+/// With a single pass of pressure and shear the end does not converge from what the stick zone remembers
+/// of the path grid: the indentation is solved on the grid itself.
+#[test]
+fn an_end_that_does_not_converge_is_that_of_the_increments_on_the_grid() {
+    let once = ["grid.n=64", "solver.max_alternations=1"];
+    let solved = |path: &str| scene(PAPER, &[&once[..], &[path]].concat());
+    let (whole, q) = run(&solved("solver.path_grid=same"));
+    let given = solved("solver.path_grid=32");
+    let (rows, on_path) = run(&given);
+    let pieces: usize = whole[..8].iter().map(|row| row.work.parts).sum();
+    assert!(rows[7].work.parts >= pieces && rows[7].path_grid == 64);
+    assert_eq!(rows[6].path_grid, 32);
+    let off = distance(&on_path[..1], &q[..1]);
+    // In another window, within the tolerance of halved increments.
+    assert!(off < 1e-3, "the shear is {off:.1e} off");
+    let mut march = March::new(&given).expect("a march");
+    for done in 0..10 {
+        let mut again = March::resume(&given, march.state().clone()).expect("a march");
+        for row in &rows[done..10] {
+            let next = again.advance().expect("an increment").expect("a solution");
+            assert_eq!(&next, row, "after {done}");
+        }
+        march.advance().expect("an increment").expect("a solution");
+    }
+}
