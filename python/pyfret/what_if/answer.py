@@ -14,7 +14,7 @@ from pyfret._util.extras import needed
 from pyfret.run.summary import directions
 from pyfret.solution import solve
 from pyfret.study.comparison import layer_names
-from pyfret.subsurface.line import fields_on, line_of, main_shear
+from pyfret.subsurface.line import fields_on, line_of, main_line, main_shear
 from pyfret.what_if.controls import in_increments
 
 if TYPE_CHECKING:
@@ -25,9 +25,9 @@ __all__ = ["FEWER", "PageAnswer", "answer"]
 
 #: A preview has the increments of the neighbouring scene over this, a least number in a branch.
 FEWER, LEAST = 3, 4
-#: Colours of figures: stick, slip, none.
 #: Force and motion of a loop by what drives it.
 LOOPS = {"x": ("T_x", "delta_x"), "y": ("T_y", "delta_y"), "torsion": ("M_z", "phi_z")}
+#: Colours of the zones: none, slip, stick.
 ZONES = [[0.0, "#ffffff"], [0.5, "#F2C9A9"], [1.0, "#0072B2"]]
 
 
@@ -75,7 +75,9 @@ def answer(
             warnings.simplefilter("ignore", SceneWarning)
             result = solve(scene.replace(save="branches"), like=like, progress=False)
             last = result.at(-1)
-            below = last.stress()
+            # A preview looks at the plane of the shear, an answer in the whole body.
+            plane = {} if counts is None else main_line(last).named()
+            below = last.stress(**plane)
             most = below.maximum("von_mises")
     except (NoConvergenceError, OffGridError) as error:
         raise ValueError(str(error)) from error
