@@ -98,6 +98,19 @@ WORDS = {
     "polymer": "wear",
     "q_scatter": "result_store",
     "delamination": "howto/crack_and_arrest",
+    "tilted loop": "howto/measured_loop",
+    "wear-through": "wear",
+    "hip socket": "howto/limits",
+    "grease": "howto/limits",
+    "shot peening": "fatigue",
+    "spline coupling": "howto/my_part",
+    "dovetail": "howto/my_part",
+    "bolted joint": "howto/my_part",
+    "shrink fit": "howto/my_part",
+    "wire rope": "howto/my_part",
+    "false brinelling": "howto/my_part",
+    "fuel rod": "howto/my_part",
+    "corrosion": "howto/my_part",
 }
 
 
