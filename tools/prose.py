@@ -1,9 +1,9 @@
-"""Sentences of the Use book that are too long, and words that readers do not know.
+"""Sentences that are too long, and words that readers do not know.
 
-``python tools/prose.py`` prints them with file and line and ends with 1 if there are any, and those
-of the docstrings of :data:`CODE`. ``python tools/prose.py FILES`` reads other documents and
-modules. The rules are those of CONTRIBUTING.md: one fact a sentence, at most 25 words, nouns of the
-field as subjects.
+``python tools/prose.py`` reads the pages of the Use book, the docstrings of the Python package and
+the messages of errors and warnings. It prints the faults with file and line, and ends with 1 if
+there are any. ``python tools/prose.py FILES`` reads other documents and modules. The rules are
+those of CONTRIBUTING.md: one fact a sentence, at most 25 words, nouns of the field as subjects.
 """
 
 from __future__ import annotations
@@ -13,6 +13,8 @@ import re
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+
+import messages
 
 ROOT = Path(__file__).resolve().parent.parent
 #: Pages of the Use book. Numbers of evidence stand in docs/plastic.md, too: it is no help page.
@@ -34,8 +36,8 @@ USE = (
     "docs/result_store.md",
     "docs/reference/*.md",
 )
-#: Modules whose docstrings are read.
-CODE = ("python/pyfret/**/*.py",)
+#: Modules whose docstrings and messages are read, and the stub of the compiled one.
+CODE = ("python/pyfret/**/*.py", "python/pyfret/_core.pyi", "crates/*/src/**/*.rs")
 #: Words of a sentence, at most.
 MOST = 25
 #: What a reader cannot point at, and what a program does not do.
@@ -131,16 +133,29 @@ def paragraphs(doc: str) -> str:
             continue
         code = line.endswith("::")
         head = re.fullmatch(r"-{3,}", below) or re.fullmatch(r"-{3,}", line)
+        # A parameter or a type that is given back: what it is stands indented below.
         entry = re.match(r"[\w*][\w*, ]* : ", line) or re.match(r"\S+$", line)
+        entry = entry or (re.match(r"[^-* ]", line) and below.startswith("    "))
         kept.append("" if head or entry else line.strip().replace("``", "`"))
     return "\n".join(kept)
 
 
+def texts(document: Path) -> Iterator[tuple[int, str]]:
+    """Paragraphs of a document, or docstrings and messages of a module, with their lines."""
+    text = document.read_text(encoding="utf-8")
+    if document.suffix == ".rs":
+        yield from messages.of_rust(text)
+    elif document.suffix in {".py", ".pyi"}:
+        yield from docstrings(text)
+        yield from messages.of_python(text)
+    else:
+        yield from blocks(text)
+
+
 def faults(document: Path) -> Iterator[str]:
-    """What breaks the rules in a document, or in the docstrings of a module."""
+    """What breaks the rules in a document or in a module."""
     name = document.relative_to(ROOT) if document.is_relative_to(ROOT) else document
-    read = docstrings if document.suffix == ".py" else blocks
-    for line, block in read(document.read_text(encoding="utf-8")):
+    for line, block in texts(document):
         for sentence in sentences(block):
             if (count := words(sentence)) > MOST:
                 yield f"{name}:{line}: {count} words: {sentence}"
@@ -149,11 +164,18 @@ def faults(document: Path) -> Iterator[str]:
                     yield f"{name}:{line}: {found[0]!r}: {sentence}"
 
 
+def is_test(document: Path) -> bool:
+    """Whether a module of Rust is one of tests."""
+    beside = document.with_name("mod.rs")
+    declared = f"#[cfg(test)]\nmod {document.stem};"
+    return document.suffix == ".rs" and beside.exists() and declared in beside.read_text()
+
+
 def main(arguments: list[str]) -> int:
     """Print what breaks the rules."""
     given = [Path(argument).resolve() for argument in arguments]
     documents = given or [path for glob in (*USE, *CODE) for path in sorted(ROOT.glob(glob))]
-    found = [fault for document in documents for fault in faults(document)]
+    found = [fault for each in documents if not is_test(each) for fault in faults(each)]
     print("\n".join(found))
     return 1 if found else 0
 

@@ -101,9 +101,9 @@ class Body:
     coatings : sequence of Coating
         Layers from the surface down: ``coatings[0]`` is the outermost (default: none).
     residual : float or array_like, optional
-        Residual stress of the substrate [Pa], tension positive (default: none): a stress, s_xx =
-        s_yy, or a table with the rows ``[depth, s]`` or ``[depth, s_xx, s_yy]``, the depth [m]
-        below the top of the layer. Linear between the depths, constant beyond them.
+        Residual stress of the substrate [Pa], tension positive (default: none). A stress means s_xx
+        = s_yy. A table has the rows ``[depth, s]`` or ``[depth, s_xx, s_yy]``, the depth [m] below
+        the top of the layer. Linear between the depths, constant beyond them.
     shape : Flat, Sphere, Ellipsoid, Cylinder, ... or a sum of them
         Undeformed surface (default: flat).
     """
@@ -328,9 +328,9 @@ class CattaneoMindlin:
     Partial slip of a sphere under constant normal force and a force T along x.
 
     C. Cattaneo (1938); R. D. Mindlin, J. Appl. Mech. 16 (1949) 259; reversals after R. D. Mindlin
-    and H. Deresiewicz, J. Appl. Mech. 20 (1953) 327. Exact for similar bodies of nu = 0; for other
-    nu the slip is not quite along x and the shift over the force stays a good approximation.
-    All forces obey abs(T) <= mu W.
+    and H. Deresiewicz, J. Appl. Mech. 20 (1953) 327. Exact for similar bodies of nu = 0. For other
+    nu the slip is not quite along x, and the shift over the force is a good approximation. All
+    forces obey abs(T) <= mu W.
 
     Parameters
     ----------
@@ -579,15 +579,15 @@ class Crack:
         """
         Grow the crack in the direction of the largest range over a cycle of stress.
 
-        Pieces are curved so that at the end of each the crack has no reason to turn; their number
+        Pieces are curved so that at the end of each the crack has no reason to turn. Their number
         doubles until the tip moves less than the tolerance.
 
         Parameters
         ----------
         stress : callable
-            Takes points, x and depth [m] in an array of shape (points, 2), and gives the stress of
-            the body without the crack there over the instants of the cycle [Pa], shape
-            (time, points, 6).
+            Takes points, x and depth [m], in an array of shape (points, 2). Gives the stress there
+            of the body without the crack over the instants of the cycle [Pa], shape (time, points,
+            6).
         end : float
             Length to grow to [m].
         direction : {"tangential_stress", "opening_intensity"}
@@ -600,10 +600,11 @@ class Crack:
         Returns
         -------
         dict[str, Any]
-            Of the tips on the way ``length``, ``x``, ``z`` [m], ``angle`` [rad], over (time, tips)
-            ``K_I``, ``K_II`` and their ``error`` [Pa m^0.5]; ``path_error``, how far the last tip
-            may be off [m]; ``end``: "reached" the length, "closed", as nothing opens the crack,
-            "surface", to which it came back, "kinks", where its direction jumps.
+            Of the tips on the way ``length``, ``x``, ``z`` [m] and ``angle`` [rad]. Over (time,
+            tips) ``K_I``, ``K_II`` and their ``error`` [Pa m^0.5]. ``path_error`` is how far the
+            last tip may be off [m]. ``end`` is the reason for the end. "reached": the crack has its
+            length. "closed": nothing opens it. "surface": it came back to the surface. "kinks": its
+            direction jumps.
         """
     def intensity(
         self, /, stress: ArrayLike, *, friction: float | None = None
@@ -788,9 +789,10 @@ class CycleSection:
     A section of a body below a contact over a cycle.
 
     `moments` is called with a list of numbers from 0 to `count` - 1, or with None for the moment
-    before the cycle: lists of q_x, q_y, p [Pa] and stick, of shape (nx, ny) each, of the bulk
-    stress [Pa], and of the residual stress of plastic strain, empty for a body that stays elastic;
-    or None. `yielding` is the plastic work of the cycle and the work beside which it is small [J].
+    before the cycle. It gives None, or five lists: q_x, q_y and p [Pa] and stick, of shape (nx, ny)
+    each, and the bulk stress [Pa]. A sixth list is the residual stress of plastic strain, empty for
+    a body that stays elastic. `yielding` is the plastic work of the cycle and the work beside which
+    it is small [J].
     """
 
     def __new__(
@@ -1158,14 +1160,15 @@ class Friction:
     history : (History, list of pairs), optional
         Factor of the coefficient, linear between the pairs (history, factor).
     law : callable, optional
-        A function of five arrays, a number for each cell: places `x`, `y` [m], pressure `p` [Pa],
-        length of the way slipped `slip` [m], energy per area `dissipated` [J/m^2]. It gives the
-        coefficient along x of each cell, finite and >= 0, an array of the same shape or one number;
-        `mu` is about what it gives, the measure of tolerances, and the coefficient where nothing
-        is pressed yet. An increment is solved again until the coefficient is that of pressure and
-        history at its end. What the function raises is raised as it is. No map, history or kinetic
-        coefficient beside it; over cycles of wear slip and energy are those of all cycles so far. A
-        store keeps that there is a law, not which: ``pyfret.resume(store, friction_law=...)``.
+        A function of five arrays with a number for each cell. These are places `x`, `y` [m],
+        pressure `p` [Pa], length of the way slipped `slip` [m] and energy per area `dissipated`
+        [J/m^2]. It gives the coefficient along x of each cell, finite and >= 0, as an array of the
+        same shape or one number. `mu` is about the size of it: the measure of tolerances, and the
+        coefficient of cells without pressure so far. An increment is solved again until the
+        coefficient is that of pressure and history at its end. What the function raises is raised
+        as it is. No map, history or kinetic coefficient beside it; over cycles of wear slip and
+        energy are those of all cycles so far. A store keeps that there is a law, not which:
+        ``pyfret.resume(store, friction_law=...)``.
     """
 
     def __eq__(self, value: object, /) -> bool: ...
@@ -1648,8 +1651,8 @@ class LoadPath:
         ----------
         delta_z, delta_x, delta_y : float or sequence of float, optional
             Approach and shifts [m]. One of all the motions may be a sequence: its values are
-            visited in turn, and the increments shared out in proportion to the change, as
-            `tangential` does.
+            visited in turn. The increments are then shared out in proportion to the change, as in
+            `tangential`.
         phi_x, phi_y, phi_z : float or sequence of float, optional
             Tilts and rotation about z [rad].
         increments : int or "auto"
@@ -1672,8 +1675,8 @@ class LoadPath:
         Turn the tangential force around an ellipse of semi-axes `T_x`, `T_y` [N].
 
         Its middle is where the path stands. It goes to (T_x, 0) in `increments` and takes as many
-        for each turn towards (0, T_y), each a branch of its own; with "auto", 64 branches for each
-        turn, and as many increments as the path tolerance of the settings asks for.
+        for each turn towards (0, T_y), each a branch by itself. With "auto" a turn has 64 branches,
+        and as many increments as the path tolerance of the settings asks for.
         """
     def force(
         self,
@@ -1726,8 +1729,8 @@ class LoadPath:
         """
         Read a measured history: a table of text whose titles name the columns of `waypoints`.
 
-        Semicolons, tabs, commas or blanks part its numbers, with decimal points or commas; units
-        stand in the titles, ``T_x [kN]``, or in a row of their own.
+        Semicolons, tabs, commas or blanks part its numbers, with decimal points or commas. Units
+        stand in the titles, ``T_x [kN]``, or in a row between titles and numbers.
 
         Parameters
         ----------
@@ -1736,13 +1739,14 @@ class LoadPath:
         increments : int, PerRange or "auto"
             Increments per branch, as in `waypoints`.
         drive : str or list of str, optional
-            Of a load and its motion that both stand in the file, as in every measured loop, the
-            one that drives; the other is left out.
+            The one that drives, where the file has both a load and its motion, as every measured
+            loop has. The other is left out.
 
         Raises
         ------
         StoreError
-            If the file cannot be read; the message says which line and column, and what to give.
+            If the file cannot be read. The message has the line, the column and the argument to
+            give.
         """
     def hold(self, /, *, increments: int = 1) -> LoadPath:
         """
@@ -1762,9 +1766,9 @@ class LoadPath:
         """
         The same path through a rig of a stiffness K [N/m], a spring along x.
 
-        It is in series with the contact: ``delta_x`` is the shift of the spring's far end, given or
-        read, and the contact's own shift is ``delta_x - T_x/K``. None takes the spring out.
-        A text may have its unit, ``"20 N/um"``.
+        The spring is in series with the contact. ``delta_x`` is the shift of its far end, given or
+        read. The contact's own shift is ``delta_x - T_x/K``. None takes the spring out. A text may
+        have its unit, ``"20 N/um"``.
         """
     @property
     def rig_stiffness(self, /) -> float | None:
@@ -1879,7 +1883,7 @@ class March:
         """Solve the next increment and give its scalars."""
     @property
     def attributes(self, /) -> str:
-        """What a result says of the run, as JSON."""
+        """The attributes of the result, as JSON."""
     @property
     def done(self, /) -> int:
         """Increments solved so far."""
@@ -1934,16 +1938,16 @@ class Material:
         """
         Critical distance L = (dK_th/(2 s_D))^2/pi [m].
 
-        ``dK_th`` is the threshold range of the stress intensity and 2 ``s_D`` the range of the
-        fatigue limit, both fully reversed: D. Taylor, The Theory of Critical Distances, Elsevier
-        (2007). A ValueError says which of the two is missing.
+        ``dK_th`` is the threshold range of the stress intensity, and 2 ``s_D`` the range of the
+        fatigue limit. Both are fully reversed. Source: D. Taylor, The Theory of Critical Distances,
+        Elsevier (2007). A ValueError names the number that is missing.
         """
     def doubts(self, /) -> list[str]:
         """Numbers that look like those of another unit, in words."""
     def estimated(self, /, family: str) -> Material:
-        """The material with the numbers that it lacks, as far as published rules give them."""
+        """The material with the missing numbers that published rules can estimate."""
     def is_called(self, /, name: str) -> bool:
-        """Whether a name is one of its own, whatever the case and the marks between its letters."""
+        """Whether the material has this name, whatever its case and the marks between letters."""
     @property
     def name(self, /) -> str:
         """Key of the material in its table."""
@@ -2339,8 +2343,8 @@ class Scene:
         """
         Length that results of an increment are measured in [m].
 
-        That is a_H, or where there is no Hertz contact half the longer side of the box around the
-        cells under the pressure `p` [Pa], shape (nx, ny).
+        That is a_H. Without a Hertz contact it is half the longer side of the box around the cells
+        under the pressure `p` [Pa], shape (nx, ny).
         """
     @property
     def mu(self, /) -> float:
@@ -2480,8 +2484,8 @@ class States:
     """
     States of a contact: tractions [Pa], where it sticks, bulk stress [Pa], what has yielded.
 
-    Fields are of shape (nx, ny), one for each state; of `eigenstress` there is one for each state
-    of a body that may yield, and none of another.
+    Fields are of shape (nx, ny), one for each state. A body that may yield has an `eigenstress` for
+    each state, another body has none.
     """
 
     def __new__(
@@ -2560,10 +2564,10 @@ class Subsurface:
         """
         Largest value of a measure on a section, between its samples; in the layer `only`.
 
-        Value, x, y, z, layer, the border that it lies on, its error, and the parts of it along x, y
-        and z, of the tractions and, from the `error_bar` of the stress over it, of the solution;
-        and the layers whose stress still rises at the end of the longest section. `anywhere`: also
-        beside the section.
+        Gives the value, x, y, z, the layer, the border on which it lies, its error and the parts of
+        this error. The parts are those along x, y and z, of the tractions and of the solution. The
+        last follows from the `error_bar` of the stress over the stress. Then come the layers whose
+        stress still rises at the end of the longest section. `anywhere`: also beside the section.
         """
     def points(
         self, /, places: Sequence[tuple[float, float, float, int]]
@@ -2656,7 +2660,7 @@ class SurfaceMap:
     """
     Numbers over the contact plane, the middle of the map over the origin.
 
-    As the shape of a body they are heights out of it, towards the other one [m]; in a friction law
+    As the shape of a body they are heights out of it, towards the other one [m]. In a friction law
     they are factors of mu.
 
     Parameters
@@ -2666,9 +2670,9 @@ class SurfaceMap:
     spacing : float or (float, float)
         Distance of the points along x and y [m]. In between they are interpolated linearly.
     missing : "refuse", "crop" or "fill"
-        What becomes of points that are NaN or masked: an error that says where they are; lines
-        taken off the edges; the mean of the neighbours, where at most a tenth of the points is
-        missing and no hole is wider than ten.
+        What becomes of points that are NaN or masked. "refuse": an error with their place. "crop":
+        lines are taken off the edges. "fill": the mean of the neighbours, where at most a tenth of
+        the points is missing and no hole is wider than ten.
     """
 
     def __add__(self, other: object, /) -> Sum: ...
@@ -2703,9 +2707,9 @@ class SurfaceMap:
         Read numbers from a file: a ``.npy`` array, or text of instruments and spreadsheets.
 
         Text is UTF-8, UTF-16 or Latin-1; its numbers are parted by semicolons, tabs, commas or
-        blanks, with decimal points or commas. It is a table, one line per x, with or without
-        titles; points x, y and height in any order; Gwyddion's export; or an ESRI grid. A profile
-        is refused.
+        blanks, with decimal points or commas. The text is a table, one line per x, with or without
+        titles. Or it has points x, y and height in any order, Gwyddion's export, or an ESRI grid. A
+        profile is refused.
 
         Parameters
         ----------
@@ -2714,21 +2718,22 @@ class SurfaceMap:
         spacing : float or (float, float), optional
             Distance of the points along x and y [m], where the file does not say it.
         unit : str, optional
-            Unit of the numbers, in a list of points of x and y too, such as "um"; by default what
-            the file says, metres if it says nothing.
+            Unit of the numbers, such as "um"; by default that of the file, or metres. It holds for
+            x and y of a list of points, too.
         channel : str, optional
             Of a list of points with several columns beside x and y, the title or the number
             (from 1) of the one that is meant.
         missing : "refuse", "crop" or "fill"
-            What becomes of points without a number (blank, NaN or what the header says): an error
-            that says where they are; lines taken off the edges; the mean of the neighbours, where
-            at most a tenth of the points is missing and no hole is wider than ten.
+            What becomes of points without a number (blank, NaN or the mark of the header).
+            "refuse": an error with their place. "crop": lines are taken off the edges. "fill": the
+            mean of the neighbours, where at most a tenth of the points is missing and no hole is
+            wider than ten.
 
         Raises
         ------
         StoreError
-            If the file cannot be read, says something else than the arguments, or leaves something
-            open; the message says which line and column, and what to give.
+            If the file cannot be read, contradicts the arguments, or leaves something open. The
+            message has the line, the column and the argument to give.
         """
     def replace(self, /, **changes: Any) -> Self:
         """The same with some of its parts exchanged, named as in the constructor."""
@@ -3092,8 +3097,8 @@ def influence_coefficients(
     Returns
     -------
     array of shape (3, 3, 2 nx - 1, 2 ny - 1)
-        u_x, u_y, u_z under q_x, q_y, p at all offsets of the observed cell from the loaded one;
-        the offset (0, 0) is in the middle.
+        u_x, u_y, u_z under q_x, q_y, p at all offsets of the observed cell from the loaded one. The
+        offset (0, 0) is in the middle.
     """
 
 def known_as(source: str) -> Literal["known", "estimate", "recalled"]:
@@ -3198,8 +3203,8 @@ def range_of_life(
     Returns
     -------
     tuple[Any, ...]
-        Low, best, high; the same of the stress alone; highest over lowest by the scatter of the
-        material; the range of the distance, None at a point; L [m]; notes.
+        Low, best, high; the same of the stress alone. Highest over lowest by the scatter of the
+        material. The range of the distance, None at a point; L [m]; notes.
     """
 
 def read_bytes(path: str | PathLike[str]) -> bytes:
@@ -3399,10 +3404,10 @@ def yielding_on(
     """Load factors of first yield and shakedown of stresses of shape (time, points, 6)."""
 
 class ArgumentError(ValueError):
-    """An argument of a function has no meaning; the message says which and what is allowed."""
+    """An argument of a function has no meaning. The message names it and what is allowed."""
 
 class InvalidSceneError(ValueError):
-    """A scene, or a scene file, has no meaning; the message says where and what is allowed."""
+    """A scene, or a scene file, has no meaning. The message has the place and what is allowed."""
 
 class SolveError(RuntimeError):
     """A scene that has a meaning could not be solved; the classes below it say why."""
@@ -3414,10 +3419,10 @@ class KernelInaccurateError(SolveError):
     """Influence or stress coefficients missed the tolerance asked for."""
 
 class NoConvergenceError(SolveError):
-    """A solver stopped before its tolerance; the message gives the residual reached."""
+    """A solver stopped before its tolerance. The message has the residual that it reached."""
 
 class OffGridError(InvalidSceneError):
-    """The contact reaches the border of the grid; the message says how wide the grid should be."""
+    """The contact reaches the border of the grid. The message has the width that the grid needs."""
 
 class SlidingError(SolveError):
     """Loads that friction cannot carry, that nothing carries, or that lift a stuck contact."""

@@ -342,7 +342,7 @@ def _scar(
         return reach if max(reach) < extent else (extent, extent)
     raise ValueError(
         f"the scar is longer than {extent / LONGER:.3g} m, {MOST_OF_TRIAL // IN_A_TRIAL} times the "
-        "contact before it: k is in m^2/N, alpha in m^3/J; if it is so long, give the grid yourself"
+        "contact before it. k is in m^2/N, alpha in m^3/J. If it is so long, give the grid yourself"
     )
 
 
@@ -499,7 +499,7 @@ def _doubt_films(body1: Body, body2: Body, cells: list[float]) -> None:
         if thickness < min(cells):
             warnings.warn(
                 f"the outermost coating of body {number} is {thickness / min(cells):.2g} of a cell "
-                "thick: stresses in it are averages over a cell; for these, use cells of "
+                "thick. Stresses in it are averages over a cell. For these, use cells of "
                 f"{thickness:.2e} m",
                 SceneWarning,
                 stacklevel=3,

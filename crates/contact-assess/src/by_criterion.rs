@@ -107,8 +107,8 @@ impl Judge for ByCriterion {
         if !cycle.yielding()?.is_some_and(|of| of.grows()) {
             return Ok(());
         }
-        let allowed = "a criterion of stress such as dang_van, or a cycle after shakedown: it takes the strain of \
-                       the stress, and the plastic strain grows in this cycle";
+        let allowed = "a criterion of stress such as dang_van, or a cycle after shakedown. This criterion takes the \
+                       strain of the stress, and the plastic strain grows in this cycle";
         Err(Error::invalid("criterion", strained.name(), allowed))
     }
 

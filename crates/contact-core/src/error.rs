@@ -76,8 +76,8 @@ pub enum Error {
     },
     /// The contact reaches the border of the grid.
     #[error(
-        "the contact touches the border of the grid at increment {increment} (W = {W} {unit}); \
-         the grid is {extent_x:.4e} m by {extent_y:.4e} m and should be about {needed:.4e} m wide"
+        "the contact touches the border of the grid at increment {increment} (W = {W} {unit}). \
+         The grid is {extent_x:.4e} m by {extent_y:.4e} m and should be about {needed:.4e} m wide"
     )]
     OffGrid {
         /// Increment, from 1.
@@ -95,8 +95,8 @@ pub enum Error {
     },
     /// The worn contact reaches the border of the grid.
     #[error(
-        "after {cycles:.6e} cycles the worn contact reaches the border of the grid, or slides over it; \
-         the grid is {extent_x:.4e} m by {extent_y:.4e} m and should be about {needed:.4e} m wide"
+        "after {cycles:.6e} cycles the worn contact reaches the border of the grid, or slides over it. \
+         The grid is {extent_x:.4e} m by {extent_y:.4e} m and should be about {needed:.4e} m wide"
     )]
     WornOffGrid {
         /// Cycles up to which all is well.
@@ -110,7 +110,7 @@ pub enum Error {
     },
     /// The contact is certain to leave the grid, before anything is solved.
     #[error(
-        "the contact does not fit on the grid: under W = {W} {unit} its radius is {a:.4e} m at least; the grid \
+        "the contact does not fit on the grid: under W = {W} {unit} its radius is {a:.4e} m at least. The grid \
          is {extent_x:.4e} m by {extent_y:.4e} m and should be about {needed:.4e} m wide{doubt}"
     )]
     GridTooSmall {
@@ -159,8 +159,8 @@ pub enum Error {
     },
     /// Friction without a limit would have to hold cells that their shear lifts.
     #[error(
-        "increment {increment}: no contact that sticks everywhere carries these loads: of {contact} cells in contact \
-         shear lifts {lifted}, {within} of them within the contact; give a finite mu, which lets them slip"
+        "increment {increment}: no contact that sticks everywhere carries these loads. Of {contact} cells in contact \
+         shear lifts {lifted}, {within} of them within the contact. Give a finite mu, which lets them slip"
     )]
     Lifted {
         /// Increment, from 1.

@@ -18,8 +18,8 @@ pub(super) fn consolidated(folder: &Folder) -> Result<Consolidated, Error> {
     match found(folder)? {
         Found::Store(consolidated) => Ok(consolidated),
         Found::Copy(_) => Err(folder.error(
-            &"is a copy without checksums, as `save` or xarray write one: it can be read, but not be gone on with; \
-              the store itself has them",
+            &"is a copy without checksums, as `save` or xarray write one. It can be read, but a run cannot go on \
+              from it. The store itself has checksums",
         )),
     }
 }

@@ -18,9 +18,9 @@ pub enum Error {
     },
     /// The faces of a crack found no state of opening, stick and slip.
     #[error(
-        "the faces of the crack of length {length:.4e} m, with the coefficient of friction {friction} and kinks of up \
-         to {:.0} degrees, found no state of opening, stick and slip in {passes} passes, the load cut into halves: \
-         {at_fault} of {points} points change from pass to pass; kinks below 30 degrees settle{}",
+        "the crack has the length {length:.4e} m, the coefficient of friction {friction} and kinks of up \
+         to {:.0} degrees. Its faces found no state of opening, stick and slip in {passes} passes, the load cut into \
+         halves. {at_fault} of {points} points change from pass to pass. Kinks below 30 degrees settle{}",
         kink.to_degrees(),
         if *friction > 0.0 { ", or a smaller coefficient of friction" } else { "" }
     )]

@@ -48,7 +48,7 @@ struct Cli {
     command: Command,
 }
 
-const EXIT_CODES: &str = "Exit codes: 0 done; 1 the run ended early, everything so far is kept; \
+const EXIT_CODES: &str = "Exit codes: 0 done; 1 the run ended early, everything so far is kept. \
                           2 bad scene or bad command line, nothing was written; 3 what was to be printed \
                           could not be written, such as to a full disk";
 

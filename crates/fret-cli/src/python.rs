@@ -28,8 +28,8 @@ try:
     import pyfret
 except ModuleNotFoundError as absent:
     if absent.name != 'pyfret': raise
-    print(f'fret: {sys.executable}: has no package pyfret; `fret {sys.argv[1]}` needs Python with the package pyfret: \
-install it, or name the interpreter in FRET_PYTHON', file=sys.stderr)
+    print(f'fret: {sys.executable}: has no package pyfret; `fret {sys.argv[1]}` needs Python with the package pyfret. \
+Install it, or name the interpreter in FRET_PYTHON', file=sys.stderr)
     sys.exit(2)
 import runpy
 runpy.run_module('pyfret', run_name='__main__', alter_sys=True)";

@@ -11,19 +11,19 @@ create_exception!(
     pyfret.errors,
     InvalidSceneError,
     PyValueError,
-    "A scene, or a scene file, has no meaning; the message says where and what is allowed."
+    "A scene, or a scene file, has no meaning. The message has the place and what is allowed."
 );
 create_exception!(
     pyfret.errors,
     OffGridError,
     InvalidSceneError,
-    "The contact reaches the border of the grid; the message says how wide the grid should be."
+    "The contact reaches the border of the grid. The message has the width that the grid needs."
 );
 create_exception!(
     pyfret.errors,
     ArgumentError,
     PyValueError,
-    "An argument of a function has no meaning; the message says which and what is allowed."
+    "An argument of a function has no meaning. The message names it and what is allowed."
 );
 create_exception!(
     pyfret.errors,
@@ -35,7 +35,7 @@ create_exception!(
     pyfret.errors,
     NoConvergenceError,
     SolveError,
-    "A solver stopped before its tolerance; the message gives the residual reached."
+    "A solver stopped before its tolerance. The message has the residual that it reached."
 );
 create_exception!(
     pyfret.errors,

@@ -309,20 +309,20 @@ impl Material {
 
     /// Critical distance L = (dK_th/(2 s_D))^2/pi [m].
     ///
-    /// ``dK_th`` is the threshold range of the stress intensity and 2 ``s_D`` the range of the
-    /// fatigue limit, both fully reversed: D. Taylor, The Theory of Critical Distances, Elsevier
-    /// (2007). A ValueError says which of the two is missing.
+    /// ``dK_th`` is the threshold range of the stress intensity, and 2 ``s_D`` the range of the
+    /// fatigue limit. Both are fully reversed. Source: D. Taylor, The Theory of Critical Distances,
+    /// Elsevier (2007). A ValueError names the number that is missing.
     fn critical_distance(&self) -> PyResult<f64> {
         self.0.critical_distance().map_err(refused)
     }
 
-    /// The material with the numbers that it lacks, as far as published rules give them.
+    /// The material with the missing numbers that published rules can estimate.
     fn estimated(&self, family: &str) -> PyResult<Self> {
         let family = core::Family::named(family).map_err(refused)?;
         Ok(Self(core::estimated(&self.0, family)))
     }
 
-    /// Whether a name is one of its own, whatever the case and the marks between its letters.
+    /// Whether the material has this name, whatever its case and the marks between letters.
     fn is_called(&self, name: &str) -> bool {
         let alone = BTreeMap::from([(self.0.name.clone(), self.0.clone())]);
         core::find(&alone, name).is_some()

@@ -51,8 +51,8 @@ pub(crate) fn surface_frf<'py>(
 /// Returns
 /// -------
 /// array of shape (3, 3, 2 nx - 1, 2 ny - 1)
-///     u_x, u_y, u_z under q_x, q_y, p at all offsets of the observed cell from the loaded one;
-///     the offset (0, 0) is in the middle.
+///     u_x, u_y, u_z under q_x, q_y, p at all offsets of the observed cell from the loaded one. The
+///     offset (0, 0) is in the middle.
 #[pyfunction]
 #[pyo3(signature = (body, grid, *, settings = None) -> "NDArray[np.float64]")]
 pub(crate) fn influence_coefficients(

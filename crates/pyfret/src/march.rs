@@ -126,7 +126,7 @@ impl March {
         Ok(variables.finish())
     }
 
-    /// What a result says of the run, as JSON.
+    /// The attributes of the result, as JSON.
     #[getter]
     fn attributes(&mut self) -> String {
         let march = self.inner();

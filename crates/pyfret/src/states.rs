@@ -15,8 +15,8 @@ type Fields<'py> = List<Array<'py, Ix2>>;
 
 /// States of a contact: tractions [Pa], where it sticks, bulk stress [Pa], what has yielded.
 ///
-/// Fields are of shape (nx, ny), one for each state; of `eigenstress` there is one for each state
-/// of a body that may yield, and none of another.
+/// Fields are of shape (nx, ny), one for each state. A body that may yield has an `eigenstress` for
+/// each state, another body has none.
 #[pyclass(frozen)]
 pub(crate) struct States {
     grid: Cells,

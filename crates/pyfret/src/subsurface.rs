@@ -341,10 +341,10 @@ impl Subsurface {
 
     /// Largest value of a measure on a section, between its samples; in the layer `only`.
     ///
-    /// Value, x, y, z, layer, the border that it lies on, its error, and the parts of it along x, y
-    /// and z, of the tractions and, from the `error_bar` of the stress over it, of the solution;
-    /// and the layers whose stress still rises at the end of the longest section. `anywhere`: also
-    /// beside the section.
+    /// Gives the value, x, y, z, the layer, the border on which it lies, its error and the parts of
+    /// this error. The parts are those along x, y and z, of the tractions and of the solution. The
+    /// last follows from the `error_bar` of the stress over the stress. Then come the layers whose
+    /// stress still rises at the end of the longest section. `anywhere`: also beside the section.
     #[pyo3(signature = (
         of, samples, z: "Sequence[float]", layer: "Sequence[int]", *, x: "float | None" = None, y: "float | None" = None, azimuth: "float | None" = None, only: "int | None" = None, anywhere = false,
         error_bar: "float | None" = None

@@ -115,7 +115,7 @@ def nodal_forces(
         share = lost / np.linalg.norm(force, axis=1).sum()
         raise ValueError(
             f"{share:.1%} of the load lies outside the faces of the mesh in the plane of the "
-            "contact: the mesh must reach beyond it, and the frame must say where it lies"
+            "contact. The mesh must reach beyond the contact. Check its place in frame"
         )
     return forces
 

@@ -50,8 +50,8 @@ def channel_release(coating: Coating, below: Elastic, stress: float) -> float:
         Z = np.pi / 2.0 * _core.channel_crack(coating.material, below)
     except _core.InvalidSceneError as refused:
         raise ValueError(
-            f"channel_release: no solution for a film of {E:.4g} Pa on {below.E:.4g} Pa; films of "
-            "up to 10 times the modulus of what they lie on have one"
+            f"channel_release: no solution for a film of {E:.4g} Pa on {below.E:.4g} Pa. "
+            "Films of up to 10 times the modulus of what they lie on have one"
         ) from refused
     return float(Z * max(stress, 0.0) ** 2 * coating.thickness * (1.0 - nu * nu) / E)
 

@@ -102,7 +102,7 @@ def read_surface(
     if surface.dim != 2:
         raise StoreError(
             f"{fspath(path)}: holds a profile of {surface.nb_grid_pts[0]} points, not a map of "
-            "heights over the plane; in plane strain give its heights as an array of shape (n, 1), "
+            "heights over the plane. In plane strain give its heights as an array of shape (n, 1), "
             "SurfaceMap(heights.reshape(-1, 1), spacing=(2e-6, 1.0))"
         )
     heights: NDArray[np.float64] = np.ma.filled(

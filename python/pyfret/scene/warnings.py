@@ -33,8 +33,8 @@ def doubt_layers(interfaces: list[float], grid: Grid) -> None:
     if interfaces and interfaces[0] < cell:
         warnings.warn(
             f"the first interface is {interfaces[0]:.3g} m below the surface, "
-            f"{interfaces[0] / cell:.2f} cells: the tractions are known per cell, and the stress "
-            "there is that of tractions which hardly vary over a layer; a finer grid tells",
+            f"{interfaces[0] / cell:.2f} cells. The stress in the layer may be wrong near the edge "
+            f"of the contact. For it, use cells of {interfaces[0]:.2e} m",
             SceneWarning,
             stacklevel=3,
         )

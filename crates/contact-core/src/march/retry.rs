@@ -88,7 +88,7 @@ pub(super) fn why(problem: &Problem, domain: &Domain) -> String {
     }
     if friction.varies() {
         parts.push(
-            "; the coefficient of friction follows the history of the cells: where it falls faster than the contact gives \
+            "; the coefficient of friction follows the history of the cells. Where it falls faster than the contact gives \
              way, cells slip at once and no increment is small enough"
                 .to_owned(),
         );

@@ -47,7 +47,7 @@ impl Scene {
                         format!("{key}.coatings[{n}].bond_normal"),
                         c,
                         format!(
-                            "at most {:.1e} m/Pa: where delta_z is given, this bond lets the layers above it bend over \
+                            "at most {:.1e} m/Pa where delta_z is given. This bond lets the layers above it bend over \
                              {bends:.1e} m, more than the length of the grid, {most:.1e} m",
                             most.powi(4) / D
                         ),

@@ -196,7 +196,7 @@ impl Scene {
             && (extent > LONG[0] || radius > LONG[1])
         {
             doubts.push(format!(
-                "moduli of at most {stiffest:.3e} Pa, those of gels, on a grid {extent:.3e} m long: numbers in mm, N and MPa \
+                "moduli of at most {stiffest:.3e} Pa, those of gels, on a grid {extent:.3e} m long. Numbers in mm, N and MPa \
                  are taken as m, N and Pa, and results carry these units; {UNITS}"
             ));
         }
@@ -230,8 +230,9 @@ impl Scene {
         let below = body.coatings.get(1).map_or(body.substrate, |c| c.material);
         (thickness < cell && material != below).then(|| {
             format!(
-                "{key}.coatings[0].thickness = {thickness:.3e} m is {:.2} of a cell: contact, loads and energy hold, tractions \
-                 and stresses in the layer are means over a cell; a cell as small shows them",
+                "{key}.coatings[0].thickness = {thickness:.3e} m is {:.2} of a cell. Loads, contact size and energy are \
+                 right. Tractions and stresses in the layer are averages over a cell. For these, use cells of \
+                 {thickness:.2e} m",
                 thickness / cell
             )
         })
@@ -252,7 +253,7 @@ impl Scene {
             let (extent, _) = self.grid.extent();
             doubts.push(format!(
                 "the points of the map {key} lie {:.3e} m by {:.3e} m apart, {coarser:.1} cells of the grid of \
-                 {extent:.3e} m: what is in between is straight lines, not measured; {UNITS}",
+                 {extent:.3e} m. Straight lines, not measurements, join them; {UNITS}",
                 map.spacing.0, map.spacing.1
             ));
         }

@@ -103,8 +103,9 @@ pub fn is_missing() -> Error {
     Error::invalid(
         "friction.law",
         "own",
-        "given again: a law of your own is in no file; pyfret.resume(store, friction_law=...) goes on with a store, \
-         pyfret.wear.resume(store, friction_law=...) with a run of wear, scene.replace(mu=Friction(mu, law=...)) with a scene",
+        "given again: a law of your own is in no file. pyfret.resume(store, friction_law=...) goes on with a store, \
+         pyfret.wear.resume(store, friction_law=...) with a run of wear. scene.replace(mu=Friction(mu, law=...)) \
+         gives it to a scene",
     )
 }
 

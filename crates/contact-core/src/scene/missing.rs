@@ -53,8 +53,8 @@ pub(super) fn completed(
         )),
         Missing::Fill => filled(values).map(|values| (values, holes)).ok_or_else(|| {
             format!(
-                "{holes} of {all} points ({share:.1} %) have no number, and a hole among them is too large to fill: \
-                 every point of it must lie within {DEEPEST} points of measured ones"
+                "{holes} of {all} points ({share:.1} %) have no number, and a hole among them is too large to fill. \
+                 Every point of it must lie within {DEEPEST} points of measured ones"
             )
         }),
     }
@@ -71,7 +71,7 @@ fn where_they_are(values: &Array2<f64>, holes: usize) -> String {
     let (i, j) = first.unwrap_or_default();
     format!(
         "{holes} of {} points have no number, the first in row {} and column {}, all within {depth} of \
-         the edges: missing = \"crop\" takes lines off the edges, \"fill\" takes the mean of the \
+         the edges. missing = \"crop\" takes lines off the edges, \"fill\" takes the mean of the \
          neighbours",
         values.len(),
         i + 1,

@@ -62,8 +62,8 @@ impl Scene {
         let of_path = on_path.filter(|(_, cells)| more * cells < FEW_CELLS);
         let of_path = of_path.map(|(of, cells)| {
             format!(
-                "solver.path_grid = {of}: on the path grid the contact has {cells:.1} cells across its radius; with fewer than \
-                 {FEW_CELLS} the path and its energies are off by more than some per cent; \"same\" has as many as the grid"
+                "solver.path_grid = {of}: on the path grid the contact has {cells:.1} cells across its radius. With fewer than \
+                 {FEW_CELLS} the path and its energies are off by more than some per cent. \"same\" has as many as the grid"
             )
         });
         of_grid.into_iter().chain(of_path).collect()
@@ -154,8 +154,8 @@ impl Grid {
             "grid.n",
             format!("{} on {extent}", self.of_cells(1.0)),
             format!(
-                "{} or more, or a shorter grid: the contact has {cells:.2} cells across its radius, and fewer than {FEWEST_CELLS} \
-                 show nothing of it; {} for numbers that are known within some per cent{units}",
+                "{} or more, or a shorter grid. The contact has {cells:.2} cells across its radius, and fewer than {FEWEST_CELLS} \
+                 show nothing of it. {} gives numbers within some per cent{units}",
                 self.of_cells(FEWEST_CELLS / cells),
                 self.of_cells(FEW_CELLS / cells),
             ),
@@ -165,8 +165,8 @@ impl Grid {
     /// The warning for a contact of so few cells across its radius.
     pub(crate) fn coarse(&self, cells: f64) -> String {
         format!(
-            "the contact has {cells:.1} cells across its radius: with fewer than {FEW_CELLS} its numbers are off by more than \
-             some per cent; grid.n = {} has as many, or a shorter grid",
+            "the contact has {cells:.1} cells across its radius. With fewer than {FEW_CELLS} its numbers are off by more than \
+             some per cent. Use grid.n = {} or a shorter grid",
             self.of_cells(FEW_CELLS / cells)
         )
     }

@@ -93,8 +93,8 @@ impl Scene {
             format!("body{number}.plastic.hardening"),
             format!("0 (none), with a yield stress of at most {s_y:.3e} Pa, and W = {W:.3e} N"),
             format!(
-                "above 0, or a W of at most {fully:.3e} N: the mean pressure then comes to {MOST_PRESSURE} s_y of \
-                 that stress, the most that a body without more hardening bears"
+                "above 0, or a W of at most {fully:.3e} N, where the mean pressure comes to {MOST_PRESSURE} s_y of \
+                 that stress. A body without more hardening bears no more"
             ),
         ))
     }

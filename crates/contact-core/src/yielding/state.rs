@@ -73,5 +73,5 @@ pub enum Rim {
 impl Rim {
     /// What is to be known of a largest strain that lies there.
     pub const TOLD: &str = "the largest plastic strain lies at the border of slip or at the rim of a coating, where it grows \
-        with every refinement: judge the works, the volume and the strain below";
+        with every refinement. Judge the works, the volume and the strain below";
 }

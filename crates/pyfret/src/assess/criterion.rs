@@ -147,8 +147,8 @@ impl From<Error> for Raised {
 /// Returns
 /// -------
 /// tuple
-///     Low, best, high; the same of the stress alone; highest over lowest by the scatter of the
-///     material; the range of the distance, None at a point; L [m]; notes.
+///     Low, best, high; the same of the stress alone. Highest over lowest by the scatter of the
+///     material. The range of the distance, None at a point; L [m]; notes.
 #[pyfunction]
 #[pyo3(signature = (sections: "Sequence[CriterionBelow]", layer: "int", material, worst: "tuple[float, float]", *, method, scatter: "float | None" = None, L: "float | None" = None))]
 #[expect(clippy::type_complexity, reason = "the parts of a range")]

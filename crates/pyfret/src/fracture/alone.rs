@@ -164,15 +164,15 @@ impl Crack {
 
     /// Grow the crack in the direction of the largest range over a cycle of stress.
     ///
-    /// Pieces are curved so that at the end of each the crack has no reason to turn; their number
+    /// Pieces are curved so that at the end of each the crack has no reason to turn. Their number
     /// doubles until the tip moves less than the tolerance.
     ///
     /// Parameters
     /// ----------
     /// stress : callable
-    ///     Takes points, x and depth [m] in an array of shape (points, 2), and gives the stress of
-    ///     the body without the crack there over the instants of the cycle [Pa], shape
-    ///     (time, points, 6).
+    ///     Takes points, x and depth [m], in an array of shape (points, 2). Gives the stress there
+    ///     of the body without the crack over the instants of the cycle [Pa], shape (time, points,
+    ///     6).
     /// end : float
     ///     Length to grow to [m].
     /// direction : {"tangential_stress", "opening_intensity"}
@@ -185,10 +185,11 @@ impl Crack {
     /// Returns
     /// -------
     /// dict
-    ///     Of the tips on the way ``length``, ``x``, ``z`` [m], ``angle`` [rad], over (time, tips)
-    ///     ``K_I``, ``K_II`` and their ``error`` [Pa m^0.5]; ``path_error``, how far the last tip
-    ///     may be off [m]; ``end``: "reached" the length, "closed", as nothing opens the crack,
-    ///     "surface", to which it came back, "kinks", where its direction jumps.
+    ///     Of the tips on the way ``length``, ``x``, ``z`` [m] and ``angle`` [rad]. Over (time,
+    ///     tips) ``K_I``, ``K_II`` and their ``error`` [Pa m^0.5]. ``path_error`` is how far the
+    ///     last tip may be off [m]. ``end`` is the reason for the end. "reached": the crack has its
+    ///     length. "closed": nothing opens it. "surface": it came back to the surface. "kinks": its
+    ///     direction jumps.
     #[pyo3(signature = (stress: "Callable[[NDArray[np.float64]], ArrayLike]", *, end: "float", direction: "Literal['tangential_stress', 'opening_intensity']" = "tangential_stress", friction: "float" = 0.0, tolerance: "float" = 1e-2) -> "dict[str, Any]")]
     fn grow<'py>(
         &self,

@@ -15,9 +15,9 @@ use crate::parts::made;
 /// Partial slip of a sphere under constant normal force and a force T along x.
 ///
 /// C. Cattaneo (1938); R. D. Mindlin, J. Appl. Mech. 16 (1949) 259; reversals after R. D. Mindlin
-/// and H. Deresiewicz, J. Appl. Mech. 20 (1953) 327. Exact for similar bodies of nu = 0; for other
-/// nu the slip is not quite along x and the shift over the force stays a good approximation.
-/// All forces obey abs(T) <= mu W.
+/// and H. Deresiewicz, J. Appl. Mech. 20 (1953) 327. Exact for similar bodies of nu = 0. For other
+/// nu the slip is not quite along x, and the shift over the force is a good approximation. All
+/// forces obey abs(T) <= mu W.
 ///
 /// Parameters
 /// ----------

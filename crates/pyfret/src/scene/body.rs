@@ -23,9 +23,9 @@ use crate::residual_stress::{Profile, Shown, shown, text};
 /// coatings : sequence of Coating
 ///     Layers from the surface down: ``coatings[0]`` is the outermost (default: none).
 /// residual : float or array_like, optional
-///     Residual stress of the substrate [Pa], tension positive (default: none): a stress, s_xx =
-///     s_yy, or a table with the rows ``[depth, s]`` or ``[depth, s_xx, s_yy]``, the depth [m]
-///     below the top of the layer. Linear between the depths, constant beyond them.
+///     Residual stress of the substrate [Pa], tension positive (default: none). A stress means s_xx
+///     = s_yy. A table has the rows ``[depth, s]`` or ``[depth, s_xx, s_yy]``, the depth [m] below
+///     the top of the layer. Linear between the depths, constant beyond them.
 /// shape : Flat, Sphere, Ellipsoid, Cylinder, ... or a sum of them
 ///     Undeformed surface (default: flat).
 #[pyclass(frozen, eq, module = "pyfret")]

@@ -73,14 +73,15 @@ impl From<core::History> for History {
 /// history : (History, list of pairs), optional
 ///     Factor of the coefficient, linear between the pairs (history, factor).
 /// law : callable, optional
-///     A function of five arrays, a number for each cell: places `x`, `y` [m], pressure `p` [Pa],
-///     length of the way slipped `slip` [m], energy per area `dissipated` [J/m^2]. It gives the
-///     coefficient along x of each cell, finite and >= 0, an array of the same shape or one number;
-///     `mu` is about what it gives, the measure of tolerances, and the coefficient where nothing
-///     is pressed yet. An increment is solved again until the coefficient is that of pressure and
-///     history at its end. What the function raises is raised as it is. No map, history or kinetic
-///     coefficient beside it; over cycles of wear slip and energy are those of all cycles so far. A
-///     store keeps that there is a law, not which: ``pyfret.resume(store, friction_law=...)``.
+///     A function of five arrays with a number for each cell. These are places `x`, `y` [m],
+///     pressure `p` [Pa], length of the way slipped `slip` [m] and energy per area `dissipated`
+///     [J/m^2]. It gives the coefficient along x of each cell, finite and >= 0, as an array of the
+///     same shape or one number. `mu` is about the size of it: the measure of tolerances, and the
+///     coefficient of cells without pressure so far. An increment is solved again until the
+///     coefficient is that of pressure and history at its end. What the function raises is raised
+///     as it is. No map, history or kinetic coefficient beside it; over cycles of wear slip and
+///     energy are those of all cycles so far. A store keeps that there is a law, not which:
+///     ``pyfret.resume(store, friction_law=...)``.
 #[pyclass(frozen, eq, from_py_object, module = "pyfret")]
 #[derive(Clone, PartialEq)]
 pub(crate) struct Friction(pub(crate) core::Friction);

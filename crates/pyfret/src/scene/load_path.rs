@@ -65,9 +65,9 @@ impl LoadPath {
 
     /// The same path through a rig of a stiffness K [N/m], a spring along x.
     ///
-    /// It is in series with the contact: ``delta_x`` is the shift of the spring's far end, given or
-    /// read, and the contact's own shift is ``delta_x - T_x/K``. None takes the spring out.
-    /// A text may have its unit, ``"20 N/um"``.
+    /// The spring is in series with the contact. ``delta_x`` is the shift of its far end, given or
+    /// read. The contact's own shift is ``delta_x - T_x/K``. None takes the spring out. A text may
+    /// have its unit, ``"20 N/um"``.
     #[pyo3(signature = (stiffness: "float | str | None"))]
     fn rig(&self, #[pyo3(from_py_with = Optional::stiffness)] stiffness: Option<f64>) -> Self {
         Self(core::LoadPath {
@@ -118,8 +118,8 @@ impl LoadPath {
     /// Turn the tangential force around an ellipse of semi-axes `T_x`, `T_y` [N].
     ///
     /// Its middle is where the path stands. It goes to (T_x, 0) in `increments` and takes as many
-    /// for each turn towards (0, T_y), each a branch of its own; with "auto", 64 branches for each
-    /// turn, and as many increments as the path tolerance of the settings asks for.
+    /// for each turn towards (0, T_y), each a branch by itself. With "auto" a turn has 64 branches,
+    /// and as many increments as the path tolerance of the settings asks for.
     #[pyo3(signature = (*, T_x: "float", T_y: "float", turns: "int" = 1, increments = Count(None)))]
     fn ellipse(
         &self,
@@ -172,8 +172,8 @@ impl LoadPath {
 
     /// Read a measured history: a table of text whose titles name the columns of `waypoints`.
     ///
-    /// Semicolons, tabs, commas or blanks part its numbers, with decimal points or commas; units
-    /// stand in the titles, ``T_x [kN]``, or in a row of their own.
+    /// Semicolons, tabs, commas or blanks part its numbers, with decimal points or commas. Units
+    /// stand in the titles, ``T_x [kN]``, or in a row between titles and numbers.
     ///
     /// Parameters
     /// ----------
@@ -182,13 +182,14 @@ impl LoadPath {
     /// increments : int, PerRange or "auto"
     ///     Increments per branch, as in `waypoints`.
     /// drive : str or list of str, optional
-    ///     Of a load and its motion that both stand in the file, as in every measured loop, the
-    ///     one that drives; the other is left out.
+    ///     The one that drives, where the file has both a load and its motion, as every measured
+    ///     loop has. The other is left out.
     ///
     /// Raises
     /// ------
     /// StoreError
-    ///     If the file cannot be read; the message says which line and column, and what to give.
+    ///     If the file cannot be read. The message has the line, the column and the argument to
+    ///     give.
     #[staticmethod]
     #[pyo3(signature = (path, *, increments = AnyIncrements::Each(1), drive = Names(Vec::new())))]
     fn from_csv(
@@ -262,8 +263,8 @@ impl LoadPath {
     /// ----------
     /// delta_z, delta_x, delta_y : float or sequence of float, optional
     ///     Approach and shifts [m]. One of all the motions may be a sequence: its values are
-    ///     visited in turn, and the increments shared out in proportion to the change, as
-    ///     `tangential` does.
+    ///     visited in turn. The increments are then shared out in proportion to the change, as in
+    ///     `tangential`.
     /// phi_x, phi_y, phi_z : float or sequence of float, optional
     ///     Tilts and rotation about z [rad].
     /// increments : int or "auto"

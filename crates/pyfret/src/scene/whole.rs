@@ -265,8 +265,8 @@ impl Scene {
 
     /// Length that results of an increment are measured in [m].
     ///
-    /// That is a_H, or where there is no Hertz contact half the longer side of the box around the
-    /// cells under the pressure `p` [Pa], shape (nx, ny).
+    /// That is a_H. Without a Hertz contact it is half the longer side of the box around the cells
+    /// under the pressure `p` [Pa], shape (nx, ny).
     fn length(&self, p: Field<'_>) -> f64 {
         self.0.length(&p.as_array().to_owned())
     }

@@ -132,8 +132,8 @@ fn check_map(table: &Table, names: &[String]) -> Result<(), String> {
     }
     if columns == 3 && rows >= POINTS {
         return Err(format!(
-            "{rows} lines of three numbers are points x, y and height on no even grid: must be one point for each \
-             place of an even grid, each along x and y; interpolate them to one"
+            "{rows} lines of three numbers are points x, y and height on no even grid. Each place of an even grid must \
+             have one point along x and y. Interpolate them to such a grid"
         ));
     }
     table.check_no_index()
@@ -204,8 +204,8 @@ impl Columns {
 /// What is said of points that lie on no lattice.
 fn no_lattice((x, y): (usize, usize), rows: usize) -> String {
     format!(
-        "columns {} and {}: {rows} points x and y on no even grid: must be one point for each place of an \
-         even grid, at most a tenth of a step off it; interpolate them to one",
+        "columns {} and {}: {rows} points x and y on no even grid. Each place of an even grid must have \
+         one point, at most a tenth of a step off it. Interpolate them to such a grid",
         x + 1,
         y + 1
     )
@@ -280,8 +280,8 @@ impl Reader<'_> {
             )),
             (None, Some(unit)) => Ok(unit),
             _ => Err(format!(
-                "says that its numbers are in `{word}`, which is no unit of length: must be one of {}; where they \
-                 are lengths all the same, say their unit with unit",
+                "says that its numbers are in `{word}`, which is no unit of length: must be one of {}. If they \
+                 are lengths all the same, give their unit with unit",
                 unit::names(Kind::Length)
             )),
         }
@@ -319,8 +319,8 @@ impl Reader<'_> {
             Some(given) if close(given.0, said.0) && close(given.1, said.1) => given,
             Some((x, y)) => {
                 return Err(format!(
-                    "says that its points lie {:.6e} m by {:.6e} m apart, spacing that they lie {x:e} m by {y:e} m: \
-                     leave spacing out, or say the unit of the file with unit",
+                    "says that its points lie {:.6e} m by {:.6e} m apart, spacing that they lie {x:e} m by {y:e} m. \
+                     Either leave spacing out or give the unit of the file with unit",
                     said.0, said.1
                 ));
             }

@@ -33,7 +33,7 @@ impl Table {
                 self.leave_out_first_column();
             } else if head.is_empty() && self.titles.iter().any(|titles| titles.len() == columns) {
                 return Err(format!(
-                    "column 1 has no title, where the other {} have one: an index is no height; leave it out, as \
+                    "column 1 has no title, where the other {} have one. An index is no height: leave it out, as \
                      to_csv(index=False) does, or give it a title",
                     columns - 1
                 ));
@@ -48,8 +48,8 @@ impl Table {
                 self.lines.remove(0);
             } else if grows(&line[1..]) && grows(&first[1..]) {
                 return Err(
-                    "line 1 and column 1, which meet in an empty field, are places and no heights: leave them out, \
-                     and say the distance of the points with spacing"
+                    "line 1 and column 1, which meet in an empty field, are places and no heights. Leave them out, \
+                     and give the distance of the points with spacing"
                         .into(),
                 );
             }

@@ -179,7 +179,7 @@ fn with_units(words: Vec<String>) -> Vec<String> {
 pub(super) fn no_number(line: usize, column: usize, field: &str) -> String {
     let shown: String = field.chars().take(40).collect();
     format!(
-        "line {line}, column {}: `{shown}` is no number; a line of titles holds no number, a comment begins \
+        "line {line}, column {}: `{shown}` is no number. A line of titles holds no number, a comment begins \
          with #, and a point that was not measured is empty or nan",
         column + 1
     )

@@ -17,7 +17,7 @@ use crate::parts::parts;
 
 /// Numbers over the contact plane, the middle of the map over the origin.
 ///
-/// As the shape of a body they are heights out of it, towards the other one [m]; in a friction law
+/// As the shape of a body they are heights out of it, towards the other one [m]. In a friction law
 /// they are factors of mu.
 ///
 /// Parameters
@@ -27,9 +27,9 @@ use crate::parts::parts;
 /// spacing : float or (float, float)
 ///     Distance of the points along x and y [m]. In between they are interpolated linearly.
 /// missing : "refuse", "crop" or "fill"
-///     What becomes of points that are NaN or masked: an error that says where they are; lines
-///     taken off the edges; the mean of the neighbours, where at most a tenth of the points is
-///     missing and no hole is wider than ten.
+///     What becomes of points that are NaN or masked. "refuse": an error with their place. "crop":
+///     lines are taken off the edges. "fill": the mean of the neighbours, where at most a tenth of
+///     the points is missing and no hole is wider than ten.
 #[pyclass(frozen, eq, from_py_object, module = "pyfret.shapes")]
 #[derive(Clone, PartialEq)]
 pub(crate) struct SurfaceMap(pub(crate) core::SurfaceMap);
@@ -58,9 +58,9 @@ impl SurfaceMap {
     /// Read numbers from a file: a ``.npy`` array, or text of instruments and spreadsheets.
     ///
     /// Text is UTF-8, UTF-16 or Latin-1; its numbers are parted by semicolons, tabs, commas or
-    /// blanks, with decimal points or commas. It is a table, one line per x, with or without
-    /// titles; points x, y and height in any order; Gwyddion's export; or an ESRI grid. A profile
-    /// is refused.
+    /// blanks, with decimal points or commas. The text is a table, one line per x, with or without
+    /// titles. Or it has points x, y and height in any order, Gwyddion's export, or an ESRI grid. A
+    /// profile is refused.
     ///
     /// Parameters
     /// ----------
@@ -69,21 +69,22 @@ impl SurfaceMap {
     /// spacing : float or (float, float), optional
     ///     Distance of the points along x and y [m], where the file does not say it.
     /// unit : str, optional
-    ///     Unit of the numbers, in a list of points of x and y too, such as "um"; by default what
-    ///     the file says, metres if it says nothing.
+    ///     Unit of the numbers, such as "um"; by default that of the file, or metres. It holds for
+    ///     x and y of a list of points, too.
     /// channel : str, optional
     ///     Of a list of points with several columns beside x and y, the title or the number
     ///     (from 1) of the one that is meant.
     /// missing : "refuse", "crop" or "fill"
-    ///     What becomes of points without a number (blank, NaN or what the header says): an error
-    ///     that says where they are; lines taken off the edges; the mean of the neighbours, where
-    ///     at most a tenth of the points is missing and no hole is wider than ten.
+    ///     What becomes of points without a number (blank, NaN or the mark of the header).
+    ///     "refuse": an error with their place. "crop": lines are taken off the edges. "fill": the
+    ///     mean of the neighbours, where at most a tenth of the points is missing and no hole is
+    ///     wider than ten.
     ///
     /// Raises
     /// ------
     /// StoreError
-    ///     If the file cannot be read, says something else than the arguments, or leaves something
-    ///     open; the message says which line and column, and what to give.
+    ///     If the file cannot be read, contradicts the arguments, or leaves something open. The
+    ///     message has the line, the column and the argument to give.
     #[staticmethod]
     #[pyo3(signature = (path, *, spacing = None, unit = None, channel = None, missing: "Literal['refuse', 'crop', 'fill']" = "refuse"))]
     fn from_file(
