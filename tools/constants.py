@@ -33,6 +33,13 @@ SCAN = [
     ("estimate/trial.rs", "SOLVER_SHARE", ("5e-3", "2e-2")),
     ("estimate/trial.rs", "MISSED", ("1.0", "1.5")),
     ("estimate/trial.rs", "CONTACT", ("150", "600")),
+    ("estimate/trial.rs", "RING", ("3.3", "13.2")),
+    ("estimate/trial.rs", "FEW", ("24", "48")),
+    ("estimate/trial.rs", "HALF_SHARE", ("1e-2", "1e-1")),
+    ("march/remembered.rs", "PIECES", ("5", "9")),
+    ("march/remembered.rs", "STIFF", ("1e-9", "1e-5")),
+    ("march/remembered.rs", "BEHIND", ("2.0", "8.0")),
+    ("march/remembered.rs", "BESIDE", ("0.01", "0.04")),
     ("march/problem.rs", "PREDICTED_SHARE", ("0.4", "1.0")),
     ("march/problem.rs", "NORMAL_SHARE", ("0.2", "0.8")),
     ("march/problem.rs", "TANGENTIAL_SHARE", ("0.3", "0.9")),
@@ -74,7 +81,7 @@ ERRORS = ("q after the first branch", "q at the ends", "contact radius", "stick 
 # Errors below these are those of the finer runs: shear over the largest, radii in cells.
 FLOORS = (1e-4, 1e-4, 0.005, 0.005)
 
-BUILT = ("AROUND", "REACH", "DEPTH")
+BUILT = ("AROUND", "REACH", "DEPTH", "PIECES")
 
 READ = """fn {name}() -> {kind} {{
     static VALUE: std::sync::OnceLock<{kind}> = std::sync::OnceLock::new();

@@ -15,10 +15,11 @@ use std::path::Path;
 use std::sync::Arc;
 
 use contact_core::Error;
+use contact_core::estimate::choose_increments_like;
 use contact_core::march::March;
 use contact_core::scene::{Grid, Scene};
 
-use scenes::trials;
+use scenes::{Trial, trials};
 
 /// The cells each way: errors of the path hardly depend on them.
 const CELLS: usize = 64;
@@ -87,6 +88,45 @@ fn errors(ends: &Ends, truth: &Ends, cell: f64) -> [f64; 4] {
     [off(&pairs[0]), later, radius(0), radius(1)]
 }
 
+/// A sphere on a soft coating, pressed and sheared.
+const SOFT: &str = r#"
+schema = 1
+body1 = { shape.sphere.R = 0.018, E = 210e9, nu = 0.3 }
+body2 = { shape = "flat", E = 210e9, nu = 0.3, coatings = [{ E = { E_substrate = 0.5 }, nu = 0.4, thickness = { a_H = 0.5 } }] }
+friction.mu = 0.2
+grid = { n = 64, extent = { a_H = 2.6 } }
+path = [{ W = 1000.0, spacing = "equal_radius" }, { T_x = { mu_W = 0.7 } }, { T_x = { mu_W = -0.7 } }]
+"#;
+
+/// An indentation on the path grid, and increments of a neighbouring scene.
+fn more_trials() -> Result<[Trial; 2], Error> {
+    let soft = |increments: [&str; 3], set: &[&str]| {
+        let of = |(k, n)| format!("path.{k}.increments={n}");
+        let of_branches = increments.iter().enumerate().map(of);
+        let set: Vec<String> = of_branches
+            .chain(set.iter().map(ToString::to_string))
+            .collect();
+        Scene::from_toml_str(SOFT, "constants", &set)
+    };
+    let reference = soft(
+        ["168", "80", "160"],
+        &["solver.tolerance=1e-7", "solver.path_grid=same"],
+    )?;
+    let on_path_grid = soft(["21", "10", "20"], &["solver.path_grid=32"])?;
+    let open = |set: &[&str]| soft(["\"auto\""; 3], set);
+    let neighbour = open(&["friction.mu=0.21"])?;
+    let chosen = choose_increments_like(&open(&[])?, &neighbour, &Arc::default())?;
+    let trial = |name, scene| Trial {
+        name,
+        scene,
+        reference: reference.clone(),
+    };
+    Ok([
+        trial("indentation on a path grid", on_path_grid),
+        trial("increments of a neighbour", chosen),
+    ])
+}
+
 fn coarse(scene: &Scene) -> Scene {
     let (along_x, along_y) = scene.grid.extent();
     let mut coarse = scene.clone();
@@ -102,7 +142,8 @@ fn coarse(scene: &Scene) -> Scene {
 
 fn main() -> Result<(), Error> {
     let folder = std::env::args().nth(1).unwrap_or_else(|| ".".into());
-    for (k, trial) in trials()?.iter().enumerate() {
+    let all = trials()?.into_iter().chain(more_trials()?);
+    for (k, trial) in all.enumerate() {
         if ["1000", "256"].iter().any(|n| trial.name.contains(n)) {
             continue;
         }
