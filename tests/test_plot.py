@@ -134,3 +134,14 @@ def test_text_of_others_is_shown_as_it_is_in_figures_of_studies() -> None:
     assert axes.get_xlabel() == r"a\$b\u202e"
     assert axes.get_ylabel() == r"x\$^{y\u202e"
     axes.figure.canvas.draw()
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.02, 0.05])
+def test_contours_of_a_study_are_no_closer_than_its_scatter(noise: float) -> None:
+    x, y = np.meshgrid(np.linspace(0.0, 1.0, 20), np.linspace(0.0, 1.0, 10), indexing="ij")
+    scattered = x**2 + np.sin(2.0 * y) + noise * np.random.default_rng(5).normal(size=x.shape)
+    of = xr.DataArray(scattered, {"a": x[:, 0], "b": y[0]}, name="of")
+    status = xr.full_like(of, 1, dtype=np.int8).rename("status")
+    steps = fret.study.Study(xr.merge([of, status])).map("of").collections[0].levels
+    assert np.diff(steps).min() >= 2.5 * noise
+    assert len(steps) >= (9 if noise == 0.0 else 4)

@@ -33,6 +33,8 @@ if TYPE_CHECKING:
 Words: TypeAlias = Mapping[str, tuple[str, float]]
 #: Values along both parameters from which on contours are drawn.
 CONTOURED = 4
+#: Step of the contours over the scatter of the values, at least.
+ABOVE_SCATTER = 3.0
 COLOURS = "YlGnBu"
 #: Status of a point that is done, and colour of points that are and have no value.
 DONE, NO_VALUE = 1, "0.9"
@@ -199,6 +201,16 @@ def edges(places: np.ndarray, *, logarithmic: bool) -> np.ndarray:
     return np.asarray(np.exp(borders) if logarithmic else borders)
 
 
+def scatter_of(field: np.ma.MaskedArray[Any, Any]) -> float:
+    """Standard deviation of the noise of values on a grid.
+
+    Second differences along both parameters of white noise have 36 times its variance, those of a
+    smooth field are small: J. Immerkaer, Comput. Vis. Image Underst. 64 (1996) 300-302.
+    """
+    twice = np.ma.asarray(np.ma.diff(np.ma.diff(field, 2, axis=0), 2, axis=1))
+    return float(np.sqrt(np.ma.mean(twice**2))) / 6.0 if twice.count() else 0.0
+
+
 def line(ax: Axes, values: xr.DataArray, label: str, words: Words) -> None:
     """A measure over one parameter."""
     places = scale_axis(ax, "x", values[str(values.dims[0])], words)
@@ -222,7 +234,10 @@ def plane(
     fine = min(field.shape) >= CONTOURED
     drawn: Any
     if kind == "contour" or (kind == "auto" and fine and field.count() > 3):
-        steps = MaxNLocator(levels).tick_values(float(field.min()), float(field.max()))
+        low, high = float(field.min()), float(field.max())
+        # Contours closer than the scatter would be its islands.
+        most = (high - low) / max(ABOVE_SCATTER * scatter_of(field), 1e-300)
+        steps = MaxNLocator(int(max(1, min(levels, most)))).tick_values(low, high)
         # The darkest colours are left out: numbers on them could not be read.
         darkest = steps[-1] + 0.4 * (steps[-1] - steps[0])
         drawn = ax.contourf(x, y, field, levels=steps, cmap=COLOURS, vmin=steps[0], vmax=darkest)
