@@ -33,8 +33,8 @@ if TYPE_CHECKING:
 Words: TypeAlias = Mapping[str, tuple[str, float]]
 #: Values along both parameters from which on contours are drawn.
 CONTOURED = 4
-#: Step of the contours over the scatter of the values, at least.
-ABOVE_SCATTER = 3.0
+#: Step of the contours over the scatter of the values, at least: closer ones are its islands.
+ABOVE_SCATTER = 5.0
 COLOURS = "YlGnBu"
 #: Status of a point that is done, and colour of points that are and have no value.
 DONE, NO_VALUE = 1, "0.9"
@@ -82,7 +82,8 @@ def study_map(
     at : mapping of str to float, optional
         Values of further parameters, the nearest ones are taken.
     kind : "auto", "contour" or "cells"
-        Contours or a cell for each point (default: contours from four values along both on).
+        Contours or a cell for each point. Default: contours from four values along both on, if
+        their step is at least five times the scatter of the values.
     levels : int
         Number of contours, about.
     labels : mapping of str to str, optional
@@ -201,6 +202,11 @@ def edges(places: np.ndarray, *, logarithmic: bool) -> np.ndarray:
     return np.asarray(np.exp(borders) if logarithmic else borders)
 
 
+def smooth(field: np.ma.MaskedArray[Any, Any], levels: int) -> bool:
+    """Whether so many contours show the values and not their scatter."""
+    return ABOVE_SCATTER * scatter_of(field) * levels <= float(np.ma.ptp(field))
+
+
 def scatter_of(field: np.ma.MaskedArray[Any, Any]) -> float:
     """Standard deviation of the noise of values on a grid.
 
@@ -231,13 +237,10 @@ def plane(
     x = scale_axis(ax, "x", values[first], words)
     y = scale_axis(ax, "y", values[second], words)
     field = np.ma.masked_invalid(values.values.T)
-    fine = min(field.shape) >= CONTOURED
+    fine = min(field.shape) >= CONTOURED and smooth(field, levels)
     drawn: Any
     if kind == "contour" or (kind == "auto" and fine and field.count() > 3):
-        low, high = float(field.min()), float(field.max())
-        # Contours closer than the scatter would be its islands.
-        most = (high - low) / max(ABOVE_SCATTER * scatter_of(field), 1e-300)
-        steps = MaxNLocator(int(max(1, min(levels, most)))).tick_values(low, high)
+        steps = MaxNLocator(levels).tick_values(float(field.min()), float(field.max()))
         # The darkest colours are left out: numbers on them could not be read.
         darkest = steps[-1] + 0.4 * (steps[-1] - steps[0])
         drawn = ax.contourf(x, y, field, levels=steps, cmap=COLOURS, vmin=steps[0], vmax=darkest)

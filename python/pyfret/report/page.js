@@ -78,7 +78,7 @@
       lines.push({ x: on.s, y: line.bound, name: "±µp", line: grey });
       lines.push({ x: on.s, y: below, showlegend: false, line: grey });
     }
-    Plotly.react("profile", lines, layout(`${on.along} [µm]`, "[MPa]"), options);
+    Plotly.react("profile", lines, layout(`${on.along} [µm]`, "p, q [MPa]"), options);
     const place = data.loop.increment.indexOf(at.increment);
     const dot = place < 0 ? [[], []] : [[data.loop.x[place]], [data.loop.y[place]]];
     Plotly.react("loop", [
@@ -122,7 +122,7 @@
     document.getElementById("body").textContent = stress.body;
     document.getElementById("plane").textContent = stress.plane;
     Plotly.newPlot("stress", [
-      { type: "heatmap", x: stress.x, y: stress.place, z: stress.values, customdata: stress.z.map((z) => stress.x.map(() => z)), hovertemplate: stress.along + " %{x} µm, z %{customdata} µm: %{z} MPa<extra></extra>", colorscale: "YlGnBu", reversescale: true, colorbar: { title: { text: "[MPa]", side: "right" }, thickness: 12 } },
+      { type: "heatmap", x: stress.x, y: stress.place, z: stress.values, customdata: stress.z.map((z) => stress.x.map(() => z)), hovertemplate: stress.along + " %{x} µm, z %{customdata} µm: %{z} MPa<extra></extra>", colorscale: "YlGnBu", reversescale: true, colorbar: { title: { text: "von Mises [MPa]", side: "right" }, thickness: 12 } },
       { x: [stress.mark[0]], y: [stress.mark[1]], mode: "markers", marker: { symbol: "x-thin", size: 10, line: { width: 2, color: "black" } }, hoverinfo: "skip", showlegend: false },
       ...crack,
     ], section, options);
