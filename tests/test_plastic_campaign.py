@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
 
 import pyfret as fret
 from pyfret import _core
+from pyfret.errors import NoConvergenceError
 from pyfret.subsurface.plastic import YIELDED
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
     from pathlib import Path
 
 DRAWN = int(os.environ.get("FRET_PLASTIC", "10"))
+#: Seeds whose path has an increment without a solution: the surface flows in shear.
+FLOWS = [20]
 
 
 def drawn(seed: int) -> fret.Scene:
@@ -91,7 +95,7 @@ def of_strain(found: fret.Result) -> dict[str, object]:
 
 @pytest.mark.solves
 @pytest.mark.filterwarnings("ignore::pyfret.errors.SceneWarning")
-@pytest.mark.parametrize("seed", range(max(1, DRAWN // 10)))
+@pytest.mark.parametrize("seed", sorted({*range(max(1, DRAWN // 10))} - {*FLOWS}))
 def test_a_random_contact_that_was_stopped_goes_on_to_the_same_bits(
     seed: int, tmp_path: Path
 ) -> None:
@@ -110,6 +114,32 @@ def test_a_random_contact_that_was_stopped_goes_on_to_the_same_bits(
         np.testing.assert_array_equal(resumed[name], whole)
 
 
+def until_it_flows(scene: fret.Scene) -> Iterator[Any]:
+    """Go along a path, to an increment without a solution: the surface flows in shear."""
+    contact, failure = 0.0, None
+    try:
+        for increment in fret.march(scene):
+            contact = float((increment.dataset.p > 0).sum()) * scene.grid.cell_area
+            yield increment
+    except NoConvergenceError as error:
+        failure = str(error)
+    if failure is None:
+        return
+    assert "shear yield stress" in failure
+    # That is right: the shear of the path, over the last contact, comes to s_y/sqrt(3).
+    T = max(abs(branch.T_x) for branch in scene.path.branches)
+    assert T / contact > 0.75 * scene.body2.substrate.plastic.s_y / np.sqrt(3)
+
+
+@pytest.mark.solves
+@pytest.mark.filterwarnings("ignore::pyfret.errors.SceneWarning")
+@pytest.mark.parametrize("seed", FLOWS)
+def test_a_surface_that_flows_in_shear_is_refused_by_that_cause(seed: int) -> None:
+    """Under 1.0 s_y/sqrt(3) of mean shear, with next to no hardening."""
+    with pytest.raises(NoConvergenceError, match="shear yield stress"):
+        list(fret.march(drawn(seed)))
+
+
 @pytest.mark.solves
 @pytest.mark.filterwarnings("ignore::pyfret.errors.SceneWarning")
 @pytest.mark.parametrize("seed", range(DRAWN))
@@ -117,7 +147,7 @@ def test_a_random_contact_holds_what_holds_for_all(seed: int) -> None:
     """Balance, Coulomb's law, the yield condition, energy; plastic work is never given back."""
     scene = drawn(seed)
     work = kept = moved = 0.0
-    for increment in fret.march(scene):
+    for increment in until_it_flows(scene):
         p = increment.dataset.p.to_numpy()
         area = scene.grid.cell_area
         assert p.sum() * area == pytest.approx(float(increment.W), rel=1e-6)

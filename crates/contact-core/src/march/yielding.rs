@@ -213,7 +213,14 @@ impl March {
             residual,
             tolerance,
             iterations: MOST_PASSES,
-            why: String::new(),
+            why: self.problem.scene.why_it_flows(self.mean_shear()),
         })
+    }
+
+    /// Shear force over the area of contact \[Pa\].
+    fn mean_shear(&self) -> f64 {
+        let [p, q_x, q_y] = self.tractions();
+        let cells = p.iter().filter(|p| **p > 0.0).count().max(1);
+        q_x.sum().hypot(q_y.sum()) / cells as f64
     }
 }

@@ -16,6 +16,9 @@ const MOST_PRESSURE: f64 = 2.8;
 /// Loads at which the mean pressure comes to that, over that of first yield: 0.94 (w/w_c)^1.263 at the
 /// approach w = 110 w_c (L. Kogut, I. Etsion, J. Appl. Mech. 69 (2002) 657-662, eqs. 13, 14).
 const FULLY: f64 = 356.0;
+/// Part of the shear yield stress s_y/sqrt(3) that the mean shear of a contact comes to where a surface without
+/// hardening begins to flow: the pressure takes a part of the yield stress.
+const FLOWS: f64 = 0.8;
 
 /// Where yielding begins under a growing normal load.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,6 +62,26 @@ impl Scene {
             );
         }
         self.check_mean_pressure(number + 1)
+    }
+
+    /// The physical cause, as the end of a sentence, of an increment of bodies that yield without a solution:
+    /// the mean shear \[Pa\] of the contact is that at which a surface flows. Empty if it is less.
+    pub(crate) fn why_it_flows(&self, shear: f64) -> String {
+        let surfaces = [&self.body1, &self.body2].map(|body| body.plastic(0));
+        let strengths = surfaces
+            .iter()
+            .flatten()
+            .map(|law| law.s_y / 3.0_f64.sqrt());
+        let strength = strengths.fold(f64::INFINITY, f64::min);
+        if shear < FLOWS * strength {
+            return String::new();
+        }
+        format!(
+            "; the surface flows in shear. The mean shear of the contact is {shear:.3e} Pa, {:.2} times the shear yield \
+             stress s_y/sqrt(3) of the surface. No increment is small enough: lower the tangential load or mu, or give \
+             more hardening",
+            shear / strength
+        )
     }
 
     /// Fails where the mean pressure is more than a homogeneous body bears whose hardening ends.
