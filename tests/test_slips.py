@@ -320,7 +320,7 @@ TEMPLATES = Path(__file__).parents[1] / "crates" / "fret-cli" / "templates"
         ("body1.E=210", "a contact with a/R = 1"),
         ("body1.shape.{of}.R=50", "R = 50 m is large"),
         ("path.0.W=3e8", "W = 3"),
-        ("grid.extent=1e-5", "the grid is 1.0000e-5 m"),
+        ("grid.extent=1e-5", "The grid is 1.0000e-5 m"),
     ],
 )
 def test_slips_of_units_are_told_of_a_line_as_of_a_ball(of: str, slip: str, says: str) -> None:
