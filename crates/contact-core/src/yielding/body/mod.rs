@@ -1,0 +1,256 @@
+//! One body that yields.
+
+mod outcome;
+mod pass;
+mod unknowns;
+
+use eigenstrain::{Answer, COMPONENTS, Mesh, Operator, Sources};
+use plasticity::{Plastic, Point, Returned};
+
+use super::state::{PlasticPoint, PlasticState};
+use super::volume::Volume;
+use crate::error::Error;
+use crate::scene::{Body, ResidualStress};
+
+/// Largest change of the stress in a pass, over the yield stress, of a plastic strain that is taken.
+pub(super) const TOLERANCE: f64 = 1e-4;
+/// No slot.
+const NONE: u32 = u32::MAX;
+
+/// A body that yields: its response, and its points that have yielded or may.
+#[derive(Debug)]
+pub(super) struct YieldingBody {
+    pub(super) number: usize,
+    volume: Volume,
+    operator: Operator,
+    /// Law and shear modulus of each plane \[Pa\].
+    laws: Vec<Option<(Plastic, f64)>>,
+    /// Residual stress s_xx, s_yy of each plane before the first load \[Pa\].
+    initial: Vec<[f64; 2]>,
+    /// Planes that may yield, and those of them that are computed in the present increment.
+    may_yield: Vec<bool>,
+    wanted: Vec<bool>,
+    /// Planes that the last pass has computed.
+    computed: Vec<bool>,
+    /// Whether the increment has had a pass.
+    passed: bool,
+    /// Plastic strain of the present x, as `operator` takes it.
+    strain: Vec<f64>,
+    /// Residual displacement of the present x below the contact, and its image.
+    pub(super) displacement: Vec<f64>,
+    pub(super) next_displacement: Vec<f64>,
+    /// That image on all cells.
+    next_everywhere: Vec<f64>,
+    stress: Vec<f64>,
+    /// Tractions of the last pass, with z into the body \[Pa\].
+    tractions: [Vec<f64>; 3],
+    /// Largest change of the stress in the last pass, over the yield stress.
+    pub(super) off: f64,
+    /// Largest stress of von Mises in the last pass over the yield stress, of points that have not
+    /// yielded; above 1 where a point yields.
+    pub(super) reached: f64,
+    /// Slot of each point of the planes and cells.
+    slot: Vec<u32>,
+    /// Point (plane times cells plus cell), its state at the start of the increment and the returned one.
+    active: Vec<(usize, Point, Returned)>,
+}
+
+impl YieldingBody {
+    pub(super) fn new(number: usize, body: &Body, volume: &Volume) -> Result<Self, Error> {
+        let mesh = volume.mesh(number, body)?;
+        let law = |plane: usize| {
+            let layer = mesh.layer(plane);
+            let [_, mu] = mesh.layers()[layer].lame();
+            body.plastic(layer).map(|law| (law, mu))
+        };
+        let laws: Vec<_> = (0..mesh.planes()).map(law).collect();
+        let residual = ResidualStress::of(body);
+        let initial = (0..mesh.planes()).map(|n| residual.at(mesh.layer(n), mesh.depth(n)));
+        let initial = initial.collect();
+        let cells = volume.cells.len();
+        let operator = Operator::new(mesh);
+        let may_yield: Vec<bool> = laws.iter().map(Option::is_some).collect();
+        Ok(Self {
+            number,
+            volume: volume.clone(),
+            wanted: may_yield.clone(),
+            computed: Vec::new(),
+            may_yield,
+            passed: false,
+            strain: vec![0.0; operator.len()],
+            stress: vec![0.0; operator.len()],
+            displacement: vec![0.0; 3 * volume.cells_below_contact()],
+            next_displacement: vec![0.0; 3 * volume.cells_below_contact()],
+            next_everywhere: vec![0.0; 3 * cells],
+            slot: vec![NONE; laws.len() * cells],
+            active: Vec::new(),
+            tractions: Default::default(),
+            off: 0.0,
+            reached: 0.0,
+            laws,
+            initial,
+            operator,
+        })
+    }
+
+    pub(super) fn mesh(&self) -> &Mesh {
+        self.operator.mesh()
+    }
+
+    fn cells(&self) -> usize {
+        self.mesh().cells.len()
+    }
+
+    /// Where a component of a point stands in the fields.
+    fn at(&self, point: usize, component: usize) -> usize {
+        let cells = self.cells();
+        (point / cells * COMPONENTS + component) * cells + point % cells
+    }
+
+    /// The plane times cells plus cell of a point of a state; `None` beyond the grid.
+    fn point(&self, known: &PlasticPoint) -> Option<usize> {
+        let (plane, cell) = (known.plane as usize, self.volume.cell(known.cell)?);
+        (plane < self.laws.len()).then(|| plane * self.cells() + cell)
+    }
+
+    /// The first point of a state that lies beyond the grid.
+    pub(super) fn beyond<'a>(&self, state: &'a PlasticState) -> Option<&'a PlasticPoint> {
+        let mut points = state.points.iter();
+        points.find(|known| self.point(known).is_none())
+    }
+
+    /// From the state at the start of an increment.
+    pub(super) fn begin(&mut self, state: Option<&PlasticState>) {
+        for (point, ..) in std::mem::take(&mut self.active) {
+            self.slot[point] = NONE;
+            for c in 0..COMPONENTS {
+                let at = self.at(point, c);
+                self.strain[at] = 0.0;
+            }
+        }
+        self.displacement.fill(0.0);
+        self.wanted.clone_from(&self.may_yield);
+        self.passed = false;
+        let Some(state) = state else { return };
+        if state.displacement.len() == self.displacement.len() {
+            self.displacement.copy_from_slice(&state.displacement);
+        }
+        for known in &state.points {
+            let Some(point) = self.point(known) else {
+                continue;
+            };
+            self.slot[point] = self.active.len() as u32;
+            let start = Point {
+                strain: known.strain,
+                equivalent: known.equivalent,
+                flow: known.flow,
+                back: known.back,
+            };
+            self.active.push((point, start, start.unchanged()));
+            for c in 0..COMPONENTS {
+                let at = self.at(point, c);
+                self.strain[at] = known.strain[c];
+            }
+        }
+    }
+
+    /// Tractions on the body, with z into it: on body 1 the shear is the opposite.
+    fn facing(&self, tractions: &[Vec<f64>; 3]) -> [Vec<f64>; 3] {
+        let mut signed = tractions.clone();
+        if self.number == 1 {
+            for q in &mut signed[..2] {
+                for q in q.iter_mut() {
+                    *q = -*q;
+                }
+            }
+        }
+        signed
+    }
+
+    /// The state at the end of the increment: the returned strain of the last pass.
+    pub(super) fn commit(&self, before: Option<&PlasticState>) -> PlasticState {
+        let cells = self.cells();
+        let points = self
+            .active
+            .iter()
+            .filter(|(_, _, end)| end.equivalent > 0.0);
+        PlasticState {
+            body: self.number,
+            points: points
+                .map(|(point, start, end)| PlasticPoint {
+                    plane: (point / cells) as u32,
+                    cell: self.volume.of_largest(point % cells),
+                    strain: end.strain,
+                    equivalent: end.equivalent,
+                    flow: end.flow,
+                    back: end.back,
+                    growth: std::array::from_fn(|c| end.strain[c] - start.strain[c]),
+                })
+                .collect(),
+            displacement: self.displacement.clone(),
+            growth: match before {
+                Some(before) => {
+                    let pairs = self.displacement.iter().zip(&before.displacement);
+                    pairs.map(|(now, before)| now - before).collect()
+                }
+                None => self.displacement.clone(),
+            },
+        }
+    }
+
+    /// Adds the residual stress before the first load to a stress on all planes \[Pa\].
+    pub(super) fn add_initial(&self, stress: &mut [f64]) {
+        let cells = self.cells();
+        for (of_plane, initial) in stress
+            .chunks_exact_mut(COMPONENTS * cells)
+            .zip(&self.initial)
+        {
+            for (field, initial) in of_plane.chunks_exact_mut(cells).zip(initial) {
+                for s in field.iter_mut() {
+                    *s += initial;
+                }
+            }
+        }
+    }
+
+    /// Stress of a state on all planes, in the axes of the scene \[Pa\], and displacement of the surface by
+    /// its plastic strain, with z into the body \[m\].
+    pub(super) fn response(
+        &mut self,
+        state: Option<&PlasticState>,
+        tractions: Option<&[Vec<f64>; 3]>,
+    ) -> (Vec<f64>, Vec<f64>) {
+        self.begin(state);
+        let signed = tractions.map(|tractions| self.facing(tractions));
+        let mut stress = vec![0.0; self.operator.len()];
+        let mut everywhere = vec![0.0; self.next_everywhere.len()];
+        let wanted = vec![true; self.may_yield.len()];
+        let tractions = signed.as_ref().map(|[x, y, z]| [&x[..], &y[..], &z[..]]);
+        self.operator.apply(
+            Sources {
+                eigenstrain: Some(&self.strain),
+                tractions,
+            },
+            Answer {
+                stress: &mut stress,
+                wanted: &wanted,
+                displacement: &mut everywhere,
+                of_tractions: false,
+            },
+        );
+        let mut displacement = vec![0.0; self.displacement.len()];
+        self.volume
+            .part_below_contact(&everywhere, &mut displacement);
+        if self.number == 1 {
+            let cells = self.cells();
+            for (n, field) in stress.chunks_exact_mut(cells).enumerate() {
+                if n % COMPONENTS >= 4 {
+                    for s in field.iter_mut() {
+                        *s = -*s;
+                    }
+                }
+            }
+        }
+        (stress, displacement)
+    }
+}
