@@ -46,10 +46,8 @@ pub(crate) fn cycle_sections(
 /// A section of a body below a contact over a cycle.
 ///
 /// `moments` is called with a list of numbers from 0 to `count` - 1, or with None for the moment
-/// before the cycle. It gives None, or five lists: q_x, q_y and p [Pa] and stick, of shape (nx, ny)
-/// each, and the bulk stress [Pa]. A sixth list is the residual stress of plastic strain, empty for
-/// a body that stays elastic. `yielding` is the plastic work of the cycle and the work beside which
-/// it is small [J].
+/// before the cycle. It gives :class:`States` on the grid, or None. `yielding` is the plastic work
+/// of the cycle and the work beside which it is small [J].
 #[pyclass(frozen, module = "pyfret.fatigue")]
 pub(crate) struct CycleSection {
     below: Arc<Below>,
