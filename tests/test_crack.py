@@ -14,6 +14,7 @@ import xarray as xr
 import pyfret as fret
 from pyfret import fracture
 from pyfret._cli import commands
+from pyfret._util.doubts import doubts_of
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -442,3 +443,20 @@ def test_what_becomes_of_a_crack_has_the_error_of_k() -> None:
     assert (unsure.verdict, set(unsure.verdicts)) == ("stops", {"stops", "dormant"})
     assert "is dormant" in unsure.told()
     assert not unsure.is_sure
+
+
+def test_an_angle_in_degrees_is_refused_in_radians(pulled: fret.Result) -> None:
+    with pytest.raises(
+        fret.errors.InvalidSceneError, match=r"angle of the crack = 20: must be in radians"
+    ):
+        pulled.crack(angle=20.0)
+    assert "angles are in radians" in doubts_of("crack", azimuth=45.0)[0]
+
+
+def test_what_becomes_of_a_crack_is_a_sentence_with_units(pulled: fret.Result) -> None:
+    cracks = pulled.crack()
+    threshold = fracture.Threshold(dK_th=1e6)
+    assert repr(cracks.arrest(threshold)).startswith("CrackArrest(grows through all lengths")
+    life = cracks.life(threshold, fracture.Paris(C=1e-11, m=3.0))
+    assert repr(life).endswith(" um)")
+    assert "cycles, ends at" in repr(life)

@@ -155,6 +155,54 @@ def test_every_public_function_stands_behind_the_door(
     assert open_ones == []
 
 
+@pytest.mark.solves
+@pytest.mark.filterwarnings("ignore")
+def test_an_unknown_keyword_is_refused_with_those_that_are_known(
+    monkeypatch: pytest.MonkeyPatch, record_property: Callable[[str, object], None]
+) -> None:
+    """By every function and constructor behind the door whose names of arguments are known."""
+    monkeypatch.syspath_prepend(str(Path(__file__).with_name("hostile")))
+    public = importlib.import_module("public")
+    asked = 0
+    for _, call in public.public():
+        function = call.__init__ if inspect.isclass(call) else getattr(call, "__func__", call)
+        if not isinstance(function, FunctionType) or not stands_behind(function):
+            continue
+        parameters = inspect.signature(function).parameters.values()
+        further = [str(of.annotation) for of in parameters if of.kind is of.VAR_KEYWORD]
+        if any(door.keywords(of) is None for of in further):
+            continue
+        asked += 1
+        of = call.__qualname__.rpartition(".")[2]
+        with pytest.raises(TypeError, match=rf"{of} has no argument 'no_such_name': it takes"):
+            call(no_such_name=1)
+    record_property("callables", asked)
+    assert asked > 150
+    with pytest.raises(TypeError, match="'tolerence': the nearest is 'tolerance'"):
+        fret.fatigue.lives(None, None, None, tolerence=1e-3)  # type: ignore[call-arg]
+    # Keywords that a class of options has are known by it.
+    with pytest.raises(TypeError, match=r"'resid': the nearest is 'residual' \(of .*azimuth"):
+        fret.fatigue.life(None, None, None, resid=[0.0])  # type: ignore[call-arg]
+
+
+def test_a_doubt_is_at_the_line_of_the_program_that_calls() -> None:
+    """Not at a line of pyfret: by the door, by a constructor, by a run."""
+    calls: list[Callable[[], object]] = [
+        lambda: fret.wear.Archard(k=1e-6),
+        lambda: fret.material("CrN"),
+        lambda: fret.Scene(
+            body1=fret.Body(fret.Elastic(E=210e9, nu=0.3), shape=fret.Sphere(R=5.0)),
+            body2=fret.Body(fret.Elastic(E=210e9, nu=0.3)),
+            mu=0.3,
+            grid=fret.Grid.centred(extent=1e-3, n=16),
+        ).check(path=fret.LoadPath.start().normal(1.0)),
+    ]
+    for call in calls:
+        with pytest.warns(fret.errors.SceneWarning) as doubts:
+            call()
+        assert {doubt.filename for doubt in doubts} == {__file__}
+
+
 def test_nothing_is_no_number_where_one_is_needed() -> None:
     with pytest.raises(TypeError, match="x = None: must be given"):
         fret.fracture.Cracks.places(None, None)  # type: ignore[arg-type]

@@ -205,3 +205,10 @@ def test_a_threshold_has_the_range_of_its_margin() -> None:
     # The measured threshold lies within it; the range is that of strengths, not of lives.
     assert found.low <= 2.73e5 <= found.high
     assert found.high / found.low < 2.0
+
+
+def test_a_stress_of_a_criterion_has_its_unit(life: fatigue.Life) -> None:
+    """Of Smith, Watson and Topper's value as well, the product of a stress and a strain."""
+    assert life.worst.units == "Pa"
+    assert " MPa, x = " in repr(life.worst)
+    assert " MPa</td>" in life._repr_html_()

@@ -23,7 +23,7 @@ from pyfret._core import (
     SurfaceMap,
 )
 from pyfret._util.door import numbers_only
-from pyfret._util.doubts import SceneWarning
+from pyfret._util.doubts import warn
 from pyfret.solution import solve
 from pyfret.wear.runs import solve as wear_off
 
@@ -483,11 +483,9 @@ def _refined(
         else "is not known from another grid to be right on"
     )
     if not change <= error / 2.0:
-        warnings.warn(
+        warn(
             f"{NUMBERS[of]} still {changes} {n[0]}, where error = {error:g} was asked for: an edge "
             "or short waves need more cells",
-            SceneWarning,
-            stacklevel=3,
         )
     return sides, n
 
@@ -497,12 +495,10 @@ def _doubt_films(body1: Body, body2: Body, cells: list[float]) -> None:
     for number, body in enumerate((body1, body2), start=1):
         thickness = body.coatings[0].thickness if body.coatings else math.inf
         if thickness < min(cells):
-            warnings.warn(
+            warn(
                 f"the outermost coating of body {number} is {thickness / min(cells):.2g} of a cell "
                 "thick. Stresses in it are averages over a cell. For these, use cells of "
                 f"{thickness:.2e} m",
-                SceneWarning,
-                stacklevel=3,
             )
 
 

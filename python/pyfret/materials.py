@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import warnings
 from typing import TYPE_CHECKING
 
 from pyfret._core import Elastic, Plastic
 from pyfret._util.door import numbers_only
-from pyfret._util.doubts import SceneWarning
+from pyfret._util.doubts import warn
 from pyfret.fatigue import Materials
 from pyfret.fatigue.ranges import known_as
 
@@ -68,17 +67,13 @@ def material(
     found = Materials(file)[name]
     sources = {key: source for key, _, source in found.numbers()}
     if known_as(sources.get("E", "")) == "recalled":
-        warnings.warn(
+        warn(
             f"{found.name}: its modulus of {found.number('E') / 1e9:g} GPa is from memory, without "
             "a source; give your own, Elastic(E=..., nu=...)",
-            SceneWarning,
-            stacklevel=2,
         )
     if nu is None and "nu" not in sources:
-        warnings.warn(
+        warn(
             f"{name}: the table has no Poisson's ratio of it, {NU:g} is taken; give nu=",
-            SceneWarning,
-            stacklevel=2,
         )
         nu = NU
     law = None

@@ -57,6 +57,7 @@ class Result(Run):
         """The figures that show a run: ``result.plot()``, ``result.plot.fretting_loop()``."""
         return Figures(self)
 
+    @numbers_only
     def at(self, which: float) -> Snapshot:
         """Give the contact at the end of one increment whose fields were kept.
 
@@ -136,6 +137,7 @@ class Result(Run):
             residual=residual,
         )
 
+    @numbers_only
     def save(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
         """Write the result to a Zarr folder (``.zarr``) or a NetCDF file (``.nc``).
 
@@ -158,6 +160,7 @@ class Result(Run):
         """
         files.write(self.dataset, path, overwrite=overwrite)
 
+    @numbers_only
     def export(
         self,
         path: str | os.PathLike[str],

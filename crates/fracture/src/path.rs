@@ -219,12 +219,11 @@ impl Path {
         }
         let first = self.legs.first().map_or(0.0, |leg| leg.start);
         if !(first.abs() <= FLATTEST) {
-            let allowed = "from -80 to 80 degrees from the inward normal at the mouth";
-            return Err(Error::invalid(
-                "angle of the crack",
-                degrees(first),
-                allowed,
-            ));
+            let allowed = format!(
+                "in radians, from {:.4} to {FLATTEST:.4} (80 degrees) from the inward normal at the mouth",
+                -FLATTEST
+            );
+            return Err(Error::invalid("angle of the crack", first, allowed));
         }
         let total = self.length();
         for n in 1..=400 {
@@ -236,8 +235,4 @@ impl Path {
         }
         Ok(())
     }
-}
-
-fn degrees(angle: f64) -> String {
-    format!("{:.4} degrees", angle.to_degrees())
 }

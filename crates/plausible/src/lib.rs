@@ -132,10 +132,13 @@ pub const QUANTITIES: &[Quantity] = &[
         "long for a crack",
         "lengths are in m: 10 um is 1e-5",
     ),
-    any(
+    of(
         "angle",
         Kind::Angle,
-        &["angle", "phase", "phi_x", "phi_y", "phi_z"],
+        &["angle", "azimuth", "phase", "phi_x", "phi_y", "phi_z"],
+        (0.0, 6.5),
+        "more than a turn",
+        "angles are in radians: 45 degrees is 0.785",
     ),
     any("force", Kind::Force, &["W", "T_x", "T_y"]),
     any("moment", Kind::Moment, &["M_x", "M_y", "M_z"]),

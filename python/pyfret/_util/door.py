@@ -20,6 +20,7 @@ import numpy as np
 from pyfret import _core
 from pyfret._util.arrays import items, numbers, truths
 from pyfret._util.doubts import doubt_numbers
+from pyfret._util.guesses import refuse_unknown
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -40,6 +41,11 @@ SEVERAL_OBJECTS = re.compile(r"(Iterable|Sequence)\[([A-Z]\w*)\]")
 #: Classes of other libraries that are no plain values either.
 FOREIGN = re.compile(r"xr\.\w+|pd\.DataFrame|Axes|Figure")
 MAPPING = re.compile(r"Mapping\[.*\]( \| None)?")
+#: Options whose names a class has, ``**options: Unpack[Options]``.
+UNPACKED = re.compile(r"Unpack\[([\w.]+)\]")
+#: Parameters that are given by name, and that of further names.
+NAMED = (inspect.Parameter.POSITIONAL_OR_KEYWORD, inspect.Parameter.KEYWORD_ONLY)
+FURTHER = inspect.Parameter.VAR_KEYWORD
 #: Types of Python and numpy that are none of pyfret's objects.
 PLAIN = (bool, int, float, complex, str, bytes, list, tuple, dict, set, np.ndarray, np.generic)
 
@@ -70,8 +76,16 @@ def guarded(call: Callable[..., Any], owner: str, but: tuple[str, ...]) -> Any:
     names = list(kinds)
     ranged = {n for n in names if _core.measured_by(f"{owner}.{n}")}
 
+    named = {n for n, one in parameters if one.kind in NAMED}
+    further = next((str(one.annotation) for _, one in parameters if one.kind is FURTHER), None)
+
     @functools.wraps(call)
     def checked(*values: Any, **given: Any) -> Any:
+        if not named.issuperset(given):
+            more = () if further is None else keywords(further)
+            if more is not None:
+                known = [n for n in names if n in named and n != "self"]
+                refuse_unknown(owner.rpartition(".")[2], given, [*known, *more])
         doubted: dict[str, Any] = {}
         for name, value in [*zip(names, values, strict=False), *given.items()]:
             if value is None and name in needed:
@@ -90,6 +104,18 @@ def guarded(call: Callable[..., Any], owner: str, but: tuple[str, ...]) -> Any:
         return found
 
     return checked
+
+
+@functools.cache
+def keywords(annotation: str) -> tuple[str, ...] | None:
+    """The names that ``**options`` of an annotation take; None where these are any."""
+    found = UNPACKED.fullmatch(annotation)
+    if found is None:
+        return None
+    name = found[1].rpartition(".")[2]
+    own = [m for module, m in list(sys.modules.items()) if module.split(".")[0] == "pyfret"]
+    of = next((vars(module)[name] for module in own if name in vars(module)), None)
+    return None if of is None else tuple(of.__annotations__)
 
 
 def honest(value: Any, name: str) -> Any:

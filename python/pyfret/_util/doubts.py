@@ -7,6 +7,7 @@ name of a key of a scene file, or a parameter with the function or class that ta
 from __future__ import annotations
 
 import math
+import sys
 import warnings
 from collections.abc import Iterator, Sequence
 from typing import Any
@@ -15,11 +16,19 @@ import numpy as np
 
 from pyfret import _core
 
-__all__ = ["SceneWarning", "doubt_numbers", "doubts_of"]
+__all__ = ["SceneWarning", "doubt_numbers", "doubts_of", "warn"]
 
 
 class SceneWarning(UserWarning):
     """A number of a scene is allowed but hardly meant; the message has it as it was read."""
+
+
+def warn(text: str) -> None:
+    """Warn of a doubt at the line of the user's program that has called pyfret."""
+    level, frame = 2, sys._getframe(1)
+    while frame.f_back and str(frame.f_globals.get("__name__")).partition(".")[0] == "pyfret":
+        level, frame = level + 1, frame.f_back
+    warnings.warn(text, SceneWarning, stacklevel=level)
 
 
 def doubts_of(of: str, /, **numbers: Any) -> list[str]:
@@ -37,10 +46,10 @@ def doubts_of(of: str, /, **numbers: Any) -> list[str]:
     return found
 
 
-def doubt_numbers(of: str, /, *, stacklevel: int = 3, **numbers: Any) -> None:
+def doubt_numbers(of: str, /, **numbers: Any) -> None:
     """Warn of the doubts of numbers, :func:`doubts_of`."""
     for doubt in doubts_of(of, **numbers):
-        warnings.warn(doubt, SceneWarning, stacklevel=stacklevel)
+        warn(doubt)
 
 
 def is_row(given: Any) -> bool:

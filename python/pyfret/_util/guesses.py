@@ -1,4 +1,4 @@
-"""What to say where a name is asked for that is not there."""
+"""Messages for a name that is not there: of an attribute, of an argument."""
 
 from __future__ import annotations
 
@@ -8,9 +8,25 @@ from typing import TYPE_CHECKING
 from pyfret._util.lazy import xr
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable, Mapping, Sequence
 
-__all__ = ["no_attribute"]
+__all__ = ["no_attribute", "refuse_unknown"]
+
+
+def refuse_unknown(what: str, given: Iterable[str], known: Sequence[str]) -> None:
+    """Refuse a keyword that is unknown, with the nearest one and all others.
+
+    Raises
+    ------
+    TypeError
+        One of the names is none of those known.
+    """
+    for name in given:
+        if name not in known:
+            near = get_close_matches(name, known, n=1)
+            every = ", ".join(known) or "none"
+            hint = f"the nearest is {near[0]!r} (of {every})" if near else f"it takes {every}"
+            raise TypeError(f"{what} has no argument {name!r}: {hint}")
 
 
 def no_attribute(

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
 from pyfret._util import files
+from pyfret._util.door import numbers_only
 from pyfret._util.text import html
 
 if TYPE_CHECKING:
@@ -62,6 +63,7 @@ class Kept:
         draw = getattr(sys.modules[__name__.partition(".")[0]].plot, type(self).figure)
         return draw(self, ax=ax, **options)
 
+    @numbers_only
     def save(self: Shown, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
         """Write it to a Zarr folder (``.zarr``) or a NetCDF file (``.nc``); `pyfret.open` opens it.
 
@@ -85,8 +87,12 @@ class Kept:
             dataset = dataset.assign_attrs(kind=type(self).__name__)
         files.write(dataset, path, overwrite=overwrite)
 
+    @numbers_only
     def report(self: Shown, path: str | os.PathLike[str]) -> None:
-        """Write one page for a browser: the numbers, the figure and the summary in one file."""
+        """Write one page for a browser: the numbers, the figure and the summary in one file.
+
+        A page that is there is replaced.
+        """
         drawn = io.BytesIO()
         figure = self.plot()
         getattr(figure, "figure", figure).savefig(drawn, format="svg", bbox_inches="tight")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import difflib
 import functools
-import warnings
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Literal, get_args
 
@@ -14,7 +13,7 @@ from pyfret import _core
 from pyfret._core import Assessment, Criterion, Material
 from pyfret._util.arrays import COMPONENTS, histories, number, plain
 from pyfret._util.door import numbers_only
-from pyfret._util.doubts import SceneWarning
+from pyfret._util.doubts import warn
 from pyfret._util.lazy import xr
 
 if TYPE_CHECKING:
@@ -71,7 +70,7 @@ class Materials(Mapping[str, Material]):
         if file is not None:
             own = _core.materials(file)
             for doubt in (doubt for material in own for doubt in material.doubts()):
-                warnings.warn(doubt, SceneWarning, stacklevel=2)
+                warn(doubt)
             self._materials.update({m.name: m for m in own})
 
     def __getitem__(self, name: str) -> Material:

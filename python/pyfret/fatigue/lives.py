@@ -83,6 +83,8 @@ class Worst(NamedTuple):
     inclination: float | None
     #: The margins of value + error and of value - error: the least and the largest.
     range: tuple[float, float]
+    #: Unit of the value: "Pa", or "1" for strains.
+    units: str = "1"
 
     @property
     def error(self) -> float:
@@ -91,10 +93,18 @@ class Worst(NamedTuple):
 
     def __repr__(self) -> str:
         """Give margin, value, error and place in a few digits."""
-        margin, value = with_range(self.margin, *self.range), with_error(self.value, self.error)
+        margin = with_range(self.margin, *self.range)
+        value = in_megapascals(self.value, self.error, self.units)
         at = f", at={self.at!r}" if self.at else ""
         angle = "" if self.inclination is None else f", inclination={self.inclination:.1f} degrees"
         return f"Worst(margin={margin}, value={value}, {place(self)}{at}{angle})"
+
+
+def in_megapascals(value: float, error: float, units: str) -> str:
+    """A value with its error and unit: stresses in MPa, pure numbers alone."""
+    if units == "Pa":
+        return f"{with_error(1e-6 * value, 1e-6 * error)} MPa"
+    return with_error(value, error) + ("" if units == "1" else f" {units}")
 
 
 class Life(Labelled):
@@ -153,6 +163,7 @@ class Life(Labelled):
             self.dataset.isel({across: n}), [self._sections[n]], self._notes, self._materials
         )
 
+    @numbers_only
     def worst_of(self, layer: int) -> Worst:
         """Give the worst point of a layer; a ValueError where it is not judged."""
         if layer not in self._worst:
@@ -179,9 +190,11 @@ class Life(Labelled):
                 tuple(found["normal"]) if "normal" in found else None,
                 found.get("inclination"),
                 (found["range"][0], found["range"][1]),
+                str(self.dataset.value.attrs.get("units", "1")),
             )
         return self._worst[layer]
 
+    @numbers_only
     def margin_of(self, layer: int) -> Range:
         """Give the margin at the worst point of a layer, from the error of its stress alone.
 
@@ -268,6 +281,7 @@ class Life(Labelled):
             self._ranges[layer] = found
         return found
 
+    @numbers_only
     def over_distance(
         self,
         L: ArrayLike,
@@ -339,13 +353,11 @@ class Life(Labelled):
     def _repr_html_(self) -> str:
         """The worst point of every layer, for notebooks."""
         name, _ = margin_name(self._assessments)
-        unit = str(self.dataset.value.attrs.get("units", ""))
         rows = []
         for layer in self.layers:
             w = self.worst_of(layer)
             place = (f"{1e6 * at:.4g}" for at in (w.x, w.y, w.z))
-            scale, unit_shown = (1e-6, "MPa") if unit == "Pa" else (1.0, unit)
-            value = f"{with_error(scale * w.value, scale * w.error)} {unit_shown}"
+            value = in_megapascals(w.value, w.error, w.units)
             point = with_range(w.margin, *w.range)
             rows.append([str(layer), repr(self.range_of(layer)), point, value, *place])
         title = name.replace("_", " ")

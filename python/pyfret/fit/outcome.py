@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pyfret._core import with_error
+from pyfret._util.guesses import refuse_unknown
 from pyfret._util.holds_arrays import HoldsArrays
 from pyfret._util.kept import Kept
 from pyfret._util.lazy import xr
 from pyfret._util.packed import packed
 from pyfret.fit.data import Loops
-from pyfret.scene.parts import refuse_unknown
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

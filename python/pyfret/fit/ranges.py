@@ -65,6 +65,6 @@ def ranges(unknown: Mapping[str, tuple[float, ...]]) -> list[SearchRange]:
             ends = (low, float(middle), high)
         if len(ends) != 3 or not ends[0] <= ends[1] <= ends[2] or not ends[0] < ends[2]:
             raise ValueError(f"unknown: {key} = {given}: must be (low, high) or (low, start, high)")
-        doubt_numbers("", stacklevel=4, **{key: (ends[0], ends[-1])})
+        doubt_numbers("", **{key: (ends[0], ends[-1])})
         found.append(SearchRange(key, *ends))
     return found

@@ -15,6 +15,7 @@ from pyfret._util.door import numbers_only
 from pyfret._util.kept import Kept
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
+from pyfret._util.numbers import in_words
 from pyfret.subsurface.line import along
 
 if TYPE_CHECKING:
@@ -165,6 +166,10 @@ class CrackArrest:
         """Whether the error of K leaves one verdict."""
         return len(self.verdicts) == 1
 
+    def __repr__(self) -> str:
+        """Give :meth:`told`."""
+        return f"CrackArrest({self.told()})"
+
     def told(self) -> str:
         """Verdict, length and margin with their errors, as a sentence."""
         said = {
@@ -204,6 +209,11 @@ class CrackLife:
     cycles: float
     length: float
     stopped: bool
+
+    def __repr__(self) -> str:
+        """Give cycles and length in a few digits."""
+        end = "stops" if self.stopped else "ends"
+        return f"CrackLife({in_words(self.cycles, 3)} cycles, {end} at {1e6 * self.length:.4g} um)"
 
 
 class Cracks(Kept, Labelled):
@@ -298,6 +308,7 @@ class Cracks(Kept, Labelled):
     def _curve(self) -> tuple[list[float], list[float], list[float]]:
         return self.lengths.tolist(), self.K_max.tolist(), self.K_min.tolist()
 
+    @numbers_only
     def arrest(self, threshold: Threshold, *, start: float | None = None) -> CrackArrest:
         """Say whether a crack of the length `start` [m] (default: the shortest) grows and stops.
 
@@ -327,6 +338,7 @@ class Cracks(Kept, Labelled):
         reach = (float(min(stops)), float(max(stops)))
         return CrackArrest(verdict, length, tuple(crossings), margin, at, off, reach, verdicts)
 
+    @numbers_only
     def life(
         self,
         threshold: Threshold,
@@ -354,6 +366,7 @@ class Cracks(Kept, Labelled):
         )
         return CrackLife(*found)
 
+    @numbers_only
     def kitagawa(self, threshold: Threshold) -> xr.Dataset:
         """Give Kitagawa and Takahashi's diagram: ranges of stress over the length of the crack.
 

@@ -11,6 +11,7 @@ from string import Template
 from typing import TYPE_CHECKING
 
 from pyfret._core import __version__
+from pyfret._util.door import numbers_only
 from pyfret._util.files import beside
 from pyfret._util.text import html
 from pyfret.citation import sources
@@ -37,6 +38,7 @@ __all__ = ["report"]
 HERE = Path(__file__).parent
 
 
+@numbers_only
 def report(
     result: Run,
     path: str | os.PathLike[str],

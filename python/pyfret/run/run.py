@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from pyfret._util.door import numbers_only
 from pyfret._util.guesses import no_attribute
 from pyfret._util.lazy import xr
 from pyfret._util.text import shown
@@ -211,6 +212,7 @@ class Run(OfRun):
             table["path_error"] = ("branch", np.asarray(errors, float)[of[ends]], about)
         return table
 
+    @numbers_only
     def loops(self, *, direction: Literal["x", "y", "torsion"] = "x") -> xr.Dataset:
         """Energy and stiffness of every closed cycle of the load path.
 
@@ -230,6 +232,7 @@ class Run(OfRun):
         """
         return of_cycles(self.dataset, self.scene, direction)
 
+    @numbers_only
     def regimes(self, *, direction: Literal["x", "y", "torsion"] = "x") -> list[str]:
         """What each closed cycle was: "no contact", "full stick", "partial slip", "gross slip".
 

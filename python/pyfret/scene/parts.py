@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import difflib
 import functools
 from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, Any, TypeVar
+
+from pyfret._util.guesses import refuse_unknown
 
 if TYPE_CHECKING:
     from typing_extensions import dataclass_transform
@@ -16,24 +17,9 @@ else:
         return lambda of: of
 
 
-__all__ = ["part", "refuse_unknown"]
+__all__ = ["part"]
 
 T = TypeVar("T")
-
-
-def refuse_unknown(what: str, given: Any, known: list[str]) -> None:
-    """Refuse a keyword that is unknown, with the nearest one.
-
-    Raises
-    ------
-    TypeError
-        One of the names is none of those known.
-    """
-    for name in given:
-        if name not in known:
-            near = difflib.get_close_matches(name, known, n=1, cutoff=0.0)
-            hint = f"the nearest is {near[0]!r}, of {', '.join(known)}" if near else "it has none"
-            raise TypeError(f"{what} has no argument {name!r}: {hint}")
 
 
 @dataclass_transform(kw_only_default=True, frozen_default=True)

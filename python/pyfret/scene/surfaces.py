@@ -13,7 +13,7 @@ import numpy as np
 
 from pyfret._core import StoreError, SurfaceMap, read_bytes, unit_of
 from pyfret._util.door import numbers_only
-from pyfret._util.doubts import SceneWarning
+from pyfret._util.doubts import warn
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -162,11 +162,9 @@ def chosen_channel(reader: Any, channel: str | int | None) -> int:
     if channel is None:
         if len(heights) == 1:
             return heights[0]
-        warnings.warn(
+        warn(
             f"the file has {len(heights)} channels: {listed}; the first is read, another by "
             f"channel={names[heights[-1]]!r}",
-            SceneWarning,
-            stacklevel=4,
         )
         return heights[0]
     if isinstance(channel, str):

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import warnings
 from typing import TYPE_CHECKING
 
-from pyfret._util.doubts import SceneWarning
+from pyfret._util.doubts import warn
 
 if TYPE_CHECKING:
     from pyfret._core import Grid, Scene
@@ -16,7 +15,7 @@ __all__ = ["doubt_layers", "doubt_run", "doubt_scene"]
 def doubt_scene(scene: Scene) -> None:
     """Warn of every number of a scene that looks like one of another unit."""
     for doubt in scene.doubts():
-        warnings.warn(doubt, SceneWarning, stacklevel=3)
+        warn(doubt)
 
 
 def doubt_run(doubts: list[str], scene: Scene) -> None:
@@ -24,17 +23,15 @@ def doubt_run(doubts: list[str], scene: Scene) -> None:
     before = scene.doubts()
     for doubt in doubts:
         if doubt not in before:
-            warnings.warn(doubt, SceneWarning, stacklevel=3)
+            warn(doubt)
 
 
 def doubt_layers(interfaces: list[float], grid: Grid) -> None:
     """Warn of an interface nearer to the surface than a cell is long."""
     cell = grid.dx if grid.plane_strain else min(grid.dx, grid.dy)
     if interfaces and interfaces[0] < cell:
-        warnings.warn(
+        warn(
             f"the first interface is {interfaces[0]:.3g} m below the surface, "
             f"{interfaces[0] / cell:.2f} cells. The stress in the layer may be wrong near the edge "
             f"of the contact. For it, use cells of {interfaces[0]:.2e} m",
-            SceneWarning,
-            stacklevel=3,
         )

@@ -22,7 +22,7 @@ import numpy as np
 from pyfret._core import InvalidSceneError, Scene
 from pyfret._util.arrays import items, labels
 from pyfret._util.door import numbers_only
-from pyfret._util.doubts import SceneWarning, doubt_numbers
+from pyfret._util.doubts import doubt_numbers, warn
 from pyfret._util.lazy import xr
 from pyfret._util.text import read_text
 from pyfret.study.identity import identity
@@ -135,11 +135,9 @@ def told_alone(values: Mapping[str, Any], scene: Scene) -> None:
         found = re.fullmatch(r"path\.(\d+)\.W", key)
         after = int(found[1]) + 1 if found else len(branches)
         if after < len(branches) and branches[after].W == branches[after - 1].W:
-            warnings.warn(
+            warn(
                 f"{key}: of this branch alone, the next goes back to W = "
                 f"{branches[after].W:g}; path.*.W is that of all",
-                SceneWarning,
-                stacklevel=3,
             )
 
 
@@ -236,7 +234,7 @@ class Design:
         """The design of values in any form: lists, arrays, ranges."""
         found = {key: listed(values, key) for key, values in parameters.items()}
         for key, values in found.items():
-            doubt_numbers("", stacklevel=4, **{SHORT.get(key, key): values})
+            doubt_numbers("", **{SHORT.get(key, key): values})
         return Design(found, combine)
 
     @property

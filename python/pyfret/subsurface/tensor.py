@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-import warnings
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from pyfret import _core
-from pyfret._util.doubts import SceneWarning
+from pyfret._util.doubts import warn
 from pyfret._util.guesses import no_attribute
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
@@ -185,11 +184,9 @@ class Stress(Labelled):
         )
         if rises:
             layers_said = ", ".join(map(str, rises))
-            warnings.warn(
+            warn(
                 f"{of} in layer {layers_said} still rises 8 lengths of the grid away from it: "
                 "a larger value may lie beyond; use a longer grid",
-                SceneWarning,
-                stacklevel=2,
             )
         if found is None and of.startswith("interface"):
             raise ValueError(f"{of}: no interface lies among the depths of the section")
@@ -250,11 +247,9 @@ class Stress(Labelled):
         ]
         if missed:
             places = ", ".join(f"{depth:.4g}" for depth in missed)
-            warnings.warn(
+            warn(
                 f"the interfaces at z = {places} m are not among the depths: the largest value may "
                 "lie there; leave z out, or add scene.interfaces()",
-                SceneWarning,
-                stacklevel=3,
             )
 
     def _along(self) -> str:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import warnings
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from pyfret._core import SurfaceMap
-from pyfret._util.doubts import SceneWarning
+from pyfret._util.doubts import warn as doubt
 from pyfret.subsurface import fields
 from pyfret.subsurface.line import Line, along
 from pyfret.subsurface.plastic import body_of, columns_of, eigenstress
@@ -50,11 +49,9 @@ class Unloaded:
                 "plastic=Plastic(s_y=..)"
             )
         if warn and not self.is_elastic:
-            warnings.warn(
+            doubt(
                 "taking the load off yields in reverse: let the load path end with a branch that "
                 "takes it off, such as .normal(0.01 * W)",
-                SceneWarning,
-                stacklevel=3,
             )
 
     @cached_property

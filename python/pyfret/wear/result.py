@@ -13,6 +13,7 @@ from pyfret._core import Scene, with_error
 from pyfret._util.door import numbers_only
 from pyfret._util.kept import Kept
 from pyfret._util.labelled import Labelled
+from pyfret._util.numbers import length
 from pyfret._util.text import shown
 from pyfret.fatigue.ranges import Range
 from pyfret.scene.tables import table
@@ -208,7 +209,7 @@ class WearResult(Kept, Labelled):
             )
         lines.append(
             f"energy: {with_error(last['dissipated'])} {energy}, "
-            f"{with_error(last['dissipated_per_cycle'])} in the last cycle"
+            f"{with_error(last['dissipated_per_cycle'])} {energy} in the last cycle"
         )
         lines.append(
             f"largest pressure: {with_error(1e-6 * last['p_max'])} MPa, stick ratio "
@@ -254,9 +255,10 @@ class WearResult(Kept, Labelled):
     def __repr__(self) -> str:
         """Tell the cycles and the depths."""
         d = self.dataset
+        depths = [length(float(of[-1])).replace("µ", "u") for of in (d.depth1, d.depth2)]
         return (
             f"WearResult({float(d.cycles[-1]):.0f} cycles in {d.sizes['jump']} jumps, depths "
-            f"{float(d.depth1[-1]):.3e} m and {float(d.depth2[-1]):.3e} m)"
+            f"{depths[0]} and {depths[1]})"
         )
 
 

@@ -14,7 +14,8 @@ else:
 
 from pyfret._util.arrays import items, plain
 from pyfret._util.door import numbers_only
-from pyfret.scene.parts import Replaceable, refuse_unknown
+from pyfret._util.guesses import refuse_unknown
+from pyfret.scene.parts import Replaceable
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
