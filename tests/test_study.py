@@ -319,6 +319,39 @@ def test_stresses_wear_and_a_scene_file_with_its_measures(tmp_path: Path) -> Non
     assert varied.body2.coatings[0].thickness == pytest.approx(0.5 * hertz.a, rel=1e-12)
 
 
+def test_measures_have_their_range_or_are_called_estimates() -> None:
+    """Every ready number of a study has a range, the word "estimate", or is a code."""
+    steel = fret.fatigue.Materials()["steel_42CrMo4"]
+    path = fret.LoadPath.start().normal(W, increments=2)
+    for sign in (1, -1, 1):
+        path = path.force(T_x=sign * 0.3 * SCENE.mu * W, increments=4)
+    judged = [fret.study.Cracking(steel, of) for of in ("crossland", "smith_watson_topper")]
+    study = fret.study.solve(
+        SCENE.replace(path=path, save="all"),
+        {"mu": [SCENE.mu, 1.2 * SCENE.mu, 1.4 * SCENE.mu]},
+        measure=["loop_energy", "stiffness", "regime", "s_1", *judged],
+        executor=HERE,
+        progress=False,
+    )
+    d = study.dataset
+    measures = ["loop_energy", "stiffness", "regime", "s_1", "safety_factor", "crack_depth"]
+    assert study.measures == [*measures, "life_2", "crack_depth_2"]
+    lines = {line.split()[0]: line for line in study.summary().splitlines()[2:]}
+    for name in study.measures:
+        if f"{name}_low" in d:
+            assert (d[f"{name}_low"] <= d[name]).all()
+            assert (d[name] <= d[f"{name}_high"]).all()
+            assert "(" in lines[name] or "inf" in lines[name], lines[name]
+        else:
+            assert ("estimate" in lines[name]) == (name != "regime"), lines[name]
+    assert {"stiffness_low", "s_1_low", "safety_factor_low", "life_2_low"} <= set(d)
+    # A figure says how well its numbers are known, and a line has its range.
+    for name, told in (("s_1", ("±", "factor")), ("loop_energy", ("estimate",))):
+        drawn = study.map(name)
+        assert any(word in drawn.get_ylabel() for word in told), drawn.get_ylabel()
+        assert bool(drawn.collections) == (name == "s_1")
+
+
 def test_maps_of_studies(whole: fret.study.Study) -> None:
     ax = whole.map("p_max")
     assert ax.get_ylabel() == r"$\mu$"

@@ -790,7 +790,8 @@ class CycleSection:
 
     `moments` is called with a list of numbers from 0 to `count` - 1, or with None for the moment
     before the cycle. It gives :class:`States` on the grid, or None. `yielding` is the plastic work
-    of the cycle and the work beside which it is small [J].
+    of the cycle and the work beside which it is small [J]. `path_error` is the error of the shear
+    by the increments, over the largest shear.
     """
 
     def __new__(
@@ -807,6 +808,7 @@ class CycleSection:
         body_number: int = 2,
         residual: Sequence[ArrayLike] | None = None,
         yielding: tuple[float, float] | None = None,
+        path_error: float | None = None,
     ) -> CycleSection: ...
     def by_criteria(
         self,

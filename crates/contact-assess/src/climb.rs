@@ -13,6 +13,9 @@ use super::site::{At, History, Site};
 /// Most hills and most places on borders that are judged before the ascent.
 const HILLS: usize = 3;
 const BORDERS: usize = 6;
+/// Factor of a step with gain beyond the samples, where the stress is smooth: a place far away is
+/// reached in a few rounds.
+const FARTHER: f64 = 2.0;
 /// Divisor of a step without gain; steps below SHORTEST times the first end the ascent.
 const CLOSER: f64 = 3.0;
 const SHORTEST: f64 = 0.01;
@@ -22,6 +25,9 @@ const MOST_ROUNDS: usize = 16;
 const GAIN: f64 = 1e-6;
 /// How far beyond the samples the ascent may go, over their length.
 const BEYOND: f64 = 0.5;
+/// Distance beyond the samples over their length at which the bulk stress alone is left: the net
+/// force of a line contact adds 1/FAR of its mean pressure.
+const FAR: f64 = 1e3;
 /// A point is on a border if it is at most this many cells from it.
 const ON_BORDER: f64 = 0.1;
 /// Contact cells times moments up to which every point of the ascent is judged by the whole
@@ -126,7 +132,7 @@ impl<J: Judge> Climb<'_, J> {
         if touching * count <= CHEAP || count <= STAND_FOR {
             return self.site.cycle.moments(&all);
         }
-        let history = self.site.whole(&[self.point(place)], false)?;
+        let history = self.site.whole(&[self.point(place)])?;
         let away = |a: usize, b: usize| -> f64 {
             (0..6)
                 .map(|c| (history[(a, 0, c)] - history[(b, 0, c)]).powi(2))
@@ -158,10 +164,7 @@ impl<J: Judge> Climb<'_, J> {
     ) -> Result<(Place, [f64; 2]), Error> {
         // The representative moments may score less than the whole history of the sample.
         score = self.scores(at, &[place])?.first().copied().unwrap_or(score);
-        let reach = self.line.places(self.site.grid);
-        // The tractions are known: the stress beyond the grid is as well.
-        let beyond = BEYOND * (reach[reach.len() - 1] - reach[0]);
-        let ends = [reach[0] - beyond, reach[reach.len() - 1] + beyond];
+        let (samples, ends) = (self.ends(0.0), self.ends(BEYOND));
         let (mut steps, mut left) = (first, [0.0; 2]);
         for _ in 0..MOST_ROUNDS {
             let mut beside: Vec<(usize, Place)> = Vec::new();
@@ -193,9 +196,12 @@ impl<J: Judge> Climb<'_, J> {
                 if nearest.is_finite() {
                     left[axis] = (best.1 - nearest).abs();
                 }
-                if best.2 != Some(axis) {
-                    steps[axis] /= CLOSER;
-                }
+                let outside = best.0[0] <= samples[0] || best.0[0] >= samples[1];
+                steps[axis] *= match best.2 {
+                    Some(of) if of == axis && outside => FARTHER,
+                    Some(of) if of == axis => 1.0,
+                    _ => 1.0 / CLOSER,
+                };
             }
             let gained = best.1 - score > GAIN * score.abs();
             (place, score) = (best.0, best.1);
@@ -205,6 +211,29 @@ impl<J: Judge> Climb<'_, J> {
             }
         }
         Ok((place, left))
+    }
+
+    /// The places so far beyond the samples: the stress is known there as well.
+    fn ends(&self, beyond: f64) -> [f64; 2] {
+        let reach = self.line.places(self.site.grid);
+        let (first, last) = (reach[0], reach[reach.len() - 1]);
+        [
+            first - beyond * (last - first),
+            last + beyond * (last - first),
+        ]
+    }
+
+    /// Of a place at the end of the ascent, how much more the score is where the bulk stress is
+    /// alone.
+    pub(super) fn more_far_away(&self, at: &At, [s, z]: Place, score: f64) -> Result<f64, Error> {
+        let near = ON_BORDER * self.cell();
+        let [first, last] = self.ends(BEYOND);
+        if s > first + near && s < last - near {
+            return Ok(0.0);
+        }
+        let far = self.ends(FAR).map(|s| [s, z]);
+        let scores = self.scores(at, &far)?.into_iter();
+        Ok(scores.map(|far| far - score).fold(0.0, f64::max))
     }
 
     pub(super) fn scores(&self, at: &At, places: &[Place]) -> Result<Vec<f64>, Error> {
@@ -226,27 +255,29 @@ impl<J: Judge> Climb<'_, J> {
             .judge(self.layer, &z, &history.view(), &self.site.stop)
     }
 
-    /// The score of the tractions on cells twice as large, on the same border if it lies on one.
-    pub(super) fn on_coarser_cells(
+    /// The largest change of a score by tractions on cells twice as large, paired in both ways; on the
+    /// same border if the place lies on one.
+    pub(super) fn change_on_coarser_cells(
         &self,
-        [s, z]: Place,
+        ([s, z], score): (Place, f64),
         border: Option<&Border>,
         moments: &Moments,
     ) -> Result<Option<f64>, Error> {
-        let cells = TwiceAsLarge::new(self.site.grid);
-        if cells.grid.nx < 4 {
-            return Ok(None);
+        let mut change: Option<f64> = None;
+        for cells in TwiceAsLarge::both(self.site.grid) {
+            if cells.grid.nx < 4 {
+                return Ok(None);
+            }
+            let there = match border {
+                None => None,
+                Some(border) => self.on_coarser_border(border, moments, &cells)?,
+            };
+            let at = self.site.under_coarser(&cells, moments)?;
+            let scores = self.scores(&at, &[[there.unwrap_or(s), z]])?;
+            let largest = scores.iter().map(|coarse| (score - coarse).abs());
+            change = largest.chain(change).reduce(f64::max);
         }
-        let place = match border {
-            None => [s, z],
-            Some(border) => [
-                self.on_coarser_border(border, moments, &cells)?
-                    .unwrap_or(s),
-                z,
-            ],
-        };
-        let at = self.site.under_coarser(moments)?;
-        Ok(self.scores(&at, &[place])?.first().copied())
+        Ok(change)
     }
 
     /// The nearest border of the same zone on cells twice as large.

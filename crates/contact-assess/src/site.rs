@@ -79,9 +79,12 @@ impl Site<'_> {
     }
 
     /// The same of the tractions on cells twice as large.
-    pub(super) fn under_coarser(&self, moments: &Moments) -> Result<At, Error> {
-        let cells = TwiceAsLarge::new(self.grid);
-        self.at(&cells.grid, &moments.on_coarser(&cells), cells.middle)
+    pub(super) fn under_coarser(
+        &self,
+        cells: &TwiceAsLarge,
+        moments: &Moments,
+    ) -> Result<At, Error> {
+        self.at(&cells.grid, &moments.on_coarser(cells), cells.middle)
     }
 
     fn at(&self, grid: &Grid, moments: &Moments, middle: (f64, f64)) -> Result<At, Error> {
@@ -95,18 +98,13 @@ impl Site<'_> {
         })
     }
 
-    /// The history of points over the whole cycle, on cells twice as large or on its own.
-    pub(super) fn whole(&self, points: &[Point], on_coarser: bool) -> Result<History, Error> {
+    /// The history of points over the whole cycle.
+    pub(super) fn whole(&self, points: &[Point]) -> Result<History, Error> {
         let all: Vec<usize> = (0..self.cycle.count()).collect();
         let mut whole = Array3::zeros((all.len(), points.len(), 6));
         for which in all.chunks(TOGETHER) {
             let now = self.cycle.moments(which)?;
-            let at = if on_coarser {
-                self.under_coarser(&now)?
-            } else {
-                self.under(&now)?
-            };
-            let part = at.history(points)?;
+            let part = self.under(&now)?.history(points)?;
             for (k, now) in which.iter().zip(part.outer_iter()) {
                 whole.index_axis_mut(Axis(0), *k).assign(&now);
             }

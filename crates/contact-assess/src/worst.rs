@@ -17,8 +17,8 @@ const LOWEST: f64 = 0.8;
 /// First step along the line in cells, and in depth over the distance to the neighbouring one.
 const STEP: f64 = 0.5;
 
-/// Error of a score over the change to cells twice as large: in line rigs on 40 to 128 cells across
-/// 2.6 a it is 1.1 at most.
+/// Error of a score over the largest change to cells twice as large: in line rigs on 40 to 128 cells
+/// across 2.6 a it is 1.1 at most.
 const OF_COARSE: f64 = 1.25;
 
 /// The worst point of a layer.
@@ -82,7 +82,7 @@ pub fn worst<J: Judge>(
     let history = if whole {
         at.history(&[point])?
     } else {
-        site.whole(&[point], false)?
+        site.whole(&[point])?
     };
     let Some(mut found) = climb.judged(&[point], &history)?.first().copied() else {
         return Ok(None);
@@ -98,7 +98,7 @@ pub fn worst<J: Judge>(
         (found, score) = (sample, highest.1);
     }
     let border = climb.on_border(place, &known);
-    let coarse = climb.on_coarser_cells(place, border, &moments)?;
+    let change = climb.change_on_coarser_cells((place, score), border, &moments)?;
     // An assumed rim may be half a cell off.
     let beside = if at.rim_is_unknown(point) {
         [-half_cell, half_cell]
@@ -109,7 +109,8 @@ pub fn worst<J: Judge>(
     };
     let beside = climb.scores(&at, &beside)?.into_iter();
     let unsure = beside.map(|beside| (score - beside).abs());
-    let along = unsure.fold(left[0].max(missing), f64::max);
+    let beyond = climb.more_far_away(&at, place, score)?;
+    let along = unsure.fold(left[0].max(missing).max(beyond), f64::max);
     Ok(Some(Worst {
         found,
         extreme: Extreme {
@@ -119,7 +120,8 @@ pub fn worst<J: Judge>(
             depth: point.2,
             at: border.map(|b| b.zone),
             error: Errors {
-                tractions: coarse.map(|coarse| OF_COARSE * (score - coarse).abs()),
+                tractions: change.map(|change| OF_COARSE * change),
+                solution: site.cycle.path_error().map(|error| error * score.abs()),
                 ..Errors::along(judged.line, [along, 0.0, left[1]])
             },
         },

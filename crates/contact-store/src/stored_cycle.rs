@@ -112,6 +112,12 @@ impl OverCycle for StoredCycle<'_> {
         self.before.map(|place| self.at(&[place])).transpose()
     }
 
+    fn path_error(&self) -> Option<f64> {
+        let errors = self.store.attributes().get("path_error")?.as_array()?;
+        let known = errors.iter().filter_map(serde_json::Value::as_f64);
+        known.reduce(f64::max)
+    }
+
     fn yielding(&self) -> Result<Option<Yielding>, Error> {
         let kept = self.increments();
         let (Some(first), Some(last), true) =

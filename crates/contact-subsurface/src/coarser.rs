@@ -1,5 +1,8 @@
 //! The tractions of a contact on cells twice as large: the change of a value estimates the error of
 //! the cells.
+//!
+//! Cells are paired in two ways, and the larger of both changes is the estimate. Beside a rim a value
+//! depends on where the rim lies in its cell, so that one change may vanish by chance.
 
 use contact_core::Error;
 use contact_core::convolution::Tractions;
@@ -11,6 +14,8 @@ use super::{Border, Depth, Eigenstress, Line, Point, Points, Side, States};
 /// Cells of twice the length along each axis.
 pub struct TwiceAsLarge {
     fine: Grid,
+    /// Cells by which their grid begins before the finer one.
+    before: usize,
     /// Its grid.
     pub grid: Grid,
     /// The middle of their grid \[m\]; beyond a grid of an odd number of cells there are no
@@ -19,10 +24,17 @@ pub struct TwiceAsLarge {
 }
 
 impl TwiceAsLarge {
-    /// The cells twice as large as those of a grid.
-    pub fn new(fine: &Grid) -> Self {
+    /// The cells twice as large as those of a grid, paired in both ways: from the first cell on, and
+    /// from the second.
+    pub fn both(fine: &Grid) -> [Self; 2] {
+        [0, 1].map(|before| Self::new(fine, before))
+    }
+
+    fn new(fine: &Grid, before: usize) -> Self {
         let across = if fine.ny == 1 { 1 } else { 2 };
-        let (nx, ny) = (fine.nx.div_ceil(2), fine.ny.div_ceil(across));
+        let before_y = before * (across - 1);
+        let nx = (fine.nx + before).div_ceil(2);
+        let ny = (fine.ny + before_y).div_ceil(across);
         let grid = Grid {
             nx,
             ny,
@@ -30,12 +42,17 @@ impl TwiceAsLarge {
             dy: across as f64 * fine.dy,
             ..*fine
         };
+        // Half of the cells beyond the end less half of those before the start.
+        let off = |cells: usize, own: usize, before: usize, d: f64| {
+            ((cells - own) as f64 - 2.0 * before as f64) * 0.5 * d
+        };
         let middle = (
-            (2 * nx - fine.nx) as f64 * 0.5 * fine.dx,
-            (across * ny - fine.ny) as f64 * 0.5 * fine.dy,
+            off(2 * nx, fine.nx, before, fine.dx),
+            off(across * ny, fine.ny, before_y, fine.dy),
         );
         Self {
             fine: *fine,
+            before,
             grid,
             middle,
         }
@@ -48,9 +65,12 @@ impl TwiceAsLarge {
     /// The cells of the finer grid that make cell n.
     fn cells(&self, n: usize) -> impl Iterator<Item = usize> {
         let (across, Grid { nx, ny, .. }) = (self.across(), self.fine);
-        let (i, j) = (2 * (n / self.grid.ny), across * (n % self.grid.ny));
-        let rows = j..(j + across).min(ny);
-        (i..(i + 2).min(nx)).flat_map(move |i| rows.clone().map(move |j| i * ny + j))
+        let of = |n: usize, times: usize, count: usize| {
+            let (from, before) = (times * n, self.before * (times - 1));
+            from.saturating_sub(before)..(from + times - before).min(count)
+        };
+        let rows = of(n % self.grid.ny, across, ny);
+        of(n / self.grid.ny, 2, nx).flat_map(move |i| rows.clone().map(move |j| i * ny + j))
     }
 
     /// The mean over each cell.
@@ -76,14 +96,28 @@ pub(super) struct Coarser {
 }
 
 impl Coarser {
-    pub(super) fn new(
+    /// On cells paired in both ways.
+    pub(super) fn both(
         body: &Body,
         side: Side,
         grid: &Grid,
         line: Option<Line>,
         states: &States<'_>,
+    ) -> Result<[Self; 2], Error> {
+        let [first, second] = TwiceAsLarge::both(grid);
+        Ok([
+            Self::new(body, side, &first, line, states)?,
+            Self::new(body, side, &second, line, states)?,
+        ])
+    }
+
+    fn new(
+        body: &Body,
+        side: Side,
+        cells: &TwiceAsLarge,
+        line: Option<Line>,
+        states: &States<'_>,
     ) -> Result<Self, Error> {
-        let cells = TwiceAsLarge::new(grid);
         let middle = cells.middle;
         let own = states.tractions.first().copied().unwrap_or_default();
         let mean = |field: Option<&[f64]>| field.map(|field| cells.mean(field));

@@ -55,6 +55,11 @@ pub trait OverCycle: Sync {
     fn moments(&self, which: &[usize]) -> Result<Moments, Error>;
     /// The start of the cycle: the moment before its first, if stored.
     fn start(&self) -> Result<Option<Moments>, Error>;
+    /// Largest error of the shear of the path by its increments, over the largest shear; `None` where
+    /// the increments were given and not chosen.
+    fn path_error(&self) -> Option<f64> {
+        None
+    }
     /// What yields in the cycle; `None` of a body that stays elastic.
     fn yielding(&self) -> Result<Option<Yielding>, Error> {
         Ok(None)

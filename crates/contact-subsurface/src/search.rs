@@ -36,7 +36,7 @@ const OF_ROOT: f64 = 1.0 + std::f64::consts::SQRT_2;
 /// Looks for the largest values below a contact.
 pub struct Search {
     pub(super) points: Points,
-    coarser: Coarser,
+    coarser: [Coarser; 2],
     borders: Vec<Border>,
     /// The line whose directions the ascent takes, along, across.
     line: Option<Line>,
@@ -84,7 +84,7 @@ impl Search {
             eigenstress: states.eigenstress.get(..1).unwrap_or_default(),
             ..states.clone()
         };
-        let coarser = Coarser::new(body, side, grid, line, &states)?;
+        let coarser = Coarser::both(body, side, grid, line, &states)?;
         let points = Points::new(body, side, grid, states)?;
         let cell = if grid.ny == 1 {
             grid.dx
@@ -310,10 +310,14 @@ impl Search {
         let inwards = values(&inwards)?.into_iter();
         let unsure = inwards.map(|beside| (value - beside).abs());
         let unsure = unsure.fold(0.0, f64::max);
-        let coarse = match probe {
-            Probe::Stress(m) => (m.value)(&self.coarser.stress(at, border)?),
-            Probe::Displacement(c) => self.coarser.displacement(at.0, at.1, at.2)?[c.axis()],
-        };
+        let mut change = 0.0_f64;
+        for coarser in &self.coarser {
+            let coarse = match probe {
+                Probe::Stress(m) => (m.value)(&coarser.stress(at, border)?),
+                Probe::Displacement(c) => coarser.displacement(at.0, at.1, at.2)?[c.axis()],
+            };
+            change = change.max((value - coarse).abs());
+        }
         let part = if self.thin && self.is_near_border(at) {
             OF_ROOT
         } else {
@@ -326,7 +330,7 @@ impl Search {
             depth: at.2,
             at: border.map(|b| b.zone),
             error: Errors {
-                tractions: Some(part * (value - coarse).abs()),
+                tractions: Some(part * change),
                 ..Errors::along(
                     self.line.unwrap_or(Line::AlongX(0.0)),
                     [left[0].max(unsure), left[1], left[2]],

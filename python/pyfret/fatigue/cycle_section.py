@@ -63,7 +63,14 @@ def over_cycle(result: Run, section: Section) -> _core.CycleSection:
         body_number=section.body_number,
         residual=section.residual,
         yielding=yielding_of(result, section),
+        path_error=path_error_of(result),
     )
+
+
+def path_error_of(result: Run) -> float | None:
+    """The largest error of the shear by the increments, where these were chosen."""
+    errors = result.dataset.attrs.get("path_error")
+    return float(np.max(errors)) if errors else None
 
 
 def yielding_of(result: Run, section: Section) -> tuple[float, float] | None:

@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
+from pyfret._util.bounds import known_to
 from pyfret.plot.areas import Raster
 from pyfret.plot.stresses import COLOURS
 from pyfret.plot.studies import in_figures, whole_labels
@@ -63,10 +64,12 @@ def fretting_map(table: xr.Dataset, *, ax: Axes | None = None) -> Axes:
     raster = Raster(W, amplitude)
     entries: list[Patch | Line2D] = [*raster.draw(ax, conditions(table, raster, scale), CONDITIONS)]
     energy, meaning = in_figures(table.dissipated)
+    meaning = told(meaning, table, "dissipated")
     entries += lines(ax, W, amplitude, energy.values, None, ENERGY, "dashed", meaning)
     for name, levels in (("safety_factor", FACTORS), ("life", LIVES)):
         if name in table:
             meaning = {"safety_factor": "safety factor", "life": "life [cycles]"}[name]
+            meaning = told(meaning, table, name)
             entries += lines(ax, W, amplitude, table[name].values, levels, CRACK, "solid", meaning)
     entries += arrest_lines(ax, raster, table)
     ax.set_xlabel(f"$W$ [{force_unit(table)}]")
@@ -108,6 +111,11 @@ def carried(field: NDArray[Any], order: NDArray[np.int_]) -> NDArray[np.float64]
     return back
 
 
+def told(meaning: str, table: xr.Dataset, name: str) -> str:
+    """What contours are, and how well their numbers are known."""
+    return ", ".join(filter(None, (meaning, known_to(table, name))))
+
+
 def force_unit(table: xr.Dataset) -> str:
     """The unit of the forces of a map."""
     return str(table.W.attrs.get("units", "N"))
@@ -146,7 +154,7 @@ def arrest_lines(ax: Axes, raster: Raster, table: xr.Dataset, colour: str = ARRE
     if "start_margin" in table:
         # A crack that does not grow stops nowhere.
         length = np.where(raster.of(table.start_margin.values) < 1.0, np.nan, length)
-    meaning = "crack stops at [µm]"
+    meaning = told("crack stops at [µm]", table, "arrest_length")
     entries = lines(ax, x, y, length, LENGTHS, colour, "dotted", meaning)
     margin = np.ma.masked_invalid(raster.of(table.arrest_margin.values))
     if min(margin.shape) > 1 and margin.min() < 1.0 < margin.max():
@@ -184,7 +192,8 @@ def arrest_map(table: xr.Dataset, *, ax: Axes | None = None) -> Axes:
         ("life", LIVES, "cycles to initiation"),
     ):
         if name in table:
-            entries += lines(ax, bulk, T, table[name].values, levels, CRACK, "solid", meaning)
+            about = told(meaning, table, name)
+            entries += lines(ax, bulk, T, table[name].values, levels, CRACK, "solid", about)
     entries += arrest_lines(ax, raster, table)
     ax.set_xlabel(r"bulk stress $\sigma_\mathrm{B}$ [MPa]")
     unit = str(table["T"].attrs.get("units", "N"))

@@ -11,6 +11,7 @@ import numpy as np
 from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
+from pyfret._util.bounds import bounds, known_to
 from pyfret._util.text import literal
 from pyfret.plot.areas import geometric, logarithmic
 from pyfret.plot.parameters import parameter_label
@@ -114,11 +115,12 @@ def study_map(
         raise ValueError(f"{chosen} is a field over {', '.join(map(str, extra))}: draw one point")
     ax = axes(ax)
     values, label = in_figures(values)
-    label = labels.get(chosen, label)
+    label = ", ".join(filter(None, (labels.get(chosen, label), known_to(d, chosen))))
     if "point" in values.dims:
         scattered(ax, study.parameters, values, label, words)
     elif values.ndim == 1:
         line(ax, values, label, words)
+        shade(ax, values, d, chosen, words)
     elif values.ndim == 2:
         plane(ax, values, kind, levels, label if colorbar else None, words)
     else:
@@ -144,12 +146,24 @@ def in_figures(values: xr.DataArray) -> tuple[xr.DataArray, str]:
     """A measure in a unit that its numbers are short in, and its meaning with that unit."""
     unit = literal(values.attrs.get("units", "1"))
     name = literal(values.attrs.get("long_name", values.name))
-    if unit not in ("J", "Pa", "m", "N", "N/m", "J/m", "N/m per m"):
+    power = power_of(values)
+    if power is None:
         return values, name if unit == "1" else f"{name} [{unit}]"
+    return values / 10.0**power, f"{name} [{PREFIXES[power]}{unit}]"
+
+
+def power_of(values: xr.DataArray) -> int | None:
+    """The power of ten of the unit that the numbers of a measure are short in."""
+    if values.attrs.get("units", "1") not in ("J", "Pa", "m", "N", "N/m", "J/m", "N/m per m"):
+        return None
     largest = float(np.abs(values).max())
     power = 3 * int(np.floor(np.log10(largest) / 3 + 1e-12)) if largest > 0 else 0
-    power = min(max(power, min(PREFIXES)), max(PREFIXES))
-    return values / 10.0**power, f"{name} [{PREFIXES[power]}{unit}]"
+    return min(max(power, min(PREFIXES)), max(PREFIXES))
+
+
+def in_unit_of(end: xr.DataArray, values: xr.DataArray) -> xr.DataArray:
+    """An end of the range of a measure in the unit of its figure."""
+    return end / 10.0 ** (power_of(values) or 0)
 
 
 def of_line_contacts(d: xr.Dataset) -> bool:
@@ -223,6 +237,19 @@ def line(ax: Axes, values: xr.DataArray, label: str, words: Words) -> None:
     places = scale_axis(ax, "x", values[str(values.dims[0])], words)
     ax.plot(places, values.values, "o-", markersize=4)
     ax.set_ylabel(label)
+
+
+def shade(ax: Axes, values: xr.DataArray, d: xr.Dataset, name: str, words: Words) -> None:
+    """The range of a measure over one parameter, behind its line."""
+    ends = bounds(d, name)
+    if ends is None:
+        return
+    low, high = (in_unit_of(end, d[name]).values for end in ends)
+    coordinate = values[str(values.dims[0])]
+    places, _ = on_axis(coordinate, words)
+    if places.dtype.kind not in "ifb":
+        places = np.arange(places.size, dtype=float)
+    ax.fill_between(places.astype(float), low, high, alpha=0.2, linewidth=0.0)
 
 
 def plane(

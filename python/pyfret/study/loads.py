@@ -9,6 +9,7 @@ import numpy as np
 
 from pyfret._core import LoadPath, Scene
 from pyfret._util.arrays import number, plain
+from pyfret._util.bounds import SIDES
 from pyfret._util.door import numbers_only
 from pyfret._util.lazy import xr
 from pyfret.study.loop import solve
@@ -110,8 +111,9 @@ def running_conditions(
     xarray.Dataset
         Over W and T or delta: ``status`` (0 no contact, 1 full stick, 2 partial slip, 3 gross
         slip), ``energy_ratio``, ``sliding_ratio``, ``dissipated`` [J], ``stiffness`` [N/m].
-        ``delta`` [m] or ``T`` [N] is half of its range. With `cracking` also its ``safety_factor``
-        or ``life`` [cycles] and ``crack_depth`` [m]. With `arrest` also ``start_margin``,
+        ``delta`` [m] or ``T`` [N] is half of its range. A number with an error has its range, such
+        as ``stiffness_low`` and ``stiffness_high``. With `cracking` also its ``safety_factor`` or
+        ``life`` [cycles] and ``crack_depth`` [m]. With `arrest` also ``start_margin``,
         ``arrest_margin`` and ``arrest_length`` [m]. Where a force slides, all but the status are
         NaN. ``slides_from`` over W is the amplitude from which on the contact slides, where its
         friction is Coulomb's: mu W, or its shift, to 1 %.
@@ -225,7 +227,8 @@ def arrest_map(
     for point, reason in found.failed():
         if not reason.startswith(Slides.__name__):
             raise RuntimeError(f"T = {point['T']}, sigma_B = {point['sigma_B']} Pa: {reason}")
-    table = found.dataset[[name for name in JUDGED if name in found.dataset]]
+    judged = [f"{name}{side}" for name in JUDGED for side in SIDES]
+    table = found.dataset[[name for name in judged if name in found.dataset]]
     unit = scene.grid.unit_of("N")
     table["T"] = table["T"].assign_attrs(units=unit, long_name="amplitude of the force")
     table["sigma_B"] = table["sigma_B"].assign_attrs(units="Pa", long_name=BULK)
@@ -235,8 +238,13 @@ def arrest_map(
 def labelled(found: xr.Dataset, scene: Scene, driven: str) -> xr.Dataset:
     """The study of the loads with the names of the map."""
     units = {"T": ("N", "amplitude of the force"), "delta": ("m", "amplitude of the shift")}
-    kept = {name: shown for shown, name in SHOWN.items() if name in found}
-    kept |= {name: name for name in JUDGED if name in found}
+    names = {name: shown for shown, name in SHOWN.items()} | {name: name for name in JUDGED}
+    kept = {
+        f"{name}{side}": f"{shown}{side}"
+        for name, shown in names.items()
+        for side in SIDES
+        if f"{name}{side}" in found
+    }
     table = found[list(kept)].rename(kept).drop_vars(AMPLITUDE).rename({AMPLITUDE: driven})
     table["status"] = table["status"].fillna(SLIDES).assign_attrs(long_name=STATUS)
     unit, meaning = units[driven]

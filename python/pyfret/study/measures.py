@@ -10,9 +10,11 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from pyfret import fracture, wear
+from pyfret._util.bounds import split
 from pyfret._util.door import numbers_only
 from pyfret._util.lazy import xr
 from pyfret.run.summary import directions
+from pyfret.study.answer import NOTHING, Answer, estimate
 from pyfret.study.identity import identity
 from pyfret.subsurface.tensor import LABELS
 
@@ -29,12 +31,14 @@ __all__ = ["MEASURES", "Arrest", "Cracking", "FirstToFail", "Measure", "Wear", "
 Measure: TypeAlias = "str | Callable[[Result], Any]"
 
 
-def of_last_cycle(name: str) -> Callable[[Result], float]:
-    """A number of the last closed cycle; NaN without one."""
+def of_last_cycle(name: str) -> Callable[[Result], float | Answer]:
+    """A number of the last closed cycle, with its error where it has one; NaN without a cycle."""
 
-    def measure(result: Result) -> float:
+    def measure(result: Result) -> float | Answer:
         loops = result.loops(direction=next(iter(directions(result)), "x"))
-        return float(loops[name][-1]) if loops.sizes["cycle"] else math.nan
+        last = {key: float(of[-1]) if of.size else math.nan for key, of in loops.items()}
+        error = last.get(f"{name}_error")
+        return last[name] if error is None else Answer.within(last[name], error)
 
     return measure
 
@@ -44,16 +48,19 @@ def of_path(name: str, of: Callable[[xr.DataArray], Any]) -> Callable[[Result], 
     return lambda result: float(of(result.dataset[name]))
 
 
-def largest(name: str) -> Callable[[Result], float]:
+def largest(name: str) -> Callable[[Result], Answer]:
     """The largest value of a measure of stress in body 2, over the increments with fields."""
 
-    def measure(result: Result) -> float:
+    def measure(result: Result) -> Answer:
         layered = bool(result.scene.body2.coatings)
         if name.startswith("interface") and not layered:
-            return math.nan
+            return NOTHING
         kept = (result.at(int(n)) for n in result.dataset.saved_increment.values)
-        loaded = (at for at in kept if bool(at.contact.any()))
-        return max((at.stress().maximum(name).value for at in loaded), default=math.nan)
+        found = [at.stress().maximum(name) for at in kept if bool(at.contact.any())]
+        if not found:
+            return NOTHING
+        worst = max(found, key=lambda of: of.value)
+        return Answer.within(worst.value, worst.error)
 
     return measure
 
@@ -65,7 +72,7 @@ def half_length(result: Result) -> float:
 
 
 #: Ready measures: unit, meaning, function of the result.
-MEASURES: dict[str, tuple[str, str, Callable[[Result], float]]] = {
+MEASURES: dict[str, tuple[str, str, Callable[[Result], float | Answer]]] = {
     "loop_energy": ("J", "energy dissipated in the last cycle", of_last_cycle("dissipated")),
     "energy_ratio": ("1", "energy ratio of the last cycle", of_last_cycle("energy_ratio")),
     "sliding_ratio": ("1", "sliding ratio of the last cycle", of_last_cycle("sliding_ratio")),
@@ -105,10 +112,14 @@ MEASURES: dict[str, tuple[str, str, Callable[[Result], float]]] = {
     "p_max": ("Pa", "largest pressure of the path", of_path("p_max", lambda v: v.max())),
     "q_max": ("Pa", "largest shear traction of the path", of_path("q_max", lambda v: v.max())),
     **{
-        name: ("Pa", f"largest {LABELS[name][1]} in body 2", largest(name))
+        name: ("Pa", f"largest {LABELS[name][1].removeprefix('largest ')} in body 2", largest(name))
         for name in ("von_mises", "tresca", "s_1", "interface_shear", "interface_peel")
     },
 }
+
+
+#: Measures that are codes: they have no error.
+CODES = ("regime", "first")
 
 
 @numbers_only
@@ -116,9 +127,10 @@ MEASURES: dict[str, tuple[str, str, Callable[[Result], float]]] = {
 class Wear(wear.Wear):
     """A measure: what many cycles wear off, by :func:`pyfret.wear.solve` on the scene of the point.
 
-    Gives ``worn_volume1``, ``worn_volume2`` [m^3], ``worn_depth1``, ``worn_depth2`` [m], their
-    ``depth_error``, and, where a body is coated, ``coating_life1``, ``coating_life2`` [cycles], NaN
-    for one that outlives the run.
+    Gives ``worn_volume1``, ``worn_volume2`` [m^3], ``worn_depth1``, ``worn_depth2`` [m], and, where
+    a body is coated, ``coating_life1``, ``coating_life2`` [cycles], NaN for one that outlives the
+    run. Each has its range, such as ``worn_depth1_low`` and ``worn_depth1_high``, from
+    ``depth_error``, the error of the depths over the depths.
 
     Parameters
     ----------
@@ -135,18 +147,21 @@ class Wear(wear.Wear):
         settings = {f.name: getattr(self, f.name) for f in fields(wear.Wear)}
         run = wear.solve(result.scene, wear.Wear(**settings), progress=False)
         worn = run.dataset
-        numbers = {}
+        numbers: dict[str, xr.DataArray] = {}
+        part = float(worn["depth_error"][-1])
         for of, unit in (("volume", "m^3"), ("depth", "m")):
             for body in (1, 2):
-                attrs = {"units": unit, "long_name": f"worn {of} of body {body}"}
-                numbers[f"worn_{of}{body}"] = worn[f"{of}{body}"][-1].assign_attrs(attrs)
+                value = float(worn[f"{of}{body}"][-1])
+                answer = Answer.within(value, part * value)
+                numbers |= answer.arrays(f"worn_{of}{body}", unit, f"worn {of} of body {body}")
         numbers["depth_error"] = worn["depth_error"][-1]
         for body in (1, 2):
             if (result.scene.body1 if body == 1 else result.scene.body2).coatings:
                 life = run.cycles_to(part_of_coating=self.part, body_number=body)
-                attrs = {"units": "cycles", "long_name": f"life of the coating of body {body}"}
                 found = life if math.isfinite(life) else math.nan
-                numbers[f"coating_life{body}"] = xr.DataArray(found, attrs=attrs)
+                answer = Answer(found, found / (1.0 + part), found * (1.0 + part))
+                meaning = f"life of the coating of body {body}"
+                numbers |= answer.arrays(f"coating_life{body}", "cycles", meaning)
         return numbers
 
 
@@ -156,7 +171,8 @@ class Cracking:
     """A measure: the smallest margin of a fatigue criterion over the last closed cycle.
 
     Gives ``safety_factor``, or ``life`` [cycles] for criteria with a strain-life curve, and
-    ``crack_depth`` [m], the depth of the worst point, by :meth:`pyfret.Result.life`.
+    ``crack_depth`` [m], the depth of the worst point, by :meth:`pyfret.Result.life`. The error of
+    the stress gives the range of the margin, ``safety_factor_low`` and ``safety_factor_high``.
 
     Parameters
     ----------
@@ -176,11 +192,10 @@ class Cracking:
         """Judge the body in the plane of the shear."""
         life = result.life(self.materials, self.criterion, body_number=self.body_number)
         worst, margin = life.worst, life.margin
-        attrs = {"units": "m", "long_name": "depth of the worst point"}
-        return {
-            str(margin.name): xr.DataArray(worst.margin, attrs=margin.attrs),
-            "crack_depth": xr.DataArray(worst.z, attrs=attrs),
-        }
+        answer = Answer(worst.margin, *worst.range)
+        unit, meaning = margin.attrs["units"], margin.attrs["long_name"]
+        depth = estimate(worst.z, "m", "depth of the worst point")
+        return {**answer.arrays(str(margin.name), unit, meaning), "crack_depth": depth}
 
 
 @numbers_only
@@ -216,15 +231,20 @@ class Arrest:
         options = {f.name: getattr(self, f.name) for f in fields(self) if f.name != "threshold"}
         cracks = fracture.crack(result, **options)
         found = cracks.arrest(self.threshold)
-        first = cracks.dK(self.threshold)[0] / np.atleast_1d(self.threshold.at(cracks.lengths))[0]
+        least = float(np.atleast_1d(self.threshold.at(cracks.lengths))[0])
+        first = float(cracks.dK(self.threshold)[0]) / least
+        # The positive part of the range has the error of the largest K.
+        error = float(cracks.error[0]) / least if "error" in cracks.dataset else math.nan
         length = math.nan if found.length is None else found.length
-        margin = {"units": "1", "long_name": "least range of K over its threshold"}
-        metre = {"units": "m", "long_name": "length at which the crack stops"}
-        start = {"units": "1", "long_name": "range of K over its threshold at the first length"}
+        ends = (math.nan, math.nan) if found.lengths is None else found.lengths
+        off = math.nan if found.margin_error is None else found.margin_error
+        start = "range of K over its threshold at the first length"
         return {
-            "start_margin": xr.DataArray(float(first), attrs=start),
-            "arrest_margin": xr.DataArray(found.margin, attrs=margin),
-            "arrest_length": xr.DataArray(length, attrs=metre),
+            **Answer.within(first, error).arrays("start_margin", "1", start),
+            **Answer.within(found.margin, off).arrays(
+                "arrest_margin", "1", "least range of K over its threshold"
+            ),
+            **Answer(length, *ends).arrays("arrest_length", "m", "length at which the crack stops"),
         }
 
 
@@ -256,12 +276,14 @@ class FirstToFail:
         """Compare the three."""
         options = {f.name: getattr(self, f.name) for f in fields(self)}
         found = fracture.first_to_fail(result, **options)
-        numbers = {
-            name: xr.DataArray(
-                getattr(found, name), attrs={"units": "1", "long_name": f"{name}: load over limit"}
-            )
-            for name in fracture.PARTS
-        }
+        numbers: dict[str, xr.DataArray] = {}
+        for name in fracture.PARTS:
+            value, meaning = getattr(found, name), f"{name}: load over limit"
+            error = found.substrate_error if name == "substrate" else None
+            if error is None:
+                numbers[name] = estimate(value, "1", meaning)
+            else:
+                numbers |= Answer.within(value, error).arrays(name, "1", meaning)
         order = f"0 none, {', '.join(f'{n + 1} {name}' for n, name in enumerate(fracture.PARTS))}"
         first = 0 if found.first is None else 1 + fracture.PARTS.index(found.first)
         attrs = {"units": "1", "long_name": f"what fails first: {order}"}
@@ -338,17 +360,24 @@ def measured(result: Result, measures: Sequence[Measure]) -> dict[str, xr.Variab
     for one, suffix in zip(measures, suffixes(measures), strict=True):
         if isinstance(one, str):
             units, meaning, of = MEASURES[one]
-            units = result.scene.grid.unit_of(units)
-            given = {one: xr.Variable((), of(result), {"units": units, "long_name": meaning})}
+            units, found_here = result.scene.grid.unit_of(units), of(result)
+            if isinstance(found_here, Answer):
+                arrays = found_here.arrays(one, units, meaning)
+            else:
+                arrays = {one: estimate(found_here, units, meaning)}
+                if one in CODES:
+                    del arrays[one].attrs["accuracy"]
+            given = {name: array.variable for name, array in arrays.items()}
         else:
             given = variables(one(result), name_of(one))
             if is_own(one) and (words := differing(one, measures)):
                 for of_one in given.values():
                     of_one.attrs["long_name"] = f"{of_one.attrs.get('long_name', '')} ({words})"
         for name, value in given.items():
-            if f"{name}{suffix}" in found:
+            base, side = split(name, given)
+            if f"{base}{suffix}{side}" in found:
                 raise ValueError(f"two measures give {name}: give each a name of its own")
-            found[f"{name}{suffix}"] = value
+            found[f"{base}{suffix}{side}"] = value
     return found
 
 

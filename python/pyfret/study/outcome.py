@@ -7,12 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from pyfret._util.bounds import is_bound
+from pyfret._util.bounds import span as between
 from pyfret._util.door import numbers_only
 from pyfret._util.kept import Kept
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
 from pyfret._util.text import html, shown
-from pyfret.scene.tables import number, table
+from pyfret.scene.tables import table
 from pyfret.study.point import DONE, FAILED, OPEN
 from pyfret.study.store import OWN, read
 
@@ -34,7 +36,9 @@ class Study(Kept, Labelled):
     ----------
     dataset : xarray.Dataset
         Over the parameters, or over ``point`` where they change together: the measures, NaN where a
-        point has none. Each point also has ``status`` (0 open, 1 done, 2 failed), ``reason``,
+        point has none. The error of a measure gives its range, such as ``von_mises_low`` and
+        ``von_mises_high``. A measure of pyfret without an error has the attribute ``accuracy``:
+        "estimate". Each point also has ``status`` (0 open, 1 done, 2 failed), ``reason``,
         ``nx`` and ``ny``, its cells, and ``seconds``, its processor time.
     """
 
@@ -47,8 +51,9 @@ class Study(Kept, Labelled):
 
     @property
     def measures(self) -> list[str]:
-        """Names of the measures."""
-        return [str(name) for name in self.dataset.data_vars if name not in OWN]
+        """Names of the measures, without the ends of their ranges."""
+        names = [str(name) for name in self.dataset.data_vars if name not in OWN]
+        return [name for name in names if not is_bound(name, names)]
 
     def count(self) -> dict[str, int]:
         """How many points are open, done and failed."""
@@ -139,7 +144,10 @@ class Study(Kept, Labelled):
         )
 
     def summary(self) -> str:
-        """Say how many points are done, what parameters and measures span, and what failed."""
+        """Say how many points are done, what parameters and measures span, and what failed.
+
+        Measures have their errors, or two digits and the word "estimate".
+        """
         rows = [
             ("", "from, to", "unit"),
             *((name, span, unit) for _, name, span, unit in self._spans()),
@@ -162,8 +170,8 @@ class Study(Kept, Labelled):
         for kind, names in (("parameter", self.parameters), ("measure", self.measures)):
             for name in names:
                 values = d[name].values
-                if values.dtype.kind in "ifb" and np.isfinite(values).any():
-                    span = f"{number(np.nanmin(values))} to {number(np.nanmax(values))}"
+                if values.dtype.kind in "ifb" and not np.isnan(values).all():
+                    span = between(d, name)
                 else:
                     span = f"{np.unique(values).size} values"
                 unit = str(d[name].attrs.get("units", ""))

@@ -3,37 +3,26 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
 from pyfret import fracture
 from pyfret._core import Scene
+from pyfret._util.bounds import SIDES
 from pyfret._util.lazy import xr
 from pyfret.fatigue.cycles import cycle_increments
 from pyfret.run.summary import directions
+from pyfret.study.answer import Answer
 from pyfret.wear.runs import solve
 
 if TYPE_CHECKING:
     from pyfret.result import Result
     from pyfret.study.candidate import Candidate, Duty
 
-__all__ = ["NUMBERS", "QUESTIONS", "Answer", "Answers", "Number", "Question"]
-
-
-class Answer(NamedTuple):
-    """A number, and the range that its own estimate of the error leaves."""
-
-    value: float
-    low: float
-    high: float
-
-    @classmethod
-    def within(cls, value: float, error: float = 0.0) -> Answer:
-        """A number and its error."""
-        return cls(value, value - error, value + error)
+__all__ = ["NUMBERS", "QUESTIONS", "Answers", "Number", "Question"]
 
 
 @dataclass(frozen=True)
@@ -306,12 +295,12 @@ class Answers:
                 continue
             numbers, places = QUESTIONS[name].ask(result, of, self.duty)
             for number, answer in numbers.items():
-                table |= {f"{number}{side}": value for side, value in sides(answer)}
+                table |= {f"{number}{side}": value for side, value in answer.sides()}
             table |= places
         energy = result.scene.grid.unit_of("J")
         found = {}
         for number, about in NUMBERS.items():
-            for side, which in (("", ""), ("_low", ", lowest"), ("_high", ", highest")):
+            for side, which in SIDES.items():
                 attrs = {"units": about.si or energy, "long_name": f"{about.title}{which}"}
                 name = f"{number}{side}"
                 found[name] = xr.DataArray(table.get(name, math.nan), attrs=attrs)
@@ -333,10 +322,3 @@ PLACES = {
     "first_yield_z": ("m", "depth of first yield"),
     "first_yield_layer": ("1", "layer of first yield, from the surface down"),
 }
-
-
-def sides(answer: Answer) -> Iterator[tuple[str, float]]:
-    """The suffixes of a number in the study, and their values."""
-    yield "", answer.value
-    yield "_low", answer.low
-    yield "_high", answer.high

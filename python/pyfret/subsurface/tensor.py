@@ -38,7 +38,8 @@ class Errors(NamedTuple):
     #: not looked at.
     tractions: float
     #: The error of the stress that the errors of the tractions cause; None without error bars
-    #: (``solve(..., error=True)``).
+    #: (``solve(..., error=True)``). Of a criterion or a load factor that of the increments, where
+    #: they were chosen.
     solution: float | None = None
 
     @property

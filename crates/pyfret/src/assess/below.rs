@@ -64,7 +64,8 @@ pub(super) fn place<'py, F>(
     }
     found.set_item("layer", depth.layer)?;
     let tractions = error.tractions.unwrap_or(f64::NAN);
-    found.set_item("errors", (error.x, error.y, error.z, tractions))?;
+    let parts = (error.x, error.y, error.z, tractions, error.solution);
+    found.set_item("errors", parts)?;
     found.set_item(
         "at",
         worst.extreme.at.map(|zone| match zone {

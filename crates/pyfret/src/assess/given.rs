@@ -17,6 +17,8 @@ pub(super) struct Given {
     grid: Grid,
     /// Plastic work of the cycle, and that beside which it is small [J].
     yielding: Option<(f64, f64)>,
+    /// Error of the shear by the increments.
+    path_error: Option<f64>,
     /// What Python raised.
     raised: Mutex<Option<PyErr>>,
 }
@@ -28,6 +30,7 @@ impl Given {
             count,
             grid: *grid,
             yielding: None,
+            path_error: None,
             raised: Mutex::new(None),
         }
     }
@@ -35,6 +38,11 @@ impl Given {
     /// With what yields in it.
     pub(super) fn yields(self, yielding: Option<(f64, f64)>) -> Self {
         Self { yielding, ..self }
+    }
+
+    /// With the error of the shear by the increments.
+    pub(super) fn known_to(self, path_error: Option<f64>) -> Self {
+        Self { path_error, ..self }
     }
 
     /// What Python raised, once.
@@ -75,6 +83,10 @@ impl OverCycle for Given {
 
     fn start(&self) -> Result<Option<Moments>, Error> {
         self.ask(None)
+    }
+
+    fn path_error(&self) -> Option<f64> {
+        self.path_error
     }
 
     fn yielding(&self) -> Result<Option<Yielding>, Error> {

@@ -47,7 +47,8 @@ pub(crate) fn cycle_sections(
 ///
 /// `moments` is called with a list of numbers from 0 to `count` - 1, or with None for the moment
 /// before the cycle. It gives :class:`States` on the grid, or None. `yielding` is the plastic work
-/// of the cycle and the work beside which it is small [J].
+/// of the cycle and the work beside which it is small [J]. `path_error` is the error of the shear
+/// by the increments, over the largest shear.
 #[pyclass(frozen, module = "pyfret.fatigue")]
 pub(crate) struct CycleSection {
     below: Arc<Below>,
@@ -56,7 +57,7 @@ pub(crate) struct CycleSection {
 #[pymethods]
 impl CycleSection {
     #[new]
-    #[pyo3(signature = (body, grid, moments: "Callable[[list[int] | None], States | None]", count: "int", *, x: "float | None" = None, y: "float | None" = None, azimuth: "float | None" = None, body_number: "int" = 2, residual = None, yielding: "tuple[float, float] | None" = None))]
+    #[pyo3(signature = (body, grid, moments: "Callable[[list[int] | None], States | None]", count: "int", *, x: "float | None" = None, y: "float | None" = None, azimuth: "float | None" = None, body_number: "int" = 2, residual = None, yielding: "tuple[float, float] | None" = None, path_error: "float | None" = None))]
     fn new(
         body: Body,
         grid: Grid,
@@ -68,12 +69,15 @@ impl CycleSection {
         #[pyo3(from_py_with = number)] body_number: u8,
         residual: Profiles,
         #[pyo3(from_py_with = number)] yielding: Option<(f64, f64)>,
+        #[pyo3(from_py_with = number)] path_error: Option<f64>,
     ) -> PyResult<Self> {
         let below = Below {
             side: side(body_number)?,
             line: line(x, y, azimuth)?,
             residual: of_body(&body.0, residual)?,
-            given: Given::new(moments, count, &grid.0).yields(yielding),
+            given: Given::new(moments, count, &grid.0)
+                .yields(yielding)
+                .known_to(path_error),
             body: body.0,
             grid: grid.0,
         };
