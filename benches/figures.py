@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import matplotlib.pyplot as plt
+from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, NullFormatter
 
 import pyfret as fret
@@ -21,6 +22,9 @@ COLOURS = {
     "Tamaas": "C0",
     "ContactMechanics": "C2",
 }
+
+#: Programs of the fretting part as its legend calls them.
+NAMES = {"pyfret": "pyfret", "spinu2020": "pyfret, spinu2020"}
 
 
 def of(rows: Sequence[Row], **wanted: Any) -> list[Row]:
@@ -83,7 +87,7 @@ def fretting(rows: Sequence[Row], file: Path) -> None:
             sharey=True,
             squeeze=False,
         )
-        labels = {}
+        labels: dict[tuple[str, int, int], Any] = {}
         for axes, ratio in zip(panels[0], ratios, strict=True):
             mine = of(rows, ratio=ratio)
             groups = sorted({(row["cells"], row["increments"], row["program"]) for row in mine})
@@ -100,7 +104,7 @@ def fretting(rows: Sequence[Row], file: Path) -> None:
                     color="C1" if plain else "C3",
                     alpha=shade,
                 )
-                labels[f"{program}, {cells} x {cells}, {increments:.0f} increments"] = drawn
+                labels[program, cells, int(increments)] = drawn
             axes.set_title(f"$E_1/E_2 = {ratio:g}$", size=10)
             # Labels within a decade would run into each other.
             axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 3.0)))
@@ -108,6 +112,15 @@ def fretting(rows: Sequence[Row], file: Path) -> None:
             axes.xaxis.set_minor_formatter(NullFormatter())
             axes.set_xlabel("time [s]")
         panels[0][0].set_ylabel("error of q (L2), largest of the branch ends")
-        figure.legend(labels.values(), labels.keys(), loc="outside lower center", ncols=2)
+        # A column for each program, from the coarsest grid on; the shorter one ends with blanks.
+        programs = sorted({program for program, _, _ in labels})
+        columns = [sorted(key for key in labels if key[0] == program) for program in programs]
+        lines, names = [], []
+        for column in columns:
+            blanks = max(map(len, columns)) - len(column)
+            lines += [*(labels[key] for key in column), *([Line2D([], [], ls="none")] * blanks)]
+            names += [f"{NAMES[of]}, {n} x {n}, {k} increments" for of, n, k in column]
+            names += [""] * blanks
+        figure.legend(lines, names, loc="outside lower center", ncols=len(columns))
         figure.savefig(file, dpi=120)
         plt.close(figure)

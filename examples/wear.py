@@ -85,8 +85,8 @@ def wear_rate(out: Path) -> None:
         ticks = [0.5, 1, 2, 5, 10]
         ax.set_xticks(ticks, [str(tick) for tick in ticks], minor=False)
         ax.minorticks_off()
-        ax.set_xlabel("stroke [um]")
-        ax.set_ylabel("wear per cycle [um$^3$]")
+        ax.set_xlabel("stroke [µm]")
+        ax.set_ylabel("wear per cycle [µm$^3$]")
         ax.legend()
         figure.savefig(out / "wear_rate.png", dpi=150)
 
@@ -116,8 +116,8 @@ def coating_life(out: Path) -> None:
             ax.loglog(1e6 * strokes, cycles, "o-", label=f"{W:.0f} N")
         ax.set_xticks(1e6 * strokes, [f"{1e6 * stroke:.0f}" for stroke in strokes], minor=False)
         ax.minorticks_off()
-        ax.set_xlabel("stroke [um]")
-        ax.set_ylabel(f"cycles until {1e6 * thickness:.0f} um of coating are through")
+        ax.set_xlabel("stroke [µm]")
+        ax.set_ylabel(f"cycles until {1e6 * thickness:.0f} µm of coating are through")
         ax.legend()
         figure.savefig(out / "coating_life.png", dpi=150)
 
@@ -214,7 +214,7 @@ def mccoll(out: Path) -> None:
         ax.set_xlim(-0.36, 0.36)
         ax.invert_yaxis()
         ax.set_xlabel("$x$ [mm]")
-        ax.set_ylabel("depth of the flat [um]")
+        ax.set_ylabel("depth of the flat [µm]")
         ax.legend(fontsize="small")
         figure.savefig(out / "mccoll_profiles.png", dpi=150)
         plt.close(figure)

@@ -178,8 +178,8 @@ def test_an_unknown_keyword_is_refused_with_those_that_are_known(
             call(no_such_name=1)
     record_property("callables", asked)
     assert asked > 150
-    with pytest.raises(TypeError, match="'tolerence': the nearest is 'tolerance'"):
-        fret.fatigue.lives(None, None, None, tolerence=1e-3)  # type: ignore[call-arg]
+    with pytest.raises(TypeError, match="'tolerance_': the nearest is 'tolerance'"):
+        fret.fatigue.lives(None, None, None, tolerance_=1e-3)  # type: ignore[call-arg]
     # Keywords that a class of options has are known by it.
     with pytest.raises(TypeError, match=r"'resid': the nearest is 'residual' \(of .*azimuth"):
         fret.fatigue.life(None, None, None, resid=[0.0])  # type: ignore[call-arg]

@@ -73,6 +73,37 @@ def test_the_best_is_that_of_the_mean_over_the_critical_distance(life: fatigue.L
     assert "life" in repr(found)
 
 
+def test_no_life_is_told_beyond_the_tests_of_curves(life: fatigue.Life) -> None:
+    far = life.range_of(life.worst.layer, L=5e-4)
+    assert math.isinf(far.best)
+    assert math.isinf(far.high)
+    assert far.low <= 1e7
+    assert repr(far) == f"{far.low:.2g} or more"
+    assert any("no tests beyond 1e7 cycles" in note for note in far.notes)
+    # The parts of the range stay numbers.
+    assert 1e7 < far.stress.best < math.inf
+
+
+def test_a_wide_range_names_what_makes_it_wide() -> None:
+    """Of a steel the threshold is an estimate, and its curve is flat."""
+    steel = fatigue.Materials()["4340"]
+    body = fret.material("4340")
+    scene = fret.Scene(
+        body1=fret.Body(body, shape=fret.Cylinder(R=40e-3)),
+        body2=fret.Body(body),
+        mu=MU,
+        grid=fret.Grid.strip(extent=1.35e-3, n=64),
+    )
+    path = fret.LoadPath.start().force(W=500e3, increments=2)
+    for sign in (1, -1, 1):
+        path = path.force(T_x=sign * 0.6 * MU * 500e3, sigma_B=sign * 200e6, increments=6)
+    found = fret.solve(scene, path, save="all", progress=False).life(steel, "fatemi_socie").range
+    assert 10.0 < found.factor < 100.0
+    assert found.distance is not None
+    assert found.distance.factor > found.material
+    assert any("measure dK_th" in note for note in found.notes)
+
+
 def test_a_pickled_life_keeps_its_range(life: fatigue.Life) -> None:
     again = pickle.loads(pickle.dumps(life))
     assert again.range == life.range
@@ -174,6 +205,37 @@ def test_published_lives_lie_in_their_ranges(coating: str, failed: float) -> Non
         lived = row["cycles_to_failure"]
         inside.append(scale * found.low <= lived <= scale * found.high)
     assert sum(inside) >= 0.8 * len(rows)
+
+
+def test_published_lives_of_a_solid_lubricant_lie_in_their_ranges() -> None:
+    """MoS2 between Ti-6Al-4V: the capacity of the three shortest lives foretells the others."""
+    rows = experiments.table("fouvry2007_mos2_lives")
+    density, lived = (
+        np.array([row[of] for row in rows])
+        for of in ("mean_energy_density_J_per_m2_cycle", "cycles_to_failure")
+    )
+    capacity = float(np.exp(np.log(density[:3] * lived[:3]).mean()))
+    titanium = fret.Elastic(E=119e9, nu=0.29)
+    W, mu, slip = 133e3, 0.1, 50e-6
+    a = fret.reference.line_contact(R=0.01, bodies=(titanium, titanium), W=W).a
+    scene = fret.Scene(
+        body1=fret.Body(titanium, shape=fret.Cylinder(R=0.01)),
+        body2=fret.Body(titanium),
+        mu=mu,
+        grid=fret.Grid.strip(extent=2.6 * a + 4 * slip, n=48),
+        path=fret.LoadPath.start().normal(W).displace(delta_x=[slip, -slip, slip]),
+    )
+    # It fails before the substrate wears.
+    options = {"cycling": "sliding", "body2": fret.wear.Archard(1e-20), "jumps": 2}
+    worn = fret.wear.solve(scene, cycles=1e6, progress=False, **options)
+    found = worn.range_of_cycles(energy=capacity * 2 * a)
+    assert found.best == pytest.approx(capacity * 2 * a / (4 * mu * W * slip), rel=0.01)
+    assert found.factor < 10.0
+    # The life goes with the energy of a cycle, that of the test.
+    scale = 4 * mu * W * slip / (2 * a) / density[3:]
+    inside = (scale * found.low <= lived[3:]) & (lived[3:] <= scale * found.high)
+    assert inside.sum() >= 0.8 * inside.size
+    assert math.isinf(worn.cycles_to(energy=1e12))
 
 
 #: Limits and distance of the page on these tests, fitted to plain fretting.

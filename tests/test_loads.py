@@ -203,3 +203,14 @@ def test_a_measured_surface_is_pressed(tmp_path: Path) -> None:
     under = np.hypot(x, y) < np.hypot(x, y)[touched].max()
     assert 20e-12 < touched.sum() * grid.dx * grid.dy < 0.8 * under.sum() * grid.dx * grid.dy
     assert heights[touched].mean() > heights[under & ~touched].mean() + 1e-8
+
+
+def test_several_normal_forces_are_branches_of_their_own() -> None:
+    start = fret.LoadPath.start()
+    one_by_one = start.normal(1.0, increments=2).normal("2 N", increments=2)
+    assert start.normal([1.0, 2.0], increments=2) == one_by_one
+    assert start.normal(np.array([1.0, 2.0]), increments=2) == one_by_one
+    with pytest.raises(TypeError, match="a number, or several to visit in turn"):
+        start.normal([])
+    with pytest.raises(TypeError, match="W"):
+        start.normal(None)  # type: ignore[arg-type]

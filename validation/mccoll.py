@@ -92,7 +92,7 @@ def profiles(result: fret.wear.WearResult, file: Path) -> None:
             after = f"{float(d.block_cycles[block]):.0f} cycles"
             ax.plot(1e3 * d.x, ours, color=f"C{n}", label=f"ours, {after}")
             ax.plot(at[:, 1], at[:, 2], "o", ms=4, color=f"C{n}", label=f"elements, {cycles}")
-        ax.set(xlim=(-0.36, 0.36), xlabel="$x$ [mm]", ylabel="depth of the flat [um]")
+        ax.set(xlim=(-0.36, 0.36), xlabel="$x$ [mm]", ylabel="depth of the flat [µm]")
         ax.invert_yaxis()
         ax.legend(fontsize=8, loc="center left", bbox_to_anchor=(1.0, 0.5))
         figure.savefig(file, dpi=DPI)

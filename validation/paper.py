@@ -34,6 +34,7 @@ class Figure:
     title: str
     files: tuple[str, ...]
     sentences: tuple[tuple[str, Callable[[Results], str]], ...]
+    caption: str = ""
 
 
 def scene(ratio: float, n: int) -> fret.Scene:
@@ -201,6 +202,10 @@ FIGURES = (
                 history_left_out,
             ),
         ),
+        "Each curve is a polygon through the middles of the cells. The peaks in (b) stand at the "
+        "border of the stick zone and are two to three cells wide: for them the grid is coarse. "
+        "The small steps of the 100 increments at 0.2 to 0.4 $a_H$ are traces of the single "
+        "increments, where this border moves through the cells.",
     ),
     Figure(
         6,
@@ -298,6 +303,7 @@ def write(folder: Path, *, n: int) -> list[str]:
             f"Four runs of 1000 increments on {n} x {n} cells, E1/E2 = 0.5, 1, 2, 4 (in brackets), "
             f"and one of a single increment: {seconds:.0f} s of a processor in all.",
             *(f"![figure {figure.number}]({file})" for file in figure.files),
+            *([figure.caption] if figure.caption else []),
             "\n".join(
                 ["| the paper | ours |", "|---|---|"]
                 + [f"| {said} | {ours(results)} |" for said, ours in figure.sentences]

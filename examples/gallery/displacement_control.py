@@ -21,5 +21,5 @@ figure, ax = plt.subplots(layout="constrained")
 for delta_x in (0.2e-6, 0.5e-6, 1.0e-6):
     path = fret.LoadPath.start().normal(W, increments=4).cycles(1, delta_x=delta_x, increments=40)
     result = fret.solve(scene, path, progress=False)
-    fret.plot.fretting_loop(result, ax=ax, units="SI", label=f"{1e6 * delta_x:g} um")
+    fret.plot.fretting_loop(result, ax=ax, units="SI", label=f"{1e6 * delta_x:g} µm")
 ax.legend(title="amplitude")

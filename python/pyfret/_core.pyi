@@ -1754,8 +1754,14 @@ class LoadPath:
 
         What friction makes of the history of a cell goes on meanwhile.
         """
-    def normal(self, /, W: float, *, increments: int | Literal["auto"] = ...) -> LoadPath:
-        """Go to the normal force `W` [N], the tangential forces kept, in one unit of path time."""
+    def normal(
+        self, /, W: float | Sequence[float], *, increments: int | Literal["auto"] = ...
+    ) -> LoadPath:
+        """
+        Go to the normal force `W` [N], the tangential forces kept, in one unit of path time.
+
+        Of several forces each is a branch of its own, with as many increments.
+        """
     def radial(
         self, /, W: float | Sequence[float], *, increments: int | Literal["auto"] = ...
     ) -> LoadPath:

@@ -68,7 +68,7 @@ def page(out: Path) -> Page:
             ax.fill_between(1e3 * at, low, high, color=curve.get_color(), alpha=0.3, lw=0)
         ax.plot(1e3 * x, 1e6 * depth, "o", color="k", ms=4, label="measured")
         ax.invert_yaxis()
-        ax.set(xlabel="x [mm]", ylabel="worn off both bodies [um]", xlim=(-3, 3))
+        ax.set(xlabel="x [mm]", ylabel="worn off both bodies [µm]", xlim=(-3, 3))
         ax.legend(loc="lower right", fontsize="small")
 
     kept, none = KEPT

@@ -77,7 +77,7 @@ def page(out: Path) -> Page:
         ax.text(5, 1.62, "thickness of the coating", color="0.4", fontsize="small", va="bottom")
         ax.set(
             xlabel="dissipated energy [J]",
-            ylabel="worn depth [um]",
+            ylabel="worn depth [µm]",
             xlim=(0, 420),
             ylim=(0, 2),
         )

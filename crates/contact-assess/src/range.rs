@@ -3,11 +3,14 @@
 
 use contact_core::Error;
 use contact_subsurface::Line;
-use fatigue::{Assessment, AtPoint, LifeRange, Material, Range};
+use fatigue::{Assessment, AtPoint, LONGEST, LifeRange, Material, Range};
 
 use super::average::{Distance, average};
 use super::by_criterion::{ByCriterion, of_criteria};
 use super::site::Site;
+
+/// Highest over lowest life from which a note says what makes it so.
+const WIDE: f64 = 10.0;
 
 /// The largest mean over a critical distance along a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -138,10 +141,28 @@ pub fn range_of_life<E: From<Error>>(
         }
     }
     notes.extend(note);
-    let stress = assessment.margins(value, part * value);
-    Ok(RangeOfLife {
-        of: LifeRange::of(stress, factor, distance),
-        length,
-        notes,
+    let of = assessment.told(assessment.margins(value, part * value), factor, distance);
+    notes.extend(wide(assessment, &of));
+    Ok(RangeOfLife { of, length, notes })
+}
+
+/// A note on a life whose range says little: beyond the tests, or wider than [`WIDE`] by its distance.
+fn wide(assessment: &Assessment, of: &LifeRange) -> Option<String> {
+    let Range { low, high, .. } = of.range;
+    if !assessment.gives_lives() || of.stress.best.is_infinite() {
+        return None;
+    }
+    if high.is_infinite() {
+        return Some(format!(
+            "strain-life curves have no tests beyond {LONGEST:e} cycles: no longer life is told"
+        ));
+    }
+    let part = of.distance.map(|of| of.high / of.low)?;
+    (high > WIDE * low && part > of.material).then(|| {
+        format!(
+            "the life is known to a factor of {:.0}, mostly from the critical distance: measure \
+             dK_th, the threshold of cracks, or give L",
+            high / low
+        )
     })
 }

@@ -82,6 +82,6 @@ pub use judge::{Judge, strain_life};
 pub use known::Known;
 pub use life::{Basquin, CoffinManson};
 pub use material::{Material, QUANTITIES, Quantity, Sourced};
-pub use range::{LifeRange, Range};
+pub use range::{LONGEST, LifeRange, Range};
 pub use shakedown::{Yield, yielding};
 pub use table::{find, materials, read};

@@ -11,6 +11,9 @@ use crate::error::Error;
 use crate::known::Known;
 use crate::material::Material;
 
+/// Longest life that is told \[cycles\]: a strain-life curve beyond the cycles of its tests is no
+/// knowledge. Where they end is not in the tables of materials, so this is a stated default.
+pub const LONGEST: f64 = 1e7;
 /// Numbers of a material that a strain-life curve has.
 const CURVE: [&str; 4] = ["s_f", "b", "e_f", "c"];
 /// Numbers that single criteria of lives have beside it.
@@ -70,6 +73,18 @@ impl LifeRange {
     }
 }
 
+impl Range {
+    /// What is told of a life: nothing beyond [`LONGEST`].
+    fn told(self) -> Self {
+        let end = |life: f64| if life > LONGEST { f64::INFINITY } else { life };
+        Self {
+            low: self.low.min(LONGEST),
+            best: end(self.best),
+            high: end(self.high),
+        }
+    }
+}
+
 /// Logarithm of a ratio, 0 or more; infinite where the larger number is.
 fn ratio(larger: f64, smaller: f64) -> f64 {
     if larger <= smaller {
@@ -100,6 +115,16 @@ impl Assessment {
             best: self.margin(value),
             high: self.margin((value - error).max(0.0)),
         }
+    }
+
+    /// The range of a margin from its parts, as [`LifeRange::of`]. A life beyond [`LONGEST`] is without
+    /// end.
+    pub fn told(&self, stress: Range, material: f64, distance: Option<Range>) -> LifeRange {
+        let mut found = LifeRange::of(stress, material, distance);
+        if self.gives_lives() && found.range.best.is_finite() {
+            found.range = found.range.told();
+        }
+        found
     }
 
     /// Highest over lowest margin by the scatter of a material, and a note where numbers of it are

@@ -218,7 +218,7 @@ impl Assessment {
     ) -> PyResult<((f64, f64, f64), (f64, f64, f64), f64, Vec<String>)> {
         let material = material.as_ref().map(|material| &material.0);
         let (factor, note) = self.0.scatter(material, scatter).map_err(refused)?;
-        let found = core::LifeRange::of(self.0.margins(value, error), factor, None);
+        let found = self.0.told(self.0.margins(value, error), factor, None);
         let three = |of: core::Range| (of.low, of.best, of.high);
         Ok((
             three(found.stress),

@@ -51,6 +51,8 @@ def loading_history(result: Run, jump: Run) -> Figure:
     for run, label, line in curves:
         pressure_profile(run, ax=left, label=label, **line)
         shear_profile(run, ax=right, label=label, **line)
+    left.set_title("(a)  pressure")
+    right.set_title("(b)  shear")
     left.legend(loc="lower center")
     return figure
 

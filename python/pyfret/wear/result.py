@@ -97,6 +97,7 @@ class WearResult(Kept, Labelled):
         depth: float | None = None,
         part_of_coating: float | None = None,
         volume: float | None = None,
+        energy: float | None = None,
         body_number: int = 2,
         coating: int = 0,
     ) -> float:
@@ -113,6 +114,9 @@ class WearResult(Kept, Labelled):
             The deepest depth, as a part of a coating's thickness: 1 is worn through.
         volume : float
             Volume lost [m^3].
+        energy : float
+            Energy dissipated in the contact, of both bodies [J]. A solid lubricant such as MoS2
+            fails at an energy per area of the contact.
         body_number : 1 or 2
             The body.
         coating : int
@@ -121,9 +125,14 @@ class WearResult(Kept, Labelled):
         Raises
         ------
         ValueError
-            Not one of the three is given, or the body has no such coating.
+            Not one of the four is given, or the body has no such coating.
         """
-        given = {"depth": depth, "part_of_coating": part_of_coating, "volume": volume}
+        given = {
+            "depth": depth,
+            "part_of_coating": part_of_coating,
+            "volume": volume,
+            "energy": energy,
+        }
         if sum(value is not None for value in given.values()) != 1:
             raise ValueError(f"{', '.join(given)}: give one of them")
         if body_number not in (1, 2):
@@ -136,6 +145,8 @@ class WearResult(Kept, Labelled):
                 )
             above = sum(layer.thickness for layer in coatings[:coating])
             depth = above + part_of_coating * coatings[coating].thickness
+        if energy is not None:
+            return spent(self.dataset, energy)
         name, target = ("volume", volume) if depth is None else ("depth", depth)
         return reached(self.dataset, f"{name}{body_number}", float(target or 0.0))
 
@@ -260,6 +271,16 @@ class WearResult(Kept, Labelled):
             f"WearResult({float(d.cycles[-1]):.0f} cycles in {d.sizes['jump']} jumps, depths "
             f"{depths[0]} and {depths[1]})"
         )
+
+
+def spent(d: xr.Dataset, energy: float) -> float:
+    """Cycles at which the dissipated energy [J] reaches a value: linear within a jump."""
+    cycles, ends = (np.asarray(d[of].values, float) for of in ("cycles", "dissipated"))
+    before = float(cycles[0] - d["length"][0])
+    start = float(ends[0] - d["dissipated_per_cycle"][0] * d["length"][0])
+    if energy > ends[-1]:
+        return math.inf
+    return float(np.interp(energy, [max(start, 0.0), *ends], [before, *cycles]))
 
 
 def reached(d: xr.Dataset, name: str, target: float) -> float:

@@ -1,6 +1,6 @@
 //! Material data: every number has a source, and criteria give back what their weights are from.
 
-use fatigue::{Assessment, CRITERIA, Judge, LifeRange, Material, Range, materials, read};
+use fatigue::{Assessment, CRITERIA, Judge, LONGEST, LifeRange, Material, Range, materials, read};
 
 use super::{Tensor, one};
 
@@ -110,6 +110,24 @@ fn parts_of_a_range_add_as_squares_of_logarithms() {
     let endless = LifeRange::of(range(1e7, f64::INFINITY, f64::INFINITY), 4.0, None).range;
     assert!((endless.low - 5e6).abs() < 1.0);
     assert_eq!(endless.high, f64::INFINITY);
+}
+
+#[test]
+fn a_life_beyond_the_tests_of_its_curve_is_without_end_and_a_safety_factor_is_not() {
+    let materials = materials();
+    let told = |criterion: &str, name: &str, best: f64| {
+        let of = Assessment::of(criterion, &materials[name]).unwrap();
+        let (low, high) = (0.5 * best, 2.0 * best);
+        of.told(Range { low, best, high }, 1.0, None).range
+    };
+    let life = |best| told("smith_watson_topper", "steel_4340", best);
+    assert!((life(4e6).high - 8e6).abs() < 1.0);
+    let at_end = life(8e6);
+    assert!((at_end.low - 4e6).abs() < 1.0 && (at_end.best - 8e6).abs() < 1.0);
+    assert_eq!(at_end.high, f64::INFINITY);
+    let beyond = life(1e9);
+    assert!((beyond.low - LONGEST).abs() < 1.0 && beyond.best.is_infinite());
+    assert!((told("crossland", "steel_42CrMo4", 1e9).high - 2e9).abs() < 1.0);
 }
 
 #[test]

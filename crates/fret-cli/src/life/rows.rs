@@ -284,7 +284,7 @@ fn said(range: &Range, of: &Assessment) -> String {
         }
         (true, true) => format!("life {} cycles", with_range(best, [low, high])),
         (true, false) if low.is_finite() => {
-            format!("endless life (at least {} cycles)", rough(low))
+            format!("life {} cycles or more", rough(low))
         }
         (true, false) => "endless life".into(),
         (false, _) => format!("safety factor {}", with_range(best, [low, high])),

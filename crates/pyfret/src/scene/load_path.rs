@@ -7,7 +7,7 @@ use contact_core::Error;
 use contact_core::scene::{self as core, Prescribed, RigidMotion};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyString};
 
 use super::branch::{Branch, Spacing};
 use super::branches::{branch, column, cycled, moved, prescribe};
@@ -89,9 +89,16 @@ impl LoadPath {
     }
 
     /// Go to the normal force `W` [N], the tangential forces kept, in one unit of path time.
-    #[pyo3(signature = (W: "float", *, increments = Count(None)))]
-    fn normal(&self, #[pyo3(from_py_with = Given::W)] W: f64, increments: Count) -> PyResult<Self> {
-        checked(self.0.clone().normal(W, increments.0))
+    ///
+    /// Of several forces each is a branch of its own, with as many increments.
+    #[pyo3(signature = (W: "float | Sequence[float]", *, increments = Count(None)))]
+    fn normal(
+        &self,
+        #[pyo3(from_py_with = forces)] W: Values,
+        increments: Count,
+    ) -> PyResult<Self> {
+        let several = W.slice().iter();
+        checked(several.fold(self.0.clone(), |path, W| path.normal(*W, increments.0)))
     }
 
     /// Visit the tangential forces `T_x` [N] in turn.
@@ -454,4 +461,12 @@ impl LoadPath {
         };
         format!("LoadPath({} branches, {increments})", branches.len())
     }
+}
+
+/// Normal forces \[N\]: one, which may be a text with its unit, or several.
+fn forces(value: &Bound<'_, PyAny>) -> PyResult<Values> {
+    if value.len().is_ok() && !value.is_instance_of::<PyString>() {
+        return value.extract();
+    }
+    Given::W(value).map(Values::One)
 }

@@ -1,6 +1,5 @@
 //! The scene as a whole.
 
-use std::ffi::CString;
 use std::path::PathBuf;
 
 use contact_core::scene as core;
@@ -189,11 +188,11 @@ impl Scene {
         let scene = self.along(path);
         scene.check().map_err(to_python)?;
         scene.check_fit().map_err(to_python)?;
-        let warning = py.import("pyfret.errors")?.getattr("SceneWarning")?;
-        for doubt in scene.doubts() {
-            PyErr::warn(py, &warning, &CString::new(doubt)?, 1)?;
-        }
-        Ok(())
+        let warn = py.import("pyfret._util.doubts")?.getattr("warn")?;
+        scene
+            .doubts()
+            .into_iter()
+            .try_for_each(|doubt| warn.call1((doubt,)).map(drop))
     }
 
     /// One line that names the scene.
