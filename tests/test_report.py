@@ -240,3 +240,23 @@ def test_fret_hands_over_to_python() -> None:
     ran = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
     assert ran.returncode == 2
     assert "FRET_PYTHON" in ran.stderr
+
+
+@pytest.mark.timeout(180)
+def test_captions_stand_below_the_labels_of_their_figures(page: Path) -> None:
+    api = pytest.importorskip("playwright.sync_api")
+    below = """() => [...document.querySelectorAll("figure")].map((of) => {
+        const title = of.querySelector(".xtitle"), caption = of.querySelector("figcaption");
+        return title && caption.getBoundingClientRect().top - title.getBoundingClientRect().bottom;
+    }).filter((of) => of !== null)"""
+    with api.sync_playwright() as play:
+        chromium = browser(play)
+        for width, height in SCREENS.values():
+            view = chromium.new_page(viewport={"width": width, "height": height})
+            view.goto(page.as_uri())
+            view.wait_for_selector("body[data-drawn=yes]", timeout=60_000)
+            room = view.evaluate(below)
+            assert len(room) > 5
+            assert min(room) > 2.0
+            view.close()
+        chromium.close()

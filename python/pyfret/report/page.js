@@ -15,9 +15,9 @@
   const colours = { stick: "#0072B2", slip: "#F2C9A9", first: "#0072B2", second: "#D55E00", bound: "#9A9A9A" };
   const options = { responsive: true, displaylogo: false, modeBarButtonsToRemove: ["lasso2d", "select2d"] };
   const layout = (x, y, more = {}) => ({
-    margin: { l: 60, r: 12, t: 10, b: 46 },
+    margin: { l: 60, r: 12, t: 10, b: 56 },
     font: { size: 12 },
-    xaxis: { title: { text: x }, zeroline: false },
+    xaxis: { title: { text: x, standoff: 6 }, zeroline: false },
     yaxis: { title: { text: y }, zeroline: false },
     legend: { orientation: "h", y: 1.12 },
     ...more,
@@ -127,7 +127,7 @@
       ...crack,
     ], section, options);
     document.getElementById("largest").textContent =
-      `the cross marks the largest, ${stress.largest.value} MPa at x = ${x} µm, y = ${y} µm, z = ${z} µm${stress.crack ? `; the line is the crack${stress.crack.end ? ", dashed beyond where it stops" : ""}` : ""}.`;
+      `the cross marks the largest, ${stress.largest.value} MPa at x = ${x} µm, y = ${y} µm, z = ${z} µm${stress.crack ? `; the line is the crack${stress.crack.end ? ", dashed beyond where it stops" : ""}` : ""}.${stress.interfaces.length ? " Each layer has a scale of depth of its own." : ""}`;
   } else {
     document.getElementById("below").remove();
   }
