@@ -38,9 +38,11 @@ def paper_scene(ratio: float, *, cells: int | None = None) -> fret.Scene:
 
 
 def one_jump(scene: fret.Scene) -> fret.Scene:
-    """The indentation alone in one increment: what leaving out the load history costs."""
+    """The indentation alone in one increment that leaves out the load history within it."""
     path = fret.LoadPath.start().normal(float(scene.path.W.max()), increments=1)
-    return scene.replace(path=path, save="all", title=f"{scene.title}, one increment")
+    alone = scene.replace(path=path, save="all", title=f"{scene.title}, one increment")
+    settings = alone.settings.replace(entering=False, turning=False)
+    return alone.replace(settings=settings)
 
 
 def front_page(results: dict[float, fret.Result], file: Path) -> None:

@@ -274,3 +274,10 @@ def test_a_stress_of_a_criterion_has_its_unit(life: fatigue.Life) -> None:
     assert life.worst.units == "Pa"
     assert " MPa, x = " in repr(life.worst)
     assert " MPa</td>" in life._repr_html_()
+
+
+def test_endless_lives_have_no_number() -> None:
+    endless = fatigue.ranges.in_two_digits(math.inf, math.inf, math.inf)
+    assert endless == "endless"
+    assert fatigue.ranges.in_two_digits(3.2e6, math.inf, math.inf) == "3.2e+06 or more"
+    assert fatigue.ranges.in_two_digits(3.2e6, 5e6, math.inf) == "5e+06 (3.2e+06 or more)"

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import inspect
 import io
+import re
 import warnings
 from pathlib import Path
 from typing import Any
@@ -130,7 +131,7 @@ def names() -> dict[str, Any]:
     # Friction that rises as the surfaces rub.
     rising = fret.Friction(mu, history=(fret.History.SLIP, [(0.0, 0.6), (2e-6, 1.2)]))
     many = fret.solve(
-        small.replace(mu=rising), pressed.cycles(8, delta_x=2.5e-7, increments=8), progress=False
+        small.replace(mu=rising), pressed.cycles(8, delta_x=2.5e-7, increments=12), progress=False
     )
     by_ratio = {2.0: result}
     for ratio in (0.5, 4.0):
@@ -263,7 +264,7 @@ def picture(drawn: Any, place: Path) -> None:
 def summary(name: str) -> str:
     """The first sentence of what a figure shows."""
     text = inspect.getdoc(getattr(plot, name)) or ""
-    first = " ".join(text.split("\n\n")[0].split()).replace(":math:", "")
+    first = re.sub(":math:`([^`]*)`", r"$\1$", " ".join(text.split("\n\n")[0].split()))
     # What stands behind is where its parameters are.
     return first.replace("``", "`").split("; parameters")[0].rstrip(".") + "."
 

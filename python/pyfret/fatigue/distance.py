@@ -20,6 +20,11 @@ if TYPE_CHECKING:
 __all__ = ["OverDistance"]
 
 
+def rough(margin: float) -> str:
+    """A life or a safety factor in two digits; without end it is that of its low end or more."""
+    return f"{margin:.2g}" if np.isfinite(margin) else "or more"
+
+
 class OverDistance(Labelled):
     """Lives or safety factors over the distance that the stress is averaged over.
 
@@ -61,7 +66,7 @@ class OverDistance(Labelled):
         """A line for every distance: L, low, best, high."""
         d = self.dataset
         return [
-            [length(float(d.L[n])), *(f"{float(of[n]):.2g}" for of in (d.low, self.margin, d.high))]
+            [length(float(d.L[n])), *(rough(float(of[n])) for of in (d.low, self.margin, d.high))]
             for n in range(d.sizes["L"])
         ]
 

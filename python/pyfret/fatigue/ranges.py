@@ -62,8 +62,8 @@ class LifeRange(NamedTuple):
 
 def in_two_digits(low: float, best: float, high: float) -> str:
     """A range as text."""
-    if math.isinf(best) and math.isfinite(low):
-        return f"{low:.2g} or more"
+    if math.isinf(best):
+        return f"{low:.2g} or more" if math.isfinite(low) else "endless"
     upper = f"to {high:.2g}" if math.isfinite(high) else "or more"
     return f"{best:.2g} ({low:.2g} {upper})"
 

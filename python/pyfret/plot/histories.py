@@ -226,7 +226,9 @@ def loop_evolution(result: Run, *, ax: Axes | None = None, **line: Any) -> Axes:
         mean = float(loops.dissipated.mean())
         shown.append((loops.dissipated / (mean or 1.0), "dissipated energy over its mean"))
     for values, label in shown:
-        ax.plot(number, values, label=label, **line)
+        # A ratio that no cycle has is no curve.
+        if np.isfinite(values).any():
+            ax.plot(number, values, label=label, **line)
     ax.set_xlabel("cycle")
     ax.set_xticks(number)
     # With room for a whole point at the largest value.

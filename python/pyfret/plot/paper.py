@@ -46,7 +46,7 @@ def loading_history(result: Run, jump: Run) -> Figure:
     indented = int(np.flatnonzero(ends == ends[0])[-1]) + 1
     curves: list[tuple[State, str, dict[str, Any]]] = [
         (result.at(indented), f"{indented} increments", {"color": RATIO_COLOURS[2.0]}),
-        (jump.at(-1), "one increment", {"color": "0.25", "linestyle": "--"}),
+        (jump.at(-1), "history left out", {"color": "0.25", "linestyle": "--"}),
     ]
     for run, label, line in curves:
         pressure_profile(run, ax=left, label=label, **line)
