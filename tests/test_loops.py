@@ -100,3 +100,24 @@ def test_the_stiffness_is_mindlins_or_not_given(reach: float, increments: int) -
     right = {15e-6: 0.9777, 1e-6: 0.6716, 2e-7: 0.0735}[reach]
     assert np.isnan(sliding) or abs(sliding - right) < error + 0.005
     assert np.isnan(sliding) == (error > 0.05)
+
+
+@pytest.mark.parametrize(("n", "increments", "part"), [(24, 8, 0.6), (24, 4, 0.3), (32, 14, 0.8)])
+def test_a_stiffness_in_torsion(n: int, increments: int, part: float) -> None:
+    """Within the error of Reissner and Sagoci's 16 a^3/(3 (1/G1 + 1/G2)), on few cells as well."""
+    a = fret.reference.hertz(R=R, bodies=(SIC, STEEL), W=W).a
+    right = 16.0 * a**3 / (3.0 * sum(2.0 * (1.0 + m.nu) / m.E for m in (SIC, STEEL)))
+    scene = fret.Scene(
+        body1=fret.Body(SIC, shape=fret.Sphere(R=R)),
+        body2=fret.Body(STEEL),
+        mu=MU,
+        grid=fret.Grid.centred(extent=2.6 * a, n=n),
+    )
+    path = fret.LoadPath.start().normal(W, increments=1)
+    for sign in (1.0, -1.0, 1.0):
+        most = 3.0 * np.pi / 16.0 * MU * W * a
+        path = path.force(M_z=sign * part * most, increments=increments)
+    found = fret.solve(scene, path, progress=False).loops(direction="torsion").isel(cycle=-1)
+    error = float(found.stiffness_error)
+    assert error < 0.06 * right
+    assert abs(float(found.stiffness) - right) < error

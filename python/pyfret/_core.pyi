@@ -3140,6 +3140,7 @@ def line_through(
 def loops(
     path: LoadPath,
     *,
+    torsion: bool,
     branch: Sequence[int],
     T: Sequence[float],
     delta: Sequence[float],

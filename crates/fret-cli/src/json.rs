@@ -138,7 +138,7 @@ pub(crate) fn cycles(scene: &Scene, increments: &[Increment]) -> Vec<(Direction,
             .iter()
             .map(|i| LoopPoint::new(i, direction))
             .collect();
-        loops(&scene.path, &points)
+        loops(&scene.path, direction, &points)
             .into_iter()
             .map(move |c| (direction, c))
     })

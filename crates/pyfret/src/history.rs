@@ -191,10 +191,11 @@ fn finished() -> PyErr {
 
 /// Energy and stiffness of every cycle of a history; use :meth:`pyfret.Result.loops`.
 #[pyfunction]
-#[pyo3(signature = (path, *, branch: "Sequence[int]", T: "Sequence[float]", delta: "Sequence[float]", dissipated: "Sequence[float]", status: "Sequence[int]") -> "list[dict[str, float]]")]
+#[pyo3(signature = (path, *, torsion: "bool", branch: "Sequence[int]", T: "Sequence[float]", delta: "Sequence[float]", dissipated: "Sequence[float]", status: "Sequence[int]") -> "list[dict[str, float]]")]
 pub(crate) fn loops(
     py: Python<'_>,
     path: LoadPath,
+    torsion: bool,
     branch: List<usize>,
     T: List<f64>,
     delta: List<f64>,
@@ -217,7 +218,12 @@ pub(crate) fn loops(
             },
         )
         .collect();
-    core::loops(&path.0, &history)
+    let direction = if torsion {
+        core::Direction::Torsion
+    } else {
+        core::Direction::X
+    };
+    core::loops(&path.0, direction, &history)
         .iter()
         .map(|c| {
             let of = PyDict::new(py);

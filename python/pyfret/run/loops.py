@@ -21,7 +21,10 @@ LOOP = {
     "dissipated": ("J", "energy dissipated in the cycle"),
     "T": ("N", "half the range of the force"),
     "delta": ("m", "half the range of the shift"),
-    "stiffness": ("N/m", "stiffness right after the reversals, NaN where it is not known to 2 %"),
+    "stiffness": (
+        "N/m",
+        "stiffness right after the reversals, NaN where it is not known to 2 %, in torsion to 6 %",
+    ),
     "stiffness_error": ("N/m", "estimated error of the stiffness"),
     "secant_stiffness": ("N/m", "stiffness of the whole loop"),
     "opening": ("m", "half the opening of the loop at the middle force"),
@@ -42,6 +45,7 @@ def of_cycles(
     force, shift = ("M_z", "phi_z") if torsion else (f"T_{direction}", f"delta_{direction}")
     found = _core.loops(
         scene.path,
+        torsion=torsion,
         branch=dataset.branch_of_increment.values.tolist(),
         T=dataset[force].values.tolist(),
         delta=dataset[shift].values.tolist(),

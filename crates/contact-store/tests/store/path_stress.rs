@@ -45,8 +45,11 @@ fn loops_are_mindlins() {
             .iter()
             .map(|i| LoopPoint::new(i, Direction::X))
             .collect();
-        let cycle = loops(&scene.path, &history)[0];
-        assert_eq!(loops(&scene.path, &history[..history.len() - 1]), []);
+        let cycle = loops(&scene.path, Direction::X, &history)[0];
+        assert_eq!(
+            loops(&scene.path, Direction::X, &history[..history.len() - 1]),
+            []
+        );
         let closed = CattaneoMindlin::new(scene.hertz().unwrap(), STEEL, STEEL, MU);
         let close = |ours: f64, exact: f64, tolerance: f64, what: &str| {
             assert!(

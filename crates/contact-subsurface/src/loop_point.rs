@@ -1,0 +1,49 @@
+//! Points of fretting loops.
+
+use contact_core::march::{Increment, Status};
+
+/// A tangential motion and the load that drives it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Direction {
+    /// T_x and delta_x.
+    #[default]
+    X,
+    /// T_y and delta_y.
+    Y,
+    /// M_z and phi_z: moments \[N m\] take the place of forces, rotations \[rad\] that of shifts.
+    Torsion,
+}
+
+/// A point of a loop: force and shift at the end of an increment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LoopPoint {
+    /// Branch of the load path, from 0.
+    pub branch: usize,
+    /// Tangential force \[N\].
+    pub T: f64,
+    /// Tangential shift \[m\].
+    pub delta: f64,
+    /// Energy dissipated by friction in the increment \[J\].
+    pub dissipated: f64,
+    /// State of the interface.
+    pub status: Status,
+}
+
+impl LoopPoint {
+    /// The force and shift of an increment along a direction.
+    pub fn new(increment: &Increment, direction: Direction) -> Self {
+        let (loads, motion) = (&increment.point.loads, &increment.motion);
+        let (T, delta) = match direction {
+            Direction::X => (loads.T_x, motion.delta_x),
+            Direction::Y => (loads.T_y, motion.delta_y),
+            Direction::Torsion => (loads.M_z, motion.phi_z),
+        };
+        Self {
+            branch: increment.point.branch,
+            T,
+            delta,
+            dissipated: increment.energy.dissipated,
+            status: increment.status,
+        }
+    }
+}
