@@ -40,6 +40,7 @@ SCAN = [
     ("march/remembered.rs", "STIFF", ("1e-9", "1e-5")),
     ("march/remembered.rs", "BEHIND", ("2.0", "8.0")),
     ("march/remembered.rs", "BESIDE", ("0.01", "0.04")),
+    ("march/remembered.rs", "LEAST_STICK", ("0.3", "0.7")),
     ("march/problem.rs", "PREDICTED_SHARE", ("0.4", "1.0")),
     ("march/problem.rs", "NORMAL_SHARE", ("0.2", "0.8")),
     ("march/problem.rs", "TANGENTIAL_SHARE", ("0.3", "0.9")),

@@ -29,6 +29,7 @@ use std::sync::atomic::AtomicBool;
 
 use super::carried::{carried, pressed};
 use super::coupling::coupling;
+use super::remembered::remembers_enough;
 use super::state::Along;
 use super::{Increment, March, Motion, State, Work};
 use crate::error::Error;
@@ -127,8 +128,8 @@ impl March {
         }
     }
 
-    /// The increment of an indentation from what the stick zone of the path grid remembers; if that
-    /// does not converge, from the indentation on the grid itself.
+    /// The increment of an indentation from what the stick zone of the path grid remembers; if that zone
+    /// is too small or it does not converge, from the indentation on the grid itself.
     fn remember_path_grid(
         &mut self,
         point: &LoadPoint,
@@ -139,13 +140,15 @@ impl March {
             unreachable!("a march without a path grid");
         };
         let begun = self.domain.work();
-        let solved = match self.remember(point, (coarse.scene(), &along.now, row), ratio) {
-            Err(error) if !matches!(error, Error::Interrupted { .. }) => {
+        let remembered = remembers_enough(row)
+            .then(|| self.remember(point, (coarse.scene(), &along.now, row), ratio));
+        let solved = match remembered {
+            Some(ended @ (Ok(_) | Err(Error::Interrupted { .. }))) => ended,
+            _ => {
                 let pressed = self.press_on_grid();
                 self.state.along = Some(along);
                 pressed
             }
-            ended => ended,
         };
         self.coarse = Some(coarse);
         solved.map(|mut row| {

@@ -316,6 +316,22 @@ fn an_indentation_on_the_path_grid_has_less_error_than_on_the_grid_itself() {
     }
 }
 
+/// A stick zone of less than half of the contact says little of the ring around it.
+#[test]
+fn an_indentation_with_a_wide_ring_of_slip_is_that_of_the_grid_itself() {
+    let text = "schema = 1\nbody1 = { shape.sphere.R = 0.01, E = 210e9, nu = 0.3 }\nfriction.mu = 0.05\n\
+                grid = { n = 64, extent = { a_H = 2.6 } }\nsolver.tolerance = 2e-5\n\
+                path = [{ W = 100.0, increments = 12, spacing = \"equal_radius\" }]\n\
+                [body2]\nshape = \"flat\"\nE = 70e9\nnu = 0.33\n";
+    let end = |path: &str| run(&scene(text, &[path]));
+    let (rows, on_grid) = end("solver.path_grid=same");
+    assert!(rows[11].stick_ratio() < 0.25, "{}", rows[11].stick_ratio());
+    let (rows, on_path) = end("solver.path_grid=32");
+    assert_eq!(rows[10].path_grid, 32);
+    let off = distance(&on_path, &on_grid);
+    assert!(off < 1e-4, "the shear is {off:.1e} off");
+}
+
 /// With a single pass of pressure and shear the end does not converge from what the stick zone remembers
 /// of the path grid: the indentation is solved on the grid itself.
 #[test]
