@@ -54,20 +54,30 @@ fn ascended(tau: &impl Fn([f64; 3]) -> f64, mut n: [f64; 3]) -> ([f64; 3], f64) 
     (n, most)
 }
 
+/// Normals and values at the tops that are reached from the highest planes of a lattice and from the
+/// plane that was found.
+fn hills_of(
+    value: &impl Fn([f64; 3]) -> f64,
+    planes: &[[f64; 3]],
+    found: [f64; 3],
+) -> Vec<([f64; 3], f64)> {
+    let mut by_value: Vec<_> = planes.iter().map(|n| (*n, value(*n))).collect();
+    by_value.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let mut starts = vec![found];
+    for (n, _) in by_value {
+        if starts.len() < 10 && starts.iter().all(|m| dot(*m, n).abs() < 0.94) {
+            starts.push(n);
+        }
+    }
+    starts.into_iter().map(|n| ascended(value, n)).collect()
+}
+
 /// The normals of the largest shear amplitude: maxima reached from a lattice of planes and from the
 /// plane that was found, and from the direction of the longest chord of the shear on each.
 fn largest_sheared(history: &[Tensor], planes: &[[f64; 3]], found: [f64; 3]) -> Vec<[f64; 3]> {
     let of = criterion("matake", &[("k", 0.5)]);
     let tau = |n: [f64; 3]| on_plane(&of, history, n).1;
-    let mut by_shear: Vec<_> = planes.iter().map(|n| (*n, tau(*n))).collect();
-    by_shear.sort_by(|a, b| b.1.total_cmp(&a.1));
-    let mut starts = vec![found];
-    for (n, _) in by_shear {
-        if starts.len() < 10 && starts.iter().all(|m| dot(*m, n).abs() < 0.94) {
-            starts.push(n);
-        }
-    }
-    let mut tops: Vec<_> = starts.into_iter().map(|n| ascended(&tau, n)).collect();
+    let mut tops = hills_of(&tau, planes, found);
     for k in 0..tops.len() {
         let n = tops[k].0;
         let shear = |s: &Tensor| {
@@ -129,6 +139,54 @@ fn of_planes_that_tie_the_worse_one_counts() {
 #[ignore = "slow: 20 000 histories"]
 fn of_planes_that_tie_the_worse_one_counts_in_many_histories() {
     against_all_ties(MANY_HISTORIES);
+}
+
+#[test]
+fn no_plane_has_more_below_a_contact() {
+    against_all_hills(HISTORIES / 4);
+}
+
+#[test]
+#[ignore = "slow: 20 000 histories"]
+fn no_plane_has_more_below_a_contact_in_many_histories() {
+    against_all_hills(MANY_HISTORIES);
+}
+
+/// Histories below a contact against the highest hills of a lattice of planes, of every criterion
+/// that seeks the largest value.
+fn against_all_hills(count: u64) {
+    let draw = |n: u64| below_a_contact(&mut Draw(FIRST + n), 9);
+    let histories: Vec<_> = (0..count).map(draw).collect();
+    let planes: Vec<_> = normals(600).collect();
+    let (E, nu) = super::STEEL;
+    let tolerance = fatigue::Search::default().tolerance;
+    for of in [
+        criterion("findley", &[("k", 0.3)]),
+        criterion("smith_watson_topper", &[("E", E), ("nu", nu)]),
+        criterion(
+            "fatemi_socie",
+            &[("E", E), ("nu", nu), ("k", 0.6), ("s_y", 600e6)],
+        ),
+    ] {
+        let found = many(&of, &histories);
+        for (n, (history, found)) in histories.iter().zip(&found).enumerate() {
+            let value = |n: [f64; 3]| on_plane(&of, history, n).0;
+            let hills = hills_of(&value, &planes, found.normal);
+            let highest = hills.iter().map(|hill| hill.1);
+            let right = highest.fold(f64::NEG_INFINITY, f64::max);
+            let there = value(found.normal);
+            assert!(
+                right <= found.value + found.missed.min(tolerance * right),
+                "history {n}, {}: {found:?}, of all hills {right}",
+                of.name()
+            );
+            assert!(
+                (there - found.value).abs() <= 1e-9 * found.value.abs(),
+                "history {n}, {}: {found:?}, on its plane {there}",
+                of.name()
+            );
+        }
+    }
 }
 
 /// Histories below a contact against all planes that tie, of every criterion that has its plane there.
