@@ -142,13 +142,12 @@ impl March {
         let begun = self.domain.work();
         let remembered = remembers_enough(row)
             .then(|| self.remember(point, (coarse.scene(), &along.now, row), ratio));
-        let solved = match remembered {
-            Some(ended @ (Ok(_) | Err(Error::Interrupted { .. }))) => ended,
-            _ => {
-                let pressed = self.press_on_grid();
-                self.state.along = Some(along);
-                pressed
-            }
+        let solved = if let Some(ended @ (Ok(_) | Err(Error::Interrupted { .. }))) = remembered {
+            ended
+        } else {
+            let pressed = self.press_on_grid();
+            self.state.along = Some(along);
+            pressed
         };
         self.coarse = Some(coarse);
         solved.map(|mut row| {
