@@ -228,6 +228,10 @@ fn encode(head: &Head, state: &State, file: &File) -> io::Result<()> {
     to.to.flush()
 }
 
+/// What is wrong with a checkpoint of before, and what to do.
+pub(super) const OTHER_LAYOUT: &str = "is of another layout than this version writes: what has been \
+    solved can be read, but to go on, run the scene anew";
+
 /// The state and the increments that belong to it, or what is wrong with them.
 fn decode(bytes: &[u8], scene: u32, log: &[u8]) -> Result<(Head, State, Vec<Increment>), String> {
     let damaged = || "is damaged".to_owned();
@@ -235,9 +239,7 @@ fn decode(bytes: &[u8], scene: u32, log: &[u8]) -> Result<(Head, State, Vec<Incr
     if crc32fast::hash(content) != u32::from_le_bytes(*crc) {
         return Err(damaged());
     }
-    let content = content
-        .strip_prefix(MAGIC)
-        .ok_or("is of another layout than this version writes")?;
+    let content = content.strip_prefix(MAGIC).ok_or(OTHER_LAYOUT)?;
     let (head, content): (Head, _) = postcard::take_from_bytes(content).map_err(|_| damaged())?;
     if head.version != env!("CARGO_PKG_VERSION") {
         return Err(format!(

@@ -7,6 +7,7 @@ use contact_core::Error;
 use contact_wear::WearState;
 use serde::{Deserialize, Serialize};
 
+use super::checkpoint::OTHER_LAYOUT;
 use super::consolidated::Checksums;
 use super::folder::Folder;
 
@@ -53,7 +54,7 @@ pub(super) fn read_checkpoint(folder: &Arc<Folder>) -> Result<(WearState, Kept),
     let bytes = bytes.ok_or_else(|| damaged("is missing"))?;
     let rest = bytes
         .strip_prefix(MAGIC)
-        .ok_or_else(|| damaged("is of another layout"))?;
+        .ok_or_else(|| damaged(OTHER_LAYOUT))?;
     let (crc, content) = rest
         .split_at_checked(4)
         .ok_or_else(|| damaged("is cut off"))?;
