@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import json
 from os import fspath
 from typing import TYPE_CHECKING, Literal
@@ -57,7 +58,7 @@ class Result(Run):
         """The figures that show a run: ``result.plot()``, ``result.plot.fretting_loop()``."""
         return Figures(self)
 
-    @numbers_only
+    @functools.partial(numbers_only, but=("which",))
     def at(self, which: float) -> Snapshot:
         """Give the contact at the end of one increment whose fields were kept.
 

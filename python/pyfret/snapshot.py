@@ -196,6 +196,7 @@ class Snapshot(State):
             residual=residual,
         )
 
+    @numbers_only
     def displacement(
         self,
         z: ArrayLike | None = None,

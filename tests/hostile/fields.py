@@ -131,6 +131,13 @@ CALLS: list[Call] = [
     (
         "loops",
         lambda **k: _core.loops(PATH, **k),
-        {"branch": [0], "T": [1.0], "delta": [1.0], "dissipated": [1.0], "status": [1]},
+        {
+            "branch": [0],
+            "T": [1.0],
+            "delta": [1.0],
+            "dissipated": [1.0],
+            "status": [1],
+            "torsion": False,
+        },
     ),
 ]
