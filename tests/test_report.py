@@ -51,6 +51,13 @@ def page(result: fret.Result, worn: fret.wear.WearResult, tmp_path_factory: Any)
     return place
 
 
+def test_wear_of_other_bodies_is_refused(worn: fret.wear.WearResult, tmp_path: Path) -> None:
+    other = fret.solve(sphere_on_flat(ratio=4.0, n=16), PATH, progress=False)
+    with pytest.raises(ValueError, match="wear: is of other bodies than the run"):
+        other.report(tmp_path / "page.html", wear=worn)
+    assert not (tmp_path / "page.html").exists()
+
+
 def test_the_page_has_it_all_in_one_small_file(page: Path, result: fret.Result) -> None:
     text = page.read_text(encoding="utf-8")
     assert page.stat().st_size < 5e6

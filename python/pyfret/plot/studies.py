@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
+import textwrap
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeAlias
 
@@ -37,6 +38,8 @@ CONTOURED = 4
 #: Step of the contours over the scatter of the values, at least: closer ones are its islands.
 ABOVE_SCATTER = 5.0
 COLOURS = "YlGnBu"
+#: Letters in a line of a label, so that it fits beside a map.
+WIDTH = 44
 #: Status of a point that is done, and colour of points that are and have no value.
 DONE, NO_VALUE = 1, "0.9"
 
@@ -115,7 +118,9 @@ def study_map(
         raise ValueError(f"{chosen} is a field over {', '.join(map(str, extra))}: draw one point")
     ax = axes(ax)
     values, label = in_figures(values)
-    label = ", ".join(filter(None, (labels.get(chosen, label), known_to(d, chosen))))
+    label = labels.get(chosen, label)
+    lines = [label] if "$" in label else textwrap.wrap(label, WIDTH)
+    label = "\n".join(filter(None, (*lines, known_to(d, chosen))))
     if "point" in values.dims:
         scattered(ax, study.parameters, values, label, words)
     elif values.ndim == 1:

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 
     from matplotlib.figure import Figure
 
+    from pyfret._core import Body
     from pyfret.fracture.growth import Cracks, Threshold
     from pyfret.run import Run
     from pyfret.wear.result import WearResult
@@ -61,7 +62,7 @@ def report(
     path : path
         File to write, ``.html``; one that is there is replaced.
     wear : WearResult, optional
-        What many cycles wore off.
+        What many cycles wore off the same bodies.
     crack : Cracks, optional
         A crack of :meth:`Result.crack` or :meth:`Result.grow_crack`: its way in the section, K over
         the cycle.
@@ -75,13 +76,16 @@ def report(
     ImportError
         If the package plotly is missing: ``pip install "fretting[report]"``.
     ValueError
-        The ending of the file is another, or a threshold is given without a crack.
+        The ending of the file is another, a threshold is given without a crack, or the wear is that
+        of other bodies.
     """
     place = Path(path)
     if place.suffix not in (".html", ".htm"):
         raise ValueError(f"{place}: must end in .html")
     if threshold is not None and crack is None:
         raise ValueError("threshold: needs a crack, such as crack=result.crack()")
+    if wear is not None and bodies_of(wear) != bodies_of(result):
+        raise ValueError("wear: is of other bodies than the run: write a page for each")
     cracked = None if crack is None else CrackSection(crack, threshold)
     page = Template((HERE / "page.html").read_text(encoding="utf-8")).substitute(
         title=html(str(result.dataset.attrs["title"]) or "Fretting contact"),
@@ -106,6 +110,11 @@ def report(
     )
     with beside(place) as unfinished:
         unfinished.write_text(page, encoding="utf-8")
+
+
+def bodies_of(result: Run | WearResult) -> tuple[Body, Body]:
+    """Both bodies of a result, with shapes, materials and coatings."""
+    return result.scene.body1, result.scene.body2
 
 
 def yielded(result: Run) -> dict[str, Figure]:
