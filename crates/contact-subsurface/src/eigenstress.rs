@@ -173,7 +173,7 @@ impl Eigenstresses {
         }
     }
 
-    /// Does `work` with the bodies that yield, on the smallest volume grid that holds a state; `None` where none
+    /// Does `work` with the bodies that yield, on the volume grid on which a state was solved; `None` where none
     /// may yield.
     ///
     /// # Errors
@@ -189,12 +189,12 @@ impl Eigenstresses {
                 *held = Yielding::of(&self.scene, grown)?;
             }
             let Some(bodies) = held else { return Ok(None) };
-            if bodies.holds(yielded) {
-                return Ok(Some(work(bodies)));
-            }
             if grown {
                 bodies.check(yielded)?;
+            } else if bodies.outgrown_by(yielded) {
+                continue;
             }
+            return Ok(Some(work(bodies)));
         }
         Ok(None)
     }

@@ -315,9 +315,13 @@ impl Yielding {
         self.residuals().0 < UNLOADS
     }
 
-    /// Whether all points of a state lie on the volume grid.
-    pub fn holds(&self, state: &Yielded) -> bool {
-        self.check(state).is_ok()
+    /// Whether a state is one of the grid that has grown: a point lies beyond this one or at its border.
+    pub fn outgrown_by(&self, state: &Yielded) -> bool {
+        let of = |known: &PlasticState| {
+            let own = self.bodies.iter().find(|body| body.number == known.body);
+            own.map_or(!known.points.is_empty(), |body| body.outgrown_by(known))
+        };
+        state.bodies.iter().any(of)
     }
 
     /// Fails where a state has points beyond the volume grid.

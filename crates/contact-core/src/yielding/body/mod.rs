@@ -119,6 +119,12 @@ impl YieldingBody {
         points.find(|known| self.point(known).is_none())
     }
 
+    /// Whether a point of a state lies beyond the border or at it.
+    pub(super) fn outgrown_by(&self, state: &PlasticState) -> bool {
+        let mut points = state.points.iter();
+        points.any(|known| self.point(known).is_none_or(|point| self.at_border(point)))
+    }
+
     /// From the state at the start of an increment.
     pub(super) fn begin(&mut self, state: Option<&PlasticState>) {
         for (point, ..) in std::mem::take(&mut self.active) {

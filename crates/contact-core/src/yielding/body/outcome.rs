@@ -54,14 +54,17 @@ impl YieldingBody {
 
     /// Whether a point has yielded in a cell at the border or on the lowest plane.
     pub(in crate::yielding) fn reaches_the_border(&self) -> bool {
+        let mut active = self.active.iter();
+        active.any(|(point, _, end)| end.equivalent > 0.0 && self.at_border(*point))
+    }
+
+    /// Whether a point lies in a cell at the border or on the lowest plane.
+    pub(super) fn at_border(&self, point: usize) -> bool {
         let (cells, planes) = (self.mesh().cells, self.mesh().planes());
         let ends = |i: usize, n: usize| i == 0 || i + 1 == n;
-        self.active.iter().any(|(point, _, end)| {
-            let (plane, cell) = (point / cells.len(), point % cells.len());
-            let across = !cells.plane_strain && ends(cell % cells.ny, cells.ny);
-            let beside = ends(cell / cells.ny, cells.nx) || across;
-            end.equivalent > 0.0 && (beside || plane + 1 == planes)
-        })
+        let (plane, cell) = (point / cells.len(), point % cells.len());
+        let across = !cells.plane_strain && ends(cell % cells.ny, cells.ny);
+        ends(cell / cells.ny, cells.nx) || across || plane + 1 == planes
     }
 
     /// Largest equivalent plastic strain, and whether it lies at a rim.
