@@ -52,7 +52,7 @@ def quoted(doc: str | None, indent: str) -> str:
 def criteria() -> str:
     """The methods of the class that make one criterion each."""
     return "".join(
-        f"    @staticmethod\n    def {name}(**numbers: float) -> Criterion:\n"
+        f"    @staticmethod\n    def {name}(**numbers: float | Material | str) -> Criterion:\n"
         + quoted(getattr(_core.Criterion, name).__doc__, " " * 8)
         for name, _ in _core.criteria()
     )

@@ -69,6 +69,7 @@ from pyfret._core import Branch as Branch
 from pyfret._core import PerRange as PerRange
 from pyfret._core import Spacing as Spacing
 from pyfret._core import __version__ as __version__
+from pyfret._util.guesses import offer_nearest
 from pyfret._util.names import OTHER_NAMES, listing
 from pyfret.citation import cite
 from pyfret.grids import offer as offer_grids
@@ -136,6 +137,7 @@ __all__ = [
 __dir__ = listing(__all__)
 
 offer_grids()
+offer_nearest()
 
 
 def __getattr__(name: str) -> Any:

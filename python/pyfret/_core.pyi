@@ -11,6 +11,11 @@ from typing_extensions import Self
 from pyfret._util.types import FrictionFunction, Variable
 from pyfret.settings import Settings
 
+LONGEST_LIFE: Final[float]
+"""
+Longest life that is told [cycles]; a longer one is infinite.
+"""
+
 RIGID: Final[Elastic]
 """
 A material that does not deform.
@@ -650,13 +655,15 @@ class Criterion:
     --------
     >>> Criterion.findley(k=0.3) == Criterion("findley", k=0.3)
     True
+    >>> Criterion.fatemi_socie(material="7075").name
+    'fatemi_socie'
     """
 
     def __eq__(self, value: object, /) -> bool: ...
     def __getnewargs_ex__(self, /) -> tuple[tuple[str], dict[str, Any]]: ...
     def __hash__(self, /) -> int: ...
     def __ne__(self, value: object, /) -> bool: ...
-    def __new__(cls, name: str, /, **numbers: float) -> Criterion: ...
+    def __new__(cls, name: str, /, **numbers: float | Material | str) -> Criterion: ...
     def __repr__(self, /) -> str: ...
     @property
     def has_plane(self, /) -> bool:
@@ -667,57 +674,91 @@ class Criterion:
     @property
     def numbers(self, /) -> dict[str, Any]:
         """Its numbers by their names."""
+    @staticmethod
+    def of(name: str, material: Material | str) -> Criterion:
+        """
+        The criterion of a name with the numbers of a material.
+
+        Parameters
+        ----------
+        name : str
+            One of :data:`pyfret.fatigue.CRITERIA`.
+        material : Material or str
+            The material, or its name in the table that comes with the package. A ValueError names a
+            number that it lacks.
+
+        Examples
+        --------
+        >>> Criterion.of("fatemi_socie", "7075") == Criterion.fatemi_socie(material="7075")
+        True
+        """
     @property
     def unit(self, /) -> str:
         """Unit of its value: Pa, or 1 for strains."""
     @staticmethod
-    def crossland(**numbers: float) -> Criterion:
+    def crossland(**numbers: float | Material | str) -> Criterion:
         """Give sqrt(J2,a) + alpha p_h,max [Pa].
 
         B. Crossland, Proc. Int. Conf. on Fatigue of Metals, IMechE, London (1956) 138-149.
+        Its numbers: alpha. ``material``, a Material or its name, gives
+        those that are left out.
         """
     @staticmethod
-    def dang_van(**numbers: float) -> Criterion:
+    def dang_van(**numbers: float | Material | str) -> Criterion:
         """Give the largest tau(t) + alpha p_h(t) of the mesoscopic shear [Pa].
 
         K. Dang Van, ASTM STP 1191 (1993) 120-130.
+        Its numbers: alpha. ``material``, a Material or its name, gives
+        those that are left out.
         """
     @staticmethod
-    def findley(**numbers: float) -> Criterion:
+    def findley(**numbers: float | Material | str) -> Criterion:
         """Give the largest tau_a + k s_n,max of all planes [Pa].
 
         W. N. Findley, J. Eng. Ind. 81 (1959) 301-305.
+        Its numbers: k. ``material``, a Material or its name, gives
+        those that are left out.
         """
     @staticmethod
-    def matake(**numbers: float) -> Criterion:
+    def matake(**numbers: float | Material | str) -> Criterion:
         """Give tau_a + k s_n,max on the plane of the largest tau_a [Pa].
 
         T. Matake, Bull. JSME 20 (1977) 257-263.
+        Its numbers: k. ``material``, a Material or its name, gives
+        those that are left out.
         """
     @staticmethod
-    def mcdiarmid(**numbers: float) -> Criterion:
+    def mcdiarmid(**numbers: float | Material | str) -> Criterion:
         """Give tau_a + k s_n,max on the plane of the largest tau_a, k = t_D/(2 s_u) [Pa].
 
         D. L. McDiarmid, Fatigue Fract. Eng. Mater. Struct. 14 (1991) 429-453.
+        Its numbers: k. ``material``, a Material or its name, gives
+        those that are left out.
         """
     @staticmethod
-    def smith_watson_topper(**numbers: float) -> Criterion:
+    def smith_watson_topper(**numbers: float | Material | str) -> Criterion:
         """Give the largest s_n,max times half the range of the normal strain [Pa].
 
         K. N. Smith, P. Watson, T. H. Topper, J. Mater. 5 (1970) 767-778;
         D. F. Socie, J. Eng. Mater. Technol. 109 (1987) 293-298.
+        Its numbers: E, nu. ``material``, a Material or its name, gives
+        those that are left out.
         """
     @staticmethod
-    def fatemi_socie(**numbers: float) -> Criterion:
+    def fatemi_socie(**numbers: float | Material | str) -> Criterion:
         """Give the largest gamma_a (1 + k s_n,max/s_y) of all planes.
 
         A. Fatemi, D. F. Socie, Fatigue Fract. Eng. Mater. Struct. 11 (1988) 149-165.
+        Its numbers: E, nu, k, s_y. ``material``, a Material or its name, gives
+        those that are left out.
         """
     @staticmethod
-    def brown_miller(**numbers: float) -> Criterion:
+    def brown_miller(**numbers: float | Material | str) -> Criterion:
         """Give gamma_a + S times the range of the normal strain, where gamma_a is largest.
 
         F. A. Kandil, M. W. Brown, K. J. Miller, The Metals Society Book 280 (1982) 203-210.
+        Its numbers: E, nu, S. ``material``, a Material or its name, gives
+        those that are left out.
         """
 
 @final
@@ -1407,6 +1448,9 @@ class Hertz:
     @property
     def p0(self, /) -> float:
         """Peak pressure [Pa], 3 W / (2 pi a^2)."""
+    @property
+    def p_H(self, /) -> float:
+        """The same, by the name that it has in results [Pa]."""
 
 @final
 class HertzEllipse:
@@ -1440,6 +1484,9 @@ class HertzEllipse:
     @property
     def p0(self, /) -> float:
         """Peak pressure [Pa], 3 W / (2 pi a_x a_y)."""
+    @property
+    def p_H(self, /) -> float:
+        """The same, by the name that it has in results [Pa]."""
 
 @final
 class HertzStress:
@@ -1520,6 +1567,9 @@ class LineContact:
     @property
     def p0(self, /) -> float:
         """Peak pressure [Pa]."""
+    @property
+    def p_H(self, /) -> float:
+        """The same, by the name that it has in results [Pa]."""
     def q(
         self, /, x: ArrayLike, *, T: float, mu: float, middle: float = 0.0
     ) -> NDArray[np.float64]:
@@ -3435,6 +3485,7 @@ class SlidingError(SolveError):
     """Loads that friction cannot carry, that nothing carries, or that lift a stuck contact."""
 
 __all__ = [
+    "LONGEST_LIFE",
     "RIGID",
     "SHAKEN",
     "STRAIN_AT_A_RIM",

@@ -19,6 +19,7 @@ from pyfret._core import (
     line_contact,
 )
 from pyfret._util.names import listing
+from pyfret._util.sheet import sheet
 
 __all__ = [
     "CattaneoMindlin",
@@ -39,3 +40,9 @@ __all__ = [
     "line_contact",
 ]
 __dir__ = listing(__all__)
+
+for _of in (
+    *(CattaneoMindlin, CoatedIndentation, CoupledIndentation, Hertz, HertzEllipse, HertzStress),
+    *(LineContact, Lubkin, Springs),
+):
+    setattr(_of, "__str__", sheet)  # noqa: B010  # a method of a compiled class

@@ -6,6 +6,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, Literal
 
 from pyfret._util.door import numbers_only
+from pyfret._util.guesses import no_attribute
 from pyfret.export.write import write as export
 from pyfret.run import Run, State
 from pyfret.run.tables import state_html
@@ -50,6 +51,8 @@ class Figures:
             raise AttributeError(name)
         from pyfret import plot
 
+        if name not in plot.__all__:
+            raise no_attribute("plot", name, dir(self), {})
         return partial(getattr(plot, name), self._shown)
 
     def __dir__(self) -> list[str]:

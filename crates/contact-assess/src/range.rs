@@ -127,9 +127,9 @@ pub fn range_of_life<E: From<Error>>(
             Ok([short, at, long]) => {
                 value = at;
                 distance = Some(Range {
-                    low: assessment.margin(short),
-                    best: assessment.margin(at),
-                    high: assessment.margin(long),
+                    low: assessment.extrapolated(short),
+                    best: assessment.extrapolated(at),
+                    high: assessment.extrapolated(long),
                 });
             }
             Err(refused) => {

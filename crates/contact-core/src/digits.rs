@@ -64,7 +64,8 @@ pub fn with_error(value: f64, error: Option<f64>) -> String {
 /// use contact_core::digits::with_range;
 ///
 /// assert_eq!(with_range(52_345.0, [51_900.0, 52_800.0]), "52350 (51900 to 52800)");
-/// assert_eq!(with_range(52_345.0, [11_900.0, f64::INFINITY]), "52000 (12000 to inf)");
+/// assert_eq!(with_range(52_345.0, [11_900.0, f64::INFINITY]), "52000 (12000 or more)");
+/// assert_eq!(with_range(f64::INFINITY, [1e7, f64::INFINITY]), "1e7 or more");
 /// assert_eq!(with_range(1.83e7, [4.4e6, 1.07e8]), "1.8e7 (4.4e6 to 1.1e8)");
 /// ```
 pub fn with_range(value: f64, [low, high]: [f64; 2]) -> String {
@@ -73,6 +74,14 @@ pub fn with_range(value: f64, [low, high]: [f64; 2]) -> String {
     }
     if low.is_nan() || high.is_nan() {
         return format!("{} (estimate)", digits(value, OF_ERRORS));
+    }
+    if value.is_infinite() && low.is_finite() {
+        let told = if PLAIN.contains(&power(low)) {
+            rough(low)
+        } else {
+            format!("{low:.1e}").replace(".0e", "e")
+        };
+        return format!("{told} or more");
     }
     let width = (high - low) / (2.0 * value.abs());
     let count = if width > 0.0 && width.is_finite() {
@@ -94,6 +103,9 @@ pub fn with_range(value: f64, [low, high]: [f64; 2]) -> String {
             format!("{x:.*e}", (count - 1) as usize)
         }
     };
+    if high.is_infinite() && value.is_finite() {
+        return format!("{} ({} or more)", told(value), told(low));
+    }
     format!("{} ({} to {})", told(value), told(low), told(high))
 }
 

@@ -7,6 +7,10 @@ use crate::judge::Judge;
 use crate::life::inverted;
 use crate::material::Material;
 
+/// Longest life that is told \[cycles\]: a strain-life curve beyond the cycles of its tests is no
+/// knowledge. Where they end is not in the tables of materials, so this is a stated default.
+pub const LONGEST: f64 = 1e7;
+
 /// A criterion with the limit or the curve of lives of a material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Assessment {
@@ -46,24 +50,23 @@ impl Assessment {
         inverted(value, |N| of(&curve, numbers, N))
     }
 
-    /// Life, or safety factor for criteria with a limit.
+    /// Life, or safety factor for criteria with a limit: what a reader is given. A life beyond
+    /// [`LONGEST`] is infinite.
     pub fn margin(&self, value: f64) -> f64 {
+        let found = self.extrapolated(value);
+        if self.gives_lives() && found > LONGEST {
+            f64::INFINITY
+        } else {
+            found
+        }
+    }
+
+    /// The same, with lives beyond [`LONGEST`] by the curve: for sums and comparisons of margins.
+    pub fn extrapolated(&self, value: f64) -> f64 {
         match self.judge {
             Judge::Limit(_) => self.safety_factor(value),
             Judge::Life(_) => self.life(value),
         }
-    }
-
-    /// The least and the largest margin of a value with an error: from value + error to
-    /// value - error. NaN without a finite error.
-    pub fn range(&self, value: f64, error: f64) -> [f64; 2] {
-        [value + error, value - error].map(|value| {
-            if value.is_finite() {
-                self.margin(value)
-            } else {
-                f64::NAN
-            }
-        })
     }
 
     /// Whether [`Self::margin`] is a life \[cycles\].

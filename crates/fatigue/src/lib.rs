@@ -68,7 +68,7 @@ mod table;
 mod tangent;
 
 pub use allowed::Allowed;
-pub use assessment::Assessment;
+pub use assessment::{Assessment, LONGEST};
 pub use at_point::AtPoint;
 pub use ball::{Ball, smallest_ball};
 pub use criterion::Criterion;
@@ -82,6 +82,6 @@ pub use judge::{Judge, strain_life};
 pub use known::Known;
 pub use life::{Basquin, CoffinManson};
 pub use material::{Material, QUANTITIES, Quantity, Sourced};
-pub use range::{LONGEST, LifeRange, Range};
+pub use range::{LifeRange, Range};
 pub use shakedown::{Yield, yielding};
 pub use table::{find, materials, read};

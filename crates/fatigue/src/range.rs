@@ -6,14 +6,11 @@
 
 use std::f64::consts::PI;
 
-use crate::assessment::Assessment;
+use crate::assessment::{Assessment, LONGEST};
 use crate::error::Error;
 use crate::known::Known;
 use crate::material::Material;
 
-/// Longest life that is told \[cycles\]: a strain-life curve beyond the cycles of its tests is no
-/// knowledge. Where they end is not in the tables of materials, so this is a stated default.
-pub const LONGEST: f64 = 1e7;
 /// Numbers of a material that a strain-life curve has.
 const CURVE: [&str; 4] = ["s_f", "b", "e_f", "c"];
 /// Numbers that single criteria of lives have beside it.
@@ -74,11 +71,16 @@ impl LifeRange {
 }
 
 impl Range {
-    /// What is told of a life: nothing beyond [`LONGEST`].
+    /// What is told of a life: nothing beyond [`LONGEST`]. A life without any end stays that.
     fn told(self) -> Self {
         let end = |life: f64| if life > LONGEST { f64::INFINITY } else { life };
+        let low = if self.low.is_finite() {
+            self.low.min(LONGEST)
+        } else {
+            self.low
+        };
         Self {
-            low: self.low.min(LONGEST),
+            low,
             best: end(self.best),
             high: end(self.high),
         }
@@ -108,12 +110,32 @@ fn scatter(lives: bool, kind: Known) -> f64 {
 }
 
 impl Assessment {
-    /// The margin of a value of the criterion with its error: the lowest is that of value + error.
+    /// The margin of a value of the criterion with its error: the lowest is that of value + error. Lives
+    /// beyond [`LONGEST`] are those of the curve, for [`Self::told`].
     pub fn margins(&self, value: f64, error: f64) -> Range {
         Range {
-            low: self.margin(value + error),
-            best: self.margin(value),
-            high: self.margin((value - error).max(0.0)),
+            low: self.extrapolated(value + error),
+            best: self.extrapolated(value),
+            high: self.extrapolated((value - error).max(0.0)),
+        }
+    }
+
+    /// The margin of a value with its error, as a reader is given it: the low end of a life beyond
+    /// [`LONGEST`] is that number, and the others are infinite. NaN ends without a finite error.
+    pub fn range(&self, value: f64, error: f64) -> Range {
+        if !error.is_finite() {
+            let best = self.margin(value);
+            return Range {
+                low: f64::NAN,
+                best,
+                high: f64::NAN,
+            };
+        }
+        let found = self.margins(value, error);
+        if self.gives_lives() {
+            found.told()
+        } else {
+            found
         }
     }
 
@@ -121,7 +143,7 @@ impl Assessment {
     /// end.
     pub fn told(&self, stress: Range, material: f64, distance: Option<Range>) -> LifeRange {
         let mut found = LifeRange::of(stress, material, distance);
-        if self.gives_lives() && found.range.best.is_finite() {
+        if self.gives_lives() {
             found.range = found.range.told();
         }
         found

@@ -12,7 +12,7 @@ use ndarray::{Array1, Array2, Ix2, Ix3};
 use numpy::IntoPyArray;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyCFunction, PyDict, PyTuple};
+use pyo3::types::{PyCFunction, PyDict, PyString, PyTuple};
 
 use crate::arguments::{Array, List, number};
 use crate::error::{of_criterion as refused, to_python};
@@ -32,12 +32,17 @@ pub(crate) const AT_POINT: [(&str, Number); 7] = [
     ("normal_min", |p| p.normal_min),
 ];
 
+/// Argument of a criterion that gives the numbers which are left out.
+const MATERIAL: &str = "material";
+
 /// A criterion by its name, one of :data:`pyfret.fatigue.CRITERIA`, and its numbers by theirs.
 ///
 /// Examples
 /// --------
 /// >>> Criterion.findley(k=0.3) == Criterion("findley", k=0.3)
 /// True
+/// >>> Criterion.fatemi_socie(material="7075").name
+/// 'fatemi_socie'
 #[pyclass(frozen, eq, from_py_object, module = "pyfret.fatigue")]
 #[derive(Clone, PartialEq)]
 pub(crate) struct Criterion(core::Criterion);
@@ -56,7 +61,14 @@ pub(crate) fn add_criteria(py: Python<'_>) -> PyResult<()> {
             }
             Criterion::new(definition.name, numbers)
         };
-        let doc = format!("Give {}.\n\n{}.", definition.equation, definition.source);
+        let names = definition.parameters.iter().map(|one| one.name);
+        let doc = format!(
+            "Give {}.\n\n{}.\nIts numbers: {}. ``{MATERIAL}``, a Material or its name, gives\nthose that \
+             are left out.",
+            definition.equation,
+            definition.source,
+            names.collect::<Vec<_>>().join(", ")
+        );
         let name = text(definition.name.to_owned())?;
         let function = PyCFunction::new_closure(py, Some(name), Some(text(doc)?), make)?;
         let of_class = py.import("builtins")?.getattr("staticmethod")?;
@@ -68,15 +80,58 @@ pub(crate) fn add_criteria(py: Python<'_>) -> PyResult<()> {
 #[pymethods]
 impl Criterion {
     #[new]
-    #[pyo3(signature = (name, /, **numbers: "float"))]
+    #[pyo3(signature = (name, /, **numbers: "float | Material | str"))]
     fn new(name: &str, numbers: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
-        let numbers: BTreeMap<String, f64> = match numbers {
-            Some(numbers) => numbers.extract()?,
-            None => BTreeMap::new(),
-        };
-        let numbers: Vec<_> = numbers.iter().map(|(n, v)| (n.as_str(), *v)).collect();
-        let made = core::Criterion::new(name, &numbers).map_err(refused)?;
+        let mut given: BTreeMap<String, f64> = BTreeMap::new();
+        for (key, value) in numbers.into_iter().flatten() {
+            let key: String = key.extract()?;
+            if key == MATERIAL {
+                let of = Self::of(name, &value)?;
+                for (number, value) in of.0.numbers() {
+                    given.entry(number.to_owned()).or_insert(value);
+                }
+            } else {
+                given.insert(key, number(&value)?);
+            }
+        }
+        let given: Vec<_> = given.iter().map(|(n, v)| (n.as_str(), *v)).collect();
+        let made = core::Criterion::new(name, &given).map_err(refused)?;
         Ok(Self(made))
+    }
+
+    /// The criterion of a name with the numbers of a material.
+    ///
+    /// Parameters
+    /// ----------
+    /// name : str
+    ///     One of :data:`pyfret.fatigue.CRITERIA`.
+    /// material : Material or str
+    ///     The material, or its name in the table that comes with the package. A ValueError names a
+    ///     number that it lacks.
+    ///
+    /// Examples
+    /// --------
+    /// >>> Criterion.of("fatemi_socie", "7075") == Criterion.fatemi_socie(material="7075")
+    /// True
+    #[staticmethod]
+    #[pyo3(signature = (name, material: "Material | str"))]
+    fn of(name: &str, material: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let material = if material.is_instance_of::<PyString>() {
+            let called: String = material.extract()?;
+            let all = core::materials();
+            core::find(&all, &called).cloned().ok_or_else(|| {
+                let names: Vec<_> = all.keys().map(String::as_str).collect();
+                let message = format!(
+                    "material = {called:?}: must be a Material, or one of {}",
+                    names.join(", ")
+                );
+                PyValueError::new_err(message)
+            })?
+        } else {
+            material.extract::<Material>()?.0
+        };
+        let found = core::Assessment::of(name, &material).map_err(refused)?;
+        Ok(Self(found.criterion))
     }
 
     fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<((&str,), Bound<'py, PyDict>)> {

@@ -128,6 +128,9 @@ mod _core {
     /// Why a cycle has no stiffness, and what to do.
     #[pymodule_export]
     const TOO_FEW_INCREMENTS: &str = contact_subsurface::Cycle::TOO_FEW;
+    /// Longest life that is told [cycles]; a longer one is infinite.
+    #[pymodule_export]
+    const LONGEST_LIFE: f64 = fatigue::LONGEST;
     /// What is to be known of a largest plastic strain at a rim.
     #[pymodule_export]
     const STRAIN_AT_A_RIM: &str = contact_core::yielding::Rim::TOLD;

@@ -17,7 +17,7 @@ type Fields<'py> = List<Array<'py, Ix2>>;
 ///
 /// Fields are of shape (nx, ny), one for each state. A body that may yield has an `eigenstress` for
 /// each state, another body has none.
-#[pyclass(frozen)]
+#[pyclass(frozen, module = "pyfret._core")]
 pub(crate) struct States {
     grid: Cells,
     moments: Moments,

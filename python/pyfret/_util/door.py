@@ -12,7 +12,7 @@ import inspect
 import math
 import re
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
@@ -41,8 +41,33 @@ SEVERAL_OBJECTS = re.compile(r"(Iterable|Sequence)\[([A-Z]\w*)\]")
 #: Classes of other libraries that are no plain values either.
 FOREIGN = re.compile(r"xr\.\w+|pd\.DataFrame|Axes|Figure")
 MAPPING = re.compile(r"Mapping\[.*\]( \| None)?")
+MAPPING_OF = re.compile(r"Mapping\[\w+, ([A-Z]\w*)\]")
 #: Options whose names a class has, ``**options: Unpack[Options]``.
 UNPACKED = re.compile(r"Unpack\[([\w.]+)\]")
+#: Objects that others are made of, and how one comes by them.
+MADE = {
+    "Scene": "a scene, as in solve(scene, path)",
+    "LoadPath": "a load path, as in solve(scene, path)",
+    "Run": "the result of a run, fret.solve(scene, path) or fret.open(path)",
+    "State": "an increment, result.at(-1)",
+    "Stress": "the stress below an increment, result.at(-1).stress()",
+    "Life": "a life, result.life(material, criterion)",
+    "OverDistances": "lives over distances, life.over_distance()",
+    "LoadFactors": "load factors, result.load_factors(s_y)",
+    "Cracks": "cracks, result.crack(x)",
+    "WearResult": "a run of wear, fret.wear.solve(scene, wear)",
+    "SideBySide": "a comparison, fret.compare({...}, scene, path)",
+    "Tabulated": "a study, fret.study.solve(scene, {...}, measure=...)",
+    "Study": "a study, fret.study.solve(scene, {...}, measure=...)",
+    "Material": "a material of fatigue, fatigue.Materials()['7075']",
+    "Elastic": "an elastic material, fret.material('steel') or fret.Elastic(E=210e9, nu=0.3)",
+    "Criterion": (
+        "a criterion with its numbers, fatigue.Criterion.of('findley', material) or "
+        "fatigue.Criterion.findley(k=0.3)"
+    ),
+    "Dataset": "an xarray.Dataset",
+    "DataArray": "an xarray.DataArray",
+}
 #: Parameters that are given by name, and that of further names.
 NAMED = (inspect.Parameter.POSITIONAL_OR_KEYWORD, inspect.Parameter.KEYWORD_ONLY)
 FURTHER = inspect.Parameter.VAR_KEYWORD
@@ -142,24 +167,62 @@ def kind(annotation: str) -> str | None:
 
 
 def check_object(value: Any, name: str, annotation: str) -> None:
-    """Refuse a number, a text or a list where an object is meant.
+    """Refuse what is no object of the class that is meant, and say how one is made.
 
     Raises
     ------
     TypeError
-        It is of such a type.
+        It is of another type.
     """
-    if not isinstance(value, PLAIN):
-        return
-    text = " ".join(repr(value).split())
     several = SEVERAL_OBJECTS.fullmatch(annotation)
     if several and isinstance(value, str | bytes) and is_own(several[2]):
-        raise TypeError(f"{name} = {text:.60}: must be several of the class {several[2]}")
-    if MAPPING.fullmatch(annotation) and not isinstance(value, dict):
-        raise TypeError(f"{name} = {text:.60}: must be a mapping of names")
-    classes = [of for of in annotation.split(" | ") if of != "None"]
-    if OBJECTS.fullmatch(annotation) and all(is_own(of) for of in classes):
-        raise TypeError(f"{name} = {text:.60}: must be of the class {' or '.join(classes)}")
+        raise TypeError(f"{name} = {told(value)}: must be several of the class {several[2]}")
+    if MAPPING.fullmatch(annotation) and not isinstance(value, Mapping):
+        raise TypeError(f"{name} = {told(value)}: must be a mapping of names")
+    each = MAPPING_OF.fullmatch(annotation)
+    if each and is_own(each[1]):
+        for key, one in value.items():
+            check_object(one, f"{name}[{key!r}]", each[1])
+    meant = [of for of in annotation.split(" | ") if of != "None"]
+    if not OBJECTS.fullmatch(annotation) or not all(is_own(of) for of in meant):
+        return
+    if not any(is_one(value, of) for of in meant):
+        what = " or ".join(MADE.get(of.rpartition(".")[2], f"of the class {of}") for of in meant)
+        has = hasattr(value, "dataset") and "Dataset" in annotation
+        raise TypeError(f"{name} = {told(value)}: must be {what}{', its .dataset' if has else ''}")
+
+
+def told(value: Any) -> str:
+    """A plain value as it is written, an object by its class."""
+    if not isinstance(value, PLAIN):
+        return f"<{type(value).__name__}>"
+    return f"{' '.join(repr(value).split()):.60}"
+
+
+def is_one(value: Any, name: str) -> bool:
+    """Whether a value is of a class of that name; where the class is not known, no plain value."""
+    if isinstance(value, PLAIN):
+        return False
+    classes = classes_of(name)
+    return not classes or any(holds(value, of) for of in classes)
+
+
+def holds(value: Any, of: type) -> bool:
+    """Whether a value is of a class, or has all that a protocol asks for."""
+    if not getattr(of, "_is_protocol", False):
+        return isinstance(value, of)
+    names = {*vars(of), *getattr(of, "__annotations__", {})}
+    return all(hasattr(value, name) for name in names if not name.startswith("_"))
+
+
+@functools.cache
+def classes_of(name: str) -> tuple[type, ...]:
+    """The classes of pyfret, or of another library, that have this name."""
+    module, _, name = name.rpartition(".")
+    root = "xarray" if module == "xr" else "pyfret"
+    own = [of for known, of in list(sys.modules.items()) if known.partition(".")[0] == root]
+    found = {id(of): of for m in own if isinstance(of := vars(m).get(name), type)}
+    return tuple(found.values())
 
 
 @functools.cache

@@ -30,6 +30,7 @@ from pyfret.fatigue.cycle_section import (
     placed,
     side_by_side,
 )
+from pyfret.fatigue.cycles import history
 from pyfret.fatigue.distance import OverDistance
 from pyfret.fatigue.fields import described, margin_name
 from pyfret.fatigue.ranges import LifeRange, Range, of_mean
@@ -38,10 +39,12 @@ from pyfret.scene.tables import table
 from pyfret.subsurface.tensor import Errors
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
+    from collections.abc import Callable
+
+    from numpy.typing import ArrayLike, NDArray
     from typing_extensions import Unpack
 
-    from pyfret._core import CriterionBelow, Material
+    from pyfret._core import Criterion, CriterionBelow, Material
     from pyfret.fatigue.averages import Averaging
     from pyfret.fatigue.criteria import CriterionName
     from pyfret.fatigue.section import SectionOptions
@@ -51,6 +54,8 @@ __all__ = ["Life", "Materials", "Worst", "life", "lives"]
 
 #: Part of the largest traction by which the ends of a cycle may differ before that is told.
 UNSETTLED = 0.02
+#: Why a life that was pickled or saved has no stress.
+UNPICKLED = "a life that was unpickled has no stress: judge the result again"
 #: What is told of a worst point there.
 RIM = (
     "the worst point is at the rim of the contact: a point value depends on the grid, use a "
@@ -122,14 +127,18 @@ class Life(Labelled):
         sections: Sequence[CriterionBelow],
         notes: Sequence[str],
         materials: Sequence[Material | None],
+        history: Callable[[Worst], NDArray[np.float64]] | None = None,
     ) -> None:
         super().__init__(dataset)
+        self._history = history
         self._materials = list(materials)
         self._ranges: dict[int, LifeRange] = {}
         self._sections = list(sections)
         self._assessments = self._sections[0].assessments
         self._notes = list(notes)
         self._worst: dict[int, Worst] = {}
+        # Their margins, lives beyond the tests by the curve.
+        self._order: dict[int, float] = {}
         # Those of a pickled life, which has no sections to look in.
         self._parts: list[Life] = []
 
@@ -160,7 +169,11 @@ class Life(Labelled):
         if self._parts:
             return self._parts[n]
         return Life(
-            self.dataset.isel({across: n}), [self._sections[n]], self._notes, self._materials
+            self.dataset.isel({across: n}),
+            [self._sections[n]],
+            self._notes,
+            self._materials,
+            self._history,
         )
 
     @numbers_only
@@ -178,6 +191,7 @@ class Life(Labelled):
             )
             if found is None:
                 raise ValueError("the section holds no number")
+            self._order[layer] = found["order"]
             self._worst[layer] = Worst(
                 found["score"],
                 found["margin"],
@@ -193,6 +207,23 @@ class Life(Labelled):
                 str(self.dataset.value.attrs.get("units", "1")),
             )
         return self._worst[layer]
+
+    def history(self) -> NDArray[np.float64]:
+        """Give the stress at the worst point over the cycle, of shape (time, 6) [Pa].
+
+        Its components are xx, yy, zz, xy, xz, yz. :func:`pyfret.fatigue.evaluate` judges it, and
+        :func:`pyfret.plot.critical_plane_rose` draws it.
+        """
+        if self._history is None:
+            raise ValueError(UNPICKLED)
+        return self._history(self.worst)
+
+    @property
+    def criterion(self) -> Criterion:
+        """The criterion, with the numbers of the material of the worst point."""
+        of = self._assessments[self.worst.layer]
+        assert of is not None
+        return of.criterion
 
     @numbers_only
     def margin_of(self, layer: int) -> Range:
@@ -258,7 +289,7 @@ class Life(Labelled):
         if default and layer in self._ranges:
             return self._ranges[layer]
         if not self._sections:
-            raise ValueError("a life that was unpickled has no stress: judge the result again")
+            raise ValueError(UNPICKLED)
         worst = self.worst_of(layer)
         low_to_high, stress, of_material, distance, length, notes = range_of_life(
             self._sections,
@@ -284,7 +315,7 @@ class Life(Labelled):
     @numbers_only
     def over_distance(
         self,
-        L: ArrayLike,
+        L: ArrayLike | None = None,
         *,
         method: Averaging = "line",
         layer: int | None = None,
@@ -293,8 +324,10 @@ class Life(Labelled):
 
         Parameters
         ----------
-        L : array
-            Critical distances [m].
+        L : array, optional
+            Critical distances [m] (default: nine from a quarter of that of the material to four
+            times it; without one from a hundredth to a quarter of the depth of the section). Those
+            that reach beyond the layer are left out.
         method : "point", "line", "area" or "volume"
             As in :func:`pyfret.fatigue.average`.
         layer : int, optional
@@ -311,14 +344,14 @@ class Life(Labelled):
             The life was unpickled, or a distance reaches beyond the layer.
         """
         if not self._sections:
-            raise ValueError("a life that was unpickled has no stress: judge the result again")
+            raise ValueError(UNPICKLED)
         there = self.worst.layer if layer is None else layer
         worst, assessment = self.worst_of(there), self._assessments[there]
         assert assessment is not None
         material = self._materials[there]
         part = worst.error / worst.value if worst.value > 0.0 else 0.0
         rows = []
-        lengths = np.atleast_1d(np.asarray(L, float))
+        lengths = self._distances(there) if L is None else np.atleast_1d(np.asarray(L, float))
         for length in lengths.tolist():
             means = [section.largest_mean(length, method, there) for section in self._sections]
             value = max((mean for mean in means if mean is not None), default=np.nan)
@@ -326,11 +359,24 @@ class Life(Labelled):
         name, meaning = margin_name(self._assessments)
         return OverDistance.of(lengths, rows, name, meaning, method, critical(material))
 
+    def _distances(self, layer: int) -> NDArray[np.float64]:
+        """Distances about that of the material, as long as they stay in a layer."""
+        own = critical(self._materials[layer])
+        deepest = float(self.dataset.z.max())
+        ends = (own / 4.0, 4.0 * own) if own else (deepest / 100.0, deepest / 4.0)
+        lengths = np.geomspace(*ends, 9)
+        borders = [0.0, *self.dataset.attrs["interfaces"], np.inf]
+        found = lengths[2.0 * lengths <= borders[layer + 1] - borders[layer]]
+        if not found.size:
+            raise ValueError(f"L: layer {layer} is thinner than the distances: give some")
+        return np.asarray(found)
+
     @property
     def worst(self) -> Worst:
         """The point of the smallest margin; of equal ones, that of the larger value."""
         judged = [self.worst_of(layer) for layer in self.layers]
-        return min(judged, key=lambda w: (np.nan_to_num(w.margin, nan=-np.inf), -w.value))
+        order = {layer: np.nan_to_num(self._order[layer], nan=-np.inf) for layer in self.layers}
+        return min(judged, key=lambda w: (order[w.layer], -w.value))
 
     def __eq__(self, other: object) -> bool:
         """Whether dataset and assessments are the same."""
@@ -348,7 +394,7 @@ class Life(Labelled):
         if self.dataset.value.ndim > 2 and not parts:
             across = str(self.dataset.value.dims[2])
             parts = [self.section(place) for place in self.dataset[across].values.tolist()]
-        return {**self.__dict__, "_sections": [], "_parts": parts}
+        return {**self.__dict__, "_sections": [], "_parts": parts, "_history": None}
 
     def _repr_html_(self) -> str:
         """The worst point of every layer, for notebooks."""
@@ -488,7 +534,21 @@ def lives(
 
     def of(name: CriterionName) -> Life:
         whole = side_by_side(result, where, shown[name]).assign_attrs(criterion=name)
-        return Life(whole, found[name], [*found[name][0].notes, *notes], each)
+        return Life(whole, found[name], [*found[name][0].notes, *notes], each, history_of_worst)
+
+    def history_of_worst(worst: Worst) -> NDArray[np.float64]:
+        stress = history(
+            result,
+            [worst.z],
+            x=worst.x,
+            y=worst.y,
+            body_number=where.body_number,
+            cycle=where.cycle,
+            residual=where.residual,
+        )
+        # At an interface both sides are there.
+        of_layer = stress.isel(depth=stress.layer.values == worst.layer)
+        return np.asarray(of_layer.isel(depth=0).transpose("increment", "component").values)
 
     return {name: of(name) for name in names}
 

@@ -11,6 +11,7 @@ from pyfret.fracture.first import PARTS
 from pyfret.plot.areas import Raster
 from pyfret.plot.parameters import parameter_label
 from pyfret.plot.style import axes, styled
+from pyfret.plot.tables import must_hold
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -52,6 +53,8 @@ def design_chart(
     ax : matplotlib Axes, optional
         Where to draw.
     """
+    made = "the dataset of a study of these parameters, measure=fret.study.FirstToFail(...)"
+    must_hold(table, "table", (x, y, *PARTS), made)
     ax = axes(ax)
     table = table.transpose(y, x)
     names, units = zip(*(parameter_label(name) for name in (x, y)), strict=True)

@@ -14,6 +14,7 @@ from pyfret.plot.areas import Raster
 from pyfret.plot.stresses import COLOURS
 from pyfret.plot.studies import in_figures, whole_labels
 from pyfret.plot.style import axes, beside, styled
+from pyfret.plot.tables import must_hold
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -33,6 +34,10 @@ SLIDES, PARTIAL = 3, 2
 LIVES = 10.0 ** np.arange(3, 10)
 FACTORS = np.array([0.3, 0.5, 1.0, 2.0, 4.0])
 CRACK, ENERGY, ARREST = "#a50f15", "0.35", "#08519c"
+#: Variables of a map of running conditions, and what makes one.
+RUNNING = ("W", "status", "dissipated")
+RUNNING_MADE = "a map of running conditions, fret.study.running_conditions(scene, W=..., T=...)"
+ARRESTED = ("T", "sigma_B", "start_margin", "arrest_margin")
 #: Where no static solution exists.
 UNSOLVED = "0.85"
 #: Lengths of stopped cracks whose contours are drawn [µm].
@@ -56,8 +61,9 @@ def fretting_map(table: xr.Dataset, *, ax: Axes | None = None) -> Axes:
     ax : matplotlib Axes, optional
         Where to draw.
     """
-    ax = axes(ax)
     driven = "T" if "T" in table.dims else "delta"
+    must_hold(table, "table", (driven, *RUNNING), RUNNING_MADE)
+    ax = axes(ax)
     scale, label = AXES[driven]
     table = table.transpose(driven, "W", ...)
     W, amplitude = table.W.values, table[driven].values * scale
@@ -179,6 +185,8 @@ def arrest_map(table: xr.Dataset, *, ax: Axes | None = None) -> Axes:
     ax : matplotlib Axes, optional
         Where to draw.
     """
+    made = "a map of arrest, fret.study.arrest_map(scene, W=..., T=..., sigma_B=..., arrest=...)"
+    must_hold(table, "table", ARRESTED, made)
     ax = axes(ax)
     table = table.transpose("T", "sigma_B")
     bulk, T = table.sigma_B.values / 1e6, table["T"].values / 1e3
@@ -211,8 +219,9 @@ def running_map(table: xr.Dataset, *, ax: Axes | None = None) -> Axes:
     dashed line :math:`T = \mu W`. With `arrest` in the sweep dotted lines are
     the lengths at which cracks stop, and a thick one begins where none does.
     """
-    ax = axes(ax)
     driven = "T" if "T" in table.dims else "delta"
+    must_hold(table, "table", (driven, *RUNNING), RUNNING_MADE)
+    ax = axes(ax)
     scale, label = AXES[driven]
     table = table.transpose(driven, "W", ...)
     W, amplitude = table.W.values, table[driven].values * scale

@@ -8,6 +8,7 @@ import numpy as np
 
 from pyfret.plot.scales import Units, scales
 from pyfret.plot.style import axes, beside, styled
+from pyfret.plot.tables import must_hold
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -21,6 +22,9 @@ NAMES = {
 }
 #: Relative difference of temperatures that a figure cannot show.
 SAME = 1e-3
+#: Variables of temperatures, and what computes them.
+FOUND = ("x", "y", "body", *NAMES)
+MADE = "temperatures, result.temperature(conductor1, conductor2, frequency=...)"
 
 
 def _degrees(found: xr.Dataset) -> str:
@@ -43,6 +47,7 @@ def temperature(found: xr.Dataset, *, units: Units = "auto", ax: Axes | None = N
     ax : matplotlib Axes, optional
         Where to draw.
     """
+    must_hold(found, "found", FOUND, MADE)
     ax = axes(ax)
     length = scales(found.attrs, units).length
     cut = found.sel(y=found.attrs["maximum_y"])
@@ -88,6 +93,7 @@ def temperature_map(
         raise ValueError(f"of = {of!r}: must be {', '.join(map(repr, NAMES))}")
     if body_number not in (1, 2):
         raise ValueError(f"body_number = {body_number}: must be 1 or 2")
+    must_hold(found, "found", FOUND, MADE)
     ax = axes(ax, square=True)
     length = scales(found.attrs, units).length
     x, y = found.x.values / length.value, found.y.values / length.value

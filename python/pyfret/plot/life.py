@@ -53,7 +53,7 @@ HALF, SMALL = 0.5, 0.5
 #: Colour of what is not judged.
 UNJUDGED = "0.9"
 #: Lives beyond this are drawn as endless [cycles].
-ENDLESS = 1e9
+ENDLESS = _core.LONGEST_LIFE
 
 
 def _shown(life: Life) -> tuple[NDArray[np.float64], str]:
@@ -79,7 +79,7 @@ def criterion_map(
     """Contours of a criterion on a section, with the worst point and its margin.
 
     Criteria with a limit have the value over the limit; the bold contour is the limit itself. The
-    others have the decimal logarithm of the life, empty beyond 1e9 cycles. Layers without a
+    others have the decimal logarithm of the life, empty beyond 1e7 cycles. Layers without a
     material stay empty.
 
     Parameters
@@ -100,7 +100,7 @@ def criterion_map(
     """
     worst = life.worst
     safety = life.margin.name == "safety_factor"
-    margin = f"safety {worst.margin:.3g}" if safety else f"{worst.margin:.2g} cycles"
+    margin = f"safety {worst.margin:.3g}" if safety else f"{life.margin_of(worst.layer)!r} cycles"
     field, label = _shown(life)
     shown = life.dataset.value.copy(data=field).assign_attrs(life.dataset.attrs)
     ax = _contours(shown, label, units, levels, ax, stretch=stretch, limit=1.0 if safety else None)
@@ -279,8 +279,22 @@ def _mark(
     inside_legend(ax, handles=handles)
 
 
+def history_of(stress: ArrayLike | Life) -> tuple[NDArray[np.float64], fatigue.Criterion | None]:
+    """The stress history of one point of shape (time, 6) [Pa], and the criterion of a life."""
+    if isinstance(stress, fatigue.Life):
+        return stress.history(), stress.criterion
+    found = histories(stress, "stress").whole()
+    if found.size != 6 * len(found):
+        raise ValueError(
+            f"stress has the shape {found.shape}: must be that of one point, (time, 6)"
+        )
+    return found.reshape(-1, 6), None
+
+
 @styled
-def critical_plane_rose(stress: ArrayLike, criterion: fatigue.Criterion) -> Axes:
+def critical_plane_rose(
+    stress: ArrayLike | Life, criterion: fatigue.Criterion | None = None
+) -> Axes:
     """What acts on the planes through one point whose normal lies in the x-z plane.
 
     The angle is that of the normal from x towards z, downwards as in a section. Curves are the
@@ -290,14 +304,17 @@ def critical_plane_rose(stress: ArrayLike, criterion: fatigue.Criterion) -> Axes
 
     Parameters
     ----------
-    stress : array of shape (time, 6)
-        Stress history of the point [Pa].
-    criterion : Criterion
-        One that has a critical plane.
+    stress : array of shape (time, 6), or Life
+        Stress history of the point [Pa]; of a life that of its worst point.
+    criterion : Criterion, optional
+        One that has a critical plane (default: that of the life).
     """
+    stress, own = history_of(stress)
+    criterion = own if criterion is None else criterion
+    if criterion is None:
+        raise TypeError("criterion: must be given with a history, such as Criterion.findley(k=0.3)")
     if not criterion.has_plane:
         raise ValueError(f"{criterion.name} has no critical plane")
-    stress = histories(stress).whole()
     normal = fatigue.evaluate(stress, criterion).normal.values
     angle = np.radians(np.arange(0.0, 360.5, 1.0))
     c, s = np.cos(angle)[:, None], np.sin(angle)[:, None]
@@ -333,13 +350,15 @@ def critical_plane_rose(stress: ArrayLike, criterion: fatigue.Criterion) -> Axes
 
 @styled
 def dang_van_diagram(
-    stress: ArrayLike, *, material: Material | None = None, ax: Axes | None = None
+    stress: ArrayLike | Life, *, material: Material | None = None, ax: Axes | None = None
 ) -> Axes:
     """Path of one point in Dang Van's plane: mesoscopic shear over hydrostatic stress.
 
     With a material that has ``s_D`` and ``t_D``, the limit tau = t_D - alpha p_h, and the instant
-    that is nearest to it or farthest beyond. `stress` has the shape (time, 6) [Pa].
+    that is nearest to it or farthest beyond. `stress` has the shape (time, 6) [Pa]; of a life it is
+    that at its worst point.
     """
+    stress, _ = history_of(stress)
     ax = axes(ax)
     tau, p_h = (v / 1e6 for v in fatigue.dang_van_path(stress))
     ax.plot(np.r_[p_h, p_h[0]], np.r_[tau, tau[0]], color="C0", marker=".", markersize=3)
@@ -427,16 +446,18 @@ class OverDistances(Protocol):
 
 
 @styled
-def life_over_distance(of: OverDistances, *, ax: Axes | None = None) -> Axes:
+def life_over_distance(of: OverDistances | Life, *, ax: Axes | None = None) -> Axes:
     """Life or safety factor over the distance that the stress is averaged over, with its range.
 
     Parameters
     ----------
-    of : OverDistance
-        As :meth:`pyfret.fatigue.Life.over_distance` gives it.
+    of : OverDistance or Life
+        As :meth:`pyfret.fatigue.Life.over_distance` gives it; of a life over its distances.
     ax : matplotlib Axes, optional
         Where to draw.
     """
+    if isinstance(of, fatigue.Life):
+        of = of.over_distance()
     ax = axes(ax)
     d, margin = of.dataset, of.margin
     L = 1e6 * d["L"].values

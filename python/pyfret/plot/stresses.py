@@ -15,6 +15,7 @@ from pyfret._util.numbers import in_words
 from pyfret.plot.depth_axis import stretch as stretch_axis
 from pyfret.plot.scales import Scales, Units, scales
 from pyfret.plot.style import apart, axes, beside, mark, styled
+from pyfret.plot.tables import must_hold
 from pyfret.subsurface.contact import stress_below
 from pyfret.subsurface.line import Line, line_of, main_line
 from pyfret.subsurface.tensor import Stress
@@ -29,6 +30,8 @@ if TYPE_CHECKING:
     from pyfret.run import Run
     from pyfret.subsurface.tensor import Extreme
 
+#: What computes the extremes of a path.
+ENVELOPE = "extremes of that measure over a path, result.envelope(of=[...])"
 #: Names of measures in figures.
 SYMBOLS = {
     "von_mises": r"\sigma_\mathrm{VM}",
@@ -268,6 +271,7 @@ def envelope_maps(
     cycle: int = -1,
 ) -> Figure:
     """Largest value over the path, and amplitude and mean over a cycle, of a measure of stress."""
+    must_hold(envelope, "envelope", [f"{of}_max"], ENVELOPE)
     name = SYMBOLS.get(of, of)
     shown = [(envelope[f"{of}_max"], rf"\max {name}")]
     cycles = envelope.sizes.get("cycle", 0)
@@ -305,6 +309,7 @@ def stress_history(
 
     The points are coloured by its depth.
     """
+    must_hold(envelope, "envelope", [f"{of}_largest", f"{of}_largest_z"], ENVELOPE)
     ax = axes(ax)
     by = _scales(envelope.attrs, units, a_H, p_H)
     value = envelope[f"{of}_largest"] / by.stress.value

@@ -11,6 +11,7 @@ import numpy as np
 from pyfret import _core
 from pyfret._core import Scene, with_error
 from pyfret._util.door import numbers_only
+from pyfret._util.guesses import no_attribute
 from pyfret._util.kept import Kept
 from pyfret._util.labelled import Labelled
 from pyfret._util.numbers import length
@@ -55,7 +56,10 @@ class WearResult(Kept, Labelled):
                 return self.dataset[name]
             if name in self.dataset.attrs:
                 return self.dataset.attrs[name]
-        raise AttributeError(f"a wear result has no {name!r}")
+            own = (one for one in dir(type(self)) if not one.startswith("_"))
+            known = {*own, *map(str, self.dataset.variables), *self.dataset.attrs}
+            raise no_attribute("wear result", name, known, {})
+        raise AttributeError(name)
 
     @property
     def worn(self) -> xr.DataArray:

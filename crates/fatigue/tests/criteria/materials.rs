@@ -131,6 +131,35 @@ fn a_life_beyond_the_tests_of_its_curve_is_without_end_and_a_safety_factor_is_no
 }
 
 #[test]
+fn no_number_that_a_reader_is_given_is_a_life_beyond_the_tests() {
+    let mut beyond = 0;
+    for material in materials().values() {
+        for of in CRITERIA {
+            let Ok(of) = Assessment::of(of.name, material) else {
+                continue;
+            };
+            for n in 0..60 {
+                let value = 10f64.powf(-8.0 + 0.3 * f64::from(n));
+                let range = of.range(value, 0.1 * value);
+                assert!(range.best.to_bits() == of.margin(value).to_bits());
+                if of.gives_lives() {
+                    let told = [range.best, range.high];
+                    assert!(
+                        told.iter()
+                            .all(|life| *life <= LONGEST || life.is_infinite())
+                    );
+                    assert!(range.low <= LONGEST || of.extrapolated(1.1 * value).is_infinite());
+                    beyond += usize::from(of.extrapolated(value) > LONGEST && range.low > 0.0);
+                } else {
+                    assert!(of.extrapolated(value).to_bits() == range.best.to_bits());
+                }
+            }
+        }
+    }
+    assert!(beyond > 50, "{beyond}");
+}
+
+#[test]
 fn every_material_that_is_judged_has_a_critical_distance_and_says_how_it_is_known() {
     for (name, material) in materials() {
         let judged = CRITERIA

@@ -7,7 +7,7 @@ use contact_assess::{
     inclination, largest_mean, range_of_life, worst,
 };
 use contact_core::Error;
-use contact_core::digits::{rough, with_range};
+use contact_core::digits::with_range;
 use contact_core::scene::Body;
 use contact_subsurface::{Line, Zone};
 use fatigue::{Assessment, AtPoint, Material, Range};
@@ -54,7 +54,7 @@ impl Judging<'_> {
         for layer in 0..=self.body.coatings.len() {
             all.extend(self.layer(sections, of, layer)?);
         }
-        let margin = |layer: &Layer<'_>| layer.of.margin(layer.worst.extreme.value);
+        let margin = |layer: &Layer<'_>| layer.of.extrapolated(layer.worst.extreme.value);
         let least =
             all.iter().map(margin).fold(
                 f64::INFINITY,
@@ -178,7 +178,7 @@ impl Layer<'_> {
             Zone::Stick => "border of the stick zone",
         });
         let error = extreme.error.sum();
-        let point = self.of.margins(extreme.value, error);
+        let point = self.of.range(extreme.value, error);
         let mut json = self.json();
         let own = json!({
             self.name(): point.best, "at_point": [point.low, point.high],
@@ -278,15 +278,10 @@ fn merge(table: &mut Value, other: Value) {
 /// A margin and its range in words.
 fn said(range: &Range, of: &Assessment) -> String {
     let Range { low, best, high } = *range;
-    match (of.gives_lives(), best.is_finite()) {
-        (true, true) if high.is_infinite() => {
-            format!("life {} cycles ({} or more)", rough(best), rough(low))
-        }
-        (true, true) => format!("life {} cycles", with_range(best, [low, high])),
-        (true, false) if low.is_finite() => {
-            format!("life {} cycles or more", rough(low))
-        }
-        (true, false) => "endless life".into(),
-        (false, _) => format!("safety factor {}", with_range(best, [low, high])),
+    let told = with_range(best, [low, high]);
+    match of.gives_lives() {
+        true if low.is_infinite() => "endless life".into(),
+        true => format!("life {told} cycles"),
+        false => format!("safety factor {told}"),
     }
 }

@@ -93,8 +93,10 @@ impl CriterionBelow {
         };
         let found = place(py, &worst)?;
         let (value, error) = (worst.extreme.value, worst.extreme.error.sum());
-        found.set_item("margin", assessment.margin(value))?;
-        found.set_item("range", assessment.range(value, error).to_vec())?;
+        let range = assessment.range(value, error);
+        found.set_item("margin", range.best)?;
+        found.set_item("range", (range.low, range.high))?;
+        found.set_item("order", assessment.extrapolated(value))?;
         if assessment.criterion.has_plane() {
             let normal = worst.found.normal;
             found.set_item("normal", normal)?;

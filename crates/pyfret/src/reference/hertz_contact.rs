@@ -87,6 +87,12 @@ impl Hertz {
         self.0.p0
     }
 
+    /// The same, by the name that it has in results [Pa].
+    #[getter]
+    fn p_H(&self) -> f64 {
+        self.0.p0
+    }
+
     /// Approach [m], a^2 / R.
     #[getter]
     fn delta_z(&self) -> f64 {
@@ -156,6 +162,12 @@ impl HertzEllipse {
     /// Peak pressure [Pa], 3 W / (2 pi a_x a_y).
     #[getter]
     fn p0(&self) -> f64 {
+        self.ellipse.p0
+    }
+
+    /// The same, by the name that it has in results [Pa].
+    #[getter]
+    fn p_H(&self) -> f64 {
         self.ellipse.p0
     }
 

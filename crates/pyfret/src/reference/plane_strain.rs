@@ -70,6 +70,12 @@ impl LineContact {
         self.line.p0
     }
 
+    /// The same, by the name that it has in results [Pa].
+    #[getter]
+    fn p_H(&self) -> f64 {
+        self.line.p0
+    }
+
     /// Pressure at `x` [m] [Pa].
     #[pyo3(signature = (x) -> "NDArray[np.float64]")]
     fn p<'py>(&self, py: Python<'py>, x: Numbers<'py>) -> Bound<'py, PyArrayDyn<f64>> {

@@ -1,0 +1,204 @@
+"""A name that an object does not have, and an object that a figure does not draw, are refused."""
+
+from __future__ import annotations
+
+import enum
+import importlib
+import inspect
+import re
+from collections.abc import Callable
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import matplotlib.pyplot as plt
+import pytest
+import xarray as xr
+
+import pyfret as fret
+
+pytestmark = [pytest.mark.solves, pytest.mark.filterwarnings("ignore")]
+
+STEEL = fret.Elastic(E=210e9, nu=0.3)
+#: Figures that are not drawn of one thing, or too dear for a walk.
+LEFT_OUT = ("style", "animate", "paper_figures", "overview", "crack_panels")
+
+
+@pytest.fixture
+def public(monkeypatch: pytest.MonkeyPatch) -> Any:
+    """All public callables with good arguments, and an object of every kind."""
+    monkeypatch.syspath_prepend(str(Path(__file__).with_name("hostile")))
+    return importlib.import_module("public")
+
+
+def objects(public: Any) -> dict[str, Any]:
+    """Objects of the package, of every kind that a user holds."""
+    life = public.LIFE
+    found = {
+        name: of
+        for name, of in vars(public).items()
+        if type(of).__module__.partition(".")[0] == "pyfret" or isinstance(of, xr.Dataset)
+    }
+    extra = {"worst": life.worst, "range": life.range, "over": life.over_distance([1e-5])}
+    return found | extra | {"errors": life.worst.errors, "text": "findley", "list": [1.0, 2.0]}
+
+
+def classes() -> dict[str, type]:
+    """All public classes that are no exceptions, and all of the compiled module."""
+    found: dict[str, type] = {}
+    modules = [fret, *(of for of in vars(fret).values() if isinstance(of, ModuleType))]
+    for module in modules:
+        for name in getattr(module, "__all__", ()):
+            of = getattr(module, name)
+            if isinstance(of, type) and of.__module__.partition(".")[0] == "pyfret":
+                found[f"{module.__name__}.{name}"] = of
+    of_core = {f"_core.{n}": of for n, of in vars(fret._core).items() if isinstance(of, type)}
+    return {
+        name: of
+        for name, of in (found | of_core).items()
+        if not issubclass(of, (BaseException, enum.Enum, dict))
+    }
+
+
+def test_every_public_class_offers_the_nearest_name(
+    record_property: Callable[[str, object], None],
+) -> None:
+    found = classes()
+    record_property("classes", len(found))
+    assert len(found) > 150
+    assert [name for name, of in found.items() if not hasattr(of, "__getattr__")] == []
+
+
+def test_a_misspelt_attribute_of_every_object_is_refused_with_the_nearest(public: Any) -> None:
+    asked = 0
+    for of in objects(public).values():
+        if type(of).__module__.partition(".")[0] != "pyfret":
+            continue
+        names = [one for one in dir(of) if not one.startswith("_") and len(one) > 3]
+        for name in names[:3]:
+            asked += 1
+            with pytest.raises(AttributeError, match=rf"has no '{name}_'.*\b{name}\b"):
+                getattr(of, name + "_")
+    assert asked > 60
+
+
+def test_a_property_that_fails_says_why_by_itself() -> None:
+    class Broken:
+        @property
+        def number(self) -> float:
+            raise AttributeError("the cause")
+
+    Broken.__getattr__ = fret.Sphere.__getattr__  # type: ignore[attr-defined]
+    with pytest.raises(AttributeError, match="the cause"):
+        _ = Broken().number
+
+
+def test_closed_forms_print_their_numbers_with_units() -> None:
+    """Every attribute that is a number stands in the text; its unit is that of its docstring."""
+    made = {
+        "Hertz": fret.reference.hertz(R=0.05, bodies=(STEEL, STEEL), W=30.0),
+        "HertzEllipse": fret.reference.hertz_ellipse(R_x=0.01, R_y=0.02, E_star=1e11, W=30.0),
+        "LineContact": fret.reference.line_contact(R=0.05, bodies=(STEEL, STEEL), W=3e5),
+        "HertzStress": fret.reference.HertzStress(a=1e-4, nu=0.3),
+        "CoupledIndentation": fret.reference.coupled_indentation(beta=0.2, mu=0.3),
+    }
+    hertz = made["Hertz"]
+    made["CattaneoMindlin"] = fret.reference.CattaneoMindlin(hertz, bodies=(STEEL, STEEL), mu=0.3)
+    made["Lubkin"] = fret.reference.Lubkin(hertz, bodies=(STEEL, STEEL), mu=0.3)
+    made["CoatedIndentation"] = fret.reference.coated_indentation(
+        R=0.01, indenter=STEEL, coating=fret.Coating(STEEL, thickness=1e-5), substrate=STEEL, W=10.0
+    )
+    for name, of in made.items():
+        lines = str(of).splitlines()
+        assert lines[0] == f"{name}:"
+        for key, attribute in inspect.getmembers_static(type(of), inspect.isgetsetdescriptor):
+            unit = re.search(r"\[(.+?)\]", attribute.__doc__ or "")
+            if key.startswith("_") or not isinstance(getattr(of, key), float):
+                continue
+            [line] = [line for line in lines if line.split()[0] == key]
+            assert unit is None or unit[1][-1] in line, line
+    assert "p0       310." in str(hertz) or "p0       31" in str(hertz)
+    assert " MPa " in str(hertz)
+    for of in (hertz, made["HertzEllipse"], made["LineContact"]):
+        assert of.p_H == of.p0  # type: ignore[attr-defined]
+
+
+def test_a_figure_says_what_it_takes_instead_of_what_it_is_given(
+    public: Any, record_property: Callable[[str, object], None]
+) -> None:
+    """All figures of all objects: drawn, or refused by the name of the parameter."""
+    asked, drawn, wrong = 0, 0, []
+    for name in sorted(set(fret.plot.__all__) - set(LEFT_OUT)):
+        draw = getattr(fret.plot, name)
+        given, _ = public.good(f"plot.{name}", draw)
+        parameters = list(inspect.signature(draw).parameters.values())
+        first = parameters[0].name
+        needed = {
+            one.name: given[one.name]
+            for one in parameters[1:]
+            if one.default is one.empty and one.name in given and one.name != "ax"
+        }
+        if "ax" in [one.name for one in parameters if one.default is one.empty]:
+            needed["ax"] = plt.figure().add_subplot()
+        for key, of in objects(public).items():
+            asked += 1
+            try:
+                draw(of, **needed)
+                drawn += 1
+            except (TypeError, ValueError) as refused:
+                # What lacks something says what, and what to give.
+                told = re.search(rf"^{first}\b|: give ", str(refused))
+                if not told:
+                    wrong.append(f"{name}({key}): {type(refused).__name__}: {refused}")
+            except Exception as raised:
+                wrong.append(f"{name}({key}): {type(raised).__name__}: {raised}")
+        plt.close("all")
+    record_property("calls", asked)
+    assert asked > 1000
+    assert drawn > 50
+    assert wrong == []
+
+
+def test_numbers_of_a_criterion_come_from_a_material() -> None:
+    """Of every criterion and every material, by one manner: as its assessment has them."""
+    fatigue, made = fret.fatigue, 0
+    for name in fatigue.CRITERIA:
+        for key, material in fatigue.Materials().items():
+            try:
+                expected = material.assessment(name).criterion
+            except ValueError as lacking:
+                with pytest.raises(ValueError, match=re.escape(str(lacking))):
+                    fatigue.Criterion.of(name, key)
+                continue
+            made += 1
+            assert fatigue.Criterion.of(name, key) == expected
+            assert getattr(fatigue.Criterion, name)(material=material) == expected
+            assert fatigue.Criterion(name, **expected.numbers, material=key) == expected
+    assert made > 30
+    with pytest.raises(ValueError, match=r"material = \"7076 T9\": must be a Material, or one of"):
+        fatigue.Criterion.findley(material="7076 T9")
+
+
+def test_a_life_beyond_the_tests_is_told_as_one_everywhere(public: Any) -> None:
+    """In the worst point, in the fields, in the range, in the text and in the view."""
+    life = public.LIFE
+    assert life.worst.margin == life.best == float("inf")
+    assert life.worst.range[1] == life.high == float("inf")
+    assert life.worst.range[0] <= fret._core.LONGEST_LIFE
+    fields = life.dataset.life.values
+    assert fields[fields < float("inf")].size == 0 or fields[fields < float("inf")].max() <= 1e7
+    assert "or more" in repr(life)
+    for text in (repr(life), repr(life.worst), life._repr_html_()):
+        assert re.search(r"e\+?(0[89]|1\d)", text) is None, text
+
+
+def test_figures_of_a_life_are_those_of_its_worst_point(public: Any) -> None:
+    life = public.LIFE
+    judged = fret.fatigue.evaluate(life.history(), life.criterion)
+    assert float(judged.value) == pytest.approx(life.worst.value, rel=1e-9)
+    assert fret.plot.critical_plane_rose(life).get_title("left").startswith("Smith")
+    assert len(fret.plot.life_over_distance(life).lines[0].get_xdata()) == 9
+    fret.plot.dang_van_diagram(life)
+    plt.close("all")
+    with pytest.raises(TypeError, match=r"criterion = 'findley': must be .*Criterion.findley\(k="):
+        fret.plot.critical_plane_rose(life, "findley")  # type: ignore[arg-type]
