@@ -7,7 +7,7 @@ use contact_core::Error;
 use contact_core::error::Raised;
 use contact_core::scene::Body;
 use contact_subsurface::{Line, OverCycle};
-use fatigue::{Assessment, AtPoint, Material, Search, evaluate};
+use fatigue::{Assessment, AtPoint, History, Material, Search, evaluate};
 use ndarray::ArrayView3;
 
 use super::judged::Judge;
@@ -95,7 +95,8 @@ impl Judge for ByCriterion {
         let Some(of) = self.of(layer) else {
             return Ok(Vec::new());
         };
-        evaluate(&of.criterion, stress, &self.search, stop).map_err(of_criteria)
+        let history = History::elastic(stress);
+        evaluate(&of.criterion, &history, &self.search, stop).map_err(of_criteria)
     }
 
     /// A criterion of strain takes the strain of the stress: it is right where the plastic strain is constant.

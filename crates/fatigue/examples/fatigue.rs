@@ -6,7 +6,7 @@
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
-use fatigue::{Criterion, Search, evaluate};
+use fatigue::{Criterion, History, Search, evaluate};
 use ndarray::Array3;
 
 /// Points that are held at a time.
@@ -42,7 +42,12 @@ fn main() {
                 let here = CHUNK.min(points - chunk * CHUNK);
                 let stress = histories(here, chunk as u64, smooth);
                 let start = Instant::now();
-                let found = evaluate(criterion, &stress.view(), &Search::default(), &never);
+                let found = evaluate(
+                    criterion,
+                    &History::elastic(&stress.view()),
+                    &Search::default(),
+                    &never,
+                );
                 seconds += start.elapsed().as_secs_f64();
                 let found = found.expect("random histories are histories");
                 sum += found.iter().map(|p| p.value).sum::<f64>();

@@ -15,7 +15,7 @@ pub(crate) struct Acting {
 
 impl Acting {
     pub(crate) fn on(path: &Path, n: [f64; 3], buffers: &mut ShearBuffers) -> Self {
-        path.resolve(&Frame::across(n), &mut buffers.shear);
+        path.resolve(path, &Frame::across(n), &mut buffers.shear);
         let (normal, unit) = (path.normal(n), path.unit());
         let circle = buffers.circles.round(&buffers.shear);
         Self {

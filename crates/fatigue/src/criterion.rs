@@ -108,6 +108,17 @@ impl Criterion {
         matches!(self.acts(1.0), Acts::OnPlanes(_))
     }
 
+    /// Whether it takes strains; others take the stress alone.
+    pub fn takes_strain(&self) -> bool {
+        self.twice_shear_modulus().is_some()
+    }
+
+    /// 2 G \[Pa\], where it takes strains.
+    pub(crate) fn twice_shear_modulus(&self) -> Option<f64> {
+        let (E, nu) = self.number("E").zip(self.number("nu"))?;
+        Some(E / (1.0 + nu))
+    }
+
     /// How it follows from stresses in a unit \[Pa\].
     pub(crate) fn acts(&self, unit: f64) -> Acts {
         (self.definition.acts)(self.numbers, unit)

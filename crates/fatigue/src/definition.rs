@@ -4,7 +4,8 @@
 //! tau_a the shear amplitude there, the radius of the smallest circle round the path of the shear
 //! stress, and gamma_a = tau_a/G with G = E/(2 (1 + nu)); p_h the hydrostatic stress; sqrt(J2,a)
 //! the radius of the smallest sphere round the path of the deviatoric stress s, |s|^2 = s:s/2.
-//! Strains are those of the elastic stress.
+//! Strains are the elastic strain of the stress and the plastic strain. Where that changes, gamma_a is
+//! the radius of the smallest circle round the path of the shear strain.
 //!
 //! Dang Van's tau is half of Tresca's stress of s less the centre of that sphere, the stress of a
 //! grain that has shaken down. Of planes with equal tau_a Matake's and McDiarmid's criterion takes

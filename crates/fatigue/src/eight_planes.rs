@@ -9,12 +9,16 @@
 use pulp::{Arch, Simd, WithSimd};
 
 use crate::circle::{Round, joined, needed, round_of_three};
+use crate::eight_weights::{normal_weights, shear_weights, weighted};
+use crate::histories::Histories;
 use crate::lanes::{Eight, LANES, Real};
 use crate::path::Path;
 
 /// The stresses of a point, and buffers for the shear on eight planes.
 pub(crate) struct Instants<F> {
     stress: Vec<[F; 6]>,
+    /// [`Histories::apart`]; empty where it is the stress.
+    strained: Vec<[F; 6]>,
     shear: Vec<[Eight<F>; 2]>,
     arch: Arch,
 }
@@ -52,6 +56,7 @@ impl<F: Real> Instants<F> {
     pub(crate) fn new() -> Self {
         Self {
             stress: Vec::new(),
+            strained: Vec::new(),
             shear: Vec::new(),
             arch: Arch::new(),
         }
@@ -60,33 +65,36 @@ impl<F: Real> Instants<F> {
     /// Takes other tensors than stresses, for [`Self::mixed`] alone.
     pub(crate) fn load_tensors(&mut self, tensors: impl Iterator<Item = [f64; 6]>) {
         self.stress.clear();
+        self.strained.clear();
         self.stress.extend(tensors.map(|s| s.map(F::near)));
     }
 
-    /// Takes the stresses of a path.
-    pub(crate) fn load(&mut self, path: &Path) {
-        self.stress.clear();
-        self.stress.extend(path.instants().map(|s| s.map(F::near)));
+    /// Takes stress and strain of a point.
+    pub(crate) fn load(&mut self, of: &Histories) {
+        self.load_tensors(of.stress.instants());
+        let apart = of.apart().into_iter().flat_map(Path::instants);
+        self.strained.extend(apart.map(|s| s.map(F::near)));
         let none = [[F::near(0.0); LANES]; 2];
         self.shear.resize(self.stress.len(), none);
     }
 
     /// Largest normal stress on the planes of eight unit normals, largest and smallest of
-    /// `strain[0]` times the normal stress less `strain[1]` times the sum of the normal stresses,
-    /// and, where `shear` is asked for, the shear stress at every instant, which stays here.
+    /// `strain[0]` times the normal stress of S* less `strain[1]` times the sum of its normal stresses,
+    /// and, where `shear` is asked for, the shear of S* at every instant, which stays here.
     pub(crate) fn sweep(
         &mut self,
         n: &[Eight<f64>; 3],
         strain: Option<[f64; 2]>,
         shear: bool,
     ) -> Swept<F> {
-        let (strained, strain) = (strain.is_some(), strain.unwrap_or_default().map(F::near));
-        let (arch, stress) = (self.arch, &self.stress);
+        let (elongates, strain) = (strain.is_some(), strain.unwrap_or_default().map(F::near));
+        let (arch, [stress, strained]) = (self.arch, both(&self.stress, &self.strained));
         let n = n.map(|d| d.map(F::near));
-        if shear && strained {
+        if shear && elongates {
             let shear = &mut self.shear;
             arch.dispatch(Sweep::<F, true, true> {
                 stress,
+                strained,
                 shear,
                 n,
                 strain,
@@ -95,6 +103,7 @@ impl<F: Real> Instants<F> {
             let shear = &mut self.shear;
             arch.dispatch(Sweep::<F, true, false> {
                 stress,
+                strained,
                 shear,
                 n,
                 strain,
@@ -103,6 +112,7 @@ impl<F: Real> Instants<F> {
             let shear = &mut [];
             arch.dispatch(Sweep::<F, false, true> {
                 stress,
+                strained,
                 shear,
                 n,
                 strain,
@@ -130,11 +140,12 @@ impl<F: Real> Instants<F> {
                 weights[c][l] = a[i] * b[j] + a[j] * b[i];
             }
         }
-        let (arch, stress) = (self.arch, &self.stress);
+        let (arch, [stress, strained]) = (self.arch, both(&self.stress, &self.strained));
         if let Some(strain) = strain {
             let strain = strain.map(F::near);
             arch.dispatch(Mix::<F, true> {
                 stress,
+                strained,
                 weights,
                 across,
                 strain,
@@ -143,6 +154,7 @@ impl<F: Real> Instants<F> {
             let strain = [F::near(0.0); 2];
             arch.dispatch(Mix::<F, false> {
                 stress,
+                strained,
                 weights,
                 across,
                 strain,
@@ -197,9 +209,20 @@ impl<F: Real> Instants<F> {
     }
 }
 
+/// S and S*: the stress, where S* is empty.
+fn both<'a, F>(stress: &'a [[F; 6]], strained: &'a [[F; 6]]) -> [&'a [[F; 6]]; 2] {
+    let apart = if strained.is_empty() {
+        stress
+    } else {
+        strained
+    };
+    [stress, apart]
+}
+
 /// [`Instants::sweep`], compiled for the processor.
 struct Sweep<'a, F, const SHEAR: bool, const STRAIN: bool> {
     stress: &'a [[F; 6]],
+    strained: &'a [[F; 6]],
     shear: &'a mut [[Eight<F>; 2]],
     n: [Eight<F>; 3],
     strain: [F; 2],
@@ -212,6 +235,7 @@ impl<F: Real, const SHEAR: bool, const STRAIN: bool> WithSimd for Sweep<'_, F, S
     fn with_simd<S: Simd>(self, simd: S) -> Swept<F> {
         let Self {
             stress,
+            strained,
             shear,
             n,
             strain,
@@ -233,17 +257,17 @@ impl<F: Real, const SHEAR: bool, const STRAIN: bool> WithSimd for Sweep<'_, F, S
             [normal; 2]
         };
         let mut at = [[F::near(0.0); LANES]; 3];
-        for (t, s) in stress.iter().enumerate() {
+        for (t, (s, e)) in stress.iter().zip(strained).enumerate() {
             let mark = F::near(t as f64);
             let value = weighted(&normal, s);
             F::raise_marked(simd, &mut normal_max, &mut at[0], &value, mark);
             if STRAIN {
-                let value = weighted(&elongation, s);
+                let value = weighted(&elongation, e);
                 F::raise_marked(simd, &mut strain_max, &mut at[1], &value, mark);
                 F::lower_marked(simd, &mut strain_min, &mut at[2], &value, mark);
             }
             if SHEAR {
-                shear[t] = [weighted(&u, s), weighted(&v, s)];
+                shear[t] = [weighted(&u, e), weighted(&v, e)];
             }
         }
         Swept {
@@ -258,6 +282,7 @@ impl<F: Real, const SHEAR: bool, const STRAIN: bool> WithSimd for Sweep<'_, F, S
 /// [`Instants::mixed`], compiled for the processor.
 struct Mix<'a, F, const STRAIN: bool> {
     stress: &'a [[F; 6]],
+    strained: &'a [[F; 6]],
     weights: [Eight<F>; 6],
     /// -a.b.
     across: Eight<F>,
@@ -271,6 +296,7 @@ impl<F: Real, const STRAIN: bool> WithSimd for Mix<'_, F, STRAIN> {
     fn with_simd<S: Simd>(self, simd: S) -> Mixed<F> {
         let Self {
             stress,
+            strained,
             weights,
             across,
             strain,
@@ -278,11 +304,11 @@ impl<F: Real, const STRAIN: bool> WithSimd for Mix<'_, F, STRAIN> {
         let [low, high] = [F::near(f64::NEG_INFINITY), F::near(f64::INFINITY)];
         let mut normal_max = [low; LANES];
         let (mut most, mut least) = (normal_max, [high; LANES]);
-        for s in stress {
-            let mut value = weighted(&weights, s);
-            F::raise(simd, &mut normal_max, &value);
+        for (s, e) in stress.iter().zip(strained) {
+            F::raise(simd, &mut normal_max, &weighted(&weights, s));
             if STRAIN {
-                let trace = strain[1] * (s[0] + s[1] + s[2]);
+                let mut value = weighted(&weights, e);
+                let trace = strain[1] * (e[0] + e[1] + e[2]);
                 for l in 0..LANES {
                     value[l] = across[l].mul_add(trace, strain[0] * value[l]);
                 }
@@ -328,63 +354,4 @@ impl<F: Real> WithSimd for Farthest<'_, F> {
         }
         (far, at)
     }
-}
-
-#[inline(always)]
-fn weighted<F: Real>(weights: &[Eight<F>; 6], s: &[F; 6]) -> Eight<F> {
-    let mut sum = [F::near(0.0); LANES];
-    for c in 0..6 {
-        for l in 0..LANES {
-            sum[l] = weights[c][l].mul_add(s[c], sum[l]);
-        }
-    }
-    sum
-}
-
-/// n.S.n as a sum of the components.
-#[inline(always)]
-fn normal_weights<F: Real>([x, y, z]: &[Eight<F>; 3]) -> [Eight<F>; 6] {
-    let two = F::near(2.0);
-    let mut weights = [[F::near(0.0); LANES]; 6];
-    for l in 0..LANES {
-        weights[0][l] = x[l] * x[l];
-        weights[1][l] = y[l] * y[l];
-        weights[2][l] = z[l] * z[l];
-        weights[3][l] = two * x[l] * y[l];
-        weights[4][l] = two * x[l] * z[l];
-        weights[5][l] = two * y[l] * z[l];
-    }
-    weights
-}
-
-/// u.S.n and v.S.n as sums of the components; u and v are unit vectors across n and each other.
-#[inline(always)]
-fn shear_weights<F: Real>(n: &[Eight<F>; 3]) -> [[Eight<F>; 6]; 2] {
-    let mut weights = [[[F::near(0.0); LANES]; 6]; 2];
-    for l in 0..LANES {
-        let n = [n[0][l], n[1][l], n[2][l]];
-        for (weights, u) in weights.iter_mut().zip(across(n)) {
-            for c in 0..3 {
-                weights[c][l] = u[c] * n[c];
-            }
-            for (c, i, j) in [(3, 0, 1), (4, 0, 2), (5, 1, 2)] {
-                weights[c][l] = u[i] * n[j] + u[j] * n[i];
-            }
-        }
-    }
-    weights
-}
-
-/// Unit vectors across n and each other, without roots: T. Duff et al., J. Comput. Graph. Tech. 6
-/// (2017) 1-8.
-#[inline(always)]
-fn across<F: Real>([x, y, z]: [F; 3]) -> [[F; 3]; 2] {
-    let [one, none] = [F::near(1.0), F::near(0.0)];
-    let sign = if z < none { none - one } else { one };
-    let a = none - F::near(1.0 / (sign + z).wide());
-    let b = x * y * a;
-    [
-        [one + sign * x * x * a, sign * b, none - sign * x],
-        [b, sign + y * y * a, none - y],
-    ]
 }

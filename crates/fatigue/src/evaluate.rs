@@ -4,7 +4,6 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use ndarray::ArrayView3;
 use rayon::prelude::*;
-use stress_tensor::StressTensor;
 
 use crate::acting::Acting;
 use crate::at_point::AtPoint;
@@ -13,16 +12,14 @@ use crate::criterion::Criterion;
 use crate::critical_plane::{Buffers, Search};
 use crate::definition::Acts;
 use crate::error::Error;
+use crate::histories::Histories;
+use crate::history::{History, plastic_strains, stresses};
 use crate::invariants::sphere;
 use crate::on_planes::{OnPlanes, ShearBuffers};
-use crate::path::Path;
 use crate::plane_function::PlaneFunction;
 
 /// Points whose histories are copied together: a few hundred kilobytes.
 const CHUNK: usize = 64;
-
-/// The largest stress \[Pa\]: products of two stay finite.
-const LARGEST: f64 = 1e75;
 
 /// Buffers of a worker besides the path.
 #[derive(Default)]
@@ -32,20 +29,23 @@ struct Worker {
     sphere: Balls<5>,
 }
 
-/// The criterion on stresses of shape (time, points, 6) \[Pa\], Voigt order xx, yy, zz, xy, xz, yz,
-/// tension positive; points in parallel. The order of the instants does not matter, a cycle may be
-/// given once or several times.
+/// The criterion on the histories of points, in parallel. The order of the instants does not matter, a
+/// cycle may be given once or several times.
 ///
-/// Fails if a stress is not finite, if there are fewer than two instants, if the last axis is not 6
-/// long, or if the stress is zero everywhere; and with [`Error::Stopped`] once `stop` is raised.
+/// Fails if a stress or strain is not finite, if there are fewer than two instants, if the last axis is
+/// not 6 long, if the plastic strain has another shape or changes the volume, or if the stress is zero
+/// everywhere; and with [`Error::Stopped`] once `stop` is raised.
 pub fn evaluate(
     criterion: &Criterion,
-    stress: &ArrayView3<'_, f64>,
+    history: &History<'_>,
     search: &Search,
     stop: &AtomicBool,
 ) -> Result<Vec<AtPoint>, Error> {
-    let points = over_points(stress, stop, |worker: &mut Worker, path| {
-        at_point(criterion, path, search, worker)
+    history.check()?;
+    let plastic = history.taken_by(criterion);
+    let plastic = plastic.as_ref().map(|(plastic, twice)| (plastic, *twice));
+    let points = over_points(&history.stress, plastic, stop, |worker: &mut Worker, of| {
+        at_point(criterion, of, search, worker)
     })?;
     if !points.is_empty() && points.iter().all(Option::is_none) {
         return Err(Error::argument(
@@ -58,35 +58,33 @@ pub fn evaluate(
     Ok(known.collect())
 }
 
-/// `f` of the path of each point; `None` where there is no stress.
+/// `f` of the histories of each point; `None` where there is no stress. The plastic strain comes with 2 G
+/// \[Pa\].
 pub(crate) fn over_points<W: Default, T: Send>(
     stress: &ArrayView3<'_, f64>,
+    plastic: Option<(&ArrayView3<'_, f64>, f64)>,
     stop: &AtomicBool,
-    f: impl Fn(&mut W, &Path) -> T + Sync,
+    f: impl Fn(&mut W, &Histories) -> T + Sync,
 ) -> Result<Vec<Option<T>>, Error> {
-    let (instants, points, components) = stress.dim();
-    if components != 6 {
-        let allowed = "6 long: xx, yy, zz, xy, xz, yz";
-        return Err(Error::argument("last axis of stress", components, allowed));
-    }
-    if instants < 2 {
-        let allowed = "at least 2: a criterion needs a history";
-        return Err(Error::argument("instants of stress", instants, allowed));
-    }
+    let (instants, points, _) = stress.dim();
     let chunks: Vec<_> = (0..points.div_ceil(CHUNK))
         .into_par_iter()
         .map(|chunk| {
             let first = chunk * CHUNK;
             let here = CHUNK.min(points - first);
-            let tensors = copied(stress, first, here)?;
-            let (mut worker, mut path) = (W::default(), Path::new());
+            let stress = stresses(stress, first, here)?;
+            let strains = plastic.map(|plastic| plastic_strains(plastic, first, here));
+            let strains = strains.transpose()?;
+            let (mut worker, mut of) = (W::default(), Histories::new());
             let mut found = Vec::with_capacity(here);
-            for history in tensors.chunks(instants) {
+            for (p, history) in stress.chunks(instants).enumerate() {
                 if stop.load(Ordering::Relaxed) {
                     return Err(Error::Stopped);
                 }
-                path.load(history);
-                found.push((path.size() > 0.0).then(|| f(&mut worker, &path)));
+                let own = p * instants..(p + 1) * instants;
+                of.load(history, strains.as_ref().map(|strains| &strains[own]));
+                let [size, strained] = of.sizes();
+                found.push((size.max(strained) > 0.0).then(|| f(&mut worker, &of)));
             }
             Ok(found)
         })
@@ -94,29 +92,13 @@ pub(crate) fn over_points<W: Default, T: Send>(
     Ok(chunks.into_iter().flatten().collect())
 }
 
-/// The histories of a few points, one after the other.
-fn copied(
-    stress: &ArrayView3<'_, f64>,
-    first: usize,
-    points: usize,
-) -> Result<Vec<StressTensor>, Error> {
-    let instants = stress.dim().0;
-    let mut tensors = vec![[0.0; 6]; points * instants];
-    for t in 0..instants {
-        for p in 0..points {
-            let tensor: StressTensor = std::array::from_fn(|c| stress[(t, first + p, c)]);
-            if let Some(c) = tensor.iter().position(|s| !(s.abs() <= LARGEST)) {
-                let key = format!("stress[{t}, {}, {c}]", first + p);
-                let allowed = "a finite stress in Pa, up to 1e75";
-                return Err(Error::argument(key, tensor[c], allowed));
-            }
-            tensors[p * instants + t] = tensor;
-        }
-    }
-    Ok(tensors)
-}
-
-fn at_point(criterion: &Criterion, path: &Path, search: &Search, worker: &mut Worker) -> AtPoint {
+fn at_point(
+    criterion: &Criterion,
+    histories: &Histories,
+    search: &Search,
+    worker: &mut Worker,
+) -> AtPoint {
+    let path = &histories.stress;
     let of = match criterion.acts(path.unit()) {
         Acts::OfInvariants(value) => {
             let sphere = sphere(path, &mut worker.sphere);
@@ -124,7 +106,7 @@ fn at_point(criterion: &Criterion, path: &Path, search: &Search, worker: &mut Wo
         }
         Acts::OnPlanes(of) => of,
     };
-    let mut planes = OnPlanes::new(of, path, &mut worker.shear);
+    let mut planes = OnPlanes::new(of, histories, &mut worker.shear);
     let peak = match planes.without_search() {
         Some(peak) => peak,
         None => search.peak(&mut planes, &mut worker.buffers),

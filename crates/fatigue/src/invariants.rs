@@ -5,7 +5,7 @@ use stress_tensor::{StressTensor, hydrostatic, tresca};
 use crate::at_point::AtPoint;
 use crate::ball::{Ball, Search as Balls};
 use crate::lanes::{LANES, Lanes};
-use crate::path::Path;
+use crate::path::{Path, power_of_two, size};
 
 /// sqrt 3.
 const ROOT3: f64 = 1.732_050_807_568_877_2;
@@ -112,7 +112,7 @@ pub fn dang_van_path(stress: &[StressTensor]) -> Vec<(f64, f64)> {
         return Vec::new();
     }
     let mut path = Path::new();
-    path.load(stress);
+    path.load(stress, power_of_two(size(stress.as_flattened())));
     let sphere = sphere(&path, &mut Balls::default());
     let in_pascal = |(tau, p): (f64, f64)| (path.unit() * tau, path.unit() * p);
     let mut found: Vec<_> = tau_and_pressure(&path, &sphere).map(in_pascal).collect();

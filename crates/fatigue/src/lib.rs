@@ -1,8 +1,8 @@
 //! Will it crack, yield or shake down? Criteria of multiaxial fatigue on plain stress histories.
 //!
 //! Arrays in, numbers out: nothing here knows where a stress comes from. A history is of shape
-//! (time, points, 6), components xx, yy, zz, xy, xz, yz, tension positive, in Pa. [`evaluate`]
-//! takes a [`Criterion`] to all points in parallel: its value, the critical plane, and the most
+//! (time, points, 6), components xx, yy, zz, xy, xz, yz, tension positive, in Pa; a [`History`] may have
+//! the plastic strain beside it. [`evaluate`] takes a [`Criterion`] to all points in parallel: its value, the critical plane, and the most
 //! that another plane may have. [`Assessment`] has a criterion's weights, limit and lives from the
 //! numbers of a [`Material`]; [`yielding`] gives load factors of first yield and of elastic
 //! shakedown.
@@ -10,7 +10,7 @@
 //! ```
 //! use std::sync::atomic::AtomicBool;
 //!
-//! use fatigue::{Assessment, Search, evaluate, materials};
+//! use fatigue::{Assessment, History, Search, evaluate, materials};
 //! use ndarray::Array3;
 //!
 //! // Tension and torsion out of phase, 16 instants of one point.
@@ -23,7 +23,7 @@
 //! let steel = &materials()["steel_42CrMo4"];
 //! let findley = Assessment::of("findley", steel)?;
 //! let never = AtomicBool::new(false);
-//! let found = evaluate(&findley.criterion, &stress.view(), &Search::default(), &never)?;
+//! let found = evaluate(&findley.criterion, &History::elastic(&stress.view()), &Search::default(), &never)?;
 //! println!("on the plane {:?}: {:.3e} Pa", found[0].normal, found[0].value);
 //! assert!((findley.safety_factor(found[0].value) - 1.108).abs() < 1e-3);
 //! # Ok::<(), fatigue::Error>(())
@@ -43,12 +43,15 @@ mod criterion;
 mod critical_plane;
 mod definition;
 mod eight_planes;
+mod eight_weights;
 mod error;
 mod estimate;
 mod evaluate;
 mod face_bound;
 mod forms;
 mod hemisphere;
+mod histories;
+mod history;
 mod invariants;
 mod judge;
 mod known;
@@ -77,6 +80,7 @@ pub use definition::{CRITERIA, Definition, Parameter};
 pub use error::Error;
 pub use estimate::{Family, MARK as ESTIMATE, estimated};
 pub use evaluate::evaluate;
+pub use history::History;
 pub use invariants::dang_van_path;
 pub use judge::{Judge, strain_life};
 pub use known::Known;

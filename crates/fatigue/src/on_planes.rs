@@ -1,22 +1,23 @@
 //! The criteria that look for a plane, as functions of the plane.
 //!
+//! Shears and strains are those of S* ([`Histories`]), which is the stress of a criterion of stress.
+//!
 //! M bounds the shear amplitude of all planes, Q Tresca's stress of all instants. Along a great
 //! circle the second derivative of s_n is at least -2 Q, its slope at most Q; that of tau_a at
 //! least -4 M, its slope at most 2 M; that of half the strain range at least -(1 + nu)/E 2 D, its
 //! slope at most (1 + nu)/E D, D bounding Tresca's stress of the deviation of any instant from a
-//! constant stress (derived).
+//! constant stress (derived), both of S*.
 
-use stress_tensor::StressTensor;
+mod bounds;
 
 use crate::circle::Circles;
 use crate::combination::Combination;
-use crate::critical_plane::Peak;
 use crate::definition::OnPlane;
 use crate::eight_planes::{Instants, OfThree};
-use crate::forms::{EDGES, corners_of};
 use crate::hemisphere::{COARSE, FINE, Face, Hemisphere};
-use crate::lanes::{LANES, Lanes, ROUNDING, Real};
-use crate::path::{Frame, Path, normal_weights};
+use crate::histories::Histories;
+use crate::lanes::{LANES, Lanes, Real};
+use crate::path::{Frame, normal_weights};
 use crate::plane_function::{Bend, BestPlane, Plane, PlaneFunction, Threshold};
 use crate::product_bound::product_bounds;
 use crate::refine::{Deciding, First};
@@ -26,9 +27,6 @@ use crate::tangent::Tangent;
 /// [`PlaneFunction::lead`] of products, whose faces are large. Of 1000 cycles of two random
 /// harmonics 3 end on a plane that is not the best (by 3e-4 at most); with LEAD = 0 it is 16.
 const LEAD: f64 = 0.01;
-
-/// Stresses below this part of the largest component are rounding.
-const NOTHING: f64 = 1e-12;
 
 /// Buffers for the shear path on a plane, and for eight planes in single and double precision.
 pub(crate) struct ShearBuffers {
@@ -54,7 +52,7 @@ impl Default for ShearBuffers {
 
 /// A criterion on the planes of one point.
 pub(crate) struct OnPlanes<'a> {
-    path: &'a Path,
+    of: &'a Histories,
     buffers: &'a mut ShearBuffers,
     combination: Combination,
     strain: Option<[f64; 2]>,
@@ -62,8 +60,8 @@ pub(crate) struct OnPlanes<'a> {
     tresca: (f64, f64),
     /// The largest principal stress of any instant, and its direction.
     tension: (f64, [f64; 3]),
-    /// Largest component of any instant.
-    size: f64,
+    /// Largest component of any instant, of the stress and of S*.
+    sizes: [f64; 2],
     in_double: bool,
     /// The best plane, and the bound about it, if it applies.
     best: [f64; 3],
@@ -71,88 +69,21 @@ pub(crate) struct OnPlanes<'a> {
 }
 
 impl<'a> OnPlanes<'a> {
-    pub(crate) fn new(of: OnPlane, path: &'a Path, buffers: &'a mut ShearBuffers) -> Self {
-        buffers.single.load(path);
-        let tresca = path.tresca_bounds();
+    pub(crate) fn new(law: OnPlane, of: &'a Histories, buffers: &'a mut ShearBuffers) -> Self {
+        buffers.single.load(of);
+        let (tresca, sizes) = (of.tresca_bounds(), of.sizes());
         Self {
-            path,
+            of,
             buffers,
-            combination: of.combination.for_ratio((tresca.1 / path.size()).min(1.0)),
-            strain: of.strain,
-            has_shear: of.shear,
+            combination: law.combination.for_ratio((tresca.1 / sizes[1]).min(1.0)),
+            strain: law.strain,
+            has_shear: law.shear,
             tresca,
-            tension: path.most_tension(),
-            size: path.size(),
+            tension: of.stress.most_tension(),
+            sizes,
             in_double: false,
             best: [0.0; 3],
             about: None,
-        }
-    }
-
-    /// The plane of histories that need no search: no tension where the criterion requires it, or a
-    /// stress that changes hydrostatically only, so that no plane is sheared.
-    ///
-    /// No plane's normal is returned where the value is 0 on all of them.
-    pub(crate) fn without_search(&mut self) -> Option<Peak> {
-        let (tension, along) = self.tension;
-        let most = self
-            .strain
-            .map_or(0.0, |[along, across]| along + 3.0 * across);
-        let first = if self.has_shear {
-            self.tresca.1
-        } else {
-            most * self.size
-        };
-        let nowhere = |missed: f64| {
-            let n = [f64::NAN; 3];
-            Some(Peak {
-                n,
-                value: 0.0,
-                missed,
-                planes: 0,
-            })
-        };
-        let of_tension = matches!(
-            self.combination,
-            Combination::Product | Combination::Raised(_)
-        );
-        if of_tension && self.combination.value([first, tension - NOTHING]) <= 0.0 {
-            return nowhere(self.combination.value([first, tension]));
-        }
-        if self.tresca.1 > NOTHING {
-            return None;
-        }
-        let parts = self.parts(along);
-        let value = self.combination.value(parts);
-        let change = self.strain.map_or(0.0, |[along, _]| along * self.tresca.1);
-        let ceiling = match (self.has_shear, self.strain) {
-            (true, None) => [self.tresca.1, tension],
-            (true, Some(_)) => [self.tresca.1, parts[1] + change],
-            (false, _) => [parts[0] + change, tension],
-        };
-        let missed = (self.combination.value(ceiling) - value).max(0.0);
-        Some(Peak {
-            n: along,
-            value,
-            missed,
-            planes: 0,
-        })
-    }
-
-    /// Bounds of the rounding errors of the two parts.
-    fn slack(&self) -> [f64; 2] {
-        let spacing = if self.in_double {
-            f64::EPSILON
-        } else {
-            f64::from(f32::EPSILON)
-        };
-        let stress = ROUNDING * spacing * self.size;
-        let strain = self
-            .strain
-            .map(|[along, across]| (along + 3.0 * across) * stress);
-        match (self.has_shear, strain) {
-            (true, strain) => [stress, strain.unwrap_or(stress)],
-            (false, strain) => [strain.unwrap_or(stress), stress],
         }
     }
 
@@ -212,91 +143,21 @@ impl<'a> OnPlanes<'a> {
             plane.low = [low - 2.0 * slack[0], plane.parts[1] - 2.0 * slack[1]];
         }
     }
-
-    /// Upper bound of the second part on all planes: no component of a unit normal is larger
-    /// than 1.
-    fn most_of_second(&self) -> f64 {
-        let of_stress = self.strain.map_or(1.0, |[along, across]| along + across);
-        3.0 * of_stress * self.size
-    }
-
-    /// Lowers the bounds by [`About`] the best plane, if two instants define its circle, as long as
-    /// that excludes faces.
-    fn shear_bounds(&mut self, faces: &mut [Face], planes: &[Plane], known: &BestPlane) {
-        if self.best != known.n {
-            self.best = known.n;
-            let First::Shear([a, b, c]) = self.deciding(known.n).first else {
-                return;
-            };
-            let two = if a == b {
-                Some([a, c])
-            } else {
-                (b == c).then_some([a, b])
-            };
-            self.about =
-                two.map(|on| About::plane(known.n, on, self.path, &mut self.buffers.squares));
-        }
-        let Some(about) = &self.about else {
-            return;
-        };
-        let slack = self.slack()[1];
-        let second = |eight: &[Face]| {
-            if self.combination.tie() > 0.0 {
-                // Its weight is tiny: an upper bound over all planes is enough.
-                return [[self.most_of_second(); LANES]; 3];
-            }
-            let corners = corners_of(eight);
-            EDGES.map(|(i, j)| {
-                let (a, b) = (&corners[i], &corners[j]);
-                let normal_max = if self.in_double {
-                    self.buffers.double.mixed(a, b, None).normal_max
-                } else {
-                    let mixed = self.buffers.single.mixed(a, b, None);
-                    mixed.normal_max.map(f64::from)
-                };
-                normal_max.map(|most| most + slack)
-            })
-        };
-        let first = known.parts[0].max(f64::MIN_POSITIVE);
-        if !about.bounds(&self.buffers.squares, first, second, (faces, planes), known) {
-            self.about = None;
-        }
-    }
-
-    /// Half the range of the normal strain on a plane.
-    fn strain_amplitude(&self, n: [f64; 3], strain: [f64; 2]) -> f64 {
-        self.path.range(&strain_weights(n, strain)).amplitude()
-    }
-
-    /// The tensor whose normal component is half of the difference of the normal strains of two
-    /// instants.
-    fn strain_amplitude_of(&self, ends: [usize; 2], [along, across]: [f64; 2]) -> StressTensor {
-        let [most, least] = ends.map(|k| self.path.at(k));
-        let change: StressTensor = std::array::from_fn(|c| (most[c] - least[c]) / 2.0);
-        let trace = change[0] + change[1] + change[2];
-        std::array::from_fn(|c| along * change[c] - if c < 3 { across * trace } else { 0.0 })
-    }
-
-    /// Shear amplitude and largest normal stress on a plane.
-    fn shear_and_normal(&mut self, n: [f64; 3]) -> [f64; 2] {
-        let s_n = self
-            .path
-            .resolve(&Frame::across(n), &mut self.buffers.shear);
-        [self.buffers.circles.round(&self.buffers.shear).radius, s_n]
-    }
 }
 
 impl PlaneFunction for OnPlanes<'_> {
     fn parts(&mut self, n: [f64; 3]) -> [f64; 2] {
         match (self.has_shear, self.strain) {
             (false, Some(strain)) => {
-                let (s_n, strain) = self.path.max_and_range(n, strain);
+                let (s_n, strain) = self.of.stress.max_and_range(self.of.strained(), n, strain);
                 [strain.amplitude(), s_n]
             }
             (_, strain) => {
-                let [shear, s_n] = self.shear_and_normal(n);
-                let second = strain.map_or(s_n, |strain| self.strain_amplitude(n, strain));
-                [shear, second]
+                let ShearBuffers { shear, circles, .. } = &mut *self.buffers;
+                let [shear, s_n] = self.of.shear_and_normal(n, shear, circles);
+                let strain = strain.map(|strain| strain_weights(n, strain));
+                let amplitude = strain.map(|of| self.of.strained().range(&of).amplitude());
+                [shear, amplitude.unwrap_or(s_n)]
             }
         }
     }
@@ -332,7 +193,7 @@ impl PlaneFunction for OnPlanes<'_> {
 
     fn to_double(&mut self) {
         self.in_double = true;
-        self.buffers.double.load(self.path);
+        self.buffers.double.load(self.of);
     }
 
     fn value(&self, parts: [f64; 2]) -> f64 {
@@ -369,15 +230,15 @@ impl PlaneFunction for OnPlanes<'_> {
         let [a, b, c, most, least, at] = instants;
         let change = self
             .strain
-            .map(|strain| self.strain_amplitude_of([most, least], strain));
+            .map(|strain| self.of.strain_amplitude_of([most, least], strain));
         let first = if self.has_shear {
-            First::Shear([a, b, c].map(|k| self.path.at(k)))
+            First::Shear([a, b, c].map(|k| self.of.strained().at(k)))
         } else {
             First::Normal(change.unwrap_or_default())
         };
         let second = match change {
             Some(tensor) if self.has_shear => tensor,
-            _ => self.path.at(at),
+            _ => self.of.stress.at(at),
         };
         Deciding {
             instants,
@@ -387,13 +248,13 @@ impl PlaneFunction for OnPlanes<'_> {
     }
 
     fn deciding(&mut self, n: [f64; 3]) -> Deciding {
-        let [at, _] = self.path.extremes(&normal_weights(n));
+        let [at, _] = self.of.stress.extremes(&normal_weights(n));
         let weights = self.strain.map(|strain| strain_weights(n, strain));
-        let [most, least] = weights.map_or([0; 2], |weights| self.path.extremes(&weights));
+        let [most, least] = weights.map_or([0; 2], |weights| self.of.strained().extremes(&weights));
         let mut on = [0; 3];
         if self.has_shear {
-            self.path
-                .resolve(&Frame::across(n), &mut self.buffers.shear);
+            let (strained, plane) = (self.of.strained(), Frame::across(n));
+            strained.resolve(strained, &plane, &mut self.buffers.shear);
             on = self.buffers.circles.round(&self.buffers.shear).on;
             on.sort_unstable();
         }

@@ -82,11 +82,11 @@ impl Path {
         }
     }
 
-    /// Takes the stress at every instant \[Pa\], at least one.
-    pub(crate) fn load(&mut self, instants: &[StressTensor]) {
+    /// Takes the stress at every instant \[Pa\], at least one, in a unit \[Pa\].
+    pub(crate) fn load(&mut self, instants: &[StressTensor], unit: f64) {
         let blocks = instants.len().div_ceil(LANES);
         self.blocks.resize(blocks, [[0.0; LANES]; 6]);
-        self.unit = power_of_two(size(instants.as_flattened()));
+        self.unit = unit;
         for n in 0..blocks * LANES {
             let s = instants[n.min(instants.len() - 1)];
             for c in 0..6 {
@@ -122,11 +122,17 @@ impl Path {
         self.arch.dispatch(RangeOf { blocks, weights })
     }
 
-    /// The largest normal stress on a plane, and the range of `along` times it less `across`
-    /// times the sum of the normal stresses.
-    pub(crate) fn max_and_range(&self, n: [f64; 3], strain: [f64; 2]) -> (f64, Range) {
+    /// The largest normal stress on a plane, and the range of `along` times that of another path less
+    /// `across` times the sum of its normal stresses.
+    pub(crate) fn max_and_range(
+        &self,
+        strained: &Self,
+        n: [f64; 3],
+        strain: [f64; 2],
+    ) -> (f64, Range) {
         self.arch.dispatch(NormalAndStrain {
             path: self,
+            strained,
             weights: normal_weights(n),
             strain,
         })
@@ -143,12 +149,17 @@ impl Path {
         self.blocks[instant / LANES].map(|lanes| lanes[instant % LANES])
     }
 
-    /// Normal and shear stress on a plane at every instant: the largest normal stress, and the
-    /// shear along u and v.
-    pub(crate) fn resolve(&self, plane: &Frame, shear: &mut Vec<[Lanes; 2]>) -> f64 {
+    /// The largest normal stress on a plane, and the shear of another path along u and v at every instant.
+    pub(crate) fn resolve(
+        &self,
+        strained: &Self,
+        plane: &Frame,
+        shear: &mut Vec<[Lanes; 2]>,
+    ) -> f64 {
         shear.resize(self.blocks.len(), [[0.0; LANES]; 2]);
         self.arch.dispatch(Resolved {
             blocks: &self.blocks,
+            strained: &strained.blocks,
             weights: [
                 normal_weights(plane.n),
                 shear_weights(plane.n, plane.u),
@@ -201,12 +212,12 @@ impl Path {
 }
 
 /// The largest of numbers by size.
-fn size(numbers: &[f64]) -> f64 {
+pub(crate) fn size(numbers: &[f64]) -> f64 {
     numbers.iter().fold(0.0, |m, s| m.max(s.abs()))
 }
 
 /// The power of two at or below a number; 1 for 0.
-fn power_of_two(number: f64) -> f64 {
+pub(crate) fn power_of_two(number: f64) -> f64 {
     if number == 0.0 {
         return 1.0;
     }
@@ -265,6 +276,7 @@ impl WithSimd for ExtremesOf<'_> {
 /// [`Path::max_and_range`], compiled for the processor.
 struct NormalAndStrain<'a> {
     path: &'a Path,
+    strained: &'a Path,
     weights: [f64; 6],
     strain: [f64; 2],
 }
@@ -277,9 +289,10 @@ impl WithSimd for NormalAndStrain<'_> {
         let [along, across] = self.strain;
         let mut first = [f64::NEG_INFINITY; LANES];
         let (mut most, mut least) = (first, [f64::INFINITY; LANES]);
-        for (block, trace) in self.path.blocks.iter().zip(&self.path.traces) {
-            let mut value = weighted(block, &self.weights);
-            f64::raise(simd, &mut first, &value);
+        let strained = self.strained.blocks.iter().zip(&self.strained.traces);
+        for (block, (strained, trace)) in self.path.blocks.iter().zip(strained) {
+            f64::raise(simd, &mut first, &weighted(block, &self.weights));
+            let mut value = weighted(strained, &self.weights);
             for l in 0..LANES {
                 value[l] = along * value[l] - across * trace[l];
             }
@@ -294,6 +307,7 @@ impl WithSimd for NormalAndStrain<'_> {
 /// [`Path::resolve`], compiled for the processor.
 struct Resolved<'a> {
     blocks: &'a [[Lanes; 6]],
+    strained: &'a [[Lanes; 6]],
     weights: [[f64; 6]; 3],
     shear: &'a mut [[Lanes; 2]],
 }
@@ -305,9 +319,10 @@ impl WithSimd for Resolved<'_> {
     fn with_simd<S: Simd>(self, simd: S) -> f64 {
         let [normal, u, v] = &self.weights;
         let mut most = [f64::NEG_INFINITY; LANES];
-        for (block, shear) in self.blocks.iter().zip(self.shear) {
+        let blocks = self.blocks.iter().zip(self.strained);
+        for ((block, strained), shear) in blocks.zip(self.shear) {
             f64::raise(simd, &mut most, &weighted(block, normal));
-            *shear = [weighted(block, u), weighted(block, v)];
+            *shear = [weighted(strained, u), weighted(strained, v)];
         }
         top(&most)
     }

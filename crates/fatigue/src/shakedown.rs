@@ -16,6 +16,7 @@ use stress_tensor::{StressTensor, tresca, von_mises};
 use crate::ball::Search as Balls;
 use crate::error::Error;
 use crate::evaluate::over_points;
+use crate::history::History;
 use crate::invariants::{sphere, tensor};
 
 /// Load factors of a point: the loads times the factor just reach the limit; infinite without
@@ -56,7 +57,9 @@ pub fn yielding(
             allowed,
         ));
     }
-    let points = over_points(stress, stop, |balls: &mut Balls<5>, path| {
+    History::elastic(stress).check()?;
+    let points = over_points(stress, None, stop, |balls: &mut Balls<5>, of| {
+        let path = &of.stress;
         // Everything in the unit of the path.
         let unit = path.unit();
         let (s_y, constant) = (s_y / unit, constant.map(|s| s / unit));

@@ -458,21 +458,26 @@ pub(crate) fn material_quantities() -> Vec<(&'static str, &'static str, &'static
     core::QUANTITIES.iter().map(label).collect()
 }
 
-/// A criterion on stresses of shape (time, points, 6): arrays over the points.
+/// A criterion on stresses of shape (time, points, 6) and plastic strains of that shape: arrays over the points.
 #[pyfunction]
-#[pyo3(signature = (criterion, stress, *, tolerance: "float") -> "dict[str, NDArray[np.float64]]")]
+#[pyo3(signature = (criterion, stress, plastic_strain = None, *, tolerance: "float") -> "dict[str, NDArray[np.float64]]")]
 pub(crate) fn criterion_on<'py>(
     py: Python<'py>,
     criterion: Criterion,
     stress: Array<'py, Ix3>,
+    plastic_strain: Option<Array<'py, Ix3>>,
     #[pyo3(from_py_with = number)] tolerance: f64,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let (view, stop) = (stress.as_array(), Arc::default());
+    let stop = Arc::default();
+    let history = core::History {
+        stress: stress.as_array(),
+        plastic: plastic_strain.as_ref().map(|strain| strain.as_array()),
+    };
     let search = core::Search {
         tolerance,
         ..core::Search::default()
     };
-    let work = || core::evaluate(&criterion.0, &view, &search, &stop);
+    let work = || core::evaluate(&criterion.0, &history, &search, &stop);
     let points = interruptible(py, &stop, work)?.map_err(refused)?;
     let of = |f: Number| {
         let values: Array1<f64> = points.iter().map(f).collect();

@@ -31,7 +31,7 @@ pub(crate) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 
 /// Radius of the smallest circle round points of a plane in space: the largest of all circles of
 /// two or of acute three of them.
-fn radius(points: &[[f64; 3]]) -> f64 {
+pub(crate) fn radius(points: &[[f64; 3]]) -> f64 {
     let square = |a: [f64; 3], b: [f64; 3]| -> f64 { (0..3).map(|d| (a[d] - b[d]).powi(2)).sum() };
     let mut most = 0.0_f64;
     for (i, a) in points.iter().enumerate() {

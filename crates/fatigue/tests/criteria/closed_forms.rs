@@ -29,7 +29,7 @@ fn value(criterion: &Criterion, history: &[Tensor]) -> f64 {
 }
 
 #[track_caller]
-fn same(ours: f64, exact: f64, digits: f64) {
+pub(crate) fn same(ours: f64, exact: f64, digits: f64) {
     assert!((ours - exact).abs() < digits, "{ours}, not {exact}");
 }
 

@@ -7,6 +7,7 @@ mod brute_force;
 mod closed_forms;
 mod degenerate;
 mod materials;
+mod plastic_strain;
 mod refused;
 #[allow(dead_code, reason = "logarithmic numbers are for others")]
 #[path = "../splitmix/mod.rs"]
@@ -17,7 +18,7 @@ mod yielding;
 
 use std::sync::atomic::AtomicBool;
 
-use fatigue::{AtPoint, Criterion, Search, evaluate};
+use fatigue::{AtPoint, Criterion, History, Search, evaluate};
 use ndarray::Array3;
 use splitmix::Draw;
 
@@ -60,7 +61,7 @@ fn searched(criterion: &Criterion, histories: &[Vec<Tensor>], search: &Search) -
     let shape = (histories[0].len(), histories.len(), 6);
     let stress = Array3::from_shape_fn(shape, |(t, p, c)| histories[p][t][c]);
     let never = AtomicBool::new(false);
-    evaluate(criterion, &stress.view(), search, &never).unwrap()
+    evaluate(criterion, &History::elastic(&stress.view()), search, &never).unwrap()
 }
 
 /// A non-proportional history of independent stresses \[Pa\].

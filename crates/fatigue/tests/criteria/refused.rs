@@ -3,14 +3,19 @@
 use std::sync::atomic::AtomicBool;
 
 use fatigue::Error;
-use fatigue::{Criterion, Search, evaluate};
+use fatigue::{Criterion, History, Search, evaluate};
 use ndarray::Array3;
 
 use super::criterion;
 
 fn refused(criterion: &Criterion, stress: &Array3<f64>) -> String {
     let never = AtomicBool::new(false);
-    let found = evaluate(criterion, &stress.view(), &Search::default(), &never);
+    let found = evaluate(
+        criterion,
+        &History::elastic(&stress.view()),
+        &Search::default(),
+        &never,
+    );
     found.unwrap_err().to_string()
 }
 
@@ -58,10 +63,21 @@ fn a_point_without_stress_among_others() {
     let mut stress = Array3::from_shape_fn((4, 2, 6), |(t, _, c)| (t * 6 + c) as f64 * 1e6);
     stress.slice_mut(ndarray::s![.., 1, ..]).fill(0.0);
     let never = AtomicBool::new(false);
-    let found = evaluate(&findley(), &stress.view(), &Search::default(), &never).unwrap();
+    let found = evaluate(
+        &findley(),
+        &History::elastic(&stress.view()),
+        &Search::default(),
+        &never,
+    )
+    .unwrap();
     assert!(found[0].value > 0.0 && found[1].value.abs() < 1e-300);
     assert!(found[1].normal[0].is_nan());
     let raised = AtomicBool::new(true);
-    let stopped = evaluate(&findley(), &stress.view(), &Search::default(), &raised);
+    let stopped = evaluate(
+        &findley(),
+        &History::elastic(&stress.view()),
+        &Search::default(),
+        &raised,
+    );
     assert!(matches!(stopped, Err(Error::Stopped)));
 }
