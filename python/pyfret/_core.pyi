@@ -16,6 +16,11 @@ LONGEST_LIFE: Final[float]
 Longest life that is told [cycles]; a longer one is infinite.
 """
 
+RATCHETS: Final[float]
+"""
+Net strain of a cycle over the strain that it adds up, from which a body ratchets.
+"""
+
 RIGID: Final[Elastic]
 """
 A material that does not deform.
@@ -693,6 +698,9 @@ class Criterion:
         True
         """
     @property
+    def takes_strain(self, /) -> bool:
+        """Whether it takes strains, and not the stress alone."""
+    @property
     def unit(self, /) -> str:
         """Unit of its value: Pa, or 1 for strains."""
     @staticmethod
@@ -1012,7 +1020,16 @@ class EigenstrainOperator:
 
 @final
 class Eigenstress:
-    """Residual stress that plastic strain leaves."""
+    """Plastic strain, and the residual stress that it leaves."""
+
+    def plastic_strain(
+        self, /, x: Sequence[float], y: Sequence[float], z: Sequence[float], layer: Sequence[int]
+    ) -> NDArray[np.float64]:
+        """
+        Plastic strain at points x, y, z [m] in their layers, of shape (points, 6).
+
+        Components are xx, yy, zz, xy, xz, yz.
+        """
 
 @final
 class Elastic:
@@ -3030,9 +3047,17 @@ def criteria() -> list[tuple[str, str]]:
     """Names of the criteria, and how they are written in figures."""
 
 def criterion_on(
-    criterion: Criterion, stress: ArrayLike, *, tolerance: float
+    criterion: Criterion,
+    stress: ArrayLike,
+    plastic_strain: ArrayLike | None = None,
+    *,
+    tolerance: float,
 ) -> dict[str, NDArray[np.float64]]:
-    """A criterion on stresses of shape (time, points, 6): arrays over the points."""
+    """
+    A criterion on stresses of shape (time, points, 6): arrays over the points.
+
+    `plastic_strain` has that shape; without it the points stay elastic.
+    """
 
 def cycle_sections(
     grid: Grid, moments: Callable[[list[int] | None], States | None], count: int
@@ -3486,6 +3511,7 @@ class SlidingError(SolveError):
 
 __all__ = [
     "LONGEST_LIFE",
+    "RATCHETS",
     "RIGID",
     "SHAKEN",
     "STRAIN_AT_A_RIM",

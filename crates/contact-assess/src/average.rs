@@ -7,8 +7,9 @@ use contact_subsurface::{Depth, Line};
 use ndarray::{Array3, Axis};
 use quadrature::gauss;
 
+use super::history::History;
 use super::judged::Judge;
-use super::site::{History, Site};
+use super::site::Site;
 
 /// Depths of the quadrature over lines and discs; its error is far below that of the stress.
 const NODES: usize = 16;
@@ -90,7 +91,8 @@ pub fn average<J: Judge>(
         vec![(0.0, length, 1.0)]
     };
     let along = line.places(site.grid);
-    let mut mean = Array3::zeros((site.cycle.count(), along.len(), 6));
+    let strain = judge.takes_strain() && site.body.yields();
+    let mut mean = History::zeros((site.cycle.count(), along.len()), strain);
     for (offset, radius, share) in discs {
         // In plane strain all sections are the same.
         let offset = if site.grid.plane_strain { 0.0 } else { offset };
@@ -103,12 +105,16 @@ pub fn average<J: Judge>(
         )?;
     }
     let inside: Vec<usize> = (0..along.len())
-        .filter(|n| mean.index_axis(Axis(1), *n).iter().all(|v| v.is_finite()))
+        .filter(|n| {
+            mean.stress
+                .index_axis(Axis(1), *n)
+                .iter()
+                .all(|v| v.is_finite())
+        })
         .collect();
     // The depth of a mean: the middle of its region.
     let z = vec![top + 0.5 * length; inside.len()];
-    let stress = mean.select(Axis(1), &inside);
-    let judged = judge.judge(layer, &z, &stress.view(), &site.stop)?;
+    let judged = judge.judge(layer, &z, &mean.select(&inside).view(), &site.stop)?;
     let mut found = vec![None; along.len()];
     for (n, one) in inside.into_iter().zip(judged) {
         found[n] = Some(one);
@@ -179,15 +185,18 @@ fn add_mean(
         })
         .collect();
     let along = line.places(site.grid);
-    site.on_line(line, &depths, |first, histories| {
+    let strain = mean.plastic.is_some();
+    site.on_line((line, &depths), strain, |first, histories| {
         for (k, history) in histories.iter().enumerate() {
             let (x, weight) = nodes[first + k];
             let weight = share * weight;
-            if method.is_disc() {
-                let half = (length * length - (x * below).powi(2)).max(0.0).sqrt();
-                mean.scaled_add(weight, &over_width(history, &along, half));
-            } else {
-                mean.scaled_add(weight, history);
+            for (mean, of) in mean.parts_mut().into_iter().zip(history.parts()) {
+                if method.is_disc() {
+                    let half = (length * length - (x * below).powi(2)).max(0.0).sqrt();
+                    mean.scaled_add(weight, &over_width(of, &along, half));
+                } else {
+                    mean.scaled_add(weight, of);
+                }
             }
         }
         Ok(())
@@ -195,7 +204,7 @@ fn add_mean(
 }
 
 /// Means over x - half ... x + half of a history linear between its places; NaN beyond them.
-fn over_width(history: &History, x: &[f64], half: f64) -> History {
+fn over_width(history: &Array3<f64>, x: &[f64], half: f64) -> Array3<f64> {
     let n = x.len();
     let mut found = Array3::from_elem(history.dim(), f64::NAN);
     if n < 2 {

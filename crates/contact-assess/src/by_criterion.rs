@@ -6,9 +6,8 @@ use std::sync::atomic::AtomicBool;
 use contact_core::Error;
 use contact_core::error::Raised;
 use contact_core::scene::Body;
-use contact_subsurface::{Line, OverCycle};
-use fatigue::{Assessment, AtPoint, History, Material, Search, evaluate};
-use ndarray::ArrayView3;
+use contact_subsurface::{Line, OverCycle, growth};
+use fatigue::{Assessment, AtPoint, Criterion, History, Material, Search, evaluate};
 
 use super::judged::Judge;
 
@@ -28,7 +27,7 @@ pub struct ByCriterion {
 }
 
 impl ByCriterion {
-    /// The criterion of a name for the materials of the layers of a body. Strains follow from the
+    /// The criterion of a name for the materials of the layers of a body. Elastic strains follow from the
     /// stress by the E and nu of the scene.
     pub fn new(
         name: &str,
@@ -89,27 +88,39 @@ impl Judge for ByCriterion {
         &self,
         layer: usize,
         _: &[f64],
-        stress: &ArrayView3<'_, f64>,
+        history: &History<'_>,
         stop: &AtomicBool,
     ) -> Result<Vec<AtPoint>, Error> {
         let Some(of) = self.of(layer) else {
             return Ok(Vec::new());
         };
-        let history = History::elastic(stress);
-        evaluate(&of.criterion, &history, &self.search, stop).map_err(of_criteria)
+        evaluate(&of.criterion, history, &self.search, stop).map_err(of_criteria)
     }
 
-    /// A criterion of strain takes the strain of the stress: it is right where the plastic strain is constant.
+    fn takes_strain(&self) -> bool {
+        let mut criteria = self.assessments.iter().flatten().map(|of| &of.criterion);
+        criteria.any(Criterion::takes_strain)
+    }
+
+    /// The lives of criteria of strain are those of closed loops of stress and strain.
     fn accepts(&self, cycle: &dyn OverCycle) -> Result<(), Error> {
         let mut criteria = self.assessments.iter().flatten().map(|of| &of.criterion);
-        let Some(strained) = criteria.find(|criterion| criterion.number("E").is_some()) else {
+        let Some(strained) = criteria.find(|criterion| criterion.takes_strain()) else {
             return Ok(());
         };
         if !cycle.yielding()?.is_some_and(|of| of.grows()) {
             return Ok(());
         }
-        let allowed = "a criterion of stress such as dang_van, or a cycle after shakedown. This criterion takes the \
-                       strain of the stress, and the plastic strain grows in this cycle";
+        let of = growth(cycle)?;
+        if !of.ratchets() {
+            return Ok(());
+        }
+        let allowed = format!(
+            "a criterion of stress such as dang_van, or a cycle whose strain closes. This one ratchets: it adds up a \
+             plastic strain of {:.2e} and keeps {:.2e}. Lives of strain are those of closed loops, and a strain \
+             that goes on growing ends in rupture",
+            of.added, of.net
+        );
         Err(Error::invalid("criterion", strained.name(), allowed))
     }
 

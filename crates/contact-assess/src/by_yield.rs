@@ -4,8 +4,8 @@ use std::sync::atomic::AtomicBool;
 
 use contact_core::Error;
 use contact_core::scene::ResidualStress;
-use fatigue::{Yield, yielding};
-use ndarray::{ArrayView3, Axis};
+use fatigue::{History, Yield, yielding};
+use ndarray::Axis;
 
 use super::by_criterion::of_criteria;
 use super::judged::Judge;
@@ -33,7 +33,7 @@ impl Judge for ByYield {
         &self,
         layer: usize,
         z: &[f64],
-        stress: &ArrayView3<'_, f64>,
+        history: &History<'_>,
         stop: &AtomicBool,
     ) -> Result<Vec<Yield>, Error> {
         let Some(s_y) = self.s_y.get(layer).copied().flatten() else {
@@ -46,7 +46,7 @@ impl Judge for ByYield {
         for same in residual.chunk_by(|a, b| a == b) {
             let [xx, yy] = same[0];
             let some = found.len()..found.len() + same.len();
-            let here = stress.slice_axis(Axis(1), some.into());
+            let here = history.stress.slice_axis(Axis(1), some.into());
             let constant = [xx, yy, 0.0, 0.0, 0.0, 0.0];
             found.extend(yielding(&here, s_y, &constant, stop).map_err(of_criteria)?);
         }

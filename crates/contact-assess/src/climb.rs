@@ -7,8 +7,9 @@ use contact_core::scene::Grid;
 use contact_subsurface::{Border, Depth, Line, Moments, Point, TwiceAsLarge, Zone, borders};
 use ndarray::Array2;
 
+use super::history::History;
 use super::judged::{Judge, Judged};
-use super::site::{At, History, Site};
+use super::site::{At, Site};
 
 /// Most hills and most places on borders that are judged before the ascent.
 const HILLS: usize = 3;
@@ -135,7 +136,7 @@ impl<J: Judge> Climb<'_, J> {
         let history = self.site.whole(&[self.point(place)])?;
         let away = |a: usize, b: usize| -> f64 {
             (0..6)
-                .map(|c| (history[(a, 0, c)] - history[(b, 0, c)]).powi(2))
+                .map(|c| (history.stress[(a, 0, c)] - history.stress[(b, 0, c)]).powi(2))
                 .sum()
         };
         let mut chosen = vec![0];

@@ -4,7 +4,7 @@ use std::sync::atomic::AtomicBool;
 
 use contact_core::Error;
 use contact_subsurface::{Depth, Line, OverCycle};
-use ndarray::ArrayView3;
+use fatigue::History;
 use rayon::prelude::*;
 
 use super::site::Site;
@@ -15,15 +15,19 @@ pub trait Judge: Sync {
     type Found: Copy + Send + Sync;
     /// Whether it judges a layer, from the surface down.
     fn judges(&self, layer: usize) -> bool;
-    /// The judgements of stresses of shape (moments, points, 6) in a layer that it judges \[Pa\], at the
-    /// depths `z` below the surface of the body \[m\], one for each point.
+    /// The judgements of histories of shape (moments, points, 6) in a layer that it judges, at the depths `z`
+    /// below the surface of the body \[m\], one for each point.
     fn judge(
         &self,
         layer: usize,
         z: &[f64],
-        stress: &ArrayView3<'_, f64>,
+        history: &History<'_>,
         stop: &AtomicBool,
     ) -> Result<Vec<Self::Found>, Error>;
+    /// Whether it takes the plastic strain; without it the history has the stress alone.
+    fn takes_strain(&self) -> bool {
+        false
+    }
     /// Fails for a cycle that it cannot judge.
     fn accepts(&self, _: &dyn OverCycle) -> Result<(), Error> {
         Ok(())
@@ -61,8 +65,9 @@ pub fn judge<J: Judge>(
         .collect();
     let some: Vec<Depth> = wanted.iter().map(|n| depths[*n]).collect();
     let mut found: Vec<Vec<Option<Vec<J::Found>>>> = vec![vec![None; depths.len()]; judges.len()];
-    site.on_line(line, &some, |first, histories| {
-        let of_depth = |(k, history): (usize, &super::site::History)| {
+    let strain = judges.iter().any(Judge::takes_strain);
+    site.on_line((line, &some), strain, |first, histories| {
+        let of_depth = |(k, history): (usize, &super::history::History)| {
             let Depth { z, layer } = some[first + k];
             let z = vec![z; along.len()];
             let of_judge = |judge: &J| {

@@ -17,6 +17,7 @@ mod by_criterion;
 mod by_yield;
 mod climb;
 pub mod crack;
+mod history;
 mod judged;
 mod range;
 mod site;

@@ -8,15 +8,14 @@ use contact_core::scene::{Body, Grid, ResidualStress};
 use contact_subsurface::{
     Depth, Line, Moments, OverCycle, Point, Points, Section, Side, TwiceAsLarge,
 };
-use ndarray::{Array3, Axis};
+use ndarray::Axis;
+
+use super::history::{History, Strains};
 
 /// Moments whose stresses are computed together: the kernels of a depth cost as much as ten.
 const TOGETHER: usize = 32;
 /// Largest memory of the stress at a time \[bytes\].
 const MOST_MEMORY: f64 = 256e6;
-
-/// Stress over the moments of a cycle \[Pa\], of shape (moments, points, 6).
-pub(super) type History = Array3<f64>;
 
 /// A body under a cycle of a contact.
 pub struct Site<'a> {
@@ -34,37 +33,43 @@ pub struct Site<'a> {
     pub stop: Arc<AtomicBool>,
 }
 
-/// The stress at points under some moments.
+/// Stress and strain at points under some moments.
 pub(super) struct At {
     points: Points,
     moments: usize,
+    strains: Strains,
     /// The middle of its grid \[m\].
     middle: (f64, f64),
 }
 
 impl Site<'_> {
     /// Hands the histories on a line to `f`, those of a few depths at a time, in order: the number
-    /// of the first of them and a history for each.
-    pub fn on_line(
+    /// of the first of them and a history for each, with the plastic strain if asked for.
+    pub(super) fn on_line(
         &self,
-        line: Line,
-        depths: &[Depth],
+        (line, depths): (Line, &[Depth]),
+        strain: bool,
         mut f: impl FnMut(usize, &[History]) -> Result<(), Error>,
     ) -> Result<(), Error> {
-        let (moments, places) = (self.cycle.count(), line.places(self.grid).len());
-        let each = 48.0 * moments as f64 * places as f64;
+        let (moments, along) = (self.cycle.count(), line.places(self.grid));
+        let (places, strain) = (along.len(), strain && self.body.yields());
+        let each = if strain { 96.0 } else { 48.0 } * moments as f64 * places as f64;
         let chunk = (MOST_MEMORY / each).max(1.0) as usize;
         let all: Vec<usize> = (0..moments).collect();
         for (n, some) in depths.chunks(chunk).enumerate() {
-            let mut histories = vec![Array3::zeros((moments, places, 6)); some.len()];
+            let mut histories = vec![History::zeros((moments, places), strain); some.len()];
             for which in all.chunks(TOGETHER) {
                 let now = self.cycle.moments(which)?;
+                let strains = Strains::of(&now, strain);
                 now.with_states(Some(self.residual), &self.stop, |states| {
                     let section = Section::new(self.body, self.side, self.grid, line, states)?;
-                    section.pass_stress(some, &mut histories, |history, _, stresses| {
+                    section.pass_stress(some, &mut histories, |history, depth, stresses| {
                         for (k, stress) in which.iter().zip(stresses) {
-                            history.index_axis_mut(Axis(0), *k).assign(&stress.t());
+                            let mut now = history.stress.index_axis_mut(Axis(0), *k);
+                            now.assign(&stress.t());
                         }
+                        let points = along.iter().map(|s| line.point(*s, depth));
+                        history.add(which, &strains, &points.collect::<Vec<_>>());
                     })
                 })?;
             }
@@ -94,6 +99,7 @@ impl Site<'_> {
         Ok(At {
             points,
             moments: moments.tractions.len(),
+            strains: Strains::of(moments, true),
             middle,
         })
     }
@@ -101,13 +107,10 @@ impl Site<'_> {
     /// The history of points over the whole cycle.
     pub(super) fn whole(&self, points: &[Point]) -> Result<History, Error> {
         let all: Vec<usize> = (0..self.cycle.count()).collect();
-        let mut whole = Array3::zeros((all.len(), points.len(), 6));
+        let mut whole = History::zeros((all.len(), points.len()), self.body.yields());
         for which in all.chunks(TOGETHER) {
             let now = self.cycle.moments(which)?;
-            let part = self.under(&now)?.history(points)?;
-            for (k, now) in which.iter().zip(part.outer_iter()) {
-                whole.index_axis_mut(Axis(0), *k).assign(&now);
-            }
+            whole.take(which, &self.under(&now)?.history(points)?);
         }
         Ok(whole)
     }
@@ -126,9 +129,13 @@ impl At {
             .map(|(x, y, depth)| (x - self.middle.0, y - self.middle.1, *depth))
             .collect();
         let stress = self.points.stress(&moved)?;
-        Ok(Array3::from_shape_fn(
-            (self.moments, points.len(), 6),
-            |(t, n, c)| stress[t][n][c],
-        ))
+        let mut found = History::zeros((self.moments, points.len()), self.strains.are_known());
+        found
+            .stress
+            .indexed_iter_mut()
+            .for_each(|((t, n, c), s)| *s = stress[t][n][c]);
+        let all: Vec<usize> = (0..self.moments).collect();
+        found.add(&all, &self.strains, &moved);
+        Ok(found)
     }
 }

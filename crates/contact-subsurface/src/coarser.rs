@@ -1,5 +1,5 @@
-//! The tractions of a contact on cells twice as large: the change of a value estimates the error of
-//! the cells.
+//! The tractions of a contact on cells twice as large, and what has yielded on points twice as far apart: the
+//! change of a value estimates the error of the cells.
 //!
 //! Cells are paired in two ways, and the larger of both changes is the estimate. Beside a rim a value
 //! depends on where the rim lies in its cell, so that one change may vanish by chance.
@@ -9,83 +9,7 @@ use contact_core::convolution::Tractions;
 use contact_core::scene::{Body, Grid};
 use stress_tensor::StressTensor;
 
-use super::{Border, Depth, Eigenstress, Line, Point, Points, Side, States};
-
-/// Cells of twice the length along each axis.
-pub struct TwiceAsLarge {
-    fine: Grid,
-    /// Cells by which their grid begins before the finer one.
-    before: usize,
-    /// Its grid.
-    pub grid: Grid,
-    /// The middle of their grid \[m\]; beyond a grid of an odd number of cells there are no
-    /// tractions.
-    pub middle: (f64, f64),
-}
-
-impl TwiceAsLarge {
-    /// The cells twice as large as those of a grid, paired in both ways: from the first cell on, and
-    /// from the second.
-    pub fn both(fine: &Grid) -> [Self; 2] {
-        [0, 1].map(|before| Self::new(fine, before))
-    }
-
-    fn new(fine: &Grid, before: usize) -> Self {
-        let across = if fine.ny == 1 { 1 } else { 2 };
-        let before_y = before * (across - 1);
-        let nx = (fine.nx + before).div_ceil(2);
-        let ny = (fine.ny + before_y).div_ceil(across);
-        let grid = Grid {
-            nx,
-            ny,
-            dx: 2.0 * fine.dx,
-            dy: across as f64 * fine.dy,
-            ..*fine
-        };
-        // Half of the cells beyond the end less half of those before the start.
-        let off = |cells: usize, own: usize, before: usize, d: f64| {
-            ((cells - own) as f64 - 2.0 * before as f64) * 0.5 * d
-        };
-        let middle = (
-            off(2 * nx, fine.nx, before, fine.dx),
-            off(across * ny, fine.ny, before_y, fine.dy),
-        );
-        Self {
-            fine: *fine,
-            before,
-            grid,
-            middle,
-        }
-    }
-
-    fn across(&self) -> usize {
-        if self.fine.ny == 1 { 1 } else { 2 }
-    }
-
-    /// The cells of the finer grid that make cell n.
-    fn cells(&self, n: usize) -> impl Iterator<Item = usize> {
-        let (across, Grid { nx, ny, .. }) = (self.across(), self.fine);
-        let of = |n: usize, times: usize, count: usize| {
-            let (from, before) = (times * n, self.before * (times - 1));
-            from.saturating_sub(before)..(from + times - before).min(count)
-        };
-        let rows = of(n % self.grid.ny, across, ny);
-        of(n / self.grid.ny, 2, nx).flat_map(move |i| rows.clone().map(move |j| i * ny + j))
-    }
-
-    /// The mean over each cell.
-    pub(crate) fn mean(&self, field: &[f64]) -> Vec<f64> {
-        let part = 1.0 / (2 * self.across()) as f64;
-        let of = |n: usize| part * self.cells(n).map(|m| field[m]).sum::<f64>();
-        (0..self.grid.cells()).map(of).collect()
-    }
-
-    /// For each cell whether any part of it is marked.
-    pub(crate) fn any(&self, mask: &[bool]) -> Vec<bool> {
-        let of = |n: usize| self.cells(n).any(|m| mask[m]);
-        (0..self.grid.cells()).map(of).collect()
-    }
-}
+use super::{Border, Depth, Eigenstress, Line, Point, Points, Side, States, TwiceAsLarge};
 
 /// A body under the tractions of the first of some states on cells twice as large.
 pub(super) struct Coarser {
@@ -132,7 +56,7 @@ impl Coarser {
         let stick: Vec<&[bool]> = stick.iter().map(Vec::as_slice).collect();
         let line = line.map(|line| line.seen_from(middle).0);
         let eigenstress = states.eigenstress.iter().take(1);
-        let seen = |left: &Option<Eigenstress>| left.as_ref().map(|left| left.seen_from(middle));
+        let seen = |left: &Option<Eigenstress>| left.as_ref().map(|left| left.on_coarser(cells));
         let eigenstress: Vec<_> = eigenstress.map(seen).collect();
         let states = States {
             tractions: &tractions,

@@ -1,19 +1,21 @@
-//! The residual stress that plastic strain leaves, between the points of its grid.
+//! Plastic strain and the residual stress that it leaves, between the points of their grid.
 //!
-//! It stands at the Gauss points of the elements in depth and at the middles of the cells of the volume
-//! grid. Between them it is a product of cubic polynomials through the four nearest points along each
-//! axis, in depth through those of one layer alone. The surface carries nothing of it: there s_zz, s_xz
-//! and s_yz are zero. Beyond the grid it falls as the stress of a source far away, with the third power of
-//! the distance, in plane strain with the second.
+//! Both stand at the Gauss points of the elements in depth and at the middles of the cells of the volume
+//! grid. Between them each is a product of cubic polynomials through the four nearest points along each
+//! axis, in depth through those of one layer alone. The surface carries nothing of the stress: there s_zz,
+//! s_xz and s_yz are zero. Beyond the grid the stress falls as that of a source far away, with the third
+//! power of the distance, in plane strain with the second; the strain is zero there.
 
-use std::sync::{Arc, Mutex, PoisonError};
+mod of_run;
 
-use contact_core::Error;
-use contact_core::scene::Scene;
-use contact_core::yielding::{Yielded, Yielding};
+use std::sync::Arc;
+
 use stress_tensor::StressTensor;
 
-use super::{Depth, Side};
+pub use self::of_run::Eigenstresses;
+
+use super::plastic_strain::PlasticStrain;
+use super::{Depth, Growth, TwiceAsLarge};
 
 /// Points of a polynomial.
 const POINTS: usize = 4;
@@ -22,7 +24,7 @@ const COMPONENTS: usize = 6;
 /// Components that the surface carries: zz, xz, yz.
 const CARRIED: [usize; 3] = [2, 4, 5];
 
-/// A residual stress of a body, in the axes of the scene.
+/// Plastic strain and residual stress of a body, in the axes of the scene.
 #[derive(Clone, Debug)]
 pub struct Eigenstress {
     field: Arc<Field>,
@@ -40,6 +42,19 @@ struct Field {
     planes: Vec<(f64, usize)>,
     /// For each plane six components on the cells, x first \[Pa\]; a cycle holds many of them.
     stress: Vec<f32>,
+    strain: PlasticStrain,
+}
+
+/// The points beside a place, with the weights of their polynomials.
+struct Beside {
+    /// Planes of the layer, and depths of the first and the last \[m\].
+    rows: Vec<usize>,
+    ends: [f64; 2],
+    in_depth: Weights,
+    along: [Weights; 2],
+    /// Part that is left of the stress beside the grid and below it.
+    far: f64,
+    deep: f64,
 }
 
 /// The nearest points along an axis with their weights.
@@ -58,49 +73,28 @@ impl Eigenstress {
     /// The stress at x, y \[m\] and a depth \[Pa\]; zero in a layer that has no element.
     pub fn stress(&self, x: f64, y: f64, depth: Depth) -> StressTensor {
         let field = &*self.field;
-        let rows = field.planes.iter().enumerate();
-        let rows = rows.filter(|(_, (_, layer))| *layer == depth.layer);
-        let (rows, z): (Vec<usize>, Vec<f64>) = rows.map(|(n, (z, _))| (n, *z)).unzip();
-        let (Some(first), Some(last)) = (z.first(), z.last()) else {
+        let Some(beside) = field.beside([x + self.origin.0, y + self.origin.1], depth) else {
             return [0.0; COMPONENTS];
         };
-        let power = if field.plane_strain { 2 } else { 3 };
-        // The substrate goes on below its last plane.
-        let is_last = rows.last().is_some_and(|n| n + 1 == field.planes.len());
-        let deep = if is_last && depth.z > *last {
-            (last / depth.z).powi(power)
-        } else {
-            1.0
-        };
-        let at = if is_last { depth.z.min(*last) } else { depth.z };
-        let in_depth = weights(&z, at);
-        let (along_x, far_x) = field.along(0, x + self.origin.0);
-        let (along_y, far_y) = field.along(1, y + self.origin.1);
-        let far = deep * far_x.min(far_y).powi(power);
+        let Beside { along, .. } = &beside;
+        let far = beside.far * beside.deep;
         let cells = field.n[0] * field.n[1];
         let mut sum = [0.0; COMPONENTS];
-        for &(row, w_z) in &in_depth {
-            for &(i, w_x) in &along_x {
-                for &(j, w_y) in &along_y {
-                    let weight = far * w_z * w_x * w_y;
-                    if weight == 0.0 {
-                        continue;
-                    }
-                    let at = rows[row] * COMPONENTS * cells + i * field.n[1] + j;
-                    for (c, sum) in sum.iter_mut().enumerate() {
-                        *sum += weight * f64::from(field.stress[at + c * cells]);
-                    }
-                }
+        beside.each(|weight, plane, cell| {
+            let at = plane * COMPONENTS * cells + cell[0] * field.n[1] + cell[1];
+            for (c, sum) in sum.iter_mut().enumerate() {
+                *sum += far * weight * f64::from(field.stress[at + c * cells]);
             }
-        }
-        if depth.layer == 0 && depth.z < *first {
+        });
+        let [first, _] = beside.ends;
+        if depth.layer == 0 && depth.z < first {
             // Linear between the surface, which carries nothing, and the first plane.
-            let plane = rows[0];
+            let plane = beside.rows[0];
             for c in CARRIED {
                 let block = (plane * COMPONENTS + c) * cells;
                 let mut value = 0.0;
-                for &(i, w_x) in &along_x {
-                    for &(j, w_y) in &along_y {
+                for &(i, w_x) in &along[0] {
+                    for &(j, w_y) in &along[1] {
                         let at = block + i * field.n[1] + j;
                         value += w_x * w_y * f64::from(field.stress[at]);
                     }
@@ -110,9 +104,121 @@ impl Eigenstress {
         }
         sum
     }
+
+    /// The plastic strain at x, y \[m\] and a depth; zero where nothing has yielded.
+    pub fn plastic_strain(&self, x: f64, y: f64, depth: Depth) -> [f64; COMPONENTS] {
+        let field = &*self.field;
+        let mut sum = [0.0; COMPONENTS];
+        let beside = field.beside([x + self.origin.0, y + self.origin.1], depth);
+        let Some(beside) = beside.filter(|beside| beside.far * beside.deep >= 1.0) else {
+            return sum;
+        };
+        beside.each(|weight, plane, [i, j]| {
+            let strain = field.strain.at(plane, i, j);
+            for (sum, strain) in sum.iter_mut().zip(strain.into_iter().flatten()) {
+                *sum += weight * strain;
+            }
+        });
+        sum
+    }
+
+    /// Means over pairs of planes of a layer and over cells paired as those of the contact are, with x, y
+    /// counted from the middle of these.
+    #[must_use]
+    pub fn on_coarser(&self, contact: &TwiceAsLarge) -> Self {
+        let field = &*self.field;
+        let cells = contact.of_cells(field.n, field.d);
+        let pair =
+            |n: usize| &field.stress[n * field.n[0] * field.n[1]..][..field.n[0] * field.n[1]];
+        let (mut planes, mut stress, mut of_plane) = (Vec::new(), Vec::new(), Vec::new());
+        let mut next = 0;
+        while let Some(&(z, layer)) = field.planes.get(next) {
+            let second = field
+                .planes
+                .get(next + 1)
+                .filter(|second| second.1 == layer);
+            let (below, last) = second.map_or((z, next), |second| (second.0, next + 1));
+            for c in 0..COMPONENTS {
+                let both = pair(next * COMPONENTS + c)
+                    .iter()
+                    .zip(pair(last * COMPONENTS + c));
+                let mean: Vec<f64> = both.map(|(a, b)| 0.5 * f64::from(a + b)).collect();
+                stress.extend(cells.mean(&mean).into_iter().map(|s| s as f32));
+            }
+            of_plane.extend((next..=last).map(|_| planes.len()));
+            planes.push((f64::midpoint(z, below), layer));
+            next = last + 1;
+        }
+        let grid = cells.grid;
+        let moved = |own: f64, of_contact: f64, of_cells: f64| own + of_contact - of_cells;
+        Self {
+            field: Arc::new(Field {
+                n: [grid.nx, grid.ny],
+                d: [grid.dx, grid.dy],
+                plane_strain: field.plane_strain,
+                strain: field.strain.on_coarser(&cells, &of_plane),
+                planes,
+                stress,
+            }),
+            origin: (
+                moved(self.origin.0, contact.middle.0, cells.middle.0),
+                moved(self.origin.1, contact.middle.1, cells.middle.1),
+            ),
+        }
+    }
+
+    /// What has been added to the plastic strain since a state before, where something had yielded.
+    pub fn growth_since(&self, before: Option<&Self>) -> Growth {
+        Growth::between(before.map(|of| &of.field.strain), &self.field.strain)
+    }
+}
+
+impl Beside {
+    /// Calls `f` with the weight, the plane and the cell of each point.
+    fn each(&self, mut f: impl FnMut(f64, usize, [usize; 2])) {
+        let [along_x, along_y] = &self.along;
+        for &(row, w_z) in &self.in_depth {
+            for &(i, w_x) in along_x {
+                for &(j, w_y) in along_y {
+                    let weight = w_z * w_x * w_y;
+                    if weight != 0.0 {
+                        f(weight, self.rows[row], [i, j]);
+                    }
+                }
+            }
+        }
+    }
 }
 
 impl Field {
+    /// The points beside a place of the scene; `None` in a layer that has no element.
+    fn beside(&self, [x, y]: [f64; 2], depth: Depth) -> Option<Beside> {
+        let rows = self.planes.iter().enumerate();
+        let rows = rows.filter(|(_, (_, layer))| *layer == depth.layer);
+        let (rows, z): (Vec<usize>, Vec<f64>) = rows.map(|(n, (z, _))| (n, *z)).unzip();
+        let ends = [*z.first()?, *z.last()?];
+        let [_, last] = ends;
+        let power = if self.plane_strain { 2 } else { 3 };
+        // The substrate goes on below its last plane.
+        let is_last = rows.last().is_some_and(|n| n + 1 == self.planes.len());
+        let deep = if is_last && depth.z > last {
+            (last / depth.z).powi(power)
+        } else {
+            1.0
+        };
+        let at = if is_last { depth.z.min(last) } else { depth.z };
+        let (along_x, far_x) = self.along(0, x);
+        let (along_y, far_y) = self.along(1, y);
+        Some(Beside {
+            in_depth: weights(&z, at),
+            rows,
+            ends,
+            along: [along_x, along_y],
+            far: far_x.min(far_y).powi(power),
+            deep,
+        })
+    }
+
     /// The cells beside a place along an axis, and the part that is left of the stress beyond the grid.
     fn along(&self, axis: usize, place: f64) -> (Weights, f64) {
         let n = self.n[axis];
@@ -146,94 +252,11 @@ fn weights(points: &[f64], at: f64) -> Weights {
     found
 }
 
-/// Makes the residual stresses of a body from the plastic states of a run.
-#[derive(Debug)]
-pub struct Eigenstresses {
-    scene: Scene,
-    side: Side,
-    /// On the volume grid before and after it has grown, each set up with the first state that needs it.
-    yielding: Mutex<[Option<Yielding>; 2]>,
-}
-
-impl Eigenstresses {
-    /// Of a body of a scene.
-    pub fn of(scene: &Scene, side: Side) -> Self {
-        Self {
-            scene: scene.clone(),
-            side,
-            yielding: Mutex::default(),
-        }
-    }
-
-    /// The number of the body.
-    fn number(&self) -> usize {
-        match self.side {
-            Side::Body1 => 1,
-            Side::Body2 => 2,
-        }
-    }
-
-    /// Does `work` with the bodies that yield, on the volume grid on which a state was solved; `None` where none
-    /// may yield.
-    ///
-    /// # Errors
-    /// The state has points beyond both grids.
-    pub fn with<T>(
-        &self,
-        yielded: &Yielded,
-        work: impl FnOnce(&mut Yielding) -> T,
-    ) -> Result<Option<T>, Error> {
-        let mut held = self.yielding.lock().unwrap_or_else(PoisonError::into_inner);
-        for (held, grown) in held.iter_mut().zip([false, true]) {
-            if held.is_none() {
-                *held = Yielding::of(&self.scene, grown)?;
-            }
-            let Some(bodies) = held else { return Ok(None) };
-            if grown {
-                bodies.check(yielded)?;
-            } else if bodies.outgrown_by(yielded) {
-                continue;
-            }
-            return Ok(Some(work(bodies)));
-        }
-        Ok(None)
-    }
-
-    /// The residual stress of a state; `None` where nothing of the body has yielded.
-    pub fn at(&self, yielded: Option<&Yielded>) -> Result<Option<Eigenstress>, Error> {
-        let number = self.number();
-        let has_yielded = |yielded: &&Yielded| {
-            let mut own = yielded.bodies.iter().filter(|body| body.body == number);
-            own.any(|body| !body.points.is_empty())
-        };
-        let Some(yielded) = yielded.filter(has_yielded) else {
-            return Ok(None);
-        };
-        let plane_strain = self.scene.grid.plane_strain;
-        let found = self.with(yielded, |yielding| {
-            let stress = yielding.stress_of_changes(yielded, None, number);
-            let (Some(stress), Some(mesh)) = (stress, yielding.mesh(number)) else {
-                return None;
-            };
-            let (cells, planes) = (mesh.cells, 0..mesh.planes());
-            Some(Field {
-                n: [cells.nx, cells.ny],
-                d: [cells.dx, cells.dy],
-                plane_strain,
-                planes: planes.map(|n| (mesh.depth(n), mesh.layer(n))).collect(),
-                stress: stress.into_iter().map(|s| s as f32).collect(),
-            })
-        })?;
-        Ok(found.flatten().map(|field| Eigenstress {
-            field: Arc::new(field),
-            origin: (0.0, 0.0),
-        }))
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::plastic_strain::yielded;
+    use contact_core::scene::Grid;
 
     /// A field that is cubic along each axis within each of two layers.
     fn cubic(x: f64, y: f64, depth: Depth, c: usize) -> f64 {
@@ -242,40 +265,73 @@ mod tests {
         (c as f64 + of_layer) * (1.0 + x - x * x * y) * (1.0 + z - 0.1 * z * z * z)
     }
 
-    #[test]
-    fn cubic_stresses_are_exact_within_each_layer_and_the_surface_carries_nothing() {
-        let (n, d) = ([9, 8], [2e-5, 2.5e-5]);
+    /// Stress and, in the substrate, strain of a function on cells and 8 planes; 1 Pa goes with a
+    /// strain of 1e-3.
+    fn with(n: [usize; 2], f: fn(f64, f64, Depth, usize) -> f64) -> Eigenstress {
+        let d = [2e-5, 2.5e-5];
         let depths = [0.1, 0.3, 0.6, 0.9, 1.1, 1.4, 1.9, 2.6].map(|z| z * 1e-4);
         let planes: Vec<_> = depths
             .into_iter()
             .map(|z| (z, usize::from(z > 1e-4)))
             .collect();
-        let mut stress = Vec::new();
-        for (z, layer) in &planes {
+        let (mut stress, mut points) = (Vec::new(), Vec::new());
+        for (plane, &(z, layer)) in planes.iter().enumerate() {
+            let depth = Depth { z, layer };
+            let at = |cell: usize, c: usize| {
+                let [x, y] = [(cell / n[1], 0), (cell % n[1], 1)]
+                    .map(|(i, a)| (i as f64 - 0.5 * (n[a] as f64 - 1.0)) * d[a]);
+                f(x, y, depth, c)
+            };
             for c in 0..COMPONENTS {
-                for i in 0..n[0] {
-                    for j in 0..n[1] {
-                        let [x, y] = [(i, 0), (j, 1)]
-                            .map(|(i, a)| (i as f64 - 0.5 * (n[a] as f64 - 1.0)) * d[a]);
-                        let depth = Depth {
-                            z: *z,
-                            layer: *layer,
-                        };
-                        stress.push(cubic(x, y, depth, c) as f32);
-                    }
-                }
+                stress.extend((0..n[0] * n[1]).map(|cell| at(cell, c) as f32));
+            }
+            // The substrate alone has yielded.
+            for cell in (0..n[0] * n[1]).filter(|_| layer == 1) {
+                let strain = std::array::from_fn(|c| 1e-3 * at(cell, c));
+                points.push((plane, cell, yielded(strain, 0.0)));
             }
         }
-        let field = Eigenstress {
+        Eigenstress {
             field: Arc::new(Field {
                 n,
                 d,
                 plane_strain: false,
                 planes,
                 stress,
+                strain: PlasticStrain::of(&points, n),
             }),
             origin: (0.0, 0.0),
+        }
+    }
+
+    /// Means over pairs of planes and cells keep what is linear, where all of the pairs are on the grid.
+    #[test]
+    fn on_points_twice_as_far_apart_linear_fields_stay_what_they_are() {
+        let linear = |x: f64, y: f64, depth: Depth, c: usize| {
+            1.0 + c as f64 + 1e4 * (x - 0.5 * y + 0.3 * depth.z)
         };
+        let fine = with([17, 16], linear);
+        let contact = Grid::from_spacing((34, 32), (1e-5, 1.25e-5)).expect("a grid");
+        for cells in TwiceAsLarge::both(&contact) {
+            let coarse = fine.on_coarser(&cells);
+            let (u, v) = cells.middle;
+            for (x, y, z, layer) in [(1.3e-5, -2e-5, 5e-5, 0), (-1e-5, 1e-5, 1.7e-4, 1)] {
+                let depth = Depth { z, layer };
+                let stress = coarse.stress(x - u, y - v, depth);
+                let strain = coarse.plastic_strain(x - u, y - v, depth);
+                for c in 0..COMPONENTS {
+                    let exact = linear(x, y, depth, c);
+                    assert!((stress[c] - exact).abs() < 1e-5, "{depth:?}");
+                    let grown = if layer == 1 { 1e-3 * exact } else { 0.0 };
+                    assert!((strain[c] - grown).abs() < 1e-8, "{depth:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn cubic_stresses_are_exact_within_each_layer_and_the_surface_carries_nothing() {
+        let field = with([9, 8], cubic);
         for (x, y, z, layer) in [
             (1.3e-5, -2e-5, 5e-5, 0),
             (-7e-5, 8e-5, 1e-4, 0),
@@ -287,8 +343,11 @@ mod tests {
             let moved = field
                 .seen_from((1e-5, 2e-5))
                 .stress(x - 1e-5, y - 2e-5, depth);
+            let strain = field.plastic_strain(x, y, depth);
             for c in 0..COMPONENTS {
                 let exact = cubic(x, y, depth, c);
+                let grown = if layer == 1 { 1e-3 * exact } else { 0.0 };
+                assert!((strain[c] - grown).abs() < 1e-7, "{depth:?}");
                 assert!((found[c] - exact).abs() < 1e-4, "{depth:?}");
                 assert!((found[c] - moved[c]).abs() < 1e-9);
             }
@@ -302,6 +361,8 @@ mod tests {
             field.stress(16e-5, 0.0, depth),
         );
         assert!((far[0] / border[0] - 0.125).abs() < 1e-12);
+        assert!(field.plastic_strain(8e-5, 0.0, depth)[1] != 0.0);
+        assert_eq!(field.plastic_strain(8.1e-5, 0.0, depth), [0.0; COMPONENTS]);
         let below = [2.6e-4, 5.2e-4].map(|z| field.stress(0.0, 0.0, Depth { z, layer: 1 })[0]);
         assert!((below[1] / below[0] - 0.125).abs() < 1e-12);
     }

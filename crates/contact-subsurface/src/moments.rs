@@ -9,7 +9,7 @@ use contact_core::scene::{Grid, ResidualStress};
 use contact_core::zones::Outline;
 use ndarray::Array2;
 
-use crate::{Eigenstress, Line, States, TwiceAsLarge};
+use crate::{Eigenstress, Growth, Line, States, TwiceAsLarge};
 
 /// Moments of a cycle, about, by which its sections find their place.
 const PLACED_BY: usize = 16;
@@ -23,7 +23,7 @@ pub struct Moments {
     pub stick: Vec<Array2<bool>>,
     /// Bulk stress of the body \[Pa\].
     pub sigma_B: Vec<f64>,
-    /// Residual stress of the plastic strain; empty for a body that stays elastic.
+    /// Plastic strain and its residual stress; empty for a body that stays elastic.
     pub eigenstress: Vec<Option<Eigenstress>>,
 }
 
@@ -98,7 +98,7 @@ impl Moments {
         })
     }
 
-    /// On cells twice as large.
+    /// On cells twice as large, and what has yielded on points twice as far apart.
     #[must_use]
     pub fn on_coarser(&self, cells: &TwiceAsLarge) -> Self {
         let shape = (cells.grid.nx, cells.grid.ny);
@@ -110,8 +110,7 @@ impl Moments {
             let marked = cells.any(&field.iter().copied().collect::<Vec<_>>());
             Array2::from_shape_fn(shape, |(i, j)| marked[i * shape.1 + j])
         };
-        let seen =
-            |left: &Option<Eigenstress>| left.as_ref().map(|left| left.seen_from(cells.middle));
+        let seen = |left: &Option<Eigenstress>| left.as_ref().map(|left| left.on_coarser(cells));
         Self {
             tractions: self
                 .tractions
@@ -123,6 +122,21 @@ impl Moments {
             eigenstress: self.eigenstress.iter().map(seen).collect(),
         }
     }
+}
+
+/// What a cycle adds to the plastic strain of the body, from the moment before it to its last; from its first
+/// moment on, where the one before was not stored.
+pub fn growth(cycle: &dyn OverCycle) -> Result<Growth, Error> {
+    let last = cycle.moments(&[cycle.count() - 1])?;
+    let before = match cycle.start()? {
+        Some(before) => before,
+        None => cycle.moments(&[0])?,
+    };
+    let of = |moments: &Moments| moments.eigenstress.first().cloned().flatten();
+    let after = of(&last);
+    Ok(after.map_or_else(Growth::default, |after| {
+        after.growth_since(of(&before).as_ref())
+    }))
 }
 
 /// The sections in which a body is looked at over a cycle, where none is asked for:

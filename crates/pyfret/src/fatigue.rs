@@ -160,6 +160,12 @@ impl Criterion {
         self.0.unit()
     }
 
+    /// Whether it takes strains, and not the stress alone.
+    #[getter]
+    fn takes_strain(&self) -> bool {
+        self.0.takes_strain()
+    }
+
     /// Whether it has a critical plane.
     #[getter]
     fn has_plane(&self) -> bool {
@@ -458,7 +464,9 @@ pub(crate) fn material_quantities() -> Vec<(&'static str, &'static str, &'static
     core::QUANTITIES.iter().map(label).collect()
 }
 
-/// A criterion on stresses of shape (time, points, 6) and plastic strains of that shape: arrays over the points.
+/// A criterion on stresses of shape (time, points, 6): arrays over the points.
+///
+/// `plastic_strain` has that shape; without it the points stay elastic.
 #[pyfunction]
 #[pyo3(signature = (criterion, stress, plastic_strain = None, *, tolerance: "float") -> "dict[str, NDArray[np.float64]]")]
 pub(crate) fn criterion_on<'py>(

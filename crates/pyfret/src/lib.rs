@@ -138,6 +138,9 @@ mod _core {
     /// path, below which bodies have shaken down.
     #[pymodule_export]
     const SHAKEN: f64 = contact_subsurface::SHAKEN;
+    /// Net strain of a cycle over the strain that it adds up, from which a body ratchets.
+    #[pymodule_export]
+    const RATCHETS: f64 = contact_subsurface::RATCHETS;
     /// A material that does not deform.
     #[pymodule_export]
     const RIGID: Elastic = Elastic::RIGID;

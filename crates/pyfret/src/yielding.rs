@@ -4,10 +4,10 @@ use contact_core::scene::Grid;
 use contact_core::yielding::{Yielded, Yielding};
 use contact_store::{YIELDED, state_of};
 use contact_subsurface as core;
-use contact_subsurface::Eigenstresses;
+use contact_subsurface::{Depth, Eigenstresses};
 use eigenstrain::{COMPONENTS, Mesh};
-use ndarray::{Array2, Array3, Array4};
-use numpy::{IntoPyArray, PyArray1};
+use ndarray::{Array2, Array3, Array4, ArrayView1};
+use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -16,10 +16,39 @@ use crate::arguments::{Field, List, number, side};
 use crate::error::to_python;
 use crate::scene::Scene;
 
-/// Residual stress that plastic strain leaves.
+/// Plastic strain, and the residual stress that it leaves.
 #[pyclass(frozen, module = "pyfret")]
 #[derive(Clone)]
 pub(crate) struct Eigenstress(pub(crate) core::Eigenstress);
+
+#[pymethods]
+impl Eigenstress {
+    /// Plastic strain at points x, y, z [m] in their layers, of shape (points, 6).
+    ///
+    /// Components are xx, yy, zz, xy, xz, yz.
+    #[pyo3(signature = (x: "Sequence[float]", y: "Sequence[float]", z: "Sequence[float]", layer: "Sequence[int]") -> "NDArray[np.float64]")]
+    fn plastic_strain<'py>(
+        &self,
+        py: Python<'py>,
+        x: List<f64>,
+        y: List<f64>,
+        z: List<f64>,
+        layer: List<usize>,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let points = z.len();
+        if [x.len(), y.len(), layer.len()] != [points; 3] {
+            let message = format!("x, y, layer: must be {points} each, as many as z");
+            return Err(PyValueError::new_err(message));
+        }
+        let mut found = Array2::zeros((points, COMPONENTS));
+        for (n, mut row) in found.outer_iter_mut().enumerate() {
+            let (z, layer) = (z[n], layer[n]);
+            let strain = self.0.plastic_strain(x[n], y[n], Depth { z, layer });
+            row.assign(&ArrayView1::from(&strain));
+        }
+        Ok(found.into_pyarray(py))
+    }
+}
 
 /// Names of the columns of the points that have yielded, in their order.
 #[pyfunction]
@@ -171,24 +200,18 @@ impl PlasticBody {
             let left = yielding.stress(&yielded, None, body);
             let mesh = yielding.mesh(body);
             let shape = mesh.map(|mesh| (mesh.planes(), mesh.cells.nx, mesh.cells.ny));
-            (loaded, left, shape, yielding.volume().clone())
+            (loaded, left, shape, yielding.points(&yielded, body))
         })?;
-        let (Some(loaded), Some(left), Some((planes, nx, ny)), volume) = found else {
+        let (Some(loaded), Some(left), Some((planes, nx, ny)), points) = found else {
             return Err(self.stays_elastic());
         };
         let mut equivalent = Array3::<f64>::zeros((planes, nx, ny));
         let mut strain = Array4::<f64>::zeros((planes, COMPONENTS, nx, ny));
-        let own = yielded.bodies.iter().filter(|state| state.body == body);
-        for point in own.flat_map(|state| &state.points) {
-            let (plane, Some(cell)) = (point.plane as usize, volume.cell(point.cell)) else {
-                continue;
-            };
+        for (plane, cell, point) in points {
             let (i, j) = (cell / ny, cell % ny);
             equivalent[(plane, i, j)] = point.equivalent;
             for (c, value) in point.strain.iter().enumerate() {
-                // z points into body 2 in the axes of the scene.
-                let turned = body == 1 && c >= 4;
-                strain[(plane, c, i, j)] = if turned { -value } else { *value };
+                strain[(plane, c, i, j)] = *value;
             }
         }
         let stress = |values: Vec<f64>| {

@@ -25,7 +25,7 @@ import numpy as np
 from pyfret._util.lazy import xr
 
 if TYPE_CHECKING:
-    from collections.abc import Hashable, Iterable
+    from collections.abc import Hashable, Iterable, Sequence
 
     from numpy.typing import ArrayLike, NDArray
 
@@ -240,8 +240,10 @@ class Histories:
         )
 
 
-def histories(stress: ArrayLike, name: str = "stress") -> Histories:
-    """The stress history that a caller gives.
+def histories(
+    stress: ArrayLike, name: str = "stress", components: Sequence[str] = COMPONENTS
+) -> Histories:
+    """The history of a stress, or of a tensor with other names of components, that a caller gives.
 
     Without labels its shape is (time, ..., 6). With labels one dimension is a time and one is
     ``component`` with the names of the six components, in any order.
@@ -251,7 +253,7 @@ def histories(stress: ArrayLike, name: str = "stress") -> Histories:
     dims: tuple[Hashable, ...] | None = None
     given: Any = stress
     if axes:
-        given, dims, coords = in_order(given, name)
+        given, dims, coords = in_order(given, name, components)
     values = numbers(given, name)
     if values.ndim < 2 or values.shape[-1] != len(COMPONENTS):
         raise ValueError(
@@ -265,7 +267,7 @@ def histories(stress: ArrayLike, name: str = "stress") -> Histories:
 
 
 def in_order(
-    stress: Any, name: str
+    stress: Any, name: str, components: Sequence[str]
 ) -> tuple[NDArray[np.float64], tuple[Hashable, ...], dict[Hashable, Any]]:
     """A labelled history as (time, ..., component), names and coordinates of its points."""
     axes = labels(stress)
@@ -274,17 +276,17 @@ def in_order(
     if len(times) != 1 or "component" not in axes or not named:
         raise ValueError(
             f"{name} has the axes {', '.join(map(str, axes))}: must have one of time "
-            f"({', '.join(TIMES)}) and `component` with the names {', '.join(COMPONENTS)}; or give "
+            f"({', '.join(TIMES)}) and `component` with the names {', '.join(components)}; or give "
             f"{name}.values of the shape (time, ..., 6)"
         )
     here = [str(c) for c in stress.coords["component"].values]
-    if sorted(here) != sorted(COMPONENTS):
+    if sorted(here) != sorted(components):
         raise ValueError(
-            f"{name} has the components {', '.join(here)}: must be {', '.join(COMPONENTS)}"
+            f"{name} has the components {', '.join(here)}: must be {', '.join(components)}"
         )
     others = tuple(axis for axis in axes if axis not in (times[0], "component"))
     ordered = stress.transpose(times[0], *others, "component")
-    ordered = ordered.isel(component=[here.index(c) for c in COMPONENTS])
+    ordered = ordered.isel(component=[here.index(c) for c in components])
     coords = {
         key: of
         for key, of in stress.coords.items()

@@ -15,6 +15,7 @@ from pyfret._util.arrays import COMPONENTS, histories, number, plain
 from pyfret._util.door import numbers_only
 from pyfret._util.doubts import warn
 from pyfret._util.lazy import xr
+from pyfret.fatigue.plastic_strain import strains_beside
 
 if TYPE_CHECKING:
     import os
@@ -98,8 +99,14 @@ class Materials(Mapping[str, Material]):
         return f"Materials({', '.join(self._materials)})"
 
 
-@functools.partial(numbers_only, but=("stress",))
-def evaluate(stress: ArrayLike, criterion: Criterion, *, tolerance: float = 1e-3) -> xr.Dataset:
+@functools.partial(numbers_only, but=("stress", "plastic_strain"))
+def evaluate(
+    stress: ArrayLike,
+    criterion: Criterion,
+    *,
+    plastic_strain: ArrayLike | None = None,
+    tolerance: float = 1e-3,
+) -> xr.Dataset:
     """Give the value of a criterion at every point, and the critical plane.
 
     Parameters
@@ -109,6 +116,10 @@ def evaluate(stress: ArrayLike, criterion: Criterion, *, tolerance: float = 1e-3
         :func:`history` gives it, is taken by the names of its dimensions and components.
     criterion : Criterion
         With its numbers, such as ``Criterion.findley(k=0.3)``.
+    plastic_strain : array of the shape of the stress, optional
+        Plastic strain at the same instants (default: none, or a constant one). Components are those
+        of the tensor, xx + yy + zz = 0. Criteria of strain take the sum of the elastic strain of
+        the stress and this strain. Criteria of stress leave it out.
     tolerance : float
         Largest part of the value by which another plane may be proved better. The plane found is
         much nearer to the best than what is proved.
@@ -128,10 +139,16 @@ def evaluate(stress: ArrayLike, criterion: Criterion, *, tolerance: float = 1e-3
     ------
     ValueError
         The stress is not finite, has one instant only, is zero everywhere, or its last axis is not
-        6 long.
+        6 long. The plastic strain has another shape or changes the volume. A criterion of strain is
+        given the stress of a cycle in which plastic strain grows, and not that strain.
     """
     of = histories(stress)
-    found = _core.criterion_on(criterion, of.values, tolerance=number(tolerance, "tolerance"))
+    found = _core.criterion_on(
+        criterion,
+        of.values,
+        strains_beside(stress, plastic_strain, criterion),
+        tolerance=number(tolerance, "tolerance"),
+    )
     labels = {
         "value": (criterion.unit, f"value of the criterion {criterion.name}"),
         "planes": ("1", "planes looked at"),
@@ -154,12 +171,13 @@ def evaluate(stress: ArrayLike, criterion: Criterion, *, tolerance: float = 1e-3
     return result.assign_coords(axis=["x", "y", "z"])
 
 
-@functools.partial(numbers_only, but=("stress",))
+@functools.partial(numbers_only, but=("stress", "plastic_strain"))
 def assess(
     stress: ArrayLike,
     material: Material,
     criterion: CriterionName,
     *,
+    plastic_strain: ArrayLike | None = None,
     tolerance: float = 1e-3,
 ) -> xr.Dataset:
     """Evaluate a criterion with the numbers of a material: safety factors and lives.
@@ -173,7 +191,9 @@ def assess(
         As :func:`evaluate`, and if the material lacks a number. The message names it.
     """
     assessment = material.assessment(criterion)
-    result = evaluate(stress, assessment.criterion, tolerance=tolerance)
+    result = evaluate(
+        stress, assessment.criterion, plastic_strain=plastic_strain, tolerance=tolerance
+    )
     result.attrs["material"] = material.title
     name, unit, meaning = (
         ("life", "1", "cycles until a crack has started")

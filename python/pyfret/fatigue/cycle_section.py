@@ -10,6 +10,7 @@ from pyfret import _core
 from pyfret._util.arrays import plain
 from pyfret._util.lazy import xr
 from pyfret.fatigue.cycles import cycle_increments, moment_before
+from pyfret.fatigue.plastic_strain import yielding_of
 from pyfret.subsurface.fields import coordinates, interfaces
 from pyfret.subsurface.moments import lines_of, moments_of
 
@@ -62,7 +63,7 @@ def over_cycle(result: Run, section: Section) -> _core.CycleSection:
         **section.line.named(),
         body_number=section.body_number,
         residual=section.residual,
-        yielding=yielding_of(result, section),
+        yielding=yielding_of(result, kept, section.body_number),
         path_error=path_error_of(result),
     )
 
@@ -71,17 +72,6 @@ def path_error_of(result: Run) -> float | None:
     """The largest error of the shear by the increments, where these were chosen."""
     errors = result.dataset.attrs.get("path_error")
     return float(np.max(errors)) if errors else None
-
-
-def yielding_of(result: Run, section: Section) -> tuple[float, float] | None:
-    """Plastic work of the cycle and the work beside which it is small [J]; None if elastic."""
-    if not body_of(result, section).yields:
-        return None
-    d, kept = result.dataset, cycle_increments(result, section.cycle)
-    inside = ((d.increment > kept[0]) & (d.increment <= kept[-1])).values
-    rubbed = float(d.dissipated.values[inside].sum())
-    beside = rubbed if rubbed > 0.0 else float(d.plastic_work.sum())
-    return float(d.plastic_work.values[inside].sum()), beside
 
 
 def depths_of(

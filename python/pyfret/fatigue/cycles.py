@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal, TypeAlias, get_args
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from pyfret._util.arrays import plain
 from pyfret._util.door import numbers_only
 from pyfret._util.lazy import xr
 from pyfret.fatigue.criteria import COMPONENTS
+from pyfret.fatigue.plastic_strain import GROWS, grows, strains_of
 from pyfret.subsurface.contact import stress_below
 from pyfret.subsurface.fields import coordinates
 from pyfret.subsurface.line import Line
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
 
 __all__ = ["cycle_increments", "history", "moment_before"]
 
+#: What a history is of.
+Of: TypeAlias = Literal["stress", "plastic_strain"]
 #: Increments whose stresses are computed together: the kernels of a depth cost as much as ten.
 TOGETHER = 32
 
@@ -80,8 +83,11 @@ def history(
     body_number: int = 2,
     cycle: int | None = -1,
     residual: Sequence[ArrayLike] | None = None,
+    of: Of = "stress",
 ) -> xr.DataArray:
     """Stress over a closed cycle of a run whose increments were kept, ready for a criterion.
+
+    A criterion of strain takes the plastic strain beside it, where that grows within the cycle.
 
     Parameters
     ----------
@@ -94,13 +100,34 @@ def history(
         that were kept.
     residual : sequence, optional
         Residual stress of every layer, as in :class:`Section`.
+    of : str
+        The stress, or the plastic strain at the same points (tensor components xx, yy, zz, xy, xz,
+        yz; zero in a body that stays elastic).
 
     Returns
     -------
     DataArray of dims (increment, ..., component)
-        Stress [Pa] with the coordinates of the places, ``layer`` among them.
+        Stress [Pa] or strain with the coordinates of the places, ``layer`` among them.
     """
+    if of not in get_args(Of):
+        raise ValueError(f"of = {of!r}: must be 'stress' or 'plastic_strain'")
     kept = cycle_increments(result, cycle)
+    if of == "plastic_strain":
+        return strains_of(result, kept, z, Line(x, y, azimuth), body_number)
+    stress = _stress(result, kept, z, Line(x, y, azimuth), body_number, residual)
+    return stress.assign_attrs({GROWS: True}) if grows(result, kept, body_number) else stress
+
+
+def _stress(
+    result: Run,
+    kept: NDArray[np.int64],
+    z: ArrayLike,
+    line: Line,
+    body_number: int,
+    residual: Sequence[ArrayLike] | None,
+) -> xr.DataArray:
+    """The stress of the increments of a cycle."""
+    x, y, azimuth = line
     if azimuth is None and (x is None) == (y is None):
         return _of_snapshots(result, kept, z, x, y, body_number, residual)
     scene = result.scene
@@ -122,7 +149,7 @@ def history(
             body_number=body_number,
         )
         parts.append(np.moveaxis(stress, 1, -1))
-    along = Line(x, y, azimuth).along
+    along = line.along
     stacked = xr.DataArray(
         np.concatenate(parts),
         dims=("increment", "depth", along, "component"),

@@ -30,7 +30,7 @@ from pyfret.fatigue.cycle_section import (
     placed,
     side_by_side,
 )
-from pyfret.fatigue.cycles import history
+from pyfret.fatigue.cycles import Of, history
 from pyfret.fatigue.distance import OverDistance
 from pyfret.fatigue.fields import described, margin_name
 from pyfret.fatigue.ranges import LifeRange, Range, of_mean
@@ -127,7 +127,7 @@ class Life(Labelled):
         sections: Sequence[CriterionBelow],
         notes: Sequence[str],
         materials: Sequence[Material | None],
-        history: Callable[[Worst], NDArray[np.float64]] | None = None,
+        history: Callable[[Worst, Of], NDArray[np.float64]] | None = None,
     ) -> None:
         super().__init__(dataset)
         self._history = history
@@ -208,15 +208,14 @@ class Life(Labelled):
             )
         return self._worst[layer]
 
-    def history(self) -> NDArray[np.float64]:
-        """Give the stress at the worst point over the cycle, of shape (time, 6) [Pa].
+    def history(self, of: Of = "stress") -> NDArray[np.float64]:
+        """Give the stress [Pa] or the plastic strain at the worst point over the cycle: (time, 6).
 
-        Its components are xx, yy, zz, xy, xz, yz. :func:`pyfret.fatigue.evaluate` judges it, and
-        :func:`pyfret.plot.critical_plane_rose` draws it.
+        In the order xx, yy, zz, xy, xz, yz; :func:`pyfret.plot.critical_plane_rose` draws both.
         """
         if self._history is None:
             raise ValueError(UNPICKLED)
-        return self._history(self.worst)
+        return self._history(self.worst, of)
 
     @property
     def criterion(self) -> Criterion:
@@ -444,7 +443,7 @@ def life(
 ) -> Life:
     """Judge a section below the contact, or several, over a closed cycle of the load path.
 
-    The strains of a criterion follow from the stress by the scene's E and nu.
+    Strains follow from the stress by the scene's E and nu, and from the plastic strain.
 
     Parameters
     ----------
@@ -536,8 +535,8 @@ def lives(
         whole = side_by_side(result, where, shown[name]).assign_attrs(criterion=name)
         return Life(whole, found[name], [*found[name][0].notes, *notes], each, history_of_worst)
 
-    def history_of_worst(worst: Worst) -> NDArray[np.float64]:
-        stress = history(
+    def history_of_worst(worst: Worst, of: Of) -> NDArray[np.float64]:
+        found = history(
             result,
             [worst.z],
             x=worst.x,
@@ -545,9 +544,10 @@ def lives(
             body_number=where.body_number,
             cycle=where.cycle,
             residual=where.residual,
+            of=of,
         )
         # At an interface both sides are there.
-        of_layer = stress.isel(depth=stress.layer.values == worst.layer)
+        of_layer = found.isel(depth=found.layer.values == worst.layer)
         return np.asarray(of_layer.isel(depth=0).transpose("increment", "component").values)
 
     return {name: of(name) for name in names}

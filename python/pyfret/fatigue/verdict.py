@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
-from pyfret._core import SHAKEN
+from pyfret._core import RATCHETS, SHAKEN
 from pyfret._util.door import numbers_only
 from pyfret._util.numbers import in_words
 from pyfret.subsurface.plastic import plastic_points
@@ -19,8 +19,6 @@ __all__ = ["Verdict", "Where", "verdict"]
 Kind: TypeAlias = Literal["elastic", "shakes down", "settles", "alternates", "ratchets"]
 #: Plastic work of a cycle over that of the one before, below which a run has not settled.
 SETTLES = 0.8
-#: Net strain of a cycle over the strain that it adds up, from which a body ratchets.
-RATCHETS = 0.5
 
 
 class Where(NamedTuple):

@@ -293,7 +293,10 @@ def history_of(stress: ArrayLike | Life) -> tuple[NDArray[np.float64], fatigue.C
 
 @styled
 def critical_plane_rose(
-    stress: ArrayLike | Life, criterion: fatigue.Criterion | None = None
+    stress: ArrayLike | Life,
+    criterion: fatigue.Criterion | None = None,
+    *,
+    plastic_strain: ArrayLike | None = None,
 ) -> Axes:
     """What acts on the planes through one point whose normal lies in the x-z plane.
 
@@ -308,14 +311,20 @@ def critical_plane_rose(
         Stress history of the point [Pa]; of a life that of its worst point.
     criterion : Criterion, optional
         One that has a critical plane (default: that of the life).
+    plastic_strain : array of the shape of the stress, optional
+        Plastic strain at the same instants (default: that of the life).
     """
+    given = stress
     stress, own = history_of(stress)
     criterion = own if criterion is None else criterion
     if criterion is None:
         raise TypeError("criterion: must be given with a history, such as Criterion.findley(k=0.3)")
     if not criterion.has_plane:
         raise ValueError(f"{criterion.name} has no critical plane")
-    normal = fatigue.evaluate(stress, criterion).normal.values
+    if isinstance(given, fatigue.Life):
+        plastic_strain, given = given.history("plastic_strain"), stress
+    found = fatigue.evaluate(given, criterion, plastic_strain=plastic_strain)
+    normal = found.normal.values.reshape(3)
     angle = np.radians(np.arange(0.0, 360.5, 1.0))
     c, s = np.cos(angle)[:, None], np.sin(angle)[:, None]
     xx, zz, xz = stress[:, 0], stress[:, 2], stress[:, 4]

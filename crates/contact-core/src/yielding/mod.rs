@@ -260,6 +260,22 @@ impl Yielding {
         Some(own.response(state, tractions.as_ref()).0)
     }
 
+    /// The points of a body that have yielded in a state, with plane and cell of the volume grid; their strain
+    /// in the axes of the scene.
+    pub fn points(&self, state: &Yielded, body: usize) -> Vec<(usize, usize, PlasticPoint)> {
+        let own = state.bodies.iter().filter(|known| known.body == body);
+        let points = own.flat_map(|known| &known.points).filter_map(|point| {
+            let mut seen = *point;
+            if body == 1 {
+                // z points into body 2.
+                seen.strain[4] = -seen.strain[4];
+                seen.strain[5] = -seen.strain[5];
+            }
+            Some((point.plane as usize, self.volume.cell(point.cell)?, seen))
+        });
+        points.collect()
+    }
+
     /// Residual stress of a state on every plane below the middle of the grid.
     pub(crate) fn below_the_middle(&mut self, state: &Yielded) -> Vec<Below> {
         let cells = self.volume.cells;
