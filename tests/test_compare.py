@@ -35,7 +35,7 @@ def contact(n: int = 14) -> tuple[fret.Scene, fret.LoadPath]:
         grid=fret.Grid.centred(extent=2.6 * a, n=n),
         title="ball",
     )
-    path = fret.LoadPath.start().normal(W, increments=2).cycles(1, T_x=6.0, increments=10)
+    path = fret.LoadPath.start().normal(W, increments=2).cycles(1, T_x=6.0, increments=6)
     return scene, path
 
 

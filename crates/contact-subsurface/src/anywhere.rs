@@ -21,6 +21,8 @@ use contact_core::zones::Outline;
 /// the distances of successive samples from its end, the first a cell from it.
 const LONGER: f64 = 8.0;
 const RATIO: f64 = 1.35;
+/// Most depths of a layer at which its section is made longer: the ascent finds the others.
+const ROWS: usize = 6;
 /// How much deeper the substrate is sampled than the given depths, the ratio of successive depths,
 /// and the part of its highest sample that those at the deepest must reach.
 const DEEPER: f64 = 8.0;
@@ -287,7 +289,7 @@ impl Sampled {
         }
     }
 
-    /// The depths at which the samples rise towards an end of the line.
+    /// The depths at which the samples rise towards an end of the line, [`ROWS`] of them at most.
     fn rising(&self) -> Vec<usize> {
         let numbers = self.values.iter().filter(|v| !v.is_nan());
         let top = numbers.copied().fold(0.0, f64::max);
@@ -300,7 +302,10 @@ impl Sampled {
                     .into_iter()
                     .any(|(end, next)| row[end] > COUNTS * top && row[end] > row[next])
         };
-        (0..self.depths.len()).filter(rises).collect()
+        let rows: Vec<usize> = (0..self.depths.len()).filter(rises).collect();
+        let most = ROWS.min(rows.len());
+        let even = |n: usize| rows[n * (rows.len() - 1) / (most - 1).max(1)];
+        (0..most).map(even).collect()
     }
 
     /// Samples the depths at which they rise towards an end beyond it, ever farther apart; whether
