@@ -244,3 +244,51 @@ def test_pint_is_understood() -> None:
 def test_an_unknown_argument_has_its_nearest(call: object, nearest: str) -> None:
     with pytest.raises(TypeError, match=f"the nearest is '{nearest}'"):
         call()  # type: ignore[operator]
+
+
+#: A cycle, and what it wears.
+WORN = """
+[[path]]
+T_x = -1.0
+increments = 4
+
+[[path]]
+T_x = 1.0
+increments = 4
+
+[wear]
+cycles = 1e4
+
+[wear.body2]
+k = 1e-14
+"""
+
+
+def test_the_table_of_wear_is_checked_with_the_rest() -> None:
+    """Every mistake of all sections in one round, at its line; a doubt; and nothing where none."""
+    good = run("check", "-", text=GOOD + WORN)
+    assert good.returncode == 0, good.stderr
+    assert "wear          body 2 over 10000 cycles" in good.stdout
+    wrong = (
+        (GOOD + WORN)
+        .replace("cycles = 1e4", 'cyclng = "march"\ncycles = 1e4')
+        .replace("k = 1e-14", 'k = "3 um"\nfactr = 2')
+        .replace("mu = 0.15", "mmu = 0.15")
+    )
+    told = run("check", "-", text=wrong)
+    assert told.returncode != 0
+    for key, nearest in [
+        ("friction.mmu", "friction.mu"),
+        ("wear.cyclng", "wear.cycling"),
+        ("wear.body2.factr", "wear.body2.factor"),
+    ]:
+        assert f"unknown key `{key}`: the nearest valid key is `{nearest}`" in told.stderr
+    assert 'wear.body2.k = "3 um": must be a number in m^2/N' in told.stderr
+    assert len(told.stderr.splitlines()) == 4, told.stderr
+    doubtful = (GOOD + WORN).replace("k = 1e-14", "k = 1e-6")
+    doubted = run("check", "-", "--strict", text=doubtful)
+    assert doubted.returncode == 1
+    assert "wear.body2.k = 1e-6" in doubted.stderr
+    assert (
+        "wear.body2.k" in json.loads(run("check", "-", "--json", text=doubtful).stdout)["doubts"][0]
+    )

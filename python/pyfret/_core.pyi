@@ -1467,7 +1467,7 @@ class Hertz:
         """Peak pressure [Pa], 3 W / (2 pi a^2)."""
     @property
     def p_H(self, /) -> float:
-        """The same, by the name that it has in results [Pa]."""
+        """Peak pressure [Pa], by the name that it has in results."""
 
 @final
 class HertzEllipse:
@@ -1503,7 +1503,7 @@ class HertzEllipse:
         """Peak pressure [Pa], 3 W / (2 pi a_x a_y)."""
     @property
     def p_H(self, /) -> float:
-        """The same, by the name that it has in results [Pa]."""
+        """Peak pressure [Pa], by the name that it has in results."""
 
 @final
 class HertzStress:
@@ -1586,7 +1586,7 @@ class LineContact:
         """Peak pressure [Pa]."""
     @property
     def p_H(self, /) -> float:
-        """The same, by the name that it has in results [Pa]."""
+        """Peak pressure [Pa], by the name that it has in results."""
     def q(
         self, /, x: ArrayLike, *, T: float, mu: float, middle: float = 0.0
     ) -> NDArray[np.float64]:
@@ -1698,12 +1698,12 @@ class LoadPath:
         self,
         /,
         *,
-        delta_z: float | Sequence[float] | None = None,
-        delta_x: float | Sequence[float] | None = None,
-        delta_y: float | Sequence[float] | None = None,
-        phi_x: float | Sequence[float] | None = None,
-        phi_y: float | Sequence[float] | None = None,
-        phi_z: float | Sequence[float] | None = None,
+        delta_z: float | str | Sequence[float] | None = None,
+        delta_x: float | str | Sequence[float] | None = None,
+        delta_y: float | str | Sequence[float] | None = None,
+        phi_x: float | str | Sequence[float] | None = None,
+        phi_y: float | str | Sequence[float] | None = None,
+        phi_z: float | str | Sequence[float] | None = None,
         increments: int | Literal["auto"] = ...,
         spacing: Spacing = ...,
         t: float | None = None,
@@ -1822,7 +1822,7 @@ class LoadPath:
         What friction makes of the history of a cell goes on meanwhile.
         """
     def normal(
-        self, /, W: float | Sequence[float], *, increments: int | Literal["auto"] = ...
+        self, /, W: float | str | Sequence[float], *, increments: int | Literal["auto"] = ...
     ) -> LoadPath:
         """
         Go to the normal force `W` [N], the tangential forces kept, in one unit of path time.
@@ -1830,7 +1830,7 @@ class LoadPath:
         Of several forces each is a branch of its own, with as many increments.
         """
     def radial(
-        self, /, W: float | Sequence[float], *, increments: int | Literal["auto"] = ...
+        self, /, W: float | str | Sequence[float], *, increments: int | Literal["auto"] = ...
     ) -> LoadPath:
         """Visit the normal forces `W` [N] in turn, as `tangential` does: fretting mode II."""
     def replace(self, /, **changes: Any) -> Self:
@@ -1862,7 +1862,7 @@ class LoadPath:
     def t(self, /) -> NDArray[float64]:
         """Path time at the end of every increment."""
     def tangential(
-        self, /, T_x: float | Sequence[float], *, increments: int | Literal["auto"] = ...
+        self, /, T_x: float | str | Sequence[float], *, increments: int | Literal["auto"] = ...
     ) -> LoadPath:
         """
         Visit the tangential forces `T_x` [N] in turn.
@@ -1871,7 +1871,7 @@ class LoadPath:
         the first branch: one unit for as many increments as that one has.
         """
     def torsion(
-        self, /, M_z: float | Sequence[float], *, increments: int | Literal["auto"] = ...
+        self, /, M_z: float | str | Sequence[float], *, increments: int | Literal["auto"] = ...
     ) -> LoadPath:
         """Visit the torsional moments `M_z` [N m] in turn, as `tangential` does the forces."""
     def waypoints(
@@ -3356,6 +3356,13 @@ def section_of_states(
 def shown(text: str) -> str:
     """A text whose control codes and marks that turn the direction of reading stand as escapes."""
 
+def si_of(key: str, value: Any) -> float:
+    """
+    The number in SI of a text with a unit, or of a quantity of pint, by the key of the quantity.
+
+    A key that is unknown is refused with the number to write.
+    """
+
 def solve(
     scene: Scene,
     *,
@@ -3625,6 +3632,7 @@ __all__ = [
     "run_command",
     "section_of_states",
     "shown",
+    "si_of",
     "solve",
     "solve_in_memory",
     "stress_at",

@@ -10,6 +10,8 @@ from pyfret import result, study, wear
 from pyfret._core import StoreError, read_bytes, shown
 from pyfret._util import files
 from pyfret._util.door import numbers_only
+from pyfret.fatigue.distance import OverDistance
+from pyfret.fatigue.lives import Life
 from pyfret.fit.stored import found_of
 from pyfret.fracture.growth import Cracks
 from pyfret.study.ledger import FILE
@@ -28,13 +30,15 @@ COPIES: dict[Any, Callable[[xr.Dataset], Any]] = {
     "study": Study,
     "Study": Study,
     "Cracks": Cracks,
+    "Life": Life.of_dataset,
+    "OverDistance": OverDistance,
     "Found": found_of,
 }
 
 
 @numbers_only
 def open(path: str | os.PathLike[str]) -> Any:
-    """Open what pyfret has saved: a run, wear, a study, a fit, cracks (``.zarr``, ``.nc``).
+    """Open what pyfret has saved: a run, wear, a study, a fit, cracks, lives.
 
     Fields are read when they are asked for. Every file of a store is checked before, and what
     ``save`` wrote of up to 256 MB: what is read is what was written. What the metadata ask for
@@ -42,7 +46,7 @@ def open(path: str | os.PathLike[str]) -> Any:
 
     Returns
     -------
-    Result, WearResult, Study, Found or Cracks
+    Result, WearResult, Study, Found, Cracks, Life or OverDistance
         By what is there.
 
     Raises

@@ -11,6 +11,7 @@ from pyfret import _core, fatigue, fracture
 from pyfret import heat as heating
 from pyfret._core import StoreError
 from pyfret._util import files
+from pyfret._util.csv_table import write_csv
 from pyfret._util.door import numbers_only
 from pyfret.export.write import write as export
 from pyfret.report.page import report
@@ -160,6 +161,14 @@ class Result(Run):
             The ending is another.
         """
         files.write(self.dataset, path, overwrite=overwrite)
+
+    @numbers_only
+    def to_csv(self, path: str | os.PathLike[str]) -> None:
+        """Write the numbers of every increment as a table (``.csv``), units in the head.
+
+        A file that is there is replaced. :meth:`export` writes tractions.
+        """
+        write_csv(self.dataset, path, ("increment",))
 
     @numbers_only
     def export(

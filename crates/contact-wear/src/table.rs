@@ -42,6 +42,27 @@ impl Wear {
         read(&text, &file, settings, reach)
     }
 
+    /// Reads and checks a scene and its table `[wear]`, if it has one: every mistake of both at once.
+    pub fn if_given(
+        text: &str,
+        file: &str,
+        settings: &[String],
+        reach: Reach,
+    ) -> Result<(Scene, Option<Self>), Error> {
+        let both = |root: &Section<'_>, scene: &Scene| {
+            let Some(section) = root.section("wear", &KEYS)? else {
+                return Ok(None);
+            };
+            let (wear, rig) = (wear(&section)?, rig(&section)?);
+            let mut scene = scene.clone();
+            scene.path.rig_stiffness = rig.or(scene.path.rig_stiffness);
+            wear.check(&scene)?;
+            Ok(Some((wear, scene)))
+        };
+        let (scene, found) = read_with(text, file, settings, reach, both)?;
+        Ok(found.map_or((scene, None), |(wear, scene)| (scene, Some(wear))))
+    }
+
     /// Reads and checks a scene with a table `[wear]`; `file` is its name in errors.
     pub fn from_toml_str(
         text: &str,

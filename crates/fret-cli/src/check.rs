@@ -6,11 +6,12 @@ use contact_core::memory::available_memory;
 use contact_core::plan::Plan;
 use contact_core::scene::{Body, Bond, Elastic};
 use contact_core::{Error, Scene};
+use contact_wear::Wear;
 use serde_json::{Map, Value, json};
 
 use crate::failure::Failure;
 use crate::printed::print;
-use crate::scene_options::{SceneOptions, say_doubts};
+use crate::scene_options::{SceneOptions, say_each};
 use crate::units::{mega, um};
 use contact_core::digits::short;
 
@@ -29,16 +30,19 @@ pub(crate) struct Options {
 
 /// Prints the interpretation of the scene and the needs of its solution.
 pub(crate) fn check(options: &Options) -> Result<(), Failure> {
-    let read = options.scene.read();
-    let read = read.and_then(|scene| scene.check_fit().map(|()| scene));
+    let read = options.scene.read_whole();
+    let read = read.and_then(|(scene, wear)| scene.check_fit().map(|()| (scene, wear)));
     if let (Err(error), true) = (&read, options.json) {
         print(&format!("{:#}", refused(error)))?;
     }
-    let scene = read.map_err(Failure::BadInput)?;
+    let (scene, wear) = read.map_err(Failure::BadInput)?;
     let plan = Plan::new(&scene);
-    let lines = description(&scene, &plan);
+    let mut lines = description(&scene, &plan);
+    lines.extend(wear.as_ref().map(|wear| ("wear", worn(wear))));
+    let mut doubts = scene.doubts();
+    doubts.extend(wear.iter().flat_map(Wear::doubts));
     if options.json {
-        print(&format!("{:#}", numbers(&scene, &plan, &lines)))?;
+        print(&format!("{:#}", numbers(&scene, &plan, &lines, &doubts)))?;
     } else {
         let lines = lines
             .iter()
@@ -46,9 +50,9 @@ pub(crate) fn check(options: &Options) -> Result<(), Failure> {
         let all: Vec<String> = std::iter::once(scene.title.clone()).chain(lines).collect();
         print(&all.join("\n"))?;
     }
-    say_doubts(&scene);
+    say_each(&doubts);
     plan.check_memory(&scene).map_err(Failure::BadInput)?;
-    match scene.doubts().len() {
+    match doubts.len() {
         0 => Ok(()),
         _ if !options.strict => Ok(()),
         doubts => Err(Failure::Doubted(doubts)),
@@ -74,7 +78,12 @@ fn refused(error: &Error) -> Value {
 }
 
 /// The numbers of a scene in SI units, and what is printed of it.
-fn numbers(scene: &Scene, plan: &Plan, lines: &[(&'static str, String)]) -> Value {
+fn numbers(
+    scene: &Scene,
+    plan: &Plan,
+    lines: &[(&'static str, String)],
+    doubts: &[String],
+) -> Value {
     let (grid, hertz) = (&scene.grid, scene.hertz());
     let (length_x, length_y) = grid.extent();
     let work = Work::of(scene, plan);
@@ -88,7 +97,7 @@ fn numbers(scene: &Scene, plan: &Plan, lines: &[(&'static str, String)]) -> Valu
     json!({
         "title": scene.title,
         "errors": [],
-        "doubts": scene.doubts(),
+        "doubts": doubts,
         "a_H": hertz.map(|h| h.a),
         "p_H": hertz.map(|h| h.p0),
         "cells_per_a_H": hertz.map(|h| [h.a / grid.dx, h.a / grid.dy]),
@@ -178,6 +187,16 @@ fn description(scene: &Scene, plan: &Plan) -> Vec<(&'static str, String)> {
         line("plan", rule.to_string());
     }
     lines
+}
+
+/// What wears in how many cycles.
+fn worn(wear: &Wear) -> String {
+    let bodies = wear.bodies.iter().enumerate();
+    let worn: Vec<_> = bodies
+        .filter(|(_, body)| !body.laws.is_empty())
+        .map(|(n, _)| format!("body {}", n + 1))
+        .collect();
+    format!("{} over {} cycles", worn.join(" and "), short(wear.cycles))
 }
 
 /// Where yielding begins; none where no body may yield.

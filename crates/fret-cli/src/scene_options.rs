@@ -4,8 +4,9 @@ use std::io::Read;
 use std::path::PathBuf;
 
 use clap::Args;
-use contact_core::scene::Reach;
+use contact_core::scene::{Reach, text_of};
 use contact_core::{Error, Scene};
+use contact_wear::Wear;
 
 use crate::terminal::say;
 
@@ -28,11 +29,27 @@ pub(crate) struct SceneOptions {
 
 impl SceneOptions {
     pub(crate) fn read(&self) -> Result<Scene, Error> {
-        let reach = if self.allow_outside {
+        let (text, name) = self.text()?;
+        Scene::from_toml_str_reaching(&text, &name, &self.settings, self.reach())
+    }
+
+    /// The scene and its table `[wear]`, if it has one.
+    pub(crate) fn read_whole(&self) -> Result<(Scene, Option<Wear>), Error> {
+        let (text, name) = self.text()?;
+        Wear::if_given(&text, &name, &self.settings, self.reach())
+    }
+
+    /// Which files the scene may name.
+    pub(crate) fn reach(&self) -> Reach {
+        if self.allow_outside {
             Reach::Anywhere
         } else {
             Reach::Folder
-        };
+        }
+    }
+
+    /// The text of the file, and its name in errors.
+    fn text(&self) -> Result<(String, String), Error> {
         if self.scene.as_os_str() == "-" {
             let failed = |message: String| Error::File {
                 path: "standard input".into(),
@@ -48,9 +65,9 @@ impl SceneOptions {
                     "is no scene: it has {LONGEST} bytes or more"
                 )));
             }
-            return Scene::from_toml_str_reaching(&text, "standard input", &self.settings, reach);
+            return Ok((text, "standard input".into()));
         }
-        Scene::from_file_reaching(&self.scene, &self.settings, reach)
+        text_of(&self.scene)
     }
 }
 

@@ -7,7 +7,7 @@ use std::time::Instant;
 
 use clap::Args;
 use contact_core::Error;
-use contact_core::scene::{Grid, Reach, Scene};
+use contact_core::scene::{Grid, Scene};
 use contact_store::{WearStore, read_worn, resume_wear};
 use contact_wear::{Event, EventKind, Jump, Wear, WearRun};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -71,11 +71,7 @@ impl Options {
 /// Wears the surfaces of a scene.
 pub(crate) fn wear(options: &Options) -> Result<(), Failure> {
     options.threads.settle();
-    let reach = if options.scene.allow_outside {
-        Reach::Anywhere
-    } else {
-        Reach::Folder
-    };
+    let reach = options.scene.reach();
     let read = Wear::from_file(&options.scene.scene, &options.scene.settings, reach);
     let (scene, wear) = read.map_err(Failure::BadInput)?;
     say_each(&wear.doubts());

@@ -115,10 +115,15 @@ const PER_ROOT_MM: f64 = 31_622.776_601_683_795;
 
 const UNITS: &[(&str, Kind, f64)] = {
     use Kind::{
-        Angle, Compliance, Conductivity, Density, EnergyWear, Force, Frequency, HeatCapacity,
-        Intensity, Length, Moment, Number, SpecificHeat, Stiffness, Stress, Time, Toughness, Wear,
+        Angle, Compliance, Conductivity, Density, EnergyWear, Expansion, Force, Frequency,
+        HeatCapacity, Intensity, Length, Moment, Number, SpecificHeat, Stiffness, Stress, Time,
+        Toughness, Wear,
     };
     &[
+        ("1/K", Expansion, 1.0),
+        ("1/°C", Expansion, 1.0),
+        ("um/(m K)", Expansion, 1e-6),
+        ("ppm/K", Expansion, 1e-6),
         ("m", Length, 1.0),
         ("cm", Length, 1e-2),
         ("mm", Length, 1e-3),

@@ -7,7 +7,7 @@ use std::ops::Deref;
 
 use crate::hints::sequence_of;
 use contact_core::memory::available_memory;
-use contact_core::scene::Grid;
+use contact_core::scene::{Grid, in_si};
 use contact_subsurface::Side;
 use ndarray::{Dimension, Ix2};
 use numpy::{AllowTypeChange, PyArrayLike, PyReadonlyArray};
@@ -20,7 +20,30 @@ use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyString, PyTuple};
 /// An argument that is a number, or holds some; True and False are refused, wherever they stand.
 pub(crate) fn number<'py, T: FromPyObjectOwned<'py>>(value: &Bound<'py, PyAny>) -> PyResult<T> {
     refuse_truths(value)?;
-    value.extract().map_err(Into::into)
+    let found: Result<T, _> = value.extract();
+    match found {
+        Ok(found) => Ok(found),
+        Err(error) => {
+            refuse_texts(value)?;
+            Err(error.into())
+        }
+    }
+}
+
+/// A text or a quantity of pint, where the unit of the number is not known: told as the number to
+/// write.
+fn refuse_texts(value: &Bound<'_, PyAny>) -> PyResult<()> {
+    let Some(text) = crate::document::text_of(value)? else {
+        return Ok(());
+    };
+    let write = in_si(&text).map_or(", not a text".to_owned(), |(number, unit)| {
+        format!(" in SI units: write {number:?}, which is in {unit}")
+            .trim_end_matches(", which is in ")
+            .to_owned()
+    });
+    Err(PyTypeError::new_err(format!(
+        "{text:?}: must be a number{write}"
+    )))
 }
 
 fn refuse_truths(value: &Bound<'_, PyAny>) -> PyResult<()> {

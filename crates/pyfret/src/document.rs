@@ -101,8 +101,28 @@ fn to_python<'py>(value: &Value, py: Python<'py>) -> PyResult<Bound<'py, PyAny>>
 }
 
 /// A quantity of pint as a text with its unit, `380.0 GPa`.
-pub(crate) fn quantity(of: &Bound<'_, PyAny>) -> PyResult<String> {
+fn quantity(of: &Bound<'_, PyAny>) -> PyResult<String> {
     let number: f64 = of.getattr("magnitude")?.extract()?;
     let unit = of.getattr("units")?.call_method1("__format__", ("~P",))?;
     Ok(format!("{number:?} {unit}"))
+}
+
+/// A text, or a quantity of pint as one; nothing of other values.
+pub(crate) fn text_of(value: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
+    if value.is_instance_of::<PyString>() {
+        return value.extract().map(Some);
+    }
+    if value.is_exact_instance_of::<PyFloat>() || value.is_exact_instance_of::<PyInt>() {
+        return Ok(None);
+    }
+    if value.hasattr("magnitude")? && value.hasattr("units")? {
+        return quantity(value).map(Some);
+    }
+    Ok(None)
+}
+
+/// Whether a value is a number with its unit: a text that has one, or a quantity of pint.
+pub(crate) fn has_unit(value: &Bound<'_, PyAny>) -> PyResult<bool> {
+    let text = text_of(value)?;
+    Ok(text.is_some_and(|text| text.contains(|c: char| c.is_ascii_digit())))
 }

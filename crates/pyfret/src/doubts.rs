@@ -4,6 +4,7 @@ use plausible::unit;
 use pyo3::prelude::*;
 
 use crate::arguments::number;
+use crate::quantity::si;
 
 /// The doubt of a number, if it is hardly meant, by its key and the name that it is shown by.
 #[pyfunction]
@@ -21,6 +22,18 @@ pub(crate) fn doubt(
 pub(crate) fn measured_by(key: &str) -> Option<(&'static str, &'static str)> {
     let kind = plausible::of_key(key)?.kind;
     Some((kind.name(), kind.unit()))
+}
+
+/// The number in SI of a text with a unit, or of a quantity of pint, by the key of the quantity.
+///
+/// A key that is unknown is refused with the number to write.
+#[pyfunction]
+#[pyo3(signature = (key, value: "Any") -> "float")]
+pub(crate) fn si_of(key: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
+    if plausible::of_key(key).is_none() {
+        return number(value);
+    }
+    si(key, value)
 }
 
 /// The names of the units that measure one of some kinds, such as ``"length, force"``.

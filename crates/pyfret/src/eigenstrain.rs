@@ -13,6 +13,7 @@ use crate::arguments::{Array, Field, must_fit, number};
 use crate::error::to_python;
 use crate::interruptible::interruptible;
 use crate::parts::made;
+use crate::quantity::Given;
 use crate::scene::{Body, Grid};
 
 /// Stress on the planes, and displacement of the surface.
@@ -89,7 +90,7 @@ impl EigenstrainOperator {
         py: Python<'_>,
         body: Body,
         grid: Grid,
-        #[pyo3(from_py_with = number)] depth: f64,
+        #[pyo3(from_py_with = Given::depth)] depth: f64,
         #[pyo3(from_py_with = number)] height: f64,
     ) -> PyResult<Self> {
         let of = &grid.0;

@@ -17,6 +17,7 @@ use pyo3::types::{PyCFunction, PyDict, PyString, PyTuple};
 use crate::arguments::{Array, List, number};
 use crate::error::{of_criterion as refused, to_python};
 use crate::interruptible::interruptible;
+use crate::quantity::Given;
 
 /// A number of what a criterion finds at a point.
 type Number = fn(&core::AtPoint) -> f64;
@@ -506,7 +507,7 @@ pub(crate) fn criterion_on<'py>(
 pub(crate) fn yielding_on<'py>(
     py: Python<'py>,
     stress: Array<'py, Ix3>,
-    #[pyo3(from_py_with = number)] s_y: f64,
+    #[pyo3(from_py_with = Given::s_y)] s_y: f64,
     #[pyo3(from_py_with = number)] constant: [f64; 6],
 ) -> PyResult<Bound<'py, PyDict>> {
     let (view, stop) = (stress.as_array(), Arc::default());

@@ -12,6 +12,7 @@ use pyo3::types::PyDict;
 use crate::argument::to_python;
 use crate::arguments::{Array, List, Mask, number};
 use crate::interruptible::interruptible;
+use crate::quantity::Given;
 use crate::scene::{Body, Grid};
 
 /// Conductivity and heat capacity of each layer.
@@ -40,7 +41,7 @@ pub(crate) fn cycle_temperature<'py>(
     body2: Body,
     grid: Grid,
     #[pyo3(from_py_with = number)] bulk: (f64, f64),
-    #[pyo3(from_py_with = number)] frequency: f64,
+    #[pyo3(from_py_with = Given::frequency)] frequency: f64,
     ends: List<f64>,
     heat: Array<'py, Ix3>,
     contact: Mask<'py, Ix2>,

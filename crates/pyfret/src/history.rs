@@ -15,6 +15,7 @@ use pyo3::types::PyDict;
 use crate::argument::to_python;
 use crate::arguments::{Field, List, Mask, number, side};
 use crate::interruptible::interruptible;
+use crate::quantity::{Given, Optional};
 use crate::residual_stress::Profiles;
 use crate::scene::{Body, Grid, LoadPath};
 use crate::stress::measures;
@@ -46,7 +47,7 @@ impl Envelope {
         of: List<String>,
         #[pyo3(from_py_with = number)] x: Option<f64>,
         #[pyo3(from_py_with = number)] y: Option<f64>,
-        #[pyo3(from_py_with = number)] azimuth: Option<f64>,
+        #[pyo3(from_py_with = Optional::azimuth)] azimuth: Option<f64>,
         #[pyo3(from_py_with = number)] body_number: u8,
         residual: Profiles,
     ) -> PyResult<Self> {
@@ -114,7 +115,7 @@ impl Envelope {
         q_x: Field<'_>,
         q_y: Field<'_>,
         stick: Mask<'_, Ix2>,
-        #[pyo3(from_py_with = number)] sigma_B: f64,
+        #[pyo3(from_py_with = Given::sigma_B)] sigma_B: f64,
         eigenstress: Option<Py<Eigenstress>>,
     ) -> PyResult<()> {
         let tractions = [q_x, q_y, p].map(|f| f.as_array().as_standard_layout().into_owned());

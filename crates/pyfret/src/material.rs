@@ -167,7 +167,7 @@ impl Bond {
     #[pyo3(signature = (material, *, thickness: "float"))]
     fn of_layer(
         material: Elastic,
-        #[pyo3(from_py_with = number)] thickness: f64,
+        #[pyo3(from_py_with = Given::thickness)] thickness: f64,
     ) -> PyResult<Self> {
         let bond = core::Bond::of_layer(material.0, thickness);
         bond.check("bond").map_err(to_python)?;

@@ -7,7 +7,7 @@ use numpy::PyReadonlyArray2;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::arguments::number;
+use crate::quantity::Given;
 use crate::scene::Grid;
 use crate::subsurface::{LineName, name_of};
 
@@ -91,13 +91,13 @@ impl Outline {
 
     /// Where a line through the centre leaves the contact, backwards and forwards [m].
     #[pyo3(signature = (azimuth: "float" = 0.0))]
-    fn border(&self, #[pyo3(from_py_with = number)] azimuth: f64) -> (f64, f64) {
+    fn border(&self, #[pyo3(from_py_with = Given::azimuth)] azimuth: f64) -> (f64, f64) {
         self.0.border(azimuth)
     }
 
     /// Half of the width of the contact in a direction [m].
     #[pyo3(signature = (azimuth: "float" = 0.0))]
-    fn half_width(&self, #[pyo3(from_py_with = number)] azimuth: f64) -> f64 {
+    fn half_width(&self, #[pyo3(from_py_with = Given::azimuth)] azimuth: f64) -> f64 {
         self.0.half_width(azimuth)
     }
 

@@ -3,18 +3,14 @@
 use contact_core::scene::quantity as in_si;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyString};
+use pyo3::types::PyDict;
 
 use crate::arguments::number;
-use crate::document::quantity;
+use crate::document::text_of;
 
 /// The number in SI of a quantity that has this name in a scene file.
 pub(crate) fn si(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
-    let text = if value.is_instance_of::<PyString>() {
-        value.extract()?
-    } else if value.hasattr("magnitude")? && value.hasattr("units")? {
-        quantity(value)?
-    } else {
+    let Some(text) = text_of(value)? else {
         return number(value);
     };
     in_si(name, &text)
@@ -51,6 +47,7 @@ taken! {
     E thickness R R_x R_y length crown radius edge amplitude wavelength angle phase slope
     W T_x T_y M_x M_y M_z delta_x delta_y phi_z sigma_B sigma_B1 rolled stiffness
     s_y hardening voce_Q kinematic
+    azimuth depth extent longest rms shortest frequency delta_z phi_x phi_y t rig_stiffness
 }
 
 /// Refuses an argument that is unknown, with the nearest one.

@@ -17,6 +17,7 @@ use pyo3::prelude::*;
 use crate::argument::to_python;
 use crate::arguments::{Field, List, Mask, number, side};
 use crate::interruptible::interruptible;
+use crate::quantity::{Given, Optional};
 use crate::residual_stress::{Profiles, of_body};
 use crate::scene::{Body, Grid};
 use crate::states::States;
@@ -57,7 +58,7 @@ pub(crate) fn name_of(line: Line) -> LineName {
 pub(crate) fn line_through(
     #[pyo3(from_py_with = number)] x: f64,
     #[pyo3(from_py_with = number)] y: f64,
-    #[pyo3(from_py_with = number)] azimuth: f64,
+    #[pyo3(from_py_with = Given::azimuth)] azimuth: f64,
 ) -> LineName {
     name_of(Line::through((x, y), azimuth))
 }
@@ -69,7 +70,7 @@ pub(crate) fn line_places(
     grid: Grid,
     #[pyo3(from_py_with = number)] x: Option<f64>,
     #[pyo3(from_py_with = number)] y: Option<f64>,
-    #[pyo3(from_py_with = number)] azimuth: Option<f64>,
+    #[pyo3(from_py_with = Optional::azimuth)] azimuth: Option<f64>,
 ) -> PyResult<Places> {
     let line = line(x, y, azimuth)?;
     let places = line.places(&grid.0);
@@ -117,7 +118,7 @@ pub(crate) fn section_of_states<'py>(
     residual: Profiles,
     #[pyo3(from_py_with = number)] x: Option<f64>,
     #[pyo3(from_py_with = number)] y: Option<f64>,
-    #[pyo3(from_py_with = number)] azimuth: Option<f64>,
+    #[pyo3(from_py_with = Optional::azimuth)] azimuth: Option<f64>,
     #[pyo3(from_py_with = number)] body_number: u8,
 ) -> PyResult<Bound<'py, PyArray4<f64>>> {
     let (grid, moments) = states.parts();
@@ -234,7 +235,7 @@ impl Subsurface {
         q_x: Option<Field<'_>>,
         q_y: Option<Field<'_>>,
         #[pyo3(from_py_with = number)] body_number: u8,
-        #[pyo3(from_py_with = number)] sigma_B: f64,
+        #[pyo3(from_py_with = Given::sigma_B)] sigma_B: f64,
         residual: Profiles,
         eigenstress: Option<List<Option<Py<Eigenstress>>>>,
         rim: bool,
@@ -273,7 +274,7 @@ impl Subsurface {
         layer: List<usize>,
         #[pyo3(from_py_with = number)] x: Option<f64>,
         #[pyo3(from_py_with = number)] y: Option<f64>,
-        #[pyo3(from_py_with = number)] azimuth: Option<f64>,
+        #[pyo3(from_py_with = Optional::azimuth)] azimuth: Option<f64>,
         displacement: bool,
     ) -> PyResult<Bound<'py, PyArray3<f64>>> {
         let (depths, line) = (Self::depths(&z, &layer)?, line(x, y, azimuth)?);
@@ -359,7 +360,7 @@ impl Subsurface {
         layer: List<usize>,
         #[pyo3(from_py_with = number)] x: Option<f64>,
         #[pyo3(from_py_with = number)] y: Option<f64>,
-        #[pyo3(from_py_with = number)] azimuth: Option<f64>,
+        #[pyo3(from_py_with = Optional::azimuth)] azimuth: Option<f64>,
         #[pyo3(from_py_with = number)] only: Option<usize>,
         anywhere: bool,
         #[pyo3(from_py_with = number)] error_bar: Option<f64>,
@@ -431,7 +432,7 @@ impl Subsurface {
         &self,
         #[pyo3(from_py_with = number)] x: Option<f64>,
         #[pyo3(from_py_with = number)] y: Option<f64>,
-        #[pyo3(from_py_with = number)] azimuth: Option<f64>,
+        #[pyo3(from_py_with = Optional::azimuth)] azimuth: Option<f64>,
     ) -> PyResult<Vec<(f64, f64, &'static str, bool)>> {
         let along = match (x, y) {
             (None, None) => None,

@@ -68,6 +68,8 @@ MADE = {
     "Dataset": "an xarray.Dataset",
     "DataArray": "an xarray.DataArray",
 }
+#: Kinds of parameters that take no text but one with a unit.
+UNITS = ("number", "array", "number or several", "number or else")
 #: Parameters that are given by name, and that of further names.
 NAMED = (inspect.Parameter.POSITIONAL_OR_KEYWORD, inspect.Parameter.KEYWORD_ONLY)
 FURTHER = inspect.Parameter.VAR_KEYWORD
@@ -112,6 +114,17 @@ def guarded(call: Callable[..., Any], owner: str, but: tuple[str, ...]) -> Any:
                 known = [n for n in names if n in named and n != "self"]
                 refuse_unknown(owner.rpartition(".")[2], given, [*known, *more])
         doubted: dict[str, Any] = {}
+        values = (
+            tuple(
+                in_si(value, f"{owner}.{name}", name, kinds.get(name))
+                for name, value in zip(names, values, strict=False)
+            )
+            + values[len(names) :]
+        )
+        given = {
+            name: in_si(value, f"{owner}.{name}", name, kinds.get(name))
+            for name, value in given.items()
+        }
         for name, value in [*zip(names, values, strict=False), *given.items()]:
             if value is None and name in needed:
                 raise TypeError(f"{name} = None: must be given")
@@ -129,6 +142,25 @@ def guarded(call: Callable[..., Any], owner: str, but: tuple[str, ...]) -> Any:
         return found
 
     return checked
+
+
+def in_si(value: Any, key: str, name: str, of: str | None) -> Any:
+    """A text with a unit, or a quantity of pint, as the number in SI; other values as they are.
+
+    Raises
+    ------
+    ValueError
+        The unit measures something else than the parameter.
+    TypeError
+        What the parameter measures is not known; the message has the number to write.
+    """
+    text = isinstance(value, str) and of in UNITS and any(map(str.isdigit, value))
+    if not text and not (of and hasattr(value, "magnitude") and hasattr(value, "units")):
+        return value
+    try:
+        return _core.si_of(key, value)
+    except (TypeError, ValueError) as refused:
+        raise type(refused)(f"{name} = {refused}") from None
 
 
 @functools.cache

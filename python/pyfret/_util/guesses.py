@@ -85,7 +85,8 @@ def missing(self: Any, name: str) -> Any:
     if isinstance(variables, xr.Dataset) and name in variables.variables:
         return variables[name]
     public = [one for one in dir(self) if not one.startswith("_")]
-    raise no_attribute(of.__name__, name, public, {})
+    # Names that others have, and where what they mean is.
+    raise no_attribute(of.__name__, name, public, getattr(of, "_meant", {}))
 
 
 def offer_nearest() -> None:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
 from pyfret._util import files
+from pyfret._util.csv_table import write_csv
 from pyfret._util.door import numbers_only
 from pyfret._util.text import html
 
@@ -57,6 +58,8 @@ class Kept:
     """
 
     figure: ClassVar[str]
+    #: Axes of the table of :meth:`to_csv` (default: those of the first variable).
+    table_axes: ClassVar[tuple[str, ...] | None] = None
 
     def plot(self, *, ax: Axes | None = None, **options: Any) -> Any:
         """Draw it, by a figure of :mod:`pyfret.plot`; `options` are those of that figure."""
@@ -86,6 +89,14 @@ class Kept:
         if not {"wear", "kind"} & set(dataset.attrs):
             dataset = dataset.assign_attrs(kind=type(self).__name__)
         files.write(dataset, path, overwrite=overwrite)
+
+    @numbers_only
+    def to_csv(self: Shown, path: str | os.PathLike[str]) -> None:
+        """Write the numbers as a table (``.csv``): units in the head, a row for every point.
+
+        A file that is there is replaced.
+        """
+        write_csv(self.dataset, path, getattr(type(self), "table_axes", None))
 
     @numbers_only
     def report(self: Shown, path: str | os.PathLike[str]) -> None:

@@ -137,7 +137,10 @@ def check_size(of: Mapping[str, Any], where: Path, root: Path, word: str) -> Non
     """Refuse an array that says it is larger than its files can make it."""
     grid = of.get("chunk_grid") or {}
     inner = grid.get("configuration", {}) if isinstance(grid, dict) else {}
-    chunks = of.get("chunks") or (inner.get("chunk_shape") if isinstance(inner, dict) else None)
+    # A single number has no axis: its chunks are an empty list.
+    chunks = of.get("chunks")
+    if chunks is None and isinstance(inner, dict):
+        chunks = inner.get("chunk_shape")
     for sizes, what, least in ((of.get("shape"), "shape", 0), (chunks, "chunks", 1)):
         whole = isinstance(sizes, list) and all(type(n) is int and n >= least for n in sizes)
         if not whole:

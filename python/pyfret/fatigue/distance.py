@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from pyfret._util.kept import Kept
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
 from pyfret._util.numbers import length
@@ -25,7 +26,7 @@ def rough(margin: float) -> str:
     return f"{margin:.2g}" if np.isfinite(margin) else "or more"
 
 
-class OverDistance(Labelled):
+class OverDistance(Kept, Labelled):
     """Lives or safety factors over the distance that the stress is averaged over.
 
     :attr:`dataset` has ``life`` or ``safety_factor`` over ``L`` [m], and its range, ``low`` and
@@ -52,10 +53,17 @@ class OverDistance(Labelled):
             ("low", f"{meaning}, lowest", [row.low for row in rows]),
             ("high", f"{meaning}, highest", [row.high for row in rows]),
         ):
-            dataset[key] = ("L", values, {"units": "1", "long_name": says})
+            unit = "cycles" if name == "life" else "1"
+            dataset[key] = ("L", values, {"units": unit, "long_name": says})
         if critical is not None:
             dataset.attrs["L"] = critical
         return cls(dataset)
+
+    figure = "life_over_distance"
+
+    def summary(self) -> str:
+        """The table as text."""
+        return repr(self)
 
     @property
     def margin(self) -> xr.DataArray:

@@ -50,5 +50,6 @@ def described(
     amplitude = {"units": "Pa", "long_name": "amplitude of the normal stress there"}
     shown["normal_amplitude"] = ((most - least) / 2, amplitude)
     name, meaning = margin_name(assessments)
-    shown[name] = (found["margin"], {"units": "1", "long_name": meaning})
+    unit = "cycles" if name == "life" else "1"
+    shown[name] = (found["margin"], {"units": unit, "long_name": meaning})
     return shown

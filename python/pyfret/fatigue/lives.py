@@ -17,11 +17,14 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from pyfret._core import range_of_life, with_error, with_range
+from pyfret._util import files
 from pyfret._util.door import numbers_only
+from pyfret._util.kept import Kept
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
-from pyfret._util.numbers import place
+from pyfret._util.numbers import length, place
 from pyfret._util.text import html
+from pyfret.fatigue import stored
 from pyfret.fatigue.cycle_section import (
     body_of,
     depths_of,
@@ -39,6 +42,7 @@ from pyfret.scene.tables import table
 from pyfret.subsurface.tensor import Errors
 
 if TYPE_CHECKING:
+    import os
     from collections.abc import Callable
 
     from numpy.typing import ArrayLike, NDArray
@@ -55,7 +59,7 @@ __all__ = ["Life", "Materials", "Worst", "life", "lives"]
 #: Part of the largest traction by which the ends of a cycle may differ before that is told.
 UNSETTLED = 0.02
 #: Why a life that was pickled or saved has no stress.
-UNPICKLED = "a life that was unpickled has no stress: judge the result again"
+UNPICKLED = "a life that was saved or unpickled has no stress: judge the result again"
 #: What is told of a worst point there.
 RIM = (
     "the worst point is at the rim of the contact: a point value depends on the grid, use a "
@@ -112,7 +116,14 @@ def in_megapascals(value: float, error: float, units: str) -> str:
     return with_error(value, error) + ("" if units == "1" else f" {units}")
 
 
-class Life(Labelled):
+Worst._meant = {  # type: ignore[attr-defined]
+    "L": "it is a value at a point; life.L is the distance that the range is averaged over",
+    "life": "it is the margin",
+    "safety_factor": "it is the margin",
+}
+
+
+class Life(Kept, Labelled):
     """A criterion on a section below the contact, or on several.
 
     :attr:`dataset` has ``value``, ``missed`` (no plane has more than value + missed), the shear and
@@ -134,13 +145,62 @@ class Life(Labelled):
         self._materials = list(materials)
         self._ranges: dict[int, LifeRange] = {}
         self._sections = list(sections)
-        self._assessments = self._sections[0].assessments
+        self._assessments = self._sections[0].assessments if sections else []
         self._notes = list(notes)
         self._worst: dict[int, Worst] = {}
         # Their margins, lives beyond the tests by the curve.
         self._order: dict[int, float] = {}
         # Those of a pickled life, which has no sections to look in.
         self._parts: list[Life] = []
+
+    figure = "criterion_map"
+
+    @classmethod
+    def of_dataset(cls, dataset: xr.Dataset) -> Life:
+        """Give a life that was saved: what it found, without the stress."""
+        state = stored.unpacked(dataset.load(), Worst)
+        attrs = {name: of for name, of in dataset.attrs.items() if name != stored.KEY}
+        # A file may have no lists of one length.
+        attrs["interfaces"] = np.atleast_1d(attrs.get("interfaces", [])).tolist()
+        kept = dataset.copy()
+        kept.attrs = attrs
+        made = cls(kept, [], [], [])
+        made.__dict__.update(state)
+        return made
+
+    @numbers_only
+    def save(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
+        """Write it to a Zarr folder (``.zarr``) or a NetCDF file (``.nc``); `pyfret.open` opens it.
+
+        Fields, worst points and ranges are kept, the stress is not: other distances and scatters
+        need the run.
+
+        Parameters
+        ----------
+        path : path
+            Where to write; its ending says in which format.
+        overwrite : bool
+            Whether what pyfret saved there is replaced (default: the place must be free).
+
+        Raises
+        ------
+        FileExistsError
+            There is something at the place.
+        ValueError
+            The ending is another.
+        """
+        about = {stored.KEY: stored.packed(self.__getstate__()), "kind": "Life"}
+        dataset = self.dataset.load().drop_encoding()
+        files.write(dataset.assign_attrs(about), path, overwrite=overwrite)
+
+    def summary(self) -> str:
+        """Say what was judged and how it ends: the range, where, over which distance, notes."""
+        return repr(self)
+
+    @property
+    def L(self) -> float | None:
+        """Critical distance that the range is averaged over [m]; None for a value at a point."""
+        return self.range.L
 
     @property
     def margin(self) -> xr.DataArray:
@@ -351,10 +411,10 @@ class Life(Labelled):
         part = worst.error / worst.value if worst.value > 0.0 else 0.0
         rows = []
         lengths = self._distances(there) if L is None else np.atleast_1d(np.asarray(L, float))
-        for length in lengths.tolist():
-            means = [section.largest_mean(length, method, there) for section in self._sections]
+        for at in lengths.tolist():
+            means = [section.largest_mean(at, method, there) for section in self._sections]
             value = max((mean for mean in means if mean is not None), default=np.nan)
-            rows.append(of_mean(assessment, material, value, part * value, length))
+            rows.append(of_mean(assessment, material, value, part * value, at))
         name, meaning = margin_name(self._assessments)
         return OverDistance.of(lengths, rows, name, meaning, method, critical(material))
 
@@ -425,9 +485,11 @@ class Life(Labelled):
         plane = ""
         if w.inclination is not None and np.isfinite(w.inclination):
             plane = f", plane {w.inclination:.1f} degrees from the surface normal"
+        L = self.range.L
+        over = "value at a point" if L is None else f"mean over L = {length(L)}".replace("µ", "u")
         return (
-            f"Life({self.dataset.attrs['criterion']}, {name} {self.range!r} at {place(w)}{plane})"
-            + "".join(f"\n  {note}" for note in self.notes)
+            f"Life({self.dataset.attrs['criterion']}, {name} {self.range!r}, {over}, at "
+            f"{place(w)}{plane})" + "".join(f"\n  {note}" for note in self.notes)
         )
 
 

@@ -47,6 +47,7 @@ class WearResult(Kept, Labelled):
     ``corner``.
     """
 
+    table_axes = ("jump",)
     figure = "wear_profiles"
 
     def __getattr__(self, name: str) -> Any:

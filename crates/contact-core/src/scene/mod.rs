@@ -29,7 +29,7 @@ mod yields;
 
 pub use crate::material::{Bond, Coating, Elastic, dundurs_beta};
 pub use body::{Body, check_plastic};
-pub use case::{Fault, Section, quantity, read_with, text_of};
+pub use case::{Fault, Section, in_si, quantity, read_with, text_of};
 pub use files::{Reach, read as read_file};
 pub use friction::Dependence;
 pub use friction::{Friction, FrictionHistory, History};

@@ -21,6 +21,7 @@ pub(crate) use self::yielding::YieldBelow;
 use crate::argument::to_python;
 use crate::arguments::{List, number, side};
 use crate::fatigue::Material;
+use crate::quantity::Optional;
 use crate::residual_stress::{Profiles, of_body};
 use crate::scene::{Body, Grid};
 use crate::subsurface::{LineName, Subsurface, line, name_of};
@@ -65,7 +66,7 @@ impl CycleSection {
         #[pyo3(from_py_with = number)] count: usize,
         #[pyo3(from_py_with = number)] x: Option<f64>,
         #[pyo3(from_py_with = number)] y: Option<f64>,
-        #[pyo3(from_py_with = number)] azimuth: Option<f64>,
+        #[pyo3(from_py_with = Optional::azimuth)] azimuth: Option<f64>,
         #[pyo3(from_py_with = number)] body_number: u8,
         residual: Profiles,
         #[pyo3(from_py_with = number)] yielding: Option<(f64, f64)>,

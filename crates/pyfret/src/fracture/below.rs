@@ -14,6 +14,7 @@ use super::told::{named, set_path};
 use crate::arguments::{List, number, side};
 use crate::error::to_python;
 use crate::interruptible::interruptible;
+use crate::quantity::Given;
 use crate::residual_stress::{Profiles, of_body};
 use crate::scene::Body;
 use crate::states::States;
@@ -66,9 +67,9 @@ pub(crate) fn crack_of_states<'py>(
     residual: Profiles,
     #[pyo3(from_py_with = number)] x: f64,
     lengths: List<f64>,
-    #[pyo3(from_py_with = number)] angle: f64,
+    #[pyo3(from_py_with = Given::angle)] angle: f64,
     #[pyo3(from_py_with = number)] kink: Option<(f64, f64)>,
-    #[pyo3(from_py_with = number)] azimuth: f64,
+    #[pyo3(from_py_with = Given::azimuth)] azimuth: f64,
     #[pyo3(from_py_with = number)] friction: f64,
     #[pyo3(from_py_with = number)] body_number: u8,
 ) -> PyResult<Bound<'py, PyDict>> {
@@ -103,8 +104,8 @@ pub(crate) fn crack_growth_of_states<'py>(
     #[pyo3(from_py_with = number)] end: f64,
     direction: &str,
     #[pyo3(from_py_with = number)] tolerance: f64,
-    #[pyo3(from_py_with = number)] angle: f64,
-    #[pyo3(from_py_with = number)] azimuth: f64,
+    #[pyo3(from_py_with = Given::angle)] angle: f64,
+    #[pyo3(from_py_with = Given::azimuth)] azimuth: f64,
     #[pyo3(from_py_with = number)] friction: f64,
     #[pyo3(from_py_with = number)] body_number: u8,
 ) -> PyResult<Bound<'py, PyDict>> {

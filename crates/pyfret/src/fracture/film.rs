@@ -6,6 +6,7 @@ use pyo3::prelude::*;
 use super::told::refused;
 use crate::arguments::number;
 use crate::material::Elastic;
+use crate::quantity::Given;
 
 /// Factor from the plane K to the deepest point of a semi-elliptic crack of the aspect a/c <= 1.
 ///
@@ -37,7 +38,7 @@ pub(crate) fn partial_crack(
     py: Python<'_>,
     film_: Elastic,
     below: Elastic,
-    #[pyo3(from_py_with = number)] depth: f64,
+    #[pyo3(from_py_with = Given::depth)] depth: f64,
 ) -> PyResult<f64> {
     let film = film(film_, below)?;
     py.detach(|| film.partial(depth)).map_err(refused)

@@ -10,6 +10,7 @@ use crate::argument::to_python;
 use crate::arguments::number;
 use crate::material::Material;
 use crate::parts::made;
+use crate::quantity::Given;
 
 /// Frictionless contact of two paraboloids of revolution.
 ///
@@ -42,7 +43,7 @@ impl Hertz {
         #[pyo3(from_py_with = number)] E_star: f64,
         #[pyo3(from_py_with = number)] a: f64,
         #[pyo3(from_py_with = number)] p0: f64,
-        #[pyo3(from_py_with = number)] delta_z: f64,
+        #[pyo3(from_py_with = Given::delta_z)] delta_z: f64,
     ) -> PyResult<Self> {
         let all = [
             ("W", W),
@@ -87,7 +88,7 @@ impl Hertz {
         self.0.p0
     }
 
-    /// The same, by the name that it has in results [Pa].
+    /// Peak pressure [Pa], by the name that it has in results.
     #[getter]
     fn p_H(&self) -> f64 {
         self.0.p0
@@ -110,7 +111,7 @@ impl Hertz {
 #[pyfunction]
 #[pyo3(signature = (*, R: "float", bodies, W: "float"))]
 pub(crate) fn hertz(
-    #[pyo3(from_py_with = number)] R: f64,
+    #[pyo3(from_py_with = Given::R)] R: f64,
     bodies: (Material, Material),
     #[pyo3(from_py_with = number)] W: f64,
 ) -> PyResult<Hertz> {
@@ -165,7 +166,7 @@ impl HertzEllipse {
         self.ellipse.p0
     }
 
-    /// The same, by the name that it has in results [Pa].
+    /// Peak pressure [Pa], by the name that it has in results.
     #[getter]
     fn p_H(&self) -> f64 {
         self.ellipse.p0
@@ -184,8 +185,8 @@ impl HertzEllipse {
 #[pyfunction]
 #[pyo3(signature = (*, R_x: "float", R_y: "float", E_star: "float", W: "float"))]
 pub(crate) fn hertz_ellipse(
-    #[pyo3(from_py_with = number)] R_x: f64,
-    #[pyo3(from_py_with = number)] R_y: f64,
+    #[pyo3(from_py_with = Given::R_x)] R_x: f64,
+    #[pyo3(from_py_with = Given::R_y)] R_y: f64,
     #[pyo3(from_py_with = number)] E_star: f64,
     #[pyo3(from_py_with = number)] W: f64,
 ) -> PyResult<HertzEllipse> {

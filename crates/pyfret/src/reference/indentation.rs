@@ -10,6 +10,7 @@ use crate::argument::to_python;
 use crate::arguments::number;
 use crate::material::{Coating, Elastic, Material};
 use crate::parts::made;
+use crate::quantity::Given;
 
 /// Dundurs' parameter beta of the pair: the coupling of normal and tangential directions.
 ///
@@ -144,7 +145,7 @@ impl CoatedIndentation {
 #[pyfunction]
 #[pyo3(signature = (*, R: "float", indenter, coating, substrate, W: "float"))]
 pub(crate) fn coated_indentation(
-    #[pyo3(from_py_with = number)] R: f64,
+    #[pyo3(from_py_with = Given::R)] R: f64,
     indenter: Material,
     coating: Coating,
     substrate: Material,

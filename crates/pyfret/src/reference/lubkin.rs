@@ -11,6 +11,7 @@ use crate::argument::to_python;
 use crate::arguments::number;
 use crate::material::{Elastic, Material};
 use crate::parts::made;
+use crate::quantity::Given;
 
 /// Partial slip of a sphere under constant normal force and a torsional moment.
 ///
@@ -90,7 +91,7 @@ impl Lubkin {
 
     /// Stick radius under the moment `M_z` [N m] [m].
     #[pyo3(signature = (*, M_z: "float"))]
-    fn stick_radius(&self, #[pyo3(from_py_with = number)] M_z: f64) -> PyResult<f64> {
+    fn stick_radius(&self, #[pyo3(from_py_with = Given::M_z)] M_z: f64) -> PyResult<f64> {
         let limit = self.torsion.M_limit() * (1.0 + 1e-9);
         between("M_z", M_z, (0.0, limit)).map_err(to_python)?;
         Ok(self.torsion.stick_radius(M_z))

@@ -10,6 +10,7 @@ use crate::argument::to_python;
 use crate::arguments::number;
 use crate::material::{Elastic, Material};
 use crate::parts::made;
+use crate::quantity::Given;
 
 /// Farthest place over the half-width.
 const FAR: f64 = 1e30;
@@ -35,7 +36,7 @@ made!(LineContact by "line_contact": R, bodies, W);
 #[pyfunction]
 #[pyo3(signature = (*, R: "float", bodies, W: "float"))]
 pub(crate) fn line_contact(
-    #[pyo3(from_py_with = number)] R: f64,
+    #[pyo3(from_py_with = Given::R)] R: f64,
     bodies: (Material, Material),
     #[pyo3(from_py_with = number)] W: f64,
 ) -> PyResult<LineContact> {
@@ -70,7 +71,7 @@ impl LineContact {
         self.line.p0
     }
 
-    /// The same, by the name that it has in results [Pa].
+    /// Peak pressure [Pa], by the name that it has in results.
     #[getter]
     fn p_H(&self) -> f64 {
         self.line.p0

@@ -9,6 +9,7 @@ use crate::argument::to_python;
 use crate::arguments::{List, number};
 use crate::material::{Elastic, Material};
 use crate::parts::made;
+use crate::quantity::Given;
 
 /// Most springs, and most steps of a load.
 const MOST_SPRINGS: usize = 10_000;
@@ -62,7 +63,7 @@ impl Springs {
     #[pyo3(signature = (largest, *, R: "float", bodies, mu: "float", n: "int" = 1500, loads: "Sequence[tuple[float, float, int]]" = List::default()))]
     fn new(
         largest: Hertz,
-        #[pyo3(from_py_with = number)] R: f64,
+        #[pyo3(from_py_with = Given::R)] R: f64,
         bodies: (Material, Material),
         #[pyo3(from_py_with = number)] mu: f64,
         #[pyo3(from_py_with = number)] n: usize,

@@ -6,6 +6,7 @@ use pyo3::prelude::*;
 use super::increments::Count;
 use crate::arguments::number;
 use crate::parts::{members, parts};
+use crate::quantity::{Given, Optional};
 
 /// How the increments of a branch are spaced.
 ///
@@ -102,24 +103,24 @@ impl Branch {
         path_error: "float | None" = None,
     ))]
     fn new(
-        #[pyo3(from_py_with = number)] W: Option<f64>,
-        #[pyo3(from_py_with = number)] M_x: Option<f64>,
-        #[pyo3(from_py_with = number)] M_y: Option<f64>,
-        #[pyo3(from_py_with = number)] T_x: Option<f64>,
-        #[pyo3(from_py_with = number)] T_y: Option<f64>,
-        #[pyo3(from_py_with = number)] M_z: Option<f64>,
-        #[pyo3(from_py_with = number)] delta_z: Option<f64>,
-        #[pyo3(from_py_with = number)] phi_x: Option<f64>,
-        #[pyo3(from_py_with = number)] phi_y: Option<f64>,
-        #[pyo3(from_py_with = number)] delta_x: Option<f64>,
-        #[pyo3(from_py_with = number)] delta_y: Option<f64>,
-        #[pyo3(from_py_with = number)] phi_z: Option<f64>,
-        #[pyo3(from_py_with = number)] sigma_B: f64,
-        #[pyo3(from_py_with = number)] sigma_B1: f64,
-        #[pyo3(from_py_with = number)] rolled: f64,
+        #[pyo3(from_py_with = Optional::W)] W: Option<f64>,
+        #[pyo3(from_py_with = Optional::M_x)] M_x: Option<f64>,
+        #[pyo3(from_py_with = Optional::M_y)] M_y: Option<f64>,
+        #[pyo3(from_py_with = Optional::T_x)] T_x: Option<f64>,
+        #[pyo3(from_py_with = Optional::T_y)] T_y: Option<f64>,
+        #[pyo3(from_py_with = Optional::M_z)] M_z: Option<f64>,
+        #[pyo3(from_py_with = Optional::delta_z)] delta_z: Option<f64>,
+        #[pyo3(from_py_with = Optional::phi_x)] phi_x: Option<f64>,
+        #[pyo3(from_py_with = Optional::phi_y)] phi_y: Option<f64>,
+        #[pyo3(from_py_with = Optional::delta_x)] delta_x: Option<f64>,
+        #[pyo3(from_py_with = Optional::delta_y)] delta_y: Option<f64>,
+        #[pyo3(from_py_with = Optional::phi_z)] phi_z: Option<f64>,
+        #[pyo3(from_py_with = Given::sigma_B)] sigma_B: f64,
+        #[pyo3(from_py_with = Given::sigma_B1)] sigma_B1: f64,
+        #[pyo3(from_py_with = Given::rolled)] rolled: f64,
         increments: Option<Count>,
         spacing: Spacing,
-        #[pyo3(from_py_with = number)] t: f64,
+        #[pyo3(from_py_with = Given::t)] t: f64,
         #[pyo3(from_py_with = number)] path_error: Option<f64>,
     ) -> Self {
         let mut to = core::Loads {

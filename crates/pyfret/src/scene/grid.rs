@@ -6,9 +6,11 @@ use pyo3::inspect::PyStaticExpr;
 use pyo3::prelude::*;
 
 use crate::arguments::number;
+use crate::document::has_unit;
 use crate::error::{must_be, takes, to_python};
 use crate::hints::Numbers;
 use crate::parts::parts;
+use crate::quantity::Given;
 
 /// Distance of points or cells along x and y, or the same along both.
 pub(crate) struct Pitch(pub(crate) (f64, f64));
@@ -20,6 +22,10 @@ impl<'py> FromPyObject<'_, 'py> for Pitch {
 
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         if let Ok(both) = number(&value) {
+            return Ok(Self((both, both)));
+        }
+        if has_unit(&value)? {
+            let both = Given::extent(&value)?;
             return Ok(Self((both, both)));
         }
         let wanted = "a length in m, or one along x and one along y, such as (2e-6, 2e-6)";
@@ -128,7 +134,7 @@ impl Grid {
     #[staticmethod]
     #[pyo3(signature = (*, extent: "float", n, width: "float" = 1.0))]
     fn strip(
-        #[pyo3(from_py_with = number)] extent: f64,
+        #[pyo3(from_py_with = Given::extent)] extent: f64,
         n: Count,
         #[pyo3(from_py_with = number)] width: f64,
     ) -> PyResult<Self> {

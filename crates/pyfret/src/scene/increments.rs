@@ -6,8 +6,10 @@ use pyo3::prelude::*;
 use pyo3::{PyTypeInfo, type_hint_union};
 
 use crate::arguments::{List, number};
+use crate::document::has_unit;
 use crate::error::must_be;
 use crate::parts::parts;
+use crate::quantity::si;
 
 /// One value or several to visit in turn.
 pub(super) enum Values {
@@ -39,6 +41,34 @@ impl Values {
             Self::Several(values) => values,
         }
     }
+}
+
+/// Takes values to visit by the name of the load or the shift: numbers, or texts with units.
+pub(super) struct Visited;
+
+macro_rules! visited {
+    ($($name:ident)*; $($optional:ident)*) => {
+        impl Visited {
+            $(pub(super) fn $name(value: &Bound<'_, PyAny>) -> PyResult<Values> {
+                visit(stringify!($name), value)
+            })*
+            $(pub(super) fn $optional(value: &Bound<'_, PyAny>) -> PyResult<Option<Values>> {
+                if value.is_none() {
+                    return Ok(None);
+                }
+                visit(stringify!($optional), value).map(Some)
+            })*
+        }
+    };
+}
+
+visited!(W T_x M_z; delta_x delta_y delta_z phi_x phi_y phi_z);
+
+fn visit(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Values> {
+    if has_unit(value)? {
+        return si(name, value).map(Values::One);
+    }
+    value.extract()
 }
 
 /// One name or several.

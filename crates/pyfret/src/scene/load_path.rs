@@ -7,11 +7,11 @@ use contact_core::Error;
 use contact_core::scene::{self as core, Prescribed, RigidMotion};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyString};
+use pyo3::types::PyDict;
 
 use super::branch::{Branch, Spacing};
 use super::branches::{branch, column, cycled, moved, prescribe};
-use super::increments::{AnyIncrements, Count, Names, Values};
+use super::increments::{AnyIncrements, Count, Names, Values, Visited};
 use crate::arguments::{List, number};
 use crate::error::{takes, to_python};
 use crate::hints::Numbers;
@@ -54,7 +54,7 @@ impl LoadPath {
     #[pyo3(signature = (branches = List(Vec::new()), *, rig_stiffness: "float | None" = None))]
     fn new(
         branches: List<Branch>,
-        #[pyo3(from_py_with = number)] rig_stiffness: Option<f64>,
+        #[pyo3(from_py_with = Optional::rig_stiffness)] rig_stiffness: Option<f64>,
     ) -> Self {
         let branches = branches.0.into_iter().map(|branch| branch.0).collect();
         Self(core::LoadPath {
@@ -91,10 +91,10 @@ impl LoadPath {
     /// Go to the normal force `W` [N], the tangential forces kept, in one unit of path time.
     ///
     /// Of several forces each is a branch of its own, with as many increments.
-    #[pyo3(signature = (W: "float | Sequence[float]", *, increments = Count(None)))]
+    #[pyo3(signature = (W: "float | str | Sequence[float]", *, increments = Count(None)))]
     fn normal(
         &self,
-        #[pyo3(from_py_with = forces)] W: Values,
+        #[pyo3(from_py_with = Visited::W)] W: Values,
         increments: Count,
     ) -> PyResult<Self> {
         let several = W.slice().iter();
@@ -105,20 +105,32 @@ impl LoadPath {
     ///
     /// The increments are shared out in proportion to the change of force. Path time runs as in
     /// the first branch: one unit for as many increments as that one has.
-    #[pyo3(signature = (T_x, *, increments = Count(None)))]
-    fn tangential(&self, T_x: Values, increments: Count) -> PyResult<Self> {
+    #[pyo3(signature = (T_x: "float | str | Sequence[float]", *, increments = Count(None)))]
+    fn tangential(
+        &self,
+        #[pyo3(from_py_with = Visited::T_x)] T_x: Values,
+        increments: Count,
+    ) -> PyResult<Self> {
         checked(self.0.clone().tangential(T_x.slice(), increments.0))
     }
 
     /// Visit the torsional moments `M_z` [N m] in turn, as `tangential` does the forces.
-    #[pyo3(signature = (M_z, *, increments = Count(None)))]
-    fn torsion(&self, M_z: Values, increments: Count) -> PyResult<Self> {
+    #[pyo3(signature = (M_z: "float | str | Sequence[float]", *, increments = Count(None)))]
+    fn torsion(
+        &self,
+        #[pyo3(from_py_with = Visited::M_z)] M_z: Values,
+        increments: Count,
+    ) -> PyResult<Self> {
         checked(self.0.clone().torsion(M_z.slice(), increments.0))
     }
 
     /// Visit the normal forces `W` [N] in turn, as `tangential` does: fretting mode II.
-    #[pyo3(signature = (W, *, increments = Count(None)))]
-    fn radial(&self, W: Values, increments: Count) -> PyResult<Self> {
+    #[pyo3(signature = (W: "float | str | Sequence[float]", *, increments = Count(None)))]
+    fn radial(
+        &self,
+        #[pyo3(from_py_with = Visited::W)] W: Values,
+        increments: Count,
+    ) -> PyResult<Self> {
         checked(self.0.clone().radial(W.slice(), increments.0))
     }
 
@@ -130,8 +142,8 @@ impl LoadPath {
     #[pyo3(signature = (*, T_x: "float", T_y: "float", turns: "int" = 1, increments = Count(None)))]
     fn ellipse(
         &self,
-        #[pyo3(from_py_with = number)] T_x: f64,
-        #[pyo3(from_py_with = number)] T_y: f64,
+        #[pyo3(from_py_with = Given::T_x)] T_x: f64,
+        #[pyo3(from_py_with = Given::T_y)] T_y: f64,
         #[pyo3(from_py_with = number)] turns: usize,
         increments: Count,
     ) -> PyResult<Self> {
@@ -249,7 +261,7 @@ impl LoadPath {
         #[pyo3(from_py_with = Optional::rolled)] rolled: Option<f64>,
         increments: Count,
         spacing: Spacing,
-        #[pyo3(from_py_with = number)] t: Option<f64>,
+        #[pyo3(from_py_with = Optional::t)] t: Option<f64>,
     ) -> PyResult<Self> {
         let loads = [W, M_x, M_y, T_x, T_y, M_z].map(|load| load.map(Prescribed::Load));
         let change = |to: &mut core::Loads| {
@@ -286,19 +298,19 @@ impl LoadPath {
     /// >>> pressed = LoadPath.start().normal(10.0)
     /// >>> pressed.displace(delta_x=[2e-6, -2e-6, 2e-6])
     /// LoadPath(4 branches, increments to be chosen)
-    #[pyo3(signature = (*, delta_z = None, delta_x = None, delta_y = None, phi_x = None, phi_y = None, phi_z = None, increments = Count(None), spacing = Spacing::Uniform, t: "float | None" = None))]
+    #[pyo3(signature = (*, delta_z: "float | str | Sequence[float] | None" = None, delta_x: "float | str | Sequence[float] | None" = None, delta_y: "float | str | Sequence[float] | None" = None, phi_x: "float | str | Sequence[float] | None" = None, phi_y: "float | str | Sequence[float] | None" = None, phi_z: "float | str | Sequence[float] | None" = None, increments = Count(None), spacing = Spacing::Uniform, t: "float | None" = None))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn displace(
         &self,
-        delta_z: Option<Values>,
-        delta_x: Option<Values>,
-        delta_y: Option<Values>,
-        phi_x: Option<Values>,
-        phi_y: Option<Values>,
-        phi_z: Option<Values>,
+        #[pyo3(from_py_with = Visited::delta_z)] delta_z: Option<Values>,
+        #[pyo3(from_py_with = Visited::delta_x)] delta_x: Option<Values>,
+        #[pyo3(from_py_with = Visited::delta_y)] delta_y: Option<Values>,
+        #[pyo3(from_py_with = Visited::phi_x)] phi_x: Option<Values>,
+        #[pyo3(from_py_with = Visited::phi_y)] phi_y: Option<Values>,
+        #[pyo3(from_py_with = Visited::phi_z)] phi_z: Option<Values>,
         increments: Count,
         spacing: Spacing,
-        #[pyo3(from_py_with = number)] t: Option<f64>,
+        #[pyo3(from_py_with = Optional::t)] t: Option<f64>,
     ) -> PyResult<Self> {
         let motions = [delta_z, phi_x, phi_y, delta_x, delta_y, phi_z];
         moved(&self.0, motions, increments.0, spacing, t).and_then(checked)
@@ -461,12 +473,4 @@ impl LoadPath {
         };
         format!("LoadPath({} branches, {increments})", branches.len())
     }
-}
-
-/// Normal forces \[N\]: one, which may be a text with its unit, or several.
-fn forces(value: &Bound<'_, PyAny>) -> PyResult<Values> {
-    if value.len().is_ok() && !value.is_instance_of::<PyString>() {
-        return value.extract();
-    }
-    Given::W(value).map(Values::One)
 }

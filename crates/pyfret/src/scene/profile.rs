@@ -8,6 +8,7 @@ use crate::arguments::{List, number};
 use crate::error::to_python;
 use crate::material::Coating;
 use crate::parts::{Remade, remade_by_method};
+use crate::quantity::Given;
 
 /// How a property changes from the surface of a graded coating to its bottom, s = z/h.
 #[pyclass(frozen, eq, from_py_object, module = "pyfret")]
@@ -146,7 +147,7 @@ impl Profile {
 pub(crate) fn graded(
     E: Profile,
     nu: Profile,
-    #[pyo3(from_py_with = number)] thickness: f64,
+    #[pyo3(from_py_with = Given::thickness)] thickness: f64,
     #[pyo3(from_py_with = number)] layers: usize,
 ) -> PyResult<Vec<Coating>> {
     let coating = core::Graded {

@@ -13,7 +13,7 @@ const MOST: usize = 50;
 
 /// What stands for a key that is missing or refused, by its name: nothing beside it becomes wrong. A
 /// key without one is taken out.
-const STAND_INS: [(&str, &str); 18] = [
+const STAND_INS: [(&str, &str); 20] = [
     ("schema", "1"),
     ("title", "\"\""),
     (
@@ -35,7 +35,12 @@ const STAND_INS: [(&str, &str); 18] = [
     ("W", "10"),
     ("R", "0.01"),
     ("cycles", "1000"),
+    ("k", "1e-14"),
+    ("alpha", "1e-14"),
 ];
+
+/// Names of sections, which stand at the root of a file.
+const SECTIONS: [&str; 5] = ["body1", "body2", "friction", "grid", "path"];
 
 /// Names of the path whose range depends on other values.
 const DEPEND: [&str; 3] = ["T_x", "T_y", "M_z"];
@@ -105,24 +110,28 @@ fn mend(root: &mut Table, fault: &Fault) -> bool {
         }
         return true;
     }
-    if let Some(value) = stand_in(name) {
+    if let Some(value) = stand_in(&path) {
         return apply(root, &format!("{}={value}", path.join("."))).is_ok();
     }
     let Some(rest) = table_at(root, table) else {
         return false;
     };
     let found = rest.remove(*name).is_some();
-    let above = table.last().filter(|_| rest.is_empty());
+    let above = Some(table).filter(|_| rest.is_empty());
     // A table of which nothing is left is missing as a whole.
-    if let Some(value) = above.and_then(|name| stand_in(name)) {
+    if let Some(value) = above.and_then(stand_in) {
         return apply(root, &format!("{}={value}", table.join("."))).is_ok();
     }
     found
 }
 
-/// What stands for a key of this name.
-fn stand_in(name: &str) -> Option<&'static str> {
-    let found = STAND_INS.iter().find(|(of, _)| *of == name);
+/// What stands for a key, by its name.
+fn stand_in(path: &[&str]) -> Option<&'static str> {
+    let name = path.last()?;
+    if path.len() > 1 && SECTIONS.contains(name) {
+        return None;
+    }
+    let found = STAND_INS.iter().find(|(of, _)| of == name);
     found.map(|(_, value)| *value)
 }
 

@@ -145,6 +145,13 @@ pub fn quantity(name: &str, text: &str) -> Result<f64, String> {
     number(name, &value, &[]).map_err(|_| allowed(kind_of(name), &[]))
 }
 
+/// A text with a unit in SI, whatever it measures, and the unit that it then has.
+pub fn in_si(text: &str) -> Option<(f64, &'static str)> {
+    let (number, word) = split(text)?;
+    let (kind, size) = plausible::unit::named(word)?;
+    Some((number * size, kind.unit()))
+}
+
 /// The load of a contact: a force per length, `300 N/mm`, where and only where cells are without end
 /// along y and forces are those on a `width` \[m\].
 pub(super) fn load(
@@ -169,6 +176,7 @@ fn allowed(kind: Option<Kind>, measures: &[Measure]) -> String {
     let mut allowed = match kind {
         None if measures.is_empty() => return "a number".to_owned(),
         None => "a number in SI units".to_owned(),
+        Some(kind) if names(kind).is_empty() => format!("a number in {}", kind.unit()),
         Some(kind) => format!(
             "a number in {}, a text with its unit ({})",
             kind.unit(),

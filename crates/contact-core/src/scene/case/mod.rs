@@ -26,7 +26,7 @@ use std::path::Path;
 use toml::Table;
 
 pub use fault::Fault;
-pub use measure::quantity;
+pub use measure::{in_si, quantity};
 pub use section::Section;
 
 use document::Document;

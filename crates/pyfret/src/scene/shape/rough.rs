@@ -6,6 +6,7 @@ use pyo3::prelude::*;
 use crate::arguments::number;
 use crate::error::to_python;
 use crate::parts::parts;
+use crate::quantity::Given;
 
 /// A random self-affine surface; add it to a shape.
 ///
@@ -33,10 +34,10 @@ impl Rough {
     #[new]
     #[pyo3(signature = (*, rms: "float", hurst: "float", longest: "float", shortest: "float", seed: "int" = 0))]
     fn new(
-        #[pyo3(from_py_with = number)] rms: f64,
+        #[pyo3(from_py_with = Given::rms)] rms: f64,
         #[pyo3(from_py_with = number)] hurst: f64,
-        #[pyo3(from_py_with = number)] longest: f64,
-        #[pyo3(from_py_with = number)] shortest: f64,
+        #[pyo3(from_py_with = Given::longest)] longest: f64,
+        #[pyo3(from_py_with = Given::shortest)] shortest: f64,
         #[pyo3(from_py_with = number)] seed: u32,
     ) -> PyResult<Self> {
         let rough = core::Rough {

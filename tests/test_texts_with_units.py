@@ -1,0 +1,101 @@
+"""A quantity may be a text with its unit wherever a number is taken, by one rule."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import pyfret as fret
+from pyfret import _core
+
+pytestmark = [pytest.mark.solves, pytest.mark.filterwarnings("ignore")]
+
+STEEL = fret.Elastic(E=210e9, nu=0.3)
+#: Callables that compute for long, write, or take any keyword.
+LEFT_OUT = ("fit.", "study.", "wear.solve", "wear.resume", "solve", "march", "resume", "compare")
+
+
+@pytest.fixture
+def public(monkeypatch: pytest.MonkeyPatch) -> Any:
+    """All public callables with good arguments."""
+    monkeypatch.syspath_prepend(str(Path(__file__).with_name("hostile")))
+    return importlib.import_module("public")
+
+
+def test_every_number_takes_a_text_with_its_unit_or_says_what_to_write(
+    public: Any, record_property: Callable[[str, object], None]
+) -> None:
+    """All parameters that take one number, of all public callables."""
+    taken, refused, wrong = 0, 0, []
+    for name, call in public.public():
+        if name in public.LEFT_OUT or name.startswith(LEFT_OUT):
+            continue
+        found = public.good(name, call)
+        if found is None:
+            continue
+        for key, value in found[0].items():
+            if type(value) is not float or not accepted(public, call, found[0]):
+                continue
+            measured = _core.measured_by(f"{name}.{key}")
+            if measured and " at " in measured[1]:
+                # A growth law has no unit of one word.
+                continue
+            unit = measured[1] if measured and measured[1] else "um"
+            try:
+                public.invoked(call, found[0] | {key: f"{value!r} {unit}"})
+                taken += 1
+                if unit == "um" and (measured is None or not measured[1]):
+                    wrong.append(f"{name}({key}): a length is taken")
+            except Exception as error:
+                told = f"{error} {getattr(error, '__notes__', '')}"
+                refused += 1
+                if "write " not in told and "must be" not in told:
+                    wrong.append(f"{name}({key}): {type(error).__name__}: {told:.200}")
+                if "write " not in told and measured and measured[1]:
+                    wrong.append(f"{name}({key}): {type(error).__name__}: {told:.200}")
+    record_property("taken", taken)
+    record_property("refused", refused)
+    assert not wrong, "\n".join(wrong)
+    assert taken > 45
+    assert refused > 60
+
+
+def accepted(public: Any, call: Any, given: dict[str, Any]) -> bool:
+    """Whether the good arguments are good."""
+    try:
+        public.invoked(call, given)
+    except Exception:
+        return False
+    return True
+
+
+def test_a_text_is_the_number_of_its_unit() -> None:
+    path = fret.LoadPath.start().normal("10 N").rig("9 N/um")
+    assert path.rig_stiffness == fret.LoadPath([], rig_stiffness="9 N/um").rig_stiffness == 9e6
+    assert fret.wear.Archard(k="1e-5 mm^3/(N m)").k == pytest.approx(1e-14)
+    assert fret.wear.Wear(
+        cycles=10, body2=fret.wear.Archard(1e-14), rig_stiffness="9 N/um"
+    ).rig_stiffness == pytest.approx(9e6)
+    hertz = fret.reference.hertz(R="3 mm", bodies=(STEEL, STEEL), W=30.0)
+    assert hertz == fret.reference.hertz(R=3e-3, bodies=(STEEL, STEEL), W=30.0)
+    assert fret.Grid.centred(extent="1 mm", n=8) == fret.Grid.centred(extent=1e-3, n=8)
+    assert fret.fracture.Threshold(dK_th="2 MPa m^0.5").dK_th == pytest.approx(2e6)
+
+
+def test_another_dimension_is_refused_with_the_units_that_are_meant() -> None:
+    with pytest.raises(
+        ValueError, match=r'k = "3 um": must be a number in m\^2/N, a text with its'
+    ):
+        fret.wear.Archard(k="3 um")
+    with pytest.raises(ValueError, match='"1 N": must be a number in m, a text with its unit'):
+        fret.Grid.centred(extent="1 N", n=8)
+    with pytest.raises(
+        TypeError, match=r"must be a number in SI units: write 30\.0, which is in N"
+    ):
+        fret.reference.hertz(R=1e-3, bodies=(STEEL, STEEL), W="30 N")
+    with pytest.raises(TypeError, match=r'"0\.3": must be a number, not a text'):
+        fret.fatigue.Criterion.findley(k="0.3")
