@@ -266,29 +266,27 @@ k = 1e-14
 
 def test_the_table_of_wear_is_checked_with_the_rest() -> None:
     """Every mistake of all sections in one round, at its line; a doubt; and nothing where none."""
-    good = run("check", "-", text=GOOD + WORN)
+    good = run("-", text=GOOD + WORN)
     assert good.returncode == 0, good.stderr
     assert "wear          body 2 over 10000 cycles" in good.stdout
     wrong = (
         (GOOD + WORN)
         .replace("cycles = 1e4", 'cyclng = "march"\ncycles = 1e4')
-        .replace("k = 1e-14", 'k = "3 um"\nfactr = 2')
+        .replace("k = 1e-14", 'k = "3 um"\nthreshhold = 0.0')
         .replace("mu = 0.15", "mmu = 0.15")
     )
-    told = run("check", "-", text=wrong)
+    told = run("-", text=wrong)
     assert told.returncode != 0
     for key, nearest in [
         ("friction.mmu", "friction.mu"),
         ("wear.cyclng", "wear.cycling"),
-        ("wear.body2.factr", "wear.body2.factor"),
+        ("wear.body2.threshhold", "wear.body2.threshold"),
     ]:
         assert f"unknown key `{key}`: the nearest valid key is `{nearest}`" in told.stderr
     assert 'wear.body2.k = "3 um": must be a number in m^2/N' in told.stderr
     assert len(told.stderr.splitlines()) == 4, told.stderr
     doubtful = (GOOD + WORN).replace("k = 1e-14", "k = 1e-6")
-    doubted = run("check", "-", "--strict", text=doubtful)
+    doubted = run("-", "--strict", text=doubtful)
     assert doubted.returncode == 1
     assert "wear.body2.k = 1e-6" in doubted.stderr
-    assert (
-        "wear.body2.k" in json.loads(run("check", "-", "--json", text=doubtful).stdout)["doubts"][0]
-    )
+    assert "wear.body2.k" in json.loads(run("-", "--json", text=doubtful).stdout)["doubts"][0]

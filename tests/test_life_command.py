@@ -89,7 +89,7 @@ def test_lines_and_distance(store: Path, tmp_path: Path) -> None:
     run = life(store, *own)
     assert run.returncode == 0, run.stderr
     # One material is that of the substrate.
-    assert run.stdout.startswith("layer 1: safety factor")
+    assert run.stdout.startswith("the substrate: safety factor")
     assert run.stdout.rstrip().endswith("decides")
     both = ("--material", "mine,mine")
     run = life(store, *own, *both, "--distance", "3e-5", "--json")

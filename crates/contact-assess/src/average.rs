@@ -134,16 +134,20 @@ fn checked(site: &Site<'_>, distance: &Distance) -> Result<f64, Error> {
     }
     let borders = site.body.interfaces();
     if layer > borders.len() {
-        let allowed = format!("0 to {}, a layer from the surface down", borders.len());
+        let allowed = format!(
+            "0 to {}, a layer from the surface down; 0 is coating 1",
+            borders.len()
+        );
         return Err(Error::invalid("layer", layer, allowed));
     }
     let top = if layer == 0 { 0.0 } else { borders[layer - 1] };
     let reach = method.reach() * length;
     if let Some(bottom) = borders.get(layer).filter(|bottom| top + reach > **bottom) {
         let allowed = format!(
-            "a distance that reaches no deeper than the {:.3e} m of layer {layer}, since it belongs to one material; \
-             it reaches {reach:.3e} m (the substrate is layer {})",
+            "a distance that reaches no deeper than the {:.3e} m of {}, since it belongs to one material; it reaches \
+             {reach:.3e} m (`layer` counts from 0; the substrate is {})",
             bottom - top,
+            site.body.layer_name(layer),
             borders.len()
         );
         return Err(Error::invalid("L", format!("{length:.3e} m"), allowed));

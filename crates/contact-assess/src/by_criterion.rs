@@ -52,8 +52,8 @@ impl ByCriterion {
                 if (own - value).abs() > NOTABLE_DIFFERENCE * value.abs() {
                     let unit = if number == "E" { " GPa" } else { "" };
                     notes.push(format!(
-                        "layer {layer}: strains follow from the scene's {number} = {:.4}{unit}; that of `{}` is \
-                         {:.4}{unit}",
+                        "{}: strains follow from the scene's {number} = {:.4}{unit}; that of `{}` is {:.4}{unit}",
+                        body.layer_name(layer),
                         digits * value,
                         material.name,
                         digits * own

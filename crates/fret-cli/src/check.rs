@@ -213,13 +213,9 @@ fn yielding(scene: &Scene) -> Option<String> {
         }
     };
     let body = [&scene.body1, &scene.body2][found.body - 1];
-    let layer = if found.layer == body.coatings.len() {
-        "substrate".to_owned()
-    } else {
-        format!("coatings[{}]", found.layer)
-    };
+    let layer = body.layer_name(found.layer);
     Some(format!(
-        "begins at about W = {:.3} {} without friction, in body{}, {layer}, {} deep",
+        "begins at about W = {:.3} {} without friction, in body {}, {layer}, {} deep",
         found.W,
         scene.grid.unit_of("N"),
         found.body,

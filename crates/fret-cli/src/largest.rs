@@ -1,6 +1,6 @@
 //! The largest stress of a measure, as a line.
 
-use contact_core::scene::Scene;
+use contact_core::scene::{Body, Scene};
 use contact_subsurface::{Errors, Extreme, Probe, Zone};
 
 use crate::units::{mega, um};
@@ -18,8 +18,7 @@ pub(crate) enum Units {
 /// Prints the largest values of an increment and their places.
 pub(crate) struct Largest<'a> {
     pub(crate) scene: &'a Scene,
-    /// Coatings of the body.
-    pub(crate) layers: usize,
+    pub(crate) body: &'a Body,
     pub(crate) increment: usize,
     /// Error bar of the stress, over it.
     pub(crate) error: Option<f64>,
@@ -84,10 +83,10 @@ impl Largest<'_> {
             |h| format!("{:.5} p_H +- {}", value / h.p0, short(left / h.p0)),
         );
         let z = self.length(depth.z);
-        let layer = match (self.layers, depth.layer) {
-            (0, _) => String::new(),
-            (layers, n) if n == layers => ", in the substrate".into(),
-            (_, n) => format!(", in coating {}", n + 1),
+        let layer = if self.body.coatings.is_empty() {
+            String::new()
+        } else {
+            format!(", in {}", self.body.layer_name(depth.layer))
         };
         let on = on.map_or_else(String::new, |on| format!(", at the {on}"));
         let name = probe.name();

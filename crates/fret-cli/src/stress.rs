@@ -255,7 +255,7 @@ impl Task {
     fn largest(&self) -> Largest<'_> {
         Largest {
             scene: &self.scene,
-            layers: self.body().coatings.len(),
+            body: self.body(),
             increment: self.loads.increment,
             error: self.loads.error,
             json: self.json,
@@ -340,7 +340,7 @@ impl Task {
                         samples,
                         None,
                     )?;
-                    say_rising(probe, &found.still_rises);
+                    say_rising(probe, self.body(), &found.still_rises);
                     let axes: &[&str] = if grid.plane_strain {
                         &["x"]
                     } else {
@@ -432,12 +432,13 @@ fn is_image(options: &Options) -> bool {
 }
 
 /// Warns of layers whose stress still rises at the end of the longest section.
-fn say_rising(probe: &Probe, layers: &[usize]) {
+fn say_rising(probe: &Probe, body: &Body, layers: &[usize]) {
     for layer in layers {
         say(&format!(
-            "fret: warning: {} in layer {layer} still rises 8 lengths of the grid away from it: a larger value \
-             may lie beyond; use a longer grid",
-            probe.name()
+            "fret: warning: {} in {} still rises 8 lengths of the grid away from it: a larger value may lie \
+             beyond; use a longer grid",
+            probe.name(),
+            body.layer_name(*layer)
         ));
     }
 }

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Protocol
 
-__all__ = ["in_words", "length", "place"]
+__all__ = ["in_words", "layer_name", "length", "place"]
 
 #: Units of lengths, the largest first [m].
 LENGTHS = ((1.0, "m"), (1e-3, "mm"), (1e-6, "µm"), (1e-9, "nm"))
@@ -60,7 +60,24 @@ class Placed(Protocol):
         """Layer from the surface down."""
 
 
-def place(of: Placed) -> str:
-    """Where something lies, in ASCII: short lengths with their units, and the layer."""
+def place(of: Placed, coatings: int | None = None) -> str:
+    """Where something lies, in ASCII: short lengths with their units, and the layer.
+
+    The layer is called by its name if the number of coatings is known.
+    """
     axes = ", ".join(f"{axis} = {length(getattr(of, axis))}" for axis in "xyz")
-    return f"{axes}, layer {of.layer}".replace("µ", "u")
+    where = f"layer = {of.layer} (from 0)"
+    if coatings is not None:
+        where = f"in {layer_name(of.layer, coatings)}"
+    return f"{axes}, {where}".replace("µ", "u")
+
+
+def layer_name(layer: int, coatings: int) -> str:
+    """What a layer is called, by its index from the surface down: coatings count from one.
+
+    Examples
+    --------
+    >>> layer_name(0, 2), layer_name(2, 2)
+    ('coating 1', 'the substrate')
+    """
+    return f"coating {layer + 1}" if layer < coatings else "the substrate"

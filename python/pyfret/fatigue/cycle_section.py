@@ -9,6 +9,7 @@ import numpy as np
 from pyfret import _core
 from pyfret._util.arrays import plain
 from pyfret._util.lazy import xr
+from pyfret._util.numbers import layer_name
 from pyfret.fatigue.cycles import cycle_increments, moment_before
 from pyfret.fatigue.plastic_strain import yielding_of
 from pyfret.subsurface.fields import coordinates, interfaces
@@ -90,7 +91,8 @@ def depths_of(
     judged = [n for n, of in enumerate(each) if of is not None]
     if not set(judged) & set(depths[1]):
         tops = [0.0, *interfaces(body)]
-        begins = ", ".join(f"layer {n} begins at {tops[n]:.4g} m" for n in judged)
+        names = {n: layer_name(n, len(body.coatings)) for n in judged}
+        begins = ", ".join(f"{of} begins at {tops[n]:.4g} m" for n, of in names.items())
         raise ValueError(
             f"z: no depth lies in a layer that has a {one} ({begins}); a material alone is that "
             "of the substrate"

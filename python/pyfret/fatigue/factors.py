@@ -62,7 +62,7 @@ class Least(NamedTuple):
     y: float
     #: Depth [m].
     z: float
-    #: Layer from the surface down; their number for the substrate.
+    #: Index of the layer from the surface down, from 0; the number of coatings for the substrate.
     layer: int
     #: What may be wrong with the factor, estimated: the search along the section and in depth, the
     #: tractions on cells twice as large.

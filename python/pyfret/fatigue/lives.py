@@ -22,7 +22,7 @@ from pyfret._util.door import numbers_only
 from pyfret._util.kept import Kept
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
-from pyfret._util.numbers import length, place
+from pyfret._util.numbers import layer_name, length, place
 from pyfret._util.text import html
 from pyfret.fatigue import stored
 from pyfret.fatigue.cycle_section import (
@@ -79,11 +79,12 @@ class Worst(NamedTuple):
     y: float
     #: Depth [m].
     z: float
-    #: Layer from the surface down; their number for the substrate.
+    #: Index of the layer from the surface down, from 0: coating 1 is 0, and the substrate has the
+    #: number of coatings.
     layer: int
     #: What may be wrong with the value, by its sources.
     errors: Errors
-    #: The border that it lies on: of the "contact" or of the zone of "stick".
+    #: The border that it lies on: "rim" of the contact or "stick border"; None inside.
     at: str | None
     #: Normal of the critical plane, where the criterion has one.
     normal: tuple[float, float, float] | None
@@ -216,7 +217,7 @@ class Life(Kept, Labelled):
     @property
     def notes(self) -> list[str]:
         """What to know of the numbers: other elastic constants, a cycle that is not settled."""
-        at_rim = [RIM] if self.worst.at == "contact" and self.range.distance is None else []
+        at_rim = [RIM] if self.worst.at == "rim" and self.range.distance is None else []
         return [*self._notes, *self.range.notes, *at_rim]
 
     @numbers_only
@@ -334,7 +335,8 @@ class Life(Kept, Labelled):
         Parameters
         ----------
         layer : int
-            The layer, from the surface down; of a substrate the number of coatings.
+            Index of the layer from the surface down, from 0: coating 1 is 0; of a substrate the
+            number of coatings.
         scatter : float, optional
             Life that 90 % reach less than over that which 10 % reach less than (default: 3, or 5
             where numbers of the material are estimates); of a safety factor the same of strengths
@@ -427,7 +429,7 @@ class Life(Kept, Labelled):
         borders = [0.0, *self.dataset.attrs["interfaces"], np.inf]
         found = lengths[2.0 * lengths <= borders[layer + 1] - borders[layer]]
         if not found.size:
-            raise ValueError(f"L: layer {layer} is thinner than the distances: give some")
+            raise ValueError(f"L: layer {layer} (from 0) is thinner than the distances: give some")
         return np.asarray(found)
 
     @property
@@ -458,13 +460,15 @@ class Life(Kept, Labelled):
     def _repr_html_(self) -> str:
         """The worst point of every layer, for notebooks."""
         name, _ = margin_name(self._assessments)
-        rows = []
+        rows, coatings = [], len(self.dataset.attrs["interfaces"])
         for layer in self.layers:
             w = self.worst_of(layer)
             place = (f"{1e6 * at:.4g}" for at in (w.x, w.y, w.z))
             value = in_megapascals(w.value, w.error, w.units)
             point = with_range(w.margin, *w.range)
-            rows.append([str(layer), repr(self.range_of(layer)), point, value, *place])
+            rows.append(
+                [layer_name(layer, coatings), repr(self.range_of(layer)), point, value, *place]
+            )
         title = name.replace("_", " ")
         heading = [
             "layer",
@@ -485,11 +489,11 @@ class Life(Kept, Labelled):
         plane = ""
         if w.inclination is not None and np.isfinite(w.inclination):
             plane = f", plane {w.inclination:.1f} degrees from the surface normal"
-        L = self.range.L
+        coatings, L = len(self.dataset.attrs["interfaces"]), self.range.L
         over = "value at a point" if L is None else f"mean over L = {length(L)}".replace("µ", "u")
         return (
             f"Life({self.dataset.attrs['criterion']}, {name} {self.range!r}, {over}, at "
-            f"{place(w)}{plane})" + "".join(f"\n  {note}" for note in self.notes)
+            f"{place(w, coatings)}{plane})" + "".join(f"\n  {note}" for note in self.notes)
         )
 
 

@@ -31,7 +31,7 @@ class Where(NamedTuple):
     y: float
     #: Depth [m].
     z: float
-    #: Layer from the surface down.
+    #: Index of the layer from the surface down, from 0.
     layer: int
 
 

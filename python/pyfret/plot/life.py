@@ -13,6 +13,7 @@ from matplotlib.ticker import MaxNLocator
 from pyfret import _core, fatigue
 from pyfret._util.arrays import histories
 from pyfret._util.depths import interfaces, thin
+from pyfret._util.numbers import layer_name
 from pyfret.plot.depth_axis import stretch as stretch_axis
 from pyfret.plot.scales import scales
 from pyfret.plot.stresses import COLOURS, FLAT, section_size
@@ -419,7 +420,7 @@ def haigh_diagram(life: Life, *, material: Material | None = None, ax: Axes | No
         colour = f"C{layer}"
         ax.plot(mean.ravel(), amplitude.ravel(), ".", ms=2.5, color=colour, alpha=0.35)
         n = int(np.nanargmax(d.value.values[here]))
-        name = "substrate" if layer == len(d.attrs["interfaces"]) else f"coating {layer}"
+        name = layer_name(layer, len(d.attrs["interfaces"]))
         at = (mean.ravel()[n], amplitude.ravel()[n])
         ax.plot(*at, "x", color=colour, ms=8, mew=1.8, label=f"worst point, {name}")
     if material is not None:

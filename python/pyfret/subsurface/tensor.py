@@ -12,7 +12,7 @@ from pyfret._util.doubts import warn
 from pyfret._util.guesses import no_attribute
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
-from pyfret._util.numbers import in_words, place
+from pyfret._util.numbers import in_words, layer_name, place
 from pyfret.scene.tables import table
 from pyfret.subsurface.line import line_of
 
@@ -58,7 +58,7 @@ class Extreme(NamedTuple):
     y: float
     #: Depth [m].
     z: float
-    #: Layer from the surface down; their number for the substrate.
+    #: Index of the layer from the surface down, from 0; the number of coatings for the substrate.
     layer: int
     #: The border that it lies on, "rim" or "stick border", or none. At the rim a value depends on
     #: how well the tractions are known there: fatigue wants a mean over a critical distance.
@@ -184,9 +184,10 @@ class Stress(Labelled):
             **line_of(self.dataset).named(),
         )
         if rises:
-            layers_said = ", ".join(map(str, rises))
+            coatings = len(self.dataset.attrs.get("interfaces", ()))
+            layers_said = " and ".join(layer_name(layer, coatings) for layer in rises)
             warn(
-                f"{of} in layer {layers_said} still rises 8 lengths of the grid away from it: "
+                f"{of} in {layers_said} still rises 8 lengths of the grid away from it: "
                 "a larger value may lie beyond; use a longer grid",
             )
         if found is None and of.startswith("interface"):

@@ -76,6 +76,15 @@ impl Body {
         same && self.bonds.iter().all(|bond| *bond == Bond::PERFECT)
     }
 
+    /// What a layer is called, by its index from the surface down: coatings count from one.
+    pub fn layer_name(&self, layer: usize) -> String {
+        if layer < self.coatings.len() {
+            format!("coating {}", layer + 1)
+        } else {
+            "the substrate".to_owned()
+        }
+    }
+
     /// Depths of the interfaces \[m\], from the surface down.
     pub fn interfaces(&self) -> Vec<f64> {
         let bottom = |depth: &mut f64, coating: &Coating| {

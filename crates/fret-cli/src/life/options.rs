@@ -64,8 +64,8 @@ pub(crate) struct Options {
     #[arg(long, default_value = "line", requires = "distance",
           value_parser = Averaging::ALL.map(|(name, _)| name).to_vec())]
     pub(super) method: String,
-    /// Layer that the distance lies in, from the surface down (default: the outermost with a
-    /// material)
+    /// Layer that the distance lies in, from the surface down and from 0: coating 1 is 0 (default:
+    /// the outermost with a material)
     #[arg(long, value_name = "N", requires = "distance")]
     pub(super) layer: Option<usize>,
     /// Life, or strength, that 90 % of the specimens reach less than over that which 10 % do

@@ -28,6 +28,8 @@ pub(super) struct Row {
 
 /// A layer that is judged: its worst point of all sections, and its range.
 struct Layer<'a> {
+    /// What it is called.
+    called: String,
     worst: Worst<AtPoint>,
     line: Line,
     of: &'a Assessment,
@@ -119,6 +121,7 @@ impl Judging<'_> {
         let material = self.materials.get(layer).and_then(Option::as_ref);
         let range = range_of_life(assessment, material, at, &options, mean)?;
         Ok(Some(Layer {
+            called: self.body.layer_name(layer),
             worst,
             line,
             of: assessment,
@@ -197,8 +200,8 @@ impl Layer<'_> {
             )
         });
         let mut line = format!(
-            "layer {}: {}{over}, {criterion} {} +- {} at x = {}, y = {}, z = {}",
-            extreme.depth.layer,
+            "{}: {}{over}, {criterion} {} +- {} at x = {}, y = {}, z = {}",
+            self.called,
             self.told(),
             mega(extreme.value, unit),
             mega(error, unit),
@@ -234,8 +237,8 @@ impl Layer<'_> {
         });
         merge(&mut json, own);
         let line = format!(
-            "layer {}: {}, {criterion} {} at {axis} = {}, {} method with L = {}",
-            self.worst.extreme.depth.layer,
+            "{}: {}, {criterion} {} at {axis} = {}, {} method with L = {}",
+            self.called,
             self.told(),
             mega(mean.value, unit),
             um(mean.place),

@@ -69,8 +69,8 @@ pub(super) fn place<'py, F>(
     found.set_item(
         "at",
         worst.extreme.at.map(|zone| match zone {
-            Zone::Contact => "contact",
-            Zone::Stick => "stick",
+            Zone::Contact => "rim",
+            Zone::Stick => "stick border",
         }),
     )?;
     Ok(found)
