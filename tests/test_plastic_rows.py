@@ -36,7 +36,7 @@ def test_a_cylinder_on_few_cells() -> None:
 
 
 OUTSIDE = {
-    "line_bare_kinematic": "plastic work 5 % above the row, 2 % of it by radial return",
+    "line_bare_kinematic": "plastic work 5 % above, half of it by two rules of the row",
 }
 
 
