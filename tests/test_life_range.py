@@ -27,22 +27,26 @@ ALLOYS = (
 )
 
 
-@pytest.fixture(scope="module")
-def life() -> fatigue.Life:
-    """A rig of fretting fatigue, by Smith, Watson and Topper's criterion."""
+def rig(n: int) -> fret.Result:
+    """A rig of fretting fatigue on so many cells."""
     alloy = fret.material("7075")
     half_width = math.sqrt(4.0 * W * R * 2.0 * (1.0 - alloy.nu**2) / (math.pi * alloy.E))
     scene = fret.Scene(
         body1=fret.Body(alloy, shape=fret.Cylinder(R=R)),
         body2=fret.Body(alloy),
         mu=MU,
-        grid=fret.Grid.strip(extent=2.8 * half_width, n=96),
+        grid=fret.Grid.strip(extent=2.8 * half_width, n=n),
     )
     path = fret.LoadPath.start().force(W=W, increments=2)
     for sign in (1, -1, 1):
         path = path.force(T_x=sign * 0.5 * MU * W, sigma_B=sign * 90e6, increments=8)
-    result = fret.solve(scene, path, save="all", progress=False)
-    return result.life(fatigue.Materials()["7075"], "smith_watson_topper")
+    return fret.solve(scene, path, save="all", progress=False)
+
+
+@pytest.fixture(scope="module")
+def life() -> fatigue.Life:
+    """Its life by Smith, Watson and Topper's criterion."""
+    return rig(96).life(fatigue.Materials()["7075"], "smith_watson_topper")
 
 
 def test_a_life_has_low_best_and_high(life: fatigue.Life) -> None:
@@ -57,6 +61,26 @@ def test_a_life_has_low_best_and_high(life: fatigue.Life) -> None:
     assert widths[0] > 1.0
     with pytest.raises(ValueError, match="scatter"):
         life.range_of(layer, scatter=0.5)
+
+
+def test_the_range_of_the_stress_is_that_of_the_mean_and_covers(life: fatigue.Life) -> None:
+    """The mean over a distance is known better than the stress at the rim."""
+    alloy = fatigue.Materials()["7075"]
+    finer = life.range.stress
+    L = fatigue.critical_distance(alloy)
+    # On few cells the mean is off by less than is told, and told far better than the worst point.
+    coarse = rig(32)
+    found = coarse.life(alloy, "smith_watson_topper")
+    told = found.range.stress
+    assert told.low <= finer.best <= told.high
+    low, high = found.worst.range
+    assert told.high / told.low < (high / low) ** 0.8
+    means = fatigue.averages.average(coarse, alloy, "smith_watson_topper", L=L)
+    truth = fatigue.averages.average(rig(96), alloy, "smith_watson_topper", L=L)
+    off = np.abs(means.value - truth.value.interp(x=means.x))
+    covered = (off <= means.error).where(means.error.notnull(), drop=True)
+    assert float(covered.mean()) > 0.9
+    assert means.error.attrs["units"] == means.value.attrs["units"]
 
 
 def test_the_best_is_that_of_the_mean_over_the_critical_distance(life: fatigue.Life) -> None:

@@ -2,76 +2,12 @@
 //! distance of the material.
 
 use contact_core::Error;
-use contact_subsurface::Line;
-use fatigue::{Assessment, AtPoint, LONGEST, LifeRange, Material, Range};
+use fatigue::{Assessment, LONGEST, LifeRange, Material, Range};
 
-use super::average::{Distance, average};
-use super::by_criterion::{ByCriterion, of_criteria};
-use super::site::Site;
+use super::by_criterion::of_criteria;
 
 /// Highest over lowest life from which a note says what makes it so.
 const WIDE: f64 = 10.0;
-
-/// The largest mean over a critical distance along a line.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LargestMean {
-    /// The judgement at the place of the largest sample.
-    pub found: AtPoint,
-    /// The largest value, between samples.
-    pub value: f64,
-    /// Its place on the line \[m\].
-    pub place: f64,
-}
-
-/// The largest mean along a line; `None` if the region of the mean fits nowhere on the grid.
-pub fn largest_mean(
-    site: &Site<'_>,
-    line: Line,
-    distance: &Distance,
-    of: &ByCriterion,
-) -> Result<Option<LargestMean>, Error> {
-    let found = average(site, line, distance, of)?;
-    let along = line.places(site.grid);
-    let samples: Vec<_> = found.iter().zip(&along).collect();
-    let value = |n: usize| samples[n].0.map(|found| found.value);
-    let judged = (0..samples.len()).filter(|n| value(*n).is_some());
-    let Some(n) = judged.max_by(|a, b| {
-        value(*a)
-            .partial_cmp(&value(*b))
-            .unwrap_or(std::cmp::Ordering::Equal)
-    }) else {
-        return Ok(None);
-    };
-    let (Some(found), place) = (*samples[n].0, *samples[n].1) else {
-        return Ok(None);
-    };
-    let beside = (n > 0 && n + 1 < samples.len())
-        .then(|| value(n - 1).zip(value(n + 1)))
-        .flatten();
-    let (value, place) = match beside {
-        Some((left, right)) => {
-            let (rise, by) = vertex([left, found.value, right]);
-            (found.value + rise, place + by * (along[n + 1] - place))
-        }
-        None => (found.value, place),
-    };
-    Ok(Some(LargestMean {
-        found,
-        value,
-        place,
-    }))
-}
-
-/// The vertex of the parabola through three samples of which the middle one is the largest: its
-/// height above that one, and its place in steps from it.
-fn vertex([left, middle, right]: [f64; 3]) -> (f64, f64) {
-    let (slope, bend) = (0.5 * (right - left), left - 2.0 * middle + right);
-    if bend < 0.0 {
-        (-0.5 * slope * slope / bend, -slope / bend)
-    } else {
-        (0.0, 0.0)
-    }
-}
 
 /// What the range of a life is asked for with.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -94,29 +30,30 @@ pub struct RangeOfLife {
 }
 
 /// The range of a margin. `worst` is the value at the worst point with its error, `mean` the largest
-/// mean over a distance. If a distance is refused (the inner error), the value at the point counts,
-/// which is on the safe side.
+/// mean over a distance, with its error if asked for. If a distance is refused (the inner error), the
+/// value at the point counts, which is on the safe side.
 pub fn range_of_life<E: From<Error>>(
     assessment: &Assessment,
     material: Option<&Material>,
     worst: (f64, f64),
     options: &RangeOptions,
-    mut mean: impl FnMut(f64) -> Result<Result<f64, Error>, E>,
+    mut mean: impl FnMut(f64, bool) -> Result<Result<(f64, f64), Error>, E>,
 ) -> Result<RangeOfLife, E> {
     let (factor, note) = assessment
         .scatter(material, options.scatter)
         .map_err(of_criteria)?;
-    let (mut value, error) = worst;
+    let (mut value, mut error) = worst;
     let part = if value > 0.0 { error / value } else { 0.0 };
     let own = material.and_then(|material| material.critical_distance().ok());
     let mut notes = Vec::new();
     let (mut distance, mut length) = (None, options.length.or(own));
     if let Some(L) = length {
         let step = material.map_or(2.0, Material::scatter_of_distance).sqrt();
-        let mut three = || -> Result<Result<[f64; 3], Error>, E> {
-            let mut values = [0.0; 3];
-            for (value, L) in values.iter_mut().zip([L / step, L, L * step]) {
-                match mean(L)? {
+        let mut three = || -> Result<Result<[(f64, f64); 3], Error>, E> {
+            let mut values = [(0.0, 0.0); 3];
+            let lengths = [(L / step, false), (L, true), (L * step, false)];
+            for (value, (L, with_error)) in values.iter_mut().zip(lengths) {
+                match mean(L, with_error)? {
                     Ok(found) => *value = found,
                     Err(refused) => return Ok(Err(refused)),
                 }
@@ -124,8 +61,9 @@ pub fn range_of_life<E: From<Error>>(
             Ok(Ok(values))
         };
         match three()? {
-            Ok([short, at, long]) => {
-                value = at;
+            Ok([(short, _), (at, own), (long, _)]) => {
+                // Where larger cells have no mean the value at the point says how well the stress is known.
+                (value, error) = (at, if own.is_nan() { part * at } else { own });
                 distance = Some(Range {
                     low: assessment.extrapolated(short),
                     best: assessment.extrapolated(at),
@@ -141,7 +79,7 @@ pub fn range_of_life<E: From<Error>>(
         }
     }
     notes.extend(note);
-    let of = assessment.told(assessment.margins(value, part * value), factor, distance);
+    let of = assessment.told(assessment.margins(value, error), factor, distance);
     notes.extend(wide(assessment, &of));
     Ok(RangeOfLife { of, length, notes })
 }

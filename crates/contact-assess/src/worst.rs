@@ -19,7 +19,7 @@ const STEP: f64 = 0.5;
 
 /// Error of a score over the largest change to cells twice as large: in line rigs on 40 to 128 cells
 /// across 2.6 a it is 1.1 at most.
-const OF_COARSE: f64 = 1.25;
+pub(super) const OF_COARSE: f64 = 1.25;
 
 /// The worst point of a layer.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -79,8 +79,10 @@ def average(
     Returns
     -------
     xarray.Dataset
-        Over x or y, what :func:`pyfret.fatigue.life` gives over (depth, x), and ``L`` [m]. For disc
-        and ball, places nearer than L to the border of the grid are NaN.
+        Over x or y, what :func:`pyfret.fatigue.life` gives over (depth, x), ``error``, the error of
+        ``value``, and ``L`` [m]. The error is 1.25 times the change on cells twice as large, and
+        that of the increments of the path. For disc and ball, places nearer than L to the border of
+        the grid are NaN; the error is NaN beside them.
 
     Raises
     ------
@@ -114,4 +116,6 @@ def average(
     shown = shown.assign_coords(axis=["x", "y", "z"])
     for name, (values, attrs) in described(found, assessments).items():
         shown[name] = ((along, "axis")[: values.ndim - 1], values[0], attrs)
+    meaning = "error of the value, by the cells and the increments of the path"
+    shown["error"] = (along, found["error"][0], {**shown.value.attrs, "long_name": meaning})
     return shown.assign_attrs(criterion=criterion, method=method, L=L, layer=there)

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use contact_assess::{
     Averaging, ByCriterion, Distance, Judged, LargestMean, RangeOfLife, RangeOptions, Site, Worst,
-    inclination, largest_mean, range_of_life, worst,
+    error_of_largest_mean, inclination, largest_mean, range_of_life, worst,
 };
 use contact_core::Error;
 use contact_core::digits::with_range;
@@ -114,9 +114,19 @@ impl Judging<'_> {
             length: self.options.distance,
         };
         let at = (worst.extreme.value, worst.extreme.error.sum());
-        let mean = |length: f64| match self.largest(of, layer, length) {
-            Err(stopped @ Error::Interrupted { .. }) => Err(stopped),
-            found => Ok(found.map(|(mean, _)| mean.value)),
+        let mean = |length: f64, with_error: bool| {
+            let (mean, line) = match self.largest(of, layer, length) {
+                Ok(found) => found,
+                Err(stopped @ Error::Interrupted { .. }) => return Err(stopped),
+                Err(refused) => return Ok(Err(refused)),
+            };
+            let error = if with_error {
+                let distance = self.distance(layer, length);
+                error_of_largest_mean(self.site, line, &distance, of, mean.value)?
+            } else {
+                0.0
+            };
+            Ok(Ok((mean.value, error)))
         };
         let material = self.materials.get(layer).and_then(Option::as_ref);
         let range = range_of_life(assessment, material, at, &options, mean)?;
@@ -129,6 +139,18 @@ impl Judging<'_> {
         }))
     }
 
+    /// A distance in a layer, of the region that is asked for.
+    fn distance(&self, layer: usize, length: f64) -> Distance {
+        let named = Averaging::ALL
+            .iter()
+            .find(|(name, _)| *name == self.options.method);
+        Distance {
+            method: named.map_or(Averaging::Line, |(_, method)| *method),
+            length,
+            layer,
+        }
+    }
+
     /// The largest mean over a distance along all lines.
     fn largest(
         &self,
@@ -136,14 +158,7 @@ impl Judging<'_> {
         layer: usize,
         length: f64,
     ) -> Result<(LargestMean, Line), Error> {
-        let named = Averaging::ALL
-            .iter()
-            .find(|(name, _)| *name == self.options.method);
-        let distance = Distance {
-            method: named.map_or(Averaging::Line, |(_, method)| *method),
-            length,
-            layer,
-        };
+        let distance = self.distance(layer, length);
         let mut most: Option<(LargestMean, Line)> = None;
         for line in self.lines {
             let found = largest_mean(self.site, *line, &distance, of)?;

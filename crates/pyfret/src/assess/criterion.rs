@@ -124,6 +124,13 @@ impl CriterionBelow {
             }
         })
     }
+
+    /// The error of the largest mean over a distance.
+    fn error_of_largest(&self, py: Python<'_>, distance: &Distance, value: f64) -> PyResult<f64> {
+        self.below.at(py, true, |site| {
+            core::error_of_largest_mean(site, self.below.line, distance, &self.of, value)
+        })
+    }
 }
 
 /// A failure of the core or of Python.
@@ -172,24 +179,33 @@ pub(crate) fn range_of_life(
         let message = format!("layer = {layer}: has no material");
         return Err(PyValueError::new_err(message));
     };
-    let mean = |length: f64| {
+    let mean = |length: f64, with_error: bool| {
         let distance = Distance {
             method,
             length,
             layer,
         };
-        let mut most: Option<f64> = None;
-        for section in sections.iter() {
-            match section.get().largest(py, &distance).map_err(Raised)? {
+        let mut most: Option<(f64, &CriterionBelow)> = None;
+        for section in sections.iter().map(Py::get) {
+            match section.largest(py, &distance).map_err(Raised)? {
                 Ok(found) => {
-                    let larger = found.filter(|value| most.is_none_or(|most| *value > most));
-                    most = larger.or(most);
+                    let larger = found.filter(|value| most.is_none_or(|(most, _)| *value > most));
+                    most = larger.map(|value| (value, section)).or(most);
                 }
                 Err(refused) => return Ok(Err(refused)),
             }
         }
-        let allowed = "so short that the mean stays above the grid";
-        Ok(most.ok_or_else(|| Error::invalid("L", length, allowed)))
+        let Some((value, section)) = most else {
+            let allowed = "so short that the mean stays above the grid";
+            return Ok(Err(Error::invalid("L", length, allowed)));
+        };
+        let error = if with_error {
+            let error = section.error_of_largest(py, &distance, value);
+            error.map_err(Raised)?
+        } else {
+            0.0
+        };
+        Ok(Ok((value, error)))
     };
     let options = RangeOptions { scatter, length: L };
     let material = material.as_ref().map(|material| &material.0);

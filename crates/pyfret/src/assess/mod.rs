@@ -8,7 +8,8 @@ mod yielding;
 use std::sync::Arc;
 
 use contact_assess::{self as core, ByCriterion, ByYield, Distance, Judged};
-use fatigue::{AtPoint, Search};
+use fatigue::Search;
+use numpy::PyArray2;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -165,12 +166,15 @@ impl CycleSection {
             length: L,
             layer,
         };
-        let found = self.below.at(py, true, |site| {
-            core::average(site, self.below.line, &distance, &of)
+        let line = self.below.line;
+        let (found, errors) = self.below.at(py, true, |site| {
+            let found = core::average(site, line, &distance, &of)?;
+            let errors = core::errors_of_means(site, line, &distance, &of, &found)?;
+            Ok((found, errors))
         })?;
-        let rows = [found];
-        let view: Vec<Option<Vec<Option<AtPoint>>>> = rows.into_iter().map(Some).collect();
-        arrays(py, &view, |_| Some(&assessment))
+        let found = arrays(py, &[Some(found)], |_| Some(&assessment))?;
+        found.set_item("error", PyArray2::from_vec2(py, &[errors])?)?;
+        Ok(found)
     }
 }
 
