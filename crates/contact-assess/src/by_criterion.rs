@@ -116,9 +116,9 @@ impl Judge for ByCriterion {
             return Ok(());
         }
         let allowed = format!(
-            "a criterion of stress such as dang_van, or a cycle whose strain closes. This one ratchets: it adds up a \
-             plastic strain of {:.2e} and keeps {:.2e}. Lives of strain are those of closed loops, and a strain \
-             that goes on growing ends in rupture",
+            "a criterion of stress such as dang_van, or a later cycle whose strain closes: go on for more cycles. \
+             This one ratchets. It adds up a plastic strain of {:.2e} and keeps {:.2e}, and lives of strain are \
+             those of closed loops",
             of.added, of.net
         );
         Err(Error::invalid("criterion", strained.name(), allowed))
