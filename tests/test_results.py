@@ -123,7 +123,9 @@ def test_the_summary_has_a_line_per_branch(coated: fret.Result) -> None:
     title, header, *lines = coated.summary().splitlines()
     doubted = [line for line in lines if line.startswith("doubted: ")]
     assert [line.removeprefix("doubted: ") for line in doubted] == coated.doubts
-    rows = [line for line in lines if not line.startswith(("cycle", "doubted"))]
+    rows = [line for line in lines if not line.startswith(("cycle", "doubted", "a_H"))]
+    [over] = [line for line in lines if line.startswith("a_H")]
+    assert f"p_H = {1e-6 * coated.p_H:.0f}" in over
     cycles = [line for line in lines if line.startswith("cycle")]
     assert title == "E1/E2 = 2: done"
     assert "stick ratio" in header

@@ -11,7 +11,7 @@ from pyfret._core import StoreError, read_bytes, shown
 from pyfret._util import files
 from pyfret._util.door import numbers_only
 from pyfret.fatigue.distance import OverDistance
-from pyfret.fatigue.lives import Life
+from pyfret.fatigue.judged import Life
 from pyfret.fit.stored import found_of
 from pyfret.fracture.growth import Cracks
 from pyfret.study.ledger import FILE

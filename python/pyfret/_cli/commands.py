@@ -9,6 +9,7 @@ import json
 import os
 import signal
 import sys
+import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -234,6 +235,7 @@ def run(arguments: Sequence[str] | None) -> int:
     }
     # What people read; JSON is for programs, and stays.
     quiet = options.quiet and not getattr(options, "json", False)
+    warnings.showwarning = say_warning
     try:
         with contextlib.ExitStack() as silence:
             if quiet:
@@ -255,3 +257,8 @@ def run(arguments: Sequence[str] | None) -> int:
     except KeyboardInterrupt:
         say("fret: stopped", file=sys.stderr)
         return ENDED_EARLY
+
+
+def say_warning(message: Warning | str, *_: object, **__: object) -> None:
+    """Print a warning as the binary prints its own: without a line of Python."""
+    say(f"fret: warning: {message}", file=sys.stderr)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,9 +17,10 @@ from pyfret.scene.tables import table
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from pyfret._core import Material
     from pyfret.fatigue.ranges import LifeRange
 
-__all__ = ["OverDistance"]
+__all__ = ["OverDistance", "critical", "usual"]
 
 
 def rough(margin: float) -> str:
@@ -90,3 +92,31 @@ class OverDistance(Kept, Labelled):
             "  ".join(of.rjust(width) for of, width in zip(row, widths, strict=True))
             for row in rows
         ).replace("µ", "u")
+
+
+def critical(material: Material | None) -> float | None:
+    """The critical distance of a material; none if it has no such number."""
+    with suppress(ValueError):
+        return None if material is None else material.critical_distance()
+    return None
+
+
+def usual(material: Material | None, deepest: float, thickness: float) -> NDArray[np.float64]:
+    """Distances about that of a material that stay in its layer [m].
+
+    Parameters
+    ----------
+    material : Material, optional
+        That of the layer; without a critical distance the depth of the section counts.
+    deepest : float
+        Largest depth of the section [m].
+    thickness : float
+        Of the layer [m]; a mean along a line goes down to 2 L.
+    """
+    own = critical(material)
+    ends = (own / 4.0, 4.0 * own) if own else (deepest / 100.0, deepest / 4.0)
+    lengths = np.geomspace(*ends, 9)
+    found = lengths[2.0 * lengths <= thickness]
+    if not found.size:
+        raise ValueError(f"L: the layer of {thickness:.3g} m is thinner than 2 L: give distances")
+    return np.asarray(found)

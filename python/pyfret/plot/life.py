@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 
     from pyfret._core import Material
     from pyfret.fatigue.factors import Factor, LoadFactors
-    from pyfret.fatigue.lives import Life
+    from pyfret.fatigue.judged import Life
     from pyfret.plot.scales import Units
 
 #: How criteria are written in figures.

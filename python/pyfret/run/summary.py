@@ -130,8 +130,21 @@ def summary(result: Run) -> str:
     ]
     title = f"{result.dataset.attrs['title'] or 'run'}: {result.status}"
     doubts = [f"doubted: {doubt}" for doubt in result.doubts]
-    lines = [*cycle_lines(result), *far_from_yield(result), *strain_at_rim(result)]
+    lines = [
+        *yardsticks(result),
+        *cycle_lines(result),
+        *far_from_yield(result),
+        *strain_at_rim(result),
+    ]
     return shown("\n".join([title, *rows, *lines, *doubts]))
+
+
+def yardsticks(result: Run) -> list[str]:
+    """What lengths and pressures of the table are over, where there is a Hertz contact."""
+    if "a_H" not in result.dataset.attrs:
+        return []
+    a, p = 1e6 * result.a_H, 1e-6 * result.p_H
+    return [f"a_H = {in_words(a)} um, p_H = {in_words(p)} MPa: Hertz, without coatings"]
 
 
 def yield_ratio(result: Run) -> float:

@@ -130,7 +130,9 @@ class Wear(wear.Wear):
     Gives ``worn_volume1``, ``worn_volume2`` [m^3], ``worn_depth1``, ``worn_depth2`` [m], and, where
     a body is coated, ``coating_life1``, ``coating_life2`` [cycles], NaN for one that outlives the
     run. Each has its range, such as ``worn_depth1_low`` and ``worn_depth1_high``, from
-    ``depth_error``, the error of the depths over the depths.
+    ``depth_error``, the error of the depths over the depths. The lives are those of
+    :meth:`pyfret.wear.WearResult.range_of_cycles` with ``scatter=1``: the scatter of the wear
+    coefficient is no part of a comparison. ``range_of_cycles()`` adds a factor of 3 for it.
 
     Parameters
     ----------
@@ -157,9 +159,10 @@ class Wear(wear.Wear):
         numbers["depth_error"] = worn["depth_error"][-1]
         for body in (1, 2):
             if (result.scene.body1 if body == 1 else result.scene.body2).coatings:
-                life = run.cycles_to(part_of_coating=self.part, body_number=body)
-                found = life if math.isfinite(life) else math.nan
-                answer = Answer(found, found / (1.0 + part), found * (1.0 + part))
+                # Candidates are compared: the scatter of a coefficient is left to the reader.
+                life = run.range_of_cycles(scatter=1.0, part_of_coating=self.part, body_number=body)
+                ends = (life.best, life.low, life.high)
+                answer = Answer(*ends) if math.isfinite(life.best) else NOTHING
                 meaning = f"life of the coating of body {body}"
                 numbers |= answer.arrays(f"coating_life{body}", "cycles", meaning)
         return numbers

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 import numpy as np
 
 from pyfret import _core
+from pyfret._core import with_error
 from pyfret._util.door import numbers_only
 
 if TYPE_CHECKING:
@@ -22,6 +23,15 @@ class Zone(NamedTuple):
     right: float
     #: How many borders lie between these two: 0 for one zone without holes.
     inside: int
+    #: Error of a border, of the middle and of the half width [m], an estimate: a quarter of a cell.
+    #: Of line contacts on 48 to 100 cells the borders are 0.05 of a cell off at most.
+    error: float = np.nan
+
+    def __repr__(self) -> str:
+        """Give borders, middle and half width with their error."""
+        names = ("left", "right", "middle", "half_width")
+        parts = (f"{n} {with_error(1e6 * getattr(self, n), 1e6 * self.error)} um" for n in names)
+        return f"Zone({', '.join(parts)})"
 
     @property
     def middle(self) -> float:
@@ -61,4 +71,4 @@ def zone(state: State, of: Literal["contact", "stick"], y: float = 0.0) -> Zone:
         found = sorted({*found, *rims})
     left = found[0] if found else float(cells[0] - half)
     right = found[-1] if len(found) > 1 else float(cells[-1] + half)
-    return Zone(float(left), float(right), max(len(found) - 2, 0))
+    return Zone(float(left), float(right), max(len(found) - 2, 0), grid.dx / 4)

@@ -46,8 +46,9 @@ impl Scene {
                 "solver.path_grid",
                 of,
                 format!(
-                    "\"auto\", \"same\" or more: on the path grid the contact has {cells:.2} cells across its radius, and \
-                     fewer than {FEWEST_CELLS} show nothing of it"
+                    "\"auto\", \"same\" or more: on the path grid the contact has {} cells across its radius, and \
+                     fewer than {FEWEST_CELLS} show nothing of it",
+                    fewer(cells, 100.0)
                 ),
             )),
             _ => Ok(()),
@@ -62,8 +63,9 @@ impl Scene {
         let of_path = on_path.filter(|(_, cells)| more * cells < FEW_CELLS);
         let of_path = of_path.map(|(of, cells)| {
             format!(
-                "solver.path_grid = {of}: on the path grid the contact has {cells:.1} cells across its radius. With fewer than \
-                 {FEW_CELLS} the path and its energies are off by more than some per cent. \"same\" has as many as the grid"
+                "solver.path_grid = {of}: on the path grid the contact has {} cells across its radius. With fewer than \
+                 {FEW_CELLS} the path and its energies are off by more than some per cent. \"same\" has as many as the grid",
+                fewer(cells, 10.0)
             )
         });
         of_grid.into_iter().chain(of_path).collect()
@@ -154,9 +156,10 @@ impl Grid {
             "grid.n",
             format!("{} on {extent}", self.of_cells(1.0)),
             format!(
-                "{} or more, or a shorter grid. The contact has {cells:.2} cells across its radius, and fewer than {FEWEST_CELLS} \
+                "{} or more, or a shorter grid. The contact has {} cells across its radius, and fewer than {FEWEST_CELLS} \
                  show nothing of it. {} gives numbers within some per cent{units}",
                 self.of_cells(FEWEST_CELLS / cells),
+                fewer(cells, 100.0),
                 self.of_cells(FEW_CELLS / cells),
             ),
         )
@@ -165,8 +168,9 @@ impl Grid {
     /// The warning for a contact of so few cells across its radius.
     pub(crate) fn coarse(&self, cells: f64) -> String {
         format!(
-            "the contact has {cells:.1} cells across its radius. With fewer than {FEW_CELLS} its numbers are off by more than \
+            "the contact has {} cells across its radius. With fewer than {FEW_CELLS} its numbers are off by more than \
              some per cent. Use grid.n = {} or a shorter grid",
+            fewer(cells, 10.0),
             self.of_cells(FEW_CELLS / cells)
         )
     }
@@ -180,4 +184,9 @@ impl Grid {
             format!("[{}, {}]", more(self.nx), more(self.ny))
         }
     }
+}
+
+/// A number of cells, rounded down: one that is below a limit is printed below it.
+fn fewer(cells: f64, per_unit: f64) -> f64 {
+    (per_unit * cells).floor() / per_unit
 }

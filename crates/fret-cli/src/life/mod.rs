@@ -33,6 +33,10 @@ pub(crate) fn life(options: &Options) -> Result<(), Failure> {
     lines.iter().try_for_each(|line| print(line))
 }
 
+/// What is told of a worst point there.
+const AT_RIM: &str = "the worst point is at the rim of the contact: a point value depends on the grid, use a critical \
+                      distance (--distance)";
+
 /// The text to print; notes go to the standard error.
 fn judged(options: &Options) -> Result<Vec<String>, Error> {
     table::check(options)?;
@@ -104,21 +108,16 @@ fn judged(options: &Options) -> Result<Vec<String>, Error> {
         }
     });
     let found = rows.collect::<Result<Vec<_>, _>>()?.concat();
-    for note in found.iter().flat_map(|row| &row.notes) {
-        if !notes.contains(note) {
-            notes.push(note.clone());
-        }
-    }
-    if found.iter().any(|row| row.at_rim) {
-        notes.push(
-            "the worst point is at the rim of the contact: a point value depends on the grid, use a critical distance \
-             (--distance)"
-                .into(),
-        );
-    }
-    let line = |row: &Row| {
+    // A line has the notes of the cycle and its own, each once; the standard error has all, each once.
+    let of_row = |row: &Row| {
+        let rim = row.at_rim.then(|| AT_RIM.to_owned());
+        let own = row.notes.iter().cloned().chain(rim);
+        own.filter(|note| !notes.contains(note)).collect::<Vec<_>>()
+    };
+    let own: Vec<Vec<String>> = found.iter().map(of_row).collect();
+    let line = |(row, own): (&Row, &Vec<String>)| {
         let mut json = row.json.clone();
-        json["notes"] = json!(notes);
+        json["notes"] = json!(notes.iter().chain(own).collect::<Vec<_>>());
         if options.json {
             json.to_string()
         } else {
@@ -126,11 +125,15 @@ fn judged(options: &Options) -> Result<Vec<String>, Error> {
         }
     };
     if !options.json {
-        for note in &notes {
-            say(&format!("fret: {note}"));
+        let mut said: Vec<&String> = Vec::new();
+        for note in notes.iter().chain(own.iter().flatten()) {
+            if !said.contains(&note) {
+                said.push(note);
+                say(&format!("fret: {note}"));
+            }
         }
     }
-    Ok(found.iter().map(line).collect())
+    Ok(found.iter().zip(&own).map(line).collect())
 }
 
 /// The materials named, from the surface down.

@@ -1,0 +1,411 @@
+"""What a criterion found on a section below a contact, or on several."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import suppress
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pyfret._core import range_of_life, with_range
+from pyfret._util import files
+from pyfret._util.door import numbers_only
+from pyfret._util.kept import Kept
+from pyfret._util.labelled import Labelled
+from pyfret._util.numbers import layer_name, length, place
+from pyfret._util.text import html
+from pyfret.fatigue import stored
+from pyfret.fatigue.cycles import Of
+from pyfret.fatigue.distance import OverDistance, critical, usual
+from pyfret.fatigue.fields import margin_name
+from pyfret.fatigue.ranges import LifeRange, Range, of_mean
+from pyfret.fatigue.worst import Worst, in_megapascals
+from pyfret.scene.tables import table
+from pyfret.subsurface.tensor import Errors
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Callable
+
+    import xarray as xr
+    from numpy.typing import ArrayLike, NDArray
+
+    from pyfret._core import Criterion, CriterionBelow, Material
+    from pyfret.fatigue.averages import Averaging
+
+__all__ = ["Life"]
+
+#: Why a life that was pickled or saved has no stress.
+UNPICKLED = "a life that was saved or unpickled has no stress: judge the result again"
+#: What is told of a worst point there.
+RIM = (
+    "the worst point is at the rim of the contact: a point value depends on the grid, use a "
+    "critical distance (fatigue.average)"
+)
+
+
+class Life(Kept, Labelled):
+    """A criterion on a section below the contact, or on several.
+
+    :attr:`dataset` has ``value``, ``missed`` (no plane has more than value + missed), the shear and
+    normal stresses that make the value, ``normal`` of the critical plane, and ``safety_factor``
+    (limit over value) or ``life`` [cycles], over (depth, x) or (depth, y), for several sections
+    over (depth, x, y) or (depth, y, x); NaN in layers without a material.
+    """
+
+    def __init__(
+        self,
+        dataset: xr.Dataset,
+        sections: Sequence[CriterionBelow],
+        notes: Sequence[str],
+        materials: Sequence[Material | None],
+        history: Callable[[Worst, Of], NDArray[np.float64]] | None = None,
+    ) -> None:
+        super().__init__(dataset)
+        self._history = history
+        self._materials = list(materials)
+        self._ranges: dict[int, LifeRange] = {}
+        self._sections = list(sections)
+        self._assessments = self._sections[0].assessments if sections else []
+        self._notes = list(notes)
+        self._worst: dict[int, Worst] = {}
+        # Their margins, lives beyond the tests by the curve.
+        self._order: dict[int, float] = {}
+        # Those of a pickled life, which has no sections to look in.
+        self._parts: list[Life] = []
+
+    figure = "criterion_map"
+
+    @classmethod
+    def of_dataset(cls, dataset: xr.Dataset) -> Life:
+        """Give a life that was saved: what it found, without the stress."""
+        state = stored.unpacked(dataset.load(), Worst)
+        attrs = {name: of for name, of in dataset.attrs.items() if name != stored.KEY}
+        # A file may have no lists of one length.
+        attrs["interfaces"] = np.atleast_1d(attrs.get("interfaces", [])).tolist()
+        kept = dataset.copy()
+        kept.attrs = attrs
+        made = cls(kept, [], [], [])
+        made.__dict__.update(state)
+        return made
+
+    @numbers_only
+    def save(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
+        """Write it to a Zarr folder (``.zarr``) or a NetCDF file (``.nc``); `pyfret.open` opens it.
+
+        Fields, worst points and ranges are kept, the stress is not: other distances and scatters
+        need the run.
+
+        Parameters
+        ----------
+        path : path
+            Where to write; its ending says in which format.
+        overwrite : bool
+            Whether what pyfret saved there is replaced (default: the place must be free).
+
+        Raises
+        ------
+        FileExistsError
+            There is something at the place.
+        ValueError
+            The ending is another.
+        """
+        about = {stored.KEY: stored.packed(self.__getstate__()), "kind": "Life"}
+        dataset = self.dataset.load().drop_encoding()
+        files.write(dataset.assign_attrs(about), path, overwrite=overwrite)
+
+    def summary(self) -> str:
+        """Say what was judged and how it ends: the range, where, over which distance, notes."""
+        return repr(self)
+
+    @property
+    def L(self) -> float | None:
+        """Critical distance that the range is averaged over [m]; None for a value at a point."""
+        return self.range.L
+
+    @property
+    def margin(self) -> xr.DataArray:
+        """``safety_factor`` or ``life``, whichever the criterion gives."""
+        return self.dataset[margin_name(self._assessments)[0]]
+
+    @property
+    def layers(self) -> list[int]:
+        """The layers that are judged, from the surface down."""
+        found = np.unique(self.dataset.layer.values).tolist()
+        return [n for n in found if self._assessments[n] is not None]
+
+    @property
+    def notes(self) -> list[str]:
+        """What to know of the numbers: other elastic constants, a cycle that is not settled."""
+        at_rim = [RIM] if self.worst.at == "rim" and self.range.distance is None else []
+        return [*self._notes, *self.range.notes, *at_rim]
+
+    @numbers_only
+    def section(self, place: float) -> Life:
+        """Give the one of several sections that is nearest to a place on the axis across [m]."""
+        if self.dataset.value.ndim == 2:
+            return self
+        across = str(self.dataset.value.dims[2])
+        n = int(np.abs(self.dataset[across].values - place).argmin())
+        if self._parts:
+            return self._parts[n]
+        return Life(
+            self.dataset.isel({across: n}),
+            [self._sections[n]],
+            self._notes,
+            self._materials,
+            self._history,
+        )
+
+    @numbers_only
+    def worst_of(self, layer: int) -> Worst:
+        """Give the worst point of a layer; a ValueError where it is not judged."""
+        if layer not in self._worst:
+            here = self.dataset.value.isel(depth=self.dataset.layer.values == layer)
+            if not np.isfinite(here.values).any():
+                raise ValueError(f"layer {layer} is not judged: it has no material or no depth")
+            # A section whose samples are lower may have the worst point between them.
+            found = max(
+                filter(None, (section.worst(layer) for section in self._sections)),
+                key=lambda worst: worst["score"],
+                default=None,
+            )
+            if found is None:
+                raise ValueError("the section holds no number")
+            self._order[layer] = found["order"]
+            self._worst[layer] = Worst(
+                found["score"],
+                found["margin"],
+                found["x"],
+                found["y"],
+                found["z"],
+                found["layer"],
+                Errors(*found["errors"]),
+                found["at"],
+                tuple(found["normal"]) if "normal" in found else None,
+                found.get("inclination"),
+                (found["range"][0], found["range"][1]),
+                str(self.dataset.value.attrs.get("units", "1")),
+            )
+        return self._worst[layer]
+
+    def history(self, of: Of = "stress") -> NDArray[np.float64]:
+        """Give the stress [Pa] or the plastic strain at the worst point over the cycle: (time, 6).
+
+        In the order xx, yy, zz, xy, xz, yz; :func:`pyfret.plot.critical_plane_rose` draws both.
+        """
+        if self._history is None:
+            raise ValueError(UNPICKLED)
+        return self._history(self.worst, of)
+
+    @property
+    def criterion(self) -> Criterion:
+        """The criterion, with the numbers of the material of the worst point."""
+        of = self._assessments[self.worst.layer]
+        assert of is not None
+        return of.criterion
+
+    @numbers_only
+    def margin_of(self, layer: int) -> Range:
+        """Give the margin at the worst point of a layer, from the error of its stress alone.
+
+        The scatter of the material is no part of it: it is the same for two contacts of one
+        material that are compared.
+        """
+        worst = self.worst_of(layer)
+        return Range(worst.range[0], worst.margin, worst.range[1])
+
+    @property
+    def range(self) -> LifeRange:
+        """Low, best and high of the margin of the worst layer: :meth:`range_of`."""
+        return self.range_of(self.worst.layer)
+
+    @property
+    def low(self) -> float:
+        """The lowest margin of :attr:`range`."""
+        return self.range.low
+
+    @property
+    def best(self) -> float:
+        """The best estimate of :attr:`range`."""
+        return self.range.best
+
+    @property
+    def high(self) -> float:
+        """The highest margin of :attr:`range`."""
+        return self.range.high
+
+    @numbers_only
+    def range_of(
+        self,
+        layer: int,
+        *,
+        scatter: float | None = None,
+        L: float | None = None,
+        method: Averaging = "line",
+    ) -> LifeRange:
+        """Give low, best and high of a life or of a safety factor, the range of 10 to 90 %.
+
+        Three parts make the range; their logarithms are independent and add as squares. *Stress*:
+        the error of the value of the criterion. *Material*: its scatter. *Distance*: the stress is
+        averaged along a line from the surface to 2 L, and L is known to a factor. A material
+        without a critical distance keeps the value at the worst point, which is on the safe side.
+        So does a layer that is thinner than 2 L.
+
+        Parameters
+        ----------
+        layer : int
+            Index of the layer from the surface down, from 0: coating 1 is 0; of a substrate the
+            number of coatings.
+        scatter : float, optional
+            Life that 90 % reach less than over that which 10 % reach less than (default: 3, or 5
+            where numbers of the material are estimates); of a safety factor the same of strengths
+            (default: 1.2, or 1.5).
+        L : float, optional
+            Critical distance [m] (default: that of the material).
+        method : "point", "line", "area" or "volume"
+            How the stress is averaged over it, as in :func:`pyfret.fatigue.average`.
+        """
+        default = scatter is None and L is None and method == "line"
+        if default and layer in self._ranges:
+            return self._ranges[layer]
+        if not self._sections:
+            raise ValueError(UNPICKLED)
+        worst = self.worst_of(layer)
+        low_to_high, stress, of_material, distance, length, notes = range_of_life(
+            self._sections,
+            layer,
+            self._materials[layer],
+            (worst.value, worst.error),
+            method=method,
+            scatter=scatter,
+            L=L,
+        )
+        found = LifeRange(
+            *low_to_high,
+            stress=Range(*stress),
+            material=of_material,
+            distance=None if distance is None else Range(*distance),
+            L=length,
+            notes=tuple(notes),
+        )
+        if default:
+            self._ranges[layer] = found
+        return found
+
+    @numbers_only
+    def over_distance(
+        self,
+        L: ArrayLike | None = None,
+        *,
+        method: Averaging = "line",
+        layer: int | None = None,
+    ) -> OverDistance:
+        """Judge the stress averaged over several distances: how much the life depends on L.
+
+        Parameters
+        ----------
+        L : array, optional
+            Critical distances [m] (default: nine from a quarter of that of the material to four
+            times it; without one from a hundredth to a quarter of the depth of the section). Those
+            that reach beyond the layer are left out.
+        method : "point", "line", "area" or "volume"
+            As in :func:`pyfret.fatigue.average`.
+        layer : int, optional
+            The layer (default: that of the worst point).
+
+        Returns
+        -------
+        OverDistance
+            Low, best and high margin over L; :func:`pyfret.plot.life_over_distance` draws them.
+
+        Raises
+        ------
+        ValueError
+            The life was unpickled, or a distance reaches beyond the layer.
+        """
+        if not self._sections:
+            raise ValueError(UNPICKLED)
+        there = self.worst.layer if layer is None else layer
+        worst, assessment = self.worst_of(there), self._assessments[there]
+        assert assessment is not None
+        material = self._materials[there]
+        part = worst.error / worst.value if worst.value > 0.0 else 0.0
+        rows = []
+        borders = [0.0, *self.dataset.attrs["interfaces"], np.inf]
+        lengths = (
+            usual(material, float(self.dataset.z.max()), borders[there + 1] - borders[there])
+            if L is None
+            else np.atleast_1d(np.asarray(L, float))
+        )
+        for at in lengths.tolist():
+            means = [section.largest_mean(at, method, there) for section in self._sections]
+            value = max((mean for mean in means if mean is not None), default=np.nan)
+            rows.append(of_mean(assessment, material, value, part * value, at))
+        name, meaning = margin_name(self._assessments)
+        return OverDistance.of(lengths, rows, name, meaning, method, critical(material))
+
+    @property
+    def worst(self) -> Worst:
+        """The point of the smallest margin; of equal ones, that of the larger value."""
+        judged = [self.worst_of(layer) for layer in self.layers]
+        order = {layer: np.nan_to_num(self._order[layer], nan=-np.inf) for layer in self.layers}
+        return min(judged, key=lambda w: (order[w.layer], -w.value))
+
+    def __eq__(self, other: object) -> bool:
+        """Whether dataset and assessments are the same."""
+        if not isinstance(other, Life):
+            return NotImplemented
+        return super().__eq__(other) is True and other._assessments == self._assessments
+
+    def __getstate__(self) -> dict[str, object]:
+        """What is pickled: the worst points in place of what finds them."""
+        for layer in self.layers:
+            # A layer without a number is refused when it is asked for.
+            with suppress(ValueError):
+                self.range_of(layer)
+        parts = self._parts
+        if self.dataset.value.ndim > 2 and not parts:
+            across = str(self.dataset.value.dims[2])
+            parts = [self.section(place) for place in self.dataset[across].values.tolist()]
+        return {**self.__dict__, "_sections": [], "_parts": parts, "_history": None}
+
+    def _repr_html_(self) -> str:
+        """The worst point of every layer, for notebooks."""
+        name, _ = margin_name(self._assessments)
+        rows, coatings = [], len(self.dataset.attrs["interfaces"])
+        for layer in self.layers:
+            w = self.worst_of(layer)
+            place = (f"{1e6 * at:.4g}" for at in (w.x, w.y, w.z))
+            value = in_megapascals(w.value, w.error, w.units)
+            point = with_range(w.margin, *w.range)
+            rows.append(
+                [layer_name(layer, coatings), repr(self.range_of(layer)), point, value, *place]
+            )
+        title = name.replace("_", " ")
+        heading = [
+            "layer",
+            f"{title}, 10 to 90 %",
+            f"{title} at the point",
+            "value",
+            "x [µm]",
+            "y [µm]",
+            "z [µm]",
+        ]
+        criterion = html(str(self.dataset.attrs["criterion"]))
+        return f"<p><b>{criterion}</b></p>{table(heading, rows)}"
+
+    def __repr__(self) -> str:
+        """Say what was judged and how it ends."""
+        w = self.worst
+        name = margin_name(self._assessments)[0].replace("_", " ")
+        plane = ""
+        if w.inclination is not None and np.isfinite(w.inclination):
+            plane = f", plane {w.inclination:.1f} degrees from the surface normal"
+        coatings, L = len(self.dataset.attrs["interfaces"]), self.range.L
+        over = "value at a point" if L is None else f"mean over L = {length(L)}".replace("µ", "u")
+        return (
+            f"Life({self.dataset.attrs['criterion']}, {name} {self.range!r}, {over}, at "
+            f"{place(w, coatings)}{plane})" + "".join(f"\n  {note}" for note in self.notes)
+        )
