@@ -199,6 +199,9 @@ def test_figures_of_a_life_are_those_of_its_worst_point(public: Any) -> None:
     assert fret.plot.critical_plane_rose(life).get_title("left").startswith("Smith")
     assert len(fret.plot.life_over_distance(life).lines[0].get_xdata()) == 9
     fret.plot.dang_van_diagram(life)
+    # All of it beyond the longest life that is told.
+    fret.plot.life_over_distance(life).figure.canvas.draw()
+    fret.plot.criterion_map(life).figure.canvas.draw()
     plt.close("all")
     with pytest.raises(TypeError, match=r"criterion = 'findley': must be .*Criterion.findley\(k="):
         fret.plot.critical_plane_rose(life, "findley")  # type: ignore[arg-type]

@@ -129,6 +129,16 @@ class Life(Kept, Labelled):
         """``safety_factor`` or ``life``, whichever the criterion gives."""
         return self.dataset[margin_name(self._assessments)[0]]
 
+    def extrapolated(self) -> NDArray[np.float64]:
+        """Give the margin of every point, lives beyond the tests by the curve: for contours."""
+        margin, value = self.margin.values.copy(), self.dataset.value.values
+        for n, row in enumerate(self.dataset.layer.values):
+            of = self._assessments[int(row)]
+            if of is not None and of.limit is None:
+                beyond = np.isinf(margin[n])
+                margin[n][beyond] = [of.life(float(one)) for one in value[n][beyond]]
+        return np.asarray(margin)
+
     @property
     def layers(self) -> list[int]:
         """The layers that are judged, from the surface down."""

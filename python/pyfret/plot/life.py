@@ -60,7 +60,7 @@ ENDLESS = _core.LONGEST_LIFE
 def _shown(life: Life) -> tuple[NDArray[np.float64], str]:
     """The field of a map and what it is called."""
     name = NAMES[life.dataset.attrs["criterion"]]
-    margin = life.margin.values
+    margin = life.extrapolated()
     if life.margin.name == "safety_factor":
         return 1.0 / margin, f"{name}: value over limit"
     # A decade beyond the last contour, so that its line runs between the points.
@@ -471,10 +471,14 @@ def life_over_distance(of: OverDistances | Life, *, ax: Axes | None = None) -> A
     ax = axes(ax)
     d, margin = of.dataset, of.margin
     L = 1e6 * d["L"].values
-    ax.fill_between(
-        L, d["low"].values, d["high"].values, color=STICK, alpha=0.2, lw=0, label="10 to 90 %"
-    )
-    ax.plot(L, margin.values, "o-", color=STICK, ms=4, label="best estimate")
+    life = margin.name == "life"
+    # A life without end reaches beyond the axis.
+    top = 10.0 * ENDLESS if life else np.inf
+    low, high = (np.minimum(d[name].values, top) for name in ("low", "high"))
+    ax.fill_between(L, low, high, color=STICK, alpha=0.2, lw=0, label="10 to 90 %")
+    ax.plot(L, margin.where(np.isfinite(margin)), "o-", color=STICK, ms=4, label="best estimate")
+    if life and float(np.nanmax(high)) >= ENDLESS:
+        ax.axhline(ENDLESS, color=REFERENCE, lw=1, label="longest life that is told")
     if "L" in d.attrs:
         ax.axvline(
             1e6 * d.attrs["L"],
@@ -483,9 +487,11 @@ def life_over_distance(of: OverDistances | Life, *, ax: Axes | None = None) -> A
             ls="--",
             label="critical distance of the material",
         )
-    life = margin.name == "life"
     if life:
         ax.set_yscale("log")
+        ax.set_ylim(
+            float(np.nanmin([*low, 0.5 * ENDLESS])) / 2.0, min(float(high.max()), 5e7) * 2.0
+        )
     ax.set_xlabel("distance L [µm]")
     ax.set_ylabel("life [cycles]" if life else "safety factor")
     ax.legend()
