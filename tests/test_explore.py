@@ -162,7 +162,7 @@ def test_a_slider_is_moved_in_a_browser(browser: Any, capsys: Any) -> None:
         times = []
         handle = one.locator("#slider-mu [role=slider]")
         handle.focus()
-        for _ in range(5):
+        for _ in range(3):
             forget(one)
             start = time.perf_counter()
             one.keyboard.press("PageUp")
@@ -187,6 +187,6 @@ def test_a_slider_is_moved_in_a_browser(browser: Any, capsys: Any) -> None:
         text = saved.value.path().read_text(encoding="utf-8")
         assert fret.Scene.from_toml(text).mu == pytest.approx(value)
         with capsys.disabled():
-            print(f" median {sorted(times)[2]:.2f} s from change to picture", end="")
+            print(f" median {sorted(times)[1]:.2f} s from change to picture", end="")
     finally:
         page.stop()
