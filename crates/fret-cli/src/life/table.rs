@@ -6,7 +6,7 @@ use std::path::Path;
 use contact_assess::{ByCriterion, Judged};
 use contact_core::Error;
 use contact_subsurface::Line;
-use fatigue::AtPoint;
+use fatigue::{Assessment, AtPoint};
 
 use super::options::Options;
 
@@ -38,9 +38,17 @@ pub(super) fn check(options: &Options) -> Result<(), Error> {
 pub(super) fn write(out: &Path, judged: &Judged<AtPoint>, of: &ByCriterion) -> Result<(), Error> {
     let along_y = matches!(judged.line, Line::AlongY(_));
     let (axis, across) = if along_y { ("y", "x") } else { ("x", "y") };
+    let unit = of.assessments.iter().flatten().next();
+    let unit = unit.map_or("1", |assessment| assessment.criterion.unit());
+    let lives = of.assessments.iter().flatten().any(Assessment::gives_lives);
+    let (of_value, margin) = match (unit, lives) {
+        ("1", true) => (String::new(), "life [cycles]"),
+        (unit, true) => (format!(" [{unit}]"), "life [cycles]"),
+        (unit, false) => (format!(" [{unit}]"), "safety_factor"),
+    };
     let mut text = format!(
-        "{axis} [m],{across} [m],z [m],layer,value,missed,margin,n_x,n_y,n_z,shear_amplitude [Pa],normal_max [Pa],\
-         normal_min [Pa]\n"
+        "{axis} [m],{across} [m],z [m],layer,value{of_value},missed{of_value},{margin},n_x,n_y,n_z,\
+         shear_amplitude [Pa],normal_max [Pa],normal_min [Pa]\n"
     );
     for (depth, found) in judged.depths.iter().zip(&judged.found) {
         let (Some(found), Some(assessment)) = (found, of.of(depth.layer)) else {
