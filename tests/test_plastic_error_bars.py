@@ -80,3 +80,12 @@ def test_error_bars_of_bodies_that_yield_cover() -> None:
     within = 1 - len(over) / len(parts)
     print(f"{within:.3f} of {len(parts)} numbers within 1.5 bars; over: {over}")
     assert within >= 0.95
+
+
+@pytest.mark.solves
+@pytest.mark.filterwarnings("ignore::pyfret.errors.SceneWarning")
+def test_a_residual_stress_that_no_coarser_grid_has_is_unknown() -> None:
+    """Seed 333 yields by a strain of 4e-5, and on fewer cells not at all."""
+    found = fret.solve(resolved(drawn(333), 1), error=True, progress=False)
+    assert float(found.branches().plastic_volume[0]) > 0.0
+    assert float(found.error_bars().sel(part="total").residual_stress[0]) >= 1.0

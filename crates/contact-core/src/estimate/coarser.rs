@@ -88,7 +88,8 @@ pub(super) fn coarser_grids(
         let whole = coarser.ratio.powf(LEFT) - finer.ratio.powf(LEFT);
         let pairs = finer.below.iter().zip(&coarser.below);
         for (of_branch, (finer, coarser)) in of_branches.iter_mut().zip(pairs) {
-            of_branch.residual = apart(finer, coarser) / whole;
+            // A larger error says no more than that nothing of it is known.
+            of_branch.residual = (apart(finer, coarser) / whole).min(1.0);
         }
     }
     Ok(of_branches)
@@ -106,9 +107,9 @@ struct Left {
 }
 
 /// Largest difference of two residual stresses at the planes of the second, over its largest; linear
-/// between the planes of a layer of the first.
+/// between the planes of a layer of the first. Infinite where nothing of the second has yielded.
 fn apart(first: &[Below], second: &[Below]) -> f64 {
-    let (mut most, mut off) = (f64::MIN_POSITIVE, 0.0_f64);
+    let (mut most, mut off) = (0.0_f64, 0.0_f64);
     for at in second {
         let own: Vec<&Below> = first.iter().filter(|of| of.layer == at.layer).collect();
         let below = own.partition_point(|of| of.depth < at.depth);
@@ -122,7 +123,11 @@ fn apart(first: &[Below], second: &[Below]) -> f64 {
             }
         }
     }
-    off / most
+    if most > 0.0 {
+        off / most
+    } else {
+        f64::INFINITY
+    }
 }
 
 /// The scene on the coarsest grid of the error estimate. Fails if there is none.
