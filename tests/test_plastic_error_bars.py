@@ -10,7 +10,7 @@ import pytest
 import pyfret as fret
 from test_plastic_campaign import drawn
 
-DRAWN = int(os.environ.get("FRET_PLASTIC_BARS", "1"))
+DRAWN = int(os.environ.get("FRET_PLASTIC_BARS", "4"))
 #: Cells of a scene, and times as many cells and increments of the truth.
 CELLS, TIMES = {True: 48, False: 24}, 2
 NAMES = ("W", "delta_z", "plastic_work", "plastic_volume", "largest_plastic_strain", "dissipated")
