@@ -194,7 +194,10 @@ fn below_a_coating() {
     let refused = average(&site, BELOW, &in_layer(0, 20e-6), &of)
         .unwrap_err()
         .to_string();
-    assert!(refused.contains("the substrate is layer 1"), "{refused}");
+    assert!(
+        refused.contains("`layer` counts from 0; the substrate is 1"),
+        "{refused}"
+    );
     assert!(materials_of_layers(&scene.body2, vec![None; 3]).is_err());
     // Three branches end in the cycle that begins with the first shear.
     let much = unsettled(&cycle).unwrap().unwrap();
