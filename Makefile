@@ -23,7 +23,7 @@ help: ## this list
 
 setup: $(VENV)/.installed target/release/fret ## .venv with pyfret and its tools, binary target/release/fret
 
-demo: setup ## the paper's four runs: results and figures in out/
+demo: $(VENV)/.runs ## the paper's four runs: results and figures in out/
 	$(PY) examples/paper.py --out out
 
 figure-13: setup ## stress below the paper's contact: figures in out/
@@ -172,6 +172,11 @@ clean: ## remove what was built, results excepted
 $(VENV)/.tools: pyproject.toml tools/venv.sh
 	tools/venv.sh $(VENV)
 	$(PY) -m pip install --quiet --disable-pip-version-check $(MATURIN)
+	touch $@
+
+# What runs and draws, without the tools of tests.
+$(VENV)/.runs: $(VENV)/.tools $(RUST)
+	$(BIN)/maturin develop --release --locked --quiet --extras plot
 	touch $@
 
 $(VENV)/.installed: $(VENV)/.tools $(RUST)
