@@ -48,27 +48,32 @@ pub fn range_of_life<E: From<Error>>(
     let mut notes = Vec::new();
     let (mut distance, mut length) = (None, options.length.or(own));
     if let Some(L) = length {
-        let step = material.map_or(2.0, Material::scatter_of_distance).sqrt();
-        let mut three = || -> Result<Result<[(f64, f64); 3], Error>, E> {
-            let mut values = [(0.0, 0.0); 3];
-            let lengths = [(L / step, false), (L, true), (L * step, false)];
-            for (value, (L, with_error)) in values.iter_mut().zip(lengths) {
-                match mean(L, with_error)? {
-                    Ok(found) => *value = found,
+        // A distance that is given is what it is; that of a material has its scatter.
+        let scatter = material.map_or(2.0, Material::scatter_of_distance).sqrt();
+        let others = [1.0 / scatter, scatter].map(|part| part * L);
+        let others = others.iter().filter(|_| options.length.is_none());
+        let mut means = || -> Result<Result<Vec<(f64, f64)>, Error>, E> {
+            let mut means = Vec::new();
+            for L in std::iter::once(&L).chain(others.clone()) {
+                match mean(*L, means.is_empty())? {
+                    Ok(found) => means.push(found),
                     Err(refused) => return Ok(Err(refused)),
                 }
             }
-            Ok(Ok(values))
+            Ok(Ok(means))
         };
-        match three()? {
-            Ok([(short, _), (at, own), (long, _)]) => {
+        match means()? {
+            Ok(means) => {
+                let (at, own) = means[0];
                 // Where larger cells have no mean the value at the point says how well the stress is known.
                 (value, error) = (at, if own.is_nan() { part * at } else { own });
-                distance = Some(Range {
-                    low: assessment.extrapolated(short),
-                    best: assessment.extrapolated(at),
-                    high: assessment.extrapolated(long),
-                });
+                if let [_, (short, _), (long, _)] = means[..] {
+                    distance = Some(Range {
+                        low: assessment.extrapolated(short),
+                        best: assessment.extrapolated(at),
+                        high: assessment.extrapolated(long),
+                    });
+                }
             }
             Err(refused) => {
                 length = None;

@@ -2,6 +2,9 @@
 
 use super::loss::Worn;
 
+/// A cell has reached a depth from this part of it below: a jump that ends there misses it by rounding.
+const ROUNDING: f64 = 1e-9;
+
 /// The depth of every cell within a jump \[m\]: `w_0 + (4 m - e) s + (2 e - 4 m) s^2` at the part s
 /// of the jump, m and e being the losses in its first half and in all. Both are of second order,
 /// and so is the parabola.
@@ -19,7 +22,8 @@ impl Passage<'_> {
         let cells = 0..self.whole[b].len();
         let reached = cells.filter_map(|c| {
             let (from, half, whole) = (self.worn.depth[b][c], self.half[b][c], self.whole[b][c]);
-            (from + whole >= depth).then(|| (part(depth - from, half, whole), c))
+            let reaches = from + whole >= depth * (1.0 - ROUNDING);
+            reaches.then(|| (part(depth - from, half, whole), c))
         });
         reached.min_by(|a, b| a.0.total_cmp(&b.0))
     }
@@ -40,7 +44,8 @@ fn part(target: f64, half: f64, whole: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::part;
+    use super::{Passage, part};
+    use crate::loss::Worn;
 
     #[test]
     fn a_parabola_is_met_where_it_is() {
@@ -54,5 +59,25 @@ mod tests {
             }
         }
         assert_eq!(part(0.0, 0.5, 1.0), 0.0);
+    }
+
+    #[test]
+    fn a_jump_that_ends_at_a_depth_reaches_it() {
+        let depth = 1.5e-6_f64;
+        let worn = Worn {
+            depth: [vec![0.0], vec![0.4e-6]],
+            ..Worn::none(1)
+        };
+        let [none, short] = [vec![0.0], vec![depth.next_down() - 0.4e-6]];
+        let half = [none.clone(), vec![0.5 * short[0]]];
+        let whole = [none, short];
+        let passage = Passage {
+            worn: &worn,
+            half: &half,
+            whole: &whole,
+        };
+        let (part, cell) = passage.first(1, depth).expect("reached");
+        assert!(part > 1.0 - 1e-9 && cell == 0);
+        assert!(passage.first(1, 1.001 * depth).is_none());
     }
 }

@@ -53,11 +53,17 @@ class FailureOrder(NamedTuple):
         largest = int(np.argmax(loads))
         return PARTS[largest] if loads[largest] >= 1.0 else None
 
+    def _told(self) -> list[str]:
+        errors = {"substrate": self.substrate_error}
+        return [f"{of} {with_error(getattr(self, of), errors.get(of))}" for of in PARTS]
+
     def __repr__(self) -> str:
         """The three with their errors."""
-        errors = {"substrate": self.substrate_error}
-        parts = (f"{of} {with_error(getattr(self, of), errors.get(of))}" for of in PARTS)
-        return f"FailureOrder({', '.join(parts)}; first: {self.first or 'none'})"
+        return f"FailureOrder({', '.join(self._told())}; first: {self.first or 'none'})"
+
+    def summary(self) -> str:
+        """The three with their errors, a line each, and which fails first."""
+        return "\n".join([*self._told(), f"first to fail: {self.first or 'none'}"])
 
 
 @numbers_only

@@ -204,16 +204,24 @@ class CrackLife:
         Where they end [m].
     stopped : bool
         Whether the crack stops there.
+    low, high : float, optional
+        Number of cycles with K_max more and less its error; None where K came without an error.
     """
 
     cycles: float
     length: float
     stopped: bool
+    low: float | None = None
+    high: float | None = None
 
     def __repr__(self) -> str:
-        """Give cycles and length in a few digits."""
+        """Give cycles with their range, and the length."""
         end = "stops" if self.stopped else "ends"
-        return f"CrackLife({in_words(self.cycles, 3)} cycles, {end} at {1e6 * self.length:.4g} um)"
+        if self.low is None or self.high is None:
+            told = f"{in_words(self.cycles, 2)} cycles (estimate)"
+        else:
+            told = f"{with_range(self.cycles, self.low, self.high)} cycles"
+        return f"CrackLife({told}, {end} at {1e6 * self.length:.4g} um)"
 
 
 class Cracks(Kept, Labelled):
@@ -305,8 +313,12 @@ class Cracks(Kept, Labelled):
             _core.equivalent_range(threshold._numbers(), self.K_max.tolist(), self.K_min.tolist())
         )
 
-    def _curve(self) -> tuple[list[float], list[float], list[float]]:
-        return self.lengths.tolist(), self.K_max.tolist(), self.K_min.tolist()
+    def _curve(
+        self, more: NDArray[np.float64] | float = 0.0
+    ) -> tuple[list[float], list[float], list[float]]:
+        """Lengths, K_max with `more` of it, and K_min."""
+        largest = np.maximum(self.K_max + more, self.K_min)
+        return self.lengths.tolist(), largest.tolist(), self.K_min.tolist()
 
     @numbers_only
     def arrest(self, threshold: Threshold, *, start: float | None = None) -> CrackArrest:
@@ -315,14 +327,10 @@ class Cracks(Kept, Labelled):
         With the errors of K its verdict, length and margin have theirs: the crack is followed again
         with K_max less and more its error.
         """
-        lengths = self.lengths.tolist()
-        start = lengths[0] if start is None else start
+        start = float(self.lengths[0]) if start is None else start
 
         def followed(more: NDArray[np.float64] | float) -> tuple[Any, ...]:
-            largest = np.maximum(self.K_max + more, self.K_min)
-            return _core.arrest(
-                lengths, largest.tolist(), self.K_min.tolist(), threshold._numbers(), start
-            )
+            return _core.arrest(*self._curve(more), threshold._numbers(), start)
 
         verdict, length, crossings, margin, at = followed(0.0)
         if "error" not in self.dataset:
@@ -349,22 +357,27 @@ class Cracks(Kept, Labelled):
     ) -> CrackLife:
         """Count the cycles from the length `start` [m] to `end` [m] or to arrest.
 
-        By default from the shortest to the longest crack.
+        By default from the shortest to the longest crack. With the errors of K the cycles have a
+        range, as :meth:`arrest`. The scatter of the law of growth is no part of it.
         """
-        lengths, K_max, K_min = self._curve()
-        found = _core.crack_life(
-            lengths,
-            K_max,
-            K_min,
-            threshold._numbers(),
-            C=paris.C * 1e-6**paris.m,
-            m=paris.m,
-            growth=paris.threshold_in,
-            short=paris.short,
-            start=lengths[0] if start is None else start,
-            end=lengths[-1] if end is None else end,
-        )
-        return CrackLife(*found)
+
+        def followed(more: NDArray[np.float64] | float) -> tuple[float, float, bool]:
+            return _core.crack_life(
+                *self._curve(more),
+                threshold._numbers(),
+                C=paris.C * 1e-6**paris.m,
+                m=paris.m,
+                growth=paris.threshold_in,
+                short=paris.short,
+                start=float(self.lengths[0]) if start is None else start,
+                end=float(self.lengths[-1]) if end is None else end,
+            )
+
+        found = followed(0.0)
+        if "error" not in self.dataset:
+            return CrackLife(*found)
+        cycles = [of[0] for of in (found, followed(self.error), followed(-self.error))]
+        return CrackLife(*found, min(cycles), max(cycles))
 
     @numbers_only
     def kitagawa(self, threshold: Threshold) -> xr.Dataset:

@@ -22,9 +22,9 @@ class Answer(NamedTuple):
     high: float
 
     @classmethod
-    def within(cls, value: float, error: float = 0.0) -> Answer:
-        """A number and its error."""
-        return cls(value, value - error, value + error)
+    def within(cls, value: float, error: float = 0.0, *, least: float = -math.inf) -> Answer:
+        """A number and its error; `least` is the smallest that the number can be."""
+        return cls(value, max(value - error, least), value + error)
 
     def sides(self) -> Iterator[tuple[str, float]]:
         """The suffixes of a number in a study, and their values."""

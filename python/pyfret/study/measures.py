@@ -38,7 +38,7 @@ def of_last_cycle(name: str) -> Callable[[Result], float | Answer]:
         loops = result.loops(direction=next(iter(directions(result)), "x"))
         last = {key: float(of[-1]) if of.size else math.nan for key, of in loops.items()}
         error = last.get(f"{name}_error")
-        return last[name] if error is None else Answer.within(last[name], error)
+        return last[name] if error is None else Answer.within(last[name], error, least=0.0)
 
     return measure
 
@@ -60,7 +60,7 @@ def largest(name: str) -> Callable[[Result], Answer]:
         if not found:
             return NOTHING
         worst = max(found, key=lambda of: of.value)
-        return Answer.within(worst.value, worst.error)
+        return Answer.within(worst.value, worst.error, least=-math.inf if name in SIGNED else 0.0)
 
     return measure
 
@@ -118,6 +118,8 @@ MEASURES: dict[str, tuple[str, str, Callable[[Result], float | Answer]]] = {
 }
 
 
+#: Largest stresses that may be compression; the others are sizes.
+SIGNED = ("s_1", "interface_peel")
 #: Measures that are codes: they have no error.
 CODES = ("regime", "first")
 

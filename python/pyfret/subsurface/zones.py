@@ -25,12 +25,13 @@ class Zone(NamedTuple):
     inside: int
     #: Error of a border, of the middle and of the half width [m], an estimate: a quarter of a cell.
     #: Of line contacts on 48 to 100 cells the borders are 0.05 of a cell off at most.
-    error: float = np.nan
+    error: float | None = None
 
     def __repr__(self) -> str:
         """Give borders, middle and half width with their error."""
         names = ("left", "right", "middle", "half_width")
-        parts = (f"{n} {with_error(1e6 * getattr(self, n), 1e6 * self.error)} um" for n in names)
+        error = None if self.error is None else 1e6 * self.error
+        parts = (f"{n} {with_error(1e6 * getattr(self, n), error)} um" for n in names)
         return f"Zone({', '.join(parts)})"
 
     @property

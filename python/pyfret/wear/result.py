@@ -184,7 +184,7 @@ class WearResult(Kept, Labelled):
 
     @property
     def scene(self) -> Scene:
-        """The scene before wear, its rig included."""
+        """The scene before wear; its path has the rig, which a path of your own has not."""
         scene = Scene.from_toml(self.dataset.attrs["scene"])
         # Stores of before have the rig in the table of wear.
         stiffness = self.table.get("rig_stiffness", scene.path.rig_stiffness)

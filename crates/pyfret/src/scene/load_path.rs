@@ -471,6 +471,7 @@ impl LoadPath {
             (0, _) => "increments to be chosen".to_owned(),
             (given, open) => format!("{given} increments, those of {open} branches to be chosen"),
         };
-        format!("LoadPath({} branches, {increments})", branches.len())
+        let rig = self.0.rig_stiffness.map_or("", |_| ", through a rig");
+        format!("LoadPath({} branches, {increments}{rig})", branches.len())
     }
 }
