@@ -91,6 +91,8 @@ def test_the_best_is_that_of_the_mean_over_the_critical_distance(life: fatigue.L
     # Steep stresses: the longer the distance, the longer the life; a point is the worst.
     assert np.all(np.diff(found.margin.values) > 0.0)
     assert life.worst.margin < float(found.margin[0])
+    longest = life.over_distance([1e-3]).rows()[0]
+    assert longest[-1] == "1e+07 or more"
     assert found.dataset.attrs["L"] == pytest.approx(L)
     ax = fret.plot.life_over_distance(found)
     assert "cycles" in ax.get_ylabel()

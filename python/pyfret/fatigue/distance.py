@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from pyfret._core import LONGEST_LIFE
 from pyfret._util.kept import Kept
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
@@ -23,9 +24,11 @@ if TYPE_CHECKING:
 __all__ = ["OverDistance", "critical", "usual"]
 
 
-def rough(margin: float) -> str:
-    """A life or a safety factor in two digits; without end it is that of its low end or more."""
-    return f"{margin:.2g}" if np.isfinite(margin) else "or more"
+def rough(margin: float, *, lives: bool) -> str:
+    """A life or a safety factor in two digits; a life beyond the tests of its curve as they end."""
+    if np.isfinite(margin):
+        return f"{margin:.2g}"
+    return f"{LONGEST_LIFE:.2g} or more" if lives else "endless"
 
 
 class OverDistance(Kept, Labelled):
@@ -74,9 +77,10 @@ class OverDistance(Kept, Labelled):
 
     def rows(self) -> list[list[str]]:
         """A line for every distance: L, low, best, high."""
-        d = self.dataset
+        d, lives = self.dataset, self.margin.name == "life"
+        columns = (d.low, self.margin, d.high)
         return [
-            [length(float(d.L[n])), *(rough(float(of[n])) for of in (d.low, self.margin, d.high))]
+            [length(float(d.L[n])), *(rough(float(of[n]), lives=lives) for of in columns)]
             for n in range(d.sizes["L"])
         ]
 
