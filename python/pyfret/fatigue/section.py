@@ -132,7 +132,8 @@ def for_each_layer(given: Any, layers: int, one: str, several: str) -> list[Any]
     """
     if isinstance(given, str):
         # A sequence, but of letters.
-        raise TypeError(f"{given!r}: must be one of the {several}, or one for each layer")
+        hint = f", such as fatigue.Materials()[{given!r}]" if several == "materials" else ""
+        raise TypeError(f"{given!r}: must be one of the {several}{hint}, or one for each layer")
     if isinstance(given, Material):
         given = [None] * (layers - 1) + [given]
     each = items(given, several) if isinstance(given, Sequence) else [given] * layers
