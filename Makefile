@@ -16,7 +16,7 @@ unexport PYTHONDONTWRITEBYTECODE
 RUST := $(shell find crates -name '*.rs' -o -name '*.toml') Cargo.toml Cargo.lock
 
 .DEFAULT_GOAL := help
-.PHONY: help setup constants ablation largest stub demo figure-13 loads validation quick test test-all stress whole path-errors turned layers error-bars kill wear wear-jumps memory fuzz deny check format bench bench-kernels bench-stress bench-peers docs wheel wheel-test clean
+.PHONY: help setup constants ablation largest stub demo figure-13 loads validation quick test test-all stress whole path-errors turned layers criteria error-bars kill wear wear-jumps memory fuzz deny check format bench bench-kernels bench-stress bench-peers docs wheel wheel-test clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
@@ -65,6 +65,9 @@ turned: setup ## largest stress, life, crack and load factor of 40 random scenes
 
 layers: setup ## largest stress of every layer of 20 random stacks on five grids, against Hankel transforms
 	FRET_LAYERS=20 $(PY) -m pytest -q tests/test_buried_layers.py
+
+criteria: ## 20 000 histories below a contact for each criterion of planes, against all planes
+	FRET_HISTORIES=20000 cargo test --release --locked --package fatigue --test criteria -- --include-ignored ties::
 
 largest: ## largest stresses of 60 random contacts against four times as many cells; the numbers go to docs/reliability.md
 	FRET_LARGEST=60 FRET_LARGEST_REPORT=$(CURDIR)/docs/reliability.md \

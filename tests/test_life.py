@@ -79,8 +79,8 @@ def test_worst_point_lies_between_the_cells(cycled: fret.Result) -> None:
 
 
 def test_a_volume_is_its_sections(few: fret.Result) -> None:
-    places = (-3e-5, 0.0, 1e-4)
-    depths = [0.0, 5e-5, 2e-4]
+    places = (-3e-5, 1e-4)
+    depths = [0.0, 2e-4]
     for across, along in (("y", "x"), ("x", "y")):
         whole = few.life(BOTH, "findley", depths, **{across: places})
         assert whole.dataset.value.dims == ("depth", along, across)

@@ -4,9 +4,10 @@ use super::brute_force::{dot, normals, on_plane, traction};
 use super::splitmix::Draw;
 use super::{Tensor, criterion, many};
 
-/// Histories in every run, and in the slow one.
+/// Histories in every run.
 const HISTORIES: u64 = 400;
-const MANY_HISTORIES: u64 = 20_000;
+/// Those of the slow tests, where no more are asked for by `FRET_HISTORIES` (`make criteria`: 20 000).
+const MORE_HISTORIES: u64 = 2_000;
 /// The seed of the first history: a search without the complementary plane fails on seed 1013.
 const FIRST: u64 = 800;
 /// Planes whose shear amplitudes differ by less than this part tie.
@@ -130,15 +131,22 @@ fn of_ties(name: &str, history: &[Tensor], ties: &[[f64; 3]]) -> f64 {
         .fold(f64::NEG_INFINITY, f64::max)
 }
 
+fn more_histories() -> u64 {
+    let asked = std::env::var("FRET_HISTORIES").ok();
+    asked.map_or(MORE_HISTORIES, |n| {
+        n.parse().expect("a number of histories")
+    })
+}
+
 #[test]
 fn of_planes_that_tie_the_worse_one_counts() {
     against_all_ties(HISTORIES);
 }
 
 #[test]
-#[ignore = "slow: 20 000 histories"]
+#[ignore = "slow: 2 000 histories, or FRET_HISTORIES"]
 fn of_planes_that_tie_the_worse_one_counts_in_many_histories() {
-    against_all_ties(MANY_HISTORIES);
+    against_all_ties(more_histories());
 }
 
 #[test]
@@ -147,9 +155,9 @@ fn no_plane_has_more_below_a_contact() {
 }
 
 #[test]
-#[ignore = "slow: 20 000 histories"]
+#[ignore = "slow: 2 000 histories, or FRET_HISTORIES"]
 fn no_plane_has_more_below_a_contact_in_many_histories() {
-    against_all_hills(MANY_HISTORIES);
+    against_all_hills(more_histories());
 }
 
 /// Histories below a contact against the highest hills of a lattice of planes, of every criterion
