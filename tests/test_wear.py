@@ -337,3 +337,22 @@ def test_a_store_with_the_rig_in_its_table_of_wear_still_has_it() -> None:
         wear=d.attrs["wear"].replace("cycles =", "rig_stiffness = 5e9\ncycles =")
     )
     assert fret.wear.WearResult(before).scene.path.rig_stiffness == 5e9
+
+
+def test_a_coating_that_is_worn_through_has_its_cycles() -> None:
+    """A substrate that wears faster than its coating: the run ends at the bottom to rounding."""
+    coated = fret.Body(STEEL, coatings=fret.Coating(STEEL, thickness=2e-7))
+    run = fret.wear.solve(
+        line(64).replace(body2=coated),
+        cycles=1e5,
+        first_branch=2,
+        cycling="sliding",
+        body2=[fret.wear.Archard(1e-15), fret.wear.Archard(1e-14)],
+        progress=False,
+    )
+    assert [event["kind"] for event in run.events][-1] == "worn through"
+    assert run.cycles_to(part_of_coating=1.0) == pytest.approx(run.events[-1]["cycles"], rel=1e-6)
+    # The same of a depth that is missed by rounding.
+    last = float(run.dataset.depth2[-1])
+    assert run.cycles_to(depth=last * (1.0 + 5e-10)) == pytest.approx(float(run.cycles[-1]))
+    assert run.cycles_to(depth=1.001 * last) == np.inf

@@ -278,6 +278,10 @@ class WearResult(Kept, Labelled):
         )
 
 
+#: Part of a depth by which a run of wear may miss it, as the core's events have it.
+ROUNDING = 1e-9
+
+
 def spent(d: xr.Dataset, energy: float) -> float:
     """Cycles at which the dissipated energy [J] reaches a value: linear within a jump."""
     cycles, ends = (np.asarray(d[of].values, float) for of in ("cycles", "dissipated"))
@@ -289,11 +293,14 @@ def spent(d: xr.Dataset, energy: float) -> float:
 
 
 def reached(d: xr.Dataset, name: str, target: float) -> float:
-    """Cycles at which a growing number of the jumps reaches a value, by parabolas."""
+    """Cycles at which a growing number of the jumps reaches a value, by parabolas.
+
+    A run that ends where a coating is worn through may miss its bottom by :data:`ROUNDING`.
+    """
     ends, middles, length = (np.asarray(d[k].values) for k in (name, f"{name}_halfway", "length"))
     if target <= 0.0:
         return float(d.cycles[0] - length[0])
-    jumps = np.flatnonzero(ends >= target)
+    jumps = np.flatnonzero(ends >= target * (1.0 - ROUNDING))
     if jumps.size == 0:
         return math.inf
     n = int(jumps[0])
