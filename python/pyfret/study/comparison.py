@@ -293,7 +293,7 @@ def ranges(study: xr.Dataset, name: str, about: Number) -> dict[str, np.ndarray]
     with np.errstate(invalid="ignore", divide="ignore"):
         if about.logarithmic:
             # As far below as above, counted as a factor.
-            factor = np.nan_to_num(np.maximum(value / other, other / value), nan=1.0)
+            factor = np.nan_to_num(np.maximum(value / other, other / value), nan=1.0, posinf=np.inf)
             below, above = value / factor, value * factor
         else:
             error = np.nan_to_num(np.abs(value - other))
