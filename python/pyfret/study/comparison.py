@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from pyfret._core import with_error
+from pyfret._core import LONGEST_LIFE, with_error
 from pyfret._util import files
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
@@ -292,9 +292,11 @@ def ranges(study: xr.Dataset, name: str, about: Number) -> dict[str, np.ndarray]
     other = study[name].isel(coarser=1).values.astype(float)
     with np.errstate(invalid="ignore", divide="ignore"):
         if about.logarithmic:
-            # As far below as above, counted as a factor.
-            factor = np.nan_to_num(np.maximum(value / other, other / value), nan=1.0, posinf=np.inf)
-            below, above = value / factor, value * factor
+            # As far below as above, as a factor; a life without end is one beyond the tests.
+            known, there = (np.where(np.isinf(v), LONGEST_LIFE, v) for v in (value, other))
+            factor = np.nan_to_num(np.maximum(known / there, there / known), nan=1.0)
+            below, above = known / factor, known * factor
+            above = np.where(np.isinf(value) | np.isinf(other), np.inf, above)
         else:
             error = np.nan_to_num(np.abs(value - other))
             below, above = value - error, value + error
