@@ -14,7 +14,7 @@ from conftest import R, W, sphere_on_flat
 STEEL = fret.Elastic(E=210e9, nu=0.3)
 HERTZ = fret.reference.hertz(R=R, bodies=(STEEL, STEEL), W=W)
 #: Random contacts (FRET_DEPTHS says how many), and largest difference to ten times the depths.
-CONTACTS, OFF = int(os.environ.get("FRET_DEPTHS", "2")), 0.02
+CONTACTS, OFF = int(os.environ.get("FRET_DEPTHS", "4")), 0.02
 
 
 def layered(coatings: list[fret.Coating], *, n: int = 24) -> fret.Scene:

@@ -32,6 +32,8 @@ if TYPE_CHECKING:
         def plot(self) -> Any:
             """Draw what was found."""
 
+        def _as_saved(self) -> xr.Dataset: ...
+
         def _title(self) -> str: ...
 
         def _repr_html_(self) -> str: ...
@@ -66,6 +68,10 @@ class Kept:
         draw = getattr(sys.modules[__name__.partition(".")[0]].plot, type(self).figure)
         return draw(self, ax=ax, **options)
 
+    def _as_saved(self: Shown) -> xr.Dataset:
+        """What a file holds: the dataset."""
+        return self.dataset.load().drop_encoding()
+
     @numbers_only
     def save(self: Shown, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
         """Write it to a Zarr folder (``.zarr``) or a NetCDF file (``.nc``); `pyfret.open` opens it.
@@ -84,7 +90,7 @@ class Kept:
         ValueError
             The ending is another.
         """
-        dataset = self.dataset.load().drop_encoding()
+        dataset = self._as_saved()
         # Wear and the stores of studies say in their own way what they are.
         if not {"wear", "kind"} & set(dataset.attrs):
             dataset = dataset.assign_attrs(kind=type(self).__name__)

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pyfret._core import range_of_life, with_range
-from pyfret._util import files
 from pyfret._util.door import numbers_only
 from pyfret._util.kept import Kept
 from pyfret._util.labelled import Labelled
@@ -25,7 +24,6 @@ from pyfret.scene.tables import table
 from pyfret.subsurface.tensor import Errors
 
 if TYPE_CHECKING:
-    import os
     from collections.abc import Callable
 
     import xarray as xr
@@ -52,6 +50,9 @@ class Life(Kept, Labelled):
     normal stresses that make the value, ``normal`` of the critical plane, and ``safety_factor``
     (limit over value) or ``life`` [cycles], over (depth, x) or (depth, y), for several sections
     over (depth, x, y) or (depth, y, x); NaN in layers without a material.
+
+    A file of it has fields, worst points and ranges, not the stress: other distances and scatters
+    need the run.
     """
 
     def __init__(
@@ -90,30 +91,13 @@ class Life(Kept, Labelled):
         made.__dict__.update(state)
         return made
 
-    @numbers_only
-    def save(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
-        """Write it to a Zarr folder (``.zarr``) or a NetCDF file (``.nc``); `pyfret.open` opens it.
+    def _as_saved(self) -> xr.Dataset:
+        """Fields, worst points and ranges, without the stress.
 
-        Fields, worst points and ranges are kept, the stress is not: other distances and scatters
-        need the run.
-
-        Parameters
-        ----------
-        path : path
-            Where to write; its ending says in which format.
-        overwrite : bool
-            Whether what pyfret saved there is replaced (default: the place must be free).
-
-        Raises
-        ------
-        FileExistsError
-            There is something at the place.
-        ValueError
-            The ending is another.
+        Other distances and scatters need the run.
         """
         about = {stored.KEY: stored.packed(self.__getstate__()), "kind": "Life"}
-        dataset = self.dataset.load().drop_encoding()
-        files.write(dataset.assign_attrs(about), path, overwrite=overwrite)
+        return super()._as_saved().assign_attrs(about)
 
     def summary(self) -> str:
         """Say what was judged and how it ends: the range, where, over which distance, notes."""
