@@ -188,3 +188,29 @@ def test_a_grid_gives_the_numbers_of_the_finest_or_is_doubted(name: str) -> None
     assert told or (finer > 1 and found == pytest.approx(right, rel=0.03))
     # An edge without a radius has no largest pressure.
     assert bool(told) == (name in ("short roller", "long roller", "wedge"))
+
+
+@pytest.mark.parametrize("plane_strain", [False, True], ids=["roller", "strip"])
+def test_the_number_of_cells_may_be_given(*, plane_strain: bool) -> None:
+    """They are square; the sides are those that are found for the contact."""
+    path = fret.LoadPath.start().normal(100.0, increments=1)
+    length = np.inf if plane_strain else 0.5e-3
+    roller = fret.Body(STEEL, shape=shapes.Cylinder(R=0.01, length=length))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", fret.errors.SceneWarning)
+        found = fret.Grid.for_contact(roller, FLAT, path, error=0.1, plane_strain=plane_strain)
+    grid = fret.Grid.for_contact(roller, FLAT, path, n=48, plane_strain=plane_strain)
+    if plane_strain:
+        assert grid == fret.Grid.strip(extent=found.nx * found.dx, n=48)
+        return
+    assert min(grid.nx, grid.ny) == 48
+    assert grid.dx == grid.dy
+    for n, d, there, cell in (
+        (grid.nx, grid.dx, found.nx, found.dx),
+        (grid.ny, grid.dy, found.ny, found.dy),
+    ):
+        assert there * cell <= n * d * (1.0 + 1e-9) < there * cell + 1.001 * d
+    with pytest.raises(ValueError, match="n = 0: must be 2 to"):
+        fret.Grid.for_contact(roller, FLAT, path, n=0)
+    with pytest.raises(ValueError, match="cells along the longer side: at most"):
+        fret.Grid.for_contact(roller, FLAT, path, n=4000)

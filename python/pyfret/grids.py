@@ -84,6 +84,7 @@ def for_contact(
     wear: Mapping[str, Any] | None = None,
     mu: float | Friction | None = None,
     of: Literal["p", "p_max", "s_xx", "loop"] = "p",
+    n: int | None = None,
 ) -> Grid:
     """Choose a grid for the contact that comes out of two bodies and a load path.
 
@@ -125,6 +126,8 @@ def for_contact(
         pressure and the area. ``"s_xx"``: the largest tension along x in the lower body at
         the end of the path. ``"loop"``: the dissipated energy and the ranges of forces and
         shifts.
+    n : int, optional
+        Cells along the shorter side, in place of those that `error` takes; they are square.
 
     Raises
     ------
@@ -156,6 +159,8 @@ def for_contact(
         raise ValueError(f"of = {of!r}: must be one of {', '.join(NUMBERS)}")
     if of in ("s_xx", "loop") and mu is None:
         raise ValueError(f"mu: must be given with of = {of!r}, which depends on it")
+    if n is not None and not 2 <= n <= MOST:
+        raise ValueError(f"n = {n}: must be 2 to {MOST} cells along the shorter side")
     pressed = _pressed(path)
     smooth1, smooth2 = (body.replace(shape=_smooth(body.shape)) for body in (body1, body2))
     lengths = _lengths(smooth1, smooth2, pressed, start, plane_strain=plane_strain)
@@ -170,15 +175,17 @@ def for_contact(
     cells = CELLS_TIMES_ERROR / error * room
     wave = min((_shortest(body.shape) for body in (body1, body2)), default=math.inf)
     shortest = min(sides)
+    if n is not None:
+        return _of_cells(body1, body2, sides, n, plane_strain=plane_strain)
     # Square cells, as many as the shorter side of the contact takes.
     size = min(shortest / max(cells, FEWEST), wave / IN_A_WAVE)
     if wear is not None:
         size = min(size, first / IN_A_FIRST)
-    n = [2 * math.ceil(side / size / 2) for side in sides]
+    along = [2 * math.ceil(side / size / 2) for side in sides]
     plain = _is_plain(body1.shape) and _is_plain(body2.shape)
-    if wear is None and max(n) <= MOST and not (plain and of == "p"):
+    if wear is None and max(along) <= MOST and not (plain and of == "p"):
         if of != "p":
-            n = [max(FEWEST, 2 * math.ceil(cells / 4)) for cells in n]
+            along = [max(FEWEST, 2 * math.ceil(cells / 4)) for cells in along]
         whole = of in ("s_xx", "loop")
         scene = Scene(
             body1=body1,
@@ -187,16 +194,28 @@ def for_contact(
             grid=_square(sides[0], plane_strain=plane_strain),
             path=path if whole else pressed,
         )
-        sides, n = _refined(scene, sides, n, error, of)
-    _doubt_films(body1, body2, [side / of for side, of in zip(sides, n, strict=True)])
-    if max(n) > MOST:
+        sides, along = _refined(scene, sides, along, error, of)
+    _doubt_films(body1, body2, [side / of for side, of in zip(sides, along, strict=True)])
+    if max(along) > MOST:
         raise ValueError(
-            f"{max(n)} cells along a side: the contact is {lengths[0]:.3g} m long; a larger error "
-            f"than {error:g}, or roughness of longer waves, takes fewer"
+            f"{max(along)} cells along a side: the contact is {lengths[0]:.3g} m long; a larger "
+            f"error than {error:g}, or roughness of longer waves, takes fewer"
         )
     if plane_strain:
-        return Grid.strip(extent=sides[0], n=n[0])
-    return Grid.from_spacing((n[0], n[1]), (sides[0] / n[0], sides[1] / n[1]))
+        return Grid.strip(extent=sides[0], n=along[0])
+    return Grid.from_spacing((along[0], along[1]), (sides[0] / along[0], sides[1] / along[1]))
+
+
+def _of_cells(body1: Body, body2: Body, sides: list[float], n: int, *, plane_strain: bool) -> Grid:
+    """A grid of square cells on given sides [m], `n` of them along the shorter one."""
+    size = min(sides) / n
+    _doubt_films(body1, body2, [size])
+    if plane_strain:
+        return Grid.strip(extent=sides[0], n=n)
+    along = [max(n, math.ceil(side / size * (1.0 - 1e-9))) for side in sides]
+    if max(along) > MOST:
+        raise ValueError(f"n = {n}: makes {max(along)} cells along the longer side: at most {MOST}")
+    return Grid.from_spacing((along[0], along[1]), (size, size))
 
 
 def _pressed(path: LoadPath) -> LoadPath:
