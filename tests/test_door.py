@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 
 import pyfret as fret
-from pyfret._util import door
+from pyfret._util import compiled, door
 from pyfret._util.door import OBJECTS, is_own
 
 ROOT = Path(__file__).parents[1]
@@ -127,9 +127,10 @@ def test_an_object_of_pyfret_is_no_plain_value(
 
 
 def stands_behind(call: Any) -> bool:
-    """Whether a function of the door's module is this one, or one that it wraps."""
+    """Whether a function of a door, of Python's or the compiled one, is this, or one it wraps."""
     while call is not None:
-        if call.__code__.co_filename == door.__file__:
+        of = getattr(call, "__code__", None)
+        if of is not None and of.co_filename in (door.__file__, compiled.__file__):
             return True
         call = getattr(call, "__wrapped__", None)
     return False
@@ -155,17 +156,70 @@ def test_every_public_function_stands_behind_the_door(
     assert open_ones == []
 
 
+def constructor_of(cls: Any) -> Any:
+    """What takes the arguments of a class: ``__init__``, of a compiled one ``__new__``."""
+    if isinstance(cls.__init__, FunctionType):
+        return cls.__init__
+    return None if cls.__text_signature__ is None else cls.__new__
+
+
+def test_every_compiled_callable_is_behind_the_compiled_door(
+    record_property: Callable[[str, object], None],
+) -> None:
+    """Methods, functions and constructors, private ones of the package included."""
+    asked, open_ones = 0, []
+    for name, of in vars(fret._core).items():
+        if isinstance(of, type) and not issubclass(of, BaseException):
+            members = {f"{name}.{one}": getattr(of, one) for one in vars(of) if one[0] != "_"}
+            if of.__text_signature__ is not None:
+                members[f"{name}.__new__"] = of.__new__
+        else:
+            members = {name: of}
+        for told, call in members.items():
+            criterion = told.partition(".")[0] == "Criterion" and told != "Criterion.of"
+            if not callable(call) or isinstance(call, type) or criterion:
+                continue
+            asked += 1
+            if not stands_behind(call):
+                open_ones.append(told)
+    record_property("callables", asked)
+    assert asked > 200
+    assert open_ones == []
+
+
+@pytest.mark.parametrize(
+    ("call", "says"),
+    [
+        (lambda: fret.Elastic(210e9, 0.3), r"Elastic takes arguments by name, Elastic\(E=..., nu="),
+        (lambda: fret.History("cycles"), "History is not made: it is one of History.INCREMENT"),
+        (lambda: fret.Body(fret.RIGID, thickness=1.0), r"belongs to .*Coating\(thickness=...\)"),
+        (lambda: fret.fatigue.life(1, L=3.0), r"life.over_distance\(L=...\) or life.range_of"),
+        (lambda: fret.fatigue.life(1, scatter=3.0), r"life.range_of\(scatter=...\)"),
+        (lambda: fret.fatigue.life(1, error=True), r"belongs to solve\(error=...\)"),
+        (lambda: fret.solve(1, increments=3), r"path.cycles\(increments=...\)"),
+        (lambda: fret.Sphere(radius=3.0), "'radius': the nearest is 'R'"),
+        (lambda: fret.LoadPath.start().normal(F=3.0), "'F': the nearest is 'W'"),
+    ],
+)
+def test_a_keyword_of_another_function_is_told_with_that_function(
+    call: Callable[[], object], says: str
+) -> None:
+    with pytest.raises(TypeError, match=says):
+        call()
+
+
 @pytest.mark.solves
 @pytest.mark.filterwarnings("ignore")
 def test_an_unknown_keyword_is_refused_with_those_that_are_known(
     monkeypatch: pytest.MonkeyPatch, record_property: Callable[[str, object], None]
 ) -> None:
-    """By every function and constructor behind the door whose names of arguments are known."""
+    """By every function, method and constructor whose names of arguments are known."""
     monkeypatch.syspath_prepend(str(Path(__file__).with_name("hostile")))
     public = importlib.import_module("public")
     asked = 0
     for _, call in public.public():
-        function = call.__init__ if inspect.isclass(call) else getattr(call, "__func__", call)
+        own = inspect.isclass(call) and call.__module__.partition(".")[0] == "pyfret"
+        function = constructor_of(call) if own else getattr(call, "__func__", call)
         if not isinstance(function, FunctionType) or not stands_behind(function):
             continue
         parameters = inspect.signature(function).parameters.values()
@@ -177,7 +231,7 @@ def test_an_unknown_keyword_is_refused_with_those_that_are_known(
         with pytest.raises(TypeError, match=rf"{of} has no argument 'no_such_name': it takes"):
             call(no_such_name=1)
     record_property("callables", asked)
-    assert asked > 150
+    assert asked > 260
     with pytest.raises(TypeError, match="'tolerance_': the nearest is 'tolerance'"):
         fret.fatigue.lives(None, None, None, tolerance_=1e-3)  # type: ignore[call-arg]
     # Keywords that a class of options has are known by it.

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import importlib
 from collections.abc import Callable
 from pathlib import Path
 
 import matplotlib.pyplot as plt
 import pytest
+from xarray import Dataset
 
 import pyfret as fret
 from conftest import W, sphere_on_flat
@@ -94,6 +96,42 @@ def test_what_is_not_there_is_told_with_what_is(
     with pytest.raises(error, match=says):
         guess(result)
     plt.close("all")
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_what_a_dataset_says_of_itself_is_an_attribute(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every result that has a dataset, every entry of its attributes."""
+    monkeypatch.syspath_prepend(str(Path(__file__).with_name("hostile")))
+    public = importlib.import_module("public")
+    results = [
+        of for of in vars(public).values() if isinstance(getattr(of, "dataset", None), Dataset)
+    ]
+    results += [public.BARE.grow_crack(0.0, end=2e-5), public.LIFE.over_distance([1e-5, 2e-5])]
+    asked, missing = 0, []
+    for one in results:
+        for name in map(str, one.dataset.attrs):
+            if not name.isidentifier() or name.startswith("_"):
+                continue
+            asked += 1
+            if name not in dir(one) or not has(one, name):
+                missing.append(f"{type(one).__name__}.{name}")
+    assert asked > 60
+    assert missing == []
+    growth = public.BARE.grow_crack(0.0, end=2e-5)
+    assert growth.end in ("reached", "closed", "surface", "kinks")
+    assert 0.0 <= growth.path_error < 1e-6
+
+
+def has(one: object, name: str) -> bool:
+    """Whether a thing has an attribute, or says that this one of them has none."""
+    try:
+        getattr(one, name)
+    except AttributeError:
+        return False
+    except ValueError:
+        # A yardstick that a contact of this kind has not.
+        return True
+    return True
 
 
 def test_maps_take_the_words_of_imshow(result: fret.Result) -> None:

@@ -13,10 +13,12 @@ from typing import Any
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+import xarray as xr
 
 import pyfret as fret
 from conftest import ROOT, W, sphere_on_flat
 from pyfret import verification
+from pyfret._cli import commands
 from pyfret._core import with_error
 from pyfret.report import content
 from pyfret.report.crack import CrackSection
@@ -210,6 +212,31 @@ def test_the_command_writes_the_page(result: fret.Result, tmp_path: Path) -> Non
     ran = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
     assert ran.returncode == 2
     assert "none.zarr" in ran.stderr
+
+
+def test_every_store_has_its_page(worn: fret.wear.WearResult, tmp_path: Path) -> None:
+    """By the command, of wear and of what `save` wrote; options of a run are refused."""
+    store, page = tmp_path / "worn.zarr", tmp_path / "worn.html"
+    worn.save(store)
+    assert commands.main(["report", str(store), "-o", str(page)]) == 0
+    assert "largest pressure" in page.read_text()
+    assert commands.main(["report", str(store), "-o", str(page), "--wear", str(store)]) == 2
+
+
+def test_the_page_of_a_study_takes_the_options_of_its_figure(tmp_path: Path) -> None:
+    """Of three parameters the third is chosen, as for the map."""
+    places = {key: [1.0, 2.0, 3.0] for key in "abc"}
+    total = xr.DataArray(np.arange(27.0).reshape(3, 3, 3), places, name="total")
+    status = xr.full_like(total, 1, dtype=np.int8).rename("status")
+    study, page = fret.study.Study(xr.merge([total, status])), tmp_path / "study.html"
+    with pytest.raises(
+        ValueError, match=r"3 parameters: give the values of 1 .* at=\{name: value\}"
+    ):
+        study.report(page)
+    assert not page.exists()
+    study.report(page, at={"c": 2.0})
+    assert "27 done" in page.read_text()
+    plt.close("all")
 
 
 def test_a_film_of_a_cycle(result: fret.Result, tmp_path: Path) -> None:

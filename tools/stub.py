@@ -27,7 +27,7 @@ IMPORTS = """\
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal
 from typing_extensions import Self
-from pyfret._util.types import FrictionFunction, Variable
+from pyfret._util.types import FrictionFunction, Quantities, Quantity, Variable
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 """
@@ -100,8 +100,6 @@ def formatted(text: str) -> str:
 def stub() -> str:
     """The whole stub."""
     text = generated()
-    # Arguments that are refused by their names are none of the signature.
-    text = text.replace(", **unknown)", ")")
     # PyO3 knows no types of the entries of a dict.
     text = re.sub(r"\bdict\b(?!\[)(?=[\]\s,:|)])", "dict[str, Any]", text)
     text = re.sub(r"\btuple\b(?!\[)(?=[\]\s,:|)])", "tuple[Any, ...]", text)

@@ -8,7 +8,7 @@ from numpy import bool_, float64
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import Self
 
-from pyfret._util.types import FrictionFunction, Variable
+from pyfret._util.types import FrictionFunction, Quantities, Quantity, Variable
 from pyfret.settings import Settings
 
 LONGEST_LIFE: Final[float]
@@ -209,7 +209,7 @@ class Bond:
     def normal(self, /) -> float:
         """Approach per pressure [m/Pa]."""
     @staticmethod
-    def of_layer(material: Elastic, *, thickness: float) -> Bond:
+    def of_layer(material: Elastic, *, thickness: Quantity) -> Bond:
         """The bond that a thin layer of a material makes: h (1 - 2 nu)/(2 G (1 - nu)) and h/G."""
     def replace(self, /, **changes: Any) -> Self:
         """The same with some of its parts exchanged, named as in the constructor."""
@@ -268,24 +268,24 @@ class Branch:
         cls,
         /,
         *,
-        W: float | None = None,
-        M_x: float | None = None,
-        M_y: float | None = None,
-        T_x: float | None = None,
-        T_y: float | None = None,
-        M_z: float | None = None,
-        delta_z: float | None = None,
-        phi_x: float | None = None,
-        phi_y: float | None = None,
-        delta_x: float | None = None,
-        delta_y: float | None = None,
-        phi_z: float | None = None,
-        sigma_B: float = 0.0,
-        sigma_B1: float = 0.0,
-        rolled: float = 0.0,
+        W: Quantity | None = None,
+        M_x: Quantity | None = None,
+        M_y: Quantity | None = None,
+        T_x: Quantity | None = None,
+        T_y: Quantity | None = None,
+        M_z: Quantity | None = None,
+        delta_z: Quantity | None = None,
+        phi_x: Quantity | None = None,
+        phi_y: Quantity | None = None,
+        delta_x: Quantity | None = None,
+        delta_y: Quantity | None = None,
+        phi_z: Quantity | None = None,
+        sigma_B: Quantity = 0.0,
+        sigma_B1: Quantity = 0.0,
+        rolled: Quantity = 0.0,
         increments: int | Literal["auto"] | None = None,
         spacing: Spacing = ...,
-        t: float,
+        t: Quantity,
         path_error: float | None = None,
     ) -> Branch: ...
     def __replace__(self, /, **changes: Any) -> Self: ...
@@ -460,7 +460,7 @@ class Coating:
         /,
         material: Elastic,
         *,
-        thickness: float,
+        thickness: Quantity,
         bond: Bond = ...,
         residual: ArrayLike | None = None,
     ) -> Coating: ...
@@ -498,7 +498,7 @@ class Cone:
     def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
     def __hash__(self, /) -> int: ...
     def __ne__(self, value: object, /) -> bool: ...
-    def __new__(cls, /, *, slope: float) -> Cone: ...
+    def __new__(cls, /, *, slope: Quantity) -> Cone: ...
     def __replace__(self, /, **changes: Any) -> Self: ...
     def __repr__(self, /) -> str: ...
     def replace(self, /, **changes: Any) -> Self:
@@ -816,7 +816,7 @@ class CrownedRoller:
     def __hash__(self, /) -> int: ...
     def __ne__(self, value: object, /) -> bool: ...
     def __new__(
-        cls, /, *, R: float, length: float, crown: float, angle: float = 0.0
+        cls, /, *, R: Quantity, length: Quantity, crown: Quantity, angle: Quantity = 0.0
     ) -> CrownedRoller: ...
     def __replace__(self, /, **changes: Any) -> Self: ...
     def __repr__(self, /) -> str: ...
@@ -853,7 +853,7 @@ class CycleSection:
         *,
         x: float | None = None,
         y: float | None = None,
-        azimuth: float | None = None,
+        azimuth: Quantity | None = None,
         body_number: int = 2,
         residual: Sequence[ArrayLike] | None = None,
         yielding: tuple[float, float] | None = None,
@@ -913,7 +913,9 @@ class Cylinder:
     def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
     def __hash__(self, /) -> int: ...
     def __ne__(self, value: object, /) -> bool: ...
-    def __new__(cls, /, R: float, *, length: float = ..., angle: float = 0.0) -> Cylinder: ...
+    def __new__(
+        cls, /, R: Quantity, *, length: Quantity = ..., angle: Quantity = 0.0
+    ) -> Cylinder: ...
     def __replace__(self, /, **changes: Any) -> Self: ...
     def __repr__(self, /) -> str: ...
     @property
@@ -965,7 +967,7 @@ class EigenstrainOperator:
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self, /) -> int: ...
     def __new__(
-        cls, /, body: Body, grid: Grid, *, depth: float, height: float
+        cls, /, body: Body, grid: Grid, *, depth: Quantity, height: float
     ) -> EigenstrainOperator: ...
     def __reduce__(self, /) -> tuple[Any, tuple[Any, ...]]: ...
     def __repr__(self, /) -> str: ...
@@ -1062,7 +1064,7 @@ class Elastic:
     def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
     def __hash__(self, /) -> int: ...
     def __ne__(self, value: object, /) -> bool: ...
-    def __new__(cls, /, *, E: float, nu: float, plastic: Plastic | None = None) -> Elastic: ...
+    def __new__(cls, /, *, E: Quantity, nu: float, plastic: Plastic | None = None) -> Elastic: ...
     def __replace__(self, /, **changes: Any) -> Self: ...
     def __repr__(self, /) -> str: ...
     @property
@@ -1101,7 +1103,7 @@ class Ellipsoid:
     def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
     def __hash__(self, /) -> int: ...
     def __ne__(self, value: object, /) -> bool: ...
-    def __new__(cls, /, *, R_x: float, R_y: float, angle: float = 0.0) -> Ellipsoid: ...
+    def __new__(cls, /, *, R_x: Quantity, R_y: Quantity, angle: Quantity = 0.0) -> Ellipsoid: ...
     def __replace__(self, /, **changes: Any) -> Self: ...
     def __repr__(self, /) -> str: ...
     @property
@@ -1126,7 +1128,7 @@ class Envelope:
         of: Sequence[str],
         x: float | None = None,
         y: float | None = None,
-        azimuth: float | None = None,
+        azimuth: Quantity | None = None,
         body_number: int = 2,
         residual: Sequence[ArrayLike] | None = None,
     ) -> Envelope: ...
@@ -1145,7 +1147,7 @@ class Envelope:
         q_x: ArrayLike,
         q_y: ArrayLike,
         stick: NDArray[bool_],
-        sigma_B: float = 0.0,
+        sigma_B: Quantity = 0.0,
         eigenstress: Eigenstress | None = None,
     ) -> None:
         """Take an increment: tractions [Pa], cells that stick, bulk stress of the body [Pa]."""
@@ -1185,7 +1187,7 @@ class FlatPunch:
     def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
     def __hash__(self, /) -> int: ...
     def __ne__(self, value: object, /) -> bool: ...
-    def __new__(cls, /, *, radius: float, edge: float) -> FlatPunch: ...
+    def __new__(cls, /, *, radius: Quantity, edge: Quantity) -> FlatPunch: ...
     def __replace__(self, /, **changes: Any) -> Self: ...
     def __repr__(self, /) -> str: ...
     @property
@@ -1300,7 +1302,7 @@ class Grid:
     def cell_area(self, /) -> float:
         """Area of a cell [m^2]."""
     @staticmethod
-    def centred(*, extent: float | tuple[float, float], n: int | tuple[int, int]) -> Grid:
+    def centred(*, extent: Quantity | tuple[Quantity, Quantity], n: int | tuple[int, int]) -> Grid:
         """`n` by `n` cells on a square of side `extent` [m]; a rectangle by pairs (x, y)."""
     @property
     def dx(self, /) -> float:
@@ -1309,7 +1311,9 @@ class Grid:
     def dy(self, /) -> float:
         """Cell length along y [m]."""
     @staticmethod
-    def from_spacing(n: int | tuple[int, int], spacing: float | tuple[float, float]) -> Grid:
+    def from_spacing(
+        n: int | tuple[int, int], spacing: Quantity | tuple[Quantity, Quantity]
+    ) -> Grid:
         """`n` = (nx, ny) cells of size `spacing` = (dx, dy) [m]."""
     @property
     def nx(self, /) -> int:
@@ -1323,7 +1327,7 @@ class Grid:
     def replace(self, /, **changes: Any) -> Self:
         """The same with some of its parts exchanged, named as in the constructor."""
     @staticmethod
-    def strip(*, extent: float, n: int, width: float = 1.0) -> Grid:
+    def strip(*, extent: Quantity, n: int, width: float = 1.0) -> Grid:
         """
         Plane strain: `n` cells over the length `extent` [m] along x, without end along y.
 
@@ -1450,7 +1454,7 @@ class Hertz:
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self, /) -> int: ...
     def __new__(
-        cls, /, *, W: float, E_star: float, a: float, p0: float, delta_z: float
+        cls, /, *, W: float, E_star: float, a: float, p0: float, delta_z: Quantity
     ) -> Hertz: ...
     def __reduce__(self, /) -> tuple[Any, tuple[Any, ...]]: ...
     def __repr__(self, /) -> str: ...
@@ -1529,9 +1533,13 @@ class HertzStress:
     @property
     def nu(self, /) -> float:
         """Poisson's ratio."""
-    def pressure(self, /, x: ArrayLike, y: float, z: float) -> list[NDArray[np.float64]]:
-        """Stress s_xx, s_yy, s_zz, s_xy, s_xz, s_yz at (`x`, `y`, `z`) [m] under a pressure."""
-    def shear(self, /, x: ArrayLike, y: float, z: float) -> list[NDArray[np.float64]]:
+    def pressure(self, /, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> list[NDArray[np.float64]]:
+        """
+        Stress s_xx, s_yy, s_zz, s_xy, s_xz, s_yz at (`x`, `y`, `z`) [m] under a pressure.
+
+        Numbers, or arrays that are put together as numpy does.
+        """
+    def shear(self, /, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> list[NDArray[np.float64]]:
         """The same under a shear traction that acts on the body along +x."""
 
 @final
@@ -1604,9 +1612,13 @@ class LineContact:
         The strain is brought up together with T > 0.
         """
     def stress(
-        self, /, x: ArrayLike, z: float, *, T: float, mu: float
+        self, /, x: ArrayLike, z: ArrayLike, *, T: float, mu: float, middle: float = 0.0
     ) -> list[NDArray[np.float64]]:
-        """Stress s_xx, s_zz, s_xz at (`x`, `z`) [m] in partial slip [Pa]."""
+        """
+        Stress s_xx, s_zz, s_xz at (`x`, `z`) [m] in partial slip [Pa]; arrays are put together.
+
+        The shear is that of :meth:`q`, the stick zone around `middle`. A bulk stress adds to s_xx.
+        """
 
 @final
 class LoadPath:
@@ -1646,7 +1658,7 @@ class LoadPath:
     def __len__(self, /) -> int: ...
     def __ne__(self, value: object, /) -> bool: ...
     def __new__(
-        cls, /, branches: Sequence[Branch] = ..., *, rig_stiffness: float | None = None
+        cls, /, branches: Sequence[Branch] = ..., *, rig_stiffness: Quantity | None = None
     ) -> LoadPath: ...
     def __replace__(self, /, **changes: Any) -> Self: ...
     def __repr__(self, /) -> str: ...
@@ -1659,12 +1671,12 @@ class LoadPath:
         /,
         n: int,
         *,
-        T_x: float | None = None,
-        T_y: float | None = None,
-        M_z: float | None = None,
-        delta_x: float | None = None,
-        delta_y: float | None = None,
-        phi_z: float | None = None,
+        T_x: Quantity | None = None,
+        T_y: Quantity | None = None,
+        M_z: Quantity | None = None,
+        delta_x: Quantity | None = None,
+        delta_y: Quantity | None = None,
+        phi_z: Quantity | None = None,
         increments: int | Literal["auto"] = ...,
     ) -> LoadPath:
         """
@@ -1698,15 +1710,15 @@ class LoadPath:
         self,
         /,
         *,
-        delta_z: float | str | Sequence[float] | None = None,
-        delta_x: float | str | Sequence[float] | None = None,
-        delta_y: float | str | Sequence[float] | None = None,
-        phi_x: float | str | Sequence[float] | None = None,
-        phi_y: float | str | Sequence[float] | None = None,
-        phi_z: float | str | Sequence[float] | None = None,
+        delta_z: Quantities | None = None,
+        delta_x: Quantities | None = None,
+        delta_y: Quantities | None = None,
+        phi_x: Quantities | None = None,
+        phi_y: Quantities | None = None,
+        phi_z: Quantities | None = None,
         increments: int | Literal["auto"] = ...,
         spacing: Spacing = ...,
-        t: float | None = None,
+        t: Quantity | None = None,
     ) -> LoadPath:
         """
         Go to the given rigid motions of body 1 on a straight line, or visit several in turn.
@@ -1736,7 +1748,13 @@ class LoadPath:
         LoadPath(4 branches, increments to be chosen)
         """
     def ellipse(
-        self, /, *, T_x: float, T_y: float, turns: int = 1, increments: int | Literal["auto"] = ...
+        self,
+        /,
+        *,
+        T_x: Quantity,
+        T_y: Quantity,
+        turns: int = 1,
+        increments: int | Literal["auto"] = ...,
     ) -> LoadPath:
         """
         Turn the tangential force around an ellipse of semi-axes `T_x`, `T_y` [N].
@@ -1749,18 +1767,18 @@ class LoadPath:
         self,
         /,
         *,
-        W: float | None = None,
-        T_x: float | None = None,
-        T_y: float | None = None,
-        M_x: float | None = None,
-        M_y: float | None = None,
-        M_z: float | None = None,
-        sigma_B: float | None = None,
-        sigma_B1: float | None = None,
-        rolled: float | None = None,
+        W: Quantity | None = None,
+        T_x: Quantity | None = None,
+        T_y: Quantity | None = None,
+        M_x: Quantity | None = None,
+        M_y: Quantity | None = None,
+        M_z: Quantity | None = None,
+        sigma_B: Quantity | None = None,
+        sigma_B1: Quantity | None = None,
+        rolled: Quantity | None = None,
         increments: int | Literal["auto"] = ...,
         spacing: Spacing = ...,
-        t: float | None = None,
+        t: Quantity | None = None,
     ) -> LoadPath:
         """
         Go to the given loads on a straight line; what is not named stays as it was.
@@ -1821,21 +1839,17 @@ class LoadPath:
 
         What friction makes of the history of a cell goes on meanwhile.
         """
-    def normal(
-        self, /, W: float | str | Sequence[float], *, increments: int | Literal["auto"] = ...
-    ) -> LoadPath:
+    def normal(self, /, W: Quantities, *, increments: int | Literal["auto"] = ...) -> LoadPath:
         """
         Go to the normal force `W` [N], the tangential forces kept, in one unit of path time.
 
         Of several forces each is a branch of its own, with as many increments.
         """
-    def radial(
-        self, /, W: float | str | Sequence[float], *, increments: int | Literal["auto"] = ...
-    ) -> LoadPath:
+    def radial(self, /, W: Quantities, *, increments: int | Literal["auto"] = ...) -> LoadPath:
         """Visit the normal forces `W` [N] in turn, as `tangential` does: fretting mode II."""
     def replace(self, /, **changes: Any) -> Self:
         """The same with some of its parts exchanged, named as in the constructor."""
-    def rig(self, /, stiffness: float | str | None) -> LoadPath:
+    def rig(self, /, stiffness: Quantity | None) -> LoadPath:
         """
         The same path through a rig of a stiffness K [N/m], a spring along x.
 
@@ -1862,7 +1876,7 @@ class LoadPath:
     def t(self, /) -> NDArray[float64]:
         """Path time at the end of every increment."""
     def tangential(
-        self, /, T_x: float | str | Sequence[float], *, increments: int | Literal["auto"] = ...
+        self, /, T_x: Quantities, *, increments: int | Literal["auto"] = ...
     ) -> LoadPath:
         """
         Visit the tangential forces `T_x` [N] in turn.
@@ -1870,9 +1884,7 @@ class LoadPath:
         The increments are shared out in proportion to the change of force. Path time runs as in
         the first branch: one unit for as many increments as that one has.
         """
-    def torsion(
-        self, /, M_z: float | str | Sequence[float], *, increments: int | Literal["auto"] = ...
-    ) -> LoadPath:
+    def torsion(self, /, M_z: Quantities, *, increments: int | Literal["auto"] = ...) -> LoadPath:
         """Visit the torsional moments `M_z` [N m] in turn, as `tangential` does the forces."""
     def waypoints(
         self,
@@ -1936,7 +1948,7 @@ class Lubkin:
         """Rotation phi_z at the stick radius `c` [m] [rad]."""
     def q(self, /, r: ArrayLike, *, c: float) -> NDArray[np.float64]:
         """Circumferential traction at `r` for the stick radius `c` [m] [Pa]."""
-    def stick_radius(self, /, *, M_z: float) -> float:
+    def stick_radius(self, /, *, M_z: Quantity) -> float:
         """Stick radius under the moment `M_z` [N m] [m]."""
     @property
     def stiffness(self, /) -> float:
@@ -2050,12 +2062,12 @@ class Outline:
         q_y: NDArray[np.float64],
     ) -> Outline: ...
     def __repr__(self, /) -> str: ...
-    def border(self, /, azimuth: float = 0.0) -> tuple[float, float]:
+    def border(self, /, azimuth: Quantity = 0.0) -> tuple[float, float]:
         """Where a line through the centre leaves the contact, backwards and forwards [m]."""
     @property
     def centre(self, /) -> tuple[float, float]:
         """Centre of the area, x and y [m]; 0 where it lies in the middle of the grid."""
-    def half_width(self, /, azimuth: float = 0.0) -> float:
+    def half_width(self, /, azimuth: Quantity = 0.0) -> float:
         """Half of the width of the contact in a direction [m]."""
     @property
     def half_widths(self, /) -> tuple[float, float, float]:
@@ -2137,15 +2149,15 @@ class Plastic:
         cls,
         /,
         *,
-        s_y: float,
-        hardening: float = 0.0,
-        voce_Q: float = 0.0,
+        s_y: Quantity,
+        hardening: Quantity = 0.0,
+        voce_Q: Quantity = 0.0,
         voce_b: float = 0.0,
         swift_e_0: float = 0.0,
         swift_n: float = 0.0,
-        kinematic: float = 0.0,
-        chaboche_C: float | Sequence[float] | None = None,
-        chaboche_gamma: float | Sequence[float] | None = None,
+        kinematic: Quantity = 0.0,
+        chaboche_C: Quantities | None = None,
+        chaboche_gamma: Quantities | None = None,
     ) -> Plastic: ...
     def __replace__(self, /, **changes: Any) -> Self: ...
     def __repr__(self, /) -> str: ...
@@ -2265,7 +2277,7 @@ class Rough:
     def __hash__(self, /) -> int: ...
     def __ne__(self, value: object, /) -> bool: ...
     def __new__(
-        cls, /, *, rms: float, hurst: float, longest: float, shortest: float, seed: int = 0
+        cls, /, *, rms: Quantity, hurst: float, longest: Quantity, shortest: Quantity, seed: int = 0
     ) -> Rough: ...
     def __replace__(self, /, **changes: Any) -> Self: ...
     def __repr__(self, /) -> str: ...
@@ -2488,7 +2500,7 @@ class Sphere:
     def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
     def __hash__(self, /) -> int: ...
     def __ne__(self, value: object, /) -> bool: ...
-    def __new__(cls, /, R: float) -> Sphere: ...
+    def __new__(cls, /, R: Quantity) -> Sphere: ...
     def __replace__(self, /, **changes: Any) -> Self: ...
     def __repr__(self, /) -> str: ...
     def replace(self, /, **changes: Any) -> Self:
@@ -2526,7 +2538,7 @@ class Springs:
         /,
         largest: Hertz,
         *,
-        R: float,
+        R: Quantity,
         bodies: tuple[Elastic | Body, Elastic | Body],
         mu: float,
         n: int = 1500,
@@ -2592,14 +2604,14 @@ class Subsurface:
         q_x: ArrayLike | None = None,
         q_y: ArrayLike | None = None,
         body_number: int = 2,
-        sigma_B: float = 0.0,
+        sigma_B: Quantity = 0.0,
         residual: Sequence[ArrayLike] | None = None,
         eigenstress: Sequence[Eigenstress | None] | None = None,
         rim: bool = False,
         stick: NDArray[bool_] | None = None,
     ) -> Subsurface: ...
     def borders(
-        self, /, *, x: float | None = None, y: float | None = None, azimuth: float | None = None
+        self, /, *, x: float | None = None, y: float | None = None, azimuth: Quantity | None = None
     ) -> list[tuple[float, float, str, bool]]:
         """
         Where a line, or the lines of all cells, cross rims of contact and stick zone.
@@ -2616,7 +2628,7 @@ class Subsurface:
         *,
         x: float | None = None,
         y: float | None = None,
-        azimuth: float | None = None,
+        azimuth: Quantity | None = None,
         only: int | None = None,
         anywhere: bool = False,
         error_bar: float | None = None,
@@ -2657,7 +2669,7 @@ class Subsurface:
         *,
         x: float | None = None,
         y: float | None = None,
-        azimuth: float | None = None,
+        azimuth: Quantity | None = None,
         displacement: bool = False,
     ) -> NDArray[np.float64]:
         """Stress [Pa] or displacement [m] on a section, shape (6 or 3, depths, places)."""
@@ -2759,7 +2771,7 @@ class SurfaceMap:
         /,
         values: ArrayLike,
         *,
-        spacing: float | tuple[float, float],
+        spacing: Quantity | tuple[Quantity, Quantity],
         missing: Literal["refuse", "crop", "fill"] = "refuse",
     ) -> SurfaceMap: ...
     def __replace__(self, /, **changes: Any) -> Self: ...
@@ -2771,7 +2783,7 @@ class SurfaceMap:
     def from_file(
         path: str | PathLike[str],
         *,
-        spacing: float | tuple[float, float] | None = None,
+        spacing: Quantity | tuple[Quantity, Quantity] | None = None,
         unit: str | None = None,
         channel: str | None = None,
         missing: Literal["refuse", "crop", "fill"] = "refuse",
@@ -2893,7 +2905,13 @@ class Waviness:
     def __hash__(self, /) -> int: ...
     def __ne__(self, value: object, /) -> bool: ...
     def __new__(
-        cls, /, *, amplitude: float, wavelength: float, angle: float = 0.0, phase: float = 0.0
+        cls,
+        /,
+        *,
+        amplitude: Quantity,
+        wavelength: Quantity,
+        angle: Quantity = 0.0,
+        phase: Quantity = 0.0,
     ) -> Waviness: ...
     def __replace__(self, /, **changes: Any) -> Self: ...
     def __repr__(self, /) -> str: ...
@@ -2931,7 +2949,7 @@ class Wedge:
     def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
     def __hash__(self, /) -> int: ...
     def __ne__(self, value: object, /) -> bool: ...
-    def __new__(cls, /, *, slope: float, angle: float = 0.0) -> Wedge: ...
+    def __new__(cls, /, *, slope: Quantity, angle: Quantity = 0.0) -> Wedge: ...
     def __replace__(self, /, **changes: Any) -> Self: ...
     def __repr__(self, /) -> str: ...
     @property
@@ -2981,7 +2999,7 @@ def chosen_depths(
     """
 
 def coated_indentation(
-    *, R: float, indenter: Elastic | Body, coating: Coating, substrate: Elastic | Body, W: float
+    *, R: Quantity, indenter: Elastic | Body, coating: Coating, substrate: Elastic | Body, W: float
 ) -> CoatedIndentation:
     """Contact of a sphere of radius `R` [m] with a coated body under `W` [N], without friction."""
 
@@ -3006,8 +3024,8 @@ def crack_growth_of_states(
     end: float,
     direction: str,
     tolerance: float,
-    angle: float = 0.0,
-    azimuth: float = 0.0,
+    angle: Quantity = 0.0,
+    azimuth: Quantity = 0.0,
     friction: float = 0.0,
     body_number: int = 2,
 ) -> dict[str, Any]:
@@ -3035,9 +3053,9 @@ def crack_of_states(
     residual: Sequence[ArrayLike] | None = None,
     x: float,
     lengths: Sequence[float],
-    angle: float = 0.0,
+    angle: Quantity = 0.0,
     kink: tuple[float, float] | None = None,
-    azimuth: float = 0.0,
+    azimuth: Quantity = 0.0,
     friction: float = 0.0,
     body_number: int = 2,
 ) -> dict[str, NDArray[np.float64]]:
@@ -3077,7 +3095,7 @@ def cycle_temperature(
     body2: Body,
     grid: Grid,
     bulk: tuple[float, float],
-    frequency: float,
+    frequency: Quantity,
     ends: Sequence[float],
     heat: ArrayLike,
     contact: NDArray[bool_],
@@ -3129,7 +3147,7 @@ def goodman_stick_ratio(*, beta: float, mu: float) -> float:
     pressure is neglected.
     """
 
-def graded(*, E: Profile, nu: Profile, thickness: float, layers: int) -> list[Coating]:
+def graded(*, E: Profile, nu: Profile, thickness: Quantity, layers: int) -> list[Coating]:
     """
     Stack of equally thick layers that stands for a graded coating, outermost first.
 
@@ -3150,10 +3168,10 @@ def graded(*, E: Profile, nu: Profile, thickness: float, layers: int) -> list[Co
         If a profile, the thickness or the number of layers is out of its range.
     """
 
-def hertz(*, R: float, bodies: tuple[Elastic | Body, Elastic | Body], W: float) -> Hertz:
+def hertz(*, R: Quantity, bodies: tuple[Elastic | Body, Elastic | Body], W: float) -> Hertz:
     """Hertz contact of a sphere of relative radius `R` [m] under the force `W` [N]."""
 
-def hertz_ellipse(*, R_x: float, R_y: float, E_star: float, W: float) -> HertzEllipse:
+def hertz_ellipse(*, R_x: Quantity, R_y: Quantity, E_star: float, W: float) -> HertzEllipse:
     """
     Hertz contact of relative principal radii `R_x`, `R_y` [m] along the axes.
 
@@ -3198,17 +3216,17 @@ def largest_of_samples(
     """
 
 def line_contact(
-    *, R: float, bodies: tuple[Elastic | Body, Elastic | Body], W: float
+    *, R: Quantity, bodies: tuple[Elastic | Body, Elastic | Body], W: float
 ) -> LineContact:
     """Line contact of cylinders of relative radius `R` [m] under `W` [N/m]."""
 
 def line_places(
-    grid: Grid, *, x: float | None = None, y: float | None = None, azimuth: float | None = None
+    grid: Grid, *, x: float | None = None, y: float | None = None, azimuth: Quantity | None = None
 ) -> tuple[list[float], list[tuple[float, float]]]:
     """Places along a line on a grid, and their x, y [m]."""
 
 def line_through(
-    x: float, y: float, azimuth: float
+    x: float, y: float, azimuth: Quantity
 ) -> tuple[float | None, float | None, float | None]:
     """x, y and azimuth of the line through a point at an angle; along an axis x or y alone."""
 
@@ -3244,7 +3262,7 @@ def measure(name: str, stress: ArrayLike) -> NDArray[np.float64]:
 def measured_by(key: str) -> tuple[str, str] | None:
     """What the number of a key measures, and its unit in SI; none of a key that is unknown."""
 
-def partial_crack(film_: Elastic, below: Elastic, depth: float) -> float:
+def partial_crack(film_: Elastic, below: Elastic, depth: Quantity) -> float:
     """Factor F of a crack with its tip in a film; use :func:`pyfret.fracture.film_intensity`."""
 
 def principal(stress: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -3343,7 +3361,7 @@ def section_of_states(
     residual: Sequence[ArrayLike] | None = None,
     x: float | None = None,
     y: float | None = None,
-    azimuth: float | None = None,
+    azimuth: Quantity | None = None,
     body_number: int = 2,
 ) -> NDArray[np.float64]:
     """
@@ -3488,7 +3506,7 @@ def yielded_columns() -> list[str]:
     """Names of the columns of the points that have yielded, in their order."""
 
 def yielding_on(
-    stress: ArrayLike, *, s_y: float, constant: tuple[float, float, float, float, float, float]
+    stress: ArrayLike, *, s_y: Quantity, constant: tuple[float, float, float, float, float, float]
 ) -> dict[str, NDArray[np.float64]]:
     """Load factors of first yield and shakedown of stresses of shape (time, points, 6)."""
 

@@ -85,7 +85,7 @@ impl EigenstrainOperator {
 #[pymethods]
 impl EigenstrainOperator {
     #[new]
-    #[pyo3(signature = (body, grid, *, depth: "float", height: "float"))]
+    #[pyo3(signature = (body, grid, *, depth: "Quantity", height: "float"))]
     fn new(
         py: Python<'_>,
         body: Body,

@@ -50,14 +50,15 @@ pub(crate) const NAMED: PyStaticExpr =
     type_hint_subscript!(type_hint_identifier!("builtins", "dict"), TEXT, ANY);
 /// A whole number, or the word "auto".
 pub(crate) const COUNT: PyStaticExpr = type_hint_union!(INT, word!("auto"));
-/// A number, or several.
-pub(crate) const NUMBERS: PyStaticExpr =
-    type_hint_union!(FLOAT, type_hint_subscript!(SEQUENCE, FLOAT));
+/// A number, or what has one with its unit.
+const QUANTITY: PyStaticExpr = type_hint_identifier!("pyfret._util.types", "Quantity");
+/// One of these, or several.
+pub(crate) const NUMBERS: PyStaticExpr = type_hint_identifier!("pyfret._util.types", "Quantities");
 /// A name, or several.
 pub(crate) const NAMES: PyStaticExpr = type_hint_union!(TEXT, type_hint_subscript!(SEQUENCE, TEXT));
 /// A length, or one along x and one along y.
 pub(crate) const PITCH: PyStaticExpr =
-    type_hint_union!(FLOAT, type_hint_subscript!(TUPLE, FLOAT, FLOAT));
+    type_hint_union!(QUANTITY, type_hint_subscript!(TUPLE, QUANTITY, QUANTITY));
 /// A number of cells, or one along x and one along y.
 pub(crate) const CELLS: PyStaticExpr = type_hint_union!(INT, type_hint_subscript!(TUPLE, INT, INT));
 /// How a scene is solved.

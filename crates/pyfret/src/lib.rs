@@ -25,6 +25,7 @@ mod error;
 mod fatigue;
 mod forked;
 mod fracture;
+mod guarded;
 mod heat;
 mod hints;
 mod history;
@@ -146,7 +147,8 @@ mod _core {
     const RIGID: Elastic = Elastic::RIGID;
 
     #[pymodule_init]
-    fn init() -> PyResult<()> {
-        Python::attach(crate::fatigue::add_criteria)
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        crate::guarded::guard(module)?;
+        crate::fatigue::add_criteria(module.py())
     }
 }

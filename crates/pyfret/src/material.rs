@@ -3,14 +3,13 @@
 use contact_core::scene as core;
 use pyo3::inspect::{PyStaticConstant, PyStaticExpr};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
 use pyo3::{PyTypeInfo, type_hint_union};
 
 use crate::arguments::number;
 use crate::error::{must_be, takes, to_python};
 use crate::parts::parts;
 use crate::plastic::Plastic;
-use crate::quantity::{Given, known};
+use crate::quantity::Given;
 use crate::residual_stress::{Profile, Shown, shown, text};
 
 /// A homogeneous isotropic elastic material.
@@ -73,17 +72,12 @@ impl Elastic {
 #[pymethods]
 impl Elastic {
     #[new]
-    #[pyo3(
-        signature = (*, E: "float", nu: "float", plastic = None, **unknown),
-        text_signature = "(*, E, nu, plastic=None)"
-    )]
+    #[pyo3(signature = (*, E: "Quantity", nu: "float", plastic = None))]
     fn new(
         #[pyo3(from_py_with = Given::E)] E: f64,
         #[pyo3(from_py_with = number)] nu: f64,
         plastic: Option<Plastic>,
-        unknown: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
-        known("Elastic", unknown, &["E", "nu", "plastic"])?;
         if (Self(core::Elastic { E, nu }, None)) == Self::RIGID && plastic.is_none() {
             return Ok(Self::RIGID);
         }
@@ -164,7 +158,7 @@ impl Bond {
 
     /// The bond that a thin layer of a material makes: h (1 - 2 nu)/(2 G (1 - nu)) and h/G.
     #[staticmethod]
-    #[pyo3(signature = (material, *, thickness: "float"))]
+    #[pyo3(signature = (material, *, thickness: "Quantity"))]
     fn of_layer(
         material: Elastic,
         #[pyo3(from_py_with = Given::thickness)] thickness: f64,
@@ -233,22 +227,13 @@ takes!(
 #[pymethods]
 impl Coating {
     #[new]
-    #[pyo3(
-        signature = (material, *, thickness: "float", bond = Bond(core::Bond::PERFECT), residual = None, **unknown),
-        text_signature = "(material, *, thickness, bond=..., residual=None)"
-    )]
+    #[pyo3(signature = (material, *, thickness: "Quantity", bond = Bond(core::Bond::PERFECT), residual = None))]
     fn new(
         material: Elastic,
         #[pyo3(from_py_with = Given::thickness)] thickness: f64,
         bond: Bond,
         residual: Option<Profile>,
-        unknown: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
-        known(
-            "Coating",
-            unknown,
-            &["material", "thickness", "bond", "residual"],
-        )?;
         let coating = core::Coating {
             material: material.0,
             thickness,

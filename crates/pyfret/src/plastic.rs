@@ -4,12 +4,12 @@ use contact_core::scene as core;
 use contact_core::scene::BACK_STRESSES;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyString};
+use pyo3::types::PyString;
 
 use crate::arguments::{List, number};
 use crate::error::{takes, to_python};
 use crate::parts::parts;
-use crate::quantity::{Given, known, si};
+use crate::quantity::{Given, si};
 
 /// Yielding after von Mises, with isotropic and kinematic hardening.
 ///
@@ -56,19 +56,6 @@ takes!(
     "a law of yielding, such as Plastic(s_y=900e6, hardening=5e9)"
 );
 
-/// The arguments of a law of yielding.
-const PLASTIC: [&str; 9] = [
-    "s_y",
-    "hardening",
-    "voce_Q",
-    "voce_b",
-    "swift_e_0",
-    "swift_n",
-    "kinematic",
-    "chaboche_C",
-    "chaboche_gamma",
-];
-
 /// Numbers of the back stresses: one, or one for each.
 fn of_back_stresses(
     name: &str,
@@ -99,10 +86,7 @@ fn of_back_stresses(
 #[pymethods]
 impl Plastic {
     #[new]
-    #[pyo3(
-        signature = (*, s_y: "float", hardening: "float" = 0.0, voce_Q: "float" = 0.0, voce_b: "float" = 0.0, swift_e_0: "float" = 0.0, swift_n: "float" = 0.0, kinematic: "float" = 0.0, chaboche_C: "float | Sequence[float] | None" = None, chaboche_gamma: "float | Sequence[float] | None" = None, **unknown),
-        text_signature = "(*, s_y, hardening=0.0, voce_Q=0.0, voce_b=0.0, swift_e_0=0.0, swift_n=0.0, kinematic=0.0, chaboche_C=None, chaboche_gamma=None)"
-    )]
+    #[pyo3(signature = (*, s_y: "Quantity", hardening: "Quantity" = 0.0, voce_Q: "Quantity" = 0.0, voce_b: "float" = 0.0, swift_e_0: "float" = 0.0, swift_n: "float" = 0.0, kinematic: "Quantity" = 0.0, chaboche_C: "Quantities | None" = None, chaboche_gamma: "Quantities | None" = None))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn new(
         #[pyo3(from_py_with = Given::s_y)] s_y: f64,
@@ -114,9 +98,7 @@ impl Plastic {
         #[pyo3(from_py_with = Given::kinematic)] kinematic: f64,
         chaboche_C: Option<&Bound<'_, PyAny>>,
         chaboche_gamma: Option<&Bound<'_, PyAny>>,
-        unknown: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
-        known("Plastic", unknown, &PLASTIC)?;
         let law = core::Plastic {
             s_y,
             hardening,

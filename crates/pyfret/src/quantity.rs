@@ -1,9 +1,8 @@
 //! Numbers that may come with a unit: quantities of pint, texts such as "380 GPa".
 
 use contact_core::scene::quantity as in_si;
-use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
 
 use crate::arguments::number;
 use crate::document::text_of;
@@ -48,21 +47,4 @@ taken! {
     W T_x T_y M_x M_y M_z delta_x delta_y phi_z sigma_B sigma_B1 rolled stiffness
     s_y hardening voce_Q kinematic
     azimuth depth extent longest rms shortest frequency delta_z phi_x phi_y t rig_stiffness
-}
-
-/// Refuses an argument that is unknown, with the nearest one.
-pub(crate) fn known(what: &str, given: Option<&Bound<'_, PyDict>>, names: &[&str]) -> PyResult<()> {
-    let Some(unknown) = given.and_then(|given| given.keys().iter().next()) else {
-        return Ok(());
-    };
-    let unknown: String = unknown.extract()?;
-    let lower = unknown.to_lowercase();
-    let alike = |name: &&&str| (1e6 * strsim::jaro_winkler(&lower, &name.to_lowercase())) as usize;
-    // Of several the first.
-    let nearest = names.iter().rev().max_by_key(alike);
-    Err(PyTypeError::new_err(format!(
-        "{what} has no argument '{unknown}': the nearest is '{}' (of {})",
-        nearest.unwrap_or(&""),
-        names.join(", ")
-    )))
 }

@@ -54,7 +54,7 @@ pub(crate) fn name_of(line: Line) -> LineName {
 
 /// x, y and azimuth of the line through a point at an angle; along an axis x or y alone.
 #[pyfunction]
-#[pyo3(signature = (x: "float", y: "float", azimuth: "float"))]
+#[pyo3(signature = (x: "float", y: "float", azimuth: "Quantity"))]
 pub(crate) fn line_through(
     #[pyo3(from_py_with = number)] x: f64,
     #[pyo3(from_py_with = number)] y: f64,
@@ -65,7 +65,7 @@ pub(crate) fn line_through(
 
 /// Places along a line on a grid, and their x, y [m].
 #[pyfunction]
-#[pyo3(signature = (grid, *, x: "float | None" = None, y: "float | None" = None, azimuth: "float | None" = None))]
+#[pyo3(signature = (grid, *, x: "float | None" = None, y: "float | None" = None, azimuth: "Quantity | None" = None))]
 pub(crate) fn line_places(
     grid: Grid,
     #[pyo3(from_py_with = number)] x: Option<f64>,
@@ -107,7 +107,7 @@ pub(crate) fn chosen_depths(
 /// Near the surface tractions vary within the cells. States share the kernels, which cost as much
 /// as about ten of them.
 #[pyfunction]
-#[pyo3(signature = (body, states, z: "Sequence[float]", layer: "Sequence[int]", *, residual = None, x: "float | None" = None, y: "float | None" = None, azimuth: "float | None" = None, body_number: "int" = 2) -> "NDArray[np.float64]")]
+#[pyo3(signature = (body, states, z: "Sequence[float]", layer: "Sequence[int]", *, residual = None, x: "float | None" = None, y: "float | None" = None, azimuth: "Quantity | None" = None, body_number: "int" = 2) -> "NDArray[np.float64]")]
 #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
 pub(crate) fn section_of_states<'py>(
     py: Python<'py>,
@@ -227,7 +227,7 @@ impl Subsurface {
 #[pymethods]
 impl Subsurface {
     #[new]
-    #[pyo3(signature = (body, grid, *, p = None, q_x = None, q_y = None, body_number: "int" = 2, sigma_B: "float" = 0.0, residual = None, eigenstress: "Sequence[Eigenstress | None] | None" = None, rim = false, stick = None))]
+    #[pyo3(signature = (body, grid, *, p = None, q_x = None, q_y = None, body_number: "int" = 2, sigma_B: "Quantity" = 0.0, residual = None, eigenstress: "Sequence[Eigenstress | None] | None" = None, rim = false, stick = None))]
     fn new(
         body: Body,
         grid: Grid,
@@ -266,7 +266,7 @@ impl Subsurface {
     }
 
     /// Stress [Pa] or displacement [m] on a section, shape (6 or 3, depths, places).
-    #[pyo3(signature = (z: "Sequence[float]", layer: "Sequence[int]", *, x: "float | None" = None, y: "float | None" = None, azimuth: "float | None" = None, displacement = false) -> "NDArray[np.float64]")]
+    #[pyo3(signature = (z: "Sequence[float]", layer: "Sequence[int]", *, x: "float | None" = None, y: "float | None" = None, azimuth: "Quantity | None" = None, displacement = false) -> "NDArray[np.float64]")]
     fn section<'py>(
         &self,
         py: Python<'py>,
@@ -347,7 +347,7 @@ impl Subsurface {
     /// last follows from the `error_bar` of the stress over the stress. Then come the layers whose
     /// stress still rises at the end of the longest section. `anywhere`: also beside the section.
     #[pyo3(signature = (
-        of, samples, z: "Sequence[float]", layer: "Sequence[int]", *, x: "float | None" = None, y: "float | None" = None, azimuth: "float | None" = None, only: "int | None" = None, anywhere = false,
+        of, samples, z: "Sequence[float]", layer: "Sequence[int]", *, x: "float | None" = None, y: "float | None" = None, azimuth: "Quantity | None" = None, only: "int | None" = None, anywhere = false,
         error_bar: "float | None" = None
     ))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
@@ -427,7 +427,7 @@ impl Subsurface {
     /// Where a line, or the lines of all cells, cross rims of contact and stick zone.
     ///
     /// x, y, which of them, and whether the place is known within a cell.
-    #[pyo3(signature = (*, x: "float | None" = None, y: "float | None" = None, azimuth: "float | None" = None))]
+    #[pyo3(signature = (*, x: "float | None" = None, y: "float | None" = None, azimuth: "Quantity | None" = None))]
     fn borders(
         &self,
         #[pyo3(from_py_with = number)] x: Option<f64>,

@@ -20,6 +20,8 @@ from pyfret._cli.say import say
 from pyfret._core import __version__
 from pyfret.citation import cite as told
 from pyfret.citation import sources
+from pyfret.opening import open as open_any
+from pyfret.result import Result
 from pyfret.result import open as open_result
 from pyfret.study.file import run_file
 
@@ -57,7 +59,7 @@ def parser() -> argparse.ArgumentParser:
     fit.add_options(commands)
     threshold.add_options(commands)
     report = added(commands, "report", "write a result as one page for a browser")
-    report.add_argument("store", help="result")
+    report.add_argument("store", help="result of a run, of wear, of a study, or what save() wrote")
     report.add_argument("-o", "--out", help="page to write (default: NAME.html)")
     report.add_argument("--wear", metavar="STORE", help="result of fret wear, shown as well")
     report.add_argument(
@@ -122,11 +124,16 @@ def report(options: argparse.Namespace) -> int:
     """Write the page of a result."""
     place = Path(options.out or Path(options.store).with_suffix(".html").name)
     worn = wear.open(options.wear) if options.wear else None
-    result = open_result(options.store)
-    cracks = threshold = None
-    if options.crack:
-        cracks, threshold = crack.cracks_of(result, options), crack.threshold_of(options)
-    result.report(place, wear=worn, crack=cracks, threshold=threshold)
+    result = open_any(options.store)
+    if not isinstance(result, Result):
+        if options.crack or worn is not None:
+            raise ValueError(f"{options.store}: --crack and --wear belong to the result of a run")
+        result.report(place)
+    else:
+        cracks = threshold = None
+        if options.crack:
+            cracks, threshold = crack.cracks_of(result, options), crack.threshold_of(options)
+        result.report(place, wear=worn, crack=cracks, threshold=threshold)
     size = place.stat().st_size
     if options.json:
         tell(page=str(place), bytes=size)

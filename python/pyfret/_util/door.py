@@ -21,6 +21,7 @@ from pyfret import _core
 from pyfret._util.arrays import items, numbers, truths
 from pyfret._util.doubts import doubt_numbers
 from pyfret._util.guesses import refuse_unknown
+from pyfret._util.takers import keywords
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -42,8 +43,6 @@ SEVERAL_OBJECTS = re.compile(r"(Iterable|Sequence)\[([A-Z]\w*)\]")
 FOREIGN = re.compile(r"xr\.\w+|pd\.DataFrame|Axes|Figure")
 MAPPING = re.compile(r"Mapping\[.*\]( \| None)?")
 MAPPING_OF = re.compile(r"Mapping\[\w+, ([A-Z]\w*)\]")
-#: Options whose names a class has, ``**options: Unpack[Options]``.
-UNPACKED = re.compile(r"Unpack\[([\w.]+)\]")
 #: Objects that others are made of, and how one comes by them.
 MADE = {
     "Scene": "a scene, as in solve(scene, path)",
@@ -112,7 +111,7 @@ def guarded(call: Callable[..., Any], owner: str, but: tuple[str, ...]) -> Any:
             more = () if further is None else keywords(further)
             if more is not None:
                 known = [n for n in names if n in named and n != "self"]
-                refuse_unknown(owner.rpartition(".")[2], given, [*known, *more])
+                refuse_unknown(owner, call, given, [*known, *more])
         doubted: dict[str, Any] = {}
         values = (
             tuple(
@@ -161,18 +160,6 @@ def in_si(value: Any, key: str, name: str, of: str | None) -> Any:
         return _core.si_of(key, value)
     except (TypeError, ValueError) as refused:
         raise type(refused)(f"{name} = {refused}") from None
-
-
-@functools.cache
-def keywords(annotation: str) -> tuple[str, ...] | None:
-    """The names that ``**options`` of an annotation take; None where these are any."""
-    found = UNPACKED.fullmatch(annotation)
-    if found is None:
-        return None
-    name = found[1].rpartition(".")[2]
-    own = [m for module, m in list(sys.modules.items()) if module.split(".")[0] == "pyfret"]
-    of = next((vars(module)[name] for module in own if name in vars(module)), None)
-    return None if of is None else tuple(of.__annotations__)
 
 
 def honest(value: Any, name: str) -> Any:

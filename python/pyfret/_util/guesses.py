@@ -8,36 +8,64 @@ from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any
 
 from pyfret._util.lazy import xr
+from pyfret._util.names import meant
+from pyfret._util.takers import takers
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Callable, Iterable, Mapping, Sequence
 
-__all__ = ["no_attribute", "offer_nearest", "refuse_unknown"]
+__all__ = ["missing", "names_of", "no_attribute", "offer_nearest", "refuse_unknown", "unknown"]
 
 #: Classes whose missing names are another library's matter, or that only describe types.
 OTHERS = (BaseException, enum.Enum, dict)
 
 
 def alike(name: str, known: Iterable[str], most: int) -> list[str]:
-    """The names that are nearest to one, whatever the case of their letters."""
+    """The names that are nearest to one: those that it means to others, or those alike."""
     lower = {one.lower(): one for one in known}
-    return [lower[one] for one in get_close_matches(name.lower(), lower, n=most)]
+    near = [lower[one] for one in get_close_matches(name.lower(), lower, n=most)]
+    return (meant(name, list(lower.values())) or near)[:most]
 
 
-def refuse_unknown(what: str, given: Iterable[str], known: Sequence[str]) -> None:
-    """Refuse a keyword that is unknown, with the nearest one and all others.
+def unknown(
+    what: str, call: Callable[..., Any], given: Iterable[str], known: Sequence[str] | None
+) -> TypeError | None:
+    """The refusal of a keyword that is unknown: with the nearest one and all others.
+
+    Parameters
+    ----------
+    what : str
+        The function, with its class: ``"Result.life"``.
+    call : callable
+        The function itself. Others of the same object that take the keyword are named.
+    given, known : names
+        Keywords that were given, and those that it takes: None where these are any.
+    """
+    for name in given:
+        if known is not None and name not in known:
+            near = alike(name, known, 1)
+            every = ", ".join(known) or "none"
+            hint = f"the nearest is {near[0]!r} (of {every})" if near else f"it takes {every}"
+            others = takers(what, call, name, anywhere=not near)
+            if others:
+                hint += f". It belongs to {' or '.join(f'{of}({name}=...)' for of in others)}"
+            return TypeError(f"{what} has no argument {name!r}: {hint}")
+    return None
+
+
+def refuse_unknown(
+    what: str, call: Callable[..., Any], given: Iterable[str], known: Sequence[str] | None
+) -> None:
+    """Refuse a keyword as :func:`unknown` does.
 
     Raises
     ------
     TypeError
         One of the names is none of those known.
     """
-    for name in given:
-        if name not in known:
-            near = alike(name, known, 1)
-            every = ", ".join(known) or "none"
-            hint = f"the nearest is {near[0]!r} (of {every})" if near else f"it takes {every}"
-            raise TypeError(f"{what} has no argument {name!r}: {hint}")
+    refusal = unknown(what, call, given, known)
+    if refusal is not None:
+        raise refusal
 
 
 def no_attribute(
@@ -64,6 +92,8 @@ def no_attribute(
     if "dataset" in known and hasattr(xr.Dataset, name):
         return AttributeError(f"{message}: the xarray.Dataset has, {owner}.dataset.{name}")
     names = sorted(known)
+    if called := meant(name, names):
+        return AttributeError(f"{message}: it is called {' and '.join(called)}")
     near = alike(name, names, 3)
     if near:
         return AttributeError(f"{message}; did you mean {' or '.join(near)}?")
@@ -71,7 +101,7 @@ def no_attribute(
 
 
 def missing(self: Any, name: str) -> Any:
-    """Give a variable of the dataset, or refuse the name with the nearest that there is.
+    """Give a variable or an attribute of the dataset, or refuse the name with the nearest.
 
     It is the ``__getattr__`` of classes without one.
     """
@@ -82,11 +112,20 @@ def missing(self: Any, name: str) -> Any:
         # A property that failed says why by itself.
         return object.__getattribute__(self, name)
     variables = self.dataset if hasattr(of, "dataset") else None
-    if isinstance(variables, xr.Dataset) and name in variables.variables:
-        return variables[name]
+    if isinstance(variables, xr.Dataset):
+        if name in variables.variables:
+            return variables[name]
+        if name in variables.attrs:
+            return variables.attrs[name]
     public = [one for one in dir(self) if not one.startswith("_")]
     # Names that others have, and where what they mean is.
     raise no_attribute(of.__name__, name, public, getattr(of, "_meant", {}))
+
+
+def names_of(dataset: xr.Dataset) -> list[str]:
+    """Names that a thing with a dataset has by it: of its variables and of its attributes."""
+    named = [str(of) for of in (*dataset.variables, *dataset.attrs)]
+    return [of for of in named if of.isidentifier() and not of.startswith("_")]
 
 
 def offer_nearest() -> None:

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
         def summary(self) -> str:
             """Say what was found."""
 
-        def plot(self) -> Any:
+        def plot(self, **options: Any) -> Any:
             """Draw what was found."""
 
         def _as_saved(self) -> xr.Dataset: ...
@@ -105,13 +105,13 @@ class Kept:
         write_csv(self.dataset, path, getattr(type(self), "table_axes", None))
 
     @numbers_only
-    def report(self: Shown, path: str | os.PathLike[str]) -> None:
+    def report(self: Shown, path: str | os.PathLike[str], **options: Any) -> None:
         """Write one page for a browser: the numbers, the figure and the summary in one file.
 
-        A page that is there is replaced.
+        A page that is there is replaced. `options` are those of the figure, as of ``plot``.
         """
         drawn = io.BytesIO()
-        figure = self.plot()
+        figure = self.plot(**options)
         getattr(figure, "figure", figure).savefig(drawn, format="svg", bbox_inches="tight")
         page = PAGE.format(
             title=html(self._title()),
@@ -127,7 +127,3 @@ class Kept:
     def _repr_html_(self: Shown) -> str:
         """The summary, for notebooks."""
         return f"<pre>{html(self.summary())}</pre>"
-
-    def __dir__(self: Shown) -> list[str]:
-        """The names of the class, and those of the numbers."""
-        return sorted({*object.__dir__(self), *map(str, self.dataset.variables)})

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
+
+from pyfret._util.guesses import missing, names_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -11,7 +13,10 @@ __all__ = ["Labelled"]
 
 
 class Labelled:
-    """Something that a dataset holds; equal where names, values and attributes are."""
+    """Something that a dataset holds; equal where names, values and attributes are.
+
+    Variables of the dataset are attributes of it, and so are the attributes of the dataset.
+    """
 
     def __init__(self, dataset: xr.Dataset) -> None:
         self._dataset = dataset
@@ -20,6 +25,14 @@ class Labelled:
     def dataset(self) -> xr.Dataset:
         """Variables with units and meaning."""
         return self._dataset
+
+    def __getattr__(self, name: str) -> Any:
+        """Give a variable or an attribute of the dataset."""
+        return missing(self, name)
+
+    def __dir__(self) -> list[str]:
+        """The names of the class, and those of the dataset."""
+        return sorted({*object.__dir__(self), *names_of(self.dataset)})
 
     def __eq__(self, other: object) -> bool:
         """Whether the other one is of the same class with an identical dataset."""

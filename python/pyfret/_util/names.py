@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Collection, Sequence
 
-__all__ = ["OTHER_NAMES", "listing"]
+__all__ = ["MEANT", "OTHER_NAMES", "listing", "meant"]
 
 #: What other programs call things of ``pyfret``.
 OTHER_NAMES = {
@@ -17,6 +17,45 @@ OTHER_NAMES = {
     "Surface": "SurfaceMap",
     "Roughness": "shapes.Rough",
 }
+#: Names of arguments and attributes by the words and the symbols that others have for them.
+MEANT = {
+    "radius": ("R",),
+    "young": ("E",),
+    "modulus": ("E",),
+    "poisson": ("nu",),
+    "friction": ("mu",),
+    "f": ("mu",),
+    "F": ("W",),
+    "P": ("W",),
+    "N": ("W",),
+    "Q": ("T_x",),
+    "T": ("T_x",),
+    "cof": ("mu",),
+    "load": ("W",),
+    "force": ("W",),
+    "amplitude": ("T_x", "delta_x"),
+    "stroke": ("delta_x",),
+    "cells": ("n",),
+    "size": ("extent",),
+    "place": ("x", "y", "z"),
+    "position": ("x", "y", "z"),
+    "location": ("x", "y", "z"),
+    "depth": ("z",),
+    "plane": ("normal", "inclination"),
+    "angle": ("inclination", "azimuth"),
+    "direction": ("normal", "inclination"),
+    "lives": ("life",),
+    "half_width": ("a",),
+    "peak_pressure": ("p_H", "p_max"),
+    "p_max": ("p_H",),
+    "energy": ("dissipated", "dissipated_energy"),
+}
+
+
+def meant(name: str, known: Collection[str]) -> list[str]:
+    """Those of the names known that a word or a symbol of others means."""
+    word = name if len(name) == 1 else name.lower()
+    return [of for of in MEANT.get(word, ()) if of in known]
 
 
 def listing(names: Sequence[str]) -> Callable[[], list[str]]:

@@ -2,13 +2,40 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, TypeAlias
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["FrictionFunction", "Variable"]
+__all__ = ["FrictionFunction", "Quantities", "Quantity", "Variable"]
+
+
+class HasUnit(Protocol):
+    """A quantity of pint, or of another library that has its attributes."""
+
+    @property
+    def magnitude(self) -> Any:
+        """Number."""
+
+    @property
+    def units(self) -> Any:
+        """Unit of the number."""
+
+
+#: A number in SI units, or one with its unit: a text such as ``"3 um"``, a quantity of pint.
+Quantity: TypeAlias = float | str | HasUnit
+#: One of these or several of them.
+Quantities: TypeAlias = Quantity | Sequence[Quantity] | NDArray[np.float64]
+
+if TYPE_CHECKING:
+
+    class Number:
+        """A field of a dataclass that is given as a quantity, and is a number."""
+
+        def __get__(self, of: object, owner: type | None = None) -> float: ...
+        def __set__(self, of: object, value: Quantity) -> None: ...
+
 
 _Cells: TypeAlias = NDArray[np.float64]
 #: A friction law of x, y, p, slip and dissipated energy: arrays with a number for each cell.

@@ -75,6 +75,11 @@ class OverDistance(Kept, Labelled):
         """``life`` or ``safety_factor``, whichever the criterion gives."""
         return self.dataset["life" if "life" in self.dataset else "safety_factor"]
 
+    @property
+    def best(self) -> xr.DataArray:
+        """The best estimates, between ``low`` and ``high``: :attr:`margin`."""
+        return self.margin
+
     def rows(self) -> list[list[str]]:
         """A line for every distance: L, low, best, high."""
         d, lives = self.dataset, self.margin.name == "life"

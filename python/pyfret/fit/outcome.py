@@ -139,7 +139,7 @@ class Found(Kept, HoldsArrays):
 
     def plot(self, *, ax: Axes | None = None, data: int = 0, **options: Any) -> Drawn:
         """Draw what was measured, and what the values found make of it."""
-        refuse_unknown("plot", options, ["ax", "data"])
+        refuse_unknown("Found.plot", self.plot, options, ["ax", "data"])
         from pyfret.fit.figures import curves
 
         return curves(self.sets[data], self.computed[data], self.values, ax)

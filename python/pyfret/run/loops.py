@@ -4,13 +4,19 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal
 
+import numpy as np
+
 from pyfret import _core
 from pyfret._util.lazy import xr
 
 if TYPE_CHECKING:
-    from pyfret._core import Scene
+    from collections.abc import Iterable, Mapping, Sequence
 
-__all__ = ["of_cycles"]
+    from numpy.typing import NDArray
+
+    from pyfret._core import Grid, Scene
+
+__all__ = ["of_corners", "of_cycles"]
 
 #: What the codes of ``status`` mean.
 STATUS = ("no contact", "full stick", "partial slip", "gross slip")
@@ -33,6 +39,8 @@ LOOP = {
     "sliding_ratio_error": ("1", "bound of the error of the sliding ratio"),
     "status": ("1", "0 no contact, 1 full stick, 2 partial slip, 3 gross slip"),
 }
+#: Those of them that follow from the corners of a loop.
+OF_CORNERS = ("dissipated", "T", "delta", "secant_stiffness", "opening", "energy_ratio")
 
 
 def of_cycles(
@@ -53,15 +61,60 @@ def of_cycles(
         status=dataset.status.values.tolist(),
     )
     units = {"N": "N m", "m": "rad", "N/m": "N m/rad"} if torsion else {}
-    grid = scene.grid
+    table = tabulated(found, LOOP, "cycle", scene.grid, units)
+    return table.assign_attrs(dataset.attrs)
+
+
+def of_corners(
+    delta: NDArray[np.float64],
+    T: NDArray[np.float64],
+    dissipated: NDArray[np.float64],
+    grid: Grid,
+) -> xr.Dataset:
+    """Numbers of loops that are known by their corners, arrays over (block, corner), and energy.
+
+    What needs increments within a branch, such as the stiffness right after a reversal, is left
+    out.
+    """
+    found: list[dict[str, float]] = []
+    for shift, force, energy in zip(delta, T, dissipated, strict=True):
+        first = int(shift.argmax())
+        u, f = (np.r_[of[first:], of[: first + 1]] for of in (shift, force))
+        back = min(max(int(u.argmin()), 1), u.size - 2) if u.size > 2 else 1
+        path = _core.LoadPath.start().force(W=1.0, increments=1).force(T_x=1.0, increments=1)
+        path = path.force(T_x=-1.0, increments=back)
+        path = path.force(T_x=1.0, increments=max(u.size - 1 - back, 1))
+        counts = [1, 1, back, u.size - 1 - back]
+        found += _core.loops(
+            path,
+            torsion=False,
+            branch=np.repeat(np.arange(4), counts).tolist(),
+            T=[f[0], *f],
+            delta=[u[0], *u],
+            dissipated=[*[0.0] * u.size, float(energy)],
+            status=[0] * (u.size + 1),
+        )
+    return tabulated(found, OF_CORNERS, "block", grid, {})
+
+
+def tabulated(
+    found: Sequence[Mapping[str, float]],
+    names: Iterable[str],
+    dim: str,
+    grid: Grid,
+    units: Mapping[str, str],
+) -> xr.Dataset:
+    """Rows of :data:`LOOP` as a dataset, with units of another kind of motion."""
     return xr.Dataset(
         {
             name: (
-                "cycle",
-                [cycle[name] for cycle in found],
-                {"units": grid.unit_of(units.get(unit, unit)), "long_name": of},
+                dim,
+                [row[name] for row in found],
+                {
+                    "units": grid.unit_of(units.get(LOOP[name][0], LOOP[name][0])),
+                    "long_name": LOOP[name][1],
+                },
             )
-            for name, (unit, of) in LOOP.items()
-        },
-        attrs=dataset.attrs,
+            for name in names
+        }
     )

@@ -48,12 +48,14 @@ class Run(OfRun):
     """
 
     def __getattr__(self, name: str) -> xr.DataArray:
-        """Give the scalar `name` of every increment."""
+        """Give the scalar `name` of every increment, or an attribute of the dataset."""
         if name.startswith("_"):
             raise AttributeError(name)
         scalars = [str(k) for k, v in self.dataset.variables.items() if v.dims == ("increment",)]
         if name in scalars:
             return self.dataset[name]
+        if name in self.dataset.attrs:
+            return self.dataset.attrs[name]  # type: ignore[no-any-return]
         fields = {
             str(k): f"it is a field of every increment that kept it, result.at(-1).{k}"
             for k, v in self.dataset.variables.items()
@@ -67,7 +69,7 @@ class Run(OfRun):
     def __dir__(self) -> list[str]:
         """The names of the class, and the scalars of every increment."""
         scalars = [str(k) for k, v in self.dataset.variables.items() if v.dims == ("increment",)]
-        return sorted({*super().__dir__(), *scalars})
+        return sorted({*object.__dir__(self), *scalars, *map(str, self.dataset.attrs)})
 
     @property
     def status(self) -> str:

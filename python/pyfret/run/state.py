@@ -104,11 +104,13 @@ class State(OfRun):
         return super().dataset
 
     def __getattr__(self, name: str) -> xr.DataArray:
-        """Give the variable `name` of the dataset."""
+        """Give the variable or the attribute `name` of the dataset."""
         if name.startswith("_"):
             raise AttributeError(name)
         if name in self.dataset.variables:
             return self.dataset[name]
+        if name in self.dataset.attrs:
+            return self.dataset.attrs[name]  # type: ignore[no-any-return]
         public = (member for member in dir(type(self)) if not member.startswith("_"))
         raise no_attribute("snapshot", name, [*self.names(), *public], self._elsewhere(name))
 

@@ -31,7 +31,7 @@ def part(cls: type[T]) -> type[T]:
 
     @functools.wraps(init)
     def made_of_known(self: T, *values: Any, **given: Any) -> None:
-        refuse_unknown(cls.__name__, given, known)
+        refuse_unknown(cls.__name__, cls, given, known)
         init(self, *values, **given)
 
     made.__init__ = made_of_known  # type: ignore[assignment]

@@ -110,11 +110,13 @@ class Stress(Labelled):
         return pattern.copy(data=values).rename(name).assign_attrs(attrs)
 
     def __getattr__(self, name: str) -> xr.DataArray:
-        """Give the measure `name`."""
-        if not name.startswith("_") and name in LABELS:
-            return self.measure(name)
+        """Give the measure `name`, or an attribute of the dataset."""
         if name.startswith("_"):
             raise AttributeError(name)
+        if name in LABELS:
+            return self.measure(name)
+        if name in self.dataset.attrs:
+            return self.dataset.attrs[name]  # type: ignore[no-any-return]
         public = (member for member in dir(type(self)) if not member.startswith("_"))
         raise no_attribute("stress", name, [*LABELS, *public, "dataset"], {})
 

@@ -11,12 +11,12 @@ import numpy as np
 from pyfret import _core
 from pyfret._core import Scene, with_error
 from pyfret._util.door import numbers_only
-from pyfret._util.guesses import no_attribute
 from pyfret._util.kept import Kept
 from pyfret._util.labelled import Labelled
 from pyfret._util.numbers import length
 from pyfret._util.text import shown
 from pyfret.fatigue.ranges import Range
+from pyfret.run.loops import of_corners
 from pyfret.scene.tables import table
 from pyfret.subsurface.line import Line, cut
 
@@ -50,18 +50,6 @@ class WearResult(Kept, Labelled):
     table_axes = ("jump",)
     figure = "wear_profiles"
 
-    def __getattr__(self, name: str) -> Any:
-        """Give a variable or an attribute of the dataset."""
-        if not name.startswith("_"):
-            if name in self.dataset:
-                return self.dataset[name]
-            if name in self.dataset.attrs:
-                return self.dataset.attrs[name]
-            own = (one for one in dir(type(self)) if not one.startswith("_"))
-            known = {*own, *map(str, self.dataset.variables), *self.dataset.attrs}
-            raise no_attribute("wear result", name, known, {})
-        raise AttributeError(name)
-
     @property
     def worn(self) -> xr.DataArray:
         """Depth worn off both bodies together, read with no shift between them, m."""
@@ -73,6 +61,32 @@ class WearResult(Kept, Labelled):
         """The axis along which the force of the last friction loop is largest."""
         T = [float(abs(self.dataset[f"loop_T_{of}"][-1]).max()) for of in ("x", "y")]
         return "y" if T[1] > T[0] else "x"
+
+    @numbers_only
+    def loops(self, *, direction: Literal["x", "y"] | None = None) -> xr.Dataset:
+        """Energy and stiffness of the friction loop of every block, as :meth:`Result.loops`.
+
+        Parameters
+        ----------
+        direction : "x" or "y", optional
+            The axis of the loop (default: :attr:`direction`).
+
+        Returns
+        -------
+        xarray.Dataset
+            Over ``block`` with ``block_cycles``: ``dissipated`` in a cycle [J], half
+            ranges ``T`` [N] and ``delta`` [m], ``secant_stiffness`` [N/m], half the ``opening`` of
+            the loop [m] and ``energy_ratio``. Of a line contact per metre.
+        """
+        way = self.direction if direction is None else direction
+        if way not in ("x", "y"):
+            raise ValueError(f'direction = {direction!r}: must be "x" or "y"')
+        d = self.dataset
+        shift, force = (np.asarray(d[f"loop_{of}_{way}"], float) for of in ("delta", "T"))
+        at = [int(abs(d.cycles.values - of).argmin()) for of in d.block_cycles.values]
+        energy = np.asarray(d.dissipated_per_cycle, float)[at]
+        found = of_corners(shift, force, energy, self.scene.grid)
+        return found.assign_coords(block_cycles=d.block_cycles)
 
     def along(self) -> xr.Dataset:
         """Fields of the blocks on the line along the shear, through the centre of the last contact.

@@ -152,7 +152,7 @@ class Wear(Replaceable):
         TypeError
             One of them is no setting of wear; the message offers the nearest name.
         """
-        refuse_unknown("wear", settings, [field.name for field in fields(cls)])
+        refuse_unknown("Wear.of", cls.of, settings, [field.name for field in fields(cls)])
         if wear is not None:
             return wear.replace(**settings)
         if "cycles" not in settings:

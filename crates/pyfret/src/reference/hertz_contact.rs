@@ -37,7 +37,7 @@ made!(Hertz by "Hertz": W, E_star, a, p0, delta_z);
 #[pymethods]
 impl Hertz {
     #[new]
-    #[pyo3(signature = (*, W: "float", E_star: "float", a: "float", p0: "float", delta_z: "float"))]
+    #[pyo3(signature = (*, W: "float", E_star: "float", a: "float", p0: "float", delta_z: "Quantity"))]
     fn new(
         #[pyo3(from_py_with = number)] W: f64,
         #[pyo3(from_py_with = number)] E_star: f64,
@@ -109,7 +109,7 @@ impl Hertz {
 
 /// Hertz contact of a sphere of relative radius `R` [m] under the force `W` [N].
 #[pyfunction]
-#[pyo3(signature = (*, R: "float", bodies, W: "float"))]
+#[pyo3(signature = (*, R: "Quantity", bodies, W: "float"))]
 pub(crate) fn hertz(
     #[pyo3(from_py_with = Given::R)] R: f64,
     bodies: (Material, Material),
@@ -183,7 +183,7 @@ impl HertzEllipse {
 ///
 /// 1/R_x is the sum of both bodies' curvatures along x; `E_star` [Pa], `W` [N].
 #[pyfunction]
-#[pyo3(signature = (*, R_x: "float", R_y: "float", E_star: "float", W: "float"))]
+#[pyo3(signature = (*, R_x: "Quantity", R_y: "Quantity", E_star: "float", W: "float"))]
 pub(crate) fn hertz_ellipse(
     #[pyo3(from_py_with = Given::R_x)] R_x: f64,
     #[pyo3(from_py_with = Given::R_y)] R_y: f64,

@@ -2,10 +2,11 @@
 
 use contact_reference as core;
 use contact_reference::domain::{between, positive};
-use numpy::{PyArrayDyn, ToPyArray};
+use ndarray::{ArrayD, Zip};
+use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 
-use super::{Numbers, checked};
+use super::{Numbers, checked, rows, together};
 use crate::argument::to_python;
 use crate::arguments::number;
 use crate::parts::made;
@@ -53,42 +54,49 @@ impl HertzStress {
     }
 
     /// Stress s_xx, s_yy, s_zz, s_xy, s_xz, s_yz at (`x`, `y`, `z`) [m] under a pressure.
-    #[pyo3(signature = (x, y: "float", z: "float") -> "list[NDArray[np.float64]]")]
+    ///
+    /// Numbers, or arrays that are put together as numpy does.
+    #[pyo3(signature = (x, y, z) -> "list[NDArray[np.float64]]")]
     fn pressure<'py>(
         &self,
         py: Python<'py>,
         x: Numbers<'py>,
-        #[pyo3(from_py_with = number)] y: f64,
-        #[pyo3(from_py_with = number)] z: f64,
+        y: Numbers<'py>,
+        z: Numbers<'py>,
     ) -> PyResult<[Bound<'py, PyArrayDyn<f64>>; 6]> {
-        self.check(&x, y, z)?;
-        let x = x.as_array();
-        let row = |row: usize| x.mapv(|x| self.0.pressure(x, y, z)[row]).to_pyarray(py);
-        Ok(std::array::from_fn(row))
+        let of = |&x: &f64, &y: &f64, &z: &f64| self.0.pressure(x, y, z);
+        let [x, y, z] = self.places(&x, &y, &z)?;
+        Ok(rows(py, &Zip::from(&x).and(&y).and(&z).map_collect(of)))
     }
 
     /// The same under a shear traction that acts on the body along +x.
-    #[pyo3(signature = (x, y: "float", z: "float") -> "list[NDArray[np.float64]]")]
+    #[pyo3(signature = (x, y, z) -> "list[NDArray[np.float64]]")]
     fn shear<'py>(
         &self,
         py: Python<'py>,
         x: Numbers<'py>,
-        #[pyo3(from_py_with = number)] y: f64,
-        #[pyo3(from_py_with = number)] z: f64,
+        y: Numbers<'py>,
+        z: Numbers<'py>,
     ) -> PyResult<[Bound<'py, PyArrayDyn<f64>>; 6]> {
-        self.check(&x, y, z)?;
-        let x = x.as_array();
-        let row = |row: usize| x.mapv(|x| self.0.shear(x, y, z)[row]).to_pyarray(py);
-        Ok(std::array::from_fn(row))
+        let of = |&x: &f64, &y: &f64, &z: &f64| self.0.shear(x, y, z);
+        let [x, y, z] = self.places(&x, &y, &z)?;
+        Ok(rows(py, &Zip::from(&x).and(&y).and(&z).map_collect(of)))
     }
 }
 
 impl HertzStress {
-    /// Places in the body, not so far away that the stress is lost in rounding.
-    fn check(&self, x: &Numbers<'_>, y: f64, z: f64) -> PyResult<()> {
+    /// Places in the body in their common shape, not so far away that the stress is lost in rounding.
+    fn places(
+        &self,
+        x: &Numbers<'_>,
+        y: &Numbers<'_>,
+        z: &Numbers<'_>,
+    ) -> PyResult<[ArrayD<f64>; 3]> {
         let far = FAR * self.0.a;
-        between("y", y, (-far, far)).map_err(to_python)?;
-        between("z", z, (0.0, far)).map_err(to_python)?;
-        checked(x, |x| between("x", x, (-far, far)))
+        for (name, of) in [("x", x), ("y", y)] {
+            checked(of, |of| between(name, of, (-far, far)))?;
+        }
+        checked(z, |z| between("z", z, (0.0, far)))?;
+        together([("x", x), ("y", y), ("z", z)])
     }
 }

@@ -143,7 +143,7 @@ impl CoatedIndentation {
 
 /// Contact of a sphere of radius `R` [m] with a coated body under `W` [N], without friction.
 #[pyfunction]
-#[pyo3(signature = (*, R: "float", indenter, coating, substrate, W: "float"))]
+#[pyo3(signature = (*, R: "Quantity", indenter, coating, substrate, W: "float"))]
 pub(crate) fn coated_indentation(
     #[pyo3(from_py_with = Given::R)] R: f64,
     indenter: Material,

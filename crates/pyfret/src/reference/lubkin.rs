@@ -90,7 +90,7 @@ impl Lubkin {
     }
 
     /// Stick radius under the moment `M_z` [N m] [m].
-    #[pyo3(signature = (*, M_z: "float"))]
+    #[pyo3(signature = (*, M_z: "Quantity"))]
     fn stick_radius(&self, #[pyo3(from_py_with = Given::M_z)] M_z: f64) -> PyResult<f64> {
         let limit = self.torsion.M_limit() * (1.0 + 1e-9);
         between("M_z", M_z, (0.0, limit)).map_err(to_python)?;

@@ -11,12 +11,13 @@ mod springs;
 use contact_core::Error;
 use contact_core::scene as core;
 use contact_reference::domain;
-use ndarray::IxDyn;
+use ndarray::{ArrayD, IxDyn};
 use numpy::{PyArrayDyn, ToPyArray};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::argument::to_python;
-use crate::arguments::Array;
+use crate::arguments::{Array, must_fit};
 use crate::material::Material;
 
 pub(crate) use cattaneo_mindlin::CattaneoMindlin;
@@ -60,6 +61,41 @@ fn checked(x: &Numbers<'_>, check: impl Fn(f64) -> Result<f64, Error>) -> PyResu
     numbers
         .try_for_each(|x| check(*x).map(drop))
         .map_err(to_python)
+}
+
+/// Places in their common shape, as numpy puts arrays together.
+fn together<const N: usize>(places: [(&str, &Numbers<'_>); N]) -> PyResult<[ArrayD<f64>; N]> {
+    let rank = places.iter().map(|(_, of)| of.as_array().ndim()).max();
+    let mut shape = vec![1; rank.unwrap_or(0)];
+    for (_, of) in places {
+        let array = of.as_array();
+        for (whole, &n) in shape.iter_mut().rev().zip(array.shape().iter().rev()) {
+            if *whole == 1 {
+                *whole = n;
+            }
+        }
+    }
+    must_fit(shape.iter().product(), 8.0)?;
+    let whole = |(name, of): (&str, &Numbers<'_>)| {
+        let array = of.as_array();
+        let found = array.broadcast(IxDyn(&shape)).map(|whole| whole.to_owned());
+        found.ok_or_else(|| {
+            PyValueError::new_err(format!(
+                "{name} has the shape {:?}: must fit that of the other places, {shape:?}",
+                array.shape()
+            ))
+        })
+    };
+    let each: Vec<_> = places.into_iter().map(whole).collect::<PyResult<_>>()?;
+    Ok(each.try_into().expect("one for each place"))
+}
+
+/// The components of a stress at places, an array for each.
+fn rows<'py, const N: usize>(
+    py: Python<'py>,
+    stress: &ArrayD<[f64; N]>,
+) -> [Bound<'py, PyArrayDyn<f64>>; N] {
+    std::array::from_fn(|row| stress.mapv(|of| of[row]).to_pyarray(py))
 }
 
 /// The materials of a pair, checked.

@@ -2,10 +2,11 @@
 
 use contact_reference as core;
 use contact_reference::domain::{between, positive};
-use numpy::{PyArrayDyn, ToPyArray};
+use ndarray::Zip;
+use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 
-use super::{Numbers, checked, map, pair};
+use super::{Numbers, checked, map, pair, rows, together};
 use crate::argument::to_python;
 use crate::arguments::number;
 use crate::material::{Elastic, Material};
@@ -34,7 +35,7 @@ made!(LineContact by "line_contact": R, bodies, W);
 
 /// Line contact of cylinders of relative radius `R` [m] under `W` [N/m].
 #[pyfunction]
-#[pyo3(signature = (*, R: "float", bodies, W: "float"))]
+#[pyo3(signature = (*, R: "Quantity", bodies, W: "float"))]
 pub(crate) fn line_contact(
     #[pyo3(from_py_with = Given::R)] R: f64,
     bodies: (Material, Material),
@@ -120,28 +121,30 @@ impl LineContact {
         #[pyo3(from_py_with = number)] mu: f64,
         #[pyo3(from_py_with = number)] middle: f64,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        self.check(T, mu)?;
-        between("middle", middle, (-self.line.a, self.line.a)).map_err(to_python)?;
+        self.check_middle(T, mu, middle)?;
         Ok(map(py, &x, |x| self.line.q_shifted(x, middle, T, mu)))
     }
 
-    /// Stress s_xx, s_zz, s_xz at (`x`, `z`) [m] in partial slip [Pa].
-    #[pyo3(signature = (x, z: "float", *, T: "float", mu: "float") -> "list[NDArray[np.float64]]")]
+    /// Stress s_xx, s_zz, s_xz at (`x`, `z`) [m] in partial slip [Pa]; arrays are put together.
+    ///
+    /// The shear is that of :meth:`q`, the stick zone around `middle`. A bulk stress adds to s_xx.
+    #[pyo3(signature = (x, z, *, T: "float", mu: "float", middle: "float" = 0.0) -> "list[NDArray[np.float64]]")]
     fn stress<'py>(
         &self,
         py: Python<'py>,
         x: Numbers<'py>,
-        #[pyo3(from_py_with = number)] z: f64,
+        z: Numbers<'py>,
         #[pyo3(from_py_with = number)] T: f64,
         #[pyo3(from_py_with = number)] mu: f64,
+        #[pyo3(from_py_with = number)] middle: f64,
     ) -> PyResult<[Bound<'py, PyArrayDyn<f64>>; 3]> {
-        self.check(T, mu)?;
+        self.check_middle(T, mu, middle)?;
         let far = FAR * self.line.a;
-        between("z", z, (0.0, far)).map_err(to_python)?;
+        checked(&z, |z| between("z", z, (0.0, far)))?;
         checked(&x, |x| between("x", x, (-far, far)))?;
-        let x = x.as_array();
-        let of = |x: f64| self.line.partial_slip_stress((x, z), T, mu);
-        Ok([0, 1, 2].map(|row| x.mapv(|x| of(x)[row]).to_pyarray(py)))
+        let [x, z] = together([("x", &x), ("z", &z)])?;
+        let of = |&x: &f64, &z: &f64| self.line.partial_slip_stress_shifted((x, z), middle, T, mu);
+        Ok(rows(py, &Zip::from(&x).and(&z).map_collect(of)))
     }
 }
 
@@ -153,5 +156,12 @@ impl LineContact {
         between("T", T, (-limit, limit))
             .map(drop)
             .map_err(to_python)
+    }
+
+    /// The same with a stick zone whose middle lies in the contact.
+    fn check_middle(&self, T: f64, mu: f64, middle: f64) -> PyResult<()> {
+        self.check(T, mu)?;
+        let within = between("middle", middle, (-self.line.a, self.line.a));
+        within.map(drop).map_err(to_python)
     }
 }

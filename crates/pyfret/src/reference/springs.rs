@@ -60,7 +60,7 @@ made!(changing Springs by "Springs": largest, R, bodies, mu, n, loads);
 #[pymethods]
 impl Springs {
     #[new]
-    #[pyo3(signature = (largest, *, R: "float", bodies, mu: "float", n: "int" = 1500, loads: "Sequence[tuple[float, float, int]]" = List::default()))]
+    #[pyo3(signature = (largest, *, R: "Quantity", bodies, mu: "float", n: "int" = 1500, loads: "Sequence[tuple[float, float, int]]" = List::default()))]
     fn new(
         largest: Hertz,
         #[pyo3(from_py_with = Given::R)] R: f64,

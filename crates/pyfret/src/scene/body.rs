@@ -4,14 +4,12 @@ use crate::hints::sequence_of;
 use contact_core::scene as core;
 use pyo3::inspect::PyStaticExpr;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
 use pyo3::{PyTypeInfo, type_hint_union};
 
 use super::shape::{Flat, Shape};
 use crate::error::{must_be, takes, to_python};
 use crate::material::{Coating, Elastic};
 use crate::parts::parts;
-use crate::quantity::known;
 use crate::residual_stress::{Profile, Shown, shown, text};
 
 /// An elastic half-space under its coatings and a gently curved surface.
@@ -41,22 +39,13 @@ takes!(
 #[pymethods]
 impl Body {
     #[new]
-    #[pyo3(
-        signature = (substrate, *, coatings = Coatings(Vec::new()), residual = None, shape = Shape::Flat(Flat), **unknown),
-        text_signature = "(substrate, *, coatings=..., residual=None, shape=...)"
-    )]
+    #[pyo3(signature = (substrate, *, coatings = Coatings(Vec::new()), residual = None, shape = Shape::Flat(Flat)))]
     fn new(
         substrate: Elastic,
         coatings: Coatings,
         residual: Option<Profile>,
         shape: Shape,
-        unknown: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
-        known(
-            "Body",
-            unknown,
-            &["substrate", "coatings", "residual", "shape"],
-        )?;
         let body = Self(core::Body {
             substrate: substrate.0,
             residual: coatings.residual(residual),

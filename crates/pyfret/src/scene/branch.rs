@@ -97,9 +97,9 @@ impl Branch {
 impl Branch {
     #[new]
     #[pyo3(signature = (
-        *, W: "float | None" = None, M_x: "float | None" = None, M_y: "float | None" = None, T_x: "float | None" = None, T_y: "float | None" = None, M_z: "float | None" = None, delta_z: "float | None" = None,
-        phi_x: "float | None" = None, phi_y: "float | None" = None, delta_x: "float | None" = None, delta_y: "float | None" = None, phi_z: "float | None" = None, sigma_B: "float" = 0.0,
-        sigma_B1: "float" = 0.0, rolled: "float" = 0.0, increments = None, spacing = Spacing::Uniform, t: "float",
+        *, W: "Quantity | None" = None, M_x: "Quantity | None" = None, M_y: "Quantity | None" = None, T_x: "Quantity | None" = None, T_y: "Quantity | None" = None, M_z: "Quantity | None" = None, delta_z: "Quantity | None" = None,
+        phi_x: "Quantity | None" = None, phi_y: "Quantity | None" = None, delta_x: "Quantity | None" = None, delta_y: "Quantity | None" = None, phi_z: "Quantity | None" = None, sigma_B: "Quantity" = 0.0,
+        sigma_B1: "Quantity" = 0.0, rolled: "Quantity" = 0.0, increments = None, spacing = Spacing::Uniform, t: "Quantity",
         path_error: "float | None" = None,
     ))]
     fn new(

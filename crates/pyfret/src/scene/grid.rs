@@ -28,6 +28,11 @@ impl<'py> FromPyObject<'_, 'py> for Pitch {
             let both = Given::extent(&value)?;
             return Ok(Self((both, both)));
         }
+        if let Ok((x, y)) = value.extract::<(Bound<'_, PyAny>, Bound<'_, PyAny>)>()
+            && (has_unit(&x)? || has_unit(&y)?)
+        {
+            return Ok(Self((Given::extent(&x)?, Given::extent(&y)?)));
+        }
         let wanted = "a length in m, or one along x and one along y, such as (2e-6, 2e-6)";
         number(&value)
             .map(Self)
@@ -132,7 +137,7 @@ impl Grid {
     /// Forces, moments and energies are those on the width `width` [m]; displacements are
     /// relative to the points at the distance `extent` from a load.
     #[staticmethod]
-    #[pyo3(signature = (*, extent: "float", n, width: "float" = 1.0))]
+    #[pyo3(signature = (*, extent: "Quantity", n, width: "float" = 1.0))]
     fn strip(
         #[pyo3(from_py_with = Given::extent)] extent: f64,
         n: Count,

@@ -68,6 +68,13 @@ fn visit(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Values> {
     if has_unit(value)? {
         return si(name, value).map(Values::One);
     }
+    if let Ok(several) = value.extract::<List<Bound<'_, PyAny>>>() {
+        let units = several.iter().map(has_unit).collect::<PyResult<Vec<_>>>()?;
+        if units.contains(&true) {
+            let each = several.iter().map(|one| si(name, one));
+            return each.collect::<PyResult<_>>().map(Values::Several);
+        }
+    }
     value.extract()
 }
 

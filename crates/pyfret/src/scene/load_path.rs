@@ -7,7 +7,6 @@ use contact_core::Error;
 use contact_core::scene::{self as core, Prescribed, RigidMotion};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
 
 use super::branch::{Branch, Spacing};
 use super::branches::{branch, column, cycled, moved, prescribe};
@@ -16,7 +15,7 @@ use crate::arguments::{List, number};
 use crate::error::{takes, to_python};
 use crate::hints::Numbers;
 use crate::parts::parts;
-use crate::quantity::{Given, Optional, known};
+use crate::quantity::{Given, Optional};
 
 /// The load history, from two bodies just touching.
 ///
@@ -51,7 +50,7 @@ fn checked(path: core::LoadPath) -> PyResult<LoadPath> {
 #[pymethods]
 impl LoadPath {
     #[new]
-    #[pyo3(signature = (branches = List(Vec::new()), *, rig_stiffness: "float | None" = None))]
+    #[pyo3(signature = (branches = List(Vec::new()), *, rig_stiffness: "Quantity | None" = None))]
     fn new(
         branches: List<Branch>,
         #[pyo3(from_py_with = Optional::rig_stiffness)] rig_stiffness: Option<f64>,
@@ -68,7 +67,7 @@ impl LoadPath {
     /// The spring is in series with the contact. ``delta_x`` is the shift of its far end, given or
     /// read. The contact's own shift is ``delta_x - T_x/K``. None takes the spring out. A text may
     /// have its unit, ``"20 N/um"``.
-    #[pyo3(signature = (stiffness: "float | str | None"))]
+    #[pyo3(signature = (stiffness: "Quantity | None"))]
     fn rig(&self, #[pyo3(from_py_with = Optional::stiffness)] stiffness: Option<f64>) -> Self {
         Self(core::LoadPath {
             rig_stiffness: stiffness,
@@ -91,7 +90,7 @@ impl LoadPath {
     /// Go to the normal force `W` [N], the tangential forces kept, in one unit of path time.
     ///
     /// Of several forces each is a branch of its own, with as many increments.
-    #[pyo3(signature = (W: "float | str | Sequence[float]", *, increments = Count(None)))]
+    #[pyo3(signature = (W: "Quantities", *, increments = Count(None)))]
     fn normal(
         &self,
         #[pyo3(from_py_with = Visited::W)] W: Values,
@@ -105,7 +104,7 @@ impl LoadPath {
     ///
     /// The increments are shared out in proportion to the change of force. Path time runs as in
     /// the first branch: one unit for as many increments as that one has.
-    #[pyo3(signature = (T_x: "float | str | Sequence[float]", *, increments = Count(None)))]
+    #[pyo3(signature = (T_x: "Quantities", *, increments = Count(None)))]
     fn tangential(
         &self,
         #[pyo3(from_py_with = Visited::T_x)] T_x: Values,
@@ -115,7 +114,7 @@ impl LoadPath {
     }
 
     /// Visit the torsional moments `M_z` [N m] in turn, as `tangential` does the forces.
-    #[pyo3(signature = (M_z: "float | str | Sequence[float]", *, increments = Count(None)))]
+    #[pyo3(signature = (M_z: "Quantities", *, increments = Count(None)))]
     fn torsion(
         &self,
         #[pyo3(from_py_with = Visited::M_z)] M_z: Values,
@@ -125,7 +124,7 @@ impl LoadPath {
     }
 
     /// Visit the normal forces `W` [N] in turn, as `tangential` does: fretting mode II.
-    #[pyo3(signature = (W: "float | str | Sequence[float]", *, increments = Count(None)))]
+    #[pyo3(signature = (W: "Quantities", *, increments = Count(None)))]
     fn radial(
         &self,
         #[pyo3(from_py_with = Visited::W)] W: Values,
@@ -139,7 +138,7 @@ impl LoadPath {
     /// Its middle is where the path stands. It goes to (T_x, 0) in `increments` and takes as many
     /// for each turn towards (0, T_y), each a branch by itself. With "auto" a turn has 64 branches,
     /// and as many increments as the path tolerance of the settings asks for.
-    #[pyo3(signature = (*, T_x: "float", T_y: "float", turns: "int" = 1, increments = Count(None)))]
+    #[pyo3(signature = (*, T_x: "Quantity", T_y: "Quantity", turns: "int" = 1, increments = Count(None)))]
     fn ellipse(
         &self,
         #[pyo3(from_py_with = Given::T_x)] T_x: f64,
@@ -246,7 +245,7 @@ impl LoadPath {
     ///     How they are spaced (default: equal increments of force).
     /// t : float, optional
     ///     Path time at the end (default: one unit later).
-    #[pyo3(signature = (*, W: "float | None" = None, T_x: "float | None" = None, T_y: "float | None" = None, M_x: "float | None" = None, M_y: "float | None" = None, M_z: "float | None" = None, sigma_B: "float | None" = None, sigma_B1: "float | None" = None, rolled: "float | None" = None, increments = Count(None), spacing = Spacing::Uniform, t: "float | None" = None))]
+    #[pyo3(signature = (*, W: "Quantity | None" = None, T_x: "Quantity | None" = None, T_y: "Quantity | None" = None, M_x: "Quantity | None" = None, M_y: "Quantity | None" = None, M_z: "Quantity | None" = None, sigma_B: "Quantity | None" = None, sigma_B1: "Quantity | None" = None, rolled: "Quantity | None" = None, increments = Count(None), spacing = Spacing::Uniform, t: "Quantity | None" = None))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn force(
         &self,
@@ -298,7 +297,7 @@ impl LoadPath {
     /// >>> pressed = LoadPath.start().normal(10.0)
     /// >>> pressed.displace(delta_x=[2e-6, -2e-6, 2e-6])
     /// LoadPath(4 branches, increments to be chosen)
-    #[pyo3(signature = (*, delta_z: "float | str | Sequence[float] | None" = None, delta_x: "float | str | Sequence[float] | None" = None, delta_y: "float | str | Sequence[float] | None" = None, phi_x: "float | str | Sequence[float] | None" = None, phi_y: "float | str | Sequence[float] | None" = None, phi_z: "float | str | Sequence[float] | None" = None, increments = Count(None), spacing = Spacing::Uniform, t: "float | None" = None))]
+    #[pyo3(signature = (*, delta_z: "Quantities | None" = None, delta_x: "Quantities | None" = None, delta_y: "Quantities | None" = None, phi_x: "Quantities | None" = None, phi_y: "Quantities | None" = None, phi_z: "Quantities | None" = None, increments = Count(None), spacing = Spacing::Uniform, t: "Quantity | None" = None))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn displace(
         &self,
@@ -341,7 +340,7 @@ impl LoadPath {
     /// --------
     /// >>> LoadPath.start().normal(10.0).cycles(2, delta_x=2e-6)
     /// LoadPath(6 branches, increments to be chosen)
-    #[pyo3(signature = (n: "int", *, T_x: "float | None" = None, T_y: "float | None" = None, M_z: "float | None" = None, delta_x: "float | None" = None, delta_y: "float | None" = None, phi_z: "float | None" = None, increments = Count(None), **unknown), text_signature = "($self, n, *, T_x=None, T_y=None, M_z=None, delta_x=None, delta_y=None, phi_z=None, increments=...)")]
+    #[pyo3(signature = (n: "int", *, T_x: "Quantity | None" = None, T_y: "Quantity | None" = None, M_z: "Quantity | None" = None, delta_x: "Quantity | None" = None, delta_y: "Quantity | None" = None, phi_z: "Quantity | None" = None, increments = Count(None)))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn cycles(
         &self,
@@ -353,19 +352,7 @@ impl LoadPath {
         #[pyo3(from_py_with = Optional::delta_y)] delta_y: Option<f64>,
         #[pyo3(from_py_with = Optional::phi_z)] phi_z: Option<f64>,
         increments: Count,
-        unknown: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
-        let names = [
-            "n",
-            "T_x",
-            "T_y",
-            "M_z",
-            "delta_x",
-            "delta_y",
-            "phi_z",
-            "increments",
-        ];
-        known("LoadPath.cycles", unknown, &names)?;
         let named = [
             (RigidMotion::DeltaX, T_x.map(Prescribed::Load)),
             (RigidMotion::DeltaY, T_y.map(Prescribed::Load)),

@@ -143,7 +143,7 @@ impl Profile {
 /// InvalidSceneError
 ///     If a profile, the thickness or the number of layers is out of its range.
 #[pyfunction]
-#[pyo3(signature = (*, E, nu, thickness: "float", layers: "int"))]
+#[pyo3(signature = (*, E, nu, thickness: "Quantity", layers: "int"))]
 pub(crate) fn graded(
     E: Profile,
     nu: Profile,

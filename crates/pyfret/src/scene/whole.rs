@@ -5,14 +5,12 @@ use std::path::PathBuf;
 use contact_core::scene as core;
 use contact_subsurface::Side;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
 
 use super::settings::save_fields;
 use super::{AnyFriction, Body, Friction, Grid, LoadPath, Settings};
 use crate::arguments::{Field, List, number, side};
 use crate::error::{takes, to_python};
 use crate::parts::parts;
-use crate::quantity::known;
 use crate::reference::Hertz;
 
 /// A fretting contact problem.
@@ -55,10 +53,7 @@ impl Scene {
 #[pymethods]
 impl Scene {
     #[new]
-    #[pyo3(
-        signature = (*, body1, body2, mu, grid, path = None, settings = None, title = String::new(), **unknown),
-        text_signature = "(*, body1, body2, mu, grid, path=None, settings=None, title=...)"
-    )]
+    #[pyo3(signature = (*, body1, body2, mu, grid, path = None, settings = None, title = String::new()))]
     fn new(
         body1: Body,
         body2: Body,
@@ -67,11 +62,8 @@ impl Scene {
         path: Option<LoadPath>,
         settings: Option<Settings>,
         title: String,
-        unknown: Option<&Bound<'_, PyDict>>,
-    ) -> PyResult<Self> {
-        let names = ["body1", "body2", "mu", "grid", "path", "settings", "title"];
-        known("Scene", unknown, &names)?;
-        Ok(Self(core::Scene {
+    ) -> Self {
+        Self(core::Scene {
             title,
             body1: body1.0,
             body2: body2.0,
@@ -79,7 +71,7 @@ impl Scene {
             grid: grid.0,
             path: path.map_or_else(core::LoadPath::start, |p| p.0),
             settings: settings.unwrap_or_default().0,
-        }))
+        })
     }
 
     /// Read a scene file.

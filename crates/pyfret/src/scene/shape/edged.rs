@@ -13,7 +13,7 @@ elementary!(
         /// Tangent of the angle between flank and contact plane.
         slope
     },
-    (*, slope: "float")
+    (*, slope: "Quantity")
 );
 elementary!(
     /// Two flanks that meet in an edge; it is y turned by `angle`.
@@ -30,7 +30,7 @@ elementary!(
         /// Turn of the edge from y [rad].
         angle
     },
-    (*, slope: "float", angle: "float" = 0.0)
+    (*, slope: "Quantity", angle: "Quantity" = 0.0)
 );
 elementary!(
     /// A round flat punch with a rounded edge.
@@ -47,5 +47,5 @@ elementary!(
         /// Radius of the rounding beyond it [m].
         edge
     },
-    (*, radius: "float", edge: "float")
+    (*, radius: "Quantity", edge: "Quantity")
 );

@@ -32,7 +32,7 @@ parts!(Rough: rms, hurst, longest, shortest, seed);
 #[pymethods]
 impl Rough {
     #[new]
-    #[pyo3(signature = (*, rms: "float", hurst: "float", longest: "float", shortest: "float", seed: "int" = 0))]
+    #[pyo3(signature = (*, rms: "Quantity", hurst: "float", longest: "Quantity", shortest: "Quantity", seed: "int" = 0))]
     fn new(
         #[pyo3(from_py_with = Given::rms)] rms: f64,
         #[pyo3(from_py_with = number)] hurst: f64,

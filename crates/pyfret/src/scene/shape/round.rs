@@ -13,7 +13,7 @@ elementary!(
         /// Radius [m].
         R
     },
-    (R: "float")
+    (R: "Quantity")
 );
 elementary!(
     /// Two principal radii, each a parabola as in Hertz's theory.
@@ -34,7 +34,7 @@ elementary!(
         /// Direction of the first one, from x towards y [rad].
         angle
     },
-    (*, R_x: "float", R_y: "float", angle: "float" = 0.0)
+    (*, R_x: "Quantity", R_y: "Quantity", angle: "Quantity" = 0.0)
 );
 elementary!(
     /// A cylinder with sharp ends; its axis is y turned by `angle`.
@@ -55,7 +55,7 @@ elementary!(
         /// Turn of the axis from y [rad].
         angle
     },
-    (R: "float", *, length: "float" = f64::INFINITY, angle: "float" = 0.0)
+    (R: "Quantity", *, length: "Quantity" = f64::INFINITY, angle: "Quantity" = 0.0)
 );
 elementary!(
     /// A cylinder with rounded ends; its axis is y turned by `angle`.
@@ -80,5 +80,5 @@ elementary!(
         /// Turn of the axis from y [rad].
         angle
     },
-    (*, R: "float", length: "float", crown: "float", angle: "float" = 0.0)
+    (*, R: "Quantity", length: "Quantity", crown: "Quantity", angle: "Quantity" = 0.0)
 );

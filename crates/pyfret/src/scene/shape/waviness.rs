@@ -25,5 +25,5 @@ elementary!(
         /// Phase at the origin [rad].
         phase
     },
-    (*, amplitude: "float", wavelength: "float", angle: "float" = 0.0, phase: "float" = 0.0)
+    (*, amplitude: "Quantity", wavelength: "Quantity", angle: "Quantity" = 0.0, phase: "Quantity" = 0.0)
 );

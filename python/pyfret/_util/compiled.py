@@ -1,0 +1,120 @@
+"""The compiled module refuses unknown arguments as the functions of Python do: with those it takes.
+
+The module itself calls :func:`guard` when it is loaded, so that nothing stands outside.
+"""
+
+from __future__ import annotations
+
+import functools
+import inspect
+from collections.abc import Callable, Sequence
+from types import BuiltinFunctionType, MethodDescriptorType
+from typing import TYPE_CHECKING, Any
+
+from pyfret._util.guesses import unknown
+
+if TYPE_CHECKING:
+    from types import ModuleType
+
+__all__ = ["guard"]
+
+#: The class that a constructor gets.
+CLASS = inspect.Parameter("cls", inspect.Parameter.POSITIONAL_ONLY)
+#: Parameters that are given by place, and by name.
+PLACED = (inspect.Parameter.POSITIONAL_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD)
+NAMED = (inspect.Parameter.POSITIONAL_OR_KEYWORD, inspect.Parameter.KEYWORD_ONLY)
+
+
+def guard(module: ModuleType, constructors: dict[type, Callable[..., Any]]) -> None:
+    """Put the functions, methods and constructors of a module behind :func:`telling`.
+
+    Parameters
+    ----------
+    module : module
+        It changes in place.
+    constructors : dict of type to callable
+        What makes an object of a class, from the class and the arguments.
+    """
+    for name, of in list(vars(module).items()):
+        if isinstance(of, BuiltinFunctionType):
+            setattr(module, name, telling(of, name))
+        elif isinstance(of, type) and not issubclass(of, BaseException):
+            methods(of)
+            members = [one for one in vars(of) if isinstance(getattr(of, one), of)]
+            if of in constructors and of.__text_signature__ is not None:
+                made_by(of, constructors[of])
+            elif members:
+                chosen_of(of, members)
+
+
+def methods(of: type) -> None:
+    """Put the methods of a class behind :func:`telling`."""
+    for name, member in list(vars(of).items()):
+        if name.startswith("_"):
+            continue
+        what = f"{of.__name__}.{name}"
+        if isinstance(member, MethodDescriptorType):
+            setattr(of, name, telling(member, what))
+        elif isinstance(member, staticmethod):
+            setattr(of, name, staticmethod(telling(member.__func__, what)))
+
+
+def made_by(of: type, make: Callable[..., Any]) -> None:
+    """Put the constructor of a class behind :func:`telling`."""
+    own = inspect.signature(of)
+
+    def __new__(cls: type, /, *values: Any, **given: Any) -> Any:  # noqa: N807
+        return make(cls, *values, **given)
+
+    __new__.__signature__ = own.replace(parameters=[CLASS, *own.parameters.values()])  # type: ignore[attr-defined]
+    __new__.__qualname__ = f"{of.__qualname__}.__new__"
+    __new__.__module__ = of.__module__
+    of.__new__ = staticmethod(telling(__new__, of.__name__))  # type: ignore[method-assign]
+
+
+def chosen_of(of: type, members: list[str]) -> None:
+    """Let a class that has members alone, and no constructor, say so."""
+
+    def __new__(cls: type, /, *_: Any, **__: Any) -> Any:  # noqa: N807
+        every = ", ".join(f"{cls.__name__}.{name}" for name in members)
+        raise TypeError(f"{cls.__name__} is not made: it is one of {every}")
+
+    __new__.__signature__ = inspect.Signature([CLASS])  # type: ignore[attr-defined]
+    __new__.__module__, __new__.__qualname__ = of.__module__, f"{of.__qualname__}.__new__"
+    of.__new__ = staticmethod(__new__)  # type: ignore[method-assign]
+
+
+def telling(call: Callable[..., Any], what: str) -> Callable[..., Any]:
+    """A function whose refusal of an unknown keyword names those that are known."""
+
+    @functools.wraps(call)
+    def told(*values: Any, **given: Any) -> Any:
+        try:
+            return call(*values, **given)
+        except TypeError:
+            refusal = refused(what, call, values, given)
+            if refusal is None:
+                raise
+        raise refusal
+
+    return told
+
+
+def refused(
+    what: str, call: Callable[..., Any], values: Sequence[Any], given: dict[str, Any]
+) -> TypeError | None:
+    """Why a function does not take its arguments, if their names or their number are the cause."""
+    parameters = list(inspect.signature(call).parameters.values())
+    if not any(one.kind is one.VAR_KEYWORD for one in parameters):
+        known = [one.name for one in parameters if one.kind in NAMED and one.name != "self"]
+        refusal = unknown(what, call, given, known)
+        if refusal is not None:
+            return refusal
+    places = [one.name for one in parameters if one.kind in PLACED]
+    by_name = [one.name for one in parameters if one.kind is inspect.Parameter.KEYWORD_ONLY]
+    many = any(one.kind is one.VAR_POSITIONAL for one in parameters)
+    if many or not by_name or len(values) <= len(places):
+        return None
+    first = "".join(f"{name}, " for name in places if name not in ("self", "cls"))
+    wanted = ", ".join(f"{name}=..." for name in by_name)
+    return TypeError(f"{what} takes arguments by name, {what}({first}{wanted})")
