@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -94,3 +96,29 @@ def test_similar_bodies_pressed_together_have_no_shear(
 ) -> None:
     _, result = similar
     assert float(result.at(0.1).q_max) == 0.0
+
+
+def test_stresses_of_closed_forms_take_places_that_fit_together() -> None:
+    """Every closed form of a stress, over arrays of any shapes that numpy puts together."""
+    steel = fret.Elastic(E=210e9, nu=0.3)
+    line = fret.reference.line_contact(R=0.02, bodies=(steel, steel), W=3e5)
+    ball = fret.reference.HertzStress(a=1e-4, nu=0.3)
+    T, middle = 0.5 * 0.4 * 3e5, 0.1 * line.a
+
+    def of_line(x: Any, z: Any) -> list[Any]:
+        return line.stress(x, z, T=T, mu=0.4, middle=middle)
+
+    x, y, z = line.a * np.linspace(-2, 2, 5)[:, None], 2e-5, line.a * np.linspace(0, 1, 4)
+    for call, places in ((of_line, (x, z)), (ball.pressure, (x, y, z)), (ball.shear, (x, y, z))):
+        found = call(*places)
+        whole = [np.broadcast_to(of, (5, 4)) for of in places]
+        for at in np.ndindex(5, 4):
+            alone = call(*(float(of[at]) for of in whole))
+            assert [float(of[at]) for of in found] == [float(of) for of in alone]
+        with pytest.raises(ValueError, match=r"must fit that of the other places"):
+            call(*places[:-1], np.zeros((3, 4)))
+    # At the surface the stress is that of the tractions, the stick zone where it was given.
+    _, s_zz, s_xz = of_line(x[:, 0], 0.0)
+    assert s_zz == pytest.approx(-line.p(x[:, 0]), abs=1e-9 * line.p0)
+    q = line.q(x[:, 0], T=T, mu=0.4, middle=middle)
+    assert s_xz == pytest.approx(-q, abs=1e-9 * line.p0)

@@ -8,6 +8,7 @@ import subprocess
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import pyfret as fret
@@ -48,9 +49,29 @@ def test_several_criteria_are_those_one_by_one(store: Path, tmp_path: Path) -> N
     assert together.returncode == 0, together.stderr
     each = [life(store, *steel, "--criterion", name).stdout for name in ("findley", "crossland")]
     assert together.stdout == "".join(each)
-    refused = life(store, *steel, "--criterion", "findley,crossland", "-o", tmp_path / "a.csv")
-    assert refused.returncode == 2
-    assert "one criterion" in refused.stderr
+
+
+def test_several_criteria_stand_below_each_other_in_a_table(store: Path, tmp_path: Path) -> None:
+    steel = ("--material", "steel_42CrMo4", "--criterion")
+    tables = {}
+    names = ("findley", "smith_watson_topper", "crossland")
+    for of in (*names, ",".join(names)):
+        written = life(store, *steel, of, "-o", tmp_path / "a.csv")
+        assert written.returncode == 0, written.stderr
+        tables[of] = pd.read_csv(tmp_path / "a.csv")
+    together = tables[",".join(names)]
+    assert list(dict.fromkeys(together.criterion)) == list(names)
+    for name in names:
+        of, alone = together[together.criterion == name].reset_index(drop=True), tables[name]
+        assert len(of) == len(alone) > 100
+        for column in alone:
+            title, _, unit = column.partition(" [")
+            whole = title if title in ("value", "missed") else column
+            assert of[whole].equals(alone[column]), column
+            if title == "value":
+                assert set(of.unit) == {unit.rstrip("]")}
+        empty = "life [cycles]" if "safety_factor" in alone else "safety_factor"
+        assert of[empty].isna().all()
 
 
 def test_rows_are_what_python_finds(store: Path, tmp_path: Path) -> None:

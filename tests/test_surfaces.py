@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -97,3 +98,35 @@ def test_a_result_is_saved_and_opened(coated: fret.Result, ending: str, tmp_path
 def test_a_result_is_saved_as_what_its_name_says(coated: fret.Result, tmp_path: Path) -> None:
     with pytest.raises(ValueError, match=r"must end in \.zarr or \.nc"):
         coated.save(tmp_path / "copy.csv")
+
+
+@pytest.mark.parametrize("flat", [False, True], ids=["rectangle", "strip"])
+def test_a_map_that_is_too_small_is_refused_with_the_grid_that_fits(*, flat: bool) -> None:
+    """What the refusal says is code, and makes a scene."""
+    steel = fret.Elastic(E=210e9, nu=0.3)
+    spacing = (1e-6, 1.0 if flat else 3e-6)
+    shape = fret.SurfaceMap(np.zeros((67, 1 if flat else 20)), spacing=spacing)
+    grid = fret.Grid.strip(extent=1e-4, n=64) if flat else fret.Grid.centred(extent=1e-4, n=64)
+    path = fret.LoadPath.start().normal(1.0, increments=1)
+    round_one = fret.Cylinder(R=1e-4) if flat else fret.Sphere(R=1e-4)
+    upper, lower = fret.Body(steel, shape=round_one), fret.Body(steel, shape=shape)
+
+    def scene(grid: fret.Grid) -> fret.Scene:
+        made = fret.Scene(body1=upper, body2=lower, mu=0.3, grid=grid, path=path)
+        made.check()
+        return made
+
+    with pytest.raises(fret.errors.InvalidSceneError, match="as large as the grid") as refused:
+        scene(grid)
+    told = re.search(r"Grid\.\w+\(.*?\)(?= at most)", str(refused.value))
+    assert told is not None
+    largest = eval(told[0], {"Grid": fret.Grid})
+    assert scene(largest).grid == largest
+    assert (largest.dx, largest.nx) == (pytest.approx(grid.dx, rel=1e-5), 42)
+    if not flat:
+        assert largest.ny == 38
+        said = str(refused.value).partition("in a scene file ")[2].split(" and ")
+        text = scene(largest).to_toml()
+        table = "[grid]\n" + "\n".join(said)
+        again = re.sub(r"\[grid\]\n(?:[^\[\n].*\n)*", table + "\n", text)
+        assert fret.Scene.from_toml(again).grid.nx == largest.nx

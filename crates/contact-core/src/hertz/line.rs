@@ -77,12 +77,24 @@ impl LineContact {
 
     /// Stress \[Pa\] at (x, z >= 0) \[m\] in partial slip under `T` \[N/m\] along +x on the body:
     /// the pressure's field and the difference of two shears.
-    pub fn partial_slip_stress(&self, (x, z): (f64, f64), T: f64, mu: f64) -> PlaneStress {
+    pub fn partial_slip_stress(&self, at: (f64, f64), T: f64, mu: f64) -> PlaneStress {
+        self.partial_slip_stress_shifted(at, 0.0, T, mu)
+    }
+
+    /// The same with the stick zone's middle at `e` \[m\], as in [`Self::q_shifted`]. A bulk stress
+    /// adds to s_xx.
+    pub fn partial_slip_stress_shifted(
+        &self,
+        (x, z): (f64, f64),
+        e: f64,
+        T: f64,
+        mu: f64,
+    ) -> PlaneStress {
         let c = self.stick_half_width(T, mu);
         let pressure = mcewen_pressure(self.p0, self.a, (x, z));
         let slip = mcewen_shear(mu * self.p0, self.a, (x, z));
         let stick = if c > 0.0 {
-            mcewen_shear(mu * self.p0 * c / self.a, c, (x, z))
+            mcewen_shear(mu * self.p0 * c / self.a, c, (x - e, z))
         } else {
             [0.0; 3]
         };

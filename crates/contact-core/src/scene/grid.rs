@@ -31,6 +31,19 @@ impl Grid {
         Self::from_spacing((n, n), (extent / n as f64, extent / n as f64))
     }
 
+    /// As many of these cells as fit on a rectangle of given sides \[m\]; none if not one does.
+    pub(crate) fn within(&self, sides: (f64, f64)) -> Option<Self> {
+        let fit = |side: f64, cell: f64, most: usize| {
+            let cells = (side / cell * (1.0 + 1e-9)).floor();
+            (cells >= 1.0).then(|| (cells as usize).min(most))
+        };
+        Some(Self {
+            nx: fit(sides.0, self.dx, self.nx)?,
+            ny: fit(sides.1, self.dy, self.ny)?,
+            ..*self
+        })
+    }
+
     /// Cells of given number and size \[m\].
     pub fn from_spacing(n: (usize, usize), d: (f64, f64)) -> Result<Self, Error> {
         let grid = Self {

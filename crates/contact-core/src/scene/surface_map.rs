@@ -114,12 +114,31 @@ impl SurfaceMap {
         if covers(nx, x, grid.nx, grid.dx) && covers(ny, y, grid.ny, grid.dy) {
             return Ok(());
         }
+        let size = (nx as f64 * x, ny as f64 * y);
+        let fits = grid.within(size).map_or(String::new(), |grid| {
+            let ((x, y), (nx, ny)) = (grid.extent(), (grid.nx, grid.ny));
+            let (x, y) = (rounded_down(x), rounded_down(y));
+            if grid.plane_strain {
+                return format!(": with these cells that is Grid.strip(extent={x:e}, n={nx}) at most");
+            }
+            format!(
+                ": with these cells that is Grid.centred(extent=({x:e}, {y:e}), n=({nx}, {ny})) at most, in a \
+                 scene file extent = [{x:e}, {y:e}] and n = [{nx}, {ny}]"
+            )
+        });
         Err(Error::invalid(
             key,
-            format!("{:e} m by {:e} m", nx as f64 * x, ny as f64 * y),
-            "at least as large as the grid",
+            format!("{:e} m by {:e} m", size.0, size.1),
+            format!("at least as large as the grid{fits}"),
         ))
     }
+}
+
+/// A length in six digits, no longer than it is but for rounding.
+fn rounded_down(length: f64) -> f64 {
+    let shift = 5 - length.log10().floor() as i32;
+    let (up, down) = (10f64.powi(shift.max(0)), 10f64.powi((-shift).max(0)));
+    (length * up / down * (1.0 + 1e-12)).floor() * down / up
 }
 
 /// The point before a place given in spacings from the middle, and the part of the way to the next.

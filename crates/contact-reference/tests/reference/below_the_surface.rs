@@ -164,6 +164,36 @@ fn mcewen_is_the_sum_of_line_loads() {
 }
 
 #[test]
+fn a_stick_zone_off_the_middle_meets_the_surface() {
+    let line = line_contact(0.02, 115e9, 2e5);
+    let (mu, T) = (0.4, 0.6 * 0.4 * 2e5);
+    let c = line.stick_half_width(T, mu);
+    for e in [-0.2 * line.a, 0.0, line.a - c] {
+        for x in [e, e + 0.7 * c, e - 0.99 * c, -0.97 * line.a, 1.3 * line.a] {
+            let s = line.partial_slip_stress_shifted((x, 0.0), e, T, mu);
+            let q = line.q_shifted(x, e, T, mu);
+            assert!((s[1] + line.p(x)).abs() < 1e-12 * line.p0, "{s:?}");
+            assert!((s[2] + q).abs() < 1e-12 * line.p0, "{s:?} {q}");
+        }
+        // At a depth the three sums of line loads are those of the tractions.
+        let (x, z) = (0.4 * line.a, 0.3 * line.a);
+        let s = line.partial_slip_stress_shifted((x, z), e, T, mu);
+        for component in 0..3 {
+            let load = |at: f64| {
+                line.p(at) * line_load_stress(false, x - at, z)[component]
+                    + line.q_shifted(at, e, T, mu) * line_load_stress(true, x - at, z)[component]
+            };
+            let mut ends = vec![-line.a, e - c, e + c, line.a];
+            ends.push(x);
+            ends.sort_by(f64::total_cmp);
+            let sum: f64 = ends.windows(2).map(|w| integrate(w[0], w[1], load)).sum();
+            let error = (sum - s[component]).abs() / line.p0;
+            assert!(error < 1e-6, "{component}: {sum} {}", s[component]);
+        }
+    }
+}
+
+#[test]
 fn partial_slip_of_cylinders_meets_the_surface_and_the_force() {
     let line = line_contact(0.02, 115e9, 2e5);
     let (mu, T) = (0.4, -0.6 * 0.4 * 2e5);

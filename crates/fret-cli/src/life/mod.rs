@@ -91,7 +91,7 @@ fn judged(options: &Options) -> Result<Vec<String>, Error> {
     let below = lines.iter().map(|line| judge(&site, *line, &asked, &of));
     let below = below.collect::<Result<Vec<_>, _>>()?;
     if let Some(out) = &options.out {
-        table::write(out, &below[0][0], &of[0])?;
+        table::write(out, &options.criterion, &below[0], &of)?;
     }
     let judging = Judging {
         options,

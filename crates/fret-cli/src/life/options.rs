@@ -76,7 +76,8 @@ pub(crate) struct Options {
     /// Print one JSON object per layer, for programs; an endless life is null
     #[arg(long)]
     pub(super) json: bool,
-    /// Table of the section to write (.csv)
+    /// Table to write (.csv): a line for each point of the first section; several criteria stand
+    /// below each other, named in the first column
     #[arg(short, long, value_name = "FILE")]
     pub(super) out: Option<PathBuf>,
 }

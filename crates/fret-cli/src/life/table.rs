@@ -1,6 +1,5 @@
 //! The table of `fret life`: a line of each point.
 
-use std::fmt::Write as _;
 use std::path::Path;
 
 use contact_assess::{ByCriterion, Judged};
@@ -14,14 +13,6 @@ pub(super) fn check(options: &Options) -> Result<(), Error> {
     let Some(out) = &options.out else {
         return Ok(());
     };
-    if options.criterion.len() > 1 {
-        let allowed = "one criterion, whose table it is";
-        return Err(Error::invalid(
-            "--criterion",
-            options.criterion.join(","),
-            allowed,
-        ));
-    }
     if let Some(length) = options.distance {
         let allowed = "left out with --out, whose table has the points; means stand in fatigue.average in Python";
         return Err(Error::invalid("--distance", length, allowed));
@@ -38,22 +29,88 @@ pub(super) fn check(options: &Options) -> Result<(), Error> {
     Ok(())
 }
 
-/// Writes value, margin and plane of every point.
-pub(super) fn write(out: &Path, judged: &Judged<AtPoint>, of: &ByCriterion) -> Result<(), Error> {
-    let along_y = matches!(judged.line, Line::AlongY(_));
-    let (axis, across) = if along_y { ("y", "x") } else { ("x", "y") };
-    let unit = of.assessments.iter().flatten().next();
-    let unit = unit.map_or("1", |assessment| assessment.criterion.unit());
-    let lives = of.assessments.iter().flatten().any(Assessment::gives_lives);
-    let (of_value, margin) = match (unit, lives) {
-        ("1", true) => (String::new(), "life [cycles]"),
-        (unit, true) => (format!(" [{unit}]"), "life [cycles]"),
-        (unit, false) => (format!(" [{unit}]"), "safety_factor"),
+/// Writes value, margin and plane of every point of a section. Several criteria stand below each other,
+/// with a column each for the criterion and the unit of its value.
+pub(super) fn write(
+    out: &Path,
+    names: &[String],
+    judged: &[Judged<AtPoint>],
+    of: &[ByCriterion],
+) -> Result<(), Error> {
+    let text = if let ([judged], [of]) = (judged, of) {
+        let of_value = match unit(of) {
+            "1" => String::new(),
+            unit => format!(" [{unit}]"),
+        };
+        let values = format!("value{of_value},missed{of_value},{}", margin(of));
+        let rows = rows(judged, of, |f, margin| {
+            format!("{:e},{:e},{margin:e}", f.value, f.missed)
+        });
+        format!("{}\n{}", head(&judged.line, &values), rows.join("\n"))
+    } else {
+        let mut lines = Vec::new();
+        for (name, (judged, of)) in names.iter().zip(judged.iter().zip(of)) {
+            let (unit, lives) = (unit(of), margin(of) == LIFE);
+            if lines.is_empty() {
+                let values = format!("value,missed,unit,{LIFE},{FACTOR}");
+                lines.push(format!("criterion,{}", head(&judged.line, &values)));
+            }
+            let rows = rows(judged, of, |f, margin| {
+                let (before, after) = if lives { ("", ",") } else { (",", "") };
+                format!(
+                    "{:e},{:e},{unit},{before}{margin:e}{after}",
+                    f.value, f.missed
+                )
+            });
+            lines.extend(rows.iter().map(|row| format!("{name},{row}")));
+        }
+        lines.join("\n")
     };
-    let mut text = format!(
-        "{axis} [m],{across} [m],z [m],layer,value{of_value},missed{of_value},{margin},n_x,n_y,n_z,\
-         shear_amplitude [Pa],normal_max [Pa],normal_min [Pa]\n"
-    );
+    std::fs::write(out, text + "\n").map_err(|e| Error::File {
+        path: out.display().to_string(),
+        message: e.to_string(),
+    })
+}
+
+const LIFE: &str = "life [cycles]";
+const FACTOR: &str = "safety_factor";
+
+/// The column of the margin of a criterion.
+fn margin(of: &ByCriterion) -> &'static str {
+    let mut judged = of.assessments.iter().flatten();
+    if judged.any(Assessment::gives_lives) {
+        LIFE
+    } else {
+        FACTOR
+    }
+}
+
+/// Unit of the value of a criterion.
+fn unit(of: &ByCriterion) -> &'static str {
+    let judged = of.assessments.iter().flatten().next();
+    judged.map_or("1", |assessment| assessment.criterion.unit())
+}
+
+/// Titles of a table, those of the values between the place and the plane.
+fn head(line: &Line, values: &str) -> String {
+    let (axis, across) = if matches!(line, Line::AlongY(_)) {
+        ("y", "x")
+    } else {
+        ("x", "y")
+    };
+    format!(
+        "{axis} [m],{across} [m],z [m],layer,{values},n_x,n_y,n_z,shear_amplitude [Pa],normal_max [Pa],normal_min [Pa]"
+    )
+}
+
+/// A line for each point, with what is told of its value and margin.
+fn rows(
+    judged: &Judged<AtPoint>,
+    of: &ByCriterion,
+    values: impl Fn(&AtPoint, f64) -> String,
+) -> Vec<String> {
+    let along_y = matches!(judged.line, Line::AlongY(_));
+    let mut rows = Vec::new();
     for (depth, found) in judged.depths.iter().zip(&judged.found) {
         let (Some(found), Some(assessment)) = (found, of.of(depth.layer)) else {
             continue;
@@ -62,22 +119,16 @@ pub(super) fn write(out: &Path, judged: &Judged<AtPoint>, of: &ByCriterion) -> R
             let [n_x, n_y, n_z] = f.normal;
             let (x, y) = judged.line.at(*s);
             let (s, place) = if along_y { (y, x) } else { (x, y) };
-            let margin = assessment.margin(f.value);
-            let _ = writeln!(
-                text,
-                "{s:e},{place:e},{:e},{},{:e},{:e},{margin:e},{n_x},{n_y},{n_z},{:e},{:e},{:e}",
+            rows.push(format!(
+                "{s:e},{place:e},{:e},{},{},{n_x},{n_y},{n_z},{:e},{:e},{:e}",
                 depth.z,
                 depth.layer,
-                f.value,
-                f.missed,
+                values(f, assessment.margin(f.value)),
                 f.shear_amplitude,
                 f.normal_max,
                 f.normal_min
-            );
+            ));
         }
     }
-    std::fs::write(out, text).map_err(|e| Error::File {
-        path: out.display().to_string(),
-        message: e.to_string(),
-    })
+    rows
 }
