@@ -7,7 +7,7 @@ use plausible::{UNITS, doubt_of, quantity};
 
 use super::shape::Shape;
 use super::validity::stiffest;
-use super::{Body, Coating, Elastic, Friction, Grid, Prescribed, RigidMotion, Scene, SurfaceMap};
+use super::{Body, Coating, Elastic, Grid, Prescribed, RigidMotion, Scene, SurfaceMap};
 use crate::error::Error;
 
 /// Peak pressure over the contact modulus, or bulk strain, beyond which strains are not small.
@@ -200,17 +200,15 @@ impl Scene {
                  are taken as m, N and Pa, and results carry these units; {UNITS}"
             ));
         }
-        let Friction {
-            mu, mu_y, kinetic, ..
-        } = self.friction;
-        let numbers = [
-            ("friction.mu", Some(mu)),
-            ("friction.mu_y", mu_y),
-            ("friction.kinetic", kinetic),
-            ("rig.stiffness", self.path.rig_stiffness),
-        ];
-        let ask = |(key, value): (&str, Option<f64>)| doubt_of(key, key, value?);
-        doubts.extend(numbers.into_iter().filter_map(ask));
+        for (key, mu) in [("mu", self.friction.mu)]
+            .into_iter()
+            .chain(self.friction.coefficients())
+        {
+            let key = format!("friction.{key}");
+            doubts.extend(doubt_of(&key, &key, mu));
+        }
+        let stiffness = self.path.rig_stiffness;
+        doubts.extend(stiffness.and_then(|K| doubt_of("rig.stiffness", "rig.stiffness", K)));
         doubts
     }
 

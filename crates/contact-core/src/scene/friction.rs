@@ -110,6 +110,17 @@ impl Friction {
         laws.into_iter().flatten()
     }
 
+    /// The coefficients beside mu, by their keys in a scene file.
+    pub fn coefficients(&self) -> impl Iterator<Item = (&'static str, f64)> {
+        self.laws().filter_map(|law| law.coefficient())
+    }
+
+    /// Where the coefficients beside mu are kept, by their keys in a scene file.
+    pub(super) fn coefficients_mut(&mut self) -> [(&'static str, &mut Option<f64>); 2] {
+        let Self { mu_y, kinetic, .. } = self;
+        [("mu_y", mu_y), ("kinetic", kinetic)]
+    }
+
     /// Whether the coefficient depends on this.
     pub fn depends_on(&self, what: Dependence) -> bool {
         self.laws().any(|law| law.depends_on().contains(&what))
@@ -224,6 +235,15 @@ impl Law<'_> {
         }
     }
 
+    /// The key and the value of a law that is one number in a scene file.
+    fn coefficient(&self) -> Option<(&'static str, f64)> {
+        match self {
+            Self::Direction(mu_y) => Some(("mu_y", *mu_y)),
+            Self::Kinetic(kinetic) => Some(("kinetic", *kinetic)),
+            Self::Place(_) | Self::History(_) | Self::Own => None,
+        }
+    }
+
     /// Why the coefficient may differ between y and -y, if it may; `is_even` says whether a map is
     /// the same at both.
     pub(crate) fn is_uneven(&self, is_even: impl Fn(&SurfaceMap) -> bool) -> Option<&'static str> {
@@ -253,15 +273,13 @@ impl Law<'_> {
     /// Fails if it has no meaning beside `mu`, or, given a `grid`, does not cover it.
     fn check(&self, mu: f64, grid: Option<&Grid>) -> Result<(), Error> {
         let positive = |mu: f64| mu > 0.0 && mu.is_finite();
-        let coefficient = |key: &str, of: f64| {
-            if positive(of) && positive(mu) {
-                return Ok(());
-            }
-            Err(Error::invalid(key, of, "a positive number, as friction.mu"))
-        };
+        if let Some((key, of)) = self.coefficient()
+            && !(positive(of) && positive(mu))
+        {
+            let allowed = "a positive number, as friction.mu";
+            return Err(Error::invalid(format!("friction.{key}"), of, allowed));
+        }
         match self {
-            Self::Direction(mu_y) => coefficient("friction.mu_y", *mu_y),
-            Self::Kinetic(kinetic) => coefficient("friction.kinetic", *kinetic),
             Self::Place(map) => {
                 map.check("friction.map")?;
                 if let Some(grid) = grid {
@@ -277,24 +295,21 @@ impl Law<'_> {
                 let allowed = "a finite number > 0: about what the law gives";
                 Err(Error::invalid("friction.mu", mu, allowed))
             }
-            Self::Own => Ok(()),
+            Self::Direction(_) | Self::Kinetic(_) | Self::Own => Ok(()),
         }
     }
 
     /// Fails at a coefficient or factor that is far from the order of one.
     fn check_magnitudes(&self, mu: f64) -> Result<(), Error> {
         let is_far = |of: f64| of.is_finite() && !(1.0 / FACTOR..=FACTOR).contains(&of);
-        let coefficient = |key: &str, of: f64| {
-            if !is_far(of / mu) {
-                return Ok(());
-            }
+        if let Some((key, of)) = self.coefficient()
+            && is_far(of / mu)
+        {
             let allowed = format!("between 1/{FACTOR:e} and {FACTOR:e} of friction.mu");
-            Err(Error::invalid(key, of, allowed))
-        };
+            return Err(Error::invalid(format!("friction.{key}"), of, allowed));
+        }
         let (key, factors): (_, Vec<f64>) = match self {
-            Self::Direction(mu_y) => return coefficient("friction.mu_y", *mu_y),
-            Self::Kinetic(kinetic) => return coefficient("friction.kinetic", *kinetic),
-            Self::Own => return Ok(()),
+            Self::Direction(_) | Self::Kinetic(_) | Self::Own => return Ok(()),
             Self::Place(map) => ("friction.map", map.values.iter().copied().collect()),
             Self::History(FrictionHistory { table, .. }) => {
                 let factors = table.iter().map(|(_, factor)| *factor);
@@ -396,6 +411,10 @@ mod tests {
         for friction in each() {
             assert_eq!(friction.laws().count(), 1, "{friction:?}");
             assert_eq!(friction.words().len(), 2);
+            let mut same = friction.clone();
+            let kept = same.coefficients_mut();
+            let kept = kept.into_iter().filter_map(|(key, mu)| Some((key, (*mu)?)));
+            assert!(kept.eq(friction.coefficients()), "{friction:?}");
             assert!(friction.check(None).is_ok() && friction.check_magnitudes().is_ok());
             let on = friction.laws().flat_map(|law| law.depends_on().iter());
             let on: Vec<_> = on.copied().collect();

@@ -20,7 +20,9 @@ const HISTORIES: [(&str, History); 4] = [
 
 /// The friction law.
 pub(super) fn friction(root: &Section<'_>, files: &Files<'_>) -> Result<Friction, Fault> {
-    let keys = ["mu", "mu_y", "kinetic", "map", "history", "law"];
+    let mut friction = Friction::coulomb(f64::INFINITY);
+    let coefficients = friction.coefficients_mut().map(|(key, _)| key);
+    let keys = [&["mu"], &coefficients[..], &["map", "history", "law"]].concat();
     let section = root.need_section("friction", &keys)?;
     let what = "a number >= 0, or \"stick\" for no slip";
     let mu = match section.need("mu", what)? {
@@ -38,21 +40,19 @@ pub(super) fn friction(root: &Section<'_>, files: &Files<'_>) -> Result<Friction
             finite,
         ));
     }
-    let number = |key: &str| {
-        let given = section
-            .get(key)
-            .map(|_| section.number(key, "a positive number", &[]));
-        given.transpose()
-    };
+    for (key, coefficient) in friction.coefficients_mut() {
+        let given = section.get(key);
+        let given = given.map(|_| section.number(key, "a positive number", &[]));
+        *coefficient = given.transpose()?;
+    }
     // Its numbers have no unit.
     let map = section.section("map", &MAP[..MAP.len() - 1])?;
     Ok(Friction {
         mu,
-        mu_y: number("mu_y")?,
-        kinetic: number("kinetic")?,
         map: map.map(|map| surface_map(&map, files)).transpose()?,
         history: friction_history(&section)?,
         law: own_law(&section)?,
+        ..friction
     })
 }
 
@@ -84,9 +84,8 @@ pub(super) fn text(friction: &Friction) -> String {
     } else {
         "mu = \"stick\"".to_owned()
     }];
-    for (key, mu) in [("mu_y", friction.mu_y), ("kinetic", friction.kinetic)] {
-        lines.extend(mu.map(|mu| format!("{key} = {mu:?}")));
-    }
+    let coefficients = friction.coefficients();
+    lines.extend(coefficients.map(|(key, mu)| format!("{key} = {mu:?}")));
     lines.extend(friction.law.as_ref().map(|_| format!("law = \"{OWN}\"")));
     let map = friction.map.as_ref();
     lines.extend(map.map(|map| format!("map = {{ {} }}", map_text(map))));
