@@ -378,20 +378,20 @@ class CattaneoMindlin:
     @property
     def mu(self, /) -> float:
         """Friction coefficient."""
-    def q_loading(self, /, r: ArrayLike, *, T: float) -> NDArray[np.float64]:
+    def q_loading(self, /, r: ArrayLike, *, T: float) -> NDArray[float64]:
         """Shear traction at distance `r` [m] in the first loading to `T` [N] [Pa]."""
-    def q_reloading(self, /, r: ArrayLike, *, T: float, T_m: float) -> NDArray[np.float64]:
+    def q_reloading(self, /, r: ArrayLike, *, T: float, T_m: float) -> NDArray[float64]:
         """Shear traction at `T` on the way from -`T_m` back to `T_m` [N] [Pa]."""
-    def q_unloading(self, /, r: ArrayLike, *, T: float, T_m: float) -> NDArray[np.float64]:
+    def q_unloading(self, /, r: ArrayLike, *, T: float, T_m: float) -> NDArray[float64]:
         """Shear traction at `T` on the way back from the first loading to `T_m` [N] [Pa]."""
     @property
     def shift_limit(self, /) -> float:
         """Shift at which gross sliding starts [m], 3 mu W / (16 a G*)."""
-    def shift_loading(self, /, T: ArrayLike) -> NDArray[np.float64]:
+    def shift_loading(self, /, T: ArrayLike) -> NDArray[float64]:
         """Shift delta_x of the first loading to `T` [N] [m]."""
-    def shift_reloading(self, /, T: ArrayLike, *, T_m: float) -> NDArray[np.float64]:
+    def shift_reloading(self, /, T: ArrayLike, *, T_m: float) -> NDArray[float64]:
         """Shift delta_x at `T` on the way from -`T_m` back to `T_m` [N] [m]."""
-    def shift_unloading(self, /, T: ArrayLike, *, T_m: float) -> NDArray[np.float64]:
+    def shift_unloading(self, /, T: ArrayLike, *, T_m: float) -> NDArray[float64]:
         """Shift delta_x at `T` on the way back from `T_m` [N] [m]."""
     def stick_radius(self, /, T: float) -> float:
         """Stick radius of the first loading to `T` [N], a (1 - T/(mu W))^(1/3) [m]."""
@@ -428,7 +428,7 @@ class CoatedIndentation:
     @property
     def indenter(self, /) -> Elastic:
         """Material of the sphere."""
-    def p(self, /, r: ArrayLike) -> NDArray[np.float64]:
+    def p(self, /, r: ArrayLike) -> NDArray[float64]:
         """Pressure at distance `r` [m] from the middle [Pa]."""
     @property
     def substrate(self, /) -> Elastic:
@@ -1252,6 +1252,9 @@ class Friction:
     def history(self, /) -> tuple[History, list[tuple[float, float]]] | None:
         """Factor as a function of the history."""
     @property
+    def is_constant(self, /) -> bool:
+        """Whether it is the same everywhere and at all times, if not in all directions."""
+    @property
     def kinetic(self, /) -> float | None:
         """Coefficient of cells that slipped in the increment before."""
     @property
@@ -1359,6 +1362,7 @@ class Grid:
         wear: Mapping[str, Any] | None = None,
         mu: float | Friction | None = None,
         of: Literal["p", "p_max", "s_xx", "loop"] = "p",
+        n: int | None = None,
     ) -> Grid:
         """Choose a grid for the contact that comes out of two bodies and a load path.
 
@@ -1400,6 +1404,8 @@ class Grid:
             pressure and the area. ``"s_xx"``: the largest tension along x in the lower body at
             the end of the path. ``"loop"``: the dissipated energy and the ranges of forces and
             shifts.
+        n : int, optional
+            Cells along the shorter side, in place of those that `error` takes; they are square.
 
         Raises
         ------
@@ -1464,7 +1470,7 @@ class Hertz:
     @property
     def delta_z(self, /) -> float:
         """Approach [m], a^2 / R."""
-    def p(self, /, r: ArrayLike) -> NDArray[np.float64]:
+    def p(self, /, r: ArrayLike) -> NDArray[float64]:
         """Pressure at distance `r` [m] from the middle [Pa], p0 sqrt(1 - r^2/a^2)."""
     @property
     def p0(self, /) -> float:
@@ -1587,7 +1593,7 @@ class LineContact:
     @property
     def bodies(self, /) -> tuple[Elastic, Elastic]:
         """Materials of body 1 and body 2."""
-    def p(self, /, x: ArrayLike) -> NDArray[np.float64]:
+    def p(self, /, x: ArrayLike) -> NDArray[float64]:
         """Pressure at `x` [m] [Pa]."""
     @property
     def p0(self, /) -> float:
@@ -1595,9 +1601,7 @@ class LineContact:
     @property
     def p_H(self, /) -> float:
         """Peak pressure [Pa], by the name that it has in results."""
-    def q(
-        self, /, x: ArrayLike, *, T: float, mu: float, middle: float = 0.0
-    ) -> NDArray[np.float64]:
+    def q(self, /, x: ArrayLike, *, T: float, mu: float, middle: float = 0.0) -> NDArray[float64]:
         """
         Shear at `x` [m] under `T` [N/m] with the stick zone around `middle` [m] [Pa].
 
@@ -1926,7 +1930,7 @@ class Lubkin:
     @property
     def M_limit(self, /) -> float:
         """Moment of full slip [N m], (3 pi/16) mu W a."""
-    def M_z(self, /, c: ArrayLike) -> NDArray[np.float64]:
+    def M_z(self, /, c: ArrayLike) -> NDArray[float64]:
         """Moment M_z at the stick radius `c` [m] [N m]."""
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self, /) -> int: ...
@@ -1944,9 +1948,9 @@ class Lubkin:
     @property
     def mu(self, /) -> float:
         """Friction coefficient."""
-    def phi(self, /, c: ArrayLike) -> NDArray[np.float64]:
+    def phi(self, /, c: ArrayLike) -> NDArray[float64]:
         """Rotation phi_z at the stick radius `c` [m] [rad]."""
-    def q(self, /, r: ArrayLike, *, c: float) -> NDArray[np.float64]:
+    def q(self, /, r: ArrayLike, *, c: float) -> NDArray[float64]:
         """Circumferential traction at `r` for the stick radius `c` [m] [Pa]."""
     def stick_radius(self, /, *, M_z: Quantity) -> float:
         """Stick radius under the moment `M_z` [N m] [m]."""

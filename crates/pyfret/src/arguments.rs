@@ -6,16 +6,15 @@
 use std::ops::Deref;
 
 use crate::hints::sequence_of;
+use crate::prelude::*;
 use contact_core::memory::available_memory;
 use contact_core::scene::{Grid, in_si};
 use contact_subsurface::Side;
 use ndarray::{Dimension, Ix2};
 use numpy::{AllowTypeChange, PyArrayLike, PyReadonlyArray};
 use pyo3::conversion::FromPyObjectOwned;
-use pyo3::exceptions::{PyMemoryError, PyTypeError, PyValueError};
-use pyo3::inspect::PyStaticExpr;
-use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyString, PyTuple};
+use pyo3::exceptions::{PyMemoryError, PyTypeError};
+use pyo3::types::{PyBool, PyFloat, PyInt, PyList, PyString, PyTuple};
 
 /// An argument that is a number, or holds some; True and False are refused, wherever they stand.
 pub(crate) fn number<'py, T: FromPyObjectOwned<'py>>(value: &Bound<'py, PyAny>) -> PyResult<T> {
@@ -97,10 +96,10 @@ impl Field<'_> {
     pub(crate) fn on_grid(&self, name: &str, grid: &Grid) -> PyResult<Vec<f64>> {
         let (shape, numbers) = ((grid.nx, grid.ny), self.as_array());
         if numbers.dim() != shape {
-            return Err(PyValueError::new_err(format!(
+            refuse!(
                 "{name} has the shape {:?}: must be that of the grid, {shape:?}",
-                numbers.dim(),
-            )));
+                numbers.dim()
+            );
         }
         self.must_have_pitch(name, "cells of the grid", (grid.dx, grid.dy))?;
         Ok(numbers.iter().copied().collect())
@@ -115,10 +114,10 @@ impl Field<'_> {
     ) -> PyResult<()> {
         for (axis, found, given) in [("x", self.pitch[0], given.0), ("y", self.pitch[1], given.1)] {
             if let Some(found) = found.filter(|found| (found / given - 1.0).abs() > UNEVEN) {
-                return Err(PyValueError::new_err(format!(
+                refuse!(
                     "{name}: its coordinates along {axis} lie {found:.6e} m apart, and the {what} \
                      {given:.6e} m"
-                )));
+                );
             }
         }
         Ok(())
@@ -238,9 +237,7 @@ impl<'py, T: FromPyObjectOwned<'py>> FromPyObject<'_, 'py> for List<T> {
         let mut values = Vec::new();
         for item in value.try_iter()? {
             if values.len() == length {
-                return Err(PyValueError::new_err(format!(
-                    "says that it has {length} values and gives more"
-                )));
+                refuse!("says that it has {length} values and gives more");
             }
             values
                 .try_reserve(1)

@@ -2,7 +2,7 @@
 
 use std::ffi::OsString;
 
-use pyo3::prelude::*;
+use crate::prelude::*;
 
 /// Run the command ``fret`` in this process: what its console script does.
 ///

@@ -2,10 +2,10 @@
 
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyTypeError;
-use pyo3::inspect::PyStaticExpr;
-use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyString};
+use pyo3::types::{PyBool, PyFloat, PyInt, PyString};
 use toml::{Table, Value};
+
+use crate::prelude::*;
 
 /// A mapping of names to values, as a table of a scene file.
 pub(crate) struct Document(pub(crate) Table);

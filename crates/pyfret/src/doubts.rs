@@ -1,9 +1,8 @@
 //! Units, and doubts of numbers that are allowed and hardly meant.
 
 use plausible::unit;
-use pyo3::prelude::*;
 
-use crate::arguments::number;
+use crate::prelude::*;
 use crate::quantity::si;
 
 /// The doubt of a number, if it is hardly meant, by its key and the name that it is shown by.

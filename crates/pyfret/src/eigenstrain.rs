@@ -1,19 +1,15 @@
 //! Stress and displacement of eigenstrains, for people who build their own models.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Mutex, PoisonError};
 
 use contact_core::yielding::mesh_of;
-use eigenstrain::{Answer, COMPONENTS, Cells, Operator, Sources};
+use eigenstrain::{COMPONENTS, Cells, Operator, Sources};
 use ndarray::{Array3, Array4, Ix4};
-use numpy::{IntoPyArray, PyArray1, PyArray3, PyArray4};
-use pyo3::exceptions::PyValueError;
-use pyo3::prelude::*;
+use numpy::{PyArray1, PyArray3, PyArray4};
 
-use crate::arguments::{Array, Field, must_fit, number};
-use crate::error::to_python;
-use crate::interruptible::interruptible;
-use crate::parts::made;
-use crate::quantity::Given;
+use crate::arguments::must_fit;
+use crate::error::Answer;
+use crate::prelude::*;
 use crate::scene::{Body, Grid};
 
 /// Stress on the planes, and displacement of the surface.
@@ -92,7 +88,7 @@ impl EigenstrainOperator {
         grid: Grid,
         #[pyo3(from_py_with = Given::depth)] depth: f64,
         #[pyo3(from_py_with = number)] height: f64,
-    ) -> PyResult<Self> {
+    ) -> Answer<Self> {
         let of = &grid.0;
         let cells = Cells {
             nx: of.nx,
@@ -103,17 +99,15 @@ impl EigenstrainOperator {
         };
         for (name, value) in [("depth", depth), ("height", height)] {
             if !(value > 0.0 && value.is_finite()) {
-                let message = format!("{name} = {value}: must be a positive length in m");
-                return Err(PyValueError::new_err(message));
+                refuse!("{name} = {value}: must be a positive length in m");
             }
         }
         // Before a mesh of so many elements is made.
         if depth / height > 1e5 {
-            let message = format!("height = {height}: must be above 1e-5 of the depth, {depth}");
-            return Err(PyValueError::new_err(message));
+            refuse!("height = {height}: must be above 1e-5 of the depth, {depth}");
         }
         let mesh = mesh_of(&body.0, cells, depth, [height, height], 2.0 * depth);
-        let mesh = mesh.map_err(to_python)?;
+        let mesh = mesh?;
         must_fit(mesh.planes() * COMPONENTS * cells.len(), 8.0)?;
         let operator = interruptible(py, &Arc::default(), || Operator::new(mesh))?;
         Ok(Self {
@@ -123,24 +117,6 @@ impl EigenstrainOperator {
             height,
             inner: Mutex::new(operator),
         })
-    }
-
-    /// Depth of each plane of Gauss points [m].
-    #[getter]
-    fn z<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        PyArray1::from_vec(py, self.of_planes(|own, n| own.mesh().depth(n)))
-    }
-
-    /// Height that each plane stands for [m]: an integral over depth is the sum with these.
-    #[getter]
-    fn weights<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        PyArray1::from_vec(py, self.of_planes(|own, n| own.mesh().weight(n)))
-    }
-
-    /// Layer of each plane, from the surface down.
-    #[getter]
-    fn layer<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<usize>> {
-        PyArray1::from_vec(py, self.of_planes(|own, n| own.mesh().layer(n)))
     }
 
     /// Stress on the planes [Pa] and displacement of the surface [m].
@@ -177,29 +153,17 @@ impl EigenstrainOperator {
                 Some(given.as_array().iter().copied().collect())
             }
             Some(given) => {
-                return Err(PyValueError::new_err(format!(
+                refuse!(
                     "eigenstrain has the shape {:?}: must be {shape:?}, that of the planes and the grid",
                     given.as_array().dim()
-                )));
+                );
             }
         };
-        let mut tractions = Vec::new();
-        for (name, field) in [("q_x", q_x), ("q_y", q_y), ("p", p)] {
-            let field = match &field {
-                None => vec![0.0; nx * ny],
-                Some(field) if field.as_array().dim() == (nx, ny) => {
-                    field.as_array().iter().copied().collect()
-                }
-                Some(field) => {
-                    return Err(PyValueError::new_err(format!(
-                        "{name} has the shape {:?}: must be that of the grid, {:?}",
-                        field.as_array().dim(),
-                        (nx, ny)
-                    )));
-                }
-            };
-            tractions.push(field);
-        }
+        let cells = |name: &str, field: Option<Field<'_>>| match field {
+            None => Ok(vec![0.0; nx * ny]),
+            Some(field) => field.on_grid(name, &self.grid.0),
+        };
+        let tractions = [cells("q_x", q_x)?, cells("q_y", q_y)?, cells("p", p)?];
         let mut stress = vec![0.0; planes * COMPONENTS * nx * ny];
         let mut displacement = vec![0.0; 3 * nx * ny];
         interruptible(py, &Arc::default(), || {
@@ -209,7 +173,7 @@ impl EigenstrainOperator {
                         eigenstrain: strain.as_deref(),
                         tractions: Some([&tractions[0], &tractions[1], &tractions[2]]),
                     },
-                    Answer {
+                    eigenstrain::Answer {
                         stress: &mut stress,
                         wanted: &vec![true; planes],
                         displacement: &mut displacement,
@@ -227,3 +191,12 @@ impl EigenstrainOperator {
         ))
     }
 }
+
+attributes!(EigenstrainOperator, self, py:
+    /// Depth of each plane of Gauss points [m].
+    z: Bound<'py, PyArray1<f64>> = PyArray1::from_vec(py, self.of_planes(|own, n| own.mesh().depth(n)));
+    /// Height that each plane stands for [m]: an integral over depth is the sum with these.
+    weights: Bound<'py, PyArray1<f64>> = PyArray1::from_vec(py, self.of_planes(|own, n| own.mesh().weight(n)));
+    /// Layer of each plane, from the surface down.
+    layer: Bound<'py, PyArray1<usize>> = PyArray1::from_vec(py, self.of_planes(|own, n| own.mesh().layer(n)));
+);

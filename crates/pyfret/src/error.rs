@@ -3,9 +3,10 @@
 use contact_core::{Error, shown};
 use pyo3::create_exception;
 use pyo3::exceptions::{
-    PyKeyboardInterrupt, PyMemoryError, PyOSError, PyRuntimeError, PyTypeError, PyValueError,
+    PyKeyboardInterrupt, PyMemoryError, PyOSError, PyRuntimeError, PyTypeError,
 };
-use pyo3::prelude::*;
+
+use crate::prelude::*;
 
 create_exception!(
     pyfret.errors,
@@ -56,6 +57,42 @@ create_exception!(
     "A file or a result store could not be read or written."
 );
 
+/// What Python raises. Errors of the core become it with `?`.
+pub(crate) struct Failed(PyErr);
+
+/// What a function gives, or why it failed.
+pub(crate) type Answer<T> = Result<T, Failed>;
+
+/// Makes what Python raises of errors, each by its translation.
+macro_rules! fails {
+    ($failed:ident: $($error:ty => $translation:expr),* $(,)?) => {
+        impl From<$failed> for pyo3::PyErr {
+            fn from(failed: $failed) -> Self {
+                failed.0
+            }
+        }
+
+        impl From<pyo3::PyErr> for $failed {
+            fn from(error: pyo3::PyErr) -> Self {
+                Self(error)
+            }
+        }
+
+        $(impl From<$error> for $failed {
+            fn from(error: $error) -> Self {
+                Self($translation(error))
+            }
+        })*
+    };
+}
+pub(crate) use fails;
+fails!(
+    Failed:
+    Error => to_python,
+    fatigue::Error => of_criterion,
+    ::fracture::Error => |error| to_python(contact_assess::crack::refused(error)),
+);
+
 /// The Python exception that says the same as `error`.
 pub(crate) fn to_python(error: Error) -> PyErr {
     let text = shown(&error.to_string()).into_owned();
@@ -100,6 +137,14 @@ pub(crate) fn of_criterion(error: fatigue::Error) -> PyErr {
         _ => ArgumentError::new_err(text),
     }
 }
+
+/// Ends a function with a ValueError; the message is given as to `format!`.
+macro_rules! refuse {
+    ($($message:tt)*) => {
+        return Err(pyo3::exceptions::PyValueError::new_err(format!($($message)*)).into())
+    };
+}
+pub(crate) use refuse;
 
 /// Refuses an argument of another type: what was found, and what is wanted, with an example. The
 /// name of the argument is put before it by PyO3.

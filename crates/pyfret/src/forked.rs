@@ -7,11 +7,12 @@
 //! thread was at work, which has left its locks behind; it is refused at once.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Mutex, PoisonError};
 
 use pyo3::exceptions::PyRuntimeError;
-use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
+
+use crate::prelude::*;
 
 /// The process that has worked last, and its pool if it is a copy.
 struct Home {

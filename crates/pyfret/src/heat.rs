@@ -1,24 +1,18 @@
 //! The temperature that friction causes.
 
-use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use contact_heat as core;
 use ndarray::{Array2, Array3, ArrayView2, Axis, Ix2, Ix3, stack};
-use numpy::IntoPyArray;
-use pyo3::prelude::*;
-use pyo3::types::PyDict;
 
-use crate::argument::to_python;
-use crate::arguments::{Array, List, Mask, number};
-use crate::interruptible::interruptible;
-use crate::quantity::Given;
+use crate::argument::Answer;
+use crate::prelude::*;
 use crate::scene::{Body, Grid};
 
 /// Conductivity and heat capacity of each layer.
 type Conductors = List<(f64, f64)>;
 
-fn layers(conductors: &Conductors, body: &Body, key: &str) -> PyResult<core::Layers> {
+fn layers(conductors: &Conductors, body: &Body, key: &str) -> Answer<core::Layers> {
     let conductors: Vec<_> = conductors
         .iter()
         .map(|&(conductivity, heat_capacity)| core::Conductor {
@@ -27,7 +21,7 @@ fn layers(conductors: &Conductors, body: &Body, key: &str) -> PyResult<core::Lay
         })
         .collect();
     let thicknesses: Vec<f64> = body.0.coatings.iter().map(|c| c.thickness).collect();
-    core::Layers::new(&conductors, &thicknesses, key).map_err(to_python)
+    Ok(core::Layers::new(&conductors, &thicknesses, key)?)
 }
 
 /// Temperature over a cycle; use :meth:`pyfret.Result.temperature`.
@@ -47,7 +41,7 @@ pub(crate) fn cycle_temperature<'py>(
     contact: Mask<'py, Ix2>,
     #[pyo3(from_py_with = number)] harmonics: usize,
     jumps: bool,
-) -> PyResult<Bound<'py, PyDict>> {
+) -> Answer<Bound<'py, PyDict>> {
     let one = layers(&conductor1, &body1, "conductor1")?;
     let two = layers(&conductor2, &body2, "conductor2")?;
     let heat: Vec<Array2<f64>> = heat
@@ -66,7 +60,7 @@ pub(crate) fn cycle_temperature<'py>(
     let stop = Arc::<AtomicBool>::default();
     let bulk = [bulk.0, bulk.1];
     let run = || core::temperature([&one, &two], bulk, &grid.0, &cycle, harmonics, &stop);
-    let found = interruptible(py, &stop, run)?.map_err(to_python)?;
+    let found = interruptible(py, &stop, run)??;
     let both = |of: &[Array2<f64>; 2]| -> Array3<f64> {
         let views: [ArrayView2<'_, f64>; 2] = [of[0].view(), of[1].view()];
         stack(Axis(0), &views).expect("both bodies are on one grid")

@@ -6,9 +6,9 @@
 use std::convert::Infallible;
 
 use numpy::PyArray;
-use pyo3::inspect::PyStaticExpr;
-use pyo3::prelude::*;
 use pyo3::{type_hint_identifier, type_hint_subscript, type_hint_union};
+
+use crate::prelude::*;
 
 /// What numpy makes an array of.
 pub(crate) const ARRAY_LIKE: PyStaticExpr = type_hint_identifier!("numpy.typing", "ArrayLike");

@@ -1,25 +1,19 @@
 //! Stress and energy over a load path.
 
-use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use contact_core::march;
 use contact_subsurface as core;
 use contact_subsurface::{Line, Stream};
 use ndarray::{Array1, Array2, Axis, Ix2};
-use numpy::IntoPyArray;
-use pyo3::exceptions::PyValueError;
-use pyo3::prelude::*;
-use pyo3::types::PyDict;
 
-use crate::argument::to_python;
-use crate::arguments::{Field, List, Mask, number, side};
-use crate::interruptible::interruptible;
-use crate::quantity::{Given, Optional};
+use crate::argument::Answer;
+use crate::depths::in_layers;
+use crate::line::line_if_given;
+use crate::prelude::*;
 use crate::residual_stress::Profiles;
 use crate::scene::{Body, Grid, LoadPath};
 use crate::stress::measures;
-use crate::subsurface::{Subsurface, line};
 use crate::yielding::Eigenstress;
 
 /// Extremes of stress below a line; use :func:`pyfret.subsurface.envelope`.
@@ -50,12 +44,9 @@ impl Envelope {
         #[pyo3(from_py_with = Optional::azimuth)] azimuth: Option<f64>,
         #[pyo3(from_py_with = number)] body_number: u8,
         residual: Profiles,
-    ) -> PyResult<Self> {
+    ) -> Answer<Self> {
         let cycles = core::cycles(&path.0);
-        let line = match (x, y) {
-            (None, None) => None,
-            _ => Some(line(x, y, azimuth)?),
-        };
+        let line = line_if_given(x, y, azimuth)?;
         let along = line.map_or_else(Vec::new, |line| line.places(&grid.0));
         let of_largest = line.unwrap_or(Line::AlongX(0.0));
         let accumulate = (
@@ -74,7 +65,7 @@ impl Envelope {
                 along,
             },
         );
-        let depths = Subsurface::depths(&z, &layer)?;
+        let depths = in_layers(&z, &layer)?;
         let side = side(body_number)?;
         let largest = accumulate.1.clone();
         let residual = residual
@@ -87,7 +78,7 @@ impl Envelope {
             stream.residual(&residual)
         };
         let stream = interruptible(py, &Arc::default(), new)?;
-        let stream = stream.map_err(to_python)?;
+        let stream = stream?;
         Ok(Self {
             stream: Some(stream.rim(true)),
             largest,
@@ -97,15 +88,8 @@ impl Envelope {
         })
     }
 
-    /// First and last branch of every cycle.
-    #[getter]
-    fn cycles(&self) -> Vec<(usize, usize)> {
-        self.cycles.clone()
-    }
-
     /// Take an increment: tractions [Pa], cells that stick, bulk stress of the body [Pa].
     #[pyo3(signature = (increment: "int", branch: "int", *, p, q_x, q_y, stick, sigma_B: "Quantity" = 0.0, eigenstress: "Eigenstress | None" = None))]
-    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn push(
         &mut self,
         py: Python<'_>,
@@ -117,7 +101,7 @@ impl Envelope {
         stick: Mask<'_, Ix2>,
         #[pyo3(from_py_with = Given::sigma_B)] sigma_B: f64,
         eigenstress: Option<Py<Eigenstress>>,
-    ) -> PyResult<()> {
+    ) -> Answer<()> {
         let tractions = [q_x, q_y, p].map(|f| f.as_array().as_standard_layout().into_owned());
         let mut stream = self.stream.take().ok_or_else(finished)?;
         let moment = core::Moment {
@@ -130,18 +114,18 @@ impl Envelope {
         stream.stop_on(stop.clone());
         let left = eigenstress.map(|left| left.get().0.clone());
         let push = || stream.push(moment, tractions, stick, left);
-        interruptible(py, &stop, push)?.map_err(to_python)?;
+        interruptible(py, &stop, push)??;
         self.stream = Some(stream);
         Ok(())
     }
 
     /// Give the extremes of every measure.
     #[pyo3(signature = () -> "dict[str, dict[str, NDArray[np.float64]]]")]
-    fn finish<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+    fn finish<'py>(&mut self, py: Python<'py>) -> Answer<Bound<'py, PyDict>> {
         let mut stream = self.stream.take().ok_or_else(finished)?;
         let stop = Arc::<AtomicBool>::default();
         stream.stop_on(stop.clone());
-        let (_, kept) = interruptible(py, &stop, || stream.finish())?.map_err(to_python)?;
+        let (_, kept) = interruptible(py, &stop, || stream.finish())??;
         let (kept, tops): (Vec<_>, Vec<_>) = kept.into_iter().unzip();
         let largest = self.largest.over_depths(&tops);
         let result = PyDict::new(py);
@@ -185,6 +169,11 @@ impl Envelope {
         Ok(result)
     }
 }
+
+attributes!(Envelope, self:
+    /// First and last branch of every cycle.
+    cycles: Vec<(usize, usize)> = self.cycles.clone();
+);
 
 fn finished() -> PyErr {
     PyValueError::new_err("the envelope has been finished, or was stopped on the way")

@@ -1,17 +1,26 @@
 //! Long work beside the interpreter, which goes on to hear signals.
 
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
 use std::time::Duration;
 
-use pyo3::prelude::*;
+use contact_core::Error;
 
 use crate::forked::in_this_process;
+use crate::prelude::*;
 
 /// Time between two looks at the signals.
 const LOOK: Duration = Duration::from_millis(50);
+
+/// Does `work` as [`interruptible`] does, with what stops it.
+pub(crate) fn stoppable<T: Send>(
+    py: Python<'_>,
+    work: impl FnOnce(&Arc<AtomicBool>) -> Result<T, Error> + Send,
+) -> PyResult<Result<T, Error>> {
+    let stop = Arc::default();
+    interruptible(py, &stop, || work(&stop))
+}
 
 #[allow(
     clippy::redundant_closure_for_method_calls,

@@ -1,17 +1,12 @@
 //! The response of a body to tractions on its surface.
 
-use std::sync::Arc;
-
 use contact_core::kernels as core;
 use contact_core::kernels::{Complex64, Stack};
 use ndarray::{Array2, Array3, ArrayView2, Ix1};
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArray4, PyReadonlyArray3};
-use pyo3::exceptions::PyValueError;
-use pyo3::prelude::*;
+use numpy::{PyArray1, PyArray2, PyArray3, PyArray4, PyReadonlyArray3};
 
-use crate::argument::to_python;
-use crate::arguments::{Array, number};
-use crate::interruptible::interruptible;
+use crate::argument::Answer;
+use crate::prelude::*;
 use crate::scene::{Body, Grid, Settings};
 
 /// Surface response at one-dimensional arrays of wave numbers; see :mod:`pyfret.kernels`.
@@ -22,12 +17,12 @@ pub(crate) fn surface_frf<'py>(
     body: Body,
     k_x: Array<'py, Ix1>,
     k_y: Array<'py, Ix1>,
-) -> PyResult<Bound<'py, PyArray3<Complex64>>> {
-    let stack = Stack::checked(&body.0).map_err(to_python)?;
+) -> Answer<Bound<'py, PyArray3<Complex64>>> {
+    let stack = Stack::checked(&body.0)?;
     let mut frf = Array3::zeros((k_x.len()?, 3, 3));
     let waves = k_x.as_array().into_iter().zip(k_y.as_array());
     for (n, (&k_x, &k_y)) in waves.enumerate() {
-        let matrix = stack.surface_frf(k_x, k_y).map_err(to_python)?;
+        let matrix = stack.surface_frf(k_x, k_y)?;
         for (i, row) in matrix.iter().enumerate() {
             for (j, &entry) in row.iter().enumerate() {
                 frf[(n, i, j)] = entry;
@@ -60,15 +55,14 @@ pub(crate) fn influence_coefficients(
     body: Body,
     grid: Grid,
     settings: Option<Settings>,
-) -> PyResult<Bound<'_, PyArray4<f64>>> {
+) -> Answer<Bound<'_, PyArray4<f64>>> {
     let settings = settings.unwrap_or_default().0;
     let shortcut = settings.skip.equal_layers;
-    let stop = Arc::default();
-    let matrix = interruptible(py, &stop, || {
-        core::influence_coefficients(&body.0, &grid.0, &settings.kernel, shortcut, Some(&stop))
+    let matrix = stoppable(py, |stop| {
+        core::influence_coefficients(&body.0, &grid.0, &settings.kernel, shortcut, Some(stop))
             .map(|coefficients| coefficients.matrix())
-    })?;
-    Ok(matrix.map_err(to_python)?.into_pyarray(py))
+    })??;
+    Ok(matrix.into_pyarray(py))
 }
 
 /// Stress at the depth `z` [m] under unit traction on one cell, tension positive.
@@ -98,13 +92,12 @@ pub(crate) fn stress_coefficients(
     grid: Grid,
     #[pyo3(from_py_with = number)] z: f64,
     #[pyo3(from_py_with = number)] layer: Option<usize>,
-) -> PyResult<Bound<'_, PyArray4<f64>>> {
-    let stop = Arc::default();
-    let matrix = interruptible(py, &stop, || {
-        core::stress_coefficients(&body.0, &grid.0, z, layer, Some(&stop))
+) -> Answer<Bound<'_, PyArray4<f64>>> {
+    let matrix = stoppable(py, |stop| {
+        core::stress_coefficients(&body.0, &grid.0, z, layer, Some(stop))
             .map(|coefficients| coefficients.matrix())
-    })?;
-    Ok(matrix.map_err(to_python)?.into_pyarray(py))
+    })??;
+    Ok(matrix.into_pyarray(py))
 }
 
 /// Stress at a point under unit traction on the cell of sides `cell` [m] around the origin.
@@ -121,9 +114,9 @@ pub(crate) fn stress_at(
     #[pyo3(from_py_with = number)] cell: (f64, f64),
     #[pyo3(from_py_with = number)] point: (f64, f64, f64),
     #[pyo3(from_py_with = number)] layer: Option<usize>,
-) -> PyResult<Bound<'_, PyArray2<f64>>> {
+) -> Answer<Bound<'_, PyArray2<f64>>> {
     let at = || core::stress_at(&body.0, cell, point, layer);
-    let stress = interruptible(py, &Arc::default(), at)?.map_err(to_python)?;
+    let stress = interruptible(py, &Arc::default(), at)??;
     Ok(Array2::from_shape_fn((6, 3), |(i, j)| stress[i][j]).into_pyarray(py))
 }
 
@@ -139,10 +132,8 @@ impl Conversion {
         grid: Grid,
         #[pyo3(from_py_with = number)] enlargement: usize,
         #[pyo3(from_py_with = number)] aliases: usize,
-    ) -> PyResult<Self> {
-        core::Conversion::new(&grid.0, enlargement, aliases)
-            .map(Self)
-            .map_err(to_python)
+    ) -> Answer<Self> {
+        Ok(Self(core::Conversion::new(&grid.0, enlargement, aliases)?))
     }
 
     /// Wave numbers k_x, k_y [1/m] at which the response is needed, never both zero.
@@ -165,10 +156,10 @@ impl Conversion {
         let frf = frf.as_array();
         let expected = (self.0.wave_vectors().len(), 3, 3);
         if frf.dim() != expected {
-            return Err(PyValueError::new_err(format!(
+            refuse!(
                 "the response has the shape {:?}: must be {expected:?}, one matrix per wave vector",
                 frf.dim()
-            )));
+            );
         }
         let matrix = |m: ArrayView2<'_, Complex64>| [0, 1, 2].map(|i| [0, 1, 2].map(|j| m[(i, j)]));
         let samples: Vec<_> = frf.outer_iter().map(matrix).collect();

@@ -17,7 +17,9 @@
 mod argument;
 mod arguments;
 mod assess;
+mod attributes;
 mod command_line;
+mod depths;
 mod document;
 mod doubts;
 mod eigenstrain;
@@ -31,12 +33,14 @@ mod hints;
 mod history;
 mod interruptible;
 mod kernels;
+mod line;
 mod march;
 mod material;
 mod operator;
 mod outline;
 mod parts;
 mod plastic;
+mod prelude;
 mod quantity;
 mod reference;
 mod residual_stress;
@@ -93,6 +97,8 @@ mod _core {
     };
 
     #[pymodule_export]
+    use crate::depths::{chosen_depths, depths};
+    #[pymodule_export]
     use crate::fatigue::{
         Assessment, Criterion, Material, criteria, criterion_on, dang_van_path, known_as,
         material_quantities, materials, yielding_on,
@@ -107,15 +113,15 @@ mod _core {
     #[pymodule_export]
     use crate::history::{Envelope, loops};
     #[pymodule_export]
+    use crate::line::{line_places, line_through};
+    #[pymodule_export]
     use crate::outline::{Outline, main_sections};
     #[pymodule_export]
     use crate::states::States;
     #[pymodule_export]
     use crate::stress::{largest_of_samples, measure, principal, probe_labels};
     #[pymodule_export]
-    use crate::subsurface::{
-        Subsurface, chosen_depths, depths, line_places, line_through, section_of_states,
-    };
+    use crate::subsurface::{Subsurface, section_of_states};
     #[pymodule_export]
     use crate::text::{read_bytes, read_text, shown, with_error, with_range};
     #[pymodule_export]

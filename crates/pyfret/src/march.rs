@@ -2,21 +2,17 @@
 
 use std::collections::HashMap;
 use std::sync::atomic::AtomicBool;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Mutex, PoisonError};
 
 use contact_core::estimate::choose_increments;
 use contact_core::march as core;
 use contact_core::scene::PathGrid;
 use contact_store::{FIELDS, Kind, SCALARS, group_attributes};
-use numpy::{IntoPyArray, PyArray2};
-use pyo3::exceptions::PyValueError;
-use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use numpy::PyArray2;
 use serde_json::Value;
 
-use crate::arguments::Field;
-use crate::error::to_python;
-use crate::interruptible::interruptible;
+use crate::error::Answer;
+use crate::prelude::*;
 use crate::scene::{Grid, Scene};
 use crate::variables::Variables;
 
@@ -41,19 +37,18 @@ impl March {
 #[pymethods]
 impl March {
     #[new]
-    fn new(py: Python<'_>, scene: Scene) -> PyResult<Self> {
-        scene.0.check_fit().map_err(to_python)?;
-        let stop = Arc::default();
-        let march = interruptible(py, &stop, || {
+    fn new(py: Python<'_>, scene: Scene) -> Answer<Self> {
+        scene.0.check_fit()?;
+        let march = stoppable(py, |stop| {
             let mut scene = scene.0;
             // The fields of every increment can be read.
             scene.settings.solver.path_grid = PathGrid::Same;
-            let mut scene = choose_increments(&scene, &stop)?;
+            let mut scene = choose_increments(&scene, stop)?;
             scene.settings.solver.path_grid = PathGrid::Auto;
-            core::March::until(&scene, &stop)
-        })?;
+            core::March::until(&scene, stop)
+        })??;
         Ok(Self {
-            inner: Mutex::new(march.map_err(to_python)?),
+            inner: Mutex::new(march),
             reached: core::Reached::default(),
             last: None,
         })
@@ -82,7 +77,7 @@ impl March {
     }
 
     /// Solve the next increment and give its scalars.
-    fn __next__<'py>(&mut self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
+    fn __next__<'py>(&mut self, py: Python<'py>) -> Answer<Option<Bound<'py, PyDict>>> {
         py.check_signals()?;
         let march = self.inner();
         let stop = Arc::<AtomicBool>::default();
@@ -90,10 +85,10 @@ impl March {
         match interruptible(py, &stop, || march.advance())? {
             None => {
                 let scene = self.inner().scene().clone();
-                self.reached.check(&scene).map_err(to_python)?;
+                self.reached.check(&scene)?;
                 Ok(None)
             }
-            Some(Err(error)) => Err(to_python(error)),
+            Some(Err(error)) => Err(error.into()),
             Some(Ok(increment)) => {
                 self.reached.see(&increment);
                 let scalars = PyDict::new(py);
@@ -144,9 +139,7 @@ pub(crate) fn continued_pressure<'py>(
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let (p, shape) = (p.as_array(), (grid.0.nx, grid.0.ny));
     if p.dim() != shape {
-        return Err(PyValueError::new_err(format!(
-            "p: must be of the grid's shape {shape:?}"
-        )));
+        refuse!("p: must be of the grid's shape {shape:?}");
     }
     Ok(contact_core::zones::continued_pressure(&p.to_owned(), &grid.0).into_pyarray(py))
 }

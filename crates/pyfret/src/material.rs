@@ -1,15 +1,12 @@
 //! Elastic materials, alone and as layers.
 
 use contact_core::scene as core;
-use pyo3::inspect::{PyStaticConstant, PyStaticExpr};
-use pyo3::prelude::*;
+use pyo3::inspect::PyStaticConstant;
 use pyo3::{PyTypeInfo, type_hint_union};
 
-use crate::arguments::number;
-use crate::error::{must_be, takes, to_python};
-use crate::parts::parts;
+use crate::error::Answer;
 use crate::plastic::Plastic;
-use crate::quantity::Given;
+use crate::prelude::*;
 use crate::residual_stress::{Profile, Shown, shown, text};
 
 /// A homogeneous isotropic elastic material.
@@ -77,36 +74,12 @@ impl Elastic {
         #[pyo3(from_py_with = Given::E)] E: f64,
         #[pyo3(from_py_with = number)] nu: f64,
         plastic: Option<Plastic>,
-    ) -> PyResult<Self> {
+    ) -> Answer<Self> {
         if (Self(core::Elastic { E, nu }, None)) == Self::RIGID && plastic.is_none() {
             return Ok(Self::RIGID);
         }
-        let material = core::Elastic::new(E, nu).map_err(to_python)?;
+        let material = core::Elastic::new(E, nu)?;
         Ok(Self(material, plastic.map(|law| law.0)))
-    }
-
-    /// How it yields; None where it stays elastic.
-    #[getter]
-    fn plastic(&self) -> Option<Plastic> {
-        self.1.map(Plastic)
-    }
-
-    /// Young's modulus [Pa]; infinite for :data:`RIGID`.
-    #[getter]
-    fn E(&self) -> f64 {
-        self.0.E
-    }
-
-    /// Poisson's ratio.
-    #[getter]
-    fn nu(&self) -> f64 {
-        self.0.nu
-    }
-
-    /// Shear modulus E / (2 (1 + nu)) [Pa].
-    #[getter]
-    fn G(&self) -> f64 {
-        self.0.G()
     }
 
     pub(crate) fn __repr__(&self) -> String {
@@ -119,6 +92,17 @@ impl Elastic {
         }
     }
 }
+
+attributes!(Elastic, self:
+    /// How it yields; None where it stays elastic.
+    plastic: Option<Plastic> = self.1.map(Plastic);
+    /// Young's modulus [Pa]; infinite for :data:`RIGID`.
+    E: f64 = self.0.E;
+    /// Poisson's ratio.
+    nu: f64 = self.0.nu;
+    /// Shear modulus E / (2 (1 + nu)) [Pa].
+    G: f64 = self.0.G();
+);
 
 /// How a layer is bonded to what lies below it: springs that give way under the traction there.
 ///
@@ -150,9 +134,9 @@ impl Bond {
     fn new(
         #[pyo3(from_py_with = number)] normal: f64,
         #[pyo3(from_py_with = number)] shear: f64,
-    ) -> PyResult<Self> {
+    ) -> Answer<Self> {
         let bond = core::Bond { normal, shear };
-        bond.check("bond").map_err(to_python)?;
+        bond.check("bond")?;
         Ok(Self(bond))
     }
 
@@ -162,28 +146,23 @@ impl Bond {
     fn of_layer(
         material: Elastic,
         #[pyo3(from_py_with = Given::thickness)] thickness: f64,
-    ) -> PyResult<Self> {
+    ) -> Answer<Self> {
         let bond = core::Bond::of_layer(material.0, thickness);
-        bond.check("bond").map_err(to_python)?;
+        bond.check("bond")?;
         Ok(Self(bond))
-    }
-
-    /// Approach per pressure [m/Pa].
-    #[getter]
-    fn normal(&self) -> f64 {
-        self.0.normal
-    }
-
-    /// Slip per shear traction [m/Pa].
-    #[getter]
-    fn shear(&self) -> f64 {
-        self.0.shear
     }
 
     pub(crate) fn __repr__(&self) -> String {
         format!("Bond(normal={:?}, shear={:?})", self.0.normal, self.0.shear)
     }
 }
+
+attributes!(Bond, self:
+    /// Approach per pressure [m/Pa].
+    normal: f64 = self.0.normal;
+    /// Slip per shear traction [m/Pa].
+    shear: f64 = self.0.shear;
+);
 
 /// A layer of constant thickness on what is below it.
 ///
@@ -233,44 +212,20 @@ impl Coating {
         #[pyo3(from_py_with = Given::thickness)] thickness: f64,
         bond: Bond,
         residual: Option<Profile>,
-    ) -> PyResult<Self> {
+    ) -> Answer<Self> {
         let coating = core::Coating {
             material: material.0,
             thickness,
         };
-        coating.check("coating").map_err(to_python)?;
+        coating.check("coating")?;
         let residual = residual.unwrap_or_default().0;
-        residual.check("coating.residual").map_err(to_python)?;
+        residual.check("coating.residual")?;
         Ok(Self {
             layer: coating,
             bond: bond.0,
             plastic: material.1,
             residual,
         })
-    }
-
-    /// Material of the layer.
-    #[getter]
-    fn material(&self) -> Elastic {
-        Elastic(self.layer.material, self.plastic)
-    }
-
-    /// Thickness [m].
-    #[getter]
-    fn thickness(&self) -> f64 {
-        self.layer.thickness
-    }
-
-    /// Bond to what is below it.
-    #[getter]
-    fn bond(&self) -> Bond {
-        Bond(self.bond)
-    }
-
-    /// Residual stress [Pa], or its table; None where it has none.
-    #[getter]
-    fn residual(&self) -> Option<Shown> {
-        shown(&self.residual)
     }
 
     pub(crate) fn __repr__(&self) -> String {
@@ -291,3 +246,14 @@ impl Coating {
         )
     }
 }
+
+attributes!(Coating, self:
+    /// Material of the layer.
+    material: Elastic = Elastic(self.layer.material, self.plastic);
+    /// Thickness [m].
+    thickness: f64 = self.layer.thickness;
+    /// Bond to what is below it.
+    bond: Bond = Bond(self.bond);
+    /// Residual stress [Pa], or its table; None where it has none.
+    residual: Option<Shown> = shown(&self.residual);
+);

@@ -1,16 +1,13 @@
 //! u = C * q for people who build their own models.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Mutex, PoisonError};
 
 use contact_core::convolution::{self, Displacements, Tractions};
 use ndarray::{Array3, ArrayViewMut2, Axis};
-use numpy::{PyArray3, ToPyArray};
-use pyo3::prelude::*;
+use numpy::PyArray3;
 
-use crate::arguments::Field;
-use crate::error::to_python;
-use crate::interruptible::interruptible;
-use crate::parts::made;
+use crate::error::Answer;
+use crate::prelude::*;
 use crate::scene::{Body, Grid, Settings};
 
 /// The displacements that tractions cause on a pair of bodies, u = C * q.
@@ -53,16 +50,15 @@ impl SurfaceOperator {
         body2: Body,
         grid: Grid,
         settings: Option<Settings>,
-    ) -> PyResult<Self> {
+    ) -> Answer<Self> {
         let given = settings.unwrap_or_default();
-        let stop = Arc::default();
         let bodies = (&body1.0, &body2.0);
-        let operator = interruptible(py, &stop, || {
-            convolution::of_bodies(bodies, &grid.0, &given.0, &stop)
-        })?;
+        let operator = stoppable(py, |stop| {
+            convolution::of_bodies(bodies, &grid.0, &given.0, stop)
+        })??;
         Ok(Self {
             shape: (grid.0.nx, grid.0.ny),
-            inner: Mutex::new(operator.map_err(to_python)?),
+            inner: Mutex::new(operator),
             body1,
             body2,
             grid,

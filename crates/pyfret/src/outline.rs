@@ -3,13 +3,10 @@
 use contact_core::convolution::Tractions;
 use contact_core::zones as core;
 use contact_subsurface::Line;
-use numpy::PyReadonlyArray2;
-use pyo3::exceptions::PyValueError;
-use pyo3::prelude::*;
 
-use crate::quantity::Given;
+use crate::line::{LineName, name_of};
+use crate::prelude::*;
 use crate::scene::Grid;
-use crate::subsurface::{LineName, name_of};
 
 /// A spot of a contact: x, y of its centre, area, larger and smaller semi-axis, azimuth.
 type Spot = (f64, f64, f64, f64, f64, f64);
@@ -24,22 +21,9 @@ pub(crate) struct Outline(core::Outline);
 impl Outline {
     #[new]
     #[pyo3(signature = (grid, *, p: "NDArray[np.float64]", q_x: "NDArray[np.float64]", q_y: "NDArray[np.float64]"))]
-    fn new(
-        grid: Grid,
-        p: PyReadonlyArray2<'_, f64>,
-        q_x: PyReadonlyArray2<'_, f64>,
-        q_y: PyReadonlyArray2<'_, f64>,
-    ) -> PyResult<Self> {
-        let cells = |name: &str, field: &PyReadonlyArray2<'_, f64>| {
-            let (found, shape) = (field.as_array().dim(), (grid.0.nx, grid.0.ny));
-            if found != shape {
-                return Err(PyValueError::new_err(format!(
-                    "{name} has the shape {found:?}: must be that of the grid, {shape:?}"
-                )));
-            }
-            Ok(field.as_array().iter().copied().collect::<Vec<_>>())
-        };
-        let (p, q_x, q_y) = (cells("p", &p)?, cells("q_x", &q_x)?, cells("q_y", &q_y)?);
+    fn new(grid: Grid, p: Field<'_>, q_x: Field<'_>, q_y: Field<'_>) -> PyResult<Self> {
+        let cells = |name: &str, field: Field<'_>| field.on_grid(name, &grid.0);
+        let (p, q_x, q_y) = (cells("p", p)?, cells("q_x", q_x)?, cells("q_y", q_y)?);
         let tractions = Tractions {
             p: Some(&p),
             q_x: Some(&q_x),
@@ -48,12 +32,6 @@ impl Outline {
         core::Outline::new(&grid.0, &tractions)
             .map(Self)
             .ok_or_else(|| PyValueError::new_err("p is 0 everywhere: the bodies do not touch"))
-    }
-
-    /// Centre of the area, x and y [m]; 0 where it lies in the middle of the grid.
-    #[getter]
-    fn centre(&self) -> (f64, f64) {
-        self.0.centre
     }
 
     /// The spots, the largest first: x, y [m], area [m^2], semi-axes [m] and azimuth [rad].
@@ -69,24 +47,6 @@ impl Outline {
                 (s.centre.0, s.centre.1, s.area, large, small, s.azimuth)
             })
             .collect()
-    }
-
-    /// Direction of the shear to the x axis [rad]; None without shear, or where it has none.
-    #[getter]
-    fn shear_azimuth(&self) -> Option<f64> {
-        self.0.shear_azimuth()
-    }
-
-    /// Half of the largest and smallest width [m], and the direction of the largest [rad].
-    #[getter]
-    fn half_widths(&self) -> (f64, f64, f64) {
-        self.0.half_widths()
-    }
-
-    /// Centres x, y of the cells at the rim [m].
-    #[getter]
-    fn rim_cells(&self) -> Vec<(f64, f64)> {
-        self.0.rim_cells()
     }
 
     /// Where a line through the centre leaves the contact, backwards and forwards [m].
@@ -110,6 +70,17 @@ impl Outline {
         )
     }
 }
+
+attributes!(Outline, self:
+    /// Centre of the area, x and y [m]; 0 where it lies in the middle of the grid.
+    centre: (f64, f64) = self.0.centre;
+    /// Direction of the shear to the x axis [rad]; None without shear, or where it has none.
+    shear_azimuth: Option<f64> = self.0.shear_azimuth();
+    /// Half of the largest and smallest width [m], and the direction of the largest [rad].
+    half_widths: (f64, f64, f64) = self.0.half_widths();
+    /// Centres x, y of the cells at the rim [m].
+    rim_cells: Vec<(f64, f64)> = self.0.rim_cells();
+);
 
 /// x, y and azimuth of the sections in which a contact is looked at by default.
 ///

@@ -3,8 +3,9 @@
 
 use numpy::PyUntypedArray;
 use pyo3::IntoPyObjectExt;
-use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList, PyTuple, PyType};
+use pyo3::types::{PyList, PyTuple, PyType};
+
+use crate::prelude::*;
 
 /// The arguments of the constructor that make `value` again: (argument, attribute) each.
 pub(crate) fn arguments<'py>(
@@ -202,9 +203,29 @@ macro_rules! parts {
 }
 pub(crate) use parts;
 
-/// Pickling of an enumeration, by the name of the member.
+/// An enumeration of the core: its members with their names in Python, and pickling by the name.
 macro_rules! members {
-    ($class:ident) => {
+    ($(#[$doc:meta])* $class:ident: $($member:ident = $name:literal),*) => {
+        $(#[$doc])*
+        #[pyo3::pyclass(frozen, eq, eq_int, hash, from_py_object, module = "pyfret")]
+        #[derive(Clone, Copy, PartialEq, Eq, Hash)]
+        pub(crate) enum $class {$(
+            #[pyo3(name = $name)]
+            $member,
+        )*}
+
+        impl From<$class> for contact_core::scene::$class {
+            fn from(member: $class) -> Self {
+                match member { $($class::$member => Self::$member),* }
+            }
+        }
+
+        impl From<contact_core::scene::$class> for $class {
+            fn from(member: contact_core::scene::$class) -> Self {
+                match member { $(contact_core::scene::$class::$member => Self::$member),* }
+            }
+        }
+
         #[pyo3::pymethods]
         impl $class {
             fn __reduce__<'py>(

@@ -2,14 +2,11 @@
 
 use contact_core::scene as core;
 use contact_core::scene::BACK_STRESSES;
-use pyo3::exceptions::PyValueError;
-use pyo3::prelude::*;
 use pyo3::types::PyString;
 
-use crate::arguments::{List, number};
-use crate::error::{takes, to_python};
-use crate::parts::parts;
-use crate::quantity::{Given, si};
+use crate::error::Answer;
+use crate::prelude::*;
+use crate::quantity::si;
 
 /// Yielding after von Mises, with isotropic and kinematic hardening.
 ///
@@ -71,11 +68,10 @@ fn of_back_stresses(
     }
     let given = value.extract::<List<Bound<'_, PyAny>>>()?;
     if given.len() > BACK_STRESSES {
-        let message = format!(
+        refuse!(
             "{name} = {} numbers: must be at most {BACK_STRESSES}",
             given.len()
         );
-        return Err(PyValueError::new_err(message));
     }
     for (into, one) in values.iter_mut().zip(given) {
         *into = si(name, &one)?;
@@ -87,7 +83,6 @@ fn of_back_stresses(
 impl Plastic {
     #[new]
     #[pyo3(signature = (*, s_y: "Quantity", hardening: "Quantity" = 0.0, voce_Q: "Quantity" = 0.0, voce_b: "float" = 0.0, swift_e_0: "float" = 0.0, swift_n: "float" = 0.0, kinematic: "Quantity" = 0.0, chaboche_C: "Quantities | None" = None, chaboche_gamma: "Quantities | None" = None))]
-    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn new(
         #[pyo3(from_py_with = Given::s_y)] s_y: f64,
         #[pyo3(from_py_with = Given::hardening)] hardening: f64,
@@ -98,7 +93,7 @@ impl Plastic {
         #[pyo3(from_py_with = Given::kinematic)] kinematic: f64,
         chaboche_C: Option<&Bound<'_, PyAny>>,
         chaboche_gamma: Option<&Bound<'_, PyAny>>,
-    ) -> PyResult<Self> {
+    ) -> Answer<Self> {
         let law = core::Plastic {
             s_y,
             hardening,
@@ -110,62 +105,8 @@ impl Plastic {
             chaboche_C: of_back_stresses("chaboche_C", chaboche_C)?,
             chaboche_gamma: of_back_stresses("chaboche_gamma", chaboche_gamma)?,
         };
-        core::check_plastic(&law, "plastic").map_err(to_python)?;
+        core::check_plastic(&law, "plastic")?;
         Ok(Self(law))
-    }
-
-    /// Yield stress [Pa].
-    #[getter]
-    fn s_y(&self) -> f64 {
-        self.0.s_y
-    }
-
-    /// Linear isotropic hardening [Pa].
-    #[getter]
-    fn hardening(&self) -> f64 {
-        self.0.hardening
-    }
-
-    /// Growth of the yield stress at which Voce's hardening saturates [Pa].
-    #[getter]
-    fn voce_Q(&self) -> f64 {
-        self.0.voce_Q
-    }
-
-    /// Rate of Voce's hardening.
-    #[getter]
-    fn voce_b(&self) -> f64 {
-        self.0.voce_b
-    }
-
-    /// Strain of Swift's hardening.
-    #[getter]
-    fn swift_e_0(&self) -> f64 {
-        self.0.swift_e_0
-    }
-
-    /// Exponent of Swift's hardening.
-    #[getter]
-    fn swift_n(&self) -> f64 {
-        self.0.swift_n
-    }
-
-    /// Linear kinematic hardening [Pa].
-    #[getter]
-    fn kinematic(&self) -> f64 {
-        self.0.kinematic
-    }
-
-    /// Moduli of the back stresses with recall [Pa].
-    #[getter]
-    fn chaboche_C(&self) -> Vec<f64> {
-        self.0.chaboche_C[..self.back_stresses()].to_vec()
-    }
-
-    /// Their rates of recall.
-    #[getter]
-    fn chaboche_gamma(&self) -> Vec<f64> {
-        self.0.chaboche_gamma[..self.back_stresses()].to_vec()
     }
 
     pub(crate) fn __repr__(&self) -> String {
@@ -197,6 +138,27 @@ impl Plastic {
         format!("Plastic({})", parts.join(", "))
     }
 }
+
+attributes!(Plastic, self:
+    /// Yield stress [Pa].
+    s_y: f64 = self.0.s_y;
+    /// Linear isotropic hardening [Pa].
+    hardening: f64 = self.0.hardening;
+    /// Growth of the yield stress at which Voce's hardening saturates [Pa].
+    voce_Q: f64 = self.0.voce_Q;
+    /// Rate of Voce's hardening.
+    voce_b: f64 = self.0.voce_b;
+    /// Strain of Swift's hardening.
+    swift_e_0: f64 = self.0.swift_e_0;
+    /// Exponent of Swift's hardening.
+    swift_n: f64 = self.0.swift_n;
+    /// Linear kinematic hardening [Pa].
+    kinematic: f64 = self.0.kinematic;
+    /// Moduli of the back stresses with recall [Pa].
+    chaboche_C: Vec<f64> = self.0.chaboche_C[..self.back_stresses()].to_vec();
+    /// Their rates of recall.
+    chaboche_gamma: Vec<f64> = self.0.chaboche_gamma[..self.back_stresses()].to_vec();
+);
 
 impl Plastic {
     /// How many back stresses with recall there are.

@@ -1,11 +1,9 @@
 //! Numbers that may come with a unit: quantities of pint, texts such as "380 GPa".
 
 use contact_core::scene::quantity as in_si;
-use pyo3::exceptions::PyValueError;
-use pyo3::prelude::*;
 
-use crate::arguments::number;
 use crate::document::text_of;
+use crate::prelude::*;
 
 /// The number in SI of a quantity that has this name in a scene file.
 pub(crate) fn si(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {

@@ -1,14 +1,11 @@
 //! Residual stress as Python gives it: a stress, or a table over depth.
 
 use contact_core::scene::{Body, Profile as Core, ResidualStress};
-use pyo3::exceptions::PyValueError;
-use pyo3::inspect::PyStaticExpr;
-use pyo3::prelude::*;
 use pyo3::types::PyString;
 
-use crate::arguments::List;
-use crate::error::to_python;
+use crate::error::{Answer, to_python};
 use crate::hints::ARRAY_LIKE;
+use crate::prelude::*;
 use crate::quantity::si;
 
 /// Residual stress of one layer: a number, or rows of depth and stress.
@@ -19,9 +16,9 @@ pub(crate) struct Profile(pub(crate) Core);
 pub(crate) type Profiles = Option<List<Profile>>;
 
 /// The residual stress of a body: what is given for each layer, or its own.
-pub(crate) fn of_body(body: &Body, given: Profiles) -> PyResult<ResidualStress> {
+pub(crate) fn of_body(body: &Body, given: Profiles) -> Answer<ResidualStress> {
     let layers = given.unwrap_or_default().into_iter().map(|layer| layer.0);
-    ResidualStress::given(body, &layers.collect::<Vec<_>>()).map_err(to_python)
+    Ok(ResidualStress::given(body, &layers.collect::<Vec<_>>())?)
 }
 
 impl<'py> FromPyObject<'_, 'py> for Profile {

@@ -1,8 +1,6 @@
 //! A run from its scene, or from what an earlier one left, to memory or its store, watched from
 //! Python.
 
-use std::path::PathBuf;
-use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
@@ -12,13 +10,10 @@ use contact_core::estimate::{
 };
 use contact_core::march::{Increment, March, Observer};
 use contact_store::{Columns, Resumed, StoreWriter};
-use pyo3::prelude::*;
-use pyo3::types::PyDict;
 use serde_json::Value;
 
-use crate::arguments::number;
-use crate::error::to_python;
-use crate::interruptible::interruptible;
+use crate::error::{Answer, to_python};
+use crate::prelude::*;
 use crate::scene::Scene;
 use crate::scene::friction_law::own_law;
 use crate::variables::Variables;
@@ -71,7 +66,7 @@ fn watched<K: Observer + Send, T: Send>(
     keeper: K,
     on_increment: Option<Py<PyAny>>,
     run: impl FnOnce(&mut dyn Observer) -> Result<T, Error> + Send,
-) -> PyResult<(K, T)> {
+) -> Answer<(K, T)> {
     let stop = Arc::<AtomicBool>::default();
     let mut watch = Watch {
         keeper,
@@ -81,14 +76,14 @@ fn watched<K: Observer + Send, T: Send>(
     };
     let outcome = interruptible(py, &stop, || run(&mut watch))?;
     match watch.raised {
-        Some(raised) => Err(raised),
-        None => Ok((watch.keeper, outcome.map_err(to_python)?)),
+        Some(raised) => Err(raised.into()),
+        None => Ok((watch.keeper, outcome?)),
     }
 }
 
 /// Refuses scenes that no run comes to.
-fn check(scene: &Scene) -> PyResult<()> {
-    scene.0.check_fit().map_err(to_python)
+fn check(scene: &Scene) -> Answer<()> {
+    Ok(scene.0.check_fit()?)
 }
 
 /// The error bars of a run, or why there are none.
@@ -125,7 +120,6 @@ fn whole(
 /// which is known once they are chosen.
 #[pyfunction]
 #[pyo3(signature = (scene, *, store, checkpoint: "float" = 5.0, overwrite = false, error = false, like = None, on_increment: "Callable[[int, int], object] | None" = None))]
-#[allow(clippy::too_many_arguments, reason = "named arguments of Python")]
 pub(crate) fn solve(
     py: Python<'_>,
     scene: Scene,
@@ -135,11 +129,9 @@ pub(crate) fn solve(
     error: bool,
     like: Option<Scene>,
     on_increment: Option<Py<PyAny>>,
-) -> PyResult<()> {
+) -> Answer<()> {
     check(&scene)?;
-    let writer = StoreWriter::create(&store, overwrite)
-        .map_err(to_python)?
-        .with_interval(interval(checkpoint)?);
+    let writer = StoreWriter::create(&store, overwrite)?.with_interval(interval(checkpoint)?);
     let run = |watch: &mut dyn Observer| {
         match whole(&scene, like.as_ref(), error, watch)? {
             Some(Ok(bars)) => contact_store::write_error_bars(&store, &bars)?,
@@ -180,11 +172,11 @@ pub(crate) fn solve_in_memory(
 
 /// Checks a store and gives the attributes of its group as JSON.
 #[pyfunction]
-pub(crate) fn verify(py: Python<'_>, store: PathBuf) -> PyResult<String> {
+pub(crate) fn verify(py: Python<'_>, store: PathBuf) -> Answer<String> {
     let store = interruptible(py, &Arc::default(), || {
         contact_store::Store::open_whole(store)
     })?;
-    Ok(store.map_err(to_python)?.attributes().to_string())
+    Ok(store?.attributes().to_string())
 }
 
 /// Go on with the run of a store that ended early; use :func:`pyfret.resume`, which opens it.
@@ -196,7 +188,7 @@ pub(crate) fn resume(
     #[pyo3(from_py_with = number)] checkpoint: f64,
     friction_law: Option<&Bound<'_, PyAny>>,
     on_increment: Option<Py<PyAny>>,
-) -> PyResult<()> {
+) -> Answer<()> {
     let (interval, stop) = (interval(checkpoint)?, Arc::default());
     let law = friction_law.map(own_law).transpose()?;
     let Some(Resumed {
@@ -205,8 +197,7 @@ pub(crate) fn resume(
         increments,
     }) = interruptible(py, &stop, || {
         contact_store::resume_by(store, law.as_ref(), Some(&stop))
-    })?
-    .map_err(to_python)?
+    })??
     else {
         return Ok(());
     };

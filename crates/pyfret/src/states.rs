@@ -3,10 +3,8 @@
 use contact_core::scene::Grid as Cells;
 use contact_subsurface::Moments;
 use ndarray::{Array2, Ix2};
-use pyo3::exceptions::PyValueError;
-use pyo3::prelude::*;
 
-use crate::arguments::{Array, List, Mask};
+use crate::prelude::*;
 use crate::scene::Grid;
 use crate::yielding::{Eigenstress, of_states};
 
@@ -27,7 +25,7 @@ impl States {
     /// The states; refused if they are on another grid.
     pub(crate) fn on(&self, grid: &Cells) -> PyResult<&Moments> {
         if self.grid != *grid {
-            return Err(PyValueError::new_err("states: are on another grid"));
+            refuse!("states: are on another grid");
         }
         Ok(&self.moments)
     }
@@ -58,10 +56,10 @@ impl States {
         let sticking = stick.iter().map(|f| f.as_array().dim());
         let as_many = fields.iter().all(|f| f.len() == count) && stick.len() == count;
         if !as_many || shapes.any(|s| s != shape) || sticking.into_iter().any(|s| s != shape) {
-            return Err(PyValueError::new_err(format!(
+            refuse!(
                 "p, q_x, q_y, stick: must be {count} fields each, as many as sigma_B, of the shape of the \
                  grid, {shape:?}"
-            )));
+            );
         }
         let own = |f: &Array<'_, Ix2>| f.as_array().as_standard_layout().into_owned();
         let cells =

@@ -5,13 +5,11 @@ use std::collections::HashMap;
 use contact_subsurface as core;
 use contact_subsurface::Measure;
 use ndarray::{Array2, Array3};
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3};
-use pyo3::exceptions::PyValueError;
-use pyo3::prelude::*;
+use numpy::{PyArray1, PyArray2, PyArray3};
 use stress_tensor::StressTensor;
 
-use crate::arguments::{Field, List};
-use crate::subsurface::Subsurface;
+use crate::depths::in_layers;
+use crate::prelude::*;
 
 /// Numbers for Python, one row per point.
 type Matrix<'py> = Bound<'py, PyArray2<f64>>;
@@ -39,9 +37,7 @@ pub(crate) fn probe_labels() -> HashMap<&'static str, (&'static str, &'static st
 fn tensors(stress: &Field<'_>) -> PyResult<Vec<StressTensor>> {
     let stress = stress.as_array();
     if stress.nrows() != 6 {
-        return Err(PyValueError::new_err(
-            "stress: must have six rows, xx, yy, zz, xy, xz, yz",
-        ));
+        refuse!("stress: must have six rows, xx, yy, zz, xy, xz, yz");
     }
     let columns = stress.columns().into_iter();
     Ok(columns.map(|s| std::array::from_fn(|c| s[c])).collect())
@@ -95,13 +91,13 @@ pub(crate) fn largest_of_samples(
     layer: List<usize>,
     along: List<f64>,
 ) -> PyResult<Option<Found>> {
-    let (samples, depths) = (samples.as_array(), Subsurface::depths(&z, &layer)?);
+    let (samples, depths) = (samples.as_array(), in_layers(&z, &layer)?);
     if samples.dim() != (depths.len(), along.len()) {
-        return Err(PyValueError::new_err(format!(
+        refuse!(
             "the samples have the shape {:?}: must be {:?}",
             samples.dim(),
             (depths.len(), along.len())
-        )));
+        );
     }
     let found = core::largest_of_samples(&samples, &depths, core::Line::AlongX(0.0), &along);
     Ok(found.map(|m| (m.value, m.x, m.depth.z, m.depth.layer, m.error.total())))

@@ -1,23 +1,19 @@
 //! Stress and displacement below the surface.
 
-use std::path::PathBuf;
-use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use contact_core::convolution::Tractions;
 use contact_core::scene::{self, ResidualStress};
 use contact_store::{ImageData, StressStore, VolumeSink, write_volume};
 use contact_subsurface as core;
-use contact_subsurface::{Depth, Line, Side};
+use contact_subsurface::{Depth, Side};
 use ndarray::{Array2, Axis, Ix2};
-use numpy::{IntoPyArray, PyArray2, PyArray3, PyArray4};
-use pyo3::exceptions::PyValueError;
-use pyo3::prelude::*;
+use numpy::{PyArray2, PyArray3, PyArray4};
 
-use crate::argument::to_python;
-use crate::arguments::{Field, List, Mask, number, side};
-use crate::interruptible::interruptible;
-use crate::quantity::{Given, Optional};
+use crate::argument::Answer;
+use crate::depths::in_layers;
+use crate::line::{line, line_if_given};
+use crate::prelude::*;
 use crate::residual_stress::{Profiles, of_body};
 use crate::scene::{Body, Grid};
 use crate::states::States;
@@ -25,82 +21,8 @@ use crate::yielding::{Eigenstress, of_states};
 
 /// x, y, z and the layer of a point.
 type Place = (f64, f64, f64, usize);
-/// Places along a line and their x, y [m].
-type Places = (Vec<f64>, Vec<(f64, f64)>);
 /// Numbers for Python, one row per point.
 type Matrix<'py> = Bound<'py, PyArray2<f64>>;
-
-pub(crate) fn line(x: Option<f64>, y: Option<f64>, azimuth: Option<f64>) -> PyResult<Line> {
-    match (x, y, azimuth) {
-        (None, Some(y), None) => Ok(Line::AlongX(y)),
-        (Some(x), None, None) => Ok(Line::AlongY(x)),
-        (Some(x), Some(y), Some(azimuth)) => Ok(Line::through((x, y), azimuth)),
-        _ => Err(PyValueError::new_err(
-            "a section has either x or y constant, or a point x, y and an azimuth",
-        )),
-    }
-}
-
-/// x, y and azimuth that name a line.
-pub(crate) type LineName = (Option<f64>, Option<f64>, Option<f64>);
-
-pub(crate) fn name_of(line: Line) -> LineName {
-    match line {
-        Line::AlongX(y) => (None, Some(y), None),
-        Line::AlongY(x) => (Some(x), None, None),
-        Line::Through { x, y, azimuth } => (Some(x), Some(y), Some(azimuth)),
-    }
-}
-
-/// x, y and azimuth of the line through a point at an angle; along an axis x or y alone.
-#[pyfunction]
-#[pyo3(signature = (x: "float", y: "float", azimuth: "Quantity"))]
-pub(crate) fn line_through(
-    #[pyo3(from_py_with = number)] x: f64,
-    #[pyo3(from_py_with = number)] y: f64,
-    #[pyo3(from_py_with = Given::azimuth)] azimuth: f64,
-) -> LineName {
-    name_of(Line::through((x, y), azimuth))
-}
-
-/// Places along a line on a grid, and their x, y [m].
-#[pyfunction]
-#[pyo3(signature = (grid, *, x: "float | None" = None, y: "float | None" = None, azimuth: "Quantity | None" = None))]
-pub(crate) fn line_places(
-    grid: Grid,
-    #[pyo3(from_py_with = number)] x: Option<f64>,
-    #[pyo3(from_py_with = number)] y: Option<f64>,
-    #[pyo3(from_py_with = Optional::azimuth)] azimuth: Option<f64>,
-) -> PyResult<Places> {
-    let line = line(x, y, azimuth)?;
-    let places = line.places(&grid.0);
-    let at = places.iter().map(|s| line.at(*s)).collect();
-    Ok((places, at))
-}
-
-/// Depths [m] with their layers; on an interface both, the upper one first.
-#[pyfunction]
-#[pyo3(signature = (body, z: "Sequence[float]"))]
-pub(crate) fn depths(body: Body, z: List<f64>) -> PyResult<(Vec<f64>, Vec<usize>)> {
-    let depths = core::depths(&body.0, &z).map_err(to_python)?;
-    Ok(depths.iter().map(|d| (d.z, d.layer)).unzip())
-}
-
-/// Depths [m] that the layers of a body ask for, with their layers.
-///
-/// They go to the depth `deepest` [m] under a contact of the radius `a` [m]; `finer` times as
-/// many as the default.
-#[pyfunction]
-#[pyo3(signature = (body, *, a: "float", deepest: "float", finer: "float" = 1.0))]
-pub(crate) fn chosen_depths(
-    body: Body,
-    #[pyo3(from_py_with = number)] a: f64,
-    #[pyo3(from_py_with = number)] deepest: f64,
-    #[pyo3(from_py_with = number)] finer: f64,
-) -> PyResult<(Vec<f64>, Vec<usize>)> {
-    let depths = core::chosen_depths(&body.0, a, deepest, finer).map_err(to_python)?;
-    Ok(depths.iter().map(|d| (d.z, d.layer)).unzip())
-}
 
 /// Stress [Pa] on a section in several states of a contact, shape (states, 6, depths, places).
 ///
@@ -108,7 +30,6 @@ pub(crate) fn chosen_depths(
 /// as about ten of them.
 #[pyfunction]
 #[pyo3(signature = (body, states, z: "Sequence[float]", layer: "Sequence[int]", *, residual = None, x: "float | None" = None, y: "float | None" = None, azimuth: "Quantity | None" = None, body_number: "int" = 2) -> "NDArray[np.float64]")]
-#[expect(clippy::too_many_arguments, reason = "keywords in Python")]
 pub(crate) fn section_of_states<'py>(
     py: Python<'py>,
     body: Body,
@@ -120,21 +41,19 @@ pub(crate) fn section_of_states<'py>(
     #[pyo3(from_py_with = number)] y: Option<f64>,
     #[pyo3(from_py_with = Optional::azimuth)] azimuth: Option<f64>,
     #[pyo3(from_py_with = number)] body_number: u8,
-) -> PyResult<Bound<'py, PyArray4<f64>>> {
+) -> Answer<Bound<'py, PyArray4<f64>>> {
     let (grid, moments) = states.parts();
     let (depths, line, side) = (
-        Subsurface::depths(&z, &layer)?,
+        in_layers(&z, &layer)?,
         line(x, y, azimuth)?,
         side(body_number)?,
     );
-    let stop = Arc::default();
     let residual = of_body(&body.0, residual)?;
-    let found = interruptible(py, &stop, || {
-        moments.with_states(Some(&residual), &stop, |states| {
+    let found = stoppable(py, |stop| {
+        moments.with_states(Some(&residual), stop, |states| {
             core::Section::new(&body.0, side, grid, line, states)?.stress(&depths)
         })
-    })?;
-    let found = found.map_err(to_python)?;
+    })??;
     let views: Vec<_> = found.iter().map(|state| state.view()).collect();
     let stacked = ndarray::stack(Axis(0), &views).unwrap_or_default();
     Ok(stacked.into_pyarray(py))
@@ -159,18 +78,22 @@ pub(crate) struct Subsurface {
 
 /// A largest value: itself, x, y, z, layer, the border that it lies on, its error and its errors by
 /// source.
-type Found = (
-    f64,
-    f64,
-    f64,
-    f64,
-    usize,
-    Option<&'static str>,
-    f64,
-    (f64, f64, f64, f64, Option<f64>),
-);
+type Found = (f64, f64, f64, f64, usize, Option<&'static str>, f64, Errors);
 
-fn zone_name(zone: core::Zone) -> &'static str {
+/// Errors by source: along x, y and z, of the tractions and of the solution.
+type Errors = (f64, f64, f64, f64, Option<f64>);
+
+pub(crate) fn errors(of: core::Errors) -> Errors {
+    (
+        of.x,
+        of.y,
+        of.z,
+        of.tractions.unwrap_or(f64::NAN),
+        of.solution,
+    )
+}
+
+pub(crate) fn zone_name(zone: core::Zone) -> &'static str {
     match zone {
         core::Zone::Contact => "rim",
         core::Zone::Stick => "stick border",
@@ -214,14 +137,6 @@ impl Subsurface {
             core::Slices::new(body, self.side, grid, states)
         })
     }
-
-    pub(crate) fn depths(z: &[f64], layer: &[usize]) -> PyResult<Vec<Depth>> {
-        if z.len() != layer.len() {
-            return Err(PyValueError::new_err("z and layer differ in length"));
-        }
-        let pairs = z.iter().zip(layer);
-        Ok(pairs.map(|(&z, &layer)| Depth { z, layer }).collect())
-    }
 }
 
 #[pymethods]
@@ -247,10 +162,10 @@ impl Subsurface {
         };
         let stick = stick.map(|stick| stick.as_array().to_owned());
         if let Some(stick) = stick.as_ref().filter(|stick| stick.dim() != shape) {
-            return Err(PyValueError::new_err(format!(
+            refuse!(
                 "stick has the shape {:?}: must be that of the grid, {shape:?}",
                 stick.dim()
-            )));
+            );
         }
         Ok(Self {
             rim,
@@ -276,11 +191,10 @@ impl Subsurface {
         #[pyo3(from_py_with = number)] y: Option<f64>,
         #[pyo3(from_py_with = Optional::azimuth)] azimuth: Option<f64>,
         displacement: bool,
-    ) -> PyResult<Bound<'py, PyArray3<f64>>> {
-        let (depths, line) = (Self::depths(&z, &layer)?, line(x, y, azimuth)?);
-        let stop = Arc::default();
-        let found = interruptible(py, &stop, || {
-            let section = self.under(&stop, |body, grid, states| {
+    ) -> Answer<Bound<'py, PyArray3<f64>>> {
+        let (depths, line) = (in_layers(&z, &layer)?, line(x, y, azimuth)?);
+        let mut found = stoppable(py, |stop| {
+            let section = self.under(stop, |body, grid, states| {
                 core::Section::new(body, self.side, grid, line, states)
             })?;
             if displacement {
@@ -288,8 +202,8 @@ impl Subsurface {
             } else {
                 section.stress(&depths)
             }
-        })?;
-        Ok(found.map_err(to_python)?.swap_remove(0).into_pyarray(py))
+        })??;
+        Ok(found.swap_remove(0).into_pyarray(py))
     }
 
     /// Stress [Pa] or displacement [m] on a plane, six or three arrays of shape (nx, ny).
@@ -300,18 +214,16 @@ impl Subsurface {
         #[pyo3(from_py_with = number)] z: f64,
         #[pyo3(from_py_with = number)] layer: usize,
         displacement: bool,
-    ) -> PyResult<Vec<Bound<'py, PyArray2<f64>>>> {
-        let stop = Arc::default();
-        let found = interruptible(py, &stop, || {
-            let slices = self.slices(&stop)?;
+    ) -> Answer<Vec<Bound<'py, PyArray2<f64>>>> {
+        let found = stoppable(py, |stop| {
+            let slices = self.slices(stop)?;
             let depth = Depth { z, layer };
             Ok(if displacement {
                 Vec::from(slices.displacement(depth)?.swap_remove(0))
             } else {
                 Vec::from(slices.stress(depth)?.swap_remove(0))
             })
-        })?;
-        let found = found.map_err(to_python)?;
+        })??;
         Ok(found.into_iter().map(|f| f.into_pyarray(py)).collect())
     }
 
@@ -321,20 +233,19 @@ impl Subsurface {
         &self,
         py: Python<'py>,
         places: List<Place>,
-    ) -> PyResult<(Matrix<'py>, Matrix<'py>)> {
+    ) -> Answer<(Matrix<'py>, Matrix<'py>)> {
         let places: Vec<_> = places
             .0
             .into_iter()
             .map(|(x, y, z, layer)| (x, y, Depth { z, layer }))
             .collect();
-        let stop = Arc::default();
-        let both = interruptible(py, &stop, || {
-            let points = self.under(&stop, |body, grid, states| {
+        let both = stoppable(py, |stop| {
+            let points = self.under(stop, |body, grid, states| {
                 core::Points::new(body, self.side, grid, states)
             })?;
             Ok((points.stress(&places)?, points.displacement(&places)?))
-        })?;
-        let (stress, u) = both.map_err(to_python)?;
+        })??;
+        let (stress, u) = both;
         let stress = Array2::from_shape_fn((places.len(), 6), |(n, c)| stress[0][n][c]);
         let u = Array2::from_shape_fn((places.len(), 3), |(n, c)| u[0][n][c]);
         Ok((stress.into_pyarray(py), u.into_pyarray(py)))
@@ -350,7 +261,6 @@ impl Subsurface {
         of, samples, z: "Sequence[float]", layer: "Sequence[int]", *, x: "float | None" = None, y: "float | None" = None, azimuth: "Quantity | None" = None, only: "int | None" = None, anywhere = false,
         error_bar: "float | None" = None
     ))]
-    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn maximum(
         &self,
         py: Python<'_>,
@@ -364,23 +274,22 @@ impl Subsurface {
         #[pyo3(from_py_with = number)] only: Option<usize>,
         anywhere: bool,
         #[pyo3(from_py_with = number)] error_bar: Option<f64>,
-    ) -> PyResult<(Option<Found>, Vec<usize>)> {
-        let (depths, line) = (Self::depths(&z, &layer)?, line(x, y, azimuth)?);
+    ) -> Answer<(Option<Found>, Vec<usize>)> {
+        let (depths, line) = (in_layers(&z, &layer)?, line(x, y, azimuth)?);
         let grid = &self.grid.0;
         let along = line.places(grid);
         let samples = samples.as_array().to_owned();
         if samples.dim() != (depths.len(), along.len()) {
-            return Err(PyValueError::new_err(format!(
+            refuse!(
                 "the samples have the shape {:?}: must be {:?}",
                 samples.dim(),
                 (depths.len(), along.len())
-            )));
+            );
         }
         let measure = core::measure_named(of)
             .ok_or_else(|| PyValueError::new_err(format!("{of:?}: is no measure of stress")))?;
-        let stop = Arc::default();
-        let found = interruptible(py, &stop, || {
-            self.under(&stop, |body, grid, states| {
+        let found = stoppable(py, |stop| {
+            self.under(stop, |body, grid, states| {
                 let loads = core::Loads {
                     body,
                     side: self.side,
@@ -390,19 +299,9 @@ impl Subsurface {
                 let samples = (&depths[..], &samples.view());
                 core::largest_anywhere(loads, measure, (line, anywhere), samples, only)
             })
-        })?;
-        let found = found.map_err(to_python)?;
+        })??;
         let largest = found.largest.map(|m| {
             let m = error_bar.map_or(m, |stress| m.with_error_bars(stress));
-            let total = m.error.total();
-            let core::Errors {
-                x,
-                y,
-                z,
-                tractions,
-                solution,
-            } = m.error;
-            let error = (x, y, z, tractions.unwrap_or(f64::NAN), solution);
             let at = m.at.map(zone_name);
             (
                 m.value,
@@ -411,17 +310,11 @@ impl Subsurface {
                 m.depth.z,
                 m.depth.layer,
                 at,
-                total,
-                error,
+                m.error.total(),
+                errors(m.error),
             )
         });
         Ok((largest, found.still_rises))
-    }
-
-    /// Whether the tractions are those of a contact.
-    #[getter]
-    fn rim(&self) -> bool {
-        self.rim
     }
 
     /// Where a line, or the lines of all cells, cross rims of contact and stick zone.
@@ -433,15 +326,12 @@ impl Subsurface {
         #[pyo3(from_py_with = number)] x: Option<f64>,
         #[pyo3(from_py_with = number)] y: Option<f64>,
         #[pyo3(from_py_with = Optional::azimuth)] azimuth: Option<f64>,
-    ) -> PyResult<Vec<(f64, f64, &'static str, bool)>> {
-        let along = match (x, y) {
-            (None, None) => None,
-            _ => Some(line(x, y, azimuth)?),
-        };
+    ) -> Answer<Vec<(f64, f64, &'static str, bool)>> {
+        let along = line_if_given(x, y, azimuth)?;
         let stick = self.stick.as_deref();
         let found = core::borders(&self.grid.0, &self.tractions(), stick, along);
         let row = |b: core::Border| (b.x, b.y, zone_name(b.zone), b.within_cell);
-        Ok(found.map_err(to_python)?.into_iter().map(row).collect())
+        Ok(found?.into_iter().map(row).collect())
     }
 
     /// Write measures of stress, and displacements, to a .vti file or a Zarr folder.
@@ -454,10 +344,10 @@ impl Subsurface {
         layer: List<usize>,
         of: List<String>,
         title: &str,
-    ) -> PyResult<()> {
-        let depths = Self::depths(&z, &layer)?;
+    ) -> Answer<()> {
+        let depths = in_layers(&z, &layer)?;
         let probes = of.iter().map(|name| core::Probe::named(name, "of"));
-        let probes: Vec<_> = probes.collect::<Result<_, _>>().map_err(to_python)?;
+        let probes: Vec<_> = probes.collect::<Result<_, _>>()?;
         let (grid, side, stop) = (&self.grid.0, self.side, Arc::default());
         let write = || {
             let slices = self.slices(&stop)?;
@@ -477,6 +367,11 @@ impl Subsurface {
                 store.finish()
             }
         };
-        interruptible(py, &stop, write)?.map_err(to_python)
+        Ok(interruptible(py, &stop, write)??)
     }
 }
+
+attributes!(Subsurface, self:
+    /// Whether the tractions are those of a contact.
+    rim: bool = self.rim;
+);

@@ -1,33 +1,28 @@
 //! Files of text in any encoding; numbers as people read them.
 
-use std::path::PathBuf;
-
 use contact_core::scene::{read_file, text_of_numbers};
 use contact_core::{Error, digits};
-use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
-use crate::arguments::number;
-use crate::error::to_python;
+use crate::error::Answer;
+use crate::prelude::*;
 
 /// The text of a file of numbers, in UTF-8, UTF-16 or Latin-1.
 #[pyfunction]
-pub(crate) fn read_text(path: PathBuf) -> PyResult<String> {
-    let failed = |message: String| {
-        to_python(Error::File {
-            path: path.display().to_string(),
-            message,
-        })
+pub(crate) fn read_text(path: PathBuf) -> Answer<String> {
+    let failed = |message: String| Error::File {
+        path: path.display().to_string(),
+        message,
     };
-    text_of_numbers(read_file(&path).map_err(to_python)?).map_err(failed)
+    Ok(text_of_numbers(read_file(&path)?).map_err(failed)?)
 }
 
 /// The bytes of a file that somebody names.
 ///
 /// A pipe, a device or a file that would not fit into memory is refused before it is read.
 #[pyfunction]
-pub(crate) fn read_bytes(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyBytes>> {
-    Ok(PyBytes::new(py, &read_file(&path).map_err(to_python)?))
+pub(crate) fn read_bytes(py: Python<'_>, path: PathBuf) -> Answer<Bound<'_, PyBytes>> {
+    Ok(PyBytes::new(py, &read_file(&path)?))
 }
 
 /// A text whose control codes and marks that turn the direction of reading stand as escapes.

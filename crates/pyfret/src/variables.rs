@@ -7,10 +7,11 @@ use contact_store::{
     YIELDED, rows_of,
 };
 use ndarray::{Array1, Array2, Array3, ArrayD, Axis, IxDyn};
-use numpy::{Element, IntoPyArray, PyArray1, ToPyArray};
+use numpy::{Element, PyArray1};
 use pyo3::exceptions::PyRuntimeError;
-use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyTuple};
+use pyo3::types::PyTuple;
+
+use crate::prelude::*;
 
 /// Collects the variables by their names.
 pub(crate) struct Variables<'py>(Bound<'py, PyDict>);

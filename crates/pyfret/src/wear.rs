@@ -1,23 +1,19 @@
 //! Wear over many cycles.
 
-use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Mutex, PoisonError};
 
 use contact_core::scene::Reach;
 use contact_store::{WearColumns, WearStore, resume_wear_by as take_up, verify_wear as verify};
 use contact_wear::{self as core, Law, WearRun, WornStart};
 use ndarray::Ix1;
-use numpy::{PyArrayLike2, ToPyArray};
+use numpy::PyArrayLike2;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyTypeError};
-use pyo3::prelude::*;
-use pyo3::types::PyDict;
 
 use crate::argument::to_python;
-use crate::arguments::{Array, List};
 use crate::document::Document;
 use crate::error::to_python as scene_to_python;
-use crate::interruptible::interruptible;
+use crate::prelude::*;
 use crate::scene::Scene;
 use crate::scene::friction_law::own_law;
 use crate::variables::Variables;

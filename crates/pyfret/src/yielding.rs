@@ -7,13 +7,10 @@ use contact_subsurface as core;
 use contact_subsurface::{Depth, Eigenstresses};
 use eigenstrain::{COMPONENTS, Mesh};
 use ndarray::{Array2, Array3, Array4, ArrayView1};
-use numpy::{IntoPyArray, PyArray1, PyArray2};
-use pyo3::exceptions::PyValueError;
-use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use numpy::{PyArray1, PyArray2};
 
-use crate::arguments::{Field, List, number, side};
-use crate::error::to_python;
+use crate::error::Answer;
+use crate::prelude::*;
 use crate::scene::Scene;
 
 /// Plastic strain, and the residual stress that it leaves.
@@ -37,8 +34,7 @@ impl Eigenstress {
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let points = z.len();
         if [x.len(), y.len(), layer.len()] != [points; 3] {
-            let message = format!("x, y, layer: must be {points} each, as many as z");
-            return Err(PyValueError::new_err(message));
+            refuse!("x, y, layer: must be {points} each, as many as z");
         }
         let mut found = Array2::zeros((points, COMPONENTS));
         for (n, mut row) in found.outer_iter_mut().enumerate() {
@@ -85,10 +81,10 @@ fn read(rows: List<List<f64>>) -> PyResult<Yielded> {
     let rows: Vec<Vec<f64>> = rows.into_iter().map(|column| column.0).collect();
     let count = rows.first().map_or(0, Vec::len);
     if rows.len() != YIELDED.len() || rows.iter().any(|column| column.len() != count) {
-        return Err(PyValueError::new_err(format!(
+        refuse!(
             "points that have yielded: must be {} columns of equal length",
             YIELDED.len()
-        )));
+        );
     }
     Ok(state_of(&rows))
 }
@@ -100,11 +96,9 @@ impl PlasticBody {
         py: Python<'_>,
         yielded: &Yielded,
         work: impl FnOnce(&mut Yielding) -> T + Send,
-    ) -> PyResult<T> {
-        let found = py
-            .detach(|| self.of.with(yielded, work))
-            .map_err(to_python)?;
-        found.ok_or_else(|| self.stays_elastic())
+    ) -> Answer<T> {
+        let found = py.detach(|| self.of.with(yielded, work))?;
+        Ok(found.ok_or_else(|| self.stays_elastic())?)
     }
 
     fn stays_elastic(&self) -> PyErr {
@@ -190,8 +184,7 @@ impl PlasticBody {
         let shape = (self.grid.nx, self.grid.ny);
         let tractions = [p, q_x, q_y].map(|f| f.as_array().to_owned());
         if tractions.iter().any(|f| f.dim() != shape) {
-            let message = format!("p, q_x, q_y: must be of the shape of the grid, {shape:?}");
-            return Err(PyValueError::new_err(message));
+            refuse!("p, q_x, q_y: must be of the shape of the grid, {shape:?}");
         }
         let body = self.number;
         let found = self.with(py, &yielded, |yielding| {
@@ -253,7 +246,7 @@ impl PlasticBody {
 
     /// Whether the stress without tractions yields nowhere.
     #[pyo3(signature = (rows: "Sequence[NDArray[np.float64]]"))]
-    fn unloads_elastically(&self, py: Python<'_>, rows: List<List<f64>>) -> PyResult<bool> {
+    fn unloads_elastically(&self, py: Python<'_>, rows: List<List<f64>>) -> Answer<bool> {
         let yielded = read(rows)?;
         self.with(py, &yielded, |yielding| {
             yielding.unloads_elastically(&yielded)
@@ -262,9 +255,9 @@ impl PlasticBody {
 
     /// The residual stress, for :class:`Subsurface`; None where nothing has yielded.
     #[pyo3(signature = (rows: "Sequence[NDArray[np.float64]]"))]
-    fn eigenstress(&self, py: Python<'_>, rows: List<List<f64>>) -> PyResult<Option<Eigenstress>> {
+    fn eigenstress(&self, py: Python<'_>, rows: List<List<f64>>) -> Answer<Option<Eigenstress>> {
         let yielded = read(rows)?;
         let found = py.detach(|| self.of.at(Some(&yielded)));
-        Ok(found.map_err(to_python)?.map(Eigenstress))
+        Ok(found?.map(Eigenstress))
     }
 }

@@ -261,9 +261,7 @@ def sliding_limit(
     scene: Scene, W: NDArray[np.float64], driven: str, increments: tuple[int, int], executor: Any
 ) -> NDArray[np.float64] | None:
     """The amplitude from which on the contact slides under each normal force."""
-    of = scene.friction
-    plain_law = of.law is None and of.history is None and of.map is None and of.kinetic is None
-    if not plain_law or not 0.0 < scene.mu < np.inf:
+    if not scene.friction.is_constant or not 0.0 < scene.mu < np.inf:
         return None
     if driven == "T":
         return np.asarray(scene.mu * W)

@@ -1,17 +1,14 @@
 //! A section below a contact, and what is told of its points.
 
-use std::sync::Arc;
-
 use contact_assess::{self as core, Judged, Site};
 use contact_core::Error;
 use contact_core::scene::{self, ResidualStress};
-use contact_subsurface::{Depth, Line, Side, Zone};
-use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use contact_subsurface::{Depth, Line, Side};
 
 use super::given::Given;
-use crate::argument::to_python;
-use crate::interruptible::interruptible;
+use crate::argument::Answer;
+use crate::prelude::*;
+use crate::subsurface::{errors, zone_name};
 
 /// A section of a body over a cycle.
 pub(super) struct Below {
@@ -30,7 +27,7 @@ impl Below {
         py: Python<'_>,
         residual: bool,
         work: impl FnOnce(&Site<'_>) -> Result<T, Error> + Send,
-    ) -> PyResult<T> {
+    ) -> Answer<T> {
         let (stop, none) = (Arc::default(), ResidualStress::default());
         let found = interruptible(py, &stop, || {
             work(&Site {
@@ -43,7 +40,7 @@ impl Below {
             })
         })?;
         let raised = self.given.taken();
-        raised.map_or_else(|| found.map_err(to_python), Err)
+        raised.map_or_else(|| Ok(found?), |raised| Err(raised.into()))
     }
 }
 
@@ -55,24 +52,12 @@ pub(super) fn place<'py, F>(
     let found = PyDict::new(py);
     let (depth, error) = (worst.extreme.depth, worst.extreme.error);
     found.set_item("score", worst.extreme.value)?;
-    for (name, value) in [
-        ("x", worst.extreme.x),
-        ("y", worst.extreme.y),
-        ("z", depth.z),
-    ] {
-        found.set_item(name, value)?;
-    }
+    found.set_item("x", worst.extreme.x)?;
+    found.set_item("y", worst.extreme.y)?;
+    found.set_item("z", depth.z)?;
     found.set_item("layer", depth.layer)?;
-    let tractions = error.tractions.unwrap_or(f64::NAN);
-    let parts = (error.x, error.y, error.z, tractions, error.solution);
-    found.set_item("errors", parts)?;
-    found.set_item(
-        "at",
-        worst.extreme.at.map(|zone| match zone {
-            Zone::Contact => "rim",
-            Zone::Stick => "stick border",
-        }),
-    )?;
+    found.set_item("errors", errors(error))?;
+    found.set_item("at", worst.extreme.at.map(zone_name))?;
     Ok(found)
 }
 

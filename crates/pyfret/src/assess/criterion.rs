@@ -1,21 +1,15 @@
 //! What a criterion found on a section.
 
-use std::sync::Arc;
-
 use contact_assess::{self as core, Averaging, ByCriterion, Distance, Judged, RangeOptions};
 use contact_core::Error;
 use fatigue::{AtPoint, Range};
 use ndarray::{Array2, Array3};
-use numpy::IntoPyArray;
-use pyo3::exceptions::PyValueError;
-use pyo3::prelude::*;
-use pyo3::types::PyDict;
 
 use super::below::{Below, depths_of, place};
-use crate::arguments::List;
-use crate::arguments::number;
-use crate::error::to_python;
+use crate::argument;
+use crate::error::Answer;
 use crate::fatigue::{AT_POINT, Assessment, Material};
+use crate::prelude::*;
 
 /// What a criterion found on a section.
 #[pyclass(frozen, module = "pyfret.fatigue")]
@@ -27,28 +21,6 @@ pub(crate) struct CriterionBelow {
 
 #[pymethods]
 impl CriterionBelow {
-    /// Depths [m] and their layers.
-    #[getter]
-    fn depths(&self) -> (Vec<f64>, Vec<usize>) {
-        depths_of(&self.judged)
-    }
-
-    /// The assessment of every layer, None where it is not judged.
-    #[getter]
-    fn assessments(&self) -> Vec<Option<Assessment>> {
-        self.of
-            .assessments
-            .iter()
-            .map(|a| a.map(Assessment))
-            .collect()
-    }
-
-    /// What a reader should know of the materials.
-    #[getter]
-    fn notes(&self) -> Vec<String> {
-        self.of.notes.clone()
-    }
-
     /// Arrays over (depth, place), NaN where not judged.
     #[pyo3(signature = () -> "dict[str, NDArray[np.float64]]")]
     fn fields<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
@@ -69,13 +41,13 @@ impl CriterionBelow {
         #[pyo3(from_py_with = number)] L: f64,
         method: &str,
         #[pyo3(from_py_with = number)] layer: usize,
-    ) -> PyResult<Option<f64>> {
+    ) -> Answer<Option<f64>> {
         let distance = Distance {
             method: averaging(method)?,
             length: L,
             layer,
         };
-        self.largest(py, &distance)?.map_err(to_python)
+        Ok(self.largest(py, &distance)??)
     }
 
     /// The worst point of a layer, None where it is not judged.
@@ -84,7 +56,7 @@ impl CriterionBelow {
         &self,
         py: Python<'py>,
         #[pyo3(from_py_with = number)] layer: usize,
-    ) -> PyResult<Option<Bound<'py, PyDict>>> {
+    ) -> Answer<Option<Bound<'py, PyDict>>> {
         let worst = self.below.at(py, true, |site| {
             core::worst(site, &self.judged, &self.of, layer)
         })?;
@@ -107,6 +79,19 @@ impl CriterionBelow {
     }
 }
 
+attributes!(CriterionBelow, self:
+    /// Depths [m] and their layers.
+    depths: (Vec<f64>, Vec<usize>) = depths_of(&self.judged);
+    /// The assessment of every layer, None where it is not judged.
+    assessments: Vec<Option<Assessment>> = self.of
+        .assessments
+        .iter()
+        .map(|a| a.map(Assessment))
+        .collect();
+    /// What a reader should know of the materials.
+    notes: Vec<String> = self.of.notes.clone();
+);
+
 /// A range: low, best, high.
 type Three = (f64, f64, f64);
 
@@ -116,7 +101,11 @@ fn three(of: Range) -> Three {
 
 impl CriterionBelow {
     /// The largest mean over a distance; the inner error if the distance is refused.
-    fn largest(&self, py: Python<'_>, distance: &Distance) -> PyResult<Result<Option<f64>, Error>> {
+    fn largest(
+        &self,
+        py: Python<'_>,
+        distance: &Distance,
+    ) -> argument::Answer<Result<Option<f64>, Error>> {
         self.below.at(py, true, |site| {
             match core::largest_mean(site, self.below.line, distance, &self.of) {
                 Err(stopped @ Error::Interrupted { .. }) => Err(stopped),
@@ -126,19 +115,15 @@ impl CriterionBelow {
     }
 
     /// The error of the largest mean over a distance.
-    fn error_of_largest(&self, py: Python<'_>, distance: &Distance, value: f64) -> PyResult<f64> {
+    fn error_of_largest(
+        &self,
+        py: Python<'_>,
+        distance: &Distance,
+        value: f64,
+    ) -> argument::Answer<f64> {
         self.below.at(py, true, |site| {
             core::error_of_largest_mean(site, self.below.line, distance, &self.of, value)
         })
-    }
-}
-
-/// A failure of the core or of Python.
-struct Raised(PyErr);
-
-impl From<Error> for Raised {
-    fn from(error: Error) -> Self {
-        Self(to_python(error))
     }
 }
 
@@ -170,16 +155,15 @@ pub(crate) fn range_of_life(
     method: &str,
     #[pyo3(from_py_with = number)] scatter: Option<f64>,
     #[pyo3(from_py_with = number)] L: Option<f64>,
-) -> PyResult<(Three, Three, f64, Option<Three>, Option<f64>, Vec<String>)> {
+) -> Answer<(Three, Three, f64, Option<Three>, Option<f64>, Vec<String>)> {
     let method = averaging(method)?;
     let judged = sections
         .first()
         .and_then(|one| one.get().of.of(layer).copied());
     let Some(assessment) = judged else {
-        let message = format!("layer = {layer}: has no material");
-        return Err(PyValueError::new_err(message));
+        refuse!("layer = {layer}: has no material");
     };
-    let mean = |length: f64, with_error: bool| {
+    let mean = |length: f64, with_error: bool| -> Answer<Result<(f64, f64), Error>> {
         let distance = Distance {
             method,
             length,
@@ -187,7 +171,7 @@ pub(crate) fn range_of_life(
         };
         let mut most: Option<(f64, &CriterionBelow)> = None;
         for section in sections.iter().map(Py::get) {
-            match section.largest(py, &distance).map_err(Raised)? {
+            match section.largest(py, &distance)? {
                 Ok(found) => {
                     let larger = found.filter(|value| most.is_none_or(|(most, _)| *value > most));
                     most = larger.map(|value| (value, section)).or(most);
@@ -200,8 +184,7 @@ pub(crate) fn range_of_life(
             return Ok(Err(Error::invalid("L", length, allowed)));
         };
         let error = if with_error {
-            let error = section.error_of_largest(py, &distance, value);
-            error.map_err(Raised)?
+            section.error_of_largest(py, &distance, value)?
         } else {
             0.0
         };
@@ -209,8 +192,7 @@ pub(crate) fn range_of_life(
     };
     let options = RangeOptions { scatter, length: L };
     let material = material.as_ref().map(|material| &material.0);
-    let found = core::range_of_life(&assessment, material, worst, &options, mean);
-    let found = found.map_err(|Raised(error)| error)?;
+    let found = core::range_of_life(&assessment, material, worst, &options, mean)?;
     Ok((
         three(found.of.range),
         three(found.of.stress),

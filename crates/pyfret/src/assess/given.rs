@@ -5,8 +5,8 @@ use std::sync::Mutex;
 use contact_core::Error;
 use contact_core::scene::Grid;
 use contact_subsurface::{Moments, OverCycle, Yielding};
-use pyo3::prelude::*;
 
+use crate::prelude::*;
 use crate::states::States;
 
 /// The moments of a cycle that an object of Python gives.

@@ -5,27 +5,22 @@ mod criterion;
 mod given;
 mod yielding;
 
-use std::sync::Arc;
-
 use contact_assess::{self as core, ByCriterion, ByYield, Distance, Judged};
 use fatigue::Search;
 use numpy::PyArray2;
-use pyo3::exceptions::PyValueError;
-use pyo3::prelude::*;
-use pyo3::types::PyDict;
 
 use self::below::Below;
 pub(crate) use self::criterion::{CriterionBelow, range_of_life};
 use self::criterion::{arrays, averaging};
 use self::given::Given;
 pub(crate) use self::yielding::YieldBelow;
-use crate::argument::to_python;
-use crate::arguments::{List, number, side};
+use crate::argument::{Answer, to_python};
+use crate::depths::in_layers;
 use crate::fatigue::Material;
-use crate::quantity::Optional;
+use crate::line::{LineName, line, name_of};
+use crate::prelude::*;
 use crate::residual_stress::{Profiles, of_body};
 use crate::scene::{Body, Grid};
-use crate::subsurface::{LineName, Subsurface, line, name_of};
 
 /// x, y and azimuth of the sections in which a cycle of a contact is looked at by default.
 ///
@@ -89,7 +84,7 @@ impl CycleSection {
     }
 
     /// Part of the largest traction by which the cycle ends off its start, if that was kept.
-    fn unsettled(&self, py: Python<'_>) -> PyResult<Option<f64>> {
+    fn unsettled(&self, py: Python<'_>) -> Answer<Option<f64>> {
         self.below
             .at(py, true, |site| contact_subsurface::unsettled(site.cycle))
     }
@@ -104,10 +99,10 @@ impl CycleSection {
         materials: List<Option<Material>>,
         criteria: List<String>,
         #[pyo3(from_py_with = number)] tolerance: f64,
-    ) -> PyResult<Vec<CriterionBelow>> {
-        let depths = Subsurface::depths(&z, &layer)?;
+    ) -> Answer<Vec<CriterionBelow>> {
+        let depths = in_layers(&z, &layer)?;
         let named = |name: &String| criterion_of(&self.below, &materials, name, tolerance);
-        let of = criteria.iter().map(named).collect::<PyResult<Vec<_>>>()?;
+        let of = criteria.iter().map(named).collect::<Answer<Vec<_>>>()?;
         let judged = self.below.at(py, true, |site| {
             core::judge(site, self.below.line, &depths, &of)
         })?;
@@ -127,8 +122,8 @@ impl CycleSection {
         z: List<f64>,
         layer: List<usize>,
         s_y: List<Option<f64>>,
-    ) -> PyResult<YieldBelow> {
-        let depths = Subsurface::depths(&z, &layer)?;
+    ) -> Answer<YieldBelow> {
+        let depths = in_layers(&z, &layer)?;
         let of = ByYield {
             s_y: s_y.0,
             residual: self.below.residual.clone(),
@@ -155,11 +150,10 @@ impl CycleSection {
         materials: List<Option<Material>>,
         criterion: &str,
         #[pyo3(from_py_with = number)] tolerance: f64,
-    ) -> PyResult<Bound<'py, PyDict>> {
+    ) -> Answer<Bound<'py, PyDict>> {
         let of = criterion_of(&self.below, &materials, criterion, tolerance)?;
         let Some(assessment) = of.of(layer).copied() else {
-            let message = format!("layer = {layer}: has no material");
-            return Err(PyValueError::new_err(message));
+            refuse!("layer = {layer}: has no material");
         };
         let distance = Distance {
             method: averaging(method)?,
@@ -173,7 +167,10 @@ impl CycleSection {
             Ok((found, errors))
         })?;
         let found = arrays(py, &[Some(found)], |_| Some(&assessment))?;
-        found.set_item("error", PyArray2::from_vec2(py, &[errors])?)?;
+        found.set_item(
+            "error",
+            PyArray2::from_vec2(py, &[errors]).map_err(PyErr::from)?,
+        )?;
         Ok(found)
     }
 }
@@ -183,7 +180,7 @@ fn criterion_of(
     materials: &[Option<Material>],
     criterion: &str,
     tolerance: f64,
-) -> PyResult<ByCriterion> {
+) -> Answer<ByCriterion> {
     let search = Search {
         tolerance,
         ..Search::default()
@@ -192,13 +189,18 @@ fn criterion_of(
         .iter()
         .map(|m| m.as_ref().map(|m| m.0.clone()))
         .collect();
-    let of_layers = core::materials_of_layers(&below.body, given).map_err(to_python)?;
-    ByCriterion::new(criterion, &below.body, &of_layers, search).map_err(to_python)
+    let of_layers = core::materials_of_layers(&below.body, given)?;
+    Ok(ByCriterion::new(
+        criterion,
+        &below.body,
+        &of_layers,
+        search,
+    )?)
 }
 
-fn only<F>(judged: Vec<Judged<F>>) -> PyResult<Judged<F>> {
+fn only<F>(judged: Vec<Judged<F>>) -> Answer<Judged<F>> {
     let mut judged = judged.into_iter();
     judged
         .next()
-        .ok_or_else(|| PyValueError::new_err("nothing was judged"))
+        .ok_or_else(|| PyValueError::new_err("nothing was judged").into())
 }

@@ -1,21 +1,13 @@
 //! Load factors on a section.
 
-use std::sync::Arc;
-
 use contact_assess::{self as core, ByYield, Judge as _, Judged};
 use fatigue::Yield;
 use ndarray::Array2;
-use numpy::IntoPyArray;
-use pyo3::exceptions::PyValueError;
-use pyo3::prelude::*;
 
-use crate::arguments::number;
-use pyo3::types::PyDict;
+use crate::fatigue::FACTORS;
+use crate::prelude::*;
 
 use super::below::{Below, depths_of, place};
-
-/// A load factor of several.
-type Factor = fn(&Yield) -> f64;
 
 /// Load factors on a section.
 #[pyclass(frozen, module = "pyfret.fatigue")]
@@ -25,21 +17,8 @@ pub(crate) struct YieldBelow {
     pub(super) of: ByYield,
 }
 
-/// The factors by their names.
-const FACTORS: [(&str, Factor); 3] = [
-    ("von_mises", |f| f.von_mises),
-    ("tresca", |f| f.tresca),
-    ("shakedown", |f| f.shakedown),
-];
-
 #[pymethods]
 impl YieldBelow {
-    /// Depths [m] and their layers.
-    #[getter]
-    fn depths(&self) -> (Vec<f64>, Vec<usize>) {
-        depths_of(&self.judged)
-    }
-
     /// Load factors over (depth, place), NaN where not judged.
     #[pyo3(signature = () -> "dict[str, NDArray[np.float64]]")]
     fn fields<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
@@ -67,8 +46,7 @@ impl YieldBelow {
         let named = FACTORS.iter().find(|(name, _)| *name == factor);
         let Some((_, factor)) = named else {
             let names = FACTORS.map(|(name, _)| name).join(", ");
-            let message = format!("{factor:?}: must be one of {names}");
-            return Err(PyValueError::new_err(message));
+            refuse!("{factor:?}: must be one of {names}");
         };
         let of = ByYield {
             of: *factor,
@@ -83,3 +61,8 @@ impl YieldBelow {
         least.map(|least| place(py, &least)).transpose()
     }
 }
+
+attributes!(YieldBelow, self:
+    /// Depths [m] and their layers.
+    depths: (Vec<f64>, Vec<usize>) = depths_of(&self.judged);
+);

@@ -3,41 +3,21 @@
 use ::fracture as of_cracks;
 use contact_assess::crack as core;
 use ndarray::{Array1, Array2, Ix3};
-use numpy::IntoPyArray;
-use pyo3::exceptions::PyValueError;
-use pyo3::prelude::*;
-use pyo3::types::PyDict;
 
-use super::told::{named, refused, set_path};
-use crate::arguments::{Array, List, number};
-use crate::error::to_python;
+use super::told::{named, set_path};
+use crate::error::Answer;
 use crate::hints::Numbers;
-use crate::parts::parts;
-
-/// What a function of the caller raised, or the crack refused.
-struct Raised(PyErr);
-
-impl From<PyErr> for Raised {
-    fn from(error: PyErr) -> Self {
-        Self(error)
-    }
-}
-
-impl From<of_cracks::Error> for Raised {
-    fn from(error: of_cracks::Error) -> Self {
-        Self(refused(error))
-    }
-}
+use crate::prelude::*;
 
 /// Stress in the plane over (time, points) from all of its components.
 fn history(stress: Array<'_, Ix3>, points: usize) -> PyResult<Vec<Vec<of_cracks::PlaneStress>>> {
     let stress = stress.as_array();
     let (_, found, components) = stress.dim();
     if found != points || components != 6 {
-        return Err(PyValueError::new_err(format!(
+        refuse!(
             "stress has the shape {:?}: must be (time, {points}, 6)",
-            stress.dim(),
-        )));
+            stress.dim()
+        );
     }
     let plane = |s: ndarray::ArrayView1<'_, f64>| [s[0], s[2], s[4]];
     let instants = stress.outer_iter();
@@ -81,15 +61,9 @@ impl Crack {
 
     #[new]
     #[pyo3(signature = (*, legs: "Sequence[tuple[float, float]]", x: "float" = 0.0))]
-    fn new(legs: List<(f64, f64)>, #[pyo3(from_py_with = number)] x: f64) -> PyResult<Self> {
+    fn new(legs: List<(f64, f64)>, #[pyo3(from_py_with = number)] x: f64) -> Answer<Self> {
         let path = of_cracks::Path::kinked(x, &legs);
-        of_cracks::Crack::new(path).map(Self).map_err(refused)
-    }
-
-    /// Place of the mouth [m].
-    #[getter]
-    fn x(&self) -> f64 {
-        self.0.path().mouth
+        Ok(Self(of_cracks::Crack::new(path)?))
     }
 
     /// Length [m] and angle [rad] of each leg.
@@ -97,12 +71,6 @@ impl Crack {
     fn legs(&self) -> Vec<(f64, f64)> {
         let legs = self.0.path().legs.iter();
         legs.map(|leg| (leg.length(), leg.end())).collect()
-    }
-
-    /// Length along the crack [m].
-    #[getter]
-    fn length(&self) -> f64 {
-        self.0.length()
     }
 
     /// Points at which the stress is wanted, tip to mouth: x and depth [m], (points, 2).
@@ -136,18 +104,18 @@ impl Crack {
         py: Python<'py>,
         stress: Array<'_, Ix3>,
         #[pyo3(from_py_with = number)] friction: Option<f64>,
-    ) -> PyResult<Bound<'py, PyDict>> {
+    ) -> Answer<Bound<'py, PyDict>> {
         let history = history(stress, self.0.points().len())?;
-        let start = of_cracks::Faces::new(&self.0, friction.unwrap_or(0.0)).map_err(refused)?;
+        let start = of_cracks::Faces::new(&self.0, friction.unwrap_or(0.0))?;
         let mut faces = start;
         let (mut found, mut open) = (Vec::new(), Vec::new());
         for plane in history {
             if friction.is_some() {
-                faces = faces.next(&plane).map_err(refused)?;
+                faces = faces.next(&plane)?;
                 found.push(faces.intensity);
-                open.push(faces.open_share().map_err(refused)?);
+                open.push(faces.open_share()?);
             } else {
-                found.push(self.0.intensity(&plane).map_err(refused)?);
+                found.push(self.0.intensity(&plane)?);
                 open.push(1.0);
             }
         }
@@ -199,19 +167,19 @@ impl Crack {
         direction: &str,
         #[pyo3(from_py_with = number)] friction: f64,
         #[pyo3(from_py_with = number)] tolerance: f64,
-    ) -> PyResult<Bound<'py, PyDict>> {
+    ) -> Answer<Bound<'py, PyDict>> {
         let growing = of_cracks::Growing {
-            direction: core::direction_named(direction).map_err(to_python)?,
+            direction: core::direction_named(direction)?,
             to: end,
             friction,
             tolerance,
         };
-        let at = |crack: &of_cracks::Crack| -> Result<Vec<Vec<of_cracks::PlaneStress>>, Raised> {
+        let at = |crack: &of_cracks::Crack| -> Answer<Vec<Vec<of_cracks::PlaneStress>>> {
             let points = Self(crack.clone()).points(py);
             let found = stress.call1((points,))?;
             Ok(history(found.extract()?, crack.points().len())?)
         };
-        let found = of_cracks::grow(self.0.path(), &growing, at).map_err(|Raised(error)| error)?;
+        let found = of_cracks::grow(self.0.path(), &growing, at)?;
         let tips: Vec<_> = found.tips.iter().map(|tip| tip.at).collect();
         let times = found.tips.first().map_or(0, |tip| tip.cycle.len());
         let table = |f: &dyn Fn(&of_cracks::Intensity) -> f64| {
@@ -232,3 +200,10 @@ impl Crack {
         format!("Crack(legs={:?}, x={:?})", self.legs(), self.x())
     }
 }
+
+attributes!(Crack, self:
+    /// Place of the mouth [m].
+    x: f64 = self.0.path().mouth;
+    /// Length along the crack [m].
+    length: f64 = self.0.length();
+);

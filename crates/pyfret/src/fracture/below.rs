@@ -1,20 +1,13 @@
 //! Cracks below a contact.
 
-use std::sync::Arc;
-
 use ::fracture as of_cracks;
 use contact_assess::crack as core;
 use contact_subsurface as subsurface;
 use ndarray::Array2;
-use numpy::IntoPyArray;
-use pyo3::prelude::*;
-use pyo3::types::PyDict;
 
 use super::told::{named, set_path};
-use crate::arguments::{List, number, side};
-use crate::error::to_python;
-use crate::interruptible::interruptible;
-use crate::quantity::Given;
+use crate::error::Answer;
+use crate::prelude::*;
 use crate::residual_stress::{Profiles, of_body};
 use crate::scene::Body;
 use crate::states::States;
@@ -26,7 +19,7 @@ fn below_contact<T: Send>(
     states: &States,
     residual: Profiles,
     f: impl FnOnce(&core::Below<'_>, &subsurface::States<'_>) -> Result<T, contact_core::Error> + Send,
-) -> PyResult<T> {
+) -> Answer<T> {
     let (grid, moments) = states.parts();
     let residual = of_body(&body.0, residual)?;
     let below = core::Below {
@@ -34,11 +27,10 @@ fn below_contact<T: Send>(
         side: side(body_number)?,
         grid,
     };
-    let stop = Arc::default();
-    let found = interruptible(py, &stop, || {
-        moments.with_states(Some(&residual), &stop, |states| f(&below, &states))
-    })?;
-    found.map_err(to_python)
+    let found = stoppable(py, |stop| {
+        moments.with_states(Some(&residual), stop, |states| f(&below, &states))
+    })??;
+    Ok(found)
 }
 
 /// K over (state, length), as named arrays.
@@ -108,14 +100,14 @@ pub(crate) fn crack_growth_of_states<'py>(
     #[pyo3(from_py_with = Given::azimuth)] azimuth: f64,
     #[pyo3(from_py_with = number)] friction: f64,
     #[pyo3(from_py_with = number)] body_number: u8,
-) -> PyResult<Bound<'py, PyDict>> {
+) -> Answer<Bound<'py, PyDict>> {
     let growth = core::Growth {
         x,
         angle,
         azimuth,
         start,
         growing: of_cracks::Growing {
-            direction: core::direction_named(direction).map_err(to_python)?,
+            direction: core::direction_named(direction)?,
             to: end,
             friction,
             tolerance,

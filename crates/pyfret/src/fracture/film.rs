@@ -1,12 +1,10 @@
 //! Cracks in films, and fronts that are half an ellipse.
 
 use ::fracture as of_cracks;
-use pyo3::prelude::*;
 
-use super::told::refused;
-use crate::arguments::number;
+use crate::error::Answer;
 use crate::material::Elastic;
-use crate::quantity::Given;
+use crate::prelude::*;
 
 /// Factor from the plane K to the deepest point of a semi-elliptic crack of the aspect a/c <= 1.
 ///
@@ -14,21 +12,21 @@ use crate::quantity::Given;
 /// takes the stress as constant along the front. J. C. Newman, I. S. Raju, NASA TM 85793 (1984).
 #[pyfunction]
 #[pyo3(signature = (aspect: "float"))]
-pub(crate) fn ellipse_factor(#[pyo3(from_py_with = number)] aspect: f64) -> PyResult<f64> {
-    of_cracks::ellipse_factor(aspect).map_err(refused)
+pub(crate) fn ellipse_factor(#[pyo3(from_py_with = number)] aspect: f64) -> Answer<f64> {
+    Ok(of_cracks::ellipse_factor(aspect)?)
 }
 
 /// A film on another material: materials of both.
-fn film(film: Elastic, below: Elastic) -> PyResult<of_cracks::Film> {
+fn film(film: Elastic, below: Elastic) -> Answer<of_cracks::Film> {
     let pair = |m: Elastic| (m.0.E, m.0.nu);
-    of_cracks::Film::of(pair(film), pair(below)).map_err(refused)
+    Ok(of_cracks::Film::of(pair(film), pair(below))?)
 }
 
 /// Factor g of a channel crack in a film; use :func:`pyfret.fracture.channel_release`.
 #[pyfunction]
-pub(crate) fn channel_crack(py: Python<'_>, film_: Elastic, below: Elastic) -> PyResult<f64> {
+pub(crate) fn channel_crack(py: Python<'_>, film_: Elastic, below: Elastic) -> Answer<f64> {
     let film = film(film_, below)?;
-    py.detach(|| film.channel()).map_err(refused)
+    Ok(py.detach(|| film.channel())?)
 }
 
 /// Factor F of a crack with its tip in a film; use :func:`pyfret.fracture.film_intensity`.
@@ -39,7 +37,7 @@ pub(crate) fn partial_crack(
     film_: Elastic,
     below: Elastic,
     #[pyo3(from_py_with = Given::depth)] depth: f64,
-) -> PyResult<f64> {
+) -> Answer<f64> {
     let film = film(film_, below)?;
-    py.detach(|| film.partial(depth)).map_err(refused)
+    Ok(py.detach(|| film.partial(depth))?)
 }

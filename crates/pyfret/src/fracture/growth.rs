@@ -1,33 +1,29 @@
 //! Arrest and life of a crack from its K over the length.
 
 use ::fracture as of_cracks;
-use pyo3::exceptions::PyValueError;
-use pyo3::prelude::*;
 
-use super::told::refused;
-use crate::arguments::{List, number};
+use crate::error::Answer;
+use crate::prelude::*;
 
 /// A curve of K over lengths [m] from the largest and smallest K_I of the cycle [Pa m^0.5].
-fn curve(lengths: List<f64>, K_max: List<f64>, K_min: List<f64>) -> PyResult<of_cracks::Curve> {
+fn curve(lengths: List<f64>, K_max: List<f64>, K_min: List<f64>) -> Answer<of_cracks::Curve> {
     if K_max.len() != K_min.len() {
-        return Err(PyValueError::new_err(
-            "K_max and K_min: must be of the same length",
-        ));
+        refuse!("K_max and K_min: must be of the same length");
     }
     let extremes = K_max.into_iter().zip(K_min);
     let extremes = extremes.map(|(K_max, K_min)| of_cracks::Extremes { K_max, K_min });
-    of_cracks::Curve::new(lengths.0, extremes.collect()).map_err(refused)
+    Ok(of_cracks::Curve::new(lengths.0, extremes.collect())?)
 }
 
 /// Threshold as its numbers: dK_th, dS_0, Y, Walker's exponent, table of R.
 type Numbers = (f64, Option<f64>, f64, Option<f64>, Option<Vec<(f64, f64)>>);
 
-fn threshold((dK_th, dS_0, Y, walker, table): Numbers) -> PyResult<of_cracks::Threshold> {
+fn threshold((dK_th, dS_0, Y, walker, table): Numbers) -> Answer<of_cracks::Threshold> {
     let ratio = match (walker, table) {
         (None, None) => of_cracks::LoadRatio::None,
         (Some(gamma), None) => of_cracks::LoadRatio::Walker { gamma },
         (None, Some(rows)) => of_cracks::LoadRatio::Table(rows),
-        _ => return Err(PyValueError::new_err("walker and table: give one of both")),
+        _ => refuse!("walker and table: give one of both"),
     };
     let threshold = of_cracks::Threshold {
         dK_th,
@@ -35,7 +31,7 @@ fn threshold((dK_th, dS_0, Y, walker, table): Numbers) -> PyResult<of_cracks::Th
         Y,
         ratio,
     };
-    threshold.check().map_err(refused)?;
+    threshold.check()?;
     Ok(threshold)
 }
 
@@ -76,10 +72,8 @@ pub(crate) fn arrest(
     K_min: List<f64>,
     #[pyo3(from_py_with = number)] threshold_: Numbers,
     #[pyo3(from_py_with = number)] start: f64,
-) -> PyResult<Arrested> {
-    let found = curve(lengths, K_max, K_min)?
-        .arrest(&threshold(threshold_)?, start)
-        .map_err(refused)?;
+) -> Answer<Arrested> {
+    let found = curve(lengths, K_max, K_min)?.arrest(&threshold(threshold_)?, start)?;
     let (verdict, length) = match found.verdict {
         of_cracks::Verdict::Dormant => ("dormant", Some(start)),
         of_cracks::Verdict::Stops(l) => ("stops", Some(l)),
@@ -108,16 +102,12 @@ pub(crate) fn crack_life(
     short: bool,
     #[pyo3(from_py_with = number)] start: f64,
     #[pyo3(from_py_with = number)] end: f64,
-) -> PyResult<(f64, f64, bool)> {
+) -> Answer<(f64, f64, bool)> {
     let growth = match growth {
         "plain" => of_cracks::Growth::Plain,
         "powers" => of_cracks::Growth::Powers,
         "difference" => of_cracks::Growth::Difference,
-        other => {
-            return Err(PyValueError::new_err(format!(
-                "threshold_in = {other:?}: must be 'plain', 'powers' or 'difference'"
-            )));
-        }
+        other => refuse!("threshold_in = {other:?}: must be 'plain', 'powers' or 'difference'"),
     };
     let rate = of_cracks::Rate {
         C,
@@ -125,8 +115,6 @@ pub(crate) fn crack_life(
         growth,
         short,
     };
-    let life = curve(lengths, K_max, K_min)?
-        .life(&threshold(threshold_)?, &rate, (start, end))
-        .map_err(refused)?;
+    let life = curve(lengths, K_max, K_min)?.life(&threshold(threshold_)?, &rate, (start, end))?;
     Ok((life.cycles, life.to, life.stopped))
 }

@@ -1,17 +1,9 @@
 //! What the core says of cracks, in the words of Python.
 
 use ::fracture as of_cracks;
-use contact_assess::crack as core;
 use ndarray::Array1;
-use numpy::IntoPyArray;
-use pyo3::prelude::*;
-use pyo3::types::PyDict;
 
-use crate::error::to_python;
-
-pub(super) fn refused(error: of_cracks::Error) -> PyErr {
-    to_python(core::refused(error))
-}
+use crate::prelude::*;
 
 /// Why a crack ends, in a word.
 pub(super) fn named(end: of_cracks::End) -> &'static str {

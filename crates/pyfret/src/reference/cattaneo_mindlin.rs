@@ -3,14 +3,11 @@
 use contact_core::Error;
 use contact_reference as core;
 use contact_reference::domain::{between, positive};
-use numpy::PyArrayDyn;
-use pyo3::prelude::*;
 
-use super::{Hertz, Numbers, map, map_checked, pair};
-use crate::argument::to_python;
-use crate::arguments::number;
+use super::{Hertz, Numbers, Values, map, map_checked, pair};
+use crate::argument::Answer;
 use crate::material::{Elastic, Material};
-use crate::parts::made;
+use crate::prelude::*;
 
 /// Partial slip of a sphere under constant normal force and a force T along x.
 ///
@@ -45,43 +42,13 @@ impl CattaneoMindlin {
         hertz: Hertz,
         bodies: (Material, Material),
         #[pyo3(from_py_with = number)] mu: f64,
-    ) -> PyResult<Self> {
+    ) -> Answer<Self> {
         let (body1, body2) = pair(bodies)?;
-        positive("mu", mu).map_err(to_python)?;
+        positive("mu", mu)?;
         Ok(Self {
             slip: core::CattaneoMindlin::new(hertz.0, body1, body2, mu),
             bodies: (Elastic(body1, None), Elastic(body2, None)),
         })
-    }
-
-    /// The normal contact.
-    #[getter]
-    fn hertz(&self) -> Hertz {
-        Hertz(self.slip.hertz)
-    }
-
-    /// Friction coefficient.
-    #[getter]
-    fn mu(&self) -> f64 {
-        self.slip.mu
-    }
-
-    /// Tangential modulus [Pa], 1/G* = (2 - nu1)/G1 + (2 - nu2)/G2.
-    #[getter]
-    fn G_star(&self) -> f64 {
-        self.slip.G_star
-    }
-
-    /// Largest tangential force [N], mu W.
-    #[getter]
-    fn T_limit(&self) -> f64 {
-        self.slip.T_limit()
-    }
-
-    /// Shift at which gross sliding starts [m], 3 mu W / (16 a G*).
-    #[getter]
-    fn shift_limit(&self) -> f64 {
-        self.slip.shift_limit()
     }
 
     /// Stick radius of the first loading to `T` [N], a (1 - T/(mu W))^(1/3) [m].
@@ -105,82 +72,67 @@ impl CattaneoMindlin {
     }
 
     /// Shear traction at distance `r` [m] in the first loading to `T` [N] [Pa].
-    #[pyo3(signature = (r, *, T: "float") -> "NDArray[np.float64]")]
+    #[pyo3(signature = (r, *, T: "float"))]
     fn q_loading<'py>(
         &self,
-        py: Python<'py>,
         r: Numbers<'py>,
         #[pyo3(from_py_with = number)] T: f64,
-    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+    ) -> Answer<Values<'py>> {
         self.check(&[("T", T)])?;
-        Ok(map(py, &r, |r| self.slip.q_loading(r, T)))
+        Ok(map(&r, |r| self.slip.q_loading(r, T)))
     }
 
     /// Shear traction at `T` on the way back from the first loading to `T_m` [N] [Pa].
-    #[pyo3(signature = (r, *, T: "float", T_m: "float") -> "NDArray[np.float64]")]
+    #[pyo3(signature = (r, *, T: "float", T_m: "float"))]
     fn q_unloading<'py>(
         &self,
-        py: Python<'py>,
         r: Numbers<'py>,
         #[pyo3(from_py_with = number)] T: f64,
         #[pyo3(from_py_with = number)] T_m: f64,
-    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+    ) -> Answer<Values<'py>> {
         self.check(&[("T", T), ("T_m", T_m)])?;
-        Ok(map(py, &r, |r| self.slip.q_unloading(r, T, T_m)))
+        Ok(map(&r, |r| self.slip.q_unloading(r, T, T_m)))
     }
 
     /// Shear traction at `T` on the way from -`T_m` back to `T_m` [N] [Pa].
-    #[pyo3(signature = (r, *, T: "float", T_m: "float") -> "NDArray[np.float64]")]
+    #[pyo3(signature = (r, *, T: "float", T_m: "float"))]
     fn q_reloading<'py>(
         &self,
-        py: Python<'py>,
         r: Numbers<'py>,
         #[pyo3(from_py_with = number)] T: f64,
         #[pyo3(from_py_with = number)] T_m: f64,
-    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+    ) -> Answer<Values<'py>> {
         self.check(&[("T", T), ("T_m", T_m)])?;
-        Ok(map(py, &r, |r| self.slip.q_reloading(r, T, T_m)))
+        Ok(map(&r, |r| self.slip.q_reloading(r, T, T_m)))
     }
 
     /// Shift delta_x of the first loading to `T` [N] [m].
-    #[pyo3(signature = (T) -> "NDArray[np.float64]")]
-    fn shift_loading<'py>(
-        &self,
-        py: Python<'py>,
-        T: Numbers<'py>,
-    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        map_checked(
-            py,
-            &T,
-            |T| self.force("T", T),
-            |T| self.slip.shift_loading(T),
-        )
+    fn shift_loading<'py>(&self, T: Numbers<'py>) -> Answer<Values<'py>> {
+        map_checked(&T, |T| self.force("T", T), |T| self.slip.shift_loading(T))
     }
 
     /// Shift delta_x at `T` on the way back from `T_m` [N] [m].
-    #[pyo3(signature = (T, *, T_m: "float") -> "NDArray[np.float64]")]
+    #[pyo3(signature = (T, *, T_m: "float"))]
     fn shift_unloading<'py>(
         &self,
-        py: Python<'py>,
         T: Numbers<'py>,
         #[pyo3(from_py_with = number)] T_m: f64,
-    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+    ) -> Answer<Values<'py>> {
         self.check(&[("T_m", T_m)])?;
         let shift = |T| self.slip.shift_unloading(T, T_m);
-        map_checked(py, &T, |T| self.force("T", T), shift)
+        map_checked(&T, |T| self.force("T", T), shift)
     }
 
     /// Shift delta_x at `T` on the way from -`T_m` back to `T_m` [N] [m].
-    #[pyo3(signature = (T, *, T_m: "float") -> "NDArray[np.float64]")]
+    #[pyo3(signature = (T, *, T_m: "float"))]
     fn shift_reloading<'py>(
         &self,
-        py: Python<'py>,
         T: Numbers<'py>,
         #[pyo3(from_py_with = number)] T_m: f64,
-    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+    ) -> Answer<Values<'py>> {
         self.check(&[("T_m", T_m)])?;
         let shift = |T| self.slip.shift_reloading(T, T_m);
-        map_checked(py, &T, |T| self.force("T", T), shift)
+        map_checked(&T, |T| self.force("T", T), shift)
     }
 
     /// Energy dissipated in one closed loop between -`T_m` and `T_m` [J].
@@ -198,6 +150,19 @@ impl CattaneoMindlin {
     }
 }
 
+attributes!(CattaneoMindlin, self:
+    /// The normal contact.
+    hertz: Hertz = Hertz(self.slip.hertz);
+    /// Friction coefficient.
+    mu: f64 = self.slip.mu;
+    /// Tangential modulus [Pa], 1/G* = (2 - nu1)/G1 + (2 - nu2)/G2.
+    G_star: f64 = self.slip.G_star;
+    /// Largest tangential force [N], mu W.
+    T_limit: f64 = self.slip.T_limit();
+    /// Shift at which gross sliding starts [m], 3 mu W / (16 a G*).
+    shift_limit: f64 = self.slip.shift_limit();
+);
+
 impl CattaneoMindlin {
     /// A tangential force that friction carries.
     fn force(&self, key: &str, T: f64) -> Result<f64, Error> {
@@ -206,9 +171,9 @@ impl CattaneoMindlin {
         between(key, T, (-limit, limit))
     }
 
-    fn check(&self, forces: &[(&str, f64)]) -> PyResult<()> {
+    fn check(&self, forces: &[(&str, f64)]) -> Answer<()> {
         let mut forces = forces.iter();
         let checked = forces.try_for_each(|(key, T)| self.force(key, *T).map(drop));
-        checked.map_err(to_python)
+        Ok(checked?)
     }
 }

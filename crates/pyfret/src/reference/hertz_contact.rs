@@ -2,15 +2,11 @@
 
 use contact_reference as core;
 use contact_reference::domain::{between, positive};
-use numpy::PyArrayDyn;
-use pyo3::prelude::*;
 
-use super::{Numbers, map, pair};
-use crate::argument::to_python;
-use crate::arguments::number;
+use super::{Numbers, Values, map, pair};
+use crate::argument::Answer;
 use crate::material::Material;
-use crate::parts::made;
-use crate::quantity::Given;
+use crate::prelude::*;
 
 /// Frictionless contact of two paraboloids of revolution.
 ///
@@ -44,7 +40,7 @@ impl Hertz {
         #[pyo3(from_py_with = number)] a: f64,
         #[pyo3(from_py_with = number)] p0: f64,
         #[pyo3(from_py_with = Given::delta_z)] delta_z: f64,
-    ) -> PyResult<Self> {
+    ) -> Answer<Self> {
         let all = [
             ("W", W),
             ("E_star", E_star),
@@ -53,7 +49,7 @@ impl Hertz {
             ("delta_z", delta_z),
         ];
         for (key, value) in all {
-            positive(key, value).map_err(to_python)?;
+            positive(key, value)?;
         }
         Ok(Self(core::Hertz {
             W,
@@ -64,48 +60,26 @@ impl Hertz {
         }))
     }
 
-    /// Normal force [N].
-    #[getter]
-    fn W(&self) -> f64 {
-        self.0.W
-    }
-
-    /// Contact modulus [Pa], 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
-    #[getter]
-    fn E_star(&self) -> f64 {
-        self.0.E_star
-    }
-
-    /// Contact radius [m], a^3 = 3 W R / (4 E*).
-    #[getter]
-    fn a(&self) -> f64 {
-        self.0.a
-    }
-
-    /// Peak pressure [Pa], 3 W / (2 pi a^2).
-    #[getter]
-    fn p0(&self) -> f64 {
-        self.0.p0
-    }
-
-    /// Peak pressure [Pa], by the name that it has in results.
-    #[getter]
-    fn p_H(&self) -> f64 {
-        self.0.p0
-    }
-
-    /// Approach [m], a^2 / R.
-    #[getter]
-    fn delta_z(&self) -> f64 {
-        self.0.delta_z
-    }
-
     /// Pressure at distance `r` [m] from the middle [Pa], p0 sqrt(1 - r^2/a^2).
-    #[pyo3(signature = (r) -> "NDArray[np.float64]")]
-    fn p<'py>(&self, py: Python<'py>, r: Numbers<'py>) -> Bound<'py, PyArrayDyn<f64>> {
-        map(py, &r, |r| self.0.p(r))
+    fn p<'py>(&self, r: Numbers<'py>) -> Values<'py> {
+        map(&r, |r| self.0.p(r))
     }
 }
+
+attributes!(Hertz, self:
+    /// Normal force [N].
+    W: f64 = self.0.W;
+    /// Contact modulus [Pa], 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
+    E_star: f64 = self.0.E_star;
+    /// Contact radius [m], a^3 = 3 W R / (4 E*).
+    a: f64 = self.0.a;
+    /// Peak pressure [Pa], 3 W / (2 pi a^2).
+    p0: f64 = self.0.p0;
+    /// Peak pressure [Pa], by the name that it has in results.
+    p_H: f64 = self.0.p0;
+    /// Approach [m], a^2 / R.
+    delta_z: f64 = self.0.delta_z;
+);
 
 /// Hertz contact of a sphere of relative radius `R` [m] under the force `W` [N].
 #[pyfunction]
@@ -114,9 +88,9 @@ pub(crate) fn hertz(
     #[pyo3(from_py_with = Given::R)] R: f64,
     bodies: (Material, Material),
     #[pyo3(from_py_with = number)] W: f64,
-) -> PyResult<Hertz> {
+) -> Answer<Hertz> {
     let (body1, body2) = pair(bodies)?;
-    positive("R", R).and(positive("W", W)).map_err(to_python)?;
+    positive("R", R).and(positive("W", W))?;
     Ok(Hertz(core::hertz(R, body1, body2, W)))
 }
 
@@ -134,50 +108,22 @@ pub(crate) struct HertzEllipse {
 
 made!(HertzEllipse by "hertz_ellipse": R_x, R_y, E_star, W);
 
-#[pymethods]
-impl HertzEllipse {
+attributes!(HertzEllipse, self:
     /// Normal force [N].
-    #[getter]
-    fn W(&self) -> f64 {
-        self.ellipse.W
-    }
-
+    W: f64 = self.ellipse.W;
     /// Contact modulus [Pa].
-    #[getter]
-    fn E_star(&self) -> f64 {
-        self.ellipse.E_star
-    }
-
+    E_star: f64 = self.ellipse.E_star;
     /// Semi-axis of the contact along x [m].
-    #[getter]
-    fn a_x(&self) -> f64 {
-        self.ellipse.a_x
-    }
-
+    a_x: f64 = self.ellipse.a_x;
     /// Semi-axis of the contact along y [m].
-    #[getter]
-    fn a_y(&self) -> f64 {
-        self.ellipse.a_y
-    }
-
+    a_y: f64 = self.ellipse.a_y;
     /// Peak pressure [Pa], 3 W / (2 pi a_x a_y).
-    #[getter]
-    fn p0(&self) -> f64 {
-        self.ellipse.p0
-    }
-
+    p0: f64 = self.ellipse.p0;
     /// Peak pressure [Pa], by the name that it has in results.
-    #[getter]
-    fn p_H(&self) -> f64 {
-        self.ellipse.p0
-    }
-
+    p_H: f64 = self.ellipse.p0;
     /// Approach [m].
-    #[getter]
-    fn delta_z(&self) -> f64 {
-        self.ellipse.delta_z
-    }
-}
+    delta_z: f64 = self.ellipse.delta_z;
+);
 
 /// Hertz contact of relative principal radii `R_x`, `R_y` [m] along the axes.
 ///
@@ -189,12 +135,12 @@ pub(crate) fn hertz_ellipse(
     #[pyo3(from_py_with = Given::R_y)] R_y: f64,
     #[pyo3(from_py_with = number)] E_star: f64,
     #[pyo3(from_py_with = number)] W: f64,
-) -> PyResult<HertzEllipse> {
+) -> Answer<HertzEllipse> {
     for (key, value) in [("R_x", R_x), ("R_y", R_y), ("E_star", E_star), ("W", W)] {
-        positive(key, value).map_err(to_python)?;
+        positive(key, value)?;
     }
     let ratio = R_x.max(R_y) / R_x.min(R_y);
-    between("R_x/R_y or R_y/R_x", ratio, (1.0, 1e12)).map_err(to_python)?;
+    between("R_x/R_y or R_y/R_x", ratio, (1.0, 1e12))?;
     Ok(HertzEllipse {
         ellipse: core::hertz_ellipse(R_x, R_y, E_star, W),
         R_x,

@@ -4,12 +4,10 @@ use contact_reference as core;
 use contact_reference::domain::{between, positive};
 use ndarray::{ArrayD, Zip};
 use numpy::PyArrayDyn;
-use pyo3::prelude::*;
 
 use super::{Numbers, checked, rows, together};
-use crate::argument::to_python;
-use crate::arguments::number;
-use crate::parts::made;
+use crate::argument::Answer;
+use crate::prelude::*;
 
 /// Farthest place over the radius of the loaded circle.
 const FAR: f64 = 1e30;
@@ -34,23 +32,9 @@ impl HertzStress {
     fn new(
         #[pyo3(from_py_with = number)] a: f64,
         #[pyo3(from_py_with = number)] nu: f64,
-    ) -> PyResult<Self> {
-        positive("a", a)
-            .and(between("nu", nu, (-1.0, 0.5)))
-            .map_err(to_python)?;
+    ) -> Answer<Self> {
+        positive("a", a).and(between("nu", nu, (-1.0, 0.5)))?;
         Ok(Self(core::HertzStress { a, nu }))
-    }
-
-    /// Radius of the loaded circle [m].
-    #[getter]
-    fn a(&self) -> f64 {
-        self.0.a
-    }
-
-    /// Poisson's ratio.
-    #[getter]
-    fn nu(&self) -> f64 {
-        self.0.nu
     }
 
     /// Stress s_xx, s_yy, s_zz, s_xy, s_xz, s_yz at (`x`, `y`, `z`) [m] under a pressure.
@@ -63,7 +47,7 @@ impl HertzStress {
         x: Numbers<'py>,
         y: Numbers<'py>,
         z: Numbers<'py>,
-    ) -> PyResult<[Bound<'py, PyArrayDyn<f64>>; 6]> {
+    ) -> Answer<[Bound<'py, PyArrayDyn<f64>>; 6]> {
         let of = |&x: &f64, &y: &f64, &z: &f64| self.0.pressure(x, y, z);
         let [x, y, z] = self.places(&x, &y, &z)?;
         Ok(rows(py, &Zip::from(&x).and(&y).and(&z).map_collect(of)))
@@ -77,12 +61,19 @@ impl HertzStress {
         x: Numbers<'py>,
         y: Numbers<'py>,
         z: Numbers<'py>,
-    ) -> PyResult<[Bound<'py, PyArrayDyn<f64>>; 6]> {
+    ) -> Answer<[Bound<'py, PyArrayDyn<f64>>; 6]> {
         let of = |&x: &f64, &y: &f64, &z: &f64| self.0.shear(x, y, z);
         let [x, y, z] = self.places(&x, &y, &z)?;
         Ok(rows(py, &Zip::from(&x).and(&y).and(&z).map_collect(of)))
     }
 }
+
+attributes!(HertzStress, self:
+    /// Radius of the loaded circle [m].
+    a: f64 = self.0.a;
+    /// Poisson's ratio.
+    nu: f64 = self.0.nu;
+);
 
 impl HertzStress {
     /// Places in the body in their common shape, not so far away that the stress is lost in rounding.
@@ -91,7 +82,7 @@ impl HertzStress {
         x: &Numbers<'_>,
         y: &Numbers<'_>,
         z: &Numbers<'_>,
-    ) -> PyResult<[ArrayD<f64>; 3]> {
+    ) -> Answer<[ArrayD<f64>; 3]> {
         let far = FAR * self.0.a;
         for (name, of) in [("x", x), ("y", y)] {
             checked(of, |of| between(name, of, (-far, far)))?;

@@ -2,15 +2,11 @@
 
 use contact_reference as core;
 use contact_reference::domain::{between, positive};
-use numpy::PyArrayDyn;
-use pyo3::prelude::*;
 
-use super::{Numbers, map, pair};
-use crate::argument::to_python;
-use crate::arguments::number;
+use super::{Numbers, Values, map, pair};
+use crate::argument::Answer;
 use crate::material::{Coating, Elastic, Material};
-use crate::parts::made;
-use crate::quantity::Given;
+use crate::prelude::*;
 
 /// Dundurs' parameter beta of the pair: the coupling of normal and tangential directions.
 ///
@@ -36,9 +32,9 @@ pub(crate) fn goodman_stick_ratio(
 }
 
 /// Dundurs' parameter of a pair, and a coefficient of friction.
-fn check(beta: f64, mu: f64) -> PyResult<()> {
+fn check(beta: f64, mu: f64) -> Answer<()> {
     let beta = between("beta", beta, (-0.5, 0.5));
-    beta.and(positive("mu", mu)).map(drop).map_err(to_python)
+    Ok(beta.and(positive("mu", mu)).map(drop)?)
 }
 
 /// Indentation with friction of dissimilar bodies, fully coupled, in numbers without load.
@@ -55,32 +51,16 @@ pub(crate) struct CoupledIndentation {
 
 made!(CoupledIndentation by "coupled_indentation": beta, mu);
 
-#[pymethods]
-impl CoupledIndentation {
+attributes!(CoupledIndentation, self:
     /// Stick radius over contact radius.
-    #[getter]
-    fn stick_ratio(&self) -> f64 {
-        self.found.stick_ratio
-    }
-
+    stick_ratio: f64 = self.found.stick_ratio;
     /// Central pressure over 3 W / (2 pi a^2).
-    #[getter]
-    fn p0(&self) -> f64 {
-        self.found.p0
-    }
-
+    p0: f64 = self.found.p0;
     /// Approach over a^2/R.
-    #[getter]
-    fn delta_z(&self) -> f64 {
-        self.found.delta_z
-    }
-
+    delta_z: f64 = self.found.delta_z;
     /// Normal force over 4 E* a^3 / (3 R).
-    #[getter]
-    fn W(&self) -> f64 {
-        self.found.W
-    }
-}
+    W: f64 = self.found.W;
+);
 
 /// Indentation by a sphere for Dundurs' `beta` and friction `mu` > 0.
 ///
@@ -122,24 +102,18 @@ made!(CoatedIndentation by "coated_indentation": R, indenter, coating, substrate
 
 #[pymethods]
 impl CoatedIndentation {
-    /// Contact radius [m].
-    #[getter]
-    fn a(&self) -> f64 {
-        self.found.a
-    }
-
-    /// Approach [m].
-    #[getter]
-    fn delta_z(&self) -> f64 {
-        self.found.delta_z
-    }
-
     /// Pressure at distance `r` [m] from the middle [Pa].
-    #[pyo3(signature = (r) -> "NDArray[np.float64]")]
-    fn p<'py>(&self, py: Python<'py>, r: Numbers<'py>) -> Bound<'py, PyArrayDyn<f64>> {
-        map(py, &r, |r| self.found.p(r))
+    fn p<'py>(&self, r: Numbers<'py>) -> Values<'py> {
+        map(&r, |r| self.found.p(r))
     }
 }
+
+attributes!(CoatedIndentation, self:
+    /// Contact radius [m].
+    a: f64 = self.found.a;
+    /// Approach [m].
+    delta_z: f64 = self.found.delta_z;
+);
 
 /// Contact of a sphere of radius `R` [m] with a coated body under `W` [N], without friction.
 #[pyfunction]
@@ -150,16 +124,16 @@ pub(crate) fn coated_indentation(
     coating: Coating,
     substrate: Material,
     #[pyo3(from_py_with = number)] W: f64,
-) -> PyResult<CoatedIndentation> {
-    positive("R", R).and(positive("W", W)).map_err(to_python)?;
+) -> Answer<CoatedIndentation> {
+    positive("R", R).and(positive("W", W))?;
     pair((indenter, Material(coating.layer.material)))?;
     pair((Material(coating.layer.material), substrate))?;
     let given = coating.clone();
     let (indenter, coating, substrate) = (indenter.0, coating.layer, substrate.0);
-    positive("coating.thickness", coating.thickness).map_err(to_python)?;
+    positive("coating.thickness", coating.thickness)?;
     let found = core::coated_indentation(R, indenter, coating, substrate, W);
     Ok(CoatedIndentation {
-        found: found.map_err(to_python)?,
+        found: found?,
         R,
         indenter: Elastic(indenter, None),
         coating: given,

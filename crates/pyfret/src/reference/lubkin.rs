@@ -3,15 +3,11 @@
 use contact_core::Error;
 use contact_reference as core;
 use contact_reference::domain::{between, positive};
-use numpy::PyArrayDyn;
-use pyo3::prelude::*;
 
-use super::{Hertz, Numbers, map, map_checked, pair};
-use crate::argument::to_python;
-use crate::arguments::number;
+use super::{Hertz, Numbers, Values, map, map_checked, pair};
+use crate::argument::Answer;
 use crate::material::{Elastic, Material};
-use crate::parts::made;
-use crate::quantity::Given;
+use crate::prelude::*;
 
 /// Partial slip of a sphere under constant normal force and a torsional moment.
 ///
@@ -43,72 +39,56 @@ impl Lubkin {
         hertz: Hertz,
         bodies: (Material, Material),
         #[pyo3(from_py_with = number)] mu: f64,
-    ) -> PyResult<Self> {
+    ) -> Answer<Self> {
         let (body1, body2) = pair(bodies)?;
-        positive("mu", mu).map_err(to_python)?;
+        positive("mu", mu)?;
         Ok(Self {
             torsion: core::Lubkin::new(hertz.0, body1, body2, mu),
             bodies: (Elastic(body1, None), Elastic(body2, None)),
         })
     }
 
-    /// The normal contact.
-    #[getter]
-    fn hertz(&self) -> Hertz {
-        Hertz(self.torsion.hertz)
-    }
-
-    /// Friction coefficient.
-    #[getter]
-    fn mu(&self) -> f64 {
-        self.torsion.mu
-    }
-
-    /// Moment of full slip [N m], (3 pi/16) mu W a.
-    #[getter]
-    fn M_limit(&self) -> f64 {
-        self.torsion.M_limit()
-    }
-
-    /// Torsional stiffness without slip [N m/rad], 16 G a^3/3.
-    #[getter]
-    fn stiffness(&self) -> f64 {
-        self.torsion.stiffness()
-    }
-
     /// Rotation phi_z at the stick radius `c` [m] [rad].
-    #[pyo3(signature = (c) -> "NDArray[np.float64]")]
-    fn phi<'py>(&self, py: Python<'py>, c: Numbers<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+    fn phi<'py>(&self, c: Numbers<'py>) -> Answer<Values<'py>> {
         let radius = |c| positive("c", c).and(self.radius(c));
-        map_checked(py, &c, radius, |c| self.torsion.phi(c))
+        map_checked(&c, radius, |c| self.torsion.phi(c))
     }
 
     /// Moment M_z at the stick radius `c` [m] [N m].
-    #[pyo3(signature = (c) -> "NDArray[np.float64]")]
-    fn M_z<'py>(&self, py: Python<'py>, c: Numbers<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        map_checked(py, &c, |c| self.radius(c), |c| self.torsion.M_z(c))
+    fn M_z<'py>(&self, c: Numbers<'py>) -> Answer<Values<'py>> {
+        map_checked(&c, |c| self.radius(c), |c| self.torsion.M_z(c))
     }
 
     /// Stick radius under the moment `M_z` [N m] [m].
     #[pyo3(signature = (*, M_z: "Quantity"))]
-    fn stick_radius(&self, #[pyo3(from_py_with = Given::M_z)] M_z: f64) -> PyResult<f64> {
+    fn stick_radius(&self, #[pyo3(from_py_with = Given::M_z)] M_z: f64) -> Answer<f64> {
         let limit = self.torsion.M_limit() * (1.0 + 1e-9);
-        between("M_z", M_z, (0.0, limit)).map_err(to_python)?;
+        between("M_z", M_z, (0.0, limit))?;
         Ok(self.torsion.stick_radius(M_z))
     }
 
     /// Circumferential traction at `r` for the stick radius `c` [m] [Pa].
-    #[pyo3(signature = (r, *, c: "float") -> "NDArray[np.float64]")]
+    #[pyo3(signature = (r, *, c: "float"))]
     fn q<'py>(
         &self,
-        py: Python<'py>,
         r: Numbers<'py>,
         #[pyo3(from_py_with = number)] c: f64,
-    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        self.radius(c).map_err(to_python)?;
-        Ok(map(py, &r, |r| self.torsion.q(r, c)))
+    ) -> Answer<Values<'py>> {
+        self.radius(c)?;
+        Ok(map(&r, |r| self.torsion.q(r, c)))
     }
 }
+
+attributes!(Lubkin, self:
+    /// The normal contact.
+    hertz: Hertz = Hertz(self.torsion.hertz);
+    /// Friction coefficient.
+    mu: f64 = self.torsion.mu;
+    /// Moment of full slip [N m], (3 pi/16) mu W a.
+    M_limit: f64 = self.torsion.M_limit();
+    /// Torsional stiffness without slip [N m/rad], 16 G a^3/3.
+    stiffness: f64 = self.torsion.stiffness();
+);
 
 impl Lubkin {
     /// A stick radius in the contact.

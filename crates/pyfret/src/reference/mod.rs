@@ -12,13 +12,13 @@ use contact_core::Error;
 use contact_core::scene as core;
 use contact_reference::domain;
 use ndarray::{ArrayD, IxDyn};
-use numpy::{PyArrayDyn, ToPyArray};
-use pyo3::exceptions::PyValueError;
-use pyo3::prelude::*;
+use numpy::PyArrayDyn;
 
-use crate::argument::to_python;
-use crate::arguments::{Array, must_fit};
+use crate::argument::Answer;
+use crate::arguments::must_fit;
+use crate::hints;
 use crate::material::Material;
+use crate::prelude::*;
 
 pub(crate) use cattaneo_mindlin::CattaneoMindlin;
 pub(crate) use hertz_contact::{Hertz, HertzEllipse, hertz, hertz_ellipse};
@@ -34,37 +34,33 @@ pub(crate) use springs::Springs;
 /// A number, a sequence or an array of any shape.
 type Numbers<'py> = Array<'py, IxDyn>;
 
-/// `f` of every number, in the shape that they came in.
-fn map<'py>(
-    py: Python<'py>,
-    x: &Numbers<'py>,
-    f: impl Fn(f64) -> f64,
-) -> Bound<'py, PyArrayDyn<f64>> {
-    x.as_array().mapv(f).to_pyarray(py)
+/// Numbers in the shape of those that came in.
+type Values<'py> = hints::Numbers<'py>;
+
+/// `f` of every number.
+fn map<'py>(x: &Numbers<'py>, f: impl Fn(f64) -> f64) -> Values<'py> {
+    x.as_array().mapv(f).to_pyarray(x.py()).into()
 }
 
 /// The same, each number checked first.
 fn map_checked<'py>(
-    py: Python<'py>,
     x: &Numbers<'py>,
     check: impl Fn(f64) -> Result<f64, Error>,
     f: impl Fn(f64) -> f64,
-) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+) -> Answer<Values<'py>> {
     checked(x, check)?;
-    Ok(map(py, x, f))
+    Ok(map(x, f))
 }
 
 /// Fails at the first number that `check` refuses; what is not a number passes.
-fn checked(x: &Numbers<'_>, check: impl Fn(f64) -> Result<f64, Error>) -> PyResult<()> {
+fn checked(x: &Numbers<'_>, check: impl Fn(f64) -> Result<f64, Error>) -> Answer<()> {
     let array = x.as_array();
     let mut numbers = array.iter().filter(|x| !x.is_nan());
-    numbers
-        .try_for_each(|x| check(*x).map(drop))
-        .map_err(to_python)
+    Ok(numbers.try_for_each(|x| check(*x).map(drop))?)
 }
 
 /// Places in their common shape, as numpy puts arrays together.
-fn together<const N: usize>(places: [(&str, &Numbers<'_>); N]) -> PyResult<[ArrayD<f64>; N]> {
+fn together<const N: usize>(places: [(&str, &Numbers<'_>); N]) -> Answer<[ArrayD<f64>; N]> {
     let rank = places.iter().map(|(_, of)| of.as_array().ndim()).max();
     let mut shape = vec![1; rank.unwrap_or(0)];
     for (_, of) in places {
@@ -99,6 +95,6 @@ fn rows<'py, const N: usize>(
 }
 
 /// The materials of a pair, checked.
-fn pair((body1, body2): (Material, Material)) -> PyResult<(core::Elastic, core::Elastic)> {
-    domain::pair((body1.0, body2.0)).map_err(to_python)
+fn pair((body1, body2): (Material, Material)) -> Answer<(core::Elastic, core::Elastic)> {
+    Ok(domain::pair((body1.0, body2.0))?)
 }

@@ -4,14 +4,11 @@ use contact_reference as core;
 use contact_reference::domain::{between, positive};
 use ndarray::Zip;
 use numpy::PyArrayDyn;
-use pyo3::prelude::*;
 
-use super::{Numbers, checked, map, pair, rows, together};
-use crate::argument::to_python;
-use crate::arguments::number;
+use super::{Numbers, Values, checked, map, pair, rows, together};
+use crate::argument::Answer;
 use crate::material::{Elastic, Material};
-use crate::parts::made;
-use crate::quantity::Given;
+use crate::prelude::*;
 
 /// Farthest place over the half-width.
 const FAR: f64 = 1e30;
@@ -40,9 +37,9 @@ pub(crate) fn line_contact(
     #[pyo3(from_py_with = Given::R)] R: f64,
     bodies: (Material, Material),
     #[pyo3(from_py_with = number)] W: f64,
-) -> PyResult<LineContact> {
+) -> Answer<LineContact> {
     let (body1, body2) = pair(bodies)?;
-    positive("R", R).and(positive("W", W)).map_err(to_python)?;
+    positive("R", R).and(positive("W", W))?;
     let E_star = core::hertz(R, body1, body2, 1.0).E_star;
     Ok(LineContact {
         line: core::line_contact(R, E_star, W),
@@ -54,34 +51,9 @@ pub(crate) fn line_contact(
 
 #[pymethods]
 impl LineContact {
-    /// Normal force per length [N/m].
-    #[getter]
-    fn W(&self) -> f64 {
-        self.line.W
-    }
-
-    /// Half-width [m], a^2 = 4 W R/(pi E*).
-    #[getter]
-    fn a(&self) -> f64 {
-        self.line.a
-    }
-
-    /// Peak pressure [Pa].
-    #[getter]
-    fn p0(&self) -> f64 {
-        self.line.p0
-    }
-
-    /// Peak pressure [Pa], by the name that it has in results.
-    #[getter]
-    fn p_H(&self) -> f64 {
-        self.line.p0
-    }
-
     /// Pressure at `x` [m] [Pa].
-    #[pyo3(signature = (x) -> "NDArray[np.float64]")]
-    fn p<'py>(&self, py: Python<'py>, x: Numbers<'py>) -> Bound<'py, PyArrayDyn<f64>> {
-        map(py, &x, |x| self.line.p(x))
+    fn p<'py>(&self, x: Numbers<'py>) -> Values<'py> {
+        map(&x, |x| self.line.p(x))
     }
 
     /// Half-width of the stick zone under `T` [N/m] [m].
@@ -103,26 +75,25 @@ impl LineContact {
         &self,
         #[pyo3(from_py_with = number)] eps_x: f64,
         #[pyo3(from_py_with = number)] mu: f64,
-    ) -> PyResult<f64> {
+    ) -> Answer<f64> {
         let strain = between("eps_x", eps_x, (-1.0, 1.0));
-        strain.and(positive("mu", mu)).map_err(to_python)?;
+        strain.and(positive("mu", mu))?;
         Ok(self.line.stick_middle(eps_x, self.E_star, mu))
     }
 
     /// Shear at `x` [m] under `T` [N/m] with the stick zone around `middle` [m] [Pa].
     ///
     /// Cattaneo's with the middle at 0, Carter's with it at a - c towards the leading edge.
-    #[pyo3(signature = (x, *, T: "float", mu: "float", middle: "float" = 0.0) -> "NDArray[np.float64]")]
+    #[pyo3(signature = (x, *, T: "float", mu: "float", middle: "float" = 0.0))]
     fn q<'py>(
         &self,
-        py: Python<'py>,
         x: Numbers<'py>,
         #[pyo3(from_py_with = number)] T: f64,
         #[pyo3(from_py_with = number)] mu: f64,
         #[pyo3(from_py_with = number)] middle: f64,
-    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+    ) -> Answer<Values<'py>> {
         self.check_middle(T, mu, middle)?;
-        Ok(map(py, &x, |x| self.line.q_shifted(x, middle, T, mu)))
+        Ok(map(&x, |x| self.line.q_shifted(x, middle, T, mu)))
     }
 
     /// Stress s_xx, s_zz, s_xz at (`x`, `z`) [m] in partial slip [Pa]; arrays are put together.
@@ -137,7 +108,7 @@ impl LineContact {
         #[pyo3(from_py_with = number)] T: f64,
         #[pyo3(from_py_with = number)] mu: f64,
         #[pyo3(from_py_with = number)] middle: f64,
-    ) -> PyResult<[Bound<'py, PyArrayDyn<f64>>; 3]> {
+    ) -> Answer<[Bound<'py, PyArrayDyn<f64>>; 3]> {
         self.check_middle(T, mu, middle)?;
         let far = FAR * self.line.a;
         checked(&z, |z| between("z", z, (0.0, far)))?;
@@ -148,20 +119,29 @@ impl LineContact {
     }
 }
 
+attributes!(LineContact, self:
+    /// Normal force per length [N/m].
+    W: f64 = self.line.W;
+    /// Half-width [m], a^2 = 4 W R/(pi E*).
+    a: f64 = self.line.a;
+    /// Peak pressure [Pa].
+    p0: f64 = self.line.p0;
+    /// Peak pressure [Pa], by the name that it has in results.
+    p_H: f64 = self.line.p0;
+);
+
 impl LineContact {
     /// A tangential force that friction carries; rounding is no reason to refuse the largest.
-    fn check(&self, T: f64, mu: f64) -> PyResult<()> {
-        let mu = positive("mu", mu).map_err(to_python)?;
+    fn check(&self, T: f64, mu: f64) -> Answer<()> {
+        let mu = positive("mu", mu)?;
         let limit = mu * self.line.W * (1.0 + 1e-9);
-        between("T", T, (-limit, limit))
-            .map(drop)
-            .map_err(to_python)
+        Ok(between("T", T, (-limit, limit)).map(drop)?)
     }
 
     /// The same with a stick zone whose middle lies in the contact.
-    fn check_middle(&self, T: f64, mu: f64, middle: f64) -> PyResult<()> {
+    fn check_middle(&self, T: f64, mu: f64, middle: f64) -> Answer<()> {
         self.check(T, mu)?;
-        let within = between("middle", middle, (-self.line.a, self.line.a));
-        within.map(drop).map_err(to_python)
+        between("middle", middle, (-self.line.a, self.line.a))?;
+        Ok(())
     }
 }

@@ -2,14 +2,11 @@
 
 use contact_reference as core;
 use contact_reference::domain::{between, count, positive};
-use pyo3::prelude::*;
 
 use super::{Hertz, pair};
-use crate::argument::to_python;
-use crate::arguments::{List, number};
+use crate::argument::Answer;
 use crate::material::{Elastic, Material};
-use crate::parts::made;
-use crate::quantity::Given;
+use crate::prelude::*;
 
 /// Most springs, and most steps of a load.
 const MOST_SPRINGS: usize = 10_000;
@@ -68,12 +65,10 @@ impl Springs {
         #[pyo3(from_py_with = number)] mu: f64,
         #[pyo3(from_py_with = number)] n: usize,
         loads: List<(f64, f64, usize)>,
-    ) -> PyResult<Self> {
+    ) -> Answer<Self> {
         let (body1, body2) = pair(bodies)?;
-        positive("R", R)
-            .and(positive("mu", mu))
-            .map_err(to_python)?;
-        count("n", n, MOST_SPRINGS).map_err(to_python)?;
+        positive("R", R).and(positive("mu", mu))?;
+        count("n", n, MOST_SPRINGS)?;
         let mut springs = Self {
             springs: core::Springs::new(largest.0, R, body1, body2, mu, n),
             largest,
@@ -96,13 +91,13 @@ impl Springs {
         #[pyo3(from_py_with = number)] W: f64,
         #[pyo3(from_py_with = number)] T: f64,
         #[pyo3(from_py_with = number)] steps: usize,
-    ) -> PyResult<f64> {
+    ) -> Answer<f64> {
         // Rounding is no reason to refuse the largest forces.
         let most = |limit: f64| limit * (1.0 + 1e-9);
-        between("W", W, (0.0, most(self.largest.0.W))).map_err(to_python)?;
+        between("W", W, (0.0, most(self.largest.0.W)))?;
         let limit = most(self.mu * W);
-        between("T", T, (-limit, limit)).map_err(to_python)?;
-        count("steps", steps, MOST_SPRINGS).map_err(to_python)?;
+        between("T", T, (-limit, limit))?;
+        count("steps", steps, MOST_SPRINGS)?;
         let from = self.loads.last().map_or((0.0, 0.0), |(W, T, _)| (*W, *T));
         self.loads.push((W, T, steps));
         Ok(self.springs.load(from, (W, T), steps))

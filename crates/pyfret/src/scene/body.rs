@@ -1,15 +1,13 @@
 //! Bodies.
 
 use crate::hints::sequence_of;
+use crate::prelude::*;
 use contact_core::scene as core;
-use pyo3::inspect::PyStaticExpr;
-use pyo3::prelude::*;
 use pyo3::{PyTypeInfo, type_hint_union};
 
 use super::shape::{Flat, Shape};
-use crate::error::{must_be, takes, to_python};
+use crate::error::Answer;
 use crate::material::{Coating, Elastic};
-use crate::parts::parts;
 use crate::residual_stress::{Profile, Shown, shown, text};
 
 /// An elastic half-space under its coatings and a gently curved surface.
@@ -39,13 +37,13 @@ takes!(
 #[pymethods]
 impl Body {
     #[new]
-    #[pyo3(signature = (substrate, *, coatings = Coatings(Vec::new()), residual = None, shape = Shape::Flat(Flat)))]
+    #[pyo3(signature = (substrate, *, coatings = Coatings(Vec::new()), residual = None, shape = Shape::Flat(Flat {})))]
     fn new(
         substrate: Elastic,
         coatings: Coatings,
         residual: Option<Profile>,
         shape: Shape,
-    ) -> PyResult<Self> {
+    ) -> Answer<Self> {
         let body = Self(core::Body {
             substrate: substrate.0,
             residual: coatings.residual(residual),
@@ -54,20 +52,8 @@ impl Body {
             coatings: coatings.0.into_iter().map(|c| c.layer).collect(),
             shape: shape.into(),
         });
-        body.0.check_residual("body").map_err(to_python)?;
+        body.0.check_residual("body")?;
         Ok(body)
-    }
-
-    /// Material below the coatings.
-    #[getter]
-    fn substrate(&self) -> Elastic {
-        Elastic(self.0.substrate, self.0.plastic(self.0.coatings.len()))
-    }
-
-    /// Whether a layer of it may yield.
-    #[getter]
-    fn yields(&self) -> bool {
-        self.0.yields()
     }
 
     /// Layers from the surface down.
@@ -82,18 +68,6 @@ impl Body {
                 residual: self.of_layer(n),
             })
             .collect()
-    }
-
-    /// Residual stress of the substrate [Pa], or its table; None where it has none.
-    #[getter]
-    fn residual(&self) -> Option<Shown> {
-        shown(&self.of_layer(self.0.coatings.len()))
-    }
-
-    /// Undeformed surface.
-    #[getter]
-    fn shape(&self) -> Shape {
-        (&self.0.shape).into()
     }
 
     pub(crate) fn __repr__(&self) -> String {
@@ -112,6 +86,17 @@ impl Body {
         format!("Body({})", parts.join(", "))
     }
 }
+
+attributes!(Body, self:
+    /// Material below the coatings.
+    substrate: Elastic = Elastic(self.0.substrate, self.0.plastic(self.0.coatings.len()));
+    /// Whether a layer of it may yield.
+    yields: bool = self.0.yields();
+    /// Residual stress of the substrate [Pa], or its table; None where it has none.
+    residual: Option<Shown> = shown(&self.of_layer(self.0.coatings.len()));
+    /// Undeformed surface.
+    shape: Shape = (&self.0.shape).into();
+);
 
 impl Body {
     /// Residual stress of a layer.

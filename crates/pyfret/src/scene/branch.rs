@@ -1,50 +1,19 @@
 //! A branch of the load history.
 
 use contact_core::scene::{self as core, Prescribed, RigidMotion};
-use pyo3::prelude::*;
 
 use super::increments::Count;
-use crate::arguments::number;
-use crate::parts::{members, parts};
-use crate::quantity::{Given, Optional};
+use crate::parts::members;
+use crate::prelude::*;
 
-/// How the increments of a branch are spaced.
-///
-/// ``UNIFORM``: equal increments of force. ``EQUAL_RADIUS``: increments of equal contact radius
-/// of a paraboloid; natural for an indentation. ``SHORT_FIRST``: a short first increment, then
-/// equal ones; shows the stiffness and the stick zone right after a reversal.
-#[pyclass(frozen, eq, eq_int, hash, from_py_object, module = "pyfret")]
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
-pub(crate) enum Spacing {
-    #[pyo3(name = "UNIFORM")]
-    Uniform,
-    #[pyo3(name = "EQUAL_RADIUS")]
-    EqualRadius,
-    #[pyo3(name = "SHORT_FIRST")]
-    ShortFirst,
-}
-
-members!(Spacing);
-
-impl From<Spacing> for core::Spacing {
-    fn from(spacing: Spacing) -> Self {
-        match spacing {
-            Spacing::Uniform => Self::Uniform,
-            Spacing::EqualRadius => Self::EqualRadius,
-            Spacing::ShortFirst => Self::ShortFirst,
-        }
-    }
-}
-
-impl From<core::Spacing> for Spacing {
-    fn from(spacing: core::Spacing) -> Self {
-        match spacing {
-            core::Spacing::Uniform => Self::Uniform,
-            core::Spacing::EqualRadius => Self::EqualRadius,
-            core::Spacing::ShortFirst => Self::ShortFirst,
-        }
-    }
-}
+members!(
+    /// How the increments of a branch are spaced.
+    ///
+    /// ``UNIFORM``: equal increments of force. ``EQUAL_RADIUS``: increments of equal contact radius
+    /// of a paraboloid; natural for an indentation. ``SHORT_FIRST``: a short first increment, then
+    /// equal ones; shows the stiffness and the stick zone right after a reversal.
+    Spacing: Uniform = "UNIFORM", EqualRadius = "EQUAL_RADIUS", ShortFirst = "SHORT_FIRST"
+);
 
 /// One straight piece of a load history; most are made by the methods of :class:`LoadPath`.
 ///
@@ -147,120 +116,6 @@ impl Branch {
         })
     }
 
-    /// Normal force at its end [N]; None where the approach is given.
-    #[getter]
-    fn W(&self) -> Option<f64> {
-        self.load(RigidMotion::DeltaZ)
-    }
-
-    /// Tilting moment about x at its end [N m]; None where the tilt is given.
-    #[getter]
-    fn M_x(&self) -> Option<f64> {
-        self.load(RigidMotion::PhiX)
-    }
-
-    /// Tilting moment about y at its end [N m]; None where the tilt is given.
-    #[getter]
-    fn M_y(&self) -> Option<f64> {
-        self.load(RigidMotion::PhiY)
-    }
-
-    /// Tangential force along x on body 2 at its end [N]; None where the shift is given.
-    #[getter]
-    fn T_x(&self) -> Option<f64> {
-        self.load(RigidMotion::DeltaX)
-    }
-
-    /// Tangential force along y on body 2 at its end [N]; None where the shift is given.
-    #[getter]
-    fn T_y(&self) -> Option<f64> {
-        self.load(RigidMotion::DeltaY)
-    }
-
-    /// Torsional moment on body 2 at its end [N m]; None where the rotation is given.
-    #[getter]
-    fn M_z(&self) -> Option<f64> {
-        self.load(RigidMotion::PhiZ)
-    }
-
-    /// Approach at its end [m]; None where W is given.
-    #[getter]
-    fn delta_z(&self) -> Option<f64> {
-        self.motion(RigidMotion::DeltaZ)
-    }
-
-    /// Shift along x at its end [m]; None where T_x is given.
-    #[getter]
-    fn delta_x(&self) -> Option<f64> {
-        self.motion(RigidMotion::DeltaX)
-    }
-
-    /// Shift along y at its end [m]; None where T_y is given.
-    #[getter]
-    fn delta_y(&self) -> Option<f64> {
-        self.motion(RigidMotion::DeltaY)
-    }
-
-    /// Tilt about x at its end [rad]; None where M_x is given.
-    #[getter]
-    fn phi_x(&self) -> Option<f64> {
-        self.motion(RigidMotion::PhiX)
-    }
-
-    /// Tilt about y at its end [rad]; None where M_y is given.
-    #[getter]
-    fn phi_y(&self) -> Option<f64> {
-        self.motion(RigidMotion::PhiY)
-    }
-
-    /// Rotation about z at its end [rad]; None where M_z is given.
-    #[getter]
-    fn phi_z(&self) -> Option<f64> {
-        self.motion(RigidMotion::PhiZ)
-    }
-
-    /// Bulk stress along x in body 2 at its end [Pa].
-    #[getter]
-    fn sigma_B(&self) -> f64 {
-        self.0.to.sigma_B
-    }
-
-    /// Bulk stress along x in body 1 at its end [Pa].
-    #[getter]
-    fn sigma_B1(&self) -> f64 {
-        self.0.to.sigma_B1
-    }
-
-    /// Way that the contact has rolled along x at its end [m].
-    #[getter]
-    fn rolled(&self) -> f64 {
-        self.0.to.rolled
-    }
-
-    /// Number of increments; None: as many as the path tolerance asks for.
-    #[getter]
-    fn increments(&self) -> Option<usize> {
-        self.0.increments
-    }
-
-    /// Estimated error that the increments leave in the shear, over the largest shear.
-    #[getter]
-    fn path_error(&self) -> Option<f64> {
-        self.0.path_error
-    }
-
-    /// How the increments are spaced.
-    #[getter]
-    fn spacing(&self) -> Spacing {
-        self.0.spacing.into()
-    }
-
-    /// Path time at its end.
-    #[getter]
-    fn t(&self) -> f64 {
-        self.0.t_end
-    }
-
     fn __repr__(&self) -> String {
         // Zero is worth a word only where it is not the default.
         let parts = RigidMotion::ALL.into_iter().filter_map(|of| {
@@ -282,3 +137,44 @@ impl Branch {
         )
     }
 }
+
+attributes!(Branch, self:
+    /// Normal force at its end [N]; None where the approach is given.
+    W: Option<f64> = self.load(RigidMotion::DeltaZ);
+    /// Tilting moment about x at its end [N m]; None where the tilt is given.
+    M_x: Option<f64> = self.load(RigidMotion::PhiX);
+    /// Tilting moment about y at its end [N m]; None where the tilt is given.
+    M_y: Option<f64> = self.load(RigidMotion::PhiY);
+    /// Tangential force along x on body 2 at its end [N]; None where the shift is given.
+    T_x: Option<f64> = self.load(RigidMotion::DeltaX);
+    /// Tangential force along y on body 2 at its end [N]; None where the shift is given.
+    T_y: Option<f64> = self.load(RigidMotion::DeltaY);
+    /// Torsional moment on body 2 at its end [N m]; None where the rotation is given.
+    M_z: Option<f64> = self.load(RigidMotion::PhiZ);
+    /// Approach at its end [m]; None where W is given.
+    delta_z: Option<f64> = self.motion(RigidMotion::DeltaZ);
+    /// Shift along x at its end [m]; None where T_x is given.
+    delta_x: Option<f64> = self.motion(RigidMotion::DeltaX);
+    /// Shift along y at its end [m]; None where T_y is given.
+    delta_y: Option<f64> = self.motion(RigidMotion::DeltaY);
+    /// Tilt about x at its end [rad]; None where M_x is given.
+    phi_x: Option<f64> = self.motion(RigidMotion::PhiX);
+    /// Tilt about y at its end [rad]; None where M_y is given.
+    phi_y: Option<f64> = self.motion(RigidMotion::PhiY);
+    /// Rotation about z at its end [rad]; None where M_z is given.
+    phi_z: Option<f64> = self.motion(RigidMotion::PhiZ);
+    /// Bulk stress along x in body 2 at its end [Pa].
+    sigma_B: f64 = self.0.to.sigma_B;
+    /// Bulk stress along x in body 1 at its end [Pa].
+    sigma_B1: f64 = self.0.to.sigma_B1;
+    /// Way that the contact has rolled along x at its end [m].
+    rolled: f64 = self.0.to.rolled;
+    /// Number of increments; None: as many as the path tolerance asks for.
+    increments: Option<usize> = self.0.increments;
+    /// Estimated error that the increments leave in the shear, over the largest shear.
+    path_error: Option<f64> = self.0.path_error;
+    /// How the increments are spaced.
+    spacing: Spacing = self.0.spacing.into();
+    /// Path time at its end.
+    t: f64 = self.0.t_end;
+);

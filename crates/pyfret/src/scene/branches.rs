@@ -1,14 +1,12 @@
 //! Branches appended to a load path.
 
 use contact_core::scene::{self as core, Prescribed, RigidMotion};
-use numpy::ToPyArray;
-use pyo3::exceptions::PyValueError;
-use pyo3::prelude::*;
 
 use super::branch::Spacing;
 use super::increments::Values;
-use crate::error::to_python;
+use crate::error::Answer;
 use crate::hints::Numbers;
+use crate::prelude::*;
 
 /// Appends a branch that goes to the loads and motions which `change` makes of the present ones.
 pub(super) fn branch(
@@ -30,8 +28,8 @@ pub(super) fn column<'py>(
     path: &core::LoadPath,
     py: Python<'py>,
     of: impl Fn(&core::LoadPoint) -> f64,
-) -> PyResult<Numbers<'py>> {
-    path.check_length().map_err(to_python)?;
+) -> Answer<Numbers<'py>> {
+    path.check_length()?;
     let column: Vec<f64> = path.points().iter().map(of).collect();
     Ok(column.to_pyarray(py).into())
 }
@@ -43,20 +41,18 @@ pub(super) fn moved(
     increments: Option<usize>,
     spacing: Spacing,
     t: Option<f64>,
-) -> PyResult<core::LoadPath> {
+) -> Answer<core::LoadPath> {
     let several = |v: &Option<Values>| matches!(v, Some(Values::Several(_)));
     let first = |v: &Option<Values>| v.as_ref().and_then(|v| v.slice().first().copied());
     let motions = named.each_ref().map(|v| first(v).map(Prescribed::Motion));
     if named.iter().all(Option::is_none) {
-        return Err(PyValueError::new_err(
-            "displace: give a motion, such as delta_x=2e-6",
-        ));
+        refuse!("displace: give a motion, such as delta_x=2e-6");
     }
     if named.iter().filter(|v| several(v)).count() > 1 {
-        return Err(PyValueError::new_err(
+        refuse!(
             "displace: one motion at a time may be a sequence; waypoints(delta_x=.., delta_y=..) \
-             takes several",
-        ));
+             takes several"
+        );
     }
     let Some(k) = named.iter().position(several) else {
         return Ok(branch(path, increments, spacing, t, |to| {
@@ -64,9 +60,7 @@ pub(super) fn moved(
         }));
     };
     if t.is_some() {
-        return Err(PyValueError::new_err(
-            "displace: t goes with a single value",
-        ));
+        refuse!("displace: t goes with a single value");
     }
     let values = named[k].as_ref().map(Values::slice).unwrap_or_default();
     let others = std::array::from_fn(|n| motions[n].filter(|_| n != k));
@@ -87,22 +81,22 @@ pub(super) fn cycled(
     n: usize,
     named: [(RigidMotion, Option<Prescribed>); 6],
     increments: Option<usize>,
-) -> PyResult<core::LoadPath> {
+) -> Answer<core::LoadPath> {
     let named: Vec<_> = named
         .into_iter()
         .filter_map(|(of, p)| Some((of, p?)))
         .collect();
     let [(of, amplitude)] = named[..] else {
-        return Err(PyValueError::new_err(
-            "cycles: give the amplitude of one load or motion, such as T_x=100.0 or delta_x=2e-6",
-        ));
+        refuse!(
+            "cycles: give the amplitude of one load or motion, such as T_x=100.0 or delta_x=2e-6"
+        );
     };
     let kind: fn(f64) -> Prescribed = if amplitude.is_motion() {
         Prescribed::Motion
     } else {
         Prescribed::Load
     };
-    core::LoadPath::check_branches(n.saturating_mul(2)).map_err(to_python)?;
+    core::LoadPath::check_branches(n.saturating_mul(2))?;
     let values = core::LoadPath::cycle(amplitude.value(), n);
     Ok(path.clone().through(of, kind, &values, increments))
 }

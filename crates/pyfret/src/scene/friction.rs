@@ -1,59 +1,24 @@
 //! Friction laws.
 
 use contact_core::scene as core;
-use pyo3::inspect::PyStaticExpr;
-use pyo3::prelude::*;
 use pyo3::{PyTypeInfo, type_hint_union};
 
 use super::SurfaceMap;
 use super::friction_law::{function, own_law};
-use crate::arguments::{List, number};
-use crate::error::{must_be, to_python};
+use crate::error::{Answer, to_python};
 use crate::hints;
-use crate::parts::{members, parts};
+use crate::parts::members;
+use crate::prelude::*;
 
-/// What a cell has been through.
-///
-/// ``INCREMENT``: increments done, the same for all cells. ``SLIP``: length of the way that the
-/// cell has slipped [m]. ``DISSIPATED``: energy dissipated per area [J/m^2]. ``CYCLES``: cycles of
-/// wear done; a path that is run through once has done none. Over jumps of wear each is that of
-/// all cycles so far.
-#[pyclass(frozen, eq, eq_int, hash, from_py_object, module = "pyfret")]
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
-pub(crate) enum History {
-    #[pyo3(name = "INCREMENT")]
-    Increment,
-    #[pyo3(name = "SLIP")]
-    Slip,
-    #[pyo3(name = "DISSIPATED")]
-    Dissipated,
-    #[pyo3(name = "CYCLES")]
-    Cycles,
-}
-
-members!(History);
-
-impl From<History> for core::History {
-    fn from(history: History) -> Self {
-        match history {
-            History::Increment => Self::Increment,
-            History::Slip => Self::Slip,
-            History::Dissipated => Self::Dissipated,
-            History::Cycles => Self::Cycles,
-        }
-    }
-}
-
-impl From<core::History> for History {
-    fn from(history: core::History) -> Self {
-        match history {
-            core::History::Increment => Self::Increment,
-            core::History::Slip => Self::Slip,
-            core::History::Dissipated => Self::Dissipated,
-            core::History::Cycles => Self::Cycles,
-        }
-    }
-}
+members!(
+    /// What a cell has been through.
+    ///
+    /// ``INCREMENT``: increments done, the same for all cells. ``SLIP``: length of the way that the
+    /// cell has slipped [m]. ``DISSIPATED``: energy dissipated per area [J/m^2]. ``CYCLES``: cycles of
+    /// wear done; a path that is run through once has done none. Over jumps of wear each is that of
+    /// all cycles so far.
+    History: Increment = "INCREMENT", Slip = "SLIP", Dissipated = "DISSIPATED", Cycles = "CYCLES"
+);
 
 /// Coulomb's law with a coefficient that depends on direction, place and history.
 ///
@@ -99,7 +64,7 @@ impl Friction {
         map: Option<SurfaceMap>,
         history: Option<(History, List<(f64, f64)>)>,
         law: Option<&Bound<'_, PyAny>>,
-    ) -> PyResult<Self> {
+    ) -> Answer<Self> {
         let law = core::Friction {
             mu,
             mu_y,
@@ -111,32 +76,8 @@ impl Friction {
             }),
             law: law.map(own_law).transpose()?,
         };
-        law.check(None).map_err(to_python)?;
+        law.check(None)?;
         Ok(Self(law))
-    }
-
-    /// Coefficient.
-    #[getter]
-    fn mu(&self) -> f64 {
-        self.0.mu
-    }
-
-    /// Coefficient along y, if it is another.
-    #[getter]
-    fn mu_y(&self) -> Option<f64> {
-        self.0.mu_y
-    }
-
-    /// Coefficient of cells that slipped in the increment before.
-    #[getter]
-    fn kinetic(&self) -> Option<f64> {
-        self.0.kinetic
-    }
-
-    /// Factor over the surface.
-    #[getter]
-    fn map(&self) -> Option<SurfaceMap> {
-        self.0.map.clone().map(SurfaceMap)
     }
 
     /// Factor as a function of the history.
@@ -146,12 +87,6 @@ impl Friction {
         history.map(|h| (h.of.into(), h.table.clone()))
     }
 
-    /// The function that gives the coefficient; ``"own"`` if only that there is one is known.
-    #[getter]
-    fn law(&self, py: Python<'_>) -> Option<Py<PyAny>> {
-        self.0.law.as_ref().map(|law| function(py, law))
-    }
-
     /// The law in words: names with their values, and facts without a value.
     fn words(&self) -> Vec<(&'static str, Option<f64>)> {
         self.0.words()
@@ -159,15 +94,32 @@ impl Friction {
 
     pub(crate) fn __repr__(&self) -> String {
         let mut parts = vec![format!("{:?}", self.0.mu)];
-        for (name, mu) in [("mu_y", self.0.mu_y), ("kinetic", self.0.kinetic)] {
-            parts.extend(mu.map(|mu| format!("{name}={mu:?}")));
-        }
+        let coefficients = self.0.coefficients();
+        parts.extend(coefficients.map(|(name, mu)| format!("{name}={mu:?}")));
         parts.extend(self.0.map.as_ref().map(|_| "map=...".to_owned()));
         parts.extend(self.0.history.as_ref().map(|_| "history=...".to_owned()));
         parts.extend(self.0.law.as_ref().map(|_| "law=...".to_owned()));
         format!("Friction({})", parts.join(", "))
     }
 }
+
+attributes!(Friction, self, py:
+    /// The function that gives the coefficient; ``"own"`` if only that there is one is known.
+    law: Option<Bound<'py, PyAny>> = self.0.law.as_ref().map(|law| function(py, law));
+);
+
+attributes!(Friction, self:
+    /// Coefficient.
+    mu: f64 = self.0.mu;
+    /// Whether it is the same everywhere and at all times, if not in all directions.
+    is_constant: bool = self.0.depends_on_no_more_than(&[core::Dependence::Direction]);
+    /// Coefficient along y, if it is another.
+    mu_y: Option<f64> = self.0.mu_y;
+    /// Coefficient of cells that slipped in the increment before.
+    kinetic: Option<f64> = self.0.kinetic;
+    /// Factor over the surface.
+    map: Option<SurfaceMap> = self.0.map.clone().map(SurfaceMap);
+);
 
 /// A coefficient, a law, or `"stick"`, as in scene files.
 pub(crate) struct AnyFriction(pub(crate) core::Friction);

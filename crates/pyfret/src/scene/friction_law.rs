@@ -1,15 +1,11 @@
 //! Friction laws that are functions of Python.
 
-use std::sync::Arc;
-
 use contact_core::scene::{self as core, CellHistory, LawError};
 use ndarray::IxDyn;
-use numpy::ToPyArray;
-use pyo3::exceptions::{PyTypeError, PyValueError};
-use pyo3::prelude::*;
+use pyo3::exceptions::PyTypeError;
 
-use crate::arguments::Array;
 use crate::error::InvalidSceneError;
+use crate::prelude::*;
 
 /// The word for a law of which only that it exists is known.
 pub(crate) const OWN: &str = "own";
@@ -46,13 +42,13 @@ impl core::FrictionLaw for Own {
                     }
                 }
                 _ => {
-                    return Err(PyValueError::new_err(format!(
+                    refuse!(
                         "friction law {}: gave an array of shape {:?}, must be ({},), a coefficient for each \
                          cell, or one number",
                         self.0,
                         found.shape(),
                         mu.len()
-                    )));
+                    );
                 }
             }
             Ok(())
@@ -84,10 +80,10 @@ pub(crate) fn own_law(given: &Bound<'_, PyAny>) -> PyResult<core::OwnFriction> {
 }
 
 /// The function of a law, or the word for one that is elsewhere.
-pub(crate) fn function(py: Python<'_>, law: &core::OwnFriction) -> Py<PyAny> {
+pub(crate) fn function<'py>(py: Python<'py>, law: &core::OwnFriction) -> Bound<'py, PyAny> {
     let own = law.0.as_any().and_then(|law| law.downcast_ref::<Own>());
     own.map_or_else(
-        || pyo3::types::PyString::new(py, OWN).into_any().unbind(),
-        |own| own.0.clone_ref(py),
+        || pyo3::types::PyString::new(py, OWN).into_any(),
+        |own| own.0.bind(py).clone(),
     )
 }

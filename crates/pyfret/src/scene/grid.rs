@@ -1,16 +1,11 @@
 //! The mesh of the contact plane.
 
 use contact_core::scene as core;
-use numpy::ToPyArray;
-use pyo3::inspect::PyStaticExpr;
-use pyo3::prelude::*;
 
-use crate::arguments::number;
 use crate::document::has_unit;
-use crate::error::{must_be, takes, to_python};
+use crate::error::Answer;
 use crate::hints::Numbers;
-use crate::parts::parts;
-use crate::quantity::Given;
+use crate::prelude::*;
 
 /// Distance of points or cells along x and y, or the same along both.
 pub(crate) struct Pitch(pub(crate) (f64, f64));
@@ -103,7 +98,7 @@ impl Grid {
         #[pyo3(from_py_with = number)] dx: f64,
         #[pyo3(from_py_with = number)] dy: f64,
         plane_strain: bool,
-    ) -> PyResult<Self> {
+    ) -> Answer<Self> {
         let grid = core::Grid {
             nx: nx.0,
             ny: ny.0,
@@ -111,25 +106,25 @@ impl Grid {
             dy,
             plane_strain,
         };
-        grid.check().map(|()| Self(grid)).map_err(to_python)
+        grid.check()?;
+        Ok(Self(grid))
     }
 
     /// `n` by `n` cells on a square of side `extent` [m]; a rectangle by pairs (x, y).
     #[staticmethod]
     #[pyo3(signature = (*, extent, n))]
-    fn centred(extent: Pitch, n: Cells) -> PyResult<Self> {
+    fn centred(extent: Pitch, n: Cells) -> Answer<Self> {
         let ((x, y), (nx, ny)) = (extent.0, n.0);
-        core::Grid::from_spacing((nx, ny), (x / nx as f64, y / ny as f64))
-            .map(Self)
-            .map_err(to_python)
+        Ok(Self(core::Grid::from_spacing(
+            (nx, ny),
+            (x / nx as f64, y / ny as f64),
+        )?))
     }
 
     /// `n` = (nx, ny) cells of size `spacing` = (dx, dy) [m].
     #[staticmethod]
-    fn from_spacing(n: Cells, spacing: Pitch) -> PyResult<Self> {
-        core::Grid::from_spacing(n.0, spacing.0)
-            .map(Self)
-            .map_err(to_python)
+    fn from_spacing(n: Cells, spacing: Pitch) -> Answer<Self> {
+        Ok(Self(core::Grid::from_spacing(n.0, spacing.0)?))
     }
 
     /// Plane strain: `n` cells over the length `extent` [m] along x, without end along y.
@@ -142,16 +137,8 @@ impl Grid {
         #[pyo3(from_py_with = Given::extent)] extent: f64,
         n: Count,
         #[pyo3(from_py_with = number)] width: f64,
-    ) -> PyResult<Self> {
-        core::Grid::strip(extent, n.0, width)
-            .map(Self)
-            .map_err(to_python)
-    }
-
-    /// Whether the cells are without end along y.
-    #[getter]
-    fn plane_strain(&self) -> bool {
-        self.0.plane_strain
+    ) -> Answer<Self> {
+        Ok(Self(core::Grid::strip(extent, n.0, width)?))
     }
 
     /// Unit of a number of a run on this grid, by that of a contact of two directions.
@@ -159,36 +146,6 @@ impl Grid {
     /// On a strip one metre wide forces are in N/m, energies in J/m, areas in m^2/m.
     fn unit_of<'a>(&self, unit: &'a str) -> &'a str {
         self.0.unit_of(unit)
-    }
-
-    /// Number of cells along x.
-    #[getter]
-    fn nx(&self) -> usize {
-        self.0.nx
-    }
-
-    /// Number of cells along y.
-    #[getter]
-    fn ny(&self) -> usize {
-        self.0.ny
-    }
-
-    /// Cell length along x [m].
-    #[getter]
-    fn dx(&self) -> f64 {
-        self.0.dx
-    }
-
-    /// Cell length along y [m].
-    #[getter]
-    fn dy(&self) -> f64 {
-        self.0.dy
-    }
-
-    /// Area of a cell [m^2].
-    #[getter]
-    fn cell_area(&self) -> f64 {
-        self.0.cell_area()
     }
 
     /// Centres of the cells along x [m], shape (nx,).
@@ -220,3 +177,18 @@ impl Grid {
         format!("Grid.from_spacing(({nx}, {ny}), ({dx:?}, {dy:?}))")
     }
 }
+
+attributes!(Grid, self:
+    /// Whether the cells are without end along y.
+    plane_strain: bool = self.0.plane_strain;
+    /// Number of cells along x.
+    nx: usize = self.0.nx;
+    /// Number of cells along y.
+    ny: usize = self.0.ny;
+    /// Cell length along x [m].
+    dx: f64 = self.0.dx;
+    /// Cell length along y [m].
+    dy: f64 = self.0.dy;
+    /// Area of a cell [m^2].
+    cell_area: f64 = self.0.cell_area();
+);

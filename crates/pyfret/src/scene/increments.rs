@@ -1,14 +1,10 @@
 //! Numbers of increments, and values to visit.
 
 use contact_core::scene as core;
-use pyo3::inspect::PyStaticExpr;
-use pyo3::prelude::*;
 use pyo3::{PyTypeInfo, type_hint_union};
 
-use crate::arguments::{List, number};
 use crate::document::has_unit;
-use crate::error::must_be;
-use crate::parts::parts;
+use crate::prelude::*;
 use crate::quantity::si;
 
 /// One value or several to visit in turn.
@@ -113,16 +109,15 @@ impl PerRange {
         Self(increments)
     }
 
-    /// Increments over the whole range of the load or motion that needs most.
-    #[getter]
-    fn increments(&self) -> usize {
-        self.0
-    }
-
     fn __repr__(&self) -> String {
         format!("PerRange({})", self.0)
     }
 }
+
+attributes!(PerRange, self:
+    /// Increments over the whole range of the load or motion that needs most.
+    increments: usize = self.0;
+);
 
 /// Increments of a branch: a number, or "auto" for as many as the path tolerance asks for.
 pub(super) struct Count(pub(super) Option<usize>);

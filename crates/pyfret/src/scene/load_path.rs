@@ -1,21 +1,13 @@
 //! The load history.
 
-use std::collections::BTreeMap;
-use std::path::PathBuf;
-
-use contact_core::Error;
 use contact_core::scene::{self as core, Prescribed, RigidMotion};
-use pyo3::exceptions::PyValueError;
-use pyo3::prelude::*;
 
 use super::branch::{Branch, Spacing};
 use super::branches::{branch, column, cycled, moved, prescribe};
-use super::increments::{AnyIncrements, Count, Names, Values, Visited};
-use crate::arguments::{List, number};
-use crate::error::{takes, to_python};
+use super::increments::{Count, Values, Visited};
+use crate::error::Answer;
 use crate::hints::Numbers;
-use crate::parts::parts;
-use crate::quantity::{Given, Optional};
+use crate::prelude::*;
 
 /// The load history, from two bodies just touching.
 ///
@@ -42,8 +34,8 @@ takes!(
 );
 
 /// The path, unless a load or motion has a value that no scene can have.
-fn checked(path: core::LoadPath) -> PyResult<LoadPath> {
-    path.check_values().map_err(to_python)?;
+pub(super) fn checked(path: core::LoadPath) -> Answer<LoadPath> {
+    path.check_values()?;
     Ok(LoadPath(path))
 }
 
@@ -75,12 +67,6 @@ impl LoadPath {
         })
     }
 
-    /// Stiffness of the rig along x [N/m]; None: the bodies themselves are moved.
-    #[getter]
-    fn rig_stiffness(&self) -> Option<f64> {
-        self.0.rig_stiffness
-    }
-
     /// The path before its first branch.
     #[staticmethod]
     fn start() -> Self {
@@ -95,7 +81,7 @@ impl LoadPath {
         &self,
         #[pyo3(from_py_with = Visited::W)] W: Values,
         increments: Count,
-    ) -> PyResult<Self> {
+    ) -> Answer<Self> {
         let several = W.slice().iter();
         checked(several.fold(self.0.clone(), |path, W| path.normal(*W, increments.0)))
     }
@@ -109,7 +95,7 @@ impl LoadPath {
         &self,
         #[pyo3(from_py_with = Visited::T_x)] T_x: Values,
         increments: Count,
-    ) -> PyResult<Self> {
+    ) -> Answer<Self> {
         checked(self.0.clone().tangential(T_x.slice(), increments.0))
     }
 
@@ -119,7 +105,7 @@ impl LoadPath {
         &self,
         #[pyo3(from_py_with = Visited::M_z)] M_z: Values,
         increments: Count,
-    ) -> PyResult<Self> {
+    ) -> Answer<Self> {
         checked(self.0.clone().torsion(M_z.slice(), increments.0))
     }
 
@@ -129,7 +115,7 @@ impl LoadPath {
         &self,
         #[pyo3(from_py_with = Visited::W)] W: Values,
         increments: Count,
-    ) -> PyResult<Self> {
+    ) -> Answer<Self> {
         checked(self.0.clone().radial(W.slice(), increments.0))
     }
 
@@ -145,82 +131,13 @@ impl LoadPath {
         #[pyo3(from_py_with = Given::T_y)] T_y: f64,
         #[pyo3(from_py_with = number)] turns: usize,
         increments: Count,
-    ) -> PyResult<Self> {
-        core::LoadPath::check_turns(turns, increments.0).map_err(to_python)?;
+    ) -> Answer<Self> {
+        core::LoadPath::check_turns(turns, increments.0)?;
         Ok(Self(self.0.clone().ellipse(
             (T_x, T_y),
             turns,
             increments.0,
         )))
-    }
-
-    /// Go straight from waypoint to waypoint, a branch for each.
-    ///
-    /// Parameters
-    /// ----------
-    /// increments : int, PerRange or "auto"
-    ///     Increments per branch; or as many as the change needs; or as the path tolerance of the
-    ///     settings asks for.
-    /// **columns : array
-    ///     Loads (``W``, ``T_x``, ...), motions (``delta_x``, ...), ``sigma_B``, ``sigma_B1``,
-    ///     ``rolled`` and the path time ``t`` at the waypoints. What has no column stays as it is.
-    #[pyo3(signature = (*, increments = AnyIncrements::Each(1), **columns: "Sequence[float] | NDArray[np.float64]"))]
-    fn waypoints(
-        &self,
-        increments: AnyIncrements,
-        columns: Option<BTreeMap<String, List<f64>>>,
-    ) -> PyResult<Self> {
-        let columns = columns.unwrap_or_default();
-        let rows = columns
-            .values()
-            .map(|column| column.len())
-            .max()
-            .unwrap_or(0);
-        if let Some((name, column)) = columns.iter().find(|(_, c)| c.len() != rows) {
-            let allowed = format!("{rows} values, as the longest column");
-            let error = Error::invalid(name, format!("{} values", column.len()), allowed);
-            return Err(to_python(error));
-        }
-        let names: Vec<&str> = columns.keys().map(String::as_str).collect();
-        let row = |i: usize| columns.values().map(|column| column[i]).collect();
-        let rows: Vec<Vec<f64>> = (0..rows).map(row).collect();
-        let path = self.0.clone().waypoints(&names, &rows, increments.into());
-        path.map_err(to_python).and_then(checked)
-    }
-
-    /// Read a measured history: a table of text whose titles name the columns of `waypoints`.
-    ///
-    /// Semicolons, tabs, commas or blanks part its numbers, with decimal points or commas. Units
-    /// stand in the titles, ``T_x [kN]``, or in a row between titles and numbers.
-    ///
-    /// Parameters
-    /// ----------
-    /// path : path
-    ///     The file.
-    /// increments : int, PerRange or "auto"
-    ///     Increments per branch, as in `waypoints`.
-    /// drive : str or list of str, optional
-    ///     The one that drives, where the file has both a load and its motion, as every measured
-    ///     loop has. The other is left out.
-    ///
-    /// Raises
-    /// ------
-    /// StoreError
-    ///     If the file cannot be read. The message has the line, the column and the argument to
-    ///     give.
-    #[staticmethod]
-    #[pyo3(signature = (path, *, increments = AnyIncrements::Each(1), drive = Names(Vec::new())))]
-    fn from_csv(
-        py: Python<'_>,
-        path: PathBuf,
-        increments: AnyIncrements,
-        drive: Names,
-    ) -> PyResult<Self> {
-        let drive: Vec<&str> = drive.0.iter().map(String::as_str).collect();
-        let increments = increments.into();
-        py.detach(|| core::LoadPath::from_csv(&path, increments, &drive))
-            .map_err(to_python)
-            .and_then(checked)
     }
 
     /// Go to the given loads on a straight line; what is not named stays as it was.
@@ -246,7 +163,6 @@ impl LoadPath {
     /// t : float, optional
     ///     Path time at the end (default: one unit later).
     #[pyo3(signature = (*, W: "Quantity | None" = None, T_x: "Quantity | None" = None, T_y: "Quantity | None" = None, M_x: "Quantity | None" = None, M_y: "Quantity | None" = None, M_z: "Quantity | None" = None, sigma_B: "Quantity | None" = None, sigma_B1: "Quantity | None" = None, rolled: "Quantity | None" = None, increments = Count(None), spacing = Spacing::Uniform, t: "Quantity | None" = None))]
-    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn force(
         &self,
         #[pyo3(from_py_with = Optional::W)] W: Option<f64>,
@@ -261,7 +177,7 @@ impl LoadPath {
         increments: Count,
         spacing: Spacing,
         #[pyo3(from_py_with = Optional::t)] t: Option<f64>,
-    ) -> PyResult<Self> {
+    ) -> Answer<Self> {
         let loads = [W, M_x, M_y, T_x, T_y, M_z].map(|load| load.map(Prescribed::Load));
         let change = |to: &mut core::Loads| {
             prescribe(to, loads);
@@ -298,7 +214,6 @@ impl LoadPath {
     /// >>> pressed.displace(delta_x=[2e-6, -2e-6, 2e-6])
     /// LoadPath(4 branches, increments to be chosen)
     #[pyo3(signature = (*, delta_z: "Quantities | None" = None, delta_x: "Quantities | None" = None, delta_y: "Quantities | None" = None, phi_x: "Quantities | None" = None, phi_y: "Quantities | None" = None, phi_z: "Quantities | None" = None, increments = Count(None), spacing = Spacing::Uniform, t: "Quantity | None" = None))]
-    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn displace(
         &self,
         #[pyo3(from_py_with = Visited::delta_z)] delta_z: Option<Values>,
@@ -310,7 +225,7 @@ impl LoadPath {
         increments: Count,
         spacing: Spacing,
         #[pyo3(from_py_with = Optional::t)] t: Option<f64>,
-    ) -> PyResult<Self> {
+    ) -> Answer<Self> {
         let motions = [delta_z, phi_x, phi_y, delta_x, delta_y, phi_z];
         moved(&self.0, motions, increments.0, spacing, t).and_then(checked)
     }
@@ -341,7 +256,6 @@ impl LoadPath {
     /// >>> LoadPath.start().normal(10.0).cycles(2, delta_x=2e-6)
     /// LoadPath(6 branches, increments to be chosen)
     #[pyo3(signature = (n: "int", *, T_x: "Quantity | None" = None, T_y: "Quantity | None" = None, M_z: "Quantity | None" = None, delta_x: "Quantity | None" = None, delta_y: "Quantity | None" = None, phi_z: "Quantity | None" = None, increments = Count(None)))]
-    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn cycles(
         &self,
         #[pyo3(from_py_with = number)] n: usize,
@@ -352,7 +266,7 @@ impl LoadPath {
         #[pyo3(from_py_with = Optional::delta_y)] delta_y: Option<f64>,
         #[pyo3(from_py_with = Optional::phi_z)] phi_z: Option<f64>,
         increments: Count,
-    ) -> PyResult<Self> {
+    ) -> Answer<Self> {
         let named = [
             (RigidMotion::DeltaX, T_x.map(Prescribed::Load)),
             (RigidMotion::DeltaY, T_y.map(Prescribed::Load)),
@@ -372,70 +286,16 @@ impl LoadPath {
         Self(self.0.clone().hold(increments))
     }
 
-    /// The branches in their order.
-    #[getter]
-    fn branches(&self) -> Vec<Branch> {
-        self.0.branches.iter().copied().map(Branch).collect()
-    }
-
-    /// Path time at the end of every increment.
-    #[getter]
-    fn t<'py>(&self, py: Python<'py>) -> PyResult<Numbers<'py>> {
-        column(&self.0, py, |point| point.t)
-    }
-
-    /// Normal force at the end of every increment [N]; NaN where only the solution can say.
-    #[getter]
-    fn W<'py>(&self, py: Python<'py>) -> PyResult<Numbers<'py>> {
-        column(&self.0, py, |point| point.loads.W)
-    }
-
-    /// Tangential force along x at the end of every increment [N].
-    #[getter]
-    fn T_x<'py>(&self, py: Python<'py>) -> PyResult<Numbers<'py>> {
-        column(&self.0, py, |point| point.loads.T_x)
-    }
-
-    /// Tangential force along y at the end of every increment [N].
-    #[getter]
-    fn T_y<'py>(&self, py: Python<'py>) -> PyResult<Numbers<'py>> {
-        column(&self.0, py, |point| point.loads.T_y)
-    }
-
-    /// Bulk stress of body 2 at the end of every increment [Pa].
-    #[getter]
-    fn sigma_B<'py>(&self, py: Python<'py>) -> PyResult<Numbers<'py>> {
-        column(&self.0, py, |point| point.loads.sigma_B)
-    }
-
-    /// Bulk stress of body 1 at the end of every increment [Pa].
-    #[getter]
-    fn sigma_B1<'py>(&self, py: Python<'py>) -> PyResult<Numbers<'py>> {
-        column(&self.0, py, |point| point.loads.sigma_B1)
-    }
-
-    /// Way rolled at the end of every increment [m].
-    #[getter]
-    fn rolled<'py>(&self, py: Python<'py>) -> PyResult<Numbers<'py>> {
-        column(&self.0, py, |point| point.loads.rolled)
-    }
-
-    /// Torsional moment at the end of every increment [N m].
-    #[getter]
-    fn M_z<'py>(&self, py: Python<'py>) -> PyResult<Numbers<'py>> {
-        column(&self.0, py, |point| point.loads.M_z)
-    }
-
-    fn __len__(&self) -> PyResult<usize> {
-        self.0.check_length().map_err(to_python)?;
+    fn __len__(&self) -> Answer<usize> {
+        self.0.check_length()?;
         let branches = &self.0.branches;
         match branches.iter().filter(|b| b.increments.is_none()).count() {
             0 => Ok(self.0.increments()),
-            open => Err(PyValueError::new_err(format!(
+            open => refuse!(
                 "the increments of {open} of {} branches are chosen when the path is solved; \
                  len(path.branches) is the number of branches",
                 branches.len()
-            ))),
+            ),
         }
     }
 
@@ -462,3 +322,29 @@ impl LoadPath {
         format!("LoadPath({} branches, {increments}{rig})", branches.len())
     }
 }
+
+attributes!(LoadPath, self, py:
+    /// Path time at the end of every increment.
+    t: Answer<Numbers<'py>> = column(&self.0, py, |point| point.t);
+    /// Normal force at the end of every increment [N]; NaN where only the solution can say.
+    W: Answer<Numbers<'py>> = column(&self.0, py, |point| point.loads.W);
+    /// Tangential force along x at the end of every increment [N].
+    T_x: Answer<Numbers<'py>> = column(&self.0, py, |point| point.loads.T_x);
+    /// Tangential force along y at the end of every increment [N].
+    T_y: Answer<Numbers<'py>> = column(&self.0, py, |point| point.loads.T_y);
+    /// Bulk stress of body 2 at the end of every increment [Pa].
+    sigma_B: Answer<Numbers<'py>> = column(&self.0, py, |point| point.loads.sigma_B);
+    /// Bulk stress of body 1 at the end of every increment [Pa].
+    sigma_B1: Answer<Numbers<'py>> = column(&self.0, py, |point| point.loads.sigma_B1);
+    /// Way rolled at the end of every increment [m].
+    rolled: Answer<Numbers<'py>> = column(&self.0, py, |point| point.loads.rolled);
+    /// Torsional moment at the end of every increment [N m].
+    M_z: Answer<Numbers<'py>> = column(&self.0, py, |point| point.loads.M_z);
+);
+
+attributes!(LoadPath, self:
+    /// Stiffness of the rig along x [N/m]; None: the bodies themselves are moved.
+    rig_stiffness: Option<f64> = self.0.rig_stiffness;
+    /// The branches in their order.
+    branches: Vec<Branch> = self.0.branches.iter().copied().map(Branch).collect();
+);

@@ -11,6 +11,7 @@ mod load_path;
 mod profile;
 mod settings;
 mod shape;
+mod waypoints;
 mod whole;
 
 pub(crate) use crate::material::{Bond, Coating, Elastic};

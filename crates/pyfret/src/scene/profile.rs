@@ -1,14 +1,11 @@
 //! Coatings graded in depth.
 
 use contact_core::kernels as core;
-use pyo3::prelude::*;
-use pyo3::types::PyDict;
 
-use crate::arguments::{List, number};
-use crate::error::to_python;
+use crate::error::Answer;
 use crate::material::Coating;
 use crate::parts::{Remade, remade_by_method};
-use crate::quantity::Given;
+use crate::prelude::*;
 
 /// How a property changes from the surface of a graded coating to its bottom, s = z/h.
 #[pyclass(frozen, eq, from_py_object, module = "pyfret")]
@@ -149,13 +146,13 @@ pub(crate) fn graded(
     nu: Profile,
     #[pyo3(from_py_with = Given::thickness)] thickness: f64,
     #[pyo3(from_py_with = number)] layers: usize,
-) -> PyResult<Vec<Coating>> {
+) -> Answer<Vec<Coating>> {
     let coating = core::Graded {
         E: E.0,
         nu: nu.0,
         thickness,
         layers,
     };
-    let coatings = coating.coatings().map_err(to_python)?;
+    let coatings = coating.coatings()?;
     Ok(coatings.into_iter().map(Coating::perfect).collect())
 }

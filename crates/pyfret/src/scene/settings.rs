@@ -1,12 +1,10 @@
 //! How a scene is solved: a dataclass of Python, which comes and goes as the tables of a scene file.
 
 use contact_core::scene as core;
-use pyo3::inspect::PyStaticExpr;
-use pyo3::prelude::*;
-use pyo3::types::PyDict;
 
 use crate::document::{Document, to_dict};
-use crate::error::{must_be, to_python};
+use crate::error::{Answer, to_python};
+use crate::prelude::*;
 
 /// The settings, on their way in or out.
 #[derive(Clone, Default)]
@@ -52,12 +50,12 @@ pub(crate) fn check_settings(settings: Settings) {
 }
 
 /// The fields that are kept, by the words of a scene file.
-pub(crate) fn save_fields(save: &Bound<'_, PyAny>) -> PyResult<core::SaveFields> {
+pub(crate) fn save_fields(save: &Bound<'_, PyAny>) -> Answer<core::SaveFields> {
     let output = PyDict::new(save.py());
     output.set_item("save", save)?;
     let tables = PyDict::new(save.py());
     tables.set_item("output", output)?;
     let tables: Document = tables.extract()?;
-    let settings = core::Settings::from_table(&tables.0).map_err(to_python)?;
+    let settings = core::Settings::from_table(&tables.0)?;
     Ok(settings.save)
 }

@@ -1,16 +1,12 @@
 //! The scene as a whole.
 
-use std::path::PathBuf;
-
 use contact_core::scene as core;
 use contact_subsurface::Side;
-use pyo3::prelude::*;
 
 use super::settings::save_fields;
 use super::{AnyFriction, Body, Friction, Grid, LoadPath, Settings};
-use crate::arguments::{Field, List, number, side};
-use crate::error::{takes, to_python};
-use crate::parts::parts;
+use crate::error::Answer;
+use crate::prelude::*;
 use crate::reference::Hertz;
 
 /// A fretting contact problem.
@@ -92,24 +88,20 @@ impl Scene {
     ///     With the line, the key and what is allowed; an unknown key names the nearest valid one.
     #[staticmethod]
     #[pyo3(signature = (path, *, set = List(Vec::new()), allow_outside = false))]
-    fn from_file(path: PathBuf, set: List<String>, allow_outside: bool) -> PyResult<Self> {
+    fn from_file(path: PathBuf, set: List<String>, allow_outside: bool) -> Answer<Self> {
         let reach = if allow_outside {
             core::Reach::Anywhere
         } else {
             core::Reach::Folder
         };
-        core::Scene::from_file_reaching(path, &set, reach)
-            .map(Self)
-            .map_err(to_python)
+        Ok(Self(core::Scene::from_file_reaching(path, &set, reach)?))
     }
 
     /// Read a scene from the text of a scene file; see :meth:`from_file`.
     #[staticmethod]
     #[pyo3(signature = (text, *, set = List(Vec::new())))]
-    fn from_toml(text: &str, set: List<String>) -> PyResult<Self> {
-        core::Scene::from_toml_str(text, "scene", &set)
-            .map(Self)
-            .map_err(to_python)
+    fn from_toml(text: &str, set: List<String>) -> Answer<Self> {
+        Ok(Self(core::Scene::from_toml_str(text, "scene", &set)?))
     }
 
     /// Write the text of a scene file, all numbers in SI units.
@@ -176,63 +168,15 @@ impl Scene {
     /// SceneWarning
     ///     As :meth:`doubts` says.
     #[pyo3(signature = (path = None))]
-    fn check(&self, py: Python<'_>, path: Option<LoadPath>) -> PyResult<()> {
+    fn check(&self, py: Python<'_>, path: Option<LoadPath>) -> Answer<()> {
         let scene = self.along(path);
-        scene.check().map_err(to_python)?;
-        scene.check_fit().map_err(to_python)?;
+        scene.check()?;
+        scene.check_fit()?;
         let warn = py.import("pyfret._util.doubts")?.getattr("warn")?;
-        scene
-            .doubts()
-            .into_iter()
-            .try_for_each(|doubt| warn.call1((doubt,)).map(drop))
-    }
-
-    /// One line that names the scene.
-    #[getter]
-    fn title(&self) -> &str {
-        &self.0.title
-    }
-
-    /// The upper body.
-    #[getter]
-    fn body1(&self) -> Body {
-        Body(self.0.body1.clone())
-    }
-
-    /// The lower body.
-    #[getter]
-    fn body2(&self) -> Body {
-        Body(self.0.body2.clone())
-    }
-
-    /// Friction coefficient.
-    #[getter]
-    fn mu(&self) -> f64 {
-        self.0.friction.mu
-    }
-
-    /// Friction law.
-    #[getter]
-    fn friction(&self) -> Friction {
-        Friction(self.0.friction.clone())
-    }
-
-    /// Mesh of the contact plane.
-    #[getter]
-    fn grid(&self) -> Grid {
-        Grid(self.0.grid)
-    }
-
-    /// Load history.
-    #[getter]
-    fn path(&self) -> LoadPath {
-        LoadPath(self.0.path.clone())
-    }
-
-    /// How the scene is solved.
-    #[getter]
-    fn settings(&self) -> Settings {
-        Settings(self.0.settings.clone())
+        for doubt in scene.doubts() {
+            warn.call1((doubt,))?;
+        }
+        Ok(())
     }
 
     /// Depths of the interfaces of a body [m], from the surface down; none of a homogeneous one.
@@ -276,12 +220,6 @@ impl Scene {
         self.along(path).doubts()
     }
 
-    /// The yardstick a_H, p_H: the uncoated pair at the largest normal force of the path.
-    #[getter]
-    fn hertz(&self) -> Option<Hertz> {
-        self.0.hertz().map(Hertz)
-    }
-
     fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         let tables = slf.py().import("pyfret.scene.tables")?;
         tables.call_method1("scene_html", (slf,))
@@ -299,3 +237,24 @@ impl Scene {
         )
     }
 }
+
+attributes!(Scene, self:
+    /// One line that names the scene.
+    title: &str = &self.0.title;
+    /// The upper body.
+    body1: Body = Body(self.0.body1.clone());
+    /// The lower body.
+    body2: Body = Body(self.0.body2.clone());
+    /// Friction coefficient.
+    mu: f64 = self.0.friction.mu;
+    /// Friction law.
+    friction: Friction = Friction(self.0.friction.clone());
+    /// Mesh of the contact plane.
+    grid: Grid = Grid(self.0.grid);
+    /// Load history.
+    path: LoadPath = LoadPath(self.0.path.clone());
+    /// How the scene is solved.
+    settings: Settings = Settings(self.0.settings.clone());
+    /// The yardstick a_H, p_H: the uncoated pair at the largest normal force of the path.
+    hertz: Option<Hertz> = self.0.hertz().map(Hertz);
+);

@@ -3,6 +3,11 @@
 use super::elementary::elementary;
 
 elementary!(
+    /// The contact plane itself.
+    Flat {},
+    ()
+);
+elementary!(
     /// A cone with its tip at the origin.
     ///
     /// Parameters

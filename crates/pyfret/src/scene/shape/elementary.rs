@@ -14,9 +14,9 @@ macro_rules! elementary {
         impl $name {
             #[new]
             #[pyo3(signature = ($($signature)*))]
-            fn new($(#[pyo3(from_py_with = $crate::quantity::Given::$field)] $field: f64),*) -> pyo3::PyResult<Self> {
+            fn new($(#[pyo3(from_py_with = $crate::quantity::Given::$field)] $field: f64),*) -> $crate::error::Answer<Self> {
                 let shape = Self { $($field),* };
-                contact_core::scene::Shape::from(shape).check("shape").map_err($crate::error::to_python)?;
+                contact_core::scene::Shape::from(shape).check("shape")?;
                 Ok(shape)
             }
 

@@ -1,19 +1,15 @@
 //! A measured surface.
 
 use std::ffi::CString;
-use std::path::PathBuf;
 
 use contact_core::Error;
 use contact_core::scene as core;
-use numpy::ToPyArray;
 use pyo3::exceptions::{PyTypeError, PyUserWarning};
-use pyo3::prelude::*;
 
 use super::super::Pitch;
-use crate::arguments::Field;
-use crate::error::{InvalidSceneError, must_be, to_python};
+use crate::error::{Answer, InvalidSceneError};
 use crate::hints::Numbers;
-use crate::parts::parts;
+use crate::prelude::*;
 
 /// Numbers over the contact plane, the middle of the map over the origin.
 ///
@@ -40,7 +36,7 @@ parts!(SurfaceMap: values, spacing);
 impl SurfaceMap {
     #[new]
     #[pyo3(signature = (values: "ArrayLike", *, spacing, missing: "Literal['refuse', 'crop', 'fill']" = "refuse"))]
-    fn new(values: &Bound<'_, PyAny>, spacing: Pitch, missing: &str) -> PyResult<Self> {
+    fn new(values: &Bound<'_, PyAny>, spacing: Pitch, missing: &str) -> Answer<Self> {
         let wanted = "an array of numbers of shape (points along x, points along y)";
         let numbers = Field::with_holes(values).map_err(|error| {
             if error.is_instance_of::<PyTypeError>(values.py()) {
@@ -52,7 +48,7 @@ impl SurfaceMap {
         numbers.must_have_pitch("values", "points of the map, spacing,", spacing.0)?;
         let numbers = numbers.as_array().to_owned();
         let map = core::SurfaceMap::new(numbers, spacing.0, word(missing)?);
-        said(values.py(), map.map_err(to_python)?)
+        said(values.py(), map?)
     }
 
     /// Read numbers from a file: a ``.npy`` array, or text of instruments and spreadsheets.
@@ -94,7 +90,7 @@ impl SurfaceMap {
         unit: Option<String>,
         channel: Option<String>,
         missing: &str,
-    ) -> PyResult<Self> {
+    ) -> Answer<Self> {
         let told = core::FileOfNumbers {
             spacing: spacing.map(|spacing| spacing.0),
             unit,
@@ -102,25 +98,7 @@ impl SurfaceMap {
             missing: word(missing)?,
         };
         let map = py.detach(|| core::SurfaceMap::from_file(&path, &told));
-        said(py, map.map_err(to_python)?)
-    }
-
-    /// How many of the numbers were not measured: each is the mean of its neighbours.
-    #[getter]
-    fn filled(&self) -> usize {
-        self.0.filled
-    }
-
-    /// The numbers.
-    #[getter]
-    fn values<'py>(&self, py: Python<'py>) -> Numbers<'py> {
-        self.0.values.to_pyarray(py).into()
-    }
-
-    /// Distance of the points along x and y [m].
-    #[getter]
-    fn spacing(&self) -> (f64, f64) {
-        self.0.spacing
+        said(py, map?)
     }
 
     pub(super) fn __repr__(&self) -> String {
@@ -136,8 +114,20 @@ impl SurfaceMap {
     }
 }
 
+attributes!(SurfaceMap, self, py:
+    /// The numbers.
+    values: Numbers<'py> = self.0.values.to_pyarray(py).into();
+);
+
+attributes!(SurfaceMap, self:
+    /// How many of the numbers were not measured: each is the mean of its neighbours.
+    filled: usize = self.0.filled;
+    /// Distance of the points along x and y [m].
+    spacing: (f64, f64) = self.0.spacing;
+);
+
 /// The map, with a warning that says how many of its numbers are filled.
-fn said(py: Python<'_>, map: core::SurfaceMap) -> PyResult<SurfaceMap> {
+fn said(py: Python<'_>, map: core::SurfaceMap) -> Answer<SurfaceMap> {
     if map.filled > 0 {
         let (filled, all) = (map.filled, map.values.len());
         let share = 100.0 * filled as f64 / all as f64;
@@ -145,15 +135,15 @@ fn said(py: Python<'_>, map: core::SurfaceMap) -> PyResult<SurfaceMap> {
             "{filled} of {all} points ({share:.1} %) were not measured: each has the mean of its neighbours"
         );
         let kind = py.get_type::<PyUserWarning>();
-        PyErr::warn(py, &kind, &CString::new(text)?, 1)?;
+        PyErr::warn(py, &kind, &CString::new(text).map_err(PyErr::from)?, 1)?;
     }
     Ok(SurfaceMap(map))
 }
 
 /// What becomes of points without a number.
-fn word(missing: &str) -> PyResult<core::Missing> {
+fn word(missing: &str) -> Answer<core::Missing> {
     core::Missing::named(missing).ok_or_else(|| {
         let allowed = "\"refuse\", \"crop\" or \"fill\"";
-        to_python(Error::invalid("missing", missing, allowed))
+        Error::invalid("missing", missing, allowed).into()
     })
 }

@@ -2,15 +2,13 @@
 
 mod edged;
 mod elementary;
-mod flat;
 mod map;
 mod rough;
 mod round;
 mod sum;
 mod waviness;
 
-pub(crate) use edged::{Cone, FlatPunch, Wedge};
-pub(crate) use flat::Flat;
+pub(crate) use edged::{Cone, Flat, FlatPunch, Wedge};
 pub(crate) use map::SurfaceMap;
 pub(crate) use rough::Rough;
 pub(crate) use round::{CrownedRoller, Cylinder, Ellipsoid, Sphere};

@@ -1,12 +1,9 @@
 //! A random rough surface.
 
 use contact_core::scene as core;
-use pyo3::prelude::*;
 
-use crate::arguments::number;
-use crate::error::to_python;
-use crate::parts::parts;
-use crate::quantity::Given;
+use crate::error::Answer;
+use crate::prelude::*;
 
 /// A random self-affine surface; add it to a shape.
 ///
@@ -39,7 +36,7 @@ impl Rough {
         #[pyo3(from_py_with = Given::longest)] longest: f64,
         #[pyo3(from_py_with = Given::shortest)] shortest: f64,
         #[pyo3(from_py_with = number)] seed: u32,
-    ) -> PyResult<Self> {
+    ) -> Answer<Self> {
         let rough = core::Rough {
             rms,
             hurst,
@@ -48,38 +45,8 @@ impl Rough {
             seed,
         };
         let shape = core::Shape::Rough(rough);
-        shape.check("shape").map_err(to_python)?;
+        shape.check("shape")?;
         Ok(Self(rough))
-    }
-
-    /// Root-mean-square height [m].
-    #[getter]
-    fn rms(&self) -> f64 {
-        self.0.rms
-    }
-
-    /// Hurst exponent.
-    #[getter]
-    fn hurst(&self) -> f64 {
-        self.0.hurst
-    }
-
-    /// Longest wavelength of the self-affine range [m].
-    #[getter]
-    fn longest(&self) -> f64 {
-        self.0.longest
-    }
-
-    /// Shortest wavelength [m].
-    #[getter]
-    fn shortest(&self) -> f64 {
-        self.0.shortest
-    }
-
-    /// Seed of the phases.
-    #[getter]
-    fn seed(&self) -> u32 {
-        self.0.seed
     }
 
     pub(super) fn __repr__(&self) -> String {
@@ -95,3 +62,16 @@ impl Rough {
         )
     }
 }
+
+attributes!(Rough, self:
+    /// Root-mean-square height [m].
+    rms: f64 = self.0.rms;
+    /// Hurst exponent.
+    hurst: f64 = self.0.hurst;
+    /// Longest wavelength of the self-affine range [m].
+    longest: f64 = self.0.longest;
+    /// Shortest wavelength [m].
+    shortest: f64 = self.0.shortest;
+    /// Seed of the phases.
+    seed: u32 = self.0.seed;
+);

@@ -1,0 +1,132 @@
+//! Materials and their numbers.
+
+use std::collections::BTreeMap;
+
+use contact_core::scene::text_of;
+use fatigue as core;
+
+use crate::error::Answer;
+use crate::prelude::*;
+
+/// A material and its numbers.
+///
+/// Parameters
+/// ----------
+/// name : str
+///     Its key in tables.
+/// numbers : list of (str, float, str)
+///     Name, as in a file of materials, value in its SI unit, and where that is from.
+/// title : str
+///     What the material is (default: its name).
+/// also : list of str
+///     Other names that it is found by.
+///
+/// Examples
+/// --------
+/// >>> tests = "bending and torsion tests, report 2024-17"
+/// >>> steel = Material("our_steel", [("s_D", 412e6, tests), ("t_D", 268e6, tests)])
+#[pyclass(frozen, eq, from_py_object, module = "pyfret.fatigue")]
+#[derive(Clone, PartialEq)]
+pub(crate) struct Material(pub(crate) core::Material);
+
+#[pymethods]
+impl Material {
+    #[new]
+    #[pyo3(signature = (name, numbers: "Sequence[tuple[str, float, str]]", title = None, also: "Sequence[str]" = List::default()))]
+    fn new(
+        name: &str,
+        numbers: List<(String, f64, String)>,
+        title: Option<&str>,
+        also: List<String>,
+    ) -> Answer<Self> {
+        let made = core::Material::new(name, title.unwrap_or(name), numbers);
+        let mut made = made?;
+        made.also = also.0;
+        Ok(Self(made))
+    }
+
+    #[expect(clippy::type_complexity, reason = "the arguments of the constructor")]
+    fn __getnewargs__(&self) -> (&str, Vec<(&'static str, f64, String)>, &str, Vec<String>) {
+        (self.name(), self.numbers(), self.title(), self.also())
+    }
+
+    /// Critical distance L = (dK_th/(2 s_D))^2/pi [m].
+    ///
+    /// ``dK_th`` is the threshold range of the stress intensity, and 2 ``s_D`` the range of the
+    /// fatigue limit. Both are fully reversed. Source: D. Taylor, The Theory of Critical Distances,
+    /// Elsevier (2007). A ValueError names the number that is missing.
+    fn critical_distance(&self) -> Answer<f64> {
+        Ok(self.0.critical_distance()?)
+    }
+
+    /// The material with the missing numbers that published rules can estimate.
+    fn estimated(&self, family: &str) -> Answer<Self> {
+        let family = core::Family::named(family)?;
+        Ok(Self(core::estimated(&self.0, family)))
+    }
+
+    /// Whether the material has this name, whatever its case and the marks between letters.
+    fn is_called(&self, name: &str) -> bool {
+        let alone = BTreeMap::from([(self.0.name.clone(), self.0.clone())]);
+        core::find(&alone, name).is_some()
+    }
+
+    /// Name, value and source of every number.
+    fn numbers(&self) -> Vec<(&'static str, f64, String)> {
+        let numbers = self.0.numbers.iter();
+        numbers
+            .map(|(name, of)| (*name, of.value, of.source.clone()))
+            .collect()
+    }
+
+    /// A number of the material by its key.
+    fn number(&self, name: &str) -> Answer<f64> {
+        Ok(self.0.number(name)?)
+    }
+
+    /// Numbers that look like those of another unit, in words.
+    fn doubts(&self) -> Vec<String> {
+        self.0.doubts()
+    }
+
+    fn __repr__(&self) -> String {
+        format!("Material({:?}, {:?})", self.0.name, self.0.title)
+    }
+}
+
+attributes!(Material, self:
+    /// Other names that it is found by.
+    also: Vec<String> = self.0.also.clone();
+    /// Key of the material in its table.
+    name: &str = &self.0.name;
+    /// What the material is.
+    title: &str = &self.0.title;
+);
+
+/// The materials that come with the package, or those of a file.
+#[pyfunction]
+#[pyo3(signature = (file = None))]
+pub(crate) fn materials(file: Option<PathBuf>) -> Answer<Vec<Material>> {
+    let found = match file {
+        None => core::materials(),
+        Some(file) => {
+            let (text, name) = text_of(&file)?;
+            core::read(&text, &name)?
+        }
+    };
+    Ok(found.into_values().map(Material).collect())
+}
+
+/// How a number of a material is known, by its source: "known", "estimate" or "recalled".
+#[pyfunction]
+#[pyo3(signature = (source) -> "Literal['known', 'estimate', 'recalled']")]
+pub(crate) fn known_as(source: &str) -> &'static str {
+    core::Known::of(source).name()
+}
+
+/// Names, units and meanings of the numbers of materials.
+#[pyfunction]
+pub(crate) fn material_quantities() -> Vec<(&'static str, &'static str, &'static str)> {
+    let label = |q: &core::Quantity| (q.name, q.unit, q.long_name);
+    core::QUANTITIES.iter().map(label).collect()
+}

@@ -1,0 +1,11 @@
+//! Fatigue criteria, yield and shakedown on plain stress histories.
+
+mod assessment;
+mod criterion;
+mod material;
+mod on_stress;
+
+pub(crate) use assessment::Assessment;
+pub(crate) use criterion::{Criterion, add_criteria, criteria};
+pub(crate) use material::{Material, known_as, material_quantities, materials};
+pub(crate) use on_stress::{AT_POINT, FACTORS, criterion_on, dang_van_path, yielding_on};
