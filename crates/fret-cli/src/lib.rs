@@ -17,6 +17,7 @@ mod out;
 mod printed;
 mod progress;
 mod python;
+mod quantity;
 mod resume;
 mod run;
 mod scene_options;

@@ -20,6 +20,7 @@ use crate::failure::Failure;
 use crate::largest::{Largest, Units};
 use crate::loads::Loads;
 use crate::printed::print;
+use crate::quantity::{length, stress as stress_of};
 use crate::terminal::say;
 use crate::units::um;
 
@@ -38,12 +39,13 @@ pub(crate) struct Options {
     #[arg(long, default_value = "2", value_parser = clap::value_parser!(u8).range(1..=2))]
     body: u8,
     /// Section along x at this y, in metres
-    #[arg(long, value_name = "Y", allow_hyphen_values = true, conflicts_with_all = ["along_y", "volume"])]
+    #[arg(long, value_name = "Y", value_parser = length, allow_hyphen_values = true, conflicts_with_all = ["along_y", "volume"])]
     along_x: Option<f64>,
     /// Section along y at this x, in metres
     #[arg(
         long,
         value_name = "X",
+        value_parser = length,
         allow_hyphen_values = true,
         conflicts_with = "volume"
     )]
@@ -56,13 +58,14 @@ pub(crate) struct Options {
     #[arg(long)]
     json: bool,
     /// Units of the lines: MPa and um, or over Hertz's pressure and radius
-    #[arg(long, value_enum, default_value = "si")]
+    #[arg(long, value_enum, default_value = "si", ignore_case = true)]
     units: Units,
     /// Residual stress of each layer from the surface down, the substrate's last [Pa], tension
     /// positive; write --residual=-1e9,0 if the first is negative
     #[arg(
         long,
         value_name = "STRESSES",
+        value_parser = stress_of,
         value_delimiter = ',',
         allow_hyphen_values = true
     )]
@@ -72,7 +75,7 @@ pub(crate) struct Options {
     no_bulk: bool,
     /// Largest depth in metres; by default 2 a_H, or where there is no Hertz contact the width of
     /// the contact
-    #[arg(long, value_name = "Z")]
+    #[arg(long, value_name = "Z", value_parser = length)]
     depth: Option<f64>,
     /// Number of depths to write, evenly from the surface, such as 64, or the depths themselves
     /// [m], such as 0,5e-6,10e-6; by default those that the layers ask for, both sides of every
@@ -107,7 +110,7 @@ impl Depths {
                 Err(allowed.into())
             };
         }
-        let places = text.split(',').map(|z| z.trim().parse::<f64>().ok());
+        let places = text.split(',').map(|z| length(z).ok());
         let places: Option<Vec<f64>> = places.collect();
         match places {
             Some(z) if z.iter().all(|z| *z >= 0.0 && z.is_finite()) => {

@@ -93,6 +93,10 @@ pub const QUANTITIES: &[Quantity] = &[
             "shortest",
             "depth",
             "extent",
+            "L",
+            "z",
+            "start",
+            "end",
             "spacing",
             "delta_x",
             "delta_y",
@@ -100,6 +104,7 @@ pub const QUANTITIES: &[Quantity] = &[
             "rolled",
         ],
     ),
+    any("depth over a_H", Kind::Number, &["stress_maps.depth"]),
     of(
         "thickness",
         Kind::Length,

@@ -6,6 +6,8 @@ use clap::Args;
 use contact_assess::Averaging;
 use fatigue::CRITERIA;
 
+use crate::quantity::{length, stress};
+
 /// Options of `fret life`.
 #[derive(Args)]
 pub(crate) struct Options {
@@ -32,15 +34,16 @@ pub(crate) struct Options {
     #[arg(
         long,
         value_name = "Y",
+        value_parser = length,
         allow_hyphen_values = true,
         conflicts_with = "along_y"
     )]
     pub(super) along_x: Option<f64>,
     /// Section along y at this x, in metres
-    #[arg(long, value_name = "X", allow_hyphen_values = true)]
+    #[arg(long, value_name = "X", value_parser = length, allow_hyphen_values = true)]
     pub(super) along_y: Option<f64>,
     /// Depths in metres (default: as the layers ask)
-    #[arg(long, value_name = "Z", value_delimiter = ',')]
+    #[arg(long, value_name = "Z", value_delimiter = ',', value_parser = length)]
     pub(super) depths: Vec<f64>,
     /// Which closed cycle of the load path, from 0; negative from the end
     #[arg(long, default_value = "-1", allow_hyphen_values = true)]
@@ -50,14 +53,15 @@ pub(crate) struct Options {
     #[arg(
         long,
         value_name = "STRESSES",
+        value_parser = stress,
         value_delimiter = ',',
         allow_hyphen_values = true
     )]
     pub(super) residual: Vec<f64>,
-    /// Judge the mean stress over this critical distance, in metres, from the top of a layer
+    /// Judge the mean stress over this critical distance, in metres or with its unit, from the top of a layer
     /// (default: the range from the mean over the critical distance of the material, where it has
     /// one, beside the value at the worst point)
-    #[arg(long, value_name = "L")]
+    #[arg(long, value_name = "L", value_parser = length)]
     pub(super) distance: Option<f64>,
     /// What is averaged over: the stress at the depth L/2, its mean down to 2 L, over the half disc
     /// or the half ball of radius L
