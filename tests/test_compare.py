@@ -158,6 +158,10 @@ def test_it_is_drawn_and_written(
     assert "load factor of first yield" in page
     assert "http://" not in page.replace("http://www.w3.org", "")
     found.save(tmp_path / "numbers.nc")
+    found.to_csv(tmp_path / "numbers.csv")
+    head, *rows = (tmp_path / "numbers.csv").read_text().splitlines()
+    assert head.startswith("candidate,")
+    assert len(rows) == found.dataset.sizes["candidate"]
     assert (tmp_path / "numbers.nc").exists()
 
 

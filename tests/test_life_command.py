@@ -51,6 +51,22 @@ def test_several_criteria_are_those_one_by_one(store: Path, tmp_path: Path) -> N
     assert together.stdout == "".join(each)
 
 
+def test_lengths_and_stresses_may_have_their_unit(store: Path) -> None:
+    common = (store, "--material", "steel_42CrMo4", "--criterion", "findley", "--json")
+    plain = life(*common, "--distance", "2e-5", "--along-x=1e-6", "--residual=-1e8,5e7")
+    units = life(*common, "--distance", "20 um", "--along-x=1 um", "--residual=-100 MPa,50 MPa")
+    assert plain.returncode == 0, plain.stderr
+    found, expected = (
+        {key: of for key, of in json.loads(one.stdout).items() if isinstance(of, float)}
+        for one in (units, plain)
+    )
+    assert len(expected) > 5
+    assert found == pytest.approx(expected, rel=1e-9)
+    refused = life(*common, "--distance", "20 N")
+    assert refused.returncode == 2
+    assert "must be a number in m" in refused.stderr
+
+
 def test_several_criteria_stand_below_each_other_in_a_table(store: Path, tmp_path: Path) -> None:
     steel = ("--material", "steel_42CrMo4", "--criterion")
     tables = {}

@@ -15,6 +15,7 @@ import pytest
 
 import pyfret as fret
 from pyfret import _core, fatigue, fracture, heat, subsurface, wear
+from pyfret._util import door
 from pyfret.errors import SceneWarning
 from pyfret.fit.ranges import ranges
 from pyfret.study.design import Design
@@ -118,7 +119,8 @@ def test_what_takes_a_quantity_is_behind_the_door(
         if not inspect.isfunction(inspect.unwrap(getattr(of, "__func__", of))):
             continue
         parameters = inspect.signature(call).parameters.values()
-        numbers = [p.name for p in parameters if "float" in str(p.annotation)]
+        kinds = ("number", "number or several", "number or else")
+        numbers = [p.name for p in parameters if door.kind(str(p.annotation)) in kinds]
         keys = [key for key in numbers if is_ranged(f"{name}.{key}")]
         found += keys
         missing += [f"{name}({key})" for key in keys if not hasattr(of, "__wrapped__")]

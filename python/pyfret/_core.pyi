@@ -1357,7 +1357,7 @@ class Grid:
         *,
         error: float = 0.005,
         room: float = 1.2,
-        start: float | None = None,
+        start: Quantity | None = None,
         plane_strain: bool = False,
         wear: Mapping[str, Any] | None = None,
         mu: float | Friction | None = None,

@@ -24,6 +24,7 @@ from pyfret._core import (
 )
 from pyfret._util.door import numbers_only
 from pyfret._util.doubts import warn
+from pyfret._util.types import as_number
 from pyfret.solution import solve
 from pyfret.wear.runs import solve as wear_off
 
@@ -34,6 +35,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from pyfret._core import Body, Friction
+    from pyfret._util.types import Quantity
     from pyfret.result import Result
 
 __all__ = ["for_contact", "offer"]
@@ -79,7 +81,7 @@ def for_contact(
     *,
     error: float = 0.005,
     room: float = 1.2,
-    start: float | None = None,
+    start: Quantity | None = None,
     plane_strain: bool = False,
     wear: Mapping[str, Any] | None = None,
     mu: float | Friction | None = None,
@@ -163,7 +165,7 @@ def for_contact(
         raise ValueError(f"n = {n}: must be 2 to {MOST} cells along the shorter side")
     pressed = _pressed(path)
     smooth1, smooth2 = (body.replace(shape=_smooth(body.shape)) for body in (body1, body2))
-    lengths = _lengths(smooth1, smooth2, pressed, start, plane_strain=plane_strain)
+    lengths = _lengths(smooth1, smooth2, pressed, as_number(start), plane_strain=plane_strain)
     rough = smooth1 != body1 or smooth2 != body2
     first = min(lengths)
     if wear is not None:

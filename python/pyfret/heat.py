@@ -14,7 +14,6 @@ itself until every one is like the last. ::
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -22,7 +21,7 @@ import numpy as np
 from pyfret import _core
 from pyfret._core import Grid, Material
 from pyfret._util.arrays import items
-from pyfret._util.door import numbers_only
+from pyfret._util.door import numbers_only, valued
 from pyfret._util.doubts import doubts_of
 from pyfret._util.lazy import xr
 from pyfret._util.names import listing
@@ -31,6 +30,7 @@ from pyfret.fatigue.cycles import cycle_increments
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from pyfret._util.types import AsNumber, Quantity
     from pyfret.run import Run
 
 __all__ = ["Conductor", "Conductors", "temperature"]
@@ -40,8 +40,7 @@ __dir__ = listing(__all__)
 HARMONICS = 32
 
 
-@numbers_only
-@dataclass(frozen=True, kw_only=True)
+@valued(kw_only=True)
 class Conductor:
     """A material that conducts heat.
 
@@ -52,9 +51,9 @@ class Conductor:
     """
 
     #: Thermal conductivity [W/(m K)].
-    conductivity: float
+    conductivity: AsNumber
     #: Heat capacity of the volume, density times specific heat [J/(m^3 K)].
-    heat_capacity: float
+    heat_capacity: AsNumber
 
     @property
     def doubts(self) -> list[str]:
@@ -150,7 +149,7 @@ def temperature(
     conductor1: Conductors,
     conductor2: Conductors,
     *,
-    frequency: float,
+    frequency: Quantity,
     bulk: float | tuple[float, float] = 0.0,
     wave: Literal["sine", "linear"] = "sine",
     harmonics: int | None = None,

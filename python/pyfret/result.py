@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     import xarray as xr
     from numpy.typing import ArrayLike
 
+    from pyfret._util.types import Quantity
     from pyfret.export.frame import Frame
 
 __all__ = ["Result", "open"]
@@ -109,7 +110,7 @@ class Result(Run):
         *,
         x: float | None = None,
         y: float | None = None,
-        azimuth: float | None = None,
+        azimuth: Quantity | None = None,
         of: Sequence[str] = ("von_mises",),
         body_number: int = 2,
         bulk: bool = True,

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from pyfret._util.door import numbers_only
 from pyfret._util.guesses import no_attribute
+from pyfret._util.types import as_number
 from pyfret.export.write import write as export
 from pyfret.run import Run, State
 from pyfret.run.tables import state_html
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from numpy.typing import ArrayLike
 
+    from pyfret._util.types import Quantity
     from pyfret.export.frame import Frame
     from pyfret.subsurface.tensor import Stress
 
@@ -112,7 +114,7 @@ class Snapshot(State):
 
     @numbers_only
     def along(
-        self, *, x: float | None = None, y: float | None = None, azimuth: float | None = None
+        self, *, x: float | None = None, y: float | None = None, azimuth: Quantity | None = None
     ) -> xr.Dataset:
         """Fields on a line of the surface, linear between the centres of the cells.
 
@@ -138,7 +140,7 @@ class Snapshot(State):
         """
         if x is not None and y is not None and azimuth is None:
             raise ValueError("give x or y, or an azimuth as well: a point is no line")
-        return fields_on(self, contact.line_below(self, None, x, y, azimuth)[0])
+        return fields_on(self, contact.line_below(self, None, x, y, as_number(azimuth))[0])
 
     @numbers_only
     def stress(
@@ -147,7 +149,7 @@ class Snapshot(State):
         *,
         x: float | None = None,
         y: float | None = None,
-        azimuth: float | None = None,
+        azimuth: Quantity | None = None,
         body_number: int = 2,
         bulk: bool = True,
         residual: Sequence[ArrayLike] | None = None,
@@ -193,7 +195,7 @@ class Snapshot(State):
             z,
             x=x,
             y=y,
-            azimuth=azimuth,
+            azimuth=as_number(azimuth),
             body_number=body_number,
             bulk=bulk,
             residual=residual,
@@ -206,12 +208,12 @@ class Snapshot(State):
         *,
         x: float | None = None,
         y: float | None = None,
-        azimuth: float | None = None,
+        azimuth: Quantity | None = None,
         body_number: int = 2,
     ) -> xr.Dataset:
         """Displacements u_x, u_y, u_z of a body below the contact [m], as in :meth:`stress`."""
         return contact.displacement_below(
-            self, z, x=x, y=y, azimuth=azimuth, body_number=body_number
+            self, z, x=x, y=y, azimuth=as_number(azimuth), body_number=body_number
         )
 
     @numbers_only

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from pyfret._core import LoadPath
-    from pyfret._util.types import FrictionFunction
+    from pyfret._util.types import FrictionFunction, Quantity
 
 __all__ = ["Increment", "march", "resume", "solve"]
 
@@ -30,7 +30,7 @@ def solve(
     scene: Scene | str | os.PathLike[str],
     path: LoadPath | None = None,
     *,
-    rig_stiffness: float | None = None,
+    rig_stiffness: Quantity | None = None,
     save: Literal["branches", "all"] | Sequence[int] | None = None,
     out: str | os.PathLike[str] | None = None,
     checkpoint: float = 5.0,

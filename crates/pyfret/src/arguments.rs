@@ -147,6 +147,10 @@ impl<'py, D: Dimension + 'py> Array<'py, D> {
         {
             must_fit(size, 8.0)?;
         }
+        let text = crate::document::text_of(value)?;
+        if text.is_some_and(|text| in_si(&text).is_some()) {
+            refuse_texts(value)?;
+        }
         let py = value.py();
         let door = py.import("pyfret._util.arrays")?.getattr("plain")?;
         let options = PyDict::new(py);

@@ -13,6 +13,7 @@ import math
 import re
 import sys
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
@@ -26,13 +27,25 @@ from pyfret._util.takers import keywords
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["numbers_only"]
+    from typing_extensions import dataclass_transform
+else:
+
+    def dataclass_transform(**_: Any) -> Any:
+        """Nothing while the program runs: it is said to tools that read types."""
+        return lambda of: of
+
+
+__all__ = ["dataclass_transform", "numbers_only", "valued"]
 
 T = TypeVar("T")
 #: Annotations of a number, of what may be one, and of an array.
-NUMBER, COUNT = re.compile(r"(float|int)( \| None)?"), re.compile(r"int( \| None)?")
-PERHAPS = re.compile(r"\b(float|int|YieldStresses)\b")
-SEVERAL, TEXT = re.compile(r"Sequence\[float"), re.compile(r"\b(str|Literal)\b")
+NUMBER = re.compile(r"(float|int|Quantity|AsNumber)( \| None)?|AsNumberOrNone")
+COUNT = re.compile(r"int( \| None)?")
+PERHAPS = re.compile(r"\b(float|int|Quantity|Quantities|YieldStresses)\b")
+SEVERAL, TEXT = (
+    re.compile(r"Sequence\[(float|Quantity)|Quantities"),
+    re.compile(r"\b(str|Literal)\b"),
+)
 ARRAY = re.compile(r"(ArrayLike|NDArray\[np\.float64\])( \| None)?")
 #: Annotations that have other meanings for True, or hold the numbers deeper.
 ELSE = re.compile(r"\b(bool|Callable|Mapping|dict|Any)\b")
@@ -69,6 +82,8 @@ MADE = {
 }
 #: Kinds of parameters that take no text but one with a unit.
 UNITS = ("number", "array", "number or several", "number or else")
+#: Those of them that may hold several.
+SEVERAL_OF = UNITS[1:]
 #: Parameters that are given by name, and that of further names.
 NAMED = (inspect.Parameter.POSITIONAL_OR_KEYWORD, inspect.Parameter.KEYWORD_ONLY)
 FURTHER = inspect.Parameter.VAR_KEYWORD
@@ -88,6 +103,18 @@ def numbers_only(of: T, *, but: tuple[str, ...] = ()) -> T:
         return of
     call: Any = of
     return guarded(call, call.__qualname__, but)  # type: ignore[no-any-return]
+
+
+@dataclass_transform(frozen_default=True, field_specifiers=(field,))
+def valued(
+    *, kw_only: bool = False, eq: bool = True, repr: bool = True
+) -> Callable[[type[T]], type[T]]:
+    """Make a frozen dataclass behind the door; fields of the type AsNumber take quantities."""
+
+    def made(cls: type[T]) -> type[T]:
+        return numbers_only(dataclass(frozen=True, kw_only=kw_only, eq=eq, repr=repr)(cls))
+
+    return made
 
 
 def guarded(call: Callable[..., Any], owner: str, but: tuple[str, ...]) -> Any:
@@ -153,6 +180,10 @@ def in_si(value: Any, key: str, name: str, of: str | None) -> Any:
     TypeError
         What the parameter measures is not known; the message has the number to write.
     """
+    if of in SEVERAL_OF and type(value) in (list, tuple):
+        if any(isinstance(one, str) or hasattr(one, "magnitude") for one in value):
+            return type(value)(in_si(one, key, name, "number") for one in value)
+        return value
     text = isinstance(value, str) and of in UNITS and any(map(str.isdigit, value))
     if not text and not (of and hasattr(value, "magnitude") and hasattr(value, "units")):
         return value

@@ -17,6 +17,8 @@ __all__ = ["keywords", "takers"]
 UNPACKED = re.compile(r"Unpack\[([\w.]+)\]")
 #: What pages call an object of a class, where it is not the name of the class.
 CALLED = {"LoadPath": "path", "WearResult": "worn"}
+#: Names of classes in an annotation.
+CLASS = re.compile(r"\b[A-Z]\w+")
 #: Most functions that are named.
 MOST = 3
 
@@ -48,14 +50,14 @@ def takers(what: str, call: Callable[..., Any], keyword: str, *, anywhere: bool)
     keyword : str
         The keyword that it does not take.
     """
-    types = {k: str(v).split(" | ")[0] for k, v in getattr(call, "__annotations__", {}).items()}
+    types = {k: CLASS.findall(str(v)) for k, v in getattr(call, "__annotations__", {}).items()}
     owner, _, own = what.rpartition(".")
-    arguments = [of for name, of in types.items() if name != "return"]
-    for name in (types.get("return", ""), owner or what, *arguments):
+    given, arguments = types.pop("return", []), [of for each in types.values() for of in each]
+    for name in (*given[:1], owner or what, *dict.fromkeys(arguments)):
         found = [
             told
-            for of in classes_named(name.rpartition(".")[2])
-            for told, method in methods(of)
+            for of in classes_named(name)
+            for told, method in members(of)
             if told.rpartition(".")[2] != own and keyword in names(method)
         ]
         if found:
@@ -86,6 +88,12 @@ def classes_named(name: str) -> list[type]:
     return [
         of for of in classes() if name in {one.__name__ for one in of.__mro__ if one is not object}
     ]
+
+
+def members(of: type) -> Iterator[tuple[str, Callable[..., Any]]]:
+    """The public methods of a class, and its constructor by the name that it is reached by."""
+    yield from methods(of)
+    yield from ((name, one) for name, one in exported() if one is of)
 
 
 def methods(of: type) -> Iterator[tuple[str, Callable[..., Any]]]:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["FrictionFunction", "Quantities", "Quantity", "Variable"]
+__all__ = ["FrictionFunction", "Quantities", "Quantity", "Variable", "as_number", "by_default"]
 
 
 class HasUnit(Protocol):
@@ -16,7 +16,7 @@ class HasUnit(Protocol):
 
     @property
     def magnitude(self) -> Any:
-        """Number."""
+        """AsNumber."""
 
     @property
     def units(self) -> Any:
@@ -30,11 +30,17 @@ Quantities: TypeAlias = Quantity | Sequence[Quantity] | NDArray[np.float64]
 
 if TYPE_CHECKING:
 
-    class Number:
-        """A field of a dataclass that is given as a quantity, and is a number."""
+    class AsNumber:
+        """A field of a class of values that is given as a quantity, and is a number."""
 
         def __get__(self, of: object, owner: type | None = None) -> float: ...
         def __set__(self, of: object, value: Quantity) -> None: ...
+
+    class AsNumberOrNone:
+        """The same of a field that may be left out."""
+
+        def __get__(self, of: object, owner: type | None = None) -> float | None: ...
+        def __set__(self, of: object, value: Quantity | None) -> None: ...
 
 
 _Cells: TypeAlias = NDArray[np.float64]
@@ -42,3 +48,17 @@ _Cells: TypeAlias = NDArray[np.float64]
 FrictionFunction: TypeAlias = Callable[[_Cells, _Cells, _Cells, _Cells, _Cells], ArrayLike]
 #: A variable of a result: its dimensions, values and attributes.
 Variable: TypeAlias = tuple[tuple[str, ...], NDArray[Any], dict[str, Any]]
+
+
+@overload
+def as_number(read: Quantity) -> float: ...
+@overload
+def as_number(read: Quantity | None) -> float | None: ...
+def as_number(read: Any) -> Any:
+    """A quantity within a function whose door has made it a number in SI: the same."""
+    return read
+
+
+def by_default(number: float | None) -> Any:
+    """The default of a field of the type AsNumber."""
+    return number

@@ -10,6 +10,7 @@ from pyfret._core import Material
 from pyfret._util.arrays import number
 from pyfret._util.door import numbers_only
 from pyfret._util.lazy import xr
+from pyfret._util.types import as_number
 from pyfret.fatigue.cycle_section import body_of, over_cycle, placed
 from pyfret.fatigue.fields import described
 from pyfret.fatigue.section import Section, for_each_layer
@@ -18,6 +19,7 @@ from pyfret.subsurface.fields import coordinates
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
+    from pyfret._util.types import Quantity
     from pyfret.fatigue.criteria import CriterionName
     from pyfret.fatigue.section import Materials, SectionOptions
     from pyfret.run import Run
@@ -46,7 +48,7 @@ def average(
     material: Materials,
     criterion: CriterionName,
     *,
-    L: float | None = None,
+    L: Quantity | None = None,
     method: Averaging = "line",
     layer: int | None = None,
     tolerance: float = 1e-3,
@@ -102,7 +104,7 @@ def average(
     of_layer = each[there]
     if of_layer is None:
         raise ValueError(f"layer = {there}: has no material")
-    L = critical_distance(of_layer) if L is None else number(L, "L")
+    L = critical_distance(of_layer) if L is None else number(as_number(L), "L")
     if not (L > 0.0 and np.isfinite(L)):
         raise ValueError(f"L = {L}: must be a positive length in m")
     if method not in get_args(Averaging):

@@ -24,6 +24,8 @@ if TYPE_CHECKING:
     import pandas as pd
     from numpy.typing import ArrayLike, NDArray
 
+    from pyfret._util.types import Quantity
+
 
 __all__ = [
     "COMPONENTS",
@@ -209,7 +211,7 @@ def assess(
 
 @functools.partial(numbers_only, but=("stress",))
 def first_yield(
-    stress: ArrayLike, *, s_y: float, constant: Sequence[float] = (0, 0, 0, 0, 0, 0)
+    stress: ArrayLike, *, s_y: Quantity, constant: Sequence[float] = (0, 0, 0, 0, 0, 0)
 ) -> xr.Dataset:
     """Give load factors of first yield and of elastic shakedown.
 
@@ -249,7 +251,7 @@ def first_yield(
 
 
 @functools.partial(numbers_only, but=("stress",))
-def moving_load(stress: ArrayLike, *, s_y: float) -> NDArray[np.float64]:
+def moving_load(stress: ArrayLike, *, s_y: Quantity) -> NDArray[np.float64]:
     """Give the load factor of elastic shakedown under a load that moves along the surface.
 
     A load that passes again and again leaves a residual stress that depends on depth alone. Its

@@ -10,6 +10,7 @@ from pyfret import _core
 from pyfret._util.arrays import plain
 from pyfret._util.door import numbers_only
 from pyfret._util.lazy import xr
+from pyfret._util.types import as_number
 from pyfret.fatigue.criteria import COMPONENTS
 from pyfret.fatigue.plastic_strain import GROWS, grows, strains_of
 from pyfret.subsurface.contact import stress_below
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
+    from pyfret._util.types import Quantity
     from pyfret.run import Run
 
 __all__ = ["cycle_increments", "history", "moment_before"]
@@ -79,7 +81,7 @@ def history(
     *,
     x: float | None = None,
     y: float | None = None,
-    azimuth: float | None = None,
+    azimuth: Quantity | None = None,
     body_number: int = 2,
     cycle: int | None = -1,
     residual: Sequence[ArrayLike] | None = None,
@@ -112,9 +114,10 @@ def history(
     if of not in get_args(Of):
         raise ValueError(f"of = {of!r}: must be 'stress' or 'plastic_strain'")
     kept = cycle_increments(result, cycle)
+    line = Line(x, y, as_number(azimuth))
     if of == "plastic_strain":
-        return strains_of(result, kept, z, Line(x, y, azimuth), body_number)
-    stress = _stress(result, kept, z, Line(x, y, azimuth), body_number, residual)
+        return strains_of(result, kept, z, line, body_number)
+    stress = _stress(result, kept, z, line, body_number, residual)
     return stress.assign_attrs({GROWS: True}) if grows(result, kept, body_number) else stress
 
 

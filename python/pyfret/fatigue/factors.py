@@ -21,6 +21,7 @@ from pyfret._core import Material, with_error
 from pyfret._util.door import numbers_only
 from pyfret._util.labelled import Labelled
 from pyfret._util.numbers import place
+from pyfret._util.types import Quantity
 from pyfret.fatigue.cycle_section import (
     body_of,
     depths_of,
@@ -47,7 +48,7 @@ __all__ = ["Factor", "Least", "LoadFactors", "YieldStresses", "load_factors"]
 Factor = Literal["von_mises", "tresca", "shakedown"]
 #: A yield stress [Pa] for all layers, a material that has one for the substrate, or one for each
 #: layer from the surface down, the substrate's last; layers of ``None`` are not judged.
-YieldStresses = float | Material | Sequence[float | Material | None]
+YieldStresses = Quantity | Material | Sequence[Quantity | Material | None]
 #: Load over limit below this part is rounding: the stress does not change, the factor is infinite.
 NO_USE = 1e-12
 

@@ -14,6 +14,7 @@ from pyfret._util.kept import Kept
 from pyfret._util.labelled import Labelled
 from pyfret._util.numbers import layer_name, length, place
 from pyfret._util.text import html
+from pyfret._util.types import as_number
 from pyfret.fatigue import stored
 from pyfret.fatigue.cycles import Of
 from pyfret.fatigue.distance import OverDistance, critical, usual
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from pyfret._core import Criterion, CriterionBelow, Material
+    from pyfret._util.types import Quantity
     from pyfret.fatigue.averages import Averaging
 
 __all__ = ["Life"]
@@ -236,7 +238,7 @@ class Life(Kept, Labelled):
         layer: int,
         *,
         scatter: float | None = None,
-        L: float | None = None,
+        L: Quantity | None = None,
         method: Averaging = "line",
     ) -> LifeRange:
         """Give low, best and high of a life or of a safety factor, the range of 10 to 90 %.
@@ -274,7 +276,7 @@ class Life(Kept, Labelled):
             (worst.value, worst.error),
             method=method,
             scatter=scatter,
-            L=L,
+            L=as_number(L),
         )
         found = LifeRange(
             *low_to_high,

@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, TypedDict
 
 import numpy as np
 
 from pyfret._core import Material
 from pyfret._util.arrays import items, plain
-from pyfret._util.door import numbers_only
+from pyfret._util.door import valued
+from pyfret._util.types import by_default
 from pyfret.subsurface.line import Line
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
+
+    from pyfret._util.types import AsNumberOrNone, Quantity
 
 __all__ = ["Materials", "Section", "SectionOptions", "for_each_layer"]
 
@@ -29,14 +32,13 @@ class SectionOptions(TypedDict, total=False):
 
     x: float | Sequence[float] | None
     y: float | Sequence[float] | None
-    azimuth: float | None
+    azimuth: Quantity | None
     body_number: int
     cycle: int | None
     residual: Sequence[ArrayLike] | None
 
 
-@numbers_only
-@dataclass(frozen=True, kw_only=True)
+@valued(kw_only=True)
 class Section:
     """A section of a body, or several side by side, over a closed cycle of the load path.
 
@@ -49,7 +51,7 @@ class Section:
     #: shear of the cycle, through the centre of its largest contact).
     y: float | Sequence[float] | None = None
     #: The section at this angle to the x axis [rad], through `x` and `y`.
-    azimuth: float | None = None
+    azimuth: AsNumberOrNone = by_default(None)
     #: The upper body (1) or the lower one (2).
     body_number: int = 2
     #: Which of the closed cycles, the last by default; None for all increments that were kept.

@@ -10,8 +10,9 @@ import numpy as np
 
 from pyfret import _core
 from pyfret._util.arrays import together
-from pyfret._util.door import numbers_only
+from pyfret._util.door import numbers_only, valued
 from pyfret._util.holds_arrays import HoldsArrays
+from pyfret._util.types import by_default
 from pyfret.fit import tables
 
 if TYPE_CHECKING:
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from numpy.typing import ArrayLike, NDArray
+
+    from pyfret._util.types import AsNumberOrNone, Quantity
 
 __all__ = [
     "Data",
@@ -46,8 +49,7 @@ OF_WAY = 0.25
 END, SLIDING = 0.25, 0.3
 
 
-@numbers_only
-@dataclass(frozen=True, eq=False, repr=False)
+@valued(eq=False, repr=False)
 class Loops(HoldsArrays):
     """Friction loops: force over shift, branch by branch.
 
@@ -58,7 +60,7 @@ class Loops(HoldsArrays):
     down : array of bool
         Whether the shift falls there.
     cycle : array of int
-        Number of the cycle of a point, from 0.
+        AsNumber of the cycle of a point, from 0.
     W : float, optional
         Normal force [N]; None: that of the scene.
     noise : float, optional
@@ -76,7 +78,7 @@ class Loops(HoldsArrays):
     T: NDArray[np.float64]
     down: NDArray[np.bool_]
     cycle: NDArray[np.int64]
-    W: float | None = None
+    W: AsNumberOrNone = by_default(None)
     noise: float | None = None
     drift: tuple[float, float] = (0.0, 0.0)
     tilt: bool | None = None
@@ -115,7 +117,7 @@ class Loops(HoldsArrays):
         delta: ArrayLike,
         T: ArrayLike,
         *,
-        W: float | None = None,
+        W: Quantity | None = None,
         noise: float | None = None,
         tilt: bool | None = None,
         drift: bool | None = None,
@@ -261,7 +263,7 @@ def loops(
     T: str | None = None,
     units: dict[str, str] | None = None,
     skip: int = 0,
-    W: float | None = None,
+    W: Quantity | None = None,
     noise: float | None = None,
     tilt: bool | None = None,
     drift: bool | None = None,

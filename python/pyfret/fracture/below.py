@@ -12,6 +12,7 @@ from pyfret import _core
 from pyfret._util.arrays import plain
 from pyfret._util.door import numbers_only
 from pyfret._util.lazy import xr
+from pyfret._util.types import as_number
 from pyfret.fatigue.cycle_section import placed
 from pyfret.fatigue.cycles import cycle_increments
 from pyfret.fatigue.section import Section
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
+    from pyfret._util.types import Quantity
     from pyfret.run import Run, State
     from pyfret.subsurface.line import Line
 
@@ -42,9 +44,9 @@ def crack(
     x: float | None = None,
     *,
     lengths: ArrayLike | None = None,
-    angle: float = 0.0,
+    angle: Quantity = 0.0,
     kink: tuple[float, float] | None = None,
-    azimuth: float | None = None,
+    azimuth: Quantity | None = None,
     aspect: float | None = None,
     friction: float = 0.0,
     body_number: int = 2,
@@ -94,7 +96,8 @@ def crack(
         There is no closed cycle, too few of its increments were kept, or the crack has no meaning.
     """
     cycle_of = Cycle(result, cycle, body_number, residual)
-    x, azimuth = cycle_of.place(x, azimuth, angle, friction)
+    angle = as_number(angle)
+    x, azimuth = cycle_of.place(x, as_number(azimuth), angle, friction)
     if lengths is None:
         lengths = cycle_of.half_width * np.geomspace(SHORTEST, LONGEST, LENGTHS)
     lengths = np.sort(np.atleast_1d(plain(lengths, "lengths")))
@@ -123,10 +126,10 @@ def grow(
     result: Run,
     x: float | None = None,
     *,
-    start: float | None = None,
-    end: float | None = None,
-    angle: float = 0.0,
-    azimuth: float | None = None,
+    start: Quantity | None = None,
+    end: Quantity | None = None,
+    angle: Quantity = 0.0,
+    azimuth: Quantity | None = None,
     direction: Literal["tangential_stress", "opening_intensity"] = "tangential_stress",
     tolerance: float = 1e-2,
     friction: float = 0.0,
@@ -169,11 +172,12 @@ def grow(
         As :func:`crack`.
     """
     cycle_of = Cycle(result, cycle, body_number, residual)
-    x, azimuth = cycle_of.place(x, azimuth, angle, friction)
+    angle = as_number(angle)
+    x, azimuth = cycle_of.place(x, as_number(azimuth), angle, friction)
     found = cycle_of.growth(
         x=x,
-        start=0.02 * cycle_of.half_width if start is None else start,
-        end=cycle_of.half_width if end is None else end,
+        start=0.02 * cycle_of.half_width if start is None else as_number(start),
+        end=cycle_of.half_width if end is None else as_number(end),
         direction=direction,
         tolerance=tolerance,
         angle=angle,

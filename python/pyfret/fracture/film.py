@@ -8,9 +8,11 @@ import numpy as np
 
 from pyfret import _core
 from pyfret._util.door import numbers_only
+from pyfret._util.types import as_number
 
 if TYPE_CHECKING:
     from pyfret._core import Coating, Elastic
+    from pyfret._util.types import Quantity
 
 __all__ = ["channel_release", "film_intensity"]
 
@@ -57,7 +59,7 @@ def channel_release(coating: Coating, below: Elastic, stress: float) -> float:
 
 
 @numbers_only
-def film_intensity(coating: Coating, below: Elastic, depth: float, stress: float) -> float:
+def film_intensity(coating: Coating, below: Elastic, depth: Quantity, stress: float) -> float:
     """Give K_I of a crack normal to the surface that ends in the film [Pa m^0.5].
 
     The stress is uniform, and the constants are those of the film and of the other material. The
@@ -73,6 +75,7 @@ def film_intensity(coating: Coating, below: Elastic, depth: float, stress: float
     stress : float
         Stress of the film [Pa].
     """
+    depth = as_number(depth)
     if not 0.0 < depth < coating.thickness:
         raise ValueError(f"depth = {depth}: must lie in the film, 0 to {coating.thickness} m")
     F = _core.partial_crack(coating.material, below, depth / coating.thickness)

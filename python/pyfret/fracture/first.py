@@ -9,6 +9,7 @@ import numpy as np
 
 from pyfret._core import with_error
 from pyfret._util.door import numbers_only
+from pyfret._util.types import as_number
 from pyfret.fatigue.cycle_section import placed
 from pyfret.fatigue.cycles import history
 from pyfret.fatigue.section import Section
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike
 
+    from pyfret._util.types import Quantity
     from pyfret.fracture.growth import Threshold
     from pyfret.run import Run
 
@@ -70,13 +72,13 @@ class FailureOrder(NamedTuple):
 def first_to_fail(
     result: Run,
     *,
-    toughness: float | None = None,
-    peel_strength: float | None = None,
-    shear_strength: float | None = None,
+    toughness: Quantity | None = None,
+    peel_strength: Quantity | None = None,
+    shear_strength: Quantity | None = None,
     threshold: Threshold | None = None,
     residual: Sequence[ArrayLike] | None = None,
     x: float | None = None,
-    lengths: Sequence[float] | None = None,
+    lengths: Sequence[Quantity] | None = None,
     body_number: int = 2,
     cycle: int | None = -1,
 ) -> FailureOrder:
@@ -118,6 +120,7 @@ def first_to_fail(
     if not body.coatings:
         raise ValueError(f"body {body_number} has no coating and no interface")
     film = interface = substrate = math.nan
+    toughness = as_number(toughness)
     error = None
     if toughness is not None:
         if not (toughness > 0.0 and np.isfinite(toughness)):
@@ -159,9 +162,11 @@ def first_to_fail(
             shortest = BELOW * sum(c.thickness for c in body.coatings)
             half_width = Cycle(result, cycle, body_number, residual).half_width
             longest = max(2.0 * half_width, 2.0 * shortest)
-            lengths = np.geomspace(shortest, longest, LENGTHS).tolist()
+            at = np.geomspace(shortest, longest, LENGTHS).tolist()
+        else:
+            at = [as_number(one) for one in lengths]
         cracks = crack(
-            result, x, lengths=lengths, body_number=body_number, cycle=cycle, residual=residual
+            result, x, lengths=at, body_number=body_number, cycle=cycle, residual=residual
         )
         found_crack = cracks.arrest(threshold)
         substrate, error = found_crack.margin, found_crack.margin_error

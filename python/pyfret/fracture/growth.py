@@ -11,11 +11,12 @@ import numpy as np
 from pyfret import _core
 from pyfret._core import with_error, with_range
 from pyfret._util.arrays import plain, together
-from pyfret._util.door import numbers_only
+from pyfret._util.door import numbers_only, valued
 from pyfret._util.kept import Kept
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
 from pyfret._util.numbers import in_words
+from pyfret._util.types import as_number, by_default
 from pyfret.subsurface.line import along
 
 if TYPE_CHECKING:
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from pyfret._core import Material
+    from pyfret._util.types import AsNumber, AsNumberOrNone, Quantity
     from pyfret.subsurface.line import Line
 
 __all__ = ["CrackArrest", "CrackLife", "Cracks", "Paris", "Threshold"]
@@ -32,8 +34,7 @@ __all__ = ["CrackArrest", "CrackLife", "Cracks", "Paris", "Threshold"]
 Verdict: TypeAlias = Literal["dormant", "stops", "grows"]
 
 
-@numbers_only
-@dataclass(frozen=True)
+@valued()
 class Threshold:
     """The range of K below which a crack does not grow.
 
@@ -60,8 +61,8 @@ class Threshold:
     K. Walker, ASTM STP 462 (1970) 1-14.
     """
 
-    dK_th: float
-    dS_0: float | None = None
+    dK_th: AsNumber
+    dS_0: AsNumberOrNone = by_default(None)
     Y: float = 1.0
     walker: float | None = None
     table: Sequence[tuple[float, float]] | None = None
@@ -199,13 +200,13 @@ class CrackLife:
     Parameters
     ----------
     cycles : float
-        Number of cycles.
+        AsNumber of cycles.
     length : float
         Where they end [m].
     stopped : bool
         Whether the crack stops there.
     low, high : float, optional
-        Number of cycles with K_max more and less its error; None where K came without an error.
+        AsNumber of cycles with K_max more and less its error; None where K came without an error.
     """
 
     cycles: float
@@ -321,16 +322,16 @@ class Cracks(Kept, Labelled):
         return self.lengths.tolist(), largest.tolist(), self.K_min.tolist()
 
     @numbers_only
-    def arrest(self, threshold: Threshold, *, start: float | None = None) -> CrackArrest:
+    def arrest(self, threshold: Threshold, *, start: Quantity | None = None) -> CrackArrest:
         """Say whether a crack of the length `start` [m] (default: the shortest) grows and stops.
 
         With the errors of K its verdict, length and margin have theirs: the crack is followed again
         with K_max less and more its error.
         """
-        start = float(self.lengths[0]) if start is None else start
+        first = float(self.lengths[0]) if start is None else as_number(start)
 
         def followed(more: NDArray[np.float64] | float) -> tuple[Any, ...]:
-            return _core.arrest(*self._curve(more), threshold._numbers(), start)
+            return _core.arrest(*self._curve(more), threshold._numbers(), first)
 
         verdict, length, crossings, margin, at = followed(0.0)
         if "error" not in self.dataset:
@@ -339,7 +340,7 @@ class Cracks(Kept, Labelled):
         ends = [followed(-error), followed(error)]
         off = max(abs(end[3] - margin) for end in ends)
         stops = [
-            {"dormant": start, "grows": math.inf}.get(end[0], end[1])
+            {"dormant": first, "grows": math.inf}.get(end[0], end[1])
             for end in (*ends, [verdict, length])
         ]
         verdicts = tuple(dict.fromkeys([verdict, *(end[0] for end in ends)]))
@@ -352,8 +353,8 @@ class Cracks(Kept, Labelled):
         threshold: Threshold,
         paris: Paris,
         *,
-        start: float | None = None,
-        end: float | None = None,
+        start: Quantity | None = None,
+        end: Quantity | None = None,
     ) -> CrackLife:
         """Count the cycles from the length `start` [m] to `end` [m] or to arrest.
 
@@ -369,8 +370,8 @@ class Cracks(Kept, Labelled):
                 m=paris.m,
                 growth=paris.threshold_in,
                 short=paris.short,
-                start=float(self.lengths[0]) if start is None else start,
-                end=float(self.lengths[-1]) if end is None else end,
+                start=float(self.lengths[0]) if start is None else as_number(start),
+                end=float(self.lengths[-1]) if end is None else as_number(end),
             )
 
         found = followed(0.0)

@@ -8,6 +8,7 @@ import numpy as np
 
 from pyfret._util.door import numbers_only
 from pyfret._util.lazy import xr
+from pyfret._util.types import as_number
 from pyfret.fatigue.cycle_section import placed
 from pyfret.fatigue.cycles import history
 from pyfret.fatigue.section import Section
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from pyfret._core import Coating
+    from pyfret._util.types import Quantity
     from pyfret.fatigue.section import SectionOptions
     from pyfret.run import Run
 
@@ -27,8 +29,8 @@ __all__ = ["Buckling", "buckling_release", "edge_release", "over_cycle"]
 def over_cycle(
     result: Run,
     *,
-    peel_strength: float | None = None,
-    shear_strength: float | None = None,
+    peel_strength: Quantity | None = None,
+    shear_strength: Quantity | None = None,
     **section: Unpack[SectionOptions],
 ) -> xr.Dataset:
     """Follow peel and shear on the interfaces below the contact over a closed cycle.
@@ -66,6 +68,7 @@ def over_cycle(
     depths = interfaces(scene.body1 if where.body_number == 1 else scene.body2)
     if not depths:
         raise ValueError(f"body {where.body_number} has no coating and no interface")
+    peel_strength, shear_strength = as_number(peel_strength), as_number(shear_strength)
     strengths = {"peel_strength": peel_strength, "shear_strength": shear_strength}
     given = [name for name, value in strengths.items() if value is not None]
     if len(given) == 1:

@@ -8,11 +8,13 @@ import numpy as np
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 
 from pyfret._util.door import numbers_only
+from pyfret._util.types import as_number
 from pyfret.plot.style import axes, styled
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from pyfret._util.types import Quantity
     from pyfret.fracture.growth import Cracks, Threshold
 
 __all__ = ["crack_arrest", "intensity", "intensity_history", "kitagawa"]
@@ -48,7 +50,7 @@ def intensity(cracks: Cracks, *, ax: Axes | None = None) -> Axes:
 
 @styled
 @numbers_only
-def intensity_history(cracks: Cracks, length: float, *, ax: Axes | None = None) -> Axes:
+def intensity_history(cracks: Cracks, length: Quantity, *, ax: Axes | None = None) -> Axes:
     """K_I and K_II over the kept increments of the cycle, with their error bars.
 
     Thin lines are those of faces that may pass through each other.
@@ -63,7 +65,7 @@ def intensity_history(cracks: Cracks, length: float, *, ax: Axes | None = None) 
         Where to draw.
     """
     ax = axes(ax)
-    one = cracks.dataset.sel(length=length, method="nearest")
+    one = cracks.dataset.sel(length=as_number(length), method="nearest")
     for name, label, colour in (
         ("K_I", r"$K_\mathrm{I}$", "C0"),
         ("K_II", r"$K_\mathrm{II}$", "C1"),

@@ -110,6 +110,8 @@ def study_map(
         d = d.sel(dict(at), method="nearest")
     names = study.measures
     chosen = names[0] if of is None and names else of
+    if not names:
+        raise ValueError("no point of the study has a measure: study.failed() has the reasons")
     if chosen not in names:
         raise ValueError(f"of = {of!r}: must be one of {', '.join(names)}")
     values = d[chosen]

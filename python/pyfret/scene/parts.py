@@ -4,18 +4,10 @@ from __future__ import annotations
 
 import functools
 from dataclasses import dataclass, fields, replace
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, TypeVar
 
+from pyfret._util.door import dataclass_transform
 from pyfret._util.guesses import refuse_unknown
-
-if TYPE_CHECKING:
-    from typing_extensions import dataclass_transform
-else:
-
-    def dataclass_transform(**_: Any) -> Any:
-        """Nothing while the program runs: it is said to tools that read types."""
-        return lambda of: of
-
 
 __all__ = ["part"]
 

@@ -18,6 +18,8 @@ from pyfret._util.doubts import warn
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from pyfret._util.types import Quantity
+
 __all__ = ["read_surface"]
 
 #: Endings of files of numbers alone. What they hold decides: a binary one is an instrument's.
@@ -30,7 +32,7 @@ BEGINNING = 4096
 def read_surface(
     path: str | PathLike[str],
     *,
-    spacing: float | tuple[float, float] | None = None,
+    spacing: Quantity | tuple[Quantity, Quantity] | None = None,
     unit: str | None = None,
     channel: str | int | None = None,
     missing: Literal["refuse", "crop", "fill"] = "refuse",
@@ -186,7 +188,10 @@ def is_height(channel: Any) -> bool:
 
 
 def measured(
-    reader: Any, channel: int, spacing: float | tuple[float, float] | None, unit: str | None
+    reader: Any,
+    channel: int,
+    spacing: Quantity | tuple[Quantity, Quantity] | None,
+    unit: str | None,
 ) -> Any:
     """The surface of a channel in a unit of length."""
     of = reader.channels[channel]

@@ -7,13 +7,15 @@ from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any, Literal
 
 from pyfret._core import Material
-from pyfret._util.door import numbers_only
+from pyfret._util.door import valued
+from pyfret._util.types import by_default
 from pyfret.fatigue.section import for_each_layer
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from pyfret._core import Body
+    from pyfret._util.types import AsNumberOrNone
     from pyfret.fatigue.criteria import CriterionName
     from pyfret.fatigue.factors import YieldStresses
     from pyfret.fatigue.lives import Materials
@@ -24,8 +26,7 @@ if TYPE_CHECKING:
 __all__ = ["Candidate", "Duty", "candidate"]
 
 
-@numbers_only
-@dataclass(frozen=True)
+@valued()
 class Candidate:
     """A body that is compared with others, and what is known of its layers.
 
@@ -53,10 +54,10 @@ class Candidate:
     #: the body).
     residual: Sequence[ArrayLike] | None = None
     #: Energy release rate at which a crack channels through the outermost coating [J/m^2].
-    toughness: float | None = None
+    toughness: AsNumberOrNone = by_default(None)
     #: Strengths of the interfaces [Pa].
-    peel_strength: float | None = None
-    shear_strength: float | None = None
+    peel_strength: AsNumberOrNone = by_default(None)
+    shear_strength: AsNumberOrNone = by_default(None)
     #: Crack growth threshold of the substrate.
     threshold: Threshold | None = None
     #: How the body wears: one law, or one for every layer.
@@ -66,7 +67,7 @@ class Candidate:
 
     @property
     def layers(self) -> int:
-        """Number of layers, the substrate among them."""
+        """AsNumber of layers, the substrate among them."""
         return len(self.body.coatings) + 1
 
     @property

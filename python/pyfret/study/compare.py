@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from pyfret._core import Grid, InvalidSceneError, LoadPath, Scene
 from pyfret._util.door import numbers_only
 from pyfret._util.doubts import SceneWarning
+from pyfret._util.types import as_number
 from pyfret.fatigue.criteria import CriterionName
 from pyfret.solution import read
 from pyfret.study.candidate import Candidate, Duty, candidate
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from pyfret._core import Body
+    from pyfret._util.types import Quantity
     from pyfret.heat import Conductors
     from pyfret.wear.settings import Law as WearLaw
 
@@ -45,7 +47,7 @@ def compare(
     criterion: CriterionName = "smith_watson_topper",
     cycles: float | None = None,
     cycling: Literal["march", "sliding"] = "march",
-    frequency: float | None = None,
+    frequency: Quantity | None = None,
     other_wear: WearLaw | list[WearLaw | None] | None = None,
     other_conductor: Conductors | None = None,
     executor: Any = None,
@@ -120,7 +122,7 @@ def compare(
         criterion=criterion,
         cycles=cycles,
         cycling=cycling,
-        frequency=frequency,
+        frequency=as_number(frequency),
         other_wear=other_wear,
         other_conductor=other_conductor,
     )

@@ -12,6 +12,7 @@ import numpy as np
 
 from pyfret._core import LONGEST_LIFE, with_error
 from pyfret._util import files
+from pyfret._util.csv_table import write_csv
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
 from pyfret._util.numbers import in_words, length
@@ -243,6 +244,10 @@ class Comparison(Labelled):
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the numbers to a Zarr folder (``.zarr``) or a NetCDF file (``.nc``)."""
         files.write(self.dataset, path)
+
+    def to_csv(self, path: str | os.PathLike[str]) -> None:
+        """Write the numbers as a table (``.csv``): units in the head, a row for every candidate."""
+        write_csv(self.dataset, path, ("candidate",))
 
     def report(self, path: str | os.PathLike[str]) -> None:
         """Write a page for a browser: the table and the figure."""

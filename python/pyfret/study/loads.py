@@ -19,12 +19,13 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
+    from pyfret._util.types import Quantity
     from pyfret.run import Run
     from pyfret.study.measures import Arrest, Cracking, Measure
 
 __all__ = ["arrest_map", "running_conditions"]
 
-#: Number of gross slip, and what the numbers mean.
+#: AsNumber of gross slip, and what the numbers mean.
 SLIDES = 3
 STATUS = "0 no contact, 1 full stick, 2 partial slip, 3 gross slip"
 
@@ -88,7 +89,7 @@ def running_conditions(
     delta : array, optional
         Amplitudes of the shift [m], instead of `T`: gross slip is solved as well.
     cycles : int
-        Number of cycles; the map shows the last.
+        AsNumber of cycles; the map shows the last.
     sigma_B : float or array
         Largest bulk stress of body 2 [Pa], in phase with the force `T`; several make a third
         dimension, of which a figure shows one, ``table.sel(sigma_B=...)``.
@@ -170,7 +171,7 @@ def running_conditions(
 def arrest_map(
     scene: Scene,
     *,
-    W: float,
+    W: Quantity,
     T: ArrayLike,
     sigma_B: ArrayLike,
     arrest: Arrest,

@@ -11,8 +11,9 @@ import numpy as np
 
 from pyfret import fracture, wear
 from pyfret._util.bounds import split
-from pyfret._util.door import numbers_only
+from pyfret._util.door import numbers_only, valued
 from pyfret._util.lazy import xr
+from pyfret._util.types import by_default
 from pyfret.run.summary import directions
 from pyfret.study.answer import NOTHING, Answer, estimate
 from pyfret.study.identity import identity
@@ -21,6 +22,7 @@ from pyfret.subsurface.tensor import LABELS
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
+    from pyfret._util.types import AsNumber, AsNumberOrNone, Quantity
     from pyfret.fatigue.criteria import CriterionName
     from pyfret.fatigue.lives import Materials
     from pyfret.result import Result
@@ -124,8 +126,7 @@ SIGNED = ("s_1", "interface_peel")
 CODES = ("regime", "first")
 
 
-@numbers_only
-@dataclass(frozen=True)
+@valued()
 class Wear(wear.Wear):
     """A measure: what many cycles wear off, by :func:`pyfret.wear.solve` on the scene of the point.
 
@@ -203,8 +204,7 @@ class Cracking:
         return {**answer.arrays(str(margin.name), unit, meaning), "crack_depth": depth}
 
 
-@numbers_only
-@dataclass(frozen=True)
+@valued()
 class Arrest:
     """A measure: whether a crack below the last closed cycle stops.
 
@@ -223,9 +223,9 @@ class Arrest:
 
     threshold: fracture.Threshold
     x: float | None = None
-    lengths: Sequence[float] | None = None
-    angle: float = 0.0
-    azimuth: float | None = None
+    lengths: Sequence[Quantity] | None = None
+    angle: AsNumber = by_default(0.0)
+    azimuth: AsNumberOrNone = by_default(None)
     aspect: float | None = None
     friction: float = 0.0
     body_number: int = 2
@@ -253,8 +253,7 @@ class Arrest:
         }
 
 
-@numbers_only
-@dataclass(frozen=True)
+@valued()
 class FirstToFail:
     """A measure: whether film, interface or substrate goes first below the last closed cycle.
 
@@ -268,13 +267,13 @@ class FirstToFail:
         As in :func:`pyfret.fracture.first_to_fail`.
     """
 
-    toughness: float | None = None
-    peel_strength: float | None = None
-    shear_strength: float | None = None
+    toughness: AsNumberOrNone = by_default(None)
+    peel_strength: AsNumberOrNone = by_default(None)
+    shear_strength: AsNumberOrNone = by_default(None)
     threshold: fracture.Threshold | None = None
     residual: Sequence[ArrayLike] | None = None
     x: float | None = None
-    lengths: Sequence[float] | None = None
+    lengths: Sequence[Quantity] | None = None
     body_number: int = 2
 
     def __call__(self, result: Result) -> dict[str, xr.DataArray]:

@@ -16,10 +16,11 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from pyfret._core import Grid, Scene
-from pyfret._util.door import numbers_only
+from pyfret._util.door import numbers_only, valued
 from pyfret._util.extras import needed
 from pyfret._util.holds_arrays import HoldsArrays
 from pyfret._util.lazy import xr
+from pyfret._util.types import as_number, by_default
 from pyfret.fatigue.averages import average
 from pyfret.fatigue.criteria import Material
 from pyfret.fatigue.lives import life
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from pyfret._util.types import AsNumberOrNone, Quantity
     from pyfret.fatigue.averages import Averaging
     from pyfret.fatigue.criteria import CriterionName
     from pyfret.fatigue.ranges import LifeRange
@@ -43,8 +45,7 @@ Source: TypeAlias = "Scene | str | os.PathLike[str] | Callable[[dict[str, Any]],
 MOST = 24
 
 
-@numbers_only
-@dataclass(frozen=True)
+@valued()
 class Averaged:
     """A measure: the smallest margin of a criterion on the stress averaged over a distance.
 
@@ -64,7 +65,7 @@ class Averaged:
 
     material: Material
     criterion: CriterionName = "crossland"
-    L: float | None = None
+    L: AsNumberOrNone = by_default(None)
     method: Averaging = "line"
     body_number: int = 2
 
@@ -345,7 +346,7 @@ def fit_limits(
     material: Material,
     criterion: CriterionName = "crossland",
     *,
-    L: tuple[float, float] = (5e-6, 2e-4),
+    L: tuple[Quantity, Quantity] = (5e-6, 2e-4),
     known: float = math.inf,
     method: Averaging = "line",
     n: int = 9,
@@ -403,7 +404,8 @@ def fit_limits(
         before = 0.5 * (math.log(thresholds(log_L)[0]) / known) ** 2
         return len(tests) * math.log(scatter(log_L)) + before
 
-    tried = np.linspace(math.log(L[0]), math.log(L[1]), n)
+    low, high = (math.log(as_number(of)) for of in L)
+    tried = np.linspace(low, high, n)
     best = int(np.argmin([misfit(float(t)) for t in tried]))
     optimize = needed("scipy.optimize", "fit")
     ends = float(tried[max(best - 1, 0)]), float(tried[min(best + 1, n - 1)])

@@ -11,6 +11,7 @@ from pyfret import _core
 from pyfret._util.arrays import plain
 from pyfret._util.door import numbers_only
 from pyfret._util.lazy import xr
+from pyfret._util.types import as_number
 from pyfret.subsurface.line import Line
 from pyfret.subsurface.plastic import eigenstress
 from pyfret.subsurface.tensor import COMPONENTS, DISPLACEMENTS, LABELS, Stress
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from pyfret._core import Body, Grid, Scene
+    from pyfret._util.types import Quantity
     from pyfret.run import State
 
 __all__ = ["Stress", "displacement", "envelope", "stress", "write_volume"]
@@ -65,7 +67,7 @@ def coordinates(
     layer: list[int],
     x: float | None,
     y: float | None,
-    azimuth: float | None = None,
+    azimuth: Quantity | None = None,
 ) -> dict[str, object]:
     """Depths with their layers, and x and y: the cells, or where they are constant."""
     metres = {"units": "m"}
@@ -91,7 +93,7 @@ def subsurface(
     grid: Grid,
     loads: tuple[ArrayLike | None, ArrayLike | None, ArrayLike | None],
     body_number: int,
-    sigma_B: float = 0.0,
+    sigma_B: Quantity = 0.0,
     residual: Sequence[ArrayLike] | None = None,
     *,
     left: Sequence[_core.Eigenstress | None] | None = None,
@@ -126,12 +128,12 @@ def stress(
     q_y: ArrayLike | None = None,
     x: float | None = None,
     y: float | None = None,
-    azimuth: float | None = None,
+    azimuth: Quantity | None = None,
     body_number: int = 2,
-    sigma_B: float = 0.0,
+    sigma_B: Quantity = 0.0,
     rim: bool = False,
     stick: ArrayLike | None = None,
-    length: float | None = None,
+    length: Quantity | None = None,
     residual: Sequence[ArrayLike] | None = None,
 ) -> Stress:
     """Stress in a body under tractions on its surface.
@@ -177,8 +179,8 @@ def stress(
     """
     loads = (p, q_x, q_y)
     below = subsurface(body, grid, loads, body_number, sigma_B, residual, rim=rim, stick=stick)
-    length = loaded_length(grid, *loads) if length is None else length
-    return sampled_stress(below, body, grid, z, Line(x, y, azimuth), length)
+    length = loaded_length(grid, *loads) if length is None else as_number(length)
+    return sampled_stress(below, body, grid, z, Line(x, y, as_number(azimuth)), length)
 
 
 def sampled_stress(
@@ -208,18 +210,18 @@ def displacement(
     q_y: ArrayLike | None = None,
     x: float | None = None,
     y: float | None = None,
-    azimuth: float | None = None,
+    azimuth: Quantity | None = None,
     body_number: int = 2,
-    length: float | None = None,
+    length: Quantity | None = None,
 ) -> xr.Dataset:
     """Displacements u_x, u_y, u_z in a body relative to infinity [m], as in :func:`stress`.
 
     They are those that the tractions cause; what a bulk stress stretches comes on top.
     """
     below = subsurface(body, grid, (p, q_x, q_y), body_number)
-    length = loaded_length(grid, p, q_x, q_y) if length is None else length
-    depths = _depths(body, z, length)
-    return _sampled(below, body, grid, depths, Line(*_line(z, x, y), azimuth), displacement=True)
+    length = loaded_length(grid, p, q_x, q_y) if length is None else as_number(length)
+    line = Line(*_line(z, x, y), as_number(azimuth))
+    return _sampled(below, body, grid, _depths(body, z, length), line, displacement=True)
 
 
 def _sampled(
@@ -264,7 +266,7 @@ def write_volume(
     q_y: ArrayLike | None = None,
     of: Sequence[str] = ("von_mises",),
     body_number: int = 2,
-    sigma_B: float = 0.0,
+    sigma_B: Quantity = 0.0,
     residual: Sequence[ArrayLike] | None = None,
     rim: bool = False,
     stick: ArrayLike | None = None,
@@ -313,7 +315,7 @@ def envelope(
     *,
     x: float | None = None,
     y: float | None = None,
-    azimuth: float | None = None,
+    azimuth: Quantity | None = None,
     of: Sequence[str] = ("von_mises",),
     body_number: int = 2,
     bulk: bool = True,

@@ -8,9 +8,11 @@ import numpy as np
 
 from pyfret._core import Material
 from pyfret._util.door import numbers_only
+from pyfret._util.types import as_number
 
 if TYPE_CHECKING:
     from pyfret._core import Elastic
+    from pyfret._util.types import Quantity
 
 __all__ = ["thermal_stress"]
 
@@ -20,8 +22,8 @@ def thermal_stress(
     coating: Elastic | Material,
     *,
     temperature_change: float,
-    alpha_coating: float | Material | None = None,
-    alpha_substrate: float | Material,
+    alpha_coating: Quantity | Material | None = None,
+    alpha_substrate: Quantity | Material,
 ) -> float:
     """Thermal stress of a thin coating on a thick substrate [Pa], biaxial, tension positive.
 
@@ -80,6 +82,6 @@ def thermal_stress(
     return E / (1.0 - nu) * mismatch
 
 
-def _expansion(alpha: float | Material) -> float:
+def _expansion(alpha: Quantity | Material) -> float:
     """A coefficient of thermal expansion, or that of a material [1/K]."""
-    return alpha.number("alpha_T") if isinstance(alpha, Material) else alpha
+    return alpha.number("alpha_T") if isinstance(alpha, Material) else as_number(alpha)

@@ -15,6 +15,7 @@ from pyfret._util.kept import Kept
 from pyfret._util.labelled import Labelled
 from pyfret._util.numbers import length
 from pyfret._util.text import shown
+from pyfret._util.types import as_number
 from pyfret.fatigue.ranges import Range
 from pyfret.run.loops import of_corners
 from pyfret.scene.tables import table
@@ -29,6 +30,8 @@ if TYPE_CHECKING:
     from typing import Literal
 
     import xarray as xr
+
+    from pyfret._util.types import Quantity
 
 __all__ = ["WearResult"]
 
@@ -74,9 +77,9 @@ class WearResult(Kept, Labelled):
         Returns
         -------
         xarray.Dataset
-            Over ``block`` with ``block_cycles``: ``dissipated`` in a cycle [J], half
-            ranges ``T`` [N] and ``delta`` [m], ``secant_stiffness`` [N/m], half the ``opening`` of
-            the loop [m] and ``energy_ratio``. Of a line contact per metre.
+            Over ``block`` with ``block_cycles``: ``dissipated`` in a cycle [J], half ranges ``T``
+            [N] and ``delta`` [m], ``secant_stiffness`` [N/m]. Half the ``opening`` of the loop [m]
+            and ``energy_ratio``. Of a line contact per metre.
         """
         way = self.direction if direction is None else direction
         if way not in ("x", "y"):
@@ -113,7 +116,7 @@ class WearResult(Kept, Labelled):
     def cycles_to(
         self,
         *,
-        depth: float | None = None,
+        depth: Quantity | None = None,
         part_of_coating: float | None = None,
         volume: float | None = None,
         energy: float | None = None,
@@ -147,7 +150,7 @@ class WearResult(Kept, Labelled):
             Not one of the four is given, or the body has no such coating.
         """
         given = {
-            "depth": depth,
+            "depth": as_number(depth),
             "part_of_coating": part_of_coating,
             "volume": volume,
             "energy": energy,
@@ -166,7 +169,7 @@ class WearResult(Kept, Labelled):
             depth = above + part_of_coating * coatings[coating].thickness
         if energy is not None:
             return spent(self.dataset, energy)
-        name, target = ("volume", volume) if depth is None else ("depth", depth)
+        name, target = ("volume", volume) if depth is None else ("depth", as_number(depth))
         return reached(self.dataset, f"{name}{body_number}", float(target or 0.0))
 
     @numbers_only

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from typing import TYPE_CHECKING, Any, Literal
 
 if sys.version_info >= (3, 11):
@@ -13,8 +13,9 @@ else:
     import tomli as tomllib
 
 from pyfret._util.arrays import items, plain
-from pyfret._util.door import numbers_only
+from pyfret._util.door import valued
 from pyfret._util.guesses import refuse_unknown
+from pyfret._util.types import by_default
 from pyfret.scene.parts import Replaceable
 
 if TYPE_CHECKING:
@@ -22,14 +23,15 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from pyfret._util.types import AsNumber, AsNumberOrNone
+
 __all__ = ["Archard", "DissipatedEnergy", "Wear"]
 
 #: What a coefficient changes with, and pairs of that and its factor.
 Factor = tuple[str, "Sequence[tuple[float, float]]"]
 
 
-@numbers_only
-@dataclass(frozen=True)
+@valued()
 class Archard(Replaceable):
     """Archard's law: the worn depth is k times pressure times sliding distance.
 
@@ -44,7 +46,7 @@ class Archard(Replaceable):
         pairs of that and its factor.
     """
 
-    k: float
+    k: AsNumber
     threshold: float = 0.0
     factor: Factor | None = None
 
@@ -53,8 +55,7 @@ class Archard(Replaceable):
         fix(self)
 
 
-@numbers_only
-@dataclass(frozen=True)
+@valued()
 class DissipatedEnergy(Replaceable):
     """Wear by the energy dissipated: the worn volume is alpha times the energy.
 
@@ -69,7 +70,7 @@ class DissipatedEnergy(Replaceable):
         pairs of that and its factor.
     """
 
-    alpha: float
+    alpha: AsNumber
     threshold: float = 0.0
     factor: Factor | None = None
 
@@ -84,15 +85,14 @@ Function = Callable[..., "NDArray[Any]"]
 Law = Archard | DissipatedEnergy | Function
 
 
-@numbers_only
-@dataclass(frozen=True)
+@valued()
 class Wear(Replaceable):
     """What wears, over how many cycles, and how.
 
     Parameters
     ----------
     cycles : float
-        Number of cycles.
+        AsNumber of cycles.
     body1, body2 : Archard, DissipatedEnergy, callable, or list of these, optional
         How a body wears: one law, or one for each coating from the outermost on and one for the
         substrate. None: the body or the layer does not wear. A callable takes arrays over the
@@ -135,8 +135,8 @@ class Wear(Replaceable):
     debris_kept: float = 0.0
     first_branch: int | None = None
     cycling: Literal["march", "sliding"] = "march"
-    frequency: float | None = None
-    rig_stiffness: float | None = None
+    frequency: AsNumberOrNone = by_default(None)
+    rig_stiffness: AsNumberOrNone = by_default(None)
     tolerance: float | None = None
     jumps: int | None = None
     explicit_jumps: int | None = None
