@@ -64,7 +64,8 @@ class Run(OfRun):
         if name == "contact_radius":
             fields[name] = "of a line contact it is half_width"
         public = (member for member in dir(type(self)) if not member.startswith("_"))
-        raise no_attribute("result", name, [*scalars, *public], fields)
+        known = [*scalars, *map(str, self.dataset.attrs), *public]
+        raise no_attribute("result", name, known, fields)
 
     def __dir__(self) -> list[str]:
         """The names of the class, and the scalars of every increment."""

@@ -112,7 +112,8 @@ class State(OfRun):
         if name in self.dataset.attrs:
             return self.dataset.attrs[name]  # type: ignore[no-any-return]
         public = (member for member in dir(type(self)) if not member.startswith("_"))
-        raise no_attribute("snapshot", name, [*self.names(), *public], self._elsewhere(name))
+        known = [*self.names(), *map(str, self.dataset.attrs), *public]
+        raise no_attribute("snapshot", name, known, self._elsewhere(name))
 
     def _elsewhere(self, name: str) -> dict[str, str]:
         """Names that this has not, and how what they mean is got from it."""

@@ -118,7 +118,8 @@ class Stress(Labelled):
         if name in self.dataset.attrs:
             return self.dataset.attrs[name]  # type: ignore[no-any-return]
         public = (member for member in dir(type(self)) if not member.startswith("_"))
-        raise no_attribute("stress", name, [*LABELS, *public, "dataset"], {})
+        known = [*LABELS, *map(str, self.dataset.attrs), *public, "dataset"]
+        raise no_attribute("stress", name, known, {})
 
     def principal(self) -> xr.Dataset:
         """Principal values, the largest first, and unit vectors of their directions."""
