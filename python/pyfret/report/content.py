@@ -11,6 +11,7 @@ from pyfret._util.depths import stretched, thin
 from pyfret._util.numbers import in_words
 from pyfret.report.crack import CrackSection
 from pyfret.report.digits import short
+from pyfret.run.loops import NO_FRICTION, frictionless
 from pyfret.run.summary import directions
 from pyfret.subsurface.contact import stress_below
 from pyfret.subsurface.line import fields_on, main_line, main_shear
@@ -62,6 +63,13 @@ def around(touched: NDArray[np.bool_]) -> NDArray[np.int64]:
     return places[chosen(places.size, SIDE)]
 
 
+def sticks_of(at: State) -> str:
+    """The stick ratio of an increment, or that there is no friction."""
+    if frictionless(at.scene):
+        return NO_FRICTION
+    return f"stick ratio {float(at.dataset.stick_ratio):.3f}"
+
+
 def increments(result: Run) -> dict[str, Any]:
     """Pressure, shear and zones of the increments with fields, and tractions along the shear."""
     numbers = result.dataset.saved_increment.values
@@ -89,8 +97,7 @@ def increments(result: Run) -> dict[str, Any]:
             {
                 "increment": int(d.increment),
                 "says": f"W = {in_words(float(d.W))} {force}, "
-                f"T\u2093 = {in_words(float(d.T_x))} {force}, "
-                f"stick ratio {float(d.stick_ratio):.3f}",
+                f"T\u2093 = {in_words(float(d.T_x))} {force}, " + sticks_of(at),
                 **{
                     name: short(field[pick].T, 3)
                     for name, field in (("p", 1e-6 * p), ("q", 1e-6 * q), ("zone", zone))

@@ -16,10 +16,24 @@ if TYPE_CHECKING:
 
     from pyfret._core import Grid, Scene
 
-__all__ = ["of_corners", "of_cycles"]
+__all__ = ["STATUS", "frictionless", "of_corners", "of_cycles", "state_in_words"]
 
 #: What the codes of ``status`` mean.
 STATUS = ("no contact", "full stick", "partial slip", "gross slip")
+#: The state of a contact that transmits no shear: it neither sticks nor slips.
+NO_FRICTION = "no friction"
+
+
+def frictionless(scene: Scene) -> bool:
+    """Whether a contact transmits no shear: it has neither stick zones nor a stick ratio."""
+    return scene.friction.mu == 0.0
+
+
+def state_in_words(code: float, scene: Scene) -> str:
+    """A code of ``status`` in words, as the command prints it."""
+    return NO_FRICTION if code and frictionless(scene) else STATUS[int(code)]
+
+
 #: What :meth:`pyfret.Result.loops` gives: unit and meaning.
 LOOP = {
     "first_branch": ("1", "first branch of the cycle, from 0"),

@@ -12,7 +12,7 @@ from pyfret._util.guesses import no_attribute
 from pyfret._util.lazy import xr
 from pyfret._util.text import shown
 from pyfret.run.attributes import OfRun
-from pyfret.run.loops import STATUS, of_cycles
+from pyfret.run.loops import of_cycles, state_in_words
 from pyfret.run.state import State
 
 if TYPE_CHECKING:
@@ -239,11 +239,13 @@ class Run(OfRun):
     def regimes(self, *, direction: Literal["x", "y", "torsion"] = "x") -> list[str]:
         """What each closed cycle was: "no contact", "full stick", "partial slip", "gross slip".
 
+        With mu = 0 a cycle is "no friction".
+
         Gross slip where all of the contact slipped at some time of the cycle. Cycles of different
         regimes are what is called the mixed regime.
         """
         codes = self.loops(direction=direction).status.values
-        return [STATUS[int(code)] for code in codes]
+        return [state_in_words(code, self.scene) for code in codes]
 
     def __repr__(self) -> str:
         """Give the title and the size of the result."""

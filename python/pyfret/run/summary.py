@@ -9,7 +9,7 @@ import numpy as np
 from pyfret._core import STRAIN_AT_A_RIM, TOO_FEW_INCREMENTS, with_error
 from pyfret._util.numbers import in_words
 from pyfret._util.text import shown
-from pyfret.run.loops import STATUS
+from pyfret.run.loops import frictionless, state_in_words
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -70,6 +70,8 @@ def columns(result: Run, ends: xr.Dataset) -> list[list[str]]:
         if any(drives(result, name) for _, name, _ in pair):
             numbers[3:3] = pair
     bars = result.error_bars().sel(part="total") if result.dataset.attrs.get("error_bars") else None
+    if frictionless(result.scene):
+        numbers = [of for of in numbers if of[1] != "stick_ratio"]
     table = []
     for title, name, scale in numbers:
         values = scale * told(result, ends, name)
@@ -84,7 +86,7 @@ def columns(result: Run, ends: xr.Dataset) -> list[list[str]]:
         table.append([title, *cells])
     if "path_error" in ends:
         table.append(["error of q", *(f"{100 * e:.2f} %" for e in ends.path_error.values)])
-    return [*table, ["state", *(STATUS[int(code)] for code in ends.status)]]
+    return [*table, ["state", *(state_in_words(code, result.scene) for code in ends.status)]]
 
 
 def told(result: Run, ends: xr.Dataset, name: str) -> NDArray[np.float64]:
@@ -183,7 +185,7 @@ def cycle_lines(result: Run) -> list[str]:
             of = loops.isel(cycle=n)
             scale, joules = energy_scale(of.dissipated.attrs["units"])
             lines.append(
-                f"cycle {n + 1} ({direction}): {STATUS[int(of.status)]}, "
+                f"cycle {n + 1} ({direction}): {state_in_words(of.status, result.scene)}, "
                 f"{in_words(scale * float(of.dissipated))} {joules} dissipated, "
                 f"energy ratio {in_words(float(of.energy_ratio), 3)}, "
                 f"sliding ratio "

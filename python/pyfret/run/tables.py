@@ -8,13 +8,14 @@ import numpy as np
 
 from pyfret._core import with_error
 from pyfret._util.text import html
-from pyfret.run.loops import STATUS
+from pyfret.run.loops import frictionless, state_in_words
 from pyfret.run.summary import told
 from pyfret.scene.tables import number, table
 
 if TYPE_CHECKING:
     import xarray as xr
 
+    from pyfret._core import Scene
     from pyfret.run.run import Run
     from pyfret.run.state import State
 
@@ -59,11 +60,17 @@ def heading(d: xr.Dataset, name: str) -> tuple[float, str]:
     return factor, ENDS[name] if unit == "1" else f"{ENDS[name]} [{shown}]"
 
 
+def has(name: str, scene: Scene) -> bool:
+    """Whether a contact has a number: without friction it has no stick ratio."""
+    return not (name == "stick_ratio" and frictionless(scene))
+
+
 def ends_table(result: Run) -> str:
     """Numbers at the end of every branch, with their error bars where there are any."""
     ends = result.branches()
     bars = result.error_bars().sel(part="total") if result.dataset.attrs.get("error_bars") else None
-    values = {name: told(result, ends, name) for name in ENDS if name in ends}
+    names = [name for name in ENDS if name in ends and has(name, result.scene)]
+    values = {name: told(result, ends, name) for name in names}
     shown = {name: heading(ends, name) for name, of in values.items() if name == "W" or np.any(of)}
     rows = []
     for n in range(ends.sizes["branch"]):
@@ -73,7 +80,7 @@ def ends_table(result: Run) -> str:
             if bars is not None and name in bars:
                 cell += f" &plusmn; {factor * float(bars[name][n]):.1g}"
             cells.append(cell)
-        rows.append([*cells, STATUS[int(ends.status[n])]])
+        rows.append([*cells, state_in_words(ends.status[n], result.scene)])
     return table(["branch", *(title for _, title in shown.values()), "state"], rows)
 
 
@@ -92,7 +99,7 @@ def cycles_table(result: Run, direction: Any) -> str:
             number(float(of.energy_ratio)),
             with_error(float(of.sliding_ratio), float(of.sliding_ratio_error)),
             with_error(float(of.stiffness), float(of.stiffness_error)),
-            STATUS[int(of.status)],
+            state_in_words(of.status, result.scene),
         ]
         for n, of in ((n, loops.isel(cycle=n)) for n in range(loops.sizes["cycle"]))
     ]
@@ -110,9 +117,9 @@ def state_html(state: State) -> str:
     d = state.dataset
     rows = []
     for name in ENDS:
-        if name in d and (name == "W" or float(d[name])):
+        if name in d and has(name, state.scene) and (name == "W" or float(d[name])):
             factor, title = heading(d, name)
             rows.append([title, number(factor * float(d[name]))])
-    rows.append(["state", STATUS[int(d.status)]])
+    rows.append(["state", state_in_words(d.status, state.scene)])
     title = f"<p><b>increment {int(d.increment)}</b>, t = {number(float(d.t))}</p>"
     return title + table(["", ""], rows)

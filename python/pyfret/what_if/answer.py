@@ -11,6 +11,7 @@ import numpy as np
 from pyfret._core import NoConvergenceError, OffGridError, with_error
 from pyfret._util.doubts import SceneWarning
 from pyfret._util.extras import needed
+from pyfret.run.loops import NO_FRICTION, frictionless
 from pyfret.run.summary import directions
 from pyfret.solution import solve
 from pyfret.study.comparison import layer_names
@@ -90,7 +91,9 @@ def answer(
         "largest von Mises stress": f"{with_error(1e-6 * most.value, 1e-6 * most.error)} MPa in "
         f"the {names[most.layer]}",
         "largest pressure": f"{1e-6 * float(result.p_max[-1]):.4g} MPa",
-        "stick ratio": f"{float(result.stick_ratio[-1]):.3f}",
+        "stick ratio": NO_FRICTION
+        if frictionless(scene)
+        else f"{float(result.stick_ratio[-1]):.3f}",
         "energy of the last cycle": "no closed cycle"
         if energy is None
         else f"{1e6 * energy:.4g} µ{unit}",
