@@ -53,7 +53,8 @@ def test_a_life_has_low_best_and_high(life: fatigue.Life) -> None:
     assert life.low < life.best < life.high
     assert life.range.factor < 10.0
     assert life.range.material == 3.0
-    assert f"{life.best:.2g} ({life.low:.2g} to {life.high:.2g})" in repr(life)
+    best, low, high = (fret._core.rough(of) for of in (life.best, life.low, life.high))
+    assert f"{best} ({low} to {high})" in repr(life)
     # Twice as much scatter, a wider range; none leaves stress and distance.
     layer = life.worst.layer
     widths = [life.range_of(layer, scatter=s, L=life.range.L).factor for s in (1.0, 3.0, 6.0)]
@@ -92,7 +93,7 @@ def test_the_best_is_that_of_the_mean_over_the_critical_distance(life: fatigue.L
     assert np.all(np.diff(found.margin.values) > 0.0)
     assert life.worst.margin < float(found.margin[0])
     longest = life.over_distance([1e-3]).rows()[0]
-    assert longest[-1] == "1e+07 or more"
+    assert longest[-1] == "1e7 or more"
     assert found.dataset.attrs["L"] == pytest.approx(L)
     ax = fret.plot.life_over_distance(found)
     assert "cycles" in ax.get_ylabel()
@@ -104,7 +105,7 @@ def test_no_life_is_told_beyond_the_tests_of_curves(life: fatigue.Life) -> None:
     assert math.isinf(far.best)
     assert math.isinf(far.high)
     assert far.low <= 1e7
-    assert repr(far) == f"{far.low:.2g} or more"
+    assert repr(far) == f"{fret._core.rough(far.low)} or more"
     assert any("no tests beyond 1e7 cycles" in note for note in far.notes)
     # The parts of the range stay numbers.
     assert 1e7 < far.stress.best < math.inf
@@ -261,7 +262,7 @@ def test_published_lives_of_a_solid_lubricant_lie_in_their_ranges() -> None:
     scale = 4 * mu * W * slip / (2 * a) / density[3:]
     inside = (scale * found.low <= lived[3:]) & (lived[3:] <= scale * found.high)
     assert inside.sum() >= 0.8 * inside.size
-    assert math.isinf(worn.cycles_to(energy=1e12))
+    assert worn.cycles_to(energy=1e12).beyond == float(worn.cycles[-1])
 
 
 #: Limits and distance of the page on these tests, fitted to plain fretting.
@@ -303,7 +304,7 @@ def test_a_stress_of_a_criterion_has_its_unit(life: fatigue.Life) -> None:
 
 
 def test_endless_lives_have_no_number() -> None:
-    endless = fatigue.ranges.in_two_digits(math.inf, math.inf, math.inf)
-    assert endless == "endless"
-    assert fatigue.ranges.in_two_digits(3.2e6, math.inf, math.inf) == "3.2e+06 or more"
-    assert fatigue.ranges.in_two_digits(3.2e6, 5e6, math.inf) == "5e+06 (3.2e+06 or more)"
+    of = fatigue.ranges.Range
+    assert repr(of(math.inf, math.inf, math.inf)) == "endless"
+    assert repr(of(3.2e6, math.inf, math.inf)) == "3.2e6 or more"
+    assert repr(of(3.2e6, 5e6, math.inf)) == "5.0e6 (3.2e6 or more)"

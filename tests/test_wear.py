@@ -132,7 +132,17 @@ def test_lives_are_told_at_their_cycle() -> None:
         assert np.isclose(told, curve, rtol=2e-3)
     few = worn(fret.wear.Archard(2e-13), jumps=10)
     assert np.isclose(few.cycles_to(depth=depth), d.cycles_to(depth=depth), rtol=0.03)
-    assert d.cycles_to(depth=1.0) == np.inf
+    beyond, end = d.cycles_to(depth=1.0), float(d.cycles[-1])
+    assert np.isnan(beyond)
+    assert beyond.beyond == end
+    assert str(beyond) == f"more than {end:g} cycles (the run ended there)"
+    least = d.range_of_cycles(depth=1.0)
+    assert np.isnan(least.best)
+    assert least.low < end
+    assert "the run ended there" in repr(least)
+    # The other body does not wear.
+    assert d.cycles_to(depth=1e-9, body_number=1) == np.inf
+    assert "nothing wears" in repr(d.range_of_cycles(depth=1e-9, body_number=1))
     with pytest.raises(ValueError, match="give one of them"):
         d.cycles_to()
     with pytest.raises(ValueError, match="has 0 coatings"):
@@ -355,7 +365,7 @@ def test_a_coating_that_is_worn_through_has_its_cycles() -> None:
     # The same of a depth that is missed by rounding.
     last = float(run.dataset.depth2[-1])
     assert run.cycles_to(depth=last * (1.0 + 5e-10)) == pytest.approx(float(run.cycles[-1]))
-    assert run.cycles_to(depth=1.001 * last) == np.inf
+    assert run.cycles_to(depth=1.001 * last).beyond == float(run.cycles[-1])
 
 
 @pytest.mark.parametrize("cycling", ["sliding", "march"])

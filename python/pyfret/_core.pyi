@@ -11,6 +11,11 @@ from typing_extensions import Self
 from pyfret._util.types import FrictionFunction, Quantities, Quantity, Variable
 from pyfret.settings import Settings
 
+DEPTH_ROUNDING: Final[float]
+"""
+Part of a worn depth that a jump which ends there may miss.
+"""
+
 LONGEST_LIFE: Final[float]
 """
 Longest life that is told [cycles]; a longer one is infinite.
@@ -3339,6 +3344,9 @@ def resume_wear(
 ) -> None:
     """Goes on with a run of wear that ended early; `own` has the functions among the laws."""
 
+def rough(value: float) -> str:
+    """A number in two digits, which is known to no more."""
+
 def run_command(arguments: Sequence[str]) -> int:
     """
     Run the command ``fret`` in this process: what its console script does.
@@ -3539,6 +3547,7 @@ class SlidingError(SolveError):
     """Loads that friction cannot carry, that nothing carries, or that lift a stuck contact."""
 
 __all__ = [
+    "DEPTH_ROUNDING",
     "LONGEST_LIFE",
     "RATCHETS",
     "RIGID",
@@ -3651,6 +3660,7 @@ __all__ = [
     "read_text",
     "resume",
     "resume_wear",
+    "rough",
     "run_command",
     "section_of_states",
     "shown",

@@ -4,6 +4,9 @@
 const DIGITS: i32 = 4;
 /// Digits of an error, and of a number without one.
 const OF_ERRORS: i32 = 2;
+/// Largest power of ten of a number of two digits that is printed without an exponent: more zeros at
+/// its end would pass for digits.
+const ZEROS: i32 = 4;
 /// Powers of ten from and up to which numbers are printed without an exponent.
 const PLAIN: std::ops::RangeInclusive<i32> = -4..=6;
 
@@ -66,6 +69,9 @@ pub fn with_error(value: f64, error: Option<f64>) -> String {
 /// assert_eq!(with_range(52_345.0, [51_900.0, 52_800.0]), "52350 (51900 to 52800)");
 /// assert_eq!(with_range(52_345.0, [11_900.0, f64::INFINITY]), "52000 (12000 or more)");
 /// assert_eq!(with_range(f64::INFINITY, [1e7, f64::INFINITY]), "1e7 or more");
+/// assert_eq!(with_range(f64::INFINITY, [6.5e6, f64::INFINITY]), "6.5e6 or more");
+/// assert_eq!(with_range(f64::INFINITY, [f64::INFINITY; 2]), "endless");
+/// assert_eq!(with_range(5e6, [3.2e6, f64::INFINITY]), "5.0e6 (3.2e6 or more)");
 /// assert_eq!(with_range(1.83e7, [4.4e6, 1.07e8]), "1.8e7 (4.4e6 to 1.1e8)");
 /// ```
 pub fn with_range(value: f64, [low, high]: [f64; 2]) -> String {
@@ -75,13 +81,12 @@ pub fn with_range(value: f64, [low, high]: [f64; 2]) -> String {
     if low.is_nan() || high.is_nan() {
         return format!("{} (estimate)", digits(value, OF_ERRORS));
     }
-    if value.is_infinite() && low.is_finite() {
-        let told = if PLAIN.contains(&power(low)) {
-            rough(low)
+    if value.is_infinite() {
+        return if low.is_finite() {
+            format!("{} or more", known_to_two(low))
         } else {
-            format!("{low:.1e}").replace(".0e", "e")
+            "endless".into()
         };
-        return format!("{told} or more");
     }
     let width = (high - low) / (2.0 * value.abs());
     let count = if width > 0.0 && width.is_finite() {
@@ -95,7 +100,14 @@ pub fn with_range(value: f64, [low, high]: [f64; 2]) -> String {
     let sizes = [value, low, high]
         .into_iter()
         .filter(|x| x.is_finite() && *x != 0.0);
-    let plain = sizes.map(power).all(|size| PLAIN.contains(&size));
+    let largest = if count > OF_ERRORS {
+        *PLAIN.end()
+    } else {
+        ZEROS
+    };
+    let plain = sizes
+        .map(power)
+        .all(|size| (*PLAIN.start()..=largest).contains(&size));
     let told = |x: f64| {
         if plain || x == 0.0 || !x.is_finite() {
             digits(x, count)
@@ -107,6 +119,24 @@ pub fn with_range(value: f64, [low, high]: [f64; 2]) -> String {
         return format!("{} ({} or more)", told(value), told(low));
     }
     format!("{} ({} to {})", told(value), told(low), told(high))
+}
+
+/// A number of two digits, without zeros that would pass for digits.
+///
+/// # Examples
+///
+/// ```
+/// use contact_core::digits::known_to_two;
+///
+/// assert_eq!(known_to_two(18_123.0), "18000");
+/// assert_eq!(known_to_two(1e7), "1e7");
+/// ```
+pub fn known_to_two(x: f64) -> String {
+    if x != 0.0 && x.is_finite() && !(*PLAIN.start()..=ZEROS).contains(&power(x)) {
+        format!("{x:.1e}").replace(".0e", "e")
+    } else {
+        rough(x)
+    }
 }
 
 /// The power of ten of the first digit.

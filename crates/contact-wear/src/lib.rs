@@ -47,6 +47,7 @@ pub use block::Block;
 pub use events::{Event, EventKind};
 pub use jump::Jump;
 pub use law::{Archard, BodyWear, CellCycle, DissipatedEnergy, Law};
+pub use passage::DEPTH_ROUNDING;
 pub use run::WearRun;
 pub use settings::{Cycling, Jumps, Wear, WornThrough};
 pub use state::WearState;

@@ -3,7 +3,7 @@
 use super::loss::Worn;
 
 /// A cell has reached a depth from this part of it below: a jump that ends there misses it by rounding.
-const ROUNDING: f64 = 1e-9;
+pub const DEPTH_ROUNDING: f64 = 1e-9;
 
 /// The depth of every cell within a jump \[m\]: `w_0 + (4 m - e) s + (2 e - 4 m) s^2` at the part s
 /// of the jump, m and e being the losses in its first half and in all. Both are of second order,
@@ -22,7 +22,7 @@ impl Passage<'_> {
         let cells = 0..self.whole[b].len();
         let reached = cells.filter_map(|c| {
             let (from, half, whole) = (self.worn.depth[b][c], self.half[b][c], self.whole[b][c]);
-            let reaches = from + whole >= depth * (1.0 - ROUNDING);
+            let reaches = from + whole >= depth * (1.0 - DEPTH_ROUNDING);
             reaches.then(|| (part(depth - from, half, whole), c))
         });
         reached.min_by(|a, b| a.0.total_cmp(&b.0))

@@ -123,7 +123,7 @@ mod _core {
     #[pymodule_export]
     use crate::subsurface::{Subsurface, section_of_states};
     #[pymodule_export]
-    use crate::text::{read_bytes, read_text, shown, with_error, with_range};
+    use crate::text::{read_bytes, read_text, rough, shown, with_error, with_range};
     #[pymodule_export]
     use crate::wear::{resume_wear, verify_wear, wear, wear_of_file};
     #[pymodule_export]
@@ -138,6 +138,9 @@ mod _core {
     /// Longest life that is told [cycles]; a longer one is infinite.
     #[pymodule_export]
     const LONGEST_LIFE: f64 = fatigue::LONGEST;
+    /// Part of a worn depth that a jump which ends there may miss.
+    #[pymodule_export]
+    const DEPTH_ROUNDING: f64 = contact_wear::DEPTH_ROUNDING;
     /// What is to be known of a largest plastic strain at a rim.
     #[pymodule_export]
     const STRAIN_AT_A_RIM: &str = contact_core::yielding::Rim::TOLD;

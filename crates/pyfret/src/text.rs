@@ -41,6 +41,13 @@ pub(crate) fn with_error(
     digits::with_error(value, error)
 }
 
+/// A number in two digits, which is known to no more.
+#[pyfunction]
+#[pyo3(signature = (value: "float"))]
+pub(crate) fn rough(#[pyo3(from_py_with = number)] value: f64) -> String {
+    digits::known_to_two(value)
+}
+
 /// A number and the range that it lies in, with the digits that the range leaves.
 #[pyfunction]
 #[pyo3(signature = (value: "float", low: "float", high: "float"))]

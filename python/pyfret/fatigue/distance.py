@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pyfret._core import LONGEST_LIFE
+from pyfret import _core
 from pyfret._util.kept import Kept
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
@@ -27,8 +27,8 @@ __all__ = ["OverDistance", "critical", "usual"]
 def rough(margin: float, *, lives: bool) -> str:
     """A life or a safety factor in two digits; a life beyond the tests of its curve as they end."""
     if np.isfinite(margin):
-        return f"{margin:.2g}"
-    return f"{LONGEST_LIFE:.2g} or more" if lives else "endless"
+        return _core.rough(margin)
+    return _core.with_range(margin, _core.LONGEST_LIFE if lives else margin, margin)
 
 
 class OverDistance(Kept, Labelled):

@@ -183,6 +183,7 @@ class Life(Kept, Labelled):
                 found.get("inclination"),
                 (found["range"][0], found["range"][1]),
                 str(self.dataset.value.attrs.get("units", "1")),
+                str(self.margin.attrs.get("units", "1")),
             )
         return self._worst[layer]
 

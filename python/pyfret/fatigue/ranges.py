@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, NamedTuple
 
-from pyfret._core import known_as
+from pyfret._core import known_as, with_range
 
 if TYPE_CHECKING:
     from pyfret._core import Assessment, Material
@@ -26,8 +26,8 @@ class Range(NamedTuple):
         return self.high / self.low if self.low > 0.0 else math.inf
 
     def __repr__(self) -> str:
-        """Give the best value and the range in two digits, since it is not known better."""
-        return in_two_digits(self.low, self.best, self.high)
+        """Give the best value and the range, with the digits that the range leaves."""
+        return with_range(self.best, self.low, self.high)
 
 
 class LifeRange(NamedTuple):
@@ -56,16 +56,8 @@ class LifeRange(NamedTuple):
         return self.high / self.low if self.low > 0.0 else math.inf
 
     def __repr__(self) -> str:
-        """Give the best value and the range in two digits, since it is not known better."""
-        return in_two_digits(self.low, self.best, self.high)
-
-
-def in_two_digits(low: float, best: float, high: float) -> str:
-    """A range as text."""
-    if math.isinf(best):
-        return f"{low:.2g} or more" if math.isfinite(low) else "endless"
-    upper = f"to {high:.2g}" if math.isfinite(high) else "or more"
-    return f"{best:.2g} ({low:.2g} {upper})"
+        """Give the best value and the range, with the digits that the range leaves."""
+        return with_range(self.best, self.low, self.high)
 
 
 def of_mean(

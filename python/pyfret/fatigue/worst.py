@@ -39,6 +39,8 @@ class Worst(NamedTuple):
     range: tuple[float, float]
     #: Unit of the value: "Pa", or "1" for strains.
     units: str = "1"
+    #: Unit of the margin: "cycles" of a life, "1" of a safety factor.
+    margin_units: str = "1"
 
     @property
     def error(self) -> float:
@@ -51,7 +53,10 @@ class Worst(NamedTuple):
         value = in_megapascals(self.value, self.error, self.units)
         at = f", at={self.at!r}" if self.at else ""
         angle = "" if self.inclination is None else f", inclination={self.inclination:.1f} degrees"
-        return f"Worst(margin={margin}, value={value}, {place(self)}{at}{angle})"
+        told = (
+            f"life {margin} cycles" if self.margin_units == "cycles" else f"safety factor {margin}"
+        )
+        return f"Worst({told} at a point, value={value}, {place(self)}{at}{angle})"
 
 
 def in_megapascals(value: float, error: float, units: str) -> str:

@@ -253,7 +253,8 @@ def of_lives(data: Lives) -> Model:
             worn = wear.solve(varied(scene, split(settings)[0]), progress=False, **arguments)
             cycles = worn.cycles_to(part_of_coating=data.part, body_number=data.body_number)
             # A coating that outlives the run by far counts as one that lives four times as long.
-            found.append(min(cycles, 4 * float(data.cycles[n])))
+            longest = 4 * float(data.cycles[n])
+            found.append(longest if cycles.beyond is not None else min(cycles, longest))
         logs = np.log(found)
 
         def at(_: NDArray[np.float64], __: float = 0.0) -> NDArray[np.float64]:

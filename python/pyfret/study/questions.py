@@ -222,7 +222,9 @@ def wear(result: Result, candidate: Candidate, duty: Duty) -> Found:
     numbers = {"worn_depth": Answer.within(depth, part * depth)}
     if candidate.layers > 1:
         cycles = run.cycles_to(part_of_coating=1.0, body_number=duty.body_number)
-        numbers["wear_through"] = Answer(cycles, cycles / (1.0 + part), cycles * (1.0 + part))
+        least = cycles if cycles.beyond is None else cycles.beyond
+        best = math.inf if math.isnan(cycles) else float(cycles)
+        numbers["wear_through"] = Answer(best, least / (1.0 + part), best * (1.0 + part))
         if float(run.cycles[-1]) < duty.cycles:
             # The run ends where the coating does.
             del numbers["worn_depth"]

@@ -16,10 +16,10 @@ from pyfret._util.labelled import Labelled
 from pyfret._util.numbers import length
 from pyfret._util.text import shown
 from pyfret._util.types import as_number
-from pyfret.fatigue.ranges import Range
-from pyfret.run.loops import of_corners
+from pyfret.run.loops import NO_FRICTION, frictionless, of_corners
 from pyfret.scene.tables import table
 from pyfret.subsurface.line import Line, cut
+from pyfret.wear.cycles import Cycles, RangeOfCycles, reached, spent
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -122,8 +122,11 @@ class WearResult(Kept, Labelled):
         energy: float | None = None,
         body_number: int = 2,
         coating: int = 0,
-    ) -> float:
-        """Cycles after which a body has worn so far; infinite if the run does not get there.
+    ) -> Cycles:
+        """Cycles after which a body has worn so far.
+
+        NaN if the run ended before, printed as "more than N cycles (the run ended there)". N is
+        ``beyond``. Infinite where nothing wears.
 
         Within a jump the depth and the volume follow the parabola through its ends and its middle,
         so the error is that of the depths (``depth_error``).
@@ -173,11 +176,12 @@ class WearResult(Kept, Labelled):
         return reached(self.dataset, f"{name}{body_number}", float(target or 0.0))
 
     @numbers_only
-    def range_of_cycles(self, *, scatter: float = SCATTER, **to: Any) -> Range:
+    def range_of_cycles(self, *, scatter: float = SCATTER, **to: Any) -> RangeOfCycles:
         """Cycles after which a body has worn so far as a range of 10 to 90 %: low, best, high.
 
         The error of the depths and the scatter of the wear coefficient make the range; their
-        logarithms are independent and add as squares.
+        logarithms are independent and add as squares. Where the run ended before, ``best`` and
+        ``high`` are NaN, and ``low`` is that of the last cycle.
 
         Parameters
         ----------
@@ -191,7 +195,8 @@ class WearResult(Kept, Labelled):
             raise ValueError(f"scatter = {scatter}: must be 1 or more, the highest over the lowest")
         best, error = self.cycles_to(**to), float(self.dataset["depth_error"][-1])
         part = math.exp(math.hypot(0.5 * math.log(scatter), math.log1p(error)))
-        return Range(best / part, best, best * part)
+        known = best if best.beyond is None else best.beyond
+        return RangeOfCycles(known / part, float(best), best * part)
 
     @property
     def gap(self) -> xr.DataArray:
@@ -244,10 +249,12 @@ class WearResult(Kept, Labelled):
             f"energy: {with_error(last['dissipated'])} {energy}, "
             f"{with_error(last['dissipated_per_cycle'])} {energy} in the last cycle"
         )
-        lines.append(
-            f"largest pressure: {with_error(1e-6 * last['p_max'])} MPa, stick ratio "
-            f"{with_error(last['stick_ratio'])}"
+        sticks = (
+            NO_FRICTION
+            if frictionless(self.scene)
+            else f"stick ratio {with_error(last['stick_ratio'])}"
         )
+        lines.append(f"largest pressure: {with_error(1e-6 * last['p_max'])} MPa, {sticks}")
         for event in self.events:
             cycles = with_error(event["cycles"], last["depth_error"] * event["cycles"])
             lines.append(
@@ -293,43 +300,6 @@ class WearResult(Kept, Labelled):
             f"WearResult({float(d.cycles[-1]):.0f} cycles in {d.sizes['jump']} jumps, depths "
             f"{depths[0]} and {depths[1]})"
         )
-
-
-#: Part of a depth by which a run of wear may miss it, as the core's events have it.
-ROUNDING = 1e-9
-
-
-def spent(d: xr.Dataset, energy: float) -> float:
-    """Cycles at which the dissipated energy [J] reaches a value: linear within a jump."""
-    cycles, ends = (np.asarray(d[of].values, float) for of in ("cycles", "dissipated"))
-    before = float(cycles[0] - d["length"][0])
-    start = float(ends[0] - d["dissipated_per_cycle"][0] * d["length"][0])
-    if energy > ends[-1]:
-        return math.inf
-    return float(np.interp(energy, [max(start, 0.0), *ends], [before, *cycles]))
-
-
-def reached(d: xr.Dataset, name: str, target: float) -> float:
-    """Cycles at which a growing number of the jumps reaches a value, by parabolas.
-
-    A run that ends where a coating is worn through may miss its bottom by :data:`ROUNDING`.
-    """
-    ends, middles, length = (np.asarray(d[k].values) for k in (name, f"{name}_halfway", "length"))
-    if target <= 0.0:
-        return float(d.cycles[0] - length[0])
-    jumps = np.flatnonzero(ends >= target * (1.0 - ROUNDING))
-    if jumps.size == 0:
-        return math.inf
-    n = int(jumps[0])
-    quantity, body = name[:-1], int(name[-1])
-    start = float(ends[n - 1]) if n else float(d.attrs[f"{quantity}_before"][body - 1])
-    whole, asked = float(ends[n]) - start, target - start
-    if not (asked > 0.0 and whole > 0.0):
-        return float(d.cycles[n] - length[n])
-    half = min(max(float(middles[n]) - start, 0.25 * whole), 0.75 * whole)
-    slope, bend = 4.0 * half - whole, 2.0 * whole - 4.0 * half
-    part = 2.0 * asked / (slope + math.sqrt(max(slope**2 + 4.0 * bend * asked, 0.0)))
-    return float(d.cycles[n] - length[n] * (1.0 - min(part, 1.0)))
 
 
 def written(law: dict[str, Any]) -> str:
