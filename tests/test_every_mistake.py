@@ -181,6 +181,21 @@ def test_json_has_numbers() -> None:
     assert told["convolutions"][0] < told["convolutions"][1]
     assert 0 < told["memory"]["needed"] < told["memory"]["available"]
     assert told["errors"] == []
+    # Each number has a unit.
+    units = told["units"]
+    assert set(units) == {name for name in numbers_of(told) if not name.startswith("units")}
+
+
+def numbers_of(told: dict[str, object], within: str = "") -> set[str]:
+    """Names of the numbers of an answer, and of the lists of them."""
+    found: set[str] = set()
+    for name, value in told.items():
+        first = value[0] if isinstance(value, list) and value else value
+        if isinstance(value, dict):
+            found |= numbers_of(value, f"{within}{name}.")
+        elif isinstance(first, int | float) and not isinstance(first, bool):
+            found.add(f"{within}{name}")
+    return found
 
 
 class Quantity:

@@ -127,7 +127,7 @@ def test_lines_and_distance(store: Path, tmp_path: Path) -> None:
     assert run.returncode == 0, run.stderr
     # One material is that of the substrate.
     assert run.stdout.startswith("the substrate: safety factor")
-    assert run.stdout.rstrip().endswith("decides")
+    assert ", the least of this body at a point, limited by dang_van = " in run.stdout
     both = ("--material", "mine,mine")
     run = life(store, *own, *both, "--distance", "3e-5", "--json")
     assert run.returncode == 0, run.stderr

@@ -6,7 +6,64 @@ use contact_core::scene::{RigidMotion, Scene};
 use contact_subsurface::{Cycle, Direction, LoopPoint, loops};
 use serde_json::{Map, Value, json};
 
-use crate::words::{state, word};
+use crate::words::{frictionless, state, word};
+
+/// What stands in place of a number that JSON has no word for.
+const WHY: [(&str, &str); 3] = [
+    ("\u{0}infinite", "infinite"),
+    ("\u{0}-infinite", "infinite, negative"),
+    ("\u{0}unknown", "not known"),
+];
+
+/// A number for [`written`]: one that is not finite keeps why.
+pub(crate) fn number(x: f64) -> Value {
+    let kind = match x {
+        x if x.is_finite() => return json!(x),
+        f64::INFINITY => 0,
+        f64::NEG_INFINITY => 1,
+        _ => 2,
+    };
+    json!(WHY[kind].0)
+}
+
+/// What a command prints for programs: a number that is not finite is null, and `NAME_why` beside it
+/// is the reason. In a list the reasons of all stand in a list.
+pub(crate) fn written(value: Value) -> Value {
+    match value {
+        Value::Object(of) => {
+            let mut found = Map::new();
+            for (name, value) in of {
+                let why = reason(&value);
+                found.insert(name.clone(), written(value));
+                if let Some(why) = why {
+                    found.insert(format!("{name}_why"), why);
+                }
+            }
+            Value::Object(found)
+        }
+        Value::Array(of) => Value::Array(of.into_iter().map(written).collect()),
+        value if reason(&value).is_some() => Value::Null,
+        value => value,
+    }
+}
+
+/// Why a number, or one of a list, is none.
+fn reason(value: &Value) -> Option<Value> {
+    match value {
+        Value::String(text) => {
+            let known = WHY.iter().find(|(mark, _)| mark == text);
+            known.map(|(_, why)| json!(why))
+        }
+        Value::Array(of) => {
+            let each: Vec<_> = of
+                .iter()
+                .map(|value| reason(value).filter(Value::is_string))
+                .collect();
+            each.iter().any(Option::is_some).then(|| json!(each))
+        }
+        _ => None,
+    }
+}
 
 /// A run: its branches and its cycles, and the error bars of the branches where there are any.
 pub(crate) fn run(scene: &Scene, increments: &[Increment], bars: Option<&[ErrorBars]>) -> Value {
@@ -24,12 +81,12 @@ pub(crate) fn run(scene: &Scene, increments: &[Increment], bars: Option<&[ErrorB
         .collect();
     let cycles: Vec<Value> = cycles(scene, increments)
         .iter()
-        .map(|(direction, c)| cycle(*direction, c))
+        .map(|(direction, c)| cycle(scene, *direction, c))
         .collect();
     let hertz = scene.hertz();
-    json!({
+    written(json!({
         "title": scene.title,
-        "mu": scene.friction.mu,
+        "mu": number(scene.friction.mu),
         "a_H": hertz.map(|h| h.a),
         "p_H": hertz.map(|h| h.p0),
         "increments": increments.len(),
@@ -38,7 +95,7 @@ pub(crate) fn run(scene: &Scene, increments: &[Increment], bars: Option<&[ErrorB
         "cycles": cycles,
         "error_bars": bars,
         "doubts": reached.all_doubts(scene),
-    })
+    }))
 }
 
 /// Units of forces, moments, energies and stiffnesses: of a line contact they are per metre.
@@ -74,8 +131,12 @@ fn branch(scene: &Scene, b: &BranchSummary, own: &[Increment], error: Option<f64
         set(of.name(), json!(motions[of.index()]));
     }
     set(length_of(scene), json!(b.contact_radius));
-    set("stick_ratio", json!(b.stick_ratio));
-    set("status", json!(state(last.status).replace(' ', "_")));
+    let sticks = (!frictionless(scene)).then_some(b.stick_ratio);
+    set("stick_ratio", json!(sticks));
+    set(
+        "status",
+        json!(state(frictionless(scene), last.status).replace(' ', "_")),
+    );
     set("p_max", json!(b.p_max));
     set("dissipated", json!(b.dissipated));
     if scene.yields() {
@@ -93,20 +154,20 @@ fn branch(scene: &Scene, b: &BranchSummary, own: &[Increment], error: Option<f64
     Value::Object(of)
 }
 
-fn cycle(direction: Direction, c: &Cycle) -> Value {
+fn cycle(scene: &Scene, direction: Direction, c: &Cycle) -> Value {
     json!({
         "direction": word(direction),
         "first_branch": c.branches.0,
         "last_branch": c.branches.1,
-        "status": state(c.status).replace(' ', "_"),
+        "status": state(frictionless(scene), c.status).replace(' ', "_"),
         "dissipated": c.dissipated,
         "T": c.T,
         "delta": c.delta,
-        "stiffness": c.stiffness,
-        "stiffness_error": c.stiffness_error,
-        "energy_ratio": c.energy_ratio(),
-        "sliding_ratio": c.sliding_ratio(),
-        "sliding_ratio_error": c.sliding_ratio_error(),
+        "stiffness": number(c.stiffness),
+        "stiffness_error": number(c.stiffness_error),
+        "energy_ratio": number(c.energy_ratio()),
+        "sliding_ratio": number(c.sliding_ratio()),
+        "sliding_ratio_error": number(c.sliding_ratio_error()),
     })
 }
 

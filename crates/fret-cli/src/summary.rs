@@ -12,7 +12,7 @@ use contact_core::yielding::Rim;
 use contact_subsurface::{Cycle, Direction};
 
 use crate::json;
-use crate::words::{state, word};
+use crate::words::{frictionless, state, word};
 
 /// Micrometres, or microjoules, per SI unit.
 const MICRO: f64 = 1e6;
@@ -56,7 +56,7 @@ pub(crate) fn line(scene: &Scene, branch: &BranchSummary, t: f64) -> String {
     });
     format!(
         "branch {}/{}: t = {}, W = {} {force}, T_x = {} {force}{others}: {} {:.4} {}, \
-         stick ratio {:.4}, p_max {:.4} {}",
+         {}, p_max {:.4} {}",
         branch.branch + 1,
         scene.path.branches.len(),
         short(t),
@@ -65,7 +65,11 @@ pub(crate) fn line(scene: &Scene, branch: &BranchSummary, t: f64) -> String {
         size(scene),
         branch.contact_radius / radius.1,
         radius.0,
-        branch.stick_ratio,
+        if frictionless(scene) {
+            "no friction".to_owned()
+        } else {
+            format!("stick ratio {:.4}", branch.stick_ratio)
+        },
         branch.p_max / pressure.1,
         pressure.0,
     )
@@ -177,6 +181,7 @@ fn column(
 
 fn columns(scene: &Scene, increments: &[Increment], wide: bool) -> Vec<Column> {
     let Measures { radius, pressure } = Measures::of(scene);
+    let bare = frictionless(scene);
     let micro = |x: f64| short(x * MICRO);
     let (force, (joule, joules)) = (scene.grid.unit_of("N"), energy(scene));
     let width = if scene.grid.plane_strain {
@@ -199,8 +204,16 @@ fn columns(scene: &Scene, increments: &[Increment], wide: bool) -> Vec<Column> {
         column(format!("{width}\n[{}]", radius.0), move |b, _| {
             short(b.contact_radius / radius.1)
         }),
-        column("stick\nratio", |b, _| short(b.stick_ratio)),
-        column("state", |_, last| state(last.status).replace(' ', "\n")),
+        column("stick\nratio", move |b, _| {
+            if bare {
+                "-".into()
+            } else {
+                short(b.stick_ratio)
+            }
+        }),
+        column("state", move |_, last| {
+            state(bare, last.status).replace(' ', "\n")
+        }),
         column(format!("p_max\n[{}]", pressure.0), move |b, _| {
             short(b.p_max / pressure.1)
         }),
@@ -271,7 +284,7 @@ fn cycle_lines(scene: &Scene, increments: &[Increment]) -> Vec<String> {
             "cycle {} ({}): {}, {} {joule} dissipated, energy ratio {}\n  sliding ratio {}\n  stiffness {}",
             n + 1,
             word(*direction),
-            state(c.status),
+            state(frictionless(scene), c.status),
             short(c.dissipated * joules),
             short(c.energy_ratio()),
             with_error(c.sliding_ratio(), Some(c.sliding_ratio_error())),

@@ -1,12 +1,19 @@
 //! Words for states and directions.
 
+use contact_core::Scene;
 use contact_core::march::Status;
 use contact_subsurface::Direction;
 
+/// Whether a contact transmits no shear: it neither sticks nor slips, and has no stick ratio.
+pub(crate) fn frictionless(scene: &Scene) -> bool {
+    scene.friction.mu == 0.0
+}
+
 /// The state of the interface in words.
-pub(crate) fn state(status: Status) -> &'static str {
+pub(crate) fn state(frictionless: bool, status: Status) -> &'static str {
     match status {
         Status::NoContact => "no contact",
+        _ if frictionless => "no friction",
         Status::FullStick => "full stick",
         Status::PartialSlip => "partial slip",
         Status::GrossSlip => "gross slip",

@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import errno
 import importlib
-import json
 import os
 import signal
 import sys
@@ -16,7 +15,7 @@ from typing import TYPE_CHECKING
 from pyfret import verification, wear
 from pyfret._cli import compare, crack, explore, export, fit, threshold
 from pyfret._cli.parser import Parser, added
-from pyfret._cli.say import say
+from pyfret._cli.say import say, say_json
 from pyfret._core import __version__
 from pyfret.citation import cite as told
 from pyfret.citation import sources
@@ -175,7 +174,7 @@ def cite(options: argparse.Namespace) -> int:
 
 def tell(**answer: object) -> None:
     """Print what came out as one JSON object."""
-    say(json.dumps(answer, indent=2))
+    say_json(answer, indent=2)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import json
 from typing import TYPE_CHECKING, Any
 
 from pyfret._cli.parser import added
+from pyfret._cli.say import say, say_json
 from pyfret.study.compare_file import run_file
 
 if TYPE_CHECKING:
@@ -46,9 +46,9 @@ def run(options: argparse.Namespace) -> int:
             for name, verdict in ((name, found.verdict(name)) for name in found.numbers)
         }
         answer = {"store": str(place), "numbers": numbers, "missing": found.missing}
-        print(json.dumps({**answer, "failed": found.failed}, indent=2))
+        say_json({**answer, "failed": found.failed}, indent=2)
     else:
-        print(found.summary())
+        say(found.summary())
     if options.figure:
         found.plot().savefig(options.figure)
     if options.report:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import json
 import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pyfret import fatigue
 from pyfret._cli.parser import added
-from pyfret._cli.say import say
+from pyfret._cli.say import say, say_json
 from pyfret._util import files
 from pyfret.fracture import Paris, Threshold
 from pyfret.result import open
@@ -104,7 +103,10 @@ def run(options: argparse.Namespace) -> int:
     if options.paris is not None and threshold is not None:
         rows[-1]["cycles"] = cracks.life(threshold, Paris(*options.paris)).cycles
     for row in rows:
-        say(json.dumps(row) if options.json else _line(row))
+        if options.json:
+            say_json(row)
+        else:
+            say(_line(row))
     if options.out and Path(options.out).suffix in FIELDS:
         files.write(cracks.dataset, options.out)
     elif options.out and threshold is not None:

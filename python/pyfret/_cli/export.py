@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -10,7 +9,7 @@ import numpy as np
 
 from pyfret import export
 from pyfret._cli.parser import added
-from pyfret._cli.say import say
+from pyfret._cli.say import say, say_json
 from pyfret.result import open as open_result
 
 if TYPE_CHECKING:
@@ -74,7 +73,7 @@ def run(options: argparse.Namespace) -> int:
     )
     if options.json:
         about = {"file": options.out, "body": options.body, "unit": options.unit}
-        say(json.dumps(about | {"bytes": Path(options.out).stat().st_size}, indent=2))
+        say_json(about | {"bytes": Path(options.out).stat().st_size}, indent=2)
     else:
         say(options.out)
     return 0

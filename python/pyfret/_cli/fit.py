@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from pyfret import fit
 from pyfret._cli.parser import added
-from pyfret._cli.say import say
+from pyfret._cli.say import say, say_json
 from pyfret.study.design import varied
 
 if TYPE_CHECKING:
@@ -82,7 +82,7 @@ def run(options: argparse.Namespace) -> int:
         }
         if found.posterior is not None:
             said["posterior"] = {key: found.posterior.interval(key) for key in found.known}
-        say(json.dumps(said))
+        say_json(said)
     else:
         say(found.summary())
     if options.out:

@@ -2,16 +2,50 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import json
+import math
+from typing import TYPE_CHECKING, Any
 
 from pyfret._util.text import shown
 
 if TYPE_CHECKING:
     from typing import TextIO
 
-__all__ = ["say"]
+__all__ = ["say", "say_json", "written"]
 
 
 def say(text: object, *, file: TextIO | None = None) -> None:
     """Print a line, to the standard output unless another one is given."""
     print(shown(str(text)), file=file)
+
+
+def say_json(answer: object, *, indent: int | None = None) -> None:
+    """Print an answer for programs, as JSON that every reader takes."""
+    say(json.dumps(written(answer), indent=indent, allow_nan=False))
+
+
+def written(answer: Any) -> Any:
+    """An answer whose numbers JSON has words for.
+
+    A number that is not finite is null, and ``NAME_why`` beside it is the reason. In a list the
+    reasons of all stand in a list. A reason that is given stays.
+    """
+    if isinstance(answer, dict):
+        reasons = {f"{name}_why": reason(value) for name, value in answer.items()}
+        found = {name: why for name, why in reasons.items() if why is not None}
+        return found | {name: written(value) for name, value in answer.items()}
+    if isinstance(answer, list | tuple):
+        return [written(value) for value in answer]
+    if hasattr(answer, "item"):
+        answer = answer.item()
+    return None if reason(answer) is not None else answer
+
+
+def reason(value: Any) -> Any:
+    """Why a number, or one of a list, is none; None where all are numbers."""
+    if isinstance(value, list | tuple):
+        each = [why if isinstance(why := reason(of), str) else None for of in value]
+        return each if any(each) else None
+    if not isinstance(value, float) or math.isfinite(value):
+        return None
+    return "not known" if math.isnan(value) else "infinite"

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import json
 import sys
 from typing import TYPE_CHECKING, Any
 
 from pyfret import fatigue
 from pyfret._cli.parser import added
-from pyfret._cli.say import say
+from pyfret._cli.say import say, say_json
 from pyfret.study.design import varied
 from pyfret.study.thresholds import Averaged, ThresholdLoad, threshold
 
@@ -118,5 +117,8 @@ def run(options: argparse.Namespace) -> int:
         ]
     for row in rows:
         text = ", ".join(f"{k} = {v:.6g}" for k, v in row.items())
-        say(json.dumps(row) if options.json else text)
+        if options.json:
+            say_json(row)
+        else:
+            say(text)
     return 0

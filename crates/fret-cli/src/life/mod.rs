@@ -17,6 +17,7 @@ use serde_json::json;
 pub(crate) use self::options::Options;
 use self::rows::{Judging, Row};
 use crate::failure::Failure;
+use crate::json::written;
 use crate::printed::print;
 use crate::stress::{given_residual, stop_on_interrupt};
 use crate::terminal::say;
@@ -119,7 +120,7 @@ fn judged(options: &Options) -> Result<Vec<String>, Error> {
         let mut json = row.json.clone();
         json["notes"] = json!(notes.iter().chain(own).collect::<Vec<_>>());
         if options.json {
-            json.to_string()
+            written(json).to_string()
         } else {
             row.line.clone()
         }

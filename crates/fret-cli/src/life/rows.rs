@@ -14,6 +14,7 @@ use fatigue::{Assessment, AtPoint, Material, Range};
 use serde_json::{Value, json};
 
 use super::options::Options;
+use crate::json::number;
 use crate::units::{mega, um};
 
 /// The line of a layer.
@@ -46,7 +47,7 @@ pub(super) struct Judging<'a> {
 }
 
 impl Judging<'_> {
-    /// A line for every layer that is judged, the one that decides marked.
+    /// A line for every layer that is judged, the one with the least margin marked.
     pub(super) fn points(
         &self,
         sections: &[&Judged<AtPoint>],
@@ -199,25 +200,35 @@ impl Layer<'_> {
         let point = self.of.range(extreme.value, error);
         let mut json = self.json();
         let own = json!({
-            self.name(): point.best, "at_point": [point.low, point.high],
-            "value": extreme.value, "error": error, "error_x": extreme.error.x,
-            "error_y": extreme.error.y, "error_z": extreme.error.z,
-            "error_tractions": extreme.error.tractions, "x": extreme.x, "y": extreme.y,
+            self.name(): number(point.best), "at_point": [number(point.low), number(point.high)],
+            "value": number(extreme.value), "error": number(error), "error_x": number(extreme.error.x),
+            "error_y": number(extreme.error.y), "error_z": number(extreme.error.z),
+            "error_tractions": extreme.error.tractions.map(number), "x": extreme.x, "y": extreme.y,
             "z": extreme.depth.z, "at": at, "normal": normal, "inclination": angle,
             "decides": decides,
         });
         merge(&mut json, own);
-        let over = self.range.length.map_or(String::new(), |length| {
-            format!(
-                ", mean over L = {}; at the worst point {}",
-                um(length),
-                said(&point, self.of)
-            )
-        });
+        let least = if decides {
+            ", the least of this body"
+        } else {
+            ""
+        };
+        // One margin a line: that of the mean stands above that of the point.
+        let over = self.range.length.map_or_else(
+            || format!("{}: {}{least} at a point", self.called, self.told()),
+            |length| {
+                format!(
+                    "{}: {} of the mean over L = {}\n{}, worst point: {}{least}",
+                    self.called,
+                    self.told(),
+                    um(length),
+                    self.called,
+                    said(&point, self.of)
+                )
+            },
+        );
         let mut line = format!(
-            "{}: {}{over}, {criterion} {} +- {} at x = {}, y = {}, z = {}",
-            self.called,
-            self.told(),
+            "{over}, limited by {criterion} = {} +- {} at x = {}, y = {}, z = {}",
             mega(extreme.value, unit),
             mega(error, unit),
             um(extreme.x),
@@ -229,9 +240,6 @@ impl Layer<'_> {
         }
         if let Some(at) = at {
             let _ = write!(line, ", at the {at}");
-        }
-        if decides {
-            line.push_str(", decides");
         }
         Row {
             line,
@@ -247,18 +255,18 @@ impl Layer<'_> {
         let axis = along.name();
         let mut json = self.json();
         let own = json!({
-            self.name(): self.of.margin(mean.value), "value": mean.value,
+            self.name(): number(self.of.margin(mean.value)), "value": mean.value,
             "method": options.method, axis: mean.place,
         });
         merge(&mut json, own);
         let line = format!(
-            "{}: {}, {criterion} {} at {axis} = {}, {} method with L = {}",
+            "{}: {} of the mean over L = {} ({} method), limited by {criterion} = {} at {axis} = {}",
             self.called,
             self.told(),
+            um(length),
+            options.method,
             mega(mean.value, unit),
             um(mean.place),
-            options.method,
-            um(length)
         );
         Row {
             line,
@@ -276,10 +284,10 @@ impl Layer<'_> {
     /// The range as numbers.
     fn json(&self) -> Value {
         let Range { low, best, high } = self.range.of.range;
-        let three = |of: Range| [of.low, of.best, of.high];
+        let three = |of: Range| [of.low, of.best, of.high].map(number);
         json!({
             "layer": self.worst.extreme.depth.layer, "criterion": self.of.criterion.name(),
-            "unit": self.of.criterion.unit(), "low": low, "best": best, "high": high,
+            "unit": self.of.criterion.unit(), "low": number(low), "best": number(best), "high": number(high),
             "of_stress": three(self.range.of.stress), "of_material": self.range.of.material,
             "of_distance": self.range.of.distance.map(three), "L": self.range.length,
         })

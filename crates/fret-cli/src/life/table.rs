@@ -99,7 +99,7 @@ fn head(line: &Line, values: &str) -> String {
         ("x", "y")
     };
     format!(
-        "{axis} [m],{across} [m],z [m],layer,{values},n_x,n_y,n_z,shear_amplitude [Pa],normal_max [Pa],normal_min [Pa]"
+        "{axis} [m],{across} [m],z [m],layer,{values},normal_x,normal_y,normal_z,shear_amplitude [Pa],normal_max [Pa],normal_min [Pa]"
     )
 }
 
