@@ -102,7 +102,7 @@ def test_tables_hold_the_load(result: fret.Result, tmp_path: Path) -> None:
     area = grid.dx * grid.dy * 1e6
     result.export(tmp_path / "t.csv", at=3, frame=FRAME)
     table = np.genfromtxt(tmp_path / "t.csv", delimiter=",", names=True)
-    total = np.array([table[f"t_{k}"].sum() for k in (1, 2, 3)]) * area
+    total = np.array([table[f"t_{k}_MPa"].sum() for k in (1, 2, 3)]) * area
     np.testing.assert_allclose(FRAME.axes @ total, [float(state.T_x), 0.0, W], atol=1e-6 * W)
     result.export(tmp_path / "a.csv", at=3, frame=FRAME, form="abaqus", of="p")
     cloud = np.loadtxt(tmp_path / "a.csv", delimiter=",")
@@ -177,8 +177,8 @@ def test_stress_at_points_is_that_below_the_contact(result: fret.Result, tmp_pat
     table = np.genfromtxt(tmp_path / "s.csv", delimiter=",", names=True)
     below = state.stress(depths, x=0.0, y=0.0)
     # The contact's z is the model's -y, its x the model's z.
-    np.testing.assert_allclose(table["s_yy"], 1e-6 * below.s_zz, rtol=1e-6)
-    np.testing.assert_allclose(table["s_zz"], 1e-6 * below.s_xx, rtol=1e-6)
+    np.testing.assert_allclose(table["s_yy_MPa"], 1e-6 * below.s_zz, rtol=1e-6)
+    np.testing.assert_allclose(table["s_zz_MPa"], 1e-6 * below.s_xx, rtol=1e-6)
     with pytest.raises(ValueError, match="outside body 2"):
         export.stress(state, [[3.0, 21.0, -1.0]], frame=FRAME)
 

@@ -60,6 +60,14 @@ def test_wear_of_other_bodies_is_refused(worn: fret.wear.WearResult, tmp_path: P
     assert not (tmp_path / "page.html").exists()
 
 
+def test_a_crack_in_other_bodies_is_refused(result: fret.Result, tmp_path: Path) -> None:
+    other = fret.solve(sphere_on_flat(ratio=4.0, n=16), PATH, save="all", progress=False)
+    crack = other.crack(lengths=[1e-5, 2e-5])
+    with pytest.raises(ValueError, match="crack: is of other bodies than the run"):
+        result.report(tmp_path / "page.html", crack=crack)
+    assert not (tmp_path / "page.html").exists()
+
+
 def test_the_page_has_it_all_in_one_small_file(page: Path, result: fret.Result) -> None:
     text = page.read_text(encoding="utf-8")
     assert page.stat().st_size < 5e6

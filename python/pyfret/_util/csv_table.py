@@ -16,17 +16,23 @@ if TYPE_CHECKING:
 
     import xarray as xr
 
-__all__ = ["head", "write_csv"]
+__all__ = ["head", "unit_of", "write_csv"]
 
 #: The dimension whose entries become columns.
 AXIS = "axis"
 
 
-def head(name: str, of: xr.DataArray) -> str:
-    """Name and unit of a column: ``T_x [N]``; a pure number has no unit."""
+def unit_of(name: str, of: xr.DataArray) -> str:
+    """The unit of a variable: its own, or that of the key that it is named after; "" of numbers."""
     measured = _core.measured_by(name)
     unit = str(of.attrs.get("units", "1" if measured is None else measured[1]))
-    return name if unit in ("", "1") else f"{name} [{unit}]"
+    return "" if unit == "1" else unit
+
+
+def head(name: str, of: xr.DataArray) -> str:
+    """Name and unit of a column: ``T_x [N]``; a pure number has no unit."""
+    unit = unit_of(name, of)
+    return f"{name} [{unit}]" if unit else name
 
 
 def write_csv(

@@ -14,8 +14,8 @@ if TYPE_CHECKING:
 
 __all__ = ["Frame"]
 
-#: Units of length: how many of them are a metre, and how many of their stresses a pascal.
-UNITS = {"m": (1.0, 1.0), "mm": (1e3, 1e-6)}
+#: Units of length: how many of them are a metre, how many of their stresses a pascal, and these.
+UNITS = {"m": (1.0, 1.0, "Pa"), "mm": (1e3, 1e-6, "MPa")}
 #: Cosine between the axes beyond which they are no right angle.
 SKEW = 1e-9
 
@@ -63,6 +63,11 @@ class Frame:
     def per_pascal(self) -> float:
         """How many of the model's units of stress are a pascal."""
         return UNITS[self.unit][1]
+
+    @property
+    def unit_of_stress(self) -> str:
+        """The model's unit of stress."""
+        return UNITS[self.unit][2]
 
     def place(self, points: ArrayLike) -> NDArray[np.float64]:
         """Places of the contact, shape (..., 3) [m], in the model and its unit."""

@@ -79,7 +79,7 @@ def tractions(
     body_number : 1 or 2
         The body on which the tractions act.
     form : "csv", "abaqus" or "aster"
-        ``"csv"``: with a head, as Ansys' External Data and most programs take it. The columns are
+        ``"csv"``: with a head of names and units, as most programs take it. The columns are
         the place, ``p``, ``q_x``, ``q_y`` along the contact's axes and the vector ``t_1``, ``t_2``,
         ``t_3`` along the model's axes. ``"abaqus"``: place and one number, the point cloud of a
         mapped analytical field. ``"aster"``: the same columns as ``"csv"`` for ``LIRE_TABLE`` of
@@ -112,7 +112,7 @@ def tractions(
     names = ("x", "y", "z", *TRACTIONS, "t_1", "t_2", "t_3")
     values = np.column_stack([place, along, vector])
     if form == "csv":
-        _write(path, ",".join(names), values, ",")
+        _write(path, _head(names, frame), values, ",")
         return
     head = "\n".join(
         ("#DEBUT_TABLE", "#TITRE TRACTIONS", " ".join(names), " ".join("R" for _ in names))
@@ -183,8 +183,16 @@ def stress(
     tensor = frame.stress(tensor)
     values = tensor[:, [0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
     if path is not None:
-        _write(path, ",".join(("x", "y", "z", *STRESSES)), np.column_stack([places, values]), ",")
+        _write(
+            path, _head(("x", "y", "z", *STRESSES), frame), np.column_stack([places, values]), ","
+        )
     return values
+
+
+def _head(names: Sequence[str], frame: Frame) -> str:
+    """The head of a CSV table: each name with its unit in the model."""
+    units = (frame.unit if name in ("x", "y", "z") else frame.unit_of_stress for name in names)
+    return ",".join(f"{name} [{unit}]" for name, unit in zip(names, units, strict=True))
 
 
 def _write(

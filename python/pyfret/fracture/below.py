@@ -308,5 +308,5 @@ def labelled(
     }
     about |= {"body_number": cycle.body_number, "half_width": cycle.half_width}
     of_run = cycle.result.dataset.attrs
-    about |= {name: of_run[name] for name in ("a_H", "p_H") if name in of_run}
+    about |= {name: of_run[name] for name in ("a_H", "p_H", "scene") if name in of_run}
     return Cracks(xr.Dataset(variables, coords=coordinates, attrs=about))

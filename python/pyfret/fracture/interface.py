@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from pyfret._core import with_error
+from pyfret._util.bounds import ESTIMATE
 from pyfret._util.door import numbers_only
 from pyfret._util.lazy import xr
 from pyfret._util.types import as_number
@@ -89,7 +91,8 @@ def over_cycle(
     peel = np.maximum(of_upper[..., 2], 0.0)
     shear = of_upper[..., 4:6]
     dims = ("interface", along)
-    pascal = {"units": "Pa"}
+    # The error of the stress over a cycle is not known.
+    pascal = {"units": "Pa", **ESTIMATE}
     found = xr.Dataset(
         {
             "peel": (dims, peel.max(axis=0), {**pascal, "long_name": "largest peel of the cycle"}),
@@ -108,7 +111,11 @@ def over_cycle(
     )
     if peel_strength is not None and shear_strength is not None:
         square = (peel / peel_strength) ** 2 + (shear**2).sum(axis=-1) / shear_strength**2
-        attrs = {"units": "1", "long_name": "quadratic criterion of the interface, 1 at failure"}
+        attrs = {
+            **ESTIMATE,
+            "units": "1",
+            "long_name": "quadratic criterion of the interface, 1 at failure",
+        }
         found["criterion"] = (dims, square.max(axis=0), attrs)
     return found
 
@@ -152,6 +159,14 @@ class Buckling(NamedTuple):
     deflection: float
     #: Energy release rate along the sides of the strip [J/m^2].
     release: float
+
+    def __repr__(self) -> str:
+        """The three with their units: estimates, since the substrate is taken for rigid."""
+        return (
+            f"Buckling(critical_stress = {with_error(1e-6 * self.critical_stress)} MPa, "
+            f"deflection = {with_error(1e6 * self.deflection)} um, "
+            f"release = {with_error(self.release)} J/m^2)"
+        )
 
 
 @numbers_only

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-import sys
 import textwrap
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeAlias
@@ -13,15 +11,11 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from pyfret._util.bounds import bounds, known_to
+from pyfret._util.per_metre import of_line_contacts
 from pyfret._util.text import literal
 from pyfret.plot.areas import geometric, logarithmic
 from pyfret.plot.parameters import parameter_label
 from pyfret.plot.style import REFERENCE, axes, styled
-
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -171,18 +165,6 @@ def power_of(values: xr.DataArray) -> int | None:
 def in_unit_of(end: xr.DataArray, values: xr.DataArray) -> xr.DataArray:
     """An end of the range of a measure in the unit of its figure."""
     return end / 10.0 ** (power_of(values) or 0)
-
-
-def of_line_contacts(d: xr.Dataset) -> bool:
-    """Whether the stored scene of a study is a line contact on one metre."""
-    try:
-        grid = tomllib.loads(json.loads(d.attrs["study"])["scene"])["grid"]
-    except (KeyError, ValueError):
-        # A function makes its scenes, or it was put together by hand.
-        return False
-    spacing = grid.get("spacing")
-    width = spacing[-1] if isinstance(spacing, list) else grid.get("width", 1.0)
-    return bool(grid.get("plane_strain")) and width == 1.0
 
 
 def on_axis(coordinate: xr.DataArray, words: Words) -> tuple[np.ndarray, str]:

@@ -10,11 +10,12 @@ from pathlib import Path
 from string import Template
 from typing import TYPE_CHECKING
 
-from pyfret._core import __version__
+from pyfret._core import Scene, __version__
 from pyfret._util.door import numbers_only
 from pyfret._util.files import beside
 from pyfret._util.text import html
 from pyfret.citation import sources
+from pyfret.fracture.growth import Cracks
 from pyfret.report.content import figures as numbers
 from pyfret.report.crack import CrackSection
 from pyfret.run.summary import directions
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from pyfret._core import Body
-    from pyfret.fracture.growth import Cracks, Threshold
+    from pyfret.fracture.growth import Threshold
     from pyfret.run import Run
     from pyfret.wear.result import WearResult
 
@@ -76,16 +77,17 @@ def report(
     ImportError
         If the package plotly is missing: ``pip install "fretting[report]"``.
     ValueError
-        The ending of the file is another, a threshold is given without a crack, or the wear is that
-        of other bodies.
+        The ending of the file is another, a threshold is given without a crack, or the wear or the
+        crack is that of other bodies.
     """
     place = Path(path)
     if place.suffix not in (".html", ".htm"):
         raise ValueError(f"{place}: must end in .html")
     if threshold is not None and crack is None:
         raise ValueError("threshold: needs a crack, such as crack=result.crack()")
-    if wear is not None and bodies_of(wear) != bodies_of(result):
-        raise ValueError("wear: is of other bodies than the run: write a page for each")
+    for name, of in (("wear", wear), ("crack", crack)):
+        if of is not None and bodies_of(of) not in (None, bodies_of(result)):
+            raise ValueError(f"{name}: is of other bodies than the run: write a page for each")
     cracked = None if crack is None else CrackSection(crack, threshold)
     page = Template((HERE / "page.html").read_text(encoding="utf-8")).substitute(
         title=html(str(result.dataset.attrs["title"]) or "Fretting contact"),
@@ -112,9 +114,14 @@ def report(
         unfinished.write_text(page, encoding="utf-8")
 
 
-def bodies_of(result: Run | WearResult) -> tuple[Body, Body]:
-    """Both bodies of a result, with shapes, materials and coatings."""
-    return result.scene.body1, result.scene.body2
+def bodies_of(result: Run | WearResult | Cracks) -> tuple[Body, Body] | None:
+    """Both bodies of a result, with shapes, materials and coatings; None where it has no scene."""
+    if isinstance(result, Cracks):
+        text = result.dataset.attrs.get("scene")
+        scene = None if text is None else Scene.from_toml(text)
+    else:
+        scene = result.scene
+    return None if scene is None else (scene.body1, scene.body2)
 
 
 def yielded(result: Run) -> dict[str, Figure]:

@@ -9,10 +9,12 @@ import numpy as np
 
 from pyfret._util.bounds import is_bound
 from pyfret._util.bounds import span as between
+from pyfret._util.csv_table import unit_of
 from pyfret._util.door import numbers_only
 from pyfret._util.kept import Kept
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
+from pyfret._util.per_metre import PER_METRE, of_line_contacts
 from pyfret._util.text import html, shown
 from pyfret.scene.tables import table
 from pyfret.study.point import DONE, FAILED, OPEN
@@ -174,8 +176,10 @@ class Study(Kept, Labelled):
                     span = between(d, name)
                 else:
                     span = f"{np.unique(values).size} values"
-                unit = str(d[name].attrs.get("units", ""))
-                rows.append((kind, name, span, "" if unit == "1" else unit))
+                unit = unit_of(name, d[name])
+                # Measures have their unit; keys are those of any contact.
+                along = kind == "parameter" and of_line_contacts(d)
+                rows.append((kind, name, span, PER_METRE.get(unit, unit) if along else unit))
         return rows
 
     def map(self, of: str | None = None, *, ax: Axes | None = None, **options: Any) -> Drawn:
