@@ -121,3 +121,35 @@ def test_a_stiffness_in_torsion(n: int, increments: int, part: float) -> None:
     error = float(found.stiffness_error)
     assert error < 0.06 * right
     assert abs(float(found.stiffness) - right) < error
+
+
+def test_an_energy_of_a_cycle_has_the_error_of_its_branches() -> None:
+    """Of Mindlin's loops four in five are within 1.5 errors, and all within 2."""
+    hertz = fret.reference.hertz(R=R, bodies=(STEEL, STEEL), W=W)
+    right = fret.reference.CattaneoMindlin(hertz, bodies=(STEEL, STEEL), mu=MU)
+    ratios = []
+    for n in (20, 26, 32):
+        for T in right.T_limit * np.array([0.3, 0.5, 0.6, 0.7, 0.85]):
+            scene = fret.Scene(
+                body1=fret.Body(STEEL, shape=fret.Sphere(R=R)),
+                body2=fret.Body(STEEL),
+                mu=MU,
+                grid=fret.Grid.centred(extent=2.6 * hertz.a, n=n),
+                path=fret.LoadPath.start().normal(W).cycles(1, T_x=T),
+            )
+            result = fret.solve(scene, error=True, progress=False)
+            found = result.loops().isel(cycle=-1)
+            for name, value in (
+                ("dissipated", right.loop_energy(T)),
+                ("energy_ratio", right.energy_ratio(T)),
+            ):
+                error = float(found[f"{name}_error"])
+                assert 0.0 < error < 0.2 * value
+                ratios.append(abs(float(found[name]) - value) / error)
+    assert np.mean(np.array(ratios) <= 1.5) >= 0.8
+    assert max(ratios) < 2.0
+    line = next(line for line in result.summary().splitlines() if line.startswith("cycle"))
+    assert "+- " in line.split("energy ratio")[0]
+    assert "+- " in line.split("energy ratio")[1].split(",")[0]
+    without = fret.solve(scene, progress=False).loops()
+    assert np.isnan(without.dissipated_error).all()

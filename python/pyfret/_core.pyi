@@ -3248,6 +3248,7 @@ def loops(
     delta: Sequence[float],
     dissipated: Sequence[float],
     status: Sequence[int],
+    errors: Sequence[Sequence[float]],
 ) -> list[dict[str, float]]:
     """Energy and stiffness of every cycle of a history; use :meth:`pyfret.Result.loops`."""
 

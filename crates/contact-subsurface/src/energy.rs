@@ -67,6 +67,22 @@ impl Cycle {
         ratio(self.opening_error, self.delta)
     }
 
+    /// Errors of the dissipated energy \[J\] and of the energy ratio, from those of the branches of
+    /// the path: of their energy \[J\], of the force \[N\] and of the shift \[m\] at their ends. Errors
+    /// of energies have one cause and add up; half a range is off by the largest of the ends.
+    pub fn energy_errors(&self, of_branches: &[[f64; 3]]) -> (f64, f64) {
+        let (first, last) = self.branches;
+        let of_cycle = of_branches.iter().skip(first).take(last + 1 - first);
+        let largest = |n: usize| of_cycle.clone().map(|of| of[n]).fold(0.0, f64::max);
+        let energy: f64 = of_cycle.clone().map(|of| of[0]).sum();
+        let parts = [
+            ratio(energy, self.dissipated),
+            ratio(largest(1), self.T),
+            ratio(largest(2), self.delta),
+        ];
+        (energy, self.energy_ratio() * parts.iter().sum::<f64>())
+    }
+
     /// Stiffness of the whole loop \[N/m\], T*/delta*.
     pub fn secant_stiffness(&self) -> f64 {
         ratio(self.T, self.delta)

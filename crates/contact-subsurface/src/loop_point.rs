@@ -1,5 +1,6 @@
 //! Points of fretting loops.
 
+use contact_core::estimate::ErrorBars;
 use contact_core::march::{Increment, Status};
 
 /// A tangential motion and the load that drives it.
@@ -27,6 +28,19 @@ pub struct LoopPoint {
     pub dissipated: f64,
     /// State of the interface.
     pub status: Status,
+}
+
+impl Direction {
+    /// Errors of the dissipated energy \[J\] of a branch, and of force \[N\] and shift \[m\] at its
+    /// end, those of [`super::Cycle::energy_errors`].
+    pub fn errors_of(self, bars: &ErrorBars) -> [f64; 3] {
+        let (T, delta) = match self {
+            Self::X => (bars.T_x, bars.delta_x),
+            Self::Y => (bars.T_y, bars.delta_y),
+            Self::Torsion => (bars.M_z, bars.phi_z),
+        };
+        [bars.dissipated, T, delta].map(|bar| bar.total)
+    }
 }
 
 impl LoopPoint {

@@ -81,7 +81,7 @@ pub(crate) fn run(scene: &Scene, increments: &[Increment], bars: Option<&[ErrorB
         .collect();
     let cycles: Vec<Value> = cycles(scene, increments)
         .iter()
-        .map(|(direction, c)| cycle(scene, *direction, c))
+        .map(|(direction, c)| cycle(scene, *direction, c, bars))
         .collect();
     let hertz = scene.hertz();
     written(json!({
@@ -154,21 +154,31 @@ fn branch(scene: &Scene, b: &BranchSummary, own: &[Increment], error: Option<f64
     Value::Object(of)
 }
 
-fn cycle(scene: &Scene, direction: Direction, c: &Cycle) -> Value {
+fn cycle(scene: &Scene, direction: Direction, c: &Cycle, bars: Option<&[ErrorBars]>) -> Value {
+    let unknown = (f64::NAN, f64::NAN);
+    let (of_energy, of_ratio) = bars.map_or(unknown, |bars| energy_errors(direction, c, bars));
     json!({
         "direction": word(direction),
         "first_branch": c.branches.0,
         "last_branch": c.branches.1,
         "status": state(frictionless(scene), c.status).replace(' ', "_"),
         "dissipated": c.dissipated,
+        "dissipated_error": number(of_energy),
         "T": c.T,
         "delta": c.delta,
         "stiffness": number(c.stiffness),
         "stiffness_error": number(c.stiffness_error),
         "energy_ratio": number(c.energy_ratio()),
+        "energy_ratio_error": number(of_ratio),
         "sliding_ratio": number(c.sliding_ratio()),
         "sliding_ratio_error": number(c.sliding_ratio_error()),
     })
+}
+
+/// Errors of the dissipated energy \[J\] and of the energy ratio of a cycle.
+pub(crate) fn energy_errors(direction: Direction, c: &Cycle, bars: &[ErrorBars]) -> (f64, f64) {
+    let of_branches: Vec<[f64; 3]> = bars.iter().map(|bar| direction.errors_of(bar)).collect();
+    c.energy_errors(&of_branches)
 }
 
 /// Plastic work in increments \[J\].

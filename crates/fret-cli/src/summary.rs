@@ -428,7 +428,20 @@ pub(crate) fn error_table(scene: &Scene, increments: &[Increment], bars: &[Error
     for column in table.column_iter_mut() {
         column.set_cell_alignment(CellAlignment::Right);
     }
-    format!("errors, and the parts of them that cells and increments leave\n{table}")
+    let (joule, joules) = energy(scene);
+    let cycles = json::cycles(scene, increments);
+    let of_cycle = |(n, (direction, c)): (usize, &(Direction, Cycle))| {
+        let (of_energy, of_ratio) = json::energy_errors(*direction, c, bars);
+        format!(
+            "\ncycle {} ({}): {} {joule} dissipated, energy ratio {}",
+            n + 1,
+            word(*direction),
+            with_error(c.dissipated * joules, Some(of_energy * joules)),
+            with_error(c.energy_ratio(), Some(of_ratio)),
+        )
+    };
+    let cycles: String = cycles.iter().enumerate().map(of_cycle).collect();
+    format!("errors, and the parts of them that cells and increments leave\n{table}{cycles}")
 }
 
 /// One row per branch that has begun, and one line per cycle.

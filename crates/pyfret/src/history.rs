@@ -181,7 +181,7 @@ fn finished() -> PyErr {
 
 /// Energy and stiffness of every cycle of a history; use :meth:`pyfret.Result.loops`.
 #[pyfunction]
-#[pyo3(signature = (path, *, torsion: "bool", branch: "Sequence[int]", T: "Sequence[float]", delta: "Sequence[float]", dissipated: "Sequence[float]", status: "Sequence[int]") -> "list[dict[str, float]]")]
+#[pyo3(signature = (path, *, torsion: "bool", branch: "Sequence[int]", T: "Sequence[float]", delta: "Sequence[float]", dissipated: "Sequence[float]", status: "Sequence[int]", errors: "Sequence[Sequence[float]]") -> "list[dict[str, float]]")]
 pub(crate) fn loops(
     py: Python<'_>,
     path: LoadPath,
@@ -191,6 +191,7 @@ pub(crate) fn loops(
     delta: List<f64>,
     dissipated: List<f64>,
     status: List<u8>,
+    errors: List<[f64; 3]>,
 ) -> PyResult<Vec<Bound<'_, PyDict>>> {
     let history: Vec<core::LoopPoint> = branch
         .iter()
@@ -219,7 +220,12 @@ pub(crate) fn loops(
             let of = PyDict::new(py);
             of.set_item("first_branch", c.branches.0)?;
             of.set_item("last_branch", c.branches.1)?;
+            let (of_energy, of_ratio) = match &errors[..] {
+                [] => (f64::NAN, f64::NAN),
+                errors => c.energy_errors(errors),
+            };
             of.set_item("dissipated", c.dissipated)?;
+            of.set_item("dissipated_error", of_energy)?;
             of.set_item("T", c.T)?;
             of.set_item("delta", c.delta)?;
             of.set_item("stiffness", c.stiffness)?;
@@ -227,6 +233,7 @@ pub(crate) fn loops(
             of.set_item("secant_stiffness", c.secant_stiffness())?;
             of.set_item("opening", c.opening)?;
             of.set_item("energy_ratio", c.energy_ratio())?;
+            of.set_item("energy_ratio_error", of_ratio)?;
             of.set_item("sliding_ratio", c.sliding_ratio())?;
             of.set_item("sliding_ratio_error", c.sliding_ratio_error())?;
             of.set_item("status", c.status.code())?;

@@ -39,6 +39,7 @@ LOOP = {
     "first_branch": ("1", "first branch of the cycle, from 0"),
     "last_branch": ("1", "last branch of the cycle"),
     "dissipated": ("J", "energy dissipated in the cycle"),
+    "dissipated_error": ("J", "error of the dissipated energy, NaN without error bars"),
     "T": ("N", "half the range of the force"),
     "delta": ("m", "half the range of the shift"),
     "stiffness": (
@@ -49,6 +50,7 @@ LOOP = {
     "secant_stiffness": ("N/m", "stiffness of the whole loop"),
     "opening": ("m", "half the opening of the loop at the middle force"),
     "energy_ratio": ("1", "dissipated energy over that of the surrounding rectangle"),
+    "energy_ratio_error": ("1", "error of the energy ratio, NaN without error bars"),
     "sliding_ratio": ("1", "opening over the range of the shift, NaN where not known to 0.05"),
     "sliding_ratio_error": ("1", "bound of the error of the sliding ratio"),
     "status": ("1", "0 no contact, 1 full stick, 2 partial slip, 3 gross slip"),
@@ -64,6 +66,7 @@ def of_cycles(
     if direction not in ("x", "y", "torsion"):
         raise ValueError(f'direction = {direction!r}: must be "x", "y" or "torsion"')
     torsion = direction == "torsion"
+    bars = dataset.attrs.get("error_bars")
     force, shift = ("M_z", "phi_z") if torsion else (f"T_{direction}", f"delta_{direction}")
     found = _core.loops(
         scene.path,
@@ -73,6 +76,7 @@ def of_cycles(
         delta=dataset[shift].values.tolist(),
         dissipated=dataset.dissipated.values.tolist(),
         status=dataset.status.values.tolist(),
+        errors=[[bar[n]["total"] for n in ("dissipated", force, shift)] for bar in bars or []],
     )
     units = {"N": "N m", "m": "rad", "N/m": "N m/rad"} if torsion else {}
     table = tabulated(found, LOOP, "cycle", scene.grid, units)
@@ -107,6 +111,7 @@ def of_corners(
             delta=[u[0], *u],
             dissipated=[*[0.0] * u.size, float(energy)],
             status=[0] * (u.size + 1),
+            errors=[],
         )
     return tabulated(found, OF_CORNERS, "block", grid, {})
 

@@ -184,15 +184,23 @@ def cycle_lines(result: Run) -> list[str]:
         for n in range(loops.sizes["cycle"]):
             of = loops.isel(cycle=n)
             scale, joules = energy_scale(of.dissipated.attrs["units"])
+            energy = with_bar(scale * of.dissipated, scale * of.dissipated_error)
             lines.append(
                 f"cycle {n + 1} ({direction}): {state_in_words(of.status, result.scene)}, "
-                f"{in_words(scale * float(of.dissipated))} {joules} dissipated, "
-                f"energy ratio {in_words(float(of.energy_ratio), 3)}, "
+                f"{energy} {joules} dissipated, "
+                f"energy ratio {with_bar(of.energy_ratio, of.energy_ratio_error, 3)}, "
                 f"sliding ratio "
                 f"{with_error(float(of.sliding_ratio), float(of.sliding_ratio_error))}, "
                 f"stiffness {stiffness(of)}"
             )
     return lines
+
+
+def with_bar(value: xr.DataArray, error: xr.DataArray, digits: int = 4) -> str:
+    """A number with its error, or without where the run has no error bars."""
+    if np.isnan(error):
+        return in_words(float(value), digits)
+    return with_error(float(value), float(error))
 
 
 def stiffness(of: xr.Dataset) -> str:

@@ -9,7 +9,7 @@ import numpy as np
 from pyfret._core import with_error
 from pyfret._util.text import html
 from pyfret.run.loops import frictionless, state_in_words
-from pyfret.run.summary import told
+from pyfret.run.summary import told, with_bar
 from pyfret.scene.tables import number, table
 
 if TYPE_CHECKING:
@@ -95,8 +95,8 @@ def cycles_table(result: Run, direction: Any) -> str:
     rows = [
         [
             str(n + 1),
-            number(factor * float(of.dissipated)),
-            number(float(of.energy_ratio)),
+            with_bar(factor * of.dissipated, factor * of.dissipated_error),
+            with_bar(of.energy_ratio, of.energy_ratio_error),
             with_error(float(of.sliding_ratio), float(of.sliding_ratio_error)),
             with_error(float(of.stiffness), float(of.stiffness_error)),
             state_in_words(of.status, result.scene),
