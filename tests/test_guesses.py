@@ -62,7 +62,7 @@ def test_variables_are_found_as_in_xarray(result: fret.Result) -> None:
             fret.errors.ArgumentError,
             r"y = 1: must be a place ab",
         ),
-        (lambda r: r.life("steel", "crossland"), TypeError, r"'steel': must be one of the mater"),
+        (lambda r: r.life("steel", "crossland"), ValueError, r"`steel`.s_D: is missing"),
         (lambda r: r.at(0.37), KeyError, r"no fields were kept at 0.37; kept are"),
         (lambda r: r.save("x.csv"), ValueError, r"x.csv: must end in .zarr or .nc"),
         (lambda r: r.report("/dev/null/x.html"), OSError, r"/dev/null"),

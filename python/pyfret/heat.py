@@ -21,6 +21,7 @@ import numpy as np
 from pyfret import _core
 from pyfret._core import Grid, Material
 from pyfret._util.arrays import items
+from pyfret._util.called import as_material
 from pyfret._util.door import numbers_only, valued
 from pyfret._util.doubts import doubts_of
 from pyfret._util.lazy import xr
@@ -61,13 +62,15 @@ class Conductor:
         return doubts_of("Conductor", **vars(self))
 
     @classmethod
-    def of(cls, material: Material) -> Conductor:
+    @numbers_only
+    def of(cls, material: Material | str) -> Conductor:
         """Give what a material has as ``conductivity``, ``density`` and ``specific_heat``.
 
         A ValueError says which of them is missing.
         """
-        conductivity = material.number("conductivity")
-        heat_capacity = material.number("density") * material.number("specific_heat")
+        of = as_material(material)
+        conductivity = of.number("conductivity")
+        heat_capacity = of.number("density") * of.number("specific_heat")
         return cls(conductivity=conductivity, heat_capacity=heat_capacity)
 
 

@@ -20,6 +20,7 @@ import numpy as np
 
 from pyfret import _core
 from pyfret._util.arrays import items, numbers, truths
+from pyfret._util.called import by_name
 from pyfret._util.doubts import doubt_numbers
 from pyfret._util.guesses import refuse_unknown
 from pyfret._util.takers import keywords
@@ -71,7 +72,7 @@ MADE = {
     "SideBySide": "a comparison, fret.compare({...}, scene, path)",
     "Tabulated": "a study, fret.study.solve(scene, {...}, measure=...)",
     "Study": "a study, fret.study.solve(scene, {...}, measure=...)",
-    "Material": "a material of fatigue, fatigue.Materials()['7075']",
+    "Material": "a material of fatigue, fatigue.Materials()['7075'], or its name",
     "Elastic": "an elastic material, fret.material('steel') or fret.Elastic(E=210e9, nu=0.3)",
     "Criterion": (
         "a criterion with its numbers, fatigue.Criterion.of('findley', material) or "
@@ -122,7 +123,9 @@ def guarded(call: Callable[..., Any], owner: str, but: tuple[str, ...]) -> Any:
     signature = inspect.signature(call)
     parameters = signature.parameters.items()
     kinds = {n: None if n in but else kind(str(one.annotation)) for n, one in parameters}
-    objects = {n: str(one.annotation) for n, one in parameters if n not in but}
+    annotations = {n: str(one.annotation) for n, one in parameters if n not in but}
+    # A material may be given by its name.
+    objects = {n: of.replace("Material | str", "Material") for n, of in annotations.items()}
     defaults = {name: one.default for name, one in parameters}
     nothing = {n for n, of in objects.items() if "None" in of or defaults[n] is None}
     needed = {n for n in objects if kinds[n]} - nothing
@@ -142,13 +145,23 @@ def guarded(call: Callable[..., Any], owner: str, but: tuple[str, ...]) -> Any:
         doubted: dict[str, Any] = {}
         values = (
             tuple(
-                in_si(value, f"{owner}.{name}", name, kinds.get(name))
+                in_si(
+                    by_name(value, name, objects.get(name, "")),
+                    f"{owner}.{name}",
+                    name,
+                    kinds.get(name),
+                )
                 for name, value in zip(names, values, strict=False)
             )
             + values[len(names) :]
         )
         given = {
-            name: in_si(value, f"{owner}.{name}", name, kinds.get(name))
+            name: in_si(
+                by_name(value, name, objects.get(name, "")),
+                f"{owner}.{name}",
+                name,
+                kinds.get(name),
+            )
             for name, value in given.items()
         }
         for name, value in [*zip(names, values, strict=False), *given.items()]:

@@ -8,6 +8,7 @@ import numpy as np
 
 from pyfret._core import Material
 from pyfret._util.arrays import number
+from pyfret._util.called import as_material
 from pyfret._util.door import numbers_only
 from pyfret._util.lazy import xr
 from pyfret._util.types import as_number
@@ -32,14 +33,14 @@ Averaging = Literal["point", "line", "area", "volume"]
 
 
 @numbers_only
-def critical_distance(material: Material) -> float:
+def critical_distance(material: Material | str) -> float:
     """Critical distance L = (dK_th/(2 s_D))^2/pi of a material [m].
 
     ``dK_th`` is the threshold range of the stress intensity, and 2 ``s_D`` the range of the fatigue
     limit. Both are fully reversed. Source: D. Taylor, The Theory of Critical Distances, Elsevier
     (2007). A ValueError names the number that is missing.
     """
-    return material.critical_distance()
+    return as_material(material).critical_distance()
 
 
 @numbers_only

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import functools
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Literal, get_args
@@ -12,6 +11,7 @@ import numpy as np
 from pyfret import _core
 from pyfret._core import Assessment, Criterion, Material
 from pyfret._util.arrays import COMPONENTS, histories, number, plain
+from pyfret._util.called import called, unknown
 from pyfret._util.door import numbers_only
 from pyfret._util.doubts import warn
 from pyfret._util.lazy import xr
@@ -78,15 +78,10 @@ class Materials(Mapping[str, Material]):
 
     def __getitem__(self, name: str) -> Material:
         """Give a material by its name, or by another one that it is known by: ``"Ti6Al4V"``."""
-        if name in self._materials:
-            return self._materials[name]
-        for material in self._materials.values():
-            if material.is_called(name):
-                return material
-        all_names = {n: m for m in self._materials.values() for n in (m.name, *m.also)}
-        near = difflib.get_close_matches(name, all_names, n=1, cutoff=0.6)
-        hint = f"; the nearest is {near[0]}" if near else ""
-        raise KeyError(f"no material {name!r}{hint}; there are {', '.join(self._materials)}")
+        found = called(name, self._materials)
+        if found is None:
+            raise KeyError(unknown(name, self._materials))
+        return found
 
     def __iter__(self) -> Iterator[str]:
         """Go through the names."""

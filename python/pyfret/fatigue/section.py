@@ -24,7 +24,7 @@ __all__ = ["Materials", "Section", "SectionOptions", "for_each_layer"]
 
 #: The material of the substrate, or one for each layer from the surface down, the substrate's last;
 #: layers of ``None`` are not judged.
-Materials = Material | Sequence[Material | None]
+Materials = Material | str | Sequence[Material | str | None]
 
 
 class SectionOptions(TypedDict, total=False):
@@ -132,10 +132,6 @@ def for_each_layer(given: Any, layers: int, one: str, several: str) -> list[Any]
     One material alone is that of the substrate: coatings are not judged. `one` and `several` name
     it in the errors: a ValueError for another number of layers, and where nothing is judged.
     """
-    if isinstance(given, str):
-        # A sequence, but of letters.
-        hint = f", such as fatigue.Materials()[{given!r}]" if several == "materials" else ""
-        raise TypeError(f"{given!r}: must be one of the {several}{hint}, or one for each layer")
     if isinstance(given, Material):
         given = [None] * (layers - 1) + [given]
     each = items(given, several) if isinstance(given, Sequence) else [given] * layers

@@ -11,6 +11,7 @@ import numpy as np
 from pyfret import _core
 from pyfret._core import with_error, with_range
 from pyfret._util.arrays import plain, together
+from pyfret._util.called import as_material
 from pyfret._util.door import numbers_only, valued
 from pyfret._util.kept import Kept
 from pyfret._util.labelled import Labelled
@@ -72,16 +73,20 @@ class Threshold:
         _core.threshold_at(self._numbers(), [])
 
     @classmethod
-    def of(cls, material: Material, *, Y: float = 1.0, walker: float | None = None) -> Threshold:
+    @numbers_only
+    def of(
+        cls, material: Material | str, *, Y: float = 1.0, walker: float | None = None
+    ) -> Threshold:
         """Take the threshold from ``dK_th`` and ``s_D`` of a material, both fully reversed.
 
         Half of the range ``dK_th`` at R = -1 is positive, and half of the range 2 ``s_D`` of
         stress. A material without one of them is refused by its name. The dependence on R is the
         material's ``walker`` where it has one and none is given.
         """
-        known = {name: value for name, value, _ in material.numbers()}
+        of = as_material(material)
+        known = {name: value for name, value, _ in of.numbers()}
         walker = known.get("walker") if walker is None else walker
-        return cls(material.number("dK_th") / 2.0, material.number("s_D"), Y, walker)
+        return cls(of.number("dK_th") / 2.0, of.number("s_D"), Y, walker)
 
     def _numbers(
         self,
@@ -124,9 +129,11 @@ class Paris:
     short: bool = False
 
     @classmethod
-    def of(cls, material: Material) -> Paris:
+    @numbers_only
+    def of(cls, material: Material | str) -> Paris:
         """Take ``paris_C`` and ``paris_m`` of a material; one without them is refused by name."""
-        return cls(material.number("paris_C"), material.number("paris_m"))
+        of = as_material(material)
+        return cls(of.number("paris_C"), of.number("paris_m"))
 
 
 @dataclass(frozen=True)

@@ -12,6 +12,7 @@ from matplotlib.ticker import MaxNLocator
 
 from pyfret import _core, fatigue
 from pyfret._util.arrays import histories
+from pyfret._util.called import as_material
 from pyfret._util.depths import interfaces, thin
 from pyfret._util.numbers import layer_name
 from pyfret.plot.depth_axis import stretch as stretch_axis
@@ -360,7 +361,7 @@ def critical_plane_rose(
 
 @styled
 def dang_van_diagram(
-    stress: ArrayLike | Life, *, material: Material | None = None, ax: Axes | None = None
+    stress: ArrayLike | Life, *, material: Material | str | None = None, ax: Axes | None = None
 ) -> Axes:
     """Path of one point in Dang Van's plane: mesoscopic shear over hydrostatic stress.
 
@@ -373,7 +374,7 @@ def dang_van_diagram(
     tau, p_h = (v / 1e6 for v in fatigue.dang_van_path(stress))
     ax.plot(np.r_[p_h, p_h[0]], np.r_[tau, tau[0]], color="C0", marker=".", markersize=3)
     if material is not None:
-        t_D, s_D = (material.number(name) / 1e6 for name in ("t_D", "s_D"))
+        t_D, s_D = (as_material(material).number(name) / 1e6 for name in ("t_D", "s_D"))
         alpha = 3.0 * t_D / s_D - 1.5
         low = min(p_h.min(), 0.0)
         ends = np.array([low, t_D / alpha]) if alpha > 0.0 else np.array([low, p_h.max()])
@@ -390,7 +391,9 @@ def dang_van_diagram(
 
 
 @styled
-def haigh_diagram(life: Life, *, material: Material | None = None, ax: Axes | None = None) -> Axes:
+def haigh_diagram(
+    life: Life, *, material: Material | str | None = None, ax: Axes | None = None
+) -> Axes:
     """Amplitude over mean of the normal stress on the critical planes of all points of a section.
 
     A cross marks the worst point of every layer. With a material, the limit of uniaxial stress.
@@ -424,7 +427,7 @@ def haigh_diagram(life: Life, *, material: Material | None = None, ax: Axes | No
         at = (mean.ravel()[n], amplitude.ravel()[n])
         ax.plot(*at, "x", color=colour, ms=8, mew=1.8, label=f"worst point, {name}")
     if material is not None:
-        _limit_of_uniaxial_stress(ax, material)
+        _limit_of_uniaxial_stress(ax, as_material(material))
     ax.set_ylim(bottom=0.0)
     ax.set_xlabel(r"mean normal stress $\sigma_\mathrm{n,m}$ [MPa]")
     ax.set_ylabel(r"amplitude $\sigma_\mathrm{n,a}$ [MPa]")

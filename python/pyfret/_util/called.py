@@ -1,0 +1,61 @@
+"""Materials by their names."""
+
+from __future__ import annotations
+
+import difflib
+import re
+from typing import TYPE_CHECKING, Any, cast
+
+from pyfret import _core
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from pyfret._core import Material
+
+__all__ = ["as_material", "by_name", "called", "unknown"]
+
+#: Annotations of parameters that take a material, or several.
+MATERIAL = re.compile(r"\b(Materials?|Conductors)\b")
+
+
+def as_material(read: Material | str) -> Material:
+    """A material within a function whose door has found it by its name: the same."""
+    return cast("Material", read)
+
+
+def called(name: str, among: Mapping[str, Material]) -> Material | None:
+    """Give the material of a name, or of another one that it is known by: ``"Ti6Al4V"``."""
+    if name in among:
+        return among[name]
+    return next((material for material in among.values() if material.is_called(name)), None)
+
+
+def unknown(name: str, among: Mapping[str, Material]) -> str:
+    """Say that there is no such material, with the nearest and all others."""
+    all_names = {n: m for m in among.values() for n in (m.name, *m.also)}
+    near = difflib.get_close_matches(name, all_names, n=1, cutoff=0.6)
+    hint = f"; the nearest is {near[0]}" if near else ""
+    return f"no material {name!r}{hint}; there are {', '.join(among)}"
+
+
+def by_name(value: Any, name: str, annotation: str) -> Any:
+    """The material of the table where a material is meant and a text is given, else the value.
+
+    Raises
+    ------
+    ValueError
+        There is no material of this name.
+    """
+    if not MATERIAL.search(annotation):
+        return value
+    if type(value) in (list, tuple):
+        return type(value)(by_name(one, name, annotation) for one in value)
+    # A number with a unit begins with a digit where a number is taken, too.
+    if not isinstance(value, str) or ("Quantity" in annotation and value[:1].isdigit()):
+        return value
+    among = {material.name: material for material in _core.materials()}
+    found = called(value, among)
+    if found is None:
+        raise ValueError(f"{name}: {unknown(value, among)}")
+    return found

@@ -1,0 +1,57 @@
+"""A material is given by its name wherever one is meant."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Iterator
+from types import ModuleType
+from typing import Any
+
+import pytest
+
+import pyfret as fret
+from pyfret import fatigue, fracture, heat
+from pyfret._util.called import MATERIAL
+
+
+def takes_a_material() -> Iterator[tuple[str, Callable[..., Any], str]]:
+    """All public functions and constructors that take a material: name, call, parameter."""
+    modules = [of for of in vars(fret).values() if isinstance(of, ModuleType)]
+    for module in modules:
+        if module.__name__.partition(".")[0] != "pyfret":
+            continue
+        for name in getattr(module, "__all__", ()):
+            of = getattr(module, name)
+            if getattr(of, "__module__", "").partition(".")[0] != "pyfret":
+                continue
+            # What a program makes of results, such as a life, is no place for a name.
+            made = isinstance(of, type) and not hasattr(of.__init__, "__wrapped__")
+            calls = [(name, of)] if callable(of) and not made else []
+            calls += [(f"{name}.of", of.of)] if isinstance(of, type) and hasattr(of, "of") else []
+            for called, call in calls:
+                try:
+                    parameters = inspect.signature(call).parameters
+                except (TypeError, ValueError):
+                    continue
+                for key, one in parameters.items():
+                    if MATERIAL.search(str(one.annotation)):
+                        yield f"{module.__name__}.{called}", call, key
+
+
+def test_a_misspelt_name_is_refused_with_the_nearest_everywhere() -> None:
+    asked = set()
+    for name, call, key in takes_a_material():
+        asked.add(name.removeprefix("pyfret."))
+        with pytest.raises(ValueError, match=rf"(?s){key}.*tiatnium.*titanium"):
+            call(**{key: "tiatnium"})
+    expected = {"fatigue.critical_distance", "fatigue.lives", "fracture.Paris.of"}
+    assert expected | {"heat.Conductor.of", "fatigue.average"} <= asked
+
+
+def test_a_name_is_its_material() -> None:
+    steel = fatigue.Materials()["42CrMo4"]
+    assert fatigue.critical_distance("42CrMo4") == fatigue.critical_distance(steel)
+    assert fracture.Threshold.of("42CrMo4") == fracture.Threshold.of(steel)
+    assert heat.Conductor.of("Ti6Al4V") == heat.Conductor.of(fatigue.Materials()["Ti6Al4V"])
+    with pytest.raises(TypeError, match="or its name"):
+        fatigue.critical_distance(3.0)  # type: ignore[arg-type]
