@@ -16,7 +16,7 @@ unexport PYTHONDONTWRITEBYTECODE
 RUST := $(shell find crates -name '*.rs' -o -name '*.toml') Cargo.toml Cargo.lock
 
 .DEFAULT_GOAL := help
-.PHONY: help setup constants ablation largest stub demo figure-13 loads validation quick test test-all stress whole path-errors turned layers criteria error-bars kill wear wear-jumps memory fuzz deny check format bench bench-kernels bench-stress bench-peers docs wheel wheel-test clean
+.PHONY: help setup constants ablation largest stub demo figure-13 loads validation quick test test-all stress whole path-errors turned layers criteria error-bars kill wear wear-jumps memory fuzz bars deny check format bench bench-kernels bench-stress bench-peers docs wheel wheel-test clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
@@ -76,6 +76,9 @@ largest: ## largest stresses of 60 random contacts against four times as many ce
 error-bars: ## error bars against the true errors in 160 random scenes; the numbers go to docs/error_bars.md
 	FRET_ERROR_BARS=160 FRET_ERROR_BARS_REPORT=$(CURDIR)/docs/error_bars.md \
 		cargo test --release --locked --workspace --test campaigns -- --include-ignored --nocapture error_bars::
+
+bars: setup ## error bars of all that follows from 60 random contacts, beside three times the cells: 40 minutes
+	$(PY) tests/campaign/bars.py 0 60
 
 fuzz: setup ## ten minutes of hostile input for each reader, 20 000 hostile calls of all public callables; the numbers go to docs/reliability.md
 	FRET_FUZZ=600 FRET_FUZZ_REPORT=$(CURDIR)/docs/reliability.md \

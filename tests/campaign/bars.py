@@ -14,11 +14,15 @@ import sys
 import warnings
 from collections import defaultdict
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 import pyfret as fret
 from pyfret import fatigue, shapes
+
+if TYPE_CHECKING:
+    from pyfret.fatigue.criteria import CriterionName
 
 #: Cells across the grid of a point contact (a line contact has twice as many), and how many times
 #: as many the truth has.
@@ -28,7 +32,12 @@ MOST = 1.5
 #: Range of K below which a crack counts as shut [Pa m^0.5].
 SHUT = 1e4
 OF_BRANCHES = ("contact_radius", "stick_ratio", "p_max", "delta_z", "delta_x", "dissipated")
-CRITERIA = ("crossland", "dang_van", "findley", "smith_watson_topper")
+CRITERIA: tuple[CriterionName, ...] = (
+    "crossland",
+    "dang_van",
+    "findley",
+    "smith_watson_topper",
+)
 
 #: A number: what it is, its value, its error.
 Number = tuple[str, float, float]

@@ -137,6 +137,7 @@ CALLS: list[Call] = [
             "delta": [1.0],
             "dissipated": [1.0],
             "status": [1],
+            "errors": [[0.1, 0.1, 0.1]],
             "torsion": False,
         },
     ),

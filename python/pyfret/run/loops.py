@@ -39,7 +39,7 @@ LOOP = {
     "first_branch": ("1", "first branch of the cycle, from 0"),
     "last_branch": ("1", "last branch of the cycle"),
     "dissipated": ("J", "energy dissipated in the cycle"),
-    "dissipated_error": ("J", "error of the dissipated energy, NaN without error bars"),
+    "dissipated_error": ("J", "error of the dissipated energy, where the run has error bars"),
     "T": ("N", "half the range of the force"),
     "delta": ("m", "half the range of the shift"),
     "stiffness": (
@@ -50,11 +50,13 @@ LOOP = {
     "secant_stiffness": ("N/m", "stiffness of the whole loop"),
     "opening": ("m", "half the opening of the loop at the middle force"),
     "energy_ratio": ("1", "dissipated energy over that of the surrounding rectangle"),
-    "energy_ratio_error": ("1", "error of the energy ratio, NaN without error bars"),
+    "energy_ratio_error": ("1", "error of the energy ratio, where the run has error bars"),
     "sliding_ratio": ("1", "opening over the range of the shift, NaN where not known to 0.05"),
     "sliding_ratio_error": ("1", "bound of the error of the sliding ratio"),
     "status": ("1", "0 no contact, 1 full stick, 2 partial slip, 3 gross slip"),
 }
+#: Those of them that a run without error bars lacks.
+OF_BARS = ("dissipated_error", "energy_ratio_error")
 #: Those of them that follow from the corners of a loop.
 OF_CORNERS = ("dissipated", "T", "delta", "secant_stiffness", "opening", "energy_ratio")
 
@@ -79,7 +81,8 @@ def of_cycles(
         errors=[[bar[n]["total"] for n in ("dissipated", force, shift)] for bar in bars or []],
     )
     units = {"N": "N m", "m": "rad", "N/m": "N m/rad"} if torsion else {}
-    table = tabulated(found, LOOP, "cycle", scene.grid, units)
+    names = [name for name in LOOP if bars or name not in OF_BARS]
+    table = tabulated(found, names, "cycle", scene.grid, units)
     return table.assign_attrs(dataset.attrs)
 
 

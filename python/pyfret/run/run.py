@@ -232,6 +232,7 @@ class Run(OfRun):
             ``energy_ratio``, ``sliding_ratio`` and ``status``. ``stiffness`` right after the
             reversals, ``secant_stiffness`` [N/m] and half the ``opening`` of the loop [m]. The
             branches that it spans. Of a line contact energies, forces and stiffness are per metre.
+            ``dissipated_error`` and ``energy_ratio_error`` where the run has error bars.
         """
         return of_cycles(self.dataset, self.scene, direction)
 

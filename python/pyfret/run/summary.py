@@ -184,11 +184,11 @@ def cycle_lines(result: Run) -> list[str]:
         for n in range(loops.sizes["cycle"]):
             of = loops.isel(cycle=n)
             scale, joules = energy_scale(of.dissipated.attrs["units"])
-            energy = with_bar(scale * of.dissipated, scale * of.dissipated_error)
+            energy = with_bar(of, "dissipated", scale)
             lines.append(
                 f"cycle {n + 1} ({direction}): {state_in_words(of.status, result.scene)}, "
                 f"{energy} {joules} dissipated, "
-                f"energy ratio {with_bar(of.energy_ratio, of.energy_ratio_error, 3)}, "
+                f"energy ratio {with_bar(of, 'energy_ratio', digits=3)}, "
                 f"sliding ratio "
                 f"{with_error(float(of.sliding_ratio), float(of.sliding_ratio_error))}, "
                 f"stiffness {stiffness(of)}"
@@ -196,11 +196,11 @@ def cycle_lines(result: Run) -> list[str]:
     return lines
 
 
-def with_bar(value: xr.DataArray, error: xr.DataArray, digits: int = 4) -> str:
-    """A number with its error, or without where the run has no error bars."""
-    if np.isnan(error):
-        return in_words(float(value), digits)
-    return with_error(float(value), float(error))
+def with_bar(of: xr.Dataset, name: str, scale: float = 1.0, digits: int = 4) -> str:
+    """A number of a cycle with its error, or without where the run has no error bars."""
+    if f"{name}_error" not in of:
+        return in_words(scale * float(of[name]), digits)
+    return with_error(scale * float(of[name]), scale * float(of[f"{name}_error"]))
 
 
 def stiffness(of: xr.Dataset) -> str:

@@ -95,8 +95,8 @@ def cycles_table(result: Run, direction: Any) -> str:
     rows = [
         [
             str(n + 1),
-            with_bar(factor * of.dissipated, factor * of.dissipated_error),
-            with_bar(of.energy_ratio, of.energy_ratio_error),
+            with_bar(of, "dissipated", factor),
+            with_bar(of, "energy_ratio"),
             with_error(float(of.sliding_ratio), float(of.sliding_ratio_error)),
             with_error(float(of.stiffness), float(of.stiffness_error)),
             state_in_words(of.status, result.scene),

@@ -67,12 +67,25 @@ fn error_bars_stand_in_the_summary_and_in_the_store() {
     let told = text(&output.stdout);
     assert!(output.status.success(), "{}", text(&output.stderr));
     // Six numbers at the end of each of four branches, and two fields; those of cycles have their own.
-    let of_cycle = |line: &&str| line.contains("sliding ratio") || line.contains("stiffness");
+    let of_cycle = |line: &&str| {
+        let begins = ["cycle", "  sliding ratio", "  stiffness"];
+        begins.iter().any(|word| line.starts_with(word))
+    };
     let of_branches = told.lines().filter(|line| !of_cycle(line));
     let bars: usize = of_branches.map(|line| line.matches("+- ").count()).sum();
     // Nothing moves along the plane in the indentation: two numbers are 0, exactly.
     assert_eq!(bars, 4 * 8 - 2, "{told}");
     assert_eq!(told.matches(" path ").count(), 4, "{told}");
+    // Energy and energy ratio of the cycle, below the table.
+    let cycle = told
+        .lines()
+        .filter(|line| line.starts_with("cycle"))
+        .next_back();
+    assert_eq!(
+        cycle.map(|line| line.matches("+- ").count()),
+        Some(2),
+        "{told}"
+    );
     Store::open(&out).unwrap();
     let attributes = fs::read_to_string(out.join(".zattrs")).unwrap();
     assert_eq!(attributes.matches("\"contact_radius\"").count(), 4);
