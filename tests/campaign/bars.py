@@ -91,7 +91,7 @@ def numbers(scene: fret.Scene, material: fatigue.Material) -> Iterator[Number]:
     bars = result.error_bars().sel(part="total")
     for branch, row in result.branches().groupby("branch"):
         for name in (name for name in OF_BRANCHES if name in bars):
-            yield f"{name} {branch}", float(row[name]), float(bars[name].sel(branch=branch))
+            yield f"{name} {branch}", row[name].item(), float(bars[name].sel(branch=branch))
     loops = result.loops()
     for name in ("stiffness", "sliding_ratio"):
         yield name, float(loops[name][-1]), float(loops[f"{name}_error"][-1])
