@@ -139,7 +139,7 @@ def test_lives_are_told_at_their_cycle() -> None:
     least = d.range_of_cycles(depth=1.0)
     assert np.isnan(least.best)
     assert least.low < end
-    assert "the run ended there" in repr(least)
+    assert "scatter included (the run ended before)" in repr(least)
     # The other body does not wear.
     assert d.cycles_to(depth=1e-9, body_number=1) == np.inf
     assert "nothing wears" in repr(d.range_of_cycles(depth=1e-9, body_number=1))

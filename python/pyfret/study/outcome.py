@@ -128,7 +128,14 @@ class Study(Kept, Labelled):
                 "point of a grid of parameters; samples are for packages such as SALib"
             )
         if (lost := int(values.isnull().sum())) > 0:
-            raise ValueError(f"{lost} of {values.size} points have no {chosen}: study.failed()")
+            failed = int((self.dataset["status"] != DONE).sum())
+            where = "study.failed() tells which"
+            if failed < lost:
+                where = (
+                    f"{failed} have no answer, the others no such number, as that of a coating "
+                    "which outlives its run; study.dataset tells which"
+                )
+            raise ValueError(f"{lost} of {values.size} points have no {chosen}: {where}")
         names = [str(name) for name in values.dims]
         whole = float(values.var())
         parts = [

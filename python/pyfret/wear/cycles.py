@@ -62,7 +62,9 @@ class RangeOfCycles(Range):
     def __repr__(self) -> str:
         """The range in two digits, or the bound in words."""
         if math.isnan(self.best):
-            return ended(self.low)
+            return (
+                f"more than {_core.rough(self.low)} cycles, scatter included (the run ended before)"
+            )
         return "endless: nothing wears" if math.isinf(self.low) else super().__repr__()
 
 
