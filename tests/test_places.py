@@ -191,3 +191,29 @@ def test_worn_profiles_and_work_lie_along_the_shear() -> None:
     for along_x, along_y in zip(*found, strict=True):
         assert along_x.max() > 0.0
         np.testing.assert_allclose(along_y, along_x, rtol=1e-2, atol=1e-3 * along_x.max())
+
+
+def test_a_worst_point_beyond_the_grid_under_a_bulk_stress() -> None:
+    """Below a soft coating the bulk stress outweighs the contact beside it, on any grid."""
+    titanium = fret.Elastic(E=117e9, nu=0.31)
+    soft = fret.Coating(fret.Elastic(E=80e9, nu=0.3), thickness=110e-6)
+    W, mu, extent = 205e3, 0.7, 0.583e-3
+    path = fret.LoadPath.start().normal(W)
+    for sign in (1, -1, 1):
+        path = path.force(T_x=sign * 49e3, sigma_B=sign * 134e6)
+    material = fatigue.Materials()["titanium_6Al4V"]
+    values = []
+    for n in (80, 160):
+        scene = fret.Scene(
+            body1=fret.Body(fret.Elastic(E=210e9, nu=0.3), shape=fret.Cylinder(R=12e-3)),
+            body2=fret.Body(titanium, coatings=[soft]),
+            mu=mu,
+            grid=fret.Grid.strip(extent=extent, n=n),
+            path=path,
+        )
+        result = fret.solve(scene, progress=False, save="all")
+        worst = result.life([None, material], "smith_watson_topper").worst_of(1)
+        assert abs(worst.x) > 0.5 * extent
+        values.append((worst.value, worst.error))
+    (coarse, error), (fine, _) = values
+    assert abs(coarse - fine) < 1.5 * error + 0.002 * fine

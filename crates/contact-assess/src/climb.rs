@@ -224,6 +224,15 @@ impl<J: Judge> Climb<'_, J> {
         ]
     }
 
+    /// Places half way to the ends of the ascent and at them, at some depths.
+    pub(super) fn far(&self, depths: [f64; 2]) -> Vec<Place> {
+        let of_ends = [0.5 * BEYOND, BEYOND].map(|beyond| self.ends(beyond));
+        let places = of_ends.into_iter().flatten();
+        let mut far: Vec<Place> = places.flat_map(|s| depths.map(|z| [s, z])).collect();
+        far.dedup();
+        far
+    }
+
     /// Of a place at the end of the ascent, how much more the score is where the bulk stress is
     /// alone.
     pub(super) fn more_far_away(&self, at: &At, [s, z]: Place, score: f64) -> Result<f64, Error> {

@@ -1,8 +1,8 @@
 //! The worst point of a layer on a section, between the samples and on borders of the contact.
 //!
 //! Starting points are the local maxima of the samples (hills) and the places where the rim of the
-//! contact and the border of the stick zone cross the line. From the worst of these the search
-//! ascends ([`Climb`]). Every value is that of a history at a point; none is extrapolated, and none
+//! contact and the border of the stick zone cross the line, and places beyond the samples. From the
+//! worst of these the search ascends ([`Climb`]). Every value is that of a history at a point; none is extrapolated, and none
 //! is below the worst sample.
 
 use contact_core::Error;
@@ -65,6 +65,14 @@ pub fn worst<J: Judge>(
         let scores = climb.scores(&at, &beside)?;
         starts.extend(beside.into_iter().zip(scores));
     }
+    // Beside the contact a bulk stress may outweigh it, though the samples fall towards their ends.
+    let far = climb.far([top, highest.0[1]]);
+    let scores = climb.scores(&at, &far)?;
+    starts.extend(
+        far.into_iter()
+            .zip(scores)
+            .filter(|(_, score)| !score.is_nan()),
+    );
     let whole = moments.tractions.len() == site.cycle.count();
     let best = starts.iter().copied().fold(
         highest,

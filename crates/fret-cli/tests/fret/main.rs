@@ -77,10 +77,7 @@ fn error_bars_stand_in_the_summary_and_in_the_store() {
     assert_eq!(bars, 4 * 8 - 2, "{told}");
     assert_eq!(told.matches(" path ").count(), 4, "{told}");
     // Energy and energy ratio of the cycle, below the table.
-    let cycle = told
-        .lines()
-        .filter(|line| line.starts_with("cycle"))
-        .next_back();
+    let cycle = told.lines().rfind(|line| line.starts_with("cycle"));
     assert_eq!(
         cycle.map(|line| line.matches("+- ").count()),
         Some(2),
