@@ -1,9 +1,9 @@
 //! The worst point of a layer on a section, between the samples and on borders of the contact.
 //!
-//! Starting points are the local maxima of the samples (hills) and the places where the rim of the
+//! Starting points are the local maxima of the samples (hills), the places where the rim of the
 //! contact and the border of the stick zone cross the line, and places beyond the samples. From the
-//! worst of these the search ascends ([`Climb`]). Every value is that of a history at a point; none is extrapolated, and none
-//! is below the worst sample.
+//! worst of these the search ascends ([`Climb`]). Every value is that of a history at a point; none
+//! is extrapolated, and none is below the worst sample.
 
 use contact_core::Error;
 use contact_subsurface::{Errors, Extreme};

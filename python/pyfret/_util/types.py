@@ -16,7 +16,7 @@ class HasUnit(Protocol):
 
     @property
     def magnitude(self) -> Any:
-        """AsNumber."""
+        """Number."""
 
     @property
     def units(self) -> Any:

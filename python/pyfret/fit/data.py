@@ -60,7 +60,7 @@ class Loops(HoldsArrays):
     down : array of bool
         Whether the shift falls there.
     cycle : array of int
-        AsNumber of the cycle of a point, from 0.
+        Number of the cycle of a point, from 0.
     W : float, optional
         Normal force [N]; None: that of the scene.
     noise : float, optional

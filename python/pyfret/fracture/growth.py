@@ -207,13 +207,13 @@ class CrackLife:
     Parameters
     ----------
     cycles : float
-        AsNumber of cycles.
+        Number of cycles.
     length : float
         Where they end [m].
     stopped : bool
         Whether the crack stops there.
     low, high : float, optional
-        AsNumber of cycles with K_max more and less its error; None where K came without an error.
+        Number of cycles with K_max more and less its error; None where K came without an error.
     """
 
     cycles: float

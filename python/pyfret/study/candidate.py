@@ -67,7 +67,7 @@ class Candidate:
 
     @property
     def layers(self) -> int:
-        """AsNumber of layers, the substrate among them."""
+        """Number of layers, the substrate among them."""
         return len(self.body.coatings) + 1
 
     @property

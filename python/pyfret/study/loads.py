@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 __all__ = ["arrest_map", "running_conditions"]
 
-#: AsNumber of gross slip, and what the numbers mean.
+#: Number of gross slip, and what the numbers mean.
 SLIDES = 3
 STATUS = "0 no contact, 1 full stick, 2 partial slip, 3 gross slip"
 
@@ -89,7 +89,7 @@ def running_conditions(
     delta : array, optional
         Amplitudes of the shift [m], instead of `T`: gross slip is solved as well.
     cycles : int
-        AsNumber of cycles; the map shows the last.
+        Number of cycles; the map shows the last.
     sigma_B : float or array
         Largest bulk stress of body 2 [Pa], in phase with the force `T`; several make a third
         dimension, of which a figure shows one, ``table.sel(sigma_B=...)``.

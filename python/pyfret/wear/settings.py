@@ -92,7 +92,7 @@ class Wear(Replaceable):
     Parameters
     ----------
     cycles : float
-        AsNumber of cycles.
+        Number of cycles.
     body1, body2 : Archard, DissipatedEnergy, callable, or list of these, optional
         How a body wears: one law, or one for each coating from the outermost on and one for the
         substrate. None: the body or the layer does not wear. A callable takes arrays over the
