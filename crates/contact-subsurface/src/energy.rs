@@ -43,6 +43,17 @@ pub struct Cycle {
     pub status: Status,
 }
 
+/// Errors of a cycle where those of its branches are known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CycleErrors {
+    /// Of the dissipated energy \[J\].
+    pub dissipated: f64,
+    /// Of the energy ratio.
+    pub energy_ratio: f64,
+    /// Of the sliding ratio.
+    pub sliding_ratio: f64,
+}
+
 impl Cycle {
     /// Why a cycle has no stiffness, and what to do.
     pub const TOO_FEW: &str =
@@ -62,25 +73,36 @@ impl Cycle {
         ratio(self.opening, self.delta)
     }
 
-    /// Bound of the error of the sliding ratio.
+    /// Bound of what the increments alone leave of error in the sliding ratio.
     pub fn sliding_ratio_error(&self) -> f64 {
         ratio(self.opening_error, self.delta)
     }
 
-    /// Errors of the dissipated energy \[J\] and of the energy ratio, from those of the branches of
-    /// the path: of their energy \[J\], of the force \[N\] and of the shift \[m\] at their ends. Errors
-    /// of energies have one cause and add up; half a range is off by the largest of the ends.
-    pub fn energy_errors(&self, of_branches: &[[f64; 3]]) -> (f64, f64) {
+    /// Errors of a cycle from those of the branches of the path: of their energy \[J\], of the force
+    /// \[N\] and of the shift \[m\] at their ends; NaN, but for the sliding ratio, where there are none.
+    /// Errors of energies have one cause and add up; half a range is off by the largest of the ends.
+    /// The opening is off by as much of itself as the energy, which is the area of the loop, besides
+    /// what the increments leave.
+    pub fn errors(&self, of_branches: &[[f64; 3]]) -> CycleErrors {
+        if of_branches.is_empty() {
+            return CycleErrors {
+                dissipated: f64::NAN,
+                energy_ratio: f64::NAN,
+                sliding_ratio: self.sliding_ratio_error(),
+            };
+        }
         let (first, last) = self.branches;
         let of_cycle = of_branches.iter().skip(first).take(last + 1 - first);
         let largest = |n: usize| of_cycle.clone().map(|of| of[n]).fold(0.0, f64::max);
         let energy: f64 = of_cycle.clone().map(|of| of[0]).sum();
-        let parts = [
-            ratio(energy, self.dissipated),
-            ratio(largest(1), self.T),
-            ratio(largest(2), self.delta),
-        ];
-        (energy, self.energy_ratio() * parts.iter().sum::<f64>())
+        let of_energy = ratio(energy, self.dissipated);
+        let [of_T, of_delta] = [ratio(largest(1), self.T), ratio(largest(2), self.delta)];
+        let of_cells = self.sliding_ratio() * (of_energy + of_delta);
+        CycleErrors {
+            dissipated: energy,
+            energy_ratio: self.energy_ratio() * (of_energy + of_T + of_delta),
+            sliding_ratio: self.sliding_ratio_error() + of_cells,
+        }
     }
 
     /// Stiffness of the whole loop \[N/m\], T*/delta*.

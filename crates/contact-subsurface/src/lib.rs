@@ -58,7 +58,7 @@ pub use anywhere::{Anywhere, Loads, largest_anywhere};
 pub use borders::{Border, Zone, borders};
 pub use depth::{Depth, Point, Side, chosen_depths, depths};
 pub use eigenstress::{Eigenstress, Eigenstresses};
-pub use energy::{Cycle, cycles, loops};
+pub use energy::{Cycle, CycleErrors, cycles, loops};
 pub use envelope::{DepthEnvelope, Envelope, Extremes};
 pub use extreme::{Errors, Extreme};
 pub use largest::{DepthTops, Largest, MomentTops, largest_of_samples};

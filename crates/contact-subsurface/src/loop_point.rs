@@ -32,7 +32,7 @@ pub struct LoopPoint {
 
 impl Direction {
     /// Errors of the dissipated energy \[J\] of a branch, and of force \[N\] and shift \[m\] at its
-    /// end, those of [`super::Cycle::energy_errors`].
+    /// end, those of [`super::Cycle::errors`].
     pub fn errors_of(self, bars: &ErrorBars) -> [f64; 3] {
         let (T, delta) = match self {
             Self::X => (bars.T_x, bars.delta_x),

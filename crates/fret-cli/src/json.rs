@@ -3,7 +3,7 @@
 use contact_core::estimate::ErrorBars;
 use contact_core::march::{BranchSummary, Increment, Reached, Yield, summarise};
 use contact_core::scene::{RigidMotion, Scene};
-use contact_subsurface::{Cycle, Direction, LoopPoint, loops};
+use contact_subsurface::{Cycle, CycleErrors, Direction, LoopPoint, loops};
 use serde_json::{Map, Value, json};
 
 use crate::words::{frictionless, state, word};
@@ -155,30 +155,29 @@ fn branch(scene: &Scene, b: &BranchSummary, own: &[Increment], error: Option<f64
 }
 
 fn cycle(scene: &Scene, direction: Direction, c: &Cycle, bars: Option<&[ErrorBars]>) -> Value {
-    let unknown = (f64::NAN, f64::NAN);
-    let (of_energy, of_ratio) = bars.map_or(unknown, |bars| energy_errors(direction, c, bars));
+    let errors = cycle_errors(direction, c, bars.unwrap_or_default());
     json!({
         "direction": word(direction),
         "first_branch": c.branches.0,
         "last_branch": c.branches.1,
         "status": state(frictionless(scene), c.status).replace(' ', "_"),
         "dissipated": c.dissipated,
-        "dissipated_error": number(of_energy),
+        "dissipated_error": number(errors.dissipated),
         "T": c.T,
         "delta": c.delta,
         "stiffness": number(c.stiffness),
         "stiffness_error": number(c.stiffness_error),
         "energy_ratio": number(c.energy_ratio()),
-        "energy_ratio_error": number(of_ratio),
+        "energy_ratio_error": number(errors.energy_ratio),
         "sliding_ratio": number(c.sliding_ratio()),
-        "sliding_ratio_error": number(c.sliding_ratio_error()),
+        "sliding_ratio_error": number(errors.sliding_ratio),
     })
 }
 
-/// Errors of the dissipated energy \[J\] and of the energy ratio of a cycle.
-pub(crate) fn energy_errors(direction: Direction, c: &Cycle, bars: &[ErrorBars]) -> (f64, f64) {
+/// Errors of a cycle, from those of the branches where there are any.
+pub(crate) fn cycle_errors(direction: Direction, c: &Cycle, bars: &[ErrorBars]) -> CycleErrors {
     let of_branches: Vec<[f64; 3]> = bars.iter().map(|bar| direction.errors_of(bar)).collect();
-    c.energy_errors(&of_branches)
+    c.errors(&of_branches)
 }
 
 /// Plastic work in increments \[J\].

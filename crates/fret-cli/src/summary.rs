@@ -431,13 +431,14 @@ pub(crate) fn error_table(scene: &Scene, increments: &[Increment], bars: &[Error
     let (joule, joules) = energy(scene);
     let cycles = json::cycles(scene, increments);
     let of_cycle = |(n, (direction, c)): (usize, &(Direction, Cycle))| {
-        let (of_energy, of_ratio) = json::energy_errors(*direction, c, bars);
+        let errors = json::cycle_errors(*direction, c, bars);
         format!(
-            "\ncycle {} ({}): {} {joule} dissipated, energy ratio {}",
+            "\ncycle {} ({}): {} {joule} dissipated, energy ratio {}, sliding ratio {}",
             n + 1,
             word(*direction),
-            with_error(c.dissipated * joules, Some(of_energy * joules)),
-            with_error(c.energy_ratio(), Some(of_ratio)),
+            with_error(c.dissipated * joules, Some(errors.dissipated * joules)),
+            with_error(c.energy_ratio(), Some(errors.energy_ratio)),
+            with_error(c.sliding_ratio(), Some(errors.sliding_ratio)),
         )
     };
     let cycles: String = cycles.iter().enumerate().map(of_cycle).collect();

@@ -220,12 +220,9 @@ pub(crate) fn loops(
             let of = PyDict::new(py);
             of.set_item("first_branch", c.branches.0)?;
             of.set_item("last_branch", c.branches.1)?;
-            let (of_energy, of_ratio) = match &errors[..] {
-                [] => (f64::NAN, f64::NAN),
-                errors => c.energy_errors(errors),
-            };
+            let of_cycle = c.errors(&errors);
             of.set_item("dissipated", c.dissipated)?;
-            of.set_item("dissipated_error", of_energy)?;
+            of.set_item("dissipated_error", of_cycle.dissipated)?;
             of.set_item("T", c.T)?;
             of.set_item("delta", c.delta)?;
             of.set_item("stiffness", c.stiffness)?;
@@ -233,9 +230,9 @@ pub(crate) fn loops(
             of.set_item("secant_stiffness", c.secant_stiffness())?;
             of.set_item("opening", c.opening)?;
             of.set_item("energy_ratio", c.energy_ratio())?;
-            of.set_item("energy_ratio_error", of_ratio)?;
+            of.set_item("energy_ratio_error", of_cycle.energy_ratio)?;
             of.set_item("sliding_ratio", c.sliding_ratio())?;
-            of.set_item("sliding_ratio_error", c.sliding_ratio_error())?;
+            of.set_item("sliding_ratio_error", of_cycle.sliding_ratio)?;
             of.set_item("status", c.status.code())?;
             Ok(of)
         })
