@@ -52,7 +52,10 @@ LOOP = {
     "energy_ratio": ("1", "dissipated energy over that of the surrounding rectangle"),
     "energy_ratio_error": ("1", "error of the energy ratio, where the run has error bars"),
     "sliding_ratio": ("1", "opening over the range of the shift, NaN where not known to 0.05"),
-    "sliding_ratio_error": ("1", "error of the sliding ratio; without error bars what the increments leave of it"),
+    "sliding_ratio_error": (
+        "1",
+        "error of the sliding ratio; without error bars what the increments leave of it",
+    ),
     "status": ("1", "0 no contact, 1 full stick, 2 partial slip, 3 gross slip"),
 }
 #: Those of them that a run without error bars lacks.
