@@ -30,8 +30,9 @@ pub struct Errors {
     pub y: f64,
     /// Of the search along depth.
     pub z: f64,
-    /// Of the tractions: change of the value under the tractions on cells twice as large, within
-    /// four cells of a border on a layer thinner than that 2.4 times that; `None` if not computed.
+    /// Of the tractions: change of the value under the tractions on cells twice as large; 2.4 times
+    /// that within four cells of a border on a layer thinner than these, 0.55 times on another rim
+    /// of a contact. `None` if not computed.
     pub tractions: Option<f64>,
     /// Of the solution: the error of the stress by that of its tractions
     /// ([`Extreme::with_error_bars`]); `None` without error bars.

@@ -13,7 +13,7 @@ use super::coarser::Coarser;
 use super::depth::on_interfaces;
 use super::maximum::{Hill, hills, top_of_line};
 use super::{
-    Border, Depth, Errors, Extreme, Line, Point, Points, Probe, Section, Side, States, Top,
+    Border, Depth, Errors, Extreme, Line, Point, Points, Probe, Section, Side, States, Top, Zone,
 };
 
 /// Most hills and most places on borders that are evaluated.
@@ -32,6 +32,9 @@ const ON_BORDER: f64 = 0.1;
 /// 1) times the change to cells twice as large.
 const RESOLVED: f64 = 4.0;
 const OF_ROOT: f64 = 1.0 + std::f64::consts::SQRT_2;
+/// At a rim that the tractions are continued to, the first term that they leave out is the distance
+/// from it to the power of 3/2: 1/(2^(3/2) - 1) times the change to cells twice as large.
+const OF_CONTINUED: f64 = 0.547;
 
 /// Looks for the largest values below a contact.
 pub struct Search {
@@ -318,8 +321,11 @@ impl Search {
             };
             change = change.max((value - coarse).abs());
         }
+        let rim = border.is_some_and(|border| border.zone == Zone::Contact);
         let part = if self.thin && self.is_near_border(at) {
             OF_ROOT
+        } else if rim && !self.points.rim_is_unknown(at) {
+            OF_CONTINUED
         } else {
             1.0
         };

@@ -4,7 +4,7 @@
 //! that were chosen, solved to a tolerance of 1e-6. The error is what a run says it to be
 //! (`shear_errors`). A few in the test, among them two indentations of dissimilar bodies whose error
 //! falls with the first power of the increments; `FRET_PATH_ERRORS=50` for as many
-//! (`make path-errors`), `FRET_PATH_ERRORS_CELLS=256` on a grid of as many cells each way.
+//! (`make path-errors`), `FRET_PATH_ERRORS_FROM` for the first seed, `FRET_PATH_ERRORS_CELLS=256` on a grid of as many cells each way.
 
 #![allow(clippy::print_stdout, reason = "a report for people")]
 
@@ -138,11 +138,13 @@ fn largest(branches: &[Compared]) -> Compared {
 #[test]
 #[ignore = "slow"]
 fn the_estimated_error_of_the_path_is_honest() {
-    let asked = std::env::var("FRET_PATH_ERRORS").ok();
-    let asked: Option<u64> = asked.map(|n| n.parse().expect("a number of scenes"));
-    let cells = std::env::var("FRET_PATH_ERRORS_CELLS").ok();
-    let cells = cells.map(|n| n.parse().expect("a number of cells"));
-    let seeds = asked.map_or(15..20, |n| 0..n);
+    let number = |name: &str| {
+        let text = std::env::var(name).ok();
+        text.map(|n| n.parse::<u64>().expect("a number"))
+    };
+    let first = number("FRET_PATH_ERRORS_FROM").unwrap_or(0);
+    let seeds = number("FRET_PATH_ERRORS").map_or(15..20, |n| first..first + n);
+    let cells = number("FRET_PATH_ERRORS_CELLS").map(|n| n as usize);
     let scenes = seeds.end - seeds.start;
     let (mut honest, mut met, mut within) = (0, 0, 0);
     for seed in seeds {
