@@ -89,3 +89,26 @@ def test_answers_do_not_depend_on_the_mirror(coated: fret.Result) -> None:
 def test_two_runs_are_the_same_bit_for_bit(coated: fret.Result) -> None:
     again = fret.solve(coated.scene, progress=False)
     assert again.dataset.identical(coated.dataset)
+
+
+@pytest.mark.parametrize("mu", [0.05, 0.13, 0.2])
+@pytest.mark.parametrize(("E", "thickness"), [(2e9, 20e-6), (20e9, 20e-6), (400e9, 5e-6)])
+def test_the_state_agrees_with_the_stick_ratio(E: float, thickness: float, mu: float) -> None:
+    """Pressed and sheared, layers softer and harder than the bodies: full stick is a ratio of 1."""
+    R, load = 5e-3, 20.0
+    steel = fret.Elastic(E=210e9, nu=0.3)
+    a = fret.reference.hertz(R=R, bodies=(steel, steel), W=load).a
+    film = fret.Coating(fret.Elastic(E=E, nu=0.4), thickness=thickness)
+    scene = fret.Scene(
+        body1=fret.Body(steel, shape=fret.Sphere(R=R)),
+        body2=fret.Body(steel, coatings=[film]),
+        mu=mu,
+        grid=fret.Grid.centred(extent=5.0 * a, n=32),
+    )
+    path = fret.LoadPath.start().normal(load, increments=16)
+    path = path.tangential([0.6 * mu * load, -0.6 * mu * load], increments=8)
+    d = fret.solve(scene, path, progress=False).dataset
+    full = d.status.values == 1
+    np.testing.assert_array_equal(full, d.stick_ratio.values == 1.0)
+    assert full.any() or mu < 0.1
+    assert (d.status.values == 2).any()

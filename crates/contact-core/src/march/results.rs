@@ -54,9 +54,9 @@ pub enum Status {
     /// No cell transmits pressure.
     #[default]
     NoContact,
-    /// Every contact cell sticks.
+    /// The stick zone is the whole contact: its stick ratio is 1.
     FullStick,
-    /// Stick and slip cells.
+    /// The stick zone is a part of the contact, or none that slides.
     PartialSlip,
     /// Every contact cell slips: friction carries its limit. Under given forces the shift is that
     /// of incipient sliding.

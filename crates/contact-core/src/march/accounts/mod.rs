@@ -41,6 +41,7 @@ pub(super) fn draw_up(
     );
     let (contact, slipping) = count(now);
     let stick_area = (zones.stick * cell_area).min(zones.contact * cell_area);
+    let all_stick = zones.stick >= zones.contact;
     let increment = Increment {
         index: state.increments + 1,
         point,
@@ -50,6 +51,8 @@ pub(super) fn draw_up(
             (_, 0) => Status::FullStick,
             // Below the limit of friction the bodies do not slide, even if every cell slips.
             (contact, slipping) if contact == slipping && slides(setup, info) => Status::GrossSlip,
+            // Cells at the limit of friction that did not slip belong to the stick zone (`areas`).
+            _ if all_stick => Status::FullStick,
             _ => Status::PartialSlip,
         },
         contact_area: zones.contact * cell_area,
