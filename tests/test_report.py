@@ -53,6 +53,16 @@ def page(result: fret.Result, worn: fret.wear.WearResult, tmp_path_factory: Any)
     return place
 
 
+def test_a_page_with_wear_says_which_surfaces_its_loops_are_of(
+    page: Path, result: fret.Result, tmp_path: Path
+) -> None:
+    text = page.read_text(encoding="utf-8")
+    assert "numbers of the run are those of the surfaces before wear" in text
+    assert "are those on the worn surfaces" in text
+    result.report(tmp_path / "alone.html")
+    assert "before wear" not in (tmp_path / "alone.html").read_text(encoding="utf-8")
+
+
 def test_wear_of_other_bodies_is_refused(worn: fret.wear.WearResult, tmp_path: Path) -> None:
     other = fret.solve(sphere_on_flat(ratio=4.0, n=16), PATH, progress=False)
     with pytest.raises(ValueError, match="wear: is of other bodies than the run"):

@@ -6,12 +6,15 @@ import base64
 import gzip
 import json
 import re
+import subprocess
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
 
 import pyfret as fret
+from conftest import ROOT
+from pyfret._core import with_error
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -366,6 +369,62 @@ def test_a_coating_that_is_worn_through_has_its_cycles() -> None:
     last = float(run.dataset.depth2[-1])
     assert run.cycles_to(depth=last * (1.0 + 5e-10)) == pytest.approx(float(run.cycles[-1]))
     assert run.cycles_to(depth=1.001 * last).beyond == float(run.cycles[-1])
+    with pytest.raises(AttributeError, match=r"worn\.dataset\.isel\(jump=-1, .*block=-1"):
+        run.at(-1)
+    # Every event has the error of its jump, and is told with it.
+    ends = run.dataset.cycles.values
+    for event in run.events:
+        at = int(np.searchsorted(ends, event["cycles"] * (1.0 - 1e-12)))
+        part = float(run.dataset.depth_error[at])
+        assert event["cycles_error"] == pytest.approx(part * event["cycles"])
+        told = with_error(event["cycles"], event["cycles_error"])
+        assert f"{event['kind']} after {told} cycles" in run.summary()
+
+
+def test_the_loop_of_a_run_of_wear_is_that_of_its_scene_but_for_wear() -> None:
+    """A cycle that wears nothing: the scene's second one; in sliding without the elastic shift."""
+    W, mu, to = 50.0, 0.6, 20e-6
+    a = fret.reference.hertz(R=10e-3, bodies=(STEEL, STEEL), W=W).a
+    scene = fret.Scene(
+        body1=fret.Body(STEEL, shape=fret.Sphere(R=10e-3)),
+        body2=fret.Body(STEEL),
+        mu=mu,
+        grid=fret.Grid.centred(extent=2.8 * a, n=24),
+        path=fret.LoadPath.start().normal(W, increments=2).cycles(2, delta_x=to, increments=6),
+    )
+    own = float(fret.solve(scene, progress=False).loops().dissipated[-1])
+    found, told = {}, {}
+    for cycling in ("march", "sliding"):
+        law = {"body2": fret.wear.Archard(1e-18), "cycling": cycling}
+        run = fret.wear.solve(scene, cycles=1.0, jumps=1, progress=False, **law)
+        found[cycling], told[cycling] = float(run.dissipated_per_cycle[-1]), run.summary()
+    assert found["march"] == pytest.approx(own, rel=1e-4)
+    assert found["sliding"] == pytest.approx(4.0 * mu * W * to, rel=1e-9)
+    assert found["sliding"] > 1.05 * own
+    assert "in the last cycle, on the worn surfaces" in told["march"]
+    assert "elastic shift" not in told["march"]
+    assert "without the elastic shift of the contact" in told["sliding"]
+
+
+def test_the_command_tells_cycles_of_an_event_with_their_error(tmp_path: Path) -> None:
+    coated = fret.Body(STEEL, coatings=fret.Coating(STEEL, thickness=2e-7))
+    wear = (
+        '[wear]\ncycles = 1e5\nfirst_branch = 2\ncycling = "sliding"\n'
+        "[wear.body2]\nlaws = [{ k = 1e-15 }, { k = 1e-14 }]\n"
+    )
+    scene = tmp_path / "scene.toml"
+    scene.write_text(line(64).replace(body2=coated).to_toml() + wear, encoding="utf-8")
+    out = tmp_path / "out.zarr"
+    command = [ROOT / "target" / "release" / "fret", "wear", scene, "-o", out, "--json"]
+    ran = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert ran.returncode == 0, ran.stderr
+    events = fret.wear.open(out).events
+    assert events
+    assert [of["cycles_error"] for of in json.loads(ran.stdout)["events"]] == pytest.approx(
+        [event["cycles_error"] for event in events]
+    )
+    for event in events:
+        assert f"after {with_error(event['cycles'], event['cycles_error'])} cycles" in ran.stderr
 
 
 @pytest.mark.parametrize("cycling", ["sliding", "march"])

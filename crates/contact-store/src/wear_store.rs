@@ -242,7 +242,7 @@ pub(super) fn attributes(run: &WearRun, status: &str) -> Value {
             EventKind::Thinned => "thinned",
             EventKind::WornThrough => "worn through",
         };
-        json!({ "kind": kind, "cycles": e.cycles, "body": e.body, "coating": e.coating, "x": e.x, "y": e.y })
+        json!({ "kind": kind, "cycles": e.cycles, "cycles_error": e.cycles_error, "body": e.body, "coating": e.coating, "x": e.x, "y": e.y })
     });
     let (scene, hertz) = (run.scene(), run.scene().hertz());
     let mut doubts = scene.doubts();

@@ -23,8 +23,11 @@ pub enum EventKind {
 pub struct Event {
     /// The kind.
     pub kind: EventKind,
-    /// Cycles at the event, within the tolerance of the jumps.
+    /// Cycles at the event.
     pub cycles: f64,
+    /// Their error: the error of the deepest depth over it at the end of the jump, times the cycles.
+    #[serde(default)]
+    pub cycles_error: f64,
     /// Body, 1 or 2.
     pub body: usize,
     /// Coating, 0 the outermost; of `Thinned` the one that is bare.
@@ -88,7 +91,7 @@ fn place(scene: &Scene, cell: usize) -> (f64, f64) {
     (scene.grid.x(i), scene.grid.y(j))
 }
 
-/// The new events within a jump of n cycles.
+/// The new events within a jump of n cycles, without the errors of their cycles.
 pub(crate) fn events(
     scene: &Scene,
     wear: &Wear,
@@ -109,6 +112,7 @@ pub(crate) fn events(
                 new.push(Event {
                     kind,
                     cycles,
+                    cycles_error: 0.0,
                     body,
                     coating,
                     x,
@@ -119,6 +123,15 @@ pub(crate) fn events(
     }
     new.sort_by(|a, b| a.cycles.total_cmp(&b.cycles));
     new
+}
+
+/// An event with the error of its cycles. `part`: the error of the deepest depth over it. Depths grow in
+/// proportion to the cycles to first order, so that both have the same relative error.
+pub(crate) fn with_error(event: Event, part: f64) -> Event {
+    Event {
+        cycles_error: part * event.cycles,
+        ..event
+    }
 }
 
 /// The events of worn surfaces that a run starts from.

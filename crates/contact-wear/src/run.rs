@@ -9,7 +9,7 @@ use contact_core::scene::{History, Scene};
 
 use super::attempt::Attempt;
 use super::events::EventKind;
-use super::events::{crossing, events, passed};
+use super::events::{crossing, events, passed, with_error};
 use super::jump::Jump;
 use super::loss::Worn;
 use super::model::Model;
@@ -356,7 +356,6 @@ impl WearRun {
                 .zip(moved)
                 .for_each(|(sum, moved)| *sum += moved);
         }
-        state.events.extend(new);
         (state.worn, state.model) = (worn, self.model.state());
         state.jumps += 1;
         state.cycles = cycles;
@@ -377,6 +376,9 @@ impl WearRun {
                 .map(|w| w.iter().fold(0.0, |m: f64, w| m.max(*w))),
             ..seen
         };
+        let part = jump.depth_error;
+        let new = new.into_iter().map(|event| with_error(event, part));
+        state.events.extend(new);
         state.history.push(jump.clone());
         Ok(jump)
     }

@@ -7,6 +7,7 @@ use std::time::Instant;
 
 use clap::Args;
 use contact_core::Error;
+use contact_core::digits::with_error;
 use contact_core::scene::{Grid, Scene};
 use contact_store::{WearStore, read_worn, resume_wear};
 use contact_wear::{Event, EventKind, Jump, Wear, WearRun};
@@ -194,15 +195,16 @@ fn ended(error: Error) -> Failure {
 }
 
 fn told_of(event: &Event) -> String {
-    let (body, cycles) = (event.body, event.cycles);
+    let body = event.body;
+    let cycles = with_error(event.cycles, Some(event.cycles_error));
     let place = format!("at x = {}, y = {}", um(event.x), um(event.y));
     match event.kind {
         EventKind::Thinned => format!(
-            "fret: after {cycles:.0} cycles body {body} has lost a part of its coatings' thickness that \
+            "fret: after {cycles} cycles body {body} has lost a part of its coatings' thickness that \
              counts {place}: their response is that of the whole thickness"
         ),
         EventKind::WornThrough => format!(
-            "fret: after {cycles:.0} cycles coating {} of body {body} is worn through {place}; the response \
+            "fret: after {cycles} cycles coating {} of body {body} is worn through {place}; the response \
              stays that of the whole layer",
             event.coating + 1
         ),

@@ -38,6 +38,11 @@ __all__ = ["report"]
 
 #: Folder of the looks of the page.
 HERE = Path(__file__).parent
+#: What is said of the numbers of a run on a page that has those of its wear, too.
+SURFACES = (
+    "<p>The numbers of the run are those of the surfaces before wear. The energy of a cycle and "
+    "the loops in the section on wear are those {of}.</p>"
+)
 
 
 @numbers_only
@@ -100,6 +105,7 @@ def report(
         cycles="".join(cycles_table(result, of) for of in directions(result)),
         plan=plan(result),
         sources=cited(result),
+        surfaces="" if wear is None else SURFACES.format(of=html(wear.of_loops)),
         worn="" if wear is None else f"<pre>{html(wear.summary())}</pre>",
         more="".join(
             picture(caption, of) for caption, of in {**yielded(result), **(figures or {})}.items()

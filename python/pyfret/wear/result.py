@@ -247,7 +247,8 @@ class WearResult(Kept, Labelled):
             )
         lines.append(
             f"energy: {with_error(last['dissipated'])} {energy}, "
-            f"{with_error(last['dissipated_per_cycle'])} {energy} in the last cycle"
+            f"{with_error(last['dissipated_per_cycle'])} {energy} in the last cycle, "
+            f"{self.of_loops}"
         )
         sticks = (
             NO_FRICTION
@@ -256,7 +257,7 @@ class WearResult(Kept, Labelled):
         )
         lines.append(f"largest pressure: {with_error(1e-6 * last['p_max'])} MPa, {sticks}")
         for event in self.events:
-            cycles = with_error(event["cycles"], last["depth_error"] * event["cycles"])
+            cycles = with_error(event["cycles"], event.get("cycles_error"))
             lines.append(
                 f"{event['kind']} after {cycles} cycles: body {event['body']}, coating "
                 f"{event['coating'] + 1}, at x = {1e6 * event['x']:.1f} um, "
@@ -270,13 +271,27 @@ class WearResult(Kept, Labelled):
         return shown("\n".join(lines))
 
     @property
+    def of_loops(self) -> str:
+        """What the friction loops are those of, in words: they are not the loop of the scene."""
+        text = "on the worn surfaces"
+        if self.table.get("cycling") == "sliding":
+            text += (
+                ": every cell slips by the whole shift, without the elastic shift of the contact"
+            )
+        return text
+
+    @property
     def doubts(self) -> list[str]:
         """Numbers of the scene and of the wear that are hardly meant, one sentence each."""
         return str(self.dataset.attrs.get("doubts", "")).splitlines()
 
     @property
     def events(self) -> list[dict[str, Any]]:
-        """What happened to the coatings: kind, cycles, body, coating, x, y."""
+        """What happened to the coatings: kind, cycles, body, coating, x, y, ``cycles_error``.
+
+        The error of the cycles is the relative error of the deepest depth at the event (variable
+        ``depth_error``), times the cycles.
+        """
         return list(self.dataset.attrs["events"])
 
     def _repr_html_(self) -> str:
