@@ -109,7 +109,7 @@ def test_buckling_is_that_of_a_clamped_plate_by_finite_differences() -> None:
         return 2 * b * of_area
 
     for b in (40e-6, 60e-6, 200e-6):
-        found = fracture.buckling_release(COATING, -s, 2 * b)
+        found = fracture.buckling_release(COATING, -s, half_width=b)
         assert found.critical_stress == pytest.approx(D * load / b**2 / h, rel=1e-4)
         deflection = np.abs(w).max() * b * np.sqrt(stretch(b))
         assert found.deflection == pytest.approx(deflection, rel=1e-4)
@@ -117,13 +117,17 @@ def test_buckling_is_that_of_a_clamped_plate_by_finite_differences() -> None:
         d = 1e-4 * b
         loss = -(energy(b + d) - energy(b - d)) / (2 * d) / 2
         assert found.release == pytest.approx(loss, rel=1e-4)
-    wide = fracture.buckling_release(COATING, -s, 1e-2)
+    wide = fracture.buckling_release(COATING, -s, half_width=5e-3)
     assert wide.release == pytest.approx(fracture.edge_release(COATING, s), rel=1e-4)
-    narrow = fracture.buckling_release(COATING, -s, 10e-6)
+    narrow = fracture.buckling_release(COATING, -s, half_width=5e-6)
     assert (narrow.deflection, narrow.release) == (0.0, 0.0)
-    assert fracture.buckling_release(COATING, s, 1e-3).release == 0.0
-    with pytest.raises(ValueError, match="width = 0"):
-        fracture.buckling_release(COATING, -s, 0.0)
+    assert fracture.buckling_release(COATING, s, half_width=5e-4).release == 0.0
+    with pytest.raises(ValueError, match=r"half_width = 0.*half of that of the strip"):
+        fracture.buckling_release(COATING, -s, half_width=0.0)
+    with pytest.raises(TypeError, match="half_width"):
+        fracture.buckling_release(COATING, -s, width=1e-5)  # type: ignore[call-arg]
+    with pytest.raises(TypeError, match="half_width"):
+        fracture.buckling_release(COATING, -s, 1e-5)  # type: ignore[misc]
 
 
 def test_thermal_stress_keeps_the_coating_as_wide_as_its_substrate() -> None:

@@ -94,7 +94,7 @@ VALUES: list[Any] = [
     fret.wear.DissipatedEnergy(1e-14),
     fret.study.Cracking(MATERIAL, "dang_van"),
     fret.study.Wear(cycles=100.0, body2=fret.wear.Archard(1e-14)),
-    fret.fracture.buckling_release(COATING, -5e9, 2e-3),
+    fret.fracture.buckling_release(COATING, -5e9, half_width=1e-3),
     fret.Bond(normal=1e-15, shear=2e-15),
     fret.fracture.Crack(legs=[(1e-4, 0.0), (1e-5, 0.3)]),
     fret.fracture.Threshold(dK_th=2.1e6),

@@ -328,7 +328,7 @@ OF: dict[str, dict[str, Any]] = {
     "fracture.Threshold.of": {"material": MATERIALS["aluminium_4Cu"]},
     "fracture.crack": {"x": 0.0},
     "fracture.grow": {"x": 0.0},
-    "fracture.buckling_release": {"stress": -1e9},
+    "fracture.buckling_release": {"stress": -1e9, "half_width": 1e-3},
     "fracture.edge_release": {"stress": -1e9},
     "fracture.film_intensity": {"depth": 5e-6},
     "fracture.first_to_fail": {"result": RUN, "x": 0.0},

@@ -170,10 +170,10 @@ class Buckling(NamedTuple):
 
 
 @numbers_only
-def buckling_release(coating: Coating, stress: float, width: float) -> Buckling:
+def buckling_release(coating: Coating, stress: float, *, half_width: float) -> Buckling:
     """Give how a compressed coating buckles above a long debonded strip, and what that releases.
 
-    With the half width b, h the thickness and s the compression::
+    With b half of the width of the strip, h the thickness and s the compression::
 
         s_c = pi^2/12 E/(1 - nu^2) (h/b)^2
         deflection = h sqrt(4/3 (s/s_c - 1))
@@ -189,18 +189,25 @@ def buckling_release(coating: Coating, stress: float, width: float) -> Buckling:
         Its modulus, Poisson's ratio and thickness.
     stress : float
         Stress of the coating across the strip [Pa], compression negative.
-    width : float
-        Width of the strip, 2 b [m], much longer than the thickness.
+    half_width : float
+        Half of the width of the strip, b [m], much longer than the thickness.
+
+    Raises
+    ------
+    ValueError
+        The half width is not positive, or the buckling stress is 0.
     """
-    if not (width > 0.0 and np.isfinite(width)):
-        raise ValueError(f"width = {width}: must be a positive length in m")
+    if not (half_width > 0.0 and np.isfinite(half_width)):
+        raise ValueError(
+            f"half_width = {half_width}: must be a positive length in m, half of that of the strip"
+        )
     E, nu, h = coating.material.E, coating.material.nu, coating.thickness
     plane = E / (1.0 - nu * nu)
-    critical = np.pi**2 / 12.0 * plane * (2.0 * h / width) ** 2
+    critical = np.pi**2 / 12.0 * plane * (h / half_width) ** 2
     if not critical > 0:
         raise ValueError(
-            f"coating: E = {E:g} Pa, {h:g} m thick on a strip of {width:g} m, has a buckling "
-            "stress of 0: must be stiffer, or the strip narrower"
+            f"coating: E = {E:g} Pa, {h:g} m thick on a strip of {2 * half_width:g} m, has a "
+            "buckling stress of 0: must be stiffer, or the strip narrower"
         )
     s = -stress
     if s <= critical:
