@@ -95,6 +95,30 @@ def test_check_solves_nothing_and_says_what_is_skipped(scene_file: Path) -> None
 
 
 @pytest.mark.solves
+def test_check_of_sliding_wear_has_the_places_of_its_stroke(tmp_path: Path) -> None:
+    text = (ROOT / "scenes" / "wear_mccoll.toml").read_text(encoding="utf-8")
+    assert 'cycling = "sliding"' in text
+    lines = [line for line in text.splitlines() if not line.startswith("increments")]
+    (tmp_path / "open.toml").write_text("\n".join(lines), encoding="utf-8")
+    sliding = fret_run("check", tmp_path / "open.toml")
+    assert sliding.returncode == 0, sliding.stderr
+    assert "path error" not in sliding.stdout
+    assert "some 12" not in sliding.stdout
+    assert "in sliding: the pressure at the middle of every increment" in sliding.stdout
+    least, most = json.loads(fret_run("check", tmp_path / "open.toml", "--json").stdout)["path"][
+        "increments"
+    ]
+    assert least == most
+    # Those that the run takes.
+    out = tmp_path / "worn.zarr"
+    worn = fret_run("wear", tmp_path / "open.toml", "-o", out, "--set", "wear.cycles=10", "-q")
+    assert worn.returncode == 0, worn.stderr
+    branches = fret.wear.open(out).scene.path.branches
+    assert least == sum(branch.increments or 0 for branch in branches)
+    march = fret_run("check", tmp_path / "open.toml", "--set", "wear.cycling=march")
+    assert "path error" in march.stdout
+
+
 def test_the_summary_for_programs_has_the_error_bars(tmp_path: Path) -> None:
     path = fret.LoadPath.start().normal(W, increments=4)
     (tmp_path / "scene.toml").write_text(sphere_on_flat(n=32).replace(path=path).to_toml())

@@ -1,12 +1,14 @@
 //! `fret check`.
 
+use std::sync::Arc;
+
 use clap::Args;
 use contact_core::estimate::first_yield;
 use contact_core::memory::available_memory;
 use contact_core::plan::Plan;
 use contact_core::scene::{Body, Bond, Elastic};
 use contact_core::{Error, Scene};
-use contact_wear::Wear;
+use contact_wear::{Cycling, Wear};
 use serde_json::{Map, Value, json};
 
 use crate::failure::Failure;
@@ -36,13 +38,21 @@ pub(crate) fn check(options: &Options) -> Result<(), Failure> {
         print(&format!("{:#}", refused(error)))?;
     }
     let (scene, wear) = read.map_err(Failure::BadInput)?;
-    let plan = Plan::new(&scene);
-    let mut lines = description(&scene, &plan);
-    lines.extend(wear.as_ref().map(|wear| ("wear", worn(wear))));
     let mut doubts = scene.doubts();
+    let sliding = wear.as_ref().filter(|of| of.cycling == Cycling::Sliding);
+    // The places of a stroke take the place of increments that are open.
+    let settled = sliding.and_then(|wear| wear.settled(&scene, &Arc::default()).ok());
+    let scene = settled.map_or(scene, |(settled, _)| settled);
+    let plan = Plan::new(&scene);
+    let work = Work::of(&scene, plan.coupling && sliding.is_none());
+    let mut lines = description(&scene, &plan, &work);
+    lines.extend(wear.as_ref().map(|wear| ("wear", worn(wear))));
     doubts.extend(wear.iter().flat_map(Wear::doubts));
     if options.json {
-        print(&format!("{:#}", numbers(&scene, &plan, &lines, &doubts)))?;
+        print(&format!(
+            "{:#}",
+            numbers(&scene, &plan, &work, &lines, &doubts)
+        ))?;
     } else {
         let lines = lines
             .iter()
@@ -81,12 +91,12 @@ fn refused(error: &Error) -> Value {
 fn numbers(
     scene: &Scene,
     plan: &Plan,
+    work: &Work,
     lines: &[(&'static str, String)],
     doubts: &[String],
 ) -> Value {
     let (grid, hertz) = (&scene.grid, scene.hertz());
     let (length_x, length_y) = grid.extent();
-    let work = Work::of(scene, plan);
     let mut text = Map::new();
     for (subject, line) in lines {
         let entry = text.entry(*subject).or_insert_with(|| json!([]));
@@ -133,7 +143,7 @@ fn numbers(
 }
 
 /// Subjects and their text.
-fn description(scene: &Scene, plan: &Plan) -> Vec<(&'static str, String)> {
+fn description(scene: &Scene, plan: &Plan, work: &Work) -> Vec<(&'static str, String)> {
     let grid = &scene.grid;
     let (length_x, length_y) = grid.extent();
     let mut lines = Vec::new();
@@ -191,7 +201,7 @@ fn description(scene: &Scene, plan: &Plan) -> Vec<(&'static str, String)> {
     if let Some(text) = yielding(scene) {
         line("yielding", text);
     }
-    line("work", work(scene, plan));
+    line("work", work.told(scene));
     let (needed, available) = (plan.memory(scene), available_memory());
     line(
         "memory",
@@ -210,7 +220,15 @@ fn worn(wear: &Wear) -> String {
         .filter(|(_, body)| !body.laws.is_empty())
         .map(|(n, _)| format!("body {}", n + 1))
         .collect();
-    format!("{} over {} cycles", worn.join(" and "), short(wear.cycles))
+    let how = match wear.cycling {
+        Cycling::March => "",
+        Cycling::Sliding => ", in sliding: the pressure at the middle of every increment",
+    };
+    format!(
+        "{} over {} cycles{how}",
+        worn.join(" and "),
+        short(wear.cycles)
+    )
 }
 
 /// Where yielding begins; none where no body may yield.
@@ -294,38 +312,39 @@ const UNCOUPLED: [usize; 2] = [3, 12];
 /// The work of a solution, as a rule: at least and at most.
 struct Work {
     increments: [usize; 2],
+    /// Of an increment.
+    each: [usize; 2],
     convolutions: [usize; 2],
 }
 
 impl Work {
-    fn of(scene: &Scene, plan: &Plan) -> Self {
+    /// `coupling`: whether pressure and shear are both solved, and act on one another.
+    fn of(scene: &Scene, coupling: bool) -> Self {
         let branches = &scene.path.branches;
         let increments = CHOSEN.map(|chosen| {
             let counts = branches.iter().map(|b| b.increments.unwrap_or(chosen));
             counts.sum()
         });
-        let [few, many] = if plan.coupling { COUPLED } else { UNCOUPLED };
+        let each @ [few, many] = if coupling { COUPLED } else { UNCOUPLED };
         Self {
             increments,
+            each,
             convolutions: [increments[0] * few, increments[1] * many],
         }
     }
-}
 
-/// The work of a solution in words.
-fn work(scene: &Scene, plan: &Plan) -> String {
-    let Work {
-        increments: [least, most],
-        convolutions: [fewest, all],
-    } = Work::of(scene, plan);
-    let increments = if scene.path.is_open() {
-        format!("some {least} to {most} increments")
-    } else {
-        format!("{least} increments")
-    };
-    let [few, many] = if plan.coupling { COUPLED } else { UNCOUPLED };
-    let (nx, ny) = (scene.grid.nx, scene.grid.ny);
-    format!(
-        "{increments} of {few} to {many} convolutions each, {fewest} to {all} of {nx} x {ny} cells"
-    )
+    /// It in words.
+    fn told(&self, scene: &Scene) -> String {
+        let ([least, most], [few, many]) = (self.increments, self.each);
+        let increments = if scene.path.is_open() {
+            format!("some {least} to {most} increments")
+        } else {
+            format!("{least} increments")
+        };
+        let [fewest, all] = self.convolutions;
+        let (nx, ny) = (scene.grid.nx, scene.grid.ny);
+        format!(
+            "{increments} of {few} to {many} convolutions each, {fewest} to {all} of {nx} x {ny} cells"
+        )
+    }
 }
