@@ -80,7 +80,47 @@ def test_numbers_are_those_of_single_runs(compared: tuple[fret.study.Comparison,
         assert float(here.tension) == pytest.approx(most)
         life = result.life(of.of_layers, "smith_watson_topper", residual=of.residual)
         substrate = len(of.body.coatings)
-        assert float(here.life_of_substrate) == pytest.approx(life.worst_of(substrate).margin)
+        # Over the critical distance of the material, as a single run.
+        single = life.range_of(substrate)
+        assert float(here.life_of_substrate) == pytest.approx(single.best)
+        assert float(here.life_of_substrate_L) == pytest.approx(single.L)
+
+
+def test_a_margin_says_what_the_stress_is_and_what_is_doubted() -> None:
+    """Of every candidate, for a criterion with lives and for one with a limit."""
+    scene, path = contact(n=12)
+    known = fatigue.Materials()
+    of = {
+        "alloy": Candidate(scene.body2, materials=known["titanium_6Al4V"]),
+        "other": Candidate(scene.body2, materials=known["7075"]),
+    }
+    tests = "bending and torsion tests"
+    bare = fatigue.Material("own", [("s_D", 4.1e8, tests), ("t_D", 2.7e8, tests)])
+    at_a_point = fret.compare(
+        {"own": Candidate(scene.body2, materials=bare)},
+        scene,
+        path,
+        questions=["life"],
+        criterion="crossland",
+        executor=1,
+        progress=False,
+    )
+    assert float(at_a_point.dataset.safety_of_substrate_L[0]) == 0.0
+    assert "at the worst point" in at_a_point.summary()
+    for criterion, kind in (("fatemi_socie", "life"), ("crossland", "safety")):
+        found = fret.compare(
+            of, scene, path, questions=["life"], criterion=criterion, executor=1, progress=False
+        )
+        table = found.summary()
+        for name, body in of.items():
+            result = fret.solve(scene.replace(title=name), path, save="all", progress=False)
+            single = result.life(body.materials, criterion)
+            here = found.dataset.sel(candidate=name)
+            assert float(here[f"{kind}_of_substrate_L"]) == pytest.approx(single.L)
+            told = [note for note in single.notes if "strains follow" in note or "estimate" in note]
+            assert all(f"doubted: {name}: {note}" in table for note in told)
+        assert table.count("mean over L = ") == 2
+        assert ("strains follow" in table) == (kind == "life")
 
 
 def test_an_error_is_what_larger_cells_change(

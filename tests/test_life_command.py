@@ -115,9 +115,33 @@ def test_rows_are_what_python_finds(store: Path, tmp_path: Path) -> None:
             [told.low, told.best, told.high, told.L], rel=1e-9
         )
         assert row["notes"][: len(told.notes)] == list(told.notes)
+        # The range at the point has the scatter of the material, as that of the mean.
+        worst = found.worst_of(row["layer"])
+        assert row["at_point"] == pytest.approx(list(worst.whole), rel=1e-9)
+        assert worst.whole[1] / worst.whole[0] > told.material
     assert [row["decides"] for row in rows].count(True) == 1
     table = np.genfromtxt(fields, delimiter=",", skip_header=1)
     np.testing.assert_allclose(table[:, 4], found.dataset.value.values.ravel(), rtol=1e-12)
+
+
+def test_the_table_of_a_distance_has_the_means(store: Path, tmp_path: Path) -> None:
+    out, L = tmp_path / "means.csv", 1e-5
+    steel = ("--material", "steel_42CrMo4", "--along-x=0")
+    criteria = ("--criterion", "findley,crossland")
+    run = life(store, *steel, *criteria, "--distance", f"{L}", "-o", out)
+    assert run.returncode == 0, run.stderr
+    table = pd.read_csv(out)
+    for name in ("findley", "crossland"):
+        means = fatigue.average(fret.open(store), STEEL, name, L=L, y=0.0)
+        held = means.value.notnull()
+        rows = table[table.criterion == name]
+        np.testing.assert_allclose(rows["x [m]"], means.x[held], rtol=1e-12)
+        np.testing.assert_allclose(rows["value"], means.value[held], rtol=1e-9)
+        np.testing.assert_allclose(rows["safety_factor"], means.safety_factor[held], rtol=1e-9)
+        # From the top of the layer that has the material.
+        thickness = fret.open(store).scene.body2.coatings[0].thickness
+        np.testing.assert_allclose(rows["z [m]"], thickness, rtol=1e-12)
+        assert set(rows["layer"]) == {1}
 
 
 def test_lines_and_distance(store: Path, tmp_path: Path) -> None:

@@ -10,6 +10,7 @@ import pytest
 
 import pyfret as fret
 from pyfret import experiments, fatigue
+from pyfret.fatigue.criteria import CriterionName
 from pyfret.fatigue.ranges import known_as
 
 R, W, MU = 76e-3, 300e3, 0.55
@@ -62,6 +63,33 @@ def test_a_life_has_low_best_and_high(life: fatigue.Life) -> None:
     assert widths[0] > 1.0
     with pytest.raises(ValueError, match="scatter"):
         life.range_of(layer, scatter=0.5)
+
+
+@pytest.fixture(scope="module")
+def few_cells() -> fret.Result:
+    """The rig on few cells."""
+    return rig(40)
+
+
+@pytest.mark.parametrize("name", fatigue.CRITERIA)
+def test_the_range_of_a_point_holds_the_scatter_of_the_material(
+    few_cells: fret.Result, name: CriterionName
+) -> None:
+    """Of every criterion: the margin at a point is told with the scatter that a mean has."""
+    known = fatigue.Materials()["7075"].numbers()
+    names = [number for number, _, _ in known]
+    more = [(of, value, "test") for of, value in (("S", 0.3), ("k", 0.5)) if of not in names]
+    alloy = fatigue.Material("own", [*known, *more])
+    found = few_cells.life(alloy, name)
+    worst, scatter = found.worst, found.range.material
+    assert scatter > 1.0
+    (low, high), (least, most) = worst.range, worst.whole
+    assert math.isfinite(most)
+    assert least < low <= worst.margin <= high < most
+    # The logarithms add as squares.
+    down = math.log(worst.margin / least) ** 2 - math.log(worst.margin / low) ** 2
+    assert down == pytest.approx((0.5 * math.log(scatter)) ** 2, rel=1e-6)
+    assert fret._core.with_range(worst.margin, least, most) in repr(worst)
 
 
 def test_the_range_of_the_stress_is_that_of_the_mean_and_covers(life: fatigue.Life) -> None:

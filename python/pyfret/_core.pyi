@@ -791,8 +791,13 @@ class CriterionBelow:
     @property
     def notes(self, /) -> list[str]:
         """What a reader should know of the materials."""
-    def worst(self, /, layer: int) -> dict[str, Any] | None:
-        """The worst point of a layer, None where it is not judged."""
+    def worst(self, /, layer: int, material: Material | None = None) -> dict[str, Any] | None:
+        """
+        The worst point of a layer, None where it is not judged.
+
+        `range` is the margin of the value with its error, `whole` the range of 10 to 90 % with the
+        scatter of the material.
+        """
 
 @final
 class CrownedRoller:
@@ -3272,6 +3277,18 @@ def measure(name: str, stress: ArrayLike) -> NDArray[np.float64]:
 def measured_by(key: str) -> tuple[str, str] | None:
     """What the number of a key measures, and its unit in SI; none of a key that is unknown."""
 
+def notes_on_materials(
+    criterion: str, body: Body, materials: Sequence[Material | None]
+) -> list[str]:
+    """
+    What a reader should know of the materials of a body by a criterion, before a contact is solved.
+
+    Parameters
+    ----------
+    materials : list of Material or None
+        Of every layer from the surface down, the substrate's last.
+    """
+
 def partial_crack(film_: Elastic, below: Elastic, depth: Quantity) -> float:
     """Factor F of a crack with its tip in a film; use :func:`pyfret.fracture.film_intensity`."""
 
@@ -3653,6 +3670,7 @@ __all__ = [
     "materials",
     "measure",
     "measured_by",
+    "notes_on_materials",
     "partial_crack",
     "principal",
     "probe_labels",

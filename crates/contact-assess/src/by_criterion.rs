@@ -71,6 +71,18 @@ impl ByCriterion {
         })
     }
 
+    /// [`Self::notes`], and those on the numbers of the materials that are from no source.
+    pub fn notes_on_materials(&self, materials: &[Option<Material>]) -> Result<Vec<String>, Error> {
+        let mut notes = self.notes.clone();
+        for (of, material) in self.assessments.iter().zip(materials) {
+            if let Some(of) = of {
+                let (_, note) = of.scatter(material.as_ref(), None).map_err(of_criteria)?;
+                notes.extend(note);
+            }
+        }
+        Ok(notes)
+    }
+
     /// The assessment of a layer that is judged.
     pub fn of(&self, layer: usize) -> Option<&Assessment> {
         self.assessments.get(layer).and_then(Option::as_ref)

@@ -23,6 +23,8 @@ pub struct RangeOptions {
 pub struct RangeOfLife {
     /// The range and its parts.
     pub of: LifeRange,
+    /// The range of the value at the worst point, of the scatter of the material, too.
+    pub point: Range,
     /// Critical distance of the mean \[m\]; `None` for the value at the worst point.
     pub length: Option<f64>,
     /// Notes for the reader.
@@ -86,7 +88,13 @@ pub fn range_of_life<E: From<Error>>(
     notes.extend(note);
     let of = assessment.told(assessment.margins(value, error), factor, distance);
     notes.extend(wide(assessment, &of));
-    Ok(RangeOfLife { of, length, notes })
+    let point = assessment.at_a_point(worst.0, worst.1, factor);
+    Ok(RangeOfLife {
+        of,
+        point,
+        length,
+        notes,
+    })
 }
 
 /// A note on a life whose range says little: beyond the tests, or wider than [`WIDE`] by its distance.

@@ -139,6 +139,16 @@ impl Assessment {
         }
     }
 
+    /// The range of 10 to 90 % of the margin of a value at a point: of its error and of the scatter of the
+    /// material, `factor`. NaN ends without a finite error.
+    pub fn at_a_point(&self, value: f64, error: f64, factor: f64) -> Range {
+        if error.is_finite() {
+            self.told(self.margins(value, error), factor, None).range
+        } else {
+            self.range(value, error)
+        }
+    }
+
     /// The range of a margin from its parts, as [`LifeRange::of`]. A life beyond [`LONGEST`] is without
     /// end.
     pub fn told(&self, stress: Range, material: f64, distance: Option<Range>) -> LifeRange {

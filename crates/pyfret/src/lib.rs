@@ -61,7 +61,9 @@ mod _core {
     use pyo3::prelude::*;
 
     #[pymodule_export]
-    use crate::assess::{CriterionBelow, CycleSection, YieldBelow, cycle_sections, range_of_life};
+    use crate::assess::{
+        CriterionBelow, CycleSection, YieldBelow, cycle_sections, notes_on_materials, range_of_life,
+    };
     #[pymodule_export]
     use crate::command_line::run_command;
     #[pymodule_export]

@@ -161,9 +161,10 @@ class Life(Kept, Labelled):
             here = self.dataset.value.isel(depth=self.dataset.layer.values == layer)
             if not np.isfinite(here.values).any():
                 raise ValueError(f"layer {layer} is not judged: it has no material or no depth")
+            material = self._materials[layer]
             # A section whose samples are lower may have the worst point between them.
             found = max(
-                filter(None, (section.worst(layer) for section in self._sections)),
+                filter(None, (section.worst(layer, material) for section in self._sections)),
                 key=lambda worst: worst["score"],
                 default=None,
             )
@@ -184,6 +185,7 @@ class Life(Kept, Labelled):
                 (found["range"][0], found["range"][1]),
                 str(self.dataset.value.attrs.get("units", "1")),
                 str(self.margin.attrs.get("units", "1")),
+                (found["whole"][0], found["whole"][1]),
             )
         return self._worst[layer]
 
@@ -376,7 +378,7 @@ class Life(Kept, Labelled):
             w = self.worst_of(layer)
             place = (f"{1e6 * at:.4g}" for at in (w.x, w.y, w.z))
             value = in_megapascals(w.value, w.error, w.units)
-            point = with_range(w.margin, *w.range)
+            point = with_range(w.margin, *w.whole)
             rows.append(
                 [layer_name(layer, coatings), repr(self.range_of(layer)), point, value, *place]
             )
@@ -384,7 +386,7 @@ class Life(Kept, Labelled):
         heading = [
             "layer",
             f"{title}, 10 to 90 %",
-            f"{title} at the point",
+            f"{title} at the point, 10 to 90 %",
             "value",
             "x [µm]",
             "y [µm]",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 from pyfret._core import with_error, with_range
@@ -35,12 +36,15 @@ class Worst(NamedTuple):
     #: Angle of the critical plane to the surface normal in the section [degrees], positive where it
     #: leans towards larger x or y with depth.
     inclination: float | None
-    #: The margins of value + error and of value - error: the least and the largest.
+    #: The margins of value + error and of value - error: the least and the largest. The scatter of
+    #: the material is no part of it: :attr:`whole`.
     range: tuple[float, float]
     #: Unit of the value: "Pa", or "1" for strains.
     units: str = "1"
     #: Unit of the margin: "cycles" of a life, "1" of a safety factor.
     margin_units: str = "1"
+    #: The least and the largest margin, 10 to 90 %: of the error and of the material's scatter.
+    whole: tuple[float, float] = (math.nan, math.nan)
 
     @property
     def error(self) -> float:
@@ -48,8 +52,8 @@ class Worst(NamedTuple):
         return self.errors.sum
 
     def __repr__(self) -> str:
-        """Give margin, value, error and place in a few digits."""
-        margin = with_range(self.margin, *self.range)
+        """Give margin with its range of 10 to 90 %, value, error and place in a few digits."""
+        margin = with_range(self.margin, *self.whole)
         value = in_megapascals(self.value, self.error, self.units)
         at = f", at={self.at!r}" if self.at else ""
         angle = "" if self.inclination is None else f", inclination={self.inclination:.1f} degrees"

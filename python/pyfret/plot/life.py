@@ -102,7 +102,8 @@ def criterion_map(
     """
     worst = life.worst
     safety = life.margin.name == "safety_factor"
-    margin = f"safety {worst.margin:.3g}" if safety else f"{life.margin_of(worst.layer)!r} cycles"
+    told = _core.with_range(worst.margin, *worst.whole)
+    margin = f"safety {told}" if safety else f"{told} cycles"
     field, label = _shown(life)
     shown = life.dataset.value.copy(data=field).assign_attrs(life.dataset.attrs)
     ax = _contours(shown, label, units, levels, ax, stretch=stretch, limit=1.0 if safety else None)

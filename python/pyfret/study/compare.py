@@ -63,6 +63,9 @@ def compare(
     overlap are called "no difference". What is common to all bodies, such as the scatter of one
     substrate's life, is no part of these errors.
 
+    A life is that of the mean stress over the critical distance of the material. A material without
+    one has the life of the worst point. The table names the stress.
+
     Parameters
     ----------
     bodies : mapping of str to Body or Candidate
@@ -145,18 +148,20 @@ def compare(
             progress=progress,
             on_point=on_point,
         )
-    missing = {
-        f"{name}, {question}": needed
-        for question in asked
-        for name, body in of.items()
-        if (needed := QUESTIONS[question].missing(body, duty, whole))
-    }
+    missing: dict[str, str] = {}
+    doubts = {name: variants.scene_of(name, 1).doubts() for name in of}
+    for question in asked:
+        for name, body in of.items():
+            if needed := QUESTIONS[question].missing(body, duty, whole):
+                missing[f"{name}, {question}"] = needed
+            else:
+                doubts[name] += QUESTIONS[question].notes(body, duty)
     return Comparison.of(
         found,
         missing,
         title=whole.title,
         coatings=[len(body.body.coatings) for body in of.values()],
-        doubts={name: variants.scene_of(name, 1).doubts() for name in of},
+        doubts=doubts,
     )
 
 

@@ -31,6 +31,8 @@ if TYPE_CHECKING:
 
 __all__ = ["Comparison", "Preference"]
 
+#: Endings of the names of places, and of what a margin is a mean over.
+PLACES = ("_x", "_z", "_layer", "_L")
 #: Digits of a number without an error.
 DIGITS = 4
 
@@ -111,7 +113,7 @@ class Comparison(Labelled):
             if name in given and bool(np.isfinite(fine[name]).any() | np.isinf(fine[name]).any()):
                 for suffix, values in ranges(given, name, about).items():
                     dataset[f"{name}{suffix}"] = ("candidate", values, fine[name].attrs)
-        places = [str(v) for v in fine.data_vars if str(v).endswith(("_x", "_z", "_layer"))]
+        places = [str(v) for v in fine.data_vars if str(v).endswith(PLACES)]
         for name in places:
             if bool(np.isfinite(fine[name]).any()):
                 dataset[name] = ("candidate", fine[name].values, fine[name].attrs)
@@ -167,6 +169,9 @@ class Comparison(Labelled):
             if f"{name}_layer" in self.dataset:
                 places = [self.place(name, n) for n in range(len(self.candidates))]
                 lines.append(["  where", "", *places, ""])
+            if f"{name}_L" in self.dataset:
+                means = [mean_over(float(L)) for L in self.dataset[f"{name}_L"].values]
+                lines.append(["  from the stress", "", *means, ""])
         return lines
 
     def row(self, name: str) -> list[str]:
@@ -283,6 +288,13 @@ def layer_names(coatings: int) -> list[str]:
     """Names of the layers of a body: coatings count from one, the outermost first."""
     many = [f"coating {n + 1}" for n in range(coatings)]
     return [*(["coating"] if coatings == 1 else many), "substrate"]
+
+
+def mean_over(L: float) -> str:
+    """What the stress of a margin is: its mean over a distance [m], or that at a point."""
+    if math.isnan(L):
+        return ""
+    return f"mean over L = {length(L)}" if L else "at the worst point"
 
 
 def unquoted(name: str) -> str:

@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 import numpy as np
 
 from pyfret import fracture
-from pyfret._core import Scene
+from pyfret._core import Scene, notes_on_materials
 from pyfret._util.bounds import SIDES
 from pyfret._util.lazy import xr
 from pyfret.fatigue.cycles import cycle_increments
+from pyfret.fatigue.distance import critical
 from pyfret.run.summary import directions
 from pyfret.study.answer import Answer
 from pyfret.wear.runs import solve
@@ -75,6 +76,11 @@ NUMBERS: dict[str, Number] = {
 Found: TypeAlias = "tuple[dict[str, Answer], dict[str, float]]"
 
 
+def no_notes(candidate: Candidate, duty: Duty) -> list[str]:
+    """Nothing is doubted."""
+    return []
+
+
 @dataclass(frozen=True)
 class Question:
     """A question: what it needs, and what answers it."""
@@ -85,6 +91,8 @@ class Question:
     ask: Callable[[Result, Candidate, Duty], Found]
     #: Whether it needs the fields of the whole cycle.
     fields: bool = True
+    #: What is to be doubted of the answer, as known before the contact is solved.
+    notes: Callable[[Candidate, Duty], list[str]] = field(default=no_notes, kw_only=True)
 
 
 def ready(candidate: Candidate, duty: Duty, scene: Scene) -> str:
@@ -171,7 +179,12 @@ def no_limits(candidate: Candidate, duty: Duty, scene: Scene) -> str:
 
 
 def life(result: Result, candidate: Candidate, duty: Duty) -> Found:
-    """Lives, or safety factors, of the substrate and of the coatings."""
+    """Lives, or safety factors, of the substrate and of the coatings, and what they are means over.
+
+    The stress is averaged over the critical distance of the material, where it has one, as that of
+    a single run. The range is that of the error of this mean: the scatter of the material is the
+    same for all candidates.
+    """
     found = result.life(
         candidate.of_layers,
         duty.criterion,
@@ -181,15 +194,28 @@ def life(result: Result, candidate: Candidate, duty: Duty) -> Found:
     kind = "life" if found.margin.name == "life" else "safety"
     substrate = candidate.layers - 1
     numbers: dict[str, Answer] = {}
+    places: dict[str, float] = {}
     for part, layers in (
         ("substrate", [n for n in found.layers if n == substrate]),
         ("coating", [n for n in found.layers if n != substrate]),
     ):
-        of = [found.margin_of(layer) for layer in layers]
+        of = [
+            found.range_of(layer, scatter=1.0, L=critical(candidate.of_layers[layer]))
+            for layer in layers
+        ]
         if of:
-            low, best, high = (min(side) for side in zip(*of, strict=True))
-            numbers[f"{kind}_of_{part}"] = Answer(best, low, high)
-    return numbers, {}
+            least = min(of, key=lambda one: (one.best, one.low))
+            name = f"{kind}_of_{part}"
+            numbers[name] = Answer(
+                least.best, min(one.low for one in of), min(one.high for one in of)
+            )
+            places[f"{name}_L"] = least.L or 0.0
+    return numbers, places
+
+
+def notes_on_life(candidate: Candidate, duty: Duty) -> list[str]:
+    """What is to be known of the materials by the criterion of the lives."""
+    return notes_on_materials(duty.criterion, candidate.body, candidate.of_layers)
 
 
 def no_materials(candidate: Candidate, duty: Duty, scene: Scene) -> str:
@@ -273,7 +299,7 @@ QUESTIONS: dict[str, Question] = {
     "tension": Question(ready, tension),
     "yield": Question(no_yield_stress, first_yield),
     "adhesion": Question(no_limits, adhesion),
-    "life": Question(no_materials, life),
+    "life": Question(no_materials, life, notes=notes_on_life),
     "wear": Question(no_law, wear, fields=False),
     "energy": Question(ready, energy, fields=False),
     "temperature": Question(no_heat, temperature),
@@ -316,6 +342,8 @@ class Answers:
         return any(QUESTIONS[name].fields for name in self.questions)
 
 
+#: What a margin is a mean over.
+L_OF = "critical distance that the stress is averaged over, for the margin"
 #: Places that belong to numbers: unit and meaning.
 PLACES = {
     "tension_x": ("m", "place of the largest tension"),
@@ -323,4 +351,9 @@ PLACES = {
     "tension_layer": ("1", "layer of the largest tension, from the surface down"),
     "first_yield_z": ("m", "depth of first yield"),
     "first_yield_layer": ("1", "layer of first yield, from the surface down"),
+    **{
+        f"{kind}_of_{part}_L": ("m", f"{L_OF} of the {part}, 0 for the value at a point")
+        for kind in ("life", "safety")
+        for part in ("substrate", "coating")
+    },
 }

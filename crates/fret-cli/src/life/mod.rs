@@ -4,14 +4,14 @@ mod options;
 mod rows;
 mod table;
 
-use contact_assess::{ByCriterion, Site, judge, materials_of_layers, of_criteria};
+use contact_assess::{ByCriterion, Judged, Site, judge, materials_of_layers, of_criteria};
 use contact_core::Error;
 use contact_core::scene::text_of;
 use contact_store::Store;
 use contact_store::StoredCycle;
 use contact_subsurface::{Line, Side, chosen_depths, depths};
 use contact_subsurface::{OverCycle, main_sections, unsettled};
-use fatigue::{Material, Search, find, materials, read};
+use fatigue::{AtPoint, Material, Search, find, materials, read};
 use serde_json::json;
 
 pub(crate) use self::options::Options;
@@ -91,9 +91,6 @@ fn judged(options: &Options) -> Result<Vec<String>, Error> {
     };
     let below = lines.iter().map(|line| judge(&site, *line, &asked, &of));
     let below = below.collect::<Result<Vec<_>, _>>()?;
-    if let Some(out) = &options.out {
-        table::write(out, &options.criterion, &below[0], &of)?;
-    }
     let judging = Judging {
         options,
         site: &site,
@@ -101,6 +98,7 @@ fn judged(options: &Options) -> Result<Vec<String>, Error> {
         body,
         materials: &of_layers,
     };
+    write_table(&judging, &below[0], &of)?;
     let rows = of.iter().enumerate().map(|(n, of)| {
         let judged: Vec<_> = below.iter().map(|judged| &judged[n]).collect();
         match options.distance {
@@ -135,6 +133,22 @@ fn judged(options: &Options) -> Result<Vec<String>, Error> {
         }
     }
     Ok(found.iter().zip(&own).map(line).collect())
+}
+
+/// Writes the table that is asked for: the points of the first section, or the means below it.
+fn write_table(
+    judging: &Judging<'_>,
+    points: &[Judged<AtPoint>],
+    of: &[ByCriterion],
+) -> Result<(), Error> {
+    let Some(out) = &judging.options.out else {
+        return Ok(());
+    };
+    let means = |length: f64| of.iter().map(|of| judging.means(of, length)).collect();
+    let means: Option<Result<Vec<_>, _>> = judging.options.distance.map(means);
+    let means = means.transpose()?;
+    let rows = means.as_deref().unwrap_or(points);
+    table::write(out, &judging.options.criterion, rows, of)
 }
 
 /// The materials named, from the surface down.

@@ -28,7 +28,7 @@ pub(crate) struct Options {
     /// Body below (2) or above (1) the contact plane
     #[arg(long, default_value = "2", value_parser = clap::value_parser!(u8).range(1..=2))]
     pub(super) body: u8,
-    /// Section along x at this y, in metres (default: the section along the shear through the centre
+    /// Section along x at this y [m, or with a unit] (default: the section along the shear through the centre
     /// of the largest contact of the cycle, and the one across it unless a round contact is sheared
     /// along one line)
     #[arg(
@@ -39,16 +39,16 @@ pub(crate) struct Options {
         conflicts_with = "along_y"
     )]
     pub(super) along_x: Option<f64>,
-    /// Section along y at this x, in metres
+    /// Section along y at this x [m, or with a unit]
     #[arg(long, value_name = "X", value_parser = length, allow_hyphen_values = true)]
     pub(super) along_y: Option<f64>,
-    /// Depths in metres (default: as the layers ask)
+    /// Depths [m, or with a unit] (default: as the layers ask)
     #[arg(long, value_name = "Z", value_delimiter = ',', value_parser = length)]
     pub(super) depths: Vec<f64>,
     /// Which closed cycle of the load path, from 0; negative from the end
     #[arg(long, default_value = "-1", allow_hyphen_values = true)]
     pub(super) cycle: i64,
-    /// Residual stress of each layer from the surface down, the substrate's last [Pa], tension
+    /// Residual stress of each layer from the surface down, the substrate's last [Pa, or with a unit], tension
     /// positive; write --residual=-1e9,0 if the first is negative
     #[arg(
         long,
@@ -58,7 +58,7 @@ pub(crate) struct Options {
         allow_hyphen_values = true
     )]
     pub(super) residual: Vec<f64>,
-    /// Judge the mean stress over this critical distance, in metres or with its unit, from the top of a layer
+    /// Judge the mean stress over this critical distance from the top of a layer [m, or with a unit]
     /// (default: the range from the mean over the critical distance of the material, where it has
     /// one, beside the value at the worst point)
     #[arg(long, value_name = "L", value_parser = length)]
@@ -80,8 +80,9 @@ pub(crate) struct Options {
     /// Print one JSON object per layer, for programs; an endless life is null
     #[arg(long)]
     pub(super) json: bool,
-    /// Table to write (.csv): a line for each point of the first section; several criteria stand
-    /// below each other, named in the first column
+    /// Table to write (.csv): a line for each point of the first section, or with --distance for
+    /// the mean below each place, z the top of the layer. Several criteria stand below each other,
+    /// named in the first column
     #[arg(short, long, value_name = "FILE")]
     pub(super) out: Option<PathBuf>,
 }

@@ -4,12 +4,12 @@ use std::fmt::Write as _;
 
 use contact_assess::{
     Averaging, ByCriterion, Distance, Judged, LargestMean, RangeOfLife, RangeOptions, Site, Worst,
-    error_of_largest_mean, inclination, largest_mean, range_of_life, worst,
+    average, error_of_largest_mean, inclination, largest_mean, range_of_life, worst,
 };
 use contact_core::Error;
 use contact_core::digits::with_range;
 use contact_core::scene::Body;
-use contact_subsurface::{Line, Zone};
+use contact_subsurface::{Depth, Line, Zone};
 use fatigue::{Assessment, AtPoint, Material, Range};
 use serde_json::{Value, json};
 
@@ -74,18 +74,40 @@ impl Judging<'_> {
         of: &ByCriterion,
         length: f64,
     ) -> Result<Row, Error> {
-        let outermost = of.assessments.iter().position(Option::is_some);
-        let layer = self.options.layer.or(outermost).unwrap_or_default();
-        if of.of(layer).is_none() {
-            let allowed = "a layer that has a material";
-            return Err(Error::invalid("--layer", layer, allowed));
-        }
+        let layer = self.averaged(of)?;
         let (mean, line) = self.largest(of, layer, length)?;
         let Some(found) = self.layer(sections, of, layer)? else {
             let allowed = "a layer that has a depth";
             return Err(Error::invalid("--layer", layer, allowed));
         };
         Ok(found.mean(&mean, line, self.options, length))
+    }
+
+    /// The layer that the distance of the options lies in.
+    fn averaged(&self, of: &ByCriterion) -> Result<usize, Error> {
+        let outermost = of.assessments.iter().position(Option::is_some);
+        let layer = self.options.layer.or(outermost).unwrap_or_default();
+        if of.of(layer).is_none() {
+            let allowed = "a layer that has a material";
+            return Err(Error::invalid("--layer", layer, allowed));
+        }
+        Ok(layer)
+    }
+
+    /// The means over a distance along the first line, at the depth of the top of their layer.
+    pub(super) fn means(&self, of: &ByCriterion, length: f64) -> Result<Judged<AtPoint>, Error> {
+        let (layer, line) = (self.averaged(of)?, self.lines[0]);
+        let found = average(self.site, line, &self.distance(layer, length), of)?;
+        let places = line.places(self.site.grid).into_iter().zip(found);
+        let (along, found) = places.filter_map(|(s, found)| Some((s, found?))).unzip();
+        let above = self.body.coatings.iter().take(layer);
+        let z = above.map(|coating| coating.thickness).sum();
+        Ok(Judged {
+            line,
+            along,
+            depths: vec![Depth { z, layer }],
+            found: vec![Some(found)],
+        })
     }
 
     /// The worst point of a layer and its range; `None` if the layer is not judged.
@@ -197,7 +219,7 @@ impl Layer<'_> {
             Zone::Stick => "border of the stick zone",
         });
         let error = extreme.error.sum();
-        let point = self.of.range(extreme.value, error);
+        let point = self.range.point;
         let mut json = self.json();
         let own = json!({
             self.name(): number(point.best), "at_point": [number(point.low), number(point.high)],
@@ -218,7 +240,7 @@ impl Layer<'_> {
             || format!("{}: {}{least} at a point", self.called, self.told()),
             |length| {
                 format!(
-                    "{}: {} of the mean over L = {}\n{}, worst point: {}{least}",
+                    "{}: {} of the mean over L = {}\n{}, worst point: {}, 10 to 90 %{least}",
                     self.called,
                     self.told(),
                     um(length),

@@ -13,10 +13,6 @@ pub(super) fn check(options: &Options) -> Result<(), Error> {
     let Some(out) = &options.out else {
         return Ok(());
     };
-    if let Some(length) = options.distance {
-        let allowed = "left out with --out, whose table has the points; means stand in fatigue.average in Python";
-        return Err(Error::invalid("--distance", length, allowed));
-    }
     let ending = out.extension().map(|e| e.to_string_lossy().to_lowercase());
     if ending.as_deref() != Some("csv") {
         return Err(Error::invalid(

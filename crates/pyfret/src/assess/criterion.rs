@@ -2,7 +2,7 @@
 
 use contact_assess::{self as core, Averaging, ByCriterion, Distance, Judged, RangeOptions};
 use contact_core::Error;
-use fatigue::{AtPoint, Range};
+use fatigue::{AtPoint, Range, Search};
 use ndarray::{Array2, Array3};
 
 use super::below::{Below, depths_of, place};
@@ -10,6 +10,7 @@ use crate::argument;
 use crate::error::Answer;
 use crate::fatigue::{AT_POINT, Assessment, Material};
 use crate::prelude::*;
+use crate::scene::Body;
 
 /// What a criterion found on a section.
 #[pyclass(frozen, module = "pyfret.fatigue")]
@@ -51,11 +52,15 @@ impl CriterionBelow {
     }
 
     /// The worst point of a layer, None where it is not judged.
-    #[pyo3(signature = (layer: "int") -> "dict[str, Any] | None")]
+    ///
+    /// `range` is the margin of the value with its error, `whole` the range of 10 to 90 % with the
+    /// scatter of the material.
+    #[pyo3(signature = (layer: "int", material = None) -> "dict[str, Any] | None")]
     fn worst<'py>(
         &self,
         py: Python<'py>,
         #[pyo3(from_py_with = number)] layer: usize,
+        material: Option<Material>,
     ) -> Answer<Option<Bound<'py, PyDict>>> {
         let worst = self.below.at(py, true, |site| {
             core::worst(site, &self.judged, &self.of, layer)
@@ -68,6 +73,10 @@ impl CriterionBelow {
         let range = assessment.range(value, error);
         found.set_item("margin", range.best)?;
         found.set_item("range", (range.low, range.high))?;
+        let material = material.as_ref().map(|material| &material.0);
+        let (factor, _) = assessment.scatter(material, None)?;
+        let whole = assessment.at_a_point(value, error, factor);
+        found.set_item("whole", (whole.low, whole.high))?;
         found.set_item("order", assessment.extrapolated(value))?;
         if assessment.criterion.has_plane() {
             let normal = worst.found.normal;
@@ -201,6 +210,24 @@ pub(crate) fn range_of_life(
         found.length,
         found.notes,
     ))
+}
+
+/// What a reader should know of the materials of a body by a criterion, before a contact is solved.
+///
+/// Parameters
+/// ----------
+/// materials : list of Material or None
+///     Of every layer from the surface down, the substrate's last.
+#[pyfunction]
+#[pyo3(signature = (criterion: "str", body: "Body", materials: "Sequence[Material | None]"))]
+pub(crate) fn notes_on_materials(
+    criterion: &str,
+    body: &Body,
+    materials: List<Option<Material>>,
+) -> Answer<Vec<String>> {
+    let each: Vec<_> = materials.into_iter().map(|of| of.map(|of| of.0)).collect();
+    let of = ByCriterion::new(criterion, &body.0, &each, Search::default())?;
+    Ok(of.notes_on_materials(&each)?)
 }
 
 /// What is averaged over, by its name.

@@ -10,7 +10,7 @@ use fatigue::Search;
 use numpy::PyArray2;
 
 use self::below::Below;
-pub(crate) use self::criterion::{CriterionBelow, range_of_life};
+pub(crate) use self::criterion::{CriterionBelow, notes_on_materials, range_of_life};
 use self::criterion::{arrays, averaging};
 use self::given::Given;
 pub(crate) use self::yielding::YieldBelow;
