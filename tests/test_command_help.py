@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
+import argparse
 import errno
 import json
+import re
+import subprocess
+from collections.abc import Iterator
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import pyfret as fret
-from conftest import sphere_on_flat
+from conftest import ROOT, sphere_on_flat
 from pyfret._cli import commands
+from pyfret._cli.values import Value, Values
+from pyfret._core import unit_of, units
 
 pytestmark = pytest.mark.solves
 
@@ -54,6 +61,57 @@ def test_help_says_what_a_command_does_how_and_with_what(
             assert following.startswith(" " * 20), line
 
 
+#: A unit in the help of an option.
+UNIT = re.compile(r"\[(?:m|N|Pa|Pa m\^0\.5|rad|degrees)\b[^]]*\]|metres|newtons|pascals")
+
+
+def quantities() -> Iterator[tuple[str, argparse.Action]]:
+    """All options of the commands in Python that are numbers with a unit."""
+    chosen = next(of for of in commands.parser()._actions if of.dest == "command")
+    assert chosen.choices is not None
+    for name, parser in dict(chosen.choices).items():  # type: ignore[call-overload]
+        for action in parser._actions:
+            if isinstance(action.type, Value | Values):
+                yield name, action
+            elif action.option_strings and UNIT.search(action.help or ""):
+                raise AssertionError(f"fret {name} {action.option_strings}: takes no unit")
+
+
+def test_every_option_that_is_a_quantity_may_have_a_unit() -> None:
+    """Of the commands in Python: lengths, stresses, angles, one or several."""
+    asked = set()
+    for name, action in quantities():
+        asked.add((name, action.dest))
+        assert f"[{action.type.unit}, or with a unit]" in (action.help or "")  # type: ignore[union-attr]
+        each = action.type.each if isinstance(action.type, Values) else (action.type,)
+        for of in each:
+            assert isinstance(of, Value)
+            assert of("0.25") == 0.25
+            found = unit_of(of.unit)
+            if found is None:
+                continue
+            # Every other unit of the same kind.
+            for unit in units(found[0]).split(", "):
+                other = unit_of(unit)
+                assert other is not None
+                assert of(f"2 {unit}") == pytest.approx(2.0 * other[1] / found[1], rel=1e-12)
+            with pytest.raises(argparse.ArgumentTypeError, match="must be"):
+                of("2 parsec")
+    expected = {"lengths", "x", "angle", "kink", "azimuth", "residual", "dK_th", "dS_0"}
+    assert {("crack", of) for of in expected} | {("threshold", "distance")} <= asked
+
+
+@pytest.mark.parametrize("command", ["stress", "life"])
+def test_the_compiled_commands_say_so_too(command: str) -> None:
+    fret_ = ROOT / "target" / "release" / "fret"
+    said = subprocess.run([fret_, command, "--help"], capture_output=True, text=True, check=True)
+    # Lines are broken anywhere.
+    words = " ".join(said.stdout.split())
+    found = UNIT.findall(words)
+    assert len(found) >= 4
+    assert {of.partition(",")[2] for of in found} == {" or with a unit]"}
+
+
 def test_the_help_of_all_names_the_commands_and_the_exit_codes(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
@@ -95,6 +153,43 @@ def test_quiet_prints_nothing_and_with_json_the_json(
     assert commands.main(["export", str(store), "-o", str(out), "--quiet"]) == 0
     assert out.is_file()
     assert capsys.readouterr().out == ""
+
+
+def test_lengths_with_units_are_those_in_metres(
+    store: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    told = []
+    for lengths, angle in (("1e-5,2e-5", "10"), ("10 um, 0.02 mm", "10 degrees")):
+        crack = ["crack", str(store), "--lengths", lengths, "--angle", angle, "--json"]
+        assert commands.main(crack) == 0
+        rows = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
+        told.append([[row[name] for name in ("length", "K_max", "dK")] for row in rows])
+    assert told[0] == pytest.approx(np.array(told[1]), rel=1e-9)
+    assert commands.main(["crack", str(store), "--lengths", "5 N"]) == 2
+    assert "must be" in capsys.readouterr().err
+
+
+def test_what_cannot_be_written_is_refused_before_anything_is_solved(
+    store: Path, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    scene, study = tmp_path / "scene.toml", tmp_path / "study.toml"
+    scene.write_text(fret.open(store).scene.to_toml(), encoding="utf-8")
+    study.write_text(
+        'scene = "scene.toml"\nmeasure = ["p_max"]\n[parameters]\n'
+        '"friction.mu" = [0.3, 0.4]\n"body2.nu" = [0.3, 0.31]\n"body1.nu" = [0.3, 0.31]\n',
+        encoding="utf-8",
+    )
+    out = tmp_path / "s.zarr"
+    common = ["study", str(study), "-o", str(out), "--workers", "1"]
+    assert commands.main([*common, "--map", str(tmp_path / "map.png")]) == 2
+    said = capsys.readouterr().err
+    assert "has 3 parameters" in said
+    assert '.map(at={"body1.nu": 0.3})' in said
+    assert commands.main([*common, "--map", str(tmp_path / "map.txt")]) == 2
+    assert "must end in .png" in capsys.readouterr().err
+    assert commands.main(["crack", str(store), "-o", "crack.txt"]) == 2
+    assert "must end in .png" in capsys.readouterr().err
+    assert not out.exists()
 
 
 def test_every_command_tells_programs_what_came_out(

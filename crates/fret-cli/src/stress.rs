@@ -38,10 +38,10 @@ pub(crate) struct Options {
     /// Body below (2) or above (1) the contact plane
     #[arg(long, default_value = "2", value_parser = clap::value_parser!(u8).range(1..=2))]
     body: u8,
-    /// Section along x at this y, in metres
+    /// Section along x at this y [m, or with a unit]
     #[arg(long, value_name = "Y", value_parser = length, allow_hyphen_values = true, conflicts_with_all = ["along_y", "volume"])]
     along_x: Option<f64>,
-    /// Section along y at this x, in metres
+    /// Section along y at this x [m, or with a unit]
     #[arg(
         long,
         value_name = "X",
@@ -60,7 +60,7 @@ pub(crate) struct Options {
     /// Units of the lines: MPa and um, or over Hertz's pressure and radius
     #[arg(long, value_enum, default_value = "si", ignore_case = true)]
     units: Units,
-    /// Residual stress of each layer from the surface down, the substrate's last [Pa], tension
+    /// Residual stress of each layer from the surface down, the substrate's last [Pa, or with a unit], tension
     /// positive; write --residual=-1e9,0 if the first is negative
     #[arg(
         long,
@@ -73,12 +73,12 @@ pub(crate) struct Options {
     /// Leave out the bulk stress of the body
     #[arg(long)]
     no_bulk: bool,
-    /// Largest depth in metres; by default 2 a_H, or where there is no Hertz contact the width of
+    /// Largest depth [m, or with a unit]; by default 2 a_H, or where there is no Hertz contact the width of
     /// the contact
     #[arg(long, value_name = "Z", value_parser = length)]
     depth: Option<f64>,
     /// Number of depths to write, evenly from the surface, such as 64, or the depths themselves
-    /// [m], such as 0,5e-6,10e-6; by default those that the layers ask for, both sides of every
+    /// [m, or with a unit], such as 0,5e-6,10e-6; by default those that the layers ask for, both sides of every
     /// interface among them, and 256 in image data. Largest values are looked for at these and at
     /// those that the layers ask for
     #[arg(long, value_name = "N or Z,Z,...", value_parser = Depths::read)]

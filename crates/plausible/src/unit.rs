@@ -168,6 +168,8 @@ const UNITS: &[(&str, Kind, f64)] = {
         ("mrad", Angle, 1e-3),
         ("urad", Angle, 1e-6),
         ("deg", Angle, std::f64::consts::PI / 180.0),
+        ("degree", Angle, std::f64::consts::PI / 180.0),
+        ("degrees", Angle, std::f64::consts::PI / 180.0),
         ("°", Angle, std::f64::consts::PI / 180.0),
         ("Pa", Stress, 1.0),
         ("kPa", Stress, 1e3),

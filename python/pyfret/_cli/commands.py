@@ -16,6 +16,7 @@ from pyfret import verification, wear
 from pyfret._cli import compare, crack, explore, export, fit, threshold
 from pyfret._cli.parser import Parser, added
 from pyfret._cli.say import say, say_json
+from pyfret._cli.values import FIGURES, ending
 from pyfret._core import __version__
 from pyfret.citation import cite as told
 from pyfret.citation import sources
@@ -50,7 +51,12 @@ def parser() -> argparse.ArgumentParser:
     study.add_argument("--workers", type=int, help="processes (default: one for each processor)")
     study.add_argument("--scheduler", help="address of a Dask cluster, such as tcp://host:8786")
     study.add_argument("--again", action="store_true", help="also points that failed before")
-    study.add_argument("--map", metavar="FILE", help="figure of the first measure (.png, .svg)")
+    study.add_argument(
+        "--map",
+        type=ending(*FIGURES),
+        metavar="FILE",
+        help="figure of the first measure, over one parameter or two (.png, .svg, .pdf)",
+    )
     compare.add_options(commands)
     explore.add_options(commands)
     export.add_options(commands)
@@ -90,6 +96,7 @@ def study(options: argparse.Namespace) -> int:
             out=options.out,
             executor=client or options.workers,
             again=options.again,
+            mapped=options.map is not None,
         )
     except KeyboardInterrupt:
         say("fret: stopped; the same command goes on", file=sys.stderr)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from pyfret._cli.parser import added
 from pyfret._cli.say import say, say_json
+from pyfret._cli.values import FIGURES, ending
 from pyfret.study.compare_file import run_file
 
 if TYPE_CHECKING:
@@ -21,8 +22,15 @@ def add_options(commands: argparse._SubParsersAction[Any]) -> None:
     compare.add_argument("-o", "--out", help="store (default: that of the file, or NAME.zarr)")
     compare.add_argument("--workers", type=int, help="processes (default: one for each processor)")
     compare.add_argument("--again", action="store_true", help="also bodies that failed before")
-    compare.add_argument("--figure", metavar="FILE", help="figure of all numbers (.png, .svg)")
-    compare.add_argument("--report", metavar="FILE", help="page for a browser (.html)")
+    compare.add_argument(
+        "--figure",
+        type=ending(*FIGURES),
+        metavar="FILE",
+        help="figure of all numbers (.png, .svg, .pdf)",
+    )
+    compare.add_argument(
+        "--report", type=ending(".html"), metavar="FILE", help="page for a browser (.html)"
+    )
     compare.add_argument("--json", action="store_true", help="print one JSON object")
 
 
@@ -42,6 +50,8 @@ def run(options: argparse.Namespace) -> int:
                     of: [float(d[f"{name}{side}"][n]) for side in ("_low", "", "_high")]
                     for n, of in enumerate(found.candidates)
                 },
+                # What a margin is a mean over [m]: 0 for the value at a point.
+                **({"L": d[f"{name}_L"].values.tolist()} if f"{name}_L" in d else {}),
             }
             for name, verdict in ((name, found.verdict(name)) for name in found.numbers)
         }

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from pyfret import fatigue
 from pyfret._cli.parser import added
 from pyfret._cli.say import say, say_json
+from pyfret._cli.values import DEGREES, FIGURES, Value, Values, ending, takes
 from pyfret._util import files
 from pyfret.fracture import Paris, Threshold
 from pyfret.result import open
@@ -21,8 +22,8 @@ if TYPE_CHECKING:
 
 __all__ = ["add_crack", "add_options", "cracks_of", "run", "threshold_of"]
 
-#: Endings of figures, and of files of the fields.
-FIGURES, FIELDS = (".png", ".svg", ".pdf"), (".nc", ".zarr")
+#: Endings of files of the fields.
+FIELDS = (".nc", ".zarr")
 
 
 def add_options(commands: argparse._SubParsersAction[Any]) -> None:
@@ -31,24 +32,33 @@ def add_options(commands: argparse._SubParsersAction[Any]) -> None:
     crack.add_argument("store", help="result, the increments of its cycle kept")
     add_crack(crack)
     crack.add_argument("--json", action="store_true", help="one JSON object per length and verdict")
-    crack.add_argument("--paris", type=numbers, metavar="C,M", help="growth, C at 1 MPa m^0.5 [m]")
-    crack.add_argument("-o", "--out", help="figure (.png, .svg, .pdf) or K over the cycle (.nc)")
+    takes(
+        crack,
+        "--paris",
+        Values(Value("Paris.C"), Value("number")),
+        "growth C and its exponent m",
+        metavar="C,M",
+    )
+    crack.add_argument(
+        "-o",
+        "--out",
+        type=ending(*FIGURES, *FIELDS),
+        help="figure (.png, .svg, .pdf) or K over the cycle (.nc, .zarr)",
+    )
 
 
 def add_crack(crack: argparse.ArgumentParser) -> None:
     """Add the options that say which crack, and which threshold."""
-    crack.add_argument(
-        "--x", type=float, help="place of the mouth [m] (default: the worse rim of the contact)"
-    )
-    crack.add_argument(
-        "--angle", type=float, default=0.0, help="from the inward normal towards +x [degrees]"
-    )
-    crack.add_argument("--lengths", type=numbers, metavar="L,...", help="lengths of the crack [m]")
-    crack.add_argument(
+    length, angle = Value("length"), Value("angle", DEGREES)
+    takes(crack, "--x", length, "place of the mouth (default: the worse rim of the contact)")
+    takes(crack, "--angle", angle, "from the inward normal towards +x", default=0.0)
+    takes(crack, "--lengths", Values(length), "lengths of the crack", metavar="L,...")
+    takes(
+        crack,
         "--kink",
-        type=numbers,
+        Values(length, angle),
+        "length after which cracks go on at another angle",
         metavar="L,ANGLE",
-        help="length [m] after which cracks go on at another angle [degrees]",
     )
     crack.add_argument(
         "--grow",
@@ -56,45 +66,33 @@ def add_crack(crack: argparse.ArgumentParser) -> None:
         help="let the crack choose its way by the largest range of this, from the first of the "
         "lengths to the last",
     )
-    crack.add_argument(
-        "--azimuth",
-        type=float,
-        help="of its plane about z [degrees] (default: of the largest range)",
-    )
+    takes(crack, "--azimuth", angle, "of its plane about z (default: of the largest range)")
     crack.add_argument(
         "--aspect", type=float, help="depth over half-length of a semi-ellipse: an estimate"
     )
     crack.add_argument("--friction", type=float, default=0.0, help="between its faces (default: 0)")
     crack.add_argument("--body", type=int, choices=(1, 2), default=2, help="default: 2, the lower")
     crack.add_argument("--cycle", type=int, default=-1, help="which cycle (default: the last)")
-    crack.add_argument(
+    takes(
+        crack,
         "--residual",
-        type=numbers,
-        metavar="S,...",
-        help="residual stress of each layer from the surface down [Pa], tension positive; "
+        Values(Value("residual")),
+        "residual stress of each layer from the surface down, tension positive; "
         "write --residual=-1e9,0 if the first is negative",
+        metavar="S,...",
     )
-    crack.add_argument("--dK-th", type=float, dest="dK_th", help="threshold of K [Pa m^0.5]")
-    crack.add_argument(
-        "--dS-0", type=float, dest="dS_0", help="fatigue limit, range of stress [Pa]"
-    )
+    takes(crack, "--dK-th", Value("dK_th"), "threshold of K", dest="dK_th")
+    takes(crack, "--dS-0", Value("dS_0"), "fatigue limit, range of stress", dest="dS_0")
     crack.add_argument("--material", help="takes dK_th and s_D of a material instead")
     crack.add_argument("--materials", metavar="FILE", help="table of materials (TOML)")
     crack.add_argument("--walker", type=float, help="exponent of the load ratio (default: none)")
 
 
-def numbers(text: str) -> list[float]:
-    """Numbers with commas between them."""
-    return [float(part) for part in text.split(",")]
-
-
 def run(options: argparse.Namespace) -> int:
     """Take the stress of a result to the tips of cracks and say what came out."""
-    if options.out is not None and Path(options.out).suffix not in (*FIGURES, *FIELDS):
-        raise ValueError(f"--out {options.out}: must end in {', '.join((*FIGURES, *FIELDS))}")
     threshold = threshold_of(options)
-    if options.paris is not None and (threshold is None or len(options.paris) != 2):
-        raise ValueError("--paris: two numbers C,M, and a threshold, --dK-th or --material")
+    if options.paris is not None and threshold is None:
+        raise ValueError("--paris: needs a threshold, --dK-th or --material")
     if options.out and Path(options.out).suffix in FIGURES and threshold is None:
         raise ValueError("--out: the figure needs a threshold, --dK-th or --material")
     result = open(options.store)
@@ -135,8 +133,6 @@ def cracks_of(result: Result, options: argparse.Namespace) -> Cracks:
         return result.grow_crack(options.x, direction=options.grow, **common)
     kink = None
     if options.kink is not None:
-        if len(options.kink) != 2:
-            raise ValueError("--kink: must be a length [m] and an angle [degrees]")
         kink = (options.kink[0], math.radians(options.kink[1]))
     return result.crack(
         options.x, lengths=options.lengths, kink=kink, aspect=options.aspect, **common

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from typing import TYPE_CHECKING, Any
 
 from pyfret import fit
 from pyfret._cli.parser import added
 from pyfret._cli.say import say, say_json
+from pyfret._cli.values import FIGURES, ending, number, pair, setting
 from pyfret.study.design import varied
 
 if TYPE_CHECKING:
@@ -53,14 +53,14 @@ def add_options(commands: argparse._SubParsersAction[Any]) -> None:
         help="that many samples of the posterior, too: its 95 %% intervals",
     )
     command.add_argument("--json", action="store_true", help="values and confidence as JSON")
-    command.add_argument("-o", "--out", help="figure (.png, .svg, .pdf)")
+    command.add_argument("-o", "--out", type=ending(*FIGURES), help="figure (.png, .svg, .pdf)")
 
 
 def run(options: argparse.Namespace) -> int:
     """Fit, and say what came out."""
     unknown = dict(range_of(text) for text in options.unknown)
     units = dict(pair(text, "--unit") for text in options.unit)
-    settings = {key: json.loads(value) for key, value in (pair(t, "--set") for t in options.set)}
+    settings = dict(setting(text) for text in options.set)
     scene = varied(options.scene, settings)
     data: fit.Loops | fit.Indentation
     if options.kind == "loops":
@@ -95,18 +95,10 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def pair(text: str, option: str) -> tuple[str, str]:
-    """Key and value of ``KEY=VALUE``."""
-    key, equals, value = text.partition("=")
-    if not (key and equals and value):
-        raise ValueError(f"{option} {text}: must be KEY=VALUE")
-    return key, value
-
-
 def range_of(text: str) -> tuple[str, tuple[float, ...]]:
     """Key and range of ``KEY=LOW:HIGH`` or ``KEY=LOW:START:HIGH``."""
     key, value = pair(text, "--unknown")
     try:
-        return key, tuple(float(part) for part in value.split(":"))
-    except ValueError:
-        raise ValueError(f"--unknown {text}: must be KEY=LOW:HIGH") from None
+        return key, tuple(number(key, part) for part in value.split(":"))
+    except ValueError as error:
+        raise ValueError(f"--unknown {text}: must be KEY=LOW:HIGH; {error}") from None

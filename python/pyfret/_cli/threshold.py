@@ -2,19 +2,14 @@
 
 from __future__ import annotations
 
-import sys
 from typing import TYPE_CHECKING, Any
 
 from pyfret import fatigue
 from pyfret._cli.parser import added
 from pyfret._cli.say import say, say_json
+from pyfret._cli.values import Value, number, pair, setting, takes
 from pyfret.study.design import varied
 from pyfret.study.thresholds import Averaged, ThresholdLoad, threshold
-
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
 
 if TYPE_CHECKING:
     import argparse
@@ -36,14 +31,19 @@ def add_options(commands: argparse._SubParsersAction[Any]) -> None:
         "with the "
         "other sign, as in path.1.T_x,-path.2.T_x,path.3.T_x",
     )
-    command.add_argument("--between", required=True, metavar="LOW:HIGH", help="range of the load")
+    command.add_argument(
+        "--between",
+        required=True,
+        metavar="LOW:HIGH",
+        help="range of the load, in SI units, or with a unit",
+    )
     command.add_argument("--material", required=True, help="name of the material")
     command.add_argument("--materials", metavar="FILE", help="table of materials (TOML)")
     command.add_argument(
         "--criterion", choices=fatigue.CRITERIA, default="crossland", help="criterion"
     )
     command.add_argument("--value", type=float, default=1.0, help="safety factor or cycles")
-    command.add_argument("--distance", type=float, metavar="L", help="critical distance [m]")
+    takes(command, "--distance", Value("L"), "critical distance", metavar="L")
     command.add_argument(
         "--method", choices=("point", "line", "area"), default="line", help="default: line"
     )
@@ -58,37 +58,27 @@ def add_options(commands: argparse._SubParsersAction[Any]) -> None:
     command.add_argument("--json", action="store_true", help="one JSON object per threshold")
 
 
-def changed(text: str) -> tuple[str, Any]:
-    """A key of a scene file and its value; what is no value of TOML is a text."""
-    key, equals, value = text.partition("=")
-    if not equals:
-        raise ValueError(f"--set {text}: must be KEY=VALUE, such as grid.n=128")
-    try:
-        return key, tomllib.loads(f"value = {value}")["value"]
-    except tomllib.TOMLDecodeError:
-        return key, value
-
-
 def run(options: argparse.Namespace) -> int:
     """Find the threshold, or the curve, and say it."""
     material = fatigue.Materials(options.materials)[options.material]
     measure = Averaged(material, options.criterion, options.distance, options.method)
 
-    changes = dict(changed(text) for text in options.set)
+    changes = dict(setting(text) for text in options.set)
 
     def scene(values: dict[str, Any]) -> Any:
         return varied(options.scene, {**changes, **values, "output.save": "all"})
 
+    searched = options.parameter.split(",")[0].lstrip("-")
     low, _, high = options.between.partition(":")
     over = None
     if options.over:
-        key, _, values = options.over.partition("=")
-        over = {key: [float(v) for v in values.split(",")]}
+        key, values = pair(options.over, "--over")
+        over = {key: [number(key, value) for value in values.split(",")]}
     found = threshold(
         scene,
         options.parameter,
         measure=measure,
-        between=(float(low), float(high)),
+        between=(number(searched, low), number(searched, high)),
         value=options.value,
         over=over,
     )

@@ -20,6 +20,8 @@ __all__ = ["run_file"]
 KEYS = ("scene", "parameters", "combine", "measure", "out", "grow")
 #: Values of a range, at most.
 MOST = 1_000_000
+#: Parameters of a map, at most.
+MAPPED = 2
 #: Keys of a range of values.
 RANGE = ("from", "to", "n", "scale")
 
@@ -30,6 +32,7 @@ def run_file(
     out: str | PathLike[str] | None = None,
     executor: Any = None,
     again: bool = False,
+    mapped: bool = False,
 ) -> tuple[Study, Path]:
     """Run the study of a file, or go on with it; the study, and its store.
 
@@ -41,11 +44,14 @@ def run_file(
         Store (default: that of the file, or the file's own name with the ending ``.zarr``).
     executor, again
         As in :func:`pyfret.study.solve`.
+    mapped : bool
+        Whether a map is to be drawn of it, which has one parameter or two.
 
     Raises
     ------
     ValueError
-        The file is no study; the message names the key and what is allowed.
+        The file is no study; the message names the key and what is allowed. A map is to be drawn of
+        more than two parameters.
     """
     file = Path(path)
     says = read(file, KEYS, ("scene", "parameters"))
@@ -53,6 +59,13 @@ def run_file(
         raise ValueError(f"{file}: `parameters`: must be a table of keys and values")
     place = place_of(file, says, out)
     parameters = {k: values(v, f"{file}: parameters.{k}") for k, v in says["parameters"].items()}
+    if mapped and says.get("combine", "grid") == "grid" and len(parameters) > MAPPED:
+        *_, last = parameters
+        raise ValueError(
+            f"--map: {file} has {len(parameters)} parameters, {', '.join(parameters)}, and a map "
+            f"has {MAPPED}. Leave --map out, and draw a part of the study in Python: "
+            f'fret.open("{place}").map(at={{"{last}": {parameters[last][0]!r}}})'
+        )
     found = solve(
         file.parent / says["scene"],
         parameters,

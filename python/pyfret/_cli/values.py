@@ -1,0 +1,132 @@
+"""Values of options: numbers that may have their unit, ``20e-6`` or ``"20 um"``, and settings."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from pyfret._core import measured_by, si_of, unit_of
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+__all__ = ["DEGREES", "FIGURES", "Value", "Values", "ending", "number", "pair", "setting", "takes"]
+
+#: Endings of figures.
+FIGURES = (".png", ".svg", ".pdf")
+#: The unit of an angle that is a number alone.
+DEGREES = "degrees"
+
+
+def number(key: str, text: str) -> float:
+    """A number in SI, as it is or of a text with a unit, by the key of its quantity.
+
+    Raises
+    ------
+    ValueError
+        The text is no number, or the unit is none of this quantity. The message has those allowed.
+    """
+    try:
+        return float(text)
+    except ValueError:
+        pass
+    if measured_by(key) is None:
+        raise ValueError(f"{text!r}: must be a number: the unit of {key} is not known")
+    return si_of(key, text.strip())
+
+
+@dataclass(frozen=True)
+class Value:
+    """What makes an option a number, by the key of its quantity: the type of its argument."""
+
+    key: str
+    #: Unit of a number alone (default: that of SI).
+    own: str = ""
+
+    @property
+    def unit(self) -> str:
+        """Unit of a number alone."""
+        return self.own or (measured_by(self.key) or ("", ""))[1]
+
+    def __call__(self, text: str) -> float:
+        """The number in :attr:`unit`."""
+        try:
+            return float(text)
+        except ValueError:
+            pass
+        try:
+            found = number(self.key, text)
+        except ValueError as error:
+            raise argparse.ArgumentTypeError(str(error)) from None
+        size = unit_of(self.own) if self.own else None
+        return found if size is None else found / size[1]
+
+
+class Values:
+    """What makes an option several numbers, commas between them.
+
+    One value is that of all, several are those of the places.
+    """
+
+    def __init__(self, *each: Value) -> None:
+        self.each = each
+
+    @property
+    def unit(self) -> str:
+        """Units of the numbers."""
+        return ", ".join(of.unit for of in self.each if of.unit)
+
+    def __call__(self, text: str) -> list[float]:
+        """The numbers."""
+        parts = text.split(",")
+        if len(self.each) == 1:
+            return [self.each[0](part) for part in parts]
+        if len(parts) != len(self.each):
+            raise argparse.ArgumentTypeError(f"{text!r}: must be {len(self.each)} values")
+        return [of(part) for of, part in zip(self.each, parts, strict=True)]
+
+
+def takes(
+    command: argparse.ArgumentParser, name: str, of: Value | Values, help: str, **more: Any
+) -> None:
+    """Add an option that is a quantity; its help says the unit, and that it may have another."""
+    command.add_argument(name, type=of, help=f"{help} [{of.unit}, or with a unit]", **more)
+
+
+def ending(*allowed: str) -> Callable[[str], str]:
+    """What makes an option the name of a file with one of some endings: the type of its argument.
+
+    So a name that nothing can be written to is refused before anything is computed.
+    """
+
+    def named(text: str) -> str:
+        if Path(text).suffix.lower() not in allowed:
+            raise argparse.ArgumentTypeError(f"{text!r}: must end in {', '.join(allowed)}")
+        return text
+
+    return named
+
+
+def pair(text: str, option: str) -> tuple[str, str]:
+    """Key and value of ``KEY=VALUE``."""
+    key, equals, value = text.partition("=")
+    if not (key and equals and value):
+        raise ValueError(f"{option} {text}: must be KEY=VALUE, such as grid.n=128")
+    return key, value
+
+
+def setting(text: str) -> tuple[str, Any]:
+    """A key of a scene file and its value; what is no value of TOML is a text."""
+    key, value = pair(text, "--set")
+    try:
+        return key, tomllib.loads(f"value = {value}")["value"]
+    except tomllib.TOMLDecodeError:
+        return key, value
