@@ -365,6 +365,9 @@ def test_maps_of_studies(whole: fret.study.Study) -> None:
     ax = whole.map("p_max")
     assert ax.get_ylabel() == r"$\mu$"
     line = fret.plot.study_map(whole, "p_max", at={"mu": 0.21})
+    assert whole.plot("p_max").get_title() == ax.get_title()
+    with pytest.raises(ValueError, match="of = 'nothing': must be one of"):
+        whole.plot("nothing")
     assert "largest pressure of the path [GPa]" in line.get_ylabel()
     with pytest.raises(ValueError, match="must be one of"):
         whole.map("life")

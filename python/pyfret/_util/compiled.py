@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 from types import BuiltinFunctionType, MethodDescriptorType
 from typing import TYPE_CHECKING, Any
 
-from pyfret._util.guesses import unknown
+from pyfret._util.guesses import too_many, unknown
 
 if TYPE_CHECKING:
     from types import ModuleType
@@ -20,8 +20,7 @@ __all__ = ["guard"]
 
 #: The class that a constructor gets.
 CLASS = inspect.Parameter("cls", inspect.Parameter.POSITIONAL_ONLY)
-#: Parameters that are given by place, and by name.
-PLACED = (inspect.Parameter.POSITIONAL_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD)
+#: Parameters that are given by name.
 NAMED = (inspect.Parameter.POSITIONAL_OR_KEYWORD, inspect.Parameter.KEYWORD_ONLY)
 
 
@@ -110,11 +109,4 @@ def refused(
         refusal = unknown(what, call, given, known)
         if refusal is not None:
             return refusal
-    places = [one.name for one in parameters if one.kind in PLACED]
-    by_name = [one.name for one in parameters if one.kind is inspect.Parameter.KEYWORD_ONLY]
-    many = any(one.kind is one.VAR_POSITIONAL for one in parameters)
-    if many or not by_name or len(values) <= len(places):
-        return None
-    first = "".join(f"{name}, " for name in places if name not in ("self", "cls"))
-    wanted = ", ".join(f"{name}=..." for name in by_name)
-    return TypeError(f"{what} takes arguments by name, {what}({first}{wanted})")
+    return too_many(what, parameters, values)

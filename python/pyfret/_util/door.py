@@ -22,7 +22,7 @@ from pyfret import _core
 from pyfret._util.arrays import items, numbers, truths
 from pyfret._util.called import by_name
 from pyfret._util.doubts import doubt_numbers
-from pyfret._util.guesses import refuse_unknown
+from pyfret._util.guesses import PLACED, refuse_unknown, too_many
 from pyfret._util.takers import keywords
 
 if TYPE_CHECKING:
@@ -133,6 +133,7 @@ def guarded(call: Callable[..., Any], owner: str, but: tuple[str, ...]) -> Any:
     ranged = {n for n in names if _core.measured_by(f"{owner}.{n}")}
 
     named = {n for n, one in parameters if one.kind in NAMED}
+    placed = [one for _, one in parameters if one.kind in PLACED]
     further = next((str(one.annotation) for _, one in parameters if one.kind is FURTHER), None)
 
     @functools.wraps(call)
@@ -142,6 +143,10 @@ def guarded(call: Callable[..., Any], owner: str, but: tuple[str, ...]) -> Any:
             if more is not None:
                 known = [n for n in names if n in named and n != "self"]
                 refuse_unknown(owner, call, given, [*known, *more])
+        if len(values) > len(placed):
+            refusal = too_many(owner, signature.parameters.values(), values)
+            if refusal is not None:
+                raise refusal
         doubted: dict[str, Any] = {}
         values = (
             tuple(
@@ -251,8 +256,12 @@ def check_object(value: Any, name: str, annotation: str) -> None:
         return
     if not any(is_one(value, of) for of in meant):
         what = " or ".join(MADE.get(of.rpartition(".")[2], f"of the class {of}") for of in meant)
-        has = hasattr(value, "dataset") and "Dataset" in annotation
-        raise TypeError(f"{name} = {told(value)}: must be {what}{', its .dataset' if has else ''}")
+        hint = ""
+        if "Dataset" in annotation and hasattr(value, "dataset"):
+            # A table that the value makes of itself has the name of the parameter.
+            makes = callable(getattr(value, name, None))
+            hint = f", its .{name}()" if makes else ", its .dataset"
+        raise TypeError(f"{name} = {told(value)}: must be {what}{hint}")
 
 
 def told(value: Any) -> str:

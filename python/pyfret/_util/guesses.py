@@ -3,21 +3,35 @@
 from __future__ import annotations
 
 import enum
+import inspect
 import sys
 from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any
 
 from pyfret._util.lazy import xr
 from pyfret._util.names import meant
-from pyfret._util.takers import takers
+from pyfret._util.takers import called as call_name
+from pyfret._util.takers import functions, takers
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
 
-__all__ = ["missing", "names_of", "no_attribute", "offer_nearest", "refuse_unknown", "unknown"]
+__all__ = [
+    "missing",
+    "names_of",
+    "no_attribute",
+    "offer_nearest",
+    "refuse_unknown",
+    "too_many",
+    "unknown",
+]
 
 #: Classes whose missing names are another library's matter, or that only describe types.
 OTHERS = (BaseException, enum.Enum, dict)
+#: Parameters that are given by place.
+PLACED = (inspect.Parameter.POSITIONAL_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD)
+#: Dimensions of a dataset that are places.
+PLACES = ("x", "y", "s", "z", "depth")
 
 
 def alike(name: str, known: Iterable[str], most: int) -> list[str]:
@@ -68,6 +82,21 @@ def refuse_unknown(
         raise refusal
 
 
+def too_many(
+    what: str, parameters: Iterable[inspect.Parameter], values: Sequence[Any]
+) -> TypeError | None:
+    """The refusal of values by place of parameters that are given by name, where there are any."""
+    parameters = list(parameters)
+    places = [one.name for one in parameters if one.kind in PLACED]
+    by_name = [one.name for one in parameters if one.kind is inspect.Parameter.KEYWORD_ONLY]
+    many = any(one.kind is one.VAR_POSITIONAL for one in parameters)
+    if many or not by_name or len(values) <= len(places):
+        return None
+    first = "".join(f"{name}, " for name in places if name not in ("self", "cls"))
+    wanted = ", ".join(f"{name}=..." for name in by_name)
+    return TypeError(f"{what} takes arguments by name, {what}({first}{wanted})")
+
+
 def no_attribute(
     owner: str, name: str, known: Iterable[str], elsewhere: Mapping[str, str]
 ) -> AttributeError:
@@ -91,9 +120,11 @@ def no_attribute(
         return AttributeError(f"{message}: {elsewhere[name]}")
     if "dataset" in known and hasattr(xr.Dataset, name):
         return AttributeError(f"{message}: the xarray.Dataset has, {owner}.dataset.{name}")
-    names = sorted(known)
+    names = sorted(set(known))
     if called := meant(name, names):
         return AttributeError(f"{message}: it is called {' and '.join(called)}")
+    if of_package := functions(name):
+        return AttributeError(f"{message}: it is a function, {' or '.join(of_package)}")
     near = alike(name, names, 3)
     if near:
         return AttributeError(f"{message}; did you mean {' or '.join(near)}?")
@@ -119,7 +150,13 @@ def missing(self: Any, name: str) -> Any:
             return variables.attrs[name]
     public = [one for one in dir(self) if not one.startswith("_")]
     # Names that others have, and where what they mean is.
-    raise no_attribute(of.__name__, name, public, getattr(of, "_meant", {}))
+    elsewhere = dict(getattr(of, "_meant", {}))
+    if isinstance(variables, xr.Dataset) and variables.sizes:
+        dims = ", ".join(f"{dim}=-1" for dim in map(str, variables.sizes) if dim not in PLACES)
+        if dims:
+            called = call_name(of)
+            elsewhere.setdefault("at", f"its last numbers are {called}.dataset.isel({dims})")
+    raise no_attribute(of.__name__, name, public, elsewhere)
 
 
 def names_of(dataset: xr.Dataset) -> list[str]:

@@ -1,4 +1,4 @@
-"""Which public functions take a keyword: those of the object at hand, or others."""
+"""Which public functions take a keyword, or have a name: those of the object at hand, or others."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-__all__ = ["keywords", "takers"]
+__all__ = ["functions", "keywords", "takers"]
 
 #: Options whose names a class has, ``**options: Unpack[Options]``.
 UNPACKED = re.compile(r"Unpack\[([\w.]+)\]")
@@ -66,6 +66,20 @@ def takers(what: str, call: Callable[..., Any], keyword: str, *, anywhere: bool)
     found = list(dict.fromkeys(found))
     of_package = [told for told in found if "." not in told]
     return next((few for few in (found, of_package) if 0 < len(few) <= MOST), [])
+
+
+def functions(name: str) -> list[str]:
+    """The functions of the package of a name, as they are called with what they need."""
+    found = []
+    for told, of in exported():
+        if told.rpartition(".")[2] == name and not isinstance(of, type):
+            needed = [
+                one.name
+                for one in inspect.signature(of).parameters.values()
+                if one.default is one.empty and one.kind not in (one.VAR_KEYWORD, one.KEYWORD_ONLY)
+            ]
+            found.append(f"fret.{told}({', '.join(needed)})")
+    return found
 
 
 def names(call: Callable[..., Any]) -> list[str]:

@@ -155,9 +155,11 @@ class Run(OfRun):
         else:
             places = np.flatnonzero(np.arange(saved.size) == saved.size + which)
         if places.size == 0 or which == 0:
+            start = "increments count from 1, and " if which == 0 else ""
+            ends = f": result.at({saved[0]}) is the first, result.at(-1) the last"
             raise KeyError(
-                f"no fields were kept at {which!r}; kept are the increments {saved.tolist()} "
-                f"at t = {times.tolist()}"
+                f"{start}no fields were kept at {which!r}; kept are the increments "
+                f"{saved.tolist()} at t = {times.tolist()}{ends if saved.size else ''}"
             )
         place = int(places[-1])
         fields = self.dataset.isel(saved=place)

@@ -189,6 +189,10 @@ class Study(Kept, Labelled):
                 rows.append((kind, name, span, PER_METRE.get(unit, unit) if along else unit))
         return rows
 
+    def plot(self, of: str | None = None, *, ax: Axes | None = None, **options: Any) -> Any:
+        """Draw a measure, by default the first: :func:`pyfret.plot.study_map`."""
+        return super().plot(ax=ax, of=of, **options)
+
     def map(self, of: str | None = None, *, ax: Axes | None = None, **options: Any) -> Drawn:
         """Draw a measure over the parameters: :func:`pyfret.plot.study_map`."""
         from pyfret.plot import study_map
