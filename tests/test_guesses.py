@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import importlib
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -42,7 +44,7 @@ def test_variables_are_found_as_in_xarray(result: fret.Result) -> None:
         (lambda r: r.at(-1).rims, AttributeError, r"it is called contact_zone"),
         (lambda r: r.at(-1).normal_force, AttributeError, r"it is called W"),
         (lambda r: r.at(0), KeyError, r"count from 1.*result.at\(\d+\) is the first"),
-        (lambda r: r.stress_history, AttributeError, r"fret.plot.stress_history\(envelope\)"),
+        (lambda r: r.stress_history, AttributeError, r"fret.plot.stress_history\(\.\.\.\)"),
         (lambda r: r.plot.stress_history(), TypeError, r"its .envelope\(\)"),
         (lambda r: r.hertz, AttributeError, r"fret.reference.hertz\("),
         (lambda r: r.stick_rato, AttributeError, r"did you mean stick_ratio"),
@@ -104,6 +106,30 @@ def test_what_is_not_there_is_told_with_what_is(
     with pytest.raises(error, match=says):
         guess(result)
     plt.close("all")
+
+
+def test_a_figure_is_named_before_any_is_drawn() -> None:
+    """The names are known without matplotlib; a run of one state is told what it has."""
+    code = """
+import sys
+import pyfret as fret
+grid = fret.Grid.centred(extent=1e-3, n=4)
+try:
+    grid.stress_history
+except AttributeError as error:
+    print(error)
+print("matplotlib" in sys.modules)
+"""
+    ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    told, loaded = ran.stdout.splitlines()
+    assert "it is a function, fret.plot.stress_history(...)" in told
+    assert loaded == "False"
+
+
+def test_a_run_of_one_state_is_told_how_its_stress_is_got(result: fret.Result) -> None:
+    one = fret.solve(result.scene, PRESSED, progress=False)
+    with pytest.raises(ValueError, match=r"no closed cycle.*one state is result.at\(-1\).stress"):
+        fret.fatigue.history(one, [1e-5])
 
 
 @pytest.mark.filterwarnings("ignore")

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import ast
 import functools
 import inspect
 import re
 import sys
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -68,11 +70,21 @@ def takers(what: str, call: Callable[..., Any], keyword: str, *, anywhere: bool)
     return next((few for few in (found, of_package) if 0 < len(few) <= MOST), [])
 
 
+@functools.cache
+def figures() -> tuple[str, ...]:
+    """Names of the figures, read without importing matplotlib."""
+    text = (Path(__file__).parents[1] / "plot" / "__init__.py").read_text(encoding="utf-8")
+    lists = [of for of in ast.parse(text).body if isinstance(of, ast.Assign)]
+    named = next(of for of in lists if ast.unparse(of.targets[0]) == "__all__")
+    return tuple(ast.literal_eval(named.value))
+
+
 def functions(name: str) -> list[str]:
     """The functions of the package of a name, as they are called with what they need."""
-    found = []
+    found = [f"fret.plot.{name}(...)"] if name in figures() else []
     for told, of in exported():
-        if told.rpartition(".")[2] == name and not isinstance(of, type):
+        module, _, last = told.rpartition(".")
+        if last == name and module != "plot" and not isinstance(of, type):
             needed = [
                 one.name
                 for one in inspect.signature(of).parameters.values()
