@@ -15,8 +15,8 @@ import pytest
 
 import pyfret as fret
 from conftest import ROOT, sphere_on_flat
-from pyfret._cli import commands
-from pyfret._cli.values import Value, Values
+from pyfret._cli import commands, fit
+from pyfret._cli.values import Value, Values, number, setting
 from pyfret._core import unit_of, units
 
 pytestmark = pytest.mark.solves
@@ -167,6 +167,23 @@ def test_lengths_with_units_are_those_in_metres(
     assert told[0] == pytest.approx(np.array(told[1]), rel=1e-9)
     assert commands.main(["crack", str(store), "--lengths", "5 N"]) == 2
     assert "must be" in capsys.readouterr().err
+
+
+def test_values_of_keys_of_a_scene_may_have_a_unit() -> None:
+    """Those of --between, --over and --unknown, by the key."""
+    assert number("path.1.T_x", "20 kN") == 2e4
+    assert number("rig.stiffness", " 5 N/um") == pytest.approx(5e6)
+    assert number("body2.coatings.0.E", "3e11") == 3e11
+    assert fit.range_of("body2.coatings.0.thickness=1 um:5 um") == (
+        "body2.coatings.0.thickness",
+        pytest.approx((1e-6, 5e-6)),
+    )
+    with pytest.raises(ValueError, match=r"must be KEY=LOW:HIGH.*must be a number in m"):
+        fit.range_of("body2.coatings.0.thickness=1 N:5 N")
+    with pytest.raises(ValueError, match="unit of my_key is not known"):
+        number("my_key", "2 um")
+    assert setting("grid.n=64") == ("grid.n", 64)
+    assert setting("path.0.W=20 N") == ("path.0.W", "20 N")
 
 
 def test_what_cannot_be_written_is_refused_before_anything_is_solved(
