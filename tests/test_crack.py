@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import json
 import pickle
 from typing import TYPE_CHECKING
 
@@ -10,11 +11,13 @@ import matplotlib as mpl
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib.text import Text
 
 import pyfret as fret
 from pyfret import fracture
 from pyfret._cli import commands
 from pyfret._util.doubts import doubts_of
+from pyfret.report.crack import CrackSection
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -406,7 +409,8 @@ def test_command(pulled: fret.Result, tmp_path: Path, capsys: pytest.CaptureFixt
     assert commands.main(told) == 0
     said = capsys.readouterr().out
     assert said.count("MPa m^0.5") == 4
-    assert "least dK/dK_th" in said
+    assert "dK/dK_th" in said
+    assert "would" in said or "grows through" in said
     assert figure.stat().st_size > 0
     assert commands.main(["crack", str(store), "--dS-0", "1e8"]) == 2
     assert "--dK-th" in capsys.readouterr().err
@@ -442,8 +446,146 @@ def test_what_becomes_of_a_crack_has_the_error_of_k() -> None:
     # At 1.02 times the threshold at its first length the error leaves two verdicts.
     unsure = cracks.arrest(fracture.Threshold(dK_th=3e7 / 1.02))
     assert (unsure.verdict, set(unsure.verdicts)) == ("stops", {"stops", "dormant"})
-    assert "is dormant" in unsure.told()
+    assert "not decided within the error of K: it may not grow" in unsure.told()
+    assert "dK/dK_th 1.020 +- 0.051 at that length" in unsure.told()
     assert not unsure.is_sure
+    # The bar of the margin reaches over 1 where both of its ends grow: not decided.
+    sure = cracks.arrest(fracture.Threshold(dK_th=2.9e5))
+    assert (sure.verdict, sure.is_sure) == ("grows", False)
+    assert "not decided within the error of K" in sure.briefly()
+
+
+def bump(threshold: float = 1e6) -> fracture.Cracks:
+    """K that is above a threshold of 1 MPa m^0.5 between about 17 and 92 um, 0.5 to 600 um."""
+    lengths = np.geomspace(5e-6, 6e-4, 24)
+    K = 2.0 * threshold * np.exp(-(np.log(lengths / 4e-5) ** 2))
+    plain = fracture.Cracks.from_arrays(lengths, K, np.zeros(24))
+    error = (0.1 * plain.dataset.K_I).assign_attrs(units="Pa m^0.5")
+    return fracture.Cracks(plain.dataset.assign(error=error))
+
+
+@pytest.mark.parametrize(
+    ("start", "verdict", "words"),
+    [
+        (None, "dormant", ["from a length of 5 um, the shortest computed", "one of 17.4 um to 91"]),
+        (2e-5, "stops", ["from a length of 20 um", "one shorter than 17.4 um would not grow"]),
+        (1e-4, "dormant", ["from a length of 100 um", "one of 17.4 um to 91"]),
+    ],
+)
+def test_a_verdict_says_for_which_length_it_holds_and_what_others_do(
+    start: float | None, verdict: str, words: list[str]
+) -> None:
+    cracks, threshold = bump(), fracture.Threshold(dK_th=1e6)
+    found = cracks.arrest(threshold, start=start)
+    life = cracks.life(threshold, fracture.Paris(C=1e-11, m=3.0), start=start)
+    assert found.verdict == verdict
+    assert found.start == (5e-6 if start is None else start)
+    ((low, high),) = found.growing
+    assert (low, high) == pytest.approx((17.40e-6, 91.97e-6), rel=1e-3)
+    for word in words:
+        assert word in found.told()
+    assert found.told().startswith(found.briefly())
+    if verdict == "dormant":
+        assert found.length is None
+        assert found.tip == found.start
+        assert "stop at 91.97 um" in repr(life)
+        assert "no number of cycles" in life.told()
+        assert "does not grow" in str(life.why_infinite())
+        # A crack of the length that it names does grow.
+        longer = cracks.arrest(threshold, start=1.01 * low)
+        assert longer.verdict == "stops"
+        assert longer.length == pytest.approx(high)
+    else:
+        assert found.tip == found.length == pytest.approx(high)
+        assert "cycles from 20 um to 91.97 um, where it stops" in life.told()
+
+
+def test_growth_through_all_lengths_and_through_none() -> None:
+    cracks = bump()
+    none = cracks.arrest(fracture.Threshold(dK_th=1e7))
+    assert none.growing == ()
+    assert "nor would one of any length up to 600 um" in none.told()
+    even = fracture.Cracks.from_arrays(cracks.lengths, np.full(24, 1e6), np.zeros(24))
+    every = even.arrest(fracture.Threshold(dK_th=2e4))
+    assert every.growing == ((5e-6, 6e-4),)
+    assert every.told().startswith(
+        "grows through all lengths from a length of 5 um, the shortest computed, to 600 um; least"
+    )
+
+
+def test_an_error_as_large_as_the_number_is_told() -> None:
+    cracks = bump()
+    wide = cracks.dataset.assign(error=(1.2 * cracks.dataset.K_I).assign_attrs(units="Pa m^0.5"))
+    found = fracture.Cracks(wide).arrest(fracture.Threshold(dK_th=1e6), start=4e-5)
+    assert "the error of K is as large as dK" in found.told()
+    assert not found.is_sure
+
+
+def test_what_rests_on_an_estimate_says_so() -> None:
+    """Threshold, length, cycles, figures: the word stands at each; a measured one has none."""
+    table = fret.fatigue.Materials()
+    estimated = fracture.Threshold.of(table["titanium_6Al4V"])
+    assert "dK_th" in str(estimated.estimate)
+    measured = fracture.Threshold.of(table["aluminium_4Cu"])
+    assert measured.estimate is None
+    cracks = bump(estimated.dK_th)
+    paris = fracture.Paris(C=1e-11, m=3.0)
+    for threshold, marked in ((estimated, True), (measured, False)):
+        found = cracks.arrest(threshold, start=4e-5)
+        life = cracks.life(threshold, paris, start=4e-5)
+        assert found.verdict == "stops"
+        for text in (found.told(), found.briefly(), found.told_length(), repr(life)):
+            assert ("estimate" in text) == marked, text
+        axes = (
+            fret.plot.crack_arrest(cracks, threshold, start=4e-5),
+            fret.plot.kitagawa(cracks, threshold),
+        )
+        for ax in axes:
+            legend = [text.get_text() for text in ax.get_legend().get_texts()]
+            assert any("(estimate)" in of for of in legend) == marked
+
+
+def test_too_few_lengths_are_refused_with_what_to_do() -> None:
+    lengths = [1e-5, 1e-4]
+    cracks = fracture.Cracks.from_arrays(lengths, [1e6, 2e6], [0.0, 0.0])
+    wanted = r"number of lengths of the crack = 2: must be 4 or more.*more lengths.*default"
+    with pytest.raises(ValueError, match=wanted):
+        cracks.arrest(fracture.Threshold(dK_th=1e6))
+    with pytest.raises(ValueError, match=wanted):
+        cracks.life(fracture.Threshold(dK_th=1e6), fracture.Paris(C=1e-11, m=3.0))
+
+
+@pytest.mark.solves
+@pytest.mark.parametrize("dK_th", ["2e4", "4e6", "3e7"])
+def test_command_figure_page_and_json_have_one_verdict(
+    pulled: fret.Result, tmp_path: Path, capsys: pytest.CaptureFixture[str], dK_th: str
+) -> None:
+    pulled.save(tmp_path / "rig.nc")
+    told = ["crack", str(tmp_path / "rig.nc"), "--lengths", "1e-5,3e-5,1e-4,3e-4"]
+    told += ["--dK-th", dK_th, "--paris", "1e-11,3"]
+    assert commands.main(told) == 0
+    line = capsys.readouterr().out.splitlines()[-1]
+    assert commands.main([*told, "--json"]) == 0
+    row = json.loads(capsys.readouterr().out.splitlines()[-1])
+    cracks = pulled.crack(lengths=[1e-5, 3e-5, 1e-4, 3e-4])
+    threshold = fracture.Threshold(float(dK_th))
+    found = cracks.arrest(threshold)
+    assert row["told"] == found.told()
+    assert found.told() in line
+    assert f"from x = {1e6 * row['x']:.4g} um" in line
+    assert (row["length"] is None) == ("length_why" in row)
+    drawn = fret.plot.crack_panels(pulled, cracks, threshold)
+    said = {text.get_text() for text in drawn.findobj(Text)}
+    brief = found.briefly().replace(" um", " µm").replace("+-", "±")
+    assert f"the crack {brief}" in said
+    assert any("stops" in text for text in said) == (found.verdict == "stops")
+    page = tmp_path / "page.html"
+    pulled.report(page, crack=cracks, threshold=threshold)
+    assert (
+        CrackSection(cracks, threshold)
+        .numbers()["says"]
+        .endswith(f" body {found.told()}.".replace(" um", " µm").replace("+-", "±"))
+    )
 
 
 def test_an_angle_in_degrees_is_refused_in_radians(pulled: fret.Result) -> None:
@@ -460,4 +602,4 @@ def test_what_becomes_of_a_crack_is_a_sentence_with_units(pulled: fret.Result) -
     assert repr(cracks.arrest(threshold)).startswith("CrackArrest(grows through all lengths")
     life = cracks.life(threshold, fracture.Paris(C=1e-11, m=3.0))
     assert repr(life).endswith(" um)")
-    assert "cycles, ends at" in repr(life)
+    assert "cycles from 3.323 um to" in repr(life)

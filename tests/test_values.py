@@ -33,6 +33,8 @@ MAP = fret.SurfaceMap([[0.0, 1e-8], [2e-8, -0.0]], spacing=1e-6)
 LAW = fret.wear.Archard(1e-14)
 TURN = np.linspace(0.0, 6.0 * np.pi, 900)
 
+ARREST = fret.fracture.CrackArrest("stops", 1e-5, 1e-4, (1e-4,), 0.9, 2e-4, 1.1, (1e-5, 3e-4))
+
 #: A value of every class that needs no run; the members of enumerations are values as well.
 VALUES: list[Any] = [
     fret.subsurface.Zone(-1e-4, 2e-4, 0),
@@ -99,9 +101,9 @@ VALUES: list[Any] = [
     fret.fracture.Crack(legs=[(1e-4, 0.0), (1e-5, 0.3)]),
     fret.fracture.Threshold(dK_th=2.1e6),
     fret.fracture.Paris(C=1e-11, m=3.0),
-    fret.fracture.CrackArrest("stops", 1e-4, (1e-4,), 0.9, 1e-4),
+    ARREST,
     fret.export.Frame(),
-    fret.fracture.CrackLife(1e6, 1e-3, stopped=False),
+    fret.fracture.CrackLife(1e6, 1e-3, stopped=False, arrest=ARREST),
     fret.fracture.Cracks.from_arrays([1e-5, 1e-4], [1e6, 2e6], [0.0, 1e5]),
     fret.study.Arrest(fret.fracture.Threshold(dK_th=2.1e6)),
     fret.study.FirstToFail(toughness=90.0),

@@ -3,7 +3,7 @@ from os import PathLike
 from typing import Any, Final, Literal, final
 
 import numpy as np
-from _typeshed import Incomplete
+from _typeshed import Incomplete, SupportsGetItem
 from numpy import bool_, float64
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import Self
@@ -2043,6 +2043,8 @@ class Material:
         """
     def doubts(self, /) -> list[str]:
         """Numbers that look like those of another unit, in words."""
+    def estimate_of(self, /, names: SupportsGetItem[int, str]) -> str | None:
+        """Which numbers are estimates or from memory, in words; None where each has a source."""
     def estimated(self, /, family: str) -> Material:
         """The material with the missing numbers that published rules can estimate."""
     def is_called(self, /, name: str) -> bool:
@@ -2993,8 +2995,13 @@ def arrest(
     K_min: Sequence[float],
     threshold_: tuple[float, float | None, float, float | None, list[tuple[float, float]] | None],
     start: float,
-) -> tuple[Literal["dormant", "stops", "grows"], float | None, list[float], float, float]:
-    """What becomes of a crack: verdict, length where it stops, crossings, margin and its length."""
+) -> tuple[Literal["dormant", "stops", "grows"], float | None, list[float], float, float, float]:
+    """
+    What becomes of a crack.
+
+    Verdict, length where it stops, crossings, range of K over its threshold at the start, margin
+    and its length.
+    """
 
 def channel_crack(film_: Elastic, below: Elastic) -> float:
     """Factor g of a channel crack in a film; use :func:`pyfret.fracture.channel_release`."""
@@ -3124,6 +3131,9 @@ def dang_van_path(stress: ArrayLike) -> NDArray[np.float64]:
 
     From its stress of shape (time, 6): tau and hydrostatic stress at every instant.
     """
+
+def degrees(angle: float) -> str:
+    """An angle [degrees] to a tenth, with its unit."""
 
 def depths(body: Body, z: Sequence[float]) -> tuple[list[float], list[int]]:
     """Depths [m] with their layers; on an interface both, the upper one first."""
@@ -3364,6 +3374,9 @@ def resume_wear(
 
 def rough(value: float) -> str:
     """A number in two digits, which is known to no more."""
+
+def rounded_place(at: float, size: float) -> float:
+    """A place [m] on a grid, or in a contact, of a size [m]: zero where it is zero to rounding."""
 
 def run_command(arguments: Sequence[str]) -> int:
     """
@@ -3648,6 +3661,7 @@ __all__ = [
     "cycle_sections",
     "cycle_temperature",
     "dang_van_path",
+    "degrees",
     "depths",
     "doubt",
     "dundurs_beta",
@@ -3680,6 +3694,7 @@ __all__ = [
     "resume",
     "resume_wear",
     "rough",
+    "rounded_place",
     "run_command",
     "section_of_states",
     "shown",

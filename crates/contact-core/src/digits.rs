@@ -4,6 +4,8 @@
 const DIGITS: i32 = 4;
 /// Digits of an error, and of a number without one.
 const OF_ERRORS: i32 = 2;
+/// Part of a number below which nobody reads its error: the number alone is right to its four digits.
+const UNREAD: f64 = 1e-6;
 /// Largest power of ten of a number of two digits that is printed without an exponent: more zeros at
 /// its end would pass for digits.
 const ZEROS: i32 = 4;
@@ -23,7 +25,7 @@ pub fn rough(x: f64) -> String {
 
 /// A number and its error, with the decimals of the first two digits of the error. Without an error
 /// (`None`, NaN or infinite) two digits and the word "estimate"; without a number "not known". An
-/// error of 0 gives the number alone.
+/// error below 1e-6 of the number gives the number alone.
 ///
 /// # Examples
 ///
@@ -33,6 +35,7 @@ pub fn rough(x: f64) -> String {
 /// assert_eq!(with_error(2.16345, Some(0.0123)), "2.163 +- 0.012");
 /// assert_eq!(with_error(1.2184e7, Some(2.4e5)), "(1.218 +- 0.024)e7");
 /// assert_eq!(with_error(2.16345, None), "2.2 (estimate)");
+/// assert_eq!(with_error(9.822447996, Some(1e-12)), "9.822");
 /// assert_eq!(with_error(f64::NAN, None), "not known");
 /// ```
 pub fn with_error(value: f64, error: Option<f64>) -> String {
@@ -43,7 +46,7 @@ pub fn with_error(value: f64, error: Option<f64>) -> String {
     match error {
         _ if value.is_infinite() => value.to_string(),
         None => format!("{} (estimate)", digits(value, OF_ERRORS)),
-        Some(0.0) => short(value),
+        Some(error) if error < UNREAD * value.abs() || error == 0.0 => short(value),
         Some(error) => {
             let size = power(value.abs().max(error));
             let scale = if PLAIN.contains(&size) { 0 } else { size };
@@ -137,6 +140,37 @@ pub fn known_to_two(x: f64) -> String {
     } else {
         rough(x)
     }
+}
+
+/// An angle \[degrees\] to a tenth, which is what a plane is known to; never "-0".
+///
+/// # Examples
+///
+/// ```
+/// use contact_core::digits::degrees;
+///
+/// assert_eq!(degrees(-0.04), "0 degrees");
+/// assert_eq!(degrees(-12.34), "-12.3 degrees");
+/// ```
+pub fn degrees(angle: f64) -> String {
+    format!("{} degrees", short((10.0 * angle).round() / 10.0 + 0.0))
+}
+
+/// Part of the size of a grid, or of a contact, below which a place is zero to rounding.
+const OF_SIZE: f64 = 1e-9;
+
+/// A place \[m\] on a grid, or in a contact, of a size \[m\]: zero where it is zero to rounding.
+///
+/// # Examples
+///
+/// ```
+/// use contact_core::digits::place;
+///
+/// assert_eq!(place(-2e-16, 1e-3), 0.0);
+/// assert_eq!(place(2e-9, 1e-3), 2e-9);
+/// ```
+pub fn place(at: f64, size: f64) -> f64 {
+    if at.abs() < OF_SIZE * size { 0.0 } else { at }
 }
 
 /// The power of ten of the first digit.

@@ -47,4 +47,21 @@ impl Material {
         let kinds = of.map(|number| Known::of(&number.source));
         kinds.max().unwrap_or(Known::Known)
     }
+
+    /// Which of some numbers are the worst known, and how, in words; `None` where each has a source.
+    pub fn estimate_of(&self, names: &[&str]) -> Option<String> {
+        let kind = self.known(names);
+        let of = self.numbers.iter();
+        let of = of.filter(|(name, of)| names.contains(name) && Known::of(&of.source) == kind);
+        let which: Vec<_> = of.map(|(name, _)| *name).collect();
+        let how = match (kind, which.len()) {
+            (Known::Known, _) => return None,
+            (Known::Estimate, 1) => "is an estimate by a rule",
+            (Known::Estimate, _) => "are estimates by a rule",
+            (Known::Recalled, 1) => "is from memory, without a source",
+            (Known::Recalled, _) => "are from memory, without a source",
+        };
+        let (which, name) = (which.join(", "), &self.name);
+        Some(format!("{which} of {name} {how}: take numbers of your own"))
+    }
 }

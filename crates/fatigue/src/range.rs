@@ -180,19 +180,7 @@ impl Assessment {
         };
         let kind = material.map_or(Known::Known, |material| material.known(&names));
         let factor = given.unwrap_or_else(|| scatter(lives, kind));
-        let note = material.filter(|_| kind != Known::Known).map(|material| {
-            let of = material.numbers.iter();
-            let of = of.filter(|(name, of)| names.contains(name) && Known::of(&of.source) == kind);
-            let which: Vec<_> = of.map(|(name, _)| *name).collect();
-            let how = match (kind, which.len()) {
-                (Known::Estimate, 1) => "is an estimate by a rule",
-                (Known::Estimate, _) => "are estimates by a rule",
-                (_, 1) => "is from memory, without a source",
-                _ => "are from memory, without a source",
-            };
-            let (which, name) = (which.join(", "), &material.name);
-            format!("{which} of {name} {how}: take numbers of your own")
-        });
+        let note = material.and_then(|material| material.estimate_of(&names));
         Ok((factor, note))
     }
 }

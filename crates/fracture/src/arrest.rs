@@ -25,8 +25,11 @@ pub enum Verdict {
 pub struct Arrest {
     /// The fate of the crack.
     pub verdict: Verdict,
-    /// Lengths at which the range of K crosses the threshold \[m\]: down, up, ... or up, down, ...
+    /// Lengths of the whole curve at which the range of K crosses the threshold \[m\]: down, up, ...
+    /// or up, down, ...
     pub crossings: Vec<f64>,
+    /// Range of K over its threshold at the first length; above 1 the crack grows from there.
+    pub at_start: f64,
     /// Smallest range of K over its threshold from the first length on; below 1 the crack stops.
     pub margin: f64,
     /// Length at which it is smallest \[m\].
@@ -47,41 +50,43 @@ impl Curve {
         let excess = |l: f64| self.over_threshold(threshold, l) - 1.0;
         let places = self.places(from);
         let values: Vec<f64> = places.iter().map(|l| excess(*l)).collect();
+        let start = places.partition_point(|l| *l < from);
         let mut crossings = Vec::new();
         let mut stop = None;
         for n in 1..places.len() {
             if (values[n - 1] > 0.0) != (values[n] > 0.0) {
                 let l = crossing(&excess, places[n - 1], places[n]);
-                if values[n - 1] > 0.0 && stop.is_none() {
+                if n > start && values[n - 1] > 0.0 && stop.is_none() {
                     stop = Some(l);
                 }
                 crossings.push(l);
             }
         }
-        let (margin, margin_at) = smallest(&excess, &places, &values);
+        let (margin, margin_at) = smallest(&excess, &places[start..], &values[start..]);
         let verdict = match stop {
-            _ if values[0] <= 0.0 => Verdict::Dormant,
+            _ if values[start] <= 0.0 => Verdict::Dormant,
             Some(l) => Verdict::Stops(l),
             None => Verdict::Grows,
         };
         Ok(Arrest {
             verdict,
             crossings,
+            at_start: values[start] + 1.0,
             margin: margin + 1.0,
             margin_at,
         })
     }
 
-    /// Lengths from `from` on at which the curve is evaluated.
+    /// Lengths at which the curve is evaluated, `from` among them.
     fn places(&self, from: f64) -> Vec<f64> {
-        let later = self.lengths().iter().copied().filter(|l| *l > from);
-        let mut places = vec![from];
-        for l in later {
-            let last = places[places.len() - 1];
-            let part = (l / last).powf(1.0 / PARTS as f64);
-            let between = (1..PARTS).map(|n| last * part.powi(n as i32));
-            places.extend(between.collect::<Vec<_>>());
-            places.push(l);
+        let (before, after): (Vec<f64>, Vec<f64>) = self.lengths().iter().partition(|l| **l < from);
+        let after = after.into_iter().filter(|l| *l > from);
+        let knots: Vec<f64> = before.into_iter().chain([from]).chain(after).collect();
+        let mut places = vec![knots[0]];
+        for pair in knots.windows(2) {
+            let part = (pair[1] / pair[0]).powf(1.0 / PARTS as f64);
+            places.extend((1..PARTS).map(|n| pair[0] * part.powi(n as i32)));
+            places.push(pair[1]);
         }
         places
     }

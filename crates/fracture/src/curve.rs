@@ -41,12 +41,24 @@ const FEWEST_LENGTHS: usize = 4;
 impl Curve {
     /// From lengths \[m\], ascending, and the extremes of K at them.
     pub fn new(lengths: Vec<f64>, extremes: Vec<Extremes>) -> Result<Self, Error> {
-        if lengths.len() < FEWEST_LENGTHS || lengths.len() != extremes.len() {
-            let found = format!("{} and {} extremes of K", lengths.len(), extremes.len());
+        let count = lengths.len();
+        if count != extremes.len() {
+            let found = format!("{count} and {} extremes of K", extremes.len());
             return Err(Error::invalid(
                 "lengths",
                 found,
-                "4 or more, one for each extreme of K",
+                "one for each extreme of K",
+            ));
+        }
+        if count < FEWEST_LENGTHS {
+            let allowed = format!(
+                "{FEWEST_LENGTHS} or more: between them K is a cubic. Compute the crack at more lengths, or \
+                 leave `lengths` out for the default ones"
+            );
+            return Err(Error::invalid(
+                "number of lengths of the crack",
+                count,
+                allowed,
             ));
         }
         let ascending = lengths.windows(2).all(|w| w[0] < w[1]);
@@ -100,7 +112,7 @@ impl Curve {
         if (first..=last).contains(&l) {
             return Ok(());
         }
-        let allowed = format!("within the lengths of the curve, {first} to {last} m");
+        let allowed = format!("within the lengths of the crack, {first:.4e} to {last:.4e} m");
         Err(Error::invalid(key, l, allowed))
     }
 }

@@ -125,7 +125,9 @@ mod _core {
     #[pymodule_export]
     use crate::subsurface::{Subsurface, section_of_states};
     #[pymodule_export]
-    use crate::text::{read_bytes, read_text, rough, shown, with_error, with_range};
+    use crate::text::{
+        degrees, read_bytes, read_text, rough, rounded_place, shown, with_error, with_range,
+    };
     #[pymodule_export]
     use crate::wear::{resume_wear, verify_wear, wear, wear_of_file};
     #[pymodule_export]

@@ -41,6 +41,23 @@ pub(crate) fn with_error(
     digits::with_error(value, error)
 }
 
+/// An angle [degrees] to a tenth, with its unit.
+#[pyfunction]
+#[pyo3(signature = (angle: "float"))]
+pub(crate) fn degrees(#[pyo3(from_py_with = number)] angle: f64) -> String {
+    digits::degrees(angle)
+}
+
+/// A place [m] on a grid, or in a contact, of a size [m]: zero where it is zero to rounding.
+#[pyfunction]
+#[pyo3(signature = (at: "float", size: "float"))]
+pub(crate) fn rounded_place(
+    #[pyo3(from_py_with = number)] at: f64,
+    #[pyo3(from_py_with = number)] size: f64,
+) -> f64 {
+    digits::place(at, size)
+}
+
 /// A number in two digits, which is known to no more.
 #[pyfunction]
 #[pyo3(signature = (value: "float"))]

@@ -11,13 +11,14 @@ from pyfret._cli.parser import added
 from pyfret._cli.say import say, say_json
 from pyfret._cli.values import DEGREES, FIGURES, Value, Values, ending, takes
 from pyfret._util import files
+from pyfret._util.numbers import in_words, um
 from pyfret.fracture import Paris, Threshold
 from pyfret.result import open
 
 if TYPE_CHECKING:
     import argparse
 
-    from pyfret.fracture import Cracks
+    from pyfret.fracture import CrackArrest, CrackLife, Cracks
     from pyfret.result import Result
 
 __all__ = ["add_crack", "add_options", "cracks_of", "run", "threshold_of"]
@@ -32,6 +33,12 @@ def add_options(commands: argparse._SubParsersAction[Any]) -> None:
     crack.add_argument("store", help="result, the increments of its cycle kept")
     add_crack(crack)
     crack.add_argument("--json", action="store_true", help="one JSON object per length and verdict")
+    takes(
+        crack,
+        "--start",
+        Value("length"),
+        "length that the crack begins with (default: the shortest)",
+    )
     takes(
         crack,
         "--paris",
@@ -93,13 +100,17 @@ def run(options: argparse.Namespace) -> int:
     threshold = threshold_of(options)
     if options.paris is not None and threshold is None:
         raise ValueError("--paris: needs a threshold, --dK-th or --material")
+    if options.start is not None and threshold is None:
+        raise ValueError("--start: needs a threshold, --dK-th or --material")
     if options.out and Path(options.out).suffix in FIGURES and threshold is None:
         raise ValueError("--out: the figure needs a threshold, --dK-th or --material")
     result = open(options.store)
     cracks = cracks_of(result, options)
     rows = _rows(cracks, threshold)
+    if threshold is not None:
+        rows.append(_verdict(cracks, cracks.arrest(threshold, start=options.start)))
     if options.paris is not None and threshold is not None:
-        rows[-1]["cycles"] = cracks.life(threshold, Paris(*options.paris)).cycles
+        rows[-1] |= _cycles(cracks.life(threshold, Paris(*options.paris), start=options.start))
     for row in rows:
         if options.json:
             say_json(row)
@@ -110,7 +121,7 @@ def run(options: argparse.Namespace) -> int:
     elif options.out and threshold is not None:
         from pyfret import plot
 
-        plot.crack_panels(result, cracks, threshold).savefig(options.out)
+        plot.crack_panels(result, cracks, threshold, start=options.start).savefig(options.out)
     return 0
 
 
@@ -172,31 +183,50 @@ def _rows(cracks: Cracks, threshold: Threshold | None) -> list[dict[str, object]
     if threshold is not None:
         for row, dK_th in zip(rows, threshold.at(cracks.lengths).tolist(), strict=True):
             row["dK_th"] = dK_th
-        found = cracks.arrest(threshold)
-        rows.append(
-            {
-                "x": cracks.dataset.attrs["x"],
-                "verdict": found.verdict,
-                "length": found.length,
-                "margin": found.margin,
-                "margin_error": found.margin_error,
-                "margin_at": found.margin_at,
-                "lengths": found.lengths,
-                "verdicts": found.verdicts,
-                "told": found.told(),
-            }
-        )
+            if threshold.estimate:
+                row["estimate"] = threshold.estimate
     return rows
+
+
+def _verdict(cracks: Cracks, found: CrackArrest) -> dict[str, object]:
+    """What becomes of the crack; a number that there is not has its reason."""
+    row: dict[str, object] = {
+        "x": cracks.dataset.attrs["x"],
+        "verdict": found.verdict,
+        "start": found.start,
+        "length": found.length,
+        "growing": found.growing,
+        "at_start": found.at_start,
+        "at_start_error": found.at_start_error,
+        "margin": found.margin,
+        "margin_error": found.margin_error,
+        "margin_at": found.margin_at,
+        "lengths": found.lengths,
+        "verdicts": found.verdicts,
+        "is_sure": found.is_sure,
+        "told": found.told(),
+    }
+    if found.length is None:
+        row["length_why"] = found.briefly()
+    return row | ({"estimate": found.estimate} if found.estimate else {})
+
+
+def _cycles(life: CrackLife) -> dict[str, object]:
+    """The cycles of a crack and their range, with the words for them."""
+    row: dict[str, object] = {"cycles": life.cycles, "low": life.low, "high": life.high}
+    why = life.why_infinite()
+    return row | ({} if why is None else {"cycles_why": why}) | {"cycles_told": life.told()}
 
 
 def _line(row: dict[str, object]) -> str:
     """A row for people."""
     number = {name: value for name, value in row.items() if isinstance(value, float)}
     if "verdict" in row:
-        place = f"crack from x = {number['x']:.4e} m"
-        text = f"{place} {row['told']}"
-        return text + (f"; {number['cycles']:.4g} cycles" if "cycles" in row else "")
-    line = f"l = {number['length'] * 1e6:.4g} um: K_I {number['K_min'] / 1e6:.4g} to "
-    line += f"{number['K_max'] / 1e6:.4g} MPa m^0.5 (+- {number['error'] / 1e6:.2g}), "
-    line += f"dK {number['dK'] / 1e6:.4g}"
-    return line + (f" of dK_th {number['dK_th'] / 1e6:.4g}" if "dK_th" in row else "")
+        text = f"crack from x = {um(number['x'])} {row['told']}"
+        return text + (f"; {row['cycles_told']}" if "cycles_told" in row else "")
+    line = f"l = {um(number['length'])}: K_I {in_words(number['K_min'] / 1e6)} to "
+    line += f"{in_words(number['K_max'] / 1e6)} MPa m^0.5 (+- {number['error'] / 1e6:.2g}), "
+    line += f"dK {in_words(number['dK'] / 1e6)}"
+    if "dK_th" not in number:
+        return line
+    return f"{line} of dK_th {in_words(number['dK_th'] / 1e6)}{' (estimate)' * ('estimate' in row)}"

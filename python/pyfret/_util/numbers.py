@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Protocol
 
-__all__ = ["in_words", "layer_name", "length", "place"]
+__all__ = ["in_letters", "in_words", "layer_name", "length", "place", "told", "um"]
 
 #: Units of lengths, the largest first [m].
 LENGTHS = ((1.0, "m"), (1e-3, "mm"), (1e-6, "µm"), (1e-9, "nm"))
@@ -28,6 +28,17 @@ def in_words(value: float, digits: int = 4) -> str:
     return text.rstrip("0").rstrip(".") if "." in text else text
 
 
+def told(value: object) -> str:
+    """A number in a few digits, anything else as it is.
+
+    Examples
+    --------
+    >>> told(5.0000000000000036), told(3), told("7075")
+    ('5', '3', '7075')
+    """
+    return in_words(float(value)) if isinstance(value, float) else str(value)
+
+
 def length(value: float) -> str:
     """A length [m] in the unit that its number is short in.
 
@@ -38,6 +49,28 @@ def length(value: float) -> str:
     """
     size, unit = next((of for of in LENGTHS if abs(value) >= of[0] * (1 - 1e-9)), LENGTHS[-1])
     return f"{in_words(value / size)} {unit}" if value else "0 m"
+
+
+def um(value: float) -> str:
+    """A length [m] in micrometres, in ASCII: lengths that stand beside each other have one unit.
+
+    Examples
+    --------
+    >>> um(1.23456e-5), um(-3.3e-4)
+    ('12.35 um', '-330 um')
+    """
+    return f"{in_words(1e6 * value)} um"
+
+
+def in_letters(text: str) -> str:
+    """A text in ASCII as pages and figures have it: "µm" and "±".
+
+    Examples
+    --------
+    >>> in_letters("stops at 12 +- 1 um")
+    'stops at 12 ± 1 µm'
+    """
+    return text.replace(" um", " µm").replace("+-", "±")
 
 
 class Placed(Protocol):

@@ -19,10 +19,11 @@ coating releases where it parts from its substrate or cracks. ::
 
 from pyfret._core import Crack, ellipse_factor
 from pyfret._util.names import listing
+from pyfret.fracture.arrest import CrackArrest, CrackLife
 from pyfret.fracture.below import crack, grow
 from pyfret.fracture.film import channel_release, film_intensity
 from pyfret.fracture.first import PARTS, FailureOrder, first_to_fail
-from pyfret.fracture.growth import CrackArrest, CrackLife, Cracks, Paris, Threshold
+from pyfret.fracture.growth import Cracks, Paris, Threshold
 from pyfret.fracture.interface import Buckling, buckling_release, edge_release, over_cycle
 
 __all__ = [

@@ -46,6 +46,8 @@ class FailureOrder(NamedTuple):
     substrate: float
     #: Error of `substrate` by that of K; the other two are estimates.
     substrate_error: float | None = None
+    #: Which numbers of the threshold are estimates, in words.
+    estimate: str | None = None
 
     @property
     def first(self) -> Part | None:
@@ -57,7 +59,10 @@ class FailureOrder(NamedTuple):
 
     def _told(self) -> list[str]:
         errors = {"substrate": self.substrate_error}
-        return [f"{of} {with_error(getattr(self, of), errors.get(of))}" for of in PARTS]
+        told = [f"{of} {with_error(getattr(self, of), errors.get(of))}" for of in PARTS]
+        if self.estimate and self.substrate_error is not None:
+            told[-1] += " (estimate)"
+        return told
 
     def __repr__(self) -> str:
         """The three with their errors."""
@@ -65,7 +70,8 @@ class FailureOrder(NamedTuple):
 
     def summary(self) -> str:
         """The three with their errors, a line each, and which fails first."""
-        return "\n".join([*self._told(), f"first to fail: {self.first or 'none'}"])
+        notes = [f"estimate: {self.estimate}"] if self.estimate else []
+        return "\n".join([*self._told(), f"first to fail: {self.first or 'none'}", *notes])
 
 
 @numbers_only
@@ -121,7 +127,7 @@ def first_to_fail(
         raise ValueError(f"body {body_number} has no coating and no interface")
     film = interface = substrate = math.nan
     toughness = as_number(toughness)
-    error = None
+    error = note = None
     if toughness is not None:
         if not (toughness > 0.0 and np.isfinite(toughness)):
             raise ValueError(f"toughness = {toughness}: must be positive, in J/m^2")
@@ -170,4 +176,5 @@ def first_to_fail(
         )
         found_crack = cracks.arrest(threshold)
         substrate, error = found_crack.margin, found_crack.margin_error
-    return FailureOrder(film, interface, substrate, error)
+        note = found_crack.estimate
+    return FailureOrder(film, interface, substrate, error, note)

@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from pyfret import _core
-from pyfret._core import with_error, with_range
 from pyfret._util.arrays import plain, together
 from pyfret._util.called import as_material
 from pyfret._util.door import numbers_only, valued
 from pyfret._util.kept import Kept
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
-from pyfret._util.numbers import in_words
 from pyfret._util.types import as_number, by_default
+from pyfret.fracture.arrest import CrackArrest, CrackLife
 from pyfret.subsurface.line import along
 
 if TYPE_CHECKING:
@@ -29,10 +28,7 @@ if TYPE_CHECKING:
     from pyfret._util.types import AsNumber, AsNumberOrNone, Quantity
     from pyfret.subsurface.line import Line
 
-__all__ = ["CrackArrest", "CrackLife", "Cracks", "Paris", "Threshold"]
-
-#: What a crack does.
-Verdict: TypeAlias = Literal["dormant", "stops", "grows"]
+__all__ = ["Cracks", "Paris", "Threshold"]
 
 
 @valued()
@@ -55,6 +51,8 @@ class Threshold:
         Exponent gamma of Walker: at R > 0 the range dK acts like dK (1 - R)^(gamma - 1) at R = 0.
     table : sequence of (float, float), optional
         Instead of it the threshold over R relative to that at R = 0, rows of (R, ratio).
+    estimate : str, optional
+        Which of its numbers are estimates, in words: whatever rests on the threshold says so.
 
     References
     ----------
@@ -67,6 +65,7 @@ class Threshold:
     Y: float = 1.0
     walker: float | None = None
     table: Sequence[tuple[float, float]] | None = None
+    estimate: str | None = None
 
     def __post_init__(self) -> None:
         """Refuse values that no material has."""
@@ -85,14 +84,23 @@ class Threshold:
         """
         of = as_material(material)
         known = {name: value for name, value, _ in of.numbers()}
-        walker = known.get("walker") if walker is None else walker
-        return cls(of.number("dK_th") / 2.0, of.number("s_D"), Y, walker)
+        names = ["dK_th", "s_D"]
+        if walker is None and "walker" in known:
+            walker = known["walker"]
+            names.append("walker")
+        estimate = of.estimate_of(names)
+        return cls(of.number("dK_th") / 2.0, of.number("s_D"), Y, walker, estimate=estimate)
 
     def _numbers(
         self,
     ) -> tuple[float, float | None, float, float | None, list[tuple[float, float]] | None]:
         table = None if self.table is None else [(float(r), float(f)) for r, f in self.table]
         return self.dK_th, self.dS_0, self.Y, self.walker, table
+
+    @property
+    def mark(self) -> str:
+        """What stands behind its numbers where they are printed."""
+        return " (estimate)" if self.estimate else ""
 
     @property
     def a_0(self) -> float:
@@ -121,115 +129,23 @@ class Paris:
         Above the threshold C dK^m, C (dK^m - dK_th^m) or C (dK - dK_th)^m; below it nothing grows.
     short : bool
         Whether the law takes El Haddad's l + a_0 in place of the length l.
+    estimate : str, optional
+        Which of its numbers are estimates, in words.
     """
 
     C: float
     m: float
     threshold_in: Literal["plain", "powers", "difference"] = "plain"
     short: bool = False
+    estimate: str | None = None
 
     @classmethod
     @numbers_only
     def of(cls, material: Material | str) -> Paris:
         """Take ``paris_C`` and ``paris_m`` of a material; one without them is refused by name."""
         of = as_material(material)
-        return cls(of.number("paris_C"), of.number("paris_m"))
-
-
-@dataclass(frozen=True)
-class CrackArrest:
-    """What becomes of a crack.
-
-    Parameters
-    ----------
-    verdict : {"dormant", "stops", "grows"}
-        It does not grow from its first length; it stops; it grows to the last length looked at.
-    length : float or None
-        Where it stops [m].
-    crossings : tuple of float
-        Lengths at which the range of K crosses its threshold [m].
-    margin, margin_at : float
-        Smallest range of K over its threshold, below 1 where the crack stops, and where [m].
-    margin_error : float
-        Error of the margin by that of K; None where K came without an error.
-    lengths : (float, float), optional
-        Where it stops with the range of K less and more its error [m]. These are the shortest and
-        the longest length, infinite where it grows through all lengths. None where K came without
-        an error.
-    verdicts : tuple of str
-        The verdicts that the error of K leaves, the one above first.
-    """
-
-    verdict: Verdict
-    length: float | None
-    crossings: tuple[float, ...]
-    margin: float
-    margin_at: float
-    margin_error: float | None = None
-    lengths: tuple[float, float] | None = None
-    verdicts: tuple[Verdict, ...] = ()
-
-    @property
-    def is_sure(self) -> bool:
-        """Whether the error of K leaves one verdict."""
-        return len(self.verdicts) == 1
-
-    def __repr__(self) -> str:
-        """Give :meth:`told`."""
-        return f"CrackArrest({self.told()})"
-
-    def told(self) -> str:
-        """Verdict, length and margin with their errors, as a sentence."""
-        said = {
-            "dormant": "does not grow",
-            "stops": f"stops at {self.told_length()}",
-            "grows": "grows through all lengths",
-        }
-        others = [of for of in self.verdicts if of != self.verdict]
-        unsure = f" (within the error of K it also {' or '.join(others)})" if others else ""
-        unsure = unsure.replace("dormant", "is dormant")
-        margin = with_error(self.margin, self.margin_error)
-        at = f"{1e6 * self.margin_at:.4g} um"
-        return f"{said[self.verdict]}{unsure}; least dK/dK_th {margin} at {at}"
-
-    def told_length(self) -> str:
-        """The length at which the crack stops, with its range [um]."""
-        if self.length is None:
-            return "no length"
-        low, high = self.lengths or (math.nan, math.nan)
-        return f"{with_range(1e6 * self.length, 1e6 * low, 1e6 * high)} um"
-
-
-@dataclass(frozen=True)
-class CrackLife:
-    """Cycles of growth, infinite where the rate goes to zero at arrest.
-
-    Parameters
-    ----------
-    cycles : float
-        Number of cycles.
-    length : float
-        Where they end [m].
-    stopped : bool
-        Whether the crack stops there.
-    low, high : float, optional
-        Number of cycles with K_max more and less its error; None where K came without an error.
-    """
-
-    cycles: float
-    length: float
-    stopped: bool
-    low: float | None = None
-    high: float | None = None
-
-    def __repr__(self) -> str:
-        """Give cycles with their range, and the length."""
-        end = "stops" if self.stopped else "ends"
-        if self.low is None or self.high is None:
-            told = f"{in_words(self.cycles, 2)} cycles (estimate)"
-        else:
-            told = f"{with_range(self.cycles, self.low, self.high)} cycles"
-        return f"CrackLife({told}, {end} at {1e6 * self.length:.4g} um)"
+        estimate = of.estimate_of(["paris_C", "paris_m"])
+        return cls(of.number("paris_C"), of.number("paris_m"), estimate=estimate)
 
 
 class Cracks(Kept, Labelled):
@@ -340,19 +256,33 @@ class Cracks(Kept, Labelled):
         def followed(more: NDArray[np.float64] | float) -> tuple[Any, ...]:
             return _core.arrest(*self._curve(more), threshold._numbers(), first)
 
-        verdict, length, crossings, margin, at = followed(0.0)
+        verdict, length, crossings, at_start, margin, at = followed(0.0)
+        found = CrackArrest(
+            verdict,
+            first,
+            length if verdict == "stops" else None,
+            tuple(crossings),
+            margin,
+            at,
+            at_start,
+            (float(self.lengths[0]), float(self.lengths[-1])),
+            estimate=threshold.estimate,
+        )
         if "error" not in self.dataset:
-            return CrackArrest(verdict, length, tuple(crossings), margin, at)
+            return found
         error = self.error
         ends = [followed(-error), followed(error)]
-        off = max(abs(end[3] - margin) for end in ends)
         stops = [
             {"dormant": first, "grows": math.inf}.get(end[0], end[1])
             for end in (*ends, [verdict, length])
         ]
-        verdicts = tuple(dict.fromkeys([verdict, *(end[0] for end in ends)]))
-        reach = (float(min(stops)), float(max(stops)))
-        return CrackArrest(verdict, length, tuple(crossings), margin, at, off, reach, verdicts)
+        return replace(
+            found,
+            margin_error=max(abs(end[4] - margin) for end in ends),
+            at_start_error=max(abs(end[3] - at_start) for end in ends),
+            lengths=(float(min(stops)), float(max(stops))),
+            verdicts=tuple(dict.fromkeys([verdict, *(end[0] for end in ends)])),
+        )
 
     @numbers_only
     def life(
@@ -381,11 +311,13 @@ class Cracks(Kept, Labelled):
                 end=float(self.lengths[-1]) if end is None else as_number(end),
             )
 
-        found = followed(0.0)
+        found = CrackLife(
+            *followed(0.0), self.arrest(threshold, start=start), estimate=paris.estimate
+        )
         if "error" not in self.dataset:
-            return CrackLife(*found)
-        cycles = [of[0] for of in (found, followed(self.error), followed(-self.error))]
-        return CrackLife(*found, min(cycles), max(cycles))
+            return found
+        ends = [followed(self.error)[0], followed(-self.error)[0]]
+        return replace(found, low=min(found.cycles, *ends), high=max(found.cycles, *ends))
 
     @numbers_only
     def kitagawa(self, threshold: Threshold) -> xr.Dataset:

@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING
 import matplotlib.pyplot as plt
 import numpy as np
 
-from pyfret.plot.cracks import MICRO, crack_arrest, intensity_history, kitagawa
+from pyfret._util.door import numbers_only
+from pyfret._util.numbers import in_letters
+from pyfret.plot.cracks import crack_arrest, intensity_history, kitagawa
 from pyfret.plot.scales import scales
 from pyfret.plot.stresses import section_map
 from pyfret.plot.style import styled
@@ -17,6 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from pyfret._util.types import Quantity
     from pyfret.fracture.growth import Cracks, Threshold
     from pyfret.plot.scales import Units
     from pyfret.run import Run
@@ -28,17 +31,20 @@ DEEPEST, DEPTHS = 1.5, 40
 
 
 @styled
+@numbers_only
 def crack_path(
     cracks: Cracks,
     threshold: Threshold | None = None,
     *,
+    start: Quantity | None = None,
     units: Units = "auto",
     ax: Axes,
 ) -> Axes:
     """Draw a crack into the figure of a section, such as :func:`section_map` gives it.
 
-    The line runs to where the crack stops, marked by a dot, and dashed on to the longest length;
-    without a threshold to the longest.
+    The line runs to where the crack stops, or to its first length where it does not grow. A dot
+    marks this place, and the line goes on dashed to the longest length. Without a threshold the
+    line runs to the longest.
 
     Parameters
     ----------
@@ -46,6 +52,8 @@ def crack_path(
         From :meth:`Result.crack` or :meth:`Result.grow_crack`.
     threshold : Threshold, optional
         Of the material.
+    start : float, optional
+        Length that the crack begins with [m] (default: the shortest).
     units : "auto", "dimensionless" or "SI"
         Those of the figure: over a_H where it has an axis of x/a_H (default), or in um.
     ax : matplotlib Axes
@@ -59,17 +67,17 @@ def crack_path(
     x = cracks.places(np.concatenate([[mouth], dataset.x.values])) / scale
     z = np.concatenate([[0.0], dataset.z.values]) / scale
     s = np.concatenate([[0.0], cracks.lengths])
-    stop = None if threshold is None else cracks.arrest(threshold).length
-    end = s[-1] if stop is None else stop
+    found = None if threshold is None else cracks.arrest(threshold, start=start)
+    end = s[-1] if found is None else found.tip
     grown = np.append(s[s < end], end)
     ax.plot(np.interp(grown, s, x), np.interp(grown, s, z), color="k", linewidth=1.8, zorder=4)
-    if stop is not None:
+    if found is not None and found.verdict != "grows":
         rest = np.insert(s[s > end], 0, end)
         line = np.interp(rest, s, x), np.interp(rest, s, z)
         ax.plot(*line, color="k", linewidth=0.8, linestyle="dashed", zorder=4)
         ax.plot(line[0][0], line[1][0], "o", color="#a50f15", markersize=4, zorder=5)
         ax.annotate(
-            f"stops at {stop * MICRO:.3g} µm",
+            in_letters(found.briefly()),
             (float(line[0][0]), float(line[1][0])),
             xytext=(6, -3),
             textcoords="offset points",
@@ -81,7 +89,10 @@ def crack_path(
 
 
 @styled
-def crack_panels(result: Run, cracks: Cracks, threshold: Threshold) -> Figure:
+@numbers_only
+def crack_panels(
+    result: Run, cracks: Cracks, threshold: Threshold, *, start: Quantity | None = None
+) -> Figure:
     """Draw the crack in the stress at its largest K_I, K over the cycle, arrest and Kitagawa.
 
     Parameters
@@ -92,6 +103,8 @@ def crack_panels(result: Run, cracks: Cracks, threshold: Threshold) -> Figure:
         From :meth:`Result.crack` or :meth:`Result.grow_crack`.
     threshold : Threshold
         Of the material.
+    start : float, optional
+        Length that the crack begins with [m] (default: the shortest).
     """
     about = cracks.dataset.attrs
     figure, axes = plt.subplots(2, 2, figsize=(8.4, 6.6), layout="constrained")
@@ -109,10 +122,10 @@ def crack_panels(result: Run, cracks: Cracks, threshold: Threshold) -> Figure:
     across = cos**2 * stress.s_xx + 2.0 * sin * cos * stress.s_xy + sin**2 * stress.s_yy
     names = {"x": r"\sigma_{xx}", "y": r"\sigma_{yy}", "s": r"\sigma_{ss}"}
     section_map(across.assign_attrs(stress.s_xx.attrs), symbol=names[line.along], ax=axes[0, 0])
-    crack_path(cracks, threshold, ax=axes[0, 0])
-    found = cracks.arrest(threshold)
-    length = cracks.lengths[len(cracks.lengths) // 2] if found.length is None else found.length
+    crack_path(cracks, threshold, start=start, ax=axes[0, 0])
+    found = cracks.arrest(threshold, start=start)
+    length = cracks.lengths[len(cracks.lengths) // 2] if found.verdict == "grows" else found.tip
     intensity_history(cracks, float(length), ax=axes[0, 1])
-    crack_arrest(cracks, threshold, ax=axes[1, 0])
+    crack_arrest(cracks, threshold, start=start, ax=axes[1, 0])
     kitagawa(cracks, threshold, ax=axes[1, 1])
     return figure

@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 
 from pyfret._util.door import numbers_only
+from pyfret._util.numbers import in_letters
 from pyfret._util.types import as_number
 from pyfret.plot.style import axes, styled
 
@@ -93,8 +94,15 @@ def intensity_history(cracks: Cracks, length: Quantity, *, ax: Axes | None = Non
 
 
 @styled
-def crack_arrest(cracks: Cracks, threshold: Threshold, *, ax: Axes | None = None) -> Axes:
-    """Range of K over the length of the crack, its threshold, and where the crack stops.
+@numbers_only
+def crack_arrest(
+    cracks: Cracks,
+    threshold: Threshold,
+    *,
+    start: Quantity | None = None,
+    ax: Axes | None = None,
+) -> Axes:
+    """Range of K over the length of the crack, its threshold, and what becomes of the crack.
 
     Parameters
     ----------
@@ -102,23 +110,21 @@ def crack_arrest(cracks: Cracks, threshold: Threshold, *, ax: Axes | None = None
         From :meth:`Result.crack`.
     threshold : Threshold
         Of the material.
+    start : float, optional
+        Length that the crack begins with [m] (default: the shortest).
     ax : matplotlib Axes, optional
         Where to draw.
     """
     ax = axes(ax)
     lengths = cracks.lengths * MICRO
     ax.plot(lengths, cracks.dK(threshold) * MEGA, color="C0", label=r"$\Delta K$")
-    ax.plot(lengths, threshold.at(cracks.lengths) * MEGA, "k--", label=r"$\Delta K_\mathrm{th}$")
-    found = cracks.arrest(threshold)
-    if found.verdict == "stops" and found.length is not None:
-        stop = np.atleast_1d(threshold.at(found.length))[0] * MEGA
-        ax.plot(found.length * MICRO, stop, "o", color="C3", zorder=3)
-        ax.annotate(
-            f"stops at {found.length * MICRO:.3g} µm",
-            (found.length * MICRO, stop),
-            xytext=(6, -12),
-            textcoords="offset points",
-        )
+    limit = rf"$\Delta K_\mathrm{{th}}${threshold.mark}"
+    ax.plot(lengths, threshold.at(cracks.lengths) * MEGA, "k--", label=limit)
+    found = cracks.arrest(threshold, start=start)
+    tip = np.atleast_1d(threshold.at(found.tip))[0] * MEGA
+    if found.verdict != "grows":
+        ax.plot(found.tip * MICRO, tip, "o", color="C3", zorder=3)
+    ax.set_title(in_letters(f"the crack {found.briefly()}"), fontsize="medium")
     ax.set_xscale("log")
     ax.set_ylim(bottom=0.0)
     ax.set_xlabel(r"crack length $l$ [µm]")
@@ -154,7 +160,7 @@ def kitagawa(cracks: Cracks, threshold: Threshold, *, ax: Axes | None = None) ->
     lengths = found.length * MICRO
     load = found["load"].where(found["load"] > 0.0)
     ax.plot(lengths, load * MEGA, color="C0", label="load")
-    ax.plot(lengths, found["limit"] * MEGA, "k--", label="limit")
+    ax.plot(lengths, found["limit"] * MEGA, "k--", label=f"limit{threshold.mark}")
     if threshold.dS_0 is not None:
         ax.axhline(threshold.dS_0 * MEGA, color="0.6", linestyle=":", label=r"$\Delta\sigma_0$")
     ax.set_xscale("log")

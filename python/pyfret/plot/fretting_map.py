@@ -10,6 +10,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
 from pyfret._util.bounds import known_to
+from pyfret.fracture.arrest import WORDS
 from pyfret.plot.areas import Raster
 from pyfret.plot.stresses import COLOURS
 from pyfret.plot.studies import in_figures, whole_labels
@@ -26,7 +27,8 @@ if TYPE_CHECKING:
 CONDITIONS = {0: ("no contact", "#ffffff"), 1: ("full stick", "#9ecae1")}
 CONDITIONS |= {2: ("partial slip", "#deebf7"), 3: ("gross slip", "#fdd0a2")}
 #: What becomes of a crack.
-FATES = {0: ("no growth", "#ffffff"), 1: ("stops", "#9ecae1"), 2: ("grows", "#fdd0a2")}
+FATES = {0: (WORDS["dormant"], "#ffffff"), 1: (WORDS["stops"], "#9ecae1")}
+FATES |= {2: (WORDS["grows"], "#fdd0a2")}
 #: Axes of the map: factor and label.
 AXES = {"T": (1.0, r"$T$"), "delta": (1e6, r"$\delta$ [µm]")}
 #: Lives whose contours are drawn [cycles], and the levels of safety factors.

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pyfret._util.numbers import in_words
+from pyfret._util.numbers import in_letters, in_words, um
 from pyfret.report.digits import short
 
 if TYPE_CHECKING:
@@ -15,13 +15,13 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from pyfret.fracture.growth import CrackArrest, Cracks, Threshold
+    from pyfret.fracture.arrest import CrackArrest
+    from pyfret.fracture.growth import Cracks, Threshold
     from pyfret.subsurface.line import Line
 
 __all__ = ["CrackSection"]
 
 MICRO, MEGA = 1e6, 1e-6
-#: What became of a crack, in words.
 
 
 @dataclass(frozen=True)
@@ -49,11 +49,11 @@ class CrackSection:
         """What the crack does, as a sentence."""
         about, found = self.about, self.found()
         body = "upper" if about["body_number"] == 1 else "lower"
-        begun = f"The crack from x = {MICRO * about['x']:.4g} µm of the {body} body"
+        begun = f"The crack from x = {um(about['x'])} of the {body} body"
         if found is None:
-            lengths = MICRO * self.cracks.lengths
-            return f"{begun}, {in_words(lengths[0], 3)} to {in_words(lengths[-1], 3)} µm long."
-        return f"{begun} {found.told()}."
+            first, last = (um(float(self.cracks.lengths[n])) for n in (0, -1))
+            return in_letters(f"{begun}, {first} to {last} long.")
+        return in_letters(f"{begun} {found.told()}.")
 
     def drawn(
         self, deepest: float, place: Callable[[NDArray[np.float64]], list[float]]
@@ -63,24 +63,24 @@ class CrackSection:
         s = np.concatenate([[0.0], self.cracks.lengths])
         x = MICRO * self.cracks.places(np.concatenate([[self.about["x"]], d.x.values]))
         z = MICRO * np.concatenate([[0.0], d.z.values])
-        stop = s[-1] if found is None or found.length is None else found.length
+        stop = s[-1] if found is None else found.tip
 
         def way(of: NDArray[np.float64]) -> dict[str, Any]:
             depth = np.interp(of, s, z)
             inside = depth <= deepest
             return {"x": short(np.interp(of, s, x)[inside]), "z": short(place(depth[inside]))}
 
-        stops = found is not None and found.verdict == "stops"
         return {
             "grown": way(np.append(s[s < stop], stop)),
             "rest": way(np.insert(s[s > stop], 0, stop)),
-            "end": way(np.array([stop])) if stops else None,
+            "end": None if found is None or found.verdict == "grows" else way(np.array([stop])),
+            "briefly": None if found is None else in_letters(found.briefly()),
         }
 
     def numbers(self) -> dict[str, Any]:
         """K over the cycle at the length where the crack stops, or the longest; the diagram."""
         found = self.found()
-        length = found.length if found and found.length else float(self.cracks.lengths[-1])
+        length = found.tip if found else float(self.cracks.lengths[-1])
         one = self.cracks.dataset.sel(length=length, method="nearest")
         K = {name: short(MEGA * one[name].values) for name in ("K_I", "K_II", "error")}
         return {

@@ -127,7 +127,7 @@
       ...crack,
     ], section, options);
     document.getElementById("largest").textContent =
-      `the cross marks the largest, ${stress.largest.value} MPa at x = ${x} µm, y = ${y} µm, z = ${z} µm${stress.crack ? `; the line is the crack${stress.crack.end ? ", dashed beyond where it stops" : ""}` : ""}.${stress.interfaces.length ? " Each layer has a scale of depth of its own." : ""}`;
+      `the cross marks the largest, ${stress.largest.value} MPa at x = ${x} µm, y = ${y} µm, z = ${z} µm${stress.crack ? `; the line is the crack${stress.crack.end ? `, dashed beyond the dot: it ${stress.crack.briefly}` : ""}` : ""}.${stress.interfaces.length ? " Each layer has a scale of depth of its own." : ""}`;
   } else {
     document.getElementById("below").remove();
   }

@@ -236,20 +236,20 @@ class Arrest:
         options = {f.name: getattr(self, f.name) for f in fields(self) if f.name != "threshold"}
         cracks = fracture.crack(result, **options)
         found = cracks.arrest(self.threshold)
-        least = float(np.atleast_1d(self.threshold.at(cracks.lengths))[0])
-        first = float(cracks.dK(self.threshold)[0]) / least
-        # The positive part of the range has the error of the largest K.
-        error = float(cracks.error[0]) / least if "error" in cracks.dataset else math.nan
-        length = math.nan if found.length is None else found.length
+        length = math.nan if found.verdict == "grows" else found.tip
         ends = (math.nan, math.nan) if found.lengths is None else found.lengths
         off = math.nan if found.margin_error is None else found.margin_error
-        start = "range of K over its threshold at the first length"
+        off_start = math.nan if found.at_start_error is None else found.at_start_error
+        mark = self.threshold.mark
+        start = f"range of K over its threshold{mark} at the first length"
         return {
-            **Answer.within(first, error).arrays("start_margin", "1", start),
+            **Answer.within(found.at_start, off_start).arrays("start_margin", "1", start),
             **Answer.within(found.margin, off).arrays(
-                "arrest_margin", "1", "least range of K over its threshold"
+                "arrest_margin", "1", f"least range of K over its threshold{mark}"
             ),
-            **Answer(length, *ends).arrays("arrest_length", "m", "length at which the crack stops"),
+            **Answer(length, *ends).arrays(
+                "arrest_length", "m", f"length at which the crack stops{mark}"
+            ),
         }
 
 

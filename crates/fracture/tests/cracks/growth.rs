@@ -88,6 +88,32 @@ fn arrest_lengths_and_margins() {
 }
 
 #[test]
+fn a_start_farther_in_knows_the_shorter_lengths() {
+    let (threshold, places) = (aluminium(), lengths(2e-6, 1e-3, 28));
+    let curve = curve(0.2e-3, 60e6, &places);
+    for (from, verdict, below) in [
+        (2e-6, None, false),
+        (150e-6, Some(Verdict::Dormant), true),
+        (400e-6, Some(Verdict::Grows), false),
+    ] {
+        let arrest = curve.arrest(&threshold, from).unwrap();
+        assert_eq!(arrest.crossings.len(), 2, "{from}");
+        near(arrest.crossings[0], 92.0746e-6, 2e-4);
+        near(arrest.crossings[1], 283.3481e-6, 2e-4);
+        near(
+            arrest.at_start,
+            curve.over_threshold(&threshold, from),
+            1e-12,
+        );
+        assert_eq!(arrest.at_start < 1.0, below);
+        assert!(arrest.margin_at >= from);
+        if let Some(verdict) = verdict {
+            assert_eq!(arrest.verdict, verdict);
+        }
+    }
+}
+
+#[test]
 fn lives() {
     let rate = |C: f64, m: f64, growth| Rate {
         C: C * 1e-6_f64.powf(m),

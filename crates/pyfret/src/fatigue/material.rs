@@ -65,6 +65,12 @@ impl Material {
         Ok(Self(core::estimated(&self.0, family)))
     }
 
+    /// Which numbers are estimates or from memory, in words; None where each has a source.
+    fn estimate_of(&self, names: Vec<String>) -> Option<String> {
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        self.0.estimate_of(&names)
+    }
+
     /// Whether the material has this name, whatever its case and the marks between letters.
     fn is_called(&self, name: &str) -> bool {
         let alone = BTreeMap::from([(self.0.name.clone(), self.0.clone())]);

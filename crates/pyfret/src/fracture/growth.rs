@@ -60,12 +60,16 @@ pub(crate) fn equivalent_range(
     Ok(pairs.map(range).collect())
 }
 
-/// Verdict, length where it stops, crossings, margin and its length.
-type Arrested = (&'static str, Option<f64>, Vec<f64>, f64, f64);
+/// Verdict, length where it stops, crossings, range of K over its threshold at the start, margin and
+/// its length.
+type Arrested = (&'static str, Option<f64>, Vec<f64>, f64, f64, f64);
 
-/// What becomes of a crack: verdict, length where it stops, crossings, margin and its length.
+/// What becomes of a crack.
+///
+/// Verdict, length where it stops, crossings, range of K over its threshold at the start, margin
+/// and its length.
 #[pyfunction]
-#[pyo3(signature = (lengths: "Sequence[float]", K_max: "Sequence[float]", K_min: "Sequence[float]", threshold_: "tuple[float, float | None, float, float | None, list[tuple[float, float]] | None]", start: "float") -> "tuple[Literal['dormant', 'stops', 'grows'], float | None, list[float], float, float]")]
+#[pyo3(signature = (lengths: "Sequence[float]", K_max: "Sequence[float]", K_min: "Sequence[float]", threshold_: "tuple[float, float | None, float, float | None, list[tuple[float, float]] | None]", start: "float") -> "tuple[Literal['dormant', 'stops', 'grows'], float | None, list[float], float, float, float]")]
 pub(crate) fn arrest(
     lengths: List<f64>,
     K_max: List<f64>,
@@ -83,6 +87,7 @@ pub(crate) fn arrest(
         verdict,
         length,
         found.crossings,
+        found.at_start,
         found.margin,
         found.margin_at,
     ))

@@ -1,0 +1,236 @@
+"""What becomes of a crack, and how many cycles it takes: numbers, and the words for them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Literal, TypeAlias
+
+from pyfret._core import rough, with_error, with_range
+from pyfret._util.numbers import um
+
+__all__ = ["WORDS", "CrackArrest", "CrackLife"]
+
+#: What a crack does.
+Verdict: TypeAlias = Literal["dormant", "stops", "grows"]
+
+#: The words of a verdict: tables, figures, pages and JSON have no others.
+WORDS: dict[Verdict, str] = {
+    "dormant": "does not grow",
+    "stops": "stops",
+    "grows": "grows through all lengths",
+}
+#: What a crack may do as well, within an error.
+MAY = {"dormant": "not grow", "stops": "stop", "grows": "grow through all lengths"}
+UNDECIDED = "not decided within the error of K"
+
+
+@dataclass(frozen=True)
+class CrackArrest:
+    """What becomes of a crack that begins with a length.
+
+    Parameters
+    ----------
+    verdict : {"dormant", "stops", "grows"}
+        It does not grow from its first length; it stops; it grows to the last length looked at.
+    start : float
+        Its first length [m], from which the verdict holds.
+    length : float or None
+        Where it stops [m]; None where it does not grow, or does not stop.
+    crossings : tuple of float
+        Lengths at which the range of K crosses its threshold [m], shorter ones than `start` too.
+    margin, margin_at : float
+        Smallest range of K over its threshold from the first length on, and where [m]. Below 1 the
+        crack stops.
+    at_start : float
+        Range of K over its threshold at the first length. Up to 1 the crack does not grow from it.
+    computed : (float, float)
+        The shortest and the longest length at which K is known [m].
+    margin_error, at_start_error : float
+        Errors of the margin and of `at_start` by that of K; None where K came without an error.
+    lengths : (float, float), optional
+        Where it stops with the range of K less and more its error [m]. These are the shortest and
+        the longest length, infinite where it grows through all lengths. None where K came without
+        an error.
+    verdicts : tuple of str
+        The verdicts that the error of K leaves, the one above first.
+    estimate : str, optional
+        Which numbers of the threshold are estimates, in words.
+    """
+
+    verdict: Verdict
+    start: float
+    length: float | None
+    crossings: tuple[float, ...]
+    margin: float
+    margin_at: float
+    at_start: float
+    computed: tuple[float, float]
+    margin_error: float | None = None
+    at_start_error: float | None = None
+    lengths: tuple[float, float] | None = None
+    verdicts: tuple[Verdict, ...] = ()
+    estimate: str | None = None
+
+    @property
+    def is_sure(self) -> bool:
+        """Whether the error of K leaves one verdict: no bar reaches over the threshold."""
+        over = any(e is not None and abs(of - 1.0) < e for of, e in self._deciding())
+        return len(self.verdicts) == 1 and not over
+
+    @property
+    def tip(self) -> float:
+        """Length that the crack has in the end [m]: where it stops, its first or the longest."""
+        if self.length is not None:
+            return self.length
+        return self.start if self.verdict == "dormant" else self.computed[1]
+
+    @property
+    def growing(self) -> tuple[tuple[float, float], ...]:
+        """Between which first lengths [m] a crack grows, to the longer one of each pair."""
+        ends = [self.computed[0], *self.crossings, self.computed[1]]
+        own = sum(at < self.start for at in self.crossings)
+        grows = self.at_start > 1.0
+        pieces = enumerate(pairwise(ends))
+        return tuple(piece for n, piece in pieces if ((n - own) % 2 == 0) == grows)
+
+    def __repr__(self) -> str:
+        """Give :meth:`told`."""
+        return f"CrackArrest({self.told()})"
+
+    def told(self) -> str:
+        """Verdict, from which length it holds, what others would do, and numbers with errors."""
+        start, least = (
+            f"dK/dK_th {with_error(of, error)}"
+            for of, error in (
+                (self.at_start, self.at_start_error),
+                (self.margin, self.margin_error),
+            )
+        )
+        begins = self.verdict == "dormant" or "dormant" in self.verdicts
+        bars = [(of, error) for of, error in self._deciding() if error is not None]
+        said = [
+            f"{self._alone()} from a length of {self.told_start()}{self._end()}{self._unsure()}",
+            *self.others(),
+            *([f"{start} at that length"] if begins else []),
+            *([] if self.verdict == "dormant" else [f"least {least} at {um(self.margin_at)}"]),
+        ]
+        if any(error >= of > 0.0 for of, error in bars):
+            said.append("the error of K is as large as dK there")
+        if self.estimate:
+            said.append(f"estimate: {self.estimate}")
+        return "; ".join(said)
+
+    def briefly(self) -> str:
+        """Give the verdict in a few words, as figures have it."""
+        marks = [UNDECIDED] if self.verdicts and not self.is_sure else []
+        marks += ["estimate"] if self.estimate and self.length is None else []
+        return self._alone() + (f" ({', '.join(marks)})" if marks else "")
+
+    def told_length(self) -> str:
+        """The length at which the crack stops, with its range [um]."""
+        if self.length is None:
+            return "no length"
+        if self.lengths is None:
+            return f"{rough(1e6 * self.length)} um (estimate)"
+        low, high = (1e6 * end for end in self.lengths)
+        mark = " (estimate)" if self.estimate else ""
+        return f"{with_range(1e6 * self.length, low, high)} um{mark}"
+
+    def told_start(self) -> str:
+        """The first length [um], and whether shorter ones were computed."""
+        shortest = self.start <= self.computed[0]
+        return um(self.start) + (", the shortest computed" if shortest else "")
+
+    def others(self) -> list[str]:
+        """What cracks of other first lengths would do, a sentence each."""
+        said = []
+        for low, high in self.growing:
+            whole = high >= self.computed[1]
+            if self.at_start > 1.0 and low <= self.start <= high:
+                if low > self.computed[0]:
+                    said.append(f"one shorter than {um(low)} would not grow")
+            elif whole:
+                said.append(f"one longer than {um(low)} would grow through all lengths")
+            else:
+                said.append(f"one of {um(low)} to {um(high)} would grow, and stop at {um(high)}")
+        if not self.growing:
+            said.append(f"nor would one of any length up to {um(self.computed[1])}")
+        return said
+
+    def _alone(self) -> str:
+        if self.verdict == "stops":
+            return f"{WORDS['stops']} at {self.told_length()}"
+        return WORDS[self.verdict]
+
+    def _end(self) -> str:
+        return f", to {um(self.computed[1])}" if self.verdict == "grows" else ""
+
+    def _unsure(self) -> str:
+        if not self.verdicts or self.is_sure:
+            return ""
+        others = [MAY[of] for of in self.verdicts if of != self.verdict]
+        return f" ({UNDECIDED}{': it may ' if others else ''}{' or '.join(others)})"
+
+    def _deciding(self) -> list[tuple[float, float | None]]:
+        """The numbers that the verdict follows from, and their errors."""
+        start = (self.at_start, self.at_start_error)
+        least = (self.margin, self.margin_error)
+        return [start] if self.verdict == "dormant" else [start, least]
+
+
+@dataclass(frozen=True)
+class CrackLife:
+    """Cycles of growth, infinite where the rate goes to zero at arrest.
+
+    Parameters
+    ----------
+    cycles : float
+        Number of cycles; infinite for a crack that does not grow.
+    length : float
+        Where they end [m].
+    stopped : bool
+        Whether the crack stops there.
+    arrest : CrackArrest
+        What becomes of the crack, and its first length.
+    low, high : float, optional
+        Number of cycles with K_max more and less its error; None where K came without an error.
+    estimate : str, optional
+        Which numbers of the law of growth are estimates, in words.
+    """
+
+    cycles: float
+    length: float
+    stopped: bool
+    arrest: CrackArrest
+    low: float | None = None
+    high: float | None = None
+    estimate: str | None = None
+
+    def __repr__(self) -> str:
+        """Give :meth:`told`, and what other first lengths do."""
+        return f"CrackLife({'; '.join([self.told(), *self.arrest.others()])})"
+
+    def why_infinite(self) -> str | None:
+        """Why there is no finite number of cycles."""
+        if math.isfinite(self.cycles):
+            return None
+        if self.arrest.verdict == "dormant":
+            return f"the crack does not grow from a length of {um(self.arrest.start)}"
+        return f"the rate of growth goes to zero where the crack stops, at {um(self.length)}"
+
+    def told(self) -> str:
+        """Cycles with their range, from which length and to which."""
+        way = f"from {um(self.arrest.start)} to {um(self.length)}"
+        way += ", where it stops" if self.stopped else ""
+        if math.isinf(self.cycles):
+            least = self.low is not None and math.isfinite(self.low)
+            within = f" (within the error of K {rough(self.low or 0.0)} or more)"
+            said = f"no number of cycles{within if least else ''}: {self.why_infinite()}"
+        elif self.low is None or self.high is None:
+            said = f"{rough(self.cycles)} cycles (estimate) {way}"
+        else:
+            said = f"{with_range(self.cycles, self.low, self.high)} cycles {way}"
+        notes = [of for of in (self.arrest.estimate, self.estimate) if of]
+        return "; ".join([said, *(f"estimate: {of}" for of in dict.fromkeys(notes))])
