@@ -78,6 +78,20 @@ def test_a_crack_in_other_bodies_is_refused(result: fret.Result, tmp_path: Path)
     assert not (tmp_path / "page.html").exists()
 
 
+def test_a_crack_that_does_not_say_its_bodies_is_refused(
+    result: fret.Result, tmp_path: Path
+) -> None:
+    """One that an older version saved, without its scene, and one from arrays."""
+    saved = result.crack(lengths=[1e-5, 2e-5])
+    del saved.dataset.attrs["scene"]
+    saved.save(tmp_path / "old.nc")
+    arrays = fret.fracture.Cracks.from_arrays([1e-5, 2e-5], [1e6, 1e6], [0.0, 0.0])
+    for crack in (fret.open(tmp_path / "old.nc"), arrays):
+        with pytest.raises(ValueError, match=r"crack: does not say which bodies.*result.crack"):
+            result.report(tmp_path / "page.html", crack=crack)
+    assert not (tmp_path / "page.html").exists()
+
+
 def test_the_page_has_it_all_in_one_small_file(page: Path, result: fret.Result) -> None:
     text = page.read_text(encoding="utf-8")
     assert page.stat().st_size < 5e6

@@ -82,8 +82,8 @@ def report(
     ImportError
         If the package plotly is missing: ``pip install "fretting[report]"``.
     ValueError
-        The ending of the file is another, a threshold is given without a crack, or the wear or the
-        crack is that of other bodies.
+        The ending of the file is another, or a threshold is given without a crack. The wear or the
+        crack is that of other bodies, or does not say of which.
     """
     place = Path(path)
     if place.suffix not in (".html", ".htm"):
@@ -91,7 +91,15 @@ def report(
     if threshold is not None and crack is None:
         raise ValueError("threshold: needs a crack, such as crack=result.crack()")
     for name, of in (("wear", wear), ("crack", crack)):
-        if of is not None and bodies_of(of) not in (None, bodies_of(result)):
+        if of is None:
+            continue
+        bodies = bodies_of(of)
+        if bodies is None:
+            raise ValueError(
+                f"{name}: does not say which bodies it is in. It is from arrays, or an older "
+                "version saved it. Compute it from the run: crack=result.crack()"
+            )
+        if bodies != bodies_of(result):
             raise ValueError(f"{name}: is of other bodies than the run: write a page for each")
     cracked = None if crack is None else CrackSection(crack, threshold)
     page = Template((HERE / "page.html").read_text(encoding="utf-8")).substitute(
