@@ -248,6 +248,7 @@ def test_every_command_tells_programs_what_came_out(
         "measures": ["stick_ratio"],
         "failed": [],
         "map": None,
+        "map_why": "not asked for",
     }
 
 

@@ -12,6 +12,7 @@ use contact_wear::{Cycling, Wear};
 use serde_json::{Map, Value, json};
 
 use crate::failure::Failure;
+use crate::json::{NO_HERTZ, or_why, pretty};
 use crate::printed::print;
 use crate::scene_options::{SceneOptions, say_each};
 use crate::units::{mega, um};
@@ -35,7 +36,7 @@ pub(crate) fn check(options: &Options) -> Result<(), Failure> {
     let read = options.scene.read_whole();
     let read = read.and_then(|(scene, wear)| scene.check_fit().map(|()| (scene, wear)));
     if let (Err(error), true) = (&read, options.json) {
-        print(&format!("{:#}", refused(error)))?;
+        print(&pretty(refused(error)))?;
     }
     let (scene, wear) = read.map_err(Failure::BadInput)?;
     let mut doubts = scene.doubts();
@@ -49,10 +50,7 @@ pub(crate) fn check(options: &Options) -> Result<(), Failure> {
     lines.extend(wear.as_ref().map(|wear| ("wear", worn(wear))));
     doubts.extend(wear.iter().flat_map(Wear::doubts));
     if options.json {
-        print(&format!(
-            "{:#}",
-            numbers(&scene, &plan, &work, &lines, &doubts)
-        ))?;
+        print(&pretty(numbers(&scene, &plan, &work, &lines, &doubts)))?;
     } else {
         let lines = lines
             .iter()
@@ -122,9 +120,9 @@ fn numbers(
             "memory.needed": "bytes",
             "memory.available": "bytes",
         },
-        "a_H": hertz.map(|h| h.a),
-        "p_H": hertz.map(|h| h.p0),
-        "cells_per_a_H": hertz.map(|h| [h.a / grid.dx, h.a / grid.dy]),
+        "a_H": or_why(json!(hertz.map(|h| h.a)), NO_HERTZ),
+        "p_H": or_why(json!(hertz.map(|h| h.p0)), NO_HERTZ),
+        "cells_per_a_H": or_why(json!(hertz.map(|h| [h.a / grid.dx, h.a / grid.dy])), NO_HERTZ),
         "grid": {
             "n": [grid.nx, grid.ny],
             "extent": [length_x, length_y],

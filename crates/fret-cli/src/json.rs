@@ -8,27 +8,44 @@ use serde_json::{Map, Value, json};
 
 use crate::words::{frictionless, state, word};
 
-/// What stands in place of a number that JSON has no word for.
-const WHY: [(&str, &str); 3] = [
-    ("\u{0}infinite", "infinite"),
-    ("\u{0}-infinite", "infinite, negative"),
-    ("\u{0}unknown", "not known"),
-];
+/// What the text begins with that stands in place of a missing number until it is written.
+const MARK: char = '\u{0}';
+/// Why a number is missing that nobody gave a reason for: one that is not finite, of a result.
+const UNKNOWN: &str = "not known";
 
-/// A number for [`written`]: one that is not finite keeps why.
+/// A number for [`pretty`] and [`line`]: one that is not finite keeps why.
 pub(crate) fn number(x: f64) -> Value {
-    let kind = match x {
-        x if x.is_finite() => return json!(x),
-        f64::INFINITY => 0,
-        f64::NEG_INFINITY => 1,
-        _ => 2,
-    };
-    json!(WHY[kind].0)
+    match x {
+        x if x.is_finite() => json!(x),
+        f64::INFINITY => absent("infinite"),
+        f64::NEG_INFINITY => absent("infinite, negative"),
+        _ => absent(UNKNOWN),
+    }
 }
 
-/// What a command prints for programs: a number that is not finite is null, and `NAME_why` beside it
-/// is the reason. In a list the reasons of all stand in a list.
-pub(crate) fn written(value: Value) -> Value {
+/// A number that there is not, and why.
+pub(crate) fn absent(why: &str) -> Value {
+    json!(format!("{MARK}{why}"))
+}
+
+/// A value, or why there is none.
+pub(crate) fn or_why(value: Value, why: &str) -> Value {
+    if value.is_null() { absent(why) } else { value }
+}
+
+/// What a command prints for programs, over several lines.
+pub(crate) fn pretty(value: Value) -> String {
+    format!("{:#}", written(value))
+}
+
+/// What a command prints for programs, in a line.
+pub(crate) fn line(value: Value) -> String {
+    written(value).to_string()
+}
+
+/// An answer whose numbers JSON has words for: one that is missing is null, and `NAME_why` beside
+/// it is the reason. In a list the reasons of all stand in a list.
+fn written(value: Value) -> Value {
     match value {
         Value::Object(of) => {
             let mut found = Map::new();
@@ -50,20 +67,18 @@ pub(crate) fn written(value: Value) -> Value {
 /// Why a number, or one of a list, is none.
 fn reason(value: &Value) -> Option<Value> {
     match value {
-        Value::String(text) => {
-            let known = WHY.iter().find(|(mark, _)| mark == text);
-            known.map(|(_, why)| json!(why))
-        }
+        Value::Null => Some(json!(UNKNOWN)),
+        Value::String(text) => text.strip_prefix(MARK).map(|why| json!(why)),
         Value::Array(of) => {
-            let each: Vec<_> = of
-                .iter()
-                .map(|value| reason(value).filter(Value::is_string))
-                .collect();
+            let each: Vec<_> = of.iter().map(reason).collect();
             each.iter().any(Option::is_some).then(|| json!(each))
         }
         _ => None,
     }
 }
+
+/// Why a contact has neither a_H nor p_H.
+pub(crate) const NO_HERTZ: &str = "no contact of Hertz";
 
 /// A run: its branches and its cycles, and the error bars of the branches where there are any.
 pub(crate) fn run(scene: &Scene, increments: &[Increment], bars: Option<&[ErrorBars]>) -> Value {
@@ -84,18 +99,18 @@ pub(crate) fn run(scene: &Scene, increments: &[Increment], bars: Option<&[ErrorB
         .map(|(direction, c)| cycle(scene, *direction, c, bars))
         .collect();
     let hertz = scene.hertz();
-    written(json!({
+    json!({
         "title": scene.title,
         "mu": number(scene.friction.mu),
-        "a_H": hertz.map(|h| h.a),
-        "p_H": hertz.map(|h| h.p0),
+        "a_H": or_why(json!(hertz.map(|h| h.a)), NO_HERTZ),
+        "p_H": or_why(json!(hertz.map(|h| h.p0)), NO_HERTZ),
         "increments": increments.len(),
         "units": units(scene),
         "branches": branches,
         "cycles": cycles,
-        "error_bars": bars,
+        "error_bars": or_why(json!(bars), "the run has none: `fret run --error` estimates them"),
         "doubts": reached.all_doubts(scene),
-    }))
+    })
 }
 
 /// Units of forces, moments, energies and stiffnesses: of a line contact they are per metre.
@@ -132,7 +147,7 @@ fn branch(scene: &Scene, b: &BranchSummary, own: &[Increment], error: Option<f64
     }
     set(length_of(scene), json!(b.contact_radius));
     let sticks = (!frictionless(scene)).then_some(b.stick_ratio);
-    set("stick_ratio", json!(sticks));
+    set("stick_ratio", or_why(json!(sticks), "no friction"));
     set(
         "status",
         json!(state(frictionless(scene), last.status).replace(' ', "_")),
@@ -150,7 +165,10 @@ fn branch(scene: &Scene, b: &BranchSummary, own: &[Increment], error: Option<f64
     }
     set("increments", json!(b.increments));
     set("convolutions", json!(b.work.convolutions));
-    set("path_error", json!(error));
+    set(
+        "path_error",
+        or_why(json!(error), "the increments of the branch were given"),
+    );
     Value::Object(of)
 }
 

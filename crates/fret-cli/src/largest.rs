@@ -2,7 +2,9 @@
 
 use contact_core::scene::{Body, Scene};
 use contact_subsurface::{Errors, Extreme, Probe, Zone};
+use serde_json::json;
 
+use crate::json::{self, or_why};
 use crate::units::{mega, um};
 use contact_core::digits::short;
 
@@ -52,15 +54,17 @@ impl Largest<'_> {
                 tractions,
                 solution,
             } = error;
-            return serde_json::json!({
+            return json::line(json!({
                 "increment": self.increment, "name": probe.name(), "unit": probe.unit(),
                 "value": value, "error": error.total(),
                 "errors": {
-                    "x": x, "y": y, "z": z, "tractions": tractions, "solution": solution
+                    "x": x, "y": y, "z": z,
+                    "tractions": or_why(json!(tractions), "not computed"),
+                    "solution": or_why(json!(solution), "the run has no error bars"),
                 },
-                "x": m.x, "y": m.y, "z": depth.z, "layer": depth.layer, "at": on,
-            })
-            .to_string();
+                "x": m.x, "y": m.y, "z": depth.z, "layer": depth.layer,
+                "at": or_why(json!(on), "on no border"),
+            }));
         }
         let places: Vec<_> = axes
             .iter()

@@ -83,10 +83,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
             Ok(bars) => {
                 write_error_bars(out, &bars).map_err(ended)?;
                 if manner.json {
-                    print(&format!(
-                        "{:#}",
-                        json::run(&scene, &increments, Some(&bars))
-                    ))?;
+                    print(&json::pretty(json::run(&scene, &increments, Some(&bars))))?;
                 } else if !manner.quiet {
                     print(&summary::error_table(&scene, &increments, &bars))?;
                 }
@@ -95,7 +92,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
             Err(why) => {
                 let doubt = write_no_error_bars(out, &why).map_err(ended)?;
                 if manner.json {
-                    print(&format!("{:#}", json::run(&scene, &increments, None)))?;
+                    print(&json::pretty(json::run(&scene, &increments, None)))?;
                 }
                 say(&format!("fret: warning: {doubt}"));
             }
@@ -139,7 +136,7 @@ impl Manner {
         let later = held && outcome.is_ok();
         if (!self.quiet || self.json) && !increments.is_empty() && !later {
             let text = if self.json {
-                format!("{:#}", json::run(scene, &increments, None))
+                json::pretty(json::run(scene, &increments, None))
             } else {
                 summary::table(scene, &increments, self.wide)
             };

@@ -15,6 +15,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::json;
 
 use crate::failure::Failure;
+use crate::json::pretty;
 use crate::out::Out;
 use crate::printed::print;
 use crate::run::stop_on_interrupt;
@@ -155,7 +156,7 @@ fn to_end(
     let mut printed = Ok(());
     if shown == Shown::Json {
         let all = json!({ "jumps": jumps, "events": run.state().events, "status": status });
-        printed = print(&format!("{all:#}"));
+        printed = print(&pretty(all));
     }
     if shown == Shown::Table {
         printed = print(&table(jumps, &run.scene().grid));

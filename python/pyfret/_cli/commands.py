@@ -18,6 +18,7 @@ from pyfret._cli.parser import Parser, added
 from pyfret._cli.say import say, say_json
 from pyfret._cli.values import FIGURES, ending
 from pyfret._core import __version__
+from pyfret._util.numbers import told as told_of
 from pyfret.citation import cite as told
 from pyfret.citation import sources
 from pyfret.opening import open as open_any
@@ -112,11 +113,12 @@ def study(options: argparse.Namespace) -> int:
             measures=found.measures,
             failed=[{**values, "reason": reason} for values, reason in failed],
             map=options.map,
+            **({} if options.map else {"map_why": "not asked for"}),
         )
     else:
         say(f"{place}: {found!r}")
         for values, reason in failed:
-            say(f"{', '.join(f'{k} = {v}' for k, v in values.items())}: {reason}")
+            say(f"{', '.join(f'{k} = {told_of(v)}' for k, v in values.items())}: {reason}")
     if options.map:
         import matplotlib.pyplot as plt
 

@@ -27,8 +27,8 @@ def say_json(answer: object, *, indent: int | None = None) -> None:
 def written(answer: Any) -> Any:
     """An answer whose numbers JSON has words for.
 
-    A number that is not finite is null, and ``NAME_why`` beside it is the reason. In a list the
-    reasons of all stand in a list. A reason that is given stays.
+    A number that is missing or not finite is null, and ``NAME_why`` beside it is the reason. In a
+    list the reasons of all stand in a list. A reason that is given stays.
     """
     if isinstance(answer, dict):
         reasons = {f"{name}_why": reason(value) for name, value in answer.items()}
@@ -43,8 +43,10 @@ def written(answer: Any) -> Any:
 
 def reason(value: Any) -> Any:
     """Why a number, or one of a list, is none; None where all are numbers."""
+    if value is None:
+        return "not known"
     if isinstance(value, list | tuple):
-        each = [why if isinstance(why := reason(of), str) else None for of in value]
+        each = [reason(of) for of in value]
         return each if any(each) else None
     if not isinstance(value, float) or math.isfinite(value):
         return None

@@ -17,7 +17,7 @@ use serde_json::json;
 pub(crate) use self::options::Options;
 use self::rows::{Judging, Row};
 use crate::failure::Failure;
-use crate::json::written;
+use crate::json;
 use crate::printed::print;
 use crate::stress::{given_residual, stop_on_interrupt};
 use crate::terminal::say;
@@ -115,10 +115,10 @@ fn judged(options: &Options) -> Result<Vec<String>, Error> {
     };
     let own: Vec<Vec<String>> = found.iter().map(of_row).collect();
     let line = |(row, own): (&Row, &Vec<String>)| {
-        let mut json = row.json.clone();
-        json["notes"] = json!(notes.iter().chain(own).collect::<Vec<_>>());
+        let mut of_line = row.json.clone();
+        of_line["notes"] = json!(notes.iter().chain(own).collect::<Vec<_>>());
         if options.json {
-            written(json).to_string()
+            json::line(of_line)
         } else {
             row.line.clone()
         }

@@ -7,15 +7,19 @@ use contact_assess::{
     average, error_of_largest_mean, inclination, largest_mean, range_of_life, worst,
 };
 use contact_core::Error;
-use contact_core::digits::with_range;
+use contact_core::digits::{degrees, with_range};
 use contact_core::scene::Body;
 use contact_subsurface::{Depth, Line, Zone};
 use fatigue::{Assessment, AtPoint, Material, Range};
 use serde_json::{Value, json};
 
 use super::options::Options;
-use crate::json::number;
+use crate::json::{absent, number, or_why};
 use crate::units::{mega, um};
+
+/// Why there is no plane, and no length of a mean.
+const NO_PLANE: &str = "the criterion has no plane";
+const NO_MEAN: &str = "no mean over a distance";
 
 /// The line of a layer.
 #[derive(Clone)]
@@ -225,8 +229,9 @@ impl Layer<'_> {
             self.name(): number(point.best), "at_point": [number(point.low), number(point.high)],
             "value": number(extreme.value), "error": number(error), "error_x": number(extreme.error.x),
             "error_y": number(extreme.error.y), "error_z": number(extreme.error.z),
-            "error_tractions": extreme.error.tractions.map(number), "x": extreme.x, "y": extreme.y,
-            "z": extreme.depth.z, "at": at, "normal": normal, "inclination": angle,
+            "error_tractions": or_why(json!(extreme.error.tractions.map(number)), "not computed"), "x": extreme.x, "y": extreme.y,
+            "z": extreme.depth.z, "at": or_why(json!(at), "on no border"), "normal": or_why(json!(normal), NO_PLANE),
+            "inclination": angle.map_or_else(|| absent(NO_PLANE), number),
             "decides": decides,
         });
         merge(&mut json, own);
@@ -258,7 +263,8 @@ impl Layer<'_> {
             um(extreme.depth.z)
         );
         if let Some(angle) = angle.filter(|angle| angle.is_finite()) {
-            let _ = write!(line, ", plane {angle:.1} degrees from the surface normal");
+            let told = degrees(angle);
+            let _ = write!(line, ", plane {told} from the surface normal");
         }
         if let Some(at) = at {
             let _ = write!(line, ", at the {at}");
@@ -311,7 +317,8 @@ impl Layer<'_> {
             "layer": self.worst.extreme.depth.layer, "criterion": self.of.criterion.name(),
             "unit": self.of.criterion.unit(), "low": number(low), "best": number(best), "high": number(high),
             "of_stress": three(self.range.of.stress), "of_material": self.range.of.material,
-            "of_distance": self.range.of.distance.map(three), "L": self.range.length,
+            "of_distance": or_why(json!(self.range.of.distance.map(three)), NO_MEAN),
+            "L": or_why(json!(self.range.length), NO_MEAN),
         })
     }
 }

@@ -1,0 +1,209 @@
+"""`--json` of every command that has it: JSON in which every null has a reason."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import pyfret as fret
+from conftest import ROOT
+
+FRET = ROOT / "target" / "release" / "fret"
+STEEL = fret.Elastic(E=210e9, nu=0.3)
+
+WEAR = """
+[wear]
+cycles = 200
+first_branch = 2
+jumps = 2
+[wear.body2]
+k = 1e-14
+"""
+STUDY = """
+scene = "scene.toml"
+measure = ["p_max", "energy_ratio"]
+[parameters]
+mu = [0.3, 0.4]
+"""
+COMPARE = """
+scene = "scene.toml"
+questions = ["tension", "energy", "yield"]
+[candidates.bare]
+material = "titanium_6Al4V"
+[candidates.other]
+mu = 0.4
+"""
+RUN = ["run", "scene.toml", "-o", "new.zarr", "--overwrite"]
+STORE = "out.zarr"
+LENGTHS = "1e-5,2e-5,3e-5,4e-5"
+SEARCHED = ["--criterion", "crossland", "--parameter", "path.1.T_x,-path.2.T_x,path.3.T_x"]
+#: Ways of every command that has ``--json``. Those of commands that do not solve come last.
+WAYS: dict[str, list[list[str]]] = {
+    "run": [RUN, [*RUN, "--error"], ["run", "punch.toml", "-o", "punch.zarr"]],
+    "resume": [["resume", "half.zarr"]],
+    "check": [["check", "scene.toml"], ["check", "punch.toml"], ["check", "wrong.toml"]],
+    "wear": [["wear", "wear.toml", "-o", "worn.zarr"]],
+    "life": [
+        ["life", STORE, "--material", "7075", "--criterion", of, *more]
+        for of in ("smith_watson_topper", "crossland")
+        for more in ((), ("--distance", "2e-5"))
+    ],
+    "stress": [
+        ["stress", STORE],
+        ["stress", STORE, "--along-x", "0", "--of", "von_mises,u_z"],
+        ["stress", STORE, "--volume", "--depths", "4"],
+    ],
+    "crack": [
+        ["crack", STORE, "--lengths", LENGTHS],
+        ["crack", STORE, "--lengths", LENGTHS, "--material", "titanium_6Al4V"],
+        *(
+            ["crack", STORE, "--lengths", LENGTHS, "--dK-th", of, "--paris", "1e-11,3"]
+            for of in ("2e4", "1e6", "3e7")
+        ),
+    ],
+    "study": [["study", "study.toml", "--workers", "1"]],
+    "compare": [["compare", "compare.toml", "--workers", "1"]],
+    "fit": [["fit", "loop.csv", "scene.toml", "--unknown", "mu=0.2:1.2"]],
+    "threshold": [
+        ["threshold", "scene.toml", "--material", "7075", "--between", "2e4:5.9e4", *SEARCHED]
+    ],
+    "export": [["export", STORE, "-o", "p.csv"]],
+    "report": [["report", STORE, "-o", "page.html"]],
+    "cite": [["cite"], ["cite", STORE]],
+}
+#: Checks all of the package for minutes; its answer has no number that may be missing.
+LONG = {"verify"}
+
+
+def fret_of(*words: str, folder: Path) -> subprocess.CompletedProcess[str]:
+    more = {"FRET_PYTHON": sys.executable, "MPLBACKEND": "Agg"}
+    return subprocess.run(
+        [FRET, *words], capture_output=True, text=True, cwd=folder, check=False,
+        env={**os.environ, **more},
+    )  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A line contact with a cycle of partial slip, what it is asked of, and a punch."""
+    place = tmp_path_factory.mktemp("json")
+    path = fret.LoadPath.start().normal(1e5, increments=2).cycles(1, T_x=2e4, increments=4)
+    scene = fret.Scene(
+        body1=fret.Body(STEEL, shape=fret.Cylinder(R=0.05)),
+        body2=fret.Body(STEEL),
+        mu=0.6,
+        grid=fret.Grid.strip(extent=8e-4, n=32),
+        path=path,
+    ).replace(save="all")
+    text = scene.to_toml()
+    (place / "scene.toml").write_text(text)
+    (place / "wear.toml").write_text(text + WEAR)
+    (place / "wrong.toml").write_text(text.replace("mu = 0.6", "mu = -1"))
+    punch = scene.replace(
+        body1=fret.Body(STEEL, shape=fret.shapes.FlatPunch(radius=2e-4, edge=1e-4))
+    )
+    (place / "punch.toml").write_text(
+        punch.replace(
+            grid=fret.Grid.centred(extent=8e-4, n=16),
+            mu=0.0,
+            path=fret.LoadPath.start().normal(100.0, increments=2),
+        ).to_toml()
+    )
+    (place / "study.toml").write_text(STUDY)
+    (place / "compare.toml").write_text(COMPARE)
+    result = fret.solve(scene, out=place / STORE, progress=False)
+    shift, force = (result.dataset[name].values for name in ("delta_x", "T_x"))
+    rows = zip(1e6 * shift[2:], force[2:], strict=True)
+    table = "\n".join(f"{x:.9g};{y:.9g}" for x, y in rows)
+    (place / "loop.csv").write_text(f"delta [um];T [N/m]\n{table}\n")
+    begun = fret_of("run", "scene.toml", "-o", "half.zarr", folder=place)
+    assert begun.returncode == 0, begun.stderr
+    return place
+
+
+def refused(name: str) -> None:
+    raise AssertionError(f"{name} is no JSON")
+
+
+def answers(text: str) -> list[Any]:
+    """The JSON objects of an output: one over several lines, or one a line."""
+    decoder, found, at = json.JSONDecoder(parse_constant=refused), [], 0
+    while text[at:].strip():
+        at += len(text[at:]) - len(text[at:].lstrip())
+        value, at = decoder.raw_decode(text, at)
+        found.append(value)
+    return found
+
+
+def without_reason(value: Any, at: str = "") -> list[str]:
+    """Where a null stands without a reason beside it."""
+    if isinstance(value, list):
+        return [w for n, of in enumerate(value) for w in without_reason(of, f"{at}[{n}]")]
+    if not isinstance(value, dict):
+        return []
+    found = []
+    for name, of in value.items():
+        if name.endswith("_why"):
+            continue
+        why, here = value.get(f"{name}_why"), f"{at}.{name}"
+        if not reasons_fit([of], [why]):
+            found.append(here)
+        found += without_reason(of, here)
+    return found
+
+
+def reasons_fit(values: list[Any], reasons: Any) -> bool:
+    """Whether every null of a list, at any depth, has its reason at the same place."""
+    for n, of in enumerate(values):
+        why = reasons[n] if isinstance(reasons, list) and n < len(reasons) else None
+        if of is None and not isinstance(why, str):
+            return False
+        if isinstance(of, list) and not reasons_fit(of, why):
+            return False
+    return True
+
+
+def test_the_search_for_nulls_finds_them() -> None:
+    assert without_reason({"a": None}) == [".a"]
+    assert without_reason({"a": [1.0, None]}) == [".a"]
+    assert without_reason({"a": [[None]], "a_why": [["infinite"]]}) == []
+    assert without_reason({"a": {"b": None, "b_why": "not known"}, "c": 1}) == []
+
+
+def test_every_command_with_json_is_walked_over(folder: Path) -> None:
+    listed = re.findall(r"^  (\w+)  ", fret_of("--help", folder=folder).stdout, re.MULTILINE)
+    assert len(listed) > 10
+    told = {of for of in listed if "--json" in fret_of(of, "--help", folder=folder).stdout}
+    assert told - LONG - {"help"} == set(WAYS)
+
+
+@pytest.mark.solves
+@pytest.mark.parametrize("command", WAYS)
+def test_every_null_has_its_reason(folder: Path, command: str) -> None:
+    for way in WAYS[command]:
+        run = fret_of(*way, "--json", folder=folder)
+        assert run.returncode == (2 if "wrong.toml" in way else 0), (way, run.stderr)
+        found = answers(run.stdout)
+        if command != "resume":
+            assert found, way
+        for answer in found:
+            assert without_reason(answer) == [], way
+
+
+def test_one_function_writes_what_the_compiled_commands_print() -> None:
+    """Nobody else turns JSON into text; Python's commands have a test of their own."""
+    as_text = r"\{:#\}|serde_json::to_string|json!\([^;]*\)\s*\.to_string\(\)"
+    printed = re.compile(as_text, re.DOTALL)
+    writers = {
+        file.name
+        for file in (ROOT / "crates" / "fret-cli" / "src").rglob("*.rs")
+        if printed.search(file.read_text(encoding="utf-8"))
+    }
+    assert writers == {"json.rs"}
