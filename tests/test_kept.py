@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, Any
 
@@ -10,6 +11,7 @@ import pytest
 
 import pyfret as fret
 from conftest import W, sphere_on_flat
+from pyfret import _core
 from pyfret.fit.data import Loops, Measured
 from pyfret.fit.outcome import Found, Known
 
@@ -130,6 +132,55 @@ def test_the_summary_has_the_bulk_stress(every: dict[str, Any]) -> None:
     said = every["Result"].summary()
     assert "sigma_B [MPa]" in said
     assert " -40" in said
+
+
+#: What nobody reads: more digits than are known, a negative zero, a place that is zero to rounding.
+UNREAD = re.compile(
+    r"\d\.\d{7,}|\d{7,}\.\d|(?<![\d.eE+-])-0(\.0*)?(?![\d.])|e-1[0-9] ?[nuµm]?m(?![\w^])"
+)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_numbers_are_those_that_a_person_reads(every: dict[str, Any], kind: str) -> None:
+    one = every[kind]
+    texts = {"summary": one.summary(), "repr": repr(one)}
+    if kind == "Result":
+        life = one.life("7075", "crossland")
+        texts |= {"life": repr(life), "worst": repr(life.worst), "page": life._repr_html_()}
+        texts |= {"largest": repr(one.at(-1).stress().maximum()), "zone": repr(one.at(-1))}
+    if kind == "WearResult":
+        texts["cycles"] = repr(one.cycles_to(depth=0.3 * float(one.depth2[-1])))
+    if kind == "Cracks":
+        texts["verdict"] = repr(one.arrest(fret.fracture.Threshold(dK_th=1e6)))
+    for name, text in texts.items():
+        assert not UNREAD.findall(text), (name, text)
+
+
+def test_the_search_for_numbers_that_nobody_reads() -> None:
+    for text in (
+        "W = 5.0000000000000036 N",
+        "inclination=-0.0 degrees",
+        "2.2e-16 m",
+        "182345.6789",
+    ):
+        assert bool(UNREAD.findall(text)) == (text != "182345.6789"), text
+    for text in ("182345.678901234", "1823456.7"):
+        assert UNREAD.findall(text), text
+    assert not UNREAD.findall("-0.04 to 1e-05 mm, 12.35 um")
+
+
+def test_places_are_zero_where_they_are_zero_to_rounding(every: dict[str, Any]) -> None:
+    """Of a contact about the middle of its grid, whatever looks for the largest value."""
+    run = every["Result"]
+    size = max(run.scene.grid.nx * run.scene.grid.dx, run.scene.grid.ny * run.scene.grid.dy)
+    found = [run.life("7075", name).worst for name in ("crossland", "findley")]
+    found += [run.at(-1).stress().maximum(name) for name in ("von_mises", "s_1", "s_xx")]
+    for at in found:
+        for place in (at.x, at.y):
+            assert place == 0.0 or abs(place) >= 1e-9 * size, at
+    assert _core.rounded_place(-2e-16, 1e-3) == 0.0
+    assert _core.rounded_place(2e-6, 1e-3) == 2e-6
+    assert _core.degrees(-1e-9) == "0 degrees"
 
 
 def test_dir_of_a_result_has_its_numbers(every: dict[str, Any]) -> None:

@@ -119,19 +119,21 @@ pub fn worst<J: Judge>(
     let unsure = beside.map(|beside| (score - beside).abs());
     let beyond = climb.more_far_away(&at, place, score)?;
     let along = unsure.fold(left[0].max(missing).max(beyond), f64::max);
+    let extreme = Extreme {
+        value: score,
+        x: point.0,
+        y: point.1,
+        depth: point.2,
+        at: border.map(|b| b.zone),
+        error: Errors {
+            tractions: change.map(|change| OF_COARSE * change),
+            solution: site.cycle.path_error().map(|error| error * score.abs()),
+            ..Errors::along(judged.line, [along, 0.0, left[1]])
+        },
+    };
+    let (length, width) = site.grid.extent();
     Ok(Some(Worst {
         found,
-        extreme: Extreme {
-            value: score,
-            x: point.0,
-            y: point.1,
-            depth: point.2,
-            at: border.map(|b| b.zone),
-            error: Errors {
-                tractions: change.map(|change| OF_COARSE * change),
-                solution: site.cycle.path_error().map(|error| error * score.abs()),
-                ..Errors::along(judged.line, [along, 0.0, left[1]])
-            },
-        },
+        extreme: extreme.placed(length.max(width)),
     }))
 }

@@ -3,6 +3,8 @@
 use std::fmt::Display;
 use std::sync::Arc;
 
+use crate::digits::short;
+
 /// What a law or a step of another crate raises: its own error, which reaches the caller as it is.
 pub type LawError = Arc<dyn std::error::Error + Send + Sync>;
 
@@ -76,8 +78,9 @@ pub enum Error {
     },
     /// The contact reaches the border of the grid.
     #[error(
-        "the contact touches the border of the grid at increment {increment} (W = {W} {unit}). \
-         The grid is {extent_x:.4e} m by {extent_y:.4e} m and should be about {needed:.4e} m wide"
+        "the contact touches the border of the grid at increment {increment} (W = {} {unit}). \
+         The grid is {extent_x:.4e} m by {extent_y:.4e} m and should be about {needed:.4e} m wide",
+        short(*W)
     )]
     OffGrid {
         /// Increment, from 1.
@@ -110,8 +113,9 @@ pub enum Error {
     },
     /// The contact is certain to leave the grid, before anything is solved.
     #[error(
-        "the contact does not fit on the grid: under W = {W} {unit} its radius is {a:.4e} m at least. The grid \
-         is {extent_x:.4e} m by {extent_y:.4e} m and should be about {needed:.4e} m wide{doubt}"
+        "the contact does not fit on the grid: under W = {} {unit} its radius is {a:.4e} m at least. The grid \
+         is {extent_x:.4e} m by {extent_y:.4e} m and should be about {needed:.4e} m wide{doubt}",
+        short(*W)
     )]
     GridTooSmall {
         /// Largest normal force \[N\], and its unit, in line contacts N/m.

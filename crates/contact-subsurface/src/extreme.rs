@@ -1,5 +1,7 @@
 //! The largest value of a number below a contact, its place and its error.
 
+use contact_core::digits::place;
+
 use super::{Depth, Line, Zone};
 
 /// The largest value of a number below a contact and where it is: a value at a point.
@@ -78,6 +80,13 @@ impl Extreme {
     #[must_use]
     pub fn with_error_bars(mut self, stress: f64) -> Self {
         self.error.solution = Some(stress * self.value.abs());
+        self
+    }
+
+    /// With a place on a grid of this size \[m\] that is zero where it is zero to rounding.
+    #[must_use]
+    pub fn placed(mut self, size: f64) -> Self {
+        (self.x, self.y) = (place(self.x, size), place(self.y, size));
         self
     }
 

@@ -72,7 +72,8 @@ impl Largest {
             error: Errors::default(),
         });
         let between = between_samples(&tops, &depths, of_interfaces, self.line);
-        Extreme::largest(on_border.into_iter().chain(between))
+        let largest = Extreme::largest(on_border.into_iter().chain(between));
+        largest.map(|largest| largest.placed(span(&self.along)))
     }
 }
 
@@ -87,7 +88,16 @@ pub fn largest_of_samples(
 ) -> Option<Extreme> {
     let lines = values.rows().into_iter();
     let tops: Vec<_> = lines.map(|line| top_of_line(&line, along)).collect();
-    between_samples(&tops, depths, false, line)
+    let largest = between_samples(&tops, depths, false, line);
+    largest.map(|largest| largest.placed(span(along)))
+}
+
+/// From the first place of a line to the last \[m\].
+fn span(along: &[f64]) -> f64 {
+    along
+        .last()
+        .zip(along.first())
+        .map_or(0.0, |(last, first)| last - first)
 }
 
 fn between_samples(

@@ -329,7 +329,7 @@ impl Search {
         } else {
             1.0
         };
-        Ok(Some(Extreme {
+        let extreme = Extreme {
             value,
             x: at.0,
             y: at.1,
@@ -342,7 +342,9 @@ impl Search {
                     [left[0].max(unsure), left[1], left[2]],
                 )
             },
-        }))
+        };
+        let (length, width) = self.grid.extent();
+        Ok(Some(extreme.placed(length.max(width))))
     }
 
     /// The borders beside which the samples are largest.

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pyfret._core import range_of_life, with_range
+from pyfret._core import degrees, range_of_life, with_range
 from pyfret._util.door import numbers_only
 from pyfret._util.kept import Kept
 from pyfret._util.labelled import Labelled
@@ -401,7 +401,7 @@ class Life(Kept, Labelled):
         name = margin_name(self._assessments)[0].replace("_", " ")
         plane = ""
         if w.inclination is not None and np.isfinite(w.inclination):
-            plane = f", plane {w.inclination:.1f} degrees from the surface normal"
+            plane = f", plane {degrees(w.inclination)} from the surface normal"
         coatings, L = len(self.dataset.attrs["interfaces"]), self.range.L
         over = "value at a point" if L is None else f"mean over L = {length(L)}".replace("µ", "u")
         return (

@@ -8,7 +8,7 @@ import numpy as np
 
 from pyfret._core import RATCHETS, SHAKEN
 from pyfret._util.door import numbers_only
-from pyfret._util.numbers import in_words
+from pyfret._util.numbers import in_words, um
 from pyfret.subsurface.plastic import plastic_points
 
 if TYPE_CHECKING:
@@ -76,8 +76,8 @@ class Verdict(NamedTuple):
             return f"{self.kind}: {work}"
         at = ""
         if self.where is not None:
-            x, y, z = (f"{1e6 * v:.3g}" for v in (self.where.x, self.where.y, self.where.z))
-            at = f" at x = {x}, y = {y}, z = {z} um of body {self.where.body_number}"
+            x, y, z = (um(of) for of in (self.where.x, self.where.y, self.where.z))
+            at = f" at x = {x}, y = {y}, z = {z} of body {self.where.body_number}"
         return (
             f"{self.kind}: {work}, strain {in_words(100 * self.strain, 3)} % per cycle, "
             f"net {in_words(100 * self.net_strain, 3)} %{at}"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from pyfret._core import with_error, with_range
+from pyfret._core import degrees, with_error, with_range
 from pyfret._util.numbers import place
 from pyfret.subsurface.tensor import Errors
 
@@ -56,7 +56,7 @@ class Worst(NamedTuple):
         margin = with_range(self.margin, *self.whole)
         value = in_megapascals(self.value, self.error, self.units)
         at = f", at={self.at!r}" if self.at else ""
-        angle = "" if self.inclination is None else f", inclination={self.inclination:.1f} degrees"
+        angle = "" if self.inclination is None else f", inclination={degrees(self.inclination)}"
         told = (
             f"life {margin} cycles" if self.margin_units == "cycles" else f"safety factor {margin}"
         )

@@ -12,6 +12,7 @@ from pyfret._util.arrays import number, plain
 from pyfret._util.bounds import SIDES
 from pyfret._util.door import numbers_only
 from pyfret._util.lazy import xr
+from pyfret._util.numbers import in_words, told
 from pyfret.study.loop import solve
 
 if TYPE_CHECKING:
@@ -155,7 +156,9 @@ def running_conditions(
     )
     for point, reason in found.failed():
         if not reason.startswith(Slides.__name__):
-            raise RuntimeError(f"W = {point['W']}, {driven} = {point[AMPLITUDE]}: {reason}")
+            raise RuntimeError(
+                f"W = {told(point['W'])}, {driven} = {told(point[AMPLITUDE])}: {reason}"
+            )
     table = labelled(found.dataset, scene, driven)
     if (limit := sliding_limit(scene, normal, driven, increments, executor)) is not None:
         unit = table[driven].attrs["units"]
@@ -302,7 +305,9 @@ def refuse_sliding(scene: Scene, T: float, W: float) -> None:
     # What a law of one's own bears the run tells.
     if scene.friction.law is None and scene.mu * W * (1 - 1e-9) < T:
         unit = scene.grid.unit_of("N")
-        raise Slides(f"T = {T} {unit} is more than mu W = {scene.mu * W} {unit}")
+        raise Slides(
+            f"T = {in_words(T, 7)} {unit} is more than mu W = {in_words(scene.mu * W, 7)} {unit}"
+        )
 
 
 @dataclass(frozen=True)

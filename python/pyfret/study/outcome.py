@@ -14,6 +14,7 @@ from pyfret._util.door import numbers_only
 from pyfret._util.kept import Kept
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
+from pyfret._util.numbers import told
 from pyfret._util.per_metre import PER_METRE, of_line_contacts
 from pyfret._util.text import html, shown
 from pyfret.scene.tables import table
@@ -168,7 +169,7 @@ class Study(Kept, Labelled):
             "  ".join(c.ljust(w) for c, w in zip(r, widths, strict=True)).rstrip() for r in rows
         ]
         for values, why in self.failed():
-            at = ", ".join(f"{name} = {value}" for name, value in values.items())
+            at = ", ".join(f"{name} = {told(value)}" for name, value in values.items())
             lines.append(f"failed at {at}: {' '.join(why.split())}")
         return shown("\n".join(lines))
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pyfret import _core
+from pyfret._util.numbers import in_words
 from pyfret.fatigue.ranges import Range
 
 if TYPE_CHECKING:
@@ -24,7 +25,8 @@ def ended(cycles: float) -> str:
 class Cycles(float):
     """A number of cycles; NaN where the run ended before, and infinite without any wear.
 
-    Printed, a number that the run did not reach is a lower bound: the last cycle of the run.
+    Printed it has four digits. A number that the run did not reach is a lower bound there: the last
+    cycle of the run.
     """
 
     #: The last cycle of the run, where the run ended before; None of a number that is known.
@@ -49,7 +51,7 @@ class Cycles(float):
         """The number, or the bound in words."""
         if self.beyond is not None:
             return ended(self.beyond)
-        return "endless: nothing wears" if math.isinf(self) else super().__repr__()
+        return "endless: nothing wears" if math.isinf(self) else in_words(float(self))
 
     __str__ = __repr__
 

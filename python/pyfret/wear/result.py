@@ -13,7 +13,7 @@ from pyfret._core import Scene, with_error
 from pyfret._util.door import numbers_only
 from pyfret._util.kept import Kept
 from pyfret._util.labelled import Labelled
-from pyfret._util.numbers import length
+from pyfret._util.numbers import length, um
 from pyfret._util.text import shown
 from pyfret._util.types import as_number
 from pyfret.run.loops import NO_FRICTION, frictionless, of_corners
@@ -260,8 +260,7 @@ class WearResult(Kept, Labelled):
             cycles = with_error(event["cycles"], event.get("cycles_error"))
             lines.append(
                 f"{event['kind']} after {cycles} cycles: body {event['body']}, coating "
-                f"{event['coating'] + 1}, at x = {1e6 * event['x']:.1f} um, "
-                f"y = {1e6 * event['y']:.1f} um"
+                f"{event['coating'] + 1}, at x = {um(event['x'])}, y = {um(event['y'])}"
             )
         says = self.table
         for body in (1, 2):
