@@ -3,7 +3,7 @@ from os import PathLike
 from typing import Any, Final, Literal, final
 
 import numpy as np
-from _typeshed import Incomplete, SupportsGetItem
+from _typeshed import Incomplete
 from numpy import bool_, float64
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import Self
@@ -2043,7 +2043,7 @@ class Material:
         """
     def doubts(self, /) -> list[str]:
         """Numbers that look like those of another unit, in words."""
-    def estimate_of(self, /, names: SupportsGetItem[int, str]) -> str | None:
+    def estimate_of(self, /, names: Sequence[str]) -> str | None:
         """Which numbers are estimates or from memory, in words; None where each has a source."""
     def estimated(self, /, family: str) -> Material:
         """The material with the missing numbers that published rules can estimate."""

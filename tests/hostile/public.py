@@ -195,6 +195,7 @@ OF: dict[str, dict[str, Any]] = {
     "plot.crack_path": {"cracks": CRACKS, "ax": None},
     "fatigue.Assessment": {"criterion": FINDLEY, "limit": 1e8},
     "fatigue.Material.number": {"name": "E"},
+    "fatigue.Material.estimate_of": {"names": ["dK_th"]},
     "fatigue.Material.assessment": {"criterion": "smith_watson_topper"},
     "fatigue.Materials.get": {"key": "7075", "default": None},
     "fatigue.Life.margin_of": {"layer": 0},

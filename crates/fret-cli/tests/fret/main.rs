@@ -76,11 +76,11 @@ fn error_bars_stand_in_the_summary_and_in_the_store() {
     // Nothing moves along the plane in the indentation: two numbers are 0, exactly.
     assert_eq!(bars, 4 * 8 - 2, "{told}");
     assert_eq!(told.matches(" path ").count(), 4, "{told}");
-    // Energy and energy ratio of the cycle, below the table.
+    // Energy, energy ratio and sliding ratio of the cycle, below the table.
     let cycle = told.lines().rfind(|line| line.starts_with("cycle"));
     assert_eq!(
         cycle.map(|line| line.matches("+- ").count()),
-        Some(2),
+        Some(3),
         "{told}"
     );
     Store::open(&out).unwrap();

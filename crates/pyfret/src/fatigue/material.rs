@@ -66,8 +66,9 @@ impl Material {
     }
 
     /// Which numbers are estimates or from memory, in words; None where each has a source.
-    fn estimate_of(&self, names: Vec<String>) -> Option<String> {
-        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    #[pyo3(signature = (names: "Sequence[str]"))]
+    fn estimate_of(&self, names: List<String>) -> Option<String> {
+        let names: Vec<&str> = names.0.iter().map(String::as_str).collect();
         self.0.estimate_of(&names)
     }
 
