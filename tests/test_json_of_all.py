@@ -197,6 +197,19 @@ def test_every_null_has_its_reason(folder: Path, command: str) -> None:
             assert without_reason(answer) == [], way
 
 
+@pytest.mark.solves
+@pytest.mark.parametrize("material", ["steel_42CrMo4", "titanium_6Al4V"])
+def test_a_threshold_that_rests_on_an_estimate_says_so(folder: Path, material: str) -> None:
+    marked = material == "titanium_6Al4V"
+    way = [of if of != "7075" else material for of in WAYS["threshold"][0]]
+    way += ["--distance", "2e-5", "--value", "3"]
+    run = fret_of(*way, folder=folder)
+    assert run.returncode == 0, run.stderr
+    assert ("estimate" in run.stdout) == marked
+    (row,) = answers(fret_of(*way, "--json", folder=folder).stdout)
+    assert ("estimate" in row) == marked
+
+
 def test_one_function_writes_what_the_compiled_commands_print() -> None:
     """Nobody else turns JSON into text; Python's commands have a test of their own."""
     as_text = r"\{:#\}|serde_json::to_string|json!\([^;]*\)\s*\.to_string\(\)"

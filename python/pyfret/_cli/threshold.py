@@ -8,6 +8,7 @@ from pyfret import fatigue
 from pyfret._cli.parser import added
 from pyfret._cli.say import say, say_json
 from pyfret._cli.values import Value, number, pair, setting, takes
+from pyfret._util.numbers import told
 from pyfret.study.design import varied
 from pyfret.study.thresholds import Averaged, ThresholdLoad, threshold
 
@@ -105,10 +106,11 @@ def run(options: argparse.Namespace) -> int:
             }
             for n in range(found.sizes[name])
         ]
+    note = measure.estimate
     for row in rows:
-        text = ", ".join(f"{k} = {v:.6g}" for k, v in row.items())
         if options.json:
-            say_json(row)
+            say_json(row | ({"estimate": note} if note else {}))
         else:
-            say(text)
+            text = ", ".join(f"{name} = {told(value)}" for name, value in row.items())
+            say(f"{text}; estimate: {note}" if note else text)
     return 0

@@ -82,6 +82,14 @@ class Averaged:
         margin = found.life if "life" in found else found.safety_factor
         return float(margin.min())
 
+    @property
+    def estimate(self) -> str | None:
+        """Which numbers of the material that it uses are estimates, in words."""
+        notes = self.material.assessment(self.criterion).range_at(1.0, 0.0, self.material)[3]
+        if self.L is None:
+            notes.append(self.material.estimate_of(["dK_th", "s_D"]) or "")
+        return "; ".join(filter(None, notes)) or None
+
     def range_of(self, result: Any) -> LifeRange:
         """The range of the margin of a result, 10 to 90 %: stress, material and distance."""
         judged = life(result, self.material, self.criterion, body_number=self.body_number)
@@ -105,6 +113,8 @@ class ThresholdLoad:
     low, high : float
         The range of 10 to 90 % of the specimens, by the range of the margin at the threshold (of
         :class:`Averaged`); NaN where the measure has no range or ``error=False``.
+    estimate : str or None
+        Which numbers of the material of an :class:`Averaged` are estimates, in words.
     """
 
     value: float
@@ -113,6 +123,7 @@ class ThresholdLoad:
     path: tuple[tuple[float, float], ...] = field(repr=False)
     low: float = math.nan
     high: float = math.nan
+    estimate: str | None = None
 
     def __float__(self) -> float:
         """The threshold."""
@@ -192,8 +203,14 @@ def threshold(
     return xr.Dataset(
         {name: (names, values) for name, values in fields.items()},
         coords={name: np.asarray(over[name], dtype=float) for name in names},
-        attrs={"parameter": parameter, "value": value},
+        attrs={"parameter": parameter, "value": value, **estimated(measure)},
     )
+
+
+def estimated(measure: Callable[[Any], float]) -> dict[str, str]:
+    """What of a measure rests on estimates, as an attribute."""
+    note = measure.estimate if isinstance(measure, Averaged) else None
+    return {"estimate": note} if note else {}
 
 
 def one(
@@ -258,7 +275,8 @@ def one(
             spread = scattered(measure.range_of(quiet(there, like=first)), math.exp(root), slope)
             solves += 1
     path = tuple((load, value * math.exp(m)) for load, m in tried.items())
-    return ThresholdLoad(math.exp(root), bracket + of_grid, solves, path, *spread)
+    note = estimated(measure).get("estimate")
+    return ThresholdLoad(math.exp(root), bracket + of_grid, solves, path, *spread, note)
 
 
 def scattered(margin: LifeRange, load: float, slope: float) -> tuple[float, float]:
