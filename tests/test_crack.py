@@ -588,6 +588,16 @@ def test_command_figure_page_and_json_have_one_verdict(
     )
 
 
+@pytest.mark.solves
+def test_a_note_on_estimates_stands_once_in_a_line(
+    pulled: fret.Result, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pulled.save(tmp_path / "rig.nc")
+    told = ["crack", str(tmp_path / "rig.nc"), "--lengths", "1e-5,3e-5,1e-4,3e-4"]
+    assert commands.main([*told, "--material", "titanium_6Al4V", "--paris", "1e-11,3"]) == 0
+    assert capsys.readouterr().out.splitlines()[-1].count("estimate: ") == 1
+
+
 def test_an_angle_in_degrees_is_refused_in_radians(pulled: fret.Result) -> None:
     with pytest.raises(
         fret.errors.InvalidSceneError, match=r"angle of the crack = 20: must be in radians"

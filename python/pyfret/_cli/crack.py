@@ -222,8 +222,10 @@ def _line(row: dict[str, object]) -> str:
     """A row for people."""
     number = {name: value for name, value in row.items() if isinstance(value, float)}
     if "verdict" in row:
-        text = f"crack from x = {um(number['x'])} {row['told']}"
-        return text + (f"; {row['cycles_told']}" if "cycles_told" in row else "")
+        parts = [str(row[name]) for name in ("told", "cycles_told") if name in row]
+        # A note on estimates that both have stands once.
+        notes = dict.fromkeys(note for part in parts for note in part.split("; "))
+        return f"crack from x = {um(number['x'])} {'; '.join(notes)}"
     line = f"l = {um(number['length'])}: K_I {in_words(number['K_min'] / 1e6)} to "
     line += f"{in_words(number['K_max'] / 1e6)} MPa m^0.5 (+- {number['error'] / 1e6:.2g}), "
     line += f"dK {in_words(number['dK'] / 1e6)}"
