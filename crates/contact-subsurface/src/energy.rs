@@ -97,7 +97,7 @@ impl Cycle {
         let energy: f64 = of_cycle.clone().map(|of| of[0]).sum();
         let of_energy = ratio(energy, self.dissipated);
         let [of_T, of_delta] = [ratio(largest(1), self.T), ratio(largest(2), self.delta)];
-        let of_cells = self.sliding_ratio() * (of_energy + of_delta);
+        let of_cells = ratio(self.opening, self.delta) * (of_energy + of_delta);
         CycleErrors {
             dissipated: energy,
             energy_ratio: self.energy_ratio() * (of_energy + of_T + of_delta),
