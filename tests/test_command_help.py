@@ -52,6 +52,7 @@ def test_help_says_what_a_command_does_how_and_with_what(
     options = said[said.index("Options:") :].splitlines()
     assert options[-1].split(maxsplit=2)[:2] == ["-h,", "--help"]
     assert "  -q, --quiet" in said
+    assert "%%" not in said
     assert max(len(line) for line in said.splitlines() if not line.startswith("Usage")) <= 100
     # No option without a meaning.
     names = [line for line in options[1:] if line.lstrip().startswith("-")]

@@ -93,8 +93,8 @@ def added(
 
 
 def sentence(text: str) -> str:
-    """A text with a capital at its beginning."""
-    return text[:1].upper() + text[1:]
+    """A help text with a capital at its beginning; argparse writes a per cent sign twice."""
+    return (text[:1].upper() + text[1:]).replace("%%", "%")
 
 
 def value(action: argparse.Action) -> str:
