@@ -5,11 +5,15 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
+import matplotlib.pyplot as plt
 import pytest
 from PIL import Image
 
+import pyfret as fret
 from conftest import ROOT
 from pyfret import plot
+from pyfret._util.figures import figures_of, first_types
+from pyfret.subsurface.tensor import Stress
 
 sys.path.insert(0, str(ROOT / "tools"))
 import plot_page
@@ -25,6 +29,39 @@ def test_every_figure_has_its_entry() -> None:
 def test_the_page_is_that_of_the_docstrings() -> None:
     written = (plot_page.DOCS / "reference" / "figures.md").read_text(encoding="utf-8")
     assert written == plot_page.page(), "python tools/plot_page.py"
+
+
+def test_a_figure_gives_its_axes_or_the_whole_figure() -> None:
+    """All figures: what comes back has `.figure`, of which matplotlib's `savefig` is."""
+    for name in NAMES:
+        assert getattr(plot, name).__annotations__["return"] in ("Axes", "Figure"), name
+    drawn = plt.figure()
+    assert drawn.figure is drawn
+    assert drawn.add_subplot().figure is drawn
+    plt.close(drawn)
+
+
+#: What figures are drawn of that is no result: they are functions alone.
+PLAIN = {"xr.Dataset", "xr.DataArray", "ArrayLike", "Mapping[float, Run]"}
+#: All results that have figures.
+RESULTS = (
+    *(fret.Result, fret.Snapshot, Stress, fret.fatigue.Life, fret.fatigue.LoadFactors),
+    *(fret.fatigue.OverDistance, fret.fracture.Cracks, fret.wear.WearResult, fret.study.Study),
+    fret.study.Comparison,
+)
+
+
+def test_a_figure_of_a_result_is_a_method_of_it() -> None:
+    """All figures, by the type of their first argument."""
+    methods = {name for of in RESULTS for name in figures_of(of)}
+    for name in NAMES:
+        alone = first_types(getattr(plot, name)) <= PLAIN
+        assert alone != (name in methods), name
+    assert {"wear_history", "wear_profiles", "wear_loops", "depth_map"} == set(
+        figures_of(fret.wear.WearResult)
+    )
+    assert "life_over_distance" in figures_of(fret.fatigue.OverDistance)
+    assert "criterion_map" not in figures_of(fret.fatigue.OverDistance)
 
 
 @pytest.mark.parametrize("name", NAMES)

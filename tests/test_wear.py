@@ -107,6 +107,8 @@ def test_figures_are_drawn() -> None:
     axes = fret.plot.wear_profiles(result)
     assert axes.get_ylabel() == "worn depth [µm]"
     assert len(axes.lines) > 2
+    assert result.plot.wear_history().get_xlabel() == "cycles"
+    assert result.plot.depth_map(of="body2").figure is not None
     assert fret.plot.wear_history(result).get_xlabel() == "cycles"
     assert len(fret.plot.wear_loops(result).lines) == 2
 

@@ -275,10 +275,13 @@ def page() -> str:
         "# All figures",
         "",
         "Every figure takes `ax=`, to be drawn over others or into a figure of yours. Figures over",
-        "a_H and p_H take `units=`. Each is also a method of its result, such as",
-        "`result.plot.fretting_loop()`. Parameters are in the [reference](plot.md). Each picture",
-        "stands below its code. `result` is the run of a coated ball, `rig` that of a cylinder on",
-        "titanium with a bulk stress. Written by `tools/plot_page.py`.",
+        "a_H and p_H take `units=`. A figure of a result is also a method of it:",
+        "`result.plot.fretting_loop()`, `worn.plot.wear_history()`. Figures of plain arrays,",
+        "datasets and tables are functions alone. A figure of one panel returns its axes, one of",
+        'several panels the figure: `.figure.savefig("name.png")` writes either. Parameters are in',
+        "the [reference](plot.md). Each picture stands below its code. `result` is the run of a",
+        "coated ball, `rig` that of a cylinder on titanium with a bulk stress. Written by",
+        "`tools/plot_page.py`.",
     ]
     for title, figures in FIGURES.items():
         lines += ["", f"## {title}"]

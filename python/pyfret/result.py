@@ -18,7 +18,7 @@ from pyfret.report.page import report
 from pyfret.run import Run
 from pyfret.run.summary import summary
 from pyfret.run.tables import run_html
-from pyfret.snapshot import Figures, Snapshot
+from pyfret.snapshot import Shows, Snapshot
 from pyfret.subsurface import fields
 from pyfret.subsurface.moments import lines_of
 from pyfret.subsurface.unloaded import Unloaded
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 __all__ = ["Result", "open"]
 
 
-class Result(Run):
+class Result(Run, Shows):
     """The result of a run.
 
     Its ``dataset`` has scalars over ``increment`` and fields over (``saved``, ``x``, ``y``) for the
@@ -54,11 +54,6 @@ class Result(Run):
     summary = summary
     report = report
     _repr_html_ = run_html
-
-    @property
-    def plot(self) -> Figures:
-        """The figures that show a run: ``result.plot()``, ``result.plot.fretting_loop()``."""
-        return Figures(self)
 
     @functools.partial(numbers_only, but=("which",))
     def at(self, which: float) -> Snapshot:

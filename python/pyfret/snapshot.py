@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from functools import partial
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 from pyfret._util.door import numbers_only
-from pyfret._util.guesses import no_attribute
+from pyfret._util.figures import Figured, Figures
 from pyfret._util.types import as_number
 from pyfret.export.write import write as export
-from pyfret.run import Run, State
+from pyfret.run import State
 from pyfret.run.tables import state_html
 from pyfret.subsurface import contact
 from pyfret.subsurface.line import fields_on
@@ -19,7 +18,7 @@ from pyfret.subsurface.zones import Zone, zone
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Callable, Sequence
+    from collections.abc import Sequence
 
     import xarray as xr
     from matplotlib.figure import Figure
@@ -29,62 +28,35 @@ if TYPE_CHECKING:
     from pyfret.export.frame import Frame
     from pyfret.subsurface.tensor import Stress
 
-__all__ = ["Figures", "Snapshot"]
+__all__ = ["Overview", "Shows", "Snapshot"]
 
 
-class Figures:
-    """The figures of :mod:`pyfret.plot` of one thing, such as ``result.plot.fretting_loop()``.
-
-    Called itself, six of them in one: ``result.plot()``.
-    """
-
-    def __init__(self, shown: Run | State) -> None:
-        self._shown = shown
+class Overview(Figures):
+    """The figures of a run or of an increment; called itself, six of them in one."""
 
     def __call__(self, *, units: Literal["auto", "dimensionless", "SI"] = "auto") -> Figure:
         """Draw six panels in one figure: :func:`pyfret.plot.overview`."""
-        from pyfret import plot
-
-        return plot.overview(self._shown, units=units)
-
-    def __getattr__(self, name: str) -> Callable[..., Any]:
-        """Give the figure of that name, drawn of the thing."""
-        if name.startswith("_"):
-            raise AttributeError(name)
-        from pyfret import plot
-
-        if name not in plot.__all__:
-            raise no_attribute("plot", name, dir(self), {})
-        return partial(getattr(plot, name), self._shown)
-
-    def __dir__(self) -> list[str]:
-        """The figures of such a thing."""
-        from pyfret import plot
-
-        kind = "Run" if isinstance(self._shown, Run) else "State"
-        return [name for name in plot.__all__ if kind in first_annotation(getattr(plot, name))]
-
-    def __repr__(self) -> str:
-        """Give the names of the figures."""
-        return f"figures of {self._shown!r}: {', '.join(dir(self))}"
+        figure: Figure = super().__call__(units=units)
+        return figure
 
 
-def first_annotation(function: Callable[..., Any]) -> str:
-    """The type of the first argument of a function, as it is written."""
-    return str(next(iter(getattr(function, "__annotations__", {}).values()), ""))
+class Shows(Figured):
+    """What is shown by six panels in one figure."""
+
+    figure = "overview"
+
+    @property
+    def plot(self) -> Overview:
+        """Its figures: ``result.plot()``, ``result.plot.fretting_loop()``, ``.stick_slip()``."""
+        return Overview(self)
 
 
-class Snapshot(State):
+class Snapshot(State, Shows):
     """The contact at the end of one increment: its scalars and its fields.
 
     Every variable of :attr:`dataset` is an attribute as well, e.g. ``snapshot.p``; :attr:`plot` has
     the figures that show it.
     """
-
-    @property
-    def plot(self) -> Figures:
-        """The figures that show an increment: ``snapshot.plot()``, ``.plot.stick_slip()``."""
-        return Figures(self)
 
     def _repr_html_(self) -> str:
         """Tables for notebooks."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import base64
 import io
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
@@ -15,9 +14,9 @@ from pyfret._util.text import html
 
 if TYPE_CHECKING:
     import os
+    from collections.abc import Callable
 
     import xarray as xr
-    from matplotlib.axes import Axes
 
     class Shown(Protocol):
         """What can be kept: it has a dataset, says what it found and draws it."""
@@ -29,7 +28,8 @@ if TYPE_CHECKING:
         def summary(self) -> str:
             """Say what was found."""
 
-        def plot(self, **options: Any) -> Any:
+        @property
+        def plot(self) -> Callable[..., Any]:
             """Draw what was found."""
 
         def _as_saved(self) -> xr.Dataset: ...
@@ -53,20 +53,10 @@ src="data:image/svg+xml;base64,{figure}"></p>
 
 
 class Kept:
-    """What was computed, with a dataset, a summary and a figure.
+    """What was computed, with a dataset, a summary and a figure."""
 
-    Its class names the figure of :mod:`pyfret.plot`. The figure is found when it is drawn, by the
-    public face of the package. So figures depend on results, and results do not depend on figures.
-    """
-
-    figure: ClassVar[str]
     #: Axes of the table of :meth:`to_csv` (default: those of the first variable).
     table_axes: ClassVar[tuple[str, ...] | None] = None
-
-    def plot(self, *, ax: Axes | None = None, **options: Any) -> Any:
-        """Draw it, by a figure of :mod:`pyfret.plot`; `options` are those of that figure."""
-        draw = getattr(sys.modules[__name__.partition(".")[0]].plot, type(self).figure)
-        return draw(self, ax=ax, **options)
 
     def _as_saved(self: Shown) -> xr.Dataset:
         """What a file holds: the dataset."""

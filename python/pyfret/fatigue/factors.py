@@ -19,6 +19,7 @@ import numpy as np
 
 from pyfret._core import Material, with_error
 from pyfret._util.door import numbers_only
+from pyfret._util.figures import Figured
 from pyfret._util.labelled import Labelled
 from pyfret._util.numbers import place
 from pyfret._util.types import Quantity
@@ -74,13 +75,15 @@ class Least(NamedTuple):
         return f"Least({with_error(self.factor, self.error)}, {place(self)})"
 
 
-class LoadFactors(Labelled):
+class LoadFactors(Labelled, Figured):
     """Load factors of first yield and shakedown on a section below the contact, or on several.
 
     :attr:`dataset` has ``von_mises``, ``tresca`` and ``shakedown`` over (depth, x) or (depth, y),
     for several sections over (depth, x, y) or (depth, y, x); NaN in layers that are not judged,
     infinite without stress.
     """
+
+    figure = "load_factor_map"
 
     def __init__(
         self, dataset: xr.Dataset, layers: Sequence[int], sections: Sequence[YieldBelow]

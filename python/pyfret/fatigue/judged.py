@@ -10,6 +10,7 @@ import numpy as np
 
 from pyfret._core import degrees, range_of_life, with_range
 from pyfret._util.door import numbers_only
+from pyfret._util.figures import Figured
 from pyfret._util.kept import Kept
 from pyfret._util.labelled import Labelled
 from pyfret._util.numbers import layer_name, length, place
@@ -45,7 +46,7 @@ RIM = (
 )
 
 
-class Life(Kept, Labelled):
+class Life(Kept, Labelled, Figured):
     """A criterion on a section below the contact, or on several.
 
     :attr:`dataset` has ``value``, ``missed`` (no plane has more than value + missed), the shear and

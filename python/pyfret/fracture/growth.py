@@ -12,6 +12,7 @@ from pyfret import _core
 from pyfret._util.arrays import plain, together
 from pyfret._util.called import as_material
 from pyfret._util.door import numbers_only, valued
+from pyfret._util.figures import Figured
 from pyfret._util.kept import Kept
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
@@ -148,7 +149,7 @@ class Paris:
         return cls(of.number("paris_C"), of.number("paris_m"), estimate=estimate)
 
 
-class Cracks(Kept, Labelled):
+class Cracks(Kept, Labelled, Figured):
     """K of a cycle over the length of a crack, and what follows.
 
     ``dataset`` has ``K_I`` and ``K_II`` over (increment, length) and their ``error`` [Pa m^0.5].

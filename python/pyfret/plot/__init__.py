@@ -1,8 +1,10 @@
 """Figures of fretting contacts.
 
 Every function draws on the axes given as ``ax`` (by default a new figure) and returns them, so that
-results can be laid over each other and figures composed. :func:`paper_figures` makes the figures
-of the paper from its four runs in one call.
+results can be laid over each other and figures composed. A figure of several panels returns the
+whole figure. ``.figure.savefig("name.png")`` writes either. A figure of a result is also a method
+of it: ``result.plot.fretting_loop()``. :func:`paper_figures` makes the figures of the paper from
+its four runs in one call.
 """
 
 from pyfret._util.names import listing

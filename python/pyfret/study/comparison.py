@@ -13,6 +13,7 @@ import numpy as np
 from pyfret._core import LONGEST_LIFE, with_error
 from pyfret._util import files
 from pyfret._util.csv_table import write_csv
+from pyfret._util.figures import Figured
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
 from pyfret._util.numbers import in_words, length
@@ -23,8 +24,6 @@ from pyfret.study.questions import NUMBERS, Number
 
 if TYPE_CHECKING:
     import os
-
-    from matplotlib.figure import Figure
 
     from pyfret.plot.comparison import Panel
     from pyfret.study.outcome import Study
@@ -53,7 +52,7 @@ class Preference(NamedTuple):
         return f"best: {', '.join(self.best)}{alike}"
 
 
-class Comparison(Labelled):
+class Comparison(Labelled, Figured):
     """Candidates side by side.
 
     Attributes
@@ -69,6 +68,8 @@ class Comparison(Labelled):
     study : Study
         The points that it was made of, on two grids.
     """
+
+    figure = "comparison"
 
     def __init__(
         self,
@@ -240,15 +241,17 @@ class Comparison(Labelled):
             )
         return found
 
-    def plot(self) -> Figure:
-        """Draw a panel for every number: :func:`pyfret.plot.comparison`."""
-        from pyfret.plot import comparison
+    def save(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
+        """Write the numbers to a Zarr folder (``.zarr``) or a NetCDF file (``.nc``).
 
-        return comparison(self)
-
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the numbers to a Zarr folder (``.zarr``) or a NetCDF file (``.nc``)."""
-        files.write(self.dataset, path)
+        Parameters
+        ----------
+        path : path
+            Where to write; its ending says in which format.
+        overwrite : bool
+            Whether what pyfret saved there is replaced (default: the place must be free).
+        """
+        files.write(self.dataset, path, overwrite=overwrite)
 
     def to_csv(self, path: str | os.PathLike[str]) -> None:
         """Write the numbers as a table (``.csv``): units in the head, a row for every candidate."""

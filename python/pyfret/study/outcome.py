@@ -11,6 +11,7 @@ from pyfret._util.bounds import is_bound
 from pyfret._util.bounds import span as between
 from pyfret._util.csv_table import unit_of
 from pyfret._util.door import numbers_only
+from pyfret._util.figures import Figured
 from pyfret._util.kept import Kept
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
@@ -32,7 +33,7 @@ if TYPE_CHECKING:
 __all__ = ["Study", "open"]
 
 
-class Study(Kept, Labelled):
+class Study(Kept, Labelled, Figured):
     """The measures of all points of a study.
 
     Attributes
@@ -189,10 +190,6 @@ class Study(Kept, Labelled):
                 along = kind == "parameter" and of_line_contacts(d)
                 rows.append((kind, name, span, PER_METRE.get(unit, unit) if along else unit))
         return rows
-
-    def plot(self, of: str | None = None, *, ax: Axes | None = None, **options: Any) -> Any:
-        """Draw a measure, by default the first: :func:`pyfret.plot.study_map`."""
-        return super().plot(ax=ax, of=of, **options)
 
     def map(self, of: str | None = None, *, ax: Axes | None = None, **options: Any) -> Drawn:
         """Draw a measure over the parameters: :func:`pyfret.plot.study_map`."""

@@ -9,6 +9,7 @@ import numpy as np
 
 from pyfret import _core
 from pyfret._util.doubts import warn
+from pyfret._util.figures import Figured
 from pyfret._util.guesses import no_attribute
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
@@ -75,13 +76,15 @@ class Extreme(NamedTuple):
         return f"Extreme({value} MPa +- {error}, {place(self)}{at})"
 
 
-class Stress(Labelled):
+class Stress(Labelled, Figured):
     """The six stresses somewhere below the surface, and what follows from them.
 
     ``stress.s_xx``, ``stress.von_mises``, ``stress.tresca``, ``stress.s_1`` (principal values, the
     largest first), ``stress.hydrostatic``, ``stress.interface_shear`` and
     ``stress.interface_peel`` are DataArrays; :attr:`dataset` holds the six components.
     """
+
+    figure = "stress_map"
 
     def __init__(self, dataset: xr.Dataset, below: _core.Subsurface | None = None) -> None:
         super().__init__(dataset)

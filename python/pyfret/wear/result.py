@@ -11,6 +11,7 @@ import numpy as np
 from pyfret import _core
 from pyfret._core import Scene, with_error
 from pyfret._util.door import numbers_only
+from pyfret._util.figures import Figured
 from pyfret._util.kept import Kept
 from pyfret._util.labelled import Labelled
 from pyfret._util.numbers import length, um
@@ -39,7 +40,7 @@ __all__ = ["WearResult"]
 SCATTER = 3.0
 
 
-class WearResult(Kept, Labelled):
+class WearResult(Kept, Labelled, Figured):
     """Worn surfaces over blocks of cycles, and the numbers of every jump.
 
     ``dataset`` has three groups of variables. The scalars lie over ``jump`` (coordinate

@@ -1,0 +1,98 @@
+"""The figures of one thing as methods: ``worn.plot.wear_history()``.
+
+Which figures a thing has follows from the figures: their first argument names its type. They are
+found when they are drawn, by the public face of the package. So figures depend on results, and
+results do not depend on figures.
+"""
+
+from __future__ import annotations
+
+import sys
+from functools import partial
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol
+
+from pyfret._util.guesses import no_attribute
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from types import ModuleType
+
+    class Owner(Protocol):
+        """What has figures; its class names the one that shows the whole."""
+
+        figure: ClassVar[str]
+
+        def _draw(self, *args: Any, **options: Any) -> Any: ...
+
+
+__all__ = ["Figured", "Figures", "figures_of"]
+
+
+def drawing() -> ModuleType:
+    """The module of the figures."""
+    module: ModuleType = sys.modules[__name__.partition(".")[0]].plot
+    return module
+
+
+def first_types(function: Callable[..., Any]) -> set[str]:
+    """The types of the first argument of a function, as they are written."""
+    written = next(iter(getattr(function, "__annotations__", {}).values()), "")
+    return {of.strip() for of in str(written).split("|")}
+
+
+def figures_of(kind: type) -> list[str]:
+    """The names of the figures that take a thing of a class with the attribute ``figure``.
+
+    The first argument of a figure is of that class or of one above it. A class that fits a protocol
+    has the first type of the figure that shows the whole.
+    """
+    plot = drawing()
+    whole = next(iter(getattr(plot, kind.figure).__annotations__.values()))  # type: ignore[attr-defined]
+    own = {of.__name__ for of in kind.__mro__} | {str(whole).split("|")[0].strip()}
+    return [name for name in plot.__all__ if own & first_types(getattr(plot, name))]
+
+
+class Figures:
+    """The figures of :mod:`pyfret.plot` of one thing, such as ``result.plot.fretting_loop()``.
+
+    Called itself, the one that shows the whole: ``result.plot()``.
+    """
+
+    def __init__(self, shown: Owner) -> None:
+        self._shown = shown
+
+    def __call__(self, *args: Any, **options: Any) -> Any:
+        """Draw the figure that shows the whole; `options` are those of that figure."""
+        return self._shown._draw(*args, **options)
+
+    def __getattr__(self, name: str) -> Callable[..., Any]:
+        """Give the figure of that name, drawn of the thing."""
+        if name.startswith("_"):
+            raise AttributeError(name)
+        plot = drawing()
+        if name not in plot.__all__:
+            raise no_attribute("plot", name, dir(self), {})
+        return partial(getattr(plot, name), self._shown)
+
+    def __dir__(self) -> list[str]:
+        """The figures of such a thing."""
+        return figures_of(type(self._shown))
+
+    def __repr__(self) -> str:
+        """Give the names of the figures."""
+        return f"figures of {self._shown!r}: {', '.join(dir(self))}"
+
+
+class Figured:
+    """What has figures, of which its class names the one that shows the whole."""
+
+    figure: ClassVar[str]
+
+    @property
+    def plot(self) -> Figures:
+        """Its figures: ``plot()`` shows the whole, ``plot.NAME()`` is another of `pyfret.plot`."""
+        return Figures(self)
+
+    def _draw(self, *args: Any, **options: Any) -> Any:
+        """Draw the figure that shows the whole."""
+        return getattr(drawing(), type(self).figure)(self, *args, **options)
