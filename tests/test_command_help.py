@@ -15,7 +15,7 @@ import pytest
 
 import pyfret as fret
 from conftest import ROOT, sphere_on_flat
-from pyfret._cli import commands, fit
+from pyfret._cli import commands, export, fit
 from pyfret._cli.values import Value, Values, number, setting
 from pyfret._core import unit_of, units
 
@@ -100,6 +100,32 @@ def test_every_option_that_is_a_quantity_may_have_a_unit() -> None:
                 of("2 parsec")
     expected = {"lengths", "x", "angle", "kink", "azimuth", "residual", "dK_th", "dS_0"}
     assert {("crack", of) for of in expected} | {("threshold", "distance")} <= asked
+
+
+#: Options of several numbers that are no quantities.
+DIRECTIONS = {("export", "axis_x"), ("export", "axis_z")}
+
+
+def test_every_option_of_several_numbers_is_a_quantity_or_a_direction() -> None:
+    """All options whose default is a text of numbers, read by the command itself."""
+    chosen = next(of for of in commands.parser()._actions if of.dest == "command")
+    assert chosen.choices is not None
+    found = set()
+    for name, parser in dict(chosen.choices).items():  # type: ignore[call-overload]
+        for action in parser._actions:
+            if isinstance(action.default, str) and re.fullmatch(r"[-\d.,]+", action.default):
+                found.add((name, action.dest))
+                taken = "or with a unit]" in (action.help or "")
+                assert taken != ((name, action.dest) in DIRECTIONS), action.option_strings
+    assert {("export", "origin"), *DIRECTIONS} <= found
+
+
+@pytest.mark.parametrize(("text", "unit", "x"), [("20 um,0,0", "mm", 0.02), ("2,0,0", "mm", 2.0)])
+def test_the_origin_of_an_export_has_the_unit_of_the_model(text: str, unit: str, x: float) -> None:
+    of = Value("length", unit)
+    assert export.three(text, "--origin", of) == pytest.approx((x, 0.0, 0.0))
+    with pytest.raises(ValueError, match=r"--origin: .*must be"):
+        export.three("2 N,0,0", "--origin", of)
 
 
 @pytest.mark.parametrize("command", ["stress", "life"])

@@ -117,7 +117,7 @@ def run(options: argparse.Namespace) -> int:
         else:
             say(_line(row))
     if options.out and Path(options.out).suffix in FIELDS:
-        files.write(cracks.dataset, options.out)
+        files.write(cracks.dataset, options.out, otherwise="")
     elif options.out and threshold is not None:
         from pyfret import plot
 

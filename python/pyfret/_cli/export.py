@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -10,12 +11,13 @@ import numpy as np
 from pyfret import export
 from pyfret._cli.parser import added
 from pyfret._cli.say import say, say_json
+from pyfret._cli.values import Value
 from pyfret.result import open as open_result
 
 if TYPE_CHECKING:
-    import argparse
+    from collections.abc import Callable
 
-__all__ = ["add_options", "run"]
+__all__ = ["add_options", "run", "three"]
 
 
 def add_options(commands: argparse._SubParsersAction[Any]) -> None:
@@ -43,7 +45,11 @@ def add_options(commands: argparse._SubParsersAction[Any]) -> None:
     command.add_argument("--of", choices=("p", "q_x", "q_y"), default="p", help="for abaqus")
     command.add_argument("--mesh", help="forces on the nodes of this mesh (.inp, or by meshio)")
     command.add_argument("--points", help="CSV file of places x,y,z: the stress there")
-    command.add_argument("--origin", default="0,0,0", help="middle of the grid in the model")
+    command.add_argument(
+        "--origin",
+        default="0,0,0",
+        help="middle of the grid in the model [in that of --unit, or with a unit]",
+    )
     command.add_argument("--axis-x", default="1,0,0", help="the contact's x in the model")
     command.add_argument("--axis-z", default="0,0,1", help="the contact's z, into body 2")
     command.add_argument("--unit", choices=("m", "mm"), default="m", help="length of the model")
@@ -53,9 +59,9 @@ def add_options(commands: argparse._SubParsersAction[Any]) -> None:
 def run(options: argparse.Namespace) -> int:
     """Write the file."""
     frame = export.Frame(
-        origin=_three(options.origin, "--origin"),
-        x=_three(options.axis_x, "--axis-x"),
-        z=_three(options.axis_z, "--axis-z"),
+        origin=three(options.origin, "--origin", Value("length", options.unit)),
+        x=three(options.axis_x, "--axis-x"),
+        z=three(options.axis_z, "--axis-z"),
         unit=options.unit,
     )
     points = None
@@ -79,10 +85,12 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def _three(text: str, option: str) -> tuple[float, float, float]:
+def three(text: str, option: str, of: Callable[[str], float] = float) -> tuple[float, float, float]:
     """Three numbers with commas between."""
     try:
-        x, y, z = (float(part) for part in text.split(","))
+        x, y, z = (of(part) for part in text.split(","))
+    except argparse.ArgumentTypeError as error:
+        raise ValueError(f"{option}: {error}") from error
     except ValueError as error:
         raise ValueError(f"{option} {text}: must be three numbers such as 0,0,1") from error
     return x, y, z

@@ -106,17 +106,28 @@ def compare(dataset: xr.Dataset) -> xr.Dataset:
     return dataset
 
 
-def write(dataset: xr.Dataset, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
+def write(
+    dataset: xr.Dataset,
+    path: str | os.PathLike[str],
+    *,
+    overwrite: bool = False,
+    otherwise: str = ", or replace it with overwrite=True",
+) -> None:
     """Write a dataset to a Zarr folder (``.zarr``) or a NetCDF file (``.nc``).
 
     It is written beside its place and put there at once. With `overwrite` it replaces what
-    pyfret or xarray wrote there, and nothing else.
+    pyfret or xarray wrote there, and nothing else. The refusal of a place that is not free ends
+    with `otherwise`.
     """
     place = Path(path)
     if place.exists() and not (overwrite and replaceable(place)):
         raise FileExistsError(
             f"{place}: is there already"
-            + (", and is no store or file of results: choose another place" if overwrite else "")
+            + (
+                ", and is no store or file of results: choose another place"
+                if overwrite
+                else f": choose another place{otherwise}"
+            )
         )
     if place.suffix not in (".zarr", ".nc"):
         raise ValueError(f"{place}: must end in .zarr or .nc")
