@@ -10,6 +10,7 @@ from pyfret import fatigue
 from pyfret._cli.parser import added
 from pyfret._cli.say import say, say_json
 from pyfret._cli.values import DEGREES, FIGURES, Value, Values, ending, takes
+from pyfret._core import with_error
 from pyfret._util import files
 from pyfret._util.numbers import in_words, um
 from pyfret.fracture import Paris, Threshold
@@ -167,19 +168,17 @@ def threshold_of(options: argparse.Namespace) -> Threshold | None:
 
 
 def _rows(cracks: Cracks, threshold: Threshold | None) -> list[dict[str, object]]:
-    error = cracks.dataset.error.max("increment").values
-    dK = cracks.dK(threshold)
-    rows: list[dict[str, object]] = [
-        {"length": length, "K_max": high, "K_min": low, "error": e, "dK": d}
-        for length, high, low, e, d in zip(
-            cracks.lengths.tolist(),
-            cracks.K_max.tolist(),
-            cracks.K_min.tolist(),
-            error.tolist(),
-            dK.tolist(),
-            strict=True,
-        )
-    ]
+    columns = {
+        "length": cracks.lengths,
+        "K_max": cracks.K_max,
+        "K_max_error": cracks.error,
+        "K_min": cracks.K_min,
+        "K_min_error": cracks.K_min_error,
+        "dK": cracks.dK(threshold),
+        "dK_error": cracks.dK_error(threshold),
+    }
+    values = zip(*(column.tolist() for column in columns.values()), strict=True)
+    rows: list[dict[str, object]] = [dict(zip(columns, row, strict=True)) for row in values]
     if threshold is not None:
         for row, dK_th in zip(rows, threshold.at(cracks.lengths).tolist(), strict=True):
             row["dK_th"] = dK_th
@@ -205,6 +204,7 @@ def _verdict(cracks: Cracks, found: CrackArrest) -> dict[str, object]:
         "verdicts": found.verdicts,
         "is_sure": found.is_sure,
         "told": found.told(),
+        "notes": found.notes(),
     }
     if found.length is None:
         row["length_why"] = found.briefly()
@@ -215,20 +215,28 @@ def _cycles(life: CrackLife) -> dict[str, object]:
     """The cycles of a crack and their range, with the words for them."""
     row: dict[str, object] = {"cycles": life.cycles, "low": life.low, "high": life.high}
     why = life.why_infinite()
-    return row | ({} if why is None else {"cycles_why": why}) | {"cycles_told": life.told()}
+    return (
+        row
+        | ({} if why is None else {"cycles_why": why})
+        | {
+            "cycles_told": life.told(),
+            "cycles_notes": life.notes(),
+        }
+    )
 
 
-def _line(row: dict[str, object]) -> str:
-    """A row for people."""
+def _line(row: dict[str, Any]) -> str:
+    """A row for people: each number with the error of that number."""
     number = {name: value for name, value in row.items() if isinstance(value, float)}
     if "verdict" in row:
-        parts = [str(row[name]) for name in ("told", "cycles_told") if name in row]
+        notes = [*row["notes"], *row.get("cycles_notes", [])]
         # A note on estimates that both have stands once.
-        notes = dict.fromkeys(note for part in parts for note in part.split("; "))
-        return f"crack from x = {um(number['x'])} {'; '.join(notes)}"
-    line = f"l = {um(number['length'])}: K_I {in_words(number['K_min'] / 1e6)} to "
-    line += f"{in_words(number['K_max'] / 1e6)} MPa m^0.5 (+- {number['error'] / 1e6:.2g}), "
-    line += f"dK {in_words(number['dK'] / 1e6)}"
+        return f"crack from x = {um(number['x'])} {'; '.join(dict.fromkeys(notes))}"
+    K_min, K_max, dK = (
+        with_error(number[name] / 1e6, number[f"{name}_error"] / 1e6)
+        for name in ("K_min", "K_max", "dK")
+    )
+    line = f"l = {um(number['length'])}: K_I {K_min} to {K_max} MPa m^0.5, dK {dK}"
     if "dK_th" not in number:
         return line
     return f"{line} of dK_th {in_words(number['dK_th'] / 1e6)}{' (estimate)' * ('estimate' in row)}"

@@ -101,6 +101,10 @@ class CrackArrest:
 
     def told(self) -> str:
         """Verdict, from which length it holds, what others would do, and numbers with errors."""
+        return "; ".join(self.notes())
+
+    def notes(self) -> list[str]:
+        """Give :meth:`told` as a list, a fact each."""
         start, least = (
             f"dK/dK_th {with_error(of, error)}"
             for of, error in (
@@ -120,7 +124,7 @@ class CrackArrest:
             said.append("the error of K is as large as dK there")
         if self.estimate:
             said.append(f"estimate: {self.estimate}")
-        return "; ".join(said)
+        return said
 
     def briefly(self) -> str:
         """Give the verdict in a few words, as figures have it."""
@@ -222,6 +226,10 @@ class CrackLife:
 
     def told(self) -> str:
         """Cycles with their range, from which length and to which."""
+        return "; ".join(self.notes())
+
+    def notes(self) -> list[str]:
+        """Give :meth:`told` as a list, a fact each."""
         way = f"from {um(self.arrest.start)} to {um(self.length)}"
         way += ", where it stops" if self.stopped else ""
         if math.isinf(self.cycles):
@@ -233,4 +241,4 @@ class CrackLife:
         else:
             said = f"{with_range(self.cycles, self.low, self.high)} cycles {way}"
         notes = [of for of in (self.arrest.estimate, self.estimate) if of]
-        return "; ".join([said, *(f"estimate: {of}" for of in dict.fromkeys(notes))])
+        return [said, *(f"estimate: {of}" for of in dict.fromkeys(notes))]

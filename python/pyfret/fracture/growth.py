@@ -21,7 +21,7 @@ from pyfret.fracture.arrest import CrackArrest, CrackLife
 from pyfret.subsurface.line import along
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from numpy.typing import ArrayLike, NDArray
 
@@ -198,10 +198,51 @@ class Cracks(Kept, Labelled, Figured):
     @property
     def error(self) -> NDArray[np.float64]:
         """Error of the largest K_I at each length [Pa m^0.5]; NaN where none came with it."""
+        return self._error_where(self.K_max, np.nanmax)
+
+    @property
+    def K_min_error(self) -> NDArray[np.float64]:
+        """Error of the smallest K_I at each length [Pa m^0.5]; NaN where none came with it."""
+        return self._error_where(self.K_min, np.nanmin)
+
+    @property
+    def K_I_error(self) -> NDArray[np.float64]:
+        """Error of K_I over (increment, length) [Pa m^0.5]; NaN where none came with it.
+
+        It is ``dataset.error`` where the crack is open somewhere. K_I of a crack that is closed all
+        along is 0, whatever the pressure between its faces. Its error is then max(``K_I_linear`` +
+        ``error``, 0): by this it may be open.
+        """
+        of = self.dataset
+        if "error" not in of:
+            return np.full(of.K_I.shape, np.nan)
+        error = np.asarray(of["error"].values, float)
+        if "open" not in of:
+            return error
+        most = np.clip(np.asarray(of["K_I_linear"].values, float) + error, 0.0, error)
+        return np.where(np.asarray(of["open"].values) > 0.0, error, most)
+
+    def _error_where(
+        self, extreme: NDArray[np.float64], of: Callable[..., Any]
+    ) -> NDArray[np.float64]:
+        """The largest or smallest error of the states that have an extreme K_I."""
         if "error" not in self.dataset:
             return np.full(self.lengths.shape, np.nan)
-        at = self.dataset.K_I.argmax("increment")
-        return np.asarray(self.dataset.error.isel(increment=at).values, float)
+        at = np.asarray(self.dataset.K_I.values) == extreme
+        return np.asarray(of(np.where(at, self.K_I_error, np.nan), axis=0), float)
+
+    def dK_error(self, threshold: Threshold | None = None) -> NDArray[np.float64]:
+        """Error of :meth:`dK` at each length [Pa m^0.5]; NaN where K came without an error.
+
+        It is the larger change of the range with K_max more and less its error, as in
+        :meth:`arrest`.
+        """
+        changes = [np.abs(self._range(threshold, e) - self.dK(threshold)) for e in self._ends()]
+        return np.maximum(*changes)
+
+    def _ends(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """The error of K_max, to be taken from it and added to it."""
+        return -self.error, self.error
 
     @numbers_only
     def scaled(self, factor: float) -> Cracks:
@@ -226,17 +267,22 @@ class Cracks(Kept, Labelled, Figured):
                 f"{1e6 * length:11.4g}  {1e-6 * most:5.3g}  {1e-6 * least:5.3g}  {1e-6 * span:.4g}"
             )
         if "error" in self.dataset:
-            error = 1e-6 * float(self.dataset["error"].max())
-            rows.append(f"error of K: {error:.2g} MPa m^0.5 at most")
+            for name, error in (("K_max", self.error), ("range", self.dK_error())):
+                rows.append(f"error of {name}: {1e-6 * error.max():.2g} MPa m^0.5 at most")
         return "\n".join(rows)
 
     def dK(self, threshold: Threshold | None = None) -> NDArray[np.float64]:
         """Positive part of the range of K_I at each length, at R = 0 with a threshold's R rule."""
-        if threshold is None:
-            return np.maximum(self.K_max, 0.0) - np.maximum(self.K_min, 0.0)
-        return np.asarray(
-            _core.equivalent_range(threshold._numbers(), self.K_max.tolist(), self.K_min.tolist())
-        )
+        return self._range(threshold, 0.0)
+
+    def _range(
+        self, threshold: Threshold | None, more: NDArray[np.float64] | float
+    ) -> NDArray[np.float64]:
+        """The range with `more` of K_max."""
+        _, most, least = self._curve(more)
+        if threshold is None or not np.all(np.isfinite(most)):
+            return np.maximum(most, 0.0) - np.maximum(least, 0.0)
+        return np.asarray(_core.equivalent_range(threshold._numbers(), most, least))
 
     def _curve(
         self, more: NDArray[np.float64] | float = 0.0
@@ -271,8 +317,7 @@ class Cracks(Kept, Labelled, Figured):
         )
         if "error" not in self.dataset:
             return found
-        error = self.error
-        ends = [followed(-error), followed(error)]
+        ends = [followed(error) for error in self._ends()]
         stops = [
             {"dormant": first, "grows": math.inf}.get(end[0], end[1])
             for end in (*ends, [verdict, length])
@@ -317,7 +362,7 @@ class Cracks(Kept, Labelled, Figured):
         )
         if "error" not in self.dataset:
             return found
-        ends = [followed(self.error)[0], followed(-self.error)[0]]
+        ends = [followed(error)[0] for error in self._ends()]
         return replace(found, low=min(found.cycles, *ends), high=max(found.cycles, *ends))
 
     @numbers_only

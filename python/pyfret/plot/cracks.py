@@ -27,16 +27,14 @@ MICRO, MEGA = 1e6, 1e-6
 def intensity(cracks: Cracks, *, ax: Axes | None = None) -> Axes:
     """Largest and smallest K_I of the cycle over the length of the crack, with their error."""
     ax = axes(ax)
-    d = cracks.dataset
-    for name, label, colour in (
-        ("K_max", r"largest $K_\mathrm{I}$", "C0"),
-        ("K_min", r"smallest $K_\mathrm{I}$", "C1"),
+    for name, error, label, colour in (
+        ("K_max", cracks.error, r"largest $K_\mathrm{I}$", "C0"),
+        ("K_min", cracks.K_min_error, r"smallest $K_\mathrm{I}$", "C1"),
     ):
-        error = MEGA * np.asarray(d["error"].max("increment")) if "error" in d else None
         ax.errorbar(
             cracks.lengths * MICRO,
             getattr(cracks, name) * MEGA,
-            yerr=error,
+            yerr=MEGA * error if "error" in cracks.dataset else None,
             color=colour,
             marker=".",
             label=label,
@@ -66,7 +64,9 @@ def intensity_history(cracks: Cracks, length: Quantity, *, ax: Axes | None = Non
         Where to draw.
     """
     ax = axes(ax)
-    one = cracks.dataset.sel(length=as_number(length), method="nearest")
+    d = cracks.dataset
+    both = d.assign(K_I_error=d.K_I.copy(data=cracks.K_I_error), K_II_error=d["error"])
+    one = both.sel(length=as_number(length), method="nearest")
     for name, label, colour in (
         ("K_I", r"$K_\mathrm{I}$", "C0"),
         ("K_II", r"$K_\mathrm{II}$", "C1"),
@@ -74,7 +74,7 @@ def intensity_history(cracks: Cracks, length: Quantity, *, ax: Axes | None = Non
         ax.errorbar(
             one.increment,
             one[name] * MEGA,
-            yerr=one.error * MEGA,
+            yerr=one[f"{name}_error"] * MEGA,
             color=colour,
             label=label,
             elinewidth=0.6,

@@ -81,8 +81,11 @@ class CrackSection:
         """K over the cycle at the length where the crack stops, or the longest; the diagram."""
         found = self.found()
         length = found.tip if found else float(self.cracks.lengths[-1])
-        one = self.cracks.dataset.sel(length=length, method="nearest")
-        K = {name: short(MEGA * one[name].values) for name in ("K_I", "K_II", "error")}
+        d = self.cracks.dataset
+        of_K_I = d.K_I.copy(data=self.cracks.K_I_error)
+        one = d.assign(K_I_error=of_K_I, K_II_error=d["error"]).sel(length=length, method="nearest")
+        names = ("K_I", "K_II", "K_I_error", "K_II_error")
+        K = {name: short(MEGA * one[name].values) for name in names}
         return {
             "says": self.verdict(),
             "length": in_words(MICRO * float(one.length), 3),

@@ -137,7 +137,7 @@
     document.getElementById("length").textContent = of.length;
     const K = (name, label, color) => ({
       x: of.increment, y: of[name], name: label, line: { color },
-      error_y: { type: "data", array: of.error, thickness: 1, width: 2 },
+      error_y: { type: "data", array: of[`${name}_error`], thickness: 1, width: 2 },
     });
     Plotly.newPlot("intensity", [K("K_I", "K<sub>I</sub>", colours.first), K("K_II", "K<sub>II</sub>", colours.second)], layout("increment", "K [MPa m<sup>1/2</sup>]"), options);
     if (of.kitagawa) {

@@ -1,0 +1,114 @@
+"""Every printed number of a crack has the error of that number."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+
+import pyfret as fret
+from pyfret import fracture
+from pyfret._cli import commands
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from numpy.typing import NDArray
+
+LENGTHS = np.geomspace(1e-5, 4e-4, 6)
+THRESHOLD = fracture.Threshold(dK_th=3.4e6, dS_0=500e6, walker=0.5)
+
+
+def pad(cells: int) -> fret.Result:
+    """A cylinder of titanium on a flat, its force in phase with a bulk stress."""
+    titanium = fret.Elastic(E=115e9, nu=0.32)
+    scene = fret.Scene(
+        body1=fret.Body(titanium, shape=fret.Cylinder(R=0.04)),
+        body2=fret.Body(titanium),
+        mu=0.5,
+        grid=fret.Grid.strip(extent=1.7e-3, n=cells),
+    )
+    path = fret.LoadPath.start().normal(4e5, increments=2)
+    for sign in (1.0, -1.0, 1.0):
+        path = path.force(T_x=sign * 1.2e5, sigma_B=sign * 130e6, increments=6)
+    return fret.solve(scene, path, save="all", progress=False)
+
+
+@pytest.fixture(scope="module")
+def coarse() -> fret.Result:
+    return pad(48)
+
+
+@pytest.fixture(scope="module")
+def cracks(coarse: fret.Result) -> fracture.Cracks:
+    return coarse.crack(lengths=LENGTHS)
+
+
+def numbers(of: fracture.Cracks) -> dict[str, NDArray[np.float64]]:
+    return {"K_max": of.K_max, "K_min": of.K_min, "dK": of.dK(THRESHOLD), "K_I": of.dataset.K_I}
+
+
+@pytest.mark.solves
+def test_each_error_is_that_of_its_number(cracks: fracture.Cracks) -> None:
+    """On three times as many cells no number moves more than its error, which is no larger."""
+    fine = pad(144).crack(cracks.dataset.attrs["x"], lengths=LENGTHS)
+    errors = {
+        "K_max": cracks.error,
+        "K_min": cracks.K_min_error,
+        "dK": cracks.dK_error(THRESHOLD),
+        "K_I": cracks.K_I_error,
+    }
+    truth = numbers(fine)
+    for name, value in numbers(cracks).items():
+        off = np.abs(np.asarray(value) - np.asarray(truth[name]))
+        assert np.all(off <= errors[name] + 1e-9 * cracks.K_max), name
+    # A state of large pressure has an error of K of faces that pass through each other. K_I of the
+    # closed crack is 0 and does not have it.
+    of = cracks.dataset
+    shut = (of.open.values == 0.0) & (of.K_I_linear.values + of["error"].values < 0.0)
+    assert shut.any(axis=0).all()
+    assert np.all(of["error"].values[shut] > 0.0)
+    assert np.all(cracks.K_I_error[shut] == 0.0)
+
+
+@pytest.mark.solves
+@pytest.mark.parametrize("start", LENGTHS[:3].tolist())
+def test_the_rows_and_the_verdict_have_one_error(cracks: fracture.Cracks, start: float) -> None:
+    found = cracks.arrest(THRESHOLD, start=start)
+    n = int(np.searchsorted(LENGTHS, start))
+    limit = THRESHOLD.at(LENGTHS)[n]
+    assert found.at_start == pytest.approx(cracks.dK(THRESHOLD)[n] / limit, rel=1e-9)
+    assert found.at_start_error == pytest.approx(cracks.dK_error(THRESHOLD)[n] / limit, rel=1e-6)
+
+
+@pytest.mark.solves
+def test_the_command_prints_each_error_beside_its_number(
+    coarse: fret.Result,
+    cracks: fracture.Cracks,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    coarse.save(tmp_path / "pad.nc")
+    told = ["crack", str(tmp_path / "pad.nc"), "--lengths", ",".join(map(repr, LENGTHS.tolist()))]
+    told += ["--material", "titanium_6Al4V", "--paris", "1e-11,3"]
+    assert commands.main([*told, "--json"]) == 0
+    rows = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
+    assert [row["K_max_error"] for row in rows[:-1]] == pytest.approx(cracks.error)
+    assert [row["K_min_error"] for row in rows[:-1]] == pytest.approx(cracks.K_min_error)
+    for row in rows[:-1]:
+        assert row["dK_error"] <= row["K_max_error"] * (1.0 + 1e-12)
+    assert "; ".join(rows[-1]["notes"]) == rows[-1]["told"]
+    assert "; ".join(rows[-1]["cycles_notes"]) == rows[-1]["cycles_told"]
+    assert commands.main(told) == 0
+    for row, line in zip(rows, capsys.readouterr().out.splitlines(), strict=True):
+        if "K_max" in row:
+            assert fret._core.with_error(row["K_max"] / 1e6, row["K_max_error"] / 1e6) in line
+            assert fret._core.with_error(row["dK"] / 1e6, row["dK_error"] / 1e6) in line
+
+
+def test_a_crack_without_errors_has_none() -> None:
+    of = fracture.Cracks.from_arrays(LENGTHS, np.full(6, 2e6), np.zeros(6))
+    for error in (of.error, of.K_min_error, of.dK_error(), of.dK_error(THRESHOLD), of.K_I_error):
+        assert np.all(np.isnan(error))
