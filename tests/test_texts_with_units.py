@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import importlib
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 import pyfret as fret
 from pyfret import _core
+from test_types import annotation_in_stub
 
 pytestmark = [pytest.mark.solves, pytest.mark.filterwarnings("ignore")]
 
@@ -93,9 +96,55 @@ def test_another_dimension_is_refused_with_the_units_that_are_meant() -> None:
         fret.wear.Archard(k="3 um")
     with pytest.raises(ValueError, match='"1 N": must be a number in m, a text with its unit'):
         fret.Grid.centred(extent="1 N", n=8)
-    with pytest.raises(
-        TypeError, match=r"must be a number in SI units: write 30\.0, which is in N"
-    ):
-        fret.reference.hertz(R=1e-3, bodies=(STEEL, STEEL), W="30 N")
     with pytest.raises(TypeError, match=r'"0\.3": must be a number, not a text'):
         fret.fatigue.Criterion.findley(k="0.3")
+
+
+#: Numbers of the closed forms that have no unit.
+PURE = {"mu", "nu", "beta", "eps_x"}
+
+
+def test_a_load_of_a_closed_form_is_one_of_its_contact(public: Any) -> None:
+    """All numbers of the closed forms: N/m of a line, N of others, each in another unit."""
+    asked = []
+    for name, call in public.public():
+        found = public.good(name, call) if name.startswith("reference.") else None
+        if found is None or not accepted(public, call, found[0]):
+            continue
+        line = "line" in name.lower()
+        for key, value in found[0].items():
+            if type(value) is not float or key in PURE or takes_array(call, key):
+                continue
+            unit, size, wrong = "um", 1e-6, "2 N"
+            if key in {"W", "T", "T_m"}:
+                unit, size, wrong = ("N/mm", 1e3, "2 kN") if line else ("kN", 1e3, "2 kN/m")
+            elif key in {"E_star", "p0"}:
+                unit, size = "MPa", 1e6
+            elif key == "M_z":
+                unit, size = "N mm", 1e-3
+            right = public.invoked(call, found[0])
+            said = public.invoked(call, found[0] | {key: f"{value / size!r} {unit}"})
+            assert numbers_in(said) == pytest.approx(numbers_in(right), rel=1e-12), (name, key)
+            with pytest.raises(ValueError, match="must be a number in") as told:
+                public.invoked(call, found[0] | {key: wrong})
+            if key in {"W", "T", "T_m"}:
+                assert f"must be a number in {'N/m' if line else 'N'}, a text" in str(told.value)
+            asked.append(f"{name}({key})")
+    assert {"reference.line_contact(W)", "reference.hertz(W)"} <= set(asked)
+    assert {"reference.LineContact.q(T)", "reference.CattaneoMindlin.loop_energy(T_m)"} <= set(
+        asked
+    )
+    assert len(asked) > 20, asked
+
+
+def takes_array(call: Any, key: str) -> bool:
+    """Whether a parameter takes an array, whose numbers are in SI units."""
+    name = f"{call.__qualname__}.__new__" if isinstance(call, type) else call.__qualname__
+    return "ArrayLike" in annotation_in_stub(name, key)
+
+
+def numbers_in(of: Any) -> Any:
+    """The numbers of an answer: itself, or those that its representation has."""
+    if isinstance(of, float | np.ndarray | list):
+        return np.asarray(of)
+    return [float(number) for number in re.findall(r"\d[\d.]*(?:e-?\d+)?", repr(of))]

@@ -207,7 +207,7 @@ class Bond:
     def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
     def __hash__(self, /) -> int: ...
     def __ne__(self, value: object, /) -> bool: ...
-    def __new__(cls, /, *, normal: float = 0.0, shear: float = 0.0) -> Bond: ...
+    def __new__(cls, /, *, normal: Quantity = 0.0, shear: Quantity = 0.0) -> Bond: ...
     def __replace__(self, /, **changes: Any) -> Self: ...
     def __repr__(self, /) -> str: ...
     @property
@@ -373,34 +373,34 @@ class CattaneoMindlin:
     @property
     def bodies(self, /) -> tuple[Elastic, Elastic]:
         """Materials of body 1 and body 2."""
-    def energy_ratio(self, /, T_m: float) -> float:
+    def energy_ratio(self, /, T_m: Quantity) -> float:
         """Loop energy over 4 T_m delta_x(T_m); 0.2 where partial slip ends."""
     @property
     def hertz(self, /) -> Hertz:
         """The normal contact."""
-    def loop_energy(self, /, T_m: float) -> float:
+    def loop_energy(self, /, T_m: Quantity) -> float:
         """Energy dissipated in one closed loop between -`T_m` and `T_m` [J]."""
     @property
     def mu(self, /) -> float:
         """Friction coefficient."""
-    def q_loading(self, /, r: ArrayLike, *, T: float) -> NDArray[float64]:
+    def q_loading(self, /, r: ArrayLike, *, T: Quantity) -> NDArray[float64]:
         """Shear traction at distance `r` [m] in the first loading to `T` [N] [Pa]."""
-    def q_reloading(self, /, r: ArrayLike, *, T: float, T_m: float) -> NDArray[float64]:
+    def q_reloading(self, /, r: ArrayLike, *, T: Quantity, T_m: Quantity) -> NDArray[float64]:
         """Shear traction at `T` on the way from -`T_m` back to `T_m` [N] [Pa]."""
-    def q_unloading(self, /, r: ArrayLike, *, T: float, T_m: float) -> NDArray[float64]:
+    def q_unloading(self, /, r: ArrayLike, *, T: Quantity, T_m: Quantity) -> NDArray[float64]:
         """Shear traction at `T` on the way back from the first loading to `T_m` [N] [Pa]."""
     @property
     def shift_limit(self, /) -> float:
         """Shift at which gross sliding starts [m], 3 mu W / (16 a G*)."""
     def shift_loading(self, /, T: ArrayLike) -> NDArray[float64]:
         """Shift delta_x of the first loading to `T` [N] [m]."""
-    def shift_reloading(self, /, T: ArrayLike, *, T_m: float) -> NDArray[float64]:
+    def shift_reloading(self, /, T: ArrayLike, *, T_m: Quantity) -> NDArray[float64]:
         """Shift delta_x at `T` on the way from -`T_m` back to `T_m` [N] [m]."""
-    def shift_unloading(self, /, T: ArrayLike, *, T_m: float) -> NDArray[float64]:
+    def shift_unloading(self, /, T: ArrayLike, *, T_m: Quantity) -> NDArray[float64]:
         """Shift delta_x at `T` on the way back from `T_m` [N] [m]."""
-    def stick_radius(self, /, T: float) -> float:
+    def stick_radius(self, /, T: Quantity) -> float:
         """Stick radius of the first loading to `T` [N], a (1 - T/(mu W))^(1/3) [m]."""
-    def stick_radius_reversed(self, /, T: float, *, T_m: float) -> float:
+    def stick_radius_reversed(self, /, T: Quantity, *, T_m: Quantity) -> float:
         """
         Stick radius after the force changed from the reversal at `T_m` to `T` [N] [m].
 
@@ -1307,7 +1307,7 @@ class Grid:
     def __hash__(self, /) -> int: ...
     def __ne__(self, value: object, /) -> bool: ...
     def __new__(
-        cls, /, *, nx: int, ny: int, dx: float, dy: float, plane_strain: bool = False
+        cls, /, *, nx: int, ny: int, dx: Quantity, dy: Quantity, plane_strain: bool = False
     ) -> Grid: ...
     def __replace__(self, /, **changes: Any) -> Self: ...
     def __repr__(self, /) -> str: ...
@@ -1340,7 +1340,7 @@ class Grid:
     def replace(self, /, **changes: Any) -> Self:
         """The same with some of its parts exchanged, named as in the constructor."""
     @staticmethod
-    def strip(*, extent: Quantity, n: int, width: float = 1.0) -> Grid:
+    def strip(*, extent: Quantity, n: int, width: Quantity = 1.0) -> Grid:
         """
         Plane strain: `n` cells over the length `extent` [m] along x, without end along y.
 
@@ -1470,7 +1470,7 @@ class Hertz:
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self, /) -> int: ...
     def __new__(
-        cls, /, *, W: float, E_star: float, a: float, p0: float, delta_z: Quantity
+        cls, /, *, W: Quantity, E_star: Quantity, a: Quantity, p0: Quantity, delta_z: Quantity
     ) -> Hertz: ...
     def __reduce__(self, /) -> tuple[Any, tuple[Any, ...]]: ...
     def __repr__(self, /) -> str: ...
@@ -1540,7 +1540,7 @@ class HertzStress:
 
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self, /) -> int: ...
-    def __new__(cls, /, *, a: float, nu: float) -> HertzStress: ...
+    def __new__(cls, /, *, a: Quantity, nu: float) -> HertzStress: ...
     def __reduce__(self, /) -> tuple[Any, tuple[Any, ...]]: ...
     def __repr__(self, /) -> str: ...
     @property
@@ -1611,13 +1611,15 @@ class LineContact:
     @property
     def p_H(self, /) -> float:
         """Peak pressure [Pa], by the name that it has in results."""
-    def q(self, /, x: ArrayLike, *, T: float, mu: float, middle: float = 0.0) -> NDArray[float64]:
+    def q(
+        self, /, x: ArrayLike, *, T: Quantity, mu: float, middle: Quantity = 0.0
+    ) -> NDArray[float64]:
         """
         Shear at `x` [m] under `T` [N/m] with the stick zone around `middle` [m] [Pa].
 
         Cattaneo's with the middle at 0, Carter's with it at a - c towards the leading edge.
         """
-    def stick_half_width(self, /, *, T: float, mu: float) -> float:
+    def stick_half_width(self, /, *, T: Quantity, mu: float) -> float:
         """Half-width of the stick zone under `T` [N/m] [m]."""
     def stick_middle(self, /, *, eps_x: float, mu: float) -> float:
         """
@@ -1626,7 +1628,7 @@ class LineContact:
         The strain is brought up together with T > 0.
         """
     def stress(
-        self, /, x: ArrayLike, z: ArrayLike, *, T: float, mu: float, middle: float = 0.0
+        self, /, x: ArrayLike, z: ArrayLike, *, T: Quantity, mu: float, middle: Quantity = 0.0
     ) -> list[NDArray[np.float64]]:
         """
         Stress s_xx, s_zz, s_xz at (`x`, `z`) [m] in partial slip [Pa]; arrays are put together.
@@ -1960,7 +1962,7 @@ class Lubkin:
         """Friction coefficient."""
     def phi(self, /, c: ArrayLike) -> NDArray[float64]:
         """Rotation phi_z at the stick radius `c` [m] [rad]."""
-    def q(self, /, r: ArrayLike, *, c: float) -> NDArray[float64]:
+    def q(self, /, r: ArrayLike, *, c: Quantity) -> NDArray[float64]:
         """Circumferential traction at `r` for the stick radius `c` [m] [Pa]."""
     def stick_radius(self, /, *, M_z: Quantity) -> float:
         """Stick radius under the moment `M_z` [N m] [m]."""
@@ -2568,7 +2570,7 @@ class Springs:
     @property
     def largest(self, /) -> Hertz:
         """The contact under the largest force that there are springs for."""
-    def load(self, /, *, W: float, T: float, steps: int = 10) -> float:
+    def load(self, /, *, W: Quantity, T: Quantity, steps: int = 10) -> float:
         """Go straight to the forces `W`, `T` [N] in `steps` steps; the shift delta_x [m]."""
     @property
     def loads(self, /) -> list[tuple[float, float, int]]:
@@ -2836,8 +2838,14 @@ class SurfaceMap:
             If the file cannot be read, contradicts the arguments, or leaves something open. The
             message has the line, the column and the argument to give.
         """
+    @property
+    def peak_to_valley(self, /) -> float:
+        """Largest less smallest number: S_z of heights [m]."""
     def replace(self, /, **changes: Any) -> Self:
         """The same with some of its parts exchanged, named as in the constructor."""
+    @property
+    def rms(self, /) -> float:
+        """Root of the mean square about the mean: S_q of heights [m]."""
     @property
     def spacing(self, /) -> tuple[float, float]:
         """Distance of the points along x and y [m]."""
@@ -3020,7 +3028,12 @@ def chosen_depths(
     """
 
 def coated_indentation(
-    *, R: Quantity, indenter: Elastic | Body, coating: Coating, substrate: Elastic | Body, W: float
+    *,
+    R: Quantity,
+    indenter: Elastic | Body,
+    coating: Coating,
+    substrate: Elastic | Body,
+    W: Quantity,
 ) -> CoatedIndentation:
     """Contact of a sphere of radius `R` [m] with a coated body under `W` [N], without friction."""
 
@@ -3192,10 +3205,10 @@ def graded(*, E: Profile, nu: Profile, thickness: Quantity, layers: int) -> list
         If a profile, the thickness or the number of layers is out of its range.
     """
 
-def hertz(*, R: Quantity, bodies: tuple[Elastic | Body, Elastic | Body], W: float) -> Hertz:
+def hertz(*, R: Quantity, bodies: tuple[Elastic | Body, Elastic | Body], W: Quantity) -> Hertz:
     """Hertz contact of a sphere of relative radius `R` [m] under the force `W` [N]."""
 
-def hertz_ellipse(*, R_x: Quantity, R_y: Quantity, E_star: float, W: float) -> HertzEllipse:
+def hertz_ellipse(*, R_x: Quantity, R_y: Quantity, E_star: Quantity, W: Quantity) -> HertzEllipse:
     """
     Hertz contact of relative principal radii `R_x`, `R_y` [m] along the axes.
 
@@ -3240,7 +3253,7 @@ def largest_of_samples(
     """
 
 def line_contact(
-    *, R: Quantity, bodies: tuple[Elastic | Body, Elastic | Body], W: float
+    *, R: Quantity, bodies: tuple[Elastic | Body, Elastic | Body], W: Quantity
 ) -> LineContact:
     """Line contact of cylinders of relative radius `R` [m] under `W` [N/m]."""
 
@@ -3286,6 +3299,9 @@ def measure(name: str, stress: ArrayLike) -> NDArray[np.float64]:
 
 def measured_by(key: str) -> tuple[str, str] | None:
     """What the number of a key measures, and its unit in SI; none of a key that is unknown."""
+
+def measures(unit: str, kind: str) -> bool:
+    """Whether a unit measures a kind; a force per length is a force and a stiffness, too."""
 
 def notes_on_materials(
     criterion: str, body: Body, materials: Sequence[Material | None]
@@ -3684,6 +3700,7 @@ __all__ = [
     "materials",
     "measure",
     "measured_by",
+    "measures",
     "notes_on_materials",
     "partial_crack",
     "principal",

@@ -85,6 +85,13 @@ pub const QUANTITIES: &[Quantity] = &[
             "length",
             "crown",
             "radius",
+            "Hertz.a",
+            "HertzStress.a",
+            "Lubkin.q.c",
+            "middle",
+            "dx",
+            "dy",
+            "width",
             "edge",
             "amplitude",
             "wavelength",
@@ -146,6 +153,19 @@ pub const QUANTITIES: &[Quantity] = &[
         "angles are in radians: 45 degrees is 0.785",
     ),
     any("force", Kind::Force, &["W", "T_x", "T_y"]),
+    // What the loads of a closed form measure depends on its contact.
+    any(
+        "load of a closed form",
+        Kind::WholeForce,
+        &["Hertz.W", "CattaneoMindlin.T"],
+    ),
+    any(
+        "load of a line contact",
+        Kind::ForcePerLength,
+        &["line_contact.W", "LineContact.T"],
+    ),
+    any("contact modulus", Kind::Stress, &["E_star"]),
+    any("peak pressure", Kind::Stress, &["p0"]),
     any("moment", Kind::Moment, &["M_x", "M_y", "M_z"]),
     of(
         "stiffness",

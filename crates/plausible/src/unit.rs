@@ -7,8 +7,12 @@ pub enum Kind {
     Number,
     /// Length.
     Length,
-    /// Force; in a line contact per length.
+    /// Force of any contact; in a line contact per length.
     Force,
+    /// Force of a contact that is no line.
+    WholeForce,
+    /// Force per length, of a line contact.
+    ForcePerLength,
     /// Moment; in a line contact per length.
     Moment,
     /// Angle.
@@ -51,12 +55,12 @@ impl Kind {
         match self {
             Self::Number => "",
             Self::Length => "m",
-            Self::Force => "N",
+            Self::Force | Self::WholeForce => "N",
             Self::Moment => "N m",
             Self::Angle => "rad",
             Self::Stress => "Pa",
             Self::Time => "s",
-            Self::Stiffness => "N/m",
+            Self::ForcePerLength | Self::Stiffness => "N/m",
             Self::Frequency => "Hz",
             Self::Compliance => "m/Pa",
             Self::Intensity => "Pa m^0.5",
@@ -78,6 +82,8 @@ impl Kind {
             Self::Number => "number",
             Self::Length => "length",
             Self::Force => "force",
+            Self::WholeForce => "force of a contact that is no line",
+            Self::ForcePerLength => "force per length",
             Self::Moment => "moment",
             Self::Angle => "angle",
             Self::Stress => "stress",
@@ -98,11 +104,20 @@ impl Kind {
         }
     }
 
-    /// The size in SI of a unit of this kind, by its name; a force per length is a stiffness, too.
+    /// The size in SI of a unit of this kind, by its name.
     pub fn size(self, name: &str) -> Option<f64> {
         let (kind, size) = named(name)?;
-        let per_length = (kind, self) == (Self::Force, Self::Stiffness) && name.contains('/');
-        (kind == self || per_length).then_some(size)
+        self.takes(kind).then_some(size)
+    }
+
+    /// Whether units of another kind measure this one: a force per length is a stiffness, too.
+    fn takes(self, of: Self) -> bool {
+        self == of
+            || matches!(
+                (self, of),
+                (Self::Force | Self::Stiffness, Self::ForcePerLength)
+                    | (Self::WholeForce, Self::Force)
+            )
     }
 }
 
@@ -115,9 +130,9 @@ const PER_ROOT_MM: f64 = 31_622.776_601_683_795;
 
 const UNITS: &[(&str, Kind, f64)] = {
     use Kind::{
-        Angle, Compliance, Conductivity, Density, EnergyWear, Expansion, Force, Frequency,
-        HeatCapacity, Intensity, Length, Moment, Number, SpecificHeat, Stiffness, Stress, Time,
-        Toughness, Wear,
+        Angle, Compliance, Conductivity, Density, EnergyWear, Expansion, Force, ForcePerLength,
+        Frequency, HeatCapacity, Intensity, Length, Moment, Number, SpecificHeat, Stiffness,
+        Stress, Time, Toughness, Wear,
     };
     &[
         ("1/K", Expansion, 1.0),
@@ -150,11 +165,11 @@ const UNITS: &[(&str, Kind, f64)] = {
         ("newton", Force, 1.0),
         ("kgf", Force, 9.806_65),
         ("lbf", Force, 4.448_221_615_260_5),
-        ("N/m", Force, 1.0),
-        ("N/mm", Force, 1e3),
-        ("kN/m", Force, 1e3),
-        ("kN/mm", Force, 1e6),
-        ("MN/m", Force, 1e6),
+        ("N/m", ForcePerLength, 1.0),
+        ("N/mm", ForcePerLength, 1e3),
+        ("kN/m", ForcePerLength, 1e3),
+        ("kN/mm", ForcePerLength, 1e6),
+        ("MN/m", ForcePerLength, 1e6),
         ("Nm", Moment, 1.0),
         ("N m", Moment, 1.0),
         ("N*m", Moment, 1.0),
@@ -246,12 +261,24 @@ pub fn named(name: &str) -> Option<Unit> {
 
 /// The names of the units of a kind.
 pub fn names(kind: Kind) -> String {
-    joined(|of| of == kind)
+    joined(|of| kind.takes(of))
 }
 
 /// The names of the units of several kinds, by the names of these.
 pub fn names_of(kinds: &[&str]) -> String {
-    joined(|of| kinds.contains(&of.name()))
+    joined(|of| kinds.iter().any(|name| is_taken(of, name)))
+}
+
+/// Whether a unit measures a kind, by their names.
+pub fn measures(unit: &str, kind: &str) -> bool {
+    named(unit).is_some_and(|(of, _)| is_taken(of, kind))
+}
+
+/// Whether units of a kind measure another one, by the name of that.
+fn is_taken(of: Kind, name: &str) -> bool {
+    UNITS
+        .iter()
+        .any(|row| row.1.name() == name && row.1.takes(of))
 }
 
 fn joined(which: impl Fn(Kind) -> bool) -> String {
@@ -281,5 +308,8 @@ mod tests {
         assert_eq!(Kind::Stiffness.size("N/mm"), Some(1e3));
         assert_eq!(Kind::Stiffness.size("N"), None);
         assert_eq!(Kind::Force.size("N/um"), None);
+        assert_eq!(Kind::Force.size("N/mm"), Some(1e3));
+        assert_eq!(Kind::WholeForce.size("N/mm"), None);
+        assert_eq!(Kind::ForcePerLength.size("N"), None);
     }
 }

@@ -41,6 +41,12 @@ pub(crate) fn units(kinds: &str) -> String {
     unit::names_of(&kinds.split(", ").collect::<Vec<_>>())
 }
 
+/// Whether a unit measures a kind; a force per length is a force and a stiffness, too.
+#[pyfunction]
+pub(crate) fn measures(unit: &str, kind: &str) -> bool {
+    unit::measures(unit, kind)
+}
+
 /// What a unit measures, and its size in SI; none of a name that is no unit.
 #[pyfunction]
 pub(crate) fn unit_of(name: &str) -> Option<(&'static str, f64)> {

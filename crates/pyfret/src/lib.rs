@@ -67,7 +67,7 @@ mod _core {
     #[pymodule_export]
     use crate::command_line::run_command;
     #[pymodule_export]
-    use crate::doubts::{doubt, measured_by, si_of, unit_of, units};
+    use crate::doubts::{doubt, measured_by, measures, si_of, unit_of, units};
     #[pymodule_export]
     use crate::eigenstrain::EigenstrainOperator;
     #[pymodule_export]

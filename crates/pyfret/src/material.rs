@@ -130,10 +130,10 @@ takes!(Bond, "a bond, such as Bond(normal=1e-17, shear=1e-16)");
 #[pymethods]
 impl Bond {
     #[new]
-    #[pyo3(signature = (*, normal: "float" = 0.0, shear: "float" = 0.0))]
+    #[pyo3(signature = (*, normal: "Quantity" = 0.0, shear: "Quantity" = 0.0))]
     fn new(
-        #[pyo3(from_py_with = number)] normal: f64,
-        #[pyo3(from_py_with = number)] shear: f64,
+        #[pyo3(from_py_with = Given::bond_normal)] normal: f64,
+        #[pyo3(from_py_with = Given::bond_shear)] shear: f64,
     ) -> Answer<Self> {
         let bond = core::Bond { normal, shear };
         bond.check("bond")?;

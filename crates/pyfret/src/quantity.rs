@@ -19,12 +19,22 @@ pub(crate) struct Given;
 /// The same of arguments that may be left out.
 pub(crate) struct Optional;
 
+/// The key of a name: where the name alone has several meanings, with what stands before it.
+macro_rules! key {
+    ($name:ident) => {
+        stringify!($name)
+    };
+    ($name:ident $key:literal) => {
+        $key
+    };
+}
+
 macro_rules! taken {
-    ($($name:ident)*) => {
+    ($($name:ident $(= $key:literal)?)*) => {
         #[allow(dead_code)] // each name has both kinds
         impl Given {$(
             pub(crate) fn $name(value: &Bound<'_, PyAny>) -> PyResult<f64> {
-                si(stringify!($name), value)
+                si(key!($name $($key)?), value)
             }
         )*}
 
@@ -34,7 +44,7 @@ macro_rules! taken {
                 if value.is_none() {
                     return Ok(None);
                 }
-                si(stringify!($name), value).map(Some)
+                si(key!($name $($key)?), value).map(Some)
             }
         )*}
     };
@@ -45,4 +55,8 @@ taken! {
     W T_x T_y M_x M_y M_z delta_x delta_y phi_z sigma_B sigma_B1 rolled stiffness
     s_y hardening voce_Q kinematic
     azimuth depth extent longest rms shortest frequency delta_z phi_x phi_y t rig_stiffness
+    E_star p0 middle dx dy width
+    point_W = "Hertz.W" point_T = "CattaneoMindlin.T"
+    line_W = "line_contact.W" line_T = "LineContact.T"
+    bond_normal bond_shear
 }

@@ -50,7 +50,7 @@ class Table:
             at = self.names.index(given)
             self.must_measure(at, kind)
             return at
-        of_kind = [n for n, unit in enumerate(self.units) if kind_of(unit) == kind]
+        of_kind = [n for n, unit in enumerate(self.units) if _core.measures(unit, kind)]
         if len(of_kind) > 1:
             named = [n for n in of_kind if self.names[n].lower().startswith(names)]
             of_kind = named or of_kind
@@ -64,9 +64,9 @@ class Table:
         )
 
     def must_measure(self, at: int, kind: str) -> None:
-        """Refuse a column without a unit of that kind; a force per length is a stiffness, too."""
+        """Refuse a column without a unit of that kind."""
         unit, name = self.units[at], self.names[at]
-        if kind_of(unit) == kind or (kind == "stiffness" and "N/m" in unit):
+        if _core.measures(unit, kind):
             return
         told = f"[{unit}]" if unit else "without a unit"
         usual = USUAL.get(kind, "SI")

@@ -52,8 +52,8 @@ impl CattaneoMindlin {
     }
 
     /// Stick radius of the first loading to `T` [N], a (1 - T/(mu W))^(1/3) [m].
-    #[pyo3(signature = (T: "float"))]
-    fn stick_radius(&self, #[pyo3(from_py_with = number)] T: f64) -> PyResult<f64> {
+    #[pyo3(signature = (T: "Quantity"))]
+    fn stick_radius(&self, #[pyo3(from_py_with = Given::point_T)] T: f64) -> PyResult<f64> {
         self.check(&[("T", T)])?;
         Ok(self.slip.stick_radius(T))
     }
@@ -61,46 +61,46 @@ impl CattaneoMindlin {
     /// Stick radius after the force changed from the reversal at `T_m` to `T` [N] [m].
     ///
     /// a [1 - abs(T_m - T)/(2 mu W)]^(1/3)
-    #[pyo3(signature = (T: "float", *, T_m: "float"))]
+    #[pyo3(signature = (T: "Quantity", *, T_m: "Quantity"))]
     fn stick_radius_reversed(
         &self,
-        #[pyo3(from_py_with = number)] T: f64,
-        #[pyo3(from_py_with = number)] T_m: f64,
+        #[pyo3(from_py_with = Given::point_T)] T: f64,
+        #[pyo3(from_py_with = Given::point_T)] T_m: f64,
     ) -> PyResult<f64> {
         self.check(&[("T", T), ("T_m", T_m)])?;
         Ok(self.slip.stick_radius_reversed(T, T_m))
     }
 
     /// Shear traction at distance `r` [m] in the first loading to `T` [N] [Pa].
-    #[pyo3(signature = (r, *, T: "float"))]
+    #[pyo3(signature = (r, *, T: "Quantity"))]
     fn q_loading<'py>(
         &self,
         r: Numbers<'py>,
-        #[pyo3(from_py_with = number)] T: f64,
+        #[pyo3(from_py_with = Given::point_T)] T: f64,
     ) -> Answer<Values<'py>> {
         self.check(&[("T", T)])?;
         Ok(map(&r, |r| self.slip.q_loading(r, T)))
     }
 
     /// Shear traction at `T` on the way back from the first loading to `T_m` [N] [Pa].
-    #[pyo3(signature = (r, *, T: "float", T_m: "float"))]
+    #[pyo3(signature = (r, *, T: "Quantity", T_m: "Quantity"))]
     fn q_unloading<'py>(
         &self,
         r: Numbers<'py>,
-        #[pyo3(from_py_with = number)] T: f64,
-        #[pyo3(from_py_with = number)] T_m: f64,
+        #[pyo3(from_py_with = Given::point_T)] T: f64,
+        #[pyo3(from_py_with = Given::point_T)] T_m: f64,
     ) -> Answer<Values<'py>> {
         self.check(&[("T", T), ("T_m", T_m)])?;
         Ok(map(&r, |r| self.slip.q_unloading(r, T, T_m)))
     }
 
     /// Shear traction at `T` on the way from -`T_m` back to `T_m` [N] [Pa].
-    #[pyo3(signature = (r, *, T: "float", T_m: "float"))]
+    #[pyo3(signature = (r, *, T: "Quantity", T_m: "Quantity"))]
     fn q_reloading<'py>(
         &self,
         r: Numbers<'py>,
-        #[pyo3(from_py_with = number)] T: f64,
-        #[pyo3(from_py_with = number)] T_m: f64,
+        #[pyo3(from_py_with = Given::point_T)] T: f64,
+        #[pyo3(from_py_with = Given::point_T)] T_m: f64,
     ) -> Answer<Values<'py>> {
         self.check(&[("T", T), ("T_m", T_m)])?;
         Ok(map(&r, |r| self.slip.q_reloading(r, T, T_m)))
@@ -112,11 +112,11 @@ impl CattaneoMindlin {
     }
 
     /// Shift delta_x at `T` on the way back from `T_m` [N] [m].
-    #[pyo3(signature = (T, *, T_m: "float"))]
+    #[pyo3(signature = (T, *, T_m: "Quantity"))]
     fn shift_unloading<'py>(
         &self,
         T: Numbers<'py>,
-        #[pyo3(from_py_with = number)] T_m: f64,
+        #[pyo3(from_py_with = Given::point_T)] T_m: f64,
     ) -> Answer<Values<'py>> {
         self.check(&[("T_m", T_m)])?;
         let shift = |T| self.slip.shift_unloading(T, T_m);
@@ -124,11 +124,11 @@ impl CattaneoMindlin {
     }
 
     /// Shift delta_x at `T` on the way from -`T_m` back to `T_m` [N] [m].
-    #[pyo3(signature = (T, *, T_m: "float"))]
+    #[pyo3(signature = (T, *, T_m: "Quantity"))]
     fn shift_reloading<'py>(
         &self,
         T: Numbers<'py>,
-        #[pyo3(from_py_with = number)] T_m: f64,
+        #[pyo3(from_py_with = Given::point_T)] T_m: f64,
     ) -> Answer<Values<'py>> {
         self.check(&[("T_m", T_m)])?;
         let shift = |T| self.slip.shift_reloading(T, T_m);
@@ -136,15 +136,15 @@ impl CattaneoMindlin {
     }
 
     /// Energy dissipated in one closed loop between -`T_m` and `T_m` [J].
-    #[pyo3(signature = (T_m: "float"))]
-    fn loop_energy(&self, #[pyo3(from_py_with = number)] T_m: f64) -> PyResult<f64> {
+    #[pyo3(signature = (T_m: "Quantity"))]
+    fn loop_energy(&self, #[pyo3(from_py_with = Given::point_T)] T_m: f64) -> PyResult<f64> {
         self.check(&[("T_m", T_m)])?;
         Ok(self.slip.loop_energy(T_m))
     }
 
     /// Loop energy over 4 T_m delta_x(T_m); 0.2 where partial slip ends.
-    #[pyo3(signature = (T_m: "float"))]
-    fn energy_ratio(&self, #[pyo3(from_py_with = number)] T_m: f64) -> PyResult<f64> {
+    #[pyo3(signature = (T_m: "Quantity"))]
+    fn energy_ratio(&self, #[pyo3(from_py_with = Given::point_T)] T_m: f64) -> PyResult<f64> {
         self.check(&[("T_m", T_m)])?;
         Ok(self.slip.energy_ratio(T_m))
     }

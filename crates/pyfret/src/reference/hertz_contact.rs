@@ -33,12 +33,12 @@ made!(Hertz by "Hertz": W, E_star, a, p0, delta_z);
 #[pymethods]
 impl Hertz {
     #[new]
-    #[pyo3(signature = (*, W: "float", E_star: "float", a: "float", p0: "float", delta_z: "Quantity"))]
+    #[pyo3(signature = (*, W: "Quantity", E_star: "Quantity", a: "Quantity", p0: "Quantity", delta_z: "Quantity"))]
     fn new(
-        #[pyo3(from_py_with = number)] W: f64,
-        #[pyo3(from_py_with = number)] E_star: f64,
-        #[pyo3(from_py_with = number)] a: f64,
-        #[pyo3(from_py_with = number)] p0: f64,
+        #[pyo3(from_py_with = Given::point_W)] W: f64,
+        #[pyo3(from_py_with = Given::E_star)] E_star: f64,
+        #[pyo3(from_py_with = Given::radius)] a: f64,
+        #[pyo3(from_py_with = Given::p0)] p0: f64,
         #[pyo3(from_py_with = Given::delta_z)] delta_z: f64,
     ) -> Answer<Self> {
         let all = [
@@ -83,11 +83,11 @@ attributes!(Hertz, self:
 
 /// Hertz contact of a sphere of relative radius `R` [m] under the force `W` [N].
 #[pyfunction]
-#[pyo3(signature = (*, R: "Quantity", bodies, W: "float"))]
+#[pyo3(signature = (*, R: "Quantity", bodies, W: "Quantity"))]
 pub(crate) fn hertz(
     #[pyo3(from_py_with = Given::R)] R: f64,
     bodies: (Material, Material),
-    #[pyo3(from_py_with = number)] W: f64,
+    #[pyo3(from_py_with = Given::point_W)] W: f64,
 ) -> Answer<Hertz> {
     let (body1, body2) = pair(bodies)?;
     positive("R", R).and(positive("W", W))?;
@@ -129,12 +129,12 @@ attributes!(HertzEllipse, self:
 ///
 /// 1/R_x is the sum of both bodies' curvatures along x; `E_star` [Pa], `W` [N].
 #[pyfunction]
-#[pyo3(signature = (*, R_x: "Quantity", R_y: "Quantity", E_star: "float", W: "float"))]
+#[pyo3(signature = (*, R_x: "Quantity", R_y: "Quantity", E_star: "Quantity", W: "Quantity"))]
 pub(crate) fn hertz_ellipse(
     #[pyo3(from_py_with = Given::R_x)] R_x: f64,
     #[pyo3(from_py_with = Given::R_y)] R_y: f64,
-    #[pyo3(from_py_with = number)] E_star: f64,
-    #[pyo3(from_py_with = number)] W: f64,
+    #[pyo3(from_py_with = Given::E_star)] E_star: f64,
+    #[pyo3(from_py_with = Given::point_W)] W: f64,
 ) -> Answer<HertzEllipse> {
     for (key, value) in [("R_x", R_x), ("R_y", R_y), ("E_star", E_star), ("W", W)] {
         positive(key, value)?;

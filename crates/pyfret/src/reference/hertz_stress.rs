@@ -28,9 +28,9 @@ made!(HertzStress by "HertzStress": a, nu);
 #[pymethods]
 impl HertzStress {
     #[new]
-    #[pyo3(signature = (*, a: "float", nu: "float"))]
+    #[pyo3(signature = (*, a: "Quantity", nu: "float"))]
     fn new(
-        #[pyo3(from_py_with = number)] a: f64,
+        #[pyo3(from_py_with = Given::radius)] a: f64,
         #[pyo3(from_py_with = number)] nu: f64,
     ) -> Answer<Self> {
         positive("a", a).and(between("nu", nu, (-1.0, 0.5)))?;

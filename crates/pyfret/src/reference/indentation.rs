@@ -117,13 +117,13 @@ attributes!(CoatedIndentation, self:
 
 /// Contact of a sphere of radius `R` [m] with a coated body under `W` [N], without friction.
 #[pyfunction]
-#[pyo3(signature = (*, R: "Quantity", indenter, coating, substrate, W: "float"))]
+#[pyo3(signature = (*, R: "Quantity", indenter, coating, substrate, W: "Quantity"))]
 pub(crate) fn coated_indentation(
     #[pyo3(from_py_with = Given::R)] R: f64,
     indenter: Material,
     coating: Coating,
     substrate: Material,
-    #[pyo3(from_py_with = number)] W: f64,
+    #[pyo3(from_py_with = Given::point_W)] W: f64,
 ) -> Answer<CoatedIndentation> {
     positive("R", R).and(positive("W", W))?;
     pair((indenter, Material(coating.layer.material)))?;

@@ -68,11 +68,11 @@ impl Lubkin {
     }
 
     /// Circumferential traction at `r` for the stick radius `c` [m] [Pa].
-    #[pyo3(signature = (r, *, c: "float"))]
+    #[pyo3(signature = (r, *, c: "Quantity"))]
     fn q<'py>(
         &self,
         r: Numbers<'py>,
-        #[pyo3(from_py_with = number)] c: f64,
+        #[pyo3(from_py_with = Given::radius)] c: f64,
     ) -> Answer<Values<'py>> {
         self.radius(c)?;
         Ok(map(&r, |r| self.torsion.q(r, c)))

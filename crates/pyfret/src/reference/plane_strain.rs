@@ -32,11 +32,11 @@ made!(LineContact by "line_contact": R, bodies, W);
 
 /// Line contact of cylinders of relative radius `R` [m] under `W` [N/m].
 #[pyfunction]
-#[pyo3(signature = (*, R: "Quantity", bodies, W: "float"))]
+#[pyo3(signature = (*, R: "Quantity", bodies, W: "Quantity"))]
 pub(crate) fn line_contact(
     #[pyo3(from_py_with = Given::R)] R: f64,
     bodies: (Material, Material),
-    #[pyo3(from_py_with = number)] W: f64,
+    #[pyo3(from_py_with = Given::line_W)] W: f64,
 ) -> Answer<LineContact> {
     let (body1, body2) = pair(bodies)?;
     positive("R", R).and(positive("W", W))?;
@@ -57,10 +57,10 @@ impl LineContact {
     }
 
     /// Half-width of the stick zone under `T` [N/m] [m].
-    #[pyo3(signature = (*, T: "float", mu: "float"))]
+    #[pyo3(signature = (*, T: "Quantity", mu: "float"))]
     fn stick_half_width(
         &self,
-        #[pyo3(from_py_with = number)] T: f64,
+        #[pyo3(from_py_with = Given::line_T)] T: f64,
         #[pyo3(from_py_with = number)] mu: f64,
     ) -> PyResult<f64> {
         self.check(T, mu)?;
@@ -84,13 +84,13 @@ impl LineContact {
     /// Shear at `x` [m] under `T` [N/m] with the stick zone around `middle` [m] [Pa].
     ///
     /// Cattaneo's with the middle at 0, Carter's with it at a - c towards the leading edge.
-    #[pyo3(signature = (x, *, T: "float", mu: "float", middle: "float" = 0.0))]
+    #[pyo3(signature = (x, *, T: "Quantity", mu: "float", middle: "Quantity" = 0.0))]
     fn q<'py>(
         &self,
         x: Numbers<'py>,
-        #[pyo3(from_py_with = number)] T: f64,
+        #[pyo3(from_py_with = Given::line_T)] T: f64,
         #[pyo3(from_py_with = number)] mu: f64,
-        #[pyo3(from_py_with = number)] middle: f64,
+        #[pyo3(from_py_with = Given::middle)] middle: f64,
     ) -> Answer<Values<'py>> {
         self.check_middle(T, mu, middle)?;
         Ok(map(&x, |x| self.line.q_shifted(x, middle, T, mu)))
@@ -99,15 +99,15 @@ impl LineContact {
     /// Stress s_xx, s_zz, s_xz at (`x`, `z`) [m] in partial slip [Pa]; arrays are put together.
     ///
     /// The shear is that of :meth:`q`, the stick zone around `middle`. A bulk stress adds to s_xx.
-    #[pyo3(signature = (x, z, *, T: "float", mu: "float", middle: "float" = 0.0) -> "list[NDArray[np.float64]]")]
+    #[pyo3(signature = (x, z, *, T: "Quantity", mu: "float", middle: "Quantity" = 0.0) -> "list[NDArray[np.float64]]")]
     fn stress<'py>(
         &self,
         py: Python<'py>,
         x: Numbers<'py>,
         z: Numbers<'py>,
-        #[pyo3(from_py_with = number)] T: f64,
+        #[pyo3(from_py_with = Given::line_T)] T: f64,
         #[pyo3(from_py_with = number)] mu: f64,
-        #[pyo3(from_py_with = number)] middle: f64,
+        #[pyo3(from_py_with = Given::middle)] middle: f64,
     ) -> Answer<[Bound<'py, PyArrayDyn<f64>>; 3]> {
         self.check_middle(T, mu, middle)?;
         let far = FAR * self.line.a;

@@ -85,11 +85,11 @@ impl Springs {
     }
 
     /// Go straight to the forces `W`, `T` [N] in `steps` steps; the shift delta_x [m].
-    #[pyo3(signature = (*, W: "float", T: "float", steps: "int" = 10))]
+    #[pyo3(signature = (*, W: "Quantity", T: "Quantity", steps: "int" = 10))]
     fn load(
         &mut self,
-        #[pyo3(from_py_with = number)] W: f64,
-        #[pyo3(from_py_with = number)] T: f64,
+        #[pyo3(from_py_with = Given::point_W)] W: f64,
+        #[pyo3(from_py_with = Given::point_T)] T: f64,
         #[pyo3(from_py_with = number)] steps: usize,
     ) -> Answer<f64> {
         // Rounding is no reason to refuse the largest forces.

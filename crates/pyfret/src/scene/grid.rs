@@ -91,12 +91,12 @@ takes!(Grid, "a grid, such as Grid.centred(extent=1e-3, n=128)");
 #[pymethods]
 impl Grid {
     #[new]
-    #[pyo3(signature = (*, nx, ny, dx: "float", dy: "float", plane_strain = false))]
+    #[pyo3(signature = (*, nx, ny, dx: "Quantity", dy: "Quantity", plane_strain = false))]
     fn new(
         nx: Count,
         ny: Count,
-        #[pyo3(from_py_with = number)] dx: f64,
-        #[pyo3(from_py_with = number)] dy: f64,
+        #[pyo3(from_py_with = Given::dx)] dx: f64,
+        #[pyo3(from_py_with = Given::dy)] dy: f64,
         plane_strain: bool,
     ) -> Answer<Self> {
         let grid = core::Grid {
@@ -132,11 +132,11 @@ impl Grid {
     /// Forces, moments and energies are those on the width `width` [m]; displacements are
     /// relative to the points at the distance `extent` from a load.
     #[staticmethod]
-    #[pyo3(signature = (*, extent: "Quantity", n, width: "float" = 1.0))]
+    #[pyo3(signature = (*, extent: "Quantity", n, width: "Quantity" = 1.0))]
     fn strip(
         #[pyo3(from_py_with = Given::extent)] extent: f64,
         n: Count,
-        #[pyo3(from_py_with = number)] width: f64,
+        #[pyo3(from_py_with = Given::width)] width: f64,
     ) -> Answer<Self> {
         Ok(Self(core::Grid::strip(extent, n.0, width)?))
     }

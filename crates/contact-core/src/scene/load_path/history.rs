@@ -7,7 +7,7 @@ use super::waypoints::{Column, Increments, drives};
 use crate::error::Error;
 use crate::scene::Prescribed;
 use crate::scene::files;
-use crate::scene::number_files::{Kind, Table, named, of_titles, tolerant};
+use crate::scene::number_files::{Kind, Table, of_titles, tolerant};
 
 /// A table of loads and motions in SI units.
 #[derive(Debug)]
@@ -136,10 +136,8 @@ fn scale(name: &str, column: Column, unit: Option<&str>) -> Result<f64, String> 
         Column::Other(_) if name == "rolled" => (Kind::Length, "a unit of length, such as m or um"),
         Column::Other(_) => (Kind::Stress, "a unit of stress, such as Pa or MPa"),
     };
-    match named(word) {
-        Some((kind, size)) if kind == wanted => Ok(size),
-        _ => Err(format!("column {name} is in `{word}`: must be {allowed}")),
-    }
+    let size = wanted.size(word);
+    size.ok_or_else(|| format!("column {name} is in `{word}`: must be {allowed}"))
 }
 
 #[cfg(test)]
