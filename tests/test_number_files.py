@@ -280,3 +280,12 @@ def test_of_a_loop_one_column_drives(tmp_path: Path) -> None:
     assert moved == fret.LoadPath.start().waypoints(W=[10, 10], delta_x=[0, 0.5e-6])
     forced = fret.LoadPath.from_csv(file, drive=["T_x"])
     assert forced.T_x.tolist() == [0.0, 1.0]
+
+
+def test_a_map_has_the_height_parameters_of_iso_25178() -> None:
+    """S_q of a sine of amplitude a is a/sqrt(2), about the mean; S_z is 2 a."""
+    a, phase = 3e-7, 2.0 * np.pi * np.arange(64) / 64
+    heights = 1e-6 + a * np.sin(phase)[:, None] * np.ones(8)
+    surface = fret.SurfaceMap(heights, spacing=1e-6)
+    assert surface.rms == pytest.approx(a / np.sqrt(2.0), rel=1e-9)
+    assert surface.peak_to_valley == pytest.approx(2.0 * a, rel=1e-9)

@@ -69,6 +69,21 @@ impl SurfaceMap {
         Ok(map)
     }
 
+    /// Root of the mean square about the mean over the points: S_q of heights, after ISO 25178-2.
+    pub fn rms(&self) -> f64 {
+        let z = &self.values;
+        let mean = z.mean().unwrap_or_default();
+        let square = z.iter().map(|z| (z - mean).powi(2)).sum::<f64>();
+        (square / z.len() as f64).sqrt()
+    }
+
+    /// Largest less smallest number: S_z of heights, after ISO 25178-2.
+    pub fn peak_to_valley(&self) -> f64 {
+        let ends = (f64::INFINITY, f64::NEG_INFINITY);
+        let ends = (self.values.iter()).fold(ends, |(low, high), z| (low.min(*z), high.max(*z)));
+        ends.1 - ends.0
+    }
+
     /// The number at (x, y), linear between the points, level beyond the border.
     pub(crate) fn at(&self, x: f64, y: f64) -> f64 {
         let (nx, ny) = self.values.dim();

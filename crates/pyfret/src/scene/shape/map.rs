@@ -124,6 +124,10 @@ attributes!(SurfaceMap, self:
     filled: usize = self.0.filled;
     /// Distance of the points along x and y [m].
     spacing: (f64, f64) = self.0.spacing;
+    /// Root of the mean square about the mean: S_q of heights [m].
+    rms: f64 = self.0.rms();
+    /// Largest less smallest number: S_z of heights [m].
+    peak_to_valley: f64 = self.0.peak_to_valley();
 );
 
 /// The map, with a warning that says how many of its numbers are filled.
