@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 from pathlib import Path
 
@@ -132,6 +133,25 @@ def test_quantities_have_units() -> None:
     assert found.grid.dx == pytest.approx(right.grid.dx, rel=1e-12)
     assert found.path.W.tolist() == pytest.approx(right.path.W.tolist())
     assert fret.Scene.from_toml(GOOD, set=["path.0.W=0.01 kN"]).path.W[-1] == pytest.approx(10)
+
+
+def test_a_material_has_its_name() -> None:
+    """In a file and by `set`, in bodies and coatings, by the finder of `fret.material`."""
+    table, film = fret.fatigue.Materials(), "body2.coatings.0"
+    for name in ("titanium_6Al4V", "Ti-6Al-4V", "steel", "TiN"):
+        scene = fret.Scene.from_toml(GOOD, set=[f"{film}.material={name}"])
+        assert fret.Scene.from_toml(scene.to_toml()) == scene
+        # E and nu of the file stand in place of those of the table.
+        assert scene == fret.Scene.from_toml(GOOD)
+    named = re.sub(r"(\[body1\][^[]*?)E = 210e9\nnu = 0.3", r'\1material = "Ti-6Al-4V"', GOOD)
+    assert named != GOOD
+    assert fret.Scene.from_toml(named).body1.substrate == fret.Elastic(
+        E=table["Ti-6Al-4V"].number("E"), nu=table["Ti-6Al-4V"].number("nu")
+    )
+    with pytest.raises(fret.errors.InvalidSceneError, match=r"nearest are titanium_6Al4V") as told:
+        fret.Scene.from_toml(named.replace("Ti-6Al-4V", "Ti-6Al-V4"))
+    line = named[: named.index("material =")].count("\n") + 1
+    assert f":{line}: body1.material" in str(told.value)
 
 
 def test_the_load_of_a_line_is_per_length() -> None:

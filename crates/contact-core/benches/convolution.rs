@@ -21,14 +21,7 @@ fn coefficients(n: usize) -> InfluenceCoefficients {
         material: Elastic { E: 420e9, nu: 0.3 },
         thickness: 5e-4,
     };
-    let body = Body {
-        substrate: STEEL,
-        coatings: vec![coating],
-        bonds: Vec::new(),
-        plastic: Vec::new(),
-        residual: Vec::new(),
-        shape: Shape::Flat,
-    };
+    let body = Body::coated(STEEL, [coating], Shape::Flat);
     let grid = Grid::centred(1.2e-3, n).expect("a positive extent");
     influence_coefficients(&body, &grid, &KernelSettings::default(), true, None).expect("a coating")
 }

@@ -47,17 +47,8 @@ fn best(op: &mut DcFft, n: usize) -> f64 {
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let steel = Elastic::new(210e9, 0.3)?;
-    let body = Body {
-        substrate: steel,
-        coatings: vec![Coating {
-            material: Elastic::new(420e9, 0.3)?,
-            thickness: 5e-4,
-        }],
-        bonds: Vec::new(),
-        plastic: Vec::new(),
-        residual: Vec::new(),
-        shape: Shape::Flat,
-    };
+    let coating = Coating::new(Elastic::new(420e9, 0.3)?, 5e-4)?;
+    let body = Body::coated(steel, [coating], Shape::Flat);
     println!("cells,threads,seconds");
     for argument in std::env::args().skip(1) {
         let n = argument.parse()?;

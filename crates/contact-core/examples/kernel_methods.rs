@@ -29,11 +29,8 @@ fn main() -> Result<(), Error> {
     let grid = Grid::from_spacing((n, n), (1e-6, 1e-6))?;
     let substrate = Elastic::new(210e9, 0.3)?;
     let indenter = Body::homogeneous(substrate, Shape::Flat);
-    let mut coated = indenter.clone();
-    coated.coatings.push(Coating {
-        material: Elastic::new(840e9, 0.3)?,
-        thickness: 8e-6,
-    });
+    let coating = Coating::new(Elastic::new(840e9, 0.3)?, 8e-6)?;
+    let coated = Body::coated(substrate, [coating], Shape::Flat);
 
     let mut methods = vec![KernelMethod::Hankel];
     for aliases in [0, 1] {

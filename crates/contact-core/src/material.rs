@@ -1,6 +1,14 @@
 //! Elastic materials, alone, as layers and in pairs.
 
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+
+use material_table::{Material, find, materials, nearest};
+
 use crate::error::Error;
+
+/// How many materials are told where a name is unknown.
+const NEAREST: usize = 3;
 
 /// A homogeneous isotropic elastic material.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,6 +31,23 @@ impl Elastic {
         let material = Self { E, nu };
         material.check("material")?;
         Ok(material)
+    }
+
+    /// The material of a name in the table that comes with the program, such as `Ti-6Al-4V`.
+    ///
+    /// # Errors
+    ///
+    /// There is no such material, or the table has no modulus or no Poisson's ratio of it.
+    pub fn named(name: &str) -> Result<Self, Error> {
+        let found = in_table("material", name)?;
+        let number = |key: &str| {
+            let number = found.number(key);
+            number.map_err(|_| {
+                let allowed = format!("a material whose {key} is in the table: give {key}");
+                Error::invalid("material", name, allowed)
+            })
+        };
+        Self::new(number("E")?, number("nu")?)
     }
 
     /// Shear modulus G = E / (2 (1 + nu)) \[Pa\].
@@ -53,6 +78,20 @@ impl Elastic {
         }
         Ok(())
     }
+}
+
+/// The row of a name in the table of materials; `key` says where the name stands.
+///
+/// # Errors
+///
+/// There is none; the message has the nearest names.
+pub(crate) fn in_table(key: &str, name: &str) -> Result<&'static Material, Error> {
+    static TABLE: LazyLock<BTreeMap<String, Material>> = LazyLock::new(materials);
+    find(&TABLE, name).ok_or_else(|| {
+        let near = nearest(&TABLE, name, NEAREST).join(", ");
+        let allowed = format!("the name of a material of the table; the nearest are {near}");
+        Error::invalid(key, format!("{name:?}"), allowed)
+    })
 }
 
 /// The bond of a layer to the one below it: springs under the traction there.
@@ -106,6 +145,16 @@ pub struct Coating {
 }
 
 impl Coating {
+    /// A layer of the thickness `thickness` \[m\], checked: finite and positive.
+    pub fn new(material: Elastic, thickness: f64) -> Result<Self, Error> {
+        let coating = Self {
+            material,
+            thickness,
+        };
+        coating.check("coating")?;
+        Ok(coating)
+    }
+
     /// Fails if the material or the thickness is out of its range; `key` says where it stands.
     pub fn check(&self, key: &str) -> Result<(), Error> {
         self.material.check(key)?;

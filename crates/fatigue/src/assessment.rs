@@ -1,11 +1,12 @@
 //! A criterion with its limit and its curve of lives, from the data of a material.
 
+use material_table::Material;
+
 use crate::criterion::Criterion;
 use crate::definition::Definition;
 use crate::error::Error;
 use crate::judge::Judge;
 use crate::life::inverted;
-use crate::material::Material;
 
 /// Longest life that is told \[cycles\]: a strain-life curve beyond the cycles of its tests is no
 /// knowledge. Where they end is not in the tables of materials, so this is a stated default.

@@ -12,14 +12,14 @@
 //! that of the larger s_n,max, Brown and Miller's that of the larger range. Smith, Watson and
 //! Topper's product is 0 without tension, Fatemi and Socie's where the bracket is negative.
 
-use crate::allowed::Allowed;
+use material_table::{Allowed, Material};
+
 use crate::ball::Ball;
 use crate::combination::Combination;
 use crate::error::Error;
 use crate::invariants::{OfInvariants, crossland, dang_van};
 use crate::judge::{Judge, strain_life};
 use crate::life::CoffinManson;
-use crate::material::Material;
 use crate::path::Path;
 
 /// A number of a criterion.

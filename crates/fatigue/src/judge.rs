@@ -1,8 +1,9 @@
 //! The limit or the curve of lives of a criterion for a material.
 
+use material_table::Material;
+
 use crate::error::Error;
 use crate::life::{Basquin, CoffinManson};
-use crate::material::Material;
 
 /// The limit or the curve of lives that a value is compared with.
 #[derive(Clone, Copy, Debug, PartialEq)]

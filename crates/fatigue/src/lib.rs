@@ -32,7 +32,6 @@
 #![forbid(unsafe_code)]
 
 mod acting;
-mod allowed;
 mod assessment;
 mod at_point;
 mod ball;
@@ -45,7 +44,6 @@ mod definition;
 mod eight_planes;
 mod eight_weights;
 mod error;
-mod estimate;
 mod evaluate;
 mod face_bound;
 mod forms;
@@ -54,11 +52,9 @@ mod histories;
 mod history;
 mod invariants;
 mod judge;
-mod known;
 mod lanes;
 mod life;
 mod limit;
-mod material;
 mod on_planes;
 mod path;
 mod plane_function;
@@ -67,10 +63,8 @@ mod range;
 mod refine;
 mod shakedown;
 mod shear_bound;
-mod table;
 mod tangent;
 
-pub use allowed::Allowed;
 pub use assessment::{Assessment, LONGEST};
 pub use at_point::AtPoint;
 pub use ball::{Ball, smallest_ball};
@@ -78,14 +72,14 @@ pub use criterion::Criterion;
 pub use critical_plane::Search;
 pub use definition::{CRITERIA, Definition, Parameter};
 pub use error::Error;
-pub use estimate::{Family, MARK as ESTIMATE, estimated};
 pub use evaluate::evaluate;
 pub use history::History;
 pub use invariants::dang_van_path;
 pub use judge::{Judge, strain_life};
-pub use known::Known;
 pub use life::{Basquin, CoffinManson};
-pub use material::{Material, QUANTITIES, Quantity, Sourced};
+pub use material_table::{
+    Allowed, ESTIMATE, Family, Known, Material, QUANTITIES, Quantity, Sourced, estimated, find,
+    materials, read,
+};
 pub use range::{LifeRange, Range};
 pub use shakedown::{Yield, yielding};
-pub use table::{find, materials, read};

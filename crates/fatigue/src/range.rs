@@ -4,12 +4,10 @@
 //! The logarithms of the three parts are independent, so they add as squares. With the best value m
 //! and the ends m_i of part i, ln(m/low)^2 = sum_i ln(m/m_i)^2, and likewise for the high end.
 
-use std::f64::consts::PI;
+use material_table::{Known, Material};
 
 use crate::assessment::{Assessment, LONGEST};
 use crate::error::Error;
-use crate::known::Known;
-use crate::material::Material;
 
 /// Numbers of a material that a strain-life curve has.
 const CURVE: [&str; 4] = ["s_f", "b", "e_f", "c"];
@@ -17,9 +15,6 @@ const CURVE: [&str; 4] = ["s_f", "b", "e_f", "c"];
 const OWN: [&str; 3] = ["k", "s_y", "S"];
 /// Numbers of criteria with a limit.
 const LIMITS: [&str; 2] = ["s_D", "t_D"];
-/// Numbers of the critical distance.
-const DISTANCE: [&str; 2] = ["dK_th", "s_D"];
-
 /// A number and the range that it lies in.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Range {
@@ -182,22 +177,5 @@ impl Assessment {
         let factor = given.unwrap_or_else(|| scatter(lives, kind));
         let note = material.and_then(|material| material.estimate_of(&names));
         Ok((factor, note))
-    }
-}
-
-impl Material {
-    /// Critical distance L = (dK_th/(2 s_D))^2/pi \[m\], both fully reversed (D. Taylor, The Theory
-    /// of Critical Distances, Elsevier 2007); fails with the number that is missing.
-    pub fn critical_distance(&self) -> Result<f64, Error> {
-        Ok((self.number("dK_th")? / (2.0 * self.number("s_D")?)).powi(2) / PI)
-    }
-
-    /// Longest over shortest critical distance, which goes with the square of a threshold over a
-    /// strength: a default.
-    pub fn scatter_of_distance(&self) -> f64 {
-        match self.known(&DISTANCE) {
-            Known::Known => 2.0,
-            Known::Estimate | Known::Recalled => 3.0,
-        }
     }
 }

@@ -90,6 +90,7 @@ fails!(
     Failed:
     Error => to_python,
     fatigue::Error => of_criterion,
+    material_table::Error => |error: material_table::Error| of_criterion(error.into()),
     ::fracture::Error => |error| to_python(contact_assess::crack::refused(error)),
 );
 

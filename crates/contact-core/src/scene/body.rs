@@ -41,6 +41,18 @@ impl Body {
         }
     }
 
+    /// A body with layers on its substrate, the outermost first.
+    pub fn coated(
+        substrate: Elastic,
+        coatings: impl IntoIterator<Item = Coating>,
+        shape: Shape,
+    ) -> Self {
+        Self {
+            coatings: coatings.into_iter().collect(),
+            ..Self::homogeneous(substrate, shape)
+        }
+    }
+
     /// The material at the surface.
     pub fn outermost(&self) -> Elastic {
         self.coatings.first().map_or(self.substrate, |c| c.material)

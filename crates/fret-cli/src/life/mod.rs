@@ -157,7 +157,7 @@ fn given_materials(options: &Options) -> Result<Vec<Option<Material>>, Error> {
     let mut names = options.material.clone();
     if let Some(file) = &options.materials {
         let (text, name) = text_of(file)?;
-        let own = read(&text, &name).map_err(of_criteria)?;
+        let own = read(&text, &name).map_err(|e| of_criteria(e.into()))?;
         if names.is_empty() && own.len() == 1 {
             names = own.keys().cloned().collect();
         }

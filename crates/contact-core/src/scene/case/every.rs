@@ -13,7 +13,7 @@ const MOST: usize = 50;
 
 /// What stands for a key that is missing or refused, by its name: nothing beside it becomes wrong. A
 /// key without one is taken out.
-const STAND_INS: [(&str, &str); 20] = [
+const STAND_INS: [(&str, &str); 21] = [
     ("schema", "1"),
     ("title", "\"\""),
     (
@@ -25,6 +25,7 @@ const STAND_INS: [(&str, &str); 20] = [
     ("grid", "{ n = 32, extent = 1e-3 }"),
     ("path", "[{ W = 10 }]"),
     ("shape", "{ sphere = { R = 0.01 } }"),
+    ("material", "\"steel_4340\""),
     ("E", "2e11"),
     ("nu", "0.3"),
     ("thickness", "1e-6"),

@@ -11,6 +11,7 @@ use super::path::path;
 use super::section::{Section, count, pair};
 use super::settings::settings;
 use super::shape::shape;
+use crate::material::in_table;
 use crate::scene::files::Files;
 use crate::scene::{Body, Bond, Coating, Elastic, Grid, Plastic, Profile, Scene};
 
@@ -20,7 +21,9 @@ pub(super) const ROOT: [&str; 13] = [
     "schema", "title", "body1", "body2", "friction", "grid", "path", "kernel", "solver", "skip",
     "output", "wear", "rig",
 ];
-const BODY: [&str; 6] = ["shape", "E", "nu", "coatings", "plastic", "residual"];
+const BODY: [&str; 7] = [
+    "shape", "material", "E", "nu", "coatings", "plastic", "residual",
+];
 
 /// The whole scene, not yet checked for meaning.
 pub(super) fn scene(table: &Table, files: &Files<'_>) -> Result<Scene, Fault> {
@@ -90,15 +93,42 @@ fn uncoated(section: &Section<'_>, files: &Files<'_>) -> Result<Body, Fault> {
             nu: section.number_or("nu", Elastic::RIGID.nu, &[])?,
         }
     } else {
-        Elastic {
-            E: section.number("E", "a modulus in Pa, or \"rigid\"", &[])?,
-            nu: section.number("nu", "Poisson's ratio", &[])?,
-        }
+        elastic(section, "a modulus in Pa, or \"rigid\"", &[])?
     };
     Ok(Body::homogeneous(substrate, shape(section, files)?))
 }
 
-const COATING: [&str; 7] = [
+/// The material of a body or of a layer: by its name in the table, by E and nu, or by both, where a
+/// number of the file stands in place of that of the table.
+fn elastic(section: &Section<'_>, what: &str, moduli: &[Measure]) -> Result<Elastic, Fault> {
+    let key = section.path("material");
+    let named = section.get("material").map(|value| {
+        let name = value.as_str();
+        let name = name.ok_or_else(|| Fault::value(&key, value, "the name of a material"))?;
+        in_table(&key, name).map_err(Fault::from)
+    });
+    let named = named.transpose()?;
+    let number = |name: &str, what: &str, measures: &[Measure]| {
+        let (given, named) = (section.number_if(name, measures)?, named);
+        let in_table = named.and_then(|of| of.numbers.get(name));
+        match (given.or(in_table.map(|of| of.value)), named) {
+            (Some(number), _) => Ok(number),
+            (None, Some(of)) => {
+                let (key, table) = (section.path(name), &of.name);
+                let told = format!("{key} is missing: the table of materials has none of {table}");
+                Err(Fault::new(key, format!("{told}; it must be {what}")))
+            }
+            (None, None) => section.number(name, what, measures),
+        }
+    };
+    Ok(Elastic {
+        E: number("E", what, moduli)?,
+        nu: number("nu", "Poisson's ratio", &[])?,
+    })
+}
+
+const COATING: [&str; 8] = [
+    "material",
     "E",
     "nu",
     "thickness",
@@ -227,10 +257,7 @@ fn coatings(
         .iter()
         .map(|coating| {
             Ok(Coating {
-                material: Elastic {
-                    E: coating.number("E", "a modulus in Pa", &moduli)?,
-                    nu: coating.number("nu", "Poisson's ratio", &[])?,
-                },
+                material: elastic(coating, "a modulus in Pa", &moduli)?,
                 thickness: coating.number("thickness", "a length in m", &[a_H])?,
             })
         })

@@ -2,7 +2,7 @@
 #![allow(clippy::float_cmp)]
 
 use super::*;
-use crate::scene::{KernelMethod, LoadPath, Preset, SaveFields, Spacing};
+use crate::scene::{Elastic, KernelMethod, LoadPath, Preset, SaveFields, Spacing};
 
 pub(super) const FILE: &str = "scene.toml";
 pub(super) const GOOD: &str = r#"schema = 1
@@ -292,4 +292,69 @@ fn a_branch_gives_loads_or_motions() {
     assert_refused(both, 33, &["path[1].T_x", "path[1].delta_x", "both given"]);
     let lifted = changed("T_x = { mu_W = 0.9 }", "W = 0.0\nM_y = 0.5");
     assert_refused(lifted, 33, &["path[1].M_y = 0.5", "W = 0"]);
+}
+
+#[test]
+fn a_material_has_the_numbers_of_its_name() {
+    let titanium = Elastic::named("titanium_6Al4V").unwrap();
+    let nitride = Elastic::named("TiN").unwrap();
+    let numbers =
+        "E = 210e9\nnu = 0.3\n\n[[body2.coatings]]\nE = { E_substrate = 2.0 }\nnu = 0.3\n";
+    let named = "material = \"Ti-6Al-4V\"\n\n[[body2.coatings]]\nmaterial = \"tin\"\n";
+    let scene = changed(numbers, named).unwrap();
+    assert_eq!(scene.body2.substrate, titanium);
+    assert_eq!(scene.body2.coatings[0].material, nitride);
+    assert_eq!(
+        set(&["body1.material=Ti64"]).unwrap().body1.substrate.E,
+        210e9
+    );
+    // The file that is written has the numbers.
+    let written = scene.to_toml();
+    assert_eq!(Scene::from_toml_str(&written, FILE, &[]).unwrap(), scene);
+    assert!(!written.contains("material"), "{written}");
+}
+
+#[test]
+fn a_number_beside_a_material_stands_in_place_of_that_of_the_table() {
+    let nitride = Elastic::named("TiN").unwrap();
+    let film = "E = { E_substrate = 2.0 }\nnu = 0.3\nthickness";
+    let of = |text: &str| {
+        let scene = changed(film, &format!("material = \"TiN\"\n{text}\nthickness")).unwrap();
+        scene.body2.coatings[0].material
+    };
+    assert_eq!(of("nu = 0.2"), Elastic { nu: 0.2, ..nitride });
+    assert_eq!(
+        of("E = \"300 GPa\""),
+        Elastic {
+            E: 300e9,
+            ..nitride
+        }
+    );
+    assert_eq!(of("E = { E_substrate = 3.0 }").E, 630e9);
+}
+
+#[test]
+fn a_material_that_is_unknown_has_its_nearest() {
+    let film = "E = { E_substrate = 2.0 }\nnu = 0.3\nthickness";
+    for (name, near) in [("Ti-6Al-V4", "titanium_6Al4V"), ("TiiN", "TiN")] {
+        let film_of = format!("material = \"{name}\"\nthickness");
+        assert_refused(
+            changed(film, &film_of),
+            15,
+            &["body2.coatings[0].material", name, "nearest", near],
+        );
+    }
+    assert_refused(
+        changed(film, "material = 3\nthickness"),
+        15,
+        &["body2.coatings[0].material = 3", "the name of a material"],
+    );
+    // A number that the table does not have is asked for.
+    let bare = material_table::materials();
+    let bare = bare.values().find(|of| !of.numbers.contains_key("nu"));
+    let name = &bare.unwrap().name;
+    let film_of = format!("material = \"{name}\"\nthickness");
+    let parts = ["body2.coatings[0].nu is missing", name, "Poisson's ratio"];
+    let told = complaint(changed(film, &film_of));
+    assert!(parts.iter().all(|part| told.contains(part)), "{told}");
 }

@@ -87,10 +87,6 @@ pub fn read(text: &str, file: &str) -> Result<BTreeMap<String, Material>, Error>
 /// The material of a name: of its own, or another one, whatever the case and the marks between its
 /// letters and digits.
 pub fn find<'a>(materials: &'a BTreeMap<String, Material>, name: &str) -> Option<&'a Material> {
-    let plain = |text: &str| -> String {
-        let letters = text.chars().filter(char::is_ascii_alphanumeric);
-        letters.map(|c| c.to_ascii_lowercase()).collect()
-    };
     let wanted = plain(name);
     let is_it = |of: &&Material| {
         let mut names = std::iter::once(&of.name).chain(&of.also);
@@ -99,6 +95,28 @@ pub fn find<'a>(materials: &'a BTreeMap<String, Material>, name: &str) -> Option
     materials
         .get(name)
         .or_else(|| materials.values().find(is_it))
+}
+
+/// The names that are nearest to one that is unknown, the nearest first.
+pub fn nearest(materials: &BTreeMap<String, Material>, name: &str, most: usize) -> Vec<String> {
+    let wanted = plain(name);
+    let likeness = |of: &Material| {
+        let names = std::iter::once(&of.name).chain(&of.also);
+        let each = names.map(|name| strsim::jaro_winkler(&plain(name), &wanted));
+        each.fold(0.0, f64::max)
+    };
+    let mut found: Vec<_> = (materials.values())
+        .map(|of| (likeness(of), &of.name))
+        .collect();
+    found.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let names = found.into_iter().take(most);
+    names.map(|(_, name)| name.clone()).collect()
+}
+
+/// Letters and digits alone, in lower case.
+fn plain(text: &str) -> String {
+    let letters = text.chars().filter(char::is_ascii_alphanumeric);
+    letters.map(|c| c.to_ascii_lowercase()).collect()
 }
 
 fn sourced(
