@@ -112,3 +112,45 @@ def test_a_crack_without_errors_has_none() -> None:
     of = fracture.Cracks.from_arrays(LENGTHS, np.full(6, 2e6), np.zeros(6))
     for error in (of.error, of.K_min_error, of.dK_error(), of.dK_error(THRESHOLD), of.K_I_error):
         assert np.all(np.isnan(error))
+
+
+@pytest.mark.solves
+def test_the_first_to_fail_has_the_margin_of_the_same_cracks() -> None:
+    """One question has one number, and the line says which lengths it is the least of."""
+    steel = fret.Elastic(E=210e9, nu=0.3)
+    film = fret.Coating(fret.Elastic(E=400e9, nu=0.25), thickness=1e-5)
+    scene = fret.Scene(
+        body1=fret.Body(steel, shape=fret.Cylinder(R=0.05)),
+        body2=fret.Body(steel, coatings=[film]),
+        mu=0.6,
+        grid=fret.Grid.strip(extent=1e-3, n=32),
+    )
+    path = fret.LoadPath.start().normal(2e5).tangential([6e4, -6e4, 6e4], increments=3)
+    result = fret.solve(scene, path, save="all", progress=False)
+    lengths = [2e-5, 5e-5, 1e-4, 3e-4]
+    threshold = fracture.Threshold.of("steel_42CrMo4")
+    found = fracture.first_to_fail(result, threshold=threshold, lengths=lengths)
+    same = result.crack(lengths=lengths).arrest(threshold)
+    assert (found.substrate, found.substrate_error) == (same.margin, same.margin_error)
+    assert (found.substrate_start, found.substrate_at) == (same.start, same.margin_at)
+    assert "least dK/dK_th from a length of 20 um on" in repr(found)
+    assert "the ranges leave out the scatter of estimates" in found.summary()
+
+
+def test_a_range_says_that_it_leaves_out_the_scatter_of_estimates() -> None:
+    """The words stand where an estimate meets a range, and nowhere else."""
+    words = "the ranges leave out the scatter of estimates"
+    plain = fracture.Cracks.from_arrays(LENGTHS, np.geomspace(1e7, 1e6, 6), np.zeros(6))
+    barred = fracture.Cracks(plain.dataset.assign(error=0.1 * plain.dataset.K_I))
+    of_rule = fracture.Threshold.of("titanium_6Al4V")
+    own = fracture.Threshold(of_rule.dK_th, of_rule.dS_0)
+    paris = fracture.Paris(1e-11, 3.0)
+    guessed = fracture.Paris(1e-11, 3.0, estimate="paris_C is an estimate")
+    for cracks, threshold, law, in_arrest, in_life in (
+        (barred, of_rule, paris, True, True),
+        (barred, own, guessed, False, True),
+        (barred, own, paris, False, False),
+        (plain, of_rule, guessed, False, False),
+    ):
+        assert (words in cracks.arrest(threshold).told()) == in_arrest
+        assert (words in cracks.life(threshold, law).told()) == in_life

@@ -26,6 +26,12 @@ MAY = {"dormant": "not grow", "stops": "stop", "grows": "grow through all length
 UNDECIDED = "not decided within the error of K"
 
 
+def of_estimates(*estimates: str | None, has_range: bool) -> list[str]:
+    """Notes on the numbers that are estimates: ranges are those of the error of K alone."""
+    beyond = " (the ranges leave out the scatter of estimates)" if has_range else ""
+    return [f"estimate: {of}{beyond}" for of in dict.fromkeys(estimates) if of]
+
+
 @dataclass(frozen=True)
 class CrackArrest:
     """What becomes of a crack that begins with a length.
@@ -52,7 +58,7 @@ class CrackArrest:
     lengths : (float, float), optional
         Where it stops with the range of K less and more its error [m]. These are the shortest and
         the longest length, infinite where it grows through all lengths. None where K came without
-        an error.
+        an error. The scatter of the threshold is no part of it.
     verdicts : tuple of str
         The verdicts that the error of K leaves, the one above first.
     estimate : str, optional
@@ -122,9 +128,7 @@ class CrackArrest:
         ]
         if any(error >= of > 0.0 for of, error in bars):
             said.append("the error of K is as large as dK there")
-        if self.estimate:
-            said.append(f"estimate: {self.estimate}")
-        return said
+        return [*said, *of_estimates(self.estimate, has_range=self.lengths is not None)]
 
     def briefly(self) -> str:
         """Give the verdict in a few words, as figures have it."""
@@ -240,5 +244,5 @@ class CrackLife:
             said = f"{rough(self.cycles)} cycles (estimate) {way}"
         else:
             said = f"{with_range(self.cycles, self.low, self.high)} cycles {way}"
-        notes = [of for of in (self.arrest.estimate, self.estimate) if of]
-        return [said, *(f"estimate: {of}" for of in dict.fromkeys(notes))]
+        notes = self.arrest.estimate, self.estimate
+        return [said, *of_estimates(*notes, has_range=self.low is not None)]

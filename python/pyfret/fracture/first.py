@@ -9,10 +9,12 @@ import numpy as np
 
 from pyfret._core import with_error
 from pyfret._util.door import numbers_only
+from pyfret._util.numbers import um
 from pyfret._util.types import as_number
 from pyfret.fatigue.cycle_section import placed
 from pyfret.fatigue.cycles import history
 from pyfret.fatigue.section import Section
+from pyfret.fracture.arrest import of_estimates
 from pyfret.fracture.below import Cycle, crack
 from pyfret.fracture.film import channel_release
 from pyfret.fracture.interface import over_cycle
@@ -48,6 +50,10 @@ class FailureOrder(NamedTuple):
     substrate_error: float | None = None
     #: Which numbers of the threshold are estimates, in words.
     estimate: str | None = None
+    #: Shortest crack in the substrate, and the crack that has the smallest range over its threshold
+    #: [m].
+    substrate_start: float | None = None
+    substrate_at: float | None = None
 
     @property
     def first(self) -> Part | None:
@@ -62,6 +68,9 @@ class FailureOrder(NamedTuple):
         told = [f"{of} {with_error(getattr(self, of), errors.get(of))}" for of in PARTS]
         if self.estimate and self.substrate_error is not None:
             told[-1] += " (estimate)"
+        if self.substrate_start is not None and self.substrate_at is not None:
+            start, at = um(self.substrate_start), um(self.substrate_at)
+            told[-1] += f" (least dK/dK_th from a length of {start} on, at {at})"
         return told
 
     def __repr__(self) -> str:
@@ -70,7 +79,7 @@ class FailureOrder(NamedTuple):
 
     def summary(self) -> str:
         """The three with their errors, a line each, and which fails first."""
-        notes = [f"estimate: {self.estimate}"] if self.estimate else []
+        notes = of_estimates(self.estimate, has_range=self.substrate_error is not None)
         return "\n".join([*self._told(), f"first to fail: {self.first or 'none'}", *notes])
 
 
@@ -105,7 +114,8 @@ def first_to_fail(
     peel_strength, shear_strength : float, optional
         Strengths of the interfaces [Pa], both or neither: :func:`over_cycle`.
     threshold : Threshold, optional
-        Of the substrate, for a normal crack that has come through the coatings: :func:`crack`.
+        Of the substrate, for a normal crack that has come through the coatings: :func:`crack`. Its
+        number is ``margin`` of :meth:`Cracks.arrest` from the shortest of `lengths`.
     residual : sequence, optional
         Residual stress of every layer, as in :class:`pyfret.fatigue.Section`.
     x : float, optional
@@ -127,7 +137,7 @@ def first_to_fail(
         raise ValueError(f"body {body_number} has no coating and no interface")
     film = interface = substrate = math.nan
     toughness = as_number(toughness)
-    error = note = None
+    error = note = start = least_at = None
     if toughness is not None:
         if not (toughness > 0.0 and np.isfinite(toughness)):
             raise ValueError(f"toughness = {toughness}: must be positive, in J/m^2")
@@ -177,4 +187,5 @@ def first_to_fail(
         found_crack = cracks.arrest(threshold)
         substrate, error = found_crack.margin, found_crack.margin_error
         note = found_crack.estimate
-    return FailureOrder(film, interface, substrate, error, note)
+        start, least_at = found_crack.start, found_crack.margin_at
+    return FailureOrder(film, interface, substrate, error, note, start, least_at)

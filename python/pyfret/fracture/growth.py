@@ -342,7 +342,8 @@ class Cracks(Kept, Labelled, Figured):
         """Count the cycles from the length `start` [m] to `end` [m] or to arrest.
 
         By default from the shortest to the longest crack. With the errors of K the cycles have a
-        range, as :meth:`arrest`. The scatter of the law of growth is no part of it.
+        range, as :meth:`arrest`. The scatter of the threshold and of the law of growth is no part
+        of it.
         """
 
         def followed(more: NDArray[np.float64] | float) -> tuple[float, float, bool]:
