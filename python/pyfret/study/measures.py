@@ -178,7 +178,9 @@ class Cracking:
 
     Gives ``safety_factor``, or ``life`` [cycles] for criteria with a strain-life curve, and
     ``crack_depth`` [m], the depth of the worst point, by :meth:`pyfret.Result.life`. The error of
-    the stress gives the range of the margin, ``safety_factor_low`` and ``safety_factor_high``.
+    the stress gives the range of the margin, ``safety_factor_low`` and ``safety_factor_high``. The
+    margin is that at the worst point: :func:`pyfret.study.compare` takes the mean stress over the
+    critical distance of the material.
 
     Parameters
     ----------
@@ -199,7 +201,7 @@ class Cracking:
         life = result.life(self.materials, self.criterion, body_number=self.body_number)
         worst, margin = life.worst, life.margin
         answer = Answer(worst.margin, *worst.range)
-        unit, meaning = margin.attrs["units"], margin.attrs["long_name"]
+        unit, meaning = margin.attrs["units"], f"{margin.attrs['long_name']} at the worst point"
         depth = estimate(worst.z, "m", "depth of the worst point")
         return {**answer.arrays(str(margin.name), unit, meaning), "crack_depth": depth}
 
