@@ -117,6 +117,11 @@ def test_the_best_is_that_of_the_mean_over_the_critical_distance(life: fatigue.L
     assert pytest.approx(L) == life.range.L
     found = life.over_distance([L / 2, L, 2 * L])
     assert float(found.margin[1]) == pytest.approx(life.best)
+    # Every row is the range over a distance that is given.
+    for n, at in enumerate((L / 2, L, 2 * L)):
+        row = life.range_of(life.worst.layer, L=at)
+        told = [float(found.dataset[side][n]) for side in ("low", "high")]
+        assert (row.low, row.best, row.high) == (told[0], float(found.margin[n]), told[1])
     # Steep stresses: the longer the distance, the longer the life; a point is the worst.
     assert np.all(np.diff(found.margin.values) > 0.0)
     assert life.worst.margin < float(found.margin[0])

@@ -786,8 +786,6 @@ class CriterionBelow:
         """Depths [m] and their layers."""
     def fields(self, /) -> dict[str, NDArray[np.float64]]:
         """Arrays over (depth, place), NaN where not judged."""
-    def largest_mean(self, /, L: float, method: str, layer: int) -> float | None:
-        """The largest mean over L [m] in a layer; None if it fits nowhere on the grid."""
     @property
     def notes(self, /) -> list[str]:
         """What a reader should know of the materials."""
@@ -896,8 +894,8 @@ class CycleSection:
         tolerance: float,
     ) -> dict[str, NDArray[np.float64]]:
         """Judge the mean over a critical distance L [m] in a layer: arrays over the places."""
-    def unsettled(self, /) -> float | None:
-        """Part of the largest traction by which the cycle ends off its start, if that was kept."""
+    def note_on_cycle(self, /) -> str | None:
+        """A note on a cycle that does not end as it began, if its start was kept."""
 
 @final
 class Cylinder:

@@ -46,21 +46,27 @@ impl ByCriterion {
             let elastic = coating.map_or(body.substrate, |coating| coating.material);
             let mut of = Assessment::of(name, material).map_err(of_criteria)?;
             for (number, value, digits) in [("E", elastic.E, 1e-9), ("nu", elastic.nu, 1.0)] {
-                let Some(own) = of.criterion.number(number) else {
-                    continue;
-                };
-                if (own - value).abs() > NOTABLE_DIFFERENCE * value.abs() {
+                let enters = of.criterion.number(number).is_some();
+                let own = material.number(number).unwrap_or(value);
+                // Another E is another material; another nu matters where the criterion has it.
+                if (enters || number == "E")
+                    && (own - value).abs() > NOTABLE_DIFFERENCE * value.abs()
+                {
                     let unit = if number == "E" { " GPa" } else { "" };
                     notes.push(format!(
-                        "{}: strains follow from the scene's {number} = {:.4}{unit}; that of `{}` is {:.4}{unit}",
+                        "{}: the scene has {number} = {:.4}{unit}, `{}` has {:.4}{unit}. Stresses and strains are \
+                         those of the scene, strengths those of `{}`",
                         body.layer_name(layer),
                         digits * value,
                         material.name,
-                        digits * own
+                        digits * own,
+                        material.name,
                     ));
                 }
-                let changed = of.criterion.with_number(number, value);
-                of.criterion = changed.map_err(of_criteria)?;
+                if enters {
+                    let changed = of.criterion.with_number(number, value);
+                    of.criterion = changed.map_err(of_criteria)?;
+                }
             }
             assessments.push(Some(of));
         }

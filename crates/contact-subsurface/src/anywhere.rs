@@ -20,9 +20,9 @@ use contact_core::zones::Outline;
 /// How far beyond the grid a section is made longer, over the length of the grid, and the ratio of
 /// the distances of successive samples from its end, the first a cell from it.
 const LONGER: f64 = 8.0;
-const RATIO: f64 = 1.35;
+const RATIO: f64 = 1.8;
 /// Most depths of a layer at which its section is made longer: the ascent finds the others.
-const ROWS: usize = 6;
+const ROWS: usize = 4;
 /// How much deeper the substrate is sampled than the given depths, the ratio of successive depths,
 /// and the part of its highest sample that those at the deepest must reach.
 const DEEPER: f64 = 8.0;

@@ -76,10 +76,12 @@ impl Coarser {
     /// border there.
     fn place(&self, x: f64, y: f64, border: Option<&Border>) -> (f64, f64) {
         let (x, y) = (x - self.middle.0, y - self.middle.1);
-        let same = self
-            .borders
-            .iter()
-            .filter(|b| border.is_some_and(|own| own.zone == b.zone));
+        let Some(own) = border else {
+            return (x, y);
+        };
+        let beside = self.points.borders_beside(x, y);
+        let same = self.borders.iter().chain(&beside);
+        let same = same.filter(|b| own.zone == b.zone);
         let nearest = same.min_by(|a, b| {
             let away = |b: &Border| (b.x - x).hypot(b.y - y);
             away(a).total_cmp(&away(b))

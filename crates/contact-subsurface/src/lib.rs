@@ -66,7 +66,9 @@ pub use line::Line;
 pub use loop_point::{Direction, LoopPoint};
 pub use maximum::{Top, top_of_line, top_of_plane};
 pub use measure::{MEASURES, Measure, measure_named};
-pub use moments::{Moments, OverCycle, SHAKEN, Yielding, growth, main_sections, unsettled};
+pub use moments::{
+    Moments, OverCycle, SHAKEN, Yielding, growth, main_sections, note_on_cycle, unsettled,
+};
 pub use plastic_strain::{Growth, RATCHETS};
 pub use points::Points;
 pub use probe::{Component, DISPLACEMENTS, Probe};

@@ -164,9 +164,24 @@ pub fn main_sections(cycle: &dyn OverCycle, grid: &Grid) -> Result<Vec<Line>, Er
     Ok(Line::of_outlines(&all, stretched))
 }
 
-/// Difference of the tractions at the end and at the start of a cycle, over the largest at the end:
-/// 0 for a steady cycle. A large value means that later cycles differ from this one. `None` if the
-/// increment before the cycle was not stored.
+/// Part of the largest traction by which the ends of a cycle may differ without a note.
+const UNSETTLED: f64 = 0.02;
+
+/// A note on a cycle whose tractions at the end differ from those at its start by more than
+/// [`UNSETTLED`] of the largest one. `None` if the increment before the cycle was not stored.
+pub fn note_on_cycle(cycle: &dyn OverCycle) -> Result<Option<String>, Error> {
+    let much = unsettled(cycle)?.filter(|much| *much > UNSETTLED);
+    Ok(much.map(|much| {
+        format!(
+            "the cycle does not end as it began: tractions differ by up to {:.0} % of the largest one. The number is \
+             that of this cycle; one more cycle of the path shows what later cycles change",
+            100.0 * much
+        )
+    }))
+}
+
+/// Difference of the tractions at the end and at the start of a cycle, over the largest of both:
+/// 0 for a steady cycle. `None` if the increment before the cycle was not stored.
 pub fn unsettled(cycle: &dyn OverCycle) -> Result<Option<f64>, Error> {
     let Some(start) = cycle.start()? else {
         return Ok(None);

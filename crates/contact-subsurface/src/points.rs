@@ -139,6 +139,20 @@ impl Points {
         })
     }
 
+    /// The same on the lines along x and along y through a place on the grid \[m\]: a place between
+    /// the middles of rows lies on the rim where it crosses them.
+    pub(super) fn borders_beside(&self, x: f64, y: f64) -> Vec<Border> {
+        let (length, width) = self.loaded.grid.extent();
+        if x.abs() > 0.5 * length || y.abs() > 0.5 * width {
+            return Vec::new();
+        }
+        let mut found = self.borders(0, Some(Line::AlongX(y)));
+        if self.loaded.grid.ny > 1 {
+            found.extend(self.borders(0, Some(Line::AlongY(x))));
+        }
+        found
+    }
+
     fn gather<Q: Quantity<N, R> + Sync, const N: usize, const R: usize>(
         &self,
         points: &[Point],

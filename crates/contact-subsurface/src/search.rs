@@ -316,7 +316,7 @@ impl Search {
         let mut change = 0.0_f64;
         for coarser in &self.coarser {
             let coarse = match probe {
-                Probe::Stress(m) => (m.value)(&coarser.stress(at, border)?),
+                Probe::Stress(m) => (m.value)(&coarser.stress(at, border.as_ref())?),
                 Probe::Displacement(c) => coarser.displacement(at.0, at.1, at.2)?[c.axis()],
             };
             change = change.max((value - coarse).abs());
@@ -399,7 +399,7 @@ impl Search {
     }
 
     /// The border that a point lies on.
-    fn border_at(&self, at: Point) -> Option<&Border> {
+    fn border_at(&self, at: Point) -> Option<Border> {
         let nearest = self.nearest_border(at);
         let on_it = nearest.filter(|(_, away)| away[0].max(away[1]) < ON_BORDER);
         on_it.map(|(border, _)| border)
@@ -412,7 +412,7 @@ impl Search {
     }
 
     /// The nearest border and the distances from it along the surface and in depth \[cells\].
-    fn nearest_border(&self, (x, y, depth): Point) -> Option<(&Border, [f64; 2])> {
+    fn nearest_border(&self, (x, y, depth): Point) -> Option<(Border, [f64; 2])> {
         let cell = if self.flat {
             self.d.0
         } else {
@@ -420,7 +420,9 @@ impl Search {
         };
         let across = |v: f64| if self.flat { 0.0 } else { v / self.d.1 };
         let away = |b: &Border| ((b.x - x) / self.d.0).hypot(across(b.y - y));
-        let by_distance = self.borders.iter().map(|b| (b, [away(b), depth.z / cell]));
+        let beside = self.points.borders_beside(x, y);
+        let all = self.borders.iter().copied().chain(beside);
+        let by_distance = all.map(|b| (b, [away(&b), depth.z / cell]));
         by_distance.min_by(|(_, a), (_, b)| a[0].total_cmp(&b[0]))
     }
 }

@@ -121,6 +121,16 @@ impl Kind {
     }
 }
 
+/// A number of a unit in SI, rounded once: 20 um is 20/1e6 m, as a reader writes it, not 20 * 1e-6 m.
+pub fn times(number: f64, size: f64) -> f64 {
+    let parts = (1.0 / size).round();
+    if parts > 1.0 && size == 1.0 / parts {
+        number / parts
+    } else {
+        number * size
+    }
+}
+
 /// A unit: what it measures, and its size in SI units. Forces and moments of line contacts are per
 /// metre.
 pub type Unit = (Kind, f64);

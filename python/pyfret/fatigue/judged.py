@@ -20,7 +20,7 @@ from pyfret.fatigue import stored
 from pyfret.fatigue.cycles import Of
 from pyfret.fatigue.distance import OverDistance, critical, usual
 from pyfret.fatigue.fields import margin_name
-from pyfret.fatigue.ranges import LifeRange, Range, of_mean
+from pyfret.fatigue.ranges import LifeRange, Range
 from pyfret.fatigue.worst import Worst, in_megapascals
 from pyfret.scene.tables import table
 from pyfret.subsurface.tensor import Errors
@@ -134,7 +134,7 @@ class Life(Kept, Labelled, Figured):
 
     @property
     def notes(self) -> list[str]:
-        """What to know of the numbers: other elastic constants, a cycle that is not settled."""
+        """What to know of the numbers: other elastic constants, a cycle that does not close."""
         at_rim = [RIM] if self.worst.at == "rim" and self.range.distance is None else []
         return [*self._notes, *self.range.notes, *at_rim]
 
@@ -308,8 +308,8 @@ class Life(Kept, Labelled, Figured):
         ----------
         L : array, optional
             Critical distances [m] (default: nine from a quarter of that of the material to four
-            times it; without one from a hundredth to a quarter of the depth of the section). Those
-            that reach beyond the layer are left out.
+            times it; without one from a hundredth to a quarter of the depth of the section; those
+            that reach beyond the layer are left out).
         method : "point", "line", "area" or "volume"
             As in :func:`pyfret.fatigue.average`.
         layer : int, optional
@@ -318,7 +318,8 @@ class Life(Kept, Labelled, Figured):
         Returns
         -------
         OverDistance
-            Low, best and high margin over L; :func:`pyfret.plot.life_over_distance` draws them.
+            Low, best and high margin over L: every row is :meth:`range_of` its L.
+            :func:`pyfret.plot.life_over_distance` draws them.
 
         Raises
         ------
@@ -328,21 +329,17 @@ class Life(Kept, Labelled, Figured):
         if not self._sections:
             raise ValueError(UNPICKLED)
         there = self.worst.layer if layer is None else layer
-        worst, assessment = self.worst_of(there), self._assessments[there]
-        assert assessment is not None
         material = self._materials[there]
-        part = worst.error / worst.value if worst.value > 0.0 else 0.0
-        rows = []
         borders = [0.0, *self.dataset.attrs["interfaces"], np.inf]
         lengths = (
             usual(material, float(self.dataset.z.max()), borders[there + 1] - borders[there])
             if L is None
             else np.atleast_1d(np.asarray(L, float))
         )
-        for at in lengths.tolist():
-            means = [section.largest_mean(at, method, there) for section in self._sections]
-            value = max((mean for mean in means if mean is not None), default=np.nan)
-            rows.append(of_mean(assessment, material, value, part * value, at))
+        rows = [self.range_of(there, L=at, method=method) for at in lengths.tolist()]
+        for at, row in zip(lengths.tolist(), rows, strict=True):
+            if row.L is None:
+                raise ValueError(f"L = {length(at)}: {row.notes[0]}".replace("µ", "u"))
         name, meaning = margin_name(self._assessments)
         return OverDistance.of(lengths, rows, name, meaning, method, critical(material))
 

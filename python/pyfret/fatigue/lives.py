@@ -42,9 +42,6 @@ if TYPE_CHECKING:
 
 __all__ = ["Life", "Materials", "Worst", "life", "lives"]
 
-#: Part of the largest traction by which the ends of a cycle may differ before that is told.
-UNSETTLED = 0.02
-
 
 @numbers_only
 def life(
@@ -139,12 +136,7 @@ def lives(
             fields = described(by.fields(), by.assessments)
             shown[name].append(labelled(result, one, depths, fields))
         if not notes and where.cycle is not None:
-            much = below.unsettled()
-            if much is not None and much > UNSETTLED:
-                notes.append(
-                    f"the cycle is not settled: its tractions end {100 * much:.0f} % of the "
-                    "largest one off from where they began; go through it more often"
-                )
+            notes.extend(filter(None, [below.note_on_cycle()]))
 
     def of(name: CriterionName) -> Life:
         whole = side_by_side(result, where, shown[name]).assign_attrs(criterion=name)

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from pyfret._core import known_as, with_range
 
-if TYPE_CHECKING:
-    from pyfret._core import Assessment, Material
-
-__all__ = ["LifeRange", "Range", "known_as", "of_mean"]
+__all__ = ["LifeRange", "Range", "known_as"]
 
 
 class Range(NamedTuple):
@@ -58,11 +55,3 @@ class LifeRange(NamedTuple):
     def __repr__(self) -> str:
         """Give the best value and the range, with the digits that the range leaves."""
         return with_range(self.best, self.low, self.high)
-
-
-def of_mean(
-    assessment: Assessment, material: Material | None, value: float, error: float, L: float
-) -> LifeRange:
-    """The range of a mean over a distance that is given: of the stress and of the material."""
-    stress, whole, scatter, notes = assessment.range_at(value, error, material)
-    return LifeRange(*whole, Range(*stress), scatter, None, L, tuple(notes))

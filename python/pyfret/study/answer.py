@@ -30,11 +30,14 @@ class Answer(NamedTuple):
         """The suffixes of a number in a study, and their values."""
         yield from zip(SIDES, self, strict=True)
 
-    def arrays(self, name: str, unit: str, meaning: str) -> dict[str, xr.DataArray]:
-        """The number and its range by their names."""
+    def arrays(
+        self, name: str, unit: str, meaning: str, *, without: str = ""
+    ) -> dict[str, xr.DataArray]:
+        """The number and its range by their names; the range does not hold `without`."""
+        left_out = {"without": without} if without else {}
         return {
             f"{name}{side}": xr.DataArray(
-                value, attrs={"units": unit, "long_name": f"{meaning}{SIDES[side]}"}
+                value, attrs={"units": unit, "long_name": f"{meaning}{SIDES[side]}", **left_out}
             )
             for side, value in self.sides()
         }

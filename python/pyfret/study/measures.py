@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from pyfret.fatigue.criteria import CriterionName
     from pyfret.fatigue.lives import Materials
     from pyfret.result import Result
+    from pyfret.subsurface.tensor import Stress
 
 __all__ = ["MEASURES", "Arrest", "Cracking", "FirstToFail", "Measure", "Wear", "measured"]
 
@@ -50,6 +51,19 @@ def of_path(name: str, of: Callable[[xr.DataArray], Any]) -> Callable[[Result], 
     return lambda result: float(of(result.dataset[name]))
 
 
+#: Difference of a largest stress and the highest sample of its section, over the stress, up to
+#: which the samples show the increment at which it is largest.
+OFF_SECTION = 0.05
+
+
+def on_section(below: Stress, name: str) -> float:
+    """The highest sample of a measure on a section, the rim of the contact among them."""
+    samples = [below.measure(name)]
+    if not name.startswith("interface"):
+        samples += [border.measure(name) for border in (below.rims(), below.stick_borders())]
+    return max(float(of.max()) for of in samples if of.size)
+
+
 def largest(name: str) -> Callable[[Result], Answer]:
     """The largest value of a measure of stress in body 2, over the increments with fields."""
 
@@ -58,10 +72,15 @@ def largest(name: str) -> Callable[[Result], Answer]:
         if name.startswith("interface") and not layered:
             return NOTHING
         kept = (result.at(int(n)) for n in result.dataset.saved_increment.values)
-        found = [at.stress().maximum(name) for at in kept if bool(at.contact.any())]
-        if not found:
+        below = [at.stress() for at in kept if bool(at.contact.any())]
+        if not below:
             return NOTHING
-        worst = max(found, key=lambda of: of.value)
+        tops = [on_section(of, name) for of in below]
+        highest = int(np.argmax(tops))
+        worst = below[highest].maximum(name)
+        if not abs(worst.value - tops[highest]) <= OFF_SECTION * abs(worst.value):
+            # The sections do not show at which increment the largest value is.
+            worst = max((of.maximum(name) for of in below), key=lambda of: of.value)
         return Answer.within(worst.value, worst.error, least=-math.inf if name in SIGNED else 0.0)
 
     return measure
@@ -126,6 +145,10 @@ SIGNED = ("s_1", "interface_peel")
 CODES = ("regime", "first")
 
 
+#: What ranges of a study leave out, since points of one material are compared.
+SCATTER_OF_K = "the scatter of the wear coefficient, which WearResult.range_of_cycles() has"
+
+
 @valued()
 class Wear(wear.Wear):
     """A measure: what many cycles wear off, by :func:`pyfret.wear.solve` on the scene of the point.
@@ -167,7 +190,9 @@ class Wear(wear.Wear):
                 ends = (life.best, life.low, life.high)
                 answer = Answer(*ends) if math.isfinite(life.best) else NOTHING
                 meaning = f"life of the coating of body {body}"
-                numbers |= answer.arrays(f"coating_life{body}", "cycles", meaning)
+                numbers |= answer.arrays(
+                    f"coating_life{body}", "cycles", meaning, without=SCATTER_OF_K
+                )
         return numbers
 
 

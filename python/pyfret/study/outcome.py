@@ -169,6 +169,9 @@ class Study(Kept, Labelled, Figured):
         lines += [
             "  ".join(c.ljust(w) for c, w in zip(r, widths, strict=True)).rstrip() for r in rows
         ]
+        for name in self.measures:
+            if without := self.dataset[name].attrs.get("without"):
+                lines.append(f"{name}: its range is without {without}")
         for values, why in self.failed():
             at = ", ".join(f"{name} = {told(value)}" for name, value in values.items())
             lines.append(f"failed at {at}: {' '.join(why.split())}")

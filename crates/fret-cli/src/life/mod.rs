@@ -10,7 +10,7 @@ use contact_core::scene::text_of;
 use contact_store::Store;
 use contact_store::StoredCycle;
 use contact_subsurface::{Line, Side, chosen_depths, depths};
-use contact_subsurface::{OverCycle, main_sections, unsettled};
+use contact_subsurface::{OverCycle, main_sections, note_on_cycle};
 use fatigue::{AtPoint, Material, Search, find, materials, read};
 use serde_json::json;
 
@@ -21,9 +21,6 @@ use crate::json;
 use crate::printed::print;
 use crate::stress::{given_residual, stop_on_interrupt};
 use crate::terminal::say;
-
-/// Difference of the ends of a cycle over the largest traction, above which a note is printed.
-const UNSETTLED: f64 = 0.02;
 
 /// Judges a result and prints the judgement.
 pub(crate) fn life(options: &Options) -> Result<(), Failure> {
@@ -75,13 +72,7 @@ fn judged(options: &Options) -> Result<Vec<String>, Error> {
         (None, None) => main_sections(&cycle, &scene.grid)?,
     };
     let mut notes = of[0].notes.clone();
-    if let Some(much) = unsettled(&cycle)?.filter(|much| *much > UNSETTLED) {
-        notes.push(format!(
-            "the cycle is not settled: its tractions end {:.0} % of the largest one off from where they began; go \
-             through it more often",
-            100.0 * much
-        ));
-    }
+    notes.extend(note_on_cycle(&cycle)?);
     let last = cycle.moments(&[cycle.count() - 1])?;
     let length = scene.length(&last.tractions[0][2]);
     let asked = if options.depths.is_empty() {

@@ -10,16 +10,17 @@ use contact_core::Error;
 use contact_core::digits::{degrees, with_range};
 use contact_core::scene::Body;
 use contact_subsurface::{Depth, Line, Zone};
-use fatigue::{Assessment, AtPoint, Material, Range};
+use fatigue::{Assessment, AtPoint, LONGEST, Material, Range};
 use serde_json::{Value, json};
 
 use super::options::Options;
 use crate::json::{absent, number, or_why};
 use crate::units::{mega, um};
 
-/// Why there is no plane, and no length of a mean.
+/// Why there is no plane, no mean, and no range of one.
 const NO_PLANE: &str = "the criterion has no plane";
 const NO_MEAN: &str = "no mean over a distance";
+const GIVEN: &str = "the distance was given";
 
 /// The line of a layer.
 #[derive(Clone)]
@@ -226,7 +227,7 @@ impl Layer<'_> {
         let point = self.range.point;
         let mut json = self.json();
         let own = json!({
-            self.name(): number(point.best), "at_point": [number(point.low), number(point.high)],
+            self.name(): self.margin(point.best), "at_point": [self.margin(point.low), self.margin(point.high)],
             "value": number(extreme.value), "error": number(error), "error_x": number(extreme.error.x),
             "error_y": number(extreme.error.y), "error_z": number(extreme.error.z),
             "error_tractions": or_why(json!(extreme.error.tractions.map(number)), "not computed"), "x": extreme.x, "y": extreme.y,
@@ -283,7 +284,7 @@ impl Layer<'_> {
         let axis = along.name();
         let mut json = self.json();
         let own = json!({
-            self.name(): number(self.of.margin(mean.value)), "value": mean.value,
+            self.name(): self.margin(self.of.margin(mean.value)), "value": mean.value,
             "method": options.method, axis: mean.place,
         });
         merge(&mut json, own);
@@ -304,6 +305,20 @@ impl Layer<'_> {
         }
     }
 
+    /// A margin for programs: why one is infinite.
+    fn margin(&self, margin: f64) -> Value {
+        let why = match (self.of.gives_lives(), self.range.point.low.is_infinite()) {
+            (false, _) => "infinite: the stress does no damage".to_owned(),
+            (true, true) => "endless: the stress does no damage".to_owned(),
+            (true, false) => format!("beyond {LONGEST:e} cycles, where the curve has no tests"),
+        };
+        if margin.is_infinite() {
+            absent(&why)
+        } else {
+            number(margin)
+        }
+    }
+
     /// The range in words.
     fn told(&self) -> String {
         format!("{}, 10 to 90 %", said(&self.range.of.range, self.of))
@@ -313,11 +328,16 @@ impl Layer<'_> {
     fn json(&self) -> Value {
         let Range { low, best, high } = self.range.of.range;
         let three = |of: Range| [of.low, of.best, of.high].map(number);
+        let no_range = if self.range.length.is_some() {
+            GIVEN
+        } else {
+            NO_MEAN
+        };
         json!({
             "layer": self.worst.extreme.depth.layer, "criterion": self.of.criterion.name(),
-            "unit": self.of.criterion.unit(), "low": number(low), "best": number(best), "high": number(high),
+            "unit": self.of.criterion.unit(), "low": self.margin(low), "best": self.margin(best), "high": self.margin(high),
             "of_stress": three(self.range.of.stress), "of_material": self.range.of.material,
-            "of_distance": or_why(json!(self.range.of.distance.map(three)), NO_MEAN),
+            "of_distance": or_why(json!(self.range.of.distance.map(three)), no_range),
             "L": or_why(json!(self.range.length), NO_MEAN),
         })
     }

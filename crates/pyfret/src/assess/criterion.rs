@@ -34,23 +34,6 @@ impl CriterionBelow {
         arrays(py, &rows, |row| self.of.of(self.judged.depths[row].layer))
     }
 
-    /// The largest mean over L [m] in a layer; None if it fits nowhere on the grid.
-    #[pyo3(signature = (L: "float", method, layer: "int"))]
-    fn largest_mean(
-        &self,
-        py: Python<'_>,
-        #[pyo3(from_py_with = number)] L: f64,
-        method: &str,
-        #[pyo3(from_py_with = number)] layer: usize,
-    ) -> Answer<Option<f64>> {
-        let distance = Distance {
-            method: averaging(method)?,
-            length: L,
-            layer,
-        };
-        Ok(self.largest(py, &distance)??)
-    }
-
     /// The worst point of a layer, None where it is not judged.
     ///
     /// `range` is the margin of the value with its error, `whole` the range of 10 to 90 % with the

@@ -83,10 +83,11 @@ impl CycleSection {
         })
     }
 
-    /// Part of the largest traction by which the cycle ends off its start, if that was kept.
-    fn unsettled(&self, py: Python<'_>) -> Answer<Option<f64>> {
-        self.below
-            .at(py, true, |site| contact_subsurface::unsettled(site.cycle))
+    /// A note on a cycle that does not end as it began, if its start was kept.
+    fn note_on_cycle(&self, py: Python<'_>) -> Answer<Option<String>> {
+        self.below.at(py, true, |site| {
+            contact_subsurface::note_on_cycle(site.cycle)
+        })
     }
 
     /// Judge the section by criteria for the materials of the layers, all by the same stress.

@@ -1,5 +1,6 @@
 //! Numbers in other measures than SI: tables of one key; and in other units: texts.
 
+use plausible::unit::times;
 use toml::Value;
 
 use super::fault::Fault;
@@ -121,7 +122,7 @@ pub(super) fn number_named(
         Value::String(text) => {
             let (number, word) = split(text).ok_or_else(wrong)?;
             match kind.and_then(|kind| kind.size(word)) {
-                Some(size) => Ok(number * size),
+                Some(size) => Ok(times(number, size)),
                 None => in_measure(word, number),
             }
         }
@@ -149,7 +150,7 @@ pub fn quantity(name: &str, text: &str) -> Result<f64, String> {
 pub fn in_si(text: &str) -> Option<(f64, &'static str)> {
     let (number, word) = split(text)?;
     let (kind, size) = plausible::unit::named(word)?;
-    Some((number * size, kind.unit()))
+    Some((times(number, size), kind.unit()))
 }
 
 /// The load of a contact: a force per length, `300 N/mm`, where and only where cells are without end
@@ -207,6 +208,8 @@ mod tests {
             ("body1.E", "380 GPa", 380e9),
             ("body1.E", "2.1e5 N/mm^2", 2.1e11),
             ("body2.coatings[0].thickness", "3 um", 3e-6),
+            ("body2.coatings[0].thickness", "20 um", 20e-6),
+            ("body2.coatings[0].thickness", "0.7 nm", 0.7e-9),
             ("body2.coatings[0].thickness", "3µm", 3e-6),
             ("grid.extent", "2.4 a_H", 4.8e-4),
             ("grid.spacing[1]", "1 um", 1e-6),
@@ -217,10 +220,7 @@ mod tests {
             ("wear.frequency", "2 kHz", 2e3),
         ] {
             let found = read(key, text).unwrap();
-            assert!(
-                (found - right).abs() <= 1e-14 * right,
-                "{key} = {text}: {found}"
-            );
+            assert_eq!(found, right, "{key} = {text}");
         }
     }
 
