@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import subprocess
 import sys
@@ -84,6 +85,12 @@ def test_numbers_are_those_of_single_runs(compared: tuple[fret.study.Comparison,
         single = life.range_of(substrate)
         assert float(here.life_of_substrate) == pytest.approx(single.best)
         assert float(here.life_of_substrate_L) == pytest.approx(single.L)
+        # A life beyond the tests is no endless one.
+        words = compared[0].told("life_of_substrate")[compared[0].candidates.index(name)]
+        assert ("or more" in words) == (math.isinf(single.high) and math.isfinite(single.low)), (
+            words
+        )
+        assert (words == "endless") == math.isinf(single.low), words
 
 
 def test_a_margin_says_what_the_stress_is_and_what_is_doubted() -> None:

@@ -207,8 +207,8 @@ def test_a_critical_distance_in_the_substrate(cycled: fret.Result) -> None:
 def test_strains_are_those_of_the_scene(cycled: fret.Result) -> None:
     aluminium = fatigue.Materials()["aluminium_7075_T6"]
     found = cycled.life(aluminium, "smith_watson_topper")
-    assert any("scene's E" in note for note in found.notes)
-    assert "scene's E" in repr(found)
+    assert any("the scene has E = " in note for note in found.notes)
+    assert "the scene has E = " in repr(found)
     # The cycle begins with the first shear and ends with its reversal back.
     assert fatigue.Materials()["steel_42CrMo4"] == STEEL
 

@@ -72,24 +72,25 @@ impl Coarser {
         })
     }
 
-    /// A place in the coordinates of the coarser grid; a place on a border is moved to the nearest
-    /// border there.
+    /// A place in the coordinates of the coarser grid; a place beside a border is as far from the
+    /// nearest border there.
     fn place(&self, x: f64, y: f64, border: Option<&Border>) -> (f64, f64) {
         let (x, y) = (x - self.middle.0, y - self.middle.1);
         let Some(own) = border else {
             return (x, y);
         };
-        let beside = self.points.borders_beside(x, y);
+        let (from_x, from_y) = (own.x - self.middle.0, own.y - self.middle.1);
+        let beside = self.points.borders_beside(from_x, from_y);
         let same = self.borders.iter().chain(&beside);
         let same = same.filter(|b| own.zone == b.zone);
         let nearest = same.min_by(|a, b| {
-            let away = |b: &Border| (b.x - x).hypot(b.y - y);
+            let away = |b: &Border| (b.x - from_x).hypot(b.y - from_y);
             away(a).total_cmp(&away(b))
         });
-        nearest.map_or((x, y), |b| (b.x, b.y))
+        nearest.map_or((x, y), |b| (x + b.x - from_x, y + b.y - from_y))
     }
 
-    /// The stress at a place, on the nearest border of a zone where it lies on one \[Pa\].
+    /// The stress at a place, as far from a border of a zone as on its own grid \[Pa\].
     pub(super) fn stress(
         &self,
         (x, y, depth): Point,

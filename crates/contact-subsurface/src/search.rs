@@ -27,6 +27,8 @@ const STEP: f64 = 0.5;
 const STEP_AT_BORDER: f64 = 0.25;
 /// A point is on a border if it is at most this many cells from it.
 const ON_BORDER: f64 = 0.1;
+/// A point this many cells from a border and nearer is as far from it on larger cells.
+const BESIDE: f64 = 1.0;
 /// A layer at the surface thinner than so many cells has its rim law within a few of them: as many
 /// cells around a border the error of a value falls like the root of the cell, and is 1/(2^(1/2) -
 /// 1) times the change to cells twice as large.
@@ -301,7 +303,9 @@ impl Search {
         let (place, value, left) = climb(&values, start, value, bounds)?;
         let there = point(place, start.layer);
         let at = self.in_space(there);
-        let border = self.border_at(at);
+        let border = self.border_within(at, ON_BORDER);
+        // Beside a border the stress follows the distance from it.
+        let beside = self.border_within(at, BESIDE);
         // Under the rim of a thin layer the samples of an interface follow the cells of the border.
         let of_steps = lives_on_interfaces(probe) && self.thin && self.is_near_border(at);
         let unsure = of_steps || self.points.rim_is_unknown(at);
@@ -316,7 +320,7 @@ impl Search {
         let mut change = 0.0_f64;
         for coarser in &self.coarser {
             let coarse = match probe {
-                Probe::Stress(m) => (m.value)(&coarser.stress(at, border.as_ref())?),
+                Probe::Stress(m) => (m.value)(&coarser.stress(at, beside.as_ref())?),
                 Probe::Displacement(c) => coarser.displacement(at.0, at.1, at.2)?[c.axis()],
             };
             change = change.max((value - coarse).abs());
@@ -398,17 +402,16 @@ impl Search {
         [step, -step].map(|by| (s + by, t, depth)).into()
     }
 
-    /// The border that a point lies on.
-    fn border_at(&self, at: Point) -> Option<Border> {
+    /// The nearest border, if it is within so many cells of a point along the surface and in depth.
+    fn border_within(&self, at: Point, cells: f64) -> Option<Border> {
         let nearest = self.nearest_border(at);
-        let on_it = nearest.filter(|(_, away)| away[0].max(away[1]) < ON_BORDER);
-        on_it.map(|(border, _)| border)
+        let within = nearest.filter(|(_, away)| away[0].max(away[1]) < cells);
+        within.map(|(border, _)| border)
     }
 
     /// Whether a border is within [`RESOLVED`] cells.
     fn is_near_border(&self, at: Point) -> bool {
-        let nearest = self.nearest_border(at);
-        nearest.is_some_and(|(_, away)| away[0].max(away[1]) < RESOLVED)
+        self.border_within(at, RESOLVED).is_some()
     }
 
     /// The nearest border and the distances from it along the surface and in depth \[cells\].

@@ -50,6 +50,7 @@ def run(options: argparse.Namespace) -> int:
                     of: [float(d[f"{name}{side}"][n]) for side in ("_low", "", "_high")]
                     for n, of in enumerate(found.candidates)
                 },
+                "told": dict(zip(found.candidates, found.told(name), strict=True)),
                 # What a margin is a mean over [m]: 0 for the value at a point.
                 **({"L": d[f"{name}_L"].values.tolist()} if f"{name}_L" in d else {}),
             }

@@ -177,13 +177,19 @@ class Comparison(Labelled, Figured):
 
     def row(self, name: str) -> list[str]:
         """A number of all candidates as text."""
+        about = NUMBERS[name]
+        _, unit = in_table(about, str(self.dataset[name].attrs["units"]))
+        ends = [*self.told(name), str(self.verdict(name))]
+        return [about.title, "" if unit == "1" else unit, *ends]
+
+    def told(self, name: str) -> list[str]:
+        """A number of every candidate with its range, in the unit of the table."""
         about, d = NUMBERS[name], self.dataset
-        scale, unit = in_table(about, str(d[name].attrs["units"]))
-        cells = [
-            cell(about, *(float(d[f"{name}{side}"][n]) / scale for side in ("", "_low", "_high")))
-            for n in range(len(self.candidates))
-        ]
-        return [about.title, "" if unit == "1" else unit, *cells, str(self.verdict(name))]
+        scale, _ = in_table(about, str(d[name].attrs["units"]))
+        sides = zip(
+            *(d[f"{name}{side}"].values / scale for side in ("", "_low", "_high")), strict=True
+        )
+        return [cell(about, *map(float, row)) for row in sides]
 
     def place(self, name: str, n: int) -> str:
         """Where a number of a candidate is found: its layer, and the place in it."""
@@ -231,7 +237,7 @@ class Comparison(Labelled, Figured):
                     about.title,
                     unit,
                     about.better,
-                    about.endless,
+                    self.told(name),
                     about.logarithmic,
                     values,
                     low,
@@ -315,8 +321,9 @@ def ranges(study: xr.Dataset, name: str, about: Number) -> dict[str, np.ndarray]
             # As far below as above, as a factor; a life without end is one beyond the tests.
             known, there = (np.where(np.isinf(v), LONGEST_LIFE, v) for v in (value, other))
             factor = np.nan_to_num(np.maximum(known / there, there / known), nan=1.0)
-            below, above = known / factor, known * factor
-            above = np.where(np.isinf(value) | np.isinf(other), np.inf, above)
+            # Where both are without a number, the cells do not limit them.
+            below = np.where(np.isinf(value) & np.isinf(other), np.inf, known / factor)
+            above = np.where(np.isinf(value) | np.isinf(other), np.inf, known * factor)
         else:
             error = np.nan_to_num(np.abs(value - other))
             below, above = value - error, value + error
@@ -334,9 +341,9 @@ def cell(about: Number, value: float, low: float, high: float) -> str:
     """A number with its range as text."""
     if math.isnan(value):
         return "-"
+    if about.logarithmic and math.isfinite(low):
+        return repr(Range(low, value, high))
     if math.isinf(value):
         return about.endless
-    if about.logarithmic:
-        return repr(Range(low, value, high))
     error = max(value - low, high - value)
     return with_error(value, error) if error > 0.0 else in_words(value, DIGITS)
