@@ -125,6 +125,13 @@ def test_the_best_is_that_of_the_mean_over_the_critical_distance(life: fatigue.L
     # Steep stresses: the longer the distance, the longer the life; a point is the worst.
     assert np.all(np.diff(found.margin.values) > 0.0)
     assert life.worst.margin < float(found.margin[0])
+    # A mean that goes deeper than half the width of the contact is noted wherever it is printed.
+    notes = [life.range_of(life.worst.layer, L=at).notes for at in (L, 1e-3)]
+    assert [any("not small against the contact" in of for of in one) for one in notes] == [
+        False,
+        True,
+    ]
+    assert "L = 1000 um is not small against the contact" in repr(life.over_distance([L, 1e-3]))
     longest = life.over_distance([1e-3]).rows()[0]
     assert longest[-1] == "1e7 or more"
     assert found.dataset.attrs["L"] == pytest.approx(L)

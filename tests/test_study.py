@@ -351,7 +351,7 @@ def test_measures_have_their_range_or_are_called_estimates() -> None:
             else:
                 assert ("estimate" in lines[name]) == (name != "regime"), lines[name]
             if name.startswith(("safety_factor", "life")):
-                assert "at the worst point" in d[name].attrs["long_name"]
+                assert "of the mean over 72.41 um" in d[name].attrs["long_name"]
             found[name] = study
     names = ["loop_energy", "stiffness", "regime", "safety_factor", "crack_depth"]
     assert list(found) == [*names, "life_2", "crack_depth_2", "s_1"]

@@ -2,6 +2,7 @@
 //! distance of the material.
 
 use contact_core::Error;
+use contact_core::digits::short;
 use fatigue::{Assessment, LONGEST, LifeRange, Material, Range};
 
 use super::by_criterion::of_criteria;
@@ -16,6 +17,9 @@ pub struct RangeOptions {
     pub scatter: Option<f64>,
     /// Critical distance \[m\], in place of that of the material.
     pub length: Option<f64>,
+    /// Half the width of the contact along the section \[m\], for a note on a distance that is not
+    /// small against it; none is written for 0.
+    pub half_width: f64,
 }
 
 /// The range of a life or of a safety factor.
@@ -69,6 +73,7 @@ pub fn range_of_life<E: From<Error>>(
                 let (at, own) = means[0];
                 // Where larger cells have no mean the value at the point says how well the stress is known.
                 (value, error) = (at, if own.is_nan() { part * at } else { own });
+                notes.extend(deep(L, options.half_width));
                 if let [_, (short, _), (long, _)] = means[..] {
                     distance = Some(Range {
                         low: assessment.extrapolated(short),
@@ -94,6 +99,21 @@ pub fn range_of_life<E: From<Error>>(
         point,
         length,
         notes,
+    })
+}
+
+/// A note on a mean that goes deeper than half the width of the contact: stresses below a contact fall
+/// within this depth.
+fn deep(L: f64, half_width: f64) -> Option<String> {
+    let um = |x: f64| short(1e6 * x);
+    (half_width > 0.0 && 2.0 * L > half_width).then(|| {
+        format!(
+            "L = {} um is not small against the contact: the mean goes {} um deep, and half the width of the \
+             contact is {} um. The value at the worst point is on the safe side",
+            um(L),
+            um(2.0 * L),
+            um(half_width),
+        )
     })
 }
 

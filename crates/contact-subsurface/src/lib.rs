@@ -67,7 +67,8 @@ pub use loop_point::{Direction, LoopPoint};
 pub use maximum::{Top, top_of_line, top_of_plane};
 pub use measure::{MEASURES, Measure, measure_named};
 pub use moments::{
-    Moments, OverCycle, SHAKEN, Yielding, growth, main_sections, note_on_cycle, unsettled,
+    Moments, OverCycle, SHAKEN, Yielding, growth, half_width, main_sections, note_on_cycle,
+    unsettled,
 };
 pub use plastic_strain::{Growth, RATCHETS};
 pub use points::Points;

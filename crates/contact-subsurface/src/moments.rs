@@ -142,6 +142,21 @@ pub fn growth(cycle: &dyn OverCycle) -> Result<Growth, Error> {
 /// The sections in which a body is looked at over a cycle, where none is asked for:
 /// [`Line::of_outlines`] of the outlines of its moments.
 pub fn main_sections(cycle: &dyn OverCycle, grid: &Grid) -> Result<Vec<Line>, Error> {
+    let (outlines, stretched) = outlines(cycle, grid)?;
+    let all: Vec<&Outline> = outlines.iter().collect();
+    Ok(Line::of_outlines(&all, stretched))
+}
+
+/// Half of the largest width of a contact over a cycle in the direction of a line \[m\]; 0 without a
+/// contact.
+pub fn half_width(cycle: &dyn OverCycle, grid: &Grid, line: Line) -> Result<f64, Error> {
+    let (outlines, _) = outlines(cycle, grid)?;
+    let widths = outlines.iter().map(|of| of.half_width(line.azimuth()));
+    Ok(widths.fold(0.0, f64::max))
+}
+
+/// The outlines of a contact over a cycle, and whether a bulk stress acts.
+fn outlines(cycle: &dyn OverCycle, grid: &Grid) -> Result<(Vec<Outline>, bool), Error> {
     let which: Vec<usize> = (0..cycle.count())
         .step_by((cycle.count() / PLACED_BY).max(1))
         .collect();
@@ -160,8 +175,7 @@ pub fn main_sections(cycle: &dyn OverCycle, grid: &Grid) -> Result<Vec<Line>, Er
             }
         }
     }
-    let all: Vec<&Outline> = outlines.iter().collect();
-    Ok(Line::of_outlines(&all, stretched))
+    Ok((outlines, stretched))
 }
 
 /// Part of the largest traction by which the ends of a cycle may differ without a note.

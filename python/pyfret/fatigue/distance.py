@@ -63,6 +63,9 @@ class OverDistance(Kept, Labelled, Figured):
             dataset[key] = ("L", values, {"units": unit, "long_name": says})
         if critical is not None:
             dataset.attrs["L"] = critical
+        # What holds for the shortest and for the longest distance.
+        notes = dict.fromkeys([*rows[0].notes, *rows[-1].notes]) if rows else []
+        dataset.attrs["notes"] = "\n".join(notes)
         return cls(dataset)
 
     figure = "life_over_distance"
@@ -81,6 +84,11 @@ class OverDistance(Kept, Labelled, Figured):
         """The best estimates, between ``low`` and ``high``: :attr:`margin`."""
         return self.margin
 
+    @property
+    def notes(self) -> list[str]:
+        """What to know of the shortest and of the longest distance."""
+        return str(self.dataset.attrs.get("notes", "")).splitlines()
+
     def rows(self) -> list[list[str]]:
         """A line for every distance: L, low, best, high."""
         d, lives = self.dataset, self.margin.name == "life"
@@ -98,10 +106,11 @@ class OverDistance(Kept, Labelled, Figured):
         """The table as text."""
         rows = [["L", "low", str(self.margin.name), "high"], *self.rows()]
         widths = [max(len(row[k]) for row in rows) for k in range(4)]
-        return "\n".join(
+        lines = [
             "  ".join(of.rjust(width) for of, width in zip(row, widths, strict=True))
             for row in rows
-        ).replace("µ", "u")
+        ]
+        return "\n".join([*lines, *self.notes]).replace("µ", "u")
 
 
 def critical(material: Material | None) -> float | None:

@@ -207,14 +207,20 @@ class Life(Kept, Labelled, Figured):
         return of.criterion
 
     @numbers_only
-    def margin_of(self, layer: int) -> Range:
-        """Give the margin at the worst point of a layer, from the error of its stress alone.
+    def margin_of(self, layer: int) -> LifeRange:
+        """Give the margin of a layer from the error of its stress alone: for contacts side by side.
 
-        The scatter of the material is no part of it: it is the same for two contacts of one
-        material that are compared.
+        It is :meth:`range_of` the mean stress over the critical distance of its material, at the
+        worst point where it has none. The scatter of the material and of its distance is no part of
+        it: that is the same for two contacts of one material.
         """
-        worst = self.worst_of(layer)
-        return Range(worst.range[0], worst.margin, worst.range[1])
+        return self.range_of(layer, scatter=1.0, L=critical(self._materials[layer]))
+
+    def least_margin(self, layers: Sequence[int] | None = None) -> LifeRange:
+        """Give the smallest :meth:`margin_of` some layers (default: all that are judged)."""
+        of = [self.margin_of(layer) for layer in (self.layers if layers is None else layers)]
+        least = min(of, key=lambda one: (one.best, one.low))
+        return least._replace(low=min(one.low for one in of), high=min(one.high for one in of))
 
     @property
     def range(self) -> LifeRange:

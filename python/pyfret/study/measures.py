@@ -13,6 +13,7 @@ from pyfret import fracture, wear
 from pyfret._util.bounds import split
 from pyfret._util.door import numbers_only, valued
 from pyfret._util.lazy import xr
+from pyfret._util.numbers import um
 from pyfret._util.types import by_default
 from pyfret.run.summary import directions
 from pyfret.study.answer import NOTHING, Answer, estimate
@@ -147,6 +148,7 @@ CODES = ("regime", "first")
 
 #: What ranges of a study leave out, since points of one material are compared.
 SCATTER_OF_K = "the scatter of the wear coefficient, which WearResult.range_of_cycles() has"
+SCATTER_OF_MATERIAL = "the scatter of the material, which Life.range has"
 
 
 @valued()
@@ -202,10 +204,10 @@ class Cracking:
     """A measure: the smallest margin of a fatigue criterion over the last closed cycle.
 
     Gives ``safety_factor``, or ``life`` [cycles] for criteria with a strain-life curve, and
-    ``crack_depth`` [m], the depth of the worst point, by :meth:`pyfret.Result.life`. The error of
-    the stress gives the range of the margin, ``safety_factor_low`` and ``safety_factor_high``. The
-    margin is that at the worst point: :func:`pyfret.study.compare` takes the mean stress over the
-    critical distance of the material.
+    ``crack_depth`` [m], the depth of the worst point, by :meth:`pyfret.Result.life`. The margin is
+    that of the mean stress over the critical distance of the material, as of
+    :func:`pyfret.study.compare`, and at the worst point of a material without one. The error of the
+    stress gives its range, ``safety_factor_low`` and ``safety_factor_high``.
 
     Parameters
     ----------
@@ -224,11 +226,13 @@ class Cracking:
     def __call__(self, result: Result) -> dict[str, xr.DataArray]:
         """Judge the body in the plane of the shear."""
         life = result.life(self.materials, self.criterion, body_number=self.body_number)
-        worst, margin = life.worst, life.margin
-        answer = Answer(worst.margin, *worst.range)
-        unit, meaning = margin.attrs["units"], f"{margin.attrs['long_name']} at the worst point"
-        depth = estimate(worst.z, "m", "depth of the worst point")
-        return {**answer.arrays(str(margin.name), unit, meaning), "crack_depth": depth}
+        least, margin = life.least_margin(), life.margin
+        of = "at the worst point" if least.L is None else f"of the mean over {um(least.L)}"
+        unit, meaning = margin.attrs["units"], f"{margin.attrs['long_name']} {of}"
+        answer = Answer(least.best, least.low, least.high)
+        depth = estimate(life.worst.z, "m", "depth of the worst point")
+        numbers = answer.arrays(str(margin.name), unit, meaning, without=SCATTER_OF_MATERIAL)
+        return {**numbers, "crack_depth": depth}
 
 
 @valued()

@@ -14,7 +14,6 @@ from pyfret._core import Scene, notes_on_materials
 from pyfret._util.bounds import SIDES
 from pyfret._util.lazy import xr
 from pyfret.fatigue.cycles import cycle_increments
-from pyfret.fatigue.distance import critical
 from pyfret.run.summary import directions
 from pyfret.study.answer import Answer
 from pyfret.wear.runs import solve
@@ -199,16 +198,10 @@ def life(result: Result, candidate: Candidate, duty: Duty) -> Found:
         ("substrate", [n for n in found.layers if n == substrate]),
         ("coating", [n for n in found.layers if n != substrate]),
     ):
-        of = [
-            found.range_of(layer, scatter=1.0, L=critical(candidate.of_layers[layer]))
-            for layer in layers
-        ]
-        if of:
-            least = min(of, key=lambda one: (one.best, one.low))
+        if layers:
+            least = found.least_margin(layers)
             name = f"{kind}_of_{part}"
-            numbers[name] = Answer(
-                least.best, min(one.low for one in of), min(one.high for one in of)
-            )
+            numbers[name] = Answer(least.best, least.low, least.high)
             places[f"{name}_L"] = least.L or 0.0
     return numbers, places
 

@@ -9,7 +9,7 @@ use contact_assess::{
 use contact_core::Error;
 use contact_core::digits::{degrees, with_range};
 use contact_core::scene::Body;
-use contact_subsurface::{Depth, Line, Zone};
+use contact_subsurface::{Depth, Line, Zone, half_width};
 use fatigue::{Assessment, AtPoint, LONGEST, Material, Range};
 use serde_json::{Value, json};
 
@@ -140,6 +140,7 @@ impl Judging<'_> {
         let options = RangeOptions {
             scatter: self.options.scatter,
             length: self.options.distance,
+            half_width: half_width(self.site.cycle, self.site.grid, self.lines[0])?,
         };
         let at = (worst.extreme.value, worst.extreme.error.sum());
         let mean = |length: f64, with_error: bool| {

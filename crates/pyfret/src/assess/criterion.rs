@@ -182,7 +182,17 @@ pub(crate) fn range_of_life(
         };
         Ok(Ok((value, error)))
     };
-    let options = RangeOptions { scatter, length: L };
+    let half_width = match sections.first().map(Py::get) {
+        Some(section) => section.below.at(py, true, |site| {
+            contact_subsurface::half_width(site.cycle, site.grid, section.below.line)
+        })?,
+        None => 0.0,
+    };
+    let options = RangeOptions {
+        scatter,
+        length: L,
+        half_width,
+    };
     let material = material.as_ref().map(|material| &material.0);
     let found = core::range_of_life(&assessment, material, worst, &options, mean)?;
     Ok((
