@@ -15,7 +15,7 @@ use contact_core::scene::{
     Shape,
 };
 use contact_subsurface::{Line, Side, chosen_depths, cycles};
-use contact_subsurface::{OverCycle, Recorded, unsettled};
+use contact_subsurface::{OverCycle, Recorded, note_on_cycle, unsettled};
 use fatigue::{AtPoint, Material, Search};
 
 const TITANIUM: Elastic = Elastic { E: 116e9, nu: 0.33 };
@@ -158,7 +158,7 @@ fn below_a_coating() {
     let of = swt(&scene.body2, vec![Some(material("titanium", 150e9))]);
     assert!(!of.judges(0) && of.judges(1));
     assert!(
-        of.notes.len() == 1 && of.notes[0].contains("scene's E = 116"),
+        of.notes.len() == 1 && of.notes[0].contains("the scene has E = 116"),
         "{:?}",
         of.notes
     );
@@ -202,6 +202,11 @@ fn below_a_coating() {
     // Three branches end in the cycle that begins with the first shear.
     let much = unsettled(&cycle).unwrap().unwrap();
     assert!(much > 0.02, "{much}");
+    let note = note_on_cycle(&cycle).unwrap().unwrap();
+    assert!(
+        note.contains(&format!("by up to {:.0} %", 100.0 * much)),
+        "{note}"
+    );
     let yields = ByYield {
         s_y: vec![None, Some(9e8)],
         residual: ResidualStress::default(),
