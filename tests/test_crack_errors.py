@@ -127,13 +127,19 @@ def test_the_first_to_fail_has_the_margin_of_the_same_cracks() -> None:
     )
     path = fret.LoadPath.start().normal(2e5).tangential([6e4, -6e4, 6e4], increments=3)
     result = fret.solve(scene, path, save="all", progress=False)
-    lengths = [2e-5, 5e-5, 1e-4, 3e-4]
     threshold = fracture.Threshold.of("steel_42CrMo4")
-    found = fracture.first_to_fail(result, threshold=threshold, lengths=lengths)
-    same = result.crack(lengths=lengths).arrest(threshold)
-    assert (found.substrate, found.substrate_error) == (same.margin, same.margin_error)
-    assert (found.substrate_start, found.substrate_at) == (same.start, same.margin_at)
-    assert "least dK/dK_th from a length of 20 um on" in repr(found)
+    # By default both begin where a crack has come through the coatings.
+    for lengths, start in (([2e-5, 5e-5, 1e-4, 3e-4], 20), (None, 15)):
+        found = fracture.first_to_fail(result, threshold=threshold, lengths=lengths)
+        same = result.crack(lengths=lengths).arrest(threshold)
+        assert (found.substrate, found.substrate_error) == (same.margin, same.margin_error)
+        assert (found.substrate_start, found.substrate_at) == (same.start, same.margin_at)
+        assert f"least dK/dK_th from a length of {start} um on" in repr(found)
+    assert found.substrate_error is not None
+    candidate = fret.study.Candidate(scene.body2, threshold=threshold)
+    of = {"coated": candidate}
+    side = fret.compare(of, scene, path, questions=["adhesion"], executor=1, progress=False).dataset
+    assert float(side.crack_high[0] - side.crack[0]) >= found.substrate_error * (1.0 - 1e-12)
     assert "the ranges leave out the scatter of estimates" in found.summary()
 
 

@@ -32,6 +32,8 @@ __all__ = ["crack", "grow"]
 
 #: Lengths of cracks over half the width of the contact, by default.
 SHORTEST, LONGEST, LENGTHS = 0.01, 2.0, 24
+#: Shortest crack by default that has come through coatings, over their thickness.
+BEYOND = 1.5
 #: Relative error of Newman and Raju's fit.
 FIT = 0.05
 
@@ -65,7 +67,8 @@ def crack(
         where the largest contact of the cycle ends in this plane, below which the range of K is
         larger).
     lengths : array, optional
-        Lengths of the crack [m] (default: 24 from 0.01 to 2 times half the width of the contact).
+        Lengths of the crack [m] (default: 24 from 0.01 to 2 times half the width of the contact; of
+        a coated body from 1.5 times the thickness of its coatings where that is longer).
     angle : float
         Angle from the inward normal, positive towards +x [rad].
     kink : (float, float), optional
@@ -99,7 +102,7 @@ def crack(
     angle = as_number(angle)
     x, azimuth = cycle_of.place(x, as_number(azimuth), angle, friction)
     if lengths is None:
-        lengths = cycle_of.half_width * np.geomspace(SHORTEST, LONGEST, LENGTHS)
+        lengths = cycle_of.lengths
     lengths = np.sort(np.atleast_1d(plain(lengths, "lengths")))
     found = cycle_of.intensity(
         x=x, lengths=lengths.tolist(), angle=angle, kink=kink, azimuth=azimuth, friction=friction
@@ -148,7 +151,8 @@ def grow(
         As in :func:`crack`.
     start, end : float, optional
         Lengths of the first crack, which is straight, and of the last [m] (default: 0.02 times half
-        the width of the contact, and once).
+        the width of the contact, of a coated body 1.5 times the thickness of its coatings where
+        that is longer; and half the width of the contact).
     angle : float
         Angle of the first crack from the inward normal, positive towards +x [rad].
     direction : {"tangential_stress", "opening_intensity"}
@@ -176,7 +180,7 @@ def grow(
     x, azimuth = cycle_of.place(x, as_number(azimuth), angle, friction)
     found = cycle_of.growth(
         x=x,
-        start=0.02 * cycle_of.half_width if start is None else as_number(start),
+        start=cycle_of.shortest(0.02) if start is None else as_number(start),
         end=cycle_of.half_width if end is None else as_number(end),
         direction=direction,
         tolerance=tolerance,
@@ -220,6 +224,19 @@ class Cycle:
     def half_width(self) -> float:
         """Half the largest width of the contact along the shear [m]."""
         return self.largest.half_width(self.lines[0].angle)
+
+    def shortest(self, part: float) -> float:
+        """A length that is a part of half the width of the contact, and beyond the coatings [m]."""
+        scene = self.result.scene
+        body = scene.body1 if self.body_number == 1 else scene.body2
+        return max(part * self.half_width, BEYOND * sum(c.thickness for c in body.coatings))
+
+    @property
+    def lengths(self) -> NDArray[np.float64]:
+        """The lengths of cracks by default [m]."""
+        shortest = self.shortest(SHORTEST)
+        longest = max(LONGEST * self.half_width, 2.0 * shortest)
+        return np.geomspace(shortest, longest, LENGTHS)
 
     @cached_property
     def lines(self) -> list[Line]:

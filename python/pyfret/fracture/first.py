@@ -15,7 +15,7 @@ from pyfret.fatigue.cycle_section import placed
 from pyfret.fatigue.cycles import history
 from pyfret.fatigue.section import Section
 from pyfret.fracture.arrest import of_estimates
-from pyfret.fracture.below import Cycle, crack
+from pyfret.fracture.below import crack
 from pyfret.fracture.film import channel_release
 from pyfret.fracture.interface import over_cycle
 
@@ -33,8 +33,6 @@ __all__ = ["PARTS", "FailureOrder", "first_to_fail"]
 Part: TypeAlias = Literal["film", "interface", "substrate"]
 #: What may fail, from the surface down.
 PARTS: tuple[Part, ...] = ("film", "interface", "substrate")
-#: Shortest crack in the substrate over the thickness of the coatings, and their number.
-BELOW, LENGTHS = 1.5, 16
 
 
 class FailureOrder(NamedTuple):
@@ -63,9 +61,13 @@ class FailureOrder(NamedTuple):
         largest = int(np.argmax(loads))
         return PARTS[largest] if loads[largest] >= 1.0 else None
 
+    @property
+    def errors(self) -> dict[Part, float | None]:
+        """The errors of the three; None of an estimate."""
+        return {"film": None, "interface": None, "substrate": self.substrate_error}
+
     def _told(self) -> list[str]:
-        errors = {"substrate": self.substrate_error}
-        told = [f"{of} {with_error(getattr(self, of), errors.get(of))}" for of in PARTS]
+        told = [f"{of} {with_error(getattr(self, of), self.errors[of])}" for of in PARTS]
         if self.estimate and self.substrate_error is not None:
             told[-1] += " (estimate)"
         if self.substrate_start is not None and self.substrate_at is not None:
@@ -121,8 +123,7 @@ def first_to_fail(
     x : float, optional
         Its mouth [m] (default: the rim of the contact below which the range of K is larger).
     lengths : array, optional
-        Lengths of the crack [m] (default: 16 from 1.5 times the thickness of the coatings to twice
-        half the width of the contact).
+        Lengths of the crack [m] (default: those of :func:`crack`).
     body_number, cycle
         As in :func:`pyfret.fatigue.life`.
 
@@ -174,13 +175,7 @@ def first_to_fail(
         )
         interface = math.sqrt(float(found.criterion.max()))
     if threshold is not None:
-        if lengths is None:
-            shortest = BELOW * sum(c.thickness for c in body.coatings)
-            half_width = Cycle(result, cycle, body_number, residual).half_width
-            longest = max(2.0 * half_width, 2.0 * shortest)
-            at = np.geomspace(shortest, longest, LENGTHS).tolist()
-        else:
-            at = [as_number(one) for one in lengths]
+        at = None if lengths is None else [as_number(one) for one in lengths]
         cracks = crack(
             result, x, lengths=at, body_number=body_number, cycle=cycle, residual=residual
         )

@@ -314,7 +314,7 @@ class FirstToFail:
         numbers: dict[str, xr.DataArray] = {}
         for name in fracture.PARTS:
             value, meaning = getattr(found, name), f"{name}: load over limit"
-            error = found.substrate_error if name == "substrate" else None
+            error = found.errors[name]
             if error is None:
                 numbers[name] = estimate(value, "1", meaning)
             else:

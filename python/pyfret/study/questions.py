@@ -164,7 +164,11 @@ def adhesion(result: Result, candidate: Candidate, duty: Duty) -> Found:
         body_number=duty.body_number,
     )
     names = dict(zip(fracture.PARTS, ("film", "interface", "crack"), strict=True))
-    return {names[part]: Answer.within(getattr(found, part)) for part in fracture.PARTS}, {}
+    # The change on coarser cells is added to all.
+    return {
+        names[part]: Answer.within(getattr(found, part), found.errors[part] or 0.0, least=0.0)
+        for part in fracture.PARTS
+    }, {}
 
 
 def no_limits(candidate: Candidate, duty: Duty, scene: Scene) -> str:
