@@ -164,3 +164,28 @@ def test_numbers_of_a_cycle_have_the_errors_of_its_branches() -> None:
     assert "+- " in line.split("energy ratio")[1].split(",")[0]
     without = fret.solve(scene, progress=False).loops()
     assert not {"dissipated_error", "energy_ratio_error"} & set(without.data_vars)
+
+
+@pytest.mark.solves
+@pytest.mark.parametrize("increments", [3, 8, 30, "auto"])
+def test_an_opening_is_right_or_not_given(increments: int | str) -> None:
+    """A ball that slides on a rig: half the opening is the shift less the elastic one."""
+    steel, mu, W, rig, shift = fret.material("steel"), 0.15, 8.0, 1e7, 30e-6
+    scene = fret.Scene(
+        body1=fret.Body(steel, shape=fret.Sphere(R=5e-3)),
+        body2=fret.Body(steel),
+        mu=mu,
+        grid=fret.Grid.centred(extent=2e-4, n=32),
+        path=fret.LoadPath.start()
+        .normal(W)
+        .cycles(1, delta_x=shift, increments=increments)
+        .rig(rig),
+    )
+    loop = fret.solve(scene, progress=False).loops()
+    opening = float(loop.opening[0])
+    assert np.isnan(opening) == np.isnan(float(loop.sliding_ratio[0]))
+    # The energy of a loop of two stick and two slip lines is 4 mu W times half its opening.
+    right = float(loop.dissipated[0]) / (4.0 * mu * W)
+    bound = max(float(loop.sliding_ratio_error[0]), 1e-3) * shift
+    assert np.isnan(opening) or abs(opening - right) < bound, (opening, right)
+    assert (increments == "auto") <= np.isfinite(opening)

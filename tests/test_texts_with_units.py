@@ -124,7 +124,9 @@ def test_a_load_of_a_closed_form_is_one_of_its_contact(public: Any) -> None:
                 unit, size = "N mm", 1e-3
             right = public.invoked(call, found[0])
             said = public.invoked(call, found[0] | {key: f"{value / size!r} {unit}"})
-            assert numbers_in(said) == pytest.approx(numbers_in(right), rel=1e-12), (name, key)
+            # The last digit of c counts 1e7 times beside the border, where q has an infinite slope.
+            rel = 1e-7 if (name, key) == ("reference.Lubkin.q", "c") else 1e-12
+            assert numbers_in(said) == pytest.approx(numbers_in(right), rel=rel), (name, key)
             with pytest.raises(ValueError, match="must be a number in") as told:
                 public.invoked(call, found[0] | {key: wrong})
             if key in {"W", "T", "T_m"}:

@@ -64,13 +64,19 @@ impl Cycle {
         ratio(self.dissipated, 4.0 * self.T * self.delta)
     }
 
-    /// Half the opening over half the range of the shift; 0 where nothing moves, NaN where the
-    /// increments leave an error above 0.05.
-    pub fn sliding_ratio(&self) -> f64 {
+    /// [`Self::opening`]; NaN where the increments leave an error above 0.05 of half the range of the
+    /// shift.
+    pub fn known_opening(&self) -> f64 {
         if self.sliding_ratio_error() > OF_SLIDING {
-            return f64::NAN;
+            f64::NAN
+        } else {
+            self.opening
         }
-        ratio(self.opening, self.delta)
+    }
+
+    /// [`Self::known_opening`] over half the range of the shift; 0 where nothing moves.
+    pub fn sliding_ratio(&self) -> f64 {
+        ratio(self.known_opening(), self.delta)
     }
 
     /// Bound of what the increments alone leave of error in the sliding ratio.

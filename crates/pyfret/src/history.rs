@@ -228,7 +228,7 @@ pub(crate) fn loops(
             of.set_item("stiffness", c.stiffness)?;
             of.set_item("stiffness_error", c.stiffness_error)?;
             of.set_item("secant_stiffness", c.secant_stiffness())?;
-            of.set_item("opening", c.opening)?;
+            of.set_item("opening", c.known_opening())?;
             of.set_item("energy_ratio", c.energy_ratio())?;
             of.set_item("energy_ratio_error", of_cycle.energy_ratio)?;
             of.set_item("sliding_ratio", c.sliding_ratio())?;

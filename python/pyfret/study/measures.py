@@ -141,7 +141,7 @@ MEASURES: dict[str, tuple[str, str, Callable[[Result], float | Answer]]] = {
 
 
 #: Largest stresses that may be compression; the others are sizes.
-SIGNED = ("s_1", "interface_peel")
+SIGNED = ("interface_peel",)
 #: Measures that are codes: they have no error.
 CODES = ("regime", "first")
 
