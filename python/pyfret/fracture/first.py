@@ -14,7 +14,6 @@ from pyfret._util.types import as_number
 from pyfret.fatigue.cycle_section import placed
 from pyfret.fatigue.cycles import history
 from pyfret.fatigue.section import Section
-from pyfret.fracture.arrest import of_estimates
 from pyfret.fracture.below import crack
 from pyfret.fracture.film import channel_release
 from pyfret.fracture.interface import over_cycle
@@ -25,6 +24,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from pyfret._util.types import Quantity
+    from pyfret.fracture.arrest import CrackArrest
     from pyfret.fracture.growth import Threshold
     from pyfret.run import Run
 
@@ -46,12 +46,8 @@ class FailureOrder(NamedTuple):
     substrate: float
     #: Error of `substrate` by that of K; the other two are estimates.
     substrate_error: float | None = None
-    #: Which numbers of the threshold are estimates, in words.
-    estimate: str | None = None
-    #: Shortest crack in the substrate, and the crack that has the smallest range over its threshold
-    #: [m].
-    substrate_start: float | None = None
-    substrate_at: float | None = None
+    #: What becomes of the crack in the substrate, by its length; None without a threshold.
+    arrest: CrackArrest | None = None
 
     @property
     def first(self) -> Part | None:
@@ -68,11 +64,12 @@ class FailureOrder(NamedTuple):
 
     def _told(self) -> list[str]:
         told = [f"{of} {with_error(getattr(self, of), self.errors[of])}" for of in PARTS]
-        if self.estimate and self.substrate_error is not None:
-            told[-1] += " (estimate)"
-        if self.substrate_start is not None and self.substrate_at is not None:
-            start, at = um(self.substrate_start), um(self.substrate_at)
-            told[-1] += f" (least dK/dK_th from a length of {start} on, at {at})"
+        if self.arrest is not None:
+            mark = (
+                " (estimate)" if self.arrest.estimate and self.substrate_error is not None else ""
+            )
+            start, at = um(self.arrest.start), um(self.arrest.margin_at)
+            told[-1] += f"{mark} (least dK/dK_th from a length of {start} on, at {at})"
         return told
 
     def __repr__(self) -> str:
@@ -80,9 +77,9 @@ class FailureOrder(NamedTuple):
         return f"FailureOrder({', '.join(self._told())}; first: {self.first or 'none'})"
 
     def summary(self) -> str:
-        """The three with their errors, a line each, and which fails first."""
-        notes = of_estimates(self.estimate, has_range=self.substrate_error is not None)
-        return "\n".join([*self._told(), f"first to fail: {self.first or 'none'}", *notes])
+        """The three with their errors, a line each, which fails first, and what a crack does."""
+        crack = [] if self.arrest is None else [f"a crack {self.arrest.told()}"]
+        return "\n".join([*self._told(), f"first to fail: {self.first or 'none'}", *crack])
 
 
 @numbers_only
@@ -138,7 +135,7 @@ def first_to_fail(
         raise ValueError(f"body {body_number} has no coating and no interface")
     film = interface = substrate = math.nan
     toughness = as_number(toughness)
-    error = note = start = least_at = None
+    error = arrest = None
     if toughness is not None:
         if not (toughness > 0.0 and np.isfinite(toughness)):
             raise ValueError(f"toughness = {toughness}: must be positive, in J/m^2")
@@ -179,8 +176,6 @@ def first_to_fail(
         cracks = crack(
             result, x, lengths=at, body_number=body_number, cycle=cycle, residual=residual
         )
-        found_crack = cracks.arrest(threshold)
-        substrate, error = found_crack.margin, found_crack.margin_error
-        note = found_crack.estimate
-        start, least_at = found_crack.start, found_crack.margin_at
-    return FailureOrder(film, interface, substrate, error, note, start, least_at)
+        arrest = cracks.arrest(threshold)
+        substrate, error = arrest.margin, arrest.margin_error
+    return FailureOrder(film, interface, substrate, error, arrest)
