@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING
+import math
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
@@ -11,6 +13,7 @@ import pytest
 import pyfret as fret
 from pyfret import fracture
 from pyfret._cli import commands
+from pyfret.study import questions
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -123,7 +126,7 @@ def test_the_first_to_fail_has_the_margin_of_the_same_cracks() -> None:
         body1=fret.Body(steel, shape=fret.Cylinder(R=0.05)),
         body2=fret.Body(steel, coatings=[film]),
         mu=0.6,
-        grid=fret.Grid.strip(extent=1e-3, n=32),
+        grid=fret.Grid.strip(extent=1e-3, n=16),
     )
     path = fret.LoadPath.start().normal(2e5).tangential([6e4, -6e4, 6e4], increments=3)
     result = fret.solve(scene, path, save="all", progress=False)
@@ -136,12 +139,19 @@ def test_the_first_to_fail_has_the_margin_of_the_same_cracks() -> None:
         assert found.arrest == same
         assert f"a crack {same.told()}" in found.summary()
         assert f"least dK/dK_th from a length of {start} um on" in repr(found)
-    assert found.substrate_error is not None
-    candidate = fret.study.Candidate(scene.body2, threshold=threshold)
-    of = {"coated": candidate}
-    side = fret.compare(of, scene, path, questions=["adhesion"], executor=1, progress=False).dataset
-    assert float(side.crack_high[0] - side.crack[0]) >= found.substrate_error * (1.0 - 1e-12)
     assert "the ranges leave out the scatter of estimates" in found.summary()
+
+
+def test_a_comparison_keeps_the_error_of_a_crack(monkeypatch: pytest.MonkeyPatch) -> None:
+    found = fracture.FailureOrder(math.nan, 0.3, 0.5, 0.2)
+    monkeypatch.setattr(fracture, "first_to_fail", lambda *_, **__: found)
+    steel = fret.Elastic(E=210e9, nu=0.3)
+    candidate = fret.study.Candidate(fret.Body(steel))
+    nothing: Any = SimpleNamespace(body_number=2)
+    numbers, _ = questions.adhesion(nothing, candidate, nothing)
+    assert numbers["crack"] == pytest.approx((0.5, 0.3, 0.7))
+    assert numbers["interface"] == (0.3, 0.3, 0.3)
+    assert math.isnan(numbers["film"].value)
 
 
 def test_a_range_says_that_it_leaves_out_the_scatter_of_estimates() -> None:
