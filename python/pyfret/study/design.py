@@ -10,7 +10,7 @@ import sys
 import warnings
 import zlib
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Set
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from decimal import Decimal
 from fractions import Fraction
 from os import PathLike
@@ -26,6 +26,7 @@ from pyfret._util.doubts import doubt_numbers, warn
 from pyfret._util.lazy import xr
 from pyfret._util.text import read_text
 from pyfret.study.identity import identity
+from pyfret.study.parameters import SHORT, in_si, opposite, single
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -48,10 +49,6 @@ class Described(Protocol):
         """All that its scenes follow from."""
 
 
-#: The place in a list, ``path[0].W``.
-PLACE = re.compile(r"\[(\d+|\*)\]")
-#: Parameters with a short name, and their keys in a scene file.
-SHORT = {"mu": "friction.mu"}
 #: The dimension of a study whose parameters change together.
 TOGETHER = "point"
 
@@ -95,8 +92,8 @@ def spread(key: str, value: Any, scene: Scene | str | PathLike[str]) -> Iterator
     """The keys that one stands for, each with its value."""
     for part in key.split(","):
         # The place in a list may stand in brackets, as messages write it.
-        one = PLACE.sub(r".\1", part.strip().removeprefix("-"))
-        each = -value if part.strip().startswith("-") else value
+        one = single(part)
+        each = opposite(value) if part.strip().startswith("-") else value
         if ".*." in one:
             whole = scene if isinstance(scene, Scene) else Scene.from_file(scene)
             for n in range(len(whole.path.branches)):
@@ -205,10 +202,14 @@ class Design:
         Values of every parameter.
     combine : "grid" or "zip"
         Every combination, or the values in step with one another.
+    given : mapping of str to list
+        Values of parameters that were given with units. Scenes are made of these, so that a force
+        per length is refused where the contact is no line contact.
     """
 
     parameters: Mapping[str, Sequence[Any]]
     combine: Combine
+    given: Mapping[str, Sequence[Any]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         """Refuse what is no study."""
@@ -230,12 +231,19 @@ class Design:
             raise ValueError(f'combine = "zip": the numbers of values must be the same: {lengths}')
 
     @staticmethod
-    def of(parameters: Mapping[str, Any], combine: Combine) -> Design:
-        """The design of values in any form: lists, arrays, ranges."""
-        found = {key: listed(values, key) for key, values in parameters.items()}
+    def of(parameters: Mapping[str, Any], combine: Combine, *, keys: bool = True) -> Design:
+        """The design of values in any form: lists, arrays, ranges, texts with units.
+
+        Quantities become numbers in SI where the names are `keys` of a scene file.
+        """
+        given = {key: listed(values, key) for key, values in parameters.items()}
+        found = {
+            key: [in_si(key, value) if keys else value for value in values]
+            for key, values in given.items()
+        }
         for key, values in found.items():
             doubt_numbers("", **{SHORT.get(key, key): values})
-        return Design(found, combine)
+        return Design(found, combine, {k: of for k, of in given.items() if of != found[k]})
 
     @property
     def sizes(self) -> dict[str, int]:
@@ -252,10 +260,11 @@ class Design:
         """Indices of the n-th point along the dimensions; the last one changes first."""
         return tuple(int(i) for i in np.unravel_index(n, tuple(self.sizes.values())))
 
-    def values(self, n: int) -> dict[str, Any]:
-        """Values of the parameters at the n-th point."""
+    def values(self, n: int, of: Mapping[str, Sequence[Any]] | None = None) -> dict[str, Any]:
+        """Values of the parameters at the n-th point, in SI or as another list `of` has them."""
+        lists = self.parameters if of is None else of
         place = self.place(n) if self.combine == "grid" else self.place(n) * len(self.parameters)
-        return {key: of[i] for (key, of), i in zip(self.parameters.items(), place, strict=True)}
+        return {key: each[i] for (key, each), i in zip(lists.items(), place, strict=True)}
 
     def coords(self) -> dict[str, xr.Variable]:
         """Coordinates of the study: numbers as they are, the rest as text."""
@@ -269,10 +278,9 @@ class Design:
 
     def scene(self, source: Source, n: int) -> Scene:
         """The scene of the n-th point."""
-        values = self.values(n)
         if isinstance(source, Scene | str | PathLike):
-            return varied(source, values)
-        return source(values)
+            return varied(source, self.values(n, {**self.parameters, **self.given}))
+        return source(self.values(n))
 
     def describe(self, source: Source, code: Mapping[str, str]) -> str:
         """Tell this study from others: what makes its points, as JSON.

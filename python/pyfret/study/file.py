@@ -10,6 +10,7 @@ import numpy as np
 
 from pyfret.study.keys import known, place_of, read
 from pyfret.study.loop import DEFAULT, solve
+from pyfret.study.parameters import in_si
 
 if TYPE_CHECKING:
     from pyfret.study.outcome import Study
@@ -58,7 +59,7 @@ def run_file(
     if not isinstance(says["parameters"], dict):
         raise ValueError(f"{file}: `parameters`: must be a table of keys and values")
     place = place_of(file, says, out)
-    parameters = {k: values(v, f"{file}: parameters.{k}") for k, v in says["parameters"].items()}
+    parameters = {k: values(v, k, str(file)) for k, v in says["parameters"].items()}
     if mapped and says.get("combine", "grid") == "grid" and len(parameters) > MAPPED:
         *_, last = parameters
         raise ValueError(
@@ -79,8 +80,9 @@ def run_file(
     return found, place
 
 
-def values(given: Any, where: str) -> list[Any]:
+def values(given: Any, name: str, file: str) -> list[Any]:
     """Values of a parameter: a list, or a range ``{ from, to, n, scale }``."""
+    where = f"{file}: parameters.{name}"
     if isinstance(given, list):
         return given
     if not isinstance(given, dict):
@@ -90,7 +92,13 @@ def values(given: Any, where: str) -> list[Any]:
     scale = given.get("scale", "linear")
     if scale not in ("linear", "log"):
         raise ValueError(f'{where}.scale = {scale!r}: must be "linear" or "log"')
+    given = dict(given)
     for key in ("from", "to"):
+        if key in given:
+            try:
+                given[key] = in_si(name, given[key])
+            except ValueError as refused:
+                raise ValueError(f"{where}.{key}: {refused}") from None
         if not isinstance(given.get(key, 0), int | float):
             raise ValueError(f"{where}.{key} = {given[key]!r}: must be a number")
     n = given.get("n", 1)

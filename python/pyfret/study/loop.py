@@ -55,7 +55,8 @@ def solve(
     parameters : mapping of str to values
         Values by the keys of a scene file, as after ``fret run --set``, such as
         ``{"body2.coatings.0.E": [1e11, 2e11], "mu": [0.2, 0.4]}``; ``"mu"`` is short for
-        ``"friction.mu"``. Names of your own where `scene` is a function.
+        ``"friction.mu"``. A text with its unit, ``"2 um"``, is the number in SI, 2e-6. Names of
+        your own where `scene` is a function, which gets the values as they are.
     combine : "grid" or "zip"
         Every combination of the values, or the values in step: the first of each, then the
         second of each. Samples (SALib, Latin hypercubes) are of the second kind.
@@ -102,7 +103,8 @@ def solve(
     ... )  # doctest: +SKIP
     >>> table.map("von_mises")  # doctest: +SKIP
     """
-    design, measures = Design.of(parameters, combine), checked(measure)
+    keys = isinstance(scene, Scene | str | os.PathLike)
+    design, measures = Design.of(parameters, combine, keys=keys), checked(measure)
     check_names(design, measures)
     said = {
         "study": design.describe(scene, {} if out is None else code_of(measures)),

@@ -1,0 +1,88 @@
+"""Names and values of the parameters of a study: keys of a scene file, and quantities in SI."""
+
+from __future__ import annotations
+
+import difflib
+import re
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from pyfret import _core
+
+__all__ = ["SHORT", "full", "in_si", "one_of", "opposite", "single"]
+
+#: The place in a list, ``path[0].W``.
+PLACE = re.compile(r"\[(\d+|\*)\]")
+#: Parameters with a short name, and their keys in a scene file.
+SHORT = {"mu": "friction.mu"}
+
+
+def single(name: str) -> str:
+    """One key as a scene file has it: places in a list between points, no sign."""
+    return PLACE.sub(r".\1", name.strip().removeprefix("-"))
+
+
+def full(name: str) -> str:
+    """The key that a name stands for: ``friction.mu`` for ``mu``."""
+    parts = (part.strip() for part in name.split(","))
+    return ",".join(
+        "-" * part.startswith("-") + SHORT.get(single(part), single(part)) for part in parts
+    )
+
+
+def one_of(known: Iterable[str], name: str, what: str) -> str:
+    """The parameter of a study that a name means, short or long.
+
+    Raises
+    ------
+    ValueError
+        The study has no such parameter; `what` is where the name was given.
+    """
+    known = list(known)
+    if name in known:
+        return name
+    keys = {full(of): of for of in known}
+    if full(name) in keys:
+        return keys[full(name)]
+    near = difflib.get_close_matches(name, known, n=1)
+    hint = f"; the nearest is {near[0]!r}" if near else ""
+    raise ValueError(f"{what}: the study has no parameter {name!r}{hint} (of {', '.join(known)})")
+
+
+def in_si(name: str, value: Any) -> Any:
+    """A text with a unit, or a quantity of pint, as the number in SI; other values as they are.
+
+    Texts of keys that measure nothing, such as names of materials, stay texts.
+
+    Raises
+    ------
+    ValueError
+        The unit measures something else than the key.
+    """
+    quantity = hasattr(value, "magnitude") and hasattr(value, "units")
+    key = full(name)
+    if not quantity and not (isinstance(value, str) and _core.measured_by(key)):
+        return value
+    try:
+        return _core.si_of(key, value)
+    except (TypeError, ValueError) as refused:
+        raise type(refused)(f"{name} = {refused}") from None
+
+
+def at_values(known: Mapping[str, Any], at: Mapping[str, Any]) -> dict[str, Any]:
+    """The values that a part of a study is taken at, by the names of its parameters, in SI.
+
+    Raises
+    ------
+    ValueError
+        The study has no such parameter, or a unit measures something else.
+    """
+    return {one_of(known, name, "at"): in_si(name, value) for name, value in at.items()}
+
+
+def opposite(value: Any) -> Any:
+    """A value with the other sign, a text with a unit too."""
+    if not isinstance(value, str):
+        return -value
+    text = value.strip()
+    return text[1:].strip() if text.startswith("-") else f"-{text.removeprefix('+')}"

@@ -1,0 +1,115 @@
+"""Parameters of studies: quantities in SI whatever their form, and one rule for their names."""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import pyfret as fret
+from pyfret.study import file
+from pyfret.study.design import Design
+from pyfret.study.parameters import in_si, opposite
+
+SCENE = """schema = 1
+body1 = { shape = { sphere = { R = 5e-3 } }, E = 210e9, nu = 0.3 }
+friction = { mu = 0.3 }
+grid = { n = 8, extent = 2e-4 }
+path = [{ W = 10.0, increments = 1 }]
+
+[body2]
+shape = "flat"
+E = 210e9
+nu = 0.3
+coatings = [{ thickness = 2e-6, E = 300e9, nu = 0.25 }]
+"""
+THICKNESS = "body2.coatings.0.thickness"
+#: A key of each kind of quantity, a text, and its number in SI.
+QUANTITIES = [
+    (THICKNESS, "2 um", 2e-6),
+    ("body2.coatings[0].thickness", "2 um", 2e-6),
+    ("body2.coatings.0.E", "400 GPa", 400e9),
+    ("body1.shape.sphere.R", "5 mm", 5e-3),
+    ("path.*.W", "1 kN", 1e3),
+    ("path.1.T_x,-path.2.T_x", "-2 N", -2.0),
+    ("grid.extent", "0.2 mm", 2e-4),
+]
+#: Keys whose texts are none.
+TEXTS = [
+    ("body2.coatings.0.material", "steel_52100"),
+    ("path.file", "load2.csv"),
+    ("body2.shape", "flat"),
+    ("output.save", "all"),
+]
+
+
+@pytest.fixture
+def scene(tmp_path: Path) -> Path:
+    place = tmp_path / "s.toml"
+    place.write_text(SCENE)
+    return place
+
+
+def solved(scene: Any, parameters: dict[str, Any], **options: Any) -> fret.study.Study:
+    return fret.study.solve(
+        scene,
+        parameters,
+        measure="p_max",
+        executor=ThreadPoolExecutor(1),
+        progress=False,
+        **options,
+    )
+
+
+@pytest.mark.parametrize(("key", "text", "number"), QUANTITIES)
+def test_a_quantity_is_a_number_in_si(key: str, text: str, number: float) -> None:
+    for design in (Design.of({key: [text]}, "grid"), Design.of({key: [number]}, "grid")):
+        assert design.coords()[key].values.tolist() == [number]
+    assert file.values([text], key, "f.toml") == [text]
+    assert file.values({"from": text, "to": text, "n": 2}, key, "f.toml") == [number, number]
+
+
+@pytest.mark.parametrize(("key", "text"), TEXTS)
+def test_a_text_that_is_no_quantity_stays(key: str, text: str) -> None:
+    assert in_si(key, text) == text
+    with pytest.raises(ValueError, match="must be a number"):
+        file.values({"from": text, "to": text, "n": 2}, key, "f.toml")
+
+
+def test_a_unit_of_something_else_is_refused() -> None:
+    with pytest.raises(ValueError, match=rf'{THICKNESS} = "2 MPa": must be a number in m'):
+        Design.of({THICKNESS: ["2 MPa"]}, "grid")
+    with pytest.raises(ValueError, match=r"parameters.body2.*from: .*must be a number in m"):
+        file.values({"from": "2 MPa", "to": 1.0, "n": 2}, THICKNESS, "f.toml")
+
+
+def test_the_values_of_a_function_are_its_own() -> None:
+    design = Design.of({"thickness": ["2 um"]}, "grid", keys=False)
+    assert design.values(0) == {"thickness": "2 um"}
+
+
+@pytest.mark.parametrize(("text", "other"), [("2 N", "-2 N"), ("-2 N", "2 N"), (2.0, -2.0)])
+def test_the_opposite_of_a_text(text: Any, other: Any) -> None:
+    assert opposite(text) == other
+
+
+@pytest.mark.solves
+def test_a_study_over_texts_is_the_one_over_numbers(scene: Path, tmp_path: Path) -> None:
+    """The coordinates, the numbers and the store; a map of a part takes both forms, too."""
+    place = tmp_path / "st.zarr"
+    said = solved(scene, {THICKNESS: ["2 um", "4 um"], "friction.mu": [0.3, 0.5]}, out=place)
+    plain = {THICKNESS: [2e-6, 4e-6], "friction.mu": [0.3, 0.5]}
+    # It goes on with the same store.
+    again = solved(scene, plain, out=place)
+    assert said.dataset[THICKNESS].values.tolist() == plain[THICKNESS]
+    np.testing.assert_array_equal(said.dataset["p_max"], again.dataset["p_max"])
+    assert not np.isnan(said.dataset["p_max"]).any()
+
+
+@pytest.mark.solves
+def test_a_force_per_length_is_none_of_a_ball(scene: Path) -> None:
+    with pytest.raises(ValueError, match="no point of the study has a scene"):
+        solved(scene, {"path.0.W": ["10 N/mm"]})
