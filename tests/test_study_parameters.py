@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 
 import pyfret as fret
+from pyfret._util.parameters import in_si, one_of, opposite, part
 from pyfret.study import file
 from pyfret.study.design import Design
-from pyfret.study.parameters import in_si, opposite
+from pyfret.study.store import OWN, template
 
 SCENE = """schema = 1
 body1 = { shape = { sphere = { R = 5e-3 } }, E = 210e9, nu = 0.3 }
@@ -107,6 +108,37 @@ def test_a_study_over_texts_is_the_one_over_numbers(scene: Path, tmp_path: Path)
     assert said.dataset[THICKNESS].values.tolist() == plain[THICKNESS]
     np.testing.assert_array_equal(said.dataset["p_max"], again.dataset["p_max"])
     assert not np.isnan(said.dataset["p_max"]).any()
+    # A part is asked for by any name of the parameter, in any form of its value.
+    for at in ({"mu": 0.5}, {"friction.mu": 0.48}):
+        drawn = fret.open(place).map(at=at).lines[0].get_ydata()
+        np.testing.assert_allclose(drawn, said.dataset["p_max"][:, 1] / 1e6)
+    for at in ({THICKNESS: 4e-6}, {THICKNESS: "4 um"}, {"body2.coatings[0].thickness": "4 um"}):
+        drawn = said.map(at=at).lines[0].get_ydata()
+        np.testing.assert_allclose(drawn, said.dataset["p_max"][1] / 1e6)
+    with pytest.raises(ValueError, match=rf"no parameter 'muu'.*\(of {THICKNESS}, friction.mu\)"):
+        said.map(at={"muu": 0.5})
+    with pytest.raises(ValueError, match="must be a number in m"):
+        said.map(at={THICKNESS: "4 MPa"})
+
+
+@pytest.mark.parametrize("known", ["mu", "friction.mu"])
+@pytest.mark.parametrize("name", ["mu", "friction.mu"])
+def test_a_short_name_and_its_key_are_one(known: str, name: str) -> None:
+    assert one_of(["a", known], name, "at") == known
+
+
+def test_a_part_of_texts_and_of_samples() -> None:
+    """A text is taken as it is, without quotes; samples have no part."""
+    key = "body2.coatings.0.material"
+    of = Design.of({key: ["TiN", "CrN"], "mu": [0.1, 0.2]}, "grid")
+    assert str(part(template(of, {}, OWN), {key: "CrN"})[key].values) == '"CrN"'
+    with pytest.raises(ValueError, match='must be one of "TiN", "CrN"'):
+        part(template(of, {}, OWN), {key: "DLC"})
+    with pytest.raises(ValueError, match="must be a number"):
+        part(template(of, {}, OWN), {"mu": "low"})
+    samples = Design.of({key: ["TiN", "CrN"], "mu": [0.1, 0.2]}, "zip")
+    with pytest.raises(ValueError, match="changes together with others"):
+        part(template(samples, {}, OWN), {"friction.mu": 0.1})
 
 
 @pytest.mark.solves

@@ -11,6 +11,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from pyfret._util.bounds import bounds, known_to
+from pyfret._util.parameters import one_of, part
 from pyfret._util.per_metre import of_line_contacts
 from pyfret._util.text import literal
 from pyfret.plot.areas import geometric, logarithmic
@@ -59,7 +60,7 @@ def study_map(
     study: Tabulated,
     of: str | None = None,
     *,
-    at: Mapping[str, float] | None = None,
+    at: Mapping[str, float | str] | None = None,
     kind: Literal["auto", "contour", "cells"] = "auto",
     levels: int = 10,
     labels: Mapping[str, str] | None = None,
@@ -78,7 +79,8 @@ def study_map(
     of : str, optional
         The measure (default: the first).
     at : mapping of str to float, optional
-        Values of further parameters, the nearest ones are taken.
+        Values of further parameters, numbers in SI or texts with a unit. The nearest ones are
+        taken. ``"mu"`` is short for ``"friction.mu"``.
     kind : "auto", "contour" or "cells"
         Contours or a cell for each point. Default: contours from four values along both on, if
         their step is at least five times the scatter of the values.
@@ -94,14 +96,17 @@ def study_map(
         Where to draw.
     """
     d = study.dataset
-    labels = dict(labels or {})
+    labels = {
+        of if of in study.measures else one_of(study.parameters, of, "labels"): text
+        for of, text in (labels or {}).items()
+    }
     flat = of_line_contacts(d)
     words = {
         name: (labels[name], 1.0) if name in labels else parameter_label(name, per_metre=flat)
         for name in study.parameters
     }
     if at:
-        d = d.sel(dict(at), method="nearest")
+        d = part(d, at)
     names = study.measures
     chosen = names[0] if of is None and names else of
     if not names:

@@ -24,9 +24,9 @@ from pyfret._util.arrays import items, labels
 from pyfret._util.door import numbers_only
 from pyfret._util.doubts import doubt_numbers, warn
 from pyfret._util.lazy import xr
+from pyfret._util.parameters import SHORT, in_si, opposite, single
 from pyfret._util.text import read_text
 from pyfret.study.identity import identity
-from pyfret.study.parameters import SHORT, in_si, opposite, single
 
 if sys.version_info >= (3, 11):
     import tomllib

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from pyfret._util.parameters import in_si
 from pyfret.study.keys import known, place_of, read
 from pyfret.study.loop import DEFAULT, solve
-from pyfret.study.parameters import in_si
 
 if TYPE_CHECKING:
     from pyfret.study.outcome import Study

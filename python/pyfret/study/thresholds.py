@@ -20,6 +20,7 @@ from pyfret._util.door import numbers_only, valued
 from pyfret._util.extras import needed
 from pyfret._util.holds_arrays import HoldsArrays
 from pyfret._util.lazy import xr
+from pyfret._util.parameters import in_si
 from pyfret._util.types import as_number, by_default
 from pyfret.fatigue.averages import average
 from pyfret.fatigue.criteria import Material
@@ -138,7 +139,7 @@ def threshold(
     measure: Callable[[Any], float],
     between: tuple[float, float],
     value: float = 1.0,
-    over: Mapping[str, Sequence[float]] | None = None,
+    over: Mapping[str, Sequence[float | str]] | None = None,
     tolerance: float = 5e-3,
     error: bool = True,
 ) -> ThresholdLoad | xr.Dataset:
@@ -160,7 +161,8 @@ def threshold(
     value : float
         What the measure is to be (default 1).
     over : mapping of str to list, optional
-        A curve over other parameters: every combination of their values.
+        A curve over other parameters: every combination of their values, numbers in SI or texts
+        with a unit.
     tolerance : float
         Width of the bracket at the end, over the threshold.
     error : bool
@@ -178,6 +180,9 @@ def threshold(
     """
     if over is None:
         return one(scene, parameter, measure, between, value, {}, tolerance, error=error)
+    lists: dict[str, Sequence[Any]] = dict(over)
+    if not callable(scene) or isinstance(scene, Scene):
+        lists = {name: [in_si(name, each) for each in of] for name, of in over.items()}
     names = list(over)
     shape = [len(over[name]) for name in names]
     found = [
@@ -191,7 +196,7 @@ def threshold(
             tolerance,
             error=error,
         )
-        for point in product(*over.values())
+        for point in product(*lists.values())
     ]
     fields = {
         "threshold": np.reshape([f.value for f in found], shape),
@@ -202,7 +207,7 @@ def threshold(
     }
     return xr.Dataset(
         {name: (names, values) for name, values in fields.items()},
-        coords={name: np.asarray(over[name], dtype=float) for name in names},
+        coords={name: np.asarray(lists[name], dtype=float) for name in names},
         attrs={"parameter": parameter, "value": value, **estimated(measure)},
     )
 

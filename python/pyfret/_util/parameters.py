@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import difflib
+import json
 import re
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from pyfret import _core
+import numpy as np
 
-__all__ = ["SHORT", "full", "in_si", "one_of", "opposite", "single"]
+from pyfret import _core
+from pyfret._util.lazy import xr
+
+__all__ = ["SHORT", "full", "in_si", "one_of", "opposite", "part", "single"]
 
 #: The place in a list, ``path[0].W``.
 PLACE = re.compile(r"\[(\d+|\*)\]")
@@ -69,15 +73,35 @@ def in_si(name: str, value: Any) -> Any:
         raise type(refused)(f"{name} = {refused}") from None
 
 
-def at_values(known: Mapping[str, Any], at: Mapping[str, Any]) -> dict[str, Any]:
-    """The values that a part of a study is taken at, by the names of its parameters, in SI.
+def part(dataset: xr.Dataset, at: Mapping[str, Any]) -> xr.Dataset:
+    """The part of a study at values of some parameters: the nearest numbers, the same texts.
 
     Raises
     ------
     ValueError
-        The study has no such parameter, or a unit measures something else.
+        The study has no such parameter or no such text, a unit measures something else, or the
+        parameters change together.
     """
-    return {one_of(known, name, "at"): in_si(name, value) for name, value in at.items()}
+    for name, value in at.items():
+        key = one_of(map(str, dataset.coords), name, "at")
+        if key not in dataset.dims:
+            raise ValueError(f"at: {key} changes together with others: a sample has no part")
+        here = dataset[key].values
+        wanted = in_si(key, value)
+        if here.dtype.kind in "ifb":
+            try:
+                place = int(np.argmin(np.abs(here - float(wanted))))
+            except (TypeError, ValueError):
+                raise ValueError(f"at: {key} = {value!r:.60}: must be a number") from None
+        else:
+            # A study keeps texts as a scene file has them.
+            texts = [str(text) for text in here]
+            same = [n for n, text in enumerate(texts) if text in (json.dumps(wanted), wanted)]
+            if not same:
+                raise ValueError(f"at: {key} = {value!r:.60}: must be one of {', '.join(texts)}")
+            place = same[0]
+        dataset = dataset.isel({key: place})
+    return dataset
 
 
 def opposite(value: Any) -> Any:
