@@ -56,6 +56,25 @@ def bodies() -> dict[str, Candidate]:
     }
 
 
+@pytest.mark.parametrize("mu", [0.2, None])
+def test_a_candidate_that_would_slide_is_named(mu: float | None) -> None:
+    """With its friction, and what to do; without friction of its own, by its name."""
+    scene, path = contact()
+    if mu is None:
+        scene = scene.replace(mu=0.2)
+    of = {
+        "grippy": Candidate(fret.Body(TITANIUM), mu=0.6),
+        "slippery": Candidate(fret.Body(TITANIUM), mu=mu),
+    }
+    with pytest.raises(fret.errors.InvalidSceneError) as refused:
+        fret.compare(of, scene, path, questions=["energy"], progress=False)
+    told = str(refused.value)
+    assert told.count("slippery") == 1
+    assert "grippy" not in told
+    assert "T_x = 6" in told
+    assert ("mu = 0.2: " in told and "delta_x" in told) is (mu is not None)
+
+
 @pytest.fixture(scope="module")
 def compared(tmp_path_factory: pytest.TempPathFactory) -> tuple[fret.study.Comparison, Path]:
     place = tmp_path_factory.mktemp("compare") / "study.zarr"

@@ -136,8 +136,11 @@ def compare(
     with warnings.catch_warnings():
         # What is doubted stands in the table, once for each body.
         warnings.simplefilter("ignore", SceneWarning)
-        for name in of:
-            variants.scene_of(name, 1).check()
+        for name, body in of.items():
+            try:
+                variants.scene_of(name, 1).check()
+            except InvalidSceneError as error:
+                raise type(error)(refusal(name, body, str(error))) from error
         found = solve(
             variants,
             {"candidate": list(of), "coarser": [1, COARSER]},
@@ -187,10 +190,7 @@ class Variants:
         }
         if of.mu is not None:
             changes["mu"] = self.scene.friction.replace(mu=of.mu)
-        try:
-            return self.scene.replace(**changes)
-        except InvalidSceneError as error:
-            raise InvalidSceneError(f"{name}: {error}") from error
+        return self.scene.replace(**changes)
 
     def describe(self) -> str:
         """Tell this comparison from others: its scene, its bodies and what is asked."""
@@ -202,6 +202,19 @@ class Variants:
         ]
         text = json.dumps(said)
         return f"comparison of {', '.join(self.answers.candidates)}, {zlib.crc32(text.encode()):x}"
+
+
+def refusal(name: str, of: Candidate, why: str) -> str:
+    """Why a candidate has no scene, and how it gets one where its own friction is too low."""
+    if of.mu is None:
+        return f"candidate {name}: {why}"
+    way = ""
+    if "friction can carry" in why:
+        way = (
+            ". All candidates run the path of the scene: lower its force below the friction of "
+            "every candidate, or prescribe the displacement (delta_x) in place of the force"
+        )
+    return f"candidate {name}, mu = {of.mu:g}: {why}{way}"
 
 
 def on_larger_cells(grid: Grid, times: int) -> Grid:
