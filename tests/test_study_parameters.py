@@ -145,3 +145,22 @@ def test_a_part_of_texts_and_of_samples() -> None:
 def test_a_force_per_length_is_none_of_a_ball(scene: Path) -> None:
     with pytest.raises(ValueError, match="no point of the study has a scene"):
         solved(scene, {"path.0.W": ["10 N/mm"]})
+
+
+@pytest.mark.solves
+def test_a_threshold_over_texts_is_the_one_over_numbers(scene: Path) -> None:
+    """The load of a largest pressure over the thickness, with and without units."""
+    of = [
+        fret.study.threshold(
+            scene,
+            "path.0.W",
+            measure=lambda result: float(result.at(-1).p.max()),
+            value=1.04e09,
+            between=(8.0, 13.0),
+            over={THICKNESS: thickness},
+            tolerance=0.1,
+            error=False,
+        )
+        for thickness in (["2 um"], [2e-6])
+    ]
+    assert of[0].equals(of[1])
