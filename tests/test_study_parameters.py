@@ -70,7 +70,8 @@ def test_a_quantity_is_a_number_in_si(key: str, text: str, number: float) -> Non
     for design in (Design.of({key: [text]}, "grid"), Design.of({key: [number]}, "grid")):
         assert design.coords()[key].values.tolist() == [number]
     assert file.values([text], key, "f.toml") == [text]
-    assert file.values({"from": text, "to": text, "n": 2}, key, "f.toml") == [number, number]
+    spaced = file.values({"from": text, "to": text, "n": 2}, key, "f.toml")
+    assert [in_si(key, value) for value in spaced] == pytest.approx([number, number], rel=1e-12)
 
 
 @pytest.mark.parametrize(("key", "text"), TEXTS)
@@ -164,3 +165,27 @@ def test_a_threshold_over_texts_is_the_one_over_numbers(scene: Path) -> None:
         for thickness in (["2 um"], [2e-6])
     ]
     assert of[0].equals(of[1])
+
+
+@pytest.mark.parametrize(
+    ("name", "given", "right"),
+    [
+        ("body2.coatings.0.E", {"from": "100 GPa", "to": "0.3e12 Pa", "n": 3}, [1e11, 2e11, 3e11]),
+        (THICKNESS, {"from": "1 um", "to": "4 um", "n": 3, "scale": "log"}, [1e-6, 2e-6, 4e-6]),
+        ("mu", {"from": 0.1, "to": 0.3, "n": 3}, [0.1, 0.2, 0.3]),
+    ],
+)
+def test_a_range_keeps_the_unit_that_it_was_given_in(
+    name: str, given: dict[str, object], right: list[float]
+) -> None:
+    found = file.values(given, name, "study.toml")
+    unit = str(given["from"]).partition(" ")[2]
+    assert all(str(value).endswith(unit) for value in found)
+    assert [in_si(name, value) for value in found] == pytest.approx(right, rel=1e-12)
+
+
+def test_a_range_of_forces_per_length_is_refused_on_a_ball(scene: Path) -> None:
+    forces = file.values({"from": "1 N/mm", "to": "2 N/mm", "n": 2}, "path.0.W", "study.toml")
+    for force in forces:
+        with pytest.raises(fret.errors.InvalidSceneError, match="the contact is no line"):
+            fret.study.varied(scene, {"path.0.W": force})

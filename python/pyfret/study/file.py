@@ -92,8 +92,10 @@ def values(given: Any, name: str, file: str) -> list[Any]:
     scale = given.get("scale", "linear")
     if scale not in ("linear", "log"):
         raise ValueError(f'{where}.scale = {scale!r}: must be "linear" or "log"')
-    given = dict(given)
+    given, unit = dict(given), ""
     for key in ("from", "to"):
+        if isinstance(given.get(key), str):
+            unit = unit or given[key].lstrip("+-.0123456789eE ").strip()
         if key in given:
             try:
                 given[key] = in_si(name, given[key])
@@ -111,4 +113,8 @@ def values(given: Any, name: str, file: str) -> list[Any]:
         spaced: list[Any] = space(given["from"], given["to"], int(given["n"])).tolist()
     except KeyError as missing:
         raise ValueError(f"{where}: {missing} is missing") from None
-    return spaced
+    if not unit:
+        return spaced
+    # The scene refuses the unit where the contact has another one, as of a single value.
+    size = in_si(name, f"1 {unit}")
+    return [f"{value / size!r} {unit}" for value in spaced]
