@@ -44,7 +44,7 @@ def add_options(commands: argparse._SubParsersAction[Any]) -> None:
         crack,
         "--paris",
         Values(Value("Paris.C"), Value("number")),
-        "growth C and its exponent m",
+        "growth C and its exponent m (default: those of --material, where it has them)",
         metavar="C,M",
     )
     crack.add_argument(
@@ -110,8 +110,10 @@ def run(options: argparse.Namespace) -> int:
     rows = _rows(cracks, threshold)
     if threshold is not None:
         rows.append(_verdict(cracks, cracks.arrest(threshold, start=options.start)))
-    if options.paris is not None and threshold is not None:
-        rows[-1] |= _cycles(cracks.life(threshold, Paris(*options.paris), start=options.start))
+    if threshold is not None:
+        growth = threshold.growth if options.paris is None else Paris(*options.paris)
+        if growth is not None:
+            rows[-1] |= _cycles(cracks.life(threshold, growth, start=options.start))
     for row in rows:
         if options.json:
             say_json(row)

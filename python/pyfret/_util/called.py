@@ -4,19 +4,29 @@ from __future__ import annotations
 
 import difflib
 import re
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 from pyfret import _core
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from pyfret._core import Material
 
-__all__ = ["as_material", "by_name", "called", "unknown"]
+__all__ = ["as_material", "by_name", "called", "law", "unknown"]
 
 #: Annotations of parameters that take a material, or several.
 MATERIAL = re.compile(r"\b(Materials?|Conductors)\b")
+
+#: What a law of a material is made of it by, by the name of its class.
+LAWS: dict[str, Callable[[Any], Any]] = {}
+T = TypeVar("T", bound=type)
+
+
+def law(of: T) -> T:
+    """Let parameters of a class take a material or its name, too: what its method ``of`` gives."""
+    LAWS[of.__name__] = of.of  # type: ignore[attr-defined]
+    return of
 
 
 def as_material(read: Material | str) -> Material:
@@ -42,11 +52,16 @@ def unknown(name: str, among: Mapping[str, Material]) -> str:
 def by_name(value: Any, name: str, annotation: str) -> Any:
     """The material of the table where a material is meant and a text is given, else the value.
 
+    Where a law of a material is meant, it is that of the material.
+
     Raises
     ------
     ValueError
         There is no material of this name.
     """
+    for one, of in LAWS.items():
+        if isinstance(value, str | _core.Material) and re.search(rf"\b{one}\b", annotation):
+            return of(by_name(value, name, "Material"))
     if not MATERIAL.search(annotation):
         return value
     if type(value) in (list, tuple):

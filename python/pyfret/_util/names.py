@@ -89,6 +89,13 @@ MEANT = {
     "time": ("t",),
     "errors": ("error_bars", "error"),
     "safety": ("safety_factor", "margin"),
+    "save": ("to_toml",),
+    "to_file": ("to_toml",),
+    "real_area": ("contact_area",),
+    "life": ("cycles_to", "range_of_cycles"),
+    "max": ("maximum",),
+    "offset": ("middle",),
+    "extent": ("nx", "dx"),
 }
 
 

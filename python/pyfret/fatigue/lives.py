@@ -84,6 +84,11 @@ def life(
         There is no closed cycle, or too few of its increments were kept. A material lacks a number
         that the criterion needs, or no depth lies in a layer that has a material.
     """
+    if not isinstance(criterion, str):
+        raise TypeError(
+            f"criterion = {criterion!r}: must be one of fatigue.CRITERIA; "
+            "fatigue.lives(result, materials, [...]) judges by several"
+        )
     return lives(result, materials, [criterion], z, tolerance=tolerance, **section)[criterion]
 
 

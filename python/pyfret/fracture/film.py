@@ -17,8 +17,26 @@ if TYPE_CHECKING:
 __all__ = ["channel_release", "film_intensity"]
 
 
+def own_stress(coating: Coating, stress: float | None) -> float:
+    """The stress that is given, or the residual stress of a coating that has one number [Pa].
+
+    Raises
+    ------
+    ValueError
+        Neither is there.
+    """
+    if stress is not None:
+        return stress
+    if isinstance(coating.residual, float):
+        return coating.residual
+    raise ValueError(
+        "stress: give the stress of the coating in Pa, or a coating whose residual stress is one "
+        "number, Coating(..., residual=-2e9)"
+    )
+
+
 @numbers_only
-def channel_release(coating: Coating, below: Elastic, stress: float) -> float:
+def channel_release(coating: Coating, below: Elastic, stress: float | None = None) -> float:
     """Give what a crack releases that channels through a film under tension [J/m^2].
 
     G = (pi/2) g stress^2 h/E', E' = E/(1 - nu^2), in the steady state, g(alpha, beta) of Dundurs'
@@ -31,9 +49,10 @@ def channel_release(coating: Coating, below: Elastic, stress: float) -> float:
         The film.
     below : Elastic
         What it lies on, as a half-plane.
-    stress : float
-        Stress of the film, residual and of the load [Pa]. Of a stress that varies through the
-        thickness the largest value is on the safe side.
+    stress : float, optional
+        Stress of the film, residual and of the load [Pa] (default: the residual stress of the
+        coating). Of a stress that varies through the thickness the largest value is on the safe
+        side.
 
     Raises
     ------
@@ -45,6 +64,7 @@ def channel_release(coating: Coating, below: Elastic, stress: float) -> float:
     J. L. Beuth, Int. J. Solids Struct. 29 (1992) 1657-1675; J. W. Hutchinson, Z. Suo, Adv. Appl.
     Mech. 29 (1992) 63-191, whose Z = (pi/2) g.
     """
+    stress = own_stress(coating, stress)
     if not np.isfinite(stress):
         raise ValueError(f"stress = {stress}: must be finite")
     E, nu = coating.material.E, coating.material.nu
@@ -59,7 +79,9 @@ def channel_release(coating: Coating, below: Elastic, stress: float) -> float:
 
 
 @numbers_only
-def film_intensity(coating: Coating, below: Elastic, depth: Quantity, stress: float) -> float:
+def film_intensity(
+    coating: Coating, below: Elastic, depth: Quantity, stress: float | None = None
+) -> float:
     """Give K_I of a crack normal to the surface that ends in the film [Pa m^0.5].
 
     The stress is uniform, and the constants are those of the film and of the other material. The
@@ -72,9 +94,10 @@ def film_intensity(coating: Coating, below: Elastic, depth: Quantity, stress: fl
         As in :func:`channel_release`.
     depth : float
         Depth of the tip [m], above 0 and below the thickness.
-    stress : float
-        Stress of the film [Pa].
+    stress : float, optional
+        Stress of the film [Pa] (default: the residual stress of the coating).
     """
+    stress = own_stress(coating, stress)
     depth = as_number(depth)
     if not 0.0 < depth < coating.thickness:
         raise ValueError(f"depth = {depth}: must lie in the film, 0 to {coating.thickness} m")

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike
 
+    from pyfret._core import Material
     from pyfret._util.types import Quantity
     from pyfret.fracture.arrest import CrackArrest
     from pyfret.fracture.growth import Threshold
@@ -89,7 +90,7 @@ def first_to_fail(
     toughness: Quantity | None = None,
     peel_strength: Quantity | None = None,
     shear_strength: Quantity | None = None,
-    threshold: Threshold | None = None,
+    threshold: Threshold | Material | str | None = None,
     residual: Sequence[ArrayLike] | None = None,
     x: float | None = None,
     lengths: Sequence[Quantity] | None = None,
@@ -112,9 +113,10 @@ def first_to_fail(
         stress. The result is on the safe side where the stress varies through the thickness.
     peel_strength, shear_strength : float, optional
         Strengths of the interfaces [Pa], both or neither: :func:`over_cycle`.
-    threshold : Threshold, optional
-        Of the substrate, for a normal crack that has come through the coatings: :func:`crack`. Its
-        number is ``margin`` of :meth:`Cracks.arrest` from the shortest of `lengths`.
+    threshold : Threshold, Material or str, optional
+        Of the substrate, or its material, or the name of that. It is for a normal crack that has
+        come through the coatings: :func:`crack`. Its number is ``margin`` of :meth:`Cracks.arrest`
+        from the shortest of `lengths`.
     residual : sequence, optional
         Residual stress of every layer, as in :class:`pyfret.fatigue.Section`.
     x : float, optional

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, cast
 
 import numpy as np
 
 from pyfret import _core
 from pyfret._util.arrays import plain, together
-from pyfret._util.called import as_material
+from pyfret._util.called import as_material, law
 from pyfret._util.door import numbers_only, valued
 from pyfret._util.figures import Figured
 from pyfret._util.kept import Kept
@@ -32,6 +32,7 @@ if TYPE_CHECKING:
 __all__ = ["Cracks", "Paris", "Threshold"]
 
 
+@law
 @valued()
 class Threshold:
     """The range of K below which a crack does not grow.
@@ -54,6 +55,8 @@ class Threshold:
         Instead of it the threshold over R relative to that at R = 0, rows of (R, ratio).
     estimate : str, optional
         Which of its numbers are estimates, in words: whatever rests on the threshold says so.
+    growth : Paris, optional
+        Law of growth of the same material, which :meth:`Cracks.life` takes where none is given.
 
     References
     ----------
@@ -67,6 +70,7 @@ class Threshold:
     walker: float | None = None
     table: Sequence[tuple[float, float]] | None = None
     estimate: str | None = None
+    growth: Paris | None = None
 
     def __post_init__(self) -> None:
         """Refuse values that no material has."""
@@ -81,7 +85,8 @@ class Threshold:
 
         Half of the range ``dK_th`` at R = -1 is positive, and half of the range 2 ``s_D`` of
         stress. A material without one of them is refused by its name. The dependence on R is the
-        material's ``walker`` where it has one and none is given.
+        material's ``walker`` where it has one and none is given, and ``growth`` its law of growth
+        where it has one.
         """
         of = as_material(material)
         known = {name: value for name, value, _ in of.numbers()}
@@ -90,7 +95,9 @@ class Threshold:
             walker = known["walker"]
             names.append("walker")
         estimate = of.estimate_of(names)
-        return cls(of.number("dK_th") / 2.0, of.number("s_D"), Y, walker, estimate=estimate)
+        growth = Paris.of(of) if {"paris_C", "paris_m"} <= set(known) else None
+        dK_th, dS_0 = of.number("dK_th") / 2.0, of.number("s_D")
+        return cls(dK_th, dS_0, Y, walker, estimate=estimate, growth=growth)
 
     def _numbers(
         self,
@@ -115,6 +122,7 @@ class Threshold:
         return np.reshape(found, lengths.shape)
 
 
+@law
 @numbers_only
 @dataclass(frozen=True)
 class Paris:
@@ -231,6 +239,7 @@ class Cracks(Kept, Labelled, Figured):
         at = np.asarray(self.dataset.K_I.values) == extreme
         return np.asarray(of(np.where(at, self.K_I_error, np.nan), axis=0), float)
 
+    @numbers_only
     def dK_error(self, threshold: Threshold | None = None) -> NDArray[np.float64]:
         """Error of :meth:`dK` at each length [Pa m^0.5]; NaN where K came without an error.
 
@@ -271,6 +280,7 @@ class Cracks(Kept, Labelled, Figured):
                 rows.append(f"error of {name}: {1e-6 * error.max():.2g} MPa m^0.5 at most")
         return "\n".join(rows)
 
+    @numbers_only
     def dK(self, threshold: Threshold | None = None) -> NDArray[np.float64]:
         """Positive part of the range of K_I at each length, at R = 0 with a threshold's R rule."""
         return self._range(threshold, 0.0)
@@ -292,16 +302,21 @@ class Cracks(Kept, Labelled, Figured):
         return self.lengths.tolist(), largest.tolist(), self.K_min.tolist()
 
     @numbers_only
-    def arrest(self, threshold: Threshold, *, start: Quantity | None = None) -> CrackArrest:
+    def arrest(
+        self, threshold: Threshold | Material | str, *, start: Quantity | None = None
+    ) -> CrackArrest:
         """Say whether a crack of the length `start` [m] (default: the shortest) grows and stops.
+
+        The threshold is one, or that of a material or of its name.
 
         With the errors of K its verdict, length and margin have theirs: the crack is followed again
         with K_max less and more its error.
         """
         first = float(self.lengths[0]) if start is None else as_number(start)
+        below = cast("Threshold", threshold)
 
         def followed(more: NDArray[np.float64] | float) -> tuple[Any, ...]:
-            return _core.arrest(*self._curve(more), threshold._numbers(), first)
+            return _core.arrest(*self._curve(more), below._numbers(), first)
 
         verdict, length, crossings, at_start, margin, at = followed(0.0)
         found = CrackArrest(
@@ -313,7 +328,7 @@ class Cracks(Kept, Labelled, Figured):
             at,
             at_start,
             (float(self.lengths[0]), float(self.lengths[-1])),
-            estimate=threshold.estimate,
+            estimate=below.estimate,
         )
         if "error" not in self.dataset:
             return found
@@ -333,33 +348,42 @@ class Cracks(Kept, Labelled, Figured):
     @numbers_only
     def life(
         self,
-        threshold: Threshold,
-        paris: Paris,
+        threshold: Threshold | Material | str,
+        paris: Paris | Material | str | None = None,
         *,
         start: Quantity | None = None,
         end: Quantity | None = None,
     ) -> CrackLife:
         """Count the cycles from the length `start` [m] to `end` [m] or to arrest.
 
-        By default from the shortest to the longest crack. With the errors of K the cycles have a
-        range, as :meth:`arrest`. The scatter of the threshold and of the law of growth is no part
-        of it.
+        By default from the shortest to the longest crack, by the law of growth of the material that
+        the threshold is of. Threshold and law are given as such, or as a material or its name.
+
+        With the errors of K the cycles have a range, as :meth:`arrest`. The scatter of the
+        threshold and of the law of growth is no part of it.
         """
+        below = cast("Threshold", threshold)
+        growth = below.growth if paris is None else cast("Paris", paris)
+        if growth is None:
+            raise ValueError(
+                "paris: the threshold has no law of growth, give Paris(C, m), or a material that "
+                "has paris_C and paris_m"
+            )
 
         def followed(more: NDArray[np.float64] | float) -> tuple[float, float, bool]:
             return _core.crack_life(
                 *self._curve(more),
-                threshold._numbers(),
-                C=paris.C * 1e-6**paris.m,
-                m=paris.m,
-                growth=paris.threshold_in,
-                short=paris.short,
+                below._numbers(),
+                C=growth.C * 1e-6**growth.m,
+                m=growth.m,
+                growth=growth.threshold_in,
+                short=growth.short,
                 start=float(self.lengths[0]) if start is None else as_number(start),
                 end=float(self.lengths[-1]) if end is None else as_number(end),
             )
 
         found = CrackLife(
-            *followed(0.0), self.arrest(threshold, start=start), estimate=paris.estimate
+            *followed(0.0), self.arrest(threshold, start=start), estimate=growth.estimate
         )
         if "error" not in self.dataset:
             return found

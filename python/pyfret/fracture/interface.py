@@ -14,6 +14,7 @@ from pyfret._util.types import as_number
 from pyfret.fatigue.cycle_section import placed
 from pyfret.fatigue.cycles import history
 from pyfret.fatigue.section import Section
+from pyfret.fracture.film import own_stress
 from pyfret.subsurface.fields import interfaces
 
 if TYPE_CHECKING:
@@ -130,7 +131,7 @@ def _half_chord(path: np.ndarray) -> np.ndarray:
 
 
 @numbers_only
-def edge_release(coating: Coating, stress: float) -> float:
+def edge_release(coating: Coating, stress: float | None = None) -> float:
     """Give what a coating releases that parts from its substrate along a straight front [J/m^2].
 
     G = (1 - nu^2) h stress^2/(2 E), the steady state far from the edge from which the crack runs;
@@ -143,9 +144,11 @@ def edge_release(coating: Coating, stress: float) -> float:
     ----------
     coating : Coating
         Its modulus, Poisson's ratio and thickness.
-    stress : float
-        Stress across the front, residual and of the load [Pa].
+    stress : float, optional
+        Stress across the front, residual and of the load [Pa] (default: the residual stress of the
+        coating).
     """
+    stress = own_stress(coating, stress)
     E, nu = coating.material.E, coating.material.nu
     return (1.0 - nu * nu) * coating.thickness * stress * stress / (2.0 * E)
 
@@ -170,7 +173,9 @@ class Buckling(NamedTuple):
 
 
 @numbers_only
-def buckling_release(coating: Coating, stress: float, *, half_width: float) -> Buckling:
+def buckling_release(
+    coating: Coating, stress: float | None = None, *, half_width: float
+) -> Buckling:
     """Give how a compressed coating buckles above a long debonded strip, and what that releases.
 
     With b half of the width of the strip, h the thickness and s the compression::
@@ -187,8 +192,9 @@ def buckling_release(coating: Coating, stress: float, *, half_width: float) -> B
     ----------
     coating : Coating
         Its modulus, Poisson's ratio and thickness.
-    stress : float
-        Stress of the coating across the strip [Pa], compression negative.
+    stress : float, optional
+        Stress of the coating across the strip [Pa], compression negative (default: the residual
+        stress of the coating).
     half_width : float
         Half of the width of the strip, b [m], much longer than the thickness.
 
@@ -209,7 +215,7 @@ def buckling_release(coating: Coating, stress: float, *, half_width: float) -> B
             f"coating: E = {E:g} Pa, {h:g} m thick on a strip of {2 * half_width:g} m, has a "
             "buckling stress of 0: must be stiffer, or the strip narrower"
         )
-    s = -stress
+    s = -own_stress(coating, stress)
     if s <= critical:
         return Buckling(float(critical), 0.0, 0.0)
     deflection = h * np.sqrt(4.0 / 3.0 * (s / critical - 1.0))
