@@ -182,7 +182,7 @@ fn outlines(cycle: &dyn OverCycle, grid: &Grid) -> Result<(Vec<Outline>, bool), 
 const UNSETTLED: f64 = 0.02;
 
 /// A note on a cycle whose tractions at the end differ from those at its start by more than
-/// [`UNSETTLED`] of the largest one. `None` if the increment before the cycle was not stored.
+/// 0.02 of the largest one. `None` if the increment before the cycle was not stored.
 pub fn note_on_cycle(cycle: &dyn OverCycle) -> Result<Option<String>, Error> {
     let much = unsettled(cycle)?.filter(|much| *much > UNSETTLED);
     Ok(much.map(|much| {

@@ -85,7 +85,7 @@ class Threshold:
 
         Half of the range ``dK_th`` at R = -1 is positive, and half of the range 2 ``s_D`` of
         stress. A material without one of them is refused by its name. The dependence on R is the
-        material's ``walker`` where it has one and none is given, and ``growth`` its law of growth
+        material's ``walker`` where it has one and none is given. ``growth`` is its law of growth,
         where it has one.
         """
         of = as_material(material)
