@@ -8,6 +8,7 @@ from pyfret import fatigue
 from pyfret._cli.parser import added
 from pyfret._cli.say import say, say_json
 from pyfret._cli.values import Value, number, pair, setting, takes
+from pyfret._core import measured_by
 from pyfret._util.numbers import told
 from pyfret.study.design import varied
 from pyfret.study.thresholds import Averaged, ThresholdLoad, threshold
@@ -107,10 +108,16 @@ def run(options: argparse.Namespace) -> int:
             for n in range(found.sizes[name])
         ]
     note = measure.estimate
+    grid = varied(options.scene, changes).grid
+    units = {
+        name: grid.unit_of((measured_by(name) or ("", ""))[1]) for name in (searched, *(over or {}))
+    }
     for row in rows:
         if options.json:
-            say_json(row | ({"estimate": note} if note else {}))
+            say_json(row | {"unit": units[searched]} | ({"estimate": note} if note else {}))
         else:
-            text = ", ".join(f"{name} = {told(value)}" for name, value in row.items())
+            of = units | dict.fromkeys(("threshold", "error", "low", "high"), units[searched])
+            told_of = (f"{name} = {told(value)} {of.get(name, '')}" for name, value in row.items())
+            text = ", ".join(part.rstrip() for part in told_of)
             say(f"{text}; estimate: {note}" if note else text)
     return 0
