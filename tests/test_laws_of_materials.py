@@ -78,15 +78,15 @@ def test_several_criteria_are_those_of_lives() -> None:
     assert list(fatigue.lives(result, ALLOY, several)) == several
 
 
-@pytest.mark.parametrize(
-    ("of", "name", "meant"),
-    [
-        (fret.Scene, "save", "to_toml"),
-        (fret.Scene, "to_file", "to_toml"),
-        (fret.Grid, "extent", "nx and dx"),
-    ],
-)
-def test_a_word_of_others_names_what_it_means(of: type, name: str, meant: str) -> None:
-    one = SCENE if of is fret.Scene else SCENE.grid
-    with pytest.raises(AttributeError, match=f"it is called {meant}"):
-        getattr(one, name)
+def test_a_word_of_others_names_what_it_means() -> None:
+    at = fret.solve(SCENE, save="all", progress=False).at(-1)
+    for one, name, meant in (
+        (SCENE, "save", "to_toml"),
+        (SCENE, "to_file", "to_toml"),
+        (SCENE.grid, "extent", "nx and dx"),
+        (at, "real_area", "contact_area"),
+        (at.stress(), "max", "maximum"),
+        (at.stick_zone(), "offset", "middle"),
+    ):
+        with pytest.raises(AttributeError, match=f"it is called {meant}"):
+            getattr(one, name)

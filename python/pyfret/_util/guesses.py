@@ -118,11 +118,11 @@ def no_attribute(
     message = f"{article} {owner} has no {name!r}"
     if name in elsewhere:
         return AttributeError(f"{message}: {elsewhere[name]}")
-    if "dataset" in known and hasattr(xr.Dataset, name):
-        return AttributeError(f"{message}: the xarray.Dataset has, {owner}.dataset.{name}")
     names = sorted(set(known))
     if called := meant(name, names):
         return AttributeError(f"{message}: it is called {' and '.join(called)}")
+    if "dataset" in known and hasattr(xr.Dataset, name):
+        return AttributeError(f"{message}: the xarray.Dataset has, {owner}.dataset.{name}")
     if of_package := functions(name):
         return AttributeError(f"{message}: it is a function, {' or '.join(of_package)}")
     near = alike(name, names, 3)
