@@ -230,6 +230,13 @@ class Cracks(Kept, Labelled, Figured):
         most = np.clip(np.asarray(of["K_I_linear"].values, float) + error, 0.0, error)
         return np.where(np.asarray(of["open"].values) > 0.0, error, most)
 
+    @numbers_only
+    def at_length(self, length: Quantity) -> xr.Dataset:
+        """Give K over the cycle at the nearest length [m], ``K_I_error`` and ``K_II_error`` too."""
+        d = self.dataset
+        both = d.assign(K_I_error=d.K_I.copy(data=self.K_I_error), K_II_error=d["error"])
+        return both.sel(length=as_number(length), method="nearest")
+
     def _error_where(
         self, extreme: NDArray[np.float64], of: Callable[..., Any]
     ) -> NDArray[np.float64]:

@@ -9,7 +9,6 @@ from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormat
 
 from pyfret._util.door import numbers_only
 from pyfret._util.numbers import in_letters
-from pyfret._util.types import as_number
 from pyfret.plot.style import axes, styled
 
 if TYPE_CHECKING:
@@ -64,9 +63,7 @@ def intensity_history(cracks: Cracks, length: Quantity, *, ax: Axes | None = Non
         Where to draw.
     """
     ax = axes(ax)
-    d = cracks.dataset
-    both = d.assign(K_I_error=d.K_I.copy(data=cracks.K_I_error), K_II_error=d["error"])
-    one = both.sel(length=as_number(length), method="nearest")
+    one = cracks.at_length(length)
     for name, label, colour in (
         ("K_I", r"$K_\mathrm{I}$", "C0"),
         ("K_II", r"$K_\mathrm{II}$", "C1"),

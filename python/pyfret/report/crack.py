@@ -81,9 +81,7 @@ class CrackSection:
         """K over the cycle at the length where the crack stops, or the longest; the diagram."""
         found = self.found()
         length = found.tip if found else float(self.cracks.lengths[-1])
-        d = self.cracks.dataset
-        of_K_I = d.K_I.copy(data=self.cracks.K_I_error)
-        one = d.assign(K_I_error=of_K_I, K_II_error=d["error"]).sel(length=length, method="nearest")
+        one = self.cracks.at_length(length)
         names = ("K_I", "K_II", "K_I_error", "K_II_error")
         K = {name: short(MEGA * one[name].values) for name in names}
         return {
