@@ -130,6 +130,7 @@ check: setup ## formats, lints, circles of imports, types, spelling, sentences
 	RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked --release --quiet
 	$(PY) tools/acyclic.py
 	$(PY) tools/prose.py
+	$(PY) tools/words.py
 	$(BIN)/ruff format --check
 	$(BIN)/ruff check
 	$(BIN)/mypy

@@ -1,9 +1,9 @@
-"""Sentences that are too long, and words that readers do not know.
+"""Print sentences that are too long.
 
 ``python tools/prose.py`` reads the pages of the Use book, the docstrings of the Python package and
 the messages of errors and warnings. It prints the faults with file and line, and ends with 1 if
 there are any. ``python tools/prose.py FILES`` reads other documents and modules. The rules are
-those of CONTRIBUTING.md: one fact a sentence, at most 25 words, nouns of the field as subjects.
+those of CONTRIBUTING.md: one fact a sentence, at most 25 words. ``tools/words.py`` counts riddles.
 """
 
 from __future__ import annotations
@@ -40,16 +40,6 @@ USE = (
 CODE = ("python/pyfret/**/*.py", "python/pyfret/_core.pyi", "crates/*/src/**/*.rs")
 #: Words of a sentence, at most.
 MOST = 25
-#: What a reader cannot point at, and what a program does not do.
-RIDDLES = (
-    r"\bone of its own\b",
-    r"\bof one's own\b",
-    r"\bthat of those\b",
-    r"\b(?:run|page|program|error|message|result|table|it) (?:says|tells|knows|hears|sees|asks)\b",
-    r"\bwhat .{3,40} (?:leaves|leave|errs by|buys)\b",
-    r"\bas far as\b",
-    r"\bbut for\b",
-)
 #: Ends of a sentence that are none.
 ABBREVIATIONS = re.compile(
     r"\b(?:e\.g|i\.e|cf|vs|Fig|Eq|No|St|Dr|pp|al|Int|J|Proc|Inst|Mech|Eng|Sci)\.$"
@@ -159,9 +149,6 @@ def faults(document: Path) -> Iterator[str]:
         for sentence in sentences(block):
             if (count := words(sentence)) > MOST:
                 yield f"{name}:{line}: {count} words: {sentence}"
-            for riddle in RIDDLES:
-                if found := re.search(riddle, sentence):
-                    yield f"{name}:{line}: {found[0]!r}: {sentence}"
 
 
 def is_test(document: Path) -> bool:
