@@ -21,6 +21,7 @@ mod quantity;
 mod resume;
 mod run;
 mod scene_options;
+mod schema;
 mod stress;
 mod summary;
 mod terminal;
@@ -64,6 +65,8 @@ enum Command {
     // Scenes and their solution.
     /// Write a commented scene to begin with
     New(new::Options),
+    /// Write the JSON Schema of the scene file, for editors that complete and check keys
+    Schema(schema::Options),
     /// Say what a scene means and what its solution needs; solve nothing
     Check(check::Options),
     /// Run through the load path of a scene and write a result store
@@ -132,6 +135,7 @@ pub fn run_command(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     };
     let outcome = match cli.command {
         Command::New(options) => new::new(&options),
+        Command::Schema(options) => schema::write_schema(&options),
         Command::Run(options) => run::run(&options),
         Command::Resume(options) => resume::resume(&options),
         Command::Check(options) => check::check(&options),

@@ -55,6 +55,9 @@ impl Template {
     }
 }
 
+/// Name of the schema in the first line of each scene, which editors read.
+const SCHEMA_FILE: &str = "fret.schema.json";
+
 /// Writes the scene.
 pub(crate) fn new(options: &Options) -> Result<(), Failure> {
     let text = options.template.text();
@@ -69,8 +72,9 @@ pub(crate) fn new(options: &Options) -> Result<(), Failure> {
         })
     })?;
     say(&format!(
-        "fret: {} is written; fret check {0} says what it means",
-        out.display()
+        "fret: {} is written; fret check {0} explains it; fret schema -o {} lets editors complete it",
+        out.display(),
+        out.with_file_name(SCHEMA_FILE).display()
     ));
     Ok(())
 }

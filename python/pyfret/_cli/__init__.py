@@ -7,7 +7,23 @@ import sys
 
 from pyfret._core import run_command
 
-__all__ = ["main"]
+__all__ = ["NEEDS_PYTHON", "main"]
+
+#: Commands that are written in Python; the others are compiled.
+NEEDS_PYTHON = frozenset(
+    (
+        "study",
+        "compare",
+        "explore",
+        "export",
+        "crack",
+        "fit",
+        "threshold",
+        "report",
+        "verify",
+        "cite",
+    )
+)
 
 
 def main() -> None:
