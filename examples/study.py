@@ -64,7 +64,7 @@ def main() -> None:
                 print(f"{done} points done: worker {pid} killed")
 
         started = time.perf_counter()
-        study = fret.study.solve(
+        study = fret.study.run(
             contact(options.cells),
             parameters,
             measure=MEASURES,

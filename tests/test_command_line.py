@@ -113,7 +113,7 @@ def test_check_of_sliding_wear_has_the_places_of_its_stroke(tmp_path: Path) -> N
     out = tmp_path / "worn.zarr"
     worn = fret_run("wear", tmp_path / "open.toml", "-o", out, "--set", "wear.cycles=10", "-q")
     assert worn.returncode == 0, worn.stderr
-    branches = fret.wear.open(out).scene.path.branches
+    branches = fret.open(out).scene.path.branches
     assert least == sum(branch.increments or 0 for branch in branches)
     march = fret_run("check", tmp_path / "open.toml", "--set", "wear.cycling=march")
     assert "path error" in march.stdout

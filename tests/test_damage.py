@@ -85,7 +85,7 @@ def test_a_damaged_store_of_wear_is_refused_by_name(tmp_path: Path) -> None:
     for n in range(STORES):
         name = Path(".zmetadata") if n % 8 == 0 else rng.choice(files)
         damage(bad / name, rng)
-        for use in (fret.wear.open, fret.wear.resume):
+        for use in (fret.open, fret.wear.resume):
             try:
                 read = use(bad).dataset.load()
             except fret.errors.StoreError as error:

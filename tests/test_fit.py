@@ -52,7 +52,7 @@ def test_mu_and_the_rig_are_found_from_a_german_file(tmp_path: Path) -> None:
     ]
     file = tmp_path / "loop.csv"
     file.write_text("# Prüfstand 3\nWeg [µm];Kraft [N]\n" + "\n".join(rows), encoding="utf-8")
-    loops = fret.fit.loops(file)
+    loops = fret.fit.read_loops(file)
     found = fret.fit(ball(), loops, unknown={"mu": (0.2, 1.2), "rig.stiffness": (1e6, 1e8)})
     for key, value in {"mu": 0.62, "rig.stiffness": 8e6}.items():
         known = found.known[key]
@@ -139,7 +139,7 @@ def test_files_that_are_no_loops_are_refused(tmp_path: Path, text: str, told: st
     file = tmp_path / "loop.csv"
     file.write_text(text, encoding="utf-8")
     with pytest.raises(ValueError, match=told):
-        fret.fit.loops(file)
+        fret.fit.read_loops(file)
 
 
 @pytest.mark.parametrize(
@@ -169,7 +169,7 @@ def test_loops_are_read_in_any_encoding_with_units_in_the_head_or_below_it(
     file = tmp_path / "loop.csv"
     rows = ["-1,5 -2", "0 0,5", "1,5 2", "0 -0,5", "-1,5 -2,0"]
     file.write_text("\n".join([head, *(r.replace(" ", mark) for r in rows)]), encoding=encoding)
-    loop = fret.fit.loops(file)
+    loop = fret.fit.read_loops(file)
     np.testing.assert_allclose(loop.delta, [-1.5e-6, 0.0, 1.5e-6, 0.0, -1.5e-6])
     np.testing.assert_allclose(loop.T, [-2.0, 0.5, 2.0, -0.5, -2.0])
 

@@ -187,7 +187,7 @@ def test_a_run_of_wear_goes_on_with_its_law_bit_by_bit(tmp_path: Path) -> None:
     store = tmp_path / "worn.zarr"
     with pytest.raises(RuntimeError, match="power cut"):
         worn(scene(stops), jumps=4, out=store)
-    assert 0 < fret.wear.open(store).dataset.sizes["jump"] < 4
+    assert 0 < fret.open(store).dataset.sizes["jump"] < 4
     with pytest.raises(ValueError, match="friction_law="):
         fret.wear.resume(store, progress=False)
     resumed = fret.wear.resume(store, friction_law=by_energy, progress=False)

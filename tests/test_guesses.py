@@ -83,12 +83,12 @@ def test_variables_are_found_as_in_xarray(result: fret.Result) -> None:
             r'"branches", "all"',
         ),
         (
-            lambda r: fret.study.solve(r.scene, {}, measure="p_max"),
+            lambda r: fret.study.run(r.scene, {}, measure="p_max"),
             ValueError,
             r"no parameters: give",
         ),
         (
-            lambda r: fret.study.solve(r.scene, {"mu": [0.1]}, measure="x"),
+            lambda r: fret.study.run(r.scene, {"mu": [0.1]}, measure="x"),
             ValueError,
             r"measure 'x': mu",
         ),

@@ -31,7 +31,7 @@ SCALE = 1.0
 def solved(parameters: dict[str, Any], measure: Any, **options: Any) -> fret.study.Study:
     """A study in this process."""
     said = {"executor": 1, "progress": False} | options
-    return fret.study.solve(SCENE, parameters, measure=measure, **said)
+    return fret.study.run(SCENE, parameters, measure=measure, **said)
 
 
 def scaled(result: Any, by: float = 1.0, *, offset: float = 0.0) -> float:
@@ -132,7 +132,7 @@ def test_a_store_of_other_code_is_refused(tmp_path: Path) -> None:
     place = tmp_path / "f.zarr"
     for W, refused in ((10.0, False), (10.0, False), (20.0, True)):
         call = functools.partial(
-            fret.study.solve, scenes(W), values, measure="p_max", executor=1, progress=False
+            fret.study.run, scenes(W), values, measure="p_max", executor=1, progress=False
         )
         if refused:
             with pytest.raises(fret.errors.StoreError, match="differ in scene"):

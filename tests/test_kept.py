@@ -13,7 +13,7 @@ import pyfret as fret
 from conftest import W, sphere_on_flat
 from pyfret import _core
 from pyfret.fit.data import Loops, Measured
-from pyfret.fit.outcome import Found, Known
+from pyfret.fit.outcome import FitResult, Known
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -42,7 +42,7 @@ def results() -> dict[str, Any]:
         jumps=2,
         progress=False,
     )
-    study = fret.study.solve(
+    study = fret.study.run(
         scene.replace(path=path()),
         {"mu": [0.3, 0.4]},
         measure="p_max",
@@ -53,7 +53,7 @@ def results() -> dict[str, Any]:
         delta=np.array([0.0, 1e-6, 0.0, -1e-6, 0.0]), T=np.array([0.0, 5.0, 0.0, -5.0, 0.0]), W=W
     )
     measured = Measured(loops, loops.T, loops.delta, ("shift [um]", "force [N]"))
-    found = Found(
+    found = FitResult(
         known={"friction.mu": Known(0.4, 0.38, 0.42, 0.01, 0.005, at_bound=False)},
         offsets={"offset of the force [N]": 0.1},
         offset_errors={"offset of the force [N]": 0.01},
@@ -71,7 +71,7 @@ def results() -> dict[str, Any]:
         "Result": run,
         "WearResult": worn,
         "Study": study,
-        "Found": found,
+        "FitResult": found,
         "Cracks": run.crack(0.0, lengths=np.geomspace(1e-6, 1e-4, 5)),
     }
 
@@ -82,7 +82,7 @@ def every() -> dict[str, Any]:
     return results()
 
 
-KINDS = ["Result", "WearResult", "Study", "Found", "Cracks"]
+KINDS = ["Result", "WearResult", "Study", "FitResult", "Cracks"]
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -97,7 +97,7 @@ def test_every_result_has_the_same_manner(every: dict[str, Any], kind: str, tmp_
     one.report(tmp_path / "page.html")
     page = (tmp_path / "page.html").read_text(encoding="utf-8")
     assert "http" not in page.replace("http://www.w3.org", "").split("<body")[0]
-    names = [str(name) for name in one.dataset.data_vars if kind not in ("Found", "Result")]
+    names = [str(name) for name in one.dataset.data_vars if kind not in ("FitResult", "Result")]
     assert set(names) <= set(dir(one))
 
 
@@ -191,8 +191,8 @@ def test_dir_of_a_result_has_its_numbers(every: dict[str, Any]) -> None:
 def test_a_saved_fit_makes_nothing_but_parts_of_a_fit(
     every: dict[str, Any], tmp_path: Path
 ) -> None:
-    dataset = every["Found"].dataset
+    dataset = every["FitResult"].dataset
     text = dataset.attrs["found"].replace('"part": "Known"', '"part": "Path"')
-    dataset.assign_attrs(found=text, kind="Found").to_netcdf(tmp_path / "fit.nc")
+    dataset.assign_attrs(found=text, kind="FitResult").to_netcdf(tmp_path / "fit.nc")
     with pytest.raises(fret.errors.StoreError, match=r"fit.nc: is no fit"):
         fret.open(tmp_path / "fit.nc")

@@ -231,7 +231,7 @@ def test_a_study_is_a_table_of_points() -> None:
     def profile(result: fret.Result) -> object:
         return result.at(-1).along_x().p.rename("p")
 
-    study = fret.study.solve(
+    study = fret.study.run(
         scene, {"mu": [0.2, 0.3]}, measure=["p_max", profile], executor=1, progress=False
     )
     with pytest.warns(UserWarning, match=r"left out.* profile \(over x\)"):

@@ -230,7 +230,7 @@ def test_notebooks_show_tables(result: fret.Result) -> None:
     assert "coating 1" in scene._repr_html_()
     assert "T<sub>x</sub> = -200 N" in path._repr_html_()
     assert "partial slip" in result._repr_html_()
-    study = fret.study.solve(scene, {"mu": [0.3]}, measure="p_max", executor=1)
+    study = fret.study.run(scene, {"mu": [0.3]}, measure="p_max", executor=1)
     assert "p_max" in study._repr_html_()
 
 

@@ -38,7 +38,7 @@ def sent(tmp_path_factory: pytest.TempPathFactory) -> Path:
         # Zarr says that format 3 has no consolidated metadata yet; xarray writes them.
         warnings.simplefilter("ignore")
         result.dataset.load().to_zarr(folder / "copy3.zarr", zarr_format=3)
-    fret.study.solve(
+    fret.study.run(
         SCENE, {"mu": [0.3]}, measure="p_max", executor=1, progress=False, out=folder / "study.zarr"
     )
     return folder
@@ -113,7 +113,7 @@ def test_text_of_others_cannot_act(sent: Path) -> None:
         "shown": shown(EVIL),
     }
     with pytest.raises(fret.errors.StoreError) as raised:
-        fret.fit.loops(sent / EVIL.replace("/", ""))
+        fret.fit.read_loops(sent / EVIL.replace("/", ""))
     ways["error"] = str(raised.value)
     for name, text in ways.items():
         acting = [c for c in text if (ord(c) < 32 and c not in "\n\t") or c in "\u202e\u2066"]

@@ -37,7 +37,7 @@ HERE = ThreadPoolExecutor(1)
 
 
 def run(*, measure: Any = MEASURES, executor: Any = HERE, **options: Any) -> fret.study.Study:
-    return fret.study.solve(
+    return fret.study.run(
         SCENE, PARAMETERS, measure=measure, executor=executor, progress=False, **options
     )
 
@@ -99,14 +99,14 @@ def test_a_point_is_the_solution_of_its_scene(whole: fret.study.Study) -> None:
 
 def test_values_in_step_and_samples(whole: fret.study.Study) -> None:
     sample = {"body2.coatings.0.E": np.array([1e11, 4e11]), "mu": np.array([0.3, 0.2])}
-    study = fret.study.solve(
+    study = fret.study.run(
         SCENE, sample, combine="zip", measure=MEASURES, executor=HERE, progress=False
     )
     assert study.dataset.sizes == {"point": 2}
     there = whole.dataset.p_max
     assert study.dataset.p_max.values.tolist() == [float(there[0, 1]), float(there[1, 0])]
     with pytest.raises(ValueError, match="must be the same"):
-        fret.study.solve(SCENE, {"mu": [0.1, 0.2], "grid.n": [16]}, combine="zip")
+        fret.study.run(SCENE, {"mu": [0.1, 0.2], "grid.n": [16]}, combine="zip")
 
 
 def tractions(result: fret.Result) -> dict[str, Any]:
@@ -116,11 +116,11 @@ def tractions(result: fret.Result) -> dict[str, Any]:
 
 def test_a_function_of_the_user_gives_numbers_and_fields() -> None:
     stiff = {"body2.coatings.0.E": [3e11, 4e11], "mu": [0.2, 0.3]}
-    study = fret.study.solve(SCENE, stiff, measure=["p_max", tractions], executor=HERE)
+    study = fret.study.run(SCENE, stiff, measure=["p_max", tractions], executor=HERE)
     assert study.dataset.pressure.dims == ("body2.coatings.0.E", "mu", "x", "y")
     assert (study.dataset.pressure.max(("x", "y")) <= study.dataset.p_max).all()
     assert (study.dataset.cells > 100).all()
-    soft = fret.study.solve(
+    soft = fret.study.run(
         SCENE, {"body2.coatings.0.E": [3e11, 1e11]}, measure=tractions, executor=HERE
     )
     assert "{'x': 22, 'y': 22}" in soft.failed()[0][1]
@@ -133,15 +133,15 @@ def test_a_function_of_the_user_gives_numbers_and_fields() -> None:
 def test_failed_points_say_why_and_are_solved_again_if_asked(tmp_path: Path) -> None:
     where = {"mu": [0.1, 0.3]}  # 150 N are more than 0.1 of 1000 N
     options: dict[str, Any] = {"measure": MEASURES, "executor": HERE, "out": tmp_path / "s.zarr"}
-    study = fret.study.solve(SCENE, where, **options)
+    study = fret.study.run(SCENE, where, **options)
     ((values, reason),) = study.failed()
     assert values == {"mu": 0.1}
     assert "mu W" in reason
     assert np.isnan(study.dataset.p_max[0])
     solved: list[int] = []
-    fret.study.solve(SCENE, where, **options, on_point=lambda n, _: solved.append(n))
+    fret.study.run(SCENE, where, **options, on_point=lambda n, _: solved.append(n))
     assert solved == []
-    fret.study.solve(SCENE, where, **options, again=True, on_point=lambda n, _: solved.append(n))
+    fret.study.run(SCENE, where, **options, again=True, on_point=lambda n, _: solved.append(n))
     assert solved == [2]
 
 
@@ -152,7 +152,7 @@ def test_an_interrupted_study_goes_on(whole: fret.study.Study, tmp_path: Path) -
 
     with pytest.raises(KeyboardInterrupt):
         run(out=tmp_path / "s.zarr", on_point=stop)
-    half = fret.study.open(tmp_path / "s.zarr")
+    half = fret.open(tmp_path / "s.zarr")
     assert half.count() == {"open": 4, "done": 2, "failed": 0}
     assert "4 open, 2 done" in repr(half)
     told: list[tuple[int, int]] = []
@@ -169,7 +169,7 @@ def test_points_have_the_increments_of_the_middle_one_in_any_order(tmp_path: Pat
     parameters = {"mu": [0.3, 0.35, 0.4]}
 
     def solved(**options: Any) -> fret.study.Study:
-        return fret.study.solve(
+        return fret.study.run(
             scene, parameters, measure=counted, executor=HERE, progress=False, **options
         )
 
@@ -200,24 +200,24 @@ def counted(result: fret.Result) -> dict[str, float]:
 
 def test_the_store_of_another_study_is_refused(tmp_path: Path) -> None:
     place = tmp_path / "s.zarr"
-    fret.study.solve(SCENE, {"mu": [0.3]}, measure="p_max", executor=HERE, out=place)
+    fret.study.run(SCENE, {"mu": [0.3]}, measure="p_max", executor=HERE, out=place)
     with pytest.raises(fret.errors.StoreError, match="differ in parameters"):
-        fret.study.solve(SCENE, {"mu": [0.4]}, measure="p_max", executor=HERE, out=place)
+        fret.study.run(SCENE, {"mu": [0.4]}, measure="p_max", executor=HERE, out=place)
     with pytest.raises(fret.errors.StoreError, match="it measures p_max, not q_max"):
-        fret.study.solve(SCENE, {"mu": [0.3]}, measure="q_max", executor=HERE, out=place)
+        fret.study.run(SCENE, {"mu": [0.3]}, measure="q_max", executor=HERE, out=place)
     fret.solve(SCENE, out=tmp_path / "run.zarr", progress=False)
     with pytest.raises(fret.errors.StoreError, match="not the store of a study"):
-        fret.study.open(tmp_path / "run.zarr")
+        fret.open(tmp_path / "run.zarr")
 
 
 def test_a_grid_that_is_too_small_grows() -> None:
     small = SCENE.replace(grid=SCENE.grid.replace(dx=SCENE.grid.dx / 2.5, dy=SCENE.grid.dy / 2.5))
     softer = {"body2.coatings.0.E": [1e11]}
-    study = fret.study.solve(small, softer, measure="p_max", executor=HERE)
+    study = fret.study.run(small, softer, measure="p_max", executor=HERE)
     assert study.count()["done"] == 1
     assert study.dataset.nx.item() > 16
     assert study.dataset.nx.item() == study.dataset.ny.item()
-    kept = fret.study.solve(small, softer, measure="p_max", executor=HERE, grow=False)
+    kept = fret.study.run(small, softer, measure="p_max", executor=HERE, grow=False)
     assert kept.failed()[0][1].startswith("OffGridError")
 
 
@@ -247,7 +247,7 @@ def test_processes_share_the_points_and_one_may_die(
 
 
 def test_a_point_that_kills_its_process_is_given_up() -> None:
-    study = fret.study.solve(SCENE, {"mu": [0.2, MU, 0.4]}, measure=dies, executor=1)
+    study = fret.study.run(SCENE, {"mu": [0.2, MU, 0.4]}, measure=dies, executor=1)
     assert study.dataset.status.values.tolist() == [1, 2, 1]
     assert "killed 3 times" in study.failed()[0][1]
 
@@ -287,7 +287,7 @@ def test_a_study_file_is_the_same_study(whole: fret.study.Study, tmp_path: Path)
     assert ran.returncode == 0, ran.stderr
     assert "6 done" in ran.stdout
     assert (tmp_path / "map.png").stat().st_size > 10_000
-    found = fret.study.open(tmp_path / "study.zarr")
+    found = fret.open(tmp_path / "study.zarr")
     np.testing.assert_allclose(found.dataset.mu, whole.dataset.mu)
     assert np.array_equal(found.dataset.p_max[:, 0], whole.dataset.p_max[:, 0])
     file.write_text('scene = "scene.toml"\nparameter = 1\n')
@@ -302,8 +302,8 @@ def test_stresses_wear_and_a_scene_file_with_its_measures(tmp_path: Path) -> Non
     start = text.index("[[path]]\nT_x = { mu_W = -0.9 }\nincrements = 40\nt = 0.8")
     (tmp_path / "scene.toml").write_text(text[:start])
     thick = {"body2.coatings.0.thickness.a_H": [0.5, 1.0], "grid.n": [24]}
-    worn = fret.study.Wear(1e4, body2=fret.wear.Archard(1e-14), first_branch=2)
-    study = fret.study.solve(
+    worn = fret.study.WornDepth(1e4, body2=fret.wear.Archard(1e-14), first_branch=2)
+    study = fret.study.run(
         tmp_path / "scene.toml",
         thick,
         measure=["von_mises", "interface_shear", worn],
@@ -334,7 +334,7 @@ def test_measures_have_their_range_or_are_called_estimates() -> None:
         (cycle, ["loop_energy", "stiffness", "regime", *judged]),
         (pressed, ["s_1"]),
     ):
-        study = fret.study.solve(
+        study = fret.study.run(
             scene,
             {"mu": [SCENE.mu, 1.2 * SCENE.mu]},
             measure=measure,
@@ -386,19 +386,19 @@ def test_maps_of_studies(whole: fret.study.Study) -> None:
 
 def test_what_is_no_study_is_refused() -> None:
     with pytest.raises(ValueError, match="no parameters"):
-        fret.study.solve(SCENE, {})
+        fret.study.run(SCENE, {})
     with pytest.raises(ValueError, match="has no values"):
-        fret.study.solve(SCENE, {"mu": []})
+        fret.study.run(SCENE, {"mu": []})
     with pytest.raises(ValueError, match='E1/E2: a "/" parts folders'):
-        fret.study.solve(SCENE, {"E1/E2": [1.0]})
+        fret.study.run(SCENE, {"E1/E2": [1.0]})
     with pytest.raises(ValueError, match="must be a list"):
-        fret.study.solve(SCENE, {"mu": 0.3})
+        fret.study.run(SCENE, {"mu": 0.3})
     with pytest.raises(ValueError, match="loop_energy"):
-        fret.study.solve(SCENE, {"mu": [0.3]}, measure="energy")
+        fret.study.run(SCENE, {"mu": [0.3]}, measure="energy")
     with pytest.raises(TypeError, match="number of processes"):
-        fret.study.solve(SCENE, {"mu": [0.3]}, executor="many")
+        fret.study.run(SCENE, {"mu": [0.3]}, executor="many")
     with pytest.raises(ValueError, match="nearest valid key"):
-        fret.study.solve(SCENE, {"body2.coatings.0.modulus": [1e-5]}, executor=HERE)
+        fret.study.run(SCENE, {"body2.coatings.0.modulus": [1e-5]}, executor=HERE)
 
 
 def test_a_study_can_be_pickled(whole: fret.study.Study) -> None:
@@ -450,7 +450,7 @@ def test_a_store_of_another_friction_law_is_another_study(tmp_path: Path) -> Non
 
     def solve(law: Any) -> fret.study.Study:
         scene = sphere_on_flat(n=16).replace(mu=fret.Friction(0.3, law=law), path=path)
-        return fret.study.solve(
+        return fret.study.run(
             scene, {"path.0.W": [900.0]}, measure="p_max", executor=1, out=place, progress=False
         )
 

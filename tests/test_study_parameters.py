@@ -55,7 +55,7 @@ def scene(tmp_path: Path) -> Path:
 
 
 def solved(scene: Any, parameters: dict[str, Any], **options: Any) -> fret.study.Study:
-    return fret.study.solve(
+    return fret.study.run(
         scene,
         parameters,
         measure="p_max",

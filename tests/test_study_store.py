@@ -42,7 +42,7 @@ def solved(
 ) -> fret.study.Study:
     """The largest pressure over mu, in this process."""
     said = {"measure": "p_max", "executor": ThreadPoolExecutor(1), "progress": False} | options
-    return fret.study.solve(SCENE, {"mu": list(values)}, out=place, **said)  # type: ignore[call-overload]
+    return fret.study.run(SCENE, {"mu": list(values)}, out=place, **said)  # type: ignore[call-overload]
 
 
 @pytest.fixture(scope="module")
@@ -62,7 +62,7 @@ def files_of(store: Path) -> list[str]:
 
 def test_every_damage_is_named_or_harmless(whole: Path, tmp_path: Path) -> None:
     """Each file missing, cut, and with a byte changed: an error, or the right values."""
-    right = fret.study.open(whole).dataset.load()
+    right = fret.open(whole).dataset.load()
     assert len(files_of(whole)) > 7
     wrong = []
     for name in files_of(whole):
@@ -82,7 +82,7 @@ def test_every_damage_is_named_or_harmless(whole: Path, tmp_path: Path) -> None:
                     content[:middle] + bytes([content[middle] ^ 0x24]) + content[middle + 1 :]
                 )
             try:
-                found = fret.study.open(place).dataset.load()
+                found = fret.open(place).dataset.load()
             except StoreError as told:
                 if "copy.zarr" not in str(told):
                     wrong.append(f"{name} {kind}: {told}")
@@ -102,7 +102,7 @@ def test_a_line_that_is_not_finished_is_left_out(whole: Path, tmp_path: Path) ->
     # The status of its point stands in the arrays: the file has been cut off later.
     (place / FILE).write_bytes(b"".join(lines[:-1]) + lines[-1][:-9])
     with pytest.raises(StoreError, match="has a status and no line"):
-        fret.study.open(place)
+        fret.open(place)
 
 
 @pytest.mark.parametrize("after", ["values", "line"])
@@ -130,10 +130,10 @@ def test_a_kill_within_a_point(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, 
         patch.setattr(of, name, call)
         with pytest.raises(KeyboardInterrupt):
             solved(place)
-    assert fret.study.open(place).count()["done"] == 1
+    assert fret.open(place).count()["done"] == 1
     assert solved(place).count()["done"] == 3
     np.testing.assert_array_equal(
-        fret.study.open(place).dataset.p_max, solved(tmp_path / "other.zarr").dataset.p_max
+        fret.open(place).dataset.p_max, solved(tmp_path / "other.zarr").dataset.p_max
     )
 
 
@@ -189,7 +189,7 @@ def test_a_scene_whose_files_have_changed_is_another_study(tmp_path: Path) -> No
     (tmp_path / "h.csv").write_text("W\n10\n")
 
     def go() -> fret.study.Study:
-        return fret.study.solve(
+        return fret.study.run(
             tmp_path / "s.toml",
             {"mu": [0.2]},
             measure="p_max",
@@ -209,9 +209,9 @@ def test_names_that_say_nothing_are_refused() -> None:
     with pytest.raises(ValueError, match="two measures have the name <lambda>"):
         solved(None, measure=[lambda _: 2.0, lambda _: 3.0])
     with pytest.raises(ValueError, match="muu: the nearest is mu"):
-        fret.study.solve(SCENE, {"muu": [0.2, 0.3]}, measure="p_max", progress=False)
+        fret.study.run(SCENE, {"muu": [0.2, 0.3]}, measure="p_max", progress=False)
     with pytest.raises(ValueError, match=r"no point of the study has a scene.*coatings"):
-        fret.study.solve(SCENE, {"body2.coatings.3.E": [1e9]}, measure="p_max", progress=False)
+        fret.study.run(SCENE, {"body2.coatings.3.E": [1e9]}, measure="p_max", progress=False)
 
 
 SCRIPT = """
@@ -224,7 +224,7 @@ def slow(result):
     return 1.0
 
 if __name__ == "__main__":
-    fret.study.solve(SCENE, {"mu": [0.1, 0.2, 0.3]}, measure=[slow], executor=2, out=sys.argv[1])
+    fret.study.run(SCENE, {"mu": [0.1, 0.2, 0.3]}, measure=[slow], executor=2, out=sys.argv[1])
 """
 
 

@@ -82,7 +82,7 @@ REFUSED: dict[str, tuple[bytes, str]] = {
 def test_loops_in_the_forms_of_loggers(tmp_path: Path, form: str) -> None:
     file = tmp_path / "loop.csv"
     file.write_bytes(RIGHT[form])
-    loops = fret.fit.loops(file)
+    loops = fret.fit.read_loops(file)
     assert np.ptp(loops.delta) == pytest.approx(20e-6)
     assert loops.T.max() == pytest.approx(FORCE.max(), abs=1e-4)
 
@@ -93,5 +93,5 @@ def test_what_is_no_number_is_refused_in_its_line(tmp_path: Path, form: str) -> 
     content, told = REFUSED[form]
     file.write_bytes(content)
     with pytest.raises((ValueError, OSError), match=told) as refused:
-        fret.fit.loops(file)
+        fret.fit.read_loops(file)
     assert "loop.csv" in str(refused.value)

@@ -146,7 +146,7 @@ def test_units_of_columns_are_asked_for(
     table = tmp_path / "loop.csv"
     table.write_text(f"{head}\n0;0\n1;4\n0;-4\n-1;-5\n0;4\n1;5\n")
     with pytest.raises(ValueError, match=told):
-        fret.fit.loops(table, units=units)
+        fret.fit.read_loops(table, units=units)
 
 
 def test_lives_name_the_units_of_what_was_set(tmp_path: Path) -> None:
@@ -159,9 +159,11 @@ def test_lives_name_the_units_of_what_was_set(tmp_path: Path) -> None:
     ):
         table.write_text(f"{head}\n1e5;3\n2e5;4\n")
         with pytest.raises(ValueError, match=told):
-            fret.fit.lives(table, wear={})
+            fret.fit.read_lives(table, wear={})
     table.write_text(f"cycles;{thickness} [um];mu\n1e5;3;0.3\n")
-    assert fret.fit.lives(table, wear={}).settings == [{thickness: pytest.approx(3e-6), "mu": 0.3}]
+    assert fret.fit.read_lives(table, wear={}).settings == [
+        {thickness: pytest.approx(3e-6), "mu": 0.3}
+    ]
 
 
 def test_units_are_those_of_scene_files() -> None:

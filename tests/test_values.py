@@ -95,7 +95,7 @@ VALUES: list[Any] = [
     fret.wear.Archard(1e-14),
     fret.wear.DissipatedEnergy(1e-14),
     fret.study.Cracking(MATERIAL, "dang_van"),
-    fret.study.Wear(cycles=100.0, body2=fret.wear.Archard(1e-14)),
+    fret.study.WornDepth(cycles=100.0, body2=fret.wear.Archard(1e-14)),
     fret.fracture.buckling_release(COATING, -5e9, half_width=1e-3),
     fret.Bond(normal=1e-15, shear=2e-15),
     fret.fracture.Crack(legs=[(1e-4, 0.0), (1e-5, 0.3)]),
@@ -158,7 +158,7 @@ def of_a_run() -> list[Any]:
     round_trip = fret.LoadPath.start().normal(W, increments=2)
     round_trip = round_trip.tangential([100.0, -100.0, 0.0], increments=6)
     worn = fret.wear.solve(scene, path=round_trip, cycles=10.0, jumps=1, body2=LAW, progress=False)
-    study = fret.study.solve(
+    study = fret.study.run(
         scene.replace(path=path), {"mu": [0.3]}, measure="p_max", executor=1, progress=False
     )
     compared = fret.compare(

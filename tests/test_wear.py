@@ -163,7 +163,7 @@ def test_a_run_goes_on_from_worn_surfaces(tmp_path: Path) -> None:
     depth = float(second.depth2[0])
     for name in ("saved.zarr", "saved.nc"):
         second.save(tmp_path / name)
-        again = fret.wear.open(tmp_path / name)
+        again = fret.open(tmp_path / name)
         assert again == second
         assert again.cycles_to(depth=depth) == second.cycles_to(depth=depth)
         with pytest.raises(FileExistsError, match=name):
@@ -171,7 +171,7 @@ def test_a_run_goes_on_from_worn_surfaces(tmp_path: Path) -> None:
     fret.solve(line(), progress=False).save(tmp_path / "run.zarr")
     for name in ("run.zarr", "none.zarr", "none.nc"):
         with pytest.raises(fret.errors.StoreError, match=name):
-            fret.wear.open(tmp_path / name)
+            fret.open(tmp_path / name)
 
 
 def test_coefficients_change_by_a_table() -> None:
@@ -420,7 +420,7 @@ def test_the_command_tells_cycles_of_an_event_with_their_error(tmp_path: Path) -
     command = [ROOT / "target" / "release" / "fret", "wear", scene, "-o", out, "--json"]
     ran = subprocess.run(command, capture_output=True, text=True, check=False)
     assert ran.returncode == 0, ran.stderr
-    events = fret.wear.open(out).events
+    events = fret.open(out).events
     assert events
     assert [of["cycles_error"] for of in json.loads(ran.stdout)["events"]] == pytest.approx(
         [event["cycles_error"] for event in events]

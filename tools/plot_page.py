@@ -172,7 +172,7 @@ def names() -> dict[str, Any]:
         body2=fret.wear.Archard(2e-15),
         progress=False,
     )
-    study = fret.study.solve(
+    study = fret.study.run(
         small.replace(path=pressed.cycles(1, T_x=0.5 * mu * W, increments=2)),
         {
             "body2.coatings.0.thickness": (a * np.geomspace(0.1, 1.0, 6)).tolist(),
@@ -194,7 +194,7 @@ def names() -> dict[str, Any]:
     pulled = fret.LoadPath.start().force(W=4e5, increments=1)
     for T, bulk in ((1e5, 1.6e8), (-1e5, 0.0), (1e5, 1.6e8)):
         pulled = pulled.force(T_x=T, sigma_B=bulk, increments=3)
-    first = fret.study.solve(
+    first = fret.study.run(
         line.replace(body2=fret.Body(titanium, coatings=nitride), path=pulled, save="all"),
         {
             "friction.mu": [0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9],

@@ -21,7 +21,7 @@ scene = fret.Scene(
     grid=fret.Grid.strip(extent=1.7e-3, n=64),
     path=path,
 ).replace(save="all")
-study = fret.study.solve(
+study = fret.study.run(
     scene,
     {
         "friction.mu": [0.3, 0.5, 0.7, 0.9],

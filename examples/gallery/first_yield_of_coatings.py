@@ -36,7 +36,7 @@ def first_yield(result: fret.Result) -> float:
     return result.p_H / result.at(-1).stress().maximum("von_mises").value
 
 
-study = fret.study.solve(
+study = fret.study.run(
     lambda values: scene(values["ratio"], values["thickness"]),
     {"ratio": np.geomspace(0.25, 4.0, 7).tolist(), "thickness": np.geomspace(0.1, 1.6, 7).tolist()},
     measure=first_yield,

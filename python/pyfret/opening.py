@@ -6,16 +6,17 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pyfret import result, study, wear
 from pyfret._core import StoreError, read_bytes, shown
 from pyfret._util import files
 from pyfret._util.door import numbers_only
 from pyfret.fatigue.distance import OverDistance
 from pyfret.fatigue.judged import Life
-from pyfret.fit.stored import found_of
+from pyfret.fit.stored import fit_from_dataset
 from pyfret.fracture.growth import Cracks
+from pyfret.result import open_result
 from pyfret.study.ledger import FILE
-from pyfret.study.outcome import Study
+from pyfret.study.outcome import Study, open_study
+from pyfret.wear.runs import open_run
 
 if TYPE_CHECKING:
     import os
@@ -32,7 +33,7 @@ COPIES: dict[Any, Callable[[xr.Dataset], Any]] = {
     "Cracks": Cracks,
     "Life": Life.of_dataset,
     "OverDistance": OverDistance,
-    "Found": found_of,
+    "FitResult": fit_from_dataset,
 }
 
 
@@ -46,7 +47,7 @@ def open(path: str | os.PathLike[str]) -> Any:
 
     Returns
     -------
-    Result, WearResult, Study, Found, Cracks, Life or OverDistance
+    Result, WearResult, Study, FitResult, Cracks, Life or OverDistance
         By what is there.
 
     Raises
@@ -58,7 +59,7 @@ def open(path: str | os.PathLike[str]) -> Any:
     attributes = _attributes(Path(path))
     kind = attributes.get("kind")
     if kind == "study" and (Path(path) / FILE).exists():
-        return study.open(path)
+        return open_study(path)
     if kind in COPIES:
         dataset = files.opened(path)
         if kind != "study":
@@ -68,8 +69,8 @@ def open(path: str | os.PathLike[str]) -> Any:
         except StoreError as error:
             raise StoreError(shown(f"{path}: {error}")) from error
     if "wear" in attributes:
-        return wear.open(path)
-    return result.open(path)
+        return open_run(path)
+    return open_result(path)
 
 
 def _attributes(path: Path) -> dict[str, Any]:

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from pyfret._util.types import Quantity
     from pyfret.export.frame import Frame
 
-__all__ = ["Result", "open"]
+__all__ = ["Result", "open_result"]
 
 
 class Result(Run, Shows):
@@ -196,7 +196,7 @@ class Result(Run, Shows):
 
 
 @numbers_only
-def open(path: str | os.PathLike[str]) -> Result:
+def open_result(path: str | os.PathLike[str]) -> Result:
     """Open a result: a Zarr store, or what :meth:`Result.save` wrote (``.zarr``, ``.nc``).
 
     Fields are read when they are asked for. Every file of a store is checked before: what is read

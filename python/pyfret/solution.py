@@ -11,7 +11,7 @@ from pyfret._util.arrays import number
 from pyfret._util.door import numbers_only
 from pyfret._util.lazy import xr
 from pyfret._util.progress import Progress
-from pyfret.result import Result, open
+from pyfret.result import Result, open_result
 from pyfret.run.dataset import dataset
 from pyfret.scene.warnings import doubt_run, doubt_scene
 from pyfret.snapshot import Snapshot
@@ -104,7 +104,7 @@ def solve(
                 like=like,
                 on_increment=bar.update,
             )
-            return told(open(out))
+            return told(open_result(out))
         run = _core.solve_in_memory(scene, error=error, like=like, on_increment=bar.update)
     return told(Result(dataset(*run)))
 
@@ -149,7 +149,7 @@ def resume(
         _core.resume(
             store, checkpoint=checkpoint, friction_law=friction_law, on_increment=bar.update
         )
-    return told(open(store))
+    return told(open_result(store))
 
 
 def read(scene: Scene | str | os.PathLike[str]) -> Scene:

@@ -26,7 +26,7 @@ import numpy as np
 import xarray as xr
 
 import pyfret as fret
-from pyfret.fit import Found, Loops
+from pyfret.fit import FitResult, Loops
 from pyfret.fit.data import Measured
 from pyfret.fit.outcome import Known
 
@@ -48,7 +48,7 @@ MU = {"mu": [0.2, 0.3, 0.4, 0.5, 0.6, 0.7]}
 TIMES = ("seconds", "elapsed", "wall_time", "time_of_checkpoints")
 
 
-def a_fit() -> Found:
+def a_fit() -> FitResult:
     """A fit of a loop, its numbers made up."""
     loops = Loops.of(
         delta=1e-6 * np.array([0.0, 1.0, 2.0, 1.0, 0.0, -1.0, 0.0]),
@@ -56,7 +56,7 @@ def a_fit() -> Found:
         W=10.0,
     )
     measured = Measured(loops, loops.T, loops.delta, ("shift [m]", "force [N]"))
-    return Found(
+    return FitResult(
         known={"mu": Known(0.5, 0.48, 0.53, 0.02, 1e-3, at_bound=False)},
         offsets={"offset of the shift [m]": 1e-8},
         offset_errors={"offset of the shift [m]": 1e-9},
@@ -90,7 +90,7 @@ def wear(place: Path) -> None:
 
 def study(place: Path) -> None:
     """A study, or the rest of one."""
-    fret.study.solve(
+    fret.study.run(
         SCENE, MU, measure="p_max", executor=ThreadPoolExecutor(1), out=place, progress=False
     )
 

@@ -31,7 +31,7 @@ def worn(**options: Any) -> object:
 
 def studied(values: Any, measure: Any = "p_max") -> object:
     """A study in a thread."""
-    return fret.study.solve(
+    return fret.study.run(
         scene(), {"mu": values}, measure=measure, executor=ThreadPoolExecutor(1), progress=False
     )
 
@@ -52,7 +52,7 @@ CALLS: list[Call] = [
     ("rainflow of a list", fatigue.rainflow, {"0": [0.0, 1.0, 0.0]}),
     ("wear.solve", worn, {"cycles": 10.0, "k": 1e-14, "threshold": 0.0, "tell_from": 0.1}),
     ("wear.solve, counts", worn, {"jumps": 2, "first_branch": 2}),
-    ("study.solve", studied, {"0": [0.2]}),
+    ("study.run", studied, {"0": [0.2]}),
     ("Snapshot.stress", lambda z, **k: RESULT.at(-1).stress(z, **k), {"0": [1e-5], "y": 0.0}),
     ("Result.at", lambda n: RESULT.at(n), {"0": 1}),
     ("Result.loops", lambda: RESULT.loops(), {}),

@@ -44,7 +44,15 @@ LEFT_OUT = {
 #: Classes of results: pyfret makes them, nobody else.
 RESULTS = (tuple, BaseException, *(getattr(fret.study, n) for n in ("Limits", "ThresholdLoad")))
 MADE = {
-    *("Posterior", "Found", "CrackArrest", "CrackLife", "Comparison", "Experiment", "Criterion"),
+    *(
+        "Posterior",
+        "FitResult",
+        "CrackArrest",
+        "CrackLife",
+        "Comparison",
+        "Experiment",
+        "Criterion",
+    ),
     *("Life", "LoadFactors", "OverDistance", "Preset", "Check", "Verification"),
 }
 
@@ -72,7 +80,7 @@ STRESS = STATE.stress(z=[0.0, 1e-5, 4e-5], y=0.0)
 ENVELOPE = RUN.envelope([0.0, 1e-5], y=0.0)
 LENGTHS = np.array([2e-6, 4e-6, 7e-6, 1e-5])
 CRACKS = BARE.crack(0.0, lengths=LENGTHS)
-STUDY = fret.study.solve(
+STUDY = fret.study.run(
     small(),
     {"mu": [0.2, 0.3], "body1.shape.sphere.R": [0.01, 0.012]},
     measure=["p_max", "stick_ratio"],
@@ -245,13 +253,16 @@ OF: dict[str, dict[str, Any]] = {
     "fatigue.moving_load": {"stress": HISTORY},
     "fatigue.lives": {"criteria": ["smith_watson_topper"]},
     "fit.fit": {"posterior": 0},
-    "fit.loops": {"path": TABLE},
-    "fit.indentation": {"path": written("push.csv", "W [N],delta_z [um]\n1,1\n2,2\n3,3\n")},
-    "fit.scar": {
+    "fit.read_loops": {"path": TABLE},
+    "fit.read_indentation": {"path": written("push.csv", "W [N],delta_z [um]\n1,1\n2,2\n3,3\n")},
+    "fit.read_scar": {
         "path": written("scar.csv", "x [um],depth [um]\n0,1\n1,2\n2,1\n"),
         "wear": {"cycles": 10},
     },
-    "fit.lives": {"path": written("lives.csv", "cycles,W [N]\n1e4,1\n"), "wear": {"cycles": 10}},
+    "fit.read_lives": {
+        "path": written("lives.csv", "cycles,W [N]\n1e4,1\n"),
+        "wear": {"cycles": 10},
+    },
     "plot.comparison": {"of": None},
     "plot.temperature": {"found": HEAT},
     "plot.temperature_map": {"of": "largest"},
@@ -283,7 +294,7 @@ OF: dict[str, dict[str, Any]] = {
     },
     "subsurface.write_volume": {"out": FOLDER / "v.vti", "of": ("von_mises",), "z": DEPTHS},
     "subsurface.thermal_stress": {"coating": STEEL, "alpha_coating": 1e-5},
-    "study.solve": {
+    "study.run": {
         "parameters": {"mu": [0.3]},
         "executor": ThreadPoolExecutor(1),
         "measure": "p_max",
@@ -309,15 +320,13 @@ OF: dict[str, dict[str, Any]] = {
     },
     "study.Cracking": {},
     "study.Averaged": {"material": ALLOY},
-    "study.open": {"store": FOLDER},
     "study.Candidate": {"mu": 0.3},
     "wear.Archard": {"threshold": 0.0},
     "wear.DissipatedEnergy": {"threshold": 0.0},
-    "wear.open": {"store": FOLDER / "worn.zarr"},
     "wear.resume": {"store": FOLDER / "worn.zarr"},
     "wear.solve": {"scene": small(path=CYCLE), "path": None, "wear": WEAR},
     "wear.Wear": {"body1": None, "body2": fret.wear.Archard(1e-14)},
-    "study.Wear": {"body1": None, "body2": fret.wear.Archard(1e-14)},
+    "study.WornDepth": {"body1": None, "body2": fret.wear.Archard(1e-14)},
     "wear.Wear.of": {"settings": {}},
     "experiments.table": {"name": "baydoun2019"},
     "experiments.baydoun2019": {"n": 1},
@@ -511,7 +520,7 @@ OTHERS: dict[str, set[str]] = {
     "fit.Indentation.of": {"W", "delta_z"},
     "fit.Scar.of": {"x", "depth"},
     # Names of columns.
-    "fit.scar": {"x", "depth"},
+    "fit.read_scar": {"x", "depth"},
     # A yield stress for each layer is a list.
     "Result.load_factors": {"s_y"},
 }

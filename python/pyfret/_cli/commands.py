@@ -12,7 +12,7 @@ import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from pyfret import verification, wear
+from pyfret import verification
 from pyfret._cli import compare, crack, explore, export, fit, threshold
 from pyfret._cli.parser import Parser, added
 from pyfret._cli.say import say, say_json
@@ -22,9 +22,9 @@ from pyfret._util.numbers import told as told_of
 from pyfret.citation import cite as told
 from pyfret.citation import sources
 from pyfret.opening import open as open_any
-from pyfret.result import Result
-from pyfret.result import open as open_result
+from pyfret.result import Result, open_result
 from pyfret.study.file import run_file
+from pyfret.wear.runs import open_run
 
 if TYPE_CHECKING:
     import argparse
@@ -131,7 +131,7 @@ def study(options: argparse.Namespace) -> int:
 def report(options: argparse.Namespace) -> int:
     """Write the page of a result."""
     place = Path(options.out or Path(options.store).with_suffix(".html").name)
-    worn = wear.open(options.wear) if options.wear else None
+    worn = open_run(options.wear) if options.wear else None
     result = open_any(options.store)
     if not isinstance(result, Result):
         if options.crack or worn is not None:

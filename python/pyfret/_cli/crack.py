@@ -14,7 +14,7 @@ from pyfret._core import with_error
 from pyfret._util import files
 from pyfret._util.numbers import in_words, um
 from pyfret.fracture import Paris, Threshold
-from pyfret.result import open
+from pyfret.result import open_result
 
 if TYPE_CHECKING:
     import argparse
@@ -105,7 +105,7 @@ def run(options: argparse.Namespace) -> int:
         raise ValueError("--start: needs a threshold, --dK-th or --material")
     if options.out and Path(options.out).suffix in FIGURES and threshold is None:
         raise ValueError("--out: the figure needs a threshold, --dK-th or --material")
-    result = open(options.store)
+    result = open_result(options.store)
     cracks = cracks_of(result, options)
     rows = _rows(cracks, threshold)
     if threshold is not None:

@@ -12,7 +12,7 @@ from pyfret import export
 from pyfret._cli.parser import added
 from pyfret._cli.say import say, say_json
 from pyfret._cli.values import Value
-from pyfret.result import open as open_result
+from pyfret.result import open_result as open_result
 
 if TYPE_CHECKING:
     from collections.abc import Callable

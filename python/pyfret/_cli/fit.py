@@ -64,9 +64,9 @@ def run(options: argparse.Namespace) -> int:
     scene = varied(options.scene, settings)
     data: fit.Loops | fit.Indentation
     if options.kind == "loops":
-        data = fit.loops(options.data, delta=options.x, T=options.force, units=units)
+        data = fit.read_loops(options.data, delta=options.x, T=options.force, units=units)
     else:
-        data = fit.indentation(options.data, delta_z=options.x, W=options.force, units=units)
+        data = fit.read_indentation(options.data, delta_z=options.x, W=options.force, units=units)
     found = fit.fit(scene, data, unknown=unknown, posterior=options.posterior)
     if options.json:
         said: dict[str, Any] = {

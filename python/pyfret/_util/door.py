@@ -70,8 +70,8 @@ MADE = {
     "Cracks": "cracks, result.crack(x)",
     "WearResult": "a run of wear, fret.wear.solve(scene, wear)",
     "SideBySide": "a comparison, fret.compare({...}, scene, path)",
-    "Tabulated": "a study, fret.study.solve(scene, {...}, measure=...)",
-    "Study": "a study, fret.study.solve(scene, {...}, measure=...)",
+    "Tabulated": "a study, fret.study.run(scene, {...}, measure=...)",
+    "Study": "a study, fret.study.run(scene, {...}, measure=...)",
     "Material": "a material of fatigue, fatigue.Materials()['7075'], or its name",
     "Elastic": "an elastic material, fret.material('steel') or fret.Elastic(E=210e9, nu=0.3)",
     "Criterion": (

@@ -4,7 +4,7 @@
 should have been. ``search`` finds the unknowns, and ``outcome`` holds them with their confidence.
 ::
 
-    loops = fret.fit.loops("loop.csv")
+    loops = fret.fit.read_loops("loop.csv")
     found = fret.fit(scene, loops, unknown={"mu": (0.1, 1.5), "rig.stiffness": (1e6, 1e8)})
     print(found.summary())
 """
@@ -16,23 +16,32 @@ from types import ModuleType
 from typing import Any
 
 from pyfret._util.names import listing
-from pyfret.fit.data import Indentation, Lives, Loops, Scar, indentation, lives, loops, scar
-from pyfret.fit.outcome import Found
+from pyfret.fit.data import (
+    Indentation,
+    Lives,
+    Loops,
+    Scar,
+    read_indentation,
+    read_lives,
+    read_loops,
+    read_scar,
+)
+from pyfret.fit.outcome import FitResult
 from pyfret.fit.posterior import Posterior
 from pyfret.fit.search import fit
 
 __all__ = [
-    "Found",
+    "FitResult",
     "Indentation",
     "Lives",
     "Loops",
     "Posterior",
     "Scar",
     "fit",
-    "indentation",
-    "lives",
-    "loops",
-    "scar",
+    "read_indentation",
+    "read_lives",
+    "read_loops",
+    "read_scar",
 ]
 __dir__ = listing(__all__)
 
@@ -40,7 +49,7 @@ __dir__ = listing(__all__)
 class _Fit(ModuleType):
     """The module, which is called by what it does: ``fret.fit(...)`` is ``fret.fit.fit(...)``."""
 
-    def __call__(self, *arguments: Any, **keywords: Any) -> Found:
+    def __call__(self, *arguments: Any, **keywords: Any) -> FitResult:
         """Fit unknowns of a scene to data; see :func:`pyfret.fit.fit`."""
         return fit(*arguments, **keywords)
 

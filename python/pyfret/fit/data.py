@@ -30,10 +30,10 @@ __all__ = [
     "Loops",
     "Measured",
     "Scar",
-    "indentation",
-    "lives",
-    "loops",
-    "scar",
+    "read_indentation",
+    "read_lives",
+    "read_loops",
+    "read_scar",
 ]
 
 Data: TypeAlias = "Loops | Indentation | Scar | Lives"
@@ -256,7 +256,7 @@ class Measured(HoldsArrays):
 
 
 @numbers_only
-def loops(
+def read_loops(
     path: str | os.PathLike[str],
     *,
     delta: str | None = None,
@@ -305,7 +305,7 @@ def loops(
 
 
 @numbers_only
-def indentation(
+def read_indentation(
     path: str | os.PathLike[str],
     *,
     W: str | None = None,
@@ -328,7 +328,7 @@ def indentation(
 
 
 @numbers_only
-def scar(
+def read_scar(
     path: str | os.PathLike[str],
     *,
     wear: Mapping[str, Any],
@@ -353,7 +353,7 @@ def scar(
 
 
 @numbers_only
-def lives(
+def read_lives(
     path: str | os.PathLike[str],
     *,
     wear: Mapping[str, Any],

@@ -77,7 +77,8 @@ def model_of(data: Data) -> Model:
     if isinstance(data, Lives):
         return of_lives(data)
     raise TypeError(
-        f"data: must be loops, an indentation, a scar or lives (fret.fit.loops(...)), not {data!r}"
+        "data: must be loops, an indentation, a scar or lives (fret.fit.read_loops(...)), "
+        f"not {data!r}"
     )
 
 

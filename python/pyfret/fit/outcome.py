@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from pyfret.fit.posterior import Posterior
     from pyfret.plot.style import Drawn
 
-__all__ = ["Found", "Known"]
+__all__ = ["FitResult", "Known"]
 
 #: Correlation from which two unknowns count as not told apart.
 ALIKE = 0.97
@@ -59,7 +59,7 @@ class Known:
 
 
 @dataclass(frozen=True, eq=False)
-class Found(Kept, HoldsArrays):
+class FitResult(Kept, HoldsArrays):
     """The unknowns of a scene as data tell them.
 
     Attributes
@@ -139,7 +139,7 @@ class Found(Kept, HoldsArrays):
 
     def plot(self, *, ax: Axes | None = None, data: int = 0, **options: Any) -> Drawn:
         """Draw what was measured, and what the values found make of it."""
-        refuse_unknown("Found.plot", self.plot, options, ["ax", "data"])
+        refuse_unknown("FitResult.plot", self.plot, options, ["ax", "data"])
         from pyfret.fit.figures import curves
 
         return curves(self.sets[data], self.computed[data], self.values, ax)
@@ -238,4 +238,4 @@ class Found(Kept, HoldsArrays):
         values = ", ".join(
             f"{key} = {k.value:.4g} [{k.low:.4g}, {k.high:.4g}]" for key, k in self.known.items()
         )
-        return f"Found({values}; {self.solves} solves)"
+        return f"FitResult({values}; {self.solves} solves)"

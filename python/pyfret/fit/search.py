@@ -28,7 +28,7 @@ from pyfret._util.door import numbers_only
 from pyfret._util.extras import needed
 from pyfret.fit.data import Data
 from pyfret.fit.models import Model, model_of, split
-from pyfret.fit.outcome import Found, Known
+from pyfret.fit.outcome import FitResult, Known
 from pyfret.fit.posterior import Posterior, sampled
 from pyfret.fit.ranges import SearchRange, ranges
 from pyfret.study.design import varied
@@ -62,7 +62,7 @@ def fit(
     executor: int | Executor | None = None,
     posterior: int = 0,
     seed: int = 0,
-) -> Found:
+) -> FitResult:
     """Find unknowns of a scene from what was measured.
 
     Parameters
@@ -88,8 +88,8 @@ def fit(
 
     Returns
     -------
-    Found
-        Values, their 95 % confidence, what cannot be told apart; :meth:`Found.summary`.
+    FitResult
+        Values, their 95 % confidence, what cannot be told apart; :meth:`FitResult.summary`.
 
     Raises
     ------
@@ -100,7 +100,7 @@ def fit(
 
     Examples
     --------
-    >>> loops = pyfret.fit.loops("loop.csv")  # doctest: +SKIP
+    >>> loops = pyfret.fit.read_loops("loop.csv")  # doctest: +SKIP
     >>> fit("scene.toml", loops, unknown={"mu": (0.1, 1.5)})  # doctest: +SKIP
     """
     optimize = needed("scipy.optimize", "fit")
@@ -243,7 +243,7 @@ class Search:
             columns.append((ahead - behind) / 2e-4)
         return np.stack(columns, axis=1)
 
-    def outcome(self, x: NDArray[np.float64], *, converged: bool) -> Found:
+    def outcome(self, x: NDArray[np.float64], *, converged: bool) -> FitResult:
         """Values, confidence and correlation at the end."""
         stats = needed("scipy.stats", "fit")
         u, gauges = self.parted(x)
@@ -289,7 +289,7 @@ class Search:
         computed = self.computed(self.known[u], gauges)
         rest = [m.measured - c for m, c in zip(self.models, computed, strict=True)]
         values = split(self.values(u))[0]
-        return Found(
+        return FitResult(
             known=known,
             offsets=dict(zip(names, offsets, strict=True)),
             offset_errors=dict(zip(names, of_offsets, strict=True)),
@@ -304,7 +304,9 @@ class Search:
             scene=varied(self.scene, values) if values else self.scene,
         )
 
-    def with_posterior(self, found: Found, x: NDArray[np.float64], count: int, seed: int) -> Found:
+    def with_posterior(
+        self, found: FitResult, x: NDArray[np.float64], count: int, seed: int
+    ) -> FitResult:
         """What was found, with samples of the posterior around x."""
         u, gauges = self.parted(x)
         n = len(self.ranges)

@@ -8,21 +8,22 @@ from typing import TYPE_CHECKING
 from pyfret._core import StoreError
 from pyfret._util.packed import unpacked
 from pyfret.fit.data import Indentation, Lives, Loops, Measured, Scar
-from pyfret.fit.outcome import Found, Known
+from pyfret.fit.outcome import FitResult, Known
 from pyfret.fit.posterior import Posterior
 
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["found_of"]
+__all__ = ["fit_from_dataset"]
 
 #: What a file may hold; nothing else is made of it.
 PARTS: dict[str, type] = {
-    of.__name__: of for of in (Found, Known, Posterior, Measured, Loops, Indentation, Scar, Lives)
+    of.__name__: of
+    for of in (FitResult, Known, Posterior, Measured, Loops, Indentation, Scar, Lives)
 }
 
 
-def found_of(dataset: xr.Dataset) -> Found:
+def fit_from_dataset(dataset: xr.Dataset) -> FitResult:
     """The fit of a dataset.
 
     Raises
@@ -34,6 +35,6 @@ def found_of(dataset: xr.Dataset) -> Found:
         made = unpacked(json.loads(dataset.attrs["found"]), dataset.load(), PARTS)
     except (LookupError, TypeError, ValueError, AttributeError) as error:
         raise StoreError(f"is no fit: {' '.join(str(error).split())}") from error
-    if not isinstance(made, Found):
+    if not isinstance(made, FitResult):
         raise StoreError("is no fit")
     return made

@@ -4,7 +4,7 @@
 one, ``workers`` shares them out, ``store`` writes them down, ``loop`` goes over all. ``loads`` is
 the study of the load path for a map of running conditions. ::
 
-    found = fret.study.solve("scene.toml", {"friction.mu": [0.3, 0.5]}, measure="loop_energy")
+    found = fret.study.run("scene.toml", {"friction.mu": [0.3, 0.5]}, measure="loop_energy")
     found.map()
 """
 
@@ -14,9 +14,9 @@ from pyfret.study.compare import compare
 from pyfret.study.comparison import Comparison
 from pyfret.study.design import varied
 from pyfret.study.loads import arrest_map, running_conditions
-from pyfret.study.loop import solve
-from pyfret.study.measures import MEASURES, Arrest, Cracking, FirstToFail, Wear
-from pyfret.study.outcome import Study, open
+from pyfret.study.loop import run
+from pyfret.study.measures import MEASURES, Arrest, Cracking, FirstToFail, WornDepth
+from pyfret.study.outcome import Study
 from pyfret.study.thresholds import Averaged, Limits, ThresholdLoad, fit_limits, threshold
 
 __all__ = [
@@ -30,13 +30,12 @@ __all__ = [
     "Limits",
     "Study",
     "ThresholdLoad",
-    "Wear",
+    "WornDepth",
     "arrest_map",
     "compare",
     "fit_limits",
-    "open",
+    "run",
     "running_conditions",
-    "solve",
     "threshold",
     "varied",
 ]

@@ -17,7 +17,7 @@ from pyfret.fatigue.criteria import CriterionName
 from pyfret.solution import read
 from pyfret.study.candidate import Candidate, Duty, candidate
 from pyfret.study.comparison import Comparison
-from pyfret.study.loop import solve
+from pyfret.study.loop import run
 from pyfret.study.questions import QUESTIONS, Answers
 
 if TYPE_CHECKING:
@@ -91,7 +91,7 @@ def compare(
     other_wear, other_conductor : optional
         How the body that stays wears and conducts heat.
     executor, out, again, progress, on_point
-        As in :func:`pyfret.study.solve`: a comparison is a study, of two points for each body.
+        As in :func:`pyfret.study.run`: a comparison is a study, of two points for each body.
 
     Returns
     -------
@@ -141,7 +141,7 @@ def compare(
                 variants.scene_of(name, 1).check()
             except InvalidSceneError as error:
                 raise type(error)(refusal(name, body, str(error))) from error
-        found = solve(
+        found = run(
             variants,
             {"candidate": list(of), "coarser": [1, COARSER]},
             measure=answers,

@@ -10,7 +10,7 @@ import numpy as np
 
 from pyfret._util.parameters import in_si
 from pyfret.study.keys import known, place_of, read
-from pyfret.study.loop import DEFAULT, solve
+from pyfret.study.loop import DEFAULT, run
 
 if TYPE_CHECKING:
     from pyfret.study.outcome import Study
@@ -44,7 +44,7 @@ def run_file(
     out : path, optional
         Store (default: that of the file, or the file's own name with the ending ``.zarr``).
     executor, again
-        As in :func:`pyfret.study.solve`.
+        As in :func:`pyfret.study.run`.
     mapped : bool
         Whether a map is to be drawn of it, which has one parameter or two.
 
@@ -67,7 +67,7 @@ def run_file(
             f"has {MAPPED}. Leave --map out, and draw a part of the study in Python: "
             f'fret.open("{place}").map(at={{"{last}": {parameters[last][0]!r}}})'
         )
-    found = solve(
+    found = run(
         file.parent / says["scene"],
         parameters,
         combine=says.get("combine", "grid"),

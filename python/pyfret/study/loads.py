@@ -13,7 +13,7 @@ from pyfret._util.bounds import SIDES
 from pyfret._util.door import numbers_only
 from pyfret._util.lazy import xr
 from pyfret._util.numbers import in_words, told
-from pyfret.study.loop import solve
+from pyfret.study.loop import run
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -104,7 +104,7 @@ def running_conditions(
     arrest : Arrest, optional
         Whether a crack stops: ``study.Arrest(fracture.Threshold(dK_th, dS_0))``.
     executor : int, Executor or distributed.Client, optional
-        Who solves, as in :func:`pyfret.study.solve`.
+        Who solves, as in :func:`pyfret.study.run`.
     on_point : callable, optional
         Told how many points are done, and how many there are.
 
@@ -146,7 +146,7 @@ def running_conditions(
         sigma_B=float(bulk[0]),
         bulk_ratio=bulk_ratio,
     )
-    found = solve(
+    found = run(
         template,
         loads,
         measure=[*measures, *(one for one in (cracking, arrest) if one)],
@@ -225,7 +225,7 @@ def arrest_map(
     measures: list[Measure] = [arrest, *([cracking] if cracking else [])]
     pressed = number(W, "W")
     template = BulkCycle(scene, pressed, bulk_ratio, increments)
-    found = solve(
+    found = run(
         template, loads, measure=measures, executor=executor, progress=False, on_point=on_point
     )
     for point, reason in found.failed():
@@ -269,7 +269,7 @@ def sliding_limit(
         return None
     if driven == "T":
         return np.asarray(scene.mu * W)
-    found = solve(
+    found = run(
         Pushed(scene, increments), {"W": W}, measure=shift, executor=executor, progress=False
     )
     return np.asarray(found.dataset["shift"].values / (1.0 - ALMOST ** (2.0 / 3.0)))

@@ -16,7 +16,7 @@ from pyfret.study.design import Combine, Design, Source
 from pyfret.study.lock import writing
 from pyfret.study.measures import Measure, checked, code_of, names_of
 from pyfret.study.memory import Columns
-from pyfret.study.outcome import Study, open
+from pyfret.study.outcome import Study, open_study
 from pyfret.study.point import Outcome, failure, solve_point
 from pyfret.study.store import Store, check_names
 from pyfret.study.workers import Workers
@@ -24,14 +24,14 @@ from pyfret.study.workers import Workers
 if TYPE_CHECKING:
     from concurrent.futures import Executor, Future
 
-__all__ = ["solve"]
+__all__ = ["run"]
 
 #: What is measured unless something else is said.
 DEFAULT = ("loop_energy", "energy_ratio", "stick_ratio", "p_max")
 
 
 @numbers_only
-def solve(
+def run(
     scene: Source,
     parameters: Mapping[str, Any],
     *,
@@ -133,7 +133,7 @@ def solve(
         Store.prepare(out, design, said)
         with writing(Path(out)):
             go_through(Store(out, design, said))
-        study = open(out)
+        study = open_study(out)
     # Where every point failed nothing has been measured.
     for name in (of for of in measures if isinstance(of, str) and of not in study.dataset):
         status = study.dataset["status"]

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from pyfret.result import Result
     from pyfret.subsurface.tensor import Stress
 
-__all__ = ["MEASURES", "Arrest", "Cracking", "FirstToFail", "Measure", "Wear", "measured"]
+__all__ = ["MEASURES", "Arrest", "Cracking", "FirstToFail", "Measure", "WornDepth", "measured"]
 
 #: A name of :data:`MEASURES`, or a function of the result.
 Measure: TypeAlias = "str | Callable[[Result], Any]"
@@ -152,7 +152,7 @@ SCATTER_OF_MATERIAL = "the scatter of the material, which Life.range has"
 
 
 @valued()
-class Wear(wear.Wear):
+class WornDepth(wear.Wear):
     """A measure: what many cycles wear off, by :func:`pyfret.wear.solve` on the scene of the point.
 
     Gives ``worn_volume1``, ``worn_volume2`` [m^3], ``worn_depth1``, ``worn_depth2`` [m], and, where
@@ -343,7 +343,7 @@ def suffixes(measures: Sequence[Measure]) -> list[str]:
 
 def is_own(measure: Measure) -> bool:
     """Whether a measure is one of this package, which names what it gives itself."""
-    return isinstance(measure, (Wear, Cracking, Arrest, FirstToFail))
+    return isinstance(measure, (WornDepth, Cracking, Arrest, FirstToFail))
 
 
 def differing(measure: Any, measures: Sequence[Measure]) -> str:

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
     from pyfret.plot.style import Drawn
 
-__all__ = ["Study", "open"]
+__all__ = ["Study", "open_study"]
 
 
 class Study(Kept, Labelled, Figured):
@@ -220,7 +220,7 @@ def study_html(study: Study) -> str:
 
 
 @numbers_only
-def open(store: str | os.PathLike[str]) -> Study:
+def open_study(store: str | os.PathLike[str]) -> Study:
     """Open the store of a study, whether it is done or not.
 
     Raises

@@ -149,7 +149,7 @@ def threshold(
     ----------
     scene : Scene, path or callable
         The contact with its path, its file, or a function that makes the scene of a ``dict`` of
-        values, as in :func:`pyfret.study.solve`.
+        values, as in :func:`pyfret.study.run`.
     parameter : str
         What is searched: a key of the scene file such as ``"path.1.T_x"``, or a name of your own
         where `scene` is a function.

@@ -8,8 +8,8 @@ A run of wear is solved, opened and gone on with::
 
 from pyfret._util.names import listing
 from pyfret.wear.result import WearResult
-from pyfret.wear.runs import open, resume, solve
+from pyfret.wear.runs import resume, solve
 from pyfret.wear.settings import Archard, DissipatedEnergy, Wear
 
-__all__ = ["Archard", "DissipatedEnergy", "Wear", "WearResult", "open", "resume", "solve"]
+__all__ = ["Archard", "DissipatedEnergy", "Wear", "WearResult", "resume", "solve"]
 __dir__ = listing(__all__)

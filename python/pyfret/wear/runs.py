@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from pyfret._util.types import FrictionFunction
     from pyfret.wear.settings import Law
 
-__all__ = ["open", "resume", "solve"]
+__all__ = ["open_run", "resume", "solve"]
 
 
 @numbers_only
@@ -94,7 +94,7 @@ def solve(
         return WearResult(dataset(*kept))
     if out is None:
         raise RuntimeError("a run without a store is in memory")
-    return open(out)
+    return open_run(out)
 
 
 def surfaces(start: WearResult) -> tuple[float, float, list[NDArray[np.float64]]]:
@@ -136,11 +136,11 @@ def resume(
     """
     with Progress(title="resumed", shown=progress):
         _core.resume_wear(store, [own(body1), own(body2)], friction_law=friction_law)
-    return open(store)
+    return open_run(store)
 
 
 @numbers_only
-def open(store: str | os.PathLike[str]) -> WearResult:
+def open_run(store: str | os.PathLike[str]) -> WearResult:
     """Open the store of a run of :func:`solve` or ``fret wear``, or what was saved of one.
 
     Every file of a store is checked before: what is read is what was written. What
