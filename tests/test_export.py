@@ -117,12 +117,54 @@ def test_tables_hold_the_load(result: fret.Result, tmp_path: Path) -> None:
         result.export(tmp_path / "t.csv", at=3)
 
 
-def test_an_image_opens_in_other_programs(result: fret.Result, tmp_path: Path) -> None:
+#: Frames along the axes of a model, in all kinds of turns, and two that lean.
+AXES = [
+    *((x, z) for x in range(3) for z in range(3) if x != z),
+]
+LEANING = export.Frame(origin=(3.0, 20.0, -1.0), x=(1.0, 1.0, 0.0), z=(1.0, -1.0, 1.0), unit="mm")
+
+
+def at_cells(image: object, state: fret.Snapshot, frame: export.Frame) -> None:
+    """Compare a file of VTK with the tractions: each cell has the value at its middle."""
+    d = state.dataset
+    places = frame.contact_place(image.cell_centers().points)  # type: ignore[attr-defined]
+    np.testing.assert_allclose(places[:, 2], 0.0, atol=1e-8)
+    i = np.rint((places[:, 0] - d.x.values[0]) / (d.x.values[1] - d.x.values[0])).astype(int)
+    j = np.rint((places[:, 1] - d.y.values[0]) / (d.y.values[1] - d.y.values[0])).astype(int)
+    assert len(set(zip(i.tolist(), j.tolist(), strict=True))) == d.x.size * d.y.size
+    for name, factor in (("p", frame.per_pascal), ("q_x", frame.per_pascal), ("stick", 1.0)):
+        expected = factor * d[name].values.astype(float)[i, j]
+        scale = max(np.abs(expected).max(), 1e-30)
+        np.testing.assert_allclose(image[name], expected, atol=1e-6 * scale)  # type: ignore[index]
+
+
+@pytest.mark.parametrize("signs", [(1, 1), (1, -1), (-1, 1), (-1, -1)])
+@pytest.mark.parametrize("axes", AXES)
+def test_images_lie_where_the_contact_is(
+    result: fret.Result, tmp_path: Path, axes: tuple[int, int], signs: tuple[int, int]
+) -> None:
+    """Cells, and a contour, which VTK draws without the attribute Direction."""
     pyvista = pytest.importorskip("pyvista")
-    result.export(tmp_path / "t.vti", at=3, frame=FRAME)
-    image = pyvista.read(str(tmp_path / "t.vti"))
-    np.testing.assert_allclose(image["p"].max(), float(result.at(3).p.max()) * 1e-6, rtol=1e-6)
-    assert image.n_cells == 48 * 48
+    state = result.at(3)
+    x, z = ((sign * np.eye(3)[axis]).tolist() for axis, sign in zip(axes, signs, strict=True))
+    frame = export.Frame(origin=(3.0, 20.0, -1.0), x=tuple(x), z=tuple(z), unit="mm")
+    for ending in ("vti", "vts"):
+        result.export(tmp_path / f"t.{ending}", at=3, frame=frame)
+        image = pyvista.read(str(tmp_path / f"t.{ending}"))
+        at_cells(image, state, frame)
+        smooth = image.cell_data_to_point_data()
+        line = smooth.contour([0.5 * float(image["p"].max())], scalars="p")
+        middle = 0.5 * (np.array(line.bounds[::2]) + np.array(line.bounds[1::2]))
+        np.testing.assert_allclose(middle, frame.origin, atol=0.02 * 1e3 * HERTZ.a)
+
+
+def test_a_leaning_frame_takes_a_structured_grid(result: fret.Result, tmp_path: Path) -> None:
+    pyvista = pytest.importorskip("pyvista")
+    with pytest.raises(ValueError, match=r"must end in \.vts"):
+        result.export(tmp_path / "t.vti", at=3, frame=LEANING)
+    result.export(tmp_path / "t.vts", at=3, frame=LEANING)
+    at_cells(pyvista.read(str(tmp_path / "t.vts")), result.at(3), LEANING)
+    assert "Direction" not in (tmp_path / "t.vts").read_text()
 
 
 def hexahedra(path: Path, *, quadratic: bool) -> None:

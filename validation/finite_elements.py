@@ -13,7 +13,7 @@ import numpy as np
 
 import pyfret as fret
 from pyfret import export
-from pyfret.export.read import nodal
+from pyfret.export.frd import read_frd
 from validation.pages import DPI
 
 if TYPE_CHECKING:
@@ -144,10 +144,10 @@ def by_calculix(state: fret.Snapshot, a: float, folder: Path) -> tuple[Array, Ar
                 file.write(f"{node}, {axis}, {axis}, {value:.12g}\n")
         file.write("*INCLUDE, INPUT=loads.inp\n*NODE FILE\nU\n*EL FILE\nS\n*END STEP\n")
     subprocess.run(["ccx", "job"], cwd=folder, check=True, capture_output=True)
-    points, stress = nodal(folder / "job.frd", "STRESS")
+    points, stress = read_frd(folder / "job.frd", "STRESS")
     below = (np.abs(points[:, :2]) < 1e-6 * 1e3 * a).all(axis=1) & (points[:, 2] > 0)
     order = np.argsort(points[below][:, 2])
-    return 1e-3 * points[below][order], 1e6 * stress[below][order][:, [0, 1, 2, 5]]
+    return 1e-3 * points[below][order], 1e6 * stress[below][order][:, [0, 1, 2, 0], [0, 1, 2, 2]]
 
 
 def compared(n: int) -> tuple[Array, Array, Array, float]:

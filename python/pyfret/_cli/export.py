@@ -28,7 +28,7 @@ def add_options(commands: argparse._SubParsersAction[Any]) -> None:
         "write tractions, forces on a mesh or stress at points for another program",
     )
     command.add_argument("store", help="result")
-    command.add_argument("-o", "--out", required=True, help="file to write; .vti gives an image")
+    command.add_argument("-o", "--out", required=True, help="file to write; .vti, .vts: an image")
     command.add_argument(
         "--increment",
         "--at",

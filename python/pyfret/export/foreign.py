@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import io
+import re
 from typing import TYPE_CHECKING, Any
 
 from pyfret._core import read_bytes, shown
@@ -12,7 +13,7 @@ from pyfret._util.extras import needed
 if TYPE_CHECKING:
     from pathlib import Path
 
-__all__ = ["FORMATS", "read_by_meshio"]
+__all__ = ["FORMATS", "is_keyword_file", "read_by_meshio", "read_component_names"]
 
 #: Endings that are read, and what they are.
 FORMATS = {
@@ -36,13 +37,65 @@ PASSED_OVER = {
 PASSED_OVER |= {".nas": PASSED_OVER[".bdf"], ".fem": PASSED_OVER[".bdf"]}
 
 
+#: Heads of a component's name in XML, and of all names of a field in the older text of VTK.
+ATTRIBUTE = re.compile(rb'(\w+)\s*=\s*(?:"([^"]*)"|\'([^\']*)\')')
+LEGACY = (
+    rb"^%s [^\n]*\n(?:(?!METADATA)[^\n]*\n)*?METADATA\s*\n"
+    rb"COMPONENT_NAMES\s*\n((?:(?!INFORMATION)[^\n]+\n)*)"
+)
+
+
+def is_keyword_file(path: Path) -> bool:
+    """Check that a mesh is written in keywords of Abaqus, whatever the ending of the file."""
+    for line in read_bytes(path)[:65536].splitlines():
+        text = line.strip()
+        if text and not text.startswith(b"**"):
+            return re.match(rb"\*[A-Za-z]", text) is not None
+    return False
+
+
+def read_component_names(path: Path, field: str) -> tuple[str, ...]:
+    """Read the names of the components of a field at the nodes; none if the file has none."""
+    ending = path.suffix.lower()
+    if ending == ".vtu":
+        return _names_in_xml(read_bytes(path), field.encode())
+    if ending == ".vtk":
+        name = re.escape(field.replace(" ", "%20").encode())
+        match = re.search(LEGACY % name, read_bytes(path), re.MULTILINE)
+        return tuple(match[1].decode("utf-8", "replace").split()) if match else ()
+    if ending == ".med":
+        h5py = needed("h5py", "mesh")
+        with h5py.File(path, "r") as file:
+            # A field of several times has its number and time behind its name.
+            base = re.sub(r"\[\d+\] - \S+$", "", field)
+            raw = file["CHA"][base].attrs.get("NOM", b"") if base in file["CHA"] else b""
+        return tuple(raw.decode("latin-1").split())
+    return ()
+
+
+def _names_in_xml(content: bytes, field: bytes) -> tuple[str, ...]:
+    """Read ComponentName0, ComponentName1, ... of a field at the nodes."""
+    begin, end = content.find(b"<PointData"), content.find(b"</PointData>")
+    for tag in re.findall(rb"<DataArray\b[^>]*>", content[max(begin, 0) : end]):
+        attributes = {key: first or second for key, first, second in ATTRIBUTE.findall(tag)}
+        if attributes.get(b"Name") != field:
+            continue
+        numbered = [attributes.get(b"ComponentName%d" % n) for n in range(9)]
+        return tuple(name.decode("utf-8", "replace") for name in numbered if name)
+    return ()
+
+
 def read_by_meshio(path: Path) -> Any:
     """What meshio reads of a file; a ValueError if that is of another format, or misses a part."""
     ending = path.suffix.lower()
     if ending not in FORMATS:
         known = ", ".join(FORMATS)
         raise ValueError(f"{path}: must end in .inp, or in one of {known}")
+    if is_keyword_file(path):
+        raise ValueError(f"{path}: holds keywords of Abaqus; name it .inp")
     content = read_bytes(path)
+    if ending == ".msh" and not content.lstrip().startswith((b"$", b"(")):
+        raise ValueError(f"{path}: is no Gmsh file: must begin with $MeshFormat")
     for mark, what in PASSED_OVER.get(ending, ()):
         lines = (line.lstrip() for line in content.splitlines())
         if any(line.startswith(mark) if mark.isalpha() else mark in line for line in lines):

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from pyfret.export.foreign import read_by_meshio
+from pyfret.export.foreign import FORMATS, is_keyword_file, read_by_meshio
 from pyfret.export.inp import read_parts
 
 if TYPE_CHECKING:
@@ -62,11 +62,14 @@ class Mesh(NamedTuple):
 def read_mesh(path: str | os.PathLike[str]) -> Mesh:
     """Read the mesh of an ``.inp`` file of Abaqus or CalculiX, or of a format that meshio reads.
 
+    Keywords of Abaqus are read under the other endings, too: CalculiX GraphiX writes ``.msh``.
     Nodes of an ``.inp`` keep their numbers, in an assembly behind the name of their instance; those
     of other formats count from 1.
     """
     place = Path(path)
-    if place.suffix.lower() == ".inp":
+    if place.suffix.lower() == ".inp" or (
+        place.suffix.lower() in FORMATS and is_keyword_file(place)
+    ):
         return joined(read_parts(place), place)
     found = read_by_meshio(place)
     points = np.zeros((len(found.points), 3))

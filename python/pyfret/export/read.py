@@ -1,44 +1,39 @@
-"""What a model of the component says to the contact: bulk stress and compliance."""
+"""Bulk stress and compliance at the contact from a model of the component."""
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pyfret._core import read_text
 from pyfret._util.door import numbers_only
-from pyfret.export.foreign import read_by_meshio
+from pyfret.export.components import EQUAL, ORDERS, ROWS, read_order, to_matrices, to_vectors
+from pyfret.export.dat import read_printed
+from pyfret.export.foreign import read_by_meshio, read_component_names
 from pyfret.export.frame import Frame
-from pyfret.export.numbers import numbers
+from pyfret.export.frd import read_frd
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Iterator
+    from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
-__all__ = ["bulk_stress", "compliance", "nodal"]
+__all__ = ["bulk_stress", "compliance"]
 
-#: Digits of the numbers of nodes, by the format of a block.
-WIDTHS = {"0": 5, "1": 10}
-#: Letters of the head of a block before its format; some programs leave the format out.
-SHORT = 58
-#: Numbers in a row of a block of results.
-COMPONENTS = {"STRESS": 6, "DISP": 3}
 #: Nearest nodes that a value at the contact is taken from.
 NEAREST = 8
-#: Order of the components xx, yy, zz, xy, yz, zx of a stress of CalculiX as a matrix.
-FRD = (0, 3, 5, 3, 1, 4, 5, 4, 2)
-#: The same of xx, yy, zz, xy, xz, yz.
-VOIGT = (0, 3, 4, 3, 1, 5, 4, 5, 2)
 
 
 @numbers_only
 def bulk_stress(
-    path: str | os.PathLike[str], *, frame: Frame | None = None, field: str = "stress"
+    path: str | os.PathLike[str],
+    *,
+    frame: Frame | None = None,
+    field: str = "stress",
+    step: int | str | None = None,
+    components: Sequence[str] | None = None,
 ) -> float:
     """Bulk stress along the contact's x at the contact, from the results of another program [Pa].
 
@@ -48,13 +43,21 @@ def bulk_stress(
     Parameters
     ----------
     path : path
-        ``.frd`` of CalculiX: ``*NODE FILE`` S, the last step. ``.dat`` of CalculiX: ``*EL PRINT``
-        S, the mean over the points printed last. Or a mesh that meshio reads with a stress at its
-        nodes. It has six components xx, yy, zz, xy, xz, yz, or nine.
+        ``.frd`` of CalculiX: ``*NODE FILE`` S. ``.dat`` of CalculiX: ``*EL PRINT`` S, the mean over
+        the points. Or a mesh that meshio reads, with a stress of six or nine components at its
+        nodes.
     frame : Frame, optional
         Where the contact lies in the model, and its units.
     field : str
         Name of the stress in the files of meshio; of a ``.dat`` with several sets, the set.
+    step : int or str, optional
+        Which increment of a ``.frd`` or ``.dat``: the number of a step, for its last one, or a
+        label such as ``"time 0.5"`` or ``"mode 1"``. Default: the last one under load. Modes of
+        vibration and of buckling are no loads. A run that did not converge is refused.
+    components : sequence of str, optional
+        Order of the components of the stress, such as ``("xx", "yy", "zz", "xy", "yz", "xz")``.
+        Default: the names in the file. Six components without names are refused if the orders of
+        Abaqus and VTK give different results.
 
     Returns
     -------
@@ -62,15 +65,35 @@ def bulk_stress(
         ``sigma_B`` of :meth:`pyfret.LoadPath.bulk`, tension positive.
     """
     frame = Frame() if frame is None else frame
-    place = Path(path)
-    if place.suffix.lower() == ".dat":
-        stress = _printed(place, field)[:, VOIGT].mean(axis=0).reshape(3, 3)
-    else:
-        points, values = nodal(place, "STRESS", field)
-        order = FRD if place.suffix.lower() == ".frd" else VOIGT
-        matrices = values if values.shape[1] == 9 else values[:, order]
-        stress = _at_contact(points, matrices, frame).reshape(3, 3)
-    return float(frame.contact_stress(stress)[0, 0])
+    source = Path(path)
+    ending = source.suffix.lower()
+    if ending in (".dat", ".frd"):
+        if ending == ".dat":
+            stress = read_printed(source, field, step).mean(axis=0)
+        else:
+            stress = _at_contact(*read_frd(source, "STRESS", step), frame)
+        return float(frame.contact_stress(stress)[0, 0])
+    points, values = _nodal(source, field, step)
+    mean = _at_contact(points, values, frame)[None]
+    results: dict[str, float] = {}
+    for name, order in _orders(source, field, mean.shape[1], components).items():
+        try:
+            matrix = to_matrices(mean, order)[0]
+        except ValueError as error:
+            raise ValueError(f"{source}: {field}: {error}") from error
+        results[name] = float(frame.contact_stress(matrix)[0, 0])
+    result = next(iter(results.values()))
+    limit = EQUAL * float(np.abs(mean).max()) / frame.per_pascal
+    if any(abs(value - result) > limit for value in results.values()):
+        listed = ", ".join(
+            f"{value:.5g} Pa as {' '.join(ORDERS[name])} ({name})"
+            for name, value in results.items()
+        )
+        raise ValueError(
+            f"{source}: {field} has six components without names, which gives {listed}: give the "
+            f"order, as in components={ORDERS['VTK']}"
+        )
+    return result
 
 
 @numbers_only
@@ -80,6 +103,7 @@ def compliance(
     *,
     frame: Frame | None = None,
     field: str = "displacement",
+    step: int | str | None = None,
 ) -> float:
     """Compliance of the component along the contact's x at the contact [m/N].
 
@@ -91,14 +115,22 @@ def compliance(
         As in :func:`bulk_stress`, with displacements (``*NODE FILE`` U).
     force : float
         Force along x that the model was loaded with at the contact [N].
-    frame, field
+    frame, field, step
         As in :func:`bulk_stress`.
     """
     frame = Frame() if frame is None else frame
     if not np.isfinite(force) or force == 0.0:
         raise ValueError(f"force = {force}: must be a finite force other than zero, in N")
-    points, values = nodal(Path(path), "DISP", field)
-    shift = _at_contact(points, values[:, :3], frame) @ frame.axes[0]
+    source = Path(path)
+    if source.suffix.lower() == ".frd":
+        points, values = read_frd(source, "DISP", step)
+    else:
+        points, values = _nodal(source, field, step)
+        try:
+            values = to_vectors(values, read_component_names(source, field))
+        except ValueError as error:
+            raise ValueError(f"{source}: {field}: {error}") from error
+    shift = _at_contact(points, values, frame) @ frame.axes[0]
     return float(shift / frame.per_metre / force)
 
 
@@ -115,117 +147,46 @@ def _at_contact(
             "than the model is long: frame.origin must be in the model's unit of length"
         )
     weight = 1.0 / np.maximum(distance[near], 1e-9 * extent) ** 2
-    return np.asarray(weight @ values[near] / weight.sum())
+    return np.asarray(np.tensordot(weight, values[near], axes=1) / weight.sum())
 
 
-def nodal(
-    path: Path, block: str, field: str = ""
+def _nodal(
+    path: Path, field: str, step: int | str | None
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Nodes and a field on them: `block` of a ``.frd``, `field` of what meshio reads."""
-    if path.suffix.lower() == ".frd":
-        return _read_frd(path, block)
+    """Read nodes (n, 3) and a field on them (n, components) by meshio."""
+    if step is not None:
+        raise ValueError(f"{path}: step = {step!r}: only .frd and .dat of CalculiX have steps")
     mesh = read_by_meshio(path)
     if field not in mesh.point_data:
-        known = ", ".join(mesh.point_data) or "none"
-        raise ValueError(f"{path}: has no field {field!r} at its nodes; it has {known}")
+        names = ", ".join(mesh.point_data) or "none"
+        raise ValueError(f"{path}: has no field {field!r} at its nodes; it has {names}")
     points = np.zeros((len(mesh.points), 3))
     points[:, : mesh.points.shape[1]] = mesh.points
-    return points, np.asarray(mesh.point_data[field], float).reshape(len(points), -1)
+    if not len(points):
+        raise ValueError(f"{path}: has no nodes")
+    values = np.asarray(mesh.point_data[field], float).reshape(len(points), -1)
+    if not np.isfinite(values).all():
+        raise ValueError(f"{path}: {field}: must be finite at all nodes")
+    return points, values
 
 
-def _read_frd(path: Path, block: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Nodes and the last field of a name of a text ``.frd`` file.
-
-    CalculiX GraphiX manual, "frd: Result Format": the head of a block ends with its format. Format
-    0 has numbers of nodes of five digits, format 1 of ten. The others are binary.
-    """
-    points: dict[int, list[float]] = {}
-    found: dict[int, list[float]] = {}
-    width = 10
-    lines = iter(enumerate(read_text(path).splitlines(), 1))
-    for _, line in lines:
-        if line.startswith(("    2C", "  100C", "    3C")):
-            width = _width(line, path)
-        if line.startswith("    2C"):
-            points = _rows(lines, path, width, 3)
-        elif line.startswith(" -4") and line[3:].split()[:1] == [block]:
-            found = _rows(lines, path, width, COMPONENTS[block])
-    if not points or not found:
-        what = "nodes" if not points else f"block {block}"
-        raise ValueError(f"{path}: has no {what}; *NODE FILE writes it, as text")
-    numbers = [number for number in points if number in found]
-    return np.array([points[n] for n in numbers]), np.array([found[n] for n in numbers])
-
-
-def _width(line: str, path: Path) -> int:
-    """Digits of the numbers of nodes of a block."""
-    last = (line[SHORT:].split() or ["1"])[-1]
-    if last not in WIDTHS:
-        raise ValueError(f"{path}: a block has the format {last}: must be 0 or 1, which are text")
-    return WIDTHS[last]
-
-
-def _rows(
-    lines: Iterator[tuple[int, str]], path: Path, width: int, components: int
-) -> dict[int, list[float]]:
-    """The rows of a block up to its end, by the number of their nodes."""
-    rows: dict[int, list[float]] = {}
-    for n, line in lines:
-        if line.startswith(" -3"):
-            return rows
-        if not line.startswith(" -1"):
-            continue
+def _orders(
+    path: Path, field: str, count: int, components: Sequence[str] | None
+) -> dict[str, tuple[str, ...]]:
+    """Return the orders that the components of a stress may have, the first one preferred."""
+    names = read_component_names(path, field) if components is None else tuple(components)
+    if names:
+        source = "components" if components is not None else f"{path}: {field}"
         try:
-            values = numbers(line[3 + width :])
-            if len(values) != components:
-                raise ValueError(f"{len(values)} numbers: must have {components}")
-            rows[int(line[3 : 3 + width])] = values
+            order = read_order(names)
         except ValueError as error:
-            raise ValueError(f"{path}, line {n}: {error}") from error
-    raise ValueError(f"{path}: ends within a block")
-
-
-def _printed(path: Path, of: str) -> NDArray[np.float64]:
-    """The stresses that ``*EL PRINT`` wrote last for a set, shape (points, 6).
-
-    `of` is the set, needed where there are several.
-    """
-    blocks: dict[str, list[list[float]]] = {}
-    rows: list[list[float]] | None = None
-    for n, line in enumerate(read_text(path).splitlines(), 1):
-        words = line.split()
-        if line.strip().startswith("stresses (elem"):
-            head = re.search(r"for set (.+?) and time", line)
-            name = head[1].strip() if head else ""
-            # Later times take the place of earlier ones.
-            rows = blocks[name] = []
-        elif rows is not None and words and words[0].isdigit():
-            try:
-                rows.append(_point(line))
-            except ValueError as error:
-                raise ValueError(f"{path}, line {n}: {error}") from error
-        elif words:
-            rows = None
-    if not any(blocks.values()):
-        raise ValueError(f"{path}: has no stresses of elements; *EL PRINT with S writes them")
-    if len(blocks) == 1:
-        return np.array(next(iter(blocks.values())))
-    if of not in blocks or not blocks[of]:
-        raise ValueError(
-            f"{path}: has stresses of {len(blocks)} sets, {', '.join(blocks)}: say which with "
-            f"field={next(iter(blocks))!r}"
-        )
-    return np.array(blocks[of])
-
-
-def _point(line: str) -> list[float]:
-    """The stress at a point of integration: element, point, six numbers."""
-    found = re.fullmatch(r"\s*\d+\s+\d+\s(.*?)(\s+[A-Za-z_]\S*)?\s*", line)
-    if found is None:
-        raise ValueError(f"{line.strip()!r}: must be element, point and six stresses")
-    if found[2]:
-        raise ValueError(f"stresses along the axes {found[2].strip()}: print them with GLOBAL=YES")
-    values = numbers(found[1])
-    if len(values) != 6:
-        raise ValueError(f"{len(values)} stresses: must be six")
-    return values
+            raise ValueError(f"{source}: {error}") from error
+        if len(order) != count:
+            raise ValueError(f"{source}: {len(order)} names, and the field has {count} components")
+        return {"file": order}
+    if count == 9:
+        return {"file": ROWS}
+    if count != 6:
+        raise ValueError(f"{path}: {field} has {count} components: a stress must have six or nine")
+    kinds = ("Abaqus", "VTK", "XDMF") if path.suffix.lower() == ".xdmf" else ("Abaqus", "VTK")
+    return {kind: ORDERS[kind] for kind in kinds}

@@ -40,7 +40,8 @@ def write(
     state : Snapshot
         The increment.
     path : path
-        File to write; it must not exist. ``.vti`` gives an image of the tractions.
+        File to write; it must not exist. ``.vti`` gives an image of the tractions,
+        ``.vts`` a structured grid of them.
     frame, body_number, form, of
         As in :func:`tractions`.
     mesh : path, optional
@@ -54,7 +55,7 @@ def write(
         stress(state, points, path, frame=frame, body_number=body_number)
     elif mesh is not None:
         loads(state, mesh, path, frame=frame, body_number=body_number)
-    elif Path(path).suffix == ".vti":
+    elif Path(path).suffix in (".vti", ".vts"):
         image(state, path, frame=frame, body_number=body_number)
     else:
         tractions(state, path, frame=frame, body_number=body_number, form=form, of=of)
