@@ -7,7 +7,7 @@ use contact_core::Error;
 use contact_core::error::Raised;
 use contact_core::scene::Body;
 use contact_subsurface::{Line, OverCycle, growth};
-use fatigue::{Assessment, AtPoint, Criterion, History, Material, Search, evaluate};
+use fatigue::{Assessment, Criterion, History, Material, PointResult, Search, evaluate};
 
 use super::judged::Judge;
 
@@ -44,7 +44,7 @@ impl ByCriterion {
             };
             let coating = body.coatings.get(layer);
             let elastic = coating.map_or(body.substrate, |coating| coating.material);
-            let mut of = Assessment::of(name, material).map_err(of_criteria)?;
+            let mut of = Assessment::from_name(name, material).map_err(of_criteria)?;
             for (number, value, digits) in [("E", elastic.E, 1e-9), ("nu", elastic.nu, 1.0)] {
                 let enters = of.criterion.number(number).is_some();
                 let own = material.number(number).unwrap_or(value);
@@ -96,7 +96,7 @@ impl ByCriterion {
 }
 
 impl Judge for ByCriterion {
-    type Found = AtPoint;
+    type Found = PointResult;
 
     fn judges(&self, layer: usize) -> bool {
         self.of(layer).is_some()
@@ -108,7 +108,7 @@ impl Judge for ByCriterion {
         _: &[f64],
         history: &History<'_>,
         stop: &AtomicBool,
-    ) -> Result<Vec<AtPoint>, Error> {
+    ) -> Result<Vec<PointResult>, Error> {
         let Some(of) = self.of(layer) else {
             return Ok(Vec::new());
         };
@@ -142,7 +142,7 @@ impl Judge for ByCriterion {
         Err(Error::invalid("criterion", strained.name(), allowed))
     }
 
-    fn score(&self, found: &AtPoint) -> f64 {
+    fn score(&self, found: &PointResult) -> f64 {
         found.value
     }
 }

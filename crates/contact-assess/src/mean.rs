@@ -3,7 +3,7 @@
 
 use contact_core::Error;
 use contact_subsurface::{Line, Moments, OverCycle, TwiceAsLarge, Yielding};
-use fatigue::AtPoint;
+use fatigue::PointResult;
 
 use super::average::{Distance, average};
 use super::by_criterion::ByCriterion;
@@ -14,7 +14,7 @@ use super::worst::OF_COARSE;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LargestMean {
     /// The judgement at the place of the largest sample.
-    pub found: AtPoint,
+    pub found: PointResult,
     /// The largest value, between samples.
     pub value: f64,
     /// Its place on the line \[m\].
@@ -56,7 +56,7 @@ pub fn errors_of_means(
     line: Line,
     distance: &Distance,
     of: &ByCriterion,
-    means: &[Option<AtPoint>],
+    means: &[Option<PointResult>],
 ) -> Result<Vec<f64>, Error> {
     let along = line.places(site.grid);
     let mut changes = vec![0.0; along.len()];
@@ -89,7 +89,7 @@ fn of_path(site: &Site<'_>, value: f64) -> f64 {
 }
 
 /// Means and their places on the line \[m\].
-type Means = (Vec<Option<AtPoint>>, Vec<f64>);
+type Means = (Vec<Option<PointResult>>, Vec<f64>);
 
 /// The means on cells twice as large, paired in both ways.
 fn on_coarser(
@@ -144,7 +144,7 @@ impl OverCycle for OnCoarser<'_> {
 }
 
 /// The value between two samples; `None` beyond the samples or beside one without a value.
-fn between(means: &[Option<AtPoint>], places: &[f64], at: f64) -> Option<f64> {
+fn between(means: &[Option<PointResult>], places: &[f64], at: f64) -> Option<f64> {
     let n = places
         .partition_point(|place| *place < at)
         .clamp(1, places.len().checked_sub(1)?);
@@ -155,7 +155,7 @@ fn between(means: &[Option<AtPoint>], places: &[f64], at: f64) -> Option<f64> {
 }
 
 /// The largest of some means, at the vertex of the parabola through it and the two beside it.
-fn largest(means: &[Option<AtPoint>], along: &[f64]) -> Option<LargestMean> {
+fn largest(means: &[Option<PointResult>], along: &[f64]) -> Option<LargestMean> {
     let value = |n: usize| means[n].map(|found| found.value);
     let judged = (0..means.len()).filter(|n| value(*n).is_some_and(|value| !value.is_nan()));
     let n = judged.max_by(|a, b| {

@@ -76,9 +76,9 @@ pub fn range_of_life<E: From<Error>>(
                 notes.extend(deep(L, options.half_width));
                 if let [_, (short, _), (long, _)] = means[..] {
                     distance = Some(Range {
-                        low: assessment.extrapolated(short),
-                        best: assessment.extrapolated(at),
-                        high: assessment.extrapolated(long),
+                        low: assessment.uncapped_margin(short),
+                        best: assessment.uncapped_margin(at),
+                        high: assessment.uncapped_margin(long),
                     });
                 }
             }
@@ -91,9 +91,9 @@ pub fn range_of_life<E: From<Error>>(
         }
     }
     notes.extend(note);
-    let of = assessment.told(assessment.margins(value, error), factor, distance);
+    let of = assessment.life_range(assessment.margins(value, error), factor, distance);
     notes.extend(wide(assessment, &of));
-    let point = assessment.at_a_point(worst.0, worst.1, factor);
+    let point = assessment.point_range(worst.0, worst.1, factor);
     Ok(RangeOfLife {
         of,
         point,

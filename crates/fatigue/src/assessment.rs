@@ -6,10 +6,10 @@ use crate::criterion::Criterion;
 use crate::definition::Definition;
 use crate::error::Error;
 use crate::judge::Judge;
-use crate::life::inverted;
+use crate::life::invert_curve;
 
-/// Longest life that is told \[cycles\]: a strain-life curve beyond the cycles of its tests is no
-/// knowledge. Where they end is not in the tables of materials, so this is a stated default.
+/// Longest life that is reported \[cycles\]. A strain-life curve is not reliable beyond the cycles
+/// of its tests. The tables of materials do not have that limit, so this is a stated default.
 pub const LONGEST: f64 = 1e7;
 
 /// A criterion with the limit or the curve of lives of a material.
@@ -22,11 +22,11 @@ pub struct Assessment {
 }
 
 impl Assessment {
-    /// The criterion of a name of [`crate::CRITERIA`] with the numbers of a material.
-    pub fn of(name: &str, material: &Material) -> Result<Self, Error> {
-        let definition = Definition::named(name)?;
-        let (numbers, judge) = (definition.of)(material)?;
-        let criterion = Criterion::with(definition, numbers)?;
+    /// Looks up a criterion of [`crate::CRITERIA`] by its name, with the numbers of a material.
+    pub fn from_name(name: &str, material: &Material) -> Result<Self, Error> {
+        let definition = Definition::find(name)?;
+        let (numbers, judge) = (definition.from_material)(material)?;
+        let criterion = Criterion::from_ordered(definition, numbers)?;
         Ok(Self { criterion, judge })
     }
 
@@ -47,23 +47,25 @@ impl Assessment {
             let below = self.safety_factor(value) >= 1.0;
             return if below { f64::INFINITY } else { f64::NAN };
         };
-        let (of, numbers) = (self.criterion.definition().curve, self.criterion.in_order());
-        inverted(value, |N| of(&curve, numbers, N))
+        let (curve_value, numbers) = (
+            self.criterion.definition().curve,
+            self.criterion.ordered_numbers(),
+        );
+        invert_curve(value, |N| curve_value(&curve, numbers, N))
     }
 
-    /// Life, or safety factor for criteria with a limit: what a reader is given. A life beyond
-    /// [`LONGEST`] is infinite.
+    /// Life, or safety factor for criteria with a limit. A life beyond [`LONGEST`] is infinite.
     pub fn margin(&self, value: f64) -> f64 {
-        let found = self.extrapolated(value);
-        if self.gives_lives() && found > LONGEST {
+        let margin = self.uncapped_margin(value);
+        if self.gives_lives() && margin > LONGEST {
             f64::INFINITY
         } else {
-            found
+            margin
         }
     }
 
-    /// The same, with lives beyond [`LONGEST`] by the curve: for sums and comparisons of margins.
-    pub fn extrapolated(&self, value: f64) -> f64 {
+    /// Margin without the cap at [`LONGEST`], for sums and comparisons of margins.
+    pub fn uncapped_margin(&self, value: f64) -> f64 {
         match self.judge {
             Judge::Limit(_) => self.safety_factor(value),
             Judge::Life(_) => self.life(value),

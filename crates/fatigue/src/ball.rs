@@ -1,14 +1,14 @@
 //! Smallest ball round given points: of the shear stress on a plane (a circle) and of the
 //! deviatoric stress (a sphere in five dimensions).
 //!
-//! The ball is that of at most D + 1 of the points. The farthest point from the ball of a few joins
-//! them until none is outside; the ball of the few is found by Welzl's recursion, the points that
-//! mattered tried first.
+//! At most D + 1 of the points lie on its border. The search starts with the ball round a few
+//! points and adds the point that is farthest outside, until none is outside. Welzl's recursion
+//! finds the ball of the few. It tries the points of the last border first.
 //!
 //! E. Welzl, Smallest enclosing disks (balls and ellipsoids), LNCS 555 (1991) 359-370.
 //! B. Gärtner, Fast and robust smallest enclosing balls, LNCS 1643 (1999) 325-338.
 
-use crate::lanes::{LANES, Lanes, largest, place_of};
+use crate::lanes::{LANES, Lanes, index_of_value, max_of_blocks};
 
 /// A point is outside if it is farther from the centre than this share of the radius beyond it;
 /// rounding is a few units of 1e-16.
@@ -37,9 +37,9 @@ pub(crate) struct Search<const D: usize> {
     distances: Vec<Lanes>,
 }
 
-/// A ball with the points of `held` on its border, smallest among those.
+/// A ball with `held` points on its border, the smallest such ball.
 #[derive(Clone, Copy)]
-struct Held<const D: usize> {
+struct BoundaryBall<const D: usize> {
     first: [f64; D],
     /// Orthonormal axes of the flat through the held points, and the centre along them.
     axes: [[f64; D]; D],
@@ -59,15 +59,15 @@ impl<const D: usize> Search<D> {
             self.likely.push(0);
         }
         let end = self.likely.len();
-        let mut ball = welzl(&mut self.likely, end, &Held::nothing(), &point);
+        let mut ball = welzl(&mut self.likely, end, &BoundaryBall::empty(), &point);
         loop {
             let far = self.distances_from(&ball.centre, points);
             if far <= ball.square * (1.0 + OUTSIDE) {
                 return ball.with_radius(far);
             }
-            let k = place_of(&self.distances, far);
+            let k = index_of_value(&self.distances, far);
             let before = ball.square;
-            let pivot = Held::nothing().with(&point(k));
+            let pivot = BoundaryBall::empty().with_border_point(&point(k));
             let Some(pivot) = pivot else {
                 return ball.with_radius(far);
             };
@@ -84,50 +84,50 @@ impl<const D: usize> Search<D> {
         }
     }
 
-    /// The squares of all distances from the centre; the largest is returned.
+    /// Computes the squares of all distances from the centre and returns the largest.
     fn distances_from(&mut self, centre: &[f64; D], points: &Points<D>) -> f64 {
         self.distances.clear();
         self.distances.extend(points.iter().map(|block| {
             let mut square = [0.0; LANES];
             for d in 0..D {
                 for l in 0..LANES {
-                    let to = block[d][l] - centre[d];
-                    square[l] += to * to;
+                    let distance = block[d][l] - centre[d];
+                    square[l] += distance * distance;
                 }
             }
             square
         }));
-        largest(&self.distances)
+        max_of_blocks(&self.distances)
     }
 }
 
-/// The smallest ball round the first `end` of the points `likely` that has what `on` holds on its
-/// border; points that end up on the border move to the front.
+/// Finds the smallest ball round the first `end` of the points `likely` that has the points of `on`
+/// on its border. Points that end up on the border move to the front.
 fn welzl<const D: usize>(
     likely: &mut [usize],
     end: usize,
-    on: &Held<D>,
+    on: &BoundaryBall<D>,
     point: &impl Fn(usize) -> [f64; D],
-) -> Held<D> {
+) -> BoundaryBall<D> {
     let mut ball = *on;
     if on.held == D + 1 {
         return ball;
     }
     for n in 0..end {
         let candidate = point(likely[n]);
-        if ball.holds(&candidate) {
+        if ball.contains(&candidate) {
             continue;
         }
-        if let Some(with) = on.with(&candidate) {
-            ball = welzl(likely, n, &with, point);
+        if let Some(larger) = on.with_border_point(&candidate) {
+            ball = welzl(likely, n, &larger, point);
             likely[..=n].rotate_right(1);
         }
     }
     ball
 }
 
-impl<const D: usize> Held<D> {
-    fn nothing() -> Self {
+impl<const D: usize> BoundaryBall<D> {
+    fn empty() -> Self {
         Self {
             first: [0.0; D],
             axes: [[0.0; D]; D],
@@ -138,43 +138,43 @@ impl<const D: usize> Held<D> {
         }
     }
 
-    fn holds(&self, point: &[f64; D]) -> bool {
+    fn contains(&self, point: &[f64; D]) -> bool {
         let square: f64 = (0..D).map(|d| (point[d] - self.centre[d]).powi(2)).sum();
         self.square >= 0.0 && square <= self.square * (1.0 + OUTSIDE)
     }
 
-    /// With one more point on the border; `None` if it lies in the flat of the others.
-    fn with(&self, point: &[f64; D]) -> Option<Self> {
-        let mut more = *self;
-        more.held += 1;
+    /// Adds a point to the border; returns `None` if it lies in the flat of the others.
+    fn with_border_point(&self, point: &[f64; D]) -> Option<Self> {
+        let mut larger = *self;
+        larger.held += 1;
         if self.held == 0 {
-            (more.first, more.centre, more.square) = (*point, *point, 0.0);
-            return Some(more);
+            (larger.first, larger.centre, larger.square) = (*point, *point, 0.0);
+            return Some(larger);
         }
         // The centre is as far from the point as from the first: 2 v.c = v.v, c and v from the
         // first on.
         let v: [f64; D] = std::array::from_fn(|d| point[d] - self.first[d]);
         let length = dot(&v, &v);
-        let (mut rest, mut known) = (v, 0.0);
+        let (mut residual, mut projection) = (v, 0.0);
         let n = self.held - 1;
-        for (axis, along) in self.axes[..n].iter().zip(self.along) {
+        for (axis, coefficient) in self.axes[..n].iter().zip(self.along) {
             let part = dot(&v, axis);
-            known += part * along;
+            projection += part * coefficient;
             for d in 0..D {
-                rest[d] -= part * axis[d];
+                residual[d] -= part * axis[d];
             }
         }
-        let across = dot(&rest, &rest).sqrt();
+        let across = dot(&residual, &residual).sqrt();
         if across <= FLAT * length.sqrt() {
             return None;
         }
-        more.axes[n] = rest.map(|r| r / across);
-        more.along[n] = (length / 2.0 - known) / dot(&v, &more.axes[n]);
+        larger.axes[n] = residual.map(|r| r / across);
+        larger.along[n] = (length / 2.0 - projection) / dot(&v, &larger.axes[n]);
         for d in 0..D {
-            more.centre[d] += more.along[n] * more.axes[n][d];
+            larger.centre[d] += larger.along[n] * larger.axes[n][d];
         }
-        more.square += more.along[n] * more.along[n];
-        Some(more)
+        larger.square += larger.along[n] * larger.along[n];
+        Some(larger)
     }
 
     fn with_radius(&self, square: f64) -> Ball<D> {

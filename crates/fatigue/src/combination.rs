@@ -27,11 +27,11 @@ pub(crate) enum Combination {
 
 impl Combination {
     /// a + w b on the plane where a is largest.
-    pub(crate) fn first(weight: f64) -> Self {
+    pub(crate) fn on_largest_first_part(weight: f64) -> Self {
         Self::First { weight, tie: TIE }
     }
 
-    /// For a history with this ratio of the sizes of a and b.
+    /// Sets the weight of the tie for a history with this ratio of the sizes of a and b.
     pub(crate) fn for_ratio(self, ratio: f64) -> Self {
         match self {
             Self::First { weight, .. } => Self::First {
@@ -42,7 +42,7 @@ impl Combination {
         }
     }
 
-    /// The function that is largest on the plane sought.
+    /// The function that the search maximises.
     pub(crate) fn value(&self, [a, b]: [f64; 2]) -> f64 {
         match self {
             Self::Sum(weight) => a + weight * b,
@@ -52,13 +52,13 @@ impl Combination {
         }
     }
 
-    /// A [`Tangent`] of it that is exact at these parts.
+    /// A [`Tangent`] of the criterion that is exact at these parts.
     pub(crate) fn tangent(&self, parts: [f64; 2]) -> Tangent {
         match *self {
             Self::Sum(weight) => Tangent::sum(weight),
             Self::First { tie, .. } => Tangent::sum(tie),
-            Self::Product => Tangent::of_product(0.0, 1.0, parts),
-            Self::Raised(weight) => Tangent::of_product(1.0, weight, parts),
+            Self::Product => Tangent::for_product(0.0, 1.0, parts),
+            Self::Raised(weight) => Tangent::for_product(1.0, weight, parts),
         }
     }
 
@@ -71,15 +71,15 @@ impl Combination {
         }
     }
 
-    /// The criterion on the plane sought.
-    pub(crate) fn there(&self, [a, b]: [f64; 2]) -> f64 {
+    /// The criterion on the plane that the search has found.
+    pub(crate) fn criterion_value(&self, [a, b]: [f64; 2]) -> f64 {
         match self {
             Self::First { weight, .. } => a + weight * b,
             _ => self.value([a, b]),
         }
     }
 
-    /// A value that is not small: that of this first part and a normal stress of 1.
+    /// A value that is not small: the criterion for this first part and a normal stress of 1.
     pub(crate) fn yardstick(&self, first: f64) -> f64 {
         match self {
             Self::Sum(weight) => first + weight,

@@ -1,7 +1,7 @@
-//! Whether a quadratic form is nowhere negative where all coordinates are positive.
+//! Test of quadratic forms: nowhere negative where all coordinates are positive.
 
-/// Whether the sum of m_ij w_i w_j is nowhere negative for w >= 0; `diagonal` is m_11, m_22, m_33
-/// and `mixed` m_12, m_23, m_31.
+/// Checks that the sum of m_ij w_i w_j is nowhere negative for w >= 0; `diagonal` is m_11, m_22,
+/// m_33 and `mixed` m_12, m_23, m_31.
 ///
 /// K. P. Hadeler, Linear Algebra Appl. 49 (1983) 79-89.
 pub(crate) fn is_copositive(diagonal: [f64; 3], mixed: [f64; 3]) -> bool {
@@ -41,13 +41,17 @@ mod tests {
             let diagonal = [2.0, 3.0, 5.0].map(|d: f64| entry(k, d.sqrt()) - 0.05);
             let mixed = [7.0, 11.0, 13.0].map(|d: f64| 1.5 * entry(k, d.sqrt()) - 0.9);
             let least = least(diagonal, mixed);
-            let found = is_copositive(diagonal, mixed);
+            let copositive = is_copositive(diagonal, mixed);
             // The lattice may pass over a negative value that is next to nothing.
             assert!(
-                if found { least >= 0.0 } else { least < 1e-4 },
+                if copositive {
+                    least >= 0.0
+                } else {
+                    least < 1e-4
+                },
                 "{diagonal:?} {mixed:?}"
             );
-            counted[usize::from(found)] += 1;
+            counted[usize::from(copositive)] += 1;
         }
         assert!(counted.iter().all(|n| *n > 300), "{counted:?}");
     }

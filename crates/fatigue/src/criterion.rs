@@ -13,7 +13,8 @@ pub struct Criterion {
 }
 
 impl Criterion {
-    /// The criterion of a name of [`crate::CRITERIA`] with its numbers by their names, each once.
+    /// Looks up a criterion of [`crate::CRITERIA`] by its name, with its numbers by their names,
+    /// each once.
     ///
     /// ```
     /// let findley = fatigue::Criterion::new("findley", &[("k", 0.3)])?;
@@ -21,9 +22,9 @@ impl Criterion {
     /// # Ok::<(), fatigue::Error>(())
     /// ```
     pub fn new(name: &str, numbers: &[(&str, f64)]) -> Result<Self, Error> {
-        let definition = Definition::named(name)?;
+        let definition = Definition::find(name)?;
         let parameters = definition.parameters;
-        let known = || {
+        let parameter_names = || {
             parameters
                 .iter()
                 .map(|p| p.name)
@@ -35,22 +36,33 @@ impl Criterion {
             .find(|(name, _)| !parameters.iter().any(|p| p.name == *name))
         {
             let key = format!("{name}.{other}");
-            return Err(Error::argument(key, value, format!("one of {}", known())));
+            return Err(Error::argument(
+                key,
+                value,
+                format!("one of {}", parameter_names()),
+            ));
         }
-        let mut found = [0.0; 4];
+        let mut ordered = [0.0; 4];
         for (n, parameter) in parameters.iter().enumerate() {
-            let given = numbers.iter().find(|(name, _)| *name == parameter.name);
-            let (_, value) = given.ok_or_else(|| {
+            let entry = numbers.iter().find(|(name, _)| *name == parameter.name);
+            let (_, value) = entry.ok_or_else(|| {
                 let key = format!("{name}.{}", parameter.name);
-                Error::argument(key, "nothing", format!("given; {name} takes {}", known()))
+                Error::argument(
+                    key,
+                    "nothing",
+                    format!("given; {name} takes {}", parameter_names()),
+                )
             })?;
-            found[n] = *value;
+            ordered[n] = *value;
         }
-        Self::with(definition, found)
+        Self::from_ordered(definition, ordered)
     }
 
-    /// With the numbers in the order of the parameters.
-    pub(crate) fn with(definition: &'static Definition, numbers: Numbers) -> Result<Self, Error> {
+    /// Takes the numbers in the order of the parameters.
+    pub(crate) fn from_ordered(
+        definition: &'static Definition,
+        numbers: Numbers,
+    ) -> Result<Self, Error> {
         for (parameter, value) in definition.parameters.iter().zip(numbers) {
             if !parameter.allowed.holds(value) {
                 let key = format!("{}.{}", definition.name, parameter.name);
@@ -63,7 +75,7 @@ impl Criterion {
         })
     }
 
-    /// Everything but its numbers.
+    /// The definition: everything except the numbers.
     pub fn definition(&self) -> &'static Definition {
         self.definition
     }
@@ -84,48 +96,48 @@ impl Criterion {
         names.zip(self.numbers)
     }
 
-    /// One of its numbers.
+    /// The number of this name.
     pub fn number(&self, name: &str) -> Option<f64> {
         self.numbers().find(|(n, _)| *n == name).map(|(_, v)| v)
     }
 
-    /// The same with a number changed; one that it does not have is left out.
+    /// Returns the criterion with a number changed, or unchanged if it does not have that number.
     pub fn with_number(&self, name: &str, value: f64) -> Result<Self, Error> {
         let mut numbers = self.numbers;
-        let place = self
+        let index = self
             .definition
             .parameters
             .iter()
             .position(|p| p.name == name);
-        if let Some(n) = place {
+        if let Some(n) = index {
             numbers[n] = value;
         }
-        Self::with(self.definition, numbers)
+        Self::from_ordered(self.definition, numbers)
     }
 
-    /// Whether it looks for a plane.
+    /// Checks that the criterion depends on a plane.
     pub fn has_plane(&self) -> bool {
         matches!(self.acts(1.0), Acts::OnPlanes(_))
     }
 
-    /// Whether it takes strains; others take the stress alone.
+    /// Checks that the criterion takes strains. The others take the stress alone.
     pub fn takes_strain(&self) -> bool {
         self.twice_shear_modulus().is_some()
     }
 
-    /// 2 G \[Pa\], where it takes strains.
+    /// 2 G \[Pa\], for criteria of strains.
     pub(crate) fn twice_shear_modulus(&self) -> Option<f64> {
         let (E, nu) = self.number("E").zip(self.number("nu"))?;
         Some(E / (1.0 + nu))
     }
 
-    /// How it follows from stresses in a unit \[Pa\].
+    /// The method of evaluation, for stresses in a unit \[Pa\].
     pub(crate) fn acts(&self, unit: f64) -> Acts {
-        (self.definition.acts)(self.numbers, unit)
+        (self.definition.method)(self.numbers, unit)
     }
 
     /// Its numbers in the order of the parameters.
-    pub(crate) fn in_order(&self) -> Numbers {
+    pub(crate) fn ordered_numbers(&self) -> Numbers {
         self.numbers
     }
 }

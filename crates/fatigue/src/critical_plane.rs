@@ -26,12 +26,12 @@
 //! first part is the shear amplitude and decides alone, the search may find one of the two. The
 //! other one is always compared with it.
 
-use crate::hemisphere::{Face, midway};
+use crate::face_limit::Limit;
+use crate::hemisphere::{Face, arc_midpoint};
 use crate::lanes::LANES;
-use crate::limit::Limit;
 use crate::path::dot;
-use crate::plane_function::{Bend, BestPlane, NO_EDGE, Plane, PlaneFunction, Threshold};
-use crate::refine::{nearly, refine};
+use crate::plane_function::{BestPlane, CurvatureBounds, NO_EDGE, Plane, PlaneFunction, Threshold};
+use crate::refine::{refine, refine_roughly};
 use crate::tangent::Tangent;
 
 /// Limits of the search.
@@ -42,7 +42,7 @@ pub struct Search {
     /// that value. The plane found is usually the best one to rounding.
     pub tolerance: f64,
     /// Most planes (default: 4096): a bound on time and memory, reached by histories with hardly
-    /// any tension or shear. [`crate::AtPoint::missed`] is larger then.
+    /// any tension or shear. [`crate::PointResult::missed`] is larger then.
     pub planes: usize,
 }
 
@@ -81,8 +81,8 @@ pub(crate) struct Buffers {
     tops: Vec<([f64; 3], f64)>,
 }
 
-/// Values below this part of the yardstick of the stress are small: their tolerance is that of
-/// SMALL times the yardstick.
+/// Values below this part of the yardstick of the stress are small. Their tolerance is the
+/// tolerance of SMALL times the yardstick.
 const SMALL: f64 = 1e-3;
 /// First parts are equal if their relative difference is below EQUAL.
 const EQUAL: f64 = 1e-9;
@@ -102,24 +102,24 @@ const PIECES: usize = 24;
 impl Search {
     /// The plane on which `f` is largest.
     pub(crate) fn peak(&self, f: &mut impl PlaneFunction, buffers: &mut Buffers) -> Peak {
-        let start = f.start();
+        let start = f.first_faces();
         buffers.tried.clear();
         buffers.tops.clear();
         let mut bend = buffers.first_planes(f);
-        let mut best = buffers.refined(f, buffers.best(0..buffers.planes.len()));
+        let mut best = buffers.refine_plane(f, buffers.best_plane(0..buffers.planes.len()));
         let yardstick = f.yardstick(&bend);
         let tolerance = |value: f64| self.tolerance * value.abs().max(SMALL * yardstick);
         if f.rounding(best.n) >= 0.05 * tolerance(best.value) {
             f.to_double();
             bend = buffers.first_planes(f);
         }
-        let mut known = f.known(best.n, best.value, tolerance(best.value));
+        let mut record = f.best_plane(best.n, best.value, tolerance(best.value));
         let ceiling = f.ceiling(&bend);
         let mut missed = ceiling - best.value;
         let mut seen = buffers.planes.len();
-        let at_once = ceiling <= known.values[2];
+        let is_settled = ceiling <= record.values[2];
         for cuts in 0.. {
-            if at_once {
+            if is_settled {
                 buffers.faces.clear();
                 break;
             }
@@ -127,56 +127,59 @@ impl Search {
                 planes, faces, cut, ..
             } = buffers;
             let among = if cuts == 0 { &start.faces } else { &*cut };
-            if known.n != best.n {
-                known = f.known(best.n, best.value, tolerance(best.value));
+            if record.n != best.n {
+                record = f.best_plane(best.n, best.value, tolerance(best.value));
             }
             let BestPlane {
                 tangent,
                 values: [_, tied, near],
                 ..
-            } = known;
+            } = record;
             faces.clear();
-            let limit = Limit::of(&bend, tangent, best.value);
+            let limit = Limit::new(&bend, tangent, best.value);
             for face in among {
-                let most = limit.bound(f, face, planes);
-                if most > best.value {
-                    faces.push(Face { most, ..*face });
+                let bound = limit.bound(f, face, planes);
+                if bound > best.value {
+                    faces.push(Face {
+                        most: bound,
+                        ..*face
+                    });
                 }
             }
             if !faces.is_empty() {
-                f.bounds(faces, planes, &known);
+                f.bounds(faces, planes, &record);
                 faces.retain(|face| face.most > best.value);
             }
-            let most = faces.iter().fold(best.value, |m, face| m.max(face.most));
-            missed = most.min(ceiling) - best.value;
-            let open = tied > best.value && faces.len() <= FEW && most > tied;
-            let done = most <= near && !open;
+            let bound = faces.iter().fold(best.value, |m, face| m.max(face.most));
+            missed = bound.min(ceiling) - best.value;
+            let open = tied > best.value && faces.len() <= FEW && bound > tied;
+            let done = bound <= near && !open;
             // The division of a face adds three planes at most.
             let full = seen + 3 * faces.len() > self.planes;
             if faces.is_empty() || done || full {
                 break;
             }
-            buffers.cut();
+            buffers.divide_faces();
             let sag = buffers.cut.iter().map(|f| f.sag).fold(0.0, f64::max);
             let enough = Threshold {
                 first: f64::INFINITY,
                 tangent,
-                sum: tangent.sum_of(best.value) - bend.of(&tangent) * sag,
+                sum: tangent.sum_at_value(best.value) - bend.for_sum(&tangent) * sag,
             };
             f.measure(&mut buffers.planes[seen..], enough);
-            let higher = buffers.best(seen..buffers.planes.len());
+            let higher = buffers.best_plane(seen..buffers.planes.len());
             seen = buffers.planes.len();
             if buffers.planes[higher].value > best.value {
-                let other = buffers.refined(f, higher);
-                if other.value > best.value {
-                    best = other;
+                let candidate = buffers.refine_plane(f, higher);
+                if candidate.value > best.value {
+                    best = candidate;
                 }
             }
         }
         let proved = best.value + missed;
-        buffers.try_the_rest(f, &mut best);
+        buffers.try_remaining_pieces(f, &mut best);
         if f.tie() > 0.0 {
-            buffers.of_the_first_part(f, &mut best);
+            buffers.choose_by_first_part(f, &mut best);
         }
         Peak {
             missed: (proved - best.value).max(0.0),
@@ -188,11 +191,11 @@ impl Search {
 
 impl Buffers {
     /// Evaluates the planes of the first triangles; returns the bounds on second derivatives.
-    fn first_planes(&mut self, f: &mut impl PlaneFunction) -> Bend {
-        let start = f.start();
+    fn first_planes(&mut self, f: &mut impl PlaneFunction) -> CurvatureBounds {
+        let start = f.first_faces();
         self.planes.clear();
         self.planes
-            .extend(start.planes.iter().map(|n| Plane::of(*n, [0; 6])));
+            .extend(start.planes.iter().map(|n| Plane::unevaluated(*n, [0; 6])));
         let (mut largest, mut best) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
         let mut enough = Threshold {
             first: f64::NEG_INFINITY,
@@ -212,41 +215,43 @@ impl Buffers {
                 }
             }
             instants = planes[planes.len() - 1].instants;
-            let K = f.bend(largest, start.sag).of(&enough.tangent);
+            let K = f
+                .curvature_bounds(largest, start.sag)
+                .for_sum(&enough.tangent);
             enough.first = largest;
-            enough.sum = enough.tangent.sum_of(best) - K * start.sag;
+            enough.sum = enough.tangent.sum_at_value(best) - K * start.sag;
         }
-        f.bend(largest, start.sag)
+        f.curvature_bounds(largest, start.sag)
     }
 
-    /// The plane of the largest value.
-    fn best(&self, among: std::ops::Range<usize>) -> usize {
+    /// The index of the plane with the largest value.
+    fn best_plane(&self, among: std::ops::Range<usize>) -> usize {
         let value = |p: &usize| self.planes[*p].value;
-        let most = among.max_by(|a, b| value(a).total_cmp(&value(b)));
-        most.unwrap_or(0)
+        let best_index = among.max_by(|a, b| value(a).total_cmp(&value(b)));
+        best_index.unwrap_or(0)
     }
 
-    /// The maximum reached by refining the piece of a plane.
-    fn refined(&mut self, f: &mut impl PlaneFunction, plane: usize) -> Peak {
+    /// Finds the maximum by refining the piece of a plane.
+    fn refine_plane(&mut self, f: &mut impl PlaneFunction, plane: usize) -> Peak {
         let n = self.planes[plane].n;
-        let mut best = (n, f.at(n));
+        let mut best = (n, f.criterion_at(n));
         for _ in 0..8 {
-            let piece = f.deciding(best.0);
+            let piece = f.deciding_piece(best.0);
             self.tried.push((piece.instants, best.0));
-            let (top, of_piece) = refine(&|n| f.value(piece.parts(n)), best.0);
-            let value = f.at(top);
+            let (top, value_of_piece) = refine(&|n| f.value(piece.parts(n)), best.0);
+            let value = f.criterion_at(top);
             let rounding = 4.0 * f64::EPSILON * value.abs();
             if value < best.1 - rounding {
                 break;
             }
             best = (top, value);
-            if value <= of_piece + rounding {
+            if value <= value_of_piece + rounding {
                 break;
             }
         }
-        let piece = f.deciding(best.0);
+        let piece = f.deciding_piece(best.0);
         let (top, _) = refine(&|n| f.value(piece.smooth_parts(n)), best.0);
-        let value = f.at(top);
+        let value = f.criterion_at(top);
         if value >= best.1 - 4.0 * f64::EPSILON * value.abs() {
             best = (top, value);
         }
@@ -260,7 +265,7 @@ impl Buffers {
     }
 
     /// Refines the pieces at the corners of the remaining faces that may exceed the best.
-    fn try_the_rest(&mut self, f: &mut impl PlaneFunction, best: &mut Peak) {
+    fn try_remaining_pieces(&mut self, f: &mut impl PlaneFunction, best: &mut Peak) {
         self.corners.clear();
         self.corners
             .extend(self.faces.iter().flat_map(|face| face.planes));
@@ -269,8 +274,8 @@ impl Buffers {
         for k in 0..self.corners.len() {
             let plane = self.corners[k];
             let Plane { n, instants, .. } = self.planes[plane];
-            let again = |(those, m): &([usize; 6], [f64; 3])| {
-                *those == instants && dot(*m, n).abs() > NEARBY
+            let again = |(tried, tried_normal): &([usize; 6], [f64; 3])| {
+                *tried == instants && dot(*tried_normal, n).abs() > NEARBY
             };
             if self.tried.iter().any(again) || self.tried.len() > PIECES {
                 continue;
@@ -278,28 +283,30 @@ impl Buffers {
             self.tried.push((instants, n));
             let piece = f.piece(instants);
             let enough = best.value - f.lead() * best.value.abs();
-            let (place, top) = nearly(&|n| f.value(piece.quick_parts(n)), n, enough);
-            let known = |(m, value): &([f64; 3], f64)| dot(*m, place).abs() > SAME && *value >= top;
-            if top > enough && !self.tops.iter().any(known) {
-                let other = self.refined(f, plane);
-                if other.value > best.value {
-                    *best = other;
+            let (maximum, top) = refine_roughly(&|n| f.value(piece.quick_parts(n)), n, enough);
+            let is_known = |(tried_normal, value): &([f64; 3], f64)| {
+                dot(*tried_normal, maximum).abs() > SAME && *value >= top
+            };
+            if top > enough && !self.tops.iter().any(is_known) {
+                let candidate = self.refine_plane(f, plane);
+                if candidate.value > best.value {
+                    *best = candidate;
                 }
             }
         }
     }
 
-    /// Of the planes found and their complementary planes, that of the largest first part; of equal
-    /// ones, that of the larger second part.
-    fn of_the_first_part(&mut self, f: &mut impl PlaneFunction, best: &mut Peak) {
+    /// Chooses the plane by the first part, among the planes found and their complementary planes.
+    /// Of planes with equal first parts the one with the larger second part is taken.
+    fn choose_by_first_part(&mut self, f: &mut impl PlaneFunction, best: &mut Peak) {
         let enough = best.value - f.tie() * best.value.abs();
-        let mut found: Option<([f64; 3], [f64; 2])> = None;
+        let mut best_found: Option<([f64; 3], [f64; 2])> = None;
         for k in 0..self.tops.len() {
             let (n, value) = self.tops[k];
             if value < enough {
                 continue;
             }
-            let (piece, mut n, mut parts) = (f.deciding(n), n, f.parts(n));
+            let (piece, mut n, mut parts) = (f.deciding_piece(n), n, f.parts(n));
             let (top, _) = refine(&|n| piece.parts(n)[0], n);
             let (smooth, _) = refine(&|n| piece.smooth_parts(n)[0], top);
             for top in [top, smooth] {
@@ -308,10 +315,10 @@ impl Buffers {
                     (n, parts) = (top, higher);
                 }
             }
-            let other = f.deciding(n).complementary(n);
-            let other = other.map(|other| (other, f.parts(other)));
-            for (n, parts) in [Some((n, parts)), other].into_iter().flatten() {
-                let better = found.is_none_or(|(_, [first, second])| {
+            let complement = f.deciding_piece(n).complementary(n);
+            let complement = complement.map(|complement| (complement, f.parts(complement)));
+            for (n, parts) in [Some((n, parts)), complement].into_iter().flatten() {
+                let better = best_found.is_none_or(|(_, [first, second])| {
                     let equal = (parts[0] - first).abs() <= EQUAL * first;
                     if equal {
                         parts[1] > second
@@ -320,17 +327,17 @@ impl Buffers {
                     }
                 });
                 if better {
-                    found = Some((n, parts));
+                    best_found = Some((n, parts));
                 }
             }
         }
-        if let Some((n, _)) = found {
+        if let Some((n, _)) = best_found {
             best.n = n;
         }
     }
 
     /// Divides every face into four.
-    fn cut(&mut self) {
+    fn divide_faces(&mut self) {
         self.edges.clear();
         for plane in &mut self.planes {
             plane.edge = NO_EDGE;
@@ -343,9 +350,9 @@ impl Buffers {
         } in &faces
         {
             let ([a, b, c], [i, j, k]) = (*corners, *planes);
-            let (ab, l) = self.middle((a, i), (b, j));
-            let (bc, m) = self.middle((b, j), (c, k));
-            let (ca, o) = self.middle((c, k), (a, i));
+            let (ab, l) = self.edge_midpoint((a, i), (b, j));
+            let (bc, m) = self.edge_midpoint((b, j), (c, k));
+            let (ca, o) = self.edge_midpoint((c, k), (a, i));
             let face = Face::new;
             cut.extend([
                 face([a, ab, ca], [i, l, o]),
@@ -357,13 +364,13 @@ impl Buffers {
         (self.faces, self.cut) = (faces, cut);
     }
 
-    /// The middle of an edge and its plane, which is evaluated once.
-    fn middle(
+    /// Returns the middle of an edge and its plane, which is evaluated once.
+    fn edge_midpoint(
         &mut self,
         (a, i): ([f64; 3], usize),
         (b, j): ([f64; 3], usize),
     ) -> ([f64; 3], usize) {
-        let (n, low, high) = (midway(a, b), i.min(j), i.max(j));
+        let (n, low, high) = (arc_midpoint(a, b), i.min(j), i.max(j));
         let mut edge = self.planes[low].edge;
         while edge != NO_EDGE {
             let [end, middle, next] = self.edges[edge];
@@ -380,7 +387,7 @@ impl Buffers {
             j
         };
         let guess = self.planes[higher].instants;
-        self.planes.push(Plane::of(n, guess));
+        self.planes.push(Plane::unevaluated(n, guess));
         self.edges.push([high, middle, self.planes[low].edge]);
         self.planes[low].edge = self.edges.len() - 1;
         (n, middle)

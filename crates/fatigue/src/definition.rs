@@ -7,10 +7,11 @@
 //! Strains are the elastic strain of the stress and the plastic strain. Where that changes, gamma_a is
 //! the radius of the smallest circle round the path of the shear strain.
 //!
-//! Dang Van's tau is half of Tresca's stress of s less the centre of that sphere, the stress of a
-//! grain that has shaken down. Of planes with equal tau_a Matake's and McDiarmid's criterion takes
-//! that of the larger s_n,max, Brown and Miller's that of the larger range. Smith, Watson and
-//! Topper's product is 0 without tension, Fatemi and Socie's where the bracket is negative.
+//! Dang Van's tau is half of Tresca's stress of the difference between s and the centre of that
+//! sphere, the stress of a grain that has shaken down. Of planes with equal tau_a, Matake's and
+//! McDiarmid's criteria take the plane with the larger s_n,max, Brown and Miller's takes the plane
+//! with the larger range. Smith, Watson and Topper's product is 0 without tension, Fatemi and
+//! Socie's where the bracket is negative.
 
 use material_table::{Allowed, Material};
 
@@ -31,10 +32,10 @@ pub struct Parameter {
     pub allowed: Allowed,
 }
 
-/// The numbers of a criterion in the order of its parameters, the rest 0.
+/// The numbers of a criterion in the order of its parameters, padded with 0.
 pub(crate) type Numbers = [f64; 4];
 
-/// A criterion but for its numbers.
+/// A criterion without its numbers.
 #[derive(Debug)]
 pub struct Definition {
     /// Name, as in Python and on the command line.
@@ -49,40 +50,40 @@ pub struct Definition {
     pub unit: &'static str,
     /// Its numbers.
     pub parameters: &'static [Parameter],
-    /// Numbers and judge for a material.
-    pub(crate) of: fn(&Material) -> Result<(Numbers, Judge), Error>,
-    /// Its value in a uniaxial test of fully reversed strain that lasts for N cycles, where it
-    /// gives lives.
+    /// Computes numbers and limit or curve from a material.
+    pub(crate) from_material: fn(&Material) -> Result<(Numbers, Judge), Error>,
+    /// Value in a uniaxial test of fully reversed strain that lasts for N cycles, for criteria that
+    /// give lives.
     pub(crate) curve: fn(&CoffinManson, Numbers, f64) -> f64,
-    /// How it is computed from the stress, for stresses in a unit \[Pa\].
-    pub(crate) acts: fn(Numbers, f64) -> Acts,
+    /// Method of evaluation, for stresses in a unit \[Pa\].
+    pub(crate) method: fn(Numbers, f64) -> Acts,
 }
 
-/// How a criterion is computed from the stress.
+/// Method of evaluation of a criterion.
 pub(crate) enum Acts {
-    /// From the smallest sphere round the path of the deviatoric stress.
+    /// Evaluates the smallest sphere round the path of the deviatoric stress.
     OfInvariants(fn(&Path, &Ball<5>, Numbers) -> OfInvariants),
-    /// From quantities on planes.
-    OnPlanes(OnPlane),
+    /// Searches for the critical plane.
+    OnPlanes(PlaneLaw),
 }
 
 /// A criterion on a plane: a law of two parts.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct OnPlane {
+pub(crate) struct PlaneLaw {
     pub(crate) combination: Combination,
-    /// Whether the first part is tau_a; else it is the strain amplitude.
+    /// The first part is tau_a if true, else the strain amplitude.
     pub(crate) shear: bool,
     /// The strain is the first number times s_n less the second times the sum of the normal
     /// stresses. The second part is s_n,max unless the strain amplitude is one and does not come
     /// first.
     pub(crate) strain: Option<[f64; 2]>,
-    /// The value over that of the law.
+    /// The value of the criterion divided by the value of the combination.
     pub(crate) factor: f64,
 }
 
 impl Definition {
-    /// The definition of a name.
-    pub fn named(name: &str) -> Result<&'static Self, Error> {
+    /// Looks up a criterion by its name.
+    pub fn find(name: &str) -> Result<&'static Self, Error> {
         CRITERIA.iter().find(|d| d.name == name).ok_or_else(|| {
             let names: Vec<_> = CRITERIA.iter().map(|d| d.name).collect();
             Error::argument("criterion", name, format!("one of {}", names.join(", ")))
@@ -112,13 +113,15 @@ pub const CRITERIA: &[Definition] = &[
         source: "B. Crossland, Proc. Int. Conf. on Fatigue of Metals, IMechE, London (1956) 138-149",
         unit: "Pa",
         parameters: &[ALPHA],
-        of: |m| {
+        from_material: |m| {
             let (s_D, t_D) = limits(m)?;
             let alpha = 3.0 * t_D / s_D - 3.0_f64.sqrt();
             Ok(([alpha, 0.0, 0.0, 0.0], Judge::Limit(t_D)))
         },
         curve: without_lives,
-        acts: |_, _| Acts::OfInvariants(|path, sphere, [alpha, ..]| crossland(path, sphere, alpha)),
+        method: |_, _| {
+            Acts::OfInvariants(|path, sphere, [alpha, ..]| crossland(path, sphere, alpha))
+        },
     },
     Definition {
         name: "dang_van",
@@ -127,13 +130,15 @@ pub const CRITERIA: &[Definition] = &[
         source: "K. Dang Van, ASTM STP 1191 (1993) 120-130",
         unit: "Pa",
         parameters: &[ALPHA],
-        of: |m| {
+        from_material: |m| {
             let (s_D, t_D) = limits(m)?;
             let alpha = 3.0 * t_D / s_D - 1.5;
             Ok(([alpha, 0.0, 0.0, 0.0], Judge::Limit(t_D)))
         },
         curve: without_lives,
-        acts: |_, _| Acts::OfInvariants(|path, sphere, [alpha, ..]| dang_van(path, sphere, alpha)),
+        method: |_, _| {
+            Acts::OfInvariants(|path, sphere, [alpha, ..]| dang_van(path, sphere, alpha))
+        },
     },
     Definition {
         name: "findley",
@@ -143,7 +148,7 @@ pub const CRITERIA: &[Definition] = &[
         unit: "Pa",
         parameters: &[K],
         // k/sqrt(1 + k^2) = 2 t_D/s_D - 1, limit t_D sqrt(1 + k^2).
-        of: |m| {
+        from_material: |m| {
             let (s_D, t_D) = limits(m)?;
             let sine = 2.0 * t_D / s_D - 1.0;
             if sine >= 1.0 {
@@ -154,7 +159,7 @@ pub const CRITERIA: &[Definition] = &[
             Ok(([sine / cosine, 0.0, 0.0, 0.0], Judge::Limit(t_D / cosine)))
         },
         curve: without_lives,
-        acts: |[k, ..], unit| of_stress(Combination::Sum(k), unit),
+        method: |[k, ..], unit| stress_on_planes(Combination::Sum(k), unit),
     },
     Definition {
         name: "matake",
@@ -163,13 +168,13 @@ pub const CRITERIA: &[Definition] = &[
         source: "T. Matake, Bull. JSME 20 (1977) 257-263",
         unit: "Pa",
         parameters: &[K],
-        of: |m| {
+        from_material: |m| {
             let (s_D, t_D) = limits(m)?;
             let k = 2.0 * t_D / s_D - 1.0;
             Ok(([k, 0.0, 0.0, 0.0], Judge::Limit(t_D)))
         },
         curve: without_lives,
-        acts: |[k, ..], unit| of_stress(Combination::first(k), unit),
+        method: |[k, ..], unit| stress_on_planes(Combination::on_largest_first_part(k), unit),
     },
     Definition {
         name: "mcdiarmid",
@@ -178,13 +183,13 @@ pub const CRITERIA: &[Definition] = &[
         source: "D. L. McDiarmid, Fatigue Fract. Eng. Mater. Struct. 14 (1991) 429-453",
         unit: "Pa",
         parameters: &[K],
-        of: |m| {
+        from_material: |m| {
             let t_D = m.number("t_D")?;
             let k = t_D / (2.0 * m.number("s_u")?);
             Ok(([k, 0.0, 0.0, 0.0], Judge::Limit(t_D)))
         },
         curve: without_lives,
-        acts: |[k, ..], unit| of_stress(Combination::first(k), unit),
+        method: |[k, ..], unit| stress_on_planes(Combination::on_largest_first_part(k), unit),
     },
     Definition {
         name: "smith_watson_topper",
@@ -194,13 +199,13 @@ pub const CRITERIA: &[Definition] = &[
                  D. F. Socie, J. Eng. Mater. Technol. 109 (1987) 293-298",
         unit: "Pa",
         parameters: &[MODULUS, NU],
-        of: |m| {
+        from_material: |m| {
             let numbers = [m.number("E")?, m.number("nu")?, 0.0, 0.0];
             Ok((numbers, Judge::Life(strain_life(m)?)))
         },
         curve: |curve, _, cycles| curve.smith_watson_topper(cycles),
-        acts: |[E, nu, ..], unit| {
-            Acts::OnPlanes(OnPlane {
+        method: |[E, nu, ..], unit| {
+            Acts::OnPlanes(PlaneLaw {
                 combination: Combination::Product,
                 shear: false,
                 strain: Some([1.0 + nu, nu]),
@@ -215,7 +220,7 @@ pub const CRITERIA: &[Definition] = &[
         source: "A. Fatemi, D. F. Socie, Fatigue Fract. Eng. Mater. Struct. 11 (1988) 149-165",
         unit: "1",
         parameters: &[MODULUS, NU, K, parameter("s_y", Allowed::Stress)],
-        of: |m| {
+        from_material: |m| {
             let numbers = [
                 m.number("E")?,
                 m.number("nu")?,
@@ -225,8 +230,8 @@ pub const CRITERIA: &[Definition] = &[
             Ok((numbers, Judge::Life(strain_life(m)?)))
         },
         curve: |curve, [_, nu, k, s_y], cycles| curve.fatemi_socie(cycles, nu, k, s_y),
-        acts: |[E, nu, k, s_y], unit| {
-            Acts::OnPlanes(OnPlane {
+        method: |[E, nu, k, s_y], unit| {
+            Acts::OnPlanes(PlaneLaw {
                 combination: Combination::Raised(k / s_y * unit),
                 shear: true,
                 strain: None,
@@ -241,16 +246,16 @@ pub const CRITERIA: &[Definition] = &[
         source: "F. A. Kandil, M. W. Brown, K. J. Miller, The Metals Society Book 280 (1982) 203-210",
         unit: "1",
         parameters: &[MODULUS, NU, parameter("S", Allowed::Weight)],
-        of: |m| {
+        from_material: |m| {
             let numbers = [m.number("E")?, m.number("nu")?, m.number("S")?, 0.0];
             Ok((numbers, Judge::Life(strain_life(m)?)))
         },
         curve: |curve, [_, nu, S, _], cycles| curve.brown_miller(cycles, nu, S),
         // In multiples of tau/G: the normal strain over 2 (1 + nu)/E, whose range is twice the
         // amplitude.
-        acts: |[E, nu, S, _], unit| {
-            Acts::OnPlanes(OnPlane {
-                combination: Combination::first(2.0 * S),
+        method: |[E, nu, S, _], unit| {
+            Acts::OnPlanes(PlaneLaw {
+                combination: Combination::on_largest_first_part(2.0 * S),
                 shear: true,
                 strain: Some([0.5, nu / (2.0 * (1.0 + nu))]),
                 factor: 2.0 * (1.0 + nu) * (unit / E),
@@ -264,9 +269,9 @@ fn limits(material: &Material) -> Result<(f64, f64), Error> {
     Ok((material.number("s_D")?, material.number("t_D")?))
 }
 
-/// A law of tau_a and s_n,max.
-fn of_stress(combination: Combination, unit: f64) -> Acts {
-    Acts::OnPlanes(OnPlane {
+/// Combines tau_a and s_n,max.
+fn stress_on_planes(combination: Combination, unit: f64) -> Acts {
+    Acts::OnPlanes(PlaneLaw {
         combination,
         shear: true,
         strain: None,
@@ -274,7 +279,7 @@ fn of_stress(combination: Combination, unit: f64) -> Acts {
     })
 }
 
-/// The criterion has a limit.
+/// Curve of a criterion that has a limit: no life.
 fn without_lives(_: &CoffinManson, _: Numbers, _: f64) -> f64 {
     f64::NAN
 }

@@ -7,8 +7,9 @@
 
 use crate::lanes::{Eight, LANES, Real};
 
+/// Weighted sum of the components of a stress, on eight planes.
 #[inline(always)]
-pub(crate) fn weighted<F: Real>(weights: &[Eight<F>; 6], s: &[F; 6]) -> Eight<F> {
+pub(crate) fn weighted_sum<F: Real>(weights: &[Eight<F>; 6], s: &[F; 6]) -> Eight<F> {
     let mut sum = [F::near(0.0); LANES];
     for c in 0..6 {
         for l in 0..LANES {
@@ -18,7 +19,7 @@ pub(crate) fn weighted<F: Real>(weights: &[Eight<F>; 6], s: &[F; 6]) -> Eight<F>
     sum
 }
 
-/// n.S.n as a sum of the components.
+/// Weights of n.S.n as a sum of the components.
 #[inline(always)]
 pub(crate) fn normal_weights<F: Real>([x, y, z]: &[Eight<F>; 3]) -> [Eight<F>; 6] {
     let two = F::near(2.0);
@@ -34,13 +35,14 @@ pub(crate) fn normal_weights<F: Real>([x, y, z]: &[Eight<F>; 3]) -> [Eight<F>; 6
     weights
 }
 
-/// u.S.n and v.S.n as sums of the components; u and v are unit vectors across n and each other.
+/// Weights of u.S.n and v.S.n as sums of the components; u and v are unit vectors across n and each
+/// other.
 #[inline(always)]
 pub(crate) fn shear_weights<F: Real>(n: &[Eight<F>; 3]) -> [[Eight<F>; 6]; 2] {
     let mut weights = [[[F::near(0.0); LANES]; 6]; 2];
     for l in 0..LANES {
         let n = [n[0][l], n[1][l], n[2][l]];
-        for (weights, u) in weights.iter_mut().zip(across(n)) {
+        for (weights, u) in weights.iter_mut().zip(perpendicular_axes(n)) {
             for c in 0..3 {
                 weights[c][l] = u[c] * n[c];
             }
@@ -55,7 +57,7 @@ pub(crate) fn shear_weights<F: Real>(n: &[Eight<F>; 3]) -> [[Eight<F>; 6]; 2] {
 /// Unit vectors across n and each other, without roots: T. Duff et al., J. Comput. Graph. Tech. 6
 /// (2017) 1-8.
 #[inline(always)]
-fn across<F: Real>([x, y, z]: [F; 3]) -> [[F; 3]; 2] {
+fn perpendicular_axes<F: Real>([x, y, z]: [F; 3]) -> [[F; 3]; 2] {
     let [one, none] = [F::near(1.0), F::near(0.0)];
     let sign = if z < none { none - one } else { one };
     let a = none - F::near(1.0 / (sign + z).wide());

@@ -9,11 +9,11 @@ pub enum Error {
     /// An argument is out of its range.
     #[error("{key} = {value}: must be {allowed}")]
     Argument {
-        /// Which argument.
+        /// Name of the argument.
         key: String,
         /// The value found.
         value: String,
-        /// What is allowed.
+        /// Allowed values.
         allowed: String,
     },
     /// A material, a family or a table of materials is at fault.

@@ -5,8 +5,6 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use ndarray::ArrayView3;
 use rayon::prelude::*;
 
-use crate::acting::Acting;
-use crate::at_point::AtPoint;
 use crate::ball::Search as Balls;
 use crate::criterion::Criterion;
 use crate::critical_plane::{Buffers, Search};
@@ -14,9 +12,11 @@ use crate::definition::Acts;
 use crate::error::Error;
 use crate::histories::Histories;
 use crate::history::{History, plastic_strains, stresses};
-use crate::invariants::sphere;
+use crate::invariants::deviatoric_sphere;
 use crate::on_planes::{OnPlanes, ShearBuffers};
 use crate::plane_function::PlaneFunction;
+use crate::plane_stresses::PlaneStresses;
+use crate::point_result::PointResult;
 
 /// Points whose histories are copied together: a few hundred kilobytes.
 const CHUNK: usize = 64;
@@ -29,8 +29,8 @@ struct Worker {
     sphere: Balls<5>,
 }
 
-/// The criterion on the histories of points, in parallel. The order of the instants does not matter, a
-/// cycle may be given once or several times.
+/// Evaluates a criterion on the histories of points, in parallel. The order of the instants does
+/// not matter, and a cycle may stand once or several times in the history.
 ///
 /// Fails if a stress or strain is not finite, if there are fewer than two instants, if the last axis is
 /// not 6 long, if the plastic strain has another shape or changes the volume, or if the stress is zero
@@ -40,12 +40,14 @@ pub fn evaluate(
     history: &History<'_>,
     search: &Search,
     stop: &AtomicBool,
-) -> Result<Vec<AtPoint>, Error> {
+) -> Result<Vec<PointResult>, Error> {
     history.check()?;
-    let plastic = history.taken_by(criterion);
-    let plastic = plastic.as_ref().map(|(plastic, twice)| (plastic, *twice));
-    let points = over_points(&history.stress, plastic, stop, |worker: &mut Worker, of| {
-        at_point(criterion, of, search, worker)
+    let plastic = history.strain_for(criterion);
+    let plastic = plastic
+        .as_ref()
+        .map(|(plastic, twice_shear)| (plastic, *twice_shear));
+    let points = map_points(&history.stress, plastic, stop, |worker: &mut Worker, of| {
+        evaluate_point(criterion, of, search, worker)
     })?;
     if !points.is_empty() && points.iter().all(Option::is_none) {
         return Err(Error::argument(
@@ -54,13 +56,15 @@ pub fn evaluate(
             "other than zero at some instant",
         ));
     }
-    let known = points.into_iter().map(|p| p.unwrap_or(AtPoint::NOTHING));
-    Ok(known.collect())
+    let results = points
+        .into_iter()
+        .map(|p| p.unwrap_or(PointResult::NOTHING));
+    Ok(results.collect())
 }
 
-/// `f` of the histories of each point; `None` where there is no stress. The plastic strain comes with 2 G
-/// \[Pa\].
-pub(crate) fn over_points<W: Default, T: Send>(
+/// Applies `f` to the histories of each point; returns `None` where there is no stress. The plastic
+/// strain comes with 2 G \[Pa\].
+pub(crate) fn map_points<W: Default, T: Send>(
     stress: &ArrayView3<'_, f64>,
     plastic: Option<(&ArrayView3<'_, f64>, f64)>,
     stop: &AtomicBool,
@@ -71,57 +75,61 @@ pub(crate) fn over_points<W: Default, T: Send>(
         .into_par_iter()
         .map(|chunk| {
             let first = chunk * CHUNK;
-            let here = CHUNK.min(points - first);
-            let stress = stresses(stress, first, here)?;
-            let strains = plastic.map(|plastic| plastic_strains(plastic, first, here));
+            let count = CHUNK.min(points - first);
+            let stress = stresses(stress, first, count)?;
+            let strains = plastic.map(|plastic| plastic_strains(plastic, first, count));
             let strains = strains.transpose()?;
-            let (mut worker, mut of) = (W::default(), Histories::new());
-            let mut found = Vec::with_capacity(here);
+            let (mut worker, mut histories) = (W::default(), Histories::new());
+            let mut results = Vec::with_capacity(count);
             for (p, history) in stress.chunks(instants).enumerate() {
                 if stop.load(Ordering::Relaxed) {
                     return Err(Error::Stopped);
                 }
-                let own = p * instants..(p + 1) * instants;
-                of.load(history, strains.as_ref().map(|strains| &strains[own]));
-                let [size, strained] = of.sizes();
-                found.push((size.max(strained) > 0.0).then(|| f(&mut worker, &of)));
+                let instants_of_point = p * instants..(p + 1) * instants;
+                histories.load(
+                    history,
+                    strains.as_ref().map(|strains| &strains[instants_of_point]),
+                );
+                let [size, strained] = histories.max_components();
+                results.push((size.max(strained) > 0.0).then(|| f(&mut worker, &histories)));
             }
-            Ok(found)
+            Ok(results)
         })
         .collect::<Result<Vec<_>, Error>>()?;
     Ok(chunks.into_iter().flatten().collect())
 }
 
-fn at_point(
+/// Evaluates a criterion at one point.
+fn evaluate_point(
     criterion: &Criterion,
     histories: &Histories,
     search: &Search,
     worker: &mut Worker,
-) -> AtPoint {
+) -> PointResult {
     let path = &histories.stress;
-    let of = match criterion.acts(path.unit()) {
+    let law = match criterion.acts(path.unit()) {
         Acts::OfInvariants(value) => {
-            let sphere = sphere(path, &mut worker.sphere);
-            return value(path, &sphere, criterion.in_order()).at_point(path.unit());
+            let sphere = deviatoric_sphere(path, &mut worker.sphere);
+            return value(path, &sphere, criterion.ordered_numbers()).to_result(path.unit());
         }
-        Acts::OnPlanes(of) => of,
+        Acts::OnPlanes(law) => law,
     };
-    let mut planes = OnPlanes::new(of, histories, &mut worker.shear);
+    let mut planes = OnPlanes::new(law, histories, &mut worker.shear);
     let peak = match planes.without_search() {
         Some(peak) => peak,
         None => search.peak(&mut planes, &mut worker.buffers),
     };
-    let missed = of.factor * peak.missed;
+    let missed = law.factor * peak.missed;
     if peak.n[0].is_nan() {
-        return AtPoint {
+        return PointResult {
             missed,
-            ..AtPoint::NOTHING
+            ..PointResult::NOTHING
         };
     }
-    let n = upward(peak.n);
-    let value = of.factor * of.combination.there(planes.parts(peak.n));
-    let acting = Acting::on(path, n, &mut worker.shear);
-    AtPoint {
+    let n = orient_upward(peak.n);
+    let value = law.factor * law.combination.criterion_value(planes.parts(peak.n));
+    let acting = PlaneStresses::new(path, n, &mut worker.shear);
+    PointResult {
         value,
         missed,
         planes: peak.planes,
@@ -136,8 +144,8 @@ fn at_point(
 /// Components of a normal below this are errors of its search.
 const NOISE: f64 = 1e-9;
 
-/// Of a normal and its opposite, the one that points along z, y or x, without noise.
-fn upward(n: [f64; 3]) -> [f64; 3] {
+/// Returns a normal or its opposite, whichever points along z, y or x, without noise.
+fn orient_upward(n: [f64; 3]) -> [f64; 3] {
     let n = n.map(|v| if v.abs() < NOISE { 0.0 } else { v });
     let first = [2, 1, 0].into_iter().find(|d| n[*d] != 0.0);
     if first.is_some_and(|d| n[d] < 0.0) {

@@ -15,15 +15,16 @@
 use crate::hemisphere::{Face, Triangle};
 use crate::path::{cross, dot};
 
-/// No number of the face exceeds this: `corners` are at least the values at the corners, `low` at
-/// most any value on the face, `K` the bound of the second derivative.
-pub(crate) fn most_on(face: &Face, corners: [f64; 3], low: f64, K: f64) -> f64 {
+/// Upper bound of a function on the face. `corners` are at least the values at the corners, `low`
+/// is at most any value on the face, `K` is the bound of the second derivative.
+pub(crate) fn max_on_face(face: &Face, corners: [f64; 3], low: f64, K: f64) -> f64 {
     let raised = corners.map(|f| K + (f - low));
-    inside(&face.corners, raised).unwrap_or_else(|| on_edges(&face.corners, raised)) - K + low
+    max_inside(&face.corners, raised).unwrap_or_else(|| max_on_edges(&face.corners, raised)) - K
+        + low
 }
 
 /// The largest S/|v| of the plane of the corners, if it is in the triangle.
-fn inside([a, b, c]: &Triangle, [s_a, s_b, s_c]: [f64; 3]) -> Option<f64> {
+fn max_inside([a, b, c]: &Triangle, [s_a, s_b, s_c]: [f64; 3]) -> Option<f64> {
     let (p, q) = (minus(b, a), minus(c, a));
     let normal = cross(p, q);
     let square = dot(normal, normal);
@@ -34,15 +35,15 @@ fn inside([a, b, c]: &Triangle, [s_a, s_b, s_c]: [f64; 3]) -> Option<f64> {
     let h_squared = height * height / square;
     let at_foot = s_a - dot(g, *a);
     // From the first corner to the foot and on to the top.
-    let (foot, on) = (height / square, h_squared / at_foot);
-    let y = [0, 1, 2].map(|d| foot * normal[d] - a[d] + on * g[d]);
+    let (foot, along_slope) = (height / square, h_squared / at_foot);
+    let y = [0, 1, 2].map(|d| foot * normal[d] - a[d] + along_slope * g[d]);
     let (w_b, w_c) = (dot(y, across_q) / square, dot(y, across_p) / square);
-    let within = w_b >= 0.0 && w_c >= 0.0 && w_b + w_c <= 1.0;
-    within.then(|| (at_foot * at_foot / h_squared + dot(g, g)).sqrt())
+    let is_inside = w_b >= 0.0 && w_c >= 0.0 && w_b + w_c <= 1.0;
+    is_inside.then(|| (at_foot * at_foot / h_squared + dot(g, g)).sqrt())
 }
 
 /// The largest S/|v| of the edges.
-fn on_edges([a, b, c]: &Triangle, [s_a, s_b, s_c]: [f64; 3]) -> f64 {
+fn max_on_edges([a, b, c]: &Triangle, [s_a, s_b, s_c]: [f64; 3]) -> f64 {
     let edge = |a: &[f64; 3], b: &[f64; 3], s_a: f64, s_b: f64| {
         let chord = minus(b, a);
         let length_squared = dot(chord, chord);
@@ -54,8 +55,8 @@ fn on_edges([a, b, c]: &Triangle, [s_a, s_b, s_c]: [f64; 3]) -> f64 {
             s_a.max(s_b).powi(2)
         }
     };
-    let most = edge(a, b, s_a, s_b).max(edge(b, c, s_b, s_c));
-    most.max(edge(c, a, s_c, s_a)).sqrt()
+    let largest = edge(a, b, s_a, s_b).max(edge(b, c, s_b, s_c));
+    largest.max(edge(c, a, s_c, s_a)).sqrt()
 }
 
 fn minus(a: &[f64; 3], b: &[f64; 3]) -> [f64; 3] {

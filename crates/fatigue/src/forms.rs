@@ -24,7 +24,7 @@ pub(crate) const EDGES: [(usize, usize); 3] = [(0, 1), (1, 2), (2, 0)];
 
 /// A_ij and B_ij.
 pub(crate) struct Forms {
-    /// Both of a corner with itself.
+    /// A_ii and B_ii of each corner.
     pub(crate) corners: [[f64; 2]; 3],
     pub(crate) edges: [[f64; 2]; 3],
     /// a_i.a_j of the edges.
@@ -41,22 +41,23 @@ impl Forms {
     }
 
     /// Upper bound of a part on the triangle.
-    pub(crate) fn largest(&self, part: usize) -> f64 {
+    pub(crate) fn max_part(&self, part: usize) -> f64 {
         let corners = self.corners.iter().map(|parts| parts[part]);
         let edges = self.edges.iter().zip(self.cosines);
         let edges = edges.map(|(parts, cosine)| parts[part] / cosine);
         corners.chain(edges).fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// The least of the ascending `values` that is proved to be an upper bound of the criterion.
-    pub(crate) fn least_of(&self, values: &[f64; 3], tangents: &[Tangent]) -> Option<f64> {
-        let proved = |value: &&f64| tangents.iter().any(|t| self.are_at_most(t, **value));
+    /// Returns the least of the ascending `values` that is proved to be an upper bound of the
+    /// criterion.
+    pub(crate) fn smallest_proved(&self, values: &[f64; 3], tangents: &[Tangent]) -> Option<f64> {
+        let proved = |value: &&f64| tangents.iter().any(|t| self.is_bound(t, **value));
         values.iter().rev().take_while(proved).last().copied()
     }
 
-    /// Whether `value` is proved to be an upper bound by this tangent.
-    fn are_at_most(&self, tangent: &Tangent, value: f64) -> bool {
-        let level = tangent.sum_of(value) - tangent.constant;
+    /// Checks that this tangent proves `value` to be an upper bound.
+    fn is_bound(&self, tangent: &Tangent, value: f64) -> bool {
+        let level = tangent.sum_at_value(value) - tangent.constant;
         let below = |parts: [f64; 2], cosine: f64| {
             level * cosine - tangent.first * parts[0] - tangent.second * parts[1]
         };
@@ -69,7 +70,7 @@ impl Forms {
 }
 
 /// The corners of at most eight faces, the faces side by side.
-pub(crate) fn corners_of(faces: &[Face]) -> [[Eight<f64>; 3]; 3] {
+pub(crate) fn gather_corners(faces: &[Face]) -> [[Eight<f64>; 3]; 3] {
     let mut corners = [[[0.0; LANES]; 3]; 3];
     for l in 0..LANES {
         let face = &faces[l.min(faces.len() - 1)];
@@ -83,7 +84,7 @@ pub(crate) fn corners_of(faces: &[Face]) -> [[Eight<f64>; 3]; 3] {
 }
 
 /// Lowers the bounds of at most eight faces.
-pub(crate) fn lower(faces: &mut [Face], most: impl Fn(usize, &Face) -> f64) {
+pub(crate) fn lower_bounds(faces: &mut [Face], most: impl Fn(usize, &Face) -> f64) {
     debug_assert!(faces.len() <= LANES);
     for (l, face) in faces.iter_mut().enumerate() {
         face.most = face.most.min(most(l, face));

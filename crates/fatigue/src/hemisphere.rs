@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use crate::path::{cross, dot, unit};
+use crate::path::{cross, dot, normalize};
 
 /// Corners of a triangle on the sphere, as unit vectors.
 pub(crate) type Triangle = [[f64; 3]; 3];
@@ -40,14 +40,14 @@ pub(crate) struct Hemisphere {
 }
 
 /// 40 faces, for criteria with sharp bounds on large faces.
-pub(crate) static COARSE: LazyLock<Hemisphere> = LazyLock::new(|| hemisphere(1));
+pub(crate) static COARSE: LazyLock<Hemisphere> = LazyLock::new(|| build_hemisphere(1));
 /// 160 faces.
-pub(crate) static FINE: LazyLock<Hemisphere> = LazyLock::new(|| hemisphere(2));
+pub(crate) static FINE: LazyLock<Hemisphere> = LazyLock::new(|| build_hemisphere(2));
 
-fn hemisphere(cuts: usize) -> Hemisphere {
+fn build_hemisphere(cuts: usize) -> Hemisphere {
     let mut faces: Vec<Triangle> = half_icosahedron();
     for _ in 0..cuts {
-        faces = faces.iter().flat_map(cut).collect();
+        faces = faces.iter().flat_map(divide_triangle).collect();
     }
     let mut planes: Vec<[f64; 3]> = Vec::new();
     let mut number = |n: [f64; 3]| {
@@ -75,7 +75,7 @@ fn half_icosahedron() -> Vec<Triangle> {
         (-1.0, golden),
         (-1.0, -golden),
     ] {
-        corners.extend([[0.0, a, b], [a, b, 0.0], [b, 0.0, a]].map(unit));
+        corners.extend([[0.0, a, b], [a, b, 0.0], [b, 0.0, a]].map(normalize));
     }
     // Corners of a face are neighbours: the cosine between them is 1/sqrt 5.
     let near = |a: [f64; 3], b: [f64; 3]| (dot(a, b) - 0.2_f64.sqrt()).abs() < 1e-9;
@@ -84,8 +84,9 @@ fn half_icosahedron() -> Vec<Triangle> {
         for (j, &b) in corners.iter().enumerate().skip(i + 1) {
             for &c in &corners[j + 1..] {
                 if near(a, b) && near(b, c) && near(a, c) {
-                    let middle = middle([a, b, c]);
-                    let opposite = |f: &Triangle| dot(self::middle(*f), middle) < -1.0 + 1e-9;
+                    let centre = centroid_on_sphere([a, b, c]);
+                    let opposite =
+                        |f: &Triangle| dot(self::centroid_on_sphere(*f), centre) < -1.0 + 1e-9;
                     if !faces.iter().any(opposite) {
                         faces.push([a, b, c]);
                     }
@@ -96,30 +97,34 @@ fn half_icosahedron() -> Vec<Triangle> {
     faces
 }
 
-fn middle([a, b, c]: Triangle) -> [f64; 3] {
-    unit(std::array::from_fn(|d| a[d] + b[d] + c[d]))
+fn centroid_on_sphere([a, b, c]: Triangle) -> [f64; 3] {
+    normalize(std::array::from_fn(|d| a[d] + b[d] + c[d]))
 }
 
 /// The middle of the arc between two corners.
-pub(crate) fn midway(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    unit(std::array::from_fn(|d| a[d] + b[d]))
+pub(crate) fn arc_midpoint(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    normalize(std::array::from_fn(|d| a[d] + b[d]))
 }
 
-fn cut([a, b, c]: &Triangle) -> [Triangle; 4] {
-    let (ab, bc, ca) = (midway(*a, *b), midway(*b, *c), midway(*c, *a));
+fn divide_triangle([a, b, c]: &Triangle) -> [Triangle; 4] {
+    let (ab, bc, ca) = (
+        arc_midpoint(*a, *b),
+        arc_midpoint(*b, *c),
+        arc_midpoint(*c, *a),
+    );
     [[*a, ab, ca], [ab, *b, bc], [ca, bc, *c], [ab, bc, ca]]
 }
 
 /// 1/cos r - 1, r being the radius of the circle through the corners.
 pub(crate) fn sag([a, b, c]: &Triangle) -> f64 {
-    let edge = |to: &[f64; 3]| std::array::from_fn(|d| to[d] - a[d]);
+    let edge = |corner: &[f64; 3]| std::array::from_fn(|d| corner[d] - a[d]);
     let axis = cross(edge(b), edge(c));
     let height = dot(axis, *a).abs();
     // With w the axis: |w|/(w.a) - 1, the difference of near numbers written as a product.
     let flat = cross(axis, *a);
-    let across = dot(flat, flat);
+    let square = dot(flat, flat);
     let length = dot(axis, axis).sqrt();
-    across / (height * (length + height))
+    square / (height * (length + height))
 }
 
 #[cfg(test)]
@@ -144,9 +149,9 @@ mod tests {
     fn the_sag_is_that_of_the_circle_through_the_corners() {
         for r in [0.3_f64, 1e-5] {
             let corner = |angle: f64| [r.sin() * angle.cos(), r.sin() * angle.sin(), r.cos()];
-            let found = sag(&[corner(0.3), corner(2.0), corner(4.4)]);
+            let computed = sag(&[corner(0.3), corner(2.0), corner(4.4)]);
             let exact = 2.0 * (r / 2.0).sin().powi(2) / r.cos();
-            assert!((found / exact - 1.0).abs() < 1e-9, "{found} {exact}");
+            assert!((computed / exact - 1.0).abs() < 1e-9, "{computed} {exact}");
         }
     }
 }

@@ -12,13 +12,13 @@ use stress_tensor::StressTensor;
 
 use crate::circle::Circles;
 use crate::lanes::Lanes;
-use crate::path::{Frame, Path, power_of_two, size};
+use crate::path::{Frame, Path, max_abs, power_of_two};
 
-/// Stress and strain of a point.
+/// Stress and strain of a point over time.
 pub(crate) struct Histories {
     /// The stress.
     pub(crate) stress: Path,
-    /// S*, where the plastic strain changes.
+    /// S*, if the plastic strain changes.
     strained: Path,
     yields: bool,
     buffer: Vec<StressTensor>,
@@ -37,19 +37,19 @@ impl Histories {
     /// Takes the stress at every instant \[Pa\], at least one, and 2 G e_p at the same instants \[Pa\],
     /// if there is any.
     pub(crate) fn load(&mut self, stress: &[StressTensor], plastic: Option<&[StressTensor]>) {
-        let changes = |of: &&[StressTensor]| of.iter().any(|e| *e != of[0]);
+        let changes = |strains: &&[StressTensor]| strains.iter().any(|e| *e != strains[0]);
         let Some(plastic) = plastic.filter(changes) else {
             self.yields = false;
             self.stress
-                .load(stress, power_of_two(size(stress.as_flattened())));
+                .load(stress, power_of_two(max_abs(stress.as_flattened())));
             return;
         };
         self.yields = true;
         self.buffer.clear();
-        let both = stress.iter().zip(plastic);
+        let pairs = stress.iter().zip(plastic);
         self.buffer
-            .extend(both.map(|(s, e)| std::array::from_fn(|c| s[c] + (e[c] - plastic[0][c]))));
-        let largest = size(stress.as_flattened()).max(size(self.buffer.as_flattened()));
+            .extend(pairs.map(|(s, e)| std::array::from_fn(|c| s[c] + (e[c] - plastic[0][c]))));
+        let largest = max_abs(stress.as_flattened()).max(max_abs(self.buffer.as_flattened()));
         let unit = power_of_two(largest);
         self.stress.load(stress, unit);
         self.strained.load(&self.buffer, unit);
@@ -64,16 +64,20 @@ impl Histories {
         }
     }
 
-    /// S*, where it is not the stress.
-    pub(crate) fn apart(&self) -> Option<&Path> {
+    /// S*, if it differs from the stress.
+    pub(crate) fn distinct_strain(&self) -> Option<&Path> {
         self.yields.then_some(&self.strained)
     }
 
-    /// Largest component of any instant by absolute value, of the stress and of S*; the larger is between
-    /// 1 and 2, or both are 0.
-    pub(crate) fn sizes(&self) -> [f64; 2] {
-        let of_stress = self.stress.size();
-        [of_stress, self.apart().map_or(of_stress, Path::size)]
+    /// Largest component of any instant by absolute value, of the stress and of S*. The larger of
+    /// the two is between 1 and 2, or both are 0.
+    pub(crate) fn max_components(&self) -> [f64; 2] {
+        let of_stress = self.stress.max_component();
+        [
+            of_stress,
+            self.distinct_strain()
+                .map_or(of_stress, Path::max_component),
+        ]
     }
 
     /// Bounds of Tresca's equivalent stress, from von Mises': the largest of any instant, and the largest of
@@ -82,7 +86,7 @@ impl Histories {
         let (whole, deviation) = self.stress.tresca_bounds();
         (
             whole,
-            self.apart()
+            self.distinct_strain()
                 .map_or(deviation, |path| path.tresca_bounds().1),
         )
     }
@@ -96,17 +100,17 @@ impl Histories {
     ) -> [f64; 2] {
         let s_n = self
             .stress
-            .resolve(self.strained(), &Frame::across(n), shear);
-        [circles.round(shear).radius, s_n]
+            .resolve_on_plane(self.strained(), &Frame::from_normal(n), shear);
+        [circles.smallest_circle(shear).radius, s_n]
     }
 
     /// The tensor whose normal component is half of the difference of the normal strains of two instants.
-    pub(crate) fn strain_amplitude_of(
+    pub(crate) fn strain_amplitude_tensor(
         &self,
         ends: [usize; 2],
         [along, across]: [f64; 2],
     ) -> StressTensor {
-        let [most, least] = ends.map(|k| self.strained().at(k));
+        let [most, least] = ends.map(|k| self.strained().stress_at(k));
         let change: StressTensor = std::array::from_fn(|c| (most[c] - least[c]) / 2.0);
         let trace = change[0] + change[1] + change[2];
         std::array::from_fn(|c| along * change[c] - if c < 3 { across * trace } else { 0.0 })

@@ -1,4 +1,4 @@
-//! What criteria judge: stress and plastic strain of points over time.
+//! The input of a criterion: stress and plastic strain of points over time.
 
 use ndarray::ArrayView3;
 use stress_tensor::StressTensor;
@@ -23,7 +23,7 @@ pub struct History<'a> {
 }
 
 impl<'a> History<'a> {
-    /// Of points that stay elastic, or whose plastic strain is constant.
+    /// History of points that stay elastic, or whose plastic strain is constant.
     pub fn elastic(stress: &ArrayView3<'a, f64>) -> Self {
         Self {
             stress: *stress,
@@ -31,7 +31,7 @@ impl<'a> History<'a> {
         }
     }
 
-    /// Fails without a history.
+    /// Fails if the shape is wrong, or with fewer than two instants.
     pub(crate) fn check(&self) -> Result<(), Error> {
         let (instants, _, components) = self.stress.dim();
         if components != 6 {
@@ -43,18 +43,21 @@ impl<'a> History<'a> {
             return Err(Error::argument("instants of stress", instants, allowed));
         }
         let (shape, plastic) = (self.stress.dim(), self.plastic.as_ref());
-        match plastic.map(ArrayView3::dim).filter(|own| *own != shape) {
-            Some(own) => {
+        match plastic
+            .map(ArrayView3::dim)
+            .filter(|strain_shape| *strain_shape != shape)
+        {
+            Some(strain_shape) => {
                 let allowed = format!("of the shape of the stress, {shape:?}");
-                let found = format!("an array of shape {own:?}");
-                Err(Error::argument("plastic strain", found, allowed))
+                let actual = format!("an array of shape {strain_shape:?}");
+                Err(Error::argument("plastic strain", actual, allowed))
             }
             None => Ok(()),
         }
     }
 
-    /// The plastic strain, if a criterion takes it, and 2 G by which it is a stress \[Pa\].
-    pub(crate) fn taken_by(&self, criterion: &Criterion) -> Option<(ArrayView3<'a, f64>, f64)> {
+    /// The plastic strain, if a criterion takes it, and 2 G, which converts it to a stress \[Pa\].
+    pub(crate) fn strain_for(&self, criterion: &Criterion) -> Option<(ArrayView3<'a, f64>, f64)> {
         self.plastic.zip(criterion.twice_shear_modulus())
     }
 }
@@ -65,7 +68,7 @@ pub(crate) fn stresses(
     first: usize,
     points: usize,
 ) -> Result<Vec<StressTensor>, Error> {
-    copied(stress, first, points, |t, p, tensor| {
+    copy_tensors(stress, first, points, |t, p, tensor| {
         let bad = tensor.iter().position(|s| !(s.abs() <= LARGEST));
         let Some(c) = bad else { return Ok(tensor) };
         let key = format!("stress[{t}, {p}, {c}]");
@@ -80,35 +83,36 @@ pub(crate) fn plastic_strains(
     first: usize,
     points: usize,
 ) -> Result<Vec<StressTensor>, Error> {
-    copied(plastic, first, points, |t, p, tensor| {
+    copy_tensors(plastic, first, points, |t, p, tensor| {
         let largest = tensor.iter().fold(0.0_f64, |m, e| m.max(e.abs()));
-        let grown = tensor[0] + tensor[1] + tensor[2];
+        let volume_change = tensor[0] + tensor[1] + tensor[2];
         let bad = tensor.iter().find(|e| !(twice_shear * e.abs() <= LARGEST));
         if let Some(bad) = bad {
             let key = format!("plastic strain[{t}, {p}]");
             return Err(Error::argument(key, bad, "a finite strain"));
         }
-        if grown.abs() > VOLUME * largest {
+        if volume_change.abs() > VOLUME * largest {
             let key = format!("xx + yy + zz of the plastic strain[{t}, {p}]");
             let allowed = "0: plastic strain keeps the volume";
-            return Err(Error::argument(key, grown, allowed));
+            return Err(Error::argument(key, volume_change, allowed));
         }
         Ok(tensor.map(|e| twice_shear * e))
     })
 }
 
-fn copied(
-    of: &ArrayView3<'_, f64>,
+/// Copies the tensors of a few points, each after its conversion by `convert(t, point, tensor)`.
+fn copy_tensors(
+    tensors_of_all: &ArrayView3<'_, f64>,
     first: usize,
     points: usize,
-    taken: impl Fn(usize, usize, StressTensor) -> Result<StressTensor, Error>,
+    convert: impl Fn(usize, usize, StressTensor) -> Result<StressTensor, Error>,
 ) -> Result<Vec<StressTensor>, Error> {
-    let instants = of.dim().0;
+    let instants = tensors_of_all.dim().0;
     let mut tensors = vec![[0.0; 6]; points * instants];
     for t in 0..instants {
         for p in 0..points {
-            let tensor = std::array::from_fn(|c| of[(t, first + p, c)]);
-            tensors[p * instants + t] = taken(t, first + p, tensor)?;
+            let tensor = std::array::from_fn(|c| tensors_of_all[(t, first + p, c)]);
+            tensors[p * instants + t] = convert(t, first + p, tensor)?;
         }
     }
     Ok(tensors)

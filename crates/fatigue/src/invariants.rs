@@ -2,10 +2,10 @@
 
 use stress_tensor::{StressTensor, hydrostatic, tresca};
 
-use crate::at_point::AtPoint;
 use crate::ball::{Ball, Search as Balls};
 use crate::lanes::{LANES, Lanes};
-use crate::path::{Path, power_of_two, size};
+use crate::path::{Path, max_abs, power_of_two};
+use crate::point_result::PointResult;
 
 /// sqrt 3.
 const ROOT3: f64 = 1.732_050_807_568_877_2;
@@ -21,21 +21,21 @@ pub(crate) fn deviatoric([xx, yy, zz, xy, xz, yz]: StressTensor) -> [f64; 5] {
     ]
 }
 
-/// The deviatoric stress of five coordinates.
-pub(crate) fn tensor([a, b, xy, xz, yz]: [f64; 5]) -> StressTensor {
+/// The deviatoric tensor of five coordinates.
+pub(crate) fn from_deviatoric([a, b, xy, xz, yz]: [f64; 5]) -> StressTensor {
     let b = b / ROOT3;
     [a - b, -a - b, 2.0 * b, xy, xz, yz]
 }
 
 /// The smallest sphere round the path of the deviatoric stress; its radius is sqrt(J2,a), in the
 /// unit of the path.
-pub(crate) fn sphere(path: &Path, balls: &mut Balls<5>) -> Ball<5> {
+pub(crate) fn deviatoric_sphere(path: &Path, balls: &mut Balls<5>) -> Ball<5> {
     let block = |block: &[Lanes; 6]| {
         let mut coordinates = [[0.0; LANES]; 5];
         for l in 0..LANES {
-            let at = deviatoric(block.map(|lanes| lanes[l]));
+            let coordinates_of_instant = deviatoric(block.map(|lanes| lanes[l]));
             for d in 0..5 {
-                coordinates[d][l] = at[d];
+                coordinates[d][l] = coordinates_of_instant[d];
             }
         }
         coordinates
@@ -43,7 +43,7 @@ pub(crate) fn sphere(path: &Path, balls: &mut Balls<5>) -> Ball<5> {
     balls.ball(&path.blocks.iter().map(block).collect())
 }
 
-/// A criterion on invariants: its value, with its shear and hydrostatic stress.
+/// Value of a criterion on invariants, with its shear and hydrostatic stress.
 #[derive(Clone, Copy)]
 pub(crate) struct OfInvariants {
     value: f64,
@@ -53,8 +53,8 @@ pub(crate) struct OfInvariants {
 
 impl OfInvariants {
     /// The result in Pa, stresses being given in a unit \[Pa\].
-    pub(crate) fn at_point(self, unit: f64) -> AtPoint {
-        AtPoint {
+    pub(crate) fn to_result(self, unit: f64) -> PointResult {
+        PointResult {
             value: unit * self.value,
             missed: 0.0,
             planes: 0,
@@ -85,23 +85,23 @@ pub(crate) fn dang_van(path: &Path, sphere: &Ball<5>, alpha: f64) -> OfInvariant
         shear,
         pressure,
     });
-    let nothing = OfInvariants {
+    let no_stress = OfInvariants {
         value: f64::NEG_INFINITY,
         shear: 0.0,
         pressure: 0.0,
     };
     instants.fold(
-        nothing,
+        no_stress,
         |worst, now| if now.value > worst.value { now } else { worst },
     )
 }
 
 /// Mesoscopic shear tau and hydrostatic stress at every instant.
 fn tau_and_pressure(path: &Path, sphere: &Ball<5>) -> impl Iterator<Item = (f64, f64)> {
-    let centre = tensor(sphere.centre);
+    let centre = from_deviatoric(sphere.centre);
     path.instants().map(move |s| {
-        let from: StressTensor = std::array::from_fn(|c| s[c] - centre[c]);
-        (tresca(&from) / 2.0, hydrostatic(&s))
+        let deviation: StressTensor = std::array::from_fn(|c| s[c] - centre[c]);
+        (tresca(&deviation) / 2.0, hydrostatic(&s))
     })
 }
 
@@ -112,10 +112,10 @@ pub fn dang_van_path(stress: &[StressTensor]) -> Vec<(f64, f64)> {
         return Vec::new();
     }
     let mut path = Path::new();
-    path.load(stress, power_of_two(size(stress.as_flattened())));
-    let sphere = sphere(&path, &mut Balls::default());
+    path.load(stress, power_of_two(max_abs(stress.as_flattened())));
+    let sphere = deviatoric_sphere(&path, &mut Balls::default());
     let in_pascal = |(tau, p): (f64, f64)| (path.unit() * tau, path.unit() * p);
-    let mut found: Vec<_> = tau_and_pressure(&path, &sphere).map(in_pascal).collect();
-    found.truncate(stress.len());
-    found
+    let mut path_points: Vec<_> = tau_and_pressure(&path, &sphere).map(in_pascal).collect();
+    path_points.truncate(stress.len());
+    path_points
 }

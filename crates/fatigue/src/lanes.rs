@@ -30,13 +30,13 @@ pub(crate) trait Real:
     fn near(value: f64) -> Self;
     /// The number in double precision.
     fn wide(self) -> f64;
-    /// self by + add.
+    /// self times by, plus add.
     fn mul_add(self, by: Self, add: Self) -> Self;
-    /// Keeps the larger of each.
+    /// Keeps the larger number in each lane.
     fn raise<S: Simd>(simd: S, most: &mut Eight<Self>, by: &Eight<Self>);
-    /// Keeps the smaller of each.
+    /// Keeps the smaller number in each lane.
     fn lower<S: Simd>(simd: S, least: &mut Eight<Self>, by: &Eight<Self>);
-    /// Keeps the larger of each, and the mark that goes with it.
+    /// Keeps the larger number in each lane, and its mark.
     fn raise_marked<S: Simd>(
         simd: S,
         most: &mut Eight<Self>,
@@ -44,7 +44,7 @@ pub(crate) trait Real:
         by: &Eight<Self>,
         mark: Self,
     );
-    /// Keeps the smaller of each, and the mark that goes with it.
+    /// Keeps the smaller number in each lane, and its mark.
     fn lower_marked<S: Simd>(
         simd: S,
         least: &mut Eight<Self>,
@@ -142,7 +142,7 @@ real!(
 
 /// The largest of the lanes.
 #[inline(always)]
-pub(crate) fn top(lanes: &Lanes) -> f64 {
+pub(crate) fn max_lane(lanes: &Lanes) -> f64 {
     let larger = |a: f64, b: f64| if a > b { a } else { b };
     let [a, b, c, d, e, f, g, h] = *lanes;
     larger(
@@ -153,29 +153,29 @@ pub(crate) fn top(lanes: &Lanes) -> f64 {
 
 /// The smallest of the lanes.
 #[inline(always)]
-pub(crate) fn bottom(lanes: &Lanes) -> f64 {
-    -top(&lanes.map(|v| -v))
+pub(crate) fn min_lane(lanes: &Lanes) -> f64 {
+    -max_lane(&lanes.map(|v| -v))
 }
 
 /// The largest number of all blocks.
 #[inline(always)]
-pub(crate) fn largest(blocks: &[Lanes]) -> f64 {
-    let mut most = [f64::NEG_INFINITY; LANES];
+pub(crate) fn max_of_blocks(blocks: &[Lanes]) -> f64 {
+    let mut largest = [f64::NEG_INFINITY; LANES];
     for block in blocks {
         for l in 0..LANES {
-            most[l] = if block[l] > most[l] {
+            largest[l] = if block[l] > largest[l] {
                 block[l]
             } else {
-                most[l]
+                largest[l]
             };
         }
     }
-    top(&most)
+    max_lane(&largest)
 }
 
-/// The instant at which the number is `value`, 0 if at none.
+/// Index of the number that is `value`, 0 if there is none.
 #[inline(always)]
-pub(crate) fn place_of(blocks: &[Lanes], value: f64) -> usize {
+pub(crate) fn index_of_value(blocks: &[Lanes], value: f64) -> usize {
     let equal = |v: &f64| v.to_bits() == value.to_bits();
     blocks.as_flattened().iter().position(equal).unwrap_or(0)
 }

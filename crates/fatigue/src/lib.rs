@@ -1,11 +1,11 @@
 //! Will it crack, yield or shake down? Criteria of multiaxial fatigue on plain stress histories.
 //!
-//! Arrays in, numbers out: nothing here knows where a stress comes from. A history is of shape
-//! (time, points, 6), components xx, yy, zz, xy, xz, yz, tension positive, in Pa; a [`History`] may have
-//! the plastic strain beside it. [`evaluate`] takes a [`Criterion`] to all points in parallel: its value, the critical plane, and the most
-//! that another plane may have. [`Assessment`] has a criterion's weights, limit and lives from the
-//! numbers of a [`Material`]; [`yielding`] gives load factors of first yield and of elastic
-//! shakedown.
+//! Arrays in, numbers out: the source of a stress does not matter here. A history is of shape
+//! (time, points, 6), components xx, yy, zz, xy, xz, yz, tension positive, in Pa. A [`History`] may
+//! have the plastic strain beside it. [`evaluate`] applies a [`Criterion`] to all points in
+//! parallel. It returns its value, the critical plane, and the most that another plane may have.
+//! [`Assessment`] has a criterion's weights, limit and lives from the numbers of a [`Material`].
+//! [`yielding`] gives load factors of first yield and of elastic shakedown.
 //!
 //! ```
 //! use std::sync::atomic::AtomicBool;
@@ -21,19 +21,17 @@
 //!     stress[(t, 0, 3)] = 150e6 * cos;
 //! }
 //! let steel = &materials()["steel_42CrMo4"];
-//! let findley = Assessment::of("findley", steel)?;
+//! let findley = Assessment::from_name("findley", steel)?;
 //! let never = AtomicBool::new(false);
-//! let found = evaluate(&findley.criterion, &History::elastic(&stress.view()), &Search::default(), &never)?;
-//! println!("on the plane {:?}: {:.3e} Pa", found[0].normal, found[0].value);
-//! assert!((findley.safety_factor(found[0].value) - 1.108).abs() < 1e-3);
+//! let results = evaluate(&findley.criterion, &History::elastic(&stress.view()),
+//! &Search::default(), &never)?; println!("on the plane {:?}: {:.3e} Pa", results[0].normal,
+//! results[0].value); assert!((findley.safety_factor(results[0].value) - 1.108).abs() < 1e-3);
 //! # Ok::<(), fatigue::Error>(())
 //! ```
 
 #![forbid(unsafe_code)]
 
-mod acting;
 mod assessment;
-mod at_point;
 mod ball;
 mod circle;
 mod combination;
@@ -46,6 +44,7 @@ mod eight_weights;
 mod error;
 mod evaluate;
 mod face_bound;
+mod face_limit;
 mod forms;
 mod hemisphere;
 mod histories;
@@ -54,10 +53,11 @@ mod invariants;
 mod judge;
 mod lanes;
 mod life;
-mod limit;
 mod on_planes;
 mod path;
 mod plane_function;
+mod plane_stresses;
+mod point_result;
 mod product_bound;
 mod range;
 mod refine;
@@ -66,7 +66,6 @@ mod shear_bound;
 mod tangent;
 
 pub use assessment::{Assessment, LONGEST};
-pub use at_point::AtPoint;
 pub use ball::{Ball, smallest_ball};
 pub use criterion::Criterion;
 pub use critical_plane::Search;
@@ -81,5 +80,6 @@ pub use material_table::{
     Allowed, ESTIMATE, Family, Known, Material, QUANTITIES, Quantity, Sourced, estimated, find,
     materials, read,
 };
+pub use point_result::PointResult;
 pub use range::{LifeRange, Range};
 pub use shakedown::{Yield, yielding};

@@ -5,7 +5,7 @@
 
 use crate::error::Error;
 
-/// Longest life that is told apart from an endless one \[cycles\].
+/// Longest finite life: above it a life is infinite \[cycles\].
 const ENDLESS: f64 = 1e15;
 
 /// A curve of stress: amplitude = coefficient (2 N)^exponent \[Pa\].
@@ -41,13 +41,13 @@ impl Basquin {
         if amplitude <= 0.0 {
             return f64::INFINITY;
         }
-        bounded(0.5 * (amplitude / self.coefficient).powf(1.0 / self.exponent))
+        cap_life(0.5 * (amplitude / self.coefficient).powf(1.0 / self.exponent))
     }
 
     /// Fails if a number is out of its range.
     pub fn check(&self) -> Result<(), Error> {
-        positive("coefficient", self.coefficient)?;
-        falling("exponent", self.exponent)
+        check_positive("coefficient", self.coefficient)?;
+        check_negative("exponent", self.exponent)
     }
 }
 
@@ -59,7 +59,7 @@ impl CoffinManson {
 
     /// Cycles under a strain amplitude; infinite for none.
     pub fn life(&self, amplitude: f64) -> f64 {
-        inverted(amplitude, |N| self.amplitude(N))
+        invert_curve(amplitude, |N| self.amplitude(N))
     }
 
     /// Value of Smith, Watson and Topper's criterion at a life of N cycles \[Pa\]: a fully reversed
@@ -86,21 +86,21 @@ impl CoffinManson {
 
     /// Fails if a number is out of its range.
     pub fn check(&self) -> Result<(), Error> {
-        positive("E", self.E)?;
+        check_positive("E", self.E)?;
         self.elastic.check()?;
-        positive("ductility", self.ductility)?;
-        falling("ductility exponent", self.exponent)
+        check_positive("ductility", self.ductility)?;
+        check_negative("ductility exponent", self.exponent)
     }
 
     /// Weighted elastic and plastic strain.
     fn sum(&self, [elastic, plastic]: [f64; 2], cycles: f64) -> f64 {
-        let of_stress = self.elastic.amplitude(cycles) / self.E;
-        elastic * of_stress + plastic * self.ductility * (2.0 * cycles).powf(self.exponent)
+        let elastic_strain = self.elastic.amplitude(cycles) / self.E;
+        elastic * elastic_strain + plastic * self.ductility * (2.0 * cycles).powf(self.exponent)
     }
 }
 
-/// The cycles at which a falling curve has the value; by bisection of the logarithm.
-pub(crate) fn inverted(value: f64, curve: impl Fn(f64) -> f64) -> f64 {
+/// Finds the cycles at which a falling curve has the value, by bisection of the logarithm.
+pub(crate) fn invert_curve(value: f64, curve: impl Fn(f64) -> f64) -> f64 {
     if value.is_nan() {
         return f64::NAN;
     }
@@ -119,7 +119,8 @@ pub(crate) fn inverted(value: f64, curve: impl Fn(f64) -> f64) -> f64 {
     f64::midpoint(low, high).exp()
 }
 
-fn bounded(cycles: f64) -> f64 {
+/// Makes a life beyond [`ENDLESS`] infinite.
+fn cap_life(cycles: f64) -> f64 {
     if cycles > ENDLESS {
         f64::INFINITY
     } else {
@@ -127,14 +128,16 @@ fn bounded(cycles: f64) -> f64 {
     }
 }
 
-fn positive(key: &str, value: f64) -> Result<(), Error> {
+/// Fails if a number is not positive.
+fn check_positive(key: &str, value: f64) -> Result<(), Error> {
     if value > 0.0 && value.is_finite() {
         return Ok(());
     }
     Err(Error::argument(key, value, "a positive number"))
 }
 
-fn falling(key: &str, value: f64) -> Result<(), Error> {
+/// Fails if a number is not negative.
+fn check_negative(key: &str, value: f64) -> Result<(), Error> {
     if value < 0.0 && value.is_finite() {
         return Ok(());
     }
@@ -164,16 +167,19 @@ mod tests {
     #[test]
     fn lives_invert_the_curves() {
         for N in [1.0, 1e3, 1e5, 1e7] {
-            let same = |found: f64| assert!((found / N - 1.0).abs() < 1e-9, "{found} {N}");
-            same(CURVE.elastic.life(CURVE.elastic.amplitude(N)));
-            same(CURVE.life(CURVE.amplitude(N)));
+            let assert_same =
+                |computed: f64| assert!((computed / N - 1.0).abs() < 1e-9, "{computed} {N}");
+            assert_same(CURVE.elastic.life(CURVE.elastic.amplitude(N)));
+            assert_same(CURVE.life(CURVE.amplitude(N)));
             for definition in CRITERIA
                 .iter()
                 .filter(|d| d.unit == "1" || d.parameters.len() == 2)
             {
                 let numbers = [210e9, 0.3, 0.9, 5e8];
                 let value = (definition.curve)(&CURVE, numbers, N);
-                same(inverted(value, |N| (definition.curve)(&CURVE, numbers, N)));
+                assert_same(invert_curve(value, |N| {
+                    (definition.curve)(&CURVE, numbers, N)
+                }));
             }
         }
         assert!(CURVE.life(0.0).is_infinite() && CURVE.elastic.life(0.0).is_infinite());

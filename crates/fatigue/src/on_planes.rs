@@ -1,27 +1,31 @@
 //! The criteria that look for a plane, as functions of the plane.
 //!
-//! Shears and strains are those of S* ([`Histories`]), which is the stress of a criterion of stress.
+//! S* ([`Histories`]) gives shears and strains; for a criterion of stress it is the stress.
 //!
 //! M bounds the shear amplitude of all planes, Q Tresca's stress of all instants. Along a great
-//! circle the second derivative of s_n is at least -2 Q, its slope at most Q; that of tau_a at
-//! least -4 M, its slope at most 2 M; that of half the strain range at least -(1 + nu)/E 2 D, its
-//! slope at most (1 + nu)/E D, D bounding Tresca's stress of the deviation of any instant from a
-//! constant stress (derived), both of S*.
+//! circle these hold (derived):
+//!
+//! - s_n: second derivative at least -2 Q, slope at most Q;
+//! - tau_a: second derivative at least -4 M, slope at most 2 M;
+//! - half the strain range: second derivative at least -(1 + nu)/E 2 D, slope at most (1 + nu)/E D.
+//!   D bounds Tresca's stress of the deviation of any instant from a constant stress.
+//!
+//! M and D are taken from S*.
 
 mod bounds;
 
 use crate::circle::Circles;
 use crate::combination::Combination;
-use crate::definition::OnPlane;
-use crate::eight_planes::{Instants, OfThree};
+use crate::definition::PlaneLaw;
+use crate::eight_planes::{Instants, ThreePointCircle};
 use crate::hemisphere::{COARSE, FINE, Face, Hemisphere};
 use crate::histories::Histories;
 use crate::lanes::{LANES, Lanes, Real};
 use crate::path::{Frame, normal_weights};
-use crate::plane_function::{Bend, BestPlane, Plane, PlaneFunction, Threshold};
+use crate::plane_function::{BestPlane, CurvatureBounds, Plane, PlaneFunction, Threshold};
 use crate::product_bound::product_bounds;
-use crate::refine::{Deciding, First};
-use crate::shear_bound::About;
+use crate::refine::{First, Piece};
+use crate::shear_bound::BestPlaneBound;
 use crate::tangent::Tangent;
 
 /// [`PlaneFunction::lead`] of products, whose faces are large. Of 1000 cycles of two random
@@ -34,7 +38,7 @@ pub(crate) struct ShearBuffers {
     pub(crate) circles: Circles,
     single: Instants<f32>,
     double: Instants<f64>,
-    /// The squares of [`About`].
+    /// The squares of [`BestPlaneBound`].
     squares: Instants<f32>,
 }
 
@@ -50,9 +54,9 @@ impl Default for ShearBuffers {
     }
 }
 
-/// A criterion on the planes of one point.
+/// A criterion as a function of the planes of one point.
 pub(crate) struct OnPlanes<'a> {
-    of: &'a Histories,
+    histories: &'a Histories,
     buffers: &'a mut ShearBuffers,
     combination: Combination,
     strain: Option<[f64; 2]>,
@@ -63,31 +67,35 @@ pub(crate) struct OnPlanes<'a> {
     /// Largest component of any instant, of the stress and of S*.
     sizes: [f64; 2],
     in_double: bool,
-    /// The best plane, and the bound about it, if it applies.
+    /// The best plane, and the bound near it, if it applies.
     best: [f64; 3],
-    about: Option<About>,
+    near_best: Option<BestPlaneBound>,
 }
 
 impl<'a> OnPlanes<'a> {
-    pub(crate) fn new(law: OnPlane, of: &'a Histories, buffers: &'a mut ShearBuffers) -> Self {
-        buffers.single.load(of);
-        let (tresca, sizes) = (of.tresca_bounds(), of.sizes());
+    pub(crate) fn new(
+        law: PlaneLaw,
+        histories: &'a Histories,
+        buffers: &'a mut ShearBuffers,
+    ) -> Self {
+        buffers.single.load(histories);
+        let (tresca, sizes) = (histories.tresca_bounds(), histories.max_components());
         Self {
-            of,
+            histories,
             buffers,
             combination: law.combination.for_ratio((tresca.1 / sizes[1]).min(1.0)),
             strain: law.strain,
             has_shear: law.shear,
             tresca,
-            tension: of.stress.most_tension(),
+            tension: histories.stress.max_principal(),
             sizes,
             in_double: false,
             best: [0.0; 3],
-            about: None,
+            near_best: None,
         }
     }
 
-    /// [`PlaneFunction::measure`] of at most eight planes.
+    /// [`PlaneFunction::measure`] for at most eight planes.
     fn measure_eight<F: Real>(
         &self,
         instants: &mut Instants<F>,
@@ -105,8 +113,8 @@ impl<'a> OnPlanes<'a> {
                 (true, None) => [0.0, s_n + slack[1]],
                 (true, Some(_)) => [0.0, strain + slack[1]],
             };
-            for (k, at) in [(5, 0), (3, 1), (4, 2)] {
-                plane.instants[k] = swept.at[at][l].wide() as usize;
+            for (k, source) in [(5, 0), (3, 1), (4, 2)] {
+                plane.instants[k] = swept.instants[source][l].wide() as usize;
             }
         }
         let mut low = [0.0; LANES];
@@ -114,18 +122,18 @@ impl<'a> OnPlanes<'a> {
             *low = plane.parts[0];
         }
         if self.has_shear {
-            let mut lanes = [OfThree {
-                on: [0; 3],
+            let mut lanes = [ThreePointCircle {
+                instants: [0; 3],
                 enough: 0.0,
                 square: 0.0,
             }; LANES];
             for (lane, plane) in lanes.iter_mut().zip(&*planes) {
                 let tangent = &enough.tangent;
-                let rest = tangent.second * plane.parts[1] + tangent.constant;
-                let first = ((enough.sum - rest) / tangent.first).min(enough.first);
+                let known_part = tangent.second * plane.parts[1] + tangent.constant;
+                let first = ((enough.sum - known_part) / tangent.first).min(enough.first);
                 let radius = (first - slack[0]).max(0.0);
-                *lane = OfThree {
-                    on: first_three(plane.instants),
+                *lane = ThreePointCircle {
+                    instants: first_three(plane.instants),
                     enough: radius * radius,
                     square: 0.0,
                 };
@@ -134,7 +142,7 @@ impl<'a> OnPlanes<'a> {
             for (l, plane) in planes.iter_mut().enumerate() {
                 plane.parts[0] = squares[l].sqrt() + slack[0];
                 low[l] = lanes[l].square.sqrt() + slack[0];
-                plane.instants[..3].copy_from_slice(&lanes[l].on);
+                plane.instants[..3].copy_from_slice(&lanes[l].instants);
                 plane.instants[..3].sort_unstable();
             }
         }
@@ -149,14 +157,18 @@ impl PlaneFunction for OnPlanes<'_> {
     fn parts(&mut self, n: [f64; 3]) -> [f64; 2] {
         match (self.has_shear, self.strain) {
             (false, Some(strain)) => {
-                let (s_n, strain) = self.of.stress.max_and_range(self.of.strained(), n, strain);
+                let (s_n, strain) =
+                    self.histories
+                        .stress
+                        .max_and_range(self.histories.strained(), n, strain);
                 [strain.amplitude(), s_n]
             }
             (_, strain) => {
                 let ShearBuffers { shear, circles, .. } = &mut *self.buffers;
-                let [shear, s_n] = self.of.shear_and_normal(n, shear, circles);
+                let [shear, s_n] = self.histories.shear_and_normal(n, shear, circles);
                 let strain = strain.map(|strain| strain_weights(n, strain));
-                let amplitude = strain.map(|of| self.of.strained().range(&of).amplitude());
+                let amplitude =
+                    strain.map(|weights| self.histories.strained().range(&weights).amplitude());
                 [shear, amplitude.unwrap_or(s_n)]
             }
         }
@@ -179,7 +191,7 @@ impl PlaneFunction for OnPlanes<'_> {
         }
     }
 
-    fn start(&self) -> &'static Hemisphere {
+    fn first_faces(&self) -> &'static Hemisphere {
         match self.combination {
             Combination::Product => &COARSE,
             Combination::Sum(_) | Combination::First { .. } | Combination::Raised(_) => &FINE,
@@ -193,7 +205,7 @@ impl PlaneFunction for OnPlanes<'_> {
 
     fn to_double(&mut self) {
         self.in_double = true;
-        self.buffers.double.load(self.of);
+        self.buffers.double.load(self.histories);
     }
 
     fn value(&self, parts: [f64; 2]) -> f64 {
@@ -205,11 +217,11 @@ impl PlaneFunction for OnPlanes<'_> {
             self.shear_bounds(faces, planes, known);
         } else {
             let (strain, slack) = (self.strain.unwrap_or_default(), self.slack());
-            let on = (faces, planes);
+            let faces_and_planes = (faces, planes);
             if self.in_double {
-                product_bounds(&self.buffers.double, strain, slack, on, known);
+                product_bounds(&self.buffers.double, strain, slack, faces_and_planes, known);
             } else {
-                product_bounds(&self.buffers.single, strain, slack, on, known);
+                product_bounds(&self.buffers.single, strain, slack, faces_and_planes, known);
             }
         }
     }
@@ -226,56 +238,65 @@ impl PlaneFunction for OnPlanes<'_> {
         self.combination.tie()
     }
 
-    fn piece(&self, instants: [usize; 6]) -> Deciding {
-        let [a, b, c, most, least, at] = instants;
-        let change = self
-            .strain
-            .map(|strain| self.of.strain_amplitude_of([most, least], strain));
+    fn piece(&self, instants: [usize; 6]) -> Piece {
+        let [a, b, c, max_at, min_at, second_at] = instants;
+        let change = self.strain.map(|strain| {
+            self.histories
+                .strain_amplitude_tensor([max_at, min_at], strain)
+        });
         let first = if self.has_shear {
-            First::Shear([a, b, c].map(|k| self.of.strained().at(k)))
+            First::Shear([a, b, c].map(|k| self.histories.strained().stress_at(k)))
         } else {
             First::Normal(change.unwrap_or_default())
         };
         let second = match change {
             Some(tensor) if self.has_shear => tensor,
-            _ => self.of.stress.at(at),
+            _ => self.histories.stress.stress_at(second_at),
         };
-        Deciding {
+        Piece {
             instants,
             first,
             second,
         }
     }
 
-    fn deciding(&mut self, n: [f64; 3]) -> Deciding {
-        let [at, _] = self.of.stress.extremes(&normal_weights(n));
+    fn deciding_piece(&mut self, n: [f64; 3]) -> Piece {
+        let [second_at, _] = self.histories.stress.extreme_instants(&normal_weights(n));
         let weights = self.strain.map(|strain| strain_weights(n, strain));
-        let [most, least] = weights.map_or([0; 2], |weights| self.of.strained().extremes(&weights));
+        let [max_at, min_at] = weights.map_or([0; 2], |weights| {
+            self.histories.strained().extreme_instants(&weights)
+        });
         let mut on = [0; 3];
         if self.has_shear {
-            let (strained, plane) = (self.of.strained(), Frame::across(n));
-            strained.resolve(strained, &plane, &mut self.buffers.shear);
-            on = self.buffers.circles.round(&self.buffers.shear).on;
+            let (strained, plane) = (self.histories.strained(), Frame::from_normal(n));
+            strained.resolve_on_plane(strained, &plane, &mut self.buffers.shear);
+            on = self
+                .buffers
+                .circles
+                .smallest_circle(&self.buffers.shear)
+                .instants;
             on.sort_unstable();
         }
-        self.piece([on[0], on[1], on[2], most, least, at])
+        self.piece([on[0], on[1], on[2], max_at, min_at, second_at])
     }
 
     fn tangent(&self, parts: [f64; 2]) -> Tangent {
         self.combination.tangent(parts)
     }
 
-    fn bend(&self, largest: f64, sag: f64) -> Bend {
+    fn curvature_bounds(&self, largest: f64, sag: f64) -> CurvatureBounds {
         let (whole, deviation) = self.tresca;
-        let along = self.strain.map(|[along, _]| along * deviation);
+        let strain_bound = self
+            .strain
+            .map(|[strain_bound, _]| strain_bound * deviation);
         let shear = largest / (1.0 - 4.0 * sag);
         let first = if self.has_shear {
             2.0 * shear
         } else {
-            along.unwrap_or_default()
+            strain_bound.unwrap_or_default()
         };
-        let second = along.filter(|_| self.has_shear).unwrap_or(whole);
-        Bend {
+        let second = strain_bound.filter(|_| self.has_shear).unwrap_or(whole);
+        CurvatureBounds {
             parts: [2.0 * first, 2.0 * second],
             slopes: [first, second],
             first: if self.has_shear {
@@ -286,13 +307,13 @@ impl PlaneFunction for OnPlanes<'_> {
         }
     }
 
-    fn yardstick(&self, bend: &Bend) -> f64 {
+    fn yardstick(&self, bend: &CurvatureBounds) -> f64 {
         self.combination.yardstick(bend.first)
     }
 
-    fn ceiling(&self, bend: &Bend) -> f64 {
+    fn ceiling(&self, bend: &CurvatureBounds) -> f64 {
         let second = match self.strain {
-            Some(_) if self.has_shear => self.most_of_second(),
+            Some(_) if self.has_shear => self.max_second_part(),
             _ => self.tension.0,
         };
         self.combination.value([bend.first, second])

@@ -8,7 +8,7 @@
 use pulp::{Arch, Simd, WithSimd};
 use stress_tensor::{StressTensor, principal, principal_values, von_mises};
 
-use crate::lanes::{LANES, Lanes, Real, bottom, place_of, top};
+use crate::lanes::{LANES, Lanes, Real, index_of_value, max_lane, min_lane};
 
 /// Tresca's equivalent stress is at most this times von Mises'.
 const TRESCA_OVER_MISES: f64 = 1.154_700_538_379_251_5;
@@ -53,17 +53,17 @@ impl Range {
 }
 
 impl Frame {
-    /// A plane of a unit normal.
-    pub(crate) fn across(n: [f64; 3]) -> Self {
+    /// Completes a unit normal by two unit vectors in the plane.
+    pub(crate) fn from_normal(n: [f64; 3]) -> Self {
         let [x, y, z] = n.map(f64::abs);
-        let other = if x <= y && x <= z {
+        let axis = if x <= y && x <= z {
             [1.0, 0.0, 0.0]
         } else if y <= z {
             [0.0, 1.0, 0.0]
         } else {
             [0.0, 0.0, 1.0]
         };
-        let u = unit(cross(n, other));
+        let u = normalize(cross(n, axis));
         Self {
             n,
             u,
@@ -116,14 +116,15 @@ impl Path {
         self.range(&normal_weights(n))
     }
 
-    /// Largest and smallest of a sum of weighted components.
+    /// Largest and smallest value of a sum of weighted components.
     pub(crate) fn range(&self, weights: &[f64; 6]) -> Range {
         let blocks = &self.blocks;
-        self.arch.dispatch(RangeOf { blocks, weights })
+        self.arch.dispatch(RangeSweep { blocks, weights })
     }
 
-    /// The largest normal stress on a plane, and the range of `along` times that of another path less
-    /// `across` times the sum of its normal stresses.
+    /// The largest normal stress on a plane, and the range of a strain on it. The strain is
+    /// `strain[0]` times the normal stress of another path less `strain[1]` times the sum of its
+    /// normal stresses.
     pub(crate) fn max_and_range(
         &self,
         strained: &Self,
@@ -139,18 +140,19 @@ impl Path {
     }
 
     /// The instants at which a sum of weighted components is largest and smallest.
-    pub(crate) fn extremes(&self, weights: &[f64; 6]) -> [usize; 2] {
+    pub(crate) fn extreme_instants(&self, weights: &[f64; 6]) -> [usize; 2] {
         let blocks = &self.blocks;
-        self.arch.dispatch(ExtremesOf { blocks, weights })
+        self.arch.dispatch(ExtremesSweep { blocks, weights })
     }
 
     /// The stress at an instant.
-    pub(crate) fn at(&self, instant: usize) -> StressTensor {
+    pub(crate) fn stress_at(&self, instant: usize) -> StressTensor {
         self.blocks[instant / LANES].map(|lanes| lanes[instant % LANES])
     }
 
-    /// The largest normal stress on a plane, and the shear of another path along u and v at every instant.
-    pub(crate) fn resolve(
+    /// Returns the largest normal stress on a plane. Writes the shear of another path along u and v
+    /// at every instant.
+    pub(crate) fn resolve_on_plane(
         &self,
         strained: &Self,
         plane: &Frame,
@@ -169,8 +171,8 @@ impl Path {
         })
     }
 
-    /// Bounds of Tresca's equivalent stress, from von Mises': the largest of any instant, and
-    /// the largest of the deviation of any instant from one constant stress.
+    /// Bounds of Tresca's equivalent stress, from von Mises': the largest of any instant, and the
+    /// largest of the deviation of any instant from one constant stress.
     pub(crate) fn tresca_bounds(&self) -> (f64, f64) {
         let mut middle = [0.0; 6];
         for (c, middle) in middle.iter_mut().enumerate() {
@@ -188,35 +190,35 @@ impl Path {
 
     /// The largest component of any instant by absolute value: between 1 and 2, or 0 without
     /// stress.
-    pub(crate) fn size(&self) -> f64 {
-        size(self.blocks.as_flattened().as_flattened())
+    pub(crate) fn max_component(&self) -> f64 {
+        max_abs(self.blocks.as_flattened().as_flattened())
     }
 
     /// The largest principal stress of any instant, and its direction.
-    pub(crate) fn most_tension(&self) -> (f64, [f64; 3]) {
-        let mut most = (f64::NEG_INFINITY, [0.0; 6]);
+    pub(crate) fn max_principal(&self) -> (f64, [f64; 3]) {
+        let mut largest = (f64::NEG_INFINITY, [0.0; 6]);
         for s in self.instants() {
             // No principal stress is above the largest row sum (Gershgorin).
             let [xx, yy, zz, xy, xz, yz] = s;
             let (xy, xz, yz) = (xy.abs(), xz.abs(), yz.abs());
             let row = (xx + xy + xz).max(yy + xy + yz).max(zz + xz + yz);
-            if row > most.0 {
+            if row > largest.0 {
                 let first = principal_values(&s)[0];
-                if first > most.0 {
-                    most = (first, s);
+                if first > largest.0 {
+                    largest = (first, s);
                 }
             }
         }
-        (most.0, principal(&most.1).directions[0])
+        (largest.0, principal(&largest.1).directions[0])
     }
 }
 
-/// The largest of numbers by size.
-pub(crate) fn size(numbers: &[f64]) -> f64 {
+/// Largest absolute value.
+pub(crate) fn max_abs(numbers: &[f64]) -> f64 {
     numbers.iter().fold(0.0, |m, s| m.max(s.abs()))
 }
 
-/// The power of two at or below a number; 1 for 0.
+/// The largest power of two that is not above a number; 1 for 0.
 pub(crate) fn power_of_two(number: f64) -> f64 {
     if number == 0.0 {
         return 1.0;
@@ -227,49 +229,52 @@ pub(crate) fn power_of_two(number: f64) -> f64 {
 }
 
 /// [`Path::range`], compiled for the processor.
-struct RangeOf<'a> {
+struct RangeSweep<'a> {
     blocks: &'a [[Lanes; 6]],
     weights: &'a [f64; 6],
 }
 
-impl WithSimd for RangeOf<'_> {
+impl WithSimd for RangeSweep<'_> {
     type Output = Range;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Range {
-        let (mut most, mut least) = ([f64::NEG_INFINITY; LANES], [f64::INFINITY; LANES]);
+        let (mut largest, mut smallest) = ([f64::NEG_INFINITY; LANES], [f64::INFINITY; LANES]);
         for block in self.blocks {
-            let value = weighted(block, self.weights);
-            f64::raise(simd, &mut most, &value);
-            f64::lower(simd, &mut least, &value);
+            let value = weighted_sum(block, self.weights);
+            f64::raise(simd, &mut largest, &value);
+            f64::lower(simd, &mut smallest, &value);
         }
-        let (max, min) = (top(&most), bottom(&least));
+        let (max, min) = (max_lane(&largest), min_lane(&smallest));
         Range { max, min }
     }
 }
 
-/// [`Path::extremes`], compiled for the processor.
-struct ExtremesOf<'a> {
+/// [`Path::extreme_instants`], compiled for the processor.
+struct ExtremesSweep<'a> {
     blocks: &'a [[Lanes; 6]],
     weights: &'a [f64; 6],
 }
 
-impl WithSimd for ExtremesOf<'_> {
+impl WithSimd for ExtremesSweep<'_> {
     type Output = [usize; 2];
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> [usize; 2] {
-        let (mut most, mut least) = ([f64::NEG_INFINITY; LANES], [f64::INFINITY; LANES]);
+        let (mut largest, mut smallest) = ([f64::NEG_INFINITY; LANES], [f64::INFINITY; LANES]);
         // Blocks of the extremes, as numbers that blend with the others.
-        let mut at = [[0.0; LANES]; 2];
+        let mut blocks_at = [[0.0; LANES]; 2];
         for (n, block) in self.blocks.iter().enumerate() {
-            let (value, n) = (weighted(block, self.weights), n as f64);
-            f64::raise_marked(simd, &mut most, &mut at[0], &value, n);
-            f64::lower_marked(simd, &mut least, &mut at[1], &value, n);
+            let (value, n) = (weighted_sum(block, self.weights), n as f64);
+            f64::raise_marked(simd, &mut largest, &mut blocks_at[0], &value, n);
+            f64::lower_marked(simd, &mut smallest, &mut blocks_at[1], &value, n);
         }
-        let lane = |lanes: &Lanes, value: f64| place_of(std::slice::from_ref(lanes), value);
-        let ends = [lane(&most, top(&most)), lane(&least, bottom(&least))];
-        [0, 1].map(|k| at[k][ends[k]] as usize * LANES + ends[k])
+        let lane = |lanes: &Lanes, value: f64| index_of_value(std::slice::from_ref(lanes), value);
+        let ends = [
+            lane(&largest, max_lane(&largest)),
+            lane(&smallest, min_lane(&smallest)),
+        ];
+        [0, 1].map(|k| blocks_at[k][ends[k]] as usize * LANES + ends[k])
     }
 }
 
@@ -287,24 +292,24 @@ impl WithSimd for NormalAndStrain<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> (f64, Range) {
         let [along, across] = self.strain;
-        let mut first = [f64::NEG_INFINITY; LANES];
-        let (mut most, mut least) = (first, [f64::INFINITY; LANES]);
+        let mut normal_max = [f64::NEG_INFINITY; LANES];
+        let (mut strain_max, mut strain_min) = (normal_max, [f64::INFINITY; LANES]);
         let strained = self.strained.blocks.iter().zip(&self.strained.traces);
         for (block, (strained, trace)) in self.path.blocks.iter().zip(strained) {
-            f64::raise(simd, &mut first, &weighted(block, &self.weights));
-            let mut value = weighted(strained, &self.weights);
+            f64::raise(simd, &mut normal_max, &weighted_sum(block, &self.weights));
+            let mut value = weighted_sum(strained, &self.weights);
             for l in 0..LANES {
                 value[l] = along * value[l] - across * trace[l];
             }
-            f64::raise(simd, &mut most, &value);
-            f64::lower(simd, &mut least, &value);
+            f64::raise(simd, &mut strain_max, &value);
+            f64::lower(simd, &mut strain_min, &value);
         }
-        let (max, min) = (top(&most), bottom(&least));
-        (top(&first), Range { max, min })
+        let (max, min) = (max_lane(&strain_max), min_lane(&strain_min));
+        (max_lane(&normal_max), Range { max, min })
     }
 }
 
-/// [`Path::resolve`], compiled for the processor.
+/// [`Path::resolve_on_plane`], compiled for the processor.
 struct Resolved<'a> {
     blocks: &'a [[Lanes; 6]],
     strained: &'a [[Lanes; 6]],
@@ -318,18 +323,19 @@ impl WithSimd for Resolved<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> f64 {
         let [normal, u, v] = &self.weights;
-        let mut most = [f64::NEG_INFINITY; LANES];
+        let mut largest = [f64::NEG_INFINITY; LANES];
         let blocks = self.blocks.iter().zip(self.strained);
         for ((block, strained), shear) in blocks.zip(self.shear) {
-            f64::raise(simd, &mut most, &weighted(block, normal));
-            *shear = [weighted(strained, u), weighted(strained, v)];
+            f64::raise(simd, &mut largest, &weighted_sum(block, normal));
+            *shear = [weighted_sum(strained, u), weighted_sum(strained, v)];
         }
-        top(&most)
+        max_lane(&largest)
     }
 }
 
 #[inline(always)]
-fn weighted(block: &[Lanes; 6], weights: &[f64; 6]) -> Lanes {
+/// Weighted sum of the components, at eight instants.
+fn weighted_sum(block: &[Lanes; 6], weights: &[f64; 6]) -> Lanes {
     let mut sum = [0.0; LANES];
     for c in 0..6 {
         for l in 0..LANES {
@@ -339,12 +345,12 @@ fn weighted(block: &[Lanes; 6], weights: &[f64; 6]) -> Lanes {
     sum
 }
 
-/// n.S.n as a sum of the components.
+/// Weights of n.S.n as a sum of the components.
 pub(crate) fn normal_weights([x, y, z]: [f64; 3]) -> [f64; 6] {
     [x * x, y * y, z * z, 2.0 * x * y, 2.0 * x * z, 2.0 * y * z]
 }
 
-/// u.S.n as a sum of the components.
+/// Weights of u.S.n as a sum of the components.
 pub(crate) fn shear_weights(n: [f64; 3], u: [f64; 3]) -> [f64; 6] {
     let mixed = |i: usize, j: usize| u[i] * n[j] + u[j] * n[i];
     [
@@ -369,7 +375,11 @@ pub(crate) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-pub(crate) fn unit(a: [f64; 3]) -> [f64; 3] {
-    let by = 1.0 / dot(a, a).sqrt();
-    [a[0] * by, a[1] * by, a[2] * by]
+pub(crate) fn normalize(a: [f64; 3]) -> [f64; 3] {
+    let inverse_length = 1.0 / dot(a, a).sqrt();
+    [
+        a[0] * inverse_length,
+        a[1] * inverse_length,
+        a[2] * inverse_length,
+    ]
 }

@@ -1,13 +1,13 @@
 //! A criterion as a function of the plane, and the record of an evaluated plane.
 
 use crate::hemisphere::{Face, Hemisphere};
-use crate::refine::Deciding;
+use crate::refine::Piece;
 use crate::tangent::Tangent;
 
-/// No edge.
+/// Marks the end of a list of edges.
 pub(crate) const NO_EDGE: usize = usize::MAX;
 
-/// An evaluated plane.
+/// A plane and the bounds of its parts.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Plane {
     /// Unit normal.
@@ -18,7 +18,7 @@ pub(crate) struct Plane {
     pub(crate) value: f64,
     /// Lower bounds of the parts.
     pub(crate) low: [f64; 2],
-    /// The deciding instants, as in [`Deciding`]; a guess before the plane is evaluated.
+    /// The deciding instants, as in [`Piece`]; a guess before the plane is evaluated.
     pub(crate) instants: [usize; 6],
     /// Head of the list of edges whose lower-numbered end is this plane.
     pub(crate) edge: usize,
@@ -48,7 +48,7 @@ pub(crate) struct BestPlane {
 /// Bounds on second derivatives of the parts along great circles, which are nowhere below -K, and
 /// on their slopes, up and down.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Bend {
+pub(crate) struct CurvatureBounds {
     pub(crate) parts: [f64; 2],
     pub(crate) slopes: [f64; 2],
     /// Upper bound of the first part over all planes.
@@ -59,8 +59,8 @@ pub(crate) struct Bend {
 pub(crate) trait PlaneFunction {
     /// Evaluates planes; exactly only where a plane may exceed `enough`.
     fn measure(&mut self, planes: &mut [Plane], enough: Threshold);
-    /// The faces to start from.
-    fn start(&self) -> &'static Hemisphere;
+    /// The faces of the first triangulation.
+    fn first_faces(&self) -> &'static Hemisphere;
     /// Bound of the rounding error of the value of a plane.
     fn rounding(&mut self, n: [f64; 3]) -> f64;
     /// Evaluates in double precision from now on.
@@ -71,29 +71,29 @@ pub(crate) trait PlaneFunction {
     fn value(&self, parts: [f64; 2]) -> f64;
     /// A [`Tangent`]: a linear bound of the criterion that is exact at these parts.
     fn tangent(&self, parts: [f64; 2]) -> Tangent;
-    /// The bounds, from the largest first part on the first planes and the largest 1/cos r - 1 of
-    /// their triangles.
-    fn bend(&self, largest: f64, sag: f64) -> Bend;
+    /// The bounds on second derivatives, from the largest first part on the first planes and the
+    /// largest 1/cos r - 1 of their triangles.
+    fn curvature_bounds(&self, largest: f64, sag: f64) -> CurvatureBounds;
     /// Lowers the bounds of the faces by quadratic forms of their corners.
     fn bounds(&mut self, faces: &mut [Face], planes: &[Plane], known: &BestPlane);
-    /// The maxima of pieces within this part of the best value are refined: they may lead to a
-    /// better plane.
+    /// The maxima of pieces within this part of the best value are refined, since they may lead to
+    /// a better plane.
     fn lead(&self) -> f64;
     /// Relative difference below which planes tie and the second part decides, since complementary
     /// planes have the same shear; 0 for criteria without a tie.
     fn tie(&self) -> f64;
-    /// The piece of instants.
-    fn piece(&self, instants: [usize; 6]) -> Deciding;
-    /// The piece of the instants that decide on the plane of a unit normal, to rounding.
-    fn deciding(&mut self, n: [f64; 3]) -> Deciding;
+    /// The piece of given instants.
+    fn piece(&self, instants: [usize; 6]) -> Piece;
+    /// The piece of the deciding instants on the plane of a unit normal, to rounding.
+    fn deciding_piece(&mut self, n: [f64; 3]) -> Piece;
 
     /// A value that is not small.
-    fn yardstick(&self, bend: &Bend) -> f64;
+    fn yardstick(&self, bend: &CurvatureBounds) -> f64;
     /// Upper bound of the criterion over all planes, independent of the search.
-    fn ceiling(&self, bend: &Bend) -> f64;
+    fn ceiling(&self, bend: &CurvatureBounds) -> f64;
 
     /// The record of the best plane, with the tolerance of its value.
-    fn known(&mut self, n: [f64; 3], value: f64, tolerance: f64) -> BestPlane {
+    fn best_plane(&mut self, n: [f64; 3], value: f64, tolerance: f64) -> BestPlane {
         let parts = self.parts(n);
         BestPlane {
             n,
@@ -104,7 +104,7 @@ pub(crate) trait PlaneFunction {
     }
 
     /// The criterion on the plane of a unit normal, to rounding.
-    fn at(&mut self, n: [f64; 3]) -> f64 {
+    fn criterion_at(&mut self, n: [f64; 3]) -> f64 {
         let parts = self.parts(n);
         self.value(parts)
     }
@@ -112,7 +112,7 @@ pub(crate) trait PlaneFunction {
 
 impl Plane {
     /// A plane that is not evaluated yet.
-    pub(crate) fn of(n: [f64; 3], instants: [usize; 6]) -> Self {
+    pub(crate) fn unevaluated(n: [f64; 3], instants: [usize; 6]) -> Self {
         Self {
             n,
             parts: [f64::NAN; 2],
@@ -124,9 +124,9 @@ impl Plane {
     }
 }
 
-impl Bend {
-    /// The bound K of the tangent's sum.
-    pub(crate) fn of(&self, tangent: &Tangent) -> f64 {
+impl CurvatureBounds {
+    /// Bound K on the second derivative of the tangent's sum.
+    pub(crate) fn for_sum(&self, tangent: &Tangent) -> f64 {
         tangent.first * self.parts[0] + tangent.second * self.parts[1]
     }
 }

@@ -2,14 +2,15 @@
 //! strain amplitude and of the largest normal stress.
 
 use crate::eight_planes::Instants;
-use crate::forms::{EDGES, Forms, corners_of, lower};
+use crate::forms::{EDGES, Forms, gather_corners, lower_bounds};
 use crate::hemisphere::Face;
 use crate::lanes::{LANES, Real};
 use crate::plane_function::{BestPlane, Plane};
 use crate::tangent::Tangent;
 
-/// The strain is the first number times the normal stress less the second times the sum of all
-/// three; `slack` bounds the rounding errors of the strain amplitude and of the normal stress.
+/// Lowers the bounds of faces. The strain is the first number times the normal stress less the
+/// second times the sum of all three. `slack` bounds the rounding errors of the strain amplitude
+/// and of the normal stress.
 pub(crate) fn product_bounds<F: Real>(
     instants: &Instants<F>,
     strain: [f64; 2],
@@ -18,19 +19,19 @@ pub(crate) fn product_bounds<F: Real>(
     known: &BestPlane,
 ) {
     for eight in faces.chunks_mut(LANES) {
-        let corners = corners_of(eight);
+        let corners = gather_corners(eight);
         let mixed = EDGES.map(|(i, j)| instants.mixed(&corners[i], &corners[j], Some(strain)));
-        lower(eight, |l, face| {
+        lower_bounds(eight, |l, face| {
             let edge = |k: usize| {
                 let strain = mixed[k].strain_amplitude[l].wide() + slack[0];
                 [strain, mixed[k].normal_max[l].wide() + slack[1]]
             };
             let parts = face.planes.map(|plane| planes[plane].parts);
             let forms = Forms::new(parts, [0, 1, 2].map(edge), &face.corners);
-            let largest = [forms.largest(0), forms.largest(1)];
+            let largest = [forms.max_part(0), forms.max_part(1)];
             // The bound is the value of the tangent at these parts, their product.
-            let there = Tangent::of_product(0.0, 1.0, largest);
-            let proved = forms.least_of(&known.values, &[known.tangent, there]);
+            let at_largest = Tangent::for_product(0.0, 1.0, largest);
+            let proved = forms.smallest_proved(&known.values, &[known.tangent, at_largest]);
             let product = largest[0] * largest[1].max(0.0);
             proved.map_or(product, |value| value.min(product))
         });

@@ -3,12 +3,12 @@
 use stress_tensor::StressTensor;
 
 use crate::circle::{radius_of_three, radius_through};
-use crate::path::{Frame, dot, normal_weights, shear_weights, unit};
+use crate::path::{Frame, dot, normal_weights, normalize, shear_weights};
 
 /// Angle of the difference stencil \[rad\]: the truncation error of the slopes is its sixth power,
 /// their rounding error 1e-16 over it.
 const TURN: f64 = 5e-3;
-/// Steps below this length end the search with second-order slopes, whose maximum is off by less
+/// A step below this length ends the search with second-order slopes, whose maximum is off by less
 /// than `TURN`^2 \[rad\].
 const NEARLY: f64 = 1e-3;
 /// A step below this length ends the search with sixth-order slopes: the next step would be this
@@ -17,15 +17,14 @@ const CLOSE: f64 = 1e-7;
 /// Longest step \[rad\].
 const LONGEST: f64 = 0.2;
 
-/// The deciding instants of a plane and their smooth function of the plane; the criterion is the
-/// largest of such functions.
+/// A smooth function of the plane: the criterion with the deciding instants fixed. The criterion is
+/// the largest of all such functions.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Deciding {
-    /// Those on the smallest circle, those of the largest and smallest strain, that of the second
-    /// part.
+pub(crate) struct Piece {
+    /// Three instants on the smallest circle, those with the largest and the smallest strain, and
+    /// the instant of the second part.
     pub(crate) instants: [usize; 6],
-    /// Stresses on the smallest circle; or else a tensor whose normal
-    /// component the first part is.
+    /// Stresses on the smallest circle, or a tensor whose normal component is the first part.
     pub(crate) first: First,
     /// The tensor whose normal component is the second part.
     pub(crate) second: StressTensor,
@@ -40,16 +39,16 @@ pub(crate) enum First {
     Normal(StressTensor),
 }
 
-impl Deciding {
+impl Piece {
     /// The two parts on the plane of a unit normal.
     pub(crate) fn parts(&self, n: [f64; 3]) -> [f64; 2] {
-        self.with_circle(n, radius_of_three)
+        self.parts_with_circle(n, radius_of_three)
     }
 
-    /// The same with the circle through all three points, which is as smooth as the rest, but the
-    /// smallest only where their angles are acute.
+    /// The two parts with the circle through all three points. It is smooth everywhere, but is the
+    /// smallest circle only where their angles are acute.
     pub(crate) fn smooth_parts(&self, n: [f64; 3]) -> [f64; 2] {
-        self.with_circle(n, radius_through)
+        self.parts_with_circle(n, radius_through)
     }
 
     /// The two parts on the plane of a unit normal, without a frame: the circle is known to half of
@@ -64,7 +63,7 @@ impl Deciding {
                 let (along_p, along_q) = (dot(p, n), dot(q, n));
                 let (pp, qq) = (dot(p, p) - along_p * along_p, dot(q, q) - along_q * along_q);
                 let pq = dot(p, q) - along_p * along_q;
-                square_of_radius(pp, qq, pq).max(0.0).sqrt()
+                square_radius(pp, qq, pq).max(0.0).sqrt()
             }
         };
         [first, normal(&self.second)]
@@ -74,11 +73,11 @@ impl Deciding {
     /// between deciding instants on the plane n. If two instants decide on n, the shear amplitude
     /// there is not smaller than on n. None without shear.
     pub(crate) fn complementary(&self, n: [f64; 3]) -> Option<[f64; 3]> {
-        let First::Shear(on) = &self.first else {
+        let First::Shear(stresses) = &self.first else {
             return None;
         };
         let shear = |[a, b]: [usize; 2]| {
-            let change = traction(&difference(&on[b], &on[a]), n);
+            let change = traction(&difference(&stresses[b], &stresses[a]), n);
             let along = dot(change, n);
             std::array::from_fn(|d| change[d] - along * n[d])
         };
@@ -86,28 +85,28 @@ impl Deciding {
         let largest = changes
             .into_iter()
             .max_by(|a, b| dot(*a, *a).total_cmp(&dot(*b, *b)))?;
-        (dot(largest, largest) > 0.0).then(|| unit(largest))
+        (dot(largest, largest) > 0.0).then(|| normalize(largest))
     }
 
-    fn with_circle(&self, n: [f64; 3], radius: impl Fn([[f64; 2]; 3]) -> f64) -> [f64; 2] {
+    fn parts_with_circle(&self, n: [f64; 3], radius: impl Fn([[f64; 2]; 3]) -> f64) -> [f64; 2] {
         let normal = normal_weights(n);
-        let of = |weights: &[f64; 6], s: &StressTensor| -> f64 {
+        let component = |weights: &[f64; 6], s: &StressTensor| -> f64 {
             weights.iter().zip(s).map(|(w, s)| w * s).sum()
         };
         let first = match &self.first {
-            First::Normal(tensor) => of(&normal, tensor),
+            First::Normal(tensor) => component(&normal, tensor),
             First::Shear(stresses) => {
-                let Frame { u, v, .. } = Frame::across(n);
+                let Frame { u, v, .. } = Frame::from_normal(n);
                 let (u, v) = (shear_weights(n, u), shear_weights(n, v));
-                radius(stresses.map(|s| [of(&u, &s), of(&v, &s)]))
+                radius(stresses.map(|s| [component(&u, &s), component(&v, &s)]))
             }
         };
-        [first, of(&normal, &self.second)]
+        [first, component(&normal, &self.second)]
     }
 }
 
-/// The square of the radius of the smallest circle round 0, p and q, from p.p, q.q and p.q.
-fn square_of_radius(pp: f64, qq: f64, pq: f64) -> f64 {
+/// Square of the radius of the smallest circle round 0, p and q, from p.p, q.q and p.q.
+fn square_radius(pp: f64, qq: f64, pq: f64) -> f64 {
     let across = pp + qq - 2.0 * pq;
     if pq <= 0.0 {
         across / 4.0
@@ -129,26 +128,26 @@ fn traction(s: &StressTensor, n: [f64; 3]) -> [f64; 3] {
     ]
 }
 
-fn difference(s: &StressTensor, from: &StressTensor) -> StressTensor {
+fn difference(s: &StressTensor, reference: &StressTensor) -> StressTensor {
     let mut change = *s;
     for c in 0..6 {
-        change[c] -= from[c];
+        change[c] -= reference[c];
     }
     change
 }
 
-/// The maximum reached from the plane n, and the value there, to rounding.
+/// Finds the maximum from the plane n, and the value there, to rounding.
 pub(crate) fn refine(f: &impl Fn([f64; 3]) -> f64, n: [f64; 3]) -> ([f64; 3], f64) {
-    let mut best = nearly(f, n, f64::NEG_INFINITY);
+    let mut best = refine_roughly(f, n, f64::NEG_INFINITY);
     for _ in 0..8 {
-        let Some((turn, there)) = newton::<true>(f, best) else {
+        let Some((turn, candidate)) = newton_step::<true>(f, best) else {
             break;
         };
         let rounding = 4.0 * f64::EPSILON * best.1.abs();
-        if there.1 < best.1 - rounding {
+        if candidate.1 < best.1 - rounding {
             break;
         }
-        best = there;
+        best = candidate;
         if turn < CLOSE {
             break;
         }
@@ -156,19 +155,23 @@ pub(crate) fn refine(f: &impl Fn([f64; 3]) -> f64, n: [f64; 3]) -> ([f64; 3], f6
     best
 }
 
-/// The maximum reached from the plane n, and the value there, to `NEARLY`^2. Stops on the way if
-/// the gains, which decrease from step to step, cannot lead above `least`.
-pub(crate) fn nearly(f: &impl Fn([f64; 3]) -> f64, n: [f64; 3], least: f64) -> ([f64; 3], f64) {
+/// Finds the maximum from the plane n, and the value there, to `NEARLY`^2. Stops early if the
+/// gains, which decrease from step to step, cannot lead above `least`.
+pub(crate) fn refine_roughly(
+    f: &impl Fn([f64; 3]) -> f64,
+    n: [f64; 3],
+    least: f64,
+) -> ([f64; 3], f64) {
     let mut best = (n, f(n));
     for _ in 0..8 {
-        let Some((turn, there)) = newton::<false>(f, best) else {
+        let Some((turn, candidate)) = newton_step::<false>(f, best) else {
             break;
         };
-        if there.1 < best.1 {
+        if candidate.1 < best.1 {
             break;
         }
-        let gain = there.1 - best.1;
-        best = there;
+        let gain = candidate.1 - best.1;
+        best = candidate;
         if turn < NEARLY || best.1 + gain < least {
             break;
         }
@@ -176,49 +179,49 @@ pub(crate) fn nearly(f: &impl Fn([f64; 3]) -> f64, n: [f64; 3], least: f64) -> (
     best
 }
 
-/// One Newton step with differences to planes around, shortened while the value falls. Returns its
-/// angle \[rad\], the plane and the value there. Slopes are of sixth order in `TURN` if `SHARP`,
-/// else of second.
-fn newton<const SHARP: bool>(
+/// Makes one Newton step with differences to planes around, shortened while the value falls.
+/// Returns its angle \[rad\], the plane and the value there. Slopes are of sixth order in `TURN` if
+/// `SHARP`, else of second.
+fn newton_step<const SHARP: bool>(
     f: &impl Fn([f64; 3]) -> f64,
     (n, here): ([f64; 3], f64),
 ) -> Option<(f64, ([f64; 3], f64))> {
-    let Frame { n, u, v } = Frame::across(n);
+    let Frame { n, u, v } = Frame::from_normal(n);
     let turned = |a: f64, b: f64| {
         let along = |d: usize| n[d] + a * u[d] + b * v[d];
-        unit([along(0), along(1), along(2)])
+        normalize([along(0), along(1), along(2)])
     };
-    let at = |a: f64, b: f64| f(turned(a * TURN, b * TURN));
+    let value_at = |a: f64, b: f64| f(turned(a * TURN, b * TURN));
     let axis = |a: f64, b: f64| {
-        let [east, west] = [at(a, b), at(-a, -b)];
+        let [east, west] = [value_at(a, b), value_at(-a, -b)];
         let bend = east + west - 2.0 * here;
         if !SHARP {
             return ((east - west) / 2.0, bend);
         }
-        let second = at(2.0 * a, 2.0 * b) - at(-2.0 * a, -2.0 * b);
-        let third = at(3.0 * a, 3.0 * b) - at(-3.0 * a, -3.0 * b);
+        let second = value_at(2.0 * a, 2.0 * b) - value_at(-2.0 * a, -2.0 * b);
+        let third = value_at(3.0 * a, 3.0 * b) - value_at(-3.0 * a, -3.0 * b);
         ((45.0 * (east - west) - 9.0 * second + third) / 60.0, bend)
     };
     let (slope_u, uu) = axis(1.0, 0.0);
     let (slope_v, vv) = axis(0.0, 1.0);
-    let uv = (at(1.0, 1.0) + at(-1.0, -1.0) - 2.0 * here - uu - vv) / 2.0;
+    let uv = (value_at(1.0, 1.0) + value_at(-1.0, -1.0) - 2.0 * here - uu - vv) / 2.0;
     let [a, b] = top_of_quadratic([slope_u, slope_v], [uu, vv, uv], 1e-10 * here.abs())?;
-    let far = a.hypot(b) * TURN;
-    let mut share = (LONGEST / far).min(1.0);
+    let length = a.hypot(b) * TURN;
+    let mut share = (LONGEST / length).min(1.0);
     for _ in 0..6 {
         let (a, b) = (a * share * TURN, b * share * TURN);
-        let there = turned(a, b);
-        let value = f(there);
-        if value >= here || far < 1e-6 {
-            return Some((far * share, (there, value)));
+        let candidate = turned(a, b);
+        let value = f(candidate);
+        if value >= here || length < 1e-6 {
+            return Some((length * share, (candidate, value)));
         }
         share /= 3.0;
     }
     None
 }
 
-/// Where slope + bend x = 0 along the directions that bend down by more than `flat`; along others
-/// the longest step uphill.
+/// Finds the top of a quadratic: slope + bend x = 0 along the directions that bend down by more
+/// than `flat`. Along others it takes the longest step uphill.
 fn top_of_quadratic(slope: [f64; 2], [uu, vv, uv]: [f64; 3], flat: f64) -> Option<[f64; 2]> {
     let angle = 0.5 * (2.0 * uv).atan2(uu - vv);
     let (sin, cos) = angle.sin_cos();
@@ -226,14 +229,14 @@ fn top_of_quadratic(slope: [f64; 2], [uu, vv, uv]: [f64; 3], flat: f64) -> Optio
     for [a, b] in [[cos, sin], [-sin, cos]] {
         let bend = a * a * uu + b * b * vv + 2.0 * a * b * uv;
         let uphill = slope[0] * a + slope[1] * b;
-        let by = if bend < -flat {
+        let step = if bend < -flat {
             -uphill / bend
         } else if uphill.abs() > flat {
             uphill.signum() * LONGEST / TURN
         } else {
             0.0
         };
-        top = [top[0] + by * a, top[1] + by * b];
+        top = [top[0] + step * a, top[1] + step * b];
     }
     (top != [0.0; 2]).then_some(top)
 }

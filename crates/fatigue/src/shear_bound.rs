@@ -10,27 +10,28 @@
 //! 2t, and they stay so. Where three instants make the circle, its centre moves other than a
 //! constant tensor has it, and the bound is of no use.
 //!
-//! For any s > 0 the amplitude is at most tau_a^2/(2 s) + s/2; s is that of the best plane.
+//! For any s > 0 the amplitude is at most tau_a^2/(2 s) + s/2; here s is the amplitude on the best
+//! plane.
 
 use stress_tensor::StressTensor;
 
 use crate::eight_planes::Instants;
-use crate::forms::{EDGES, Forms, corners_of, lower};
+use crate::forms::{EDGES, Forms, gather_corners, lower_bounds};
 use crate::hemisphere::Face;
 use crate::lanes::{Eight, LANES, ROUNDING};
 use crate::path::{Path, dot, normal_weights};
 use crate::plane_function::{BestPlane, Plane};
 
-/// Squares about the best plane.
-pub(crate) struct About {
+/// Bound on planes near the best plane.
+pub(crate) struct BestPlaneBound {
     /// Bound of the rounding errors of the squares \[Pa^2\].
     slack: f64,
 }
 
-impl About {
-    /// The squares (D - m)^2 about a plane, where the shear of the stresses at two instants is a
+impl BestPlaneBound {
+    /// Loads the squares (D - m)^2 about a plane. The shear of the stresses at two instants is a
     /// diameter of the circle.
-    pub(crate) fn plane(
+    pub(crate) fn load(
         n: [f64; 3],
         [a, b]: [StressTensor; 2],
         path: &Path,
@@ -45,7 +46,7 @@ impl About {
             for normal in &mut d[..3] {
                 *normal -= m;
             }
-            let square = square(&d);
+            let square = squared(&d);
             largest = largest.max(square[0] + square[1] + square[2]);
             square
         }));
@@ -64,31 +65,32 @@ impl About {
         (faces, planes): (&mut [Face], &[Plane]),
         known: &BestPlane,
     ) -> bool {
-        let (mut seen, mut done) = (0, 0);
+        let (mut tried, mut excluded) = (0, 0);
         let first = |square: f32, cosine: f64| {
             (f64::from(square) + self.slack) / (2.0 * s) + s / 2.0 * cosine
         };
         for eight in faces.chunks_mut(LANES) {
-            let corners = corners_of(eight);
+            let corners = gather_corners(eight);
             let pair =
                 |(i, j): (usize, usize)| squares.mixed(&corners[i], &corners[j], None).normal_max;
-            let own = [(0, 0), (1, 1), (2, 2)].map(pair);
+            let diagonal = [(0, 0), (1, 1), (2, 2)].map(pair);
             let mixed = EDGES.map(pair);
             let second = second(eight);
-            lower(eight, |l, face| {
-                let corner = |k: usize| [first(own[k][l], 1.0), planes[face.planes[k]].parts[1]];
+            lower_bounds(eight, |l, face| {
+                let corner =
+                    |k: usize| [first(diagonal[k][l], 1.0), planes[face.planes[k]].parts[1]];
                 let edge = |k: usize| {
                     let (i, j) = EDGES[k];
                     let cosine = dot(face.corners[i], face.corners[j]);
                     [first(mixed[k][l], cosine), second[k][l]]
                 };
                 let forms = Forms::new([0, 1, 2].map(corner), [0, 1, 2].map(edge), &face.corners);
-                let proved = forms.least_of(&known.values, &[known.tangent]);
+                let proved = forms.smallest_proved(&known.values, &[known.tangent]);
                 proved.unwrap_or(f64::INFINITY)
             });
-            seen += eight.len();
-            done += eight.iter().filter(|f| f.most <= known.values[2]).count();
-            if 4 * done < seen {
+            tried += eight.len();
+            excluded += eight.iter().filter(|f| f.most <= known.values[2]).count();
+            if 4 * excluded < tried {
                 return false;
             }
         }
@@ -96,8 +98,8 @@ impl About {
     }
 }
 
-/// D D.
-fn square(&[xx, yy, zz, xy, xz, yz]: &StressTensor) -> StressTensor {
+/// The product D D.
+fn squared(&[xx, yy, zz, xy, xz, yz]: &StressTensor) -> StressTensor {
     [
         xx * xx + xy * xy + xz * xz,
         xy * xy + yy * yy + yz * yz,

@@ -4,36 +4,37 @@
 //! where h >= 0, and at most 0 elsewhere; both are equal where r^2 = h/a. The sum r a + h/r has a
 //! second derivative along great circles of at least -(r K_a + w K_b/r).
 
-/// x a + y b + z: the criterion is at most that, or at most the square of half of it.
+/// The form x a + y b + z. The criterion is at most this value, or at most the square of half of
+/// it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tangent {
     pub(crate) first: f64,
     pub(crate) second: f64,
     pub(crate) constant: f64,
-    of_product: bool,
+    is_product: bool,
 }
 
 impl Tangent {
-    /// Bounds nothing.
+    /// A tangent that bounds nothing.
     pub(crate) const NONE: Self = Self {
         first: 0.0,
         second: 0.0,
         constant: f64::INFINITY,
-        of_product: false,
+        is_product: false,
     };
 
-    /// a + w b itself.
+    /// The form a + w b itself.
     pub(crate) fn sum(weight: f64) -> Self {
         Self {
             first: 1.0,
             second: weight,
             constant: 0.0,
-            of_product: false,
+            is_product: false,
         }
     }
 
-    /// Of a (z + w b), at parts where it is positive; elsewhere it bounds nothing.
-    pub(crate) fn of_product(constant: f64, weight: f64, [a, b]: [f64; 2]) -> Self {
+    /// Bound of a (z + w b), at parts where it is positive; elsewhere it bounds nothing.
+    pub(crate) fn for_product(constant: f64, weight: f64, [a, b]: [f64; 2]) -> Self {
         let r = ((constant + weight * b) / a).sqrt();
         if !(r > 0.0 && r.is_finite()) {
             return Self::NONE;
@@ -42,27 +43,27 @@ impl Tangent {
             first: r,
             second: weight / r,
             constant: constant / r,
-            of_product: true,
+            is_product: true,
         }
     }
 
-    /// The sum of two parts.
-    pub(crate) fn of(&self, [a, b]: [f64; 2]) -> f64 {
+    /// Evaluates the form at (a, b).
+    pub(crate) fn evaluate(&self, [a, b]: [f64; 2]) -> f64 {
         self.first * a + self.second * b + self.constant
     }
 
-    /// Upper bound of the criterion where the sum is at most this.
+    /// Upper bound of the criterion where the form is at most `sum`.
     pub(crate) fn value(&self, sum: f64) -> f64 {
-        if self.of_product {
+        if self.is_product {
             (sum.max(0.0) / 2.0).powi(2)
         } else {
             sum
         }
     }
 
-    /// The sum up to which the criterion is at most this value.
-    pub(crate) fn sum_of(&self, value: f64) -> f64 {
-        if self.of_product {
+    /// The largest value of the form at which the criterion is at most `value`.
+    pub(crate) fn sum_at_value(&self, value: f64) -> f64 {
+        if self.is_product {
             2.0 * value.max(0.0).sqrt()
         } else {
             value

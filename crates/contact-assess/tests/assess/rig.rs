@@ -16,7 +16,7 @@ use contact_core::scene::{
 };
 use contact_subsurface::{Line, Side, chosen_depths, cycles};
 use contact_subsurface::{OverCycle, Recorded, note_on_cycle, unsettled};
-use fatigue::{AtPoint, Material, Search};
+use fatigue::{Material, PointResult, Search};
 
 const TITANIUM: Elastic = Elastic { E: 116e9, nu: 0.33 };
 const TIN: Elastic = Elastic { E: 450e9, nu: 0.25 };
@@ -185,7 +185,7 @@ fn below_a_coating() {
     let most = below
         .iter()
         .flatten()
-        .map(|f: &AtPoint| f.value)
+        .map(|f: &PointResult| f.value)
         .fold(0.0, f64::max);
     assert!(
         most > 0.1 * point.extreme.value && most < 1.001 * point.extreme.value,

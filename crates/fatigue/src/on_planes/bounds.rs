@@ -3,32 +3,32 @@
 use super::OnPlanes;
 use crate::combination::Combination;
 use crate::critical_plane::Peak;
-use crate::forms::{EDGES, corners_of};
+use crate::forms::{EDGES, gather_corners};
 use crate::hemisphere::Face;
 use crate::lanes::{LANES, ROUNDING};
 use crate::plane_function::{BestPlane, Plane, PlaneFunction};
 use crate::refine::First;
-use crate::shear_bound::About;
+use crate::shear_bound::BestPlaneBound;
 
 /// Stresses below this part of the largest component are rounding.
 const NOTHING: f64 = 1e-12;
 
 impl OnPlanes<'_> {
-    /// The plane of histories that need no search: no tension where the criterion requires it, or a
-    /// stress that changes hydrostatically only, so that no plane is sheared.
+    /// Returns the plane of histories that need no search: no tension where the criterion requires
+    /// it, or a stress that changes hydrostatically only, so that no plane is sheared.
     ///
-    /// No plane's normal is returned where the value is 0 on all of them.
+    /// The normal is NaN where the value is 0 on all planes.
     pub(crate) fn without_search(&mut self) -> Option<Peak> {
         let (tension, along) = self.tension;
-        let most = self
+        let strain_factor = self
             .strain
             .map_or(0.0, |[along, across]| along + 3.0 * across);
         let first = if self.has_shear {
             self.tresca.1
         } else {
-            most * self.sizes[1]
+            strain_factor * self.sizes[1]
         };
-        let nowhere = |missed: f64| {
+        let no_plane = |missed: f64| {
             let n = [f64::NAN; 3];
             Some(Peak {
                 n,
@@ -37,12 +37,12 @@ impl OnPlanes<'_> {
                 planes: 0,
             })
         };
-        let of_tension = matches!(
+        let needs_tension = matches!(
             self.combination,
             Combination::Product | Combination::Raised(_)
         );
-        if of_tension && self.combination.value([first, tension - NOTHING]) <= 0.0 {
-            return nowhere(self.combination.value([first, tension]));
+        if needs_tension && self.combination.value([first, tension - NOTHING]) <= 0.0 {
+            return no_plane(self.combination.value([first, tension]));
         }
         if self.tresca.1 > NOTHING {
             return None;
@@ -84,38 +84,44 @@ impl OnPlanes<'_> {
 
     /// Upper bound of the second part on all planes: no component of a unit normal is larger
     /// than 1.
-    pub(super) fn most_of_second(&self) -> f64 {
+    pub(super) fn max_second_part(&self) -> f64 {
         let [stress, strained] = self.sizes;
-        let of_strain = |[along, across]: [f64; 2]| (along + across) * strained;
-        3.0 * self.strain.map_or(stress, of_strain)
+        let strain_bound = |[along, across]: [f64; 2]| (along + across) * strained;
+        3.0 * self.strain.map_or(stress, strain_bound)
     }
 
-    /// Lowers the bounds by [`About`] the best plane, if two instants define its circle, as long as
+    /// Lowers the bounds by the [`BestPlaneBound`], if two instants define its circle, as long as
     /// that excludes faces.
     pub(super) fn shear_bounds(&mut self, faces: &mut [Face], planes: &[Plane], known: &BestPlane) {
         if self.best != known.n {
             self.best = known.n;
-            let First::Shear([a, b, c]) = self.deciding(known.n).first else {
+            let First::Shear([a, b, c]) = self.deciding_piece(known.n).first else {
                 return;
             };
-            let two = if a == b {
+            let ends = if a == b {
                 Some([a, c])
             } else {
                 (b == c).then_some([a, b])
             };
-            self.about = two
-                .map(|on| About::plane(known.n, on, self.of.strained(), &mut self.buffers.squares));
+            self.near_best = ends.map(|on| {
+                BestPlaneBound::load(
+                    known.n,
+                    on,
+                    self.histories.strained(),
+                    &mut self.buffers.squares,
+                )
+            });
         }
-        let Some(about) = &self.about else {
+        let Some(near_best) = &self.near_best else {
             return;
         };
         let slack = self.slack()[1];
         let second = |eight: &[Face]| {
             if self.combination.tie() > 0.0 {
                 // Its weight is tiny: an upper bound over all planes is enough.
-                return [[self.most_of_second(); LANES]; 3];
+                return [[self.max_second_part(); LANES]; 3];
             }
-            let corners = corners_of(eight);
+            let corners = gather_corners(eight);
             EDGES.map(|(i, j)| {
                 let (a, b) = (&corners[i], &corners[j]);
                 let normal_max = if self.in_double {
@@ -128,8 +134,8 @@ impl OnPlanes<'_> {
             })
         };
         let first = known.parts[0].max(f64::MIN_POSITIVE);
-        if !about.bounds(&self.buffers.squares, first, second, (faces, planes), known) {
-            self.about = None;
+        if !near_best.bounds(&self.buffers.squares, first, second, (faces, planes), known) {
+            self.near_best = None;
         }
     }
 }

@@ -104,7 +104,7 @@ fn searches(criterion: &Criterion) -> bool {
 }
 
 /// What the search makes as large as it can.
-pub(crate) fn sought(criterion: &Criterion, found: &fatigue::AtPoint) -> f64 {
+pub(crate) fn sought(criterion: &Criterion, found: &fatigue::PointResult) -> f64 {
     match criterion.name() {
         "matake" | "mcdiarmid" | "brown_miller" => found.shear_amplitude,
         _ => found.value,

@@ -1,7 +1,7 @@
 //! Histories on which a search for a plane has nothing to go by: every criterion ends at once or
 //! within its planes, and what it may have missed is told.
 
-use fatigue::{AtPoint, Criterion, Search};
+use fatigue::{Criterion, PointResult, Search};
 
 use super::brute_force::{normals, on_plane, sought};
 use super::splitmix::Draw;
@@ -36,7 +36,7 @@ fn turned(s: &Tensor, draw: &mut Draw) -> Tensor {
     [t[0][0], t[1][1], t[2][2], t[0][1], t[0][2], t[1][2]]
 }
 
-fn ends(of: &Criterion, found: &AtPoint, history: &[Tensor]) {
+fn ends(of: &Criterion, found: &PointResult, history: &[Tensor]) {
     assert!(
         found.value.is_finite() && found.missed >= 0.0,
         "{of:?} {history:?}: {found:?}"

@@ -18,7 +18,7 @@ mod yielding;
 
 use std::sync::atomic::AtomicBool;
 
-use fatigue::{AtPoint, Criterion, History, Search, evaluate};
+use fatigue::{Criterion, History, PointResult, Search, evaluate};
 use ndarray::Array3;
 use splitmix::Draw;
 
@@ -48,16 +48,16 @@ fn criterion(name: &str, numbers: &[(&str, f64)]) -> Criterion {
     Criterion::new(name, numbers).unwrap()
 }
 
-fn one(criterion: &Criterion, history: &[Tensor]) -> AtPoint {
+fn one(criterion: &Criterion, history: &[Tensor]) -> PointResult {
     many(criterion, &[history.to_vec()])[0]
 }
 
 /// Points of equally long histories.
-fn many(criterion: &Criterion, histories: &[Vec<Tensor>]) -> Vec<AtPoint> {
+fn many(criterion: &Criterion, histories: &[Vec<Tensor>]) -> Vec<PointResult> {
     searched(criterion, histories, &Search::default())
 }
 
-fn searched(criterion: &Criterion, histories: &[Vec<Tensor>], search: &Search) -> Vec<AtPoint> {
+fn searched(criterion: &Criterion, histories: &[Vec<Tensor>], search: &Search) -> Vec<PointResult> {
     let shape = (histories[0].len(), histories.len(), 6);
     let stress = Array3::from_shape_fn(shape, |(t, p, c)| histories[p][t][c]);
     let never = AtomicBool::new(false);

@@ -29,7 +29,7 @@ fn limits_are_those_of_the_tests() {
         let bent = |s: f64| -> Tensor { [s, 0.0, 0.0, 0.0, 0.0, 0.0] };
         let twisted = |t: f64| -> Tensor { [0.0, 0.0, 0.0, t, 0.0, 0.0] };
         for criterion in ["crossland", "dang_van", "findley", "matake"] {
-            let of = Assessment::of(criterion, material).unwrap();
+            let of = Assessment::from_name(criterion, material).unwrap();
             for history in [[bent(s_D), bent(-s_D)], [twisted(t_D), twisted(-t_D)]] {
                 let factor = of.safety_factor(one(&of.criterion, &history).value);
                 assert!((factor - 1.0).abs() < 1e-5, "{name} {criterion}: {factor}");
@@ -51,7 +51,7 @@ fn lives_are_those_of_the_test() {
             .insert(name, fatigue::Sourced { value, ..of });
     }
     for criterion in ["smith_watson_topper", "fatemi_socie", "brown_miller"] {
-        let of = Assessment::of(criterion, &material).unwrap();
+        let of = Assessment::from_name(criterion, &material).unwrap();
         let Judge::Life(curve) = of.judge else {
             panic!("{criterion} has a curve")
         };
@@ -85,7 +85,7 @@ fn wrong_files_and_missing_numbers() {
         "mine.toml",
     )
     .unwrap();
-    let error = Assessment::of("crossland", &mine["mine"])
+    let error = Assessment::from_name("crossland", &mine["mine"])
         .unwrap_err()
         .to_string();
     assert!(
@@ -93,7 +93,7 @@ fn wrong_files_and_missing_numbers() {
             && error.contains("known of it are s_D"),
         "{error}"
     );
-    let error = Assessment::of("crosland", &mine["mine"])
+    let error = Assessment::from_name("crosland", &mine["mine"])
         .unwrap_err()
         .to_string();
     assert!(error.contains("one of crossland"), "{error}");
@@ -103,11 +103,11 @@ fn wrong_files_and_missing_numbers() {
 fn parts_of_a_range_add_as_squares_of_logarithms() {
     let range = |low, best, high| Range { low, best, high };
     let (stress, distance) = (range(5e4, 1e5, 2e5), range(8e4, 1e5, 1.25e5));
-    let found = LifeRange::of(stress, 4.0, Some(distance)).range;
+    let found = LifeRange::combine(stress, 4.0, Some(distance)).range;
     let half = (2.0 * 2f64.ln().powi(2) + 1.25f64.ln().powi(2)).sqrt();
     assert!((found.low / (1e5 * (-half).exp()) - 1.0).abs() < 1e-12);
     assert!((found.high / (1e5 * half.exp()) - 1.0).abs() < 1e-12);
-    let endless = LifeRange::of(range(1e7, f64::INFINITY, f64::INFINITY), 4.0, None).range;
+    let endless = LifeRange::combine(range(1e7, f64::INFINITY, f64::INFINITY), 4.0, None).range;
     assert!((endless.low - 5e6).abs() < 1.0);
     assert_eq!(endless.high, f64::INFINITY);
 }
@@ -116,9 +116,9 @@ fn parts_of_a_range_add_as_squares_of_logarithms() {
 fn a_life_beyond_the_tests_of_its_curve_is_without_end_and_a_safety_factor_is_not() {
     let materials = materials();
     let told = |criterion: &str, name: &str, best: f64| {
-        let of = Assessment::of(criterion, &materials[name]).unwrap();
+        let of = Assessment::from_name(criterion, &materials[name]).unwrap();
         let (low, high) = (0.5 * best, 2.0 * best);
-        of.told(Range { low, best, high }, 1.0, None).range
+        of.life_range(Range { low, best, high }, 1.0, None).range
     };
     let life = |best| told("smith_watson_topper", "steel_4340", best);
     assert!((life(4e6).high - 8e6).abs() < 1.0);
@@ -135,12 +135,12 @@ fn no_number_that_a_reader_is_given_is_a_life_beyond_the_tests() {
     let mut beyond = 0;
     for material in materials().values() {
         for of in CRITERIA {
-            let Ok(of) = Assessment::of(of.name, material) else {
+            let Ok(of) = Assessment::from_name(of.name, material) else {
                 continue;
             };
             for n in 0..60 {
                 let value = 10f64.powf(-8.0 + 0.3 * f64::from(n));
-                let range = of.range(value, 0.1 * value);
+                let range = of.margin_range(value, 0.1 * value);
                 assert!(range.best.to_bits() == of.margin(value).to_bits());
                 if of.gives_lives() {
                     let told = [range.best, range.high];
@@ -148,10 +148,10 @@ fn no_number_that_a_reader_is_given_is_a_life_beyond_the_tests() {
                         told.iter()
                             .all(|life| *life <= LONGEST || life.is_infinite())
                     );
-                    assert!(range.low <= LONGEST || of.extrapolated(1.1 * value).is_infinite());
-                    beyond += usize::from(of.extrapolated(value) > LONGEST && range.low > 0.0);
+                    assert!(range.low <= LONGEST || of.uncapped_margin(1.1 * value).is_infinite());
+                    beyond += usize::from(of.uncapped_margin(value) > LONGEST && range.low > 0.0);
                 } else {
-                    assert!(of.extrapolated(value).to_bits() == range.best.to_bits());
+                    assert!(of.uncapped_margin(value).to_bits() == range.best.to_bits());
                 }
             }
         }
@@ -164,7 +164,7 @@ fn every_material_that_is_judged_has_a_critical_distance_and_says_how_it_is_know
     for (name, material) in materials() {
         let judged = CRITERIA
             .iter()
-            .filter_map(|of| Assessment::of(of.name, &material).ok())
+            .filter_map(|of| Assessment::from_name(of.name, &material).ok())
             .collect::<Vec<_>>();
         if judged.is_empty() {
             continue;

@@ -2,7 +2,7 @@
 
 use std::sync::atomic::AtomicBool;
 
-use fatigue::{AtPoint, CoffinManson, Criterion, Error, History, Search, evaluate};
+use fatigue::{CoffinManson, Criterion, Error, History, PointResult, Search, evaluate};
 use ndarray::Array3;
 use plasticity::{Plastic, Point};
 
@@ -15,7 +15,11 @@ fn array(of: &[Tensor]) -> Array3<f64> {
     Array3::from_shape_fn((of.len(), 1, 6), |(t, _, c)| of[t][c])
 }
 
-fn tried(criterion: &Criterion, stress: &[Tensor], plastic: &[Tensor]) -> Result<AtPoint, Error> {
+fn tried(
+    criterion: &Criterion,
+    stress: &[Tensor],
+    plastic: &[Tensor],
+) -> Result<PointResult, Error> {
     let (stress, plastic) = (array(stress), array(plastic));
     let history = History {
         stress: stress.view(),
@@ -25,7 +29,7 @@ fn tried(criterion: &Criterion, stress: &[Tensor], plastic: &[Tensor]) -> Result
     evaluate(criterion, &history, &Search::default(), &never).map(|found| found[0])
 }
 
-fn with(criterion: &Criterion, stress: &[Tensor], plastic: &[Tensor]) -> AtPoint {
+fn with(criterion: &Criterion, stress: &[Tensor], plastic: &[Tensor]) -> PointResult {
     tried(criterion, stress, plastic).unwrap()
 }
 

@@ -1,7 +1,7 @@
 //! What must not change a criterion: rotation in space, time reversed, the cycle doubled; and
 //! scale.
 
-use fatigue::AtPoint;
+use fatigue::PointResult;
 
 use super::splitmix::Draw;
 use super::{Tensor, all, many, random, smooth};
@@ -69,7 +69,13 @@ fn histories() -> Vec<Vec<Tensor>> {
 /// Of criteria on the plane of the largest shear amplitude this is the same to `digits`; the plane,
 /// and with it the normal stress on it, is found to 1e-9.
 #[track_caller]
-fn same(name: &str, a: &[AtPoint], b: &[AtPoint], [scale, shear_scale]: [f64; 2], digits: f64) {
+fn same(
+    name: &str,
+    a: &[PointResult],
+    b: &[PointResult],
+    [scale, shear_scale]: [f64; 2],
+    digits: f64,
+) {
     let of_shear = ["matake", "mcdiarmid", "brown_miller"].contains(&name);
     for (n, (a, b)) in a.iter().zip(b).enumerate() {
         let off = (a.shear_amplitude - shear_scale * b.shear_amplitude).abs();

@@ -11,7 +11,7 @@ use contact_store::Store;
 use contact_store::StoredCycle;
 use contact_subsurface::{Line, Side, chosen_depths, depths};
 use contact_subsurface::{OverCycle, main_sections, note_on_cycle};
-use fatigue::{AtPoint, Material, Search, find, materials, read};
+use fatigue::{Material, PointResult, Search, find, materials, read};
 use serde_json::json;
 
 pub(crate) use self::options::Options;
@@ -129,7 +129,7 @@ fn judged(options: &Options) -> Result<Vec<String>, Error> {
 /// Writes the table that is asked for: the points of the first section, or the means below it.
 fn write_table(
     judging: &Judging<'_>,
-    points: &[Judged<AtPoint>],
+    points: &[Judged<PointResult>],
     of: &[ByCriterion],
 ) -> Result<(), Error> {
     let Some(out) = &judging.options.out else {

@@ -10,7 +10,7 @@ use contact_core::Error;
 use contact_core::digits::{degrees, with_range};
 use contact_core::scene::Body;
 use contact_subsurface::{Depth, Line, Zone, half_width};
-use fatigue::{Assessment, AtPoint, LONGEST, Material, Range};
+use fatigue::{Assessment, LONGEST, Material, PointResult, Range};
 use serde_json::{Value, json};
 
 use super::options::Options;
@@ -36,7 +36,7 @@ pub(super) struct Row {
 struct Layer<'a> {
     /// What it is called.
     called: String,
-    worst: Worst<AtPoint>,
+    worst: Worst<PointResult>,
     line: Line,
     of: &'a Assessment,
     range: RangeOfLife,
@@ -55,14 +55,14 @@ impl Judging<'_> {
     /// A line for every layer that is judged, the one with the least margin marked.
     pub(super) fn points(
         &self,
-        sections: &[&Judged<AtPoint>],
+        sections: &[&Judged<PointResult>],
         of: &ByCriterion,
     ) -> Result<Vec<Row>, Error> {
         let mut all = Vec::new();
         for layer in 0..=self.body.coatings.len() {
             all.extend(self.layer(sections, of, layer)?);
         }
-        let margin = |layer: &Layer<'_>| layer.of.extrapolated(layer.worst.extreme.value);
+        let margin = |layer: &Layer<'_>| layer.of.uncapped_margin(layer.worst.extreme.value);
         let least =
             all.iter().map(margin).fold(
                 f64::INFINITY,
@@ -75,7 +75,7 @@ impl Judging<'_> {
     /// The line of the mean over the distance of the options.
     pub(super) fn mean(
         &self,
-        sections: &[&Judged<AtPoint>],
+        sections: &[&Judged<PointResult>],
         of: &ByCriterion,
         length: f64,
     ) -> Result<Row, Error> {
@@ -100,7 +100,11 @@ impl Judging<'_> {
     }
 
     /// The means over a distance along the first line, at the depth of the top of their layer.
-    pub(super) fn means(&self, of: &ByCriterion, length: f64) -> Result<Judged<AtPoint>, Error> {
+    pub(super) fn means(
+        &self,
+        of: &ByCriterion,
+        length: f64,
+    ) -> Result<Judged<PointResult>, Error> {
         let (layer, line) = (self.averaged(of)?, self.lines[0]);
         let found = average(self.site, line, &self.distance(layer, length), of)?;
         let places = line.places(self.site.grid).into_iter().zip(found);
@@ -118,14 +122,14 @@ impl Judging<'_> {
     /// The worst point of a layer and its range; `None` if the layer is not judged.
     fn layer<'b>(
         &self,
-        sections: &[&Judged<AtPoint>],
+        sections: &[&Judged<PointResult>],
         of: &'b ByCriterion,
         layer: usize,
     ) -> Result<Option<Layer<'b>>, Error> {
         let Some(assessment) = of.of(layer) else {
             return Ok(None);
         };
-        let mut found: Option<(Worst<AtPoint>, Line)> = None;
+        let mut found: Option<(Worst<PointResult>, Line)> = None;
         for judged in sections {
             let here = worst(self.site, judged, of, layer)?;
             if let Some(worst) = here

@@ -5,7 +5,7 @@ use std::path::Path;
 use contact_assess::{ByCriterion, Judged};
 use contact_core::Error;
 use contact_subsurface::Line;
-use fatigue::{Assessment, AtPoint};
+use fatigue::{Assessment, PointResult};
 
 use super::options::Options;
 
@@ -30,7 +30,7 @@ pub(super) fn check(options: &Options) -> Result<(), Error> {
 pub(super) fn write(
     out: &Path,
     names: &[String],
-    judged: &[Judged<AtPoint>],
+    judged: &[Judged<PointResult>],
     of: &[ByCriterion],
 ) -> Result<(), Error> {
     let text = if let ([judged], [of]) = (judged, of) {
@@ -101,9 +101,9 @@ fn head(line: &Line, values: &str) -> String {
 
 /// A line for each point, with what is told of its value and margin.
 fn rows(
-    judged: &Judged<AtPoint>,
+    judged: &Judged<PointResult>,
     of: &ByCriterion,
-    values: impl Fn(&AtPoint, f64) -> String,
+    values: impl Fn(&PointResult, f64) -> String,
 ) -> Vec<String> {
     let along_y = matches!(judged.line, Line::AlongY(_));
     let mut rows = Vec::new();

@@ -2,7 +2,7 @@
 
 use contact_assess::{self as core, Averaging, ByCriterion, Distance, Judged, RangeOptions};
 use contact_core::Error;
-use fatigue::{AtPoint, Range, Search};
+use fatigue::{PointResult, Range, Search};
 use ndarray::{Array2, Array3};
 
 use super::below::{Below, depths_of, place};
@@ -16,7 +16,7 @@ use crate::scene::Body;
 #[pyclass(frozen, module = "pyfret.fatigue")]
 pub(crate) struct CriterionBelow {
     pub(super) below: Arc<Below>,
-    pub(super) judged: Judged<AtPoint>,
+    pub(super) judged: Judged<PointResult>,
     pub(super) of: ByCriterion,
 }
 
@@ -26,7 +26,7 @@ impl CriterionBelow {
     #[pyo3(signature = () -> "dict[str, NDArray[np.float64]]")]
     fn fields<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let places = self.judged.along.len();
-        let row = |found: &Option<Vec<AtPoint>>| match found {
+        let row = |found: &Option<Vec<PointResult>>| match found {
             Some(found) => Some(found.iter().copied().map(Some).collect()),
             None => Some(vec![None; places]),
         };
@@ -53,14 +53,14 @@ impl CriterionBelow {
         };
         let found = place(py, &worst)?;
         let (value, error) = (worst.extreme.value, worst.extreme.error.sum());
-        let range = assessment.range(value, error);
+        let range = assessment.margin_range(value, error);
         found.set_item("margin", range.best)?;
         found.set_item("range", (range.low, range.high))?;
         let material = material.as_ref().map(|material| &material.0);
         let (factor, _) = assessment.scatter(material, None)?;
-        let whole = assessment.at_a_point(value, error, factor);
+        let whole = assessment.point_range(value, error, factor);
         found.set_item("whole", (whole.low, whole.high))?;
-        found.set_item("order", assessment.extrapolated(value))?;
+        found.set_item("order", assessment.uncapped_margin(value))?;
         if assessment.criterion.has_plane() {
             let normal = worst.found.normal;
             found.set_item("normal", normal)?;
@@ -235,12 +235,12 @@ pub(super) fn averaging(method: &str) -> PyResult<Averaging> {
 /// Arrays over (rows, places) of what a criterion found, NaN where nothing was judged.
 pub(super) fn arrays<'py, 'a>(
     py: Python<'py>,
-    rows: &[Option<Vec<Option<AtPoint>>>],
+    rows: &[Option<Vec<Option<PointResult>>>],
     assessment: impl Fn(usize) -> Option<&'a fatigue::Assessment>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let places = rows.iter().flatten().map(Vec::len).next().unwrap_or(0);
     let at = |row: usize, place: usize| rows[row].as_ref().and_then(|row| row[place]);
-    let of = |f: fn(&AtPoint) -> f64| {
+    let of = |f: fn(&PointResult) -> f64| {
         let values = Array2::from_shape_fn((rows.len(), places), |(row, place)| {
             at(row, place).map_or(f64::NAN, |found| f(&found))
         });

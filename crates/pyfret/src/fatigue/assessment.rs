@@ -81,7 +81,9 @@ impl Assessment {
     ) -> Answer<((f64, f64, f64), (f64, f64, f64), f64, Vec<String>)> {
         let material = material.as_ref().map(|material| &material.0);
         let (factor, note) = self.0.scatter(material, scatter)?;
-        let found = self.0.told(self.0.margins(value, error), factor, None);
+        let found = self
+            .0
+            .life_range(self.0.margins(value, error), factor, None);
         let three = |of: core::Range| (of.low, of.best, of.high);
         Ok((
             three(found.stress),
@@ -137,7 +139,7 @@ attributes!(Assessment, self:
 impl Material {
     /// The criterion of that name with the limit or life curve of the material.
     fn assessment(&self, criterion: &str) -> Answer<Assessment> {
-        let found = core::Assessment::of(criterion, &self.0)?;
+        let found = core::Assessment::from_name(criterion, &self.0)?;
         Ok(Assessment(found))
     }
 }

@@ -110,7 +110,7 @@ impl Criterion {
         } else {
             material.extract::<Material>().map_err(PyErr::from)?.0
         };
-        let found = core::Assessment::of(name, &material)?;
+        let found = core::Assessment::from_name(name, &material)?;
         Ok(Self(found.criterion))
     }
 

@@ -8,7 +8,7 @@ use crate::error::Answer;
 use crate::prelude::*;
 
 /// A number of what a criterion finds at a point.
-type Number = fn(&core::AtPoint) -> f64;
+type Number = fn(&core::PointResult) -> f64;
 
 /// The numbers of a criterion at a point, by the names that Python has for them.
 pub(crate) const AT_POINT: [(&str, Number); 7] = [

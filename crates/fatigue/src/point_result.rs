@@ -6,10 +6,11 @@
 /// `shear_amplitude` is then sqrt(J2,a), or tau at the instant that decides, and `normal_max` the
 /// hydrostatic stress that goes with it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AtPoint {
+pub struct PointResult {
     /// Value of the criterion, in its unit; 0 where there is no stress.
     pub value: f64,
-    /// No plane has more than value + missed, in the unit of the value; 0 without a plane.
+    /// The criterion is at most value + missed on any plane, in the unit of the value; 0 without a
+    /// plane.
     pub missed: f64,
     /// Number of planes evaluated, the cost of the search; 0 without a plane.
     pub planes: usize,
@@ -26,8 +27,8 @@ pub struct AtPoint {
     pub normal_min: f64,
 }
 
-impl AtPoint {
-    /// Without stress.
+impl PointResult {
+    /// Result for a point without stress.
     pub(crate) const NOTHING: Self = Self {
         value: 0.0,
         missed: 0.0,
