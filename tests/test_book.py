@@ -120,6 +120,7 @@ def test_words_of_the_trade_are_in_their_pages(word: str, name: str) -> None:
     assert word in text.lower()
 
 
+@pytest.mark.solves
 def test_sentences_of_the_use_book_are_short_and_plain() -> None:
     found = subprocess.run(
         [sys.executable, ROOT / "tools" / "prose.py"], capture_output=True, text=True, check=False

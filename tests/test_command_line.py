@@ -178,6 +178,7 @@ def test_stress_below_is_that_of_python(coated: fret.Result, tmp_path: Path) -> 
     assert first.stdout.startswith("increment 10: largest von_mises")
 
 
+@pytest.mark.solves
 def test_stress_has_the_bulk_stress_unless_left_out(coated: fret.Result, tmp_path: Path) -> None:
     store = tmp_path / "out.zarr"
     path = fret.LoadPath.start().force(W=W, sigma_B=2e8, sigma_B1=-1e8, increments=3)
@@ -240,6 +241,7 @@ TEMPLATES = (
 )
 
 
+@pytest.mark.solves
 @pytest.mark.parametrize("template", TEMPLATES)
 def test_a_new_scene_can_be_checked_and_solved(template: str, tmp_path: Path) -> None:
     scene = tmp_path / "scene.toml"
@@ -279,6 +281,7 @@ def test_a_scene_comes_from_the_standard_input() -> None:
     assert "0.500 um" in told["text"]["body 2"][0]
 
 
+@pytest.mark.solves
 def test_numbers_for_programs(coated: fret.Result, tmp_path: Path) -> None:
     (tmp_path / "scene.toml").write_text(coated.scene.to_toml())
     run = fret_run("run", tmp_path / "scene.toml", "-o", tmp_path / "out.zarr", "--json")

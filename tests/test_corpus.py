@@ -149,6 +149,7 @@ CURVES = frozenset(("indentation", "loops from line 3"))
 TABLES = frozenset(("surface", "surface in um", "surface that says all", "SurfaceMap", "lives"))
 
 
+@pytest.mark.solves
 @pytest.mark.parametrize("name", ALL)
 def test_every_reader_is_right_or_refuses(name: str) -> None:
     """Right where it is the reader of the kind; else refused, by the name of the file."""

@@ -77,6 +77,7 @@ def test_cracks_are_values() -> None:
         fracture.Crack(legs=[(-1e-4, 0.0)])
 
 
+@pytest.mark.solves
 def test_the_worse_rim_is_the_trailing_one_and_short_cracks_stop(rig: fret.Result) -> None:
     cracks = rig.crack()
     assert abs(abs(cracks.dataset.attrs["x"]) / rig.a_H - 1.0) < 0.05

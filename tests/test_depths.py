@@ -71,6 +71,7 @@ def test_chosen_depths_find_the_largest_stress_of_random_layered_contacts() -> N
     assert np.mean(covered) >= 0.9
 
 
+@pytest.mark.solves
 def test_a_thin_layer_is_not_missed() -> None:
     """A layer of a fiftieth of the contact radius, four times as stiff, below a thicker one."""
     stiff = fret.Elastic(E=4 * STEEL.E, nu=0.3)

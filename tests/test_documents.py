@@ -117,8 +117,20 @@ def test_its_keywords_exist(document: Path) -> None:
 
 
 COMMANDS = (
-    *("new", "run", "resume", "check", "stress", "wear", "completions", "man", "study", "compare"),
-    *("explore", "life", "crack", "export", "fit", "threshold", "report", "verify", "cite"),
+    *("new", "run", "resume", "check", "schema", "stress", "wear", "completions", "man"),
+    *(
+        "study",
+        "compare",
+        "explore",
+        "life",
+        "crack",
+        "export",
+        "fit",
+        "threshold",
+        "report",
+        "verify",
+        "cite",
+    ),
 )
 
 

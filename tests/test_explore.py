@@ -59,6 +59,7 @@ def test_loads_keep_their_ratios() -> None:
     assert np.max(made.path.T_x) == pytest.approx(4.0)
 
 
+@pytest.mark.solves
 def test_a_preview_has_fewer_increments_and_nearly_the_same_numbers() -> None:
     given = changed(scene(), {}, n=32)
     full = answer(given)
@@ -78,6 +79,7 @@ def test_what_has_no_solution_is_told() -> None:
         answer(changed(given, {"mu": 0.05}, n=24))
 
 
+@pytest.mark.solves
 def test_the_script_runs(monkeypatch: pytest.MonkeyPatch, capsys: Any) -> None:
     import matplotlib.pyplot as plt
 

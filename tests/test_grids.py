@@ -25,6 +25,7 @@ def p_max(
     return float(at.contact_area), float(at.p_max)
 
 
+@pytest.mark.solves
 @pytest.mark.parametrize("length", [0.5e-3, 2e-3])
 def test_a_roller_with_ends_has_a_grid_of_its_length(length: float) -> None:
     path = fret.LoadPath.start().normal(100.0, increments=1)
@@ -54,6 +55,7 @@ def test_a_punch_with_round_edges_is_refined_until_its_pressure_is_known() -> No
     assert found == pytest.approx(finest, rel=0.03)
 
 
+@pytest.mark.solves
 def test_cells_resolve_the_waves_of_a_measured_surface() -> None:
     n, spacing, wave = 120, 2e-6, 20e-6
     x = spacing * np.arange(n)

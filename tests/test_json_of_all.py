@@ -177,6 +177,7 @@ def test_the_search_for_nulls_finds_them() -> None:
     assert without_reason({"a": {"b": None, "b_why": "not known"}, "c": 1}) == []
 
 
+@pytest.mark.solves
 def test_every_command_with_json_is_walked_over(folder: Path) -> None:
     listed = re.findall(r"^  (\w+)  ", fret_of("--help", folder=folder).stdout, re.MULTILINE)
     assert len(listed) > 10

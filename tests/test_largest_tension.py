@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 import pyfret as fret
 
@@ -24,6 +25,7 @@ def largest(n: int, thickness: float) -> fret.subsurface.Extreme:
     return fret.solve(scene, progress=False).at(-1).stress().maximum("s_1")
 
 
+@pytest.mark.solves
 def test_the_error_of_a_tension_on_the_rim_does_not_jump_with_the_grid() -> None:
     """The point lies on the rim, whether or not it is in the middle of a row of cells."""
     found = [largest(n, 20e-6) for n in (40, 44, 48, 52, 56, 96)]

@@ -50,6 +50,7 @@ def life() -> fatigue.Life:
     return rig(96).life(fatigue.Materials()["7075"], "smith_watson_topper")
 
 
+@pytest.mark.solves
 def test_a_life_has_low_best_and_high(life: fatigue.Life) -> None:
     assert life.low < life.best < life.high
     assert life.range.factor < 10.0
@@ -92,6 +93,7 @@ def test_the_range_of_a_point_holds_the_scatter_of_the_material(
     assert fret._core.with_range(worst.margin, least, most) in repr(worst)
 
 
+@pytest.mark.solves
 def test_the_range_of_the_stress_is_that_of_the_mean_and_covers(life: fatigue.Life) -> None:
     """The mean over a distance is known better than the stress at the rim."""
     alloy = fatigue.Materials()["7075"]
@@ -112,6 +114,7 @@ def test_the_range_of_the_stress_is_that_of_the_mean_and_covers(life: fatigue.Li
     assert means.error.attrs["units"] == means.value.attrs["units"]
 
 
+@pytest.mark.solves
 def test_the_best_is_that_of_the_mean_over_the_critical_distance(life: fatigue.Life) -> None:
     L = fatigue.critical_distance(fatigue.Materials()["7075"])
     assert pytest.approx(L) == life.range.L
@@ -309,6 +312,7 @@ def test_published_lives_of_a_solid_lubricant_lie_in_their_ranges() -> None:
 FITTED = [("s_D", 443e6, "fitted to plain fretting"), ("t_D", 297e6, "fitted to plain fretting")]
 
 
+@pytest.mark.solves
 def test_published_thresholds_lie_in_their_ranges() -> None:
     """At a measured threshold the range of the safety factor holds 1, in eight of ten tests."""
     steel = fatigue.Material("35NCD16", FITTED)
@@ -321,6 +325,7 @@ def test_published_thresholds_lie_in_their_ranges() -> None:
     assert sum(inside) >= 0.8 * len(inside)
 
 
+@pytest.mark.solves
 def test_a_threshold_has_the_range_of_its_margin() -> None:
     steel = fatigue.Material("35NCD16", FITTED)
     found = fret.study.threshold(

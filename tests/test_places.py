@@ -59,6 +59,7 @@ def along_x() -> dict[str, float]:
     return numbers(sheared(0.0, n=48))
 
 
+@pytest.mark.solves
 @pytest.mark.parametrize("degrees", [37.0, 90.0])
 def test_turned_shear_gives_the_same_numbers(along_x: dict[str, float], degrees: float) -> None:
     turned = numbers(sheared(np.radians(degrees), n=48))
@@ -66,6 +67,7 @@ def test_turned_shear_gives_the_same_numbers(along_x: dict[str, float], degrees:
         assert turned[name] == pytest.approx(right, rel=0.01), (name, degrees)
 
 
+@pytest.mark.solves
 def test_the_outline_of_a_sheared_ball() -> None:
     at = sheared(np.radians(37.0)).at(-1)
     outline = at.outline
@@ -123,6 +125,7 @@ def test_an_oblique_section_is_the_stress_at_its_points() -> None:
     assert np.hypot(x, y) == pytest.approx(A, rel=0.01)
 
 
+@pytest.mark.solves
 def test_the_crack_begins_where_an_elliptic_contact_ends() -> None:
     result = sheared(
         0.0, n=64, extent=4.4, shape=fret.shapes.Ellipsoid(R_x=2.0 * RADIUS, R_y=0.5 * RADIUS)
@@ -141,6 +144,7 @@ def test_the_crack_begins_where_an_elliptic_contact_ends() -> None:
     assert float(by_default) >= 0.99 * there
 
 
+@pytest.mark.solves
 def test_the_largest_stress_of_a_buried_layer_lies_beyond_the_grid() -> None:
     ball, base = fret.Elastic(E=190e9, nu=0.25), fret.Elastic(E=205e9, nu=0.26)
     a = fret.reference.hertz(R=8e-3, bodies=(ball, base), W=40.0).a
@@ -193,6 +197,7 @@ def test_worn_profiles_and_work_lie_along_the_shear() -> None:
         np.testing.assert_allclose(along_y, along_x, rtol=1e-2, atol=1e-3 * along_x.max())
 
 
+@pytest.mark.solves
 def test_a_worst_point_beyond_the_grid_under_a_bulk_stress() -> None:
     """Below a soft coating the bulk stress outweighs the contact beside it, on any grid."""
     titanium = fret.Elastic(E=117e9, nu=0.31)

@@ -158,7 +158,7 @@ def test_units_are_known(key: str, unit: str) -> None:
 
 
 def test_schema_is_written(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
-    out = tmp_path / "fret.schema.json"
+    out = tmp_path / "scene.schema.json"
     assert run_command(["fret", "schema", "-o", str(out)]) == 0
     assert json.loads(out.read_text(encoding="utf-8")) == SCHEMA
     assert run_command(["fret", "schema"]) == 0
@@ -170,7 +170,7 @@ def test_editors_find_the_schema_of_a_new_scene(tmp_path: Path) -> None:
     taplo = Path(sys.executable).with_name("taplo")
     scene = tmp_path / "scene.toml"
     assert run_command(["fret", "new", "coated_ball", "-o", str(scene)]) == 0
-    assert run_command(["fret", "schema", "-o", str(tmp_path / "fret.schema.json")]) == 0
+    assert run_command(["fret", "schema", "-o", str(tmp_path / "scene.schema.json")]) == 0
 
     def check() -> subprocess.CompletedProcess[str]:
         command = [str(taplo), "check", "--no-auto-config", str(scene)]

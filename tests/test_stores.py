@@ -70,6 +70,7 @@ def asks(version: int, what: str) -> Callable[[dict[str, Any]], None]:
     return change
 
 
+@pytest.mark.solves
 @pytest.mark.parametrize("name", ["run", "copy", "copy3", "study"])
 @pytest.mark.parametrize(
     ("what", "told"), [("codec", "pickle"), ("object", "p_max"), ("size", "says that it has")]

@@ -151,6 +151,7 @@ def is_compiled(call: Any) -> bool:
     return owner is not None and getattr(call, "__module__", None) in (None, "pyfret._core")
 
 
+@pytest.mark.solves
 def test_a_program_with_units_is_typed_strictly(tmp_path: Path) -> None:
     program = tmp_path / "program.py"
     program.write_text(PROGRAM, encoding="utf-8")
@@ -167,6 +168,7 @@ OF_PAGES = {
 }
 
 
+@pytest.mark.solves
 def test_the_pages_are_typed_strictly(tmp_path: Path) -> None:
     """The blocks of each page, one after the other, as a user would copy them."""
     for page in DOCUMENTS:

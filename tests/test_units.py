@@ -105,6 +105,7 @@ def is_ranged(key: str) -> bool:
     return any(_core.doubt(key, key, size) for size in (1e-290, 1e290))
 
 
+@pytest.mark.solves
 def test_what_takes_a_quantity_is_behind_the_door(
     monkeypatch: pytest.MonkeyPatch, record_property: Callable[[str, object], None]
 ) -> None:

@@ -31,6 +31,7 @@ def test_every_page_has_a_name_of_its_own() -> None:
     assert len(set(names)) == len(names)
 
 
+@pytest.mark.solves
 def test_a_page_says_what_was_run(tmp_path: Path) -> None:
     outcome = runner.run(replace(HERTZ, grids=(32, 64)))
     grids = outcome.grids

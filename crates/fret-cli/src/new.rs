@@ -56,7 +56,7 @@ impl Template {
 }
 
 /// Name of the schema in the first line of each scene, which editors read.
-const SCHEMA_FILE: &str = "fret.schema.json";
+const SCHEMA_FILE: &str = "scene.schema.json";
 
 /// Writes the scene.
 pub(crate) fn new(options: &Options) -> Result<(), Failure> {
