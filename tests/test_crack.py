@@ -16,7 +16,7 @@ from matplotlib.text import Text
 import pyfret as fret
 from pyfret import fracture
 from pyfret._cli import commands
-from pyfret._util.doubts import doubts_of
+from pyfret._util.scene_warnings import doubts_of
 from pyfret.report.crack import CrackSection
 
 if TYPE_CHECKING:

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import importlib
-import subprocess
-import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -106,24 +104,6 @@ def test_what_is_not_there_is_told_with_what_is(
     with pytest.raises(error, match=says):
         guess(result)
     plt.close("all")
-
-
-def test_a_figure_is_named_before_any_is_drawn() -> None:
-    """The names are known without matplotlib; a run of one state is told what it has."""
-    code = """
-import sys
-import pyfret as fret
-grid = fret.Grid.centred(extent=1e-3, n=4)
-try:
-    grid.stress_history
-except AttributeError as error:
-    print(error)
-print("matplotlib" in sys.modules)
-"""
-    ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    told, loaded = ran.stdout.splitlines()
-    assert "it is a function, fret.plot.stress_history(...)" in told
-    assert loaded == "False"
 
 
 def test_a_run_of_one_state_is_told_how_its_stress_is_got(result: fret.Result) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import builtins
 import io
 import math
 import sys
@@ -290,7 +291,7 @@ def test_a_notebook_has_the_bar_in_an_output_of_its_own(monkeypatch: pytest.Monk
     notebook.display = display  # type: ignore[attr-defined]
     monkeypatch.setitem(sys.modules, "IPython", ModuleType("IPython"))
     monkeypatch.setitem(sys.modules, "IPython.display", notebook)
-    monkeypatch.setitem(sys.modules, "ipykernel", ModuleType("ipykernel"))
+    monkeypatch.setattr(builtins, "__IPYTHON__", True, raising=False)
     red = io.StringIO()
     monkeypatch.setattr(sys, "stderr", red)
     with Progress(title="run", shown=True) as bar:

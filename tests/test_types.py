@@ -17,12 +17,11 @@ import pytest
 import pyfret as fret
 import pyfret.plot
 from conftest import ROOT
-from pyfret import _core
-from pyfret._util import door, takers
+from pyfret import _core, quantities
 from test_documents import DOCUMENTS, text
 
 #: Annotations that take a text with a unit.
-TAKES = ("Quantity", "Quantities", "AsNumber", "YieldStresses", "ArrayLike")
+TAKES = {*quantities.__all__, "YieldStresses", "ArrayLike"} - {"FrictionCoefficient"}
 #: A program of a user, with units wherever they are taken.
 PROGRAM = """
 import numpy as np
@@ -73,46 +72,38 @@ def annotation_in_stub(name: str, key: str) -> str:
     raise AssertionError(name)
 
 
-def test_parameters_whose_quantity_is_known_are_typed_so() -> None:
-    """All functions, methods and constructors of Python, by their signatures."""
+def public_calls(monkeypatch: pytest.MonkeyPatch) -> Any:
+    """Return the module that lists all public callables with good arguments."""
+    monkeypatch.syspath_prepend(str(Path(__file__).with_name("hostile")))
+    return importlib.import_module("public")
+
+
+@pytest.mark.solves
+@pytest.mark.filterwarnings("ignore")
+def test_parameters_whose_quantity_is_known_are_typed_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every parameter with a name of the table of quantities has a unit in its type."""
     asked, wrong = 0, []
-    for name, call in takers.public():
+    for name, call in public_calls(monkeypatch).public():
         function = call.__init__ if inspect.isclass(call) else getattr(call, "__func__", call)
-        if not stands_behind_the_door(function):
+        code = getattr(function, "__code__", None)
+        if code is None or code.co_filename != quantities.__file__:
             continue
-        for one in inspect.signature(function).parameters.values():
-            annotation = str(one.annotation)
-            measured = _core.measured_by(f"{call.__qualname__}.{one.name}")
-            several = door.ARRAY.fullmatch(annotation)
-            if (
-                door.kind(annotation) not in door.UNITS
-                or several
-                or not measured
-                or not measured[1]
-            ):
-                continue
-            # A growth law has no unit of one word.
-            if " at " in measured[1]:
+        for rule in quantities.Signature(inspect.unwrap(function)).rules.values():
+            measured = _core.measured_by(f"{call.__qualname__}.{rule.name}")
+            if rule.number in (None, "count", "text", "array") or not measured or not measured[1]:
                 continue
             asked += 1
-            if not any(of in annotation for of in TAKES):
-                wrong.append(f"{name}({one.name}: {annotation})")
+            if rule.unit is None or rule.unit.si != measured[1]:
+                wrong.append(f"{name}({rule.name}: {rule.unit})")
     assert asked > 60
     assert wrong == []
-
-
-def stands_behind_the_door(function: Any) -> bool:
-    """Whether a function of Python reads its arguments through the door."""
-    code = getattr(function, "__code__", None)
-    return code is not None and code.co_filename == door.__file__
 
 
 @pytest.mark.solves
 @pytest.mark.filterwarnings("ignore")
 def test_compiled_parameters_that_take_a_unit_are_typed_so(monkeypatch: pytest.MonkeyPatch) -> None:
     """By what they do with a text, against the stub; those that refuse one are numbers."""
-    monkeypatch.syspath_prepend(str(Path(__file__).with_name("hostile")))
-    public = importlib.import_module("public")
+    public = public_calls(monkeypatch)
     asked, wrong = 0, []
     for name, call in public.public():
         found = public.good(name, call) if name not in public.LEFT_OUT else None
@@ -137,7 +128,8 @@ def test_compiled_parameters_that_take_a_unit_are_typed_so(monkeypatch: pytest.M
                     continue
                 taken = False
             asked += 1
-            if taken != any(of in annotation_in_stub(told, key) for of in TAKES):
+            names = set(re.findall(r"\w+", annotation_in_stub(told, key)))
+            if taken != bool(names & TAKES):
                 wrong.append(f"{told}({key}: {annotation_in_stub(told, key)}): taken: {taken}")
     assert asked > 60
     assert wrong == []

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import importlib
-import inspect
 import re
+import typing
 import warnings
 from collections.abc import Callable
 from pathlib import Path
@@ -14,8 +13,7 @@ import numpy as np
 import pytest
 
 import pyfret as fret
-from pyfret import _core, fatigue, fracture, heat, subsurface, wear
-from pyfret._util import door
+from pyfret import _core, fatigue, fracture, heat, quantities, subsurface, wear
 from pyfret.errors import SceneWarning
 from pyfret.fit.ranges import ranges
 from pyfret.study.design import Design
@@ -100,34 +98,16 @@ def test_numbers_of_a_scene_in_another_unit_are_doubted() -> None:
     assert "rig" not in doubts(path=path.rig("20 N/um"))
 
 
-def is_ranged(key: str) -> bool:
-    """Whether a number of that key may be doubted."""
-    return any(_core.doubt(key, key, size) for size in (1e-290, 1e290))
-
-
-@pytest.mark.solves
-def test_what_takes_a_quantity_is_behind_the_door(
-    monkeypatch: pytest.MonkeyPatch, record_property: Callable[[str, object], None]
-) -> None:
-    """By introspection: every public function of Python with a parameter that the table knows."""
-    monkeypatch.syspath_prepend(str(Path(__file__).with_name("hostile")))
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        public = importlib.import_module("public")
-    found, missing = [], []
-    for name, call in public.public():
-        of = call.__init__ if isinstance(call, type) else call
-        if not inspect.isfunction(inspect.unwrap(getattr(of, "__func__", of))):
-            continue
-        parameters = inspect.signature(call).parameters.values()
-        kinds = ("number", "number or several", "number or else")
-        numbers = [p.name for p in parameters if door.kind(str(p.annotation)) in kinds]
-        keys = [key for key in numbers if is_ranged(f"{name}.{key}")]
-        found += keys
-        missing += [f"{name}({key})" for key in keys if not hasattr(of, "__wrapped__")]
-    record_property("parameters", len(found))
-    assert len(found) > 20
-    assert not missing, ", ".join(missing)
+def test_types_of_quantities_are_the_rows_of_the_table() -> None:
+    """Every type has a row with its unit, and every row has a type."""
+    hints = [typing.get_args(hint)[1:] for hint in vars(quantities).values()]
+    units = {
+        data.quantity: data.si
+        for metadata in hints
+        for data in metadata
+        if isinstance(data, quantities.Unit) and data.quantity
+    }
+    assert units == {name: unit for name, unit, _ in _core.quantities()}
 
 
 @pytest.mark.parametrize(

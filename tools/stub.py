@@ -17,17 +17,19 @@ import sys
 import tempfile
 from pathlib import Path
 
-from pyfret import _core
+from pyfret import _core, quantities
 from pyfret.grids import for_contact
 
 ROOT = Path(__file__).parents[1]
 STUB = ROOT / "python" / "pyfret" / "_core.pyi"
 BIN = Path(sys.executable).parent
-IMPORTS = """\
+NAMES = ", ".join(name for name in quantities.__all__ if name[0].isupper())
+IMPORTS = f"""\
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal
 from typing_extensions import Self
-from pyfret._util.types import FrictionFunction, Quantities, Quantity, Variable
+from pyfret._util.types import FrictionFunction, Variable
+from pyfret.quantities import {NAMES}
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 """
@@ -105,7 +107,8 @@ def stub() -> str:
     text = re.sub(r"\btuple\b(?!\[)(?=[\]\s,:|)])", "tuple[Any, ...]", text)
     # CPython gives a class with __add__ the other one.
     text = re.sub(r"( *def )__add__(.*\n)", r"\1__add__\2\1__radd__\2", text)
-    text = text.replace("def __getattr__(name: str) -> Incomplete: ...\n", "")
+    # What a class does not have is refused there.
+    text = re.sub(r" *def __getattr__\(.*\n", "", text)
     text = within(within(text, "Criterion", criteria()), "Grid", grids())
     return formatted(IMPORTS + text + exceptions() + exports())
 

@@ -26,6 +26,7 @@ everywhere; z points into body 2, the lower one; pressure is positive, tension i
 from __future__ import annotations
 
 from importlib import import_module
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from pyfret import (
@@ -69,7 +70,8 @@ from pyfret._core import Branch as Branch
 from pyfret._core import PerRange as PerRange
 from pyfret._core import Spacing as Spacing
 from pyfret._core import __version__ as __version__
-from pyfret._util.guesses import offer_nearest
+from pyfret._util.attributes import PUBLIC_MODULES
+from pyfret._util.figures import register_figures
 from pyfret._util.names import OTHER_NAMES, listing
 from pyfret.citation import cite
 from pyfret.grids import offer as offer_grids
@@ -137,19 +139,30 @@ __all__ = [
 __dir__ = listing(__all__)
 
 offer_grids()
-offer_nearest()
+PUBLIC_MODULES.update(
+    {name: globals()[name] for name in __all__ if isinstance(globals().get(name), ModuleType)}
+)
+
+
+def _load_figures() -> ModuleType:
+    """Import the figures, and with them matplotlib."""
+    try:
+        PUBLIC_MODULES["plot"] = import_module("pyfret.plot")
+    except ModuleNotFoundError as absent:
+        if absent.name != "matplotlib":
+            raise
+        message = 'figures need matplotlib: pip install "fretting[plot]"'
+        raise ModuleNotFoundError(message, name="matplotlib") from absent
+    return PUBLIC_MODULES["plot"]
+
+
+register_figures(_load_figures)
 
 
 def __getattr__(name: str) -> Any:
     """Import the figures, and with them matplotlib, when they are first asked for."""
     if name == "plot":
-        try:
-            return import_module("pyfret.plot")
-        except ModuleNotFoundError as absent:
-            if absent.name != "matplotlib":
-                raise
-            message = 'figures need matplotlib: pip install "fretting[plot]"'
-            raise ModuleNotFoundError(message, name="matplotlib") from absent
+        return _load_figures()
     if name == "explore":
         return import_module("pyfret.what_if.page").explore
     meant = OTHER_NAMES.get(name)

@@ -8,7 +8,30 @@ from numpy import bool_, float64
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import Self
 
-from pyfret._util.types import FrictionFunction, Quantities, Quantity, Variable
+from pyfret._util.types import FrictionFunction, Variable
+from pyfret.quantities import (
+    Angle,
+    BulkStress,
+    ContactModulus,
+    Force,
+    Frequency,
+    FrictionCoefficient,
+    Length,
+    LineForce,
+    Modulus,
+    Moment,
+    NormalCompliance,
+    PeakPressure,
+    PointForce,
+    Quantities,
+    Quantity,
+    Radius,
+    ShearCompliance,
+    Stiffness,
+    Thickness,
+    Time,
+    YieldStress,
+)
 from pyfret.settings import Settings
 
 DEPTH_ROUNDING: Final[float]
@@ -207,14 +230,16 @@ class Bond:
     def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
     def __hash__(self, /) -> int: ...
     def __ne__(self, value: object, /) -> bool: ...
-    def __new__(cls, /, *, normal: Quantity = 0.0, shear: Quantity = 0.0) -> Bond: ...
+    def __new__(
+        cls, /, *, normal: NormalCompliance = 0.0, shear: ShearCompliance = 0.0
+    ) -> Bond: ...
     def __replace__(self, /, **changes: Any) -> Self: ...
     def __repr__(self, /) -> str: ...
     @property
     def normal(self, /) -> float:
         """Approach per pressure [m/Pa]."""
     @staticmethod
-    def of_layer(material: Elastic, *, thickness: Quantity) -> Bond:
+    def of_layer(material: Elastic, *, thickness: Thickness) -> Bond:
         """The bond that a thin layer of a material makes: h (1 - 2 nu)/(2 G (1 - nu)) and h/G."""
     def replace(self, /, **changes: Any) -> Self:
         """The same with some of its parts exchanged, named as in the constructor."""
@@ -273,24 +298,24 @@ class Branch:
         cls,
         /,
         *,
-        W: Quantity | None = None,
-        M_x: Quantity | None = None,
-        M_y: Quantity | None = None,
-        T_x: Quantity | None = None,
-        T_y: Quantity | None = None,
-        M_z: Quantity | None = None,
-        delta_z: Quantity | None = None,
-        phi_x: Quantity | None = None,
-        phi_y: Quantity | None = None,
-        delta_x: Quantity | None = None,
-        delta_y: Quantity | None = None,
-        phi_z: Quantity | None = None,
-        sigma_B: Quantity = 0.0,
-        sigma_B1: Quantity = 0.0,
-        rolled: Quantity = 0.0,
+        W: Force | None = None,
+        M_x: Moment | None = None,
+        M_y: Moment | None = None,
+        T_x: Force | None = None,
+        T_y: Force | None = None,
+        M_z: Moment | None = None,
+        delta_z: Length | None = None,
+        phi_x: Angle | None = None,
+        phi_y: Angle | None = None,
+        delta_x: Length | None = None,
+        delta_y: Length | None = None,
+        phi_z: Angle | None = None,
+        sigma_B: BulkStress = 0.0,
+        sigma_B1: BulkStress = 0.0,
+        rolled: Length = 0.0,
         increments: int | Literal["auto"] | None = None,
         spacing: Spacing = ...,
-        t: Quantity,
+        t: Time,
         path_error: float | None = None,
     ) -> Branch: ...
     def __replace__(self, /, **changes: Any) -> Self: ...
@@ -368,39 +393,39 @@ class CattaneoMindlin:
     def __new__(
         cls, /, hertz: Hertz, *, bodies: tuple[Elastic | Body, Elastic | Body], mu: float
     ) -> CattaneoMindlin: ...
-    def __reduce__(self, /) -> tuple[Any, tuple[Any, ...]]: ...
+    def __reduce__(self, /) -> tuple[Any, tuple[Any, str | None, dict[str, Any] | None]]: ...
     def __repr__(self, /) -> str: ...
     @property
     def bodies(self, /) -> tuple[Elastic, Elastic]:
         """Materials of body 1 and body 2."""
-    def energy_ratio(self, /, T_m: Quantity) -> float:
+    def energy_ratio(self, /, T_m: PointForce) -> float:
         """Loop energy over 4 T_m delta_x(T_m); 0.2 where partial slip ends."""
     @property
     def hertz(self, /) -> Hertz:
         """The normal contact."""
-    def loop_energy(self, /, T_m: Quantity) -> float:
+    def loop_energy(self, /, T_m: PointForce) -> float:
         """Energy dissipated in one closed loop between -`T_m` and `T_m` [J]."""
     @property
     def mu(self, /) -> float:
         """Friction coefficient."""
-    def q_loading(self, /, r: ArrayLike, *, T: Quantity) -> NDArray[float64]:
+    def q_loading(self, /, r: ArrayLike, *, T: PointForce) -> NDArray[float64]:
         """Shear traction at distance `r` [m] in the first loading to `T` [N] [Pa]."""
-    def q_reloading(self, /, r: ArrayLike, *, T: Quantity, T_m: Quantity) -> NDArray[float64]:
+    def q_reloading(self, /, r: ArrayLike, *, T: PointForce, T_m: PointForce) -> NDArray[float64]:
         """Shear traction at `T` on the way from -`T_m` back to `T_m` [N] [Pa]."""
-    def q_unloading(self, /, r: ArrayLike, *, T: Quantity, T_m: Quantity) -> NDArray[float64]:
+    def q_unloading(self, /, r: ArrayLike, *, T: PointForce, T_m: PointForce) -> NDArray[float64]:
         """Shear traction at `T` on the way back from the first loading to `T_m` [N] [Pa]."""
     @property
     def shift_limit(self, /) -> float:
         """Shift at which gross sliding starts [m], 3 mu W / (16 a G*)."""
     def shift_loading(self, /, T: ArrayLike) -> NDArray[float64]:
         """Shift delta_x of the first loading to `T` [N] [m]."""
-    def shift_reloading(self, /, T: ArrayLike, *, T_m: Quantity) -> NDArray[float64]:
+    def shift_reloading(self, /, T: ArrayLike, *, T_m: PointForce) -> NDArray[float64]:
         """Shift delta_x at `T` on the way from -`T_m` back to `T_m` [N] [m]."""
-    def shift_unloading(self, /, T: ArrayLike, *, T_m: Quantity) -> NDArray[float64]:
+    def shift_unloading(self, /, T: ArrayLike, *, T_m: PointForce) -> NDArray[float64]:
         """Shift delta_x at `T` on the way back from `T_m` [N] [m]."""
-    def stick_radius(self, /, T: Quantity) -> float:
+    def stick_radius(self, /, T: PointForce) -> float:
         """Stick radius of the first loading to `T` [N], a (1 - T/(mu W))^(1/3) [m]."""
-    def stick_radius_reversed(self, /, T: Quantity, *, T_m: Quantity) -> float:
+    def stick_radius_reversed(self, /, T: PointForce, *, T_m: PointForce) -> float:
         """
         Stick radius after the force changed from the reversal at `T_m` to `T` [N] [m].
 
@@ -419,7 +444,7 @@ class CoatedIndentation:
         """Normal force [N]."""
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self, /) -> int: ...
-    def __reduce__(self, /) -> tuple[Any, tuple[Any, ...]]: ...
+    def __reduce__(self, /) -> tuple[Any, tuple[Any, str | None, dict[str, Any] | None]]: ...
     def __repr__(self, /) -> str: ...
     @property
     def a(self, /) -> float:
@@ -465,7 +490,7 @@ class Coating:
         /,
         material: Elastic,
         *,
-        thickness: Quantity,
+        thickness: Thickness,
         bond: Bond = ...,
         residual: ArrayLike | None = None,
     ) -> Coating: ...
@@ -503,7 +528,7 @@ class Cone:
     def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
     def __hash__(self, /) -> int: ...
     def __ne__(self, value: object, /) -> bool: ...
-    def __new__(cls, /, *, slope: Quantity) -> Cone: ...
+    def __new__(cls, /, *, slope: float) -> Cone: ...
     def __replace__(self, /, **changes: Any) -> Self: ...
     def __repr__(self, /) -> str: ...
     def replace(self, /, **changes: Any) -> Self:
@@ -531,7 +556,7 @@ class CoupledIndentation:
         """Normal force over 4 E* a^3 / (3 R)."""
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self, /) -> int: ...
-    def __reduce__(self, /) -> tuple[Any, tuple[Any, ...]]: ...
+    def __reduce__(self, /) -> tuple[Any, tuple[Any, str | None, dict[str, Any] | None]]: ...
     def __repr__(self, /) -> str: ...
     @property
     def beta(self, /) -> float:
@@ -824,7 +849,7 @@ class CrownedRoller:
     def __hash__(self, /) -> int: ...
     def __ne__(self, value: object, /) -> bool: ...
     def __new__(
-        cls, /, *, R: Quantity, length: Quantity, crown: Quantity, angle: Quantity = 0.0
+        cls, /, *, R: Radius, length: Length, crown: Length, angle: Angle = 0.0
     ) -> CrownedRoller: ...
     def __replace__(self, /, **changes: Any) -> Self: ...
     def __repr__(self, /) -> str: ...
@@ -861,7 +886,7 @@ class CycleSection:
         *,
         x: float | None = None,
         y: float | None = None,
-        azimuth: Quantity | None = None,
+        azimuth: Angle | None = None,
         body_number: int = 2,
         residual: Sequence[ArrayLike] | None = None,
         yielding: tuple[float, float] | None = None,
@@ -921,9 +946,7 @@ class Cylinder:
     def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
     def __hash__(self, /) -> int: ...
     def __ne__(self, value: object, /) -> bool: ...
-    def __new__(
-        cls, /, R: Quantity, *, length: Quantity = ..., angle: Quantity = 0.0
-    ) -> Cylinder: ...
+    def __new__(cls, /, R: Radius, *, length: Length = ..., angle: Angle = 0.0) -> Cylinder: ...
     def __replace__(self, /, **changes: Any) -> Self: ...
     def __repr__(self, /) -> str: ...
     @property
@@ -975,9 +998,9 @@ class EigenstrainOperator:
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self, /) -> int: ...
     def __new__(
-        cls, /, body: Body, grid: Grid, *, depth: Quantity, height: float
+        cls, /, body: Body, grid: Grid, *, depth: Length, height: float
     ) -> EigenstrainOperator: ...
-    def __reduce__(self, /) -> tuple[Any, tuple[Any, ...]]: ...
+    def __reduce__(self, /) -> tuple[Any, tuple[Any, str | None, dict[str, Any] | None]]: ...
     def __repr__(self, /) -> str: ...
     def apply(
         self,
@@ -1072,7 +1095,7 @@ class Elastic:
     def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
     def __hash__(self, /) -> int: ...
     def __ne__(self, value: object, /) -> bool: ...
-    def __new__(cls, /, *, E: Quantity, nu: float, plastic: Plastic | None = None) -> Elastic: ...
+    def __new__(cls, /, *, E: Modulus, nu: float, plastic: Plastic | None = None) -> Elastic: ...
     def __replace__(self, /, **changes: Any) -> Self: ...
     def __repr__(self, /) -> str: ...
     @property
@@ -1111,7 +1134,7 @@ class Ellipsoid:
     def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
     def __hash__(self, /) -> int: ...
     def __ne__(self, value: object, /) -> bool: ...
-    def __new__(cls, /, *, R_x: Quantity, R_y: Quantity, angle: Quantity = 0.0) -> Ellipsoid: ...
+    def __new__(cls, /, *, R_x: Radius, R_y: Radius, angle: Angle = 0.0) -> Ellipsoid: ...
     def __replace__(self, /, **changes: Any) -> Self: ...
     def __repr__(self, /) -> str: ...
     @property
@@ -1136,7 +1159,7 @@ class Envelope:
         of: Sequence[str],
         x: float | None = None,
         y: float | None = None,
-        azimuth: Quantity | None = None,
+        azimuth: Angle | None = None,
         body_number: int = 2,
         residual: Sequence[ArrayLike] | None = None,
     ) -> Envelope: ...
@@ -1155,7 +1178,7 @@ class Envelope:
         q_x: ArrayLike,
         q_y: ArrayLike,
         stick: NDArray[bool_],
-        sigma_B: Quantity = 0.0,
+        sigma_B: BulkStress = 0.0,
         eigenstress: Eigenstress | None = None,
     ) -> None:
         """Take an increment: tractions [Pa], cells that stick, bulk stress of the body [Pa]."""
@@ -1195,7 +1218,7 @@ class FlatPunch:
     def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
     def __hash__(self, /) -> int: ...
     def __ne__(self, value: object, /) -> bool: ...
-    def __new__(cls, /, *, radius: Quantity, edge: Quantity) -> FlatPunch: ...
+    def __new__(cls, /, *, radius: Length, edge: Length) -> FlatPunch: ...
     def __replace__(self, /, **changes: Any) -> Self: ...
     def __repr__(self, /) -> str: ...
     @property
@@ -1305,7 +1328,7 @@ class Grid:
     def __hash__(self, /) -> int: ...
     def __ne__(self, value: object, /) -> bool: ...
     def __new__(
-        cls, /, *, nx: int, ny: int, dx: Quantity, dy: Quantity, plane_strain: bool = False
+        cls, /, *, nx: int, ny: int, dx: Length, dy: Length, plane_strain: bool = False
     ) -> Grid: ...
     def __replace__(self, /, **changes: Any) -> Self: ...
     def __repr__(self, /) -> str: ...
@@ -1338,7 +1361,7 @@ class Grid:
     def replace(self, /, **changes: Any) -> Self:
         """The same with some of its parts exchanged, named as in the constructor."""
     @staticmethod
-    def strip(*, extent: Quantity, n: int, width: Quantity = 1.0) -> Grid:
+    def strip(*, extent: Length, n: int, width: Length = 1.0) -> Grid:
         """
         Plane strain: `n` cells over the length `extent` [m] along x, without end along y.
 
@@ -1365,10 +1388,10 @@ class Grid:
         *,
         error: float = 0.005,
         room: float = 1.2,
-        start: Quantity | None = None,
+        start: Length | None = None,
         plane_strain: bool = False,
         wear: Mapping[str, Any] | None = None,
-        mu: float | Friction | None = None,
+        mu: FrictionCoefficient | Friction | None = None,
         of: Literal["p", "p_max", "s_xx", "loop"] = "p",
         n: int | None = None,
     ) -> Grid:
@@ -1468,9 +1491,16 @@ class Hertz:
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self, /) -> int: ...
     def __new__(
-        cls, /, *, W: Quantity, E_star: Quantity, a: Quantity, p0: Quantity, delta_z: Quantity
+        cls,
+        /,
+        *,
+        W: PointForce,
+        E_star: ContactModulus,
+        a: Length,
+        p0: PeakPressure,
+        delta_z: Length,
     ) -> Hertz: ...
-    def __reduce__(self, /) -> tuple[Any, tuple[Any, ...]]: ...
+    def __reduce__(self, /) -> tuple[Any, tuple[Any, str | None, dict[str, Any] | None]]: ...
     def __repr__(self, /) -> str: ...
     @property
     def a(self, /) -> float:
@@ -1505,7 +1535,7 @@ class HertzEllipse:
         """Normal force [N]."""
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self, /) -> int: ...
-    def __reduce__(self, /) -> tuple[Any, tuple[Any, ...]]: ...
+    def __reduce__(self, /) -> tuple[Any, tuple[Any, str | None, dict[str, Any] | None]]: ...
     def __repr__(self, /) -> str: ...
     @property
     def a_x(self, /) -> float:
@@ -1538,8 +1568,8 @@ class HertzStress:
 
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self, /) -> int: ...
-    def __new__(cls, /, *, a: Quantity, nu: float) -> HertzStress: ...
-    def __reduce__(self, /) -> tuple[Any, tuple[Any, ...]]: ...
+    def __new__(cls, /, *, a: Length, nu: float) -> HertzStress: ...
+    def __reduce__(self, /) -> tuple[Any, tuple[Any, str | None, dict[str, Any] | None]]: ...
     def __repr__(self, /) -> str: ...
     @property
     def a(self, /) -> float:
@@ -1575,7 +1605,7 @@ class History:
     def __hash__(self, /) -> int: ...
     def __int__(self, /) -> int: ...
     def __ne__(self, value: object, /) -> bool: ...
-    def __reduce__(self, /) -> tuple[Any, tuple[type, str]]: ...
+    def __reduce__(self, /) -> tuple[Any, tuple[Any, str | None, dict[str, Any] | None]]: ...
     def __repr__(self, /) -> str: ...
 
 @final
@@ -1593,7 +1623,7 @@ class LineContact:
         """Normal force per length [N/m]."""
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self, /) -> int: ...
-    def __reduce__(self, /) -> tuple[Any, tuple[Any, ...]]: ...
+    def __reduce__(self, /) -> tuple[Any, tuple[Any, str | None, dict[str, Any] | None]]: ...
     def __repr__(self, /) -> str: ...
     @property
     def a(self, /) -> float:
@@ -1610,14 +1640,14 @@ class LineContact:
     def p_H(self, /) -> float:
         """Peak pressure [Pa], by the name that it has in results."""
     def q(
-        self, /, x: ArrayLike, *, T: Quantity, mu: float, middle: Quantity = 0.0
+        self, /, x: ArrayLike, *, T: LineForce, mu: float, middle: Length = 0.0
     ) -> NDArray[float64]:
         """
         Shear at `x` [m] under `T` [N/m] with the stick zone around `middle` [m] [Pa].
 
         Cattaneo's with the middle at 0, Carter's with it at a - c towards the leading edge.
         """
-    def stick_half_width(self, /, *, T: Quantity, mu: float) -> float:
+    def stick_half_width(self, /, *, T: LineForce, mu: float) -> float:
         """Half-width of the stick zone under `T` [N/m] [m]."""
     def stick_middle(self, /, *, eps_x: float, mu: float) -> float:
         """
@@ -1626,7 +1656,7 @@ class LineContact:
         The strain is brought up together with T > 0.
         """
     def stress(
-        self, /, x: ArrayLike, z: ArrayLike, *, T: Quantity, mu: float, middle: Quantity = 0.0
+        self, /, x: ArrayLike, z: ArrayLike, *, T: LineForce, mu: float, middle: Length = 0.0
     ) -> list[NDArray[np.float64]]:
         """
         Stress s_xx, s_zz, s_xz at (`x`, `z`) [m] in partial slip [Pa]; arrays are put together.
@@ -1672,7 +1702,7 @@ class LoadPath:
     def __len__(self, /) -> int: ...
     def __ne__(self, value: object, /) -> bool: ...
     def __new__(
-        cls, /, branches: Sequence[Branch] = ..., *, rig_stiffness: Quantity | None = None
+        cls, /, branches: Sequence[Branch] = ..., *, rig_stiffness: Stiffness | None = None
     ) -> LoadPath: ...
     def __replace__(self, /, **changes: Any) -> Self: ...
     def __repr__(self, /) -> str: ...
@@ -1685,12 +1715,12 @@ class LoadPath:
         /,
         n: int,
         *,
-        T_x: Quantity | None = None,
-        T_y: Quantity | None = None,
-        M_z: Quantity | None = None,
-        delta_x: Quantity | None = None,
-        delta_y: Quantity | None = None,
-        phi_z: Quantity | None = None,
+        T_x: Force | None = None,
+        T_y: Force | None = None,
+        M_z: Moment | None = None,
+        delta_x: Length | None = None,
+        delta_y: Length | None = None,
+        phi_z: Angle | None = None,
         increments: int | Literal["auto"] = ...,
     ) -> LoadPath:
         """
@@ -1732,7 +1762,7 @@ class LoadPath:
         phi_z: Quantities | None = None,
         increments: int | Literal["auto"] = ...,
         spacing: Spacing = ...,
-        t: Quantity | None = None,
+        t: Time | None = None,
     ) -> LoadPath:
         """
         Go to the given rigid motions of body 1 on a straight line, or visit several in turn.
@@ -1762,13 +1792,7 @@ class LoadPath:
         LoadPath(4 branches, increments to be chosen)
         """
     def ellipse(
-        self,
-        /,
-        *,
-        T_x: Quantity,
-        T_y: Quantity,
-        turns: int = 1,
-        increments: int | Literal["auto"] = ...,
+        self, /, *, T_x: Force, T_y: Force, turns: int = 1, increments: int | Literal["auto"] = ...
     ) -> LoadPath:
         """
         Turn the tangential force around an ellipse of semi-axes `T_x`, `T_y` [N].
@@ -1781,18 +1805,18 @@ class LoadPath:
         self,
         /,
         *,
-        W: Quantity | None = None,
-        T_x: Quantity | None = None,
-        T_y: Quantity | None = None,
-        M_x: Quantity | None = None,
-        M_y: Quantity | None = None,
-        M_z: Quantity | None = None,
-        sigma_B: Quantity | None = None,
-        sigma_B1: Quantity | None = None,
-        rolled: Quantity | None = None,
+        W: Force | None = None,
+        T_x: Force | None = None,
+        T_y: Force | None = None,
+        M_x: Moment | None = None,
+        M_y: Moment | None = None,
+        M_z: Moment | None = None,
+        sigma_B: BulkStress | None = None,
+        sigma_B1: BulkStress | None = None,
+        rolled: Length | None = None,
         increments: int | Literal["auto"] = ...,
         spacing: Spacing = ...,
-        t: Quantity | None = None,
+        t: Time | None = None,
     ) -> LoadPath:
         """
         Go to the given loads on a straight line; what is not named stays as it was.
@@ -1863,7 +1887,7 @@ class LoadPath:
         """Visit the normal forces `W` [N] in turn, as `tangential` does: fretting mode II."""
     def replace(self, /, **changes: Any) -> Self:
         """The same with some of its parts exchanged, named as in the constructor."""
-    def rig(self, /, stiffness: Quantity | None) -> LoadPath:
+    def rig(self, /, stiffness: Stiffness | None) -> LoadPath:
         """
         The same path through a rig of a stiffness K [N/m], a spring along x.
 
@@ -1947,7 +1971,7 @@ class Lubkin:
     def __new__(
         cls, /, hertz: Hertz, *, bodies: tuple[Elastic | Body, Elastic | Body], mu: float
     ) -> Lubkin: ...
-    def __reduce__(self, /) -> tuple[Any, tuple[Any, ...]]: ...
+    def __reduce__(self, /) -> tuple[Any, tuple[Any, str | None, dict[str, Any] | None]]: ...
     def __repr__(self, /) -> str: ...
     @property
     def bodies(self, /) -> tuple[Elastic, Elastic]:
@@ -1960,9 +1984,9 @@ class Lubkin:
         """Friction coefficient."""
     def phi(self, /, c: ArrayLike) -> NDArray[float64]:
         """Rotation phi_z at the stick radius `c` [m] [rad]."""
-    def q(self, /, r: ArrayLike, *, c: Quantity) -> NDArray[float64]:
+    def q(self, /, r: ArrayLike, *, c: Length) -> NDArray[float64]:
         """Circumferential traction at `r` for the stick radius `c` [m] [Pa]."""
-    def stick_radius(self, /, *, M_z: Quantity) -> float:
+    def stick_radius(self, /, *, M_z: Moment) -> float:
         """Stick radius under the moment `M_z` [N m] [m]."""
     @property
     def stiffness(self, /) -> float:
@@ -2078,12 +2102,12 @@ class Outline:
         q_y: NDArray[np.float64],
     ) -> Outline: ...
     def __repr__(self, /) -> str: ...
-    def border(self, /, azimuth: Quantity = 0.0) -> tuple[float, float]:
+    def border(self, /, azimuth: Angle = 0.0) -> tuple[float, float]:
         """Where a line through the centre leaves the contact, backwards and forwards [m]."""
     @property
     def centre(self, /) -> tuple[float, float]:
         """Centre of the area, x and y [m]; 0 where it lies in the middle of the grid."""
-    def half_width(self, /, azimuth: Quantity = 0.0) -> float:
+    def half_width(self, /, azimuth: Angle = 0.0) -> float:
         """Half of the width of the contact in a direction [m]."""
     @property
     def half_widths(self, /) -> tuple[float, float, float]:
@@ -2165,13 +2189,13 @@ class Plastic:
         cls,
         /,
         *,
-        s_y: Quantity,
-        hardening: Quantity = 0.0,
-        voce_Q: Quantity = 0.0,
+        s_y: YieldStress,
+        hardening: YieldStress = 0.0,
+        voce_Q: YieldStress = 0.0,
         voce_b: float = 0.0,
         swift_e_0: float = 0.0,
         swift_n: float = 0.0,
-        kinematic: Quantity = 0.0,
+        kinematic: YieldStress = 0.0,
         chaboche_C: Quantities | None = None,
         chaboche_gamma: Quantities | None = None,
     ) -> Plastic: ...
@@ -2248,7 +2272,7 @@ class Profile:
     def __eq__(self, value: object, /) -> bool: ...
     def __hash__(self, /) -> int: ...
     def __ne__(self, value: object, /) -> bool: ...
-    def __reduce__(self, /) -> tuple[Any, tuple[Any, ...]]: ...
+    def __reduce__(self, /) -> tuple[Any, tuple[Any, str | None, dict[str, Any] | None]]: ...
     def __repr__(self, /) -> str: ...
     @staticmethod
     def constant(value: float) -> Profile:
@@ -2293,7 +2317,7 @@ class Rough:
     def __hash__(self, /) -> int: ...
     def __ne__(self, value: object, /) -> bool: ...
     def __new__(
-        cls, /, *, rms: Quantity, hurst: float, longest: Quantity, shortest: Quantity, seed: int = 0
+        cls, /, *, rms: Length, hurst: float, longest: Length, shortest: Length, seed: int = 0
     ) -> Rough: ...
     def __replace__(self, /, **changes: Any) -> Self: ...
     def __repr__(self, /) -> str: ...
@@ -2493,7 +2517,7 @@ class Spacing:
     def __hash__(self, /) -> int: ...
     def __int__(self, /) -> int: ...
     def __ne__(self, value: object, /) -> bool: ...
-    def __reduce__(self, /) -> tuple[Any, tuple[type, str]]: ...
+    def __reduce__(self, /) -> tuple[Any, tuple[Any, str | None, dict[str, Any] | None]]: ...
     def __repr__(self, /) -> str: ...
 
 @final
@@ -2516,7 +2540,7 @@ class Sphere:
     def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
     def __hash__(self, /) -> int: ...
     def __ne__(self, value: object, /) -> bool: ...
-    def __new__(cls, /, R: Quantity) -> Sphere: ...
+    def __new__(cls, /, R: Radius) -> Sphere: ...
     def __replace__(self, /, **changes: Any) -> Self: ...
     def __repr__(self, /) -> str: ...
     def replace(self, /, **changes: Any) -> Self:
@@ -2554,13 +2578,13 @@ class Springs:
         /,
         largest: Hertz,
         *,
-        R: Quantity,
+        R: Radius,
         bodies: tuple[Elastic | Body, Elastic | Body],
         mu: float,
         n: int = 1500,
         loads: Sequence[tuple[float, float, int]] = ...,
     ) -> Springs: ...
-    def __reduce__(self, /) -> tuple[Any, tuple[Any, ...]]: ...
+    def __reduce__(self, /) -> tuple[Any, tuple[Any, str | None, dict[str, Any] | None]]: ...
     def __repr__(self, /) -> str: ...
     @property
     def bodies(self, /) -> tuple[Elastic, Elastic]:
@@ -2568,7 +2592,7 @@ class Springs:
     @property
     def largest(self, /) -> Hertz:
         """The contact under the largest force that there are springs for."""
-    def load(self, /, *, W: Quantity, T: Quantity, steps: int = 10) -> float:
+    def load(self, /, *, W: PointForce, T: PointForce, steps: int = 10) -> float:
         """Go straight to the forces `W`, `T` [N] in `steps` steps; the shift delta_x [m]."""
     @property
     def loads(self, /) -> list[tuple[float, float, int]]:
@@ -2620,14 +2644,14 @@ class Subsurface:
         q_x: ArrayLike | None = None,
         q_y: ArrayLike | None = None,
         body_number: int = 2,
-        sigma_B: Quantity = 0.0,
+        sigma_B: BulkStress = 0.0,
         residual: Sequence[ArrayLike] | None = None,
         eigenstress: Sequence[Eigenstress | None] | None = None,
         rim: bool = False,
         stick: NDArray[bool_] | None = None,
     ) -> Subsurface: ...
     def borders(
-        self, /, *, x: float | None = None, y: float | None = None, azimuth: Quantity | None = None
+        self, /, *, x: float | None = None, y: float | None = None, azimuth: Angle | None = None
     ) -> list[tuple[float, float, str, bool]]:
         """
         Where a line, or the lines of all cells, cross rims of contact and stick zone.
@@ -2644,7 +2668,7 @@ class Subsurface:
         *,
         x: float | None = None,
         y: float | None = None,
-        azimuth: Quantity | None = None,
+        azimuth: Angle | None = None,
         only: int | None = None,
         anywhere: bool = False,
         error_bar: float | None = None,
@@ -2685,7 +2709,7 @@ class Subsurface:
         *,
         x: float | None = None,
         y: float | None = None,
-        azimuth: Quantity | None = None,
+        azimuth: Angle | None = None,
         displacement: bool = False,
     ) -> NDArray[np.float64]:
         """Stress [Pa] or displacement [m] on a section, shape (6 or 3, depths, places)."""
@@ -2871,7 +2895,7 @@ class SurfaceOperator:
     def __new__(
         cls, /, body1: Body, body2: Body, grid: Grid, *, settings: Settings | None = None
     ) -> SurfaceOperator: ...
-    def __reduce__(self, /) -> tuple[Any, tuple[Any, ...]]: ...
+    def __reduce__(self, /) -> tuple[Any, tuple[Any, str | None, dict[str, Any] | None]]: ...
     def __repr__(self, /) -> str: ...
     @property
     def body1(self, /) -> Body:
@@ -2927,13 +2951,7 @@ class Waviness:
     def __hash__(self, /) -> int: ...
     def __ne__(self, value: object, /) -> bool: ...
     def __new__(
-        cls,
-        /,
-        *,
-        amplitude: Quantity,
-        wavelength: Quantity,
-        angle: Quantity = 0.0,
-        phase: Quantity = 0.0,
+        cls, /, *, amplitude: Length, wavelength: Length, angle: Angle = 0.0, phase: Angle = 0.0
     ) -> Waviness: ...
     def __replace__(self, /, **changes: Any) -> Self: ...
     def __repr__(self, /) -> str: ...
@@ -2971,7 +2989,7 @@ class Wedge:
     def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
     def __hash__(self, /) -> int: ...
     def __ne__(self, value: object, /) -> bool: ...
-    def __new__(cls, /, *, slope: Quantity, angle: Quantity = 0.0) -> Wedge: ...
+    def __new__(cls, /, *, slope: float, angle: Angle = 0.0) -> Wedge: ...
     def __replace__(self, /, **changes: Any) -> Self: ...
     def __repr__(self, /) -> str: ...
     @property
@@ -3027,11 +3045,11 @@ def chosen_depths(
 
 def coated_indentation(
     *,
-    R: Quantity,
+    R: Radius,
     indenter: Elastic | Body,
     coating: Coating,
     substrate: Elastic | Body,
-    W: Quantity,
+    W: PointForce,
 ) -> CoatedIndentation:
     """Contact of a sphere of radius `R` [m] with a coated body under `W` [N], without friction."""
 
@@ -3056,8 +3074,8 @@ def crack_growth_of_states(
     end: float,
     direction: str,
     tolerance: float,
-    angle: Quantity = 0.0,
-    azimuth: Quantity = 0.0,
+    angle: Angle = 0.0,
+    azimuth: Angle = 0.0,
     friction: float = 0.0,
     body_number: int = 2,
 ) -> dict[str, Any]:
@@ -3085,9 +3103,9 @@ def crack_of_states(
     residual: Sequence[ArrayLike] | None = None,
     x: float,
     lengths: Sequence[float],
-    angle: Quantity = 0.0,
+    angle: Angle = 0.0,
     kink: tuple[float, float] | None = None,
-    azimuth: Quantity = 0.0,
+    azimuth: Angle = 0.0,
     friction: float = 0.0,
     body_number: int = 2,
 ) -> dict[str, NDArray[np.float64]]:
@@ -3127,7 +3145,7 @@ def cycle_temperature(
     body2: Body,
     grid: Grid,
     bulk: tuple[float, float],
-    frequency: Quantity,
+    frequency: Frequency,
     ends: Sequence[float],
     heat: ArrayLike,
     contact: NDArray[bool_],
@@ -3151,6 +3169,9 @@ def depths(body: Body, z: Sequence[float]) -> tuple[list[float], list[int]]:
 
 def doubt(key: str, shown: str, value: float) -> str | None:
     """The doubt of a number, if it is hardly meant, by its key and the name that it is shown by."""
+
+def doubt_quantity(quantity: str, shown: str, value: float) -> str | None:
+    """Doubt of a number that lies outside the range of its row."""
 
 def dundurs_beta(body1: Elastic | Body, body2: Elastic | Body) -> float:
     """
@@ -3182,7 +3203,7 @@ def goodman_stick_ratio(*, beta: float, mu: float) -> float:
     pressure is neglected.
     """
 
-def graded(*, E: Profile, nu: Profile, thickness: Quantity, layers: int) -> list[Coating]:
+def graded(*, E: Profile, nu: Profile, thickness: Thickness, layers: int) -> list[Coating]:
     """
     Stack of equally thick layers that stands for a graded coating, outermost first.
 
@@ -3203,10 +3224,12 @@ def graded(*, E: Profile, nu: Profile, thickness: Quantity, layers: int) -> list
         If a profile, the thickness or the number of layers is out of its range.
     """
 
-def hertz(*, R: Quantity, bodies: tuple[Elastic | Body, Elastic | Body], W: Quantity) -> Hertz:
+def hertz(*, R: Radius, bodies: tuple[Elastic | Body, Elastic | Body], W: PointForce) -> Hertz:
     """Hertz contact of a sphere of relative radius `R` [m] under the force `W` [N]."""
 
-def hertz_ellipse(*, R_x: Quantity, R_y: Quantity, E_star: Quantity, W: Quantity) -> HertzEllipse:
+def hertz_ellipse(
+    *, R_x: Radius, R_y: Radius, E_star: ContactModulus, W: PointForce
+) -> HertzEllipse:
     """
     Hertz contact of relative principal radii `R_x`, `R_y` [m] along the axes.
 
@@ -3251,17 +3274,17 @@ def largest_of_samples(
     """
 
 def line_contact(
-    *, R: Quantity, bodies: tuple[Elastic | Body, Elastic | Body], W: Quantity
+    *, R: Radius, bodies: tuple[Elastic | Body, Elastic | Body], W: LineForce
 ) -> LineContact:
     """Line contact of cylinders of relative radius `R` [m] under `W` [N/m]."""
 
 def line_places(
-    grid: Grid, *, x: float | None = None, y: float | None = None, azimuth: Quantity | None = None
+    grid: Grid, *, x: float | None = None, y: float | None = None, azimuth: Angle | None = None
 ) -> tuple[list[float], list[tuple[float, float]]]:
     """Places along a line on a grid, and their x, y [m]."""
 
 def line_through(
-    x: float, y: float, azimuth: Quantity
+    x: float, y: float, azimuth: Angle
 ) -> tuple[float | None, float | None, float | None]:
     """x, y and azimuth of the line through a point at an angle; along an axis x or y alone."""
 
@@ -3313,7 +3336,7 @@ def notes_on_materials(
         Of every layer from the surface down, the substrate's last.
     """
 
-def partial_crack(film_: Elastic, below: Elastic, depth: Quantity) -> float:
+def partial_crack(film_: Elastic, below: Elastic, depth: Length) -> float:
     """Factor F of a crack with its tip in a film; use :func:`pyfret.fracture.film_intensity`."""
 
 def principal(stress: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -3321,6 +3344,12 @@ def principal(stress: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float6
 
 def probe_labels() -> dict[str, tuple[str, str]]:
     """Units and meaning of everything that follows from the stress."""
+
+def quantities() -> list[tuple[str, str, bool]]:
+    """Rows of the table of quantities: name, SI unit, and whether there is a plausible range."""
+
+def quantity_in_si(quantity: str, value: Any) -> float:
+    """Number in SI of a text with a unit, or of a quantity of pint, by the row of the table."""
 
 def range_of_life(
     sections: Sequence[CriterionBelow],
@@ -3367,6 +3396,13 @@ def read_bytes(path: str | PathLike[str]) -> bytes:
 
 def read_text(path: str | PathLike[str]) -> str:
     """The text of a file of numbers, in UTF-8, UTF-16 or Latin-1."""
+
+def remake(maker: Any, method: str | None = None, keywords: dict[str, Any] | None = None) -> Any:
+    """
+    Make a pickled object again: call its maker, or a method of it, with keywords.
+
+    Without keywords return an attribute of the maker.
+    """
 
 def resume(
     store: str | PathLike[str],
@@ -3418,7 +3454,7 @@ def section_of_states(
     residual: Sequence[ArrayLike] | None = None,
     x: float | None = None,
     y: float | None = None,
-    azimuth: Quantity | None = None,
+    azimuth: Angle | None = None,
     body_number: int = 2,
 ) -> NDArray[np.float64]:
     """
@@ -3563,7 +3599,10 @@ def yielded_columns() -> list[str]:
     """Names of the columns of the points that have yielded, in their order."""
 
 def yielding_on(
-    stress: ArrayLike, *, s_y: Quantity, constant: tuple[float, float, float, float, float, float]
+    stress: ArrayLike,
+    *,
+    s_y: YieldStress,
+    constant: tuple[float, float, float, float, float, float],
 ) -> dict[str, NDArray[np.float64]]:
     """Load factors of first yield and shakedown of stresses of shape (time, points, 6)."""
 
@@ -3678,6 +3717,7 @@ __all__ = [
     "degrees",
     "depths",
     "doubt",
+    "doubt_quantity",
     "dundurs_beta",
     "ellipse_factor",
     "equivalent_range",
@@ -3703,9 +3743,12 @@ __all__ = [
     "partial_crack",
     "principal",
     "probe_labels",
+    "quantities",
+    "quantity_in_si",
     "range_of_life",
     "read_bytes",
     "read_text",
+    "remake",
     "resume",
     "resume_wear",
     "rough",

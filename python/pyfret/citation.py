@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from pyfret._core import Scene, __version__
-from pyfret._util.door import numbers_only
+from pyfret.quantities import quantities
 
 if TYPE_CHECKING:
     from pyfret.run import Run
@@ -63,7 +63,7 @@ def sources(of: Run | Scene | None = None) -> list[Source]:
     return [METHOD, *SOLVERS, *([LAYERS] if layered else [])]
 
 
-@numbers_only
+@quantities
 def cite(of: Run | Scene | None = None) -> str:
     """Say what to cite: pyfret with its version, and a line for each source.
 

@@ -28,8 +28,8 @@ from pyfret._core import (
     SolveError,
     StoreError,
 )
-from pyfret._util.doubts import SceneWarning
 from pyfret._util.names import listing
+from pyfret._util.scene_warnings import SceneWarning
 
 __all__ = [
     "ArgumentError",

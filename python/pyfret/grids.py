@@ -22,9 +22,8 @@ from pyfret._core import (
     Sum,
     SurfaceMap,
 )
-from pyfret._util.door import numbers_only
-from pyfret._util.doubts import warn
-from pyfret._util.types import as_number
+from pyfret._util.scene_warnings import warn
+from pyfret.quantities import FrictionCoefficient, Length, as_number, quantities
 from pyfret.solution import solve
 from pyfret.wear.runs import solve as wear_off
 
@@ -35,7 +34,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from pyfret._core import Body, Friction
-    from pyfret._util.types import Quantity
     from pyfret.result import Result
 
 __all__ = ["for_contact", "offer"]
@@ -73,7 +71,7 @@ NUMBERS: dict[Number, str] = {
 }
 
 
-@numbers_only
+@quantities
 def for_contact(
     body1: Body,
     body2: Body,
@@ -81,10 +79,10 @@ def for_contact(
     *,
     error: float = 0.005,
     room: float = 1.2,
-    start: Quantity | None = None,
+    start: Length | None = None,
     plane_strain: bool = False,
     wear: Mapping[str, Any] | None = None,
-    mu: float | Friction | None = None,
+    mu: FrictionCoefficient | Friction | None = None,
     of: Literal["p", "p_max", "s_xx", "loop"] = "p",
     n: int | None = None,
 ) -> Grid:

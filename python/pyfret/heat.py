@@ -21,17 +21,16 @@ import numpy as np
 from pyfret import _core
 from pyfret._core import Grid, Material
 from pyfret._util.arrays import items
-from pyfret._util.called import as_material
-from pyfret._util.door import numbers_only, valued
-from pyfret._util.doubts import doubts_of
 from pyfret._util.lazy import xr
+from pyfret._util.material_names import as_material
 from pyfret._util.names import listing
+from pyfret._util.scene_warnings import doubts_of
 from pyfret.fatigue.cycles import cycle_increments
+from pyfret.quantities import Conductivity, Frequency, HeatCapacity, InSI, part, quantities
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pyfret._util.types import AsNumber, Quantity
     from pyfret.run import Run
 
 __all__ = ["Conductor", "Conductors", "temperature"]
@@ -41,7 +40,7 @@ __dir__ = listing(__all__)
 HARMONICS = 32
 
 
-@valued(kw_only=True)
+@part(kw_only=True)
 class Conductor:
     """A material that conducts heat.
 
@@ -52,9 +51,9 @@ class Conductor:
     """
 
     #: Thermal conductivity [W/(m K)].
-    conductivity: AsNumber
+    conductivity: InSI[Conductivity]
     #: Heat capacity of the volume, density times specific heat [J/(m^3 K)].
-    heat_capacity: AsNumber
+    heat_capacity: InSI[HeatCapacity]
 
     @property
     def doubts(self) -> list[str]:
@@ -62,7 +61,7 @@ class Conductor:
         return doubts_of("Conductor", **vars(self))
 
     @classmethod
-    @numbers_only
+    @quantities
     def of(cls, material: Material | str) -> Conductor:
         """Give what a material has as ``conductivity``, ``density`` and ``specific_heat``.
 
@@ -146,13 +145,13 @@ def _maximum(table: xr.Dataset, bulk: tuple[float, float]) -> dict[str, Any]:
     }
 
 
-@numbers_only
+@quantities
 def temperature(
     result: Run,
     conductor1: Conductors,
     conductor2: Conductors,
     *,
-    frequency: Quantity,
+    frequency: Frequency,
     bulk: float | tuple[float, float] = 0.0,
     wave: Literal["sine", "linear"] = "sine",
     harmonics: int | None = None,

@@ -13,13 +13,13 @@ import numpy as np
 from pyfret import _core
 from pyfret._core import EigenstrainOperator, influence_coefficients, stress_at, stress_coefficients
 from pyfret._util.arrays import plain
-from pyfret._util.door import numbers_only
 from pyfret._util.names import listing
+from pyfret.quantities import Numbers, quantities
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import NDArray
 
     from pyfret._core import Body, Grid
 
@@ -34,8 +34,8 @@ __all__ = [
 __dir__ = listing(__all__)
 
 
-@numbers_only
-def surface_frf(body: Body, k_x: ArrayLike, k_y: ArrayLike) -> NDArray[np.complex128]:
+@quantities
+def surface_frf(body: Body, k_x: Numbers, k_y: Numbers) -> NDArray[np.complex128]:
     """Surface displacements under tractions exp(i (k_x x + k_y y)).
 
     Parameters
@@ -55,7 +55,7 @@ def surface_frf(body: Body, k_x: ArrayLike, k_y: ArrayLike) -> NDArray[np.comple
     return frf.reshape(*waves[0].shape, 3, 3)
 
 
-@numbers_only
+@quantities
 def convert(
     frf: Callable[[NDArray[np.float64], NDArray[np.float64]], NDArray[np.complex128]],
     grid: Grid,

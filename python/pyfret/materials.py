@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from pyfret._core import Elastic, Plastic
-from pyfret._util.door import numbers_only
-from pyfret._util.doubts import warn
+from pyfret._util.scene_warnings import warn
 from pyfret.fatigue import Materials
 from pyfret.fatigue.ranges import known_as
+from pyfret.quantities import quantities
 
 if TYPE_CHECKING:
     import os
@@ -20,7 +20,7 @@ __all__ = ["material"]
 NU = 0.25
 
 
-@numbers_only
+@quantities
 def material(
     name: str,
     file: str | os.PathLike[str] | None = None,

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 from pyfret._core import StoreError, read_bytes, shown
 from pyfret._util import files
-from pyfret._util.door import numbers_only
 from pyfret.fatigue.distance import OverDistance
 from pyfret.fatigue.judged import Life
 from pyfret.fit.stored import fit_from_dataset
 from pyfret.fracture.growth import Cracks
+from pyfret.quantities import quantities
 from pyfret.result import open_result
 from pyfret.study.ledger import FILE
 from pyfret.study.outcome import Study, open_study
@@ -37,7 +37,7 @@ COPIES: dict[Any, Callable[[xr.Dataset], Any]] = {
 }
 
 
-@numbers_only
+@quantities
 def open(path: str | os.PathLike[str]) -> Any:
     """Open what pyfret has saved: a run, wear, a study, a fit, cracks, lives.
 

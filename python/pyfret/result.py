@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 import json
 from os import fspath
 from typing import TYPE_CHECKING, Literal
@@ -12,8 +11,8 @@ from pyfret import heat as heating
 from pyfret._core import StoreError
 from pyfret._util import files
 from pyfret._util.csv_table import write_csv
-from pyfret._util.door import numbers_only
 from pyfret.export.write import write as export
+from pyfret.quantities import Angle, Lengths, Numbers, ResidualStresses, Unchecked, quantities
 from pyfret.report.page import report
 from pyfret.run import Run
 from pyfret.run.summary import summary
@@ -28,9 +27,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     import xarray as xr
-    from numpy.typing import ArrayLike
 
-    from pyfret._util.types import Quantity
     from pyfret.export.frame import Frame
 
 __all__ = ["Result", "open_result"]
@@ -55,8 +52,8 @@ class Result(Run, Shows):
     report = report
     _repr_html_ = run_html
 
-    @functools.partial(numbers_only, but=("which",))
-    def at(self, which: float) -> Snapshot:
+    @quantities
+    def at(self, which: Unchecked) -> Snapshot:
         """Give the contact at the end of one increment whose fields were kept.
 
         Parameters
@@ -98,18 +95,18 @@ class Result(Run, Shows):
         """
         return Unloaded(self.at(which))
 
-    @numbers_only
+    @quantities
     def envelope(
         self,
-        z: ArrayLike | None = None,
+        z: Lengths | None = None,
         *,
         x: float | None = None,
         y: float | None = None,
-        azimuth: Quantity | None = None,
+        azimuth: Angle | None = None,
         of: Sequence[str] = ("von_mises",),
         body_number: int = 2,
         bulk: bool = True,
-        residual: Sequence[ArrayLike] | None = None,
+        residual: Sequence[ResidualStresses] | None = None,
     ) -> xr.Dataset:
         """Extremes of stress over the increments whose fields were kept, on a section or on planes.
 
@@ -135,7 +132,7 @@ class Result(Run, Shows):
             residual=residual,
         )
 
-    @numbers_only
+    @quantities
     def save(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
         """Write the result to a Zarr folder (``.zarr``) or a NetCDF file (``.nc``).
 
@@ -158,7 +155,7 @@ class Result(Run, Shows):
         """
         files.write(self.dataset, path, overwrite=overwrite)
 
-    @numbers_only
+    @quantities
     def to_csv(self, path: str | os.PathLike[str]) -> None:
         """Write the numbers of every increment as a table (``.csv``), units in the head.
 
@@ -166,7 +163,7 @@ class Result(Run, Shows):
         """
         write_csv(self.dataset, path, ("increment",))
 
-    @numbers_only
+    @quantities
     def export(
         self,
         path: str | os.PathLike[str],
@@ -177,7 +174,7 @@ class Result(Run, Shows):
         form: Literal["csv", "abaqus", "aster"] = "csv",
         of: Literal["p", "q_x", "q_y"] = "p",
         mesh: str | os.PathLike[str] | None = None,
-        points: ArrayLike | None = None,
+        points: Numbers | None = None,
     ) -> None:
         """Write an increment for another program: :func:`pyfret.export.write`.
 
@@ -195,7 +192,7 @@ class Result(Run, Shows):
         )
 
 
-@numbers_only
+@quantities
 def open_result(path: str | os.PathLike[str]) -> Result:
     """Open a result: a Zarr store, or what :meth:`Result.save` wrote (``.zarr``, ``.nc``).
 

@@ -9,7 +9,8 @@ from typing import Any, Literal
 from pyfret import _core
 from pyfret._util.arrays import items
 from pyfret._util.names import listing
-from pyfret.scene.parts import Replaceable, part
+from pyfret.quantities import part
+from pyfret.scene.parts import Replaceable
 
 __all__ = ["FrequencyDomain", "Hankel", "InverseFft", "Preset", "Settings", "Skip"]
 __dir__ = listing(__all__)
@@ -30,7 +31,7 @@ class Preset(Enum):
         return f"Preset.{self.name}"
 
 
-@part
+@part(kw_only=True)
 class Hankel(Replaceable):
     """Influence coefficients by Hankel integrals: exact to round-off."""
 
@@ -39,7 +40,7 @@ class Hankel(Replaceable):
         return "hankel"
 
 
-@part
+@part(kw_only=True)
 class InverseFft(Replaceable):
     """Influence coefficients by the paper's inverse FFT, eq. (9)-(13).
 
@@ -59,7 +60,7 @@ class InverseFft(Replaceable):
         return {"inverse_fft": {"lambda": self.enlargement, "aliases": self.aliases}}
 
 
-@part
+@part(kw_only=True)
 class FrequencyDomain(Replaceable):
     """No coefficients: every convolution with the frequency response on an enlarged domain.
 
@@ -76,7 +77,7 @@ class FrequencyDomain(Replaceable):
         return {"frequency_domain": {"lambda": self.enlargement}}
 
 
-@part
+@part(kw_only=True)
 class Skip(Replaceable):
     """What may be left out when the scene does not need it; the answer stays as it is.
 
@@ -107,7 +108,7 @@ class Skip(Replaceable):
     path: bool = False
 
 
-@part
+@part(kw_only=True)
 class Settings(Replaceable):
     """How a scene is solved; the defaults are what most users want.
 

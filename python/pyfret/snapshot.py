@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal
 
-from pyfret._util.door import numbers_only
 from pyfret._util.figures import Figured, Figures
-from pyfret._util.types import as_number
 from pyfret.export.write import write as export
+from pyfret.quantities import Angle, Lengths, ResidualStresses, as_number, quantities
 from pyfret.run import State
 from pyfret.run.tables import state_html
 from pyfret.subsurface import contact
@@ -24,7 +23,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from numpy.typing import ArrayLike
 
-    from pyfret._util.types import Quantity
     from pyfret.export.frame import Frame
     from pyfret.subsurface.tensor import Stress
 
@@ -84,9 +82,9 @@ class Snapshot(State, Shows):
         """
         return PlasticState(self)
 
-    @numbers_only
+    @quantities
     def along(
-        self, *, x: float | None = None, y: float | None = None, azimuth: Quantity | None = None
+        self, *, x: float | None = None, y: float | None = None, azimuth: Angle | None = None
     ) -> xr.Dataset:
         """Fields on a line of the surface, linear between the centres of the cells.
 
@@ -114,17 +112,17 @@ class Snapshot(State, Shows):
             raise ValueError("give x or y, or an azimuth as well: a point is no line")
         return fields_on(self, contact.line_below(self, None, x, y, as_number(azimuth))[0])
 
-    @numbers_only
+    @quantities
     def stress(
         self,
-        z: ArrayLike | None = None,
+        z: Lengths | None = None,
         *,
         x: float | None = None,
         y: float | None = None,
-        azimuth: Quantity | None = None,
+        azimuth: Angle | None = None,
         body_number: int = 2,
         bulk: bool = True,
-        residual: Sequence[ArrayLike] | None = None,
+        residual: Sequence[ResidualStresses] | None = None,
     ) -> Stress:
         """Stress below the contact, in the lower body unless `body_number` is 1.
 
@@ -173,14 +171,14 @@ class Snapshot(State, Shows):
             residual=residual,
         )
 
-    @numbers_only
+    @quantities
     def displacement(
         self,
-        z: ArrayLike | None = None,
+        z: Lengths | None = None,
         *,
         x: float | None = None,
         y: float | None = None,
-        azimuth: Quantity | None = None,
+        azimuth: Angle | None = None,
         body_number: int = 2,
     ) -> xr.Dataset:
         """Displacements u_x, u_y, u_z of a body below the contact [m], as in :meth:`stress`."""
@@ -188,7 +186,7 @@ class Snapshot(State, Shows):
             self, z, x=x, y=y, azimuth=as_number(azimuth), body_number=body_number
         )
 
-    @numbers_only
+    @quantities
     def stick_zone(self, *, y: float = 0.0) -> Zone:
         """Where the stick zone begins and ends along a line of constant `y` [m], within the cells.
 
@@ -197,21 +195,21 @@ class Snapshot(State, Shows):
         """
         return zone(self, "stick", y)
 
-    @numbers_only
+    @quantities
     def contact_zone(self, *, y: float = 0.0) -> Zone:
         """Where the contact begins and ends along a line of constant `y`, as :meth:`stick_zone`."""
         return zone(self, "contact", y)
 
-    @numbers_only
+    @quantities
     def write_volume(
         self,
         out: str | os.PathLike[str],
-        z: ArrayLike | None = None,
+        z: Lengths | None = None,
         *,
         of: Sequence[str] = ("von_mises",),
         body_number: int = 2,
         bulk: bool = True,
-        residual: Sequence[ArrayLike] | None = None,
+        residual: Sequence[ResidualStresses] | None = None,
     ) -> None:
         """Write stress, displacement in the volume: :func:`pyfret.subsurface.write_volume`."""
         contact.write_below(

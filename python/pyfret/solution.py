@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Literal
 from pyfret import _core
 from pyfret._core import Scene
 from pyfret._util.arrays import number
-from pyfret._util.door import numbers_only
 from pyfret._util.lazy import xr
 from pyfret._util.progress import Progress
+from pyfret.quantities import Stiffness, quantities
 from pyfret.result import Result, open_result
 from pyfret.run.dataset import dataset
 from pyfret.scene.warnings import doubt_run, doubt_scene
@@ -20,17 +20,17 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from pyfret._core import LoadPath
-    from pyfret._util.types import FrictionFunction, Quantity
+    from pyfret._util.types import FrictionFunction
 
 __all__ = ["Increment", "march", "resume", "solve"]
 
 
-@numbers_only
+@quantities
 def solve(
     scene: Scene | str | os.PathLike[str],
     path: LoadPath | None = None,
     *,
-    rig_stiffness: Quantity | None = None,
+    rig_stiffness: Stiffness | None = None,
     save: Literal["branches", "all"] | Sequence[int] | None = None,
     out: str | os.PathLike[str] | None = None,
     checkpoint: float = 5.0,
@@ -115,7 +115,7 @@ def told(result: Result) -> Result:
     return result
 
 
-@numbers_only
+@quantities
 def resume(
     store: str | os.PathLike[str],
     *,
@@ -164,7 +164,7 @@ def read(scene: Scene | str | os.PathLike[str]) -> Scene:
     return Scene.from_file(scene)
 
 
-@numbers_only
+@quantities
 def march(
     scene: Scene | str | os.PathLike[str], path: LoadPath | None = None
 ) -> Iterator[Increment]:

@@ -26,7 +26,7 @@ from pyfret._core import (
     Scene,
     Sphere,
 )
-from pyfret._util.door import numbers_only
+from pyfret.quantities import quantities
 from pyfret.solution import solve
 
 if TYPE_CHECKING:
@@ -247,7 +247,7 @@ GROUPS: tuple[tuple[str, str, Callable[[int], Iterator[Number]], int, tuple[floa
 )
 
 
-@numbers_only
+@quantities
 def verify(*, on_check: Callable[[Check], object] | None = None) -> Verification:
     """Solve contacts that have closed forms, and compare: some minutes at most.
 

@@ -7,6 +7,7 @@ use std::ops::Deref;
 
 use crate::hints::sequence_of;
 use crate::prelude::*;
+use crate::python::from_python;
 use contact_core::memory::available_memory;
 use contact_core::scene::{Grid, in_si};
 use contact_subsurface::Side;
@@ -152,15 +153,15 @@ impl<'py, D: Dimension + 'py> Array<'py, D> {
             refuse_texts(value)?;
         }
         let py = value.py();
-        let door = py.import("pyfret._util.arrays")?.getattr("plain")?;
+        let plain = from_python(py, "plain")?;
         let options = PyDict::new(py);
         options.set_item("holes", holes)?;
-        let array: PyArrayLike<'py, f64, D, AllowTypeChange> =
-            door.call((value, "the array"), Some(&options))?.extract()?;
+        let array: PyArrayLike<'py, f64, D, AllowTypeChange> = plain
+            .call((value, "the array"), Some(&options))?
+            .extract()?;
         must_fit(array.as_array().len(), 8.0)?;
         let pitch = if value.hasattr("dims")? {
-            py.import("pyfret._util.arrays")?
-                .getattr("pitch")?
+            from_python(py, "pitch")?
                 .call1((value, "the array"))?
                 .extract()?
         } else {

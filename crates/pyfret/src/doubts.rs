@@ -1,6 +1,7 @@
 //! Units, and doubts of numbers that are allowed and hardly meant.
 
-use plausible::unit;
+use plausible::{QUANTITIES, Quantity, unit};
+use pyo3::exceptions::PyKeyError;
 
 use crate::prelude::*;
 use crate::quantity::si;
@@ -51,4 +52,35 @@ pub(crate) fn measures(unit: &str, kind: &str) -> bool {
 #[pyfunction]
 pub(crate) fn unit_of(name: &str) -> Option<(&'static str, f64)> {
     unit::named(name).map(|(kind, size)| (kind.name(), size))
+}
+
+/// Rows of the table of quantities: name, SI unit, and whether there is a plausible range.
+#[pyfunction]
+pub(crate) fn quantities() -> Vec<(&'static str, &'static str, bool)> {
+    let rows = QUANTITIES.iter();
+    rows.map(|q| (q.name, q.kind.unit(), q.least > 0.0 || q.most.is_finite()))
+        .collect()
+}
+
+/// Number in SI of a text with a unit, or of a quantity of pint, by the row of the table.
+#[pyfunction]
+#[pyo3(signature = (quantity, value: "Any") -> "float")]
+pub(crate) fn quantity_in_si(quantity: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
+    si(row(quantity)?.keys[0], value)
+}
+
+/// Doubt of a number that lies outside the range of its row.
+#[pyfunction]
+#[pyo3(signature = (quantity, shown, value: "float"))]
+pub(crate) fn doubt_quantity(
+    quantity: &str,
+    shown: &str,
+    #[pyo3(from_py_with = number)] value: f64,
+) -> PyResult<Option<String>> {
+    Ok(row(quantity)?.doubt(shown, value))
+}
+
+fn row(name: &str) -> PyResult<&'static Quantity> {
+    let row = QUANTITIES.iter().find(|q| q.name == name);
+    row.ok_or_else(|| PyKeyError::new_err(format!("no quantity {name:?}")))
 }

@@ -81,7 +81,7 @@ impl EigenstrainOperator {
 #[pymethods]
 impl EigenstrainOperator {
     #[new]
-    #[pyo3(signature = (body, grid, *, depth: "Quantity", height: "float"))]
+    #[pyo3(signature = (body, grid, *, depth: "Length", height: "float"))]
     fn new(
         py: Python<'_>,
         body: Body,

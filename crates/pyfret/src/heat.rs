@@ -26,7 +26,7 @@ fn layers(conductors: &Conductors, body: &Body, key: &str) -> Answer<core::Layer
 
 /// Temperature over a cycle; use :meth:`pyfret.Result.temperature`.
 #[pyfunction]
-#[pyo3(signature = (conductor1: "Sequence[tuple[float, float]]", conductor2: "Sequence[tuple[float, float]]", *, body1, body2, grid, bulk: "tuple[float, float]", frequency: "Quantity", ends: "Sequence[float]", heat, contact, harmonics: "int", jumps: "bool") -> "dict[str, Any]")]
+#[pyo3(signature = (conductor1: "Sequence[tuple[float, float]]", conductor2: "Sequence[tuple[float, float]]", *, body1, body2, grid, bulk: "tuple[float, float]", frequency: "Frequency", ends: "Sequence[float]", heat, contact, harmonics: "int", jumps: "bool") -> "dict[str, Any]")]
 pub(crate) fn cycle_temperature<'py>(
     py: Python<'py>,
     conductor1: Conductors,

@@ -51,9 +51,9 @@ pub(crate) const NAMED: PyStaticExpr =
 /// A whole number, or the word "auto".
 pub(crate) const COUNT: PyStaticExpr = type_hint_union!(INT, word!("auto"));
 /// A number, or what has one with its unit.
-const QUANTITY: PyStaticExpr = type_hint_identifier!("pyfret._util.types", "Quantity");
+const QUANTITY: PyStaticExpr = type_hint_identifier!("pyfret.quantities", "Quantity");
 /// One of these, or several.
-pub(crate) const NUMBERS: PyStaticExpr = type_hint_identifier!("pyfret._util.types", "Quantities");
+pub(crate) const NUMBERS: PyStaticExpr = type_hint_identifier!("pyfret.quantities", "Quantities");
 /// A name, or several.
 pub(crate) const NAMES: PyStaticExpr = type_hint_union!(TEXT, type_hint_subscript!(SEQUENCE, TEXT));
 /// A length, or one along x and one along y.

@@ -30,7 +30,7 @@ pub(crate) struct Envelope {
 #[pymethods]
 impl Envelope {
     #[new]
-    #[pyo3(signature = (body, grid, path, z: "Sequence[float]", layer: "Sequence[int]", *, of, x: "float | None" = None, y: "float | None" = None, azimuth: "Quantity | None" = None, body_number: "int" = 2, residual = None))]
+    #[pyo3(signature = (body, grid, path, z: "Sequence[float]", layer: "Sequence[int]", *, of, x: "float | None" = None, y: "float | None" = None, azimuth: "Angle | None" = None, body_number: "int" = 2, residual = None))]
     fn new(
         py: Python<'_>,
         body: Body,
@@ -89,7 +89,7 @@ impl Envelope {
     }
 
     /// Take an increment: tractions [Pa], cells that stick, bulk stress of the body [Pa].
-    #[pyo3(signature = (increment: "int", branch: "int", *, p, q_x, q_y, stick, sigma_B: "Quantity" = 0.0, eigenstress: "Eigenstress | None" = None))]
+    #[pyo3(signature = (increment: "int", branch: "int", *, p, q_x, q_y, stick, sigma_B: "BulkStress" = 0.0, eigenstress: "Eigenstress | None" = None))]
     fn push(
         &mut self,
         py: Python<'_>,

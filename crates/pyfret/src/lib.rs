@@ -41,6 +41,7 @@ mod outline;
 mod parts;
 mod plastic;
 mod prelude;
+mod python;
 mod quantity;
 mod reference;
 mod residual_stress;
@@ -67,7 +68,10 @@ mod _core {
     #[pymodule_export]
     use crate::command_line::run_command;
     #[pymodule_export]
-    use crate::doubts::{doubt, measured_by, measures, si_of, unit_of, units};
+    use crate::doubts::{
+        doubt, doubt_quantity, measured_by, measures, quantities, quantity_in_si, si_of, unit_of,
+        units,
+    };
     #[pymodule_export]
     use crate::eigenstrain::EigenstrainOperator;
     #[pymodule_export]
@@ -83,6 +87,8 @@ mod _core {
     use crate::march::{March, continued_pressure, labels};
     #[pymodule_export]
     use crate::operator::SurfaceOperator;
+    #[pymodule_export]
+    use crate::python::remake;
     #[pymodule_export]
     use crate::reference::{
         CattaneoMindlin, CoatedIndentation, CoupledIndentation, Hertz, HertzEllipse, HertzStress,
@@ -161,6 +167,7 @@ mod _core {
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        crate::python::keep(module);
         crate::guarded::guard(module)?;
         crate::fatigue::add_criteria(module.py())
     }

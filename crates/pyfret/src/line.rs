@@ -44,7 +44,7 @@ pub(crate) fn name_of(line: Line) -> LineName {
 
 /// x, y and azimuth of the line through a point at an angle; along an axis x or y alone.
 #[pyfunction]
-#[pyo3(signature = (x: "float", y: "float", azimuth: "Quantity"))]
+#[pyo3(signature = (x: "float", y: "float", azimuth: "Angle"))]
 pub(crate) fn line_through(
     #[pyo3(from_py_with = number)] x: f64,
     #[pyo3(from_py_with = number)] y: f64,
@@ -55,7 +55,7 @@ pub(crate) fn line_through(
 
 /// Places along a line on a grid, and their x, y [m].
 #[pyfunction]
-#[pyo3(signature = (grid, *, x: "float | None" = None, y: "float | None" = None, azimuth: "Quantity | None" = None))]
+#[pyo3(signature = (grid, *, x: "float | None" = None, y: "float | None" = None, azimuth: "Angle | None" = None))]
 pub(crate) fn line_places(
     grid: Grid,
     #[pyo3(from_py_with = number)] x: Option<f64>,

@@ -69,7 +69,7 @@ impl Elastic {
 #[pymethods]
 impl Elastic {
     #[new]
-    #[pyo3(signature = (*, E: "Quantity", nu: "float", plastic = None))]
+    #[pyo3(signature = (*, E: "Modulus", nu: "float", plastic = None))]
     fn new(
         #[pyo3(from_py_with = Given::E)] E: f64,
         #[pyo3(from_py_with = number)] nu: f64,
@@ -130,7 +130,7 @@ takes!(Bond, "a bond, such as Bond(normal=1e-17, shear=1e-16)");
 #[pymethods]
 impl Bond {
     #[new]
-    #[pyo3(signature = (*, normal: "Quantity" = 0.0, shear: "Quantity" = 0.0))]
+    #[pyo3(signature = (*, normal: "NormalCompliance" = 0.0, shear: "ShearCompliance" = 0.0))]
     fn new(
         #[pyo3(from_py_with = Given::bond_normal)] normal: f64,
         #[pyo3(from_py_with = Given::bond_shear)] shear: f64,
@@ -142,7 +142,7 @@ impl Bond {
 
     /// The bond that a thin layer of a material makes: h (1 - 2 nu)/(2 G (1 - nu)) and h/G.
     #[staticmethod]
-    #[pyo3(signature = (material, *, thickness: "Quantity"))]
+    #[pyo3(signature = (material, *, thickness: "Thickness"))]
     fn of_layer(
         material: Elastic,
         #[pyo3(from_py_with = Given::thickness)] thickness: f64,
@@ -206,7 +206,7 @@ takes!(
 #[pymethods]
 impl Coating {
     #[new]
-    #[pyo3(signature = (material, *, thickness: "Quantity", bond = Bond(core::Bond::PERFECT), residual = None))]
+    #[pyo3(signature = (material, *, thickness: "Thickness", bond = Bond(core::Bond::PERFECT), residual = None))]
     fn new(
         material: Elastic,
         #[pyo3(from_py_with = Given::thickness)] thickness: f64,

@@ -50,13 +50,13 @@ impl Outline {
     }
 
     /// Where a line through the centre leaves the contact, backwards and forwards [m].
-    #[pyo3(signature = (azimuth: "Quantity" = 0.0))]
+    #[pyo3(signature = (azimuth: "Angle" = 0.0))]
     fn border(&self, #[pyo3(from_py_with = Given::azimuth)] azimuth: f64) -> (f64, f64) {
         self.0.border(azimuth)
     }
 
     /// Half of the width of the contact in a direction [m].
-    #[pyo3(signature = (azimuth: "Quantity" = 0.0))]
+    #[pyo3(signature = (azimuth: "Angle" = 0.0))]
     fn half_width(&self, #[pyo3(from_py_with = Given::azimuth)] azimuth: f64) -> f64 {
         self.0.half_width(azimuth)
     }

@@ -2,10 +2,10 @@
 //! exchanged. All follows from the arguments of the constructor and the attributes that hold them.
 
 use numpy::PyUntypedArray;
-use pyo3::IntoPyObjectExt;
-use pyo3::types::{PyList, PyTuple, PyType};
+use pyo3::types::{PyList, PyTuple};
 
 use crate::prelude::*;
+use crate::python::own;
 
 /// The arguments of the constructor that make `value` again: (argument, attribute) each.
 pub(crate) fn arguments<'py>(
@@ -44,8 +44,15 @@ fn hashable(value: Bound<'_, PyAny>) -> PyResult<Bound<'_, PyAny>> {
     Ok(value)
 }
 
-/// What `pickle` calls, and with what.
-pub(crate) type Remade<'py> = (Bound<'py, PyAny>, Bound<'py, PyTuple>);
+/// What `pickle` calls, and with what: [`crate::python::remake`] and its arguments.
+pub(crate) type Remade<'py> = (
+    Bound<'py, PyAny>,
+    (
+        Bound<'py, PyAny>,
+        Option<String>,
+        Option<Bound<'py, PyDict>>,
+    ),
+);
 
 /// A function or a class of the module and the arguments that make `value` again.
 pub(crate) fn remade<'py>(
@@ -54,23 +61,18 @@ pub(crate) fn remade<'py>(
     parts: &[(&str, &str)],
 ) -> PyResult<Remade<'py>> {
     let py = value.py();
-    let maker = py.import("pyfret._core")?.getattr(by)?;
-    let partial = py.import("functools")?.getattr("partial")?;
-    let call = partial.call((maker,), Some(&arguments(value, parts)?))?;
-    Ok((call, PyTuple::empty(py)))
+    let keywords = arguments(value, parts)?;
+    Ok((own(py, "remake")?, (own(py, by)?, None, Some(keywords))))
 }
 
-/// A method of a class, its arguments and the class, which make a value again.
-pub(crate) fn remade_by_method<'py, T: IntoPyObject<'py>>(
-    owner: T,
+/// A class, its method and the arguments which make a value again.
+pub(crate) fn remade_by_method<'py>(
+    class: Bound<'py, PyAny>,
     method: &str,
-    arguments: &Bound<'py, PyDict>,
-    py: Python<'py>,
+    arguments: Bound<'py, PyDict>,
 ) -> PyResult<Remade<'py>> {
-    let caller = py.import("operator")?.getattr("methodcaller")?;
-    let call = caller.call((method,), Some(arguments))?;
-    let owner = owner.into_bound_py_any(py)?;
-    Ok((call, PyTuple::new(py, [owner])?))
+    let remake = own(class.py(), "remake")?;
+    Ok((remake, (class, Some(method.to_owned()), Some(arguments))))
 }
 
 /// Whether another value is of the same class with equal parts.
@@ -118,6 +120,10 @@ macro_rules! made {
 
         #[pyo3::pymethods]
         impl $class {
+            fn __getattr__(slf: &pyo3::Bound<'_, Self>, name: &str) -> pyo3::PyResult<()> {
+                Err($crate::python::missing_attribute(slf.as_any(), name))
+            }
+
             fn __reduce__<'py>(
                 slf: &pyo3::Bound<'py, Self>,
             ) -> pyo3::PyResult<$crate::parts::Remade<'py>> {
@@ -158,6 +164,10 @@ macro_rules! parts {
     (pickled $class:ident: $($argument:ident $(= $attribute:ident)?),*) => {
         #[pyo3::pymethods]
         impl $class {
+            fn __getattr__(slf: &pyo3::Bound<'_, Self>, name: &str) -> pyo3::PyResult<()> {
+                Err($crate::python::missing_attribute(slf.as_any(), name))
+            }
+
             fn __getnewargs_ex__<'py>(
                 slf: &pyo3::Bound<'py, Self>,
             ) -> pyo3::PyResult<((), pyo3::Bound<'py, pyo3::types::PyDict>)> {
@@ -230,7 +240,7 @@ macro_rules! members {
         impl $class {
             fn __reduce__<'py>(
                 slf: &pyo3::Bound<'py, Self>,
-            ) -> pyo3::PyResult<$crate::parts::Member<'py>> {
+            ) -> pyo3::PyResult<$crate::parts::Remade<'py>> {
                 $crate::parts::member(slf.as_any())
             }
         }
@@ -238,14 +248,11 @@ macro_rules! members {
 }
 pub(crate) use members;
 
-/// The function `getattr`, the class, and the name of a member.
-pub(crate) type Member<'py> = (Bound<'py, PyAny>, (Bound<'py, PyType>, String));
-
-/// `getattr(class, "MEMBER")` of a member of an enumeration, as `pickle` wants it.
-pub(crate) fn member<'py>(value: &Bound<'py, PyAny>) -> PyResult<Member<'py>> {
+/// The class and the name of a member of an enumeration, as `pickle` wants it.
+pub(crate) fn member<'py>(value: &Bound<'py, PyAny>) -> PyResult<Remade<'py>> {
     // Shown as `Preset.FAST`.
     let shown = value.repr()?.to_string();
     let name = shown.rsplit('.').next().unwrap_or_default().to_owned();
-    let getattr = value.py().import("builtins")?.getattr("getattr")?;
-    Ok((getattr, (value.get_type(), name)))
+    let class = value.get_type().into_any();
+    Ok((own(value.py(), "remake")?, (class, Some(name), None)))
 }

@@ -82,7 +82,7 @@ fn of_back_stresses(
 #[pymethods]
 impl Plastic {
     #[new]
-    #[pyo3(signature = (*, s_y: "Quantity", hardening: "Quantity" = 0.0, voce_Q: "Quantity" = 0.0, voce_b: "float" = 0.0, swift_e_0: "float" = 0.0, swift_n: "float" = 0.0, kinematic: "Quantity" = 0.0, chaboche_C: "Quantities | None" = None, chaboche_gamma: "Quantities | None" = None))]
+    #[pyo3(signature = (*, s_y: "YieldStress", hardening: "YieldStress" = 0.0, voce_Q: "YieldStress" = 0.0, voce_b: "float" = 0.0, swift_e_0: "float" = 0.0, swift_n: "float" = 0.0, kinematic: "YieldStress" = 0.0, chaboche_C: "Quantities | None" = None, chaboche_gamma: "Quantities | None" = None))]
     fn new(
         #[pyo3(from_py_with = Given::s_y)] s_y: f64,
         #[pyo3(from_py_with = Given::hardening)] hardening: f64,

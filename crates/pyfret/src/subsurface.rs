@@ -29,7 +29,7 @@ type Matrix<'py> = Bound<'py, PyArray2<f64>>;
 /// Near the surface tractions vary within the cells. States share the kernels, which cost as much
 /// as about ten of them.
 #[pyfunction]
-#[pyo3(signature = (body, states, z: "Sequence[float]", layer: "Sequence[int]", *, residual = None, x: "float | None" = None, y: "float | None" = None, azimuth: "Quantity | None" = None, body_number: "int" = 2) -> "NDArray[np.float64]")]
+#[pyo3(signature = (body, states, z: "Sequence[float]", layer: "Sequence[int]", *, residual = None, x: "float | None" = None, y: "float | None" = None, azimuth: "Angle | None" = None, body_number: "int" = 2) -> "NDArray[np.float64]")]
 pub(crate) fn section_of_states<'py>(
     py: Python<'py>,
     body: Body,
@@ -142,7 +142,7 @@ impl Subsurface {
 #[pymethods]
 impl Subsurface {
     #[new]
-    #[pyo3(signature = (body, grid, *, p = None, q_x = None, q_y = None, body_number: "int" = 2, sigma_B: "Quantity" = 0.0, residual = None, eigenstress: "Sequence[Eigenstress | None] | None" = None, rim = false, stick = None))]
+    #[pyo3(signature = (body, grid, *, p = None, q_x = None, q_y = None, body_number: "int" = 2, sigma_B: "BulkStress" = 0.0, residual = None, eigenstress: "Sequence[Eigenstress | None] | None" = None, rim = false, stick = None))]
     fn new(
         body: Body,
         grid: Grid,
@@ -181,7 +181,7 @@ impl Subsurface {
     }
 
     /// Stress [Pa] or displacement [m] on a section, shape (6 or 3, depths, places).
-    #[pyo3(signature = (z: "Sequence[float]", layer: "Sequence[int]", *, x: "float | None" = None, y: "float | None" = None, azimuth: "Quantity | None" = None, displacement = false) -> "NDArray[np.float64]")]
+    #[pyo3(signature = (z: "Sequence[float]", layer: "Sequence[int]", *, x: "float | None" = None, y: "float | None" = None, azimuth: "Angle | None" = None, displacement = false) -> "NDArray[np.float64]")]
     fn section<'py>(
         &self,
         py: Python<'py>,
@@ -258,7 +258,7 @@ impl Subsurface {
     /// last follows from the `error_bar` of the stress over the stress. Then come the layers whose
     /// stress still rises at the end of the longest section. `anywhere`: also beside the section.
     #[pyo3(signature = (
-        of, samples, z: "Sequence[float]", layer: "Sequence[int]", *, x: "float | None" = None, y: "float | None" = None, azimuth: "Quantity | None" = None, only: "int | None" = None, anywhere = false,
+        of, samples, z: "Sequence[float]", layer: "Sequence[int]", *, x: "float | None" = None, y: "float | None" = None, azimuth: "Angle | None" = None, only: "int | None" = None, anywhere = false,
         error_bar: "float | None" = None
     ))]
     fn maximum(
@@ -320,7 +320,7 @@ impl Subsurface {
     /// Where a line, or the lines of all cells, cross rims of contact and stick zone.
     ///
     /// x, y, which of them, and whether the place is known within a cell.
-    #[pyo3(signature = (*, x: "float | None" = None, y: "float | None" = None, azimuth: "Quantity | None" = None))]
+    #[pyo3(signature = (*, x: "float | None" = None, y: "float | None" = None, azimuth: "Angle | None" = None))]
     fn borders(
         &self,
         #[pyo3(from_py_with = number)] x: Option<f64>,

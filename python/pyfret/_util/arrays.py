@@ -102,7 +102,7 @@ def numbers(values: ArrayLike, name: str, *, holes: bool = False) -> NDArray[np.
     given: Any = values
     if masked:
         given = np.ma.MaskedArray(values, dtype=float).filled(np.nan)
-    if truths(given):
+    if contains_booleans(given):
         raise TypeError(f"{name}: True and False are no numbers")
     try:
         found = np.asarray(given)
@@ -120,10 +120,10 @@ def numbers(values: ArrayLike, name: str, *, holes: bool = False) -> NDArray[np.
     return found
 
 
-def truths(values: Any) -> bool:
+def contains_booleans(values: Any) -> bool:
     """Whether some of the values are booleans."""
     if isinstance(values, (list, tuple)):
-        return any(map(truths, values))
+        return any(map(contains_booleans, values))
     if isinstance(values, (bool, np.bool_)):
         return True
     return getattr(getattr(values, "dtype", None), "kind", "") == "b"

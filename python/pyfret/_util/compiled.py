@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 from types import BuiltinFunctionType, MethodDescriptorType
 from typing import TYPE_CHECKING, Any
 
-from pyfret._util.guesses import too_many, unknown
+from pyfret._util.keywords import check_places, unknown_keyword
 
 if TYPE_CHECKING:
     from types import ModuleType
@@ -106,7 +106,7 @@ def refused(
     parameters = list(inspect.signature(call).parameters.values())
     if not any(one.kind is one.VAR_KEYWORD for one in parameters):
         known = [one.name for one in parameters if one.kind in NAMED and one.name != "self"]
-        refusal = unknown(what, call, given, known)
+        refusal = unknown_keyword(what, given, known)
         if refusal is not None:
             return refusal
-    return too_many(what, parameters, values)
+    return check_places(what, parameters, values)

@@ -1,17 +1,16 @@
 """The figures of one thing as methods: ``worn.plot.wear_history()``.
 
 Which figures a thing has follows from the figures: their first argument names its type. They are
-found when they are drawn, by the public face of the package. So figures depend on results, and
-results do not depend on figures.
+loaded when they are drawn, by a function that the package enters here. So figures depend on
+results, and results do not depend on figures.
 """
 
 from __future__ import annotations
 
-import sys
 from functools import partial
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
-from pyfret._util.guesses import no_attribute
+from pyfret._util.attributes import attribute_error
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -25,13 +24,20 @@ if TYPE_CHECKING:
         def _draw(self, *args: Any, **options: Any) -> Any: ...
 
 
-__all__ = ["Figured", "Figures", "figures_of"]
+__all__ = ["Figured", "Figures", "figures_of", "register_figures"]
+
+#: Functions that load the module of the figures: one, once the package is imported.
+LOADERS: list[Callable[[], ModuleType]] = []
 
 
-def drawing() -> ModuleType:
-    """The module of the figures."""
-    module: ModuleType = sys.modules[__name__.partition(".")[0]].plot
-    return module
+def register_figures(load: Callable[[], ModuleType]) -> None:
+    """Enter the function that loads the module of the figures."""
+    LOADERS[:] = [load]
+
+
+def load_figures() -> ModuleType:
+    """Load the module of the figures."""
+    return LOADERS[0]()
 
 
 def first_types(function: Callable[..., Any]) -> set[str]:
@@ -46,7 +52,7 @@ def figures_of(kind: type) -> list[str]:
     The first argument of a figure is of that class or of one above it. A class that fits a protocol
     has the first type of the figure that shows the whole.
     """
-    plot = drawing()
+    plot = load_figures()
     whole = next(iter(getattr(plot, kind.figure).__annotations__.values()))  # type: ignore[attr-defined]
     own = {of.__name__ for of in kind.__mro__} | {str(whole).split("|")[0].strip()}
     return [name for name in plot.__all__ if own & first_types(getattr(plot, name))]
@@ -69,9 +75,9 @@ class Figures:
         """Give the figure of that name, drawn of the thing."""
         if name.startswith("_"):
             raise AttributeError(name)
-        plot = drawing()
+        plot = load_figures()
         if name not in plot.__all__:
-            raise no_attribute("plot", name, dir(self), {})
+            raise attribute_error("plot", name, dir(self), {})
         return partial(getattr(plot, name), self._shown)
 
     def __dir__(self) -> list[str]:
@@ -95,4 +101,4 @@ class Figured:
 
     def _draw(self, *args: Any, **options: Any) -> Any:
         """Draw the figure that shows the whole."""
-        return getattr(drawing(), type(self).figure)(self, *args, **options)
+        return getattr(load_figures(), type(self).figure)(self, *args, **options)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from pyfret._util.guesses import missing, names_of
+from pyfret._util.attributes import dataset_attribute, dataset_names
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -28,11 +28,11 @@ class Labelled:
 
     def __getattr__(self, name: str) -> Any:
         """Give a variable or an attribute of the dataset."""
-        return missing(self, name)
+        return dataset_attribute(self, name)
 
     def __dir__(self) -> list[str]:
         """The names of the class, and those of the dataset."""
-        return sorted({*object.__dir__(self), *names_of(self.dataset)})
+        return sorted({*object.__dir__(self), *dataset_names(self.dataset)})
 
     def __eq__(self, other: object) -> bool:
         """Whether the other one is of the same class with an identical dataset."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import builtins
 import os
 import sys
 import time
@@ -31,7 +32,7 @@ def watched(stream: Any) -> bool:
 
 def in_notebook() -> bool:
     """Whether a notebook runs this."""
-    return "ipykernel" in sys.modules
+    return hasattr(builtins, "__IPYTHON__")
 
 
 def notebook_view() -> Any:

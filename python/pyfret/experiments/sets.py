@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from pyfret import reference
 from pyfret import wear as wearing
 from pyfret._core import Body, Coating, Cylinder, Elastic, Grid, LoadPath, Scene, Sphere
-from pyfret._util.door import numbers_only
+from pyfret.quantities import FrictionCoefficient, quantities
 from pyfret.shapes import FlatPunch
 
 if TYPE_CHECKING:
@@ -85,7 +85,7 @@ class Experiment:
         return wearing.solve(self.scene, progress=False, **{**self.arguments, **changes})
 
 
-@numbers_only
+@quantities
 def table(name: str) -> list[dict[str, Any]]:
     """Rows of a file of :data:`NAMES`: numbers where they are, else texts; None where empty."""
     if name not in NAMES:
@@ -132,8 +132,10 @@ def line(R: float, W: float, slip: float, mu: float, half_width: float, n: int =
     )
 
 
-@numbers_only
-def fouvry2007(coating: str = "TiC", *, slip: float = 75e-6, mu: float = 0.45) -> Experiment:
+@quantities
+def fouvry2007(
+    coating: str = "TiC", *, slip: float = 75e-6, mu: FrictionCoefficient = 0.45
+) -> Experiment:
     """Alumina ball on a hard coating in gross slip, 100 N: S. Fouvry, C. Paulin, T. Liskiewicz.
 
     Parameters
@@ -177,7 +179,7 @@ def fouvry2007(coating: str = "TiC", *, slip: float = 75e-6, mu: float = 0.45) -
     )
 
 
-@numbers_only
+@quantities
 def fouvry2017(test: str, *, debris_kept: float = KEPT) -> Experiment:
     """Ti-6Al-4V cylinder on flat, gross slip of 75 um: a row of S. Fouvry and others' appendix A.
 
@@ -229,7 +231,7 @@ def fouvry2017(test: str, *, debris_kept: float = KEPT) -> Experiment:
     )
 
 
-@numbers_only
+@quantities
 def arnaud2021(*, debris_kept: float = KEPT) -> Experiment:
     """Worn profile of Ti-6Al-4V, U-shaped: P. Arnaud, S. Baydoun, S. Fouvry.
 
@@ -250,7 +252,7 @@ def arnaud2021(*, debris_kept: float = KEPT) -> Experiment:
     return Experiment(ARNAUD, test.scene, row, test.arguments, remarks)
 
 
-@numbers_only
+@quantities
 def baydoun2019(n: int) -> Experiment:
     """Square steel flat on flat, 5 x 5 mm: the n-th row of S. Baydoun and others, from 0.
 
@@ -288,7 +290,7 @@ def baydoun2019(n: int) -> Experiment:
     )
 
 
-@numbers_only
+@quantities
 def icf13(test: str, *, Q: float | None = None, n: int = 256) -> Experiment:
     """Crack threshold of a steel cylinder on a flat in partial slip, with or without bulk stress.
 
@@ -335,7 +337,7 @@ def icf13(test: str, *, Q: float | None = None, n: int = 256) -> Experiment:
     )
 
 
-@numbers_only
+@quantities
 def vanpeteghem2011(test: int) -> Experiment:
     """Ti-6Al-4V cylinder on flat, R = 80 mm, force constant: B. Van Peteghem, S. Fouvry, J. Petit.
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from pyfret._core import read_text
-from pyfret._util.doubts import warn
+from pyfret._util.scene_warnings import warn
 from pyfret.export.components import read_order, to_matrices, to_vectors
 from pyfret.export.increments import Increment, choose_increment
 from pyfret.export.numbers import number, numbers

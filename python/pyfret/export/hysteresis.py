@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pyfret._util.door import numbers_only
 from pyfret._util.lazy import xr
+from pyfret.quantities import quantities
 
 if TYPE_CHECKING:
     from typing import Literal
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 __all__ = ["hysteresis"]
 
 
-@numbers_only
+@quantities
 def hysteresis(result: Run, *, direction: Literal["x", "y", "torsion"] = "x") -> xr.Dataset:
     """Hysteresis of a contact for the dynamics of a joint, as a table.
 

@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pyfret._util.door import numbers_only
 from pyfret.export.frame import Frame
 from pyfret.export.tables import TRACTIONS, body_sign
+from pyfret.quantities import quantities
 
 if TYPE_CHECKING:
     import os
@@ -29,7 +29,7 @@ FIELDS = (*TRACTIONS, "contact", "stick")
 ALONG = 1e-9
 
 
-@numbers_only
+@quantities
 def image(
     state: State,
     path: str | os.PathLike[str],

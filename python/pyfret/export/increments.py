@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 from pyfret._core import read_text
-from pyfret._util.doubts import warn
+from pyfret._util.scene_warnings import warn
 from pyfret.export.numbers import number
 
 if TYPE_CHECKING:

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pyfret._util.arrays import plain
-from pyfret._util.door import numbers_only
 from pyfret.export.frame import Frame
 from pyfret.export.meshes import faces_in_plane, read_mesh
 from pyfret.export.tables import body_sign, cells_of
+from pyfret.quantities import Numbers, quantities
 
 if TYPE_CHECKING:
     import os
@@ -50,10 +50,10 @@ def checked(rows: ArrayLike, nodes: int) -> NDArray[np.int64]:
     return found
 
 
-@numbers_only
+@quantities
 def nodal_forces(
     state: State,
-    points: ArrayLike,
+    points: Numbers,
     faces: Sequence[ArrayLike],
     *,
     frame: Frame | None = None,
@@ -120,7 +120,7 @@ def nodal_forces(
     return forces
 
 
-@numbers_only
+@quantities
 def loads(
     state: State,
     mesh: str | os.PathLike[str],

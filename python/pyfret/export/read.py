@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pyfret._util.door import numbers_only
 from pyfret.export.components import EQUAL, ORDERS, ROWS, read_order, to_matrices, to_vectors
 from pyfret.export.dat import read_printed
 from pyfret.export.foreign import read_by_meshio, read_component_names
 from pyfret.export.frame import Frame
 from pyfret.export.frd import read_frd
+from pyfret.quantities import quantities
 
 if TYPE_CHECKING:
     import os
@@ -26,7 +26,7 @@ __all__ = ["bulk_stress", "compliance"]
 NEAREST = 8
 
 
-@numbers_only
+@quantities
 def bulk_stress(
     path: str | os.PathLike[str],
     *,
@@ -96,7 +96,7 @@ def bulk_stress(
     return result
 
 
-@numbers_only
+@quantities
 def compliance(
     path: str | os.PathLike[str],
     force: float,

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from pyfret._util.arrays import plain
-from pyfret._util.door import numbers_only
 from pyfret.export.frame import Frame
+from pyfret.quantities import Numbers, ResidualStresses, quantities
 from pyfret.subsurface import fields
 from pyfret.subsurface.contact import loaded_by
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     import os
     from collections.abc import Sequence
 
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import NDArray
 
     from pyfret.run import State
 
@@ -56,7 +56,7 @@ def cells_of(
     return x.ravel(), y.ravel(), p[at].ravel(), np.stack([q_x[at].ravel(), q_y[at].ravel()], -1)
 
 
-@numbers_only
+@quantities
 def tractions(
     state: State,
     path: str | os.PathLike[str],
@@ -120,16 +120,16 @@ def tractions(
     _write(path, head, values, " ", end="#FIN_TABLE\n")
 
 
-@numbers_only
+@quantities
 def stress(
     state: State,
-    points: ArrayLike,
+    points: Numbers,
     path: str | os.PathLike[str] | None = None,
     *,
     frame: Frame | None = None,
     body_number: int = 2,
     bulk: bool = True,
-    residual: Sequence[ArrayLike] | None = None,
+    residual: Sequence[ResidualStresses] | None = None,
 ) -> NDArray[np.float64]:
     """Stress of a contact at the points of another model, and a table of it.
 

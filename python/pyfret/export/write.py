@@ -5,15 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
-from pyfret._util.door import numbers_only
 from pyfret.export.images import image
 from pyfret.export.nodes import loads
 from pyfret.export.tables import stress, tractions
+from pyfret.quantities import Numbers, quantities
 
 if TYPE_CHECKING:
     import os
-
-    from numpy.typing import ArrayLike
 
     from pyfret.export.frame import Frame
     from pyfret.run import State
@@ -21,7 +19,7 @@ if TYPE_CHECKING:
 __all__ = ["write"]
 
 
-@numbers_only
+@quantities
 def write(
     state: State,
     path: str | os.PathLike[str],
@@ -31,7 +29,7 @@ def write(
     form: Literal["csv", "abaqus", "aster"] = "csv",
     of: Literal["p", "q_x", "q_y"] = "p",
     mesh: str | os.PathLike[str] | None = None,
-    points: ArrayLike | None = None,
+    points: Numbers | None = None,
 ) -> None:
     """Write the tractions of an increment, or the stress at points, for another program.
 

@@ -8,21 +8,18 @@ import numpy as np
 
 from pyfret._core import Material
 from pyfret._util.arrays import number
-from pyfret._util.called import as_material
-from pyfret._util.door import numbers_only
 from pyfret._util.lazy import xr
-from pyfret._util.types import as_number
+from pyfret._util.material_names import as_material
 from pyfret.fatigue.cycle_section import body_of, over_cycle, placed
 from pyfret.fatigue.fields import described
-from pyfret.fatigue.section import Section, for_each_layer
+from pyfret.fatigue.section import Materials, Section, SectionOptions, for_each_layer
+from pyfret.quantities import Length, as_number, quantities
 from pyfret.subsurface.fields import coordinates
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from pyfret._util.types import Quantity
     from pyfret.fatigue.criteria import CriterionName
-    from pyfret.fatigue.section import Materials, SectionOptions
     from pyfret.run import Run
 
 __all__ = ["Averaging", "average", "critical_distance"]
@@ -32,7 +29,7 @@ __all__ = ["Averaging", "average", "critical_distance"]
 Averaging = Literal["point", "line", "area", "volume"]
 
 
-@numbers_only
+@quantities
 def critical_distance(material: Material | str) -> float:
     """Critical distance L = (dK_th/(2 s_D))^2/pi of a material [m].
 
@@ -43,13 +40,13 @@ def critical_distance(material: Material | str) -> float:
     return as_material(material).critical_distance()
 
 
-@numbers_only
+@quantities
 def average(
     result: Run,
     material: Materials,
     criterion: CriterionName,
     *,
-    L: Quantity | None = None,
+    L: Length | None = None,
     method: Averaging = "line",
     layer: int | None = None,
     tolerance: float = 1e-3,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Literal, get_args
 
@@ -11,11 +10,11 @@ import numpy as np
 from pyfret import _core
 from pyfret._core import Assessment, Criterion, Material
 from pyfret._util.arrays import COMPONENTS, histories, number, plain
-from pyfret._util.called import called, unknown
-from pyfret._util.door import numbers_only
-from pyfret._util.doubts import warn
 from pyfret._util.lazy import xr
+from pyfret._util.material_names import find_material, list_materials
+from pyfret._util.scene_warnings import warn
 from pyfret.fatigue.plastic_strain import strains_beside
+from pyfret.quantities import StressHistory, YieldStress, quantities
 
 if TYPE_CHECKING:
     import os
@@ -23,8 +22,6 @@ if TYPE_CHECKING:
 
     import pandas as pd
     from numpy.typing import ArrayLike, NDArray
-
-    from pyfret._util.types import Quantity
 
 
 __all__ = [
@@ -78,9 +75,9 @@ class Materials(Mapping[str, Material]):
 
     def __getitem__(self, name: str) -> Material:
         """Give a material by its name, or by another one that it is known by: ``"Ti6Al4V"``."""
-        found = called(name, self._materials)
+        found = find_material(name, self._materials)
         if found is None:
-            raise KeyError(unknown(name, self._materials))
+            raise KeyError(list_materials(name, self._materials))
         return found
 
     def __iter__(self) -> Iterator[str]:
@@ -96,7 +93,7 @@ class Materials(Mapping[str, Material]):
         return f"Materials({', '.join(self._materials)})"
 
 
-@functools.partial(numbers_only, but=("stress", "plastic_strain"))
+@quantities
 def evaluate(
     stress: ArrayLike,
     criterion: Criterion,
@@ -168,9 +165,9 @@ def evaluate(
     return result.assign_coords(axis=["x", "y", "z"])
 
 
-@functools.partial(numbers_only, but=("stress", "plastic_strain"))
+@quantities
 def assess(
-    stress: ArrayLike,
+    stress: StressHistory,
     material: Material,
     criterion: CriterionName,
     *,
@@ -204,9 +201,9 @@ def assess(
     return result
 
 
-@functools.partial(numbers_only, but=("stress",))
+@quantities
 def first_yield(
-    stress: ArrayLike, *, s_y: Quantity, constant: Sequence[float] = (0, 0, 0, 0, 0, 0)
+    stress: ArrayLike, *, s_y: YieldStress, constant: Sequence[float] = (0, 0, 0, 0, 0, 0)
 ) -> xr.Dataset:
     """Give load factors of first yield and of elastic shakedown.
 
@@ -245,8 +242,8 @@ def first_yield(
     return result
 
 
-@functools.partial(numbers_only, but=("stress",))
-def moving_load(stress: ArrayLike, *, s_y: Quantity) -> NDArray[np.float64]:
+@quantities
+def moving_load(stress: ArrayLike, *, s_y: YieldStress) -> NDArray[np.float64]:
     """Give the load factor of elastic shakedown under a load that moves along the surface.
 
     A load that passes again and again leaves a residual stress that depends on depth alone. Its
@@ -274,7 +271,7 @@ def moving_load(stress: ArrayLike, *, s_y: Quantity) -> NDArray[np.float64]:
     return np.asarray(first_yield(both, s_y=s_y).shakedown)
 
 
-@functools.partial(numbers_only, but=("stress",))
+@quantities
 def dang_van_path(stress: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Give the path of one point in Dang Van's plane.
 
@@ -295,7 +292,7 @@ def dang_van_path(stress: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.fl
     return path[:, 0], path[:, 1]
 
 
-@numbers_only
+@quantities
 def mean_stress_slope(material: Material) -> tuple[float, str]:
     """Give how much amplitude of uniaxial stress a mean stress costs, and after whom.
 
@@ -310,7 +307,7 @@ def mean_stress_slope(material: Material) -> tuple[float, str]:
     return 1.0 - s_D / (2.0 * material.number("t_D")), "Dang Van"
 
 
-@functools.partial(numbers_only, but=("stress",))
+@quantities
 def to_pylife(stress: ArrayLike) -> pd.DataFrame:
     """Give a history as pyLife takes it: columns S11, S22, S33, S12, S13, S23, a row per instant.
 
@@ -327,7 +324,7 @@ def to_pylife(stress: ArrayLike) -> pd.DataFrame:
     return pd.DataFrame(rows, index=index, columns=["S11", "S22", "S33", "S12", "S13", "S23"])
 
 
-@functools.partial(numbers_only, but=("signal",))
+@quantities
 def rainflow(signal: ArrayLike) -> NDArray[np.float64]:
     """Count the cycles of a signal: rows of range, mean, count (1 or 1/2).
 

@@ -8,11 +8,10 @@ import numpy as np
 
 from pyfret import _core
 from pyfret._util.arrays import plain
-from pyfret._util.door import numbers_only
 from pyfret._util.lazy import xr
-from pyfret._util.types import as_number
 from pyfret.fatigue.criteria import COMPONENTS
 from pyfret.fatigue.plastic_strain import GROWS, grows, strains_of
+from pyfret.quantities import Angle, Lengths, ResidualStresses, as_number, quantities
 from pyfret.subsurface.contact import stress_below
 from pyfret.subsurface.fields import coordinates
 from pyfret.subsurface.line import Line
@@ -23,7 +22,6 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
-    from pyfret._util.types import Quantity
     from pyfret.run import Run
 
 __all__ = ["cycle_increments", "history", "moment_before"]
@@ -34,7 +32,7 @@ Of: TypeAlias = Literal["stress", "plastic_strain"]
 TOGETHER = 32
 
 
-@numbers_only
+@quantities
 def cycle_increments(result: Run, cycle: int | None = -1) -> NDArray[np.int64]:
     """Give the kept increments of a closed cycle of the load path, from 1; all of them for None.
 
@@ -75,17 +73,17 @@ def _inside(result: Run, saved: NDArray[np.int64], cycle: int) -> NDArray[np.boo
     return np.asarray((branch >= int(ends.first_branch)) & (branch <= int(ends.last_branch)))
 
 
-@numbers_only
+@quantities
 def history(
     result: Run,
-    z: ArrayLike,
+    z: Lengths,
     *,
     x: float | None = None,
     y: float | None = None,
-    azimuth: Quantity | None = None,
+    azimuth: Angle | None = None,
     body_number: int = 2,
     cycle: int | None = -1,
-    residual: Sequence[ArrayLike] | None = None,
+    residual: Sequence[ResidualStresses] | None = None,
     of: Of = "stress",
 ) -> xr.DataArray:
     """Stress over a closed cycle of a run whose increments were kept, ready for a criterion.

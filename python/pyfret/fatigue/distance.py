@@ -10,10 +10,10 @@ import numpy as np
 
 from pyfret import _core
 from pyfret._util.figures import Figured
-from pyfret._util.kept import Kept
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
 from pyfret._util.numbers import length
+from pyfret.saveable import Saveable
 from pyfret.scene.tables import table
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ def rough(margin: float, *, lives: bool) -> str:
     return _core.with_range(margin, _core.LONGEST_LIFE if lives else margin, margin)
 
 
-class OverDistance(Kept, Labelled, Figured):
+class OverDistance(Saveable, Labelled, Figured):
     """Lives or safety factors over the distance that the stress is averaged over.
 
     :attr:`dataset` has ``life`` or ``safety_factor`` over ``L`` [m], and its range, ``low`` and

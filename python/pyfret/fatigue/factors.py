@@ -18,11 +18,9 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, get_args
 import numpy as np
 
 from pyfret._core import Material, with_error
-from pyfret._util.door import numbers_only
 from pyfret._util.figures import Figured
 from pyfret._util.labelled import Labelled
 from pyfret._util.numbers import place
-from pyfret._util.types import Quantity
 from pyfret.fatigue.cycle_section import (
     body_of,
     depths_of,
@@ -31,16 +29,15 @@ from pyfret.fatigue.cycle_section import (
     placed,
     side_by_side,
 )
-from pyfret.fatigue.section import Section, for_each_layer
+from pyfret.fatigue.section import Section, SectionOptions, for_each_layer
+from pyfret.quantities import Lengths, YieldStress, quantities
 from pyfret.subsurface.tensor import Errors
 
 if TYPE_CHECKING:
     import xarray as xr
-    from numpy.typing import ArrayLike
     from typing_extensions import Unpack
 
     from pyfret._core import YieldBelow
-    from pyfret.fatigue.section import SectionOptions
     from pyfret.run import Run
 
 __all__ = ["Factor", "Least", "LoadFactors", "YieldStresses", "load_factors"]
@@ -49,7 +46,7 @@ __all__ = ["Factor", "Least", "LoadFactors", "YieldStresses", "load_factors"]
 Factor = Literal["von_mises", "tresca", "shakedown"]
 #: A yield stress [Pa] for all layers, a material that has one for the substrate, or one for each
 #: layer from the surface down, the substrate's last; layers of ``None`` are not judged.
-YieldStresses = Quantity | Material | Sequence[Quantity | Material | None]
+YieldStresses = YieldStress | Material | Sequence[YieldStress | Material | None]
 #: Load over limit below this part is rounding: the stress does not change, the factor is infinite.
 NO_USE = 1e-12
 
@@ -175,11 +172,11 @@ def _yield_stresses(given: YieldStresses, layers: int) -> list[float | None]:
     return [one.number("s_y") if isinstance(one, Material) else one for one in each]
 
 
-@numbers_only
+@quantities
 def load_factors(
     result: Run,
     s_y: YieldStresses,
-    z: ArrayLike | None = None,
+    z: Lengths | None = None,
     **section: Unpack[SectionOptions],
 ) -> LoadFactors:
     """Give load factors of first yield and shakedown below the contact over a closed cycle.

@@ -6,17 +6,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pyfret._util.door import numbers_only
 from pyfret._util.lazy import xr
 from pyfret.fatigue.cycle_section import placed
 from pyfret.fatigue.cycles import cycle_increments, history
-from pyfret.fatigue.section import Section
+from pyfret.fatigue.section import Section, SectionOptions
+from pyfret.quantities import quantities
 from pyfret.subsurface.line import fields_on
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from pyfret.fatigue.section import SectionOptions
     from pyfret.run import Run
     from pyfret.subsurface.line import Line
 
@@ -34,7 +33,7 @@ def _work_until(result: Run, increment: int, line: Line) -> xr.DataArray:
     return work
 
 
-@numbers_only
+@quantities
 def ruiz(result: Run, **section: Unpack[SectionOptions]) -> xr.Dataset:
     """Give Ruiz' two parameters along a line of the surface over a closed cycle.
 

@@ -9,19 +9,18 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pyfret._core import degrees, range_of_life, with_range
-from pyfret._util.door import numbers_only
 from pyfret._util.figures import Figured
-from pyfret._util.kept import Kept
 from pyfret._util.labelled import Labelled
 from pyfret._util.numbers import layer_name, length, place
 from pyfret._util.text import html
-from pyfret._util.types import as_number
 from pyfret.fatigue import stored
 from pyfret.fatigue.cycles import Of
 from pyfret.fatigue.distance import OverDistance, critical, usual
 from pyfret.fatigue.fields import margin_name
 from pyfret.fatigue.ranges import LifeRange, Range
 from pyfret.fatigue.worst import Worst, in_megapascals
+from pyfret.quantities import Length, Lengths, as_number, quantities
+from pyfret.saveable import Saveable
 from pyfret.scene.tables import table
 from pyfret.subsurface.tensor import Errors
 
@@ -29,10 +28,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     import xarray as xr
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import NDArray
 
     from pyfret._core import Criterion, CriterionBelow, Material
-    from pyfret._util.types import Quantity
     from pyfret.fatigue.averages import Averaging
 
 __all__ = ["Life"]
@@ -46,7 +44,7 @@ RIM = (
 )
 
 
-class Life(Kept, Labelled, Figured):
+class Life(Saveable, Labelled, Figured):
     """A criterion on a section below the contact, or on several.
 
     :attr:`dataset` has ``value``, ``missed`` (no plane has more than value + missed), the shear and
@@ -138,7 +136,7 @@ class Life(Kept, Labelled, Figured):
         at_rim = [RIM] if self.worst.at == "rim" and self.range.distance is None else []
         return [*self._notes, *self.range.notes, *at_rim]
 
-    @numbers_only
+    @quantities
     def section(self, place: float) -> Life:
         """Give the one of several sections that is nearest to a place on the axis across [m]."""
         if self.dataset.value.ndim == 2:
@@ -155,7 +153,7 @@ class Life(Kept, Labelled, Figured):
             self._history,
         )
 
-    @numbers_only
+    @quantities
     def worst_of(self, layer: int) -> Worst:
         """Give the worst point of a layer; a ValueError where it is not judged."""
         if layer not in self._worst:
@@ -206,7 +204,7 @@ class Life(Kept, Labelled, Figured):
         assert of is not None
         return of.criterion
 
-    @numbers_only
+    @quantities
     def margin_of(self, layer: int) -> LifeRange:
         """Give the margin of a layer from the error of its stress alone: for contacts side by side.
 
@@ -242,13 +240,13 @@ class Life(Kept, Labelled, Figured):
         """The highest margin of :attr:`range`."""
         return self.range.high
 
-    @numbers_only
+    @quantities
     def range_of(
         self,
         layer: int,
         *,
         scatter: float | None = None,
-        L: Quantity | None = None,
+        L: Length | None = None,
         method: Averaging = "line",
     ) -> LifeRange:
         """Give low, best and high of a life or of a safety factor, the range of 10 to 90 %.
@@ -300,10 +298,10 @@ class Life(Kept, Labelled, Figured):
             self._ranges[layer] = found
         return found
 
-    @numbers_only
+    @quantities
     def over_distance(
         self,
-        L: ArrayLike | None = None,
+        L: Lengths | None = None,
         *,
         method: Averaging = "line",
         layer: int | None = None,

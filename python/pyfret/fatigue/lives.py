@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pyfret._util.door import numbers_only
 from pyfret._util.lazy import xr
 from pyfret.fatigue.cycle_section import (
     body_of,
@@ -28,27 +27,27 @@ from pyfret.fatigue.cycle_section import (
 from pyfret.fatigue.cycles import Of, history
 from pyfret.fatigue.fields import described
 from pyfret.fatigue.judged import Life
-from pyfret.fatigue.section import Materials, Section, for_each_layer
+from pyfret.fatigue.section import Materials, Section, SectionOptions, for_each_layer
 from pyfret.fatigue.worst import Worst
+from pyfret.quantities import Lengths, quantities
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import NDArray
     from typing_extensions import Unpack
 
     from pyfret._core import CriterionBelow
     from pyfret.fatigue.criteria import CriterionName
-    from pyfret.fatigue.section import SectionOptions
     from pyfret.run import Run
 
 __all__ = ["Life", "Materials", "Worst", "life", "lives"]
 
 
-@numbers_only
+@quantities
 def life(
     result: Run,
     materials: Materials,
     criterion: CriterionName,
-    z: ArrayLike | None = None,
+    z: Lengths | None = None,
     *,
     tolerance: float = 1e-3,
     **section: Unpack[SectionOptions],
@@ -92,12 +91,12 @@ def life(
     return lives(result, materials, [criterion], z, tolerance=tolerance, **section)[criterion]
 
 
-@numbers_only
+@quantities
 def lives(
     result: Run,
     materials: Materials,
     criteria: Sequence[CriterionName],
-    z: ArrayLike | None = None,
+    z: Lengths | None = None,
     *,
     tolerance: float = 1e-3,
     **section: Unpack[SectionOptions],

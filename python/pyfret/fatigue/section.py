@@ -10,14 +10,12 @@ import numpy as np
 
 from pyfret._core import Material
 from pyfret._util.arrays import items, plain
-from pyfret._util.door import valued
-from pyfret._util.types import by_default
+from pyfret.quantities import Angle, InSI, ResidualStresses, by_default, part
 from pyfret.subsurface.line import Line
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
+    pass
 
-    from pyfret._util.types import AsNumberOrNone, Quantity
 
 __all__ = ["Materials", "Section", "SectionOptions", "for_each_layer"]
 
@@ -32,13 +30,13 @@ class SectionOptions(TypedDict, total=False):
 
     x: float | Sequence[float] | None
     y: float | Sequence[float] | None
-    azimuth: Quantity | None
+    azimuth: Angle | None
     body_number: int
     cycle: int | None
-    residual: Sequence[ArrayLike] | None
+    residual: Sequence[ResidualStresses] | None
 
 
-@valued(kw_only=True)
+@part(kw_only=True)
 class Section:
     """A section of a body, or several side by side, over a closed cycle of the load path.
 
@@ -51,14 +49,14 @@ class Section:
     #: shear of the cycle, through the centre of its largest contact).
     y: float | Sequence[float] | None = None
     #: The section at this angle to the x axis [rad], through `x` and `y`.
-    azimuth: AsNumberOrNone = by_default(None)
+    azimuth: InSI[Angle | None] = by_default(None)
     #: The upper body (1) or the lower one (2).
     body_number: int = 2
     #: Which of the closed cycles, the last by default; None for all increments that were kept.
     cycle: int | None = -1
     #: Residual stress of every layer from the surface down, the substrate's last, in place of that
     #: of the body: each a stress [Pa] or a table over depth, as :class:`pyfret.Body` takes it.
-    residual: Sequence[ArrayLike] | None = None
+    residual: Sequence[ResidualStresses] | None = None
 
     def __post_init__(self) -> None:
         """Refuse what is no section."""

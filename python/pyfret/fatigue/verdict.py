@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
 import numpy as np
 
 from pyfret._core import RATCHETS, SHAKEN
-from pyfret._util.door import numbers_only
 from pyfret._util.numbers import in_words, um
+from pyfret.quantities import quantities
 from pyfret.subsurface.plastic import plastic_points
 
 if TYPE_CHECKING:
@@ -88,7 +88,7 @@ class Verdict(NamedTuple):
         return bool(self.friction_work and self.friction_work[-1] > 0.0)
 
 
-@numbers_only
+@quantities
 def verdict(result: Run) -> Verdict:
     """Say what bodies that yield come to over the closed cycles of a run.
 

@@ -3,13 +3,21 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import NamedTuple, NoReturn
 
 from pyfret._core import degrees, with_error, with_range
+from pyfret._util.attributes import missing_attribute
 from pyfret._util.numbers import place
 from pyfret.subsurface.tensor import Errors
 
 __all__ = ["Worst", "in_megapascals"]
+
+#: Names of numbers that a worst point does not have, and where they are.
+ELSEWHERE = {
+    "L": "it is a value at a point; life.L is the distance that the range is averaged over",
+    "life": "it is the margin",
+    "safety_factor": "it is the margin",
+}
 
 
 class Worst(NamedTuple):
@@ -51,6 +59,10 @@ class Worst(NamedTuple):
         """What may be wrong with the value, all together."""
         return self.errors.sum
 
+    def __getattr__(self, name: str) -> NoReturn:
+        """Refuse a name that it does not have."""
+        missing_attribute(self, name, ELSEWHERE)
+
     def __repr__(self) -> str:
         """Give margin with its range of 10 to 90 %, value, error and place in a few digits."""
         margin = with_range(self.margin, *self.whole)
@@ -68,10 +80,3 @@ def in_megapascals(value: float, error: float, units: str) -> str:
     if units == "Pa":
         return f"{with_error(1e-6 * value, 1e-6 * error)} MPa"
     return with_error(value, error) + ("" if units == "1" else f" {units}")
-
-
-Worst._meant = {  # type: ignore[attr-defined]
-    "L": "it is a value at a point; life.L is the distance that the range is averaged over",
-    "life": "it is the margin",
-    "safety_factor": "it is the margin",
-}

@@ -10,18 +10,27 @@ import numpy as np
 
 from pyfret import _core
 from pyfret._util.arrays import together
-from pyfret._util.door import numbers_only, valued
 from pyfret._util.holds_arrays import HoldsArrays
-from pyfret._util.types import by_default
 from pyfret.fit import tables
+from pyfret.quantities import (
+    Force,
+    Forces,
+    InSI,
+    Lengths,
+    MeasuredShifts,
+    Numbers,
+    ScarPositions,
+    by_default,
+    part,
+    quantities,
+)
 
 if TYPE_CHECKING:
     import os
     from collections.abc import Mapping, Sequence
 
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import NDArray
 
-    from pyfret._util.types import AsNumberOrNone, Quantity
 
 __all__ = [
     "Data",
@@ -49,7 +58,7 @@ OF_WAY = 0.25
 END, SLIDING = 0.25, 0.3
 
 
-@valued(eq=False, repr=False)
+@part(eq=False, repr=False)
 class Loops(HoldsArrays):
     """Friction loops: force over shift, branch by branch.
 
@@ -74,11 +83,11 @@ class Loops(HoldsArrays):
         record has several cycles or two turns.
     """
 
-    delta: NDArray[np.float64]
+    delta: MeasuredShifts
     T: NDArray[np.float64]
     down: NDArray[np.bool_]
     cycle: NDArray[np.int64]
-    W: AsNumberOrNone = by_default(None)
+    W: InSI[Force | None] = by_default(None)
     noise: float | None = None
     drift: tuple[float, float] = (0.0, 0.0)
     tilt: bool | None = None
@@ -112,12 +121,12 @@ class Loops(HoldsArrays):
         return float(np.mean(ends))
 
     @staticmethod
-    @numbers_only
+    @quantities
     def of(
-        delta: ArrayLike,
-        T: ArrayLike,
+        delta: Numbers,
+        T: Numbers,
         *,
-        W: Quantity | None = None,
+        W: Force | None = None,
         noise: float | None = None,
         tilt: bool | None = None,
         drift: bool | None = None,
@@ -161,7 +170,7 @@ class Loops(HoldsArrays):
         return Loops(*points, W, noise, moved, tilt, drift, between)
 
 
-@numbers_only
+@quantities
 @dataclass(frozen=True, eq=False, repr=False)
 class Indentation(HoldsArrays):
     """An indentation curve: approach [m] over normal force [N].
@@ -170,14 +179,14 @@ class Indentation(HoldsArrays):
     """
 
     W: NDArray[np.float64]
-    delta_z: NDArray[np.float64]
+    delta_z: MeasuredShifts
     noise: float | None = None
     frame: bool = False
 
     @staticmethod
-    @numbers_only
+    @quantities
     def of(
-        W: ArrayLike, delta_z: ArrayLike, *, noise: float | None = None, frame: bool = False
+        W: Forces, delta_z: Lengths, *, noise: float | None = None, frame: bool = False
     ) -> Indentation:
         """A curve of points in any order; those without load or with a hole are left out.
 
@@ -188,7 +197,7 @@ class Indentation(HoldsArrays):
         return Indentation(force[loaded], approach[loaded], noise, frame)
 
 
-@numbers_only
+@quantities
 @dataclass(frozen=True, eq=False, repr=False)
 class Scar(HoldsArrays):
     """A worn profile along x at y = 0: depth [m] of a body, or of both with ``body_number=0``.
@@ -196,17 +205,17 @@ class Scar(HoldsArrays):
     ``wear`` holds the arguments of the run that made it, such as ``cycles`` and ``body2``.
     """
 
-    x: NDArray[np.float64]
-    depth: NDArray[np.float64]
+    x: ScarPositions
+    depth: MeasuredShifts
     wear: Mapping[str, Any]
     body_number: int = 2
     noise: float | None = None
 
     @staticmethod
-    @numbers_only
+    @quantities
     def of(
-        x: ArrayLike,
-        depth: ArrayLike,
+        x: Numbers,
+        depth: Lengths,
         *,
         wear: Mapping[str, Any],
         body_number: int = 2,
@@ -217,7 +226,7 @@ class Scar(HoldsArrays):
         return Scar(place, worn, wear, body_number, noise)
 
 
-@numbers_only
+@quantities
 @dataclass(frozen=True, eq=False, repr=False)
 class Lives(HoldsArrays):
     """Cycles to the end of a coating in several tests.
@@ -255,7 +264,7 @@ class Measured(HoldsArrays):
     labels: tuple[str, str]
 
 
-@numbers_only
+@quantities
 def read_loops(
     path: str | os.PathLike[str],
     *,
@@ -263,7 +272,7 @@ def read_loops(
     T: str | None = None,
     units: dict[str, str] | None = None,
     skip: int = 0,
-    W: Quantity | None = None,
+    W: Force | None = None,
     noise: float | None = None,
     tilt: bool | None = None,
     drift: bool | None = None,
@@ -304,7 +313,7 @@ def read_loops(
     return Loops.of(rows[:, shift], rows[:, force], W=W, noise=noise, tilt=tilt, drift=drift)
 
 
-@numbers_only
+@quantities
 def read_indentation(
     path: str | os.PathLike[str],
     *,
@@ -327,7 +336,7 @@ def read_indentation(
     return Indentation.of(rows[:, force], rows[:, approach], noise=noise, frame=frame)
 
 
-@numbers_only
+@quantities
 def read_scar(
     path: str | os.PathLike[str],
     *,
@@ -352,7 +361,7 @@ def read_scar(
     return Scar.of(rows[:, place], rows[:, worn], wear=wear, body_number=body_number, noise=noise)
 
 
-@numbers_only
+@quantities
 def read_lives(
     path: str | os.PathLike[str],
     *,

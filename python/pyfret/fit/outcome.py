@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pyfret._core import with_error
-from pyfret._util.guesses import refuse_unknown
 from pyfret._util.holds_arrays import HoldsArrays
-from pyfret._util.kept import Kept
+from pyfret._util.keywords import refuse_unknown
 from pyfret._util.lazy import xr
 from pyfret._util.packed import packed
 from pyfret.fit.data import Loops
+from pyfret.saveable import Saveable
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -59,7 +59,7 @@ class Known:
 
 
 @dataclass(frozen=True, eq=False)
-class FitResult(Kept, HoldsArrays):
+class FitResult(Saveable, HoldsArrays):
     """The unknowns of a scene as data tell them.
 
     Attributes
@@ -139,7 +139,7 @@ class FitResult(Kept, HoldsArrays):
 
     def plot(self, *, ax: Axes | None = None, data: int = 0, **options: Any) -> Drawn:
         """Draw what was measured, and what the values found make of it."""
-        refuse_unknown("FitResult.plot", self.plot, options, ["ax", "data"])
+        refuse_unknown("FitResult.plot", options, ["ax", "data"])
         from pyfret.fit.figures import curves
 
         return curves(self.sets[data], self.computed[data], self.values, ax)

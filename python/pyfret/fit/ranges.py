@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pyfret._util.arrays import items, number
-from pyfret._util.doubts import doubt_numbers
+from pyfret._util.scene_warnings import doubt_numbers
 
 __all__ = ["SearchRange", "ranges"]
 

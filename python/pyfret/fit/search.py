@@ -24,13 +24,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pyfret._core import Grid, Scene
-from pyfret._util.door import numbers_only
 from pyfret._util.extras import needed
 from pyfret.fit.data import Data
 from pyfret.fit.models import Model, model_of, split
 from pyfret.fit.outcome import FitResult, Known
 from pyfret.fit.posterior import Posterior, sampled
 from pyfret.fit.ranges import SearchRange, ranges
+from pyfret.quantities import quantities
 from pyfret.study.design import varied
 
 if TYPE_CHECKING:
@@ -53,7 +53,7 @@ SURE = 2.0
 NOISE = 0.02
 
 
-@numbers_only
+@quantities
 def fit(
     scene: Scene | str | os.PathLike[str],
     data: Data | Sequence[Data],

@@ -10,13 +10,20 @@ import numpy as np
 
 from pyfret import _core
 from pyfret._util.arrays import plain
-from pyfret._util.door import numbers_only
 from pyfret._util.lazy import xr
-from pyfret._util.types import as_number
 from pyfret.fatigue.cycle_section import placed
 from pyfret.fatigue.cycles import cycle_increments
 from pyfret.fatigue.section import Section
 from pyfret.fracture.growth import Cracks
+from pyfret.quantities import (
+    Angle,
+    CrackLengths,
+    FrictionCoefficient,
+    Length,
+    ResidualStresses,
+    as_number,
+    quantities,
+)
 from pyfret.subsurface.moments import states_of
 
 if TYPE_CHECKING:
@@ -24,7 +31,6 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
-    from pyfret._util.types import Quantity
     from pyfret.run import Run, State
     from pyfret.subsurface.line import Line
 
@@ -40,20 +46,20 @@ FIT = 0.05
 UNITS = {"units": "Pa m^0.5"}
 
 
-@numbers_only
+@quantities
 def crack(
     result: Run,
     x: float | None = None,
     *,
-    lengths: ArrayLike | None = None,
-    angle: Quantity = 0.0,
+    lengths: CrackLengths | None = None,
+    angle: Angle = 0.0,
     kink: tuple[float, float] | None = None,
-    azimuth: Quantity | None = None,
+    azimuth: Angle | None = None,
     aspect: float | None = None,
-    friction: float = 0.0,
+    friction: FrictionCoefficient = 0.0,
     body_number: int = 2,
     cycle: int | None = -1,
-    residual: Sequence[ArrayLike] | None = None,
+    residual: Sequence[ResidualStresses] | None = None,
 ) -> Cracks:
     """Take the stress of a closed cycle to the tips of cracks of several lengths.
 
@@ -124,21 +130,21 @@ def crack(
     return Cracks(estimate.dataset.assign(error=error).assign_attrs(aspect=aspect))
 
 
-@numbers_only
+@quantities
 def grow(
     result: Run,
     x: float | None = None,
     *,
-    start: Quantity | None = None,
-    end: Quantity | None = None,
-    angle: Quantity = 0.0,
-    azimuth: Quantity | None = None,
+    start: Length | None = None,
+    end: Length | None = None,
+    angle: Angle = 0.0,
+    azimuth: Angle | None = None,
     direction: Literal["tangential_stress", "opening_intensity"] = "tangential_stress",
     tolerance: float = 1e-2,
-    friction: float = 0.0,
+    friction: FrictionCoefficient = 0.0,
     body_number: int = 2,
     cycle: int | None = -1,
-    residual: Sequence[ArrayLike] | None = None,
+    residual: Sequence[ResidualStresses] | None = None,
 ) -> Cracks:
     """Let a crack grow below a contact in the direction of the largest range over a closed cycle.
 

@@ -7,12 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pyfret import _core
-from pyfret._util.door import numbers_only
-from pyfret._util.types import as_number
+from pyfret.quantities import Length, as_number, quantities
 
 if TYPE_CHECKING:
     from pyfret._core import Coating, Elastic
-    from pyfret._util.types import Quantity
 
 __all__ = ["channel_release", "film_intensity"]
 
@@ -35,7 +33,7 @@ def own_stress(coating: Coating, stress: float | None) -> float:
     )
 
 
-@numbers_only
+@quantities
 def channel_release(coating: Coating, below: Elastic, stress: float | None = None) -> float:
     """Give what a crack releases that channels through a film under tension [J/m^2].
 
@@ -78,9 +76,9 @@ def channel_release(coating: Coating, below: Elastic, stress: float | None = Non
     return float(Z * max(stress, 0.0) ** 2 * coating.thickness * (1.0 - nu * nu) / E)
 
 
-@numbers_only
+@quantities
 def film_intensity(
-    coating: Coating, below: Elastic, depth: Quantity, stress: float | None = None
+    coating: Coating, below: Elastic, depth: Length, stress: float | None = None
 ) -> float:
     """Give K_I of a crack normal to the surface that ends in the film [Pa m^0.5].
 

@@ -8,25 +8,28 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
 import numpy as np
 
 from pyfret._core import with_error
-from pyfret._util.door import numbers_only
 from pyfret._util.numbers import um
-from pyfret._util.types import as_number
 from pyfret.fatigue.cycle_section import placed
 from pyfret.fatigue.cycles import history
 from pyfret.fatigue.section import Section
 from pyfret.fracture.below import crack
 from pyfret.fracture.film import channel_release
+from pyfret.fracture.growth import Threshold
 from pyfret.fracture.interface import over_cycle
+from pyfret.quantities import (
+    CrackLength,
+    ResidualStresses,
+    Strength,
+    Toughness,
+    as_number,
+    quantities,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from numpy.typing import ArrayLike
-
     from pyfret._core import Material
-    from pyfret._util.types import Quantity
     from pyfret.fracture.arrest import CrackArrest
-    from pyfret.fracture.growth import Threshold
     from pyfret.run import Run
 
 __all__ = ["PARTS", "FailureOrder", "first_to_fail"]
@@ -83,17 +86,17 @@ class FailureOrder(NamedTuple):
         return "\n".join([*self._told(), f"first to fail: {self.first or 'none'}", *crack])
 
 
-@numbers_only
+@quantities
 def first_to_fail(
     result: Run,
     *,
-    toughness: Quantity | None = None,
-    peel_strength: Quantity | None = None,
-    shear_strength: Quantity | None = None,
+    toughness: Toughness | None = None,
+    peel_strength: Strength | None = None,
+    shear_strength: Strength | None = None,
     threshold: Threshold | Material | str | None = None,
-    residual: Sequence[ArrayLike] | None = None,
+    residual: Sequence[ResidualStresses] | None = None,
     x: float | None = None,
-    lengths: Sequence[Quantity] | None = None,
+    lengths: Sequence[CrackLength] | None = None,
     body_number: int = 2,
     cycle: int | None = -1,
 ) -> FailureOrder:

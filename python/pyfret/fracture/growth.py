@@ -3,21 +3,31 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, Literal, cast
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, cast
 
 import numpy as np
 
 from pyfret import _core
 from pyfret._util.arrays import plain, together
-from pyfret._util.called import as_material, law
-from pyfret._util.door import numbers_only, valued
 from pyfret._util.figures import Figured
-from pyfret._util.kept import Kept
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
-from pyfret._util.types import as_number, by_default
+from pyfret._util.material_names import as_material
 from pyfret.fracture.arrest import CrackArrest, CrackLife
+from pyfret.quantities import (
+    CrackGrowth,
+    InSI,
+    Length,
+    Numbers,
+    StressIntensity,
+    YieldStress,
+    as_number,
+    by_default,
+    part,
+    quantities,
+)
+from pyfret.saveable import Saveable
 from pyfret.subsurface.line import along
 
 if TYPE_CHECKING:
@@ -26,14 +36,12 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from pyfret._core import Material
-    from pyfret._util.types import AsNumber, AsNumberOrNone, Quantity
     from pyfret.subsurface.line import Line
 
 __all__ = ["Cracks", "Paris", "Threshold"]
 
 
-@law
-@valued()
+@part()
 class Threshold:
     """The range of K below which a crack does not grow.
 
@@ -64,8 +72,11 @@ class Threshold:
     K. Walker, ASTM STP 462 (1970) 1-14.
     """
 
-    dK_th: AsNumber
-    dS_0: AsNumberOrNone = by_default(None)
+    #: A parameter of this type takes a material, or its name, too.
+    _of_material: ClassVar[bool] = True
+
+    dK_th: InSI[StressIntensity]
+    dS_0: InSI[YieldStress | None] = by_default(None)
     Y: float = 1.0
     walker: float | None = None
     table: Sequence[tuple[float, float]] | None = None
@@ -77,7 +88,7 @@ class Threshold:
         _core.threshold_at(self._numbers(), [])
 
     @classmethod
-    @numbers_only
+    @quantities
     def of(
         cls, material: Material | str, *, Y: float = 1.0, walker: float | None = None
     ) -> Threshold:
@@ -122,9 +133,7 @@ class Threshold:
         return np.reshape(found, lengths.shape)
 
 
-@law
-@numbers_only
-@dataclass(frozen=True)
+@part()
 class Paris:
     """Paris' law, dl/dN = C (dK/(1 MPa m^0.5))^m, dK the equivalent range at R = 0.
 
@@ -142,14 +151,17 @@ class Paris:
         Which of its numbers are estimates, in words.
     """
 
-    C: float
+    #: A parameter of this type takes a material, or its name, too.
+    _of_material: ClassVar[bool] = True
+
+    C: InSI[CrackGrowth]
     m: float
     threshold_in: Literal["plain", "powers", "difference"] = "plain"
     short: bool = False
     estimate: str | None = None
 
     @classmethod
-    @numbers_only
+    @quantities
     def of(cls, material: Material | str) -> Paris:
         """Take ``paris_C`` and ``paris_m`` of a material; one without them is refused by name."""
         of = as_material(material)
@@ -157,7 +169,7 @@ class Paris:
         return cls(of.number("paris_C"), of.number("paris_m"), estimate=estimate)
 
 
-class Cracks(Kept, Labelled, Figured):
+class Cracks(Saveable, Labelled, Figured):
     """K of a cycle over the length of a crack, and what follows.
 
     ``dataset`` has ``K_I`` and ``K_II`` over (increment, length) and their ``error`` [Pa m^0.5].
@@ -181,8 +193,8 @@ class Cracks(Kept, Labelled, Figured):
         """The line on the surface in whose plane the cracks lie: through the axis of depth."""
         return along(0.0, 0.0, float(self.dataset.attrs.get("azimuth", 0.0)))
 
-    @numbers_only
-    def places(self, x: ArrayLike) -> NDArray[np.float64]:
+    @quantities
+    def places(self, x: Numbers) -> NDArray[np.float64]:
         """Places on :attr:`line` of distances `x` from the axis in the plane of the cracks [m]."""
         azimuth = float(self.dataset.attrs.get("azimuth", 0.0))
         away = np.asarray(x, float)
@@ -230,8 +242,8 @@ class Cracks(Kept, Labelled, Figured):
         most = np.clip(np.asarray(of["K_I_linear"].values, float) + error, 0.0, error)
         return np.where(np.asarray(of["open"].values) > 0.0, error, most)
 
-    @numbers_only
-    def at_length(self, length: Quantity) -> xr.Dataset:
+    @quantities
+    def at_length(self, length: Length) -> xr.Dataset:
         """Give K over the cycle at the nearest length [m], ``K_I_error`` and ``K_II_error`` too."""
         d = self.dataset
         both = d.assign(K_I_error=d.K_I.copy(data=self.K_I_error), K_II_error=d["error"])
@@ -246,7 +258,7 @@ class Cracks(Kept, Labelled, Figured):
         at = np.asarray(self.dataset.K_I.values) == extreme
         return np.asarray(of(np.where(at, self.K_I_error, np.nan), axis=0), float)
 
-    @numbers_only
+    @quantities
     def dK_error(self, threshold: Threshold | None = None) -> NDArray[np.float64]:
         """Error of :meth:`dK` at each length [Pa m^0.5]; NaN where K came without an error.
 
@@ -260,7 +272,7 @@ class Cracks(Kept, Labelled, Figured):
         """The error of K_max, to be taken from it and added to it."""
         return -self.error, self.error
 
-    @numbers_only
+    @quantities
     def scaled(self, factor: float) -> Cracks:
         """Give the same with every K times a factor, such as that of :func:`ellipse_factor`."""
         return Cracks(
@@ -287,7 +299,7 @@ class Cracks(Kept, Labelled, Figured):
                 rows.append(f"error of {name}: {1e-6 * error.max():.2g} MPa m^0.5 at most")
         return "\n".join(rows)
 
-    @numbers_only
+    @quantities
     def dK(self, threshold: Threshold | None = None) -> NDArray[np.float64]:
         """Positive part of the range of K_I at each length, at R = 0 with a threshold's R rule."""
         return self._range(threshold, 0.0)
@@ -308,9 +320,9 @@ class Cracks(Kept, Labelled, Figured):
         largest = np.maximum(self.K_max + more, self.K_min)
         return self.lengths.tolist(), largest.tolist(), self.K_min.tolist()
 
-    @numbers_only
+    @quantities
     def arrest(
-        self, threshold: Threshold | Material | str, *, start: Quantity | None = None
+        self, threshold: Threshold | Material | str, *, start: Length | None = None
     ) -> CrackArrest:
         """Say whether a crack of the length `start` [m] (default: the shortest) grows and stops.
 
@@ -352,14 +364,14 @@ class Cracks(Kept, Labelled, Figured):
             verdicts=tuple(dict.fromkeys([verdict, *(end[0] for end in ends)])),
         )
 
-    @numbers_only
+    @quantities
     def life(
         self,
         threshold: Threshold | Material | str,
         paris: Paris | Material | str | None = None,
         *,
-        start: Quantity | None = None,
-        end: Quantity | None = None,
+        start: Length | None = None,
+        end: Length | None = None,
     ) -> CrackLife:
         """Count the cycles from the length `start` [m] to `end` [m] or to arrest.
 
@@ -397,7 +409,7 @@ class Cracks(Kept, Labelled, Figured):
         ends = [followed(error)[0] for error in self._ends()]
         return replace(found, low=min(found.cycles, *ends), high=max(found.cycles, *ends))
 
-    @numbers_only
+    @quantities
     def kitagawa(self, threshold: Threshold) -> xr.Dataset:
         """Give Kitagawa and Takahashi's diagram: ranges of stress over the length of the crack.
 

@@ -8,32 +8,29 @@ import numpy as np
 
 from pyfret._core import with_error
 from pyfret._util.bounds import ESTIMATE
-from pyfret._util.door import numbers_only
 from pyfret._util.lazy import xr
-from pyfret._util.types import as_number
 from pyfret.fatigue.cycle_section import placed
 from pyfret.fatigue.cycles import history
-from pyfret.fatigue.section import Section
+from pyfret.fatigue.section import Section, SectionOptions
 from pyfret.fracture.film import own_stress
+from pyfret.quantities import Strength, as_number, quantities
 from pyfret.subsurface.fields import interfaces
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from pyfret._core import Coating
-    from pyfret._util.types import Quantity
-    from pyfret.fatigue.section import SectionOptions
     from pyfret.run import Run
 
 __all__ = ["Buckling", "buckling_release", "edge_release", "over_cycle"]
 
 
-@numbers_only
+@quantities
 def over_cycle(
     result: Run,
     *,
-    peel_strength: Quantity | None = None,
-    shear_strength: Quantity | None = None,
+    peel_strength: Strength | None = None,
+    shear_strength: Strength | None = None,
     **section: Unpack[SectionOptions],
 ) -> xr.Dataset:
     """Follow peel and shear on the interfaces below the contact over a closed cycle.
@@ -130,7 +127,7 @@ def _half_chord(path: np.ndarray) -> np.ndarray:
     return longest / 2
 
 
-@numbers_only
+@quantities
 def edge_release(coating: Coating, stress: float | None = None) -> float:
     """Give what a coating releases that parts from its substrate along a straight front [J/m^2].
 
@@ -172,7 +169,7 @@ class Buckling(NamedTuple):
         )
 
 
-@numbers_only
+@quantities
 def buckling_release(
     coating: Coating, stress: float | None = None, *, half_width: float
 ) -> Buckling:

@@ -7,20 +7,19 @@ from typing import TYPE_CHECKING
 import matplotlib.pyplot as plt
 import numpy as np
 
-from pyfret._util.door import numbers_only
 from pyfret._util.numbers import in_letters
+from pyfret.fracture.growth import Cracks, Threshold
 from pyfret.plot.cracks import crack_arrest, intensity_history, kitagawa
 from pyfret.plot.scales import scales
 from pyfret.plot.stresses import section_map
 from pyfret.plot.style import styled
+from pyfret.quantities import Length, quantities
 from pyfret.subsurface.contact import stress_below
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from pyfret._util.types import Quantity
-    from pyfret.fracture.growth import Cracks, Threshold
     from pyfret.plot.scales import Units
     from pyfret.run import Run
 
@@ -31,12 +30,12 @@ DEEPEST, DEPTHS = 1.5, 40
 
 
 @styled
-@numbers_only
+@quantities
 def crack_path(
     cracks: Cracks,
     threshold: Threshold | None = None,
     *,
-    start: Quantity | None = None,
+    start: Length | None = None,
     units: Units = "auto",
     ax: Axes,
 ) -> Axes:
@@ -89,9 +88,9 @@ def crack_path(
 
 
 @styled
-@numbers_only
+@quantities
 def crack_panels(
-    result: Run, cracks: Cracks, threshold: Threshold, *, start: Quantity | None = None
+    result: Run, cracks: Cracks, threshold: Threshold, *, start: Length | None = None
 ) -> Figure:
     """Draw the crack in the stress at its largest K_I, K over the cycle, arrest and Kitagawa.
 

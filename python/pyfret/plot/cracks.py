@@ -7,15 +7,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 
-from pyfret._util.door import numbers_only
 from pyfret._util.numbers import in_letters
+from pyfret.fracture.growth import Cracks, Threshold
 from pyfret.plot.style import axes, styled
+from pyfret.quantities import Length, quantities
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from pyfret._util.types import Quantity
-    from pyfret.fracture.growth import Cracks, Threshold
 
 __all__ = ["crack_arrest", "intensity", "intensity_history", "kitagawa"]
 
@@ -47,8 +46,8 @@ def intensity(cracks: Cracks, *, ax: Axes | None = None) -> Axes:
 
 
 @styled
-@numbers_only
-def intensity_history(cracks: Cracks, length: Quantity, *, ax: Axes | None = None) -> Axes:
+@quantities
+def intensity_history(cracks: Cracks, length: Length, *, ax: Axes | None = None) -> Axes:
     """K_I and K_II over the kept increments of the cycle, with their error bars.
 
     Thin lines are those of faces that may pass through each other.
@@ -91,12 +90,12 @@ def intensity_history(cracks: Cracks, length: Quantity, *, ax: Axes | None = Non
 
 
 @styled
-@numbers_only
+@quantities
 def crack_arrest(
     cracks: Cracks,
     threshold: Threshold,
     *,
-    start: Quantity | None = None,
+    start: Length | None = None,
     ax: Axes | None = None,
 ) -> Axes:
     """Range of K over the length of the crack, its threshold, and what becomes of the crack.

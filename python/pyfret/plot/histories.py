@@ -8,9 +8,9 @@ import numpy as np
 from matplotlib.ticker import EngFormatter, MaxNLocator
 
 from pyfret._core import LoadPath
-from pyfret._util.door import numbers_only
 from pyfret.plot.scales import MICRO, Scale, Units, bears, run_of, scales
 from pyfret.plot.style import axes, note, styled
+from pyfret.quantities import FrictionCoefficient, quantities
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -155,8 +155,10 @@ DRIVEN = {
 
 
 @styled
-@numbers_only
-def load_path(path: LoadPath | Run, *, mu: float | None = None, ax: Axes | None = None) -> Axes:
+@quantities
+def load_path(
+    path: LoadPath | Run, *, mu: FrictionCoefficient | None = None, ax: Axes | None = None
+) -> Axes:
     r"""Loads and motions that a path drives over :math:`t/\tau`, the end of which is 1.
 
     Normal forces are over their largest value W, tangential ones over W, or over `mu` W where that

@@ -12,8 +12,8 @@ from matplotlib.ticker import MaxNLocator
 
 from pyfret import _core, fatigue
 from pyfret._util.arrays import histories
-from pyfret._util.called import as_material
 from pyfret._util.depths import interfaces, thin
+from pyfret._util.material_names import as_material
 from pyfret._util.numbers import layer_name
 from pyfret.plot.depth_axis import stretch as stretch_axis
 from pyfret.plot.scales import scales
@@ -29,6 +29,7 @@ from pyfret.plot.style import (
     note,
     styled,
 )
+from pyfret.quantities import Numbers
 from pyfret.subsurface.line import line_of
 
 if TYPE_CHECKING:
@@ -299,7 +300,7 @@ def critical_plane_rose(
     stress: ArrayLike | Life,
     criterion: fatigue.Criterion | None = None,
     *,
-    plastic_strain: ArrayLike | None = None,
+    plastic_strain: Numbers | None = None,
 ) -> Axes:
     """What acts on the planes through one point whose normal lies in the x-z plane.
 

@@ -13,12 +13,12 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from pyfret._core import CattaneoMindlin
-from pyfret._util.door import numbers_only
 from pyfret.plot.histories import fretting_loop, load_path, stick_ratio
 from pyfret.plot.maps import label_scale, shear_streamlines
 from pyfret.plot.profiles import pressure_profile, shear_profile, shear_profiles
 from pyfret.plot.stresses import stress_maps
 from pyfret.plot.style import REFERENCE, style
+from pyfret.quantities import quantities
 
 if TYPE_CHECKING:
     import os
@@ -154,7 +154,7 @@ def compare(draw: Callable[..., Axes], results: Mapping[float, Run], **legend: A
     return figure
 
 
-@numbers_only
+@quantities
 def paper_figures(
     results: Mapping[float, Run],
     out: str | os.PathLike[str],

@@ -16,6 +16,7 @@ from pyfret.plot.depth_axis import stretch as stretch_axis
 from pyfret.plot.scales import Scales, Units, scales
 from pyfret.plot.style import apart, axes, beside, mark, styled
 from pyfret.plot.tables import must_hold
+from pyfret.quantities import RelativeDepth
 from pyfret.subsurface.contact import stress_below
 from pyfret.subsurface.line import Line, line_of, main_line
 from pyfret.subsurface.tensor import Stress
@@ -339,7 +340,7 @@ def stress_history(
 def stress_maps(
     results: Mapping[float, Run],
     *,
-    depth: float = 2.0,
+    depth: RelativeDepth = 2.0,
     layers: int = 256,
     of: str = "von_mises",
 ) -> Figure:

@@ -16,7 +16,7 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from pyfret._util.door import numbers_only
+from pyfret.quantities import quantities
 
 #: Layouts after which labels keep their places to a hundredth of an inch, with the one of drawing.
 LAYOUTS = 3
@@ -77,7 +77,7 @@ def styled(draw: Callable[P, Any]) -> Callable[P, Any]:
             show_once(drawn)
         return drawn
 
-    return numbers_only(inside)
+    return quantities(inside)
 
 
 def show_once(figure: Figure) -> None:

@@ -11,11 +11,11 @@ from string import Template
 from typing import TYPE_CHECKING
 
 from pyfret._core import Scene, __version__
-from pyfret._util.door import numbers_only
 from pyfret._util.files import beside
 from pyfret._util.text import html
 from pyfret.citation import sources
-from pyfret.fracture.growth import Cracks
+from pyfret.fracture.growth import Cracks, Threshold
+from pyfret.quantities import quantities
 from pyfret.report.content import figures as numbers
 from pyfret.report.crack import CrackSection
 from pyfret.run.summary import directions
@@ -30,7 +30,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from pyfret._core import Body
-    from pyfret.fracture.growth import Threshold
     from pyfret.run import Run
     from pyfret.wear.result import WearResult
 
@@ -45,7 +44,7 @@ SURFACES = (
 )
 
 
-@numbers_only
+@quantities
 def report(
     result: Run,
     path: str | os.PathLike[str],

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from pyfret._util.door import numbers_only
-from pyfret._util.guesses import no_attribute
+from pyfret._util.attributes import attribute_error
 from pyfret._util.lazy import xr
 from pyfret._util.text import shown
+from pyfret.quantities import quantities
 from pyfret.run.attributes import OfRun
 from pyfret.run.loops import of_cycles, state_in_words
 from pyfret.run.state import State
@@ -65,7 +65,7 @@ class Run(OfRun):
             fields[name] = "of a line contact it is half_width"
         public = (member for member in dir(type(self)) if not member.startswith("_"))
         known = [*scalars, *map(str, self.dataset.attrs), *public]
-        raise no_attribute("result", name, known, fields)
+        raise attribute_error("result", name, known, fields)
 
     def __dir__(self) -> list[str]:
         """The names of the class, and the scalars of every increment."""
@@ -217,7 +217,7 @@ class Run(OfRun):
             table["path_error"] = ("branch", np.asarray(errors, float)[of[ends]], about)
         return table
 
-    @numbers_only
+    @quantities
     def loops(self, *, direction: Literal["x", "y", "torsion"] = "x") -> xr.Dataset:
         """Energy and stiffness of every closed cycle of the load path.
 
@@ -238,7 +238,7 @@ class Run(OfRun):
         """
         return of_cycles(self.dataset, self.scene, direction)
 
-    @numbers_only
+    @quantities
     def regimes(self, *, direction: Literal["x", "y", "torsion"] = "x") -> list[str]:
         """What each closed cycle was: "no contact", "full stick", "partial slip", "gross slip".
 

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pyfret import _core
-from pyfret._util.door import numbers_only
-from pyfret._util.guesses import no_attribute
+from pyfret._util.attributes import attribute_error
 from pyfret._util.numbers import in_words
+from pyfret.quantities import quantities
 from pyfret.run.attributes import OfRun
 
 if TYPE_CHECKING:
@@ -113,7 +113,7 @@ class State(OfRun):
             return self.dataset.attrs[name]  # type: ignore[no-any-return]
         public = (member for member in dir(type(self)) if not member.startswith("_"))
         known = [*self.names(), *map(str, self.dataset.attrs), *public]
-        raise no_attribute("snapshot", name, known, self._elsewhere(name))
+        raise attribute_error("snapshot", name, known, self._elsewhere(name))
 
     def _elsewhere(self, name: str) -> dict[str, str]:
         """Names that this has not, and how what they mean is got from it."""
@@ -176,7 +176,7 @@ class State(OfRun):
         p = self.dataset["p"]
         return p.copy(data=_core.continued_pressure(p.values, self.scene.grid))
 
-    @numbers_only
+    @quantities
     def along_x(self, *, y: float = 0.0) -> xr.Dataset:
         """Fields along the line of constant `y` [m], linear between the rows of cells."""
         rows = self.dataset.y.values

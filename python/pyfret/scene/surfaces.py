@@ -12,13 +12,12 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from pyfret._core import StoreError, SurfaceMap, read_bytes, unit_of
-from pyfret._util.door import numbers_only
-from pyfret._util.doubts import warn
+from pyfret._util.scene_warnings import warn
+from pyfret.quantities import Length, quantities
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pyfret._util.types import Quantity
 
 __all__ = ["read_surface"]
 
@@ -28,11 +27,11 @@ PLAIN = frozenset((".npy", ".csv", ".txt", ".dat", ".tsv", ".asc", ".xyz", ".prn
 BEGINNING = 4096
 
 
-@numbers_only
+@quantities
 def read_surface(
     path: str | PathLike[str],
     *,
-    spacing: Quantity | tuple[Quantity, Quantity] | None = None,
+    spacing: Length | tuple[Length, Length] | None = None,
     unit: str | None = None,
     channel: str | int | None = None,
     missing: Literal["refuse", "crop", "fill"] = "refuse",
@@ -190,7 +189,7 @@ def is_height(channel: Any) -> bool:
 def measured(
     reader: Any,
     channel: int,
-    spacing: Quantity | tuple[Quantity, Quantity] | None,
+    spacing: Length | tuple[Length, Length] | None,
     unit: str | None,
 ) -> Any:
     """The surface of a channel in a unit of length."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from pyfret._util.doubts import warn
+from pyfret._util.scene_warnings import warn
 
 if TYPE_CHECKING:
     from pyfret._core import Grid, Scene

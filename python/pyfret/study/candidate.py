@@ -7,26 +7,29 @@ from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any, Literal
 
 from pyfret._core import Material
-from pyfret._util.door import valued
-from pyfret._util.types import by_default
-from pyfret.fatigue.section import for_each_layer
+from pyfret.fatigue.factors import YieldStresses
+from pyfret.fatigue.section import Materials, for_each_layer
+from pyfret.fracture import Threshold
+from pyfret.heat import Conductors
+from pyfret.quantities import (
+    FrictionCoefficient,
+    InSI,
+    ResidualStresses,
+    Strength,
+    Toughness,
+    by_default,
+    part,
+)
+from pyfret.wear.settings import Law as WearLaw
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
-
     from pyfret._core import Body
-    from pyfret._util.types import AsNumberOrNone
     from pyfret.fatigue.criteria import CriterionName
-    from pyfret.fatigue.factors import YieldStresses
-    from pyfret.fatigue.lives import Materials
-    from pyfret.fracture import Threshold
-    from pyfret.heat import Conductors
-    from pyfret.wear.settings import Law as WearLaw
 
 __all__ = ["Candidate", "Duty", "candidate"]
 
 
-@valued()
+@part()
 class Candidate:
     """A body that is compared with others, and what is known of its layers.
 
@@ -45,19 +48,19 @@ class Candidate:
     #: The body, with its coatings.
     body: Body
     #: Coefficient of friction (default: that of the scene).
-    mu: float | None = None
+    mu: FrictionCoefficient | None = None
     #: Material of the substrate, or of every layer, for lives.
     materials: Materials | None = None
     #: Yield stress of the substrate, or of every layer [Pa] (default: that of the materials).
     s_y: YieldStresses | None = None
     #: Residual stress of every layer, each a stress [Pa] or a table over depth (default: that of
     #: the body).
-    residual: Sequence[ArrayLike] | None = None
+    residual: Sequence[ResidualStresses] | None = None
     #: Energy release rate at which a crack channels through the outermost coating [J/m^2].
-    toughness: AsNumberOrNone = by_default(None)
+    toughness: InSI[Toughness | None] = by_default(None)
     #: Strengths of the interfaces [Pa].
-    peel_strength: AsNumberOrNone = by_default(None)
-    shear_strength: AsNumberOrNone = by_default(None)
+    peel_strength: InSI[Strength | None] = by_default(None)
+    shear_strength: InSI[Strength | None] = by_default(None)
     #: Crack growth threshold of the substrate.
     threshold: Threshold | None = None
     #: How the body wears: one law, or one for every layer.

@@ -10,10 +10,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
 from pyfret._core import Grid, InvalidSceneError, LoadPath, Scene
-from pyfret._util.door import numbers_only
-from pyfret._util.doubts import SceneWarning
-from pyfret._util.types import as_number
+from pyfret._util.scene_warnings import SceneWarning
 from pyfret.fatigue.criteria import CriterionName
+from pyfret.heat import Conductors
+from pyfret.quantities import Frequency, as_number, quantities
 from pyfret.solution import read
 from pyfret.study.candidate import Candidate, Duty, candidate
 from pyfret.study.comparison import Comparison
@@ -25,8 +25,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from pyfret._core import Body
-    from pyfret._util.types import Quantity
-    from pyfret.heat import Conductors
     from pyfret.wear.settings import Law as WearLaw
 
 __all__ = ["compare"]
@@ -36,7 +34,7 @@ __all__ = ["compare"]
 COARSER = 2
 
 
-@numbers_only
+@quantities
 def compare(
     bodies: Mapping[str, Body | Candidate],
     scene: Scene | str | os.PathLike[str],
@@ -47,7 +45,7 @@ def compare(
     criterion: CriterionName = "smith_watson_topper",
     cycles: float | None = None,
     cycling: Literal["march", "sliding"] = "march",
-    frequency: Quantity | None = None,
+    frequency: Frequency | None = None,
     other_wear: WearLaw | list[WearLaw | None] | None = None,
     other_conductor: Conductors | None = None,
     executor: Any = None,

@@ -21,11 +21,11 @@ import numpy as np
 
 from pyfret._core import InvalidSceneError, Scene
 from pyfret._util.arrays import items, labels
-from pyfret._util.door import numbers_only
-from pyfret._util.doubts import doubt_numbers, warn
 from pyfret._util.lazy import xr
 from pyfret._util.parameters import SHORT, in_si, opposite, single
+from pyfret._util.scene_warnings import doubt_numbers, warn
 from pyfret._util.text import read_text
+from pyfret.quantities import quantities
 from pyfret.study.identity import identity
 
 if sys.version_info >= (3, 11):
@@ -53,7 +53,7 @@ class Described(Protocol):
 TOGETHER = "point"
 
 
-@numbers_only
+@quantities
 def varied(scene: Scene | str | PathLike[str], values: Mapping[str, Any]) -> Scene:
     """Give a scene with other values of its parameters.
 

@@ -10,17 +10,16 @@ import numpy as np
 from pyfret._core import LoadPath, Scene
 from pyfret._util.arrays import number, plain
 from pyfret._util.bounds import SIDES
-from pyfret._util.door import numbers_only
 from pyfret._util.lazy import xr
 from pyfret._util.numbers import in_words, told
+from pyfret.quantities import BulkStresses, Force, Forces, Numbers, quantities
 from pyfret.study.loop import run
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import NDArray
 
-    from pyfret._util.types import Quantity
     from pyfret.run import Run
     from pyfret.study.measures import Arrest, Cracking, Measure
 
@@ -57,15 +56,15 @@ ALMOST = 1e-3
 AMPLITUDE = "amplitude"
 
 
-@numbers_only
+@quantities
 def running_conditions(
     scene: Scene,
     *,
-    W: ArrayLike,
-    T: ArrayLike | None = None,
-    delta: ArrayLike | None = None,
+    W: Forces,
+    T: Numbers | None = None,
+    delta: Numbers | None = None,
     cycles: int = 1,
-    sigma_B: ArrayLike = 0.0,
+    sigma_B: BulkStresses = 0.0,
     bulk_ratio: float = 0.0,
     increments: tuple[int, int] = (20, 20),
     cracking: Cracking | None = None,
@@ -170,13 +169,13 @@ def running_conditions(
     return table.assign_attrs(sigma_B=float(bulk[0]))
 
 
-@numbers_only
+@quantities
 def arrest_map(
     scene: Scene,
     *,
-    W: Quantity,
-    T: ArrayLike,
-    sigma_B: ArrayLike,
+    W: Force,
+    T: Numbers,
+    sigma_B: BulkStresses,
     arrest: Arrest,
     bulk_ratio: float = 0.0,
     increments: tuple[int, int] = (2, 8),

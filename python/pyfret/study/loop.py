@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pyfret._core import OffGridError, Scene
-from pyfret._util.door import numbers_only
 from pyfret._util.progress import Progress
+from pyfret.quantities import quantities
 from pyfret.study.design import Combine, Design, Source
 from pyfret.study.lock import writing
 from pyfret.study.measures import Measure, checked, code_of, names_of
@@ -30,7 +30,7 @@ __all__ = ["run"]
 DEFAULT = ("loop_energy", "energy_ratio", "stick_ratio", "p_max")
 
 
-@numbers_only
+@quantities
 def run(
     scene: Source,
     parameters: Mapping[str, Any],

@@ -11,21 +11,28 @@ import numpy as np
 
 from pyfret import fracture, wear
 from pyfret._util.bounds import split
-from pyfret._util.door import numbers_only, valued
 from pyfret._util.lazy import xr
 from pyfret._util.numbers import um
-from pyfret._util.types import by_default
+from pyfret.fatigue.section import Materials
+from pyfret.quantities import (
+    Angle,
+    CrackLength,
+    FrictionCoefficient,
+    InSI,
+    ResidualStresses,
+    Strength,
+    Toughness,
+    by_default,
+    part,
+    quantities,
+)
 from pyfret.run.summary import directions
 from pyfret.study.answer import NOTHING, Answer, estimate
 from pyfret.study.identity import identity
 from pyfret.subsurface.tensor import LABELS
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
-
-    from pyfret._util.types import AsNumber, AsNumberOrNone, Quantity
     from pyfret.fatigue.criteria import CriterionName
-    from pyfret.fatigue.lives import Materials
     from pyfret.result import Result
     from pyfret.subsurface.tensor import Stress
 
@@ -151,7 +158,7 @@ SCATTER_OF_K = "the scatter of the wear coefficient, which WearResult.range_of_c
 SCATTER_OF_MATERIAL = "the scatter of the material, which Life.range has"
 
 
-@valued()
+@part()
 class WornDepth(wear.Wear):
     """A measure: what many cycles wear off, by :func:`pyfret.wear.solve` on the scene of the point.
 
@@ -198,7 +205,7 @@ class WornDepth(wear.Wear):
         return numbers
 
 
-@numbers_only
+@quantities
 @dataclass(frozen=True)
 class Cracking:
     """A measure: the smallest margin of a fatigue criterion over the last closed cycle.
@@ -235,7 +242,7 @@ class Cracking:
         return {**numbers, "crack_depth": depth}
 
 
-@valued()
+@part()
 class Arrest:
     """A measure: whether a crack below the last closed cycle stops.
 
@@ -254,13 +261,13 @@ class Arrest:
 
     threshold: fracture.Threshold
     x: float | None = None
-    lengths: Sequence[Quantity] | None = None
-    angle: AsNumber = by_default(0.0)
-    azimuth: AsNumberOrNone = by_default(None)
+    lengths: Sequence[CrackLength] | None = None
+    angle: InSI[Angle] = by_default(0.0)
+    azimuth: InSI[Angle | None] = by_default(None)
     aspect: float | None = None
-    friction: float = 0.0
+    friction: FrictionCoefficient = 0.0
     body_number: int = 2
-    residual: Sequence[ArrayLike] | None = None
+    residual: Sequence[ResidualStresses] | None = None
 
     def __call__(self, result: Result) -> dict[str, xr.DataArray]:
         """Follow the crack."""
@@ -284,7 +291,7 @@ class Arrest:
         }
 
 
-@valued()
+@part()
 class FirstToFail:
     """A measure: whether film, interface or substrate goes first below the last closed cycle.
 
@@ -298,13 +305,13 @@ class FirstToFail:
         As in :func:`pyfret.fracture.first_to_fail`.
     """
 
-    toughness: AsNumberOrNone = by_default(None)
-    peel_strength: AsNumberOrNone = by_default(None)
-    shear_strength: AsNumberOrNone = by_default(None)
+    toughness: InSI[Toughness | None] = by_default(None)
+    peel_strength: InSI[Strength | None] = by_default(None)
+    shear_strength: InSI[Strength | None] = by_default(None)
     threshold: fracture.Threshold | None = None
-    residual: Sequence[ArrayLike] | None = None
+    residual: Sequence[ResidualStresses] | None = None
     x: float | None = None
-    lengths: Sequence[Quantity] | None = None
+    lengths: Sequence[CrackLength] | None = None
     body_number: int = 2
 
     def __call__(self, result: Result) -> dict[str, xr.DataArray]:

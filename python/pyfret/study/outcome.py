@@ -10,14 +10,14 @@ import numpy as np
 from pyfret._util.bounds import is_bound
 from pyfret._util.bounds import span as between
 from pyfret._util.csv_table import unit_of
-from pyfret._util.door import numbers_only
 from pyfret._util.figures import Figured
-from pyfret._util.kept import Kept
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
 from pyfret._util.numbers import told
 from pyfret._util.per_metre import PER_METRE, of_line_contacts
 from pyfret._util.text import html, shown
+from pyfret.quantities import quantities
+from pyfret.saveable import Saveable
 from pyfret.scene.tables import table
 from pyfret.study.point import DONE, FAILED, OPEN
 from pyfret.study.store import OWN, read
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 __all__ = ["Study", "open_study"]
 
 
-class Study(Kept, Labelled, Figured):
+class Study(Saveable, Labelled, Figured):
     """The measures of all points of a study.
 
     Attributes
@@ -219,7 +219,7 @@ def study_html(study: Study) -> str:
     return f"<p><b>Study</b>: {counts}</p>{table(['', '', 'from, to', 'unit'], rows)}"
 
 
-@numbers_only
+@quantities
 def open_study(store: str | os.PathLike[str]) -> Study:
     """Open the store of a study, whether it is done or not.
 

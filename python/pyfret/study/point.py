@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from pyfret._core import Grid, OffGridError, Scene
-from pyfret._util.doubts import SceneWarning
+from pyfret._util.scene_warnings import SceneWarning
 from pyfret.solution import solve
 from pyfret.study.measures import measured
 

@@ -16,15 +16,14 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from pyfret._core import Grid, Scene
-from pyfret._util.door import numbers_only, valued
 from pyfret._util.extras import needed
 from pyfret._util.holds_arrays import HoldsArrays
 from pyfret._util.lazy import xr
 from pyfret._util.parameters import in_si
-from pyfret._util.types import as_number, by_default
 from pyfret.fatigue.averages import average
 from pyfret.fatigue.criteria import Material
 from pyfret.fatigue.lives import life
+from pyfret.quantities import InSI, Length, as_number, by_default, part, quantities
 from pyfret.solution import solve
 from pyfret.study.design import varied
 
@@ -33,7 +32,6 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from pyfret._util.types import AsNumberOrNone, Quantity
     from pyfret.fatigue.averages import Averaging
     from pyfret.fatigue.criteria import CriterionName
     from pyfret.fatigue.ranges import LifeRange
@@ -46,7 +44,7 @@ Source: TypeAlias = "Scene | str | os.PathLike[str] | Callable[[dict[str, Any]],
 MOST = 24
 
 
-@valued()
+@part()
 class Averaged:
     """A measure: the smallest margin of a criterion on the stress averaged over a distance.
 
@@ -66,7 +64,7 @@ class Averaged:
 
     material: Material
     criterion: CriterionName = "crossland"
-    L: AsNumberOrNone = by_default(None)
+    L: InSI[Length | None] = by_default(None)
     method: Averaging = "line"
     body_number: int = 2
 
@@ -131,7 +129,7 @@ class ThresholdLoad:
         return self.value
 
 
-@numbers_only
+@quantities
 def threshold(
     scene: Source,
     parameter: str,
@@ -363,13 +361,13 @@ class Limits(HoldsArrays):
 LESS = 0.9
 
 
-@numbers_only
+@quantities
 def fit_limits(
     tests: Sequence[tuple[Callable[[float], Scene], float]],
     material: Material,
     criterion: CriterionName = "crossland",
     *,
-    L: tuple[Quantity, Quantity] = (5e-6, 2e-4),
+    L: tuple[Length, Length] = (5e-6, 2e-4),
     known: float = math.inf,
     method: Averaging = "line",
     n: int = 9,

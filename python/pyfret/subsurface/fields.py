@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
-import functools
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from pyfret import _core
 from pyfret._util.arrays import plain
-from pyfret._util.door import numbers_only
 from pyfret._util.lazy import xr
-from pyfret._util.types import as_number
+from pyfret.quantities import (
+    Angle,
+    BulkStress,
+    Length,
+    Lengths,
+    Numbers,
+    ResidualStresses,
+    as_number,
+    quantities,
+)
 from pyfret.subsurface.line import Line
 from pyfret.subsurface.plastic import eigenstress
 from pyfret.subsurface.tensor import COMPONENTS, DISPLACEMENTS, LABELS, Stress
@@ -23,7 +30,6 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from pyfret._core import Body, Grid, Scene
-    from pyfret._util.types import Quantity
     from pyfret.run import State
 
 __all__ = ["Stress", "displacement", "envelope", "stress", "write_volume"]
@@ -67,7 +73,7 @@ def coordinates(
     layer: list[int],
     x: float | None,
     y: float | None,
-    azimuth: Quantity | None = None,
+    azimuth: Angle | None = None,
 ) -> dict[str, object]:
     """Depths with their layers, and x and y: the cells, or where they are constant."""
     metres = {"units": "m"}
@@ -93,7 +99,7 @@ def subsurface(
     grid: Grid,
     loads: tuple[ArrayLike | None, ArrayLike | None, ArrayLike | None],
     body_number: int,
-    sigma_B: Quantity = 0.0,
+    sigma_B: BulkStress = 0.0,
     residual: Sequence[ArrayLike] | None = None,
     *,
     left: Sequence[_core.Eigenstress | None] | None = None,
@@ -117,24 +123,24 @@ def subsurface(
     )
 
 
-@functools.partial(numbers_only, but=("stick",))
+@quantities
 def stress(
     body: Body,
     grid: Grid,
-    z: ArrayLike | None = None,
+    z: Lengths | None = None,
     *,
-    p: ArrayLike | None = None,
-    q_x: ArrayLike | None = None,
-    q_y: ArrayLike | None = None,
+    p: Numbers | None = None,
+    q_x: Numbers | None = None,
+    q_y: Numbers | None = None,
     x: float | None = None,
     y: float | None = None,
-    azimuth: Quantity | None = None,
+    azimuth: Angle | None = None,
     body_number: int = 2,
-    sigma_B: Quantity = 0.0,
+    sigma_B: BulkStress = 0.0,
     rim: bool = False,
     stick: ArrayLike | None = None,
-    length: Quantity | None = None,
-    residual: Sequence[ArrayLike] | None = None,
+    length: Length | None = None,
+    residual: Sequence[ResidualStresses] | None = None,
 ) -> Stress:
     """Stress in a body under tractions on its surface.
 
@@ -199,20 +205,20 @@ def _line(
     return (x, 0.0) if z is None and x is None and y is None else (x, y)
 
 
-@functools.partial(numbers_only, but=("stick",))
+@quantities
 def displacement(
     body: Body,
     grid: Grid,
-    z: ArrayLike | None = None,
+    z: Lengths | None = None,
     *,
-    p: ArrayLike | None = None,
-    q_x: ArrayLike | None = None,
-    q_y: ArrayLike | None = None,
+    p: Numbers | None = None,
+    q_x: Numbers | None = None,
+    q_y: Numbers | None = None,
     x: float | None = None,
     y: float | None = None,
-    azimuth: Quantity | None = None,
+    azimuth: Angle | None = None,
     body_number: int = 2,
-    length: Quantity | None = None,
+    length: Length | None = None,
 ) -> xr.Dataset:
     """Displacements u_x, u_y, u_z in a body relative to infinity [m], as in :func:`stress`.
 
@@ -254,20 +260,20 @@ def _sampled(
     return xr.Dataset(variables, coords=coords)
 
 
-@functools.partial(numbers_only, but=("stick",))
+@quantities
 def write_volume(
     body: Body,
     grid: Grid,
     out: str | os.PathLike[str],
-    z: ArrayLike | None = None,
+    z: Lengths | None = None,
     *,
-    p: ArrayLike | None = None,
-    q_x: ArrayLike | None = None,
-    q_y: ArrayLike | None = None,
+    p: Numbers | None = None,
+    q_x: Numbers | None = None,
+    q_y: Numbers | None = None,
     of: Sequence[str] = ("von_mises",),
     body_number: int = 2,
-    sigma_B: Quantity = 0.0,
-    residual: Sequence[ArrayLike] | None = None,
+    sigma_B: BulkStress = 0.0,
+    residual: Sequence[ResidualStresses] | None = None,
     rim: bool = False,
     stick: ArrayLike | None = None,
     title: str = "",
@@ -307,19 +313,19 @@ def write(
     below.volume(out, z_once, layer_once, of=list(of), title=title)
 
 
-@functools.partial(numbers_only, but=("stick",))
+@quantities
 def envelope(
     scene: Scene,
     increments: Iterable[State],
-    z: ArrayLike | None = None,
+    z: Lengths | None = None,
     *,
     x: float | None = None,
     y: float | None = None,
-    azimuth: Quantity | None = None,
+    azimuth: Angle | None = None,
     of: Sequence[str] = ("von_mises",),
     body_number: int = 2,
     bulk: bool = True,
-    residual: Sequence[ArrayLike] | None = None,
+    residual: Sequence[ResidualStresses] | None = None,
 ) -> xr.Dataset:
     """Extremes of stress over a load path, none of whose increments is kept.
 

@@ -7,23 +7,21 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pyfret._core import Material
-from pyfret._util.door import numbers_only
-from pyfret._util.types import as_number
+from pyfret.quantities import ThermalExpansion, as_number, quantities
 
 if TYPE_CHECKING:
     from pyfret._core import Elastic
-    from pyfret._util.types import Quantity
 
 __all__ = ["thermal_stress"]
 
 
-@numbers_only
+@quantities
 def thermal_stress(
     coating: Elastic | Material,
     *,
     temperature_change: float,
-    alpha_coating: Quantity | Material | None = None,
-    alpha_substrate: Quantity | Material,
+    alpha_coating: ThermalExpansion | Material | None = None,
+    alpha_substrate: ThermalExpansion | Material,
 ) -> float:
     """Thermal stress of a thin coating on a thick substrate [Pa], biaxial, tension positive.
 
@@ -82,6 +80,6 @@ def thermal_stress(
     return E / (1.0 - nu) * mismatch
 
 
-def _expansion(alpha: Quantity | Material) -> float:
+def _expansion(alpha: ThermalExpansion | Material) -> float:
     """A coefficient of thermal expansion, or that of a material [1/K]."""
     return alpha.number("alpha_T") if isinstance(alpha, Material) else as_number(alpha)

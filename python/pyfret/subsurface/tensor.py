@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from pyfret import _core
-from pyfret._util.doubts import warn
+from pyfret._util.attributes import attribute_error
 from pyfret._util.figures import Figured
-from pyfret._util.guesses import no_attribute
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
 from pyfret._util.numbers import in_words, layer_name, place
+from pyfret._util.scene_warnings import warn
 from pyfret.scene.tables import table
 from pyfret.subsurface.line import line_of
 
@@ -122,7 +122,7 @@ class Stress(Labelled, Figured):
             return self.dataset.attrs[name]  # type: ignore[no-any-return]
         public = (member for member in dir(type(self)) if not member.startswith("_"))
         known = [*LABELS, *map(str, self.dataset.attrs), *public, "dataset"]
-        raise no_attribute("stress", name, known, {})
+        raise attribute_error("stress", name, known, {})
 
     def principal(self) -> xr.Dataset:
         """Principal values, the largest first, and unit vectors of their directions."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pyfret._core import SurfaceMap
-from pyfret._util.doubts import warn as doubt
+from pyfret._util.scene_warnings import warn as doubt
 from pyfret.subsurface import fields
 from pyfret.subsurface.line import Line, along
 from pyfret.subsurface.plastic import body_of, columns_of, eigenstress

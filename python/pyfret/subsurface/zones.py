@@ -8,7 +8,7 @@ import numpy as np
 
 from pyfret import _core
 from pyfret._core import with_error
-from pyfret._util.door import numbers_only
+from pyfret.quantities import quantities
 
 if TYPE_CHECKING:
     from pyfret.run import State
@@ -45,7 +45,7 @@ class Zone(NamedTuple):
         return (self.right - self.left) / 2
 
 
-@numbers_only
+@quantities
 def zone(state: State, of: Literal["contact", "stick"], y: float = 0.0) -> Zone:
     """The outermost borders of the contact or of its stick zone along the line of constant y."""
     d, grid = state.dataset, state.scene.grid

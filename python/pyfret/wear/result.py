@@ -10,14 +10,13 @@ import numpy as np
 
 from pyfret import _core
 from pyfret._core import Scene, with_error
-from pyfret._util.door import numbers_only
 from pyfret._util.figures import Figured
-from pyfret._util.kept import Kept
 from pyfret._util.labelled import Labelled
 from pyfret._util.numbers import length, um
 from pyfret._util.text import shown
-from pyfret._util.types import as_number
+from pyfret.quantities import Length, as_number, quantities
 from pyfret.run.loops import NO_FRICTION, frictionless, of_corners
+from pyfret.saveable import Saveable
 from pyfret.scene.tables import table
 from pyfret.subsurface.line import Line, cut
 from pyfret.wear.cycles import Cycles, RangeOfCycles, reached, spent
@@ -32,7 +31,6 @@ if TYPE_CHECKING:
 
     import xarray as xr
 
-    from pyfret._util.types import Quantity
 
 __all__ = ["WearResult"]
 
@@ -40,7 +38,7 @@ __all__ = ["WearResult"]
 SCATTER = 3.0
 
 
-class WearResult(Kept, Labelled, Figured):
+class WearResult(Saveable, Labelled, Figured):
     """Worn surfaces over blocks of cycles, and the numbers of every jump.
 
     ``dataset`` has three groups of variables. The scalars lie over ``jump`` (coordinate
@@ -66,7 +64,7 @@ class WearResult(Kept, Labelled, Figured):
         T = [float(abs(self.dataset[f"loop_T_{of}"][-1]).max()) for of in ("x", "y")]
         return "y" if T[1] > T[0] else "x"
 
-    @numbers_only
+    @quantities
     def loops(self, *, direction: Literal["x", "y"] | None = None) -> xr.Dataset:
         """Energy and stiffness of the friction loop of every block, as :meth:`Result.loops`.
 
@@ -113,11 +111,11 @@ class WearResult(Kept, Labelled, Figured):
             line = Line(*_core.main_sections(_core.Outline(grid, p=p, q_x=q_x, q_y=q_y))[0])
         return cut(d, grid, line)
 
-    @numbers_only
+    @quantities
     def cycles_to(
         self,
         *,
-        depth: Quantity | None = None,
+        depth: Length | None = None,
         part_of_coating: float | None = None,
         volume: float | None = None,
         energy: float | None = None,
@@ -176,7 +174,7 @@ class WearResult(Kept, Labelled, Figured):
         name, target = ("volume", volume) if depth is None else ("depth", as_number(depth))
         return reached(self.dataset, f"{name}{body_number}", float(target or 0.0))
 
-    @numbers_only
+    @quantities
     def range_of_cycles(self, *, scatter: float = SCATTER, **to: Any) -> RangeOfCycles:
         """Cycles after which a body has worn so far as a range of 10 to 90 %: low, best, high.
 

@@ -10,8 +10,8 @@ import numpy as np
 from pyfret import _core
 from pyfret._core import Scene, StoreError
 from pyfret._util import files
-from pyfret._util.door import numbers_only
 from pyfret._util.progress import Progress
+from pyfret.quantities import quantities
 from pyfret.run.dataset import dataset
 from pyfret.wear.result import WearResult
 from pyfret.wear.settings import Wear, own, read
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 __all__ = ["open_run", "resume", "solve"]
 
 
-@numbers_only
+@quantities
 def solve(
     scene: Scene | str | os.PathLike[str],
     wear: Wear | None = None,
@@ -107,7 +107,7 @@ def surfaces(start: WearResult) -> tuple[float, float, list[NDArray[np.float64]]
     return float(d.block_cycles[-1]), float(d.dissipated[-1]), fields
 
 
-@numbers_only
+@quantities
 def resume(
     store: str | os.PathLike[str],
     *,
@@ -139,7 +139,7 @@ def resume(
     return open_run(store)
 
 
-@numbers_only
+@quantities
 def open_run(store: str | os.PathLike[str]) -> WearResult:
     """Open the store of a run of :func:`solve` or ``fret wear``, or what was saved of one.
 

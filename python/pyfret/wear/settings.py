@@ -13,9 +13,16 @@ else:
     import tomli as tomllib
 
 from pyfret._util.arrays import items, plain
-from pyfret._util.door import valued
-from pyfret._util.guesses import refuse_unknown
-from pyfret._util.types import by_default
+from pyfret._util.keywords import refuse_unknown
+from pyfret.quantities import (
+    EnergyWearCoefficient,
+    Frequency,
+    InSI,
+    Stiffness,
+    WearCoefficient,
+    by_default,
+    part,
+)
 from pyfret.scene.parts import Replaceable
 
 if TYPE_CHECKING:
@@ -23,7 +30,6 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from pyfret._util.types import AsNumber, AsNumberOrNone
 
 __all__ = ["Archard", "DissipatedEnergy", "Wear"]
 
@@ -31,7 +37,7 @@ __all__ = ["Archard", "DissipatedEnergy", "Wear"]
 Factor = tuple[str, "Sequence[tuple[float, float]]"]
 
 
-@valued()
+@part()
 class Archard(Replaceable):
     """Archard's law: the worn depth is k times pressure times sliding distance.
 
@@ -46,7 +52,7 @@ class Archard(Replaceable):
         pairs of that and its factor.
     """
 
-    k: AsNumber
+    k: InSI[WearCoefficient]
     threshold: float = 0.0
     factor: Factor | None = None
 
@@ -55,7 +61,7 @@ class Archard(Replaceable):
         fix(self)
 
 
-@valued()
+@part()
 class DissipatedEnergy(Replaceable):
     """Wear by the energy dissipated: the worn volume is alpha times the energy.
 
@@ -70,7 +76,7 @@ class DissipatedEnergy(Replaceable):
         pairs of that and its factor.
     """
 
-    alpha: AsNumber
+    alpha: InSI[EnergyWearCoefficient]
     threshold: float = 0.0
     factor: Factor | None = None
 
@@ -85,7 +91,7 @@ Function = Callable[..., "NDArray[Any]"]
 Law = Archard | DissipatedEnergy | Function
 
 
-@valued()
+@part()
 class Wear(Replaceable):
     """What wears, over how many cycles, and how.
 
@@ -135,8 +141,8 @@ class Wear(Replaceable):
     debris_kept: float = 0.0
     first_branch: int | None = None
     cycling: Literal["march", "sliding"] = "march"
-    frequency: AsNumberOrNone = by_default(None)
-    rig_stiffness: AsNumberOrNone = by_default(None)
+    frequency: InSI[Frequency | None] = by_default(None)
+    rig_stiffness: InSI[Stiffness | None] = by_default(None)
     tolerance: float | None = None
     jumps: int | None = None
     explicit_jumps: int | None = None
@@ -152,7 +158,7 @@ class Wear(Replaceable):
         TypeError
             One of them is no setting of wear; the message offers the nearest name.
         """
-        refuse_unknown("Wear.of", cls.of, settings, [field.name for field in fields(cls)])
+        refuse_unknown("Wear.of", settings, [field.name for field in fields(cls)])
         if wear is not None:
             return wear.replace(**settings)
         if "cycles" not in settings:

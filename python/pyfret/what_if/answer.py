@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pyfret._core import NoConvergenceError, OffGridError, with_error
-from pyfret._util.doubts import SceneWarning
 from pyfret._util.extras import needed
+from pyfret._util.scene_warnings import SceneWarning
 from pyfret.run.loops import NO_FRICTION, frictionless
 from pyfret.run.summary import directions
 from pyfret.solution import solve

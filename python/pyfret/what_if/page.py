@@ -12,8 +12,8 @@ import threading
 import time
 from typing import TYPE_CHECKING, Any
 
-from pyfret._util.door import numbers_only
 from pyfret._util.extras import needed
+from pyfret.quantities import quantities
 from pyfret.solution import read
 from pyfret.what_if.answer import FEWER, PageAnswer, answer
 from pyfret.what_if.controls import changed, controls
@@ -70,7 +70,7 @@ class Page:
         return f"Page({self.url})"
 
 
-@numbers_only
+@quantities
 def explore(
     scene: Scene | str | os.PathLike[str], path: LoadPath | None = None, *, port: int = 0
 ) -> Page:

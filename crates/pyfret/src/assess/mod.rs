@@ -54,7 +54,7 @@ pub(crate) struct CycleSection {
 #[pymethods]
 impl CycleSection {
     #[new]
-    #[pyo3(signature = (body, grid, moments: "Callable[[list[int] | None], States | None]", count: "int", *, x: "float | None" = None, y: "float | None" = None, azimuth: "Quantity | None" = None, body_number: "int" = 2, residual = None, yielding: "tuple[float, float] | None" = None, path_error: "float | None" = None))]
+    #[pyo3(signature = (body, grid, moments: "Callable[[list[int] | None], States | None]", count: "int", *, x: "float | None" = None, y: "float | None" = None, azimuth: "Angle | None" = None, body_number: "int" = 2, residual = None, yielding: "tuple[float, float] | None" = None, path_error: "float | None" = None))]
     fn new(
         body: Body,
         grid: Grid,

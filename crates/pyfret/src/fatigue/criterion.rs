@@ -51,8 +51,7 @@ pub(crate) fn add_criteria(py: Python<'_>) -> PyResult<()> {
         );
         let name = text(definition.name.to_owned())?;
         let function = PyCFunction::new_closure(py, Some(name), Some(text(doc)?), make)?;
-        let of_class = py.import("builtins")?.getattr("staticmethod")?;
-        class.setattr(definition.name, of_class.call1((function,))?)?;
+        class.setattr(definition.name, function)?;
     }
     Ok(())
 }

@@ -66,7 +66,7 @@ pub(crate) fn criterion_on<'py>(
 
 /// Load factors of first yield and shakedown of stresses of shape (time, points, 6).
 #[pyfunction]
-#[pyo3(signature = (stress, *, s_y: "Quantity", constant: "tuple[float, float, float, float, float, float]") -> "dict[str, NDArray[np.float64]]")]
+#[pyo3(signature = (stress, *, s_y: "YieldStress", constant: "tuple[float, float, float, float, float, float]") -> "dict[str, NDArray[np.float64]]")]
 pub(crate) fn yielding_on<'py>(
     py: Python<'py>,
     stress: Array<'py, Ix3>,

@@ -51,7 +51,7 @@ fn tables<'py>(py: Python<'py>, found: &[core::OverCycle]) -> PyResult<Bound<'py
 
 /// K of cracks below a contact in several of its states; use :meth:`pyfret.Result.crack`.
 #[pyfunction]
-#[pyo3(signature = (body, states, *, residual = None, x: "float", lengths: "Sequence[float]", angle: "Quantity" = 0.0, kink: "tuple[float, float] | None" = None, azimuth: "Quantity" = 0.0, friction: "float" = 0.0, body_number: "int" = 2) -> "dict[str, NDArray[np.float64]]")]
+#[pyo3(signature = (body, states, *, residual = None, x: "float", lengths: "Sequence[float]", angle: "Angle" = 0.0, kink: "tuple[float, float] | None" = None, azimuth: "Angle" = 0.0, friction: "float" = 0.0, body_number: "int" = 2) -> "dict[str, NDArray[np.float64]]")]
 pub(crate) fn crack_of_states<'py>(
     py: Python<'py>,
     body: Body,
@@ -85,7 +85,7 @@ pub(crate) fn crack_of_states<'py>(
 
 /// A crack that grows below a contact; use :meth:`pyfret.Result.grow_crack`.
 #[pyfunction]
-#[pyo3(signature = (body, states, *, residual = None, x: "float", start: "float", end: "float", direction, tolerance: "float", angle: "Quantity" = 0.0, azimuth: "Quantity" = 0.0, friction: "float" = 0.0, body_number: "int" = 2) -> "dict[str, Any]")]
+#[pyo3(signature = (body, states, *, residual = None, x: "float", start: "float", end: "float", direction, tolerance: "float", angle: "Angle" = 0.0, azimuth: "Angle" = 0.0, friction: "float" = 0.0, body_number: "int" = 2) -> "dict[str, Any]")]
 pub(crate) fn crack_growth_of_states<'py>(
     py: Python<'py>,
     body: Body,

@@ -31,7 +31,7 @@ pub(crate) fn channel_crack(py: Python<'_>, film_: Elastic, below: Elastic) -> A
 
 /// Factor F of a crack with its tip in a film; use :func:`pyfret.fracture.film_intensity`.
 #[pyfunction]
-#[pyo3(signature = (film_, below, depth: "Quantity"))]
+#[pyo3(signature = (film_, below, depth: "Length"))]
 pub(crate) fn partial_crack(
     py: Python<'_>,
     film_: Elastic,

@@ -52,7 +52,7 @@ impl CattaneoMindlin {
     }
 
     /// Stick radius of the first loading to `T` [N], a (1 - T/(mu W))^(1/3) [m].
-    #[pyo3(signature = (T: "Quantity"))]
+    #[pyo3(signature = (T: "PointForce"))]
     fn stick_radius(&self, #[pyo3(from_py_with = Given::point_T)] T: f64) -> PyResult<f64> {
         self.check(&[("T", T)])?;
         Ok(self.slip.stick_radius(T))
@@ -61,7 +61,7 @@ impl CattaneoMindlin {
     /// Stick radius after the force changed from the reversal at `T_m` to `T` [N] [m].
     ///
     /// a [1 - abs(T_m - T)/(2 mu W)]^(1/3)
-    #[pyo3(signature = (T: "Quantity", *, T_m: "Quantity"))]
+    #[pyo3(signature = (T: "PointForce", *, T_m: "PointForce"))]
     fn stick_radius_reversed(
         &self,
         #[pyo3(from_py_with = Given::point_T)] T: f64,
@@ -72,7 +72,7 @@ impl CattaneoMindlin {
     }
 
     /// Shear traction at distance `r` [m] in the first loading to `T` [N] [Pa].
-    #[pyo3(signature = (r, *, T: "Quantity"))]
+    #[pyo3(signature = (r, *, T: "PointForce"))]
     fn q_loading<'py>(
         &self,
         r: Numbers<'py>,
@@ -83,7 +83,7 @@ impl CattaneoMindlin {
     }
 
     /// Shear traction at `T` on the way back from the first loading to `T_m` [N] [Pa].
-    #[pyo3(signature = (r, *, T: "Quantity", T_m: "Quantity"))]
+    #[pyo3(signature = (r, *, T: "PointForce", T_m: "PointForce"))]
     fn q_unloading<'py>(
         &self,
         r: Numbers<'py>,
@@ -95,7 +95,7 @@ impl CattaneoMindlin {
     }
 
     /// Shear traction at `T` on the way from -`T_m` back to `T_m` [N] [Pa].
-    #[pyo3(signature = (r, *, T: "Quantity", T_m: "Quantity"))]
+    #[pyo3(signature = (r, *, T: "PointForce", T_m: "PointForce"))]
     fn q_reloading<'py>(
         &self,
         r: Numbers<'py>,
@@ -112,7 +112,7 @@ impl CattaneoMindlin {
     }
 
     /// Shift delta_x at `T` on the way back from `T_m` [N] [m].
-    #[pyo3(signature = (T, *, T_m: "Quantity"))]
+    #[pyo3(signature = (T, *, T_m: "PointForce"))]
     fn shift_unloading<'py>(
         &self,
         T: Numbers<'py>,
@@ -124,7 +124,7 @@ impl CattaneoMindlin {
     }
 
     /// Shift delta_x at `T` on the way from -`T_m` back to `T_m` [N] [m].
-    #[pyo3(signature = (T, *, T_m: "Quantity"))]
+    #[pyo3(signature = (T, *, T_m: "PointForce"))]
     fn shift_reloading<'py>(
         &self,
         T: Numbers<'py>,
@@ -136,14 +136,14 @@ impl CattaneoMindlin {
     }
 
     /// Energy dissipated in one closed loop between -`T_m` and `T_m` [J].
-    #[pyo3(signature = (T_m: "Quantity"))]
+    #[pyo3(signature = (T_m: "PointForce"))]
     fn loop_energy(&self, #[pyo3(from_py_with = Given::point_T)] T_m: f64) -> PyResult<f64> {
         self.check(&[("T_m", T_m)])?;
         Ok(self.slip.loop_energy(T_m))
     }
 
     /// Loop energy over 4 T_m delta_x(T_m); 0.2 where partial slip ends.
-    #[pyo3(signature = (T_m: "Quantity"))]
+    #[pyo3(signature = (T_m: "PointForce"))]
     fn energy_ratio(&self, #[pyo3(from_py_with = Given::point_T)] T_m: f64) -> PyResult<f64> {
         self.check(&[("T_m", T_m)])?;
         Ok(self.slip.energy_ratio(T_m))

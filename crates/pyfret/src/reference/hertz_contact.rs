@@ -33,7 +33,7 @@ made!(Hertz by "Hertz": W, E_star, a, p0, delta_z);
 #[pymethods]
 impl Hertz {
     #[new]
-    #[pyo3(signature = (*, W: "Quantity", E_star: "Quantity", a: "Quantity", p0: "Quantity", delta_z: "Quantity"))]
+    #[pyo3(signature = (*, W: "PointForce", E_star: "ContactModulus", a: "Length", p0: "PeakPressure", delta_z: "Length"))]
     fn new(
         #[pyo3(from_py_with = Given::point_W)] W: f64,
         #[pyo3(from_py_with = Given::E_star)] E_star: f64,
@@ -83,7 +83,7 @@ attributes!(Hertz, self:
 
 /// Hertz contact of a sphere of relative radius `R` [m] under the force `W` [N].
 #[pyfunction]
-#[pyo3(signature = (*, R: "Quantity", bodies, W: "Quantity"))]
+#[pyo3(signature = (*, R: "Radius", bodies, W: "PointForce"))]
 pub(crate) fn hertz(
     #[pyo3(from_py_with = Given::R)] R: f64,
     bodies: (Material, Material),
@@ -129,7 +129,7 @@ attributes!(HertzEllipse, self:
 ///
 /// 1/R_x is the sum of both bodies' curvatures along x; `E_star` [Pa], `W` [N].
 #[pyfunction]
-#[pyo3(signature = (*, R_x: "Quantity", R_y: "Quantity", E_star: "Quantity", W: "Quantity"))]
+#[pyo3(signature = (*, R_x: "Radius", R_y: "Radius", E_star: "ContactModulus", W: "PointForce"))]
 pub(crate) fn hertz_ellipse(
     #[pyo3(from_py_with = Given::R_x)] R_x: f64,
     #[pyo3(from_py_with = Given::R_y)] R_y: f64,

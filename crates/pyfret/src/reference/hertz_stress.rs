@@ -28,7 +28,7 @@ made!(HertzStress by "HertzStress": a, nu);
 #[pymethods]
 impl HertzStress {
     #[new]
-    #[pyo3(signature = (*, a: "Quantity", nu: "float"))]
+    #[pyo3(signature = (*, a: "Length", nu: "float"))]
     fn new(
         #[pyo3(from_py_with = Given::radius)] a: f64,
         #[pyo3(from_py_with = number)] nu: f64,

@@ -117,7 +117,7 @@ attributes!(CoatedIndentation, self:
 
 /// Contact of a sphere of radius `R` [m] with a coated body under `W` [N], without friction.
 #[pyfunction]
-#[pyo3(signature = (*, R: "Quantity", indenter, coating, substrate, W: "Quantity"))]
+#[pyo3(signature = (*, R: "Radius", indenter, coating, substrate, W: "PointForce"))]
 pub(crate) fn coated_indentation(
     #[pyo3(from_py_with = Given::R)] R: f64,
     indenter: Material,

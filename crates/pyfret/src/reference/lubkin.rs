@@ -60,7 +60,7 @@ impl Lubkin {
     }
 
     /// Stick radius under the moment `M_z` [N m] [m].
-    #[pyo3(signature = (*, M_z: "Quantity"))]
+    #[pyo3(signature = (*, M_z: "Moment"))]
     fn stick_radius(&self, #[pyo3(from_py_with = Given::M_z)] M_z: f64) -> Answer<f64> {
         let limit = self.torsion.M_limit() * (1.0 + 1e-9);
         between("M_z", M_z, (0.0, limit))?;
@@ -68,7 +68,7 @@ impl Lubkin {
     }
 
     /// Circumferential traction at `r` for the stick radius `c` [m] [Pa].
-    #[pyo3(signature = (r, *, c: "Quantity"))]
+    #[pyo3(signature = (r, *, c: "Length"))]
     fn q<'py>(
         &self,
         r: Numbers<'py>,

@@ -32,7 +32,7 @@ made!(LineContact by "line_contact": R, bodies, W);
 
 /// Line contact of cylinders of relative radius `R` [m] under `W` [N/m].
 #[pyfunction]
-#[pyo3(signature = (*, R: "Quantity", bodies, W: "Quantity"))]
+#[pyo3(signature = (*, R: "Radius", bodies, W: "LineForce"))]
 pub(crate) fn line_contact(
     #[pyo3(from_py_with = Given::R)] R: f64,
     bodies: (Material, Material),
@@ -57,7 +57,7 @@ impl LineContact {
     }
 
     /// Half-width of the stick zone under `T` [N/m] [m].
-    #[pyo3(signature = (*, T: "Quantity", mu: "float"))]
+    #[pyo3(signature = (*, T: "LineForce", mu: "float"))]
     fn stick_half_width(
         &self,
         #[pyo3(from_py_with = Given::line_T)] T: f64,
@@ -84,7 +84,7 @@ impl LineContact {
     /// Shear at `x` [m] under `T` [N/m] with the stick zone around `middle` [m] [Pa].
     ///
     /// Cattaneo's with the middle at 0, Carter's with it at a - c towards the leading edge.
-    #[pyo3(signature = (x, *, T: "Quantity", mu: "float", middle: "Quantity" = 0.0))]
+    #[pyo3(signature = (x, *, T: "LineForce", mu: "float", middle: "Length" = 0.0))]
     fn q<'py>(
         &self,
         x: Numbers<'py>,
@@ -99,7 +99,7 @@ impl LineContact {
     /// Stress s_xx, s_zz, s_xz at (`x`, `z`) [m] in partial slip [Pa]; arrays are put together.
     ///
     /// The shear is that of :meth:`q`, the stick zone around `middle`. A bulk stress adds to s_xx.
-    #[pyo3(signature = (x, z, *, T: "Quantity", mu: "float", middle: "Quantity" = 0.0) -> "list[NDArray[np.float64]]")]
+    #[pyo3(signature = (x, z, *, T: "LineForce", mu: "float", middle: "Length" = 0.0) -> "list[NDArray[np.float64]]")]
     fn stress<'py>(
         &self,
         py: Python<'py>,

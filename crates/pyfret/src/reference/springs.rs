@@ -57,7 +57,7 @@ made!(changing Springs by "Springs": largest, R, bodies, mu, n, loads);
 #[pymethods]
 impl Springs {
     #[new]
-    #[pyo3(signature = (largest, *, R: "Quantity", bodies, mu: "float", n: "int" = 1500, loads: "Sequence[tuple[float, float, int]]" = List::default()))]
+    #[pyo3(signature = (largest, *, R: "Radius", bodies, mu: "float", n: "int" = 1500, loads: "Sequence[tuple[float, float, int]]" = List::default()))]
     fn new(
         largest: Hertz,
         #[pyo3(from_py_with = Given::R)] R: f64,
@@ -85,7 +85,7 @@ impl Springs {
     }
 
     /// Go straight to the forces `W`, `T` [N] in `steps` steps; the shift delta_x [m].
-    #[pyo3(signature = (*, W: "Quantity", T: "Quantity", steps: "int" = 10))]
+    #[pyo3(signature = (*, W: "PointForce", T: "PointForce", steps: "int" = 10))]
     fn load(
         &mut self,
         #[pyo3(from_py_with = Given::point_W)] W: f64,

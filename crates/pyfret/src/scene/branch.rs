@@ -66,9 +66,9 @@ impl Branch {
 impl Branch {
     #[new]
     #[pyo3(signature = (
-        *, W: "Quantity | None" = None, M_x: "Quantity | None" = None, M_y: "Quantity | None" = None, T_x: "Quantity | None" = None, T_y: "Quantity | None" = None, M_z: "Quantity | None" = None, delta_z: "Quantity | None" = None,
-        phi_x: "Quantity | None" = None, phi_y: "Quantity | None" = None, delta_x: "Quantity | None" = None, delta_y: "Quantity | None" = None, phi_z: "Quantity | None" = None, sigma_B: "Quantity" = 0.0,
-        sigma_B1: "Quantity" = 0.0, rolled: "Quantity" = 0.0, increments = None, spacing = Spacing::Uniform, t: "Quantity",
+        *, W: "Force | None" = None, M_x: "Moment | None" = None, M_y: "Moment | None" = None, T_x: "Force | None" = None, T_y: "Force | None" = None, M_z: "Moment | None" = None, delta_z: "Length | None" = None,
+        phi_x: "Angle | None" = None, phi_y: "Angle | None" = None, delta_x: "Length | None" = None, delta_y: "Length | None" = None, phi_z: "Angle | None" = None, sigma_B: "BulkStress" = 0.0,
+        sigma_B1: "BulkStress" = 0.0, rolled: "Length" = 0.0, increments = None, spacing = Spacing::Uniform, t: "Time",
         path_error: "float | None" = None,
     ))]
     fn new(

@@ -91,7 +91,7 @@ takes!(Grid, "a grid, such as Grid.centred(extent=1e-3, n=128)");
 #[pymethods]
 impl Grid {
     #[new]
-    #[pyo3(signature = (*, nx, ny, dx: "Quantity", dy: "Quantity", plane_strain = false))]
+    #[pyo3(signature = (*, nx, ny, dx: "Length", dy: "Length", plane_strain = false))]
     fn new(
         nx: Count,
         ny: Count,
@@ -132,7 +132,7 @@ impl Grid {
     /// Forces, moments and energies are those on the width `width` [m]; displacements are
     /// relative to the points at the distance `extent` from a load.
     #[staticmethod]
-    #[pyo3(signature = (*, extent: "Quantity", n, width: "Quantity" = 1.0))]
+    #[pyo3(signature = (*, extent: "Length", n, width: "Length" = 1.0))]
     fn strip(
         #[pyo3(from_py_with = Given::extent)] extent: f64,
         n: Count,

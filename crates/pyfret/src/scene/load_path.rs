@@ -42,7 +42,7 @@ pub(super) fn checked(path: core::LoadPath) -> Answer<LoadPath> {
 #[pymethods]
 impl LoadPath {
     #[new]
-    #[pyo3(signature = (branches = List(Vec::new()), *, rig_stiffness: "Quantity | None" = None))]
+    #[pyo3(signature = (branches = List(Vec::new()), *, rig_stiffness: "Stiffness | None" = None))]
     fn new(
         branches: List<Branch>,
         #[pyo3(from_py_with = Optional::rig_stiffness)] rig_stiffness: Option<f64>,
@@ -59,7 +59,7 @@ impl LoadPath {
     /// The spring is in series with the contact. ``delta_x`` is the shift of its far end, given or
     /// read. The contact's own shift is ``delta_x - T_x/K``. None takes the spring out. A text may
     /// have its unit, ``"20 N/um"``.
-    #[pyo3(signature = (stiffness: "Quantity | None"))]
+    #[pyo3(signature = (stiffness: "Stiffness | None"))]
     fn rig(&self, #[pyo3(from_py_with = Optional::stiffness)] stiffness: Option<f64>) -> Self {
         Self(core::LoadPath {
             rig_stiffness: stiffness,
@@ -124,7 +124,7 @@ impl LoadPath {
     /// Its middle is where the path stands. It goes to (T_x, 0) in `increments` and takes as many
     /// for each turn towards (0, T_y), each a branch by itself. With "auto" a turn has 64 branches,
     /// and as many increments as the path tolerance of the settings asks for.
-    #[pyo3(signature = (*, T_x: "Quantity", T_y: "Quantity", turns: "int" = 1, increments = Count(None)))]
+    #[pyo3(signature = (*, T_x: "Force", T_y: "Force", turns: "int" = 1, increments = Count(None)))]
     fn ellipse(
         &self,
         #[pyo3(from_py_with = Given::T_x)] T_x: f64,
@@ -162,7 +162,7 @@ impl LoadPath {
     ///     How they are spaced (default: equal increments of force).
     /// t : float, optional
     ///     Path time at the end (default: one unit later).
-    #[pyo3(signature = (*, W: "Quantity | None" = None, T_x: "Quantity | None" = None, T_y: "Quantity | None" = None, M_x: "Quantity | None" = None, M_y: "Quantity | None" = None, M_z: "Quantity | None" = None, sigma_B: "Quantity | None" = None, sigma_B1: "Quantity | None" = None, rolled: "Quantity | None" = None, increments = Count(None), spacing = Spacing::Uniform, t: "Quantity | None" = None))]
+    #[pyo3(signature = (*, W: "Force | None" = None, T_x: "Force | None" = None, T_y: "Force | None" = None, M_x: "Moment | None" = None, M_y: "Moment | None" = None, M_z: "Moment | None" = None, sigma_B: "BulkStress | None" = None, sigma_B1: "BulkStress | None" = None, rolled: "Length | None" = None, increments = Count(None), spacing = Spacing::Uniform, t: "Time | None" = None))]
     fn force(
         &self,
         #[pyo3(from_py_with = Optional::W)] W: Option<f64>,
@@ -213,7 +213,7 @@ impl LoadPath {
     /// >>> pressed = LoadPath.start().normal(10.0)
     /// >>> pressed.displace(delta_x=[2e-6, -2e-6, 2e-6])
     /// LoadPath(4 branches, increments to be chosen)
-    #[pyo3(signature = (*, delta_z: "Quantities | None" = None, delta_x: "Quantities | None" = None, delta_y: "Quantities | None" = None, phi_x: "Quantities | None" = None, phi_y: "Quantities | None" = None, phi_z: "Quantities | None" = None, increments = Count(None), spacing = Spacing::Uniform, t: "Quantity | None" = None))]
+    #[pyo3(signature = (*, delta_z: "Quantities | None" = None, delta_x: "Quantities | None" = None, delta_y: "Quantities | None" = None, phi_x: "Quantities | None" = None, phi_y: "Quantities | None" = None, phi_z: "Quantities | None" = None, increments = Count(None), spacing = Spacing::Uniform, t: "Time | None" = None))]
     fn displace(
         &self,
         #[pyo3(from_py_with = Visited::delta_z)] delta_z: Option<Values>,
@@ -255,7 +255,7 @@ impl LoadPath {
     /// --------
     /// >>> LoadPath.start().normal(10.0).cycles(2, delta_x=2e-6)
     /// LoadPath(6 branches, increments to be chosen)
-    #[pyo3(signature = (n: "int", *, T_x: "Quantity | None" = None, T_y: "Quantity | None" = None, M_z: "Quantity | None" = None, delta_x: "Quantity | None" = None, delta_y: "Quantity | None" = None, phi_z: "Quantity | None" = None, increments = Count(None)))]
+    #[pyo3(signature = (n: "int", *, T_x: "Force | None" = None, T_y: "Force | None" = None, M_z: "Moment | None" = None, delta_x: "Length | None" = None, delta_y: "Length | None" = None, phi_z: "Angle | None" = None, increments = Count(None)))]
     fn cycles(
         &self,
         #[pyo3(from_py_with = number)] n: usize,

@@ -66,7 +66,7 @@ impl Profile {
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Remade<'py>> {
         let py = slf.py();
         let (method, given) = slf.get().made_by(py)?;
-        remade_by_method(slf.get_type(), method, &given, py)
+        remade_by_method(slf.get_type().into_any(), method, given)
     }
 
     fn __hash__(slf: &Bound<'_, Self>) -> PyResult<isize> {
@@ -140,7 +140,7 @@ impl Profile {
 /// InvalidSceneError
 ///     If a profile, the thickness or the number of layers is out of its range.
 #[pyfunction]
-#[pyo3(signature = (*, E, nu, thickness: "Quantity", layers: "int"))]
+#[pyo3(signature = (*, E, nu, thickness: "Thickness", layers: "int"))]
 pub(crate) fn graded(
     E: Profile,
     nu: Profile,

@@ -5,6 +5,7 @@ use contact_core::scene as core;
 use crate::document::{Document, to_dict};
 use crate::error::{Answer, to_python};
 use crate::prelude::*;
+use crate::python::from_python;
 
 /// The settings, on their way in or out.
 #[derive(Clone, Default)]
@@ -16,7 +17,7 @@ impl<'py> FromPyObject<'_, 'py> for Settings {
     const INPUT_TYPE: PyStaticExpr = crate::hints::SETTINGS;
 
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        let class = value.py().import("pyfret.settings")?.getattr("Settings")?;
+        let class = from_python(value.py(), "Settings")?;
         if !value.is_instance(&class)? {
             return Err(must_be(
                 &value,
@@ -38,8 +39,7 @@ impl<'py> IntoPyObject<'py> for Settings {
 
     fn into_pyobject(self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let tables: Bound<'py, PyDict> = to_dict(&self.0.to_table(), py)?;
-        let class = py.import("pyfret.settings")?.getattr("Settings")?;
-        class.call_method1("of", (tables,))
+        from_python(py, "Settings")?.call_method1("of", (tables,))
     }
 }
 

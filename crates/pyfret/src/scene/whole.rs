@@ -7,6 +7,7 @@ use super::settings::save_fields;
 use super::{AnyFriction, Body, Friction, Grid, LoadPath, Settings};
 use crate::error::Answer;
 use crate::prelude::*;
+use crate::python::from_python;
 use crate::reference::Hertz;
 
 /// A fretting contact problem.
@@ -172,7 +173,7 @@ impl Scene {
         let scene = self.along(path);
         scene.check()?;
         scene.check_fit()?;
-        let warn = py.import("pyfret._util.doubts")?.getattr("warn")?;
+        let warn = from_python(py, "warn")?;
         for doubt in scene.doubts() {
             warn.call1((doubt,))?;
         }
@@ -221,8 +222,7 @@ impl Scene {
     }
 
     fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        let tables = slf.py().import("pyfret.scene.tables")?;
-        tables.call_method1("scene_html", (slf,))
+        from_python(slf.py(), "scene_html")?.call1((slf,))
     }
 
     fn __repr__(&self) -> String {

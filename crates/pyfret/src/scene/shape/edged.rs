@@ -18,7 +18,7 @@ elementary!(
         /// Tangent of the angle between flank and contact plane.
         slope
     },
-    (*, slope: "Quantity")
+    (*, slope: "float")
 );
 elementary!(
     /// Two flanks that meet in an edge; it is y turned by `angle`.
@@ -35,7 +35,7 @@ elementary!(
         /// Turn of the edge from y [rad].
         angle
     },
-    (*, slope: "Quantity", angle: "Quantity" = 0.0)
+    (*, slope: "float", angle: "Angle" = 0.0)
 );
 elementary!(
     /// A round flat punch with a rounded edge.
@@ -52,5 +52,5 @@ elementary!(
         /// Radius of the rounding beyond it [m].
         edge
     },
-    (*, radius: "Quantity", edge: "Quantity")
+    (*, radius: "Length", edge: "Length")
 );

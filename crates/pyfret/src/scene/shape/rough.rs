@@ -29,7 +29,7 @@ parts!(Rough: rms, hurst, longest, shortest, seed);
 #[pymethods]
 impl Rough {
     #[new]
-    #[pyo3(signature = (*, rms: "Quantity", hurst: "float", longest: "Quantity", shortest: "Quantity", seed: "int" = 0))]
+    #[pyo3(signature = (*, rms: "Length", hurst: "float", longest: "Length", shortest: "Length", seed: "int" = 0))]
     fn new(
         #[pyo3(from_py_with = Given::rms)] rms: f64,
         #[pyo3(from_py_with = number)] hurst: f64,

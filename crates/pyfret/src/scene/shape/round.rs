@@ -13,7 +13,7 @@ elementary!(
         /// Radius [m].
         R
     },
-    (R: "Quantity")
+    (R: "Radius")
 );
 elementary!(
     /// Two principal radii, each a parabola as in Hertz's theory.
@@ -34,7 +34,7 @@ elementary!(
         /// Direction of the first one, from x towards y [rad].
         angle
     },
-    (*, R_x: "Quantity", R_y: "Quantity", angle: "Quantity" = 0.0)
+    (*, R_x: "Radius", R_y: "Radius", angle: "Angle" = 0.0)
 );
 elementary!(
     /// A cylinder with sharp ends; its axis is y turned by `angle`.
@@ -55,7 +55,7 @@ elementary!(
         /// Turn of the axis from y [rad].
         angle
     },
-    (R: "Quantity", *, length: "Quantity" = f64::INFINITY, angle: "Quantity" = 0.0)
+    (R: "Radius", *, length: "Length" = f64::INFINITY, angle: "Angle" = 0.0)
 );
 elementary!(
     /// A cylinder with rounded ends; its axis is y turned by `angle`.
@@ -80,5 +80,5 @@ elementary!(
         /// Turn of the axis from y [rad].
         angle
     },
-    (*, R: "Quantity", length: "Quantity", crown: "Quantity", angle: "Quantity" = 0.0)
+    (*, R: "Radius", length: "Length", crown: "Length", angle: "Angle" = 0.0)
 );

@@ -25,5 +25,5 @@ elementary!(
         /// Phase at the origin [rad].
         phase
     },
-    (*, amplitude: "Quantity", wavelength: "Quantity", angle: "Quantity" = 0.0, phase: "Quantity" = 0.0)
+    (*, amplitude: "Length", wavelength: "Length", angle: "Angle" = 0.0, phase: "Angle" = 0.0)
 );

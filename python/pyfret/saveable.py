@@ -1,4 +1,4 @@
-"""One manner for all that is computed: a summary, a figure, a page, a file, a notebook view."""
+"""Results that are saved: as a file, a table, a page, a view in a notebook."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
 from pyfret._util import files
 from pyfret._util.csv_table import write_csv
-from pyfret._util.door import numbers_only
 from pyfret._util.text import html
+from pyfret.quantities import quantities
 
 if TYPE_CHECKING:
     import os
@@ -18,19 +18,19 @@ if TYPE_CHECKING:
 
     import xarray as xr
 
-    class Shown(Protocol):
-        """What can be kept: it has a dataset, says what it found and draws it."""
+    class HasDataset(Protocol):
+        """A result with a dataset, a summary and a figure."""
 
         @property
         def dataset(self) -> xr.Dataset:
             """Variables with units and meaning."""
 
         def summary(self) -> str:
-            """Say what was found."""
+            """Describe the result."""
 
         @property
         def plot(self) -> Callable[..., Any]:
-            """Draw what was found."""
+            """Draw the result."""
 
         def _as_saved(self) -> xr.Dataset: ...
 
@@ -38,9 +38,9 @@ if TYPE_CHECKING:
 
         def _repr_html_(self) -> str: ...
 else:
-    Shown = object
+    HasDataset = object
 
-__all__ = ["Kept"]
+__all__ = ["Saveable"]
 
 #: The page, with its title, the view for notebooks, the figure and the summary.
 PAGE = """<!doctype html><html lang="en"><meta charset="utf-8"><title>{title}</title>
@@ -52,24 +52,24 @@ src="data:image/svg+xml;base64,{figure}"></p>
 """
 
 
-class Kept:
-    """What was computed, with a dataset, a summary and a figure."""
+class Saveable:
+    """A result with a dataset, a summary and a figure, which can be saved."""
 
-    #: Axes of the table of :meth:`to_csv` (default: those of the first variable).
+    #: Axes of the table of :meth:`to_csv` (default: the axes of the first variable).
     table_axes: ClassVar[tuple[str, ...] | None] = None
 
-    def _as_saved(self: Shown) -> xr.Dataset:
-        """What a file holds: the dataset."""
+    def _as_saved(self: HasDataset) -> xr.Dataset:
+        """Return the dataset of the file."""
         return self.dataset.load().drop_encoding()
 
-    @numbers_only
-    def save(self: Shown, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
+    @quantities
+    def save(self: HasDataset, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
         """Write it to a Zarr folder (``.zarr``) or a NetCDF file (``.nc``); `pyfret.open` opens it.
 
         Parameters
         ----------
         path : path
-            Where to write; its ending says in which format.
+            Where to write; its ending gives the format.
         overwrite : bool
             Whether what pyfret saved there is replaced (default: the place must be free).
 
@@ -81,24 +81,24 @@ class Kept:
             The ending is another.
         """
         dataset = self._as_saved()
-        # Wear and the stores of studies say in their own way what they are.
+        # Wear and the stores of studies have other attributes for their kind.
         if not {"wear", "kind"} & set(dataset.attrs):
             dataset = dataset.assign_attrs(kind=type(self).__name__)
         files.write(dataset, path, overwrite=overwrite)
 
-    @numbers_only
-    def to_csv(self: Shown, path: str | os.PathLike[str]) -> None:
+    @quantities
+    def to_csv(self: HasDataset, path: str | os.PathLike[str]) -> None:
         """Write the numbers as a table (``.csv``): units in the head, a row for every point.
 
         A file that is there is replaced.
         """
         write_csv(self.dataset, path, getattr(type(self), "table_axes", None))
 
-    @numbers_only
-    def report(self: Shown, path: str | os.PathLike[str], **options: Any) -> None:
+    @quantities
+    def report(self: HasDataset, path: str | os.PathLike[str], **options: Any) -> None:
         """Write one page for a browser: the numbers, the figure and the summary in one file.
 
-        A page that is there is replaced. `options` are those of the figure, as of ``plot``.
+        A page that is there is replaced. `options` are the options of the figure, as of ``plot``.
         """
         drawn = io.BytesIO()
         figure = self.plot(**options)
@@ -111,9 +111,9 @@ class Kept:
         )
         Path(path).write_text(page, encoding="utf-8")
 
-    def _title(self: Shown) -> str:
+    def _title(self: HasDataset) -> str:
         return str(self.dataset.attrs.get("title") or type(self).__name__)
 
-    def _repr_html_(self: Shown) -> str:
+    def _repr_html_(self: HasDataset) -> str:
         """The summary, for notebooks."""
         return f"<pre>{html(self.summary())}</pre>"

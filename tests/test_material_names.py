@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import re
 from collections.abc import Callable, Iterator
 from types import ModuleType
 from typing import Any
@@ -11,7 +12,9 @@ import pytest
 
 import pyfret as fret
 from pyfret import fatigue, fracture, heat
-from pyfret._util.called import MATERIAL
+
+#: Types of parameters that take a material or its name.
+MATERIAL = re.compile(r"\b(Materials?|Conductors)\b")
 
 
 def takes_a_material() -> Iterator[tuple[str, Callable[..., Any], str]]:

@@ -1,0 +1,103 @@
+"""Errors for a missing attribute: where its number is, or the nearest name."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NoReturn
+
+from pyfret._util.keywords import nearest_names
+from pyfret._util.lazy import xr
+from pyfret._util.names import meant
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+    from types import ModuleType
+
+__all__ = ["attribute_error", "dataset_attribute", "dataset_names", "missing_attribute"]
+
+#: Modules of the public face that are loaded, by their names; the package enters them.
+PUBLIC_MODULES: dict[str, ModuleType] = {}
+#: Dimensions of a dataset that are coordinates of points.
+PLACES = ("x", "y", "s", "z", "depth")
+
+
+def public_functions(name: str) -> list[str]:
+    """Return the calls of the public functions with a name; figures once their module is loaded."""
+    modules = PUBLIC_MODULES.items()
+    return [f"fret.{key}.{name}(...)" for key, module in modules if name in module.__all__]
+
+
+def attribute_error(
+    owner: str, name: str, known: Iterable[str], elsewhere: Mapping[str, str]
+) -> AttributeError:
+    """Return the error for an attribute that does not exist, with the attribute to use instead.
+
+    Parameters
+    ----------
+    owner : str
+        Object, such as ``"result"``.
+    name : str
+        Name of the attribute.
+    known : iterable of str
+        Names of its attributes.
+    elsewhere : mapping of str to str
+        Names of other objects' attributes, and how they are reached from the owner.
+    """
+    names = sorted(set(known))
+    article = "an" if owner[:1] in "AEIOaeio" else "a"
+    message = f"{article} {owner} has no {name!r}"
+    if name in elsewhere:
+        return AttributeError(f"{message}: {elsewhere[name]}")
+    if synonyms := meant(name, names):
+        return AttributeError(f"{message}: it is called {' and '.join(synonyms)}")
+    if "dataset" in names and hasattr(xr.Dataset, name):
+        return AttributeError(f"{message}: the xarray.Dataset has, {owner}.dataset.{name}")
+    if functions := public_functions(name):
+        return AttributeError(f"{message}: it is a function, {' or '.join(functions)}")
+    if near := nearest_names(name, names, 3):
+        return AttributeError(f"{message}; did you mean {' or '.join(near)}?")
+    return AttributeError(f"{message}; it has {', '.join(names)}")
+
+
+def missing_attribute(self: Any, name: str, elsewhere: Mapping[str, str] | None = None) -> NoReturn:
+    """Refuse an attribute: the ``__getattr__`` of classes without a dataset.
+
+    Raises
+    ------
+    AttributeError
+        The message has the nearest name, or where the number is.
+    """
+    kind = type(self)
+    if name.startswith("_"):
+        raise AttributeError(f"{kind.__name__!r} object has no attribute {name!r}")
+    if any(name in vars(base) for base in kind.__mro__):
+        # A property that failed has its own error.
+        object.__getattribute__(self, name)
+    public = [member for member in dir(self) if not member.startswith("_")]
+    raise attribute_error(kind.__name__, name, public, elsewhere or {})
+
+
+def dataset_attribute(self: Any, name: str) -> Any:
+    """Return a variable or an attribute of the dataset: the ``__getattr__`` of classes with one.
+
+    Raises
+    ------
+    AttributeError
+        There is none; the message has the nearest name.
+    """
+    own = name.startswith("_") or any(name in vars(base) for base in type(self).__mro__)
+    if own:
+        missing_attribute(self, name)
+    dataset = self.dataset
+    if name in dataset.variables:
+        return dataset[name]
+    if name in dataset.attrs:
+        return dataset.attrs[name]
+    dims = ", ".join(f"{dim}=-1" for dim in map(str, dataset.sizes) if dim not in PLACES)
+    last = {"at": f"its last numbers are its .dataset.isel({dims})"} if dims else {}
+    missing_attribute(self, name, last)
+
+
+def dataset_names(dataset: xr.Dataset) -> list[str]:
+    """Return the names of variables and attributes of a dataset that are identifiers."""
+    names = [str(name) for name in (*dataset.variables, *dataset.attrs)]
+    return [name for name in names if name.isidentifier() and not name.startswith("_")]

@@ -1,0 +1,50 @@
+"""Materials by their names."""
+
+from __future__ import annotations
+
+import difflib
+from typing import TYPE_CHECKING, cast
+
+from pyfret import _core
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from pyfret._core import Material
+
+__all__ = ["as_material", "find_material", "list_materials", "read_material"]
+
+
+def as_material(read: Material | str) -> Material:
+    """Return a material that the decorator of its function has found: for type checkers."""
+    return cast("Material", read)
+
+
+def find_material(name: str, materials: Mapping[str, Material]) -> Material | None:
+    """Find the material with a name or a synonym: ``"Ti6Al4V"``."""
+    if name in materials:
+        return materials[name]
+    return next((m for m in materials.values() if m.is_called(name)), None)
+
+
+def list_materials(name: str, materials: Mapping[str, Material]) -> str:
+    """Describe the names of materials where one is unknown, the nearest first."""
+    names = {n: m for m in materials.values() for n in (m.name, *m.also)}
+    near = difflib.get_close_matches(name, names, n=1, cutoff=0.6)
+    hint = f"; the nearest is {near[0]}" if near else ""
+    return f"no material {name!r}{hint}; there are {', '.join(materials)}"
+
+
+def read_material(name: str, parameter: str) -> Material:
+    """Find a material of the table that comes with the package.
+
+    Raises
+    ------
+    ValueError
+        There is no material with this name.
+    """
+    materials = {material.name: material for material in _core.materials()}
+    material = find_material(name, materials)
+    if material is None:
+        raise ValueError(f"{parameter}: {list_materials(name, materials)}")
+    return material

@@ -1,0 +1,328 @@
+"""Rules for the parameters of a function, from their types."""
+
+from __future__ import annotations
+
+import enum
+import functools
+import inspect
+import math
+import typing
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pyfret import _core
+from pyfret._util.arrays import contains_booleans, items, numbers
+from pyfret._util.hints import Named, Options, members, read_hints
+from pyfret._util.material_names import read_material
+from pyfret._util.scene_warnings import sizes, warn
+
+__all__ = ["Parameter", "Signature", "Unit", "unit_of"]
+
+
+@dataclass(frozen=True)
+class Unit:
+    """Metadata of a quantity: its row in the table of quantities, and its SI unit.
+
+    ``checked`` is False where the function has a rule of its own for the values.
+    """
+
+    quantity: str
+    si: str = ""
+    checked: bool = True
+
+    @property
+    def has_range(self) -> bool:
+        """Whether the row has a plausible range."""
+        return self.quantity in plausible_quantities()
+
+    def convert(self, value: Any) -> float:
+        """Convert a text with a unit, or a quantity of pint, to SI."""
+        return _core.quantity_in_si(self.quantity, value)
+
+    def warn(self, name: str, value: Any) -> None:
+        """Warn of the numbers that are not plausible: of lists each, of arrays the largest."""
+        doubts = (_core.doubt_quantity(self.quantity, name, size) for size in sizes(value))
+        for doubt in dict.fromkeys(doubt for doubt in doubts if doubt is not None):
+            warn(doubt)
+
+
+@functools.cache
+def plausible_quantities() -> frozenset[str]:
+    """Return the names of the rows with a plausible range."""
+    return frozenset(name for name, _, has_range in _core.quantities() if has_range)
+
+
+#: Objects that other functions return, and how to get one.
+MADE = {
+    "Scene": "a scene, as in solve(scene, path)",
+    "LoadPath": "a load path, as in solve(scene, path)",
+    "Run": "the result of a run, fret.solve(scene, path) or fret.open(path)",
+    "State": "an increment, result.at(-1)",
+    "Stress": "the stress below an increment, result.at(-1).stress()",
+    "Life": "a life, result.life(material, criterion)",
+    "OverDistances": "lives over distances, life.over_distance()",
+    "LoadFactors": "load factors, result.load_factors(s_y)",
+    "Cracks": "cracks, result.crack(x)",
+    "WearResult": "a run of wear, fret.wear.solve(scene, wear)",
+    "SideBySide": "a comparison, fret.compare({...}, scene, path)",
+    "Tabulated": "a study, fret.study.run(scene, {...}, measure=...)",
+    "Study": "a study, fret.study.run(scene, {...}, measure=...)",
+    "Material": "a material of fatigue, fatigue.Materials()['7075'], or its name",
+    "Elastic": "an elastic material, fret.material('steel') or fret.Elastic(E=210e9, nu=0.3)",
+    "Criterion": (
+        "a criterion with its numbers, fatigue.Criterion.of('findley', material) or "
+        "fatigue.Criterion.findley(k=0.3)"
+    ),
+    "Dataset": "an xarray.Dataset",
+    "DataArray": "an xarray.DataArray",
+}
+#: Types of values that are no objects.
+PLAIN = (bool, int, float, complex, str, bytes, list, tuple, dict, set, np.ndarray, np.generic)
+
+
+def is_array(hint: Any) -> bool:
+    """Whether a type is an array of numbers, or of what numpy makes one of."""
+    if typing.get_origin(hint) is Annotated:
+        hint = typing.get_args(hint)[0]
+    return bool(hint == ArrayLike or hint == NDArray[np.float64])
+
+
+def is_object(hint: Any) -> bool:
+    """Whether a type is a class of pyfret, or another one that has an entry in the list MADE."""
+    if isinstance(hint, Named) or getattr(hint, "__name__", "") in MADE:
+        return hint.__name__ in MADE
+    own = isinstance(hint, type) and hint.__module__.partition(".")[0] == "pyfret"
+    return own and not issubclass(hint, (*PLAIN, enum.Enum))
+
+
+def is_instance(value: Any, kind: type) -> bool:
+    """Whether a value is an instance of a class, or has the attributes of a protocol."""
+    if isinstance(value, PLAIN):
+        return False
+    if isinstance(kind, Named):
+        return kind.__name__ in {base.__name__ for base in type(value).__mro__}
+    if not getattr(kind, "_is_protocol", False):
+        return isinstance(value, kind)
+    names = {*vars(kind), *getattr(kind, "__annotations__", {})}
+    return all(hasattr(value, name) for name in names if not name.startswith("_"))
+
+
+def has_unit(value: Any) -> bool:
+    """Whether a value is a quantity of pint."""
+    return hasattr(value, "magnitude") and hasattr(value, "units")
+
+
+def short_repr(value: Any) -> str:
+    """Return a plain value as it is written, an object by its class."""
+    if not isinstance(value, PLAIN):
+        return f"<{type(value).__name__}>"
+    return f"{' '.join(repr(value).split()):.60}"
+
+
+class Parameter:
+    """Rules for one parameter, from its type."""
+
+    def __init__(self, name: str, hint: Any, default: Any) -> None:
+        self.name, self.default = name, default
+        arguments = members(hint)
+        kinds = [kind for kind in arguments if kind is not type(None)]
+        self.optional = len(kinds) < len(arguments) or default is None
+        self.unit = next(filter(None, map(unit_of, kinds)), None)
+        self.material = _core.Material in kinds or any(
+            _core.Material in members(part) for kind in kinds for part in typing.get_args(kind)
+        )
+        #: Classes that a material makes, such as its threshold.
+        self.laws = [kind for kind in kinds if hasattr(kind, "_of_material")]
+        self.number = number_kind(kinds)
+        self.mapping = any(typing.get_origin(kind) is Mapping for kind in kinds)
+        if self.material:
+            kinds = [kind for kind in kinds if kind is not str]
+        self.objects = kinds if kinds and all(map(is_object, kinds)) else []
+        parts = [typing.get_args(kind) for kind in kinds if len(kinds) == 1]
+        self.items = parts[0][-1] if parts and parts[0] and is_object(parts[0][-1]) else None
+
+    def read(self, value: Any) -> Any:
+        """Convert a value to SI, find a material by its name, and check the type."""
+        value = self.find(value)
+        if self.number is not None:
+            value = self.convert(value)
+        if value is None and self.number is not None and not self.optional:
+            raise TypeError(f"{self.name} = None: must be given")
+        if value is not None and value is not self.default:
+            if self.number is not None and not has_unit(value):
+                self.check_number(value)
+            self.check_object(value)
+        return items(value, self.name) if is_own_list(value) else value
+
+    def warn(self, value: Any) -> None:
+        """Warn of numbers outside the plausible range."""
+        if value is not None and value is not self.default and self.unit and self.unit.has_range:
+            self.unit.warn(self.name, value)
+
+    def find(self, value: Any) -> Any:
+        """Find a material by its name, and make what is meant of the material."""
+        if self.laws and isinstance(value, str | _core.Material):
+            material = read_material(value, self.name) if isinstance(value, str) else value
+            return self.laws[0].of(material)
+        if not self.material:
+            return value
+        if type(value) in (list, tuple):
+            return type(value)(map(self.find, value))
+        number = self.number is not None and isinstance(value, str) and value[:1].isdigit()
+        return read_material(value, self.name) if isinstance(value, str) and not number else value
+
+    def convert(self, value: Any) -> Any:
+        """Convert a text with a unit, or a quantity of pint, to SI."""
+        if self.number in ("array", "several", "other") and type(value) in (list, tuple):
+            if any(isinstance(item, str) or has_unit(item) for item in value):
+                return type(value)(map(self.convert, value))
+            return value
+        text = isinstance(value, str) and any(map(str.isdigit, value))
+        if not (text and self.number not in ("text", "count")) and not has_unit(value):
+            return value
+        try:
+            named = self.unit is not None and self.unit.quantity
+            return self.unit.convert(value) if named else _core.si_of("", value)  # type: ignore[union-attr]
+        except (TypeError, ValueError) as refused:
+            raise type(refused)(f"{self.name} = {refused}") from None
+
+    def check_number(self, value: Any) -> None:
+        """Refuse a value that is no number, or a missing one.
+
+        Raises
+        ------
+        TypeError
+            It is of another type.
+        ValueError
+            It is not a number, NaN.
+        """
+        name, kind = self.name, self.number
+        if kind == "array":
+            numbers(value, name)
+            return
+        if contains_booleans(value):
+            raise TypeError(
+                f"{name} = {value!r:.60}: must be a number, which True and False are not"
+            )
+        if isinstance(value, complex | np.complexfloating) or value is np.ma.masked:
+            raise TypeError(f"{name} = {value!r:.60}: must be a real number")
+        if isinstance(value, float | np.floating) and math.isnan(value):
+            raise ValueError(f"{name} = nan: must be a number")
+        if kind == "several" and isinstance(value, Sequence | np.ndarray):
+            found = value if isinstance(value, np.ndarray) else items(value, name)
+            numbers([item for item in found if item is not None], name)
+        if kind != "text" and isinstance(value, str | bytes):
+            raise TypeError(f"{name} = {value!r:.60}: must be a number, not a text")
+        single = np.ndim(value) == 0
+        if kind == "count" and not (single and hasattr(value, "__index__")):
+            raise TypeError(f"{name} = {value!r:.60}: must be a whole number")
+        if kind == "number" and not (
+            single and (hasattr(value, "__float__") or hasattr(value, "__index__"))
+        ):
+            raise TypeError(f"{name} = {' '.join(repr(value).split()):.60}: must be a number")
+
+    def check_object(self, value: Any) -> None:
+        """Refuse an object of another class, with how one of the right class is made.
+
+        Raises
+        ------
+        TypeError
+            It is of another class.
+        """
+        name = self.name
+        if self.mapping and not isinstance(value, Mapping):
+            raise TypeError(f"{name} = {short_repr(value)}: must be a mapping of names")
+        if self.items is not None and isinstance(value, str | bytes):
+            several = f"several of the class {self.items.__name__}"
+            raise TypeError(f"{name} = {short_repr(value)}: must be {several}")
+        inner = value.items() if self.mapping and self.items is not None else ()
+        for key, item in inner:
+            Parameter(f"{name}[{key!r}]", self.items, inspect.Parameter.empty).check_object(item)
+        if not self.objects or any(is_instance(value, kind) for kind in self.objects):
+            return
+        names = [kind.__name__ for kind in self.objects]
+        wanted = " or ".join(MADE.get(kind, f"of the class {kind}") for kind in names)
+        hint = ""
+        if "Dataset" in names and hasattr(value, "dataset"):
+            # A method with the name of the parameter makes its table.
+            makes = callable(getattr(value, name, None))
+            hint = f", its .{name}()" if makes else ", its .dataset"
+        raise TypeError(f"{name} = {short_repr(value)}: must be {wanted}{hint}")
+
+
+def unit_of(hint: Any) -> Unit | None:
+    """Return the unit of a type, or of the items of a sequence."""
+    if typing.get_origin(hint) is Annotated:
+        return next((data for data in hint.__metadata__ if isinstance(data, Unit)), None)
+    inner = (unit_of(member) for part in typing.get_args(hint) for member in members(part))
+    return next(filter(None, inner), None)
+
+
+#: Types for which True is a value, or whose numbers lie deeper.
+UNCHECKED = (bool, Any, Callable, Mapping, dict)
+
+
+def number_kind(kinds: list[Any]) -> str | None:
+    """Return what a parameter takes: a count, a number, an array, several, a text, other things."""
+    leaves = set(map(leaf, kinds))
+    if "unchecked" in leaves or not leaves & {"number", "count", "array", "several", "counts"}:
+        return None
+    if len(leaves) == 1:
+        (only,) = leaves
+        return "other" if only == "counts" else only
+    return next((kind for kind in ("text", "several") if kind in leaves), "other")
+
+
+def leaf(hint: Any) -> str:
+    """Classify a member of a union."""
+    origin, arguments = typing.get_origin(hint), typing.get_args(hint)
+    if hint in UNCHECKED or origin in UNCHECKED:
+        return "unchecked"
+    if origin is Annotated:
+        unit = unit_of(hint)
+        if unit is None or not unit.checked:
+            return "unchecked"
+        return "array" if is_array(hint) else "number"
+    if hint == NDArray[np.float64]:
+        return "array"
+    if hint is str or origin is Literal:
+        return "text"
+    if hint in (float, int):
+        return "number" if hint is float else "count"
+    inner = {leaf(member) for part in arguments for member in members(part)}
+    if "number" in inner:
+        return "several" if origin is Sequence else "counts"
+    return "counts" if "count" in inner else "object"
+
+
+class Signature:
+    """Names and rules of the parameters of a function, or of the constructor of a dataclass."""
+
+    def __init__(self, call: Callable[..., Any], dataclass: type | None = None) -> None:
+        self.parameters = inspect.signature(call).parameters
+        hints = read_hints(dataclass or call, globals())
+        self.names = list(self.parameters)
+        self.keywords: list[str] | None = []
+        self.rules = {}
+        for name, parameter in self.parameters.items():
+            if parameter.kind is parameter.VAR_KEYWORD:
+                options, *marks = typing.get_args(hints.get(name)) or (None,)
+                known = list(options.__annotations__) if Options in marks else None
+                self.keywords = None if known is None else [*(self.keywords or ()), *known]
+            elif parameter.kind is not parameter.VAR_POSITIONAL and name in hints:
+                self.rules[name] = Parameter(name, hints[name], parameter.default)
+            if parameter.kind in NAMED and name != "self" and self.keywords is not None:
+                self.keywords.append(name)
+
+
+#: Parameters that are given by name.
+NAMED = (inspect.Parameter.POSITIONAL_OR_KEYWORD, inspect.Parameter.KEYWORD_ONLY)
+
+
+def is_own_list(value: Any) -> bool:
+    """Whether a value is of a class derived from list, whose length is not trusted."""
+    return isinstance(value, list) and type(value) is not list
