@@ -371,7 +371,7 @@ def test_a_coating_that_is_worn_through_has_its_cycles() -> None:
     last = float(run.dataset.depth2[-1])
     assert run.cycles_to(depth=last * (1.0 + 5e-10)) == pytest.approx(float(run.cycles[-1]))
     assert run.cycles_to(depth=1.001 * last).beyond == float(run.cycles[-1])
-    with pytest.raises(AttributeError, match=r"worn\.dataset\.isel\(jump=-1, .*block=-1"):
+    with pytest.raises(AttributeError, match=r"its \.dataset\.isel\(jump=-1, .*block=-1"):
         run.at(-1)
     # Every event has the error of its jump, and is told with it.
     ends = run.dataset.cycles.values
