@@ -19,7 +19,7 @@ MATERIAL = re.compile(r"\b(Materials?|Conductors)\b")
 
 def takes_a_material() -> Iterator[tuple[str, Callable[..., Any], str]]:
     """All public functions and constructors that take a material: name, call, parameter."""
-    modules = [of for of in vars(fret).values() if isinstance(of, ModuleType)]
+    modules = [of for name in fret.__all__ if isinstance(of := getattr(fret, name), ModuleType)]
     for module in modules:
         if module.__name__.partition(".")[0] != "pyfret":
             continue

@@ -31,17 +31,13 @@ from typing import TYPE_CHECKING, Any
 
 from pyfret import (
     errors,
-    experiments,
-    export,
     fatigue,
-    fit,
     fracture,
     heat,
     kernels,
     reference,
     settings,
     shapes,
-    study,
     subsurface,
     wear,
 )
@@ -73,20 +69,22 @@ from pyfret._core import __version__ as __version__
 from pyfret._util.attributes import PUBLIC_MODULES
 from pyfret._util.figures import register_figures
 from pyfret._util.names import OTHER_NAMES, listing
-from pyfret.citation import cite
 from pyfret.grids import offer as offer_grids
 from pyfret.materials import material
-from pyfret.opening import open
 from pyfret.result import Result
 from pyfret.scene.surfaces import read_surface
 from pyfret.settings import Settings
 from pyfret.snapshot import Snapshot
 from pyfret.solution import march, resume, solve
-from pyfret.study.compare import compare
-from pyfret.verification import verify
 
 if TYPE_CHECKING:
-    from pyfret import plot
+    from collections.abc import Callable
+
+    from pyfret import experiments, export, fit, plot, study
+    from pyfret.citation import cite
+    from pyfret.opening import open
+    from pyfret.study.compare import compare
+    from pyfret.verification import verify
     from pyfret.what_if.page import explore
 
 __all__ = [
@@ -157,14 +155,26 @@ def _load_figures() -> ModuleType:
 
 
 register_figures(_load_figures)
+#: Modules and functions that are imported at their first use.
+_LATER: dict[str, Callable[[], Any]] = {
+    "cite": lambda: import_module("pyfret.citation").cite,
+    "compare": lambda: import_module("pyfret.study.compare").compare,
+    "experiments": lambda: import_module("pyfret.experiments"),
+    "explore": lambda: import_module("pyfret.what_if.page").explore,
+    "export": lambda: import_module("pyfret.export"),
+    "fit": lambda: import_module("pyfret.fit"),
+    "open": lambda: import_module("pyfret.opening").open,
+    "plot": _load_figures,
+    "study": lambda: import_module("pyfret.study"),
+    "verify": lambda: import_module("pyfret.verification").verify,
+}
 
 
 def __getattr__(name: str) -> Any:
-    """Import the figures, and with them matplotlib, when they are first asked for."""
-    if name == "plot":
-        return _load_figures()
-    if name == "explore":
-        return import_module("pyfret.what_if.page").explore
+    """Import a module or a function at its first use, the figures with matplotlib."""
+    if name in _LATER:
+        globals()[name] = _LATER[name]()
+        return globals()[name]
     meant = OTHER_NAMES.get(name)
     hint = f"; it is called pyfret.{meant}" if meant else ""
     raise AttributeError(f"module 'pyfret' has no attribute {name!r}{hint}")
