@@ -2,29 +2,46 @@
 
 from __future__ import annotations
 
-import gzip
-import io
-import warnings
+import re
 from os import PathLike, fspath
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 import numpy as np
 
-from pyfret._core import StoreError, SurfaceMap, read_bytes, unit_of
+from pyfret._core import StoreError, SurfaceMap, read_bytes
 from pyfret._util.scene_warnings import warn
 from pyfret.quantities import Length, quantities
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+from pyfret.scene.instruments import read_by_surface_topography
+from pyfret.scene.reading import Reading, check_sizes, remove_mean, summarize
+from pyfret.scene.standard_maps import (
+    HAS_LIBRARIES,
+    is_sdf,
+    is_x3p,
+    must_be_first_revision,
+    read_sdf,
+    read_x3p,
+)
 
 __all__ = ["read_surface"]
 
 #: Endings of files of numbers alone. What they hold decides: a binary one is an instrument's.
 PLAIN = frozenset((".npy", ".csv", ".txt", ".dat", ".tsv", ".asc", ".xyz", ".prn", ".grd", ""))
-#: Bytes at the beginning of a file that tell text from other content.
+#: Bytes at the beginning of a file by which its format is recognized.
 BEGINNING = 4096
+#: Heads of the texts of instruments, whose lines run along x: SPIP and Nova, Wyko, WSxM, Attocube.
+HEADS = re.compile(
+    rb"^[#;\s]*(?:File Format\s*=\s*ASCII|Wyko ASCII Data File Format|WSxM file copyright"
+    rb"|x-pixels\b|x-length\b|NX\s*=\s*\d|pixel size\s*=)",
+    re.MULTILINE | re.IGNORECASE,
+)
+#: Lines of a head that state sizes, in words of other programs.
+SIZES = re.compile(
+    rb"^[#;%\s\"]*(?=[A-Za-z])[\w ./()-]*?"
+    rb"(?:pixel|resolution|scan.?size|[xy].?size|calibration|pitch"
+    rb"|spacing|increment|step)[\w ./()-]*\"?\s*[:=,;\t]+\s*\"?[-+\d.]+.*$",
+    re.MULTILINE | re.IGNORECASE,
+)
 
 
 @quantities
@@ -40,14 +57,16 @@ def read_surface(
     """Read a measured surface: X3P, SDF, OPD and all other formats of SurfaceTopography, and text.
 
     ``.npy`` arrays and text (tables, points x y z in any order, Gwyddion's export, ESRI grids) are
-    read as :meth:`SurfaceMap.from_file` reads them; `detrend` takes nothing off these.
+    read as :meth:`SurfaceMap.from_file` reads them; `detrend` takes nothing off these. The content
+    of the file decides, not its ending. Points, pitch, size and S_q are printed on standard error.
 
     Parameters
     ----------
     path : path
         File of the instrument; its units are converted to metres.
     spacing : float or (float, float), optional
-        Distance of the points along x and y [m], where the file does not say it.
+        Distance of the points along x and y [m], where the file does not state it, or states one
+        that no instrument has.
     unit : str, optional
         Unit of plain numbers, such as "um" (default: that of the file). It holds for a list of
         points, x and y too, and for an instrument's heights and lengths without a unit.
@@ -60,175 +79,123 @@ def read_surface(
         lines are taken off the edges. "fill": the mean of the neighbours, where at most a tenth of
         the points is missing and no hole is wider than ten.
     detrend : str
-        What SurfaceTopography takes off: ``center`` the mean, ``height`` the mean plane,
-        ``curvature`` a paraboloid.
+        ``center`` subtracts the mean, ``height`` the mean plane, ``curvature`` a paraboloid.
+
+    Warns
+    -----
+    SceneWarning
+        If something was assumed or chosen: the first of several channels, a unit or a direction
+        that the file does not state.
 
     Raises
     ------
     ImportError
         If the package SurfaceTopography is missing: ``pip install "fretting[surfaces]"``.
     StoreError
+        If a side of the map is shorter than 0.1 um or longer than 0.5 m: its unit is another one.
         If the file cannot be read, holds a profile instead of a map, or has points that were not
         measured. If it has several channels, or leaves something open. The message names the
         argument to give.
     """
-    place = Path(path)
-    if place.suffix.lower() in PLAIN and (not place.is_file() or is_plain(place)):
-        column = None if channel is None else str(channel)
-        return SurfaceMap.from_file(
-            path, spacing=spacing, unit=unit, channel=column, missing=missing
-        )
+    start = beginning(path)
+    source = Path(path)
     try:
-        from SurfaceTopography.IO import open_topography
-    except ImportError as absent:
-        message = (
-            'reading instrument files needs SurfaceTopography: pip install "fretting[surfaces]"'
-        )
-        raise ImportError(message) from absent
-    if not read_bytes(place):
-        raise StoreError(f"{fspath(path)}: is empty")
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            reader = open_topography(opened(place))
-            must_be_whole(place, reader)
-            chosen = chosen_channel(reader, channel)
-            surface = measured(reader, chosen, spacing, unit)
-            if surface.dim == 2:
-                surface = surface.to_unit("m").detrend(detrend)
+        if is_text(source, start) and not is_sdf(start) and not HEADS.search(start):
+            return read_plain(source, start, spacing, unit, channel, missing)
+        if not start:
+            raise StoreError("is empty")
+        reading = read_map(source, start, spacing, unit, channel, detrend)
+        check_sizes(reading.heights.shape, reading.spacing)
     except StoreError as error:
-        raise StoreError(f"{fspath(path)}: {error}") from error.__cause__
-    except Exception as error:
-        raise StoreError(f"{fspath(path)}: {why_not(place, error)}") from error
-    if surface.dim != 2:
-        raise StoreError(
-            f"{fspath(path)}: holds a profile of {surface.nb_grid_pts[0]} points, not a map of "
-            "heights over the plane. In plane strain give its heights as an array of shape (n, 1), "
-            "SurfaceMap(heights.reshape(-1, 1), spacing=(2e-6, 1.0))"
-        )
-    heights: NDArray[np.float64] = np.ma.filled(
-        np.ma.asarray(surface.heights(), dtype=float), np.nan
-    )
-    x, y = surface.pixel_size
-    pitch = (float(x), float(y))
+        text = str(error)
+        named = text if text.startswith(fspath(path)) else f"{fspath(path)}: {text}"
+        raise StoreError(named) from error.__cause__
+    for note in reading.notes:
+        warn(f"{fspath(path)}: {note}")
     try:
-        return SurfaceMap(np.ascontiguousarray(heights), spacing=pitch, missing=missing)
+        surface = SurfaceMap(reading.heights, spacing=reading.spacing, missing=missing)
     except ValueError as error:
         raise StoreError(f"{fspath(path)}: {error}") from error
+    # The values of a surface are copied when they are asked for: 134 MB of 4096 x 4096 points.
+    shape = surface.values.shape if missing == "crop" else reading.heights.shape
+    summarize(path, shape, reading.spacing, surface.rms, reading.kind)
+    return surface
 
 
-def opened(path: Path) -> str | io.BytesIO:
-    """What SurfaceTopography opens: the file, or its text under the name that the standard has now.
+def read_map(
+    path: Path,
+    start: bytes,
+    spacing: Any,
+    unit: str | None,
+    channel: str | int | None,
+    detrend: str,
+) -> Reading:
+    """Read the map of an instrument by the library of its format."""
+    is_standard = is_x3p(path, start) or is_sdf(start)
+    if is_standard and not HAS_LIBRARIES:
+        must_be_first_revision(path, start)
+    if not is_standard or not HAS_LIBRARIES:
+        return read_by_surface_topography(path, spacing, unit, channel, detrend)
+    read = read_sdf if is_sdf(start) else read_x3p
+    reading = read(path, unit, spacing, channel)
+    if detrend == "center":
+        remove_mean(reading.heights)
+    else:
+        subtract_trend(reading, detrend)
+    return reading
 
-    ISO 25178-71 took over the format of EUNA 15178, whose text begins with aBCR-1.0; the scales are
-    in m in both.
-    """
-    content = read_bytes(path)
-    if not content.startswith(b"aBCR-1.0"):
-        return fspath(path)
-    return io.BytesIO(content.replace(b"aBCR-1.0", b"aISO-1.0", 1))
+
+def subtract_trend(reading: Reading, detrend: str) -> None:
+    """Subtract a plane or a paraboloid, as SurfaceTopography names it."""
+    from SurfaceTopography import Topography
+
+    sizes = tuple(n * d for n, d in zip(reading.heights.shape, reading.spacing, strict=True))
+    surface = Topography(np.ma.masked_invalid(reading.heights), sizes, unit="m")
+    heights: Any = np.ma.asarray(surface.detrend(detrend).heights(), dtype=float)
+    reading.heights = heights.filled(np.nan)
 
 
-def must_be_whole(path: Path, reader: Any) -> None:
-    """Refuse a text that begins as ISO 25178-71 has it and that only another reader takes."""
-    with path.open("rb") as file:
-        start = file.read(8)
-    if start[1:5] in (b"ISO-", b"BCR-") and reader.format() != "sdf":
-        raise StoreError(
-            f"begins as {start.decode('latin-1')}, and its head or its points are not those of "
-            "ISO 25178-71 without compression"
-        )
+def read_plain(
+    path: Path,
+    start: bytes,
+    spacing: Any,
+    unit: str | None,
+    channel: str | int | None,
+    missing: Literal["refuse", "crop", "fill"],
+) -> SurfaceMap:
+    """Read an array or text without the head of an instrument."""
+    column = None if channel is None else str(channel)
+    surface = SurfaceMap.from_file(
+        path, spacing=spacing, unit=unit, channel=column, missing=missing
+    )
+    shape = surface.values.shape
+    check_sizes(shape, surface.spacing)
+    line = SIZES.search(start)
+    if line is not None and spacing is not None:
+        text = " ".join(line[0].decode("latin-1").split())
+        warn(f"{path}: a line of the head is not read: {text[:100]!r}. Check spacing= against it")
+    kind = "numbers" if path.suffix.lower() == ".npy" else "text"
+    summarize(path, shape, surface.spacing, surface.rms, kind)
+    return surface
 
 
-def is_plain(path: Path) -> bool:
-    """Whether a file holds text or a NumPy array."""
-    with path.open("rb") as file:
-        start = file.read(BEGINNING)
+def beginning(path: str | PathLike[str]) -> bytes:
+    """Return the first bytes of a file; a StoreError for a folder or a device."""
+    source = Path(path)
+    if not source.is_file():
+        # The reason by the reader that refuses pipes and devices.
+        return read_bytes(source)[:BEGINNING]
+    with source.open("rb") as file:
+        return file.read(BEGINNING)
+
+
+def is_text(path: Path, start: bytes) -> bool:
+    """Check that a file of an ending of plain numbers holds text or a NumPy array."""
+    if path.suffix.lower() not in PLAIN:
+        return False
     if start.startswith((b"\x93NUMPY", b"\xff\xfe", b"\xfe\xff")):
         return True
     # UTF-16 without a mark has a zero in every second place.
     wide = len(start) > 3 and any(not any(start[n::2]) for n in (0, 1))
     text = not any(b < 9 or 13 < b < 32 for b in start.rstrip(b"\x1a"))
     return text or wide
-
-
-def chosen_channel(reader: Any, channel: str | int | None) -> int:
-    """The index of a channel of heights; a warning names them all where it is not said which."""
-    channels = list(reader.channels)
-    names = [str(of.name) for of in channels]
-    heights = [n for n, of in enumerate(channels) if is_height(of)] or list(range(len(channels)))
-    listed = ", ".join(f"{n} ({names[n]!r})" for n in heights)
-    if not channels:
-        raise StoreError("holds no channel of heights")
-    if channel is None:
-        if len(heights) == 1:
-            return heights[0]
-        warn(
-            f"the file has {len(heights)} channels: {listed}; the first is read, another by "
-            f"channel={names[heights[-1]]!r}",
-        )
-        return heights[0]
-    if isinstance(channel, str):
-        found = [n for n, name in enumerate(names) if name == channel]
-        if len(found) == 1:
-            return found[0]
-        how = "none" if not found else f"{len(found)} channels"
-        raise StoreError(
-            f"{how} of that name, {channel!r}: there are {listed}; an index tells them"
-        )
-    if not 0 <= channel < len(channels):
-        raise StoreError(f"has no channel {channel}: there are {listed}")
-    return channel
-
-
-def is_height(channel: Any) -> bool:
-    """Whether a channel holds heights; one without a kind in its file counts as such."""
-    return bool(getattr(channel, "is_height_channel", True))
-
-
-def measured(
-    reader: Any,
-    channel: int,
-    spacing: Length | tuple[Length, Length] | None,
-    unit: str | None,
-) -> Any:
-    """The surface of a channel in a unit of length."""
-    of = reader.channels[channel]
-    options: dict[str, Any] = {}
-    if of.unit is not None and unit is not None and unit != of.unit:
-        raise StoreError(f"says that its unit is {of.unit}: leave unit out")
-    if of.unit is None and unit is None:
-        raise StoreError('does not say its unit: give unit="um", or another')
-    if of.unit is None:
-        options["unit"] = unit
-    if of.physical_sizes is not None and spacing is not None:
-        raise StoreError("says its spacing itself: leave spacing out")
-    if of.physical_sizes is None:
-        if spacing is None:
-            raise StoreError("does not say the distance of its points: give spacing=2e-6, in m")
-        kind, size = unit_of(str(of.unit or unit)) or ("", 1.0)
-        if kind != "length":
-            raise StoreError(f"unit {of.unit or unit!r}: must be a unit of length, such as um")
-        pitch = np.broadcast_to(np.asarray(spacing, dtype=float) / size, len(of.nb_grid_pts))
-        sizes = zip(of.nb_grid_pts, pitch, strict=True)
-        options["physical_sizes"] = tuple(float(n * d) for n, d in sizes)
-    return reader.topography(channel_index=channel, **options)
-
-
-def why_not(path: Path, error: Exception) -> str:
-    """Why a file could not be read, in one sentence."""
-    if path.suffix.lower() == ".gz":
-        try:
-            with gzip.open(path) as file:
-                file.read(1)
-        except (OSError, EOFError):
-            return "is no file of an instrument that SurfaceTopography reads"
-    said = " ".join(str(error).split())
-    if type(error).__name__ == "CannotDetectFileFormat" or not said:
-        size = path.stat().st_size
-        return (
-            "is empty"
-            if size == 0
-            else "is no file of an instrument that SurfaceTopography reads, or is damaged"
-        )
-    return f"cannot be read: {type(error).__name__}: {said[:300]}"

@@ -1,0 +1,167 @@
+"""Maps of instruments: sizes, heads, channels and editions."""
+
+from __future__ import annotations
+
+import struct
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import pyfret as fret
+from pyfret.scene.reading import check_sizes, remove_mean
+
+StoreError = fret.errors.StoreError
+CORPUS = Path(__file__).parent / "data" / "corpus"
+HEIGHTS = 1e-6 * np.add.outer(np.arange(5.0), 10.0 * np.arange(3))
+
+
+@pytest.mark.parametrize(
+    ("count", "step", "fits"),
+    [
+        (512, 0.3125, False),
+        (512, 3.125e-7, True),
+        (4, 1e-8, False),
+        (4, 0.2, False),
+        (1, 1.0, True),
+    ],
+)
+def test_sizes_of_maps_have_a_range(count: int, step: float, *, fits: bool) -> None:
+    for shape, spacing in (((count, 300), (step, 1e-6)), ((300, count), (1e-6, step))):
+        if fits:
+            check_sizes(shape, spacing)
+        else:
+            with pytest.raises(StoreError, match=r"100 nm to 500 mm"):
+                check_sizes(shape, spacing)
+
+
+def nanofocus(path: Path) -> None:
+    """Write a .nms of 32 x 32 points, 312.5 nm apart, as its instrument does."""
+    nms = pytest.importorskip("SurfaceTopography.IO.NMS")
+    content = bytearray(nms._HEADER_SIZE)
+    struct.pack_into("<2d", content, nms._OFFSET_Z, 2.7, 6.0)
+    struct.pack_into("<2I2d", content, nms._OFFSET_POINTS, 32, 32, 312.5, 312.5)
+    content += np.random.default_rng(0).integers(0, 65534, 1024).astype("<u2").tobytes()
+    path.write_bytes(bytes(content))
+
+
+def test_a_map_as_wide_as_a_house_is_refused_until_its_pitch_is_given(tmp_path: Path) -> None:
+    nanofocus(tmp_path / "map.nms")
+    with pytest.raises(StoreError, match=r"10 m long in x.*give spacing"):
+        fret.read_surface(tmp_path / "map.nms")
+    with pytest.warns(fret.errors.SceneWarning, match="pitch of 312.5 mm is not used"):
+        surface = fret.read_surface(tmp_path / "map.nms", spacing=312.5e-9)
+    assert surface.spacing == (312.5e-9, 312.5e-9)
+    # Without its ending no reader takes it by its size.
+    (tmp_path / "map.nms").rename(tmp_path / "map.bin")
+    with pytest.raises(StoreError, match="no file of an instrument"):
+        fret.read_surface(tmp_path / "map.bin")
+
+
+def test_numbers_with_a_spacing_in_micrometres_are_refused(tmp_path: Path) -> None:
+    np.save(tmp_path / "z.npy", np.zeros((4, 3)))
+    with pytest.raises(StoreError, match="8 m long"):
+        fret.read_surface(tmp_path / "z.npy", spacing=2.0)
+
+
+def test_a_file_of_two_n_squared_bytes_is_no_terrain(tmp_path: Path) -> None:
+    for size in (2 * 23 * 23, 2 * 100 * 100):
+        (tmp_path / "map.bin").write_bytes(b"\x01\x02" * (size // 2))
+        with pytest.raises(StoreError, match="no file of an instrument"):
+            fret.read_surface(tmp_path / "map.bin", unit="um", spacing=1e-6)
+
+
+def test_an_x3p_that_is_padded_or_renamed_is_read(tmp_path: Path) -> None:
+    content = (CORPUS / "x3pio_dam1.x3p").read_bytes()
+    (tmp_path / "map.bin").write_bytes(content)
+    surface = fret.read_surface(tmp_path / "map.bin")
+    np.testing.assert_allclose(
+        surface.values - surface.values.mean(), HEIGHTS - HEIGHTS.mean(), atol=1e-15
+    )
+
+
+@pytest.mark.parametrize("kind", ["SPIP", "Nova", "Attocube"])
+def test_heads_of_instruments_in_text_are_read(tmp_path: Path, kind: str) -> None:
+    """Their lines run along x."""
+    heads = {
+        "SPIP": "# File Format = ASCII\n# x-pixels = 5\n# y-pixels = 3\n# x-length = 10000\n"
+        "# y-length = 3000\n# Bit2nm = 1.0\n# Start of Data:\n",
+        "Nova": "File Format = ASCII\nNX = 5\nNY = 3\nScale X = 2000\nScale Y = 1000\n"
+        "Unit X = nm\nUnit Y = nm\nUnit Data = nm\nStart of Data :\n",
+        "Attocube": "# x-pixels: 5\n# y-pixels: 3\n# x-length: 10000\n# y-length: 3000\n"
+        "# x-unit: nm\n# y-unit: nm\n# z-unit: nm\n",
+    }
+    lines = "\n".join("\t".join(f"{1e9 * v:.0f}" for v in row) for row in HEIGHTS.T)
+    for ending in ("asc", "txt"):
+        path = tmp_path / f"map.{ending}"
+        path.write_text(heads[kind] + lines + "\n")
+        surface = fret.read_surface(path)
+        assert surface.values.shape == (5, 3)
+        np.testing.assert_allclose(surface.spacing, (2e-6, 1e-6))
+        np.testing.assert_allclose(
+            surface.values - surface.values.mean(), HEIGHTS - HEIGHTS.mean(), atol=1e-12
+        )
+        with pytest.raises(StoreError, match=r"leave (spacing|unit) out"):
+            fret.read_surface(path, spacing=(2e-6, 1e-6), unit="nm")
+
+
+def test_a_head_that_is_not_read_is_doubted(tmp_path: Path) -> None:
+    table = "\n".join(" ".join(f"{1e6 * v:g}" for v in row) for row in HEIGHTS)
+    path = tmp_path / "map.txt"
+    path.write_text(f"# scan size x: 10 um\n{table}\n")
+    with pytest.warns(fret.errors.SceneWarning, match=r"not read: '# scan size x: 10 um'"):
+        fret.read_surface(path, unit="um", spacing=(2e-6, 1e-6))
+    path.write_text(f"# a comment\n{table}\n")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", fret.errors.SceneWarning)
+        fret.read_surface(path, unit="um", spacing=(2e-6, 1e-6))
+
+
+@pytest.mark.parametrize("name", ["x3pio_layers.x3p"])
+def test_the_choice_of_a_channel_is_warned_of(name: str) -> None:
+    with pytest.warns(fret.errors.SceneWarning, match="layer 0, layer 1: the first is read"):
+        fret.read_surface(CORPUS / name)
+    for channel in (1, "layer 1"):
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", fret.errors.SceneWarning)
+            surface = fret.read_surface(CORPUS / name, channel=channel)
+        assert surface.peak_to_valley == pytest.approx(48e-6)
+    with pytest.raises(StoreError, match="has no channel 2"):
+        fret.read_surface(CORPUS / name, channel=2)
+
+
+@pytest.mark.parametrize("name", ["x3pio_dam1.x3p", "sdfio_iso_2_0_binary.sdf", "gwyddion.gwy"])
+def test_trends_are_subtracted_alike_by_all_readers(name: str) -> None:
+    """The heights are a plane."""
+    surface = fret.read_surface(CORPUS / name, detrend="height")
+    assert surface.peak_to_valley < 1e-12
+    assert fret.read_surface(CORPUS / name).values.mean() == pytest.approx(0.0, abs=1e-18)
+
+
+def test_the_mean_is_over_measured_points() -> None:
+    heights = np.arange(12.0).reshape(4, 3)
+    heights[2, 1] = np.nan
+    remove_mean(heights)
+    assert np.nanmean(heights) == pytest.approx(0.0, abs=1e-15)
+    assert np.isnan(heights).sum() == 1
+
+
+def test_an_unknown_revision_is_refused_by_name(tmp_path: Path) -> None:
+    import zipfile
+
+    with zipfile.ZipFile(CORPUS / "x3pio_dam1.x3p") as archive:
+        members = {name: archive.read(name) for name in archive.namelist()}
+    members["main.xml"] = members["main.xml"].replace(b"ISO25178-72:2017/DAM1", b"ISO25178-72:2040")
+    with zipfile.ZipFile(tmp_path / "map.x3p", "w") as archive:
+        for name, content in members.items():
+            archive.writestr(name, content)
+    with pytest.raises(StoreError, match="2040"):
+        fret.read_surface(tmp_path / "map.x3p")
+
+
+def test_an_old_release_of_the_library_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Releases before 1.27.1 read undefined points of a .sur as heights."""
+    monkeypatch.setattr("pyfret.scene.instruments.version", lambda _: "1.25.0")
+    with pytest.raises(StoreError, match=r"1\.27\.1 or later, and 1\.25\.0 is installed"):
+        fret.read_surface(CORPUS / "gwyddion.gwy")
