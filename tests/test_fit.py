@@ -148,8 +148,8 @@ def test_files_that_are_no_loops_are_refused(tmp_path: Path, text: str, told: st
 def test_separators_and_units_are_seen(tmp_path: Path, head: str) -> None:
     file = tmp_path / "table.txt"
     file.write_text(head, encoding="utf-8")
-    table = fret.fit.tables.read(file)
-    assert np.allclose(table.blocks[0], [[-1e-3, -2e3]])
+    table = fret.fit.tables.read_table(file)
+    assert np.allclose(table.numbers(0, 1), [[-1e-3, -2e3]])
     assert table.names == ("d", "T")
 
 

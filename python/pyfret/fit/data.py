@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -11,7 +12,9 @@ import numpy as np
 from pyfret import _core
 from pyfret._util.arrays import together
 from pyfret._util.holds_arrays import HoldsArrays
-from pyfret.fit import tables
+from pyfret._util.numbers import length
+from pyfret.fit.recorders import read_columns
+from pyfret.fit.turns import find_turns, remove_drift, turns_between
 from pyfret.quantities import (
     Force,
     Forces,
@@ -31,6 +34,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from pyfret.fit.columns import Columns
 
 __all__ = [
     "Data",
@@ -47,12 +51,6 @@ __all__ = [
 
 Data: TypeAlias = "Loops | Indentation | Scar | Lives"
 
-#: Part of the range of the shift that a turn has to go back to count as one.
-TURN = 0.3
-#: Points on each side of a turn whose parabolas meet there: least, most, over those of a branch.
-BESIDE, MOST_BESIDE, OF_BRANCH = 4, 12, 0.1
-#: Part of the way from the outermost point to a turn that is its error.
-OF_WAY = 0.25
 #: Part of a branch at its end whose slope is that of sliding, and the largest slope there, over
 #: that of the flank, of a loop that slides: at 0.9 mu W a ball in partial slip has 0.46.
 END, SLIDING = 0.25, 0.3
@@ -130,11 +128,12 @@ class Loops(HoldsArrays):
         noise: float | None = None,
         tilt: bool | None = None,
         drift: bool | None = None,
+        detrend: bool = False,
     ) -> Loops:
         """Loops of points in the order of time; what is before the first turn is left out.
 
-        Points with a missing value, masked or NaN, are left out. ``tilt`` and ``drift`` as of
-        :func:`loops`.
+        Points with a missing value, masked or NaN, are left out. ``tilt``, ``drift`` and
+        ``detrend`` as in :func:`read_loops`.
 
         Raises
         ------
@@ -142,14 +141,17 @@ class Loops(HoldsArrays):
             There is no closed loop.
         """
         shift, force = together(delta=delta, T=T, holes=True)
-        turns = turning(shift)
+        turns = find_turns(shift)
+        if detrend:
+            shift, force, turns = _without_drift(shift, force, turns)
+            drift = False if drift is None else drift
         if len(turns) < 2:
             raise ValueError(
                 "the shift must turn twice at least: a loop is a way there and a way back"
             )
         # One cycle may end where it began without a turn of its own.
         closed = len(turns) == 2
-        order = np.arange(shift.size) if closed else np.arange(turns[0], turns[-1] + 1)
+        order = slice(0, shift.size) if closed else slice(turns[0], turns[-1] + 1)
         down, cycle = np.zeros(shift.size, bool), np.zeros(shift.size, np.int64)
         for n, (first, last) in enumerate(pairwise(turns)):
             down[first : last + 1] = shift[last] < shift[first]
@@ -157,17 +159,33 @@ class Loops(HoldsArrays):
         if closed:
             rest = np.r_[0 : turns[0], turns[1] + 1 : shift.size]
             down[rest] = shift[turns[1]] > shift[turns[0]]
+        # The first and the last whole cycle: half of one has another middle.
+        begin = order.start
+        ends = [slice(0, None)] * 2
+        if len(turns) > 3:
+            ends = [slice(0, turns[2] - begin + 1), slice(turns[-3] - begin, None)]
         middles = [
-            [
-                0.5 * (v[order][cycle[order] == n].max() + v[order][cycle[order] == n].min())
-                for n in (0, cycle[order].max())
-            ]
+            [0.5 * (v[order][part].max() + v[order][part].min()) for part in ends]
             for v in (shift, force)
         ]
         moved = (middles[0][1] - middles[0][0], middles[1][1] - middles[1][0])
         points = (shift[order], force[order], down[order], cycle[order])
-        between = turns_between(shift, turns) - [order[0], 0.0, 0.0]
+        between = turns_between(shift, turns) - [order.start, 0.0, 0.0]
         return Loops(*points, W, noise, moved, tilt, drift, between)
+
+
+def _without_drift(
+    shift: NDArray[np.float64], force: NDArray[np.float64], turns: list[int]
+) -> tuple[NDArray[np.float64], NDArray[np.float64], list[int]]:
+    """Return shift, force and turns without the drift of both gauges, and print the drift."""
+    shift, moved = remove_drift(shift, turns)
+    force, changed = remove_drift(force, turns)
+    print(
+        f"drift removed, a straight line through the middles of the cycles: shift {length(moved)}, "
+        f"force {changed:.4g} N from the first to the last cycle",
+        file=sys.stderr,
+    )
+    return shift, force, find_turns(shift)
 
 
 @quantities
@@ -264,6 +282,14 @@ class Measured(HoldsArrays):
     labels: tuple[str, str]
 
 
+def read_pair(columns: Columns, first: int, second: int) -> NDArray[np.float64]:
+    """Read two columns [SI], and print how they were aligned."""
+    rows = columns.numbers(first, second)
+    for note in columns.notes:
+        print(f"{columns.place}: {note}", file=sys.stderr)
+    return rows
+
+
 @quantities
 def read_loops(
     path: str | os.PathLike[str],
@@ -272,23 +298,34 @@ def read_loops(
     T: str | None = None,
     units: dict[str, str] | None = None,
     skip: int = 0,
+    group: str | None = None,
     W: Force | None = None,
     noise: float | None = None,
     tilt: bool | None = None,
     drift: bool | None = None,
+    detrend: bool = False,
 ) -> Loops:
     """Read friction loops of a file, one after the other, also parted by empty lines.
+
+    Several cycles are separated where the shift turns by more than 0.3 of its range.
 
     Parameters
     ----------
     path : path
         A table with a head, such as ``Weg [µm];Kraft [N]``: any separator, decimal comma or point.
+        Or a recording: TDMS of LabVIEW, MAT of MATLAB, HDF5, MDF, a workbook of Excel. The content
+        decides. ``pip install "fretting[rigs]"`` brings the libraries, ``fretting[mdf]`` the one
+        of MDF.
     delta, T : str, optional
-        Names of the columns of shift and force (default: by their units).
+        Names of the columns of shift and force (default: by their units). The other columns need
+        neither units nor numbers.
     units : dict of str to str, optional
         Units of columns whose head has none.
     skip : int
         Lines at the top that are left out, where the head is not found by itself (default 0).
+    group : str, optional
+        Group of channels, structure or sheet, where several have such columns. Channels of
+        different clocks are resampled to the slower one, and the rule is printed.
     W : float, optional
         Normal force [N] (default: that of the scene).
     noise : float, optional
@@ -300,17 +337,21 @@ def read_loops(
     drift : bool, optional
         Whether drifts of shift and force are unknowns: both grow in proportion to the number of the
         point (default: if there are several cycles or two turns within the record).
+    detrend : bool
+        Whether the drift of both gauges, a straight line through the middles of the cycles, is
+        subtracted and printed (default False).
 
     Raises
     ------
     ValueError
         The file is no such table; the message has the line and what is allowed.
     """
-    table = tables.read(path, units, skip=skip)
+    table = read_columns(path, units, skip=skip, group=group)
     shift = table.column("length", ("delta", "d_", "weg", "x", "shift", "disp"), delta)
     force = table.column("force", ("t", "q", "kraft", "f", "force"), T)
-    rows = np.concatenate(table.blocks)
-    return Loops.of(rows[:, shift], rows[:, force], W=W, noise=noise, tilt=tilt, drift=drift)
+    rows = read_pair(table, shift, force)
+    options: dict[str, Any] = {"W": W, "noise": noise, "tilt": tilt, "drift": drift}
+    return Loops.of(rows[:, 0], rows[:, 1], detrend=detrend, **options)
 
 
 @quantities
@@ -321,19 +362,20 @@ def read_indentation(
     delta_z: str | None = None,
     units: dict[str, str] | None = None,
     skip: int = 0,
+    group: str | None = None,
     noise: float | None = None,
     frame: bool = False,
 ) -> Indentation:
-    """Read an indentation curve of a file, as :func:`loops`.
+    """Read an indentation curve of a file, as :func:`read_loops`.
 
     With ``frame=True`` the compliance of the frame [m/N] is an unknown: the approach that is
     measured holds it times the force.
     """
-    table = tables.read(path, units, skip=skip)
+    table = read_columns(path, units, skip=skip, group=group)
     force = table.column("force", ("w", "f", "p", "load"), W)
     approach = table.column("length", ("delta", "h", "z", "depth", "weg"), delta_z)
-    rows = np.concatenate(table.blocks)
-    return Indentation.of(rows[:, force], rows[:, approach], noise=noise, frame=frame)
+    rows = read_pair(table, force, approach)
+    return Indentation.of(rows[:, 0], rows[:, 1], noise=noise, frame=frame)
 
 
 @quantities
@@ -346,10 +388,11 @@ def read_scar(
     depth: str | None = None,
     units: dict[str, str] | None = None,
     skip: int = 0,
+    group: str | None = None,
     noise: float | None = None,
 ) -> Scar:
-    """Read the profile of a scar of a file, depth downwards positive, as :func:`loops`."""
-    table = tables.read(path, units, skip=skip)
+    """Read the profile of a scar of a file, depth downwards positive, as :func:`read_loops`."""
+    table = read_columns(path, units, skip=skip, group=group)
     place = table.column("length", ("x", "pos"), x)
     worn = table.column("length", ("depth", "z", "h", "worn", "tiefe"), depth)
     if place == worn:
@@ -357,8 +400,8 @@ def read_scar(
             f"{table.place}: has one column of lengths, {table.names[place]}: a profile has two, "
             "place and depth"
         )
-    rows = np.concatenate(table.blocks)
-    return Scar.of(rows[:, place], rows[:, worn], wear=wear, body_number=body_number, noise=noise)
+    rows = read_pair(table, place, worn)
+    return Scar.of(rows[:, 0], rows[:, 1], wear=wear, body_number=body_number, noise=noise)
 
 
 @quantities
@@ -371,21 +414,22 @@ def read_lives(
     body_number: int = 2,
     units: dict[str, str] | None = None,
     skip: int = 0,
+    group: str | None = None,
     noise: float | None = None,
 ) -> Lives:
     """Read lives of a file: a column of cycles, the others named by the keys of a scene file.
 
     A column of a key that has a unit names it, as in ``W [N]``.
     """
-    table = tables.read(path, units, skip=skip)
+    table = read_columns(path, units, skip=skip, group=group)
     if cycles not in table.names:
         raise ValueError(f"{table.place}: has no column {cycles!r}, but {', '.join(table.names)}")
-    rows = np.concatenate(table.blocks)
     of = table.names.index(cycles)
     for at, name in enumerate(table.names):
         kind, unit = _core.measured_by(name) or ("", "")
         if at != of and unit:
             table.must_measure(at, kind)
+    rows = table.numbers(*range(len(table.names)))
     settings = [
         {
             name: float(v)
@@ -395,59 +439,3 @@ def read_lives(
         for row in rows
     ]
     return Lives(rows[:, of], settings, wear, part, body_number, noise)
-
-
-def turns_between(delta: NDArray[np.float64], turns: list[int]) -> NDArray[np.float64]:
-    """The turns within a record: number of the point, shift there and its error, (n, 3).
-
-    One parabola goes through the points before a turn and one through those after it. On an upper
-    turn the shift is the lower of both, and the turn lies where that is largest. Points rarely lie
-    on the turn.
-    """
-    found = []
-    for n, at in enumerate(turns):
-        before = at - turns[n - 1] if n > 0 else at
-        after = turns[n + 1] - at if n + 1 < len(turns) else delta.size - 1 - at
-        many = min(max(BESIDE, int(OF_BRANCH * min(before, after))), MOST_BESIDE)
-        if min(before, after) < many:
-            continue
-        sign = 1.0 if delta[at] > delta[at - many] else -1.0
-        way = np.linspace(-1.0, 1.0, 401)
-        sides = []
-        for side in (np.arange(-many, 0), np.arange(1, many + 1)):
-            parabola = np.polyfit(side, sign * delta[at + side], 2)
-            rest = sign * delta[at + side] - np.polyval(parabola, side)
-            sides.append((np.polyval(parabola, way), float(np.sqrt(rest @ rest / (many - 3)))))
-        lower = np.minimum(sides[0][0], sides[1][0])
-        top = int(lower.argmax())
-        # Not below the outermost point, unless that stands out by its noise.
-        noise = max(sides[0][1], sides[1][1])
-        turn = max(float(lower[top]), sign * float(delta[at]) - 2.0 * noise)
-        error = OF_WAY * abs(turn - sign * float(delta[at])) + noise
-        found.append((at + float(way[top]), sign * turn, error))
-    return np.array(found).reshape(-1, 3)
-
-
-def turning(delta: NDArray[np.float64]) -> list[int]:
-    """Where a shift turns, by more than a part of its range."""
-    least = TURN * float(np.ptp(delta))
-    turns: list[int] = []
-    if least == 0.0:
-        return turns
-    extreme, way = 0, 0
-    for n, value in enumerate(delta):
-        ahead = value - delta[extreme]
-        if way == 0:
-            if abs(ahead) > least:
-                # The first point is no turn, unless the shift began at one of its ends.
-                if abs(delta[extreme] - 0.5 * (delta.max() + delta.min())) > 0.4 * np.ptp(delta):
-                    turns.append(extreme)
-                way, extreme = int(np.sign(ahead)), n
-        elif way * ahead >= 0:
-            extreme = n
-        elif -way * ahead > least:
-            turns.append(extreme)
-            way, extreme = -way, n
-    if abs(delta[extreme] - 0.5 * (delta.max() + delta.min())) > 0.4 * np.ptp(delta):
-        turns.append(extreme)
-    return turns

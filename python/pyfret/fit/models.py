@@ -11,7 +11,8 @@ import numpy as np
 from pyfret import wear
 from pyfret._core import LoadPath, OffGridError, Scene
 from pyfret._util.extras import needed
-from pyfret.fit.data import Data, Indentation, Lives, Loops, Measured, Scar, turning
+from pyfret.fit.data import Data, Indentation, Lives, Loops, Measured, Scar
+from pyfret.fit.turns import find_turns
 from pyfret.solution import solve
 from pyfret.study.design import varied
 from pyfret.study.point import GROWTHS, grown
@@ -183,7 +184,7 @@ def reach_of_turns(data: Loops, *, drifts: bool) -> tuple[float, float] | None:
 def drift_of_turns(delta: NDArray[np.float64], time: NDArray[np.float64]) -> float:
     """Slope of the shift at its turns over time, the same for both ends of the loop [m]."""
     # The ends of a record need not be turns.
-    turns = [n for n in turning(delta) if 0 < n < delta.size - 1]
+    turns = [n for n in find_turns(delta) if 0 < n < delta.size - 1]
     if len(turns) < 3:
         return 0.0
     upper = delta[turns] > 0.5 * (delta.max() + delta.min())
