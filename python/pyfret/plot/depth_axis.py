@@ -2,20 +2,61 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from matplotlib.ticker import FixedFormatter, FixedLocator, MaxNLocator, NullLocator
 
-from pyfret._util.depths import stretched
+from pyfret._util.depths import stretched, thin
 from pyfret._util.numbers import in_words
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
+    from pyfret.plot.scales import Scale
 
-def stretch(ax: Axes, borders: NDArray[np.float64], which: Literal["x", "y"]) -> None:
+#: Words behind the label of an axis whose scale changes from layer to layer.
+SCALES = "each layer has its own scale"
+
+
+def draw_depth_axis(
+    ax: Axes,
+    borders: NDArray[np.float64],
+    which: Literal["x", "y"],
+    by: Scale,
+    *,
+    stretch: bool | None = None,
+    substrate: bool = True,
+) -> bool:
+    """Label an axis of depth; return whether each layer has a scale of its own.
+
+    Parameters
+    ----------
+    ax : matplotlib Axes
+        The axes.
+    borders : array
+        Depths of the surface, of the interfaces and of the deepest point, in the unit of the axis.
+    which : "x" or "y"
+        The axis.
+    by : Scale
+        Unit of the depths.
+    stretch : bool, optional
+        Whether each layer gets room (default: if one is too thin to be seen).
+    substrate : bool
+        Whether the deepest point lies in the substrate.
+    """
+    label = by.label("z")
+    stretch = (thin(borders) if stretch is None else stretch) and borders.size > 2
+    if stretch:
+        stretch_axis(ax, borders, which)
+        name_layers(ax, borders, which, by, substrate=substrate)
+        label += f"; {SCALES}" if which == "x" else f"\n{SCALES}"
+    (ax.set_ylabel if which == "y" else ax.set_xlabel)(label)
+    return stretch
+
+
+def stretch_axis(ax: Axes, borders: NDArray[np.float64], which: Literal["x", "y"]) -> None:
     """Give every layer room on an axis: even within a layer, another scale in each."""
     places = stretched(borders)
     span = borders[-1] - borders[0]
@@ -42,3 +83,42 @@ def stretch(ax: Axes, borders: NDArray[np.float64], which: Literal["x", "y"]) ->
         # Neighbouring borders would write over one another.
         ax.tick_params(axis="x", labelrotation=45)
     axis.set_minor_locator(NullLocator())
+
+
+def name_layers(
+    ax: Axes, borders: NDArray[np.float64], which: Literal["x", "y"], by: Scale, *, substrate: bool
+) -> None:
+    """Write name and thickness into each layer, and mark each change of the scale."""
+    places, unit = stretched(borders), by.name if by.is_unit else f"${by.name}$"
+    middles = np.interp((places[:-1] + places[1:]) / 2, places, borders)
+    for n, (middle, thickness) in enumerate(zip(middles, np.diff(borders), strict=True)):
+        deepest = n == middles.size - 1
+        options: dict[str, Any]
+        name = "substrate" if deepest and substrate else f"coating {n + 1}"
+        size = "" if deepest else f"{in_words(thickness)} {unit}"
+        if which == "y":
+            text = f"{name}, {size}".rstrip(", ")
+            box = {"boxstyle": "round,pad=0.1", "fc": "white", "ec": "none", "alpha": 0.7}
+            options = {"transform": ax.get_yaxis_transform(), "va": "center", "bbox": box}
+            ax.text(0.015, middle, text, fontsize=7, zorder=6, clip_on=True, **options)
+        else:
+            text = f"{name}\n{size}".rstrip()
+            options = {"transform": ax.get_xaxis_transform(), "ha": "center", "va": "bottom"}
+            ax.text(middle, 1.01, text, fontsize=7, **options)
+            if n % 2 == 0 and not deepest:
+                ax.axvspan(borders[n], borders[n + 1], color="0.5", alpha=0.12, linewidth=0)
+    # A break mark across the axis at each change of the scale.
+    transform = ax.get_yaxis_transform() if which == "y" else ax.get_xaxis_transform()
+    zero = np.zeros(borders.size - 2)
+    marks = (zero, borders[1:-1]) if which == "y" else (borders[1:-1], zero)
+    slanted = [(-1.0, -0.6), (1.0, 0.6)]
+    ax.plot(
+        *marks,
+        linestyle="none",
+        marker=slanted,
+        markersize=9,
+        color="0.2",
+        clip_on=False,
+        transform=transform,
+        zorder=6,
+    )

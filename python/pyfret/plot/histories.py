@@ -38,6 +38,35 @@ def driven(path: LoadPath) -> Direction:
     return "x"
 
 
+#: Increments of a branch below which each one has a dot: a line alone would hide how few there are.
+FEW = 20
+
+
+def increment_marks(result: Run) -> dict[str, Any]:
+    """Return the options of a line with a dot for each increment, where a branch has few."""
+    branches = result.dataset.branch_of_increment.values
+    _, counts = np.unique(branches, return_counts=True)
+    few = counts.size > 0 and np.median(counts) < FEW
+    return {"marker": "o", "markersize": 2.5} if few else {}
+
+
+def reversals(result: Run, direction: Direction) -> NDArray[np.intp]:
+    """Return the increments, from 0, after which force and shift turn round under constant W.
+
+    All of the contact sticks at that moment.
+    """
+    d = result.dataset
+    force, shift = (d[name].values for name in NAMES[direction][:2])
+    W = d.W.values
+    if W.size < 3:
+        return np.zeros(0, dtype=np.intp)
+    turned = (np.diff(force)[:-1] * np.diff(force)[1:] < 0.0) | (
+        np.diff(shift)[:-1] * np.diff(shift)[1:] < 0.0
+    )
+    same = np.isclose(W[2:], W[1:-1]) & np.isclose(W[1:-1], W[:-2])
+    return np.flatnonzero(turned & same) + 1
+
+
 @styled
 def fretting_loop(
     result: Run,
@@ -77,6 +106,7 @@ def fretting_loop(
     started = np.flatnonzero(d.branch_of_increment.values == 0)[-1]
     by_force, by_shift = loop_scales(result, units, torsion=force == "M_z")
     moved = (d[shift] - d[shift][started]) / by_shift.value
+    line = {**increment_marks(result), **line}
     ax.plot(moved[started:], d[force][started:] / by_force.value, **line)
     if started + 1 == d.sizes["increment"]:
         note(ax, "the path ends with the indentation")
@@ -123,10 +153,20 @@ def loop_scales(result: Run, units: Units, *, torsion: bool) -> tuple[Scale, Sca
 
 @styled
 def stick_ratio(result: Run, *, ax: Axes | None = None, **line: Any) -> Axes:
-    r"""Stick area over contact area along the load path, over :math:`t/\tau`."""
-    t = run_of(result).dataset.t
+    r"""Stick area over contact area along the load path, over :math:`t/\tau`.
+
+    At a reversal under constant W the ratio steps up to 1. Branches of few increments have a dot
+    for each of them.
+    """
+    t = run_of(result).dataset.t.values / float(result.dataset.t[-1])
+    ratio = np.asarray(result.stick_ratio)
     ax = axes(ax)
-    ax.plot(t / t[-1], result.stick_ratio, **line)
+    # At a reversal the whole contact sticks: a vertical step up to 1, between two increments.
+    turned = reversals(result, driven(result.scene.path)) + 1
+    marked = {**increment_marks(result), **line}
+    if "marker" in marked:
+        marked["markevery"] = [n + np.count_nonzero(turned <= n) for n in range(t.size)]
+    ax.plot(np.insert(t, turned, t[turned - 1]), np.insert(ratio, turned, 1.0), **marked)
     ax.set_xlabel(r"$t/\tau$")
     ax.set_ylabel(r"$A_\mathrm{st}/A_\mathrm{c}$")
     ax.set_xlim(0, 1)
@@ -184,7 +224,8 @@ def load_path(
             label = label if times else rf"${symbol}/W_\mathrm{{max}}$"
         else:
             label = f"${symbol}$ / {EngFormatter(unit)(float(f'{largest:.3g}'))}"
-        ax.plot(t / t[-1], values / largest, label=label)
+        marks = {} if isinstance(path, LoadPath) else increment_marks(path)
+        ax.plot(t / t[-1], values / largest, label=label, **marks)
     ax.set_xlabel(r"$t/\tau$")
     ax.set_xlim(0, 1)
     if columns:

@@ -12,10 +12,10 @@ from matplotlib.ticker import MaxNLocator
 
 from pyfret import _core, fatigue
 from pyfret._util.arrays import histories
-from pyfret._util.depths import interfaces, thin
+from pyfret._util.depths import interfaces
 from pyfret._util.material_names import as_material
 from pyfret._util.numbers import layer_name
-from pyfret.plot.depth_axis import stretch as stretch_axis
+from pyfret.plot.depth_axis import draw_depth_axis
 from pyfret.plot.scales import scales
 from pyfret.plot.stresses import COLOURS, FLAT, section_size
 from pyfret.plot.style import (
@@ -174,9 +174,7 @@ def _contours(
     x, z = shown[along].values / length.value, shown.z.values / length.value
     inner = [depth / length.value for depth in interfaces(shown.z, shown.layer)]
     borders = np.array([z[0], *inner, z[-1]])
-    stretch = thin(borders) if stretch is None else stretch
-    if stretch and borders.size > 2:
-        stretch_axis(ax, borders, "y")
+    stretch = draw_depth_axis(ax, borders, "y", length, stretch=stretch)
     ax.set_facecolor(UNJUDGED)
     for part, (top, bottom) in enumerate(pairwise(borders)):
         of = shown.values[shown.layer.values == shown.layer.values[0] + part]
@@ -190,7 +188,6 @@ def _contours(
     if image is not None:
         beside(ax, image, label)
     ax.set_xlabel(length.label(along))
-    ax.set_ylabel(length.label("z"))
     flat = x[-1] - x[0] > FLAT * (z[-1] - z[0])
     ax.set_aspect("auto" if stretch or flat else "equal")
     ax.grid(visible=False)

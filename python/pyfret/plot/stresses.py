@@ -12,7 +12,7 @@ from matplotlib.ticker import MaxNLocator
 
 from pyfret._util.depths import interfaces, thin
 from pyfret._util.numbers import in_words
-from pyfret.plot.depth_axis import stretch as stretch_axis
+from pyfret.plot.depth_axis import draw_depth_axis
 from pyfret.plot.scales import Scales, Units, scales
 from pyfret.plot.style import apart, axes, beside, mark, styled
 from pyfret.plot.tables import must_hold
@@ -26,7 +26,9 @@ if TYPE_CHECKING:
 
     import xarray as xr
     from matplotlib.axes import Axes
+    from matplotlib.colors import Colormap
     from matplotlib.figure import Figure
+    from numpy.typing import NDArray
 
     from pyfret.run import Run
     from pyfret.subsurface.tensor import Extreme
@@ -90,6 +92,37 @@ FLAT = 3.0
 PANEL = 2.9
 #: Light enough for black labels.
 COLOURS = ListedColormap(colormaps["YlGnBu"](np.linspace(0.0, 0.62, 256)))
+#: Blue for negative and red for positive numbers, white at zero, light enough for black labels.
+SIGNED = ListedColormap(colormaps["RdBu_r"](np.linspace(0.12, 0.88, 256)))
+#: Part of the largest size from which both signs of a field are shown.
+BOTH_SIGNS = 0.02
+
+
+def is_signed(field: NDArray[np.float64]) -> bool:
+    """Check that a field has negative and positive numbers that can be seen."""
+    low, high = float(np.nanmin(field)), float(np.nanmax(field))
+    return min(-low, high) > BOTH_SIGNS * max(-low, high)
+
+
+def contour_levels(
+    field: NDArray[np.float64], levels: int | Sequence[float]
+) -> tuple[NDArray[np.float64], Colormap]:
+    """Return the contours of a field, about `levels` of them, and its colours.
+
+    Fields of both signs have contours symmetric about zero and colours with white at zero.
+    """
+    signed = is_signed(field)
+    if isinstance(levels, int):
+        if not levels >= 1:
+            raise ValueError(f"levels = {levels}: must be 1 or more")
+        low, high = np.nanmin(field), np.nanmax(field)
+        if signed:
+            high = max(-low, high)
+            low = -high
+        levels = MaxNLocator(levels).tick_values(low, high)
+    steps = np.asarray(levels)
+    symmetric = bool(np.isclose(steps[0], -steps[-1], rtol=1e-9))
+    return steps, SIGNED if signed and symmetric else COLOURS
 
 
 @styled
@@ -143,21 +176,17 @@ def section_map(
     layer = values.layer.values
     inner = [depth / by.length.value for depth in interfaces(values.z, values.layer)]
     borders = np.array([z[0], *inner, z[-1]])
-    stretch = thin(borders) if stretch is None else stretch
-    if stretch and borders.size > 2:
-        stretch_axis(ax, borders, "y")
-    if isinstance(levels, int):
-        if not levels >= 1:
-            raise ValueError(f"levels = {levels}: must be 1 or more")
-        levels = MaxNLocator(levels).tick_values(np.nanmin(field), np.nanmax(field))
-    steps = np.asarray(levels)
+    stretch = draw_depth_axis(ax, borders, "y", by.length, stretch=stretch)
+    steps, colours = contour_levels(field, levels)
     image = None
     for part in np.unique(layer):
         here = layer == part
         if np.count_nonzero(here) < 2:
             continue
-        image = ax.contourf(x, z[here], field[here], levels=steps, cmap=COLOURS)
+        image = ax.contourf(x, z[here], field[here], levels=steps, cmap=colours)
         ax.contour(x, z[here], field[here], levels=steps, colors="0.2", linewidths=0.4)
+        if colours is SIGNED:
+            ax.contour(x, z[here], field[here], levels=[0.0], colors="0.1", linewidths=1.3)
     for depth in inner:
         ax.axhline(depth, color="0.2", linewidth=0.8, linestyle=(0, (6, 3)))
     ax.set_xlim(x[0], x[-1])
@@ -169,7 +198,6 @@ def section_map(
     else:
         ax.set_title(by.stress.label(name))
     ax.set_xlabel(by.length.label(along))
-    ax.set_ylabel(by.length.label("z"))
     ax.set_ylim(z[-1], z[0])
     flat = x[-1] - x[0] > FLAT * (z[-1] - z[0])
     ax.set_aspect(aspect or ("auto" if stretch or flat else "equal"))
@@ -242,8 +270,7 @@ def stress_along_depth(
         raise ValueError("the line below one point is drawn: give stress(x=..., y=...)")
     inner = [d / by.length.value for d in interfaces(stress.dataset.z, stress.dataset.layer)]
     borders = np.array([z[0], *inner, z[-1]])
-    if (thin(borders) if stretch is None else stretch) and borders.size > 2:
-        stretch_axis(ax, borders, "x")
+    draw_depth_axis(ax, borders, "x", by.length, stretch=stretch)
     for n, name in enumerate(of):
         values = stress.measure(name).values / by.stress.value
         for part in np.unique(layer):
@@ -255,7 +282,6 @@ def stress_along_depth(
     for depth in inner:
         ax.axvline(depth, color="0.6", linewidth=0.8, linestyle=(0, (6, 3)), zorder=0)
     ax.set_xlim(z[0], z[-1])
-    ax.set_xlabel(by.length.label("z"))
     ax.set_ylabel(by.stress.label(r"\sigma"))
     ax.legend()
     return ax

@@ -14,7 +14,9 @@ import matplotlib
 import matplotlib.pyplot as plt
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from matplotlib.colors import is_color_like, to_hex
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from pyfret.quantities import quantities
 
@@ -28,10 +30,14 @@ SLIP = "#F2C9A9"
 REFERENCE = "#9A9A9A"
 
 
+#: The theme: fonts, sizes and colours of every figure.
+THEME = Path(__file__).with_name("pyfret.mplstyle")
+
+
 @contextmanager
 def style() -> Iterator[None]:
-    """Set the look of figures made inside the ``with`` block."""
-    with plt.style.context(Path(__file__).with_name("pyfret.mplstyle")):
+    """Set the theme inside the ``with`` block, whatever the settings of the user."""
+    with plt.style.context(THEME, after_reset=True):
         try:
             yield
         finally:
@@ -39,6 +45,24 @@ def style() -> Iterator[None]:
             # matter of looks, and without it no later cell shows its figures.
             interactive = plt.isinteractive()
     (plt.ion if interactive else plt.ioff)()
+
+
+class ThemedFigure(Figure):
+    """A figure that keeps the theme when it is shown or saved.
+
+    Matplotlib reads fonts, colours by number and the options of file formats while it writes a
+    file, which is after the ``with`` block of :func:`style`.
+    """
+
+    def draw(self, renderer: Any) -> None:
+        """Draw the figure in the theme."""
+        with style():
+            super().draw(renderer)
+
+    def savefig(self, fname: Any, **options: Any) -> None:
+        """Write the figure in the theme; parameters as in matplotlib."""
+        with style():
+            super().savefig(fname, **options)
 
 
 if TYPE_CHECKING:
@@ -71,13 +95,36 @@ def styled(draw: Callable[P, Any]) -> Callable[P, Any]:
     def inside(*args: P.args, **kwargs: P.kwargs) -> Any:
         with style():
             drawn = draw(*args, **kwargs)
+            fix_colours(drawn)
             if kwargs.get("ax") is None:
+                keep_theme(drawn)
                 settle(drawn)
         if isinstance(drawn, Figure) and "inline" in matplotlib.get_backend():
             show_once(drawn)
         return drawn
 
     return quantities(inside)
+
+
+def figure_of(drawn: object) -> Figure | None:
+    """Return the figure of axes, or the figure itself; None for anything else."""
+    figure = drawn.get_figure(root=True) if isinstance(drawn, Axes) else drawn
+    return figure if isinstance(figure, Figure) else None
+
+
+def keep_theme(drawn: object) -> None:
+    """Let a new figure keep the theme when it is shown or saved."""
+    figure = figure_of(drawn)
+    if type(figure) is Figure:
+        figure.__class__ = ThemedFigure
+
+
+def fix_colours(drawn: object) -> None:
+    """Replace colours by number ("C0") with colours of the theme, which hold on saving."""
+    figure = figure_of(drawn)
+    for line in figure.findobj(Line2D) if figure is not None else ():
+        if is_color_like(colour := line.get_color()):
+            line.set_color(to_hex(colour, keep_alpha=True))
 
 
 def show_once(figure: Figure) -> None:
@@ -102,8 +149,8 @@ def settle(drawn: object) -> None:
     Such axes are narrower than their place, by an amount that depends on the layout. A single
     layout leaves room for the labels of axes as wide as their place.
     """
-    figure = drawn.get_figure() if isinstance(drawn, Axes) else drawn
-    if not isinstance(figure, Figure) or all(ax.get_aspect() == "auto" for ax in figure.axes):
+    figure = figure_of(drawn)
+    if figure is None or all(ax.get_aspect() == "auto" for ax in figure.axes):
         return
     engine = figure.get_layout_engine()
     for _ in range(LAYOUTS if engine is not None else 0):

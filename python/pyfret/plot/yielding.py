@@ -10,7 +10,7 @@ from matplotlib.ticker import MaxNLocator
 
 from pyfret._util.depths import thin
 from pyfret._util.lazy import xr
-from pyfret.plot.depth_axis import stretch as stretch_axis
+from pyfret.plot.depth_axis import draw_depth_axis
 from pyfret.plot.scales import Units, last_of, of_snapshot
 from pyfret.plot.stresses import COLOURS, SYMBOLS
 from pyfret.plot.style import axes, styled
@@ -76,8 +76,8 @@ def plastic_zone(
         ax = plt.figure(figsize=(4.8, float(high))).add_subplot()
     inner = [d / by.length.value for d in interfaces(state.body(plastic.body_number))]
     borders = np.array([0.0, *(d for d in inner if d < deepest), deepest])
-    if thin(borders) and borders.size > 2:
-        stretch_axis(ax, borders, "y")
+    whole = len(borders) == len(inner) + 2
+    draw_depth_axis(ax, borders, "y", by.length, substrate=whole)
     image = None
     if yielded.any():
         steps = MaxNLocator(9).tick_values(0.0, percent.max())
@@ -109,7 +109,6 @@ def plastic_zone(
     ax.set_xlim(middle_x - widest, middle_x + widest)
     ax.set_ylim(deepest, 0.0)
     ax.set_xlabel(by.length.label(line.along))
-    ax.set_ylabel(by.length.label("z"))
     if not thin(borders):
         ax.set_aspect("equal")
     ax.grid(visible=False)
@@ -170,8 +169,7 @@ def residual_stress(
     z, layer = below.dataset.z.values / by.length.value, below.dataset.layer.values
     inner = [d / by.length.value for d in interfaces(state.body(number))]
     borders = np.array([z[0], *(d for d in inner if d < z[-1]), z[-1]])
-    if thin(borders) and borders.size > 2:
-        stretch_axis(ax, borders, "x")
+    draw_depth_axis(ax, borders, "x", by.length, substrate=len(borders) == len(inner) + 2)
     for n, name in enumerate(of):
         values = below.measure(name).values / by.stress.value
         for part in np.unique(layer):
@@ -184,7 +182,6 @@ def residual_stress(
     for depth in borders[1:-1]:
         ax.axvline(depth, color="0.6", linewidth=0.8, linestyle=(0, (6, 3)), zorder=0)
     ax.set_xlim(z[0], z[-1])
-    ax.set_xlabel(by.length.label("z"))
     symbol = r"\sigma_\mathrm{residual}"
     ax.set_ylabel(by.stress.label(symbol))
     ax.legend()
