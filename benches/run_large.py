@@ -24,8 +24,8 @@ def main() -> None:
     scene = fret.Scene(
         body1=fret.Body(steel, shape=fret.Sphere(R=hertz.R)),
         body2=fret.Body(steel),
-        mu=MU,
-        grid=fret.Grid.centred(extent=hertz.SHAPES["hertz"].width, n=options.cells),
+        friction=MU,
+        grid=fret.Grid.centred(width=hertz.SHAPES["hertz"].width, n=options.cells),
         path=path.tangential([0.5 * MU * hertz.W], increments=1),
     )
     spin(WARM_UP)

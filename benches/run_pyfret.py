@@ -25,8 +25,8 @@ def prepare(task: Task) -> fret._core.March:
     scene = fret.Scene(
         body1=fret.Body(STEEL, shape=shape),
         body2=fret.Body(STEEL),
-        mu=0.0,
-        grid=fret.Grid.centred(extent=task.shape.width, n=task.cells),
+        friction=0.0,
+        grid=fret.Grid.centred(width=task.shape.width, n=task.cells),
         path=fret.LoadPath.start().normal(hertz.W, increments=1),
         settings=fret.Settings(preset=PRESETS[task.preset], tolerance=task.tolerance),
     )

@@ -46,7 +46,7 @@ def coated_ellipsoid(
         body2=fret.Body(
             material(STEEL), coatings=[fret.Coating(material(HARD), thickness=2e-4 * length)]
         ),
-        mu=MU,
+        friction=MU,
         grid=fret.Grid.from_spacing(n, (side / n[0], 1.06 * side / n[1])),
         settings=TIGHT,
     )
@@ -70,7 +70,7 @@ def twins(file: Path, n: int) -> str:
     length, modulus = 3.0, 7.0
 
     def with_bodies(body1: fret.Body, body2: fret.Body, grid: fret.Grid) -> fret.Scene:
-        return fret.Scene(body1=body1, body2=body2, mu=MU, grid=grid, settings=TIGHT)
+        return fret.Scene(body1=body1, body2=body2, friction=MU, grid=grid, settings=TIGHT)
 
     twin_of: dict[str, tuple[fret.Scene, fret.LoadPath, Back]] = {
         "turned by 90°": (
@@ -164,8 +164,8 @@ def tilt(file: Path, n: int) -> str:
                 loads = loads.force(
                     M_x=0.5 * part * W * radius, M_y=-part * W * radius, increments=1
                 )
-            grid = fret.Grid.centred(extent=extent, n=n)
-            scene = fret.Scene(body1=body1, body2=body2, mu=0.0, grid=grid)
+            grid = fret.Grid.centred(width=extent, n=n)
+            scene = fret.Scene(body1=body1, body2=body2, friction=0.0, grid=grid)
             result = fret.solve(scene, loads, save="branches", progress=False)
             found = []
             for moment, part in zip(result.dataset.saved_increment.values[1:], parts, strict=True):
@@ -201,8 +201,8 @@ def mixed(increments: int, n: int, save: Literal["branches", "all"]) -> fret.Res
     scene = fret.Scene(
         body1=fret.Body(SOFT, shape=fret.Sphere(R=R)),
         body2=fret.Body(STEEL, coatings=[coating]),
-        mu=MU,
-        grid=fret.Grid.centred(extent=2.5 * hertz.a, n=n),
+        friction=MU,
+        grid=fret.Grid.centred(width=2.5 * hertz.a, n=n),
     )
     loads = fret.LoadPath.start().force(
         W=W, increments=increments, spacing=fret.Spacing.EQUAL_RADIUS

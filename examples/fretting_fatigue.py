@@ -12,7 +12,9 @@ material = fatigue.Materials()["titanium_6Al4V"]
 threshold = fracture.Threshold(dK_th=2.5e6, dS_0=300e6)  # yours, measured at R = 0
 grid = fret.Grid.strip(extent=1.7e-3, n=256)
 for layers, judged, residual in (([], [material], None), ([film], [None, material], [-2.5e9, 0.0])):
-    scene = fret.Scene(body1=pad, body2=fret.Body(titanium, coatings=layers), mu=0.6, grid=grid)
+    scene = fret.Scene(
+        body1=pad, body2=fret.Body(titanium, coatings=layers), friction=0.6, grid=grid
+    )
     for bulk in (0.0, 100e6, 200e6, 350e6):
         path = fret.LoadPath.start().force(W=4e5, increments=1)
         for T, sigma_B in ((1e5, bulk), (-1e5, 0.0), (1e5, bulk)):

@@ -29,8 +29,8 @@ def sphere(
     return fret.Scene(
         body1=fret.Body(material, shape=fret.Sphere(R=R)),
         body2=fret.Body(material),
-        mu=mu,
-        grid=fret.Grid.centred(extent=2.3 * a, n=n),
+        friction=mu,
+        grid=fret.Grid.centred(width=2.3 * a, n=n),
         path=path,
     )
 
@@ -41,7 +41,7 @@ def cylinder(path: fret.LoadPath, *, n: int) -> tuple[fret.Scene, fret.reference
     scene = fret.Scene(
         body1=fret.Body(STEEL, shape=fret.Cylinder(R=R)),
         body2=fret.Body(STEEL),
-        mu=MU,
+        friction=MU,
         grid=fret.Grid.strip(extent=2.4 * line.a, n=n),
         path=path,
     )
@@ -135,7 +135,7 @@ def ellipse(file: Path, n: int) -> str:
             scene = fret.Scene(
                 body1=fret.Body(CORK, shape=fret.shapes.Ellipsoid(R_x=ratio * R, R_y=R)),
                 body2=fret.Body(CORK),
-                mu=MU,
+                friction=MU,
                 grid=fret.Grid.from_spacing((n, n), d),
                 path=fret.LoadPath.start()
                 .normal(W, increments=1)
@@ -319,8 +319,8 @@ def radial(file: Path, n: int) -> str:
     scene = fret.Scene(
         body1=fret.Body(STEEL, shape=fret.Sphere(R=R)),
         body2=fret.Body(fret.RIGID),
-        mu=MU,
-        grid=fret.Grid.centred(extent=2.3 * a, n=n),
+        friction=MU,
+        grid=fret.Grid.centred(width=2.3 * a, n=n),
         path=path,
     )
     result = solved(scene)

@@ -77,10 +77,11 @@ def main() -> None:
 
     for ratio, result in results.items():
         below = result.at(-1).stress(z, y=0.0)
-        value, x, _, depth, layer, *_ = below.maximum()
+        largest = below.maximum()
         print(
-            f"E1/E2 = {ratio:g}: largest von Mises stress {value / p_H:.4f} p_H at "
-            f"x = {x / a_H:.3f}, z = {depth / a_H:.3f} a_H, layer {layer}; on the surface "
+            f"E1/E2 = {ratio:g}: largest von Mises stress {largest.value / p_H:.4f} p_H at "
+            f"x = {largest.x / a_H:.3f}, z = {largest.z / a_H:.3f} a_H, "
+            f"layer {largest.layer}; on the surface "
             f"{float(below.von_mises[0].max()) / p_H:.4f} p_H"
         )
     # Every increment of E1/E2 = 2, none of which is kept.

@@ -34,8 +34,8 @@ def contact(cells: int) -> fret.Scene:
     return fret.Scene(
         body1=fret.Body(steel, shape=fret.Sphere(R=R)),
         body2=fret.Body(steel, coatings=[fret.Coating(steel, thickness=a_H)]),
-        mu=MU,
-        grid=fret.Grid.centred(extent=2.4 * a_H, n=cells),
+        friction=MU,
+        grid=fret.Grid.centred(width=2.4 * a_H, n=cells),
         path=fret.LoadPath.start().normal(W).tangential([T, -T, T]),
         title="Sphere on a coated half-space",
     )

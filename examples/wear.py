@@ -32,8 +32,8 @@ def contact(
     return fret.Scene(
         body1=fret.Body(STEEL, shape=fret.Sphere(R=R)),
         body2=fret.Body(STEEL, coatings=coatings),
-        mu=MU,
-        grid=fret.Grid.centred(extent=2 * reach * hertz.a, n=n),
+        friction=MU,
+        grid=fret.Grid.centred(width=2 * reach * hertz.a, n=n),
     )
 
 
@@ -186,7 +186,7 @@ def mccoll(out: Path) -> None:
         fret.Scene(
             body1=fret.Body(steel, shape=fret.Cylinder(R=6e-3)),
             body2=fret.Body(steel),
-            mu=0.9,
+            friction=0.9,
             grid=fret.Grid.strip(extent=0.72e-3, n=320),
         ),
         path=path,

@@ -40,8 +40,8 @@ def sphere_on_flat(*, nu: float = 0.3, ratio: float = 1.0, n: int = 32) -> fret.
     return fret.Scene(
         body1=fret.Body(steel, shape=fret.Sphere(R=R)),
         body2=fret.Body(steel, coatings=[] if ratio == 1.0 else [coat]),
-        mu=MU,
-        grid=fret.Grid.centred(extent=2.4 * a_H, n=n),
+        friction=MU,
+        grid=fret.Grid.centred(width=2.4 * a_H, n=n),
         title=f"E1/E2 = {ratio:g}",
     )
 

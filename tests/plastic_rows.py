@@ -150,8 +150,8 @@ def indented(
     scene = fret.Scene(
         body1=fret.Body(fret.RIGID, shape=fret.Sphere(R=row["indenter"]["R"])),
         body2=body(row),
-        mu=0.0,
-        grid=fret.Grid.centred(extent=2 * room * state["contact_radius_between"][1], n=n),
+        friction=0.0,
+        grid=fret.Grid.centred(width=2 * room * state["contact_radius_between"][1], n=n),
         path=path,
         **changes,
     )
@@ -228,15 +228,15 @@ def fretted(row: dict[str, Any], *, n: int = 48, room: float = 1.3, **changes: A
     a = fret.Scene(
         body1=upper,
         body2=lower,
-        mu=row["friction"],
-        grid=fret.Grid.centred(extent=1e-3, n=16),
+        friction=row["friction"],
+        grid=fret.Grid.centred(width=1e-3, n=16),
         path=path,
     ).hertz.a
     scene = fret.Scene(
         body1=upper,
         body2=lower,
-        mu=row["friction"],
-        grid=fret.Grid.centred(extent=2 * room * a, n=n),
+        friction=row["friction"],
+        grid=fret.Grid.centred(width=2 * room * a, n=n),
         path=path,
         settings=fret.Settings(save="all"),
         **changes,
@@ -301,7 +301,7 @@ def drawn(row: dict[str, Any], *, n: int = 128, room: float = 1.5, **changes: An
     scene = fret.Scene(
         body1=fret.Body(fret.Elastic(E=of["E"], nu=of["nu"]), shape=fret.Cylinder(R=of["R"])),
         body2=body(row),
-        mu=row["friction"],
+        friction=row["friction"],
         grid=fret.Grid.strip(extent=2 * room * a, n=n),
         path=path,
         **changes,

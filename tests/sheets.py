@@ -33,7 +33,7 @@ def finer(scene: fret.Scene) -> fret.Scene:
     extent = grid.nx * grid.dx
     if grid.plane_strain:
         return scene.replace(grid=fret.Grid.strip(extent=extent, n=4 * CELLS, width=grid.dy))
-    return scene.replace(grid=fret.Grid.centred(extent=extent, n=CELLS))
+    return scene.replace(grid=fret.Grid.centred(width=extent, n=CELLS))
 
 
 def figures(result: fret.Result) -> Iterator[tuple[str, Callable[[], Any]]]:

@@ -172,8 +172,8 @@ def test_a_doubt_is_at_the_line_of_the_program_that_calls() -> None:
         lambda: fret.Scene(
             body1=fret.Body(fret.Elastic(E=210e9, nu=0.3), shape=fret.Sphere(R=5.0)),
             body2=fret.Body(fret.Elastic(E=210e9, nu=0.3)),
-            mu=0.3,
-            grid=fret.Grid.centred(extent=1e-3, n=16),
+            friction=0.3,
+            grid=fret.Grid.centred(width=1e-3, n=16),
         ).check(path=fret.LoadPath.start().normal(1.0)),
     ]
     for call in calls:

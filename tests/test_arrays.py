@@ -37,8 +37,8 @@ ORDERS = {
 FINDLEY = fatigue.Criterion.findley(k=0.3)
 MATERIAL = fatigue.Materials()["steel_42CrMo4"]
 JUDGES: dict[str, Callable[[Any], Any]] = {
-    "evaluate": lambda s: fatigue.evaluate(s, FINDLEY).value,
-    "assess": lambda s: fatigue.assess(s, MATERIAL, "crossland").safety_factor,
+    "evaluate": lambda s: fatigue.evaluate_criterion(s, FINDLEY).value,
+    "assess": lambda s: fatigue.evaluate_margin(s, MATERIAL, "crossland").safety_factor,
     "first_yield": lambda s: fatigue.first_yield(s, s_y=9e8).tresca,
     "moving_load": lambda s: fatigue.moving_load(s, s_y=9e8),
 }
@@ -57,12 +57,12 @@ def test_a_history_is_taken_by_its_labels(judge: str, order: str) -> None:
 
 
 def test_results_keep_the_labels_that_came_in() -> None:
-    found = fatigue.evaluate(LABELLED, FINDLEY)
+    found = fatigue.evaluate_criterion(LABELLED, FINDLEY)
     assert found.value.dims == ("depth", "x")
     np.testing.assert_array_equal(found.x, LABELLED.x)
     np.testing.assert_array_equal(found.z, LABELLED.z)
     assert found.normal.dims == ("depth", "x", "axis")
-    assert fatigue.evaluate(HISTORY, FINDLEY).value.dims == ("dim_0", "dim_1")
+    assert fatigue.evaluate_criterion(HISTORY, FINDLEY).value.dims == ("dim_0", "dim_1")
 
 
 @pytest.mark.parametrize(

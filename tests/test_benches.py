@@ -21,7 +21,7 @@ STEEL = fret.Elastic(E=hertz.E, nu=hertz.NU)
 @pytest.mark.parametrize("name", hertz.SHAPES)
 def test_the_judge_has_the_operator_of_the_half_spaces(name: str) -> None:
     shape = hertz.SHAPES[name]
-    grid = fret.Grid.centred(extent=shape.width, n=24)
+    grid = fret.Grid.centred(width=shape.width, n=24)
     p = np.random.default_rng(1).random((24, 24))
     body = fret.Body(STEEL)
     expected = fret.SurfaceOperator(body, body, grid).displacement(p)[2]

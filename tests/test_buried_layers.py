@@ -54,8 +54,8 @@ def test_largest_stresses_of_layers_are_those_of_hankel_transforms(seed: int) ->
         scene = fret.Scene(
             body1=fret.Body(steel, shape=fret.Sphere(R=R)),
             body2=fret.Body(steel, coatings=coatings),
-            mu=0.0,
-            grid=fret.Grid.centred(extent=extent * right.a, n=n),
+            friction=0.0,
+            grid=fret.Grid.centred(width=extent * right.a, n=n),
         )
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")

@@ -32,8 +32,8 @@ def contact(n: int = 14) -> tuple[fret.Scene, fret.LoadPath]:
     scene = fret.Scene(
         body1=fret.Body(ball, shape=fret.Sphere(R=R)),
         body2=fret.Body(TITANIUM),
-        mu=0.5,
-        grid=fret.Grid.centred(extent=2.6 * a, n=n),
+        friction=0.5,
+        grid=fret.Grid.centred(width=2.6 * a, n=n),
         title="ball",
     )
     path = fret.LoadPath.start().normal(W, increments=2).cycles(1, T_x=6.0, increments=6)
@@ -61,7 +61,7 @@ def test_a_candidate_that_would_slide_is_named(mu: float | None) -> None:
     """With its friction, and what to do; without friction of its own, by its name."""
     scene, path = contact()
     if mu is None:
-        scene = scene.replace(mu=0.2)
+        scene = scene.replace(friction=0.2)
     of = {
         "grippy": Candidate(fret.Body(TITANIUM), mu=0.6),
         "slippery": Candidate(fret.Body(TITANIUM), mu=mu),
@@ -88,24 +88,26 @@ def test_numbers_are_those_of_single_runs(compared: tuple[fret.study.Comparison,
     scene, path = contact()
     for name, of in bodies().items():
         mu = of.mu or scene.mu
-        result = fret.solve(scene.replace(body2=of.body, mu=mu), path, save="all", progress=False)
+        result = fret.solve(
+            scene.replace(body2=of.body, friction=mu), path, save="all", progress=False
+        )
         here = found.sel(candidate=name)
         assert float(here.energy) == pytest.approx(float(result.loops().dissipated[-1]))
         least = result.load_factors(of.yields, residual=of.residual).least("von_mises")
-        assert float(here.first_yield) == pytest.approx(least.factor)
+        assert float(here.first_yield) == pytest.approx(least.value)
         ends = np.flatnonzero(np.diff(result.dataset.branch_of_increment.values, append=-1)) + 1
         most = max(
             result.at(int(n)).stress(residual=of.residual).maximum("s_1").value for n in ends[-2:]
         )
         assert float(here.tension) == pytest.approx(most)
-        life = result.life(of.of_layers, "smith_watson_topper", residual=of.residual)
+        life = result.life(of.layer_materials, "smith_watson_topper", residual=of.residual)
         substrate = len(of.body.coatings)
         # Over the critical distance of the material, as a single run.
         single = life.range_of(substrate)
         assert float(here.life_of_substrate) == pytest.approx(single.best)
         assert float(here.life_of_substrate_L) == pytest.approx(single.L)
         # A life beyond the tests is no endless one.
-        words = compared[0].told("life_of_substrate")[compared[0].candidates.index(name)]
+        words = compared[0].formatted("life_of_substrate")[compared[0].candidates.index(name)]
         assert ("or more" in words) == (math.isinf(single.high) and math.isfinite(single.low)), (
             words
         )
@@ -179,7 +181,7 @@ def test_alike_bodies_make_no_difference() -> None:
         executor=1,
         progress=False,
     )
-    verdict = found.verdict("energy")
+    verdict = found.preference("energy")
     assert verdict.best == ["one", "other"]
     assert verdict.worse == ["slippery"]
     assert str(verdict) == "best: one, other (no difference)"
@@ -209,7 +211,7 @@ def test_it_goes_on_after_an_interrupt(tmp_path: Path) -> None:
     alone = fret.compare(some, scene, path, **{**options, "out": None})  # type: ignore[arg-type]
     assert found == alone
     with pytest.raises(fret.errors.StoreError, match="another study"):
-        fret.compare(some, scene.replace(mu=0.3), path, **options)  # type: ignore[arg-type]
+        fret.compare(some, scene.replace(friction=0.3), path, **options)  # type: ignore[arg-type]
 
 
 def test_it_is_drawn_and_written(

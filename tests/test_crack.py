@@ -35,7 +35,7 @@ def rig() -> fret.Result:
     scene = fret.Scene(
         body1=fret.Body(STEEL, shape=fret.Cylinder(R=0.05)),
         body2=fret.Body(STEEL),
-        mu=mu,
+        friction=mu,
         grid=fret.Grid.strip(extent=3 * a, n=96),
     )
     T = 0.5 * mu * W
@@ -213,7 +213,7 @@ def test_the_deepest_point_of_a_crack_under_a_ball() -> None:
     """A load along y turns the plane; the estimate is the plane value times the factor."""
     ball = fret.Body(STEEL, shape=fret.Sphere(R=5e-3))
     scene = fret.Scene(
-        body1=ball, body2=fret.Body(STEEL), mu=0.5, grid=fret.Grid.centred(extent=3.2e-4, n=20)
+        body1=ball, body2=fret.Body(STEEL), friction=0.5, grid=fret.Grid.centred(width=3.2e-4, n=20)
     )
     W, T = 20.0, 6.0
 

@@ -31,7 +31,7 @@ def pad(cells: int) -> fret.Result:
     scene = fret.Scene(
         body1=fret.Body(titanium, shape=fret.Cylinder(R=0.04)),
         body2=fret.Body(titanium),
-        mu=0.5,
+        friction=0.5,
         grid=fret.Grid.strip(extent=1.7e-3, n=cells),
     )
     path = fret.LoadPath.start().normal(4e5, increments=2)
@@ -130,7 +130,7 @@ def test_the_first_to_fail_has_the_margin_of_the_same_cracks(
     scene = fret.Scene(
         body1=fret.Body(steel, shape=fret.Cylinder(R=0.05)),
         body2=fret.Body(steel, coatings=[film]),
-        mu=0.6,
+        friction=0.6,
         grid=fret.Grid.strip(extent=1e-3, n=16),
     )
     path = fret.LoadPath.start().normal(2e5).tangential([6e4, -6e4, 6e4], increments=3)

@@ -34,7 +34,7 @@ def _ctrl_c() -> Iterator[None]:
 
 
 def load(n: int) -> tuple[fret.Grid, np.ndarray]:
-    grid = fret.Grid.centred(extent=2.4, n=n)
+    grid = fret.Grid.centred(width=2.4, n=n)
     x, y = np.meshgrid(grid.x, grid.y, indexing="ij")
     return grid, np.sqrt(np.maximum(1 - x**2 - y**2, 0))
 

@@ -21,8 +21,8 @@ def layered(coatings: list[fret.Coating], *, n: int = 24) -> fret.Scene:
     return fret.Scene(
         body1=fret.Body(STEEL, shape=fret.Sphere(R=R)),
         body2=fret.Body(STEEL, coatings=coatings),
-        mu=0.3,
-        grid=fret.Grid.centred(extent=3.0 * HERTZ.a, n=n),
+        friction=0.3,
+        grid=fret.Grid.centred(width=3.0 * HERTZ.a, n=n),
     )
 
 

@@ -268,8 +268,8 @@ def test_pint_is_understood() -> None:
             lambda: fret.Scene(
                 body1=fret.Body(fret.RIGID, shape=fret.Sphere(1.0)),
                 body2=fret.Body(fret.Elastic(E=1e9, nu=0.3)),
-                mu=0.3,
-                grid=fret.Grid.centred(extent=1e-3, n=8),
+                friction=0.3,
+                grid=fret.Grid.centred(width=1e-3, n=8),
                 setting=None,
             ),
             "settings",

@@ -28,8 +28,8 @@ def scene() -> fret.Scene:
     return fret.Scene(
         body1=fret.Body(steel, shape=fret.Sphere(R=R)),
         body2=fret.Body(steel, coatings=[fret.Coating(film, thickness=20e-6)]),
-        mu=0.4,
-        grid=fret.Grid.centred(extent=2.6 * a, n=32),
+        friction=0.4,
+        grid=fret.Grid.centred(width=2.6 * a, n=32),
         path=fret.LoadPath.start().normal(W).cycles(1, T_x=2.0),
         title="ball",
     )

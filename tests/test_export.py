@@ -27,8 +27,8 @@ def result() -> fret.Result:
     scene = fret.Scene(
         body1=fret.Body(STEEL, shape=fret.Sphere(R=R)),
         body2=fret.Body(STEEL),
-        mu=MU,
-        grid=fret.Grid.centred(extent=2.4 * HERTZ.a, n=48),
+        friction=MU,
+        grid=fret.Grid.centred(width=2.4 * HERTZ.a, n=48),
         path=fret.LoadPath.start()
         .normal(W, increments=1)
         .cycles(1, T_x=0.8 * MU * W, increments=20),

@@ -29,7 +29,7 @@ def axial(most: float, least: float) -> np.ndarray:
 
 def test_numbers_of_the_literature() -> None:
     stress = np.stack([axial(100, -100), axial(200, 0)], axis=1).reshape(2, 2, 1, 6)
-    found = fatigue.evaluate(stress, Criterion.findley(k=0.3))
+    found = fatigue.evaluate_criterion(stress, Criterion.findley(k=0.3))
     np.testing.assert_allclose(
         found.value.values.ravel(), [67.2015 * MPA, 88.3095 * MPA], rtol=1e-6
     )
@@ -40,10 +40,10 @@ def test_numbers_of_the_literature() -> None:
     bent = np.zeros((2, 6))
     bent[:, 0], bent[:, 3] = [411 * MPA, -411 * MPA], [205 * MPA, -205 * MPA]
     alpha = (352 - 540.97 / np.sqrt(3)) / (540.97 / 3)
-    value = float(fatigue.evaluate(bent, Criterion.crossland(alpha=alpha)).value)
+    value = float(fatigue.evaluate_criterion(bent, Criterion.crossland(alpha=alpha)).value)
     assert value / MPA - 352 == pytest.approx(-8.281, abs=5e-4)
     E, nu = 210e9, 0.3
-    swt = fatigue.evaluate(axial(300, -300), Criterion.smith_watson_topper(E=E, nu=nu))
+    swt = fatigue.evaluate_criterion(axial(300, -300), Criterion.smith_watson_topper(E=E, nu=nu))
     assert float(swt.value) == pytest.approx((300 * MPA) ** 2 / E)
 
 
@@ -51,16 +51,16 @@ def test_materials_and_lives(tmp_path: Path) -> None:
     table = fatigue.Materials()
     assert all(source for m in table.values() for _, _, source in m.numbers())
     steel = table["steel_42CrMo4"]
-    found = fatigue.assess(axial(398, -398), steel, "dang_van")
+    found = fatigue.evaluate_margin(axial(398, -398), steel, "dang_van")
     assert float(found.safety_factor) == pytest.approx(1.0)
     titanium = table["titanium_6Al4V"]
     lives = [
-        float(fatigue.assess(axial(s, -s), titanium, "smith_watson_topper").life)
+        float(fatigue.evaluate_margin(axial(s, -s), titanium, "smith_watson_topper").life)
         for s in (500, 600, 700)
     ]
     assert lives[0] > lives[1] > lives[2] > 1e3
     with pytest.raises(ValueError, match=r"alumina`\.s_D: is missing \(fatigue limit"):
-        fatigue.assess(axial(1, -1), table["alumina"], "crossland")
+        fatigue.evaluate_margin(axial(1, -1), table["alumina"], "crossland")
     with pytest.raises(KeyError, match="steel_42CrMo4"):
         table["unobtainium"]
     mine = tmp_path / "mine.toml"
@@ -100,10 +100,10 @@ def test_pulsating_compression_ends_at_once() -> None:
     stress = np.zeros((2, 1, 6))
     stress[1, 0, 0] = -400 * MPA
     swt = Criterion.smith_watson_topper(E=162e9, nu=0.3)
-    assert float(fatigue.evaluate(stress, swt).value[0]) == 0.0
+    assert float(fatigue.evaluate_criterion(stress, swt).value[0]) == 0.0
     stress[1, 0, :3] = -400 * MPA
     for criterion in (Criterion.findley(k=0.3), Criterion.matake(k=0.3), swt):
-        assert float(fatigue.evaluate(stress, criterion).value[0]) == 0.0
+        assert float(fatigue.evaluate_criterion(stress, criterion).value[0]) == 0.0
 
 
 def test_bad_input() -> None:
@@ -118,7 +118,7 @@ def test_bad_input() -> None:
         (np.ones(6), "time"),
     ):
         with pytest.raises(ValueError, match=message):
-            fatigue.evaluate(stress, findley)
+            fatigue.evaluate_criterion(stress, findley)
     with pytest.raises(ValueError, match="a weight, 0 or more"):
         Criterion.findley(k=-1.0)
 
@@ -157,14 +157,14 @@ def test_along_the_cycle_of_a_contact() -> None:
     assert stress.dims == ("increment", "depth", "x", "component")
     # The interface has two sides.
     assert stress.layer.values.tolist() == [0, 0, 0, 1]
-    found = fatigue.evaluate(stress.values, Criterion.findley(k=0.3))
+    found = fatigue.evaluate_criterion(stress.values, Criterion.findley(k=0.3))
     worst = np.unravel_index(int(np.asarray(found.value).argmax()), found.value.shape)
     assert worst[0] == 0
     pressed = fatigue.history(result, z, y=0.0, residual=[-1e9, 0.0])
     change = (pressed - stress).isel(increment=0, x=0)
     np.testing.assert_allclose(change.isel(depth=0), [-1e9, -1e9, 0, 0, 0, 0], atol=1.0)
     np.testing.assert_allclose(change.isel(depth=3), 0.0, atol=1.0)
-    relieved = fatigue.evaluate(pressed.values, Criterion.findley(k=0.3))
+    relieved = fatigue.evaluate_criterion(pressed.values, Criterion.findley(k=0.3))
     assert float(relieved.value[worst]) < float(found.value[worst])
     with pytest.raises(ValueError, match="one for each of the 2 layers"):
         fatigue.history(result, z, y=0.0, residual=[0.0])

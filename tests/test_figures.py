@@ -11,7 +11,7 @@ from conftest import MU, R, W, sphere_on_flat
 STEEL = fret.Elastic(E=210e9, nu=0.3)
 HARD = fret.Elastic(E=420e9, nu=0.25)
 A = fret.reference.hertz(R=R, bodies=(STEEL, STEEL), W=W).a
-GRID = fret.Grid.centred(extent=2.6 * A, n=16)
+GRID = fret.Grid.centred(width=2.6 * A, n=16)
 PRESSED = fret.LoadPath.start().normal(W, increments=2)
 GENTLE = fret.LoadPath.start().normal(W / 5, increments=2).cycles(1, T_x=20.0, increments=6)
 SHEARED = PRESSED.cycles(1, T_x=0.7 * MU * W, increments=6)
@@ -23,7 +23,7 @@ def scene(
     return fret.Scene(
         body1=fret.Body(STEEL, shape=shape),  # type: ignore[arg-type]
         body2=fret.Body(STEEL),
-        mu=mu,
+        friction=mu,
         grid=grid,
         path=path,
     )
@@ -33,7 +33,7 @@ def thin_layers() -> fret.Scene:
     layers = [fret.Coating(HARD, thickness=A / 30), fret.Coating(STEEL, thickness=A / 50)]
     ball = fret.Body(STEEL, shape=fret.Sphere(R=R))
     flat = fret.Body(STEEL, coatings=layers)
-    return fret.Scene(body1=ball, body2=flat, mu=MU, grid=GRID, path=SHEARED)
+    return fret.Scene(body1=ball, body2=flat, friction=MU, grid=GRID, path=SHEARED)
 
 
 ROUGH = fret.shapes.Rough(rms=1e-7, hurst=0.8, longest=A, shortest=0.4 * A, seed=2)

@@ -28,8 +28,8 @@ def ball(n: int = 32, **coating: float) -> fret.Scene:
     return fret.Scene(
         body1=fret.Body(STEEL, shape=fret.Sphere(R=5e-3)),
         body2=fret.Body(STEEL, coatings=layers),
-        mu=0.5,
-        grid=fret.Grid.centred(extent=0.3e-3, n=n),
+        friction=0.5,
+        grid=fret.Grid.centred(width=0.3e-3, n=n),
         path=fret.LoadPath.start().normal(W),
     )
 
@@ -44,7 +44,7 @@ def loop(scene: fret.Scene, reach: float, noise: float, seed: int) -> tuple[np.n
 
 
 def test_mu_and_the_rig_are_found_from_a_german_file(tmp_path: Path) -> None:
-    true = fret.study.varied(ball(), {"mu": 0.62, "rig.stiffness": 8e6})
+    true = ball().replace({"mu": 0.62, "rig.stiffness": 8e6})
     shift, T = loop(true, 6e-6, 0.02, 1)
     rows = [
         f"{1e6 * x + 0.4:.4f};{f - 0.3:.3f}".replace(".", ",")
@@ -67,10 +67,10 @@ def test_mu_and_the_rig_are_found_from_a_german_file(tmp_path: Path) -> None:
 
 def test_what_cannot_be_told_apart_is_said() -> None:
     # A loop that never slides knows the stiffness of rig and bodies together.
-    true = fret.study.varied(ball(), {"mu": 2.0, "rig.stiffness": 2e7})
+    true = ball().replace({"mu": 2.0, "rig.stiffness": 2e7})
     shift, T = loop(true, 1e-6, 0.01, 2)
     found = fret.fit(
-        fret.study.varied(ball(), {"mu": 2.0}),
+        ball().replace({"mu": 2.0}),
         fret.fit.Loops.of(shift, T),
         unknown={"rig.stiffness": (2e6, 2e8), "body2.E": (5e10, 1e12)},
     )
@@ -98,7 +98,7 @@ def test_wear_and_debris_are_found_from_a_scar() -> None:
     line = fret.Scene(
         body1=fret.Body(STEEL, shape=fret.Cylinder(R=6e-3)),
         body2=fret.Body(STEEL),
-        mu=0.9,
+        friction=0.9,
         grid=fret.Grid.strip(extent=0.5e-3, n=64),
         path=path,
     )
@@ -190,7 +190,7 @@ def test_ranges_are_refused_by_name() -> None:
 
 
 def test_the_posterior_is_that_of_the_confidence_where_the_model_is_linear() -> None:
-    true = fret.study.varied(ball(), {"mu": 0.62, "rig.stiffness": 8e6})
+    true = ball().replace({"mu": 0.62, "rig.stiffness": 8e6})
     shift, T = loop(true, 6e-6, 0.02, 1)
     found = fret.fit(
         ball(),
@@ -215,7 +215,7 @@ def test_the_posterior_is_that_of_the_confidence_where_the_model_is_linear() -> 
 
 
 def test_a_tilt_drifts_and_offsets_are_found_beside_mu_and_the_rig() -> None:
-    true = fret.study.varied(ball(), {"mu": 0.55, "rig.stiffness": 9e6})
+    true = ball().replace({"mu": 0.55, "rig.stiffness": 9e6})
     path = true.path.displace(delta_x=[6e-6, -6e-6, 6e-6, -6e-6, 6e-6], increments=150)
     d = fret.solve(true, path, progress=False).dataset
     first = int(np.flatnonzero(d.branch_of_increment.values >= 2)[0]) - 1

@@ -88,7 +88,7 @@ warnings.simplefilter("ignore")
 steel = fret.Elastic(E=210e9, nu=0.3)
 body = fret.Body(steel, coatings=[fret.Coating(fret.Elastic(E=400e9, nu=0.2), thickness=1e-5)])
 def work(n):
-    grid = fret.Grid.centred(extent=1e-4, n=n)
+    grid = fret.Grid.centred(width=1e-4, n=n)
     return float(fret.kernels.influence_coefficients(body, grid)[2, 2].max())
 before = [work(n) for n in (8, 12)]
 with multiprocessing.get_context("fork").Pool(2) as pool:

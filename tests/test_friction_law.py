@@ -24,7 +24,7 @@ def worn(of: fret.Scene, **options: Any) -> fret.wear.WearResult:
 
 
 def scene(law: Any, path: fret.LoadPath = PATH) -> fret.Scene:
-    return sphere_on_flat(n=24).replace(mu=fret.Friction(MU, law=law), path=path)
+    return sphere_on_flat(n=24).replace(friction=fret.Friction(MU, law=law), path=path)
 
 
 def by_pressure(x: Any, y: Any, p: Any, slip: Any, dissipated: Any) -> Any:
@@ -48,7 +48,7 @@ def test_a_law_of_pressure_slides_under_the_sum_of_its_coefficient_times_the_pre
 
 def test_a_law_of_slip_gives_what_the_same_table_gives() -> None:
     table = fret.Friction(MU, history=(fret.History.SLIP, [(0.0, 1.0), (1e-6, 0.8)]))
-    by_table = fret.solve(scene(softening).replace(mu=table), progress=False)
+    by_table = fret.solve(scene(softening).replace(friction=table), progress=False)
     by_law = fret.solve(scene(softening), progress=False)
     np.testing.assert_allclose(by_law.delta_x, by_table.delta_x, atol=2e-3 * 1e-6)
     # Each coefficient is settled to a thousandth.
@@ -72,7 +72,7 @@ def test_a_law_sees_every_cell_and_where_it_is() -> None:
     np.testing.assert_allclose(p, at.p.values[i, j], rtol=1e-9)
     np.testing.assert_allclose(dissipated, at.dissipated_density.values[i, j], rtol=1e-6)
     assert slip.max() > np.abs(at.slip_x.values).max() > 0
-    plain = fret.solve(scene(law).replace(mu=MU), progress=False)
+    plain = fret.solve(scene(law).replace(friction=MU), progress=False)
     largest = float(np.abs(plain.delta_x).max())
     np.testing.assert_allclose(result.delta_x, plain.delta_x, atol=1e-6 * largest)
 
@@ -112,7 +112,7 @@ def test_a_law_is_a_function_and_alone() -> None:
     with pytest.raises(fret.errors.InvalidSceneError, match="without map, history and kinetic"):
         fret.Friction(MU, law=softening, kinetic=0.2)
     with pytest.raises(TypeError, match=r"Friction\(0.3, law=function\)"):
-        sphere_on_flat().replace(mu=softening)
+        sphere_on_flat().replace(friction=softening)
     with pytest.raises(ValueError, match=r"a law of your own.*march"):
         worn(scene(softening), cycling="sliding")
 
@@ -162,7 +162,7 @@ def by_energy(x: Any, y: Any, p: Any, slip: Any, dissipated: Any) -> Any:
 def test_over_cycles_of_wear_a_law_gives_what_the_same_table_gives() -> None:
     table = fret.Friction(MU, history=(fret.History.DISSIPATED, [(0.0, 1.0), (1e7, 0.7)]))
     constant, by_table, by_law = (
-        worn(scene(by_energy).replace(mu=mu)).dataset
+        worn(scene(by_energy).replace(friction=mu)).dataset
         for mu in (MU, table, fret.Friction(MU, law=by_energy))
     )
     # Each coefficient is settled to a thousandth.

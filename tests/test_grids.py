@@ -18,7 +18,7 @@ def p_max(
     body: fret.Body, lower: fret.Body, path: fret.LoadPath, grid: fret.Grid
 ) -> tuple[float, float]:
     """Area and largest pressure on a grid."""
-    scene = fret.Scene(body1=body, body2=lower, mu=0.0, grid=grid, path=path)
+    scene = fret.Scene(body1=body, body2=lower, friction=0.0, grid=grid, path=path)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         at = fret.solve(scene, progress=False).at(-1)
@@ -70,7 +70,7 @@ def test_cells_resolve_the_waves_of_a_measured_surface() -> None:
     assert grid.dx <= wave / np.sqrt(2) / 7.0
     side = grid.nx * grid.dx
     found = p_max(ball, rough, path, grid)
-    finest = p_max(ball, rough, path, fret.Grid.centred(extent=side, n=2 * grid.nx))
+    finest = p_max(ball, rough, path, fret.Grid.centred(width=side, n=2 * grid.nx))
     assert told or found == pytest.approx(finest, rel=0.03)
 
 
@@ -96,8 +96,8 @@ def test_a_grid_for_a_number_keeps_its_error(of: str) -> None:
     side = grid.nx * grid.dx
 
     def number(n: int) -> float:
-        grid = fret.Grid.centred(extent=side, n=n)
-        scene = fret.Scene(body1=ball, body2=FLAT, mu=mu, grid=grid, path=path)
+        grid = fret.Grid.centred(width=side, n=n)
+        scene = fret.Scene(body1=ball, body2=FLAT, friction=mu, grid=grid, path=path)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             result = fret.solve(scene, progress=False)

@@ -31,8 +31,8 @@ def scene(law: fret.Plastic, n: int = 24) -> fret.Scene:
     return fret.Scene(
         body1=fret.Body(fret.RIGID, shape=fret.Sphere(R=10e-3)),
         body2=fret.Body(material),
-        mu=0.0,
-        grid=fret.Grid.centred(extent=6.4e-4, n=n),
+        friction=0.0,
+        grid=fret.Grid.centred(width=6.4e-4, n=n),
     )
 
 

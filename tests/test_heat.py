@@ -157,7 +157,7 @@ def test_refusals(coated: fret.Result) -> None:
     strip = fret.Scene(
         body1=fret.Body(STEEL_E, shape=fret.Cylinder(R=0.01)),
         body2=fret.Body(STEEL_E),
-        mu=0.3,
+        friction=0.3,
         grid=fret.Grid.strip(extent=4e-4, n=16),
     )
     path = fret.LoadPath.start().normal(1e5, increments=1)

@@ -12,7 +12,7 @@ import pytest
 import xarray as xr
 
 import pyfret as fret
-from pyfret.study.identity import identity
+from pyfret.study.identity import code_checksum
 
 pytestmark = pytest.mark.solves
 
@@ -20,8 +20,8 @@ STEEL = fret.Elastic(E=210e9, nu=0.3)
 SCENE = fret.Scene(
     body1=fret.Body(STEEL, shape=fret.Sphere(R=5e-3)),
     body2=fret.Body(STEEL),
-    mu=0.3,
-    grid=fret.Grid.centred(extent=2e-4, n=8),
+    friction=0.3,
+    grid=fret.Grid.centred(width=2e-4, n=8),
     path=fret.LoadPath.start().normal(10.0, increments=1),
 )
 #: A global that a measure names.
@@ -55,7 +55,7 @@ def test_a_value_that_is_set_twice_is_refused(twice: dict[str, Any]) -> None:
     with pytest.raises(ValueError, match="twice"):
         solved(twice, "p_max")
     with pytest.raises(ValueError, match="twice"):
-        fret.study.varied(SCENE, {key: values[0] for key, values in twice.items()})
+        SCENE.replace({key: values[0] for key, values in twice.items()})
 
 
 def test_a_function_is_told_by_what_it_does() -> None:
@@ -65,19 +65,23 @@ def test_a_function_is_told_by_what_it_does() -> None:
     def with_closure(result: Any) -> float:
         return factor * float(result.p_max[-1])
 
-    before = identity(with_closure)
+    before = code_checksum(with_closure)
     factor = 3.0
-    assert identity(with_closure) != before
+    assert code_checksum(with_closure) != before
     by_two, by_three = (functools.partial(scaled, by=by) for by in (2.0, 3.0))
-    assert identity(by_two) == identity(functools.partial(scaled, by=2.0)) != identity(by_three)
-    assert identity(functools.partial(scaled, offset=1.0)) != identity(scaled)
-    whole = identity(scaled)
+    assert (
+        code_checksum(by_two)
+        == code_checksum(functools.partial(scaled, by=2.0))
+        != code_checksum(by_three)
+    )
+    assert code_checksum(functools.partial(scaled, offset=1.0)) != code_checksum(scaled)
+    whole = code_checksum(scaled)
     globals()["SCALE"] = 2.0
     try:
-        assert identity(scaled) != whole
+        assert code_checksum(scaled) != whole
     finally:
         globals()["SCALE"] = 1.0
-    assert identity(scaled) == whole
+    assert code_checksum(scaled) == whole
     sources = [
         "def f(r):\n    'one'\n    return r + 1\n",
         "def f(r):\n\n    'two'  # words\n    return r + 1\n",
@@ -88,16 +92,16 @@ def test_a_function_is_told_by_what_it_does() -> None:
     for source in sources:
         room: dict[str, Any] = {"__name__": "m"}
         exec(source, room)
-        told.append(identity(room["f"]))
+        told.append(code_checksum(room["f"]))
     assert told[0] == told[1]
     assert len(set(told)) == 3
     array = np.arange(3.0)
-    assert identity(functools.partial(np.dot, array)) != identity(
+    assert code_checksum(functools.partial(np.dot, array)) != code_checksum(
         functools.partial(np.dot, 2 * array)
     )
     threshold = fret.fracture.Threshold(dK_th=1e6, dS_0=3e8)
     other = fret.fracture.Threshold(dK_th=2e6, dS_0=3e8)
-    assert identity(fret.study.Arrest(threshold)) != identity(fret.study.Arrest(other))
+    assert code_checksum(fret.study.Arrest(threshold)) != code_checksum(fret.study.Arrest(other))
 
 
 def test_what_cannot_be_told_needs_a_version() -> None:
@@ -108,11 +112,11 @@ def test_what_cannot_be_told_needs_a_version() -> None:
             return float(len(file.readlines()))
 
         with pytest.raises(ValueError, match="give it a version"):
-            identity(lines)
+            code_checksum(lines)
         lines.version = 1  # type: ignore[attr-defined]
-        first = identity(lines)
+        first = code_checksum(lines)
         lines.version = 2  # type: ignore[attr-defined]
-        assert identity(lines) != first
+        assert code_checksum(lines) != first
 
 
 def test_a_store_of_other_code_is_refused(tmp_path: Path) -> None:
@@ -126,7 +130,7 @@ def test_a_store_of_other_code_is_refused(tmp_path: Path) -> None:
 
     def scenes(W: float) -> Any:
         return lambda values: SCENE.replace(
-            path=fret.LoadPath.start().normal(W, increments=1), mu=values["mu"]
+            path=fret.LoadPath.start().normal(W, increments=1), friction=values["mu"]
         )
 
     place = tmp_path / "f.zarr"

@@ -81,7 +81,7 @@ def test_commands_print_json_where_numbers_end(
     """A contact that sticks (mu infinite), and cracks that stop."""
     store = tmp_path / "out.zarr"
     path = fret.LoadPath.start().normal(1e3, increments=2).cycles(1, T_x=100.0, increments=4)
-    scene = sphere_on_flat(n=24).replace(mu="stick", path=path, save="all")
+    scene = sphere_on_flat(n=24).replace(friction="stick", path=path, save="all")
     (tmp_path / "scene.toml").write_text(scene.to_toml())
     run = subprocess.run(
         [FRET, "run", tmp_path / "scene.toml", "-o", store, "--json"],
@@ -117,7 +117,7 @@ def test_commands_print_json_where_numbers_end(
 @pytest.mark.solves
 def test_a_contact_without_friction_has_no_stick_ratio(tmp_path: Path) -> None:
     path = fret.LoadPath.start().normal(1e3, increments=2)
-    scene = sphere_on_flat(n=24).replace(mu=0.0, path=path)
+    scene = sphere_on_flat(n=24).replace(friction=0.0, path=path)
     result = fret.solve(scene, progress=False)
     for text in (result.summary(), result._repr_html_(), result.at(-1)._repr_html_()):
         assert "no friction" in text

@@ -98,7 +98,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     scene = fret.Scene(
         body1=fret.Body(STEEL, shape=fret.Cylinder(R=0.05)),
         body2=fret.Body(STEEL),
-        mu=0.6,
+        friction=0.6,
         grid=fret.Grid.strip(extent=8e-4, n=32),
         path=path,
     ).replace(save="all")
@@ -111,8 +111,8 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     )
     (place / "punch.toml").write_text(
         punch.replace(
-            grid=fret.Grid.centred(extent=8e-4, n=16),
-            mu=0.0,
+            grid=fret.Grid.centred(width=8e-4, n=16),
+            friction=0.0,
             path=fret.LoadPath.start().normal(100.0, increments=2),
         ).to_toml()
     )

@@ -139,7 +139,7 @@ def test_eigenstrains_and_tractions_answer_each_other_alike(grid: fret.Grid) -> 
 def test_a_uniform_thermal_strain_of_a_layer_presses_it() -> None:
     """A heated layer, 128 times as wide as thick, is under -E alpha dT/(1 - nu) along x and y."""
     E, nu, strain = 210e9, 0.3, 1e-3
-    grid = fret.Grid.centred(extent=64e-6, n=32)
+    grid = fret.Grid.centred(width=64e-6, n=32)
     operator = fret.kernels.EigenstrainOperator(
         fret.Body(fret.Elastic(E=E, nu=nu)), grid, depth=5e-7, height=2.5e-7
     )
@@ -167,7 +167,7 @@ def test_an_eigenstrain_operator_without_meaning_is_refused(
     """Lengths that are none, and a rigid body."""
     given = {
         "body": fret.Body(fret.Elastic(E=210e9, nu=0.3)),
-        "grid": fret.Grid.centred(extent=1e-4, n=8),
+        "grid": fret.Grid.centred(width=1e-4, n=8),
         "depth": 2e-5,
         "height": 1e-5,
     }

@@ -64,7 +64,7 @@ def test_a_film_has_its_own_residual_stress() -> None:
 SCENE = fret.Scene(
     body1=fret.Body(STEEL, shape=fret.Cylinder(R=1e-2)),
     body2=fret.Body(STEEL),
-    mu=0.3,
+    friction=0.3,
     grid=fret.Grid.strip(extent=4e-4, n=16),
     path=fret.LoadPath.start().normal(1e5).cycles(1, T_x=1e4, increments=4),
 )
@@ -73,7 +73,7 @@ SCENE = fret.Scene(
 def test_several_criteria_are_those_of_lives() -> None:
     several: Any = ["crossland", "dang_van"]
     result = fret.solve(SCENE, save="all", progress=False)
-    with pytest.raises(TypeError, match=r"fatigue.lives\(result, materials, \[...\]\) judges by"):
+    with pytest.raises(TypeError, match=r"fatigue.lives\(result, materials, \[...\]\) evaluates"):
         result.life(ALLOY, several)
     assert list(fatigue.lives(result, ALLOY, several)) == several
 

@@ -45,7 +45,7 @@ def test_streamed_is_what_the_whole_history_gives(cycled: fret.Result) -> None:
     streamed = cycled.life(BOTH, "findley", residual=[-3e8, 1e8])
     z = np.unique(streamed.dataset.z)
     history = fatigue.history(cycled, z, y=0.0, residual=[-3e8, 1e8])
-    whole = fatigue.assess(history, STEEL, "findley")
+    whole = fatigue.evaluate_margin(history, STEEL, "findley")
     np.testing.assert_allclose(streamed.dataset.value, whole.value, rtol=1e-12)
     np.testing.assert_allclose(streamed.margin, whole.safety_factor, rtol=1e-12)
     assert streamed.dataset.value.dims == ("depth", "x")
@@ -149,7 +149,9 @@ def test_averages_are_those_of_the_stress(cycled: fret.Result) -> None:
     line = averages.average(cycled, BOTH, "crossland", L=L, method="line")
     z = (np.arange(60) + 0.5) / 60 * 2 * L
     mean = fatigue.history(cycled, z, y=0.0).mean("depth")
-    brute = fatigue.assess(mean.transpose("increment", "x", "component"), STEEL, "crossland")
+    brute = fatigue.evaluate_margin(
+        mean.transpose("increment", "x", "component"), STEEL, "crossland"
+    )
     # Far outside there is next to no stress, and a large safety factor is no number to compare.
     used, expected = 1 / line.safety_factor, 1 / brute.safety_factor
     np.testing.assert_allclose(used, expected, rtol=2e-3, atol=1e-4)
@@ -198,7 +200,9 @@ def test_a_critical_distance_in_the_substrate(cycled: fret.Result) -> None:
     np.testing.assert_array_equal(below.value, named.value)
     z = top + (np.arange(60) + 0.5) / 60 * 2 * L
     mean = fatigue.history(cycled, z, y=0.0).mean("depth")
-    brute = fatigue.assess(mean.transpose("increment", "x", "component"), STEEL, "crossland")
+    brute = fatigue.evaluate_margin(
+        mean.transpose("increment", "x", "component"), STEEL, "crossland"
+    )
     np.testing.assert_allclose(below.value, brute.value, rtol=2e-3, atol=1e5)
     with pytest.raises(ValueError, match="layer = 2: must be 0 to 1"):
         averages.average(cycled, STEEL, "crossland", L=L, layer=2)
@@ -268,7 +272,7 @@ def test_figures(cycled: fret.Result) -> None:
     marked = ax.lines[1].get_xydata()[0] * 1e6
     n = np.unravel_index(int(np.nanargmax(d.value)), d.value.shape)
     # On 32 cells the trailing edge lies between two samples and has a third more.
-    assert worst.at == "rim"
+    assert worst.border == "rim"
     assert 1.0 <= worst.value / float(d.value[n]) < 1.4
     np.testing.assert_allclose(marked, [float(d.normal_mean[n]), float(d.normal_amplitude[n])])
     with pytest.raises(ValueError, match="no critical plane"):
@@ -283,7 +287,9 @@ def test_mean_stress_costs_amplitude_as_the_criterion_says(tmp_path: Path) -> No
     amplitude = STEEL.number("s_D") - slope * mean
     stress = np.zeros((2, 6))
     stress[:, 0] = mean + amplitude, mean - amplitude
-    assert float(fatigue.assess(stress, STEEL, "dang_van").safety_factor) == pytest.approx(1.0)
+    assert float(fatigue.evaluate_margin(stress, STEEL, "dang_van").safety_factor) == pytest.approx(
+        1.0
+    )
     table = tmp_path / "mine.toml"
     table.write_text(
         'schema = 1\n[materials.mine]\ns_D = { value = 4e8, source = "test" }\n'
@@ -307,15 +313,15 @@ def test_the_mean_over_a_critical_distance_knows_the_width_of_the_contact() -> N
         R = alloy.E / (2 * (1 - alloy.nu**2)) * a / (2 * p_0)
         grid = fret.Grid.strip(extent=5 * a, n=64)
         cylinder, flat = fret.Body(alloy, shape=fret.Cylinder(R)), fret.Body(alloy)
-        scene = fret.Scene(body1=cylinder, body2=flat, mu=mu, grid=grid)
+        scene = fret.Scene(body1=cylinder, body2=flat, friction=mu, grid=grid)
         path = fret.LoadPath.start().normal(W, increments=1)
         for way in (1, -1, 1):
             path = path.force(T_x=way * 0.45 * mu * W, sigma_B=way * 92.7e6, increments=3)
         result = fret.solve(scene, path, save="all", progress=False)
         assert result.a_H == pytest.approx(a, rel=1e-9)
         stress = fatigue.history(result, [0.0, *((np.arange(10) + 0.5) / 5 * L)], y=0.0)
-        surface.append(float(fatigue.evaluate(stress.isel(depth=0), swt).value.max()))
+        surface.append(float(fatigue.evaluate_criterion(stress.isel(depth=0), swt).value.max()))
         below = stress.isel(depth=slice(1, None)).mean("depth")
-        mean.append(float(fatigue.evaluate(below, swt).value.max()))
+        mean.append(float(fatigue.evaluate_criterion(below, swt).value.max()))
     np.testing.assert_allclose(surface, surface[0], rtol=1e-4)
     assert 1.2 * mean[0] < mean[1] < 0.7 * mean[2] < 0.5 * surface[0]

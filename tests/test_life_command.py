@@ -158,7 +158,7 @@ def test_lines_and_distance(store: Path, tmp_path: Path) -> None:
     stress = fatigue.history(fret.open(store), (np.arange(40) + 0.5) / 40 * 6e-5, y=0.0)
     mean = stress.mean("depth").transpose("increment", "x", "component")
     mine = fatigue.Materials(tmp_path / "mine.toml")["mine"]
-    expected = float(fatigue.assess(mean, mine, "dang_van").value.max())
+    expected = float(fatigue.evaluate_margin(mean, mine, "dang_van").value.max())
     assert json.loads(run.stdout)["value"] == pytest.approx(expected, rel=2e-3)
     run = life(store, *own, "--distance", "3e-5", "--json")
     assert json.loads(run.stdout)["layer"] == 1

@@ -35,7 +35,7 @@ def rig(n: int) -> fret.Result:
     scene = fret.Scene(
         body1=fret.Body(alloy, shape=fret.Cylinder(R=R)),
         body2=fret.Body(alloy),
-        mu=MU,
+        friction=MU,
         grid=fret.Grid.strip(extent=2.8 * half_width, n=n),
     )
     path = fret.LoadPath.start().force(W=W, increments=2)
@@ -161,7 +161,7 @@ def test_a_wide_range_names_what_makes_it_wide() -> None:
     scene = fret.Scene(
         body1=fret.Body(body, shape=fret.Cylinder(R=40e-3)),
         body2=fret.Body(body),
-        mu=MU,
+        friction=MU,
         grid=fret.Grid.strip(extent=1.35e-3, n=64),
     )
     path = fret.LoadPath.start().force(W=500e3, increments=2)
@@ -291,7 +291,7 @@ def test_published_lives_of_a_solid_lubricant_lie_in_their_ranges() -> None:
     scene = fret.Scene(
         body1=fret.Body(titanium, shape=fret.Cylinder(R=0.01)),
         body2=fret.Body(titanium),
-        mu=mu,
+        friction=mu,
         grid=fret.Grid.strip(extent=2.6 * a + 4 * slip, n=48),
         path=fret.LoadPath.start().normal(W).displace(delta_x=[slip, -slip, slip]),
     )

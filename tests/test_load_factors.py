@@ -39,7 +39,7 @@ def test_a_sphere_yields_where_hertz_says(pressed: fret.Result) -> None:
     for of in ("von_mises", "tresca"):
         least = factors.least(of)
         # K. L. Johnson (1985) for nu = 0.3, to more digits: p_0 = 1.613 Y, 0.481 a deep.
-        assert least.factor * hertz.p0 / S_Y == pytest.approx(1.613, rel=5e-3)
+        assert least.value * hertz.p0 / S_Y == pytest.approx(1.613, rel=5e-3)
         assert least.z / hertz.a == pytest.approx(0.481, abs=0.01)
         assert abs(least.x) < 0.02 * hertz.a
         assert least.y == 0.0
@@ -67,7 +67,7 @@ def test_layers_have_their_own_limits(coated_cycle: fret.Result) -> None:
     single = coated_cycle.load_factors([None, 1103e6])
     for of in ("von_mises", "tresca", "shakedown"):
         assert both.least_of(1, of) == single.least_of(1, of) == single.least(of)
-        assert both.least(of).factor == min(both.least_of(n, of).factor for n in (0, 1))
+        assert both.least(of).value == min(both.least_of(n, of).value for n in (0, 1))
     assert single.layers == [1]
     assert np.isnan(single.dataset.tresca.values[single.dataset.layer.values == 0]).all()
     # Tresca's condition is the stricter one.
@@ -134,15 +134,15 @@ def test_a_stress_that_does_not_change_has_no_limit_of_shakedown() -> None:
     scene = fret.Scene(
         body1=fret.Body(steel, shape=fret.Sphere(R=R)),
         body2=fret.Body(steel),
-        mu=0.0,
-        grid=fret.Grid.centred(extent=3 * a, n=32),
+        friction=0.0,
+        grid=fret.Grid.centred(width=3 * a, n=32),
         path=path,
     )
     factors = fret.solve(scene, save="all", progress=False).load_factors(S_Y)
     least = factors.least("shakedown")
-    assert least.factor == np.inf
+    assert least.value == np.inf
     assert least.error == 0.0
-    assert 0.0 < factors.least("von_mises").factor < np.inf
+    assert 0.0 < factors.least("von_mises").value < np.inf
 
 
 #: Cells across 2.6 a.
@@ -160,7 +160,7 @@ def fretted(kind: str, n: int) -> fret.Result:
     else:
         load, shape = 15.0, fret.Sphere(R=8e-3)
         hertz = fret.reference.hertz(R=8e-3, bodies=(body, body), W=load)
-        grid = fret.Grid.centred(extent=2.6 * hertz.a, n=n)
+        grid = fret.Grid.centred(width=2.6 * hertz.a, n=n)
     layers = []
     if kind.endswith("coated"):
         coating = fret.Elastic(E=2.2 * body.E, nu=0.25)
@@ -171,7 +171,7 @@ def fretted(kind: str, n: int) -> fret.Result:
     scene = fret.Scene(
         body1=fret.Body(body, shape=shape),
         body2=fret.Body(body, coatings=layers),
-        mu=mu,
+        friction=mu,
         grid=grid,
     )
     with warnings.catch_warnings():
@@ -194,10 +194,10 @@ def agree(kind: str, finest: int, grids: tuple[int, ...]) -> None:
         assert "+-" in repr(factors)
         for layer in layers:
             for of in FACTORS:
-                least, truth = factors.least_of(layer, of), right.least_of(layer, of).factor
-                off, told = abs(least.factor - truth), f"{kind}, {n} cells, {of}: {least}, {truth}"
+                least, truth = factors.least_of(layer, of), right.least_of(layer, of).value
+                off, told = abs(least.value - truth), f"{kind}, {n} cells, {of}: {least}, {truth}"
                 assert off < max(0.04 * truth, least.error), told
-                assert 1 / 1.5 < least.factor / truth < 1.5, told
+                assert 1 / 1.5 < least.value / truth < 1.5, told
         for of in criteria:
             life = result.life(materials, of)
             for layer in layers:
@@ -221,7 +221,7 @@ def test_a_worst_point_beyond_the_grid_does_not_depend_on_it() -> None:
         scene = fret.Scene(
             body1=fret.Body(hard, shape=fret.Cylinder(R=R)),
             body2=fret.Body(steel, coatings=[film]),
-            mu=mu,
+            friction=mu,
             grid=fret.Grid.strip(extent=2.6 * a.a, n=n),
         )
         with warnings.catch_warnings():

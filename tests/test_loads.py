@@ -27,11 +27,11 @@ def test_a_friction_law_survives_the_scene_file() -> None:
         map=fret.SurfaceMap(factors, spacing=(1e-3, 1e-3)),
         history=(fret.History.SLIP, [(0.0, 1.0), (1e-6, 1.4)]),
     )
-    scene = sphere_on_flat().replace(mu=law, path=PRESSED)
+    scene = sphere_on_flat().replace(friction=law, path=PRESSED)
     again = fret.Scene.from_toml(scene.to_toml())
     assert again == scene
     assert again.friction.history == law.history
-    assert scene.replace(mu=0.4).friction == fret.Friction(0.4)
+    assert scene.replace(friction=0.4).friction == fret.Friction(0.4)
 
 
 @pytest.mark.parametrize(
@@ -54,7 +54,7 @@ def test_a_friction_law_survives_the_scene_file() -> None:
 )
 def test_a_law_without_meaning_is_refused(law: Callable[[], fret.Friction], message: str) -> None:
     with pytest.raises(fret.errors.InvalidSceneError, match=message):
-        sphere_on_flat().replace(mu=law(), path=PRESSED).check()
+        sphere_on_flat().replace(friction=law(), path=PRESSED).check()
 
 
 def test_a_measured_history_is_a_path(tmp_path: Path) -> None:
@@ -98,7 +98,7 @@ def test_a_line_contact_is_that_of_hertz() -> None:
     scene = fret.Scene(
         body1=fret.Body(STEEL, shape=fret.Cylinder(R=R)),
         body2=fret.Body(STEEL),
-        mu=MU,
+        friction=MU,
         grid=fret.Grid.strip(extent=2.4 * line.a, n=200),
     )
     path = (
@@ -184,7 +184,7 @@ def test_measured_surfaces_come_in_metres(
 
 
 def test_a_measured_surface_is_pressed(tmp_path: Path) -> None:
-    grid = fret.Grid.centred(extent=2e-5, n=144)
+    grid = fret.Grid.centred(width=2e-5, n=144)
     x, y = np.meshgrid(grid.x, grid.y, indexing="ij")
     heights = 3e-8 * np.cos(8e5 * (x + 0.4 * y))
     write_x3p(tmp_path / "rough.x3p", heights, grid.dx)
@@ -192,7 +192,7 @@ def test_a_measured_surface_is_pressed(tmp_path: Path) -> None:
     scene = fret.Scene(
         body1=fret.Body(STEEL, shape=shape),
         body2=fret.Body(STEEL),
-        mu=MU,
+        friction=MU,
         grid=grid,
     )
     path = fret.LoadPath.start().normal(0.02, increments=2).tangential(2e-3, increments=2)

@@ -39,8 +39,8 @@ def loop(
     scene = fret.Scene(
         body1=fret.Body(SIC, shape=fret.Sphere(R=R)),
         body2=fret.Body(STEEL, coatings=layers),
-        mu=mu,
-        grid=fret.Grid.centred(extent=2.6 * a, n=n),
+        friction=mu,
+        grid=fret.Grid.centred(width=2.6 * a, n=n),
     )
     path = fret.LoadPath.start().normal(W)
     for to in (reach, -reach, reach):
@@ -110,8 +110,8 @@ def test_a_stiffness_in_torsion(n: int, increments: int, part: float) -> None:
     scene = fret.Scene(
         body1=fret.Body(SIC, shape=fret.Sphere(R=R)),
         body2=fret.Body(STEEL),
-        mu=MU,
-        grid=fret.Grid.centred(extent=2.6 * a, n=n),
+        friction=MU,
+        grid=fret.Grid.centred(width=2.6 * a, n=n),
     )
     path = fret.LoadPath.start().normal(W, increments=1)
     for sign in (1.0, -1.0, 1.0):
@@ -139,8 +139,8 @@ def test_numbers_of_a_cycle_have_the_errors_of_its_branches() -> None:
             scene = fret.Scene(
                 body1=fret.Body(STEEL, shape=fret.Sphere(R=R)),
                 body2=fret.Body(STEEL),
-                mu=MU,
-                grid=fret.Grid.centred(extent=2.6 * hertz.a, n=n),
+                friction=MU,
+                grid=fret.Grid.centred(width=2.6 * hertz.a, n=n),
                 path=fret.LoadPath.start().normal(W).cycles(1, T_x=T),
             )
             result = fret.solve(scene, error=True, progress=False)
@@ -174,8 +174,8 @@ def test_an_opening_is_right_or_not_given(increments: int | str) -> None:
     scene = fret.Scene(
         body1=fret.Body(steel, shape=fret.Sphere(R=5e-3)),
         body2=fret.Body(steel),
-        mu=mu,
-        grid=fret.Grid.centred(extent=2e-4, n=32),
+        friction=mu,
+        grid=fret.Grid.centred(width=2e-4, n=32),
         path=fret.LoadPath.start()
         .normal(W)
         .cycles(1, delta_x=shift, increments=increments)

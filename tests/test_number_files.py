@@ -191,7 +191,9 @@ def test_masks_are_holes_or_refused() -> None:
     stress = np.ma.array(np.ones((4, 1, 6)), mask=False)
     stress[2] = np.ma.masked
     calls: dict[str, Callable[[], object]] = {
-        "evaluate": lambda: fret.fatigue.evaluate(stress, fret.fatigue.Criterion.findley(k=0.3)),
+        "evaluate": lambda: fret.fatigue.evaluate_criterion(
+            stress, fret.fatigue.Criterion.findley(k=0.3)
+        ),
         "first_yield": lambda: fret.fatigue.first_yield(stress, s_y=1e8),
         "moving_load": lambda: fret.fatigue.moving_load(stress, s_y=1e8),
         "to_pylife": lambda: fret.fatigue.to_pylife(stress),
@@ -200,7 +202,7 @@ def test_masks_are_holes_or_refused() -> None:
         ),
         "stress": lambda: fret.subsurface.stress(
             fret.Body(fret.Elastic(E=2e11, nu=0.3)),
-            fret.Grid.centred(extent=6e-4, n=6),
+            fret.Grid.centred(width=6e-4, n=6),
             [1e-5],
             p=masked,
         ),
@@ -232,8 +234,8 @@ def test_a_coarse_map_is_a_doubt() -> None:
         scene = fret.Scene(
             body1=fret.Body(steel, shape=fret.Sphere(R=5e-3) + rough),
             body2=fret.Body(steel),
-            mu=0.3,
-            grid=fret.Grid.centred(extent=2e-4, n=16),
+            friction=0.3,
+            grid=fret.Grid.centred(width=2e-4, n=16),
             path=fret.LoadPath.start().normal(10.0, increments=1),
         )
         assert any("map" in d for d in scene.doubts()) == doubted

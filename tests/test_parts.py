@@ -57,7 +57,7 @@ PARTS: list[tuple[Any, dict[str, Any]]] = [
     (BODY, {"substrate": fret.RIGID, "coatings": []}),
     (LAW, {"kinetic": None}),
     (fret.Friction(math.inf), {"mu": 0.1}),
-    (fret.Grid.centred(extent=1e-3, n=33), {"nx": 40}),
+    (fret.Grid.centred(width=1e-3, n=33), {"nx": 40}),
     (fret.Grid.strip(extent=1e-3, n=37, width=0.3), {"nx": 40}),
     (PATH, {"branches": PATH.branches[:2]}),
     (fret.LoadPath.start().normal(5.0).hold(increments=2), {"branches": []}),
@@ -77,13 +77,13 @@ PARTS: list[tuple[Any, dict[str, Any]]] = [
         fret.Scene(
             body1=BODY,
             body2=fret.Body(STEEL),
-            mu=LAW,
-            grid=fret.Grid.centred(extent=1.0, n=8),
+            friction=LAW,
+            grid=fret.Grid.centred(width=1.0, n=8),
             path=PATH,
             settings=SETTINGS,
             title="all",
         ),
-        {"title": "other", "grid": fret.Grid.centred(extent=1.0, n=9), "body2": BODY},
+        {"title": "other", "grid": fret.Grid.centred(width=1.0, n=9), "body2": BODY},
     ),
 ]
 

@@ -102,8 +102,8 @@ def test_the_state_agrees_with_the_stick_ratio(E: float, thickness: float, mu: f
     scene = fret.Scene(
         body1=fret.Body(steel, shape=fret.Sphere(R=R)),
         body2=fret.Body(steel, coatings=[film]),
-        mu=mu,
-        grid=fret.Grid.centred(extent=5.0 * a, n=32),
+        friction=mu,
+        grid=fret.Grid.centred(width=5.0 * a, n=32),
     )
     path = fret.LoadPath.start().normal(load, increments=16)
     path = path.tangential([0.6 * mu * load, -0.6 * mu * load], increments=8)

@@ -91,7 +91,7 @@ def line_contact() -> fret.Result:
     scene = fret.Scene(
         body1=fret.Body(steel, shape=fret.Cylinder(R=0.05)),
         body2=fret.Body(steel),
-        mu=0.6,
+        friction=0.6,
         grid=fret.Grid.strip(extent=2.6 * line.a, n=96),
     )
     path = fret.LoadPath.start().normal(4e5, increments=1)

@@ -29,8 +29,8 @@ def sheared(
     scene = fret.Scene(
         body1=ball,
         body2=fret.Body(STEEL),
-        mu=MU,
-        grid=fret.Grid.centred(extent=extent * A, n=n),
+        friction=MU,
+        grid=fret.Grid.centred(width=extent * A, n=n),
         path=path,
     )
     with warnings.catch_warnings():
@@ -49,7 +49,7 @@ def numbers(result: fret.Result) -> dict[str, float]:
             "s_1": below.maximum("s_1").value,
             "von_mises": below.maximum("von_mises").value,
             "margin": result.life(material, "crossland").worst.margin,
-            "factor": result.load_factors(900e6).least("von_mises").factor,
+            "factor": result.load_factors(900e6).least("von_mises").value,
             "dK": float(crack.dK().max()),
         }
 
@@ -153,12 +153,12 @@ def test_the_largest_stress_of_a_buried_layer_lies_beyond_the_grid() -> None:
         fret.Coating(fret.Elastic(E=690e9, nu=0.18), thickness=0.042 * a),
     ]
 
-    def largest(extent: float, n: int) -> fret.subsurface.Extreme:
+    def largest(extent: float, n: int) -> fret.subsurface.Extremum:
         scene = fret.Scene(
             body1=fret.Body(ball, shape=fret.Sphere(R=8e-3)),
             body2=fret.Body(base, coatings=stack),
-            mu=0.0,
-            grid=fret.Grid.centred(extent=extent * a, n=n),
+            friction=0.0,
+            grid=fret.Grid.centred(width=extent * a, n=n),
         )
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
@@ -212,7 +212,7 @@ def test_a_worst_point_beyond_the_grid_under_a_bulk_stress() -> None:
         scene = fret.Scene(
             body1=fret.Body(fret.Elastic(E=210e9, nu=0.3), shape=fret.Cylinder(R=12e-3)),
             body2=fret.Body(titanium, coatings=[soft]),
-            mu=mu,
+            friction=mu,
             grid=fret.Grid.strip(extent=extent, n=n),
             path=path,
         )

@@ -28,8 +28,8 @@ def indentation(material: fret.Elastic = STEEL, **changes: object) -> fret.Scene
     return fret.Scene(
         body1=fret.Body(fret.RIGID, shape=fret.Sphere(R=10e-3)),
         body2=fret.Body(material),
-        mu=0.0,
-        grid=fret.Grid.centred(extent=5.6e-4, n=24),
+        friction=0.0,
+        grid=fret.Grid.centred(width=5.6e-4, n=24),
         path=fret.LoadPath.start().normal(120.0, increments=3).normal(1.0, increments=1),
         **changes,
     )
@@ -229,7 +229,7 @@ def sheared(s_y: float, cycles: int) -> fret.Result:
     scene = fret.Scene(
         body1=fret.Body(fret.Elastic(E=115e9, nu=0.32), shape=fret.Cylinder(R=0.05)),
         body2=fret.Body(fret.Elastic(E=115e9, nu=0.32, plastic=yielding)),
-        mu=0.4,
+        friction=0.4,
         grid=fret.Grid.strip(extent=3.6e-3, n=48),
     )
     path = fret.LoadPath.start().force(W=1.2e6, increments=2)
@@ -240,17 +240,17 @@ def sheared(s_y: float, cycles: int) -> fret.Result:
 
 def test_the_verdict_of_cycles() -> None:
     """Elastic, shaken down and alternating, with the works of every cycle."""
-    elastic = sheared(2e9, 1).verdict()
+    elastic = sheared(2e9, 1).cyclic_response()
     assert elastic.kind == "elastic"
     assert elastic.work == (0.0,)
     assert 0.0 < elastic.yield_ratio < 1.0
-    shaken = sheared(480e6, 3).verdict()
+    shaken = sheared(480e6, 3).cyclic_response()
     assert shaken.kind == "shakes down"
     assert shaken.after is not None
     assert 0 < shaken.after < 3
     assert str(shaken) == f"shakes down after {shaken.after} of 3 cycles"
     result = sheared(380e6, 3)
-    found = result.verdict()
+    found = result.cyclic_response()
     assert found.kind == "alternates"
     # To and fro: much is added up and little is left.
     assert 0.0 <= found.net_strain < 0.5 * found.strain
@@ -258,10 +258,10 @@ def test_the_verdict_of_cycles() -> None:
     assert found.where is not None
     assert found.where.body_number == 2
     assert "alternates" in str(found)
-    with pytest.raises(ValueError, match=r"body2\.plastic.*verdict"):
+    with pytest.raises(ValueError, match=r"body2\.plastic.*cyclic_response"):
         result.load_factors(380e6)
     with pytest.raises(ValueError, match="no closed cycle"):
-        fret.solve(indentation(), progress=False).verdict()
+        fret.solve(indentation(), progress=False).cyclic_response()
 
 
 def test_figures_of_what_has_yielded(tmp_path: Path) -> None:
@@ -299,8 +299,8 @@ def test_a_hard_film_is_in_tension_after_unloading() -> None:
     scene = fret.Scene(
         body1=fret.Body(fret.RIGID, shape=fret.Sphere(R=row["indenter"]["R"])),
         body2=body(row),
-        mu=0.0,
-        grid=fret.Grid.centred(extent=2.6 * state["contact_radius_between"][1], n=32),
+        friction=0.0,
+        grid=fret.Grid.centred(width=2.6 * state["contact_radius_between"][1], n=32),
         path=path.normal(1e-3 * state["load"]["value"], increments=2),
     )
     result = fret.solve(scene, progress=False)
@@ -343,8 +343,8 @@ def test_a_run_of_wear_begins_with_an_imprint() -> None:
         scene = fret.Scene(
             body1=fret.Body(elastic, shape=fret.Sphere(R=10e-3)),
             body2=lower,
-            mu=0.5,
-            grid=fret.Grid.centred(extent=5.6e-4, n=24),
+            friction=0.5,
+            grid=fret.Grid.centred(width=5.6e-4, n=24),
             path=path,
         )
         law = fret.wear.Archard(1e-14)
@@ -364,7 +364,7 @@ def test_what_is_not_computed_of_bodies_that_yield_is_refused_by_name() -> None:
     scene = indentation()
     elastic = fret.Elastic(E=210e9, nu=0.3)
     ball = fret.Body(elastic, shape=fret.Sphere(R=10e-3))
-    rubbed = scene.replace(body1=ball, mu=0.3)
+    rubbed = scene.replace(body1=ball, friction=0.3)
     pressed = fret.LoadPath.start().normal(50.0, increments=1)
 
     def along(**columns: float) -> fret.Scene:
@@ -413,7 +413,7 @@ def test_large_strains_are_doubted_and_end_a_run(tmp_path: Path) -> None:
     scene = fret.Scene(
         body1=fret.Body(fret.RIGID, shape=fret.Cylinder(R=2e-3)),
         body2=fret.Body(soft),
-        mu=0.0,
+        friction=0.0,
         grid=fret.Grid.strip(extent=3e-3, n=48),
         path=path,
         settings=fret.Settings(save="all"),

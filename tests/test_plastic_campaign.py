@@ -58,13 +58,11 @@ def drawn(seed: int) -> fret.Scene:
     else:
         path = path.normal(0.1 * W, increments=2)
     shape = fret.Cylinder(R=R) if line else fret.Sphere(R=R)
-    grid = (
-        fret.Grid.strip(extent=3.2 * a, n=48) if line else fret.Grid.centred(extent=3.2 * a, n=20)
-    )
+    grid = fret.Grid.strip(extent=3.2 * a, n=48) if line else fret.Grid.centred(width=3.2 * a, n=20)
     return fret.Scene(
         body1=fret.Body(upper, shape=shape),
         body2=fret.Body(fret.Elastic(E=E, nu=nu, plastic=law), coatings=layers),
-        mu=mu,
+        friction=mu,
         grid=grid,
         path=path,
     )

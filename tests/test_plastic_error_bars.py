@@ -21,11 +21,12 @@ def resolved(scene: fret.Scene, times: int) -> fret.Scene:
     grid = scene.grid
     n = times * CELLS[grid.plane_strain]
     extent = grid.nx * grid.dx
-    strip = fret.Grid.strip if grid.plane_strain else fret.Grid.centred
+    strip = fret.Grid.strip(extent=extent, n=n)
+    square = fret.Grid.centred(width=extent, n=n)
     branches = [
         branch.replace(increments=times * branch.increments) for branch in scene.path.branches
     ]
-    return scene.replace(grid=strip(extent=extent, n=n), path=fret.LoadPath(branches))
+    return scene.replace(grid=strip if grid.plane_strain else square, path=fret.LoadPath(branches))
 
 
 def left_on_axis(result: fret.Result) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -34,7 +34,7 @@ def scene(s_y: float = 380e6, *, upper: bool = False) -> fret.Scene:
     return fret.Scene(
         body1=fret.Body(materials[0], shape=fret.Cylinder(R=0.05)),
         body2=fret.Body(materials[1]),
-        mu=0.4,
+        friction=0.4,
         grid=fret.Grid.strip(extent=3.6e-3, n=48),
     )
 
@@ -52,7 +52,7 @@ def alternating(*, upper: bool = False) -> fret.Result:
 def test_the_life_of_a_contact_that_goes_on_yielding_has_the_plastic_strain(tmp_path: Path) -> None:
     """The value is that of the total strain, in Python and on the command line."""
     result = alternating()
-    assert result.verdict().kind == "alternates"
+    assert result.cyclic_response().kind == "alternates"
     life = result.life(TITANIUM, "fatemi_socie", y=0.0)
     worst = life.worst
     place = {"x": worst.x, "y": 0.0}
@@ -60,22 +60,23 @@ def test_the_life_of_a_contact_that_goes_on_yielding_has_the_plastic_strain(tmp_
     strain = fatigue.history(result, [worst.z], **place, of="plastic_strain")
     numbers = TITANIUM.assessment("fatemi_socie").criterion.numbers
     criterion = fatigue.Criterion.fatemi_socie(**{**numbers, "E": E, "nu": NU})
-    total = fatigue.evaluate(stress, criterion, plastic_strain=strain)
+    total = fatigue.evaluate_criterion(stress, criterion, plastic_strain=strain)
     assert float(total.value.item()) == pytest.approx(worst.value, rel=1e-4)
     # The strain of the stress is less than that which is there.
-    elastic = float(fatigue.evaluate(stress.values, criterion).value.item())
+    elastic = float(fatigue.evaluate_criterion(stress.values, criterion).value.item())
     assert elastic < 0.5 * worst.value
     with pytest.raises(ValueError, match=r"fatemi_socie.*plastic_strain=fatigue"):
-        fatigue.evaluate(stress, criterion)
+        fatigue.evaluate_criterion(stress, criterion)
     # A figure of the life draws the same plane.
-    own = fatigue.evaluate(
+    own = fatigue.evaluate_criterion(
         life.history(), criterion, plastic_strain=life.history("plastic_strain")
     ).normal
     np.testing.assert_allclose(np.abs(own), np.abs(worst.normal), atol=1e-6)
     assert len(fret.plot.critical_plane_rose(life).lines) == 3
     crossland = fatigue.Criterion.crossland(alpha=0.2)
     alone, beside = (
-        fatigue.evaluate(stress, crossland, plastic_strain=of).value for of in (None, strain)
+        fatigue.evaluate_criterion(stress, crossland, plastic_strain=of).value
+        for of in (None, strain)
     )
     np.testing.assert_array_equal(alone, beside)
 
@@ -132,8 +133,8 @@ def test_where_nothing_yields_within_the_cycle_the_bits_are_those_of_the_elastic
         fatigue.Criterion.fatemi_socie(E=E, nu=NU, k=1.0, s_y=880e6),
         fatigue.Criterion.brown_miller(E=E, nu=NU, S=0.5),
     ):
-        total = fatigue.evaluate(stress, of, plastic_strain=strain).value.values
-        elastic = fatigue.evaluate(stress.values, of).value.values
+        total = fatigue.evaluate_criterion(stress, of, plastic_strain=strain).value.values
+        elastic = fatigue.evaluate_criterion(stress.values, of).value.values
         np.testing.assert_array_equal(total[still], elastic[still])
         assert (total[~still] != elastic[~still]).any()
         # Where it yields most the strain is larger than that of the stress.
@@ -159,7 +160,7 @@ def test_a_cycle_that_ratchets_is_refused() -> None:
     """A first cycle under a force of one sign keeps the strain that it adds up."""
     one_sided = PRESSED.tangential([0.9 * 0.4 * 1.2e6, 0.0], increments=3)
     result = fret.solve(scene(300e6), one_sided, save="all", progress=False)
-    assert result.verdict().kind == "ratchets"
+    assert result.cyclic_response().kind == "ratchets"
     with pytest.raises(ValueError, match=r"smith_watson_topper.*dang_van.*ratchets.*keeps"):
         result.life(TITANIUM, "smith_watson_topper", y=0.0)
     assert result.life(TITANIUM, "crossland", y=0.0).worst.value > 0.0
@@ -169,12 +170,12 @@ def test_a_plastic_strain_that_is_none_is_refused_by_name() -> None:
     """Its shape, its volume and its labels."""
     stress = np.array([[[1e8, 0, 0, 0, 0, 0]], [[-1e8, 0, 0, 0, 0, 0]]], dtype=float)
     with pytest.raises(ValueError, match=r"of the shape of the stress, \(2, 1, 6\)"):
-        fatigue.evaluate(stress, SWT, plastic_strain=np.zeros((3, 1, 6)))
+        fatigue.evaluate_criterion(stress, SWT, plastic_strain=np.zeros((3, 1, 6)))
     grown = np.zeros((2, 1, 6))
     grown[0, 0, 0] = 1e-3
     with pytest.raises(ValueError, match="keeps the volume"):
-        fatigue.assess(stress, TITANIUM, "smith_watson_topper", plastic_strain=grown)
+        fatigue.evaluate_margin(stress, TITANIUM, "smith_watson_topper", plastic_strain=grown)
     with pytest.raises(ValueError, match="plastic_strain has the shape"):
-        fatigue.evaluate(stress, SWT, plastic_strain=np.zeros(6))
+        fatigue.evaluate_criterion(stress, SWT, plastic_strain=np.zeros(6))
     with pytest.raises(ValueError, match=r"of = 'strain'.*plastic_strain"):
         fatigue.history(alternating(), [1e-5], y=0.0, of="strain")  # type: ignore[arg-type]

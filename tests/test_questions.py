@@ -21,7 +21,7 @@ LAW = fret.wear.Archard(k=1e-15)
 
 def of_pressure(grid: fret.Grid) -> float:
     """Error of the pressure of the ball, root mean square over that of Hertz's."""
-    scene = fret.Scene(body1=BALL, body2=FLAT, mu=0.0, grid=grid)
+    scene = fret.Scene(body1=BALL, body2=FLAT, friction=0.0, grid=grid)
     path = fret.LoadPath.start().normal(W, increments=1)
     p = fret.solve(scene, path, progress=False).at(-1).p
     r = np.hypot(p.x, p.y) / HERTZ.a
@@ -57,7 +57,7 @@ def test_a_grid_is_as_long_as_the_contact_that_comes_out(
 ) -> None:
     body = fret.Body(STEEL, shape=upper)  # type: ignore[arg-type]
     grid = fret.Grid.for_contact(body, lower, PATH, room=1.3)
-    scene = fret.Scene(body1=body, body2=lower, mu=0.0, grid=grid)
+    scene = fret.Scene(body1=body, body2=lower, friction=0.0, grid=grid)
     path = fret.LoadPath.start().normal(W, increments=1)
     at = fret.solve(scene, path, progress=False).at(-1)
     touched = at.x.values[at.contact.values.any(axis=1)]
@@ -85,7 +85,7 @@ def test_roughness_has_eight_cells_in_its_shortest_wave() -> None:
     ball = fret.Body(STEEL, shape=fret.Sphere(R=R) + rough)
     grid = fret.Grid.for_contact(ball, FLAT, PATH, error=0.05)
     assert grid.dx <= 1e-5 / 8
-    scene = fret.Scene(body1=ball, body2=FLAT, mu=0.0, grid=grid)
+    scene = fret.Scene(body1=ball, body2=FLAT, friction=0.0, grid=grid)
     fret.solve(scene, fret.LoadPath.start().normal(W, increments=1), progress=False)
 
 
@@ -149,7 +149,7 @@ def test_a_grid_holds_the_scar_and_no_more(
 ) -> None:
     strip = path is MCCOLL[1]
     grid = fret.Grid.for_contact(ball, FLAT, path, error=0.04, wear=wear, mu=mu, plane_strain=strip)
-    scene = fret.Scene(body1=ball, body2=FLAT, mu=mu, grid=grid, path=path)
+    scene = fret.Scene(body1=ball, body2=FLAT, friction=mu, grid=grid, path=path)
     worn = fret.wear.solve(scene, **wear, progress=False)  # type: ignore[arg-type]
     d = worn.dataset
     assert d.attrs["status"] == "done"
@@ -169,7 +169,7 @@ def test_the_stick_zone_of_a_cylinder_is_where_theory_has_it(sigma_B: float) -> 
     scene = fret.Scene(
         body1=fret.Body(ti, shape=fret.Cylinder(R=0.05)),
         body2=fret.Body(ti),
-        mu=mu,
+        friction=mu,
         grid=fret.Grid.strip(extent=2.6 * line.a, n=128),
     )
     T = 0.6 * mu * load
@@ -188,7 +188,7 @@ def test_the_stick_zone_of_a_cylinder_is_where_theory_has_it(sigma_B: float) -> 
 
 def test_nothing_sticks_after_gross_slip_and_all_of_it_before_slip() -> None:
     scene = fret.Scene(
-        body1=BALL, body2=FLAT, mu=0.3, grid=fret.Grid.centred(extent=2.4 * HERTZ.a, n=32)
+        body1=BALL, body2=FLAT, friction=0.3, grid=fret.Grid.centred(width=2.4 * HERTZ.a, n=32)
     )
     pressed = fret.LoadPath.start().normal(W, increments=1)
     slid = fret.solve(scene, pressed.cycles(1, delta_x=2e-6, increments=4), progress=False)
@@ -223,8 +223,8 @@ def test_a_study_is_a_table_of_points() -> None:
     scene = fret.Scene(
         body1=BALL,
         body2=FLAT,
-        mu=0.3,
-        grid=fret.Grid.centred(extent=2.4 * HERTZ.a, n=24),
+        friction=0.3,
+        grid=fret.Grid.centred(width=2.4 * HERTZ.a, n=24),
         path=fret.LoadPath.start().normal(W, increments=1),
     )
 
@@ -244,7 +244,7 @@ def test_a_study_is_a_table_of_points() -> None:
 
 def test_a_summary_tells_its_errors() -> None:
     scene = fret.Scene(
-        body1=BALL, body2=FLAT, mu=0.3, grid=fret.Grid.centred(extent=2.4 * HERTZ.a, n=32)
+        body1=BALL, body2=FLAT, friction=0.3, grid=fret.Grid.centred(width=2.4 * HERTZ.a, n=32)
     )
     path = fret.LoadPath.start().normal(W, increments=2)
     result = fret.solve(scene, path, error=True, progress=False)
@@ -261,7 +261,7 @@ def test_error_bars_of_a_line_contact_are_of_its_half_width() -> None:
         scene = fret.Scene(
             body1=fret.Body(STEEL, shape=fret.Cylinder(R=R)),
             body2=FLAT,
-            mu=0.3,
+            friction=0.3,
             grid=fret.Grid.strip(extent=2.6 * line.a, n=n),
         )
         path = fret.LoadPath.start().normal(1e5, increments=1)

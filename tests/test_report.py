@@ -133,7 +133,7 @@ def test_scenes_without_increments_of_interest_have_their_page(tmp_path: Path) -
     scene = fret.Scene(
         body1=fret.Body(steel, shape=fret.Cylinder(R=0.01)),
         body2=fret.Body(fret.RIGID),
-        mu=float("inf"),
+        friction=float("inf"),
         grid=strip,
         path=fret.LoadPath.start().normal(1e4, increments=2),
     )

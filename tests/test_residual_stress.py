@@ -26,8 +26,8 @@ def scene(body: fret.Body, **changes: Any) -> fret.Scene:
     given = {
         "body1": fret.Body(fret.RIGID, shape=fret.Sphere(R=R)),
         "body2": body,
-        "mu": 0.0,
-        "grid": fret.Grid.centred(extent=6e-4, n=32),
+        "friction": 0.0,
+        "grid": fret.Grid.centred(width=6e-4, n=32),
         **changes,
     }
     return fret.Scene(**given)
@@ -159,7 +159,7 @@ def test_crossland_by_hand(pressed: fret.Result) -> None:
     ends = bare[:, 0] - bare[:, 2]
     amplitude = (ends.max() - ends.min()) / 2.0 / math.sqrt(3.0)
     hydrostatic = (bare[:, :3].sum(axis=1) / 3.0).max() + 2.0 / 3.0 * at(TABLE, z)
-    found = fatigue.evaluate(own, fatigue.Criterion.crossland(alpha=alpha))
+    found = fatigue.evaluate_criterion(own, fatigue.Criterion.crossland(alpha=alpha))
     assert float(found.value) == pytest.approx(amplitude + alpha * hydrostatic, rel=1e-6)
 
 

@@ -59,7 +59,7 @@ def test_a_life_says_over_which_distance_it_is_averaged(public: Any) -> None:
     point = public.RUN.life([public.ALLOY, None], "smith_watson_topper", y=0.0)
     assert point.L is None
     assert "value at a point" in repr(point)
-    with pytest.raises(AttributeError, match=r"a Worst has no 'L': .*life.L"):
+    with pytest.raises(AttributeError, match=r"an Extremum has no 'L': .*life.L"):
         _ = life.worst.L
 
 

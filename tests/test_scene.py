@@ -34,7 +34,7 @@ def with_thickness(thickness: float) -> fret.Scene:
     scene = sphere_on_flat()
     layer = fret.Coating(STEEL, thickness=thickness)
     return fret.Scene(
-        body1=scene.body1, body2=fret.Body(STEEL, coatings=[layer]), mu=0.3, grid=scene.grid
+        body1=scene.body1, body2=fret.Body(STEEL, coatings=[layer]), friction=0.3, grid=scene.grid
     )
 
 
@@ -45,8 +45,8 @@ INDENTED = fret.LoadPath.start().normal(W, increments=1)
     ("broken", "message"),
     [
         (lambda: with_thickness(0.0), r"coating\.thickness = 0: must be a positive"),
-        (lambda: sphere_on_flat().replace(mu=-0.1), r"friction\.mu = -0\.1: must be"),
-        (lambda: sphere_on_flat().replace(mu=math.nan), r"friction\.mu = NaN"),
+        (lambda: sphere_on_flat().replace(friction=-0.1), r"friction\.mu = -0\.1: must be"),
+        (lambda: sphere_on_flat().replace(friction=math.nan), r"friction\.mu = NaN"),
         (lambda: sphere_on_flat(n=0), r"grid\.nx = 0: must be at least one cell"),
     ],
 )
@@ -72,8 +72,8 @@ def test_a_path_beyond_reach_is_refused(path: fret.LoadPath, message: str) -> No
 
 def test_a_grid_too_small_for_the_contact_says_how_large_it_should_be() -> None:
     scene = sphere_on_flat()
-    tight = fret.Grid.centred(extent=0.5 * scene.grid.nx * scene.grid.dx, n=16)
-    cramped = fret.Scene(body1=scene.body1, body2=scene.body2, mu=0.3, grid=tight)
+    tight = fret.Grid.centred(width=0.5 * scene.grid.nx * scene.grid.dx, n=16)
+    cramped = fret.Scene(body1=scene.body1, body2=scene.body2, friction=0.3, grid=tight)
     with pytest.raises(fret.errors.OffGridError, match=r"should be about .* m wide"):
         fret.solve(cramped, INDENTED, progress=False)
 
@@ -106,8 +106,8 @@ def test_parts_are_read_back_as_they_were_given() -> None:
     assert scene.body1.shape == fret.Sphere(R=R)
     assert scene.body2.shape == fret.shapes.Flat()
     assert scene.body2.coatings[0].material == fret.Elastic(E=420e9, nu=0.3)
-    assert scene.replace(mu=0.5).mu == 0.5
-    assert scene.replace(mu=0.5) != scene
+    assert scene.replace(friction=0.5).mu == 0.5
+    assert scene.replace(friction=0.5) != scene
     skip = fret.settings.Skip(mirror=False)
     settings = fret.Settings(kernel=fret.settings.InverseFft(enlargement=4), skip=skip)
     assert scene.replace(settings=settings).settings == settings
@@ -116,11 +116,11 @@ def test_parts_are_read_back_as_they_were_given() -> None:
 
 
 def test_no_slip_is_said_as_in_scene_files() -> None:
-    held = sphere_on_flat().replace(mu="stick")
+    held = sphere_on_flat().replace(friction="stick")
     assert held.mu == math.inf
     assert 'mu = "stick"' in held.to_toml()
     with pytest.raises(TypeError, match='"stick" for no slip'):
-        sphere_on_flat().replace(mu="glued")
+        sphere_on_flat().replace(friction="glued")
 
 
 def test_a_scene_survives_its_file() -> None:

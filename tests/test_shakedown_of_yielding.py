@@ -24,7 +24,7 @@ def scene(lower: fret.Elastic, cycles: int, *, save: str = "branches") -> fret.S
     return fret.Scene(
         body1=fret.Body(STEEL, shape=fret.Cylinder(R=R)),
         body2=fret.Body(lower),
-        mu=0.3,
+        friction=0.3,
         grid=fret.Grid.strip(extent=2.8 * a, n=96),
         path=path,
         settings=fret.Settings(save=save),
@@ -52,7 +52,7 @@ def test_the_bound_parts_shakedown_from_alternating_plasticity(part: float, bar:
     """
     elastic = fret.solve(scene(STEEL, 1, save="all"), progress=False)
     trial = 1e9
-    asked = trial / float(elastic.load_factors(trial).least("shakedown").factor)
+    asked = trial / float(elastic.load_factors(trial).least("shakedown").value)
     # Linear kinematic hardening: Melan's theorem is exact for it under given tractions.
     law = fret.Plastic(s_y=part * asked, kinematic=20e9)
     found = fret.solve(

@@ -66,7 +66,7 @@ def sliding(request: pytest.FixtureRequest) -> tuple[float, fret.Result]:
     mu = float(request.param)
     path = fret.LoadPath.start().normal(W, increments=1)
     path = path.displace(delta_x=[SHIFT, -SHIFT, SHIFT], increments=18)
-    scene = sphere_on_flat(n=64).replace(mu=mu)
+    scene = sphere_on_flat(n=64).replace(friction=mu)
     return mu, fret.solve(scene, path, save="all", progress=False)
 
 
@@ -91,7 +91,7 @@ def test_first_yield_of_the_run_is_that_of_the_closed_form(
     mu, result = sliding
     exact = 1 / max(float(root_J2(below(mu, z)).max()) for z in DEPTHS)
     least = result.load_factors(S_Y).least("von_mises")
-    found = least.factor * HERTZ.p0 / K
+    found = least.value * HERTZ.p0 / K
     if mu == 0.25:
         assert found == pytest.approx(exact, rel=3e-3)
         assert least.z / HERTZ.a == pytest.approx(0.445, abs=0.01)
@@ -110,7 +110,7 @@ def test_a_sphere_that_slides_to_and_fro_shakes_down_up_to_k_over_mu(
     shear = [below(1.0, z) - below(0.0, z) for z in DEPTHS]
     assert max(float(root_J2(s).max()) for s in shear) == pytest.approx(1.0, rel=1e-9)
     least = result.load_factors(S_Y).least("shakedown")
-    assert least.factor * HERTZ.p0 / K == pytest.approx(1 / mu, rel=1e-3)
+    assert least.value * HERTZ.p0 / K == pytest.approx(1 / mu, rel=1e-3)
     # The top is flat: it may be found anywhere in the two cells beside the middle.
     assert abs(least.x) < 1.01 * result.scene.grid.dx
     assert least.z == 0.0

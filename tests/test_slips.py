@@ -23,7 +23,7 @@ pytestmark = pytest.mark.solves
 STEEL, _ = pair(0.3)
 BALL = fret.Body(STEEL, shape=fret.Sphere(R))
 FLAT = fret.Body(STEEL)
-GRID = fret.Grid.centred(extent=1e-3, n=8)
+GRID = fret.Grid.centred(width=1e-3, n=8)
 PRESSED = fret.LoadPath.start().normal(W, increments=1)
 
 
@@ -37,7 +37,10 @@ PRESSED = fret.LoadPath.start().normal(W, increments=1)
         ),
         (lambda: fret.Coating(fret.RIGID, thickness=1e-6), r"E = inf"),
         (lambda: fret.Friction(-0.6), r"friction.mu = -0.6"),
-        (lambda: fret.Scene(body1=BALL, body2=FLAT, mu=-0.6, grid=GRID), r"friction.mu = -0.6"),
+        (
+            lambda: fret.Scene(body1=BALL, body2=FLAT, friction=-0.6, grid=GRID),
+            r"friction.mu = -0.6",
+        ),
         (lambda: fret.Sphere(0.0), r"sphere.R = 0: must be a finite radius"),
         (lambda: fret.shapes.Rough(rms=1e-7, hurst=2.0, longest=1e-4, shortest=1e-5), r"hurst = 2"),
         (lambda: fret.SurfaceMap([[0.0, math.inf]], spacing=1e-6), r"inf: must be a finite number"),
@@ -69,15 +72,15 @@ def test_a_constructor_refuses_at_once(make: Callable[[], object], says: str) ->
             r"(?s).*such as Elastic\(E=210e9.*'material'",
         ),
         (
-            lambda: fret.Scene(body1=STEEL, body2=FLAT, mu=0.3, grid=GRID),
+            lambda: fret.Scene(body1=STEEL, body2=FLAT, friction=0.3, grid=GRID),
             r"(?s).*such as Body.*'body1'",
         ),
         (
-            lambda: fret.Scene(body1=BALL, body2=FLAT, mu="a", grid=GRID),
+            lambda: fret.Scene(body1=BALL, body2=FLAT, friction="a", grid=GRID),
             r"(?s)'a': must be a coeffic.*'mu'",
         ),
         (
-            lambda: fret.Scene(body1=BALL, body2=FLAT, mu=0.3, grid=128),
+            lambda: fret.Scene(body1=BALL, body2=FLAT, friction=0.3, grid=128),
             r"(?s)128: must be a grid.*'grid'",
         ),
         (
@@ -112,14 +115,17 @@ def test_what_is_plain_is_taken() -> None:
 def flat_of(coatings: list[fret.Coating], shape: object = None) -> fret.Scene:
     scene = sphere_on_flat()
     body = fret.Body(STEEL, coatings=coatings, shape=shape or fret.shapes.Flat())  # type: ignore[arg-type]
-    return fret.Scene(body1=scene.body1, body2=body, mu=0.3, grid=scene.grid, path=PRESSED)
+    return fret.Scene(body1=scene.body1, body2=body, friction=0.3, grid=scene.grid, path=PRESSED)
 
 
 def test_moduli_in_another_unit_are_refused_with_what_was_understood() -> None:
     soft = fret.Elastic(E=114.0, nu=0.3)
     scene = sphere_on_flat()
     scene = fret.Scene(
-        body1=fret.Body(soft, shape=fret.Sphere(R)), body2=fret.Body(soft), mu=0.3, grid=scene.grid
+        body1=fret.Body(soft, shape=fret.Sphere(R)),
+        body2=fret.Body(soft),
+        friction=0.3,
+        grid=scene.grid,
     )
     with pytest.raises(fret.errors.InvalidSceneError, match=r"E\* = 6.*114 GPa is 114e9"):
         scene.replace(path=PRESSED).check()
@@ -173,7 +179,7 @@ def few_cells(cells: float) -> fret.Scene:
     """So many cells across the Hertz radius."""
     scene = sphere_on_flat()
     a = fret.reference.hertz(R=R, bodies=(STEEL, STEEL), W=W).a
-    return scene.replace(grid=fret.Grid.centred(extent=32 * a / cells, n=32))
+    return scene.replace(grid=fret.Grid.centred(width=32 * a / cells, n=32))
 
 
 def test_a_contact_of_a_cell_is_refused_with_the_cells_that_it_takes() -> None:
@@ -201,8 +207,8 @@ def test_a_scene_as_it_should_be_is_not_doubted() -> None:
 
 def test_a_contact_that_cannot_fit_is_refused_before_it_is_solved() -> None:
     scene = sphere_on_flat()
-    tight = fret.Grid.centred(extent=0.5 * scene.grid.nx * scene.grid.dx, n=16)
-    scene = fret.Scene(body1=scene.body1, body2=scene.body2, mu=0.3, grid=tight, path=PRESSED)
+    tight = fret.Grid.centred(width=0.5 * scene.grid.nx * scene.grid.dx, n=16)
+    scene = fret.Scene(body1=scene.body1, body2=scene.body2, friction=0.3, grid=tight, path=PRESSED)
     with pytest.raises(fret.errors.OffGridError, match="does not fit on the grid"):
         scene.check()
 

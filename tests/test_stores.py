@@ -21,8 +21,8 @@ EVIL = "a\x1b[2J\x1b]0;owned\x07b\u202ec\u2066$x_{"
 SCENE = fret.Scene(
     body1=fret.Body(STEEL, shape=fret.Sphere(R=5e-3)),
     body2=fret.Body(STEEL),
-    mu=0.3,
-    grid=fret.Grid.centred(extent=2e-4, n=8),
+    friction=0.3,
+    grid=fret.Grid.centred(width=2e-4, n=8),
     path=fret.LoadPath.start().normal(10.0, increments=1),
     title=EVIL,
 )

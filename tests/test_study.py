@@ -24,7 +24,8 @@ from conftest import MU, ROOT, R, W, sphere_on_flat
 from pyfret import citation
 from pyfret.plot.parameters import parameter_label
 from pyfret.study.design import Design
-from pyfret.study.measures import variables
+from pyfret.study.measures import to_variables
+from pyfret.study.outcome import open_study
 
 pytestmark = pytest.mark.solves
 
@@ -87,7 +88,7 @@ def test_a_point_is_the_solution_of_its_scene(whole: fret.study.Study) -> None:
     assert whole.count() == {"open": 0, "done": 6, "failed": 0}
     point = whole.dataset.isel({"body2.coatings.0.E": 1, "mu": 2})
     coat = fret.Coating(fret.Elastic(E=4e11, nu=0.3), thickness=SCENE.body2.coatings[0].thickness)
-    scene = SCENE.replace(mu=0.4, body2=SCENE.body2.replace(coatings=[coat]))
+    scene = SCENE.replace(friction=0.4, body2=SCENE.body2.replace(coatings=[coat]))
     result = fret.solve(scene, progress=False)
     assert float(point.p_max) == float(result.dataset.p_max.max())
     assert float(point.stick_ratio) == float(result.stick_ratio[-1])
@@ -181,11 +182,11 @@ def test_points_have_the_increments_of_the_middle_one_in_any_order(tmp_path: Pat
     with pytest.raises(KeyboardInterrupt):
         solved(out=tmp_path / "s.zarr", on_point=stop)
     assert numbers(solved(out=tmp_path / "s.zarr")).drop_attrs().identical(whole.drop_attrs())
-    middle = fret.study.varied(scene, {"mu": 0.35})
+    middle = scene.replace({"mu": 0.35})
     alone = counted(fret.solve(middle, progress=False))
     for n, mu in enumerate(parameters["mu"]):
         point = whole.isel(mu=n)
-        like = fret.solve(fret.study.varied(scene, {"mu": mu}), like=middle, progress=False)
+        like = fret.solve(scene.replace({"mu": mu}), like=middle, progress=False)
         assert float(point["shift"]) == counted(like)["shift"]
         assert float(point["increments"]) == alone["increments"]
 
@@ -207,7 +208,7 @@ def test_the_store_of_another_study_is_refused(tmp_path: Path) -> None:
         fret.study.run(SCENE, {"mu": [0.3]}, measure="q_max", executor=HERE, out=place)
     fret.solve(SCENE, out=tmp_path / "run.zarr", progress=False)
     with pytest.raises(fret.errors.StoreError, match="not the store of a study"):
-        fret.open(tmp_path / "run.zarr")
+        open_study(tmp_path / "run.zarr")
 
 
 def test_a_grid_that_is_too_small_grows() -> None:
@@ -316,7 +317,8 @@ def test_stresses_wear_and_a_scene_file_with_its_measures(tmp_path: Path) -> Non
     assert (d.worn_depth1 == 0).all()
     assert "coating_life2: its range is without the scatter of the wear" in study.summary()
     hertz = fret.reference.hertz(R=R, bodies=(SCENE.body1, SCENE.body1), W=W)
-    varied = fret.study.varied(tmp_path / "scene.toml", {"body2.coatings.0.thickness.a_H": 0.5})
+    file = tmp_path / "scene.toml"
+    varied = fret.Scene.from_file(file, set=["body2.coatings.0.thickness.a_H=0.5"])
     assert varied.body2.coatings[0].thickness == pytest.approx(0.5 * hertz.a, rel=1e-12)
 
 
@@ -416,12 +418,12 @@ def test_keys_of_the_path_may_be_those_of_all_branches_and_of_an_amplitude() -> 
     path = fret.LoadPath.start().normal(1e3, increments=1).cycles(1, delta_x=1e-6, increments=2)
     scene = sphere_on_flat(n=16).replace(path=path)
     amplitude = "path.1.delta_x,-path.2.delta_x,path.3.delta_x"
-    made = fret.study.varied(scene, {"path.*.W": 500.0, amplitude: 3e-6})
+    made = scene.replace({"path.*.W": 500.0, amplitude: 3e-6})
     assert [branch.W for branch in made.path.branches] == [500.0] * 4
     assert [branch.delta_x for branch in made.path.branches[1:]] == [3e-6, -3e-6, 3e-6]
     # Of the first branch alone: the others go back to the old force, which is hardly meant.
-    with pytest.warns(fret.errors.SceneWarning, match=r"path\.\*\.W is that of all"):
-        alone = fret.study.varied(scene, {"path.0.W": 500.0})
+    with pytest.warns(fret.errors.SceneWarning, match=r"path\.\*\.W sets all"):
+        alone = scene.replace({"path.0.W": 500.0})
     assert [branch.W for branch in alone.path.branches] == [500.0, 1e3, 1e3, 1e3]
     assert parameter_label(amplitude) == (r"amplitude of $\delta_x$ [µm]", 1e-6)
     assert parameter_label("path.*.W", per_metre=True) == ("$W$ [N/m]", 1.0)
@@ -432,10 +434,10 @@ def test_a_friction_law_of_ones_own_goes_with_the_scene() -> None:
         return 0.3
 
     path = fret.LoadPath.start().normal(1e3, increments=1)
-    scene = sphere_on_flat(n=16).replace(mu=fret.Friction(0.3, law=law), path=path)
-    made = fret.study.varied(scene, {"solver.path_tolerance": 0.01})
+    scene = sphere_on_flat(n=16).replace(friction=fret.Friction(0.3, law=law), path=path)
+    made = scene.replace({"solver.path_tolerance": 0.01})
     assert made.friction.law is law
-    assert fret.study.varied(scene, {"mu": 0.4}).friction == fret.Friction(0.4, law=law)
+    assert scene.replace({"mu": 0.4}).friction == fret.Friction(0.4, law=law)
 
 
 def test_a_store_of_another_friction_law_is_another_study(tmp_path: Path) -> None:
@@ -449,7 +451,7 @@ def test_a_store_of_another_friction_law_is_another_study(tmp_path: Path) -> Non
     place = tmp_path / "laws.zarr"
 
     def solve(law: Any) -> fret.study.Study:
-        scene = sphere_on_flat(n=16).replace(mu=fret.Friction(0.3, law=law), path=path)
+        scene = sphere_on_flat(n=16).replace(friction=fret.Friction(0.3, law=law), path=path)
         return fret.study.run(
             scene, {"path.0.W": [900.0]}, measure="p_max", executor=1, out=place, progress=False
         )
@@ -475,7 +477,7 @@ def test_values_of_parameters_come_through_the_door(
     parameters: dict[str, object], told: str
 ) -> None:
     with pytest.raises((ValueError, TypeError), match=told):
-        Design.of(parameters, "grid").check(SCENE)
+        Design.from_values(parameters, "grid").check(SCENE)
 
 
 def test_values_of_parameters_in_any_form() -> None:
@@ -486,16 +488,16 @@ def test_values_of_parameters_in_any_form() -> None:
         [Decimal("0.2"), Fraction(3, 10)],
         (np.float32(0.2), 0.3),
     ):
-        found = Design.of({"mu": values}, "grid").parameters["mu"]
+        found = Design.from_values({"mu": values}, "grid").parameters["mu"]
         assert found == pytest.approx([0.2, 0.3])
-    assert Design.of({"grid.n": range(8, 12, 2)}, "grid").parameters["grid.n"] == [8, 10]
+    assert Design.from_values({"grid.n": range(8, 12, 2)}, "grid").parameters["grid.n"] == [8, 10]
 
 
 def test_what_a_measure_gives_is_a_number_or_missing() -> None:
     given = {"masked": np.ma.masked, "none": None, "truth": True, "series": xr.DataArray(2.0)}
-    found = variables(given, "all")
+    found = to_variables(given, "all")
     assert np.isnan([float(found[name]) for name in ("masked", "none")]).all()
     assert [float(found[name]) for name in ("truth", "series")] == [1.0, 2.0]
     for wrong in (np.zeros(3), 1j, "a", xr.DataArray(np.array([object()]), dims="k")):
         with pytest.raises((TypeError, ValueError)):
-            variables(wrong, "all")
+            to_variables(wrong, "all")

@@ -12,7 +12,8 @@ from pyfret.study import compare_file, file
 
 
 @pytest.mark.parametrize(
-    ("run", "table"), [(file.run_file, "parameters"), (compare_file.run_file, "candidates")]
+    ("run", "table"),
+    [(file.run_study_file, "parameters"), (compare_file.run_compare_file, "candidates")],
 )
 @pytest.mark.parametrize(
     ("text", "says"),

@@ -12,8 +12,8 @@ import pytest
 import pyfret as fret
 from pyfret._util.parameters import in_si, one_of, opposite, part
 from pyfret.study import file
-from pyfret.study.design import Design
-from pyfret.study.store import OWN, template
+from pyfret.study.design import Design, with_values
+from pyfret.study.store import POINT_VARIABLES, empty_dataset
 
 SCENE = """schema = 1
 body1 = { shape = { sphere = { R = 5e-3 } }, E = 210e9, nu = 0.3 }
@@ -67,10 +67,13 @@ def solved(scene: Any, parameters: dict[str, Any], **options: Any) -> fret.study
 
 @pytest.mark.parametrize(("key", "text", "number"), QUANTITIES)
 def test_a_quantity_is_a_number_in_si(key: str, text: str, number: float) -> None:
-    for design in (Design.of({key: [text]}, "grid"), Design.of({key: [number]}, "grid")):
+    for design in (
+        Design.from_values({key: [text]}, "grid"),
+        Design.from_values({key: [number]}, "grid"),
+    ):
         assert design.coords()[key].values.tolist() == [number]
-    assert file.values([text], key, "f.toml") == [text]
-    spaced = file.values({"from": text, "to": text, "n": 2}, key, "f.toml")
+    assert file.read_values([text], key, "f.toml") == [text]
+    spaced = file.read_values({"from": text, "to": text, "n": 2}, key, "f.toml")
     assert [in_si(key, value) for value in spaced] == pytest.approx([number, number], rel=1e-12)
 
 
@@ -78,18 +81,18 @@ def test_a_quantity_is_a_number_in_si(key: str, text: str, number: float) -> Non
 def test_a_text_that_is_no_quantity_stays(key: str, text: str) -> None:
     assert in_si(key, text) == text
     with pytest.raises(ValueError, match="must be a number"):
-        file.values({"from": text, "to": text, "n": 2}, key, "f.toml")
+        file.read_values({"from": text, "to": text, "n": 2}, key, "f.toml")
 
 
 def test_a_unit_of_something_else_is_refused() -> None:
     with pytest.raises(ValueError, match=rf'{THICKNESS} = "2 MPa": must be a number in m'):
-        Design.of({THICKNESS: ["2 MPa"]}, "grid")
+        Design.from_values({THICKNESS: ["2 MPa"]}, "grid")
     with pytest.raises(ValueError, match=r"parameters.body2.*from: .*must be a number in m"):
-        file.values({"from": "2 MPa", "to": 1.0, "n": 2}, THICKNESS, "f.toml")
+        file.read_values({"from": "2 MPa", "to": 1.0, "n": 2}, THICKNESS, "f.toml")
 
 
 def test_the_values_of_a_function_are_its_own() -> None:
-    design = Design.of({"thickness": ["2 um"]}, "grid", keys=False)
+    design = Design.from_values({"thickness": ["2 um"]}, "grid", keys=False)
     assert design.values(0) == {"thickness": "2 um"}
 
 
@@ -131,15 +134,15 @@ def test_a_short_name_and_its_key_are_one(known: str, name: str) -> None:
 def test_a_part_of_texts_and_of_samples() -> None:
     """A text is taken as it is, without quotes; samples have no part."""
     key = "body2.coatings.0.material"
-    of = Design.of({key: ["TiN", "CrN"], "mu": [0.1, 0.2]}, "grid")
-    assert str(part(template(of, {}, OWN), {key: "CrN"})[key].values) == '"CrN"'
+    of = Design.from_values({key: ["TiN", "CrN"], "mu": [0.1, 0.2]}, "grid")
+    assert str(part(empty_dataset(of, {}, POINT_VARIABLES), {key: "CrN"})[key].values) == '"CrN"'
     with pytest.raises(ValueError, match='must be one of "TiN", "CrN"'):
-        part(template(of, {}, OWN), {key: "DLC"})
+        part(empty_dataset(of, {}, POINT_VARIABLES), {key: "DLC"})
     with pytest.raises(ValueError, match="must be a number"):
-        part(template(of, {}, OWN), {"mu": "low"})
-    samples = Design.of({key: ["TiN", "CrN"], "mu": [0.1, 0.2]}, "zip")
+        part(empty_dataset(of, {}, POINT_VARIABLES), {"mu": "low"})
+    samples = Design.from_values({key: ["TiN", "CrN"], "mu": [0.1, 0.2]}, "zip")
     with pytest.raises(ValueError, match="changes together with others"):
-        part(template(samples, {}, OWN), {"friction.mu": 0.1})
+        part(empty_dataset(samples, {}, POINT_VARIABLES), {"friction.mu": 0.1})
 
 
 @pytest.mark.solves
@@ -178,14 +181,14 @@ def test_a_threshold_over_texts_is_the_one_over_numbers(scene: Path) -> None:
 def test_a_range_keeps_the_unit_that_it_was_given_in(
     name: str, given: dict[str, object], right: list[float]
 ) -> None:
-    found = file.values(given, name, "study.toml")
+    found = file.read_values(given, name, "study.toml")
     unit = str(given["from"]).partition(" ")[2]
     assert all(str(value).endswith(unit) for value in found)
     assert [in_si(name, value) for value in found] == pytest.approx(right, rel=1e-12)
 
 
 def test_a_range_of_forces_per_length_is_refused_on_a_ball(scene: Path) -> None:
-    forces = file.values({"from": "1 N/mm", "to": "2 N/mm", "n": 2}, "path.0.W", "study.toml")
+    forces = file.read_values({"from": "1 N/mm", "to": "2 N/mm", "n": 2}, "path.0.W", "study.toml")
     for force in forces:
         with pytest.raises(fret.errors.InvalidSceneError, match="the contact is no line"):
-            fret.study.varied(scene, {"path.0.W": force})
+            with_values(scene, {"path.0.W": force})

@@ -24,8 +24,8 @@ STEEL = fret.Elastic(E=210e9, nu=0.3)
 SCENE = fret.Scene(
     body1=fret.Body(STEEL, shape=fret.Sphere(R=5e-3)),
     body2=fret.Body(STEEL),
-    mu=0.3,
-    grid=fret.Grid.centred(extent=2e-4, n=8),
+    friction=0.3,
+    grid=fret.Grid.centred(width=2e-4, n=8),
     path=fret.LoadPath.start().normal(10.0, increments=1),
 )
 TOML = """schema = 1
@@ -176,9 +176,9 @@ def test_failed_points_are_solved_again_in_place(tmp_path: Path) -> None:
 def test_a_store_has_one_writer(whole: Path, tmp_path: Path) -> None:
     if os.name != "posix":
         pytest.skip("folders cannot be locked")
-    from pyfret.study.lock import writing
+    from pyfret.study.lock import only_writer
 
-    with writing(whole), pytest.raises(StoreError, match="is being written by another process"):
+    with only_writer(whole), pytest.raises(StoreError, match="is being written by another process"):
         solved(whole)
     assert solved(whole).count()["done"] == 3
     assert not list(tmp_path.iterdir())

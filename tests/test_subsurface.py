@@ -21,7 +21,7 @@ STEEL, _ = pair(0.3)
 
 def hertz_load(n: int) -> tuple[fret.Grid, np.ndarray]:
     """Unit Hertz pressure on r < 1."""
-    grid = fret.Grid.centred(extent=2.4, n=n)
+    grid = fret.Grid.centred(width=2.4, n=n)
     x, y = np.meshgrid(grid.x, grid.y, indexing="ij")
     return grid, np.sqrt(np.maximum(1 - x**2 - y**2, 0))
 
@@ -32,11 +32,11 @@ def test_yield_starts_half_a_radius_below_a_pressed_sphere() -> None:
     z = np.linspace(0, 1.5, 61)
     below = fret.subsurface.stress(fret.Body(STEEL), grid, z, p=p, y=0.0)
     assert below.s_xx.dims == ("depth", "x")
-    value, x, _, depth, layer, *_ = below.maximum("tresca")
-    assert value / 2 == pytest.approx(0.310, abs=1e-3)
-    assert depth == pytest.approx(0.481, abs=3e-3)
-    assert x == pytest.approx(0.0, abs=1e-3)
-    assert layer == 0
+    largest = below.maximum("tresca")
+    assert largest.value / 2 == pytest.approx(0.310, abs=1e-3)
+    assert largest.z == pytest.approx(0.481, abs=3e-3)
+    assert largest.x == pytest.approx(0.0, abs=1e-3)
+    assert largest.layer == 0
 
 
 @pytest.mark.parametrize("n", [64, 101])
@@ -51,7 +51,7 @@ def test_the_trailing_edge_pulls_as_hamilton_says(n: int) -> None:
     tension = (1 - 2 * nu) / 3 + np.pi * mu * (4 + nu) / 8
     assert float(rims.s_xx[0]) == pytest.approx(tension, abs=0.01)
     largest = below.maximum("s_xx")
-    assert (largest.at, largest.z) == ("rim", 0.0)
+    assert (largest.border, largest.z) == ("rim", 0.0)
     assert largest.value == pytest.approx(tension, abs=max(0.01, largest.error))
     # The parts do not know of one another: the root of the sum of their squares.
     parts = [error for error in largest.errors if error is not None]
@@ -82,7 +82,7 @@ def test_the_largest_stress_in_partial_slip_is_within_its_error(n: int) -> None:
     scene = fret.Scene(
         body1=fret.Body(STEEL, shape=fret.Cylinder(R=radius)),
         body2=fret.Body(STEEL),
-        mu=mu,
+        friction=mu,
         grid=fret.Grid.strip(extent=2.3 * line.a, n=n),
     )
     path = fret.LoadPath.start().normal(force, increments=1).tangential([load], increments=4)

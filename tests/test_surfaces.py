@@ -106,13 +106,13 @@ def test_a_map_that_is_too_small_is_refused_with_the_grid_that_fits(*, flat: boo
     steel = fret.Elastic(E=210e9, nu=0.3)
     spacing = (1e-6, 1.0 if flat else 3e-6)
     shape = fret.SurfaceMap(np.zeros((67, 1 if flat else 20)), spacing=spacing)
-    grid = fret.Grid.strip(extent=1e-4, n=64) if flat else fret.Grid.centred(extent=1e-4, n=64)
+    grid = fret.Grid.strip(extent=1e-4, n=64) if flat else fret.Grid.centred(width=1e-4, n=64)
     path = fret.LoadPath.start().normal(1.0, increments=1)
     round_one = fret.Cylinder(R=1e-4) if flat else fret.Sphere(R=1e-4)
     upper, lower = fret.Body(steel, shape=round_one), fret.Body(steel, shape=shape)
 
     def scene(grid: fret.Grid) -> fret.Scene:
-        made = fret.Scene(body1=upper, body2=lower, mu=0.3, grid=grid, path=path)
+        made = fret.Scene(body1=upper, body2=lower, friction=0.3, grid=grid, path=path)
         made.check()
         return made
 

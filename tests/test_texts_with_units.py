@@ -86,7 +86,7 @@ def test_a_text_is_the_number_of_its_unit() -> None:
     ).rig_stiffness == pytest.approx(9e6)
     hertz = fret.reference.hertz(R="3 mm", bodies=(STEEL, STEEL), W=30.0)
     assert hertz == fret.reference.hertz(R=3e-3, bodies=(STEEL, STEEL), W=30.0)
-    assert fret.Grid.centred(extent="1 mm", n=8) == fret.Grid.centred(extent=1e-3, n=8)
+    assert fret.Grid.centred(width="1 mm", n=8) == fret.Grid.centred(width=1e-3, n=8)
     assert fret.fracture.Threshold(dK_th="2 MPa m^0.5").dK_th == pytest.approx(2e6)
 
 
@@ -96,7 +96,7 @@ def test_another_dimension_is_refused_with_the_units_that_are_meant() -> None:
     ):
         fret.wear.Archard(k="3 um")
     with pytest.raises(ValueError, match='"1 N": must be a number in m, a text with its unit'):
-        fret.Grid.centred(extent="1 N", n=8)
+        fret.Grid.centred(width="1 N", n=8)
     with pytest.raises(TypeError, match=r'"0\.3": must be a number, not a text'):
         fret.fatigue.Criterion.findley(k="0.3")
 

@@ -38,7 +38,7 @@ def coated(increments: int = 12) -> fret.Result:
     path = fret.LoadPath.start().normal(60.0, increments=1)
     path = path.cycles(1, delta_x=4e-6, increments=increments)
     grid = fret.Grid.from_spacing((32, 32), (12e-6, 12e-6))
-    scene = fret.Scene(body1=ball, body2=flat, mu=0.6, grid=grid)
+    scene = fret.Scene(body1=ball, body2=flat, friction=0.6, grid=grid)
     return fret.solve(scene, path, save="all", progress=False)
 
 

@@ -60,8 +60,8 @@ class Drawn:
         scene = fret.Scene(
             body1=fret.Body(STEEL, shape=ball),
             body2=fret.Body(STEEL, coatings=coatings),
-            mu=self.mu,
-            grid=fret.Grid.centred(extent=extent, n=N),
+            friction=self.mu,
+            grid=fret.Grid.centred(width=extent, n=N),
             path=path,
         )
         steel = fatigue.Materials()["steel_42CrMo4"]
@@ -73,7 +73,7 @@ class Drawn:
                 "s_1": below.maximum("s_1").value,
                 "von_mises": below.maximum("von_mises").value,
                 "margin": result.life(steel, "crossland").worst.margin,
-                "factor": result.load_factors(900e6).least("von_mises").factor,
+                "factor": result.load_factors(900e6).least("von_mises").value,
                 "dK": float(result.crack(lengths=[0.3 * min(a.a_x, a.a_y)]).dK().max()),
             }
 

@@ -35,7 +35,7 @@ lower = fret.Body(steel, coatings=[film])
 path = fret.LoadPath.start().normal("10 N").tangential(["3 N", "-3 N", 3.0])
 path = path.force(W="10 N", T_x="1 N", sigma_B="100 MPa").cycles(1, delta_x="2 um")
 path = path.displace(delta_x=["1 um", "-1 um"]).rig("20 N/um").tangential(np.array([1.0, -1.0]))
-grid = fret.Grid.centred(extent=("0.3 mm", 4e-4), n=32)
+grid = fret.Grid.centred(width=("0.3 mm", 4e-4), n=32)
 width: float = fret.reference.line_contact(R="10 mm", bodies=(steel, steel), W=1e5).a
 law = fret.wear.Archard(k="1e-5 mm^3/(N m)", threshold=0.0)
 twice: float = 2.0 * law.k
@@ -43,7 +43,7 @@ wear = fret.wear.Wear(cycles=1e4, body2=law, rig_stiffness="9 N/um", frequency="
 threshold = fret.fracture.Threshold(dK_th="2 MPa m^0.5", dS_0="300 MPa")
 root: float = threshold.dK_th**2
 heat = fret.heat.Conductor(conductivity="40 W/(m K)", heat_capacity="3.6 MJ/(m^3 K)")
-scene = fret.Scene(body1=upper, body2=lower, mu=0.3, grid=grid, path=path)
+scene = fret.Scene(body1=upper, body2=lower, friction=0.3, grid=grid, path=path)
 
 
 def answers(result: fret.Result) -> float:

@@ -36,7 +36,9 @@ SLIPS: dict[str, tuple[Callable[[], Any], str]] = {
     "growth in SI": (lambda: fracture.Paris(C=5e-30, m=3.0), "at 1 MPa"),
     "yield stress in MPa": (lambda: fatigue.first_yield(HISTORY, s_y=300.0), "s_y = 300 Pa"),
     "stress in MPa": (
-        lambda: fatigue.assess(HISTORY / 1e6, fatigue.Materials()["steel_42CrMo4"], "crossland"),
+        lambda: fatigue.evaluate_margin(
+            HISTORY / 1e6, fatigue.Materials()["steel_42CrMo4"], "crossland"
+        ),
         "stress = 100 Pa",
     ),
     "expansion in um/(m K)": (
@@ -55,8 +57,14 @@ SLIPS: dict[str, tuple[Callable[[], Any], str]] = {
     "rig of a fit in N/um": (lambda: ranges({"rig.stiffness": (1.0, 50.0)}), "stiffness = 1 N/m"),
     "bulk stress of a fit in MPa": (lambda: ranges({"path.*.sigma_B": (50.0, 200.0)}), "= 50 Pa"),
     "wear of a fit in mm^3/J": (lambda: ranges({"wear.body2.alpha": (1e-6, 1e-4)}), r"m\^3/J"),
-    "friction of a study in per cent": (lambda: Design.of({"mu": [20.0]}, "grid"), "mu = 20"),
-    "bulk stress of a study": (lambda: Design.of({"path.1.sigma_B": [99.0]}, "grid"), "= 99 Pa"),
+    "friction of a study in per cent": (
+        lambda: Design.from_values({"mu": [20.0]}, "grid"),
+        "mu = 20",
+    ),
+    "bulk stress of a study": (
+        lambda: Design.from_values({"path.1.sigma_B": [99.0]}, "grid"),
+        "= 99 Pa",
+    ),
 }
 
 
@@ -72,7 +80,7 @@ def test_a_number_in_another_unit_is_doubted(slip: str) -> None:
 
 def test_numbers_of_a_scene_in_another_unit_are_doubted() -> None:
     steel = fret.Elastic(E=210e9, nu=0.3)
-    grid = fret.Grid.centred(extent=5e-4, n=24)
+    grid = fret.Grid.centred(width=5e-4, n=24)
     path = fret.LoadPath.start().normal(100.0, increments=1)
     soft = fret.Elastic(E=210e9, nu=0.3, plastic=fret.Plastic(s_y=300.0, hardening=1e3))
     coat = fret.Coating(steel, thickness=1e-4, bond=fret.Bond(normal=1.0))
@@ -81,7 +89,7 @@ def test_numbers_of_a_scene_in_another_unit_are_doubted() -> None:
         of: dict[str, Any] = {
             "body1": fret.Body(steel, shape=fret.Sphere(R=0.01)),
             "body2": fret.Body(steel),
-            "mu": 0.3,
+            "friction": 0.3,
             "grid": grid,
             "path": path,
         }
@@ -93,7 +101,7 @@ def test_numbers_of_a_scene_in_another_unit_are_doubted() -> None:
     assert "body2.coatings[0].bond_normal = 1 m/Pa" in doubts(
         body2=fret.Body(steel, coatings=[coat])
     )
-    assert "friction.kinetic = 30" in doubts(mu=fret.Friction(30.0, kinetic=30.0))
+    assert "friction.kinetic = 30" in doubts(friction=fret.Friction(30.0, kinetic=30.0))
     assert "rig.stiffness = 20 N/m" in doubts(path=path.rig(20.0))
     assert "rig" not in doubts(path=path.rig("20 N/um"))
 

@@ -23,13 +23,11 @@ def pressed(shaft: Any, hole: Any, a: float, material: fret.Elastic, *, line: bo
     k = 1 / 0.010 - 1 / abs(hole.R)
     E_star = material.E / (1 - material.nu**2) / 2
     W = a**2 * k * 3.14159265 * E_star / 4 if line else 4 / 3 * E_star * k * a**3
-    grid = (
-        fret.Grid.strip(extent=2.6 * a, n=32) if line else fret.Grid.centred(extent=2.6 * a, n=32)
-    )
+    grid = fret.Grid.strip(extent=2.6 * a, n=32) if line else fret.Grid.centred(width=2.6 * a, n=32)
     return fret.Scene(
         body1=fret.Body(material, shape=shaft),
         body2=fret.Body(material, shape=hole),
-        mu=0.3,
+        friction=0.3,
         grid=grid,
         path=fret.LoadPath.start().normal(W, increments=1),
     )
@@ -102,8 +100,8 @@ def test_doubtful_numbers_of_wear_and_heat_stay_in_their_results() -> None:
     scene = fret.Scene(
         body1=fret.Body(STEEL, shape=fret.Sphere(0.01)),
         body2=fret.Body(STEEL),
-        mu=0.6,
-        grid=fret.Grid.centred(extent=2.6e-4, n=24),
+        friction=0.6,
+        grid=fret.Grid.centred(width=2.6e-4, n=24),
         path=path,
     )
     with warnings.catch_warnings():

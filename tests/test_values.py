@@ -25,7 +25,7 @@ PAIR = (STEEL, fret.Elastic(E=70e9, nu=0.33))
 HERTZ = fret.reference.hertz(R=0.018, bodies=PAIR, W=1e3)
 COATING = fret.Coating(fret.Elastic(E=400e9, nu=0.25), thickness=HERTZ.a)
 MATERIAL = fret.fatigue.Materials()["steel_42CrMo4"]
-GRID = fret.Grid.centred(extent=1e-3, n=4)
+GRID = fret.Grid.centred(width=1e-3, n=4)
 BODY = fret.Body(STEEL, coatings=[COATING], shape=fret.Sphere(0.01))
 SPRINGS = fret.reference.Springs(HERTZ, R=0.018, bodies=PAIR, mu=0.3, n=20)
 SPRINGS.load(W=1e3, T=100.0)
@@ -39,8 +39,9 @@ ARREST = fret.fracture.CrackArrest("stops", 1e-5, 1e-4, (1e-4,), 0.9, 2e-4, 1.1,
 VALUES: list[Any] = [
     fret.subsurface.Zone(-1e-4, 2e-4, 0),
     fret.kernels.EigenstrainOperator(BODY, GRID, depth=1e-4, height=5e-5),
-    fret.fatigue.Where(2, 0.0, 0.0, 1e-4, 0),
-    fret.fatigue.Verdict("shakes down", 1, (1e-6, 0.0), (1e-3, 1e-3), 0.0, 0.0, None, 1.0),
+    fret.subsurface.Extremum(0.01, 1e-4, fret.subsurface.Place(0.0, 0.0, 1e-4), 0),
+    fret.subsurface.Place(1e-4, 0.0, 2e-5),
+    fret.fatigue.CyclicResponse("shakes down", 1, (1e-6, 0.0), (1e-3, 1e-3), 0.0, 0.0, None, 1.0),
     STEEL,
     COATING,
     BODY,

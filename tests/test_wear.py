@@ -32,7 +32,7 @@ def line(n: int = 96) -> fret.Scene:
     return fret.Scene(
         body1=fret.Body(STEEL, shape=fret.Cylinder(R=6e-3)),
         body2=fret.Body(STEEL),
-        mu=0.9,
+        friction=0.9,
         grid=fret.Grid.strip(extent=0.5e-3, n=n),
         path=path,
     )
@@ -226,7 +226,7 @@ def test_a_function_is_given_again_to_go_on(tmp_path: Path) -> None:
 
 def test_friction_falls_over_cycles() -> None:
     mu = fret.Friction(0.9, history=(fret.History.CYCLES, [(0.0, 1.0), (2000.0, 0.5)]))
-    scene = line().replace(mu=mu)
+    scene = line().replace(friction=mu)
     falls = fret.wear.solve(
         scene,
         cycles=2000,
@@ -390,8 +390,8 @@ def test_the_loop_of_a_run_of_wear_is_that_of_its_scene_but_for_wear() -> None:
     scene = fret.Scene(
         body1=fret.Body(STEEL, shape=fret.Sphere(R=10e-3)),
         body2=fret.Body(STEEL),
-        mu=mu,
-        grid=fret.Grid.centred(extent=2.8 * a, n=24),
+        friction=mu,
+        grid=fret.Grid.centred(width=2.8 * a, n=24),
         path=fret.LoadPath.start().normal(W, increments=2).cycles(2, delta_x=to, increments=6),
     )
     own = float(fret.solve(scene, progress=False).loops().dissipated[-1])

@@ -167,7 +167,7 @@ def test_a_life_beyond_the_tests_is_told_as_one_everywhere(public: Any) -> None:
 
 def test_figures_of_a_life_are_those_of_its_worst_point(public: Any) -> None:
     life = public.LIFE
-    judged = fret.fatigue.evaluate(life.history(), life.criterion)
+    judged = fret.fatigue.evaluate_criterion(life.history(), life.criterion)
     assert float(judged.value) == pytest.approx(life.worst.value, rel=1e-9)
     assert fret.plot.critical_plane_rose(life).get_title("left").startswith("Smith")
     assert len(fret.plot.life_over_distance(life).lines[0].get_xdata()) == 9

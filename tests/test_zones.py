@@ -19,7 +19,7 @@ def test_borders_are_known_to_their_error(n: int, part: float, sigma_B: float) -
     scene = fret.Scene(
         body1=fret.Body(STEEL, shape=fret.Cylinder(R=R)),
         body2=fret.Body(STEEL),
-        mu=MU,
+        friction=MU,
         grid=fret.Grid.strip(extent=2.5 * line.a, n=n),
     )
     path = fret.LoadPath.start().normal(W).force(T_x=part * MU * W, sigma_B=sigma_B)

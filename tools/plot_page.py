@@ -105,8 +105,8 @@ def yielding() -> Any:
     scene = fret.Scene(
         body1=fret.Body(fret.RIGID, shape=fret.Sphere(R=5e-3)),
         body2=fret.Body(titanium, coatings=film),
-        mu=0.0,
-        grid=fret.Grid.centred(extent=7.2e-4, n=32),
+        friction=0.0,
+        grid=fret.Grid.centred(width=7.2e-4, n=32),
     )
     path = fret.LoadPath.start().normal(340.0, increments=4).normal(0.5, increments=2)
     return fret.solve(scene, path, progress=False)
@@ -120,18 +120,20 @@ def names() -> dict[str, Any]:
     scene = fret.Scene(
         body1=fret.Body(steel, shape=fret.Sphere(R=R)),
         body2=fret.Body(steel, coatings=fret.Coating(hard, thickness=0.5 * a)),
-        mu=mu,
-        grid=fret.Grid.centred(extent=2.4 * a, n=48),
+        friction=mu,
+        grid=fret.Grid.centred(width=2.4 * a, n=48),
     )
     pressed = fret.LoadPath.start().normal(W, increments=1)
     path = pressed.cycles(1, T_x=0.8 * mu * W, increments=16)
     result = fret.solve(scene, path, save="all", progress=False)
-    small = scene.replace(grid=fret.Grid.centred(extent=2.4 * a, n=24))
+    small = scene.replace(grid=fret.Grid.centred(width=2.4 * a, n=24))
     bare = small.replace(body2=fret.Body(steel))
     # Friction that rises as the surfaces rub.
     rising = fret.Friction(mu, history=(fret.History.SLIP, [(0.0, 0.6), (2e-6, 1.2)]))
     many = fret.solve(
-        small.replace(mu=rising), pressed.cycles(8, delta_x=2.5e-7, increments=12), progress=False
+        small.replace(friction=rising),
+        pressed.cycles(8, delta_x=2.5e-7, increments=12),
+        progress=False,
     )
     by_ratio = {2.0: result}
     for ratio in (0.5, 4.0):
@@ -146,7 +148,7 @@ def names() -> dict[str, Any]:
     line = fret.Scene(
         body1=fret.Body(titanium, shape=fret.Cylinder(R=0.05)),
         body2=fret.Body(titanium),
-        mu=0.6,
+        friction=0.6,
         grid=fret.Grid.strip(extent=1.6e-3, n=96),
     )
     rig_path = fret.LoadPath.start().force(W=4e5, increments=1)
@@ -164,7 +166,7 @@ def names() -> dict[str, Any]:
         table["titanium_6Al4V"], table["titanium_6Al4V"], frequency=60.0
     )
     wearing = fret.Friction(mu, history=(fret.History.CYCLES, [(0.0, 1.0), (2e4, 1.5)]))
-    wide = bare.replace(grid=fret.Grid.centred(extent=4.5 * a, n=32), mu=wearing)
+    wide = bare.replace(grid=fret.Grid.centred(width=4.5 * a, n=32), friction=wearing)
     worn = fret.wear.solve(
         wide,
         path=pressed.cycles(1, delta_x=4e-6, increments=8),

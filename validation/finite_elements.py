@@ -38,8 +38,8 @@ def sheared(n: int) -> fret.Result:
     scene = fret.Scene(
         body1=fret.Body(STEEL, shape=fret.Sphere(R=R)),
         body2=fret.Body(STEEL),
-        mu=MU,
-        grid=fret.Grid.centred(extent=2.4 * hertz.a, n=n),
+        friction=MU,
+        grid=fret.Grid.centred(width=2.4 * hertz.a, n=n),
         path=path,
     )
     return fret.solve(scene, progress=False)

@@ -50,8 +50,8 @@ def scene(n: int) -> fret.Scene:
     return fret.Scene(
         body1=fret.Body(STEEL, shape=fret.Sphere(R=5e-3)),
         body2=fret.Body(STEEL, coatings=[layer]),
-        mu=0.5,
-        grid=fret.Grid.centred(extent=0.26e-3, n=n),
+        friction=0.5,
+        grid=fret.Grid.centred(width=0.26e-3, n=n),
         path=fret.LoadPath.start().normal(W),
     )
 
@@ -63,7 +63,7 @@ def drawn(rng: np.random.Generator) -> dict[str, float]:
 
 def loop(true: dict[str, float], rng: np.random.Generator) -> fret.fit.Loops:
     """A loop that slides, with noise on the force."""
-    of = fret.study.varied(scene(FINE), true)
+    of = scene(FINE).replace(true)
     elastic = true["mu"] * W * (1 / true["rig.stiffness"] + 1 / 1.3e7)
     reach = BEYOND * elastic
     path = of.path.displace(delta_x=[reach, -reach, reach], increments=WAYS)
@@ -75,7 +75,7 @@ def loop(true: dict[str, float], rng: np.random.Generator) -> fret.fit.Loops:
 
 def indentation(true: dict[str, float], rng: np.random.Generator) -> fret.fit.Indentation:
     """An indentation curve of the same pair, without the rig, with noise on the approach."""
-    of = fret.study.varied(scene(FINE), {k: v for k, v in true.items() if k != "rig.stiffness"})
+    of = scene(FINE).replace({k: v for k, v in true.items() if k != "rig.stiffness"})
     path = fret.LoadPath.start()
     for part in np.linspace(0, 1, PRESSED + 1)[1:]:
         path = path.normal(W * float(part), increments=1)

@@ -33,7 +33,7 @@ def worn() -> fret.wear.WearResult:
         fret.Scene(
             body1=fret.Body(STEEL, shape=fret.Cylinder(R=6e-3)),
             body2=fret.Body(STEEL),
-            mu=0.9,
+            friction=0.9,
             grid=fret.Grid.strip(extent=0.72e-3, n=CELLS),
         ),
         path=path,

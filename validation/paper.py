@@ -86,8 +86,8 @@ def stick_middle(result: fret.Result, t: float) -> float:
 def largest_mises(result: fret.Result) -> tuple[float, float, float]:
     """Largest von Mises stress at the end over p_H, its place along x and depth [a_H]."""
     z = np.union1d(np.linspace(0.0, 2.0, 128), 1.0) * result.a_H
-    value, x, _, depth, *_ = result.at(1.0).stress(z, y=0.0).maximum("von_mises")
-    return value / result.p_H, x / result.a_H, depth / result.a_H
+    largest = result.at(1.0).stress(z, y=0.0).maximum("von_mises")
+    return largest.value / result.p_H, largest.x / result.a_H, largest.z / result.a_H
 
 
 def history_left_out(results: Results) -> str:

@@ -34,8 +34,8 @@ def coated(ratio: float, path: fret.LoadPath, *, n: int) -> fret.Scene:
     return fret.Scene(
         body1=fret.Body(STEEL, shape=fret.Sphere(R=R)),
         body2=fret.Body(STEEL, coatings=[coating]),
-        mu=MU,
-        grid=fret.Grid.centred(extent=(2.8 if ratio < 1 else 2.4) * a, n=n),
+        friction=MU,
+        grid=fret.Grid.centred(width=(2.8 if ratio < 1 else 2.4) * a, n=n),
         path=path,
         settings=SETTINGS,
     )

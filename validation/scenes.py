@@ -31,8 +31,8 @@ def sphere(
     return fret.Scene(
         body1=fret.Body(upper, shape=fret.Sphere(R=R)),
         body2=fret.Body(lower),
-        mu=mu,
-        grid=fret.Grid.centred(extent=side, n=n),
+        friction=mu,
+        grid=fret.Grid.centred(width=side, n=n),
         path=path,
     )
 
@@ -47,7 +47,7 @@ def cylinder(path: fret.LoadPath, *, n: int, extent: float = 2.4) -> fret.Scene:
     return fret.Scene(
         body1=fret.Body(STEEL, shape=fret.Cylinder(R=R)),
         body2=fret.Body(STEEL),
-        mu=MU,
+        friction=MU,
         grid=fret.Grid.strip(extent=extent * line().a, n=n),
         path=path,
     )

@@ -64,6 +64,11 @@ def yardsticks(material: fret.Elastic, force: float, *, line: bool) -> tuple[flo
     return hertz.a, hertz.p0
 
 
+def square(side: float, n: int, *, line: bool) -> fret.Grid:
+    """Return a grid of n cells along a side, a strip for a line contact."""
+    return fret.Grid.strip(extent=side, n=n) if line else fret.Grid.centred(width=side, n=n)
+
+
 def pulled(force: float, amplitude: float) -> fret.LoadPath:
     """Pressed on, then pulled to and fro."""
     T = amplitude * MU * force
@@ -74,12 +79,11 @@ def fully_worn(truth: Worn, *, n: int, extent: float) -> FullyWorn:
     """Wear a sphere or a cylinder in partial slip until nothing changes."""
     line = isinstance(truth, WornCylinder)
     a, p0 = yardsticks(ALIKE, LINE_W if line else W, line=line)
-    grid = fret.Grid.strip if line else fret.Grid.centred
     scene = fret.Scene(
         body1=fret.Body(ALIKE, shape=fret.Cylinder(R=R) if line else fret.Sphere(R=R)),
         body2=fret.Body(ALIKE),
-        mu=MU,
-        grid=grid(extent=extent * a, n=n),
+        friction=MU,
+        grid=square(extent * a, n, line=line),
         path=pulled(LINE_W if line else W, truth.amplitude),
     )
     result = fret.wear.solve(
@@ -152,13 +156,12 @@ def slid(kind: str) -> Slid:
     for to in (stroke, -stroke, stroke):
         path = path.displace(delta_x=to, increments=1)
     b = float(np.cbrt(1.5 * R * lost)) if line else (4 * R * lost / np.pi) ** 0.25
-    grid = fret.Grid.strip if line else fret.Grid.centred
     result = fret.wear.solve(
         fret.Scene(
             body1=fret.Body(STEEL, shape=fret.Cylinder(R=R) if line else fret.Sphere(R=R)),
             body2=fret.Body(STEEL),
-            mu=MU,
-            grid=grid(extent=2.6 * b, n=n),
+            friction=MU,
+            grid=square(2.6 * b, n, line=line),
         ),
         path=path,
         cycles=cycles,

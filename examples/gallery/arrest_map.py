@@ -15,7 +15,7 @@ titanium = fret.Elastic(E=117e9, nu=0.31)
 scene = fret.Scene(
     body1=fret.Body(titanium, shape=fret.Cylinder(R=0.05)),
     body2=fret.Body(titanium),
-    mu=0.6,
+    friction=0.6,
     grid=fret.Grid.strip(extent=1.7e-3, n=96),
 )
 table = fret.study.arrest_map(

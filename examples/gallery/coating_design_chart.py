@@ -17,7 +17,7 @@ for T, sigma_B in ((1e5, 1.6e8), (-1e5, 0.0), (1e5, 1.6e8)):
 scene = fret.Scene(
     body1=fret.Body(titanium, shape=fret.Cylinder(R=0.05)),
     body2=fret.Body(titanium, coatings=[fret.Coating(nitride, thickness=2e-5)]),
-    mu=0.6,
+    friction=0.6,
     grid=fret.Grid.strip(extent=1.7e-3, n=64),
     path=path,
 ).replace(save="all")

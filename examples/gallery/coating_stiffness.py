@@ -20,8 +20,8 @@ for ax, ratio in zip(axes, (0.5, 4.0), strict=True):
     scene = fret.Scene(
         body1=fret.Body(steel, shape=fret.Sphere(R=5e-3)),
         body2=fret.Body(steel, coatings=coating),
-        mu=mu,
-        grid=fret.Grid.centred(extent=3.0 * a, n=64),
+        friction=mu,
+        grid=fret.Grid.centred(width=3.0 * a, n=64),
     )
     path = fret.LoadPath.start().normal(W, increments=4).tangential(0.9 * mu * W, increments=4)
     below = fret.solve(scene, path, progress=False).at(-1).stress()

@@ -19,8 +19,8 @@ a = fret.reference.hertz(R=5e-3, bodies=(ball, flat), W=20.0).a
 scene = fret.Scene(
     body1=fret.Body(ball, shape=fret.Sphere(R=5e-3)),
     body2=fret.Body(flat),
-    mu=0.4,
-    grid=fret.Grid.centred(extent=3.0 * a, n=48),
+    friction=0.4,
+    grid=fret.Grid.centred(width=3.0 * a, n=48),
 )
 path = fret.LoadPath.start().normal(20.0, increments=1)
 path = path.displace(delta_x=[20e-6, -20e-6, 20e-6], increments=60)

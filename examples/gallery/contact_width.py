@@ -40,15 +40,17 @@ def largest(a: float) -> tuple[float, float]:
     W = np.pi * a * p_0 / 2
     cylinder = fret.Body(alloy, shape=fret.Cylinder(R=E_star * a / (2 * p_0)))
     grid = fret.Grid.strip(extent=5 * a, n=192)
-    scene = fret.Scene(body1=cylinder, body2=fret.Body(alloy), mu=mu, grid=grid)
+    scene = fret.Scene(body1=cylinder, body2=fret.Body(alloy), friction=mu, grid=grid)
     path = fret.LoadPath.start().normal(W, increments=1)
     for way, increments in ((1, 4), (-1, 6), (1, 6)):
         path = path.force(T_x=way * 0.45 * mu * W, sigma_B=way * bulk, increments=increments)
     result = fret.solve(scene, path, save="all", progress=False)
     depths = (np.arange(40) + 0.5) / 40 * 2 * L
     stress = fatigue.history(result, [0.0, *depths], y=0.0)
-    surface = fatigue.evaluate(stress.isel(depth=[0]), swt).value.max()
-    mean = fatigue.evaluate(stress.isel(depth=slice(1, None)).mean("depth"), swt).value.max()
+    surface = fatigue.evaluate_criterion(stress.isel(depth=[0]), swt).value.max()
+    mean = fatigue.evaluate_criterion(
+        stress.isel(depth=slice(1, None)).mean("depth"), swt
+    ).value.max()
     return float(surface), float(mean)
 
 

@@ -16,7 +16,7 @@ threshold = fracture.Threshold(dK_th=2.5e6, dS_0=300e6)
 scene = fret.Scene(
     body1=fret.Body(titanium, shape=fret.Cylinder(R=0.05)),
     body2=fret.Body(titanium),
-    mu=0.6,
+    friction=0.6,
     grid=fret.Grid.strip(extent=1.6e-3, n=128),
 )
 figure, axes = plt.subplots(2, 2, figsize=(7.2, 6.0), layout="constrained")

@@ -15,7 +15,7 @@ ball = fret.Body(fret.Elastic(E=210e9, nu=0.3), shape=fret.Sphere(R=5e-3))
 flat = fret.Body(fret.Elastic(E=114e9, nu=0.34))
 W, mu = 10.0, 0.3
 a = fret.reference.hertz(R=5e-3, bodies=(ball, flat), W=W).a
-scene = fret.Scene(body1=ball, body2=flat, mu=mu, grid=fret.Grid.centred(extent=2.4 * a, n=48))
+scene = fret.Scene(body1=ball, body2=flat, friction=mu, grid=fret.Grid.centred(width=2.4 * a, n=48))
 
 figure, ax = plt.subplots(layout="constrained")
 for delta_x in (0.2e-6, 0.5e-6, 1.0e-6):

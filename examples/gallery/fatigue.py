@@ -18,15 +18,15 @@ a = fret.reference.hertz(R=5e-3, bodies=(steel, steel), W=W).a
 scene = fret.Scene(
     body1=fret.Body(steel, shape=fret.Sphere(R=5e-3)),
     body2=fret.Body(steel),
-    mu=mu,
-    grid=fret.Grid.centred(extent=2.8 * a, n=48),
+    friction=mu,
+    grid=fret.Grid.centred(width=2.8 * a, n=48),
 )
 T = 0.7 * mu * W
 path = fret.LoadPath.start().normal(W, increments=1).tangential([T, -T, T], increments=10)
 result = fret.solve(scene, path, save="all", progress=False)
 z = np.linspace(0.0, a, 16)
 stress = fatigue.history(result, z=z, y=0.0)
-value = fatigue.evaluate(stress, fatigue.Criterion.findley(k=0.3)).value
+value = fatigue.evaluate_criterion(stress, fatigue.Criterion.findley(k=0.3)).value
 
 figure, ax = plt.subplots(figsize=(7.2, 3.6), layout="constrained")
 shown = ax.contourf(scene.grid.x / a, z / a, value / 1e6, 14)

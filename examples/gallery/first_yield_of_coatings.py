@@ -25,8 +25,8 @@ def scene(ratio: float, thickness: float) -> fret.Scene:
     return fret.Scene(
         body1=fret.Body(steel, shape=fret.Sphere(R=5e-3)),
         body2=fret.Body(steel, coatings=coating),
-        mu=0.0,
-        grid=fret.Grid.centred(extent=3.6 * a, n=24),
+        friction=0.0,
+        grid=fret.Grid.centred(width=3.6 * a, n=24),
         path=fret.LoadPath.start().normal(W, increments=1),
     )
 

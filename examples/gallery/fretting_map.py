@@ -18,8 +18,8 @@ ball = fret.Body(steel, shape=fret.Sphere(R=5e-3))
 scene = fret.Scene(
     body1=ball,
     body2=fret.Body(steel),
-    mu=0.7,
-    grid=fret.Grid.centred(extent=3.6e-4, n=24),
+    friction=0.7,
+    grid=fret.Grid.centred(width=3.6e-4, n=24),
 )
 table = fret.study.running_conditions(
     scene,

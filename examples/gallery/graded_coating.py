@@ -26,8 +26,8 @@ for layers in (1, 3, 12):
     scene = fret.Scene(
         body1=fret.Body(steel, shape=fret.Sphere(R=5e-3)),
         body2=fret.Body(steel, coatings=coating),
-        mu=0.0,
-        grid=fret.Grid.centred(extent=2.4 * a, n=48),
+        friction=0.0,
+        grid=fret.Grid.centred(width=2.4 * a, n=48),
         path=fret.LoadPath.start().normal(W, increments=1),
     )
     below = fret.solve(scene, progress=False).at(-1).stress(x=0.0, y=0.0)

@@ -21,8 +21,8 @@ for n in cells:
     scene = fret.Scene(
         body1=fret.Body(steel, shape=fret.Sphere(R=R)),
         body2=fret.Body(steel),
-        mu=0.0,
-        grid=fret.Grid.centred(extent=2.4 * hertz.a, n=int(n)),
+        friction=0.0,
+        grid=fret.Grid.centred(width=2.4 * hertz.a, n=int(n)),
         path=fret.LoadPath.start().normal(W, increments=1),
     )
     last = fret.solve(scene, progress=False).at(-1)

@@ -17,8 +17,8 @@ a = fret.reference.hertz(R=5e-3, bodies=(steel, steel), W=W).a
 scene = fret.Scene(
     body1=fret.Body(steel, shape=fret.Sphere(R=5e-3)),
     body2=fret.Body(steel),
-    mu=mu,
-    grid=fret.Grid.centred(extent=2.8 * a, n=48),
+    friction=mu,
+    grid=fret.Grid.centred(width=2.8 * a, n=48),
 )
 T = 0.7 * mu * W
 path = fret.LoadPath.start().normal(W, increments=1).tangential([T, -T, T], increments=10)

@@ -19,7 +19,7 @@ line = fret.reference.line_contact(R=R, bodies=(steel, steel), W=W)
 scene = fret.Scene(
     body1=fret.Body(steel, shape=fret.Cylinder(R=R)),
     body2=fret.Body(steel),
-    mu=mu,
+    friction=mu,
     grid=fret.Grid.strip(extent=2.4 * line.a, n=120),
 )
 

@@ -17,8 +17,8 @@ rough = fret.shapes.Rough(rms=50e-9, hurst=0.8, longest=a, shortest=a / 6, seed=
 scene = fret.Scene(
     body1=fret.Body(steel, shape=fret.Sphere(R=5e-3) + rough),
     body2=fret.Body(steel),
-    mu=mu,
-    grid=fret.Grid.centred(extent=2.8 * a, n=96),
+    friction=mu,
+    grid=fret.Grid.centred(width=2.8 * a, n=96),
 )
 path = fret.LoadPath.start().normal(W, increments=1).tangential(0.6 * mu * W, increments=4)
 result = fret.solve(scene, path, progress=False)

@@ -18,8 +18,8 @@ lubkin = fret.reference.Lubkin(hertz, bodies=(steel, steel), mu=mu)
 scene = fret.Scene(
     body1=fret.Body(steel, shape=fret.Sphere(R=5e-3)),
     body2=fret.Body(steel),
-    mu=mu,
-    grid=fret.Grid.centred(extent=2.4 * hertz.a, n=48),
+    friction=mu,
+    grid=fret.Grid.centred(width=2.4 * hertz.a, n=48),
 )
 M = 0.8 * lubkin.M_limit
 path = fret.LoadPath.start().normal(W, increments=1).cycles(1, M_z=M, increments=40)

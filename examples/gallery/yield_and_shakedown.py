@@ -18,8 +18,8 @@ a = fret.reference.hertz(R=5e-3, bodies=(steel, steel), W=W).a
 scene = fret.Scene(
     body1=fret.Body(steel, shape=fret.Sphere(R=5e-3)),
     body2=fret.Body(steel, coatings=fret.Coating(hard, thickness=0.3 * a)),
-    mu=mu,
-    grid=fret.Grid.centred(extent=3.0 * a, n=48),
+    friction=mu,
+    grid=fret.Grid.centred(width=3.0 * a, n=48),
 )
 T = 0.7 * mu * W
 path = fret.LoadPath.start().normal(W, increments=2).tangential([T, -T, T], increments=10)

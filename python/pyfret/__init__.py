@@ -13,7 +13,7 @@ tractions, the stick and slip zones and the fretting loop at every load incremen
     lower = fret.Body(alloy, coatings=[film])
     path = fret.LoadPath.start().normal(10.0).cycles(1, T_x=3.0)
     grid = fret.Grid.for_contact(upper, lower, path, error=0.02)
-    scene = fret.Scene(body1=upper, body2=lower, mu=0.4, grid=grid)
+    scene = fret.Scene(body1=upper, body2=lower, friction=0.4, grid=grid)
     result = fret.solve(scene, path)
     print(result.summary())
     result.plot()

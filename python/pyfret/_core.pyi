@@ -988,7 +988,7 @@ class EigenstrainOperator:
     >>> from pyfret import Body, Elastic, Grid
     >>> from pyfret.kernels import EigenstrainOperator
     >>> steel = Body(Elastic(E=210e9, nu=0.3))
-    >>> grid = Grid.centred(extent=4e-4, n=16)
+    >>> grid = Grid.centred(width=4e-4, n=16)
     >>> operator = EigenstrainOperator(steel, grid, depth=1e-4, height=2e-5)
     >>> stress, displacement = operator.apply(p=[[0.0] * 16] * 16)
     >>> stress.shape == (operator.z.size, 6, 16, 16), displacement.shape
@@ -1336,8 +1336,8 @@ class Grid:
     def cell_area(self, /) -> float:
         """Area of a cell [m^2]."""
     @staticmethod
-    def centred(*, extent: Quantity | tuple[Quantity, Quantity], n: int | tuple[int, int]) -> Grid:
-        """`n` by `n` cells on a square of side `extent` [m]; a rectangle by pairs (x, y)."""
+    def centred(*, width: Quantity | tuple[Quantity, Quantity], n: int | tuple[int, int]) -> Grid:
+        """Place `n` by `n` cells on a square of side `width` [m]; a rectangle by pairs (x, y)."""
     @property
     def dx(self, /) -> float:
         """Cell length along x [m]."""
@@ -2348,7 +2348,7 @@ class Scene:
     ----------
     body1, body2 : Body
         The upper body (the indenter) and the lower one.
-    mu : float, Friction or "stick"
+    friction : float, Friction or "stick"
         Friction coefficient, >= 0, a friction law, or no slip.
     grid : Grid
         Mesh of the contact plane; it has to hold the contact.
@@ -2370,7 +2370,7 @@ class Scene:
         *,
         body1: Body,
         body2: Body,
-        mu: Friction | float | Literal["stick"],
+        friction: Friction | float | Literal["stick"],
         grid: Grid,
         path: LoadPath | None = None,
         settings: Settings | None = None,
@@ -2480,6 +2480,7 @@ class Scene:
     def replace(
         self,
         /,
+        values: Mapping[str, Any] | None = None,
         *,
         body1: Body | None = None,
         body2: Body | None = None,
@@ -2487,10 +2488,33 @@ class Scene:
         path: LoadPath | None = None,
         settings: Settings | None = None,
         save: Literal["branches", "all"] | Sequence[int] | None = None,
-        mu: Friction | float | Literal["stick"] | None = None,
+        friction: Friction | float | Literal["stick"] | None = None,
         title: str | None = None,
     ) -> Scene:
-        """The same scene with some of its parts exchanged."""
+        """
+        Return the scene with other values, or with other parts.
+
+        Parameters
+        ----------
+        values : mapping of str to value, optional
+            By the keys of a scene file: ``"body2.coatings.0.thickness"`` or ``"path.1.T_x.mu_W"``.
+            ``"mu"`` is short for ``"friction.mu"``. ``"path.*.W"`` stands for every branch.
+            Several keys with commas between get the same value, and a key after a ``-`` gets the
+            opposite value. So ``"path.1.T_x,-path.2.T_x,path.3.T_x"`` is an amplitude.
+        body1, body2, grid, path, settings, friction, title : optional
+            Parts as in the constructor. They replace the parts of the scene with new values.
+        save : "branches", "all" or sequence of int, optional
+            Increments whose fields are kept.
+
+        Raises
+        ------
+        InvalidSceneError
+            A key does not exist, or a value has no meaning; the message names both.
+
+        Examples
+        --------
+        >>> harder = scene.replace({"body2.coatings.0.E": 3e11})  # doctest: +SKIP
+        """
     @property
     def settings(self, /) -> Settings:
         """How the scene is solved."""

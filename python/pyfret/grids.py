@@ -169,7 +169,7 @@ def for_contact(
     if wear is not None:
         if mu is None:
             raise ValueError("mu: must be given with wear, since only what slips wears")
-        scene = Scene(body1=smooth1, body2=smooth2, mu=mu, grid=_square(first), path=path)
+        scene = Scene(body1=smooth1, body2=smooth2, friction=mu, grid=_square(first), path=path)
         lengths = _scar(scene, lengths, dict(wear), plane_strain=plane_strain)
     sides = [(ROUGH if rough else 1.0) * room * of for of in lengths]
     cells = CELLS_TIMES_ERROR / error * room
@@ -190,7 +190,7 @@ def for_contact(
         scene = Scene(
             body1=body1,
             body2=body2,
-            mu=mu if whole and mu is not None else 0.0,
+            friction=mu if whole and mu is not None else 0.0,
             grid=_square(sides[0], plane_strain=plane_strain),
             path=path if whole else pressed,
         )
@@ -246,7 +246,7 @@ def _scene(
         grid = _square(sides[0], plane_strain=True)
     else:
         grid = Grid.from_spacing((COARSE, COARSE), (sides[0] / COARSE, sides[1] / COARSE))
-    return Scene(body1=body1, body2=body2, mu=0.0, grid=grid, path=path)
+    return Scene(body1=body1, body2=body2, friction=0.0, grid=grid, path=path)
 
 
 def _lengths(
@@ -333,7 +333,7 @@ def _square(extent: float, least: float = 0.0, *, plane_strain: bool = False) ->
     """A grid of a trial, of `least` cells along a side or more."""
     if plane_strain:
         return Grid.strip(extent=extent, n=max(4 * COARSE, math.ceil(least)))
-    return Grid.centred(extent=extent, n=max(COARSE, math.ceil(least)))
+    return Grid.centred(width=extent, n=max(COARSE, math.ceil(least)))
 
 
 def _scar(

@@ -31,7 +31,7 @@ COPIES: dict[Any, Callable[[xr.Dataset], Any]] = {
     "study": Study,
     "Study": Study,
     "Cracks": Cracks,
-    "Life": Life.of_dataset,
+    "Life": Life.from_dataset,
     "OverDistance": OverDistance,
     "FitResult": fit_from_dataset,
 }

@@ -44,7 +44,7 @@ class Result(Run, Shows):
 
     life = fatigue.life
     load_factors = fatigue.load_factors
-    verdict = fatigue.verdict
+    cyclic_response = fatigue.cyclic_response
     crack = fracture.crack
     grow_crack = fracture.grow
     temperature = heating.temperature

@@ -110,8 +110,8 @@ def sphere(lower: Body, upper: Elastic, path: LoadPath, *, mu: float, n: int, a:
     return Scene(
         body1=Body(upper, shape=Sphere(R)),
         body2=lower,
-        mu=mu,
-        grid=Grid.centred(extent=2.4 * a, n=n),
+        friction=mu,
+        grid=Grid.centred(width=2.4 * a, n=n),
         path=path,
     )
 
@@ -202,7 +202,7 @@ def line(n: int) -> Iterator[Number]:
     scene = Scene(
         body1=Body(STEEL, shape=Cylinder(R=R)),
         body2=Body(STEEL),
-        mu=MU,
+        friction=MU,
         grid=Grid.strip(extent=2.4 * truth.a, n=n),
         path=LoadPath.start().normal(LINE_W, increments=1).tangential(T, increments=1),
     )

@@ -66,7 +66,7 @@ def drawn(seed: int, n: int) -> tuple[fret.Scene, fatigue.Material]:
         whole = fret.reference.hertz_ellipse(R_x=R * ratio, R_y=R / ratio, E_star=E_star, W=W)
         a = min(whole.a_x, whole.a_y)
         shape = shapes.Ellipsoid(R_x=R * ratio, R_y=R / ratio)
-        grid = fret.Grid.centred(extent=2.7 * max(whole.a_x, whole.a_y), n=n)
+        grid = fret.Grid.centred(width=2.7 * max(whole.a_x, whole.a_y), n=n)
     coatings = []
     if rng.random() < 0.5:
         coating = fret.Elastic(E=flat.E * 2 ** float(rng.uniform(-1, 1.3)), nu=0.3)
@@ -78,7 +78,7 @@ def drawn(seed: int, n: int) -> tuple[fret.Scene, fatigue.Material]:
     scene = fret.Scene(
         body1=fret.Body(counter, shape=shape),
         body2=fret.Body(flat, coatings=coatings),
-        mu=mu,
+        friction=mu,
         grid=grid,
         path=path,
     )
@@ -102,7 +102,7 @@ def numbers(scene: fret.Scene, material: fatigue.Material) -> Iterator[Number]:
     factors = result.load_factors(900e6)
     for rule in ("von_mises", "tresca", "shakedown"):
         least = factors.least(rule)
-        yield f"factor {rule}", least.factor, least.error
+        yield f"factor {rule}", least.value, least.error
     substrate = len(scene.body2.coatings)
     for criterion in CRITERIA:
         life = result.life([material] * (substrate + 1), criterion)

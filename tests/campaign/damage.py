@@ -38,8 +38,8 @@ PATH = fret.LoadPath.start().normal(10.0, increments=3).tangential([1.0, -1.0, 1
 SCENE = fret.Scene(
     body1=fret.Body(STEEL, shape=fret.Sphere(R=5e-3)),
     body2=fret.Body(STEEL),
-    mu=0.3,
-    grid=fret.Grid.centred(extent=2e-4, n=16),
+    friction=0.3,
+    grid=fret.Grid.centred(width=2e-4, n=16),
     path=PATH,
 )
 WEAR = fret.wear.Wear(cycles=1e3, body2=fret.wear.Archard(1e-15), first_branch=2, jumps=6)

@@ -85,7 +85,7 @@ def own_friction(scene: fret.Scene, rng: random.Random) -> fret.Scene:
         del x, y, slip, dissipated
         return mu * (1.0 - fall * p / (p.max() + 1.0))
 
-    return scene.replace(mu=fret.Friction(mu, law=law))
+    return scene.replace(friction=fret.Friction(mu, law=law))
 
 
 def follows(scene: fret.Scene, seed: int) -> Iterator[tuple[str, str]]:

@@ -44,7 +44,7 @@ def written(text: str) -> Path:
 
 
 CALLS: list[Call] = [
-    ("evaluate", fatigue.evaluate, {"0": HISTORY, "1": FINDLEY, "tolerance": 1e-2}),
+    ("evaluate", fatigue.evaluate_criterion, {"0": HISTORY, "1": FINDLEY, "tolerance": 1e-2}),
     ("first_yield", fatigue.first_yield, {"0": HISTORY, "s_y": 1e8}),
     ("moving_load", fatigue.moving_load, {"0": HISTORY, "s_y": 1e8}),
     ("dang_van_path", fatigue.dang_van_path, {"0": HISTORY[:, 0]}),

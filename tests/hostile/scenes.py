@@ -38,7 +38,7 @@ def shaped(shape: Any) -> None:
 
 def rough_friction(**law: Any) -> None:
     """Solves the first increments of a scene with the law."""
-    for _ in fret.march(scene(mu=fret.Friction(**law))):
+    for _ in fret.march(scene(friction=fret.Friction(**law))):
         pass
 
 
@@ -132,7 +132,7 @@ CALLS: list[Call] = [
         lambda t: rough_friction(mu=0.3, history=(fret.History.SLIP, t)),
         {"0": [(0.0, 1.0)]},
     ),
-    ("Grid.centred", fret.Grid.centred, {"extent": 1e-3, "n": 8}),
+    ("Grid.centred", fret.Grid.centred, {"width": 1e-3, "n": 8}),
     ("Grid.from_spacing", fret.Grid.from_spacing, {"0": (8, 8), "1": (1e-5, 1e-5)}),
     ("Grid.strip", fret.Grid.strip, {"extent": 1e-3, "n": 8, "width": 1.0}),
     ("LoadPath.normal", lambda W, n: checked(PATH.normal(W, increments=n)), {"0": 1.0, "1": 2}),

@@ -34,8 +34,8 @@ PATH = fret.LoadPath.start().normal(100.0, increments=2).tangential(0.2, increme
 SCENE = {
     "body1": fret.Body(STEEL, shape=fret.Sphere(R=0.01)),
     "body2": fret.Body(ALUMINIUM),
-    "mu": 0.3,
-    "grid": fret.Grid.centred(extent=8e-4, n=12),
+    "friction": 0.3,
+    "grid": fret.Grid.centred(width=8e-4, n=12),
     "path": PATH,
 }
 TOML = fret.Scene(**SCENE).to_toml()

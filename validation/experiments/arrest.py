@@ -45,7 +45,7 @@ def padded(a: float, bulk: float, n: int = 128) -> fracture.Cracks:
     scene = fret.Scene(
         body1=fret.Body(alloy, shape=fret.Cylinder(R=E_star * a / (2.0 * P_0))),
         body2=fret.Body(alloy),
-        mu=MU,
+        friction=MU,
         grid=fret.Grid.strip(extent=2.6 * a, n=n),
     )
     path = fret.LoadPath.start().normal(W, increments=1)

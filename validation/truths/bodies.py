@@ -78,7 +78,7 @@ def oval(n: int) -> fret.Scene:
     return fret.Scene(
         body1=fret.Body(CORK, shape=fret.shapes.Ellipsoid(R_x=SHALLOW, R_y=STEEP)),
         body2=fret.Body(CORK),
-        mu=MU,
+        friction=MU,
         grid=fret.Grid.from_spacing((n, n), (2.4 * OVAL.a_x / n, 2.4 * OVAL.a_y / n)),
         path=path.tangential(T_OVAL * MU * W, increments=1),
     )

@@ -38,8 +38,8 @@ def pressed(n: int, *, ratio: float, h: float) -> fret.Scene:
     return fret.Scene(
         body1=fret.Body(fret.RIGID, shape=fret.Sphere(R=R)),
         body2=fret.Body(STEEL, coatings=[coating(ratio, h)]),
-        mu=0.0,
-        grid=fret.Grid.centred(extent=2.4 * closed_form(ratio, h).a, n=n),
+        friction=0.0,
+        grid=fret.Grid.centred(width=2.4 * closed_form(ratio, h).a, n=n),
         path=fret.LoadPath.start().normal(W, increments=1),
     )
 
@@ -106,8 +106,8 @@ def thin(n: int) -> fret.Scene:
     return fret.Scene(
         body1=fret.Body(fret.RIGID, shape=fret.Sphere(R=R)),
         body2=fret.Body(fret.RIGID, coatings=[fret.Coating(LAYER, thickness=THICKNESS)]),
-        mu=0.0,
-        grid=fret.Grid.centred(extent=2.4 * WIDE * THICKNESS, n=n),
+        friction=0.0,
+        grid=fret.Grid.centred(width=2.4 * WIDE * THICKNESS, n=n),
         path=fret.LoadPath.start().normal(THIN_W, increments=1),
     )
 

@@ -210,7 +210,7 @@ pub const QUANTITIES: &[Quantity] = &[
     of(
         "stress history",
         Kind::Stress,
-        &["assess.stress"],
+        &["evaluate_margin.stress"],
         (1e3, ANY),
         "less than any fatigue load",
         STRESSES,

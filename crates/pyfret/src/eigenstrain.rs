@@ -42,7 +42,7 @@ type StressAndDisplacement<'py> = (Bound<'py, PyArray4<f64>>, Bound<'py, PyArray
 /// >>> from pyfret import Body, Elastic, Grid
 /// >>> from pyfret.kernels import EigenstrainOperator
 /// >>> steel = Body(Elastic(E=210e9, nu=0.3))
-/// >>> grid = Grid.centred(extent=4e-4, n=16)
+/// >>> grid = Grid.centred(width=4e-4, n=16)
 /// >>> operator = EigenstrainOperator(steel, grid, depth=1e-4, height=2e-5)
 /// >>> stress, displacement = operator.apply(p=[[0.0] * 16] * 16)
 /// >>> stress.shape == (operator.z.size, 6, 16, 16), displacement.shape

@@ -23,7 +23,7 @@ from pyfret.citation import cite as told
 from pyfret.citation import sources
 from pyfret.opening import open as open_any
 from pyfret.result import Result, open_result
-from pyfret.study.file import run_file
+from pyfret.study.file import run_study_file
 from pyfret.wear.runs import open_run
 
 if TYPE_CHECKING:
@@ -92,7 +92,7 @@ def study(options: argparse.Namespace) -> int:
 
         client = Client(options.scheduler)
     try:
-        found, place = run_file(
+        found, place = run_study_file(
             options.file,
             out=options.out,
             executor=client or options.workers,

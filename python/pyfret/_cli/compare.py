@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from pyfret._cli.parser import added
 from pyfret._cli.say import say, say_json
 from pyfret._cli.values import FIGURES, ending
-from pyfret.study.compare_file import run_file
+from pyfret.study.compare_file import run_compare_file
 
 if TYPE_CHECKING:
     import argparse
@@ -36,7 +36,7 @@ def add_options(commands: argparse._SubParsersAction[Any]) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Compare and print the table; 1 where a body could not be solved."""
-    found, place = run_file(
+    found, place = run_compare_file(
         options.file, out=options.out, executor=options.workers, again=options.again
     )
     if options.json:
@@ -50,11 +50,11 @@ def run(options: argparse.Namespace) -> int:
                     of: [float(d[f"{name}{side}"][n]) for side in ("_low", "", "_high")]
                     for n, of in enumerate(found.candidates)
                 },
-                "told": dict(zip(found.candidates, found.told(name), strict=True)),
+                "told": dict(zip(found.candidates, found.formatted(name), strict=True)),
                 # What a margin is a mean over [m]: 0 for the value at a point.
                 **({"L": d[f"{name}_L"].values.tolist()} if f"{name}_L" in d else {}),
             }
-            for name, verdict in ((name, found.verdict(name)) for name in found.numbers)
+            for name, verdict in ((name, found.preference(name)) for name in found.numbers)
         }
         answer = {"store": str(place), "numbers": numbers, "missing": found.missing}
         say_json({**answer, "failed": found.failed}, indent=2)

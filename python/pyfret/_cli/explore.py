@@ -44,8 +44,8 @@ def example() -> Scene:
     return Scene(
         body1=Body(ball, shape=Sphere(R=R)),
         body2=Body(alloy, coatings=[Coating(material("TiN"), thickness=3e-6)]),
-        mu=0.4,
-        grid=Grid.centred(extent=2.6 * a, n=48),
+        friction=0.4,
+        grid=Grid.centred(width=2.6 * a, n=48),
         path=LoadPath.start().normal(W).cycles(1, T_x=0.3 * W),
         title="A ball on 3 um of TiN on titanium",
     )

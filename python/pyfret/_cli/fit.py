@@ -8,7 +8,7 @@ from pyfret import fit
 from pyfret._cli.parser import added
 from pyfret._cli.say import say, say_json
 from pyfret._cli.values import FIGURES, ending, number, pair, setting
-from pyfret.study.design import varied
+from pyfret.study.design import with_values
 
 if TYPE_CHECKING:
     import argparse
@@ -61,7 +61,7 @@ def run(options: argparse.Namespace) -> int:
     unknown = dict(range_of(text) for text in options.unknown)
     units = dict(pair(text, "--unit") for text in options.unit)
     settings = dict(setting(text) for text in options.set)
-    scene = varied(options.scene, settings)
+    scene = with_values(options.scene, settings)
     data: fit.Loops | fit.Indentation
     if options.kind == "loops":
         data = fit.read_loops(options.data, delta=options.x, T=options.force, units=units)

@@ -10,7 +10,7 @@ from pyfret._cli.say import say, say_json
 from pyfret._cli.values import Value, number, pair, setting, takes
 from pyfret._core import measured_by
 from pyfret._util.numbers import told
-from pyfret.study.design import varied
+from pyfret.study.design import with_values
 from pyfret.study.thresholds import Averaged, ThresholdLoad, threshold
 
 if TYPE_CHECKING:
@@ -68,7 +68,7 @@ def run(options: argparse.Namespace) -> int:
     changes = dict(setting(text) for text in options.set)
 
     def scene(values: dict[str, Any]) -> Any:
-        return varied(options.scene, {**changes, **values, "output.save": "all"})
+        return with_values(options.scene, {**changes, **values, "output.save": "all"})
 
     searched = options.parameter.split(",")[0].lstrip("-")
     low, _, high = options.between.partition(":")
@@ -108,7 +108,7 @@ def run(options: argparse.Namespace) -> int:
             for n in range(found.sizes[name])
         ]
     note = measure.estimate
-    grid = varied(options.scene, changes).grid
+    grid = with_values(options.scene, changes).grid
     units = {
         name: grid.unit_of((measured_by(name) or ("", ""))[1]) for name in (searched, *(over or {}))
     }

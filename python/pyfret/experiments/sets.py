@@ -126,7 +126,7 @@ def line(R: float, W: float, slip: float, mu: float, half_width: float, n: int =
     return Scene(
         body1=Body(TI64, shape=Cylinder(R=R)),
         body2=Body(TI64),
-        mu=mu,
+        friction=mu,
         grid=Grid.strip(extent=2.5 * half_width + 4 * slip, n=n),
         path=to_and_fro(W, slip),
     )
@@ -153,8 +153,8 @@ def fouvry2007(
         title=f"Fouvry 2007, alumina on {coating}",
         body1=Body(Elastic(E=370e9, nu=0.27), shape=Sphere(R=12.7e-3)),
         body2=Body(Elastic(E=230e9, nu=0.3), coatings=[layer]),
-        mu=mu,
-        grid=Grid.centred(extent=2 * (2.2 * 183.3e-6 + slip), n=64),
+        friction=mu,
+        grid=Grid.centred(width=2 * (2.2 * 183.3e-6 + slip), n=64),
         path=to_and_fro(100.0, slip),
     )
     energy = 4 * mu * 100.0 * slip
@@ -266,8 +266,8 @@ def baydoun2019(n: int) -> Experiment:
     scene = Scene(
         body1=Body(steel, shape=FlatPunch(radius=side / math.sqrt(math.pi), edge=0.05)),
         body2=Body(steel),
-        mu=0.70,
-        grid=Grid.centred(extent=2.4 * side, n=72),
+        friction=0.70,
+        grid=Grid.centred(width=2.4 * side, n=72),
         path=to_and_fro(row["pressure_Pa"] * side**2, slip),
     )
     law = wearing.DissipatedEnergy(4.383e-14)
@@ -318,7 +318,7 @@ def icf13(test: str, *, Q: float | None = None, n: int = 256) -> Experiment:
         title=f"ICF13 {test}",
         body1=Body(steel, shape=Cylinder(R=row["R_m"])),
         body2=Body(steel),
-        mu=mu,
+        friction=mu,
         grid=Grid.strip(extent=2.4 * a, n=n),
         path=path,
     ).replace(save="all")

@@ -6,7 +6,7 @@ in Pa. No contact is needed; ``docs/fatigue.md`` has the equations and their sou
     from pyfret import fatigue
 
     steel = fatigue.Materials()["steel_42CrMo4"]
-    found = fatigue.assess(stress, steel, "dang_van")
+    found = fatigue.evaluate_margin(stress, steel, "dang_van")
     found.safety_factor.min()
 """
 
@@ -19,9 +19,9 @@ from pyfret.fatigue.criteria import (
     Criterion,
     Material,
     Materials,
-    assess,
     dang_van_path,
-    evaluate,
+    evaluate_criterion,
+    evaluate_margin,
     first_yield,
     mean_stress_slope,
     moving_load,
@@ -30,19 +30,19 @@ from pyfret.fatigue.criteria import (
 )
 from pyfret.fatigue.cycles import cycle_increments, history
 from pyfret.fatigue.distance import OverDistance
-from pyfret.fatigue.factors import Least, LoadFactors, load_factors
+from pyfret.fatigue.factors import LoadFactors, load_factors
 from pyfret.fatigue.frictional_work import ruiz
-from pyfret.fatigue.lives import Life, Worst, life, lives
+from pyfret.fatigue.lives import Life, life, lives
 from pyfret.fatigue.ranges import LifeRange, Range
+from pyfret.fatigue.response import CyclicResponse, cyclic_response
 from pyfret.fatigue.section import Section
-from pyfret.fatigue.verdict import Verdict, Where, verdict
 
 __all__ = [
     "COMPONENTS",
     "CRITERIA",
     "Assessment",
     "Criterion",
-    "Least",
+    "CyclicResponse",
     "Life",
     "LifeRange",
     "LoadFactors",
@@ -51,15 +51,13 @@ __all__ = [
     "OverDistance",
     "Range",
     "Section",
-    "Verdict",
-    "Where",
-    "Worst",
-    "assess",
     "average",
     "critical_distance",
     "cycle_increments",
+    "cyclic_response",
     "dang_van_path",
-    "evaluate",
+    "evaluate_criterion",
+    "evaluate_margin",
     "first_yield",
     "history",
     "life",
@@ -70,6 +68,5 @@ __all__ = [
     "rainflow",
     "ruiz",
     "to_pylife",
-    "verdict",
 ]
 __dir__ = listing(__all__)

@@ -13,7 +13,7 @@ from pyfret._util.arrays import COMPONENTS, histories, number, plain
 from pyfret._util.lazy import xr
 from pyfret._util.material_names import find_material, list_materials
 from pyfret._util.scene_warnings import warn
-from pyfret.fatigue.plastic_strain import strains_beside
+from pyfret.fatigue.plastic_strain import align_plastic_strain
 from pyfret.quantities import StressHistory, YieldStress, quantities
 
 if TYPE_CHECKING:
@@ -31,9 +31,9 @@ __all__ = [
     "Criterion",
     "Material",
     "Materials",
-    "assess",
     "dang_van_path",
-    "evaluate",
+    "evaluate_criterion",
+    "evaluate_margin",
     "first_yield",
     "mean_stress_slope",
     "moving_load",
@@ -68,10 +68,10 @@ class Materials(Mapping[str, Material]):
     def __init__(self, file: str | os.PathLike[str] | None = None) -> None:
         self._materials = {m.name: m for m in _core.materials()}
         if file is not None:
-            own = _core.materials(file)
-            for doubt in (doubt for material in own for doubt in material.doubts()):
+            added = _core.materials(file)
+            for doubt in (doubt for material in added for doubt in material.doubts()):
                 warn(doubt)
-            self._materials.update({m.name: m for m in own})
+            self._materials.update({m.name: m for m in added})
 
     def __getitem__(self, name: str) -> Material:
         """Give a material by its name, or by another one that it is known by: ``"Ti6Al4V"``."""
@@ -94,7 +94,7 @@ class Materials(Mapping[str, Material]):
 
 
 @quantities
-def evaluate(
+def evaluate_criterion(
     stress: ArrayLike,
     criterion: Criterion,
     *,
@@ -136,11 +136,11 @@ def evaluate(
         6 long. The plastic strain has another shape or changes the volume. A criterion of strain is
         given the stress of a cycle in which plastic strain grows, and not that strain.
     """
-    of = histories(stress)
-    found = _core.criterion_on(
+    points = histories(stress)
+    fields = _core.criterion_on(
         criterion,
-        of.values,
-        strains_beside(stress, plastic_strain, criterion),
+        points.values,
+        align_plastic_strain(stress, plastic_strain, criterion),
         tolerance=number(tolerance, "tolerance"),
     )
     labels = {
@@ -154,19 +154,19 @@ def evaluate(
     }
     result = xr.Dataset(attrs={"criterion": criterion.name})
     for name, (unit, meaning) in labels.items():
-        result[name] = of.labelled(found[name], unit, meaning)
-    most, least = result.normal_max, result.normal_min
+        result[name] = points.labelled(fields[name], unit, meaning)
+    upper, lower = result.normal_max, result.normal_min
     mean = {"units": "Pa", "long_name": "mean normal stress on the critical plane"}
     amplitude = {"units": "Pa", "long_name": "amplitude of the normal stress there"}
-    result["normal_mean"] = ((most + least) / 2).assign_attrs(mean)
-    result["normal_amplitude"] = ((most - least) / 2).assign_attrs(amplitude)
-    normal = found["normal"].reshape(-1, 3)
-    result["normal"] = of.labelled(normal, "1", "normal of the critical plane", ("axis",))
+    result["normal_mean"] = ((upper + lower) / 2).assign_attrs(mean)
+    result["normal_amplitude"] = ((upper - lower) / 2).assign_attrs(amplitude)
+    normal = fields["normal"].reshape(-1, 3)
+    result["normal"] = points.labelled(normal, "1", "normal of the critical plane", ("axis",))
     return result.assign_coords(axis=["x", "y", "z"])
 
 
 @quantities
-def assess(
+def evaluate_margin(
     stress: StressHistory,
     material: Material,
     criterion: CriterionName,
@@ -176,16 +176,16 @@ def assess(
 ) -> xr.Dataset:
     """Evaluate a criterion with the numbers of a material: safety factors and lives.
 
-    Parameters and result are those of :func:`evaluate`; beside it ``safety_factor`` (limit over
+    Takes the parameters of :func:`evaluate_criterion`. Adds ``safety_factor`` (limit over
     value) for criteria with a limit, and ``life`` [cycles] for those with a strain-life curve.
 
     Raises
     ------
     ValueError
-        As :func:`evaluate`, and if the material lacks a number. The message names it.
+        As :func:`evaluate_criterion`, and if the material lacks a number. The message names it.
     """
     assessment = material.assessment(criterion)
-    result = evaluate(
+    result = evaluate_criterion(
         stress, assessment.criterion, plastic_strain=plastic_strain, tolerance=tolerance
     )
     result.attrs["material"] = material.title
@@ -194,8 +194,8 @@ def assess(
         if assessment.limit is None
         else ("safety_factor", "1", "limit over value")
     )
-    of = assessment.life if assessment.limit is None else assessment.safety_factor
-    values = np.array([of(float(v)) for v in result.value.values.ravel()])
+    margin = assessment.life if assessment.limit is None else assessment.safety_factor
+    values = np.array([margin(float(v)) for v in result.value.values.ravel()])
     attrs = {"units": unit, "long_name": meaning}
     result[name] = (result.value.dims, values.reshape(result.value.shape), attrs)
     return result
@@ -224,10 +224,10 @@ def first_yield(
         not asked that the ``residual`` stress of neighbouring points balances); infinite without
         stress.
     """
-    of = histories(stress)
+    points = histories(stress)
     xx, yy, zz, xy, xz, yz = plain(constant, "constant").tolist()
     yields = number(s_y, "s_y")
-    found = _core.yielding_on(of.values, s_y=yields, constant=(xx, yy, zz, xy, xz, yz))
+    factors = _core.yielding_on(points.values, s_y=yields, constant=(xx, yy, zz, xy, xz, yz))
     labels = {
         "von_mises": "load factor of first yield, von Mises",
         "tresca": "load factor of first yield, Tresca",
@@ -235,10 +235,10 @@ def first_yield(
     }
     result = xr.Dataset(coords={"component": list(COMPONENTS)})
     for name, meaning in labels.items():
-        result[name] = of.labelled(found[name], "1", meaning)
+        result[name] = points.labelled(factors[name], "1", meaning)
     about = "deviatoric residual stress that serves best"
-    residual = found["residual"].reshape(-1, len(COMPONENTS))
-    result["residual"] = of.labelled(residual, "Pa", about, ("component",))
+    residual = factors["residual"].reshape(-1, len(COMPONENTS))
+    result["residual"] = points.labelled(residual, "Pa", about, ("component",))
     return result
 
 
@@ -256,7 +256,7 @@ def moving_load(stress: ArrayLike, *, s_y: YieldStress) -> NDArray[np.float64]:
     Parameters
     ----------
     stress : array of shape (time, ..., 6)
-        Stress that a place of every depth sees as the load passes [Pa].
+        Stress at a place of every depth as the load passes [Pa].
     s_y : float
         Yield stress [Pa], by von Mises' condition.
 
@@ -267,8 +267,8 @@ def moving_load(stress: ArrayLike, *, s_y: YieldStress) -> NDArray[np.float64]:
     """
     stress = histories(stress).whole()
     mirrored = stress * np.array([1.0, 1.0, 1.0, 1.0, -1.0, -1.0])
-    both = np.concatenate([stress, mirrored])
-    return np.asarray(first_yield(both, s_y=s_y).shakedown)
+    with_mirror = np.concatenate([stress, mirrored])
+    return np.asarray(first_yield(with_mirror, s_y=s_y).shakedown)
 
 
 @quantities
@@ -285,10 +285,10 @@ def dang_van_path(stress: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.fl
     tau, p_h : arrays of shape (time,)
         Mesoscopic shear and hydrostatic stress, tension positive [Pa].
     """
-    of = histories(stress)
-    if of.shape:
-        raise ValueError(f"stress has points of the shape {of.shape}: must be that of one point")
-    path = _core.dang_van_path(np.ascontiguousarray(of.whole()))
+    points = histories(stress)
+    if points.shape:
+        raise ValueError(f"stress has points of the shape {points.shape}: must be one point")
+    path = _core.dang_van_path(np.ascontiguousarray(points.whole()))
     return path[:, 0], path[:, 1]
 
 
@@ -299,7 +299,7 @@ def mean_stress_slope(material: Material) -> tuple[float, str]:
     The limit is amplitude = s_D - slope mean. Where the strength ``s_u`` has a source, slope =
     s_D/s_u (J. Goodman, Mechanics Applied to Engineering, 1899). Else ``t_D`` gives it by Dang
     Van's criterion, s_a/2 + alpha (s_a + s_m)/3 = t_D. There slope = 1 - s_D/(2 t_D), with alpha =
-    3 t_D/s_D - 3/2. A ValueError says which number is missing.
+    3 t_D/s_D - 3/2. A ValueError names a missing number.
     """
     s_D = material.number("s_D")
     if any(name == "s_u" and "recalled" not in source for name, _, source in material.numbers()):

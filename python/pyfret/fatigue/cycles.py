@@ -10,7 +10,7 @@ from pyfret import _core
 from pyfret._util.arrays import plain
 from pyfret._util.lazy import xr
 from pyfret.fatigue.criteria import COMPONENTS
-from pyfret.fatigue.plastic_strain import GROWS, grows, strains_of
+from pyfret.fatigue.plastic_strain import GROWS, plastic_strain_grows, plastic_strain_history
 from pyfret.quantities import Angle, Lengths, ResidualStresses, as_number, quantities
 from pyfret.subsurface.contact import stress_below
 from pyfret.subsurface.fields import coordinates
@@ -26,8 +26,8 @@ if TYPE_CHECKING:
 
 __all__ = ["cycle_increments", "history", "moment_before"]
 
-#: What a history is of.
-Of: TypeAlias = Literal["stress", "plastic_strain"]
+#: The quantity of a history.
+HistoryKind: TypeAlias = Literal["stress", "plastic_strain"]
 #: Increments whose stresses are computed together: the kernels of a depth cost as much as ten.
 TOGETHER = 32
 
@@ -36,14 +36,14 @@ TOGETHER = 32
 def cycle_increments(result: Run, cycle: int | None = -1) -> NDArray[np.int64]:
     """Give the kept increments of a closed cycle of the load path, from 1; all of them for None.
 
-    A ValueError says where there is no such cycle or fewer than two of its increments were kept.
+    Raises a ValueError for a missing cycle, or one with fewer than two kept increments.
     """
     saved = np.asarray(result.dataset.saved_increment.values)
-    kept = saved if cycle is None else saved[_inside(result, saved, cycle)]
+    kept = saved if cycle is None else saved[_is_in_cycle(result, saved, cycle)]
     if kept.size < 2:
-        of = "path" if cycle is None else "cycle"
+        kind = "path" if cycle is None else "cycle"
         raise ValueError(
-            f"{kept.size} increments of the {of} were kept: solve with save='all' or more of them"
+            f"{kept.size} increments of the {kind} were kept: solve with save='all' or more of them"
         )
     return kept
 
@@ -57,8 +57,8 @@ def moment_before(result: Run, kept: NDArray[np.int64]) -> int | None:
     return begin - 1 if begin - 1 in saved else None
 
 
-def _inside(result: Run, saved: NDArray[np.int64], cycle: int) -> NDArray[np.bool_]:
-    """Which of the kept increments lie in a cycle."""
+def _is_in_cycle(result: Run, saved: NDArray[np.int64], cycle: int) -> NDArray[np.bool_]:
+    """Mark the kept increments that lie in a cycle."""
     cycles = result.loops()
     count = cycles.sizes["cycle"]
     if count == 0:
@@ -84,11 +84,12 @@ def history(
     body_number: int = 2,
     cycle: int | None = -1,
     residual: Sequence[ResidualStresses] | None = None,
-    of: Of = "stress",
+    of: HistoryKind = "stress",
 ) -> xr.DataArray:
-    """Stress over a closed cycle of a run whose increments were kept, ready for a criterion.
+    """Return the stress over a closed cycle of a run whose increments were kept.
 
-    A criterion of strain takes the plastic strain beside it, where that grows within the cycle.
+    It is the input of a criterion. A criterion of strain also takes the plastic strain, where it
+    grows within the cycle.
 
     Parameters
     ----------
@@ -110,17 +111,21 @@ def history(
     DataArray of dims (increment, ..., component)
         Stress [Pa] or strain with the coordinates of the places, ``layer`` among them.
     """
-    if of not in get_args(Of):
+    if of not in get_args(HistoryKind):
         raise ValueError(f"of = {of!r}: must be 'stress' or 'plastic_strain'")
     kept = cycle_increments(result, cycle)
     line = Line(x, y, as_number(azimuth))
     if of == "plastic_strain":
-        return strains_of(result, kept, z, line, body_number)
-    stress = _stress(result, kept, z, line, body_number, residual)
-    return stress.assign_attrs({GROWS: True}) if grows(result, kept, body_number) else stress
+        return plastic_strain_history(result, kept, z, line, body_number)
+    stress = _cycle_stress(result, kept, z, line, body_number, residual)
+    return (
+        stress.assign_attrs({GROWS: True})
+        if plastic_strain_grows(result, kept, body_number)
+        else stress
+    )
 
 
-def _stress(
+def _cycle_stress(
     result: Run,
     kept: NDArray[np.int64],
     z: ArrayLike,
@@ -128,17 +133,17 @@ def _stress(
     body_number: int,
     residual: Sequence[ArrayLike] | None,
 ) -> xr.DataArray:
-    """The stress of the increments of a cycle."""
+    """Compute the stress of the increments of a cycle."""
     x, y, azimuth = line
     if azimuth is None and (x is None) == (y is None):
-        return _of_snapshots(result, kept, z, x, y, body_number, residual)
+        return _stack_snapshot_stresses(result, kept, z, x, y, body_number, residual)
     scene = result.scene
     body = scene.body1 if body_number == 1 else scene.body2
-    given = np.atleast_1d(plain(z, "z")).tolist()
-    depths, layers = _core.depths(body, given)
+    wanted_depths = np.atleast_1d(plain(z, "z")).tolist()
+    depths, layers = _core.depths(body, wanted_depths)
     parts = []
-    for some in np.array_split(kept, int(np.ceil(kept.size / TOGETHER))):
-        moments = [result.at(int(n)) for n in some]
+    for group in np.array_split(kept, int(np.ceil(kept.size / TOGETHER))):
+        moments = [result.at(int(n)) for n in group]
         stress = _core.section_of_states(
             body,
             states_of(moments, body_number),
@@ -164,7 +169,7 @@ def _stress(
     return stacked.assign_attrs(units="Pa", long_name="stress").rename("stress")
 
 
-def _of_snapshots(
+def _stack_snapshot_stresses(
     result: Run,
     kept: NDArray[np.int64],
     z: ArrayLike,
@@ -173,7 +178,7 @@ def _of_snapshots(
     body_number: int,
     residual: Sequence[ArrayLike] | None,
 ) -> xr.DataArray:
-    """The stress of every increment by itself, where it is no section."""
+    """Compute the stress of every increment by itself, where it is no section."""
     snapshots = (
         stress_below(result.at(int(n)), z, x=x, y=y, body_number=body_number, residual=residual)
         for n in kept
@@ -182,6 +187,6 @@ def _of_snapshots(
     stresses = [stress.dataset[list(COMPONENTS)].to_array("component") for stress in snapshots]
     stacked = xr.concat(stresses, dim="increment", coords="minimal", compat="override")
     stacked = stacked.assign_coords(increment=kept)
-    others = [d for d in stacked.dims if d not in ("increment", "component")]
-    stacked = stacked.transpose("increment", *others, "component").copy()
+    dims = [d for d in stacked.dims if d not in ("increment", "component")]
+    stacked = stacked.transpose("increment", *dims, "component").copy()
     return stacked.assign_attrs(units="Pa", long_name="stress").rename("stress")

@@ -22,11 +22,11 @@ if TYPE_CHECKING:
     from pyfret._core import Material
     from pyfret.fatigue.ranges import LifeRange
 
-__all__ = ["OverDistance", "critical", "usual"]
+__all__ = ["OverDistance", "default_distances", "distance_of_material"]
 
 
-def rough(margin: float, *, lives: bool) -> str:
-    """A life or a safety factor in two digits; a life beyond the tests of its curve as they end."""
+def format_margin(margin: float, *, lives: bool) -> str:
+    """Format a life or a safety factor in two digits; a longer life than the tests as a bound."""
     if np.isfinite(margin):
         return _core.rough(margin)
     return _core.with_range(margin, _core.LONGEST_LIFE if lives else margin, margin)
@@ -42,7 +42,7 @@ class OverDistance(Saveable, Labelled, Figured):
     """
 
     @classmethod
-    def of(
+    def from_ranges(
         cls,
         L: NDArray[np.float64],
         rows: Sequence[LifeRange],
@@ -54,16 +54,16 @@ class OverDistance(Saveable, Labelled, Figured):
         """Put the ranges of several distances together."""
         about = {"units": "m", "long_name": "distance that the stress is averaged over"}
         dataset = xr.Dataset(coords={"L": ("L", L, about)}, attrs={"method": method})
-        for key, says, values in (
+        for key, long_name, values in (
             (name, meaning, [row.best for row in rows]),
             ("low", f"{meaning}, lowest", [row.low for row in rows]),
             ("high", f"{meaning}, highest", [row.high for row in rows]),
         ):
             unit = "cycles" if name == "life" else "1"
-            dataset[key] = ("L", values, {"units": unit, "long_name": says})
+            dataset[key] = ("L", values, {"units": unit, "long_name": long_name})
         if critical is not None:
             dataset.attrs["L"] = critical
-        # What holds for the shortest and for the longest distance.
+        # Notes on the shortest and on the longest distance.
         notes = dict.fromkeys([*rows[0].notes, *rows[-1].notes]) if rows else []
         dataset.attrs["notes"] = "\n".join(notes)
         return cls(dataset)
@@ -71,7 +71,7 @@ class OverDistance(Saveable, Labelled, Figured):
     figure = "life_over_distance"
 
     def summary(self) -> str:
-        """The table as text."""
+        """Return the table as text."""
         return repr(self)
 
     @property
@@ -94,7 +94,10 @@ class OverDistance(Saveable, Labelled, Figured):
         d, lives = self.dataset, self.margin.name == "life"
         columns = (d.low, self.margin, d.high)
         return [
-            [length(float(d.L[n])), *(rough(float(of[n]), lives=lives) for of in columns)]
+            [
+                length(float(d.L[n])),
+                *(format_margin(float(column[n]), lives=lives) for column in columns),
+            ]
             for n in range(d.sizes["L"])
         ]
 
@@ -103,39 +106,41 @@ class OverDistance(Saveable, Labelled, Figured):
         return table(["L", "low", "best", "high"], self.rows())
 
     def __repr__(self) -> str:
-        """The table as text."""
+        """Return the table as text."""
         rows = [["L", "low", str(self.margin.name), "high"], *self.rows()]
         widths = [max(len(row[k]) for row in rows) for k in range(4)]
         lines = [
-            "  ".join(of.rjust(width) for of, width in zip(row, widths, strict=True))
+            "  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True))
             for row in rows
         ]
         return "\n".join([*lines, *self.notes]).replace("µ", "u")
 
 
-def critical(material: Material | None) -> float | None:
+def distance_of_material(material: Material | None) -> float | None:
     """The critical distance of a material; none if it has no such number."""
     with suppress(ValueError):
         return None if material is None else material.critical_distance()
     return None
 
 
-def usual(material: Material | None, deepest: float, thickness: float) -> NDArray[np.float64]:
-    """Distances about that of a material that stay in its layer [m].
+def default_distances(
+    material: Material | None, deepest: float, thickness: float
+) -> NDArray[np.float64]:
+    """Choose distances around the critical distance of a material, within its layer [m].
 
     Parameters
     ----------
     material : Material, optional
-        That of the layer; without a critical distance the depth of the section counts.
+        Material of the layer; without a critical distance the depth of the section counts.
     deepest : float
         Largest depth of the section [m].
     thickness : float
-        Of the layer [m]; a mean along a line goes down to 2 L.
+        Thickness of the layer [m]; a mean along a line goes down to 2 L.
     """
-    own = critical(material)
-    ends = (own / 4.0, 4.0 * own) if own else (deepest / 100.0, deepest / 4.0)
+    L = distance_of_material(material)
+    ends = (L / 4.0, 4.0 * L) if L else (deepest / 100.0, deepest / 4.0)
     lengths = np.geomspace(*ends, 9)
-    found = lengths[2.0 * lengths <= thickness]
-    if not found.size:
+    inside = lengths[2.0 * lengths <= thickness]
+    if not inside.size:
         raise ValueError(f"L: the layer of {thickness:.3g} m is thinner than 2 L: give distances")
-    return np.asarray(found)
+    return np.asarray(inside)

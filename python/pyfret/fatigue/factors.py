@@ -13,25 +13,24 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import suppress
-from typing import TYPE_CHECKING, Literal, NamedTuple, get_args
+from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
 
 from pyfret._core import Material, with_error
 from pyfret._util.figures import Figured
 from pyfret._util.labelled import Labelled
-from pyfret._util.numbers import place
 from pyfret.fatigue.cycle_section import (
-    body_of,
-    depths_of,
-    labelled,
-    over_cycle,
-    placed,
-    side_by_side,
+    choose_depths,
+    concat_sections,
+    cycle_section,
+    label_fields,
+    section_body,
+    sections_of_cycle,
 )
 from pyfret.fatigue.section import Section, SectionOptions, for_each_layer
 from pyfret.quantities import Lengths, YieldStress, quantities
-from pyfret.subsurface.tensor import Errors
+from pyfret.subsurface.extremum import Errors, Extremum, Place
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -40,7 +39,7 @@ if TYPE_CHECKING:
     from pyfret._core import YieldBelow
     from pyfret.run import Run
 
-__all__ = ["Factor", "Least", "LoadFactors", "YieldStresses", "load_factors"]
+__all__ = ["Factor", "LoadFactors", "YieldStresses", "load_factors"]
 
 #: First yield by von Mises' or Tresca's condition, or the end of elastic shakedown.
 Factor = Literal["von_mises", "tresca", "shakedown"]
@@ -48,28 +47,7 @@ Factor = Literal["von_mises", "tresca", "shakedown"]
 #: layer from the surface down, the substrate's last; layers of ``None`` are not judged.
 YieldStresses = YieldStress | Material | Sequence[YieldStress | Material | None]
 #: Load over limit below this part is rounding: the stress does not change, the factor is infinite.
-NO_USE = 1e-12
-
-
-class Least(NamedTuple):
-    """The least load factor and where it decides, between the samples."""
-
-    #: Load factor.
-    factor: float
-    #: Place [m].
-    x: float
-    y: float
-    #: Depth [m].
-    z: float
-    #: Index of the layer from the surface down, from 0; the number of coatings for the substrate.
-    layer: int
-    #: What may be wrong with the factor, estimated: the search along the section and in depth, the
-    #: tractions on cells twice as large.
-    error: float
-
-    def __repr__(self) -> str:
-        """Give factor, error and place in a few digits."""
-        return f"Least({with_error(self.factor, self.error)}, {place(self)})"
+ROUNDING = 1e-12
 
 
 class LoadFactors(Labelled, Figured):
@@ -87,7 +65,7 @@ class LoadFactors(Labelled, Figured):
     ) -> None:
         super().__init__(dataset)
         self._sections = list(sections)
-        self._least: dict[tuple[int, Factor], Least] = {}
+        self._least: dict[tuple[int, Factor], Extremum] = {}
         #: The layers that are judged, from the surface down.
         self.layers = list(layers)
 
@@ -97,44 +75,44 @@ class LoadFactors(Labelled, Figured):
             raise ValueError(f"{of!r}: must be one of {', '.join(get_args(Factor))}")
         return 1.0 / self.dataset[of]
 
-    def least_of(self, layer: int, of: Factor = "von_mises") -> Least:
+    def least_of(self, layer: int, of: Factor = "von_mises") -> Extremum:
         """Give the least factor of a layer; a ValueError where it is not judged."""
         if (layer, of) not in self._least:
-            self._least[layer, of] = self._found(layer, of)
+            self._least[layer, of] = self._search_least(layer, of)
         return self._least[layer, of]
 
-    def _found(self, layer: int, of: Factor) -> Least:
-        """The least factor of a layer, looked for."""
-        here = self.use(of).isel(depth=self.dataset.layer.values == layer)
-        values = here.values.reshape(-1, here.shape[2] if here.ndim > 2 else 1)
+    def _search_least(self, layer: int, of: Factor) -> Extremum:
+        """Search the least factor of a layer."""
+        use_of_layer = self.use(of).isel(depth=self.dataset.layer.values == layer)
+        values = use_of_layer.values.reshape(
+            -1, use_of_layer.shape[2] if use_of_layer.ndim > 2 else 1
+        )
         if values.size == 0 or not np.isfinite(values).any():
             raise ValueError(f"layer {layer} is not judged: it has no yield stress or no depth")
         n = int(np.nanmax(np.where(np.isfinite(values), values, -np.inf), axis=0).argmax())
-        shown = here.shape[2] if here.ndim > 2 else 1
-        looked = [self._sections[n], *self._sections[shown:]]
-        found = max(
-            filter(None, (section.least(layer, of) for section in looked)),
+        n_sections = use_of_layer.shape[2] if use_of_layer.ndim > 2 else 1
+        searched = [self._sections[n], *self._sections[n_sections:]]
+        best = max(
+            filter(None, (section.least(layer, of) for section in searched)),
             key=lambda least: least["score"],
             default=None,
         )
-        if found is None:
+        if best is None:
             raise ValueError("the section holds no number")
-        use, error = found["score"], Errors(*found["errors"]).sum
-        if use < NO_USE:
+        use, error = best["score"], Errors(*best["errors"]).sum
+        if use < ROUNDING:
             use, error = 0.0, 0.0
-        return Least(
+        return Extremum(
             1.0 / use if use > 0.0 else np.inf,
-            found["x"],
-            found["y"],
-            found["z"],
-            found["layer"],
             _error_of_inverse(use, error),
+            Place(best["x"], best["y"], best["z"]),
+            best["layer"],
         )
 
-    def least(self, of: Factor = "von_mises") -> Least:
+    def least(self, of: Factor = "von_mises") -> Extremum:
         """Give the least factor of all layers."""
         return min(
-            (self.least_of(layer, of) for layer in self.layers), key=lambda least: least.factor
+            (self.least_of(layer, of) for layer in self.layers), key=lambda least: least.value
         )
 
     def __eq__(self, other: object) -> bool:
@@ -144,7 +122,7 @@ class LoadFactors(Labelled, Figured):
         return super().__eq__(other) is True and other.layers == self.layers
 
     def __getstate__(self) -> dict[str, object]:
-        """What is pickled: the least factors in place of what finds them."""
+        """Return the state to pickle: the least factors, without the sections."""
         for layer in self.layers:
             for of in get_args(Factor):
                 # A layer without a number is refused when it is asked for.
@@ -153,10 +131,10 @@ class LoadFactors(Labelled, Figured):
         return {**self.__dict__, "_sections": []}
 
     def __repr__(self) -> str:
-        """Say what decides."""
+        """Give the least factor of every limit."""
         least = {of: self.least(of) for of in get_args(Factor)}
-        found = (f"{of} {with_error(one.factor, one.error)}" for of, one in least.items())
-        return f"LoadFactors({', '.join(found)})"
+        texts = (f"{of} {with_error(factor.value, factor.error)}" for of, factor in least.items())
+        return f"LoadFactors({', '.join(texts)})"
 
 
 def _error_of_inverse(use: float, error: float) -> float:
@@ -166,10 +144,13 @@ def _error_of_inverse(use: float, error: float) -> float:
     return 1.0 / (use - error) - 1.0 / use if use > error else np.inf
 
 
-def _yield_stresses(given: YieldStresses, layers: int) -> list[float | None]:
-    """The yield stress of every layer [Pa]."""
-    each = for_each_layer(given, layers, "yield stress", "yield stresses")
-    return [one.number("s_y") if isinstance(one, Material) else one for one in each]
+def _yield_stresses(s_y: YieldStresses, layers: int) -> list[float | None]:
+    """Return the yield stress of every layer [Pa]."""
+    yield_stresses = for_each_layer(s_y, layers, "yield stress", "yield stresses")
+    return [
+        layer_stress.number("s_y") if isinstance(layer_stress, Material) else layer_stress
+        for layer_stress in yield_stresses
+    ]
 
 
 @quantities
@@ -186,14 +167,14 @@ def load_factors(
     result : Result
         Solved with ``save="all"``, or with the increments of the cycle.
     s_y : float, Material, or sequence of them or None
-        Yield stress [Pa] of all layers, or of each from the surface down, the substrate's last;
-        layers of ``None`` are not judged. A material alone is that of the substrate.
+        Yield stress [Pa] of all layers, or one for each from the surface down, the substrate's
+        last; layers of ``None`` are not judged. A material alone is that of the substrate.
     z : array, optional
-        Depths [m] (default: those that the layers ask for, both sides of every interface).
+        Depths [m] (default: chosen by layer, both sides of every interface).
     **section
         ``x`` or ``y`` (several for a volume), ``azimuth``, ``body_number``, ``cycle`` (None: all
         kept increments of the path), ``residual``: the fields of :class:`pyfret.fatigue.Section`.
-        The default place is that of :func:`pyfret.fatigue.life`. The residual stress counts for
+        The default place is the one of :func:`pyfret.fatigue.life`. The residual stress counts for
         first yield and does not grow with the load; shakedown finds its own.
 
     Returns
@@ -211,33 +192,33 @@ def load_factors(
     --------
     >>> result.load_factors(900e6).least("shakedown")  # doctest: +SKIP
     """
-    where, *others = placed(result, Section(**section))
-    body = body_of(result, where)
+    first, *extra = sections_of_cycle(result, Section(**section))
+    body = section_body(result, first)
     if body.yields and float(result.largest_plastic_strain.max()) > 0.0:
         raise ValueError(
-            f"body{where.body_number}.plastic: must be left out for load factors, which are those "
-            "of elastic bodies; result.verdict() says what bodies that yield come to"
+            f"body{first.body_number}.plastic: must be left out for load factors, which hold "
+            "for elastic bodies; result.cyclic_response() classifies bodies that yield"
         )
     limits = _yield_stresses(s_y, len(body.coatings) + 1)
-    depths = depths_of(result, where, z, limits, "yield stress")
+    depths = choose_depths(result, first, z, limits, "yield stress")
     meanings = {
         "von_mises": "load factor of first yield, von Mises",
         "tresca": "load factor of first yield, Tresca",
         "shakedown": "load factor of elastic shakedown, upper bound",
     }
-    found, shown = [], []
-    for one in [*where.each(), *others]:
-        judged = over_cycle(result, one).by_yield(*depths, limits)
-        if one in others:
-            found.append(judged)
+    sections, labelled_sections = [], []
+    for section_at_place in [*first.split(), *extra]:
+        judged = cycle_section(result, section_at_place).by_yield(*depths, limits)
+        if section_at_place in extra:
+            sections.append(judged)
             continue
         fields = judged.fields()
         labels = {
             name: (fields[name], {"units": "1", "long_name": meaning})
             for name, meaning in meanings.items()
         }
-        found.append(judged)
-        shown.append(labelled(result, one, depths, labels))
-    whole = side_by_side(result, where, shown).drop_vars("axis")
+        sections.append(judged)
+        labelled_sections.append(label_fields(result, section_at_place, depths, labels))
+    whole = concat_sections(result, first, labelled_sections).drop_vars("axis")
     present = np.unique(whole.layer.values).tolist()
-    return LoadFactors(whole, [n for n in present if limits[n] is not None], found)
+    return LoadFactors(whole, [n for n in present if limits[n] is not None], sections)

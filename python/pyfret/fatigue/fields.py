@@ -1,4 +1,4 @@
-"""What a criterion finds at points: names, units and meanings."""
+"""Fields of a criterion at points: names, units and meanings."""
 
 from __future__ import annotations
 
@@ -11,19 +11,19 @@ if TYPE_CHECKING:
 
     from pyfret._core import Assessment
 
-__all__ = ["described", "margin_name"]
+__all__ = ["label_criterion_fields", "margin_name"]
 
 
 def margin_name(assessments: Sequence[Assessment | None]) -> tuple[str, str]:
-    """Name and meaning of the margin: a life as soon as one layer has a strain-life curve."""
+    """Return name and meaning of the margin: a life if any layer has a strain-life curve."""
     lives = any(a is not None and a.limit is None for a in assessments)
     if lives:
         return "life", "cycles until a crack has started"
     return "safety_factor", "limit over value"
 
 
-#: What is found at every point: unit and meaning; that of the value is the criterion's.
-FOUND = {
+#: Unit and meaning of each field; the unit of the value is the criterion's.
+CRITERION_FIELDS = {
     "value": ("", "value of the criterion"),
     "planes": ("1", "planes looked at"),
     "missed": ("", "most that another plane may have more"),
@@ -35,21 +35,21 @@ FOUND = {
 }
 
 
-def described(
-    found: dict[str, NDArray[np.float64]], assessments: Sequence[Assessment | None]
+def label_criterion_fields(
+    fields: dict[str, NDArray[np.float64]], assessments: Sequence[Assessment | None]
 ) -> dict[str, tuple[NDArray[np.float64], dict[str, str]]]:
-    """What the core found at points, with names and units."""
+    """Add units and meanings to the fields of a criterion."""
     unit = next(a.criterion.unit for a in assessments if a is not None)
-    shown = {
-        name: (found[name], {"units": of or unit, "long_name": meaning})
-        for name, (of, meaning) in FOUND.items()
+    labelled = {
+        name: (fields[name], {"units": field_unit or unit, "long_name": meaning})
+        for name, (field_unit, meaning) in CRITERION_FIELDS.items()
     }
-    most, least = found["normal_max"], found["normal_min"]
+    upper, lower = fields["normal_max"], fields["normal_min"]
     mean = {"units": "Pa", "long_name": "mean normal stress on the critical plane"}
-    shown["normal_mean"] = ((most + least) / 2, mean)
+    labelled["normal_mean"] = ((upper + lower) / 2, mean)
     amplitude = {"units": "Pa", "long_name": "amplitude of the normal stress there"}
-    shown["normal_amplitude"] = ((most - least) / 2, amplitude)
+    labelled["normal_amplitude"] = ((upper - lower) / 2, amplitude)
     name, meaning = margin_name(assessments)
     unit = "cycles" if name == "life" else "1"
-    shown[name] = (found["margin"], {"units": unit, "long_name": meaning})
-    return shown
+    labelled[name] = (fields["margin"], {"units": unit, "long_name": meaning})
+    return labelled

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pyfret._util.lazy import xr
-from pyfret.fatigue.cycle_section import placed
+from pyfret.fatigue.cycle_section import sections_of_cycle
 from pyfret.fatigue.cycles import cycle_increments, history
 from pyfret.fatigue.section import Section, SectionOptions
 from pyfret.quantities import quantities
@@ -23,7 +23,7 @@ __all__ = ["ruiz"]
 
 
 def _work_until(result: Run, increment: int, line: Line) -> xr.DataArray:
-    """Frictional work per area along a line from the start to the end of an increment [J/m^2]."""
+    """Return the frictional work per area along a line up to the end of an increment [J/m^2]."""
     if increment not in result.dataset.saved_increment.values:
         raise ValueError(
             f"increment {increment} was not kept: the work of a cycle needs the fields at both of "
@@ -56,9 +56,9 @@ def ruiz(result: Run, **section: Unpack[SectionOptions]) -> xr.Dataset:
         Over x, y or, on an oblique line, s [m]: ``F1`` [J/m^2] and ``F2`` [J Pa/m^2]; F2 is
         0 where the surface is never in tension.
     """
-    where = placed(result, Section(**section))[0]
-    line = where.line
-    kept = cycle_increments(result, where.cycle)
+    first_section = sections_of_cycle(result, Section(**section))[0]
+    line = first_section.line
+    kept = cycle_increments(result, first_section.cycle)
     branch = result.dataset.branch_of_increment
     cycle_branches = branch.sel(increment=kept).values
     inside = (branch >= cycle_branches.min()) & (branch <= cycle_branches.max())
@@ -71,12 +71,14 @@ def ruiz(result: Run, **section: Unpack[SectionOptions]) -> xr.Dataset:
         result,
         [0.0],
         **line.named(),
-        body_number=where.body_number,
-        cycle=where.cycle,
-        residual=where.residual,
+        body_number=first_section.body_number,
+        cycle=first_section.cycle,
+        residual=first_section.residual,
     )
     cos, sin = np.cos(line.angle), np.sin(line.angle)
-    s_xx, s_yy, s_xy = (stress.sel(component=of).values[:, 0] for of in ("s_xx", "s_yy", "s_xy"))
+    s_xx, s_yy, s_xy = (
+        stress.sel(component=component).values[:, 0] for component in ("s_xx", "s_yy", "s_xy")
+    )
     along = cos**2 * s_xx + 2.0 * cos * sin * s_xy + sin**2 * s_yy
     tension = np.maximum(along.max(axis=0), 0.0)
     F1 = F1.assign_attrs(units="J/m^2", long_name="frictional work per area and cycle")

@@ -1,4 +1,4 @@
-"""What a criterion found on a section below a contact, or on several."""
+"""A criterion evaluated on a section below a contact, or on several."""
 
 from __future__ import annotations
 
@@ -8,21 +8,20 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pyfret._core import degrees, range_of_life, with_range
+from pyfret._core import degrees, range_of_life
 from pyfret._util.figures import Figured
 from pyfret._util.labelled import Labelled
 from pyfret._util.numbers import layer_name, length, place
 from pyfret._util.text import html
 from pyfret.fatigue import stored
-from pyfret.fatigue.cycles import Of
-from pyfret.fatigue.distance import OverDistance, critical, usual
+from pyfret.fatigue.cycles import HistoryKind
+from pyfret.fatigue.distance import OverDistance, default_distances, distance_of_material
 from pyfret.fatigue.fields import margin_name
 from pyfret.fatigue.ranges import LifeRange, Range
-from pyfret.fatigue.worst import Worst, in_megapascals
 from pyfret.quantities import Length, Lengths, as_number, quantities
 from pyfret.saveable import Saveable
 from pyfret.scene.tables import table
-from pyfret.subsurface.tensor import Errors
+from pyfret.subsurface.extremum import Errors, Extremum, Place, format_value
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -36,9 +35,9 @@ if TYPE_CHECKING:
 __all__ = ["Life"]
 
 #: Why a life that was pickled or saved has no stress.
-UNPICKLED = "a life that was saved or unpickled has no stress: judge the result again"
-#: What is told of a worst point there.
-RIM = (
+NO_STRESS = "a life that was saved or unpickled has no stress: judge the result again"
+#: Note on a worst point at the rim.
+RIM_NOTE = (
     "the worst point is at the rim of the contact: a point value depends on the grid, use a "
     "critical distance (fatigue.average)"
 )
@@ -62,7 +61,7 @@ class Life(Saveable, Labelled, Figured):
         sections: Sequence[CriterionBelow],
         notes: Sequence[str],
         materials: Sequence[Material | None],
-        history: Callable[[Worst, Of], NDArray[np.float64]] | None = None,
+        history: Callable[[Extremum, HistoryKind], NDArray[np.float64]] | None = None,
     ) -> None:
         super().__init__(dataset)
         self._history = history
@@ -71,33 +70,33 @@ class Life(Saveable, Labelled, Figured):
         self._sections = list(sections)
         self._assessments = self._sections[0].assessments if sections else []
         self._notes = list(notes)
-        self._worst: dict[int, Worst] = {}
-        # Their margins, lives beyond the tests by the curve.
+        self._worst: dict[int, Extremum] = {}
+        # Margins for sorting, with lives beyond the tests from the curve.
         self._order: dict[int, float] = {}
-        # Those of a pickled life, which has no sections to look in.
+        # Sections of a pickled life, which cannot be searched.
         self._parts: list[Life] = []
 
     figure = "criterion_map"
 
     @classmethod
-    def of_dataset(cls, dataset: xr.Dataset) -> Life:
-        """Give a life that was saved: what it found, without the stress."""
-        state = stored.unpacked(dataset.load(), Worst)
-        attrs = {name: of for name, of in dataset.attrs.items() if name != stored.KEY}
+    def from_dataset(cls, dataset: xr.Dataset) -> Life:
+        """Rebuild a saved life, without the stress."""
+        state = stored.life_from_dataset(dataset.load())
+        attrs = {name: attribute for name, attribute in dataset.attrs.items() if name != stored.KEY}
         # A file may have no lists of one length.
         attrs["interfaces"] = np.atleast_1d(attrs.get("interfaces", [])).tolist()
         kept = dataset.copy()
         kept.attrs = attrs
-        made = cls(kept, [], [], [])
-        made.__dict__.update(state)
-        return made
+        life = cls(kept, [], [], [])
+        life.__dict__.update(state)
+        return life
 
     def _as_saved(self) -> xr.Dataset:
         """Fields, worst points and ranges, without the stress.
 
         Other distances and scatters need the run.
         """
-        about = {stored.KEY: stored.packed(self.__getstate__()), "kind": "Life"}
+        about = {stored.KEY: stored.life_to_json(self.__getstate__()), "kind": "Life"}
         return super()._as_saved().assign_attrs(about)
 
     def summary(self) -> str:
@@ -118,27 +117,29 @@ class Life(Saveable, Labelled, Figured):
         """Give the margin of every point, lives beyond the tests by the curve: for contours."""
         margin, value = self.margin.values.copy(), self.dataset.value.values
         for n, row in enumerate(self.dataset.layer.values):
-            of = self._assessments[int(row)]
-            if of is not None and of.limit is None:
+            assessment = self._assessments[int(row)]
+            if assessment is not None and assessment.limit is None:
                 beyond = np.isinf(margin[n])
-                margin[n][beyond] = [of.life(float(one)) for one in value[n][beyond]]
+                margin[n][beyond] = [
+                    assessment.life(float(point_value)) for point_value in value[n][beyond]
+                ]
         return np.asarray(margin)
 
     @property
     def layers(self) -> list[int]:
         """The layers that are judged, from the surface down."""
-        found = np.unique(self.dataset.layer.values).tolist()
-        return [n for n in found if self._assessments[n] is not None]
+        present = np.unique(self.dataset.layer.values).tolist()
+        return [n for n in present if self._assessments[n] is not None]
 
     @property
     def notes(self) -> list[str]:
-        """What to know of the numbers: other elastic constants, a cycle that does not close."""
-        at_rim = [RIM] if self.worst.at == "rim" and self.range.distance is None else []
+        """Notes on the numbers: other elastic constants, a cycle that does not close."""
+        at_rim = [RIM_NOTE] if self.worst.border == "rim" and self.range.distance is None else []
         return [*self._notes, *self.range.notes, *at_rim]
 
     @quantities
     def section(self, place: float) -> Life:
-        """Give the one of several sections that is nearest to a place on the axis across [m]."""
+        """Return the section nearest to a place on the axis across [m]."""
         if self.dataset.value.ndim == 2:
             return self
         across = str(self.dataset.value.dims[2])
@@ -154,71 +155,73 @@ class Life(Saveable, Labelled, Figured):
         )
 
     @quantities
-    def worst_of(self, layer: int) -> Worst:
+    def worst_of(self, layer: int) -> Extremum:
         """Give the worst point of a layer; a ValueError where it is not judged."""
         if layer not in self._worst:
-            here = self.dataset.value.isel(depth=self.dataset.layer.values == layer)
-            if not np.isfinite(here.values).any():
+            value_of_layer = self.dataset.value.isel(depth=self.dataset.layer.values == layer)
+            if not np.isfinite(value_of_layer.values).any():
                 raise ValueError(f"layer {layer} is not judged: it has no material or no depth")
             material = self._materials[layer]
             # A section whose samples are lower may have the worst point between them.
-            found = max(
+            worst = max(
                 filter(None, (section.worst(layer, material) for section in self._sections)),
                 key=lambda worst: worst["score"],
                 default=None,
             )
-            if found is None:
+            if worst is None:
                 raise ValueError("the section holds no number")
-            self._order[layer] = found["order"]
-            self._worst[layer] = Worst(
-                found["score"],
-                found["margin"],
-                found["x"],
-                found["y"],
-                found["z"],
-                found["layer"],
-                Errors(*found["errors"]),
-                found["at"],
-                tuple(found["normal"]) if "normal" in found else None,
-                found.get("inclination"),
-                (found["range"][0], found["range"][1]),
-                str(self.dataset.value.attrs.get("units", "1")),
-                str(self.margin.attrs.get("units", "1")),
-                (found["whole"][0], found["whole"][1]),
+            self._order[layer] = worst["order"]
+            errors = Errors(*worst["errors"])
+            self._worst[layer] = Extremum(
+                worst["score"],
+                errors.sum,
+                Place(worst["x"], worst["y"], worst["z"]),
+                worst["layer"],
+                units=str(self.dataset.value.attrs.get("units", "1")),
+                border=worst["at"],
+                errors=errors,
+                margin=worst["margin"],
+                margin_units=str(self.margin.attrs.get("units", "1")),
+                range=(worst["range"][0], worst["range"][1]),
+                whole=(worst["whole"][0], worst["whole"][1]),
+                normal=tuple(worst["normal"]) if "normal" in worst else None,
+                inclination=worst.get("inclination"),
             )
         return self._worst[layer]
 
-    def history(self, of: Of = "stress") -> NDArray[np.float64]:
+    def history(self, of: HistoryKind = "stress") -> NDArray[np.float64]:
         """Give the stress [Pa] or the plastic strain at the worst point over the cycle: (time, 6).
 
         In the order xx, yy, zz, xy, xz, yz; :func:`pyfret.plot.critical_plane_rose` draws both.
         """
         if self._history is None:
-            raise ValueError(UNPICKLED)
+            raise ValueError(NO_STRESS)
         return self._history(self.worst, of)
 
     @property
     def criterion(self) -> Criterion:
         """The criterion, with the numbers of the material of the worst point."""
-        of = self._assessments[self.worst.layer]
-        assert of is not None
-        return of.criterion
+        assessment = self._assessments[self.worst.layer]
+        assert assessment is not None
+        return assessment.criterion
 
     @quantities
     def margin_of(self, layer: int) -> LifeRange:
         """Give the margin of a layer from the error of its stress alone: for contacts side by side.
 
-        It is :meth:`range_of` the mean stress over the critical distance of its material, at the
-        worst point where it has none. The scatter of the material and of its distance is no part of
-        it: that is the same for two contacts of one material.
+        It is :meth:`range_of` for the mean stress over the critical distance of its material, at
+        the worst point where it has none. The scatter of the material and of its distance is no
+        part of it, since they are the same for two contacts of one material.
         """
-        return self.range_of(layer, scatter=1.0, L=critical(self._materials[layer]))
+        return self.range_of(layer, scatter=1.0, L=distance_of_material(self._materials[layer]))
 
     def least_margin(self, layers: Sequence[int] | None = None) -> LifeRange:
-        """Give the smallest :meth:`margin_of` some layers (default: all that are judged)."""
-        of = [self.margin_of(layer) for layer in (self.layers if layers is None else layers)]
-        least = min(of, key=lambda one: (one.best, one.low))
-        return least._replace(low=min(one.low for one in of), high=min(one.high for one in of))
+        """Give the smallest margin of some layers (default: all that are judged)."""
+        margins = [self.margin_of(layer) for layer in (self.layers if layers is None else layers)]
+        least = min(margins, key=lambda margin: (margin.best, margin.low))
+        return least._replace(
+            low=min(margin.low for margin in margins), high=min(margin.high for margin in margins)
+        )
 
     @property
     def range(self) -> LifeRange:
@@ -263,11 +266,11 @@ class Life(Saveable, Labelled, Figured):
             Index of the layer from the surface down, from 0: coating 1 is 0; of a substrate the
             number of coatings.
         scatter : float, optional
-            Life that 90 % reach less than over that which 10 % reach less than (default: 3, or 5
-            where numbers of the material are estimates); of a safety factor the same of strengths
+            Ratio of the 90th to the 10th percentile of life (default: 3, or 5
+            where numbers of the material are estimates); for a safety factor the ratio of strengths
             (default: 1.2, or 1.5).
         L : float, optional
-            Critical distance [m] (default: that of the material).
+            Critical distance [m] (default: the material's own).
         method : "point", "line", "area" or "volume"
             How the stress is averaged over it, as in :func:`pyfret.fatigue.average`.
         """
@@ -275,9 +278,9 @@ class Life(Saveable, Labelled, Figured):
         if default and layer in self._ranges:
             return self._ranges[layer]
         if not self._sections:
-            raise ValueError(UNPICKLED)
+            raise ValueError(NO_STRESS)
         worst = self.worst_of(layer)
-        low_to_high, stress, of_material, distance, length, notes = range_of_life(
+        low_to_high, stress, scatter_factor, distance, length, notes = range_of_life(
             self._sections,
             layer,
             self._materials[layer],
@@ -286,17 +289,17 @@ class Life(Saveable, Labelled, Figured):
             scatter=scatter,
             L=as_number(L),
         )
-        found = LifeRange(
+        life_range = LifeRange(
             *low_to_high,
             stress=Range(*stress),
-            material=of_material,
+            material=scatter_factor,
             distance=None if distance is None else Range(*distance),
             L=length,
             notes=tuple(notes),
         )
         if default:
-            self._ranges[layer] = found
-        return found
+            self._ranges[layer] = life_range
+        return life_range
 
     @quantities
     def over_distance(
@@ -306,18 +309,18 @@ class Life(Saveable, Labelled, Figured):
         method: Averaging = "line",
         layer: int | None = None,
     ) -> OverDistance:
-        """Judge the stress averaged over several distances: how much the life depends on L.
+        """Evaluate the margin over several distances L.
 
         Parameters
         ----------
         L : array, optional
-            Critical distances [m] (default: nine from a quarter of that of the material to four
-            times it; without one from a hundredth to a quarter of the depth of the section; those
-            that reach beyond the layer are left out).
+            Critical distances [m] (default: nine from a quarter of the material's distance to four
+            times it; without one from a hundredth to a quarter of the depth of the section;
+            distances that reach beyond the layer are left out).
         method : "point", "line", "area" or "volume"
             As in :func:`pyfret.fatigue.average`.
         layer : int, optional
-            The layer (default: that of the worst point).
+            The layer (default: the layer of the worst point).
 
         Returns
         -------
@@ -331,25 +334,31 @@ class Life(Saveable, Labelled, Figured):
             The life was unpickled, or a distance reaches beyond the layer.
         """
         if not self._sections:
-            raise ValueError(UNPICKLED)
-        there = self.worst.layer if layer is None else layer
-        material = self._materials[there]
+            raise ValueError(NO_STRESS)
+        chosen_layer = self.worst.layer if layer is None else layer
+        material = self._materials[chosen_layer]
         borders = [0.0, *self.dataset.attrs["interfaces"], np.inf]
         lengths = (
-            usual(material, float(self.dataset.z.max()), borders[there + 1] - borders[there])
+            default_distances(
+                material,
+                float(self.dataset.z.max()),
+                borders[chosen_layer + 1] - borders[chosen_layer],
+            )
             if L is None
             else np.atleast_1d(np.asarray(L, float))
         )
-        rows = [self.range_of(there, L=at, method=method) for at in lengths.tolist()]
-        for at, row in zip(lengths.tolist(), rows, strict=True):
+        rows = [self.range_of(chosen_layer, L=L_n, method=method) for L_n in lengths.tolist()]
+        for L_n, row in zip(lengths.tolist(), rows, strict=True):
             if row.L is None:
-                raise ValueError(f"L = {length(at)}: {row.notes[0]}".replace("µ", "u"))
+                raise ValueError(f"L = {length(L_n)}: {row.notes[0]}".replace("µ", "u"))
         name, meaning = margin_name(self._assessments)
-        return OverDistance.of(lengths, rows, name, meaning, method, critical(material))
+        return OverDistance.from_ranges(
+            lengths, rows, name, meaning, method, distance_of_material(material)
+        )
 
     @property
-    def worst(self) -> Worst:
-        """The point of the smallest margin; of equal ones, that of the larger value."""
+    def worst(self) -> Extremum:
+        """The point of the smallest margin; of equal ones, the point of the larger value."""
         judged = [self.worst_of(layer) for layer in self.layers]
         order = {layer: np.nan_to_num(self._order[layer], nan=-np.inf) for layer in self.layers}
         return min(judged, key=lambda w: (order[w.layer], -w.value))
@@ -361,7 +370,7 @@ class Life(Saveable, Labelled, Figured):
         return super().__eq__(other) is True and other._assessments == self._assessments
 
     def __getstate__(self) -> dict[str, object]:
-        """What is pickled: the worst points in place of what finds them."""
+        """Return the state to pickle: the worst points, without the sections."""
         for layer in self.layers:
             # A layer without a number is refused when it is asked for.
             with suppress(ValueError):
@@ -379,8 +388,8 @@ class Life(Saveable, Labelled, Figured):
         for layer in self.layers:
             w = self.worst_of(layer)
             place = (f"{1e6 * at:.4g}" for at in (w.x, w.y, w.z))
-            value = in_megapascals(w.value, w.error, w.units)
-            point = with_range(w.margin, *w.whole)
+            value = format_value(w.value, w.error, w.units)
+            point = w.format_margin()
             rows.append(
                 [layer_name(layer, coatings), repr(self.range_of(layer)), point, value, *place]
             )
@@ -398,7 +407,7 @@ class Life(Saveable, Labelled, Figured):
         return f"<p><b>{criterion}</b></p>{table(heading, rows)}"
 
     def __repr__(self) -> str:
-        """Say what was judged and how it ends."""
+        """Give criterion, range and worst point."""
         w = self.worst
         name = margin_name(self._assessments)[0].replace("_", " ")
         plane = ""

@@ -17,19 +17,19 @@ import numpy as np
 
 from pyfret._util.lazy import xr
 from pyfret.fatigue.cycle_section import (
-    body_of,
-    depths_of,
-    labelled,
-    over_cycle,
-    placed,
-    side_by_side,
+    choose_depths,
+    concat_sections,
+    cycle_section,
+    label_fields,
+    section_body,
+    sections_of_cycle,
 )
-from pyfret.fatigue.cycles import Of, history
-from pyfret.fatigue.fields import described
+from pyfret.fatigue.cycles import HistoryKind, history
+from pyfret.fatigue.fields import label_criterion_fields
 from pyfret.fatigue.judged import Life
 from pyfret.fatigue.section import Materials, Section, SectionOptions, for_each_layer
-from pyfret.fatigue.worst import Worst
 from pyfret.quantities import Lengths, quantities
+from pyfret.subsurface.extremum import Extremum
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from pyfret.fatigue.criteria import CriterionName
     from pyfret.run import Run
 
-__all__ = ["Life", "Materials", "Worst", "life", "lives"]
+__all__ = ["Life", "Materials", "life", "lives"]
 
 
 @quantities
@@ -62,12 +62,12 @@ def life(
         Solved with ``save="all"``, or with the increments of the cycle. The bulk stress of the body
         is part of the stress as the path has it, in or out of phase with the other loads.
     materials : Material or sequence of Material or None
-        That of the substrate, or one for each layer from the surface down, the substrate's last.
-        Layers of ``None`` are not judged, nor coatings where one material is given.
+        Material of the substrate, or one for each layer from the surface down, the substrate's
+        last. Layers of ``None`` are not judged, nor coatings where one material is given.
     criterion : str
         One of :data:`pyfret.fatigue.CRITERIA`.
     z : array, optional
-        Depths [m] (default: those that the layers ask for, both sides of every interface).
+        Depths [m] (default: chosen by layer, both sides of every interface).
     tolerance : float
         Largest part of the value that another plane may be proved to have more.
     **section
@@ -86,7 +86,7 @@ def life(
     if not isinstance(criterion, str):
         raise TypeError(
             f"criterion = {criterion!r}: must be one of fatigue.CRITERIA; "
-            "fatigue.lives(result, materials, [...]) judges by several"
+            "fatigue.lives(result, materials, [...]) evaluates several"
         )
     return lives(result, materials, [criterion], z, tolerance=tolerance, **section)[criterion]
 
@@ -106,7 +106,7 @@ def lives(
     Parameters
     ----------
     criteria : sequence of str
-        Of :data:`pyfret.fatigue.CRITERIA`, each once.
+        Names of :data:`pyfret.fatigue.CRITERIA`, each once.
     result, materials, z, tolerance, **section
         As in :func:`life`.
 
@@ -123,42 +123,50 @@ def lives(
     names = list(dict.fromkeys(criteria))
     if not names:
         raise ValueError("criteria = []: must be one or more of fatigue.CRITERIA")
-    where, *others = placed(result, Section(**section))
-    layers = len(body_of(result, where).coatings) + 1
-    each = for_each_layer(materials, layers, "material", "materials")
-    depths = depths_of(result, where, z, each, "material")
-    found: dict[CriterionName, list[CriterionBelow]] = {name: [] for name in names}
-    shown: dict[CriterionName, list[xr.Dataset]] = {name: [] for name in names}
+    first, *extra = sections_of_cycle(result, Section(**section))
+    layers = len(section_body(result, first).coatings) + 1
+    layer_materials = for_each_layer(materials, layers, "material", "materials")
+    depths = choose_depths(result, first, z, layer_materials, "material")
+    sections: dict[CriterionName, list[CriterionBelow]] = {name: [] for name in names}
+    labelled_sections: dict[CriterionName, list[xr.Dataset]] = {name: [] for name in names}
     notes: list[str] = []
-    for one in [*where.each(), *others]:
-        below = over_cycle(result, one)
-        judged = below.by_criteria(*depths, each, names, tolerance=tolerance)
-        for name, by in zip(names, judged, strict=True):
-            found[name].append(by)
-            if one in others:
+    for section_at_place in [*first.split(), *extra]:
+        below = cycle_section(result, section_at_place)
+        judged = below.by_criteria(*depths, layer_materials, names, tolerance=tolerance)
+        for name, criterion_section in zip(names, judged, strict=True):
+            sections[name].append(criterion_section)
+            if section_at_place in extra:
                 continue
-            fields = described(by.fields(), by.assessments)
-            shown[name].append(labelled(result, one, depths, fields))
-        if not notes and where.cycle is not None:
+            fields = label_criterion_fields(
+                criterion_section.fields(), criterion_section.assessments
+            )
+            labelled_sections[name].append(label_fields(result, section_at_place, depths, fields))
+        if not notes and first.cycle is not None:
             notes.extend(filter(None, [below.note_on_cycle()]))
 
-    def of(name: CriterionName) -> Life:
-        whole = side_by_side(result, where, shown[name]).assign_attrs(criterion=name)
-        return Life(whole, found[name], [*found[name][0].notes, *notes], each, history_of_worst)
+    def life_by(name: CriterionName) -> Life:
+        whole = concat_sections(result, first, labelled_sections[name]).assign_attrs(criterion=name)
+        return Life(
+            whole,
+            sections[name],
+            [*sections[name][0].notes, *notes],
+            layer_materials,
+            history_of_worst,
+        )
 
-    def history_of_worst(worst: Worst, of: Of) -> NDArray[np.float64]:
-        found = history(
+    def history_of_worst(worst: Extremum, of: HistoryKind) -> NDArray[np.float64]:
+        stresses = history(
             result,
             [worst.z],
             x=worst.x,
             y=worst.y,
-            body_number=where.body_number,
-            cycle=where.cycle,
-            residual=where.residual,
+            body_number=first.body_number,
+            cycle=first.cycle,
+            residual=first.residual,
             of=of,
         )
         # At an interface both sides are there.
-        of_layer = found.isel(depth=found.layer.values == worst.layer)
-        return np.asarray(of_layer.isel(depth=0).transpose("increment", "component").values)
+        in_layer = stresses.isel(depth=stresses.layer.values == worst.layer)
+        return np.asarray(in_layer.isel(depth=0).transpose("increment", "component").values)
 
-    return {name: of(name) for name in names}
+    return {name: life_by(name) for name in names}

@@ -1,4 +1,4 @@
-"""A number that is known within a range: low, best, high, and what the range comes from."""
+"""A number within a range: low, best, high, and the sources of the range."""
 
 from __future__ import annotations
 
@@ -40,11 +40,11 @@ class LifeRange(NamedTuple):
     stress: Range
     #: Highest over lowest by the scatter of the material.
     material: float
-    #: From the critical distance; None where the value is that at a point.
+    #: From the critical distance; None for a value at a point.
     distance: Range | None
     #: The critical distance [m].
     L: float | None
-    #: What to know of it.
+    #: Notes on the range.
     notes: tuple[str, ...]
 
     @property

@@ -1,4 +1,4 @@
-"""Where and when the stress of a body is judged: sections below a contact over a closed cycle."""
+"""Sections below a contact over a closed cycle, on which the stress is judged."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ Materials = Material | str | Sequence[Material | str | None]
 
 
 class SectionOptions(TypedDict, total=False):
-    """The fields of :class:`Section` as keywords of what judges one."""
+    """The fields of :class:`Section` as keywords of functions that judge a section."""
 
     x: float | Sequence[float] | None
     y: float | Sequence[float] | None
@@ -59,7 +59,7 @@ class Section:
     residual: Sequence[ResidualStresses] | None = None
 
     def __post_init__(self) -> None:
-        """Refuse what is no section."""
+        """Reject values that define no section."""
         if self.azimuth is not None:
             if not isinstance(self.x, (int, float)) or not isinstance(self.y, (int, float)):
                 raise ValueError("azimuth: give x and y as well, one point of the section")
@@ -101,43 +101,46 @@ class Section:
             raise ValueError(f"{self.across} = {self.places}: must be one number here")
         return float(self.places)  # type: ignore[arg-type]
 
-    def at(self, place: float) -> Section:
-        """The section at another place [m]."""
+    def moved_to(self, place: float) -> Section:
+        """Return the section at another place [m]."""
         return replace(self, y=place) if self.across == "y" else replace(self, x=place)
 
     @property
     def line(self) -> Line:
-        """The line below which the one section lies."""
+        """The line of the surface above the section."""
         if self.azimuth is None:
             place = self.place
             return Line(*((place, None) if self.across == "x" else (None, place)))
         return Line(self.x, self.y, self.azimuth)  # type: ignore[arg-type]
 
-    def below(self, line: Line) -> Section:
-        """The section below a line."""
+    def moved_below(self, line: Line) -> Section:
+        """Return the section below a line."""
         return replace(self, **line.named())
 
-    def each(self) -> list[Section]:
-        """The sections one by one."""
+    def split(self) -> list[Section]:
+        """Return the sections one by one."""
         if self.azimuth is not None:
             return [self]
-        return [self.at(place) for place in np.atleast_1d(plain(self.places, self.across)).tolist()]
+        return [
+            self.moved_to(place)
+            for place in np.atleast_1d(plain(self.places, self.across)).tolist()
+        ]
 
 
-def for_each_layer(given: Any, layers: int, one: str, several: str) -> list[Any]:
-    """What is given for all layers or for each from the surface down; None for those not judged.
+def for_each_layer(value: Any, layers: int, singular: str, plural: str) -> list[Any]:
+    """Return a value for each layer from the surface down; None for layers that are not judged.
 
-    One material alone is that of the substrate: coatings are not judged. `one` and `several` name
-    it in the errors: a ValueError for another number of layers, and where nothing is judged.
+    One material alone belongs to the substrate: coatings are not judged. `singular` and `plural`
+    name it in the ValueError for another number of layers, and where nothing is judged.
     """
-    if isinstance(given, Material):
-        given = [None] * (layers - 1) + [given]
-    each = items(given, several) if isinstance(given, Sequence) else [given] * layers
-    if len(each) != layers:
+    if isinstance(value, Material):
+        value = [None] * (layers - 1) + [value]
+    values = items(value, plural) if isinstance(value, Sequence) else [value] * layers
+    if len(values) != layers:
         raise ValueError(
-            f"{len(each)} {several}: must be one, or one for each of the {layers} layers "
+            f"{len(values)} {plural}: must be one, or one for each of the {layers} layers "
             "from the surface down, the substrate's last; None leaves a layer out"
         )
-    if all(of is None for of in each):
-        raise ValueError(f"no layer has a {one}: nothing is judged")
-    return each
+    if all(layer_value is None for layer_value in values):
+        raise ValueError(f"no layer has a {singular}: nothing is judged")
+    return values

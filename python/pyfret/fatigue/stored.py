@@ -1,6 +1,6 @@
 """A life as text beside its dataset, so that it can be saved and opened again.
 
-What is kept is what was found: worst points, ranges, materials. The stress is not kept.
+Worst points, ranges and materials are kept, the stress is not.
 """
 
 from __future__ import annotations
@@ -10,20 +10,20 @@ from typing import TYPE_CHECKING, Any
 
 from pyfret._core import Assessment, Criterion, Material, StoreError
 from pyfret.fatigue.ranges import LifeRange, Range
-from pyfret.subsurface.tensor import Errors
+from pyfret.subsurface.extremum import Errors, Extremum, Place
 
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["KEY", "packed", "unpacked"]
+__all__ = ["KEY", "life_from_dataset", "life_to_json"]
 
 #: The attribute of the dataset that holds it.
 KEY = "found"
 
 
-def packed(state: dict[str, Any]) -> str:
-    """The state of a life as text."""
-    assessments = [None if a is None else of_assessment(a) for a in state["_assessments"]]
+def life_to_json(state: dict[str, Any]) -> str:
+    """Write the state of a life as text."""
+    assessments = [None if a is None else assessment_fields(a) for a in state["_assessments"]]
     materials = [
         None if m is None else [m.name, [*map(list, m.numbers())], m.title, m.also]
         for m in state["_materials"]
@@ -40,13 +40,18 @@ def packed(state: dict[str, Any]) -> str:
     )
 
 
-def of_assessment(of: Assessment) -> list[Any]:
-    """Name and numbers of a criterion, with its limit or curve."""
-    return [of.criterion.name, of.criterion.numbers, of.limit, of.curve]
+def assessment_fields(assessment: Assessment) -> list[Any]:
+    """Return name and numbers of a criterion, with its limit or curve."""
+    return [
+        assessment.criterion.name,
+        assessment.criterion.numbers,
+        assessment.limit,
+        assessment.curve,
+    ]
 
 
-def unpacked(dataset: xr.Dataset, worst: type) -> dict[str, Any]:
-    """The state of a life that was saved.
+def life_from_dataset(dataset: xr.Dataset) -> dict[str, Any]:
+    """Rebuild the state of a saved life.
 
     Raises
     ------
@@ -54,7 +59,7 @@ def unpacked(dataset: xr.Dataset, worst: type) -> dict[str, Any]:
         The dataset holds no life.
     """
     try:
-        found = json.loads(dataset.attrs[KEY])
+        state = json.loads(dataset.attrs[KEY])
         return {
             "_assessments": [
                 None
@@ -63,32 +68,31 @@ def unpacked(dataset: xr.Dataset, worst: type) -> dict[str, Any]:
                     Criterion(a[0], **a[1]),
                     **{("limit" if a[3] is None else "curve"): a[2] or a[3]},
                 )
-                for a in found["assessments"]
+                for a in state["assessments"]
             ],
             "_materials": [
                 None if m is None else Material(m[0], [(n, v, s) for n, v, s in m[1]], m[2], m[3])
-                for m in found["materials"]
+                for m in state["materials"]
             ],
-            "_notes": [str(note) for note in found["notes"]],
-            "_worst": {int(n): worst(*of_worst(w)) for n, w in found["worst"].items()},
-            "_order": {int(n): float(of) for n, of in found["order"].items()},
-            "_ranges": {int(n): of_range(of) for n, of in found["ranges"].items()},
+            "_notes": [str(note) for note in state["notes"]],
+            "_worst": {int(n): worst_from_fields(w) for n, w in state["worst"].items()},
+            "_order": {int(n): float(of) for n, of in state["order"].items()},
+            "_ranges": {int(n): range_from_fields(of) for n, of in state["ranges"].items()},
         }
     except (LookupError, TypeError, ValueError) as error:
         raise StoreError(f"is no life: {' '.join(str(error).split())}") from error
 
 
-def of_worst(fields: list[Any]) -> list[Any]:
-    """The fields of a worst point, nested ones as they were."""
-    found = [Errors(*of) if n == ERRORS else of for n, of in enumerate(fields)]
-    return [tuple(of) if isinstance(of, list) else of for of in found]
+def worst_from_fields(fields: list[Any]) -> Extremum:
+    """Rebuild a worst point from its fields."""
+    plain: list[Any] = [tuple(value) if isinstance(value, list) else value for value in fields]
+    worst = Extremum(*plain)
+    return worst._replace(
+        place=Place(*worst.place), errors=None if worst.errors is None else Errors(*worst.errors)
+    )
 
 
-#: The place of the errors among the fields of a worst point.
-ERRORS = 6
-
-
-def of_range(fields: list[Any]) -> LifeRange:
+def range_from_fields(fields: list[Any]) -> LifeRange:
     """The range of a layer."""
     low, best, high, stress, material, distance, L, notes = fields
     return LifeRange(

@@ -14,8 +14,8 @@ from pyfret._util.extras import needed
 from pyfret.fit.data import Data, Indentation, Lives, Loops, Measured, Scar
 from pyfret.fit.turns import find_turns
 from pyfret.solution import solve
-from pyfret.study.design import varied
-from pyfret.study.point import GROWTHS, grown
+from pyfret.study.design import with_values
+from pyfret.study.point import GROWTHS, enlarge_grid
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -252,7 +252,7 @@ def of_lives(data: Lives) -> Model:
         for n, settings in enumerate(data.settings):
             arguments = jumping(wear_arguments(data.wear, {**values, **split(settings)[1]}), finer)
             arguments.setdefault("cycles", 4 * float(data.cycles[n]))
-            worn = wear.solve(varied(scene, split(settings)[0]), progress=False, **arguments)
+            worn = wear.solve(with_values(scene, split(settings)[0]), progress=False, **arguments)
             cycles = worn.cycles_to(part_of_coating=data.part, body_number=data.body_number)
             # A coating that outlives the run by far counts as one that lives four times as long.
             longest = 4 * float(data.cycles[n])
@@ -287,7 +287,7 @@ def growing(scene: Scene, run: Callable[[Scene], T]) -> T:
         try:
             return run(scene)
         except OffGridError:
-            scene = scene.replace(grid=grown(scene.grid))
+            scene = scene.replace(grid=enlarge_grid(scene.grid))
     return run(scene)
 
 

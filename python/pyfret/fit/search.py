@@ -31,7 +31,7 @@ from pyfret.fit.outcome import FitResult, Known
 from pyfret.fit.posterior import Posterior, sampled
 from pyfret.fit.ranges import SearchRange, ranges
 from pyfret.quantities import quantities
-from pyfret.study.design import varied
+from pyfret.study.design import with_values
 
 if TYPE_CHECKING:
     import os
@@ -166,7 +166,7 @@ class Search:
         """Solve all models, with so many times their increments."""
         values = self.values(u)
         of_scene, _ = split(values)
-        changed = varied(scene, of_scene) if of_scene else scene
+        changed = with_values(scene, of_scene) if of_scene else scene
         return [model.predict(changed, values, finer) for model in self.models]
 
     def solved(self, points: list[tuple[float, ...]]) -> None:
@@ -301,7 +301,7 @@ class Search:
             solves=self.solves,
             solver_known=self.solver_known,
             converged=converged,
-            scene=varied(self.scene, values) if values else self.scene,
+            scene=with_values(self.scene, values) if values else self.scene,
         )
 
     def with_posterior(

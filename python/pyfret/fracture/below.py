@@ -11,7 +11,7 @@ import numpy as np
 from pyfret import _core
 from pyfret._util.arrays import plain
 from pyfret._util.lazy import xr
-from pyfret.fatigue.cycle_section import placed
+from pyfret.fatigue.cycle_section import sections_of_cycle
 from pyfret.fatigue.cycles import cycle_increments
 from pyfret.fatigue.section import Section
 from pyfret.fracture.growth import Cracks
@@ -248,7 +248,7 @@ class Cycle:
     def lines(self) -> list[Line]:
         """The sections of the cycle by default, the first along the shear."""
         section = Section(cycle=self.cycle, body_number=self.body_number)
-        return [one.line for one in placed(self.result, section)]
+        return [one.line for one in sections_of_cycle(self.result, section)]
 
     @cached_property
     def above(self) -> _core.States:

@@ -9,7 +9,7 @@ import numpy as np
 
 from pyfret._core import with_error
 from pyfret._util.numbers import um
-from pyfret.fatigue.cycle_section import placed
+from pyfret.fatigue.cycle_section import sections_of_cycle
 from pyfret.fatigue.cycles import history
 from pyfret.fatigue.section import Section
 from pyfret.fracture.below import crack
@@ -153,7 +153,7 @@ def first_to_fail(
         rows = table if isinstance(table, list) else []
         inside = [row[0] for row in rows if 0.0 < row[0] < coating.thickness]
         where = Section(body_number=body_number, cycle=cycle, residual=residual)
-        line = placed(result, where)[0].line
+        line = sections_of_cycle(result, where)[0].line
         stress = history(
             result,
             [0.0, *inside, coating.thickness],

@@ -9,7 +9,7 @@ import numpy as np
 from pyfret._core import with_error
 from pyfret._util.bounds import ESTIMATE
 from pyfret._util.lazy import xr
-from pyfret.fatigue.cycle_section import placed
+from pyfret.fatigue.cycle_section import sections_of_cycle
 from pyfret.fatigue.cycles import history
 from pyfret.fatigue.section import Section, SectionOptions
 from pyfret.fracture.film import own_stress
@@ -63,7 +63,7 @@ def over_cycle(
         The body has no coating, one of the strengths is missing or not positive, or as
         :func:`pyfret.fatigue.life`.
     """
-    where = placed(result, Section(**section))[0]
+    where = sections_of_cycle(result, Section(**section))[0]
     scene = result.scene
     depths = interfaces(scene.body1 if where.body_number == 1 else scene.body2)
     if not depths:

@@ -103,7 +103,7 @@ def criterion_map(
     """
     worst = life.worst
     safety = life.margin.name == "safety_factor"
-    told = _core.with_range(worst.margin, *worst.whole)
+    told = worst.format_margin()
     margin = f"safety {told}" if safety else f"{told} cycles"
     field, label = _shown(life)
     shown = life.dataset.value.copy(data=field).assign_attrs(life.dataset.attrs)
@@ -147,7 +147,7 @@ def load_factor_map(
     if not whole:
         _enlarge(ax, shown, shown.values, units)
     at = (line_of(shown).place(least.x, least.y), least.z)
-    _mark(ax, at, f"least factor {least.factor:.3g}", shown, units)
+    _mark(ax, at, f"least factor {least.value:.3g}", shown, units)
     return ax
 
 
@@ -324,7 +324,7 @@ def critical_plane_rose(
         raise ValueError(f"{criterion.name} has no critical plane")
     if isinstance(given, fatigue.Life):
         plastic_strain, given = given.history("plastic_strain"), stress
-    found = fatigue.evaluate(given, criterion, plastic_strain=plastic_strain)
+    found = fatigue.evaluate_criterion(given, criterion, plastic_strain=plastic_strain)
     normal = found.normal.values.reshape(3)
     angle = np.radians(np.arange(0.0, 360.5, 1.0))
     c, s = np.cos(angle)[:, None], np.sin(angle)[:, None]

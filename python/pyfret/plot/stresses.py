@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from pyfret.run import Run
-    from pyfret.subsurface.tensor import Extreme
+    from pyfret.subsurface.extremum import Extremum
 
 #: What computes the extremes of a path.
 ENVELOPE = "extremes of that measure over a path, result.envelope(of=[...])"
@@ -64,7 +64,7 @@ def _scales(attrs: Mapping[Any, Any], units: Units, a_H: float | None, p_H: floa
     return scales({**attrs, **given}, units)
 
 
-def _mark(ax: Axes, largest: Extreme, line: Line, by: Scales, *, marker: str = "x") -> None:
+def _mark(ax: Axes, largest: Extremum, line: Line, by: Scales, *, marker: str = "x") -> None:
     """Mark a value at its place along the section and its depth, and say it in the legend."""
     at = (line.place(largest.x, largest.y) / by.length.value, largest.z / by.length.value)
     where = "largest" if marker == "x" else "on the surface"
@@ -134,7 +134,7 @@ def section_map(
     units: Units = "auto",
     symbol: str | None = None,
     levels: int | Sequence[float] = 12,
-    maximum: Extreme | None = None,
+    maximum: Extremum | None = None,
     aspect: Literal["equal", "auto"] | None = None,
     stretch: bool | None = None,
     colorbar: bool = True,
@@ -154,7 +154,7 @@ def section_map(
         What the field is called (default: by its name).
     levels : int or sequence of float
         Number of contours, about, or their values in the unit of the figure.
-    maximum : Extreme, optional
+    maximum : Extremum, optional
         A largest value to mark by a cross with its value beside it.
     aspect : "equal" or "auto", optional
         Whether lengths are the same in both directions (default: unless the depth is stretched or

@@ -12,7 +12,6 @@ from pyfret._util.names import listing
 from pyfret.study.candidate import Candidate
 from pyfret.study.compare import compare
 from pyfret.study.comparison import Comparison
-from pyfret.study.design import varied
 from pyfret.study.loads import arrest_map, running_conditions
 from pyfret.study.loop import run
 from pyfret.study.measures import MEASURES, Arrest, Cracking, FirstToFail, WornDepth
@@ -37,6 +36,5 @@ __all__ = [
     "run",
     "running_conditions",
     "threshold",
-    "varied",
 ]
 __dir__ = listing(__all__)

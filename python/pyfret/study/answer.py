@@ -1,4 +1,4 @@
-"""A number of a result, and the range that the estimate of its error leaves."""
+"""A number of a result, with its range."""
 
 from __future__ import annotations
 
@@ -11,42 +11,42 @@ from pyfret._util.lazy import xr
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["NOTHING", "Answer", "estimate"]
+__all__ = ["NO_ANSWER", "Answer", "estimate"]
 
 
 class Answer(NamedTuple):
-    """A number, and the range that its own estimate of the error leaves; NaN if it has none."""
+    """A number with the range of its own error estimate; NaN if it has none."""
 
     value: float
     low: float
     high: float
 
     @classmethod
-    def within(cls, value: float, error: float = 0.0, *, least: float = -math.inf) -> Answer:
-        """A number and its error; `least` is the smallest that the number can be."""
+    def from_error(cls, value: float, error: float = 0.0, *, least: float = -math.inf) -> Answer:
+        """Make an answer from a number and its error; `least` is a lower limit of the number."""
         return cls(value, max(value - error, least), value + error)
 
     def sides(self) -> Iterator[tuple[str, float]]:
-        """The suffixes of a number in a study, and their values."""
+        """Yield the suffixes of a number in a study, with their values."""
         yield from zip(SIDES, self, strict=True)
 
     def arrays(
         self, name: str, unit: str, meaning: str, *, without: str = ""
     ) -> dict[str, xr.DataArray]:
-        """The number and its range by their names; the range does not hold `without`."""
-        left_out = {"without": without} if without else {}
+        """Return the number and its range by their names; the range excludes `without`."""
+        excluded = {"without": without} if without else {}
         return {
             f"{name}{side}": xr.DataArray(
-                value, attrs={"units": unit, "long_name": f"{meaning}{SIDES[side]}", **left_out}
+                value, attrs={"units": unit, "long_name": f"{meaning}{SIDES[side]}", **excluded}
             )
             for side, value in self.sides()
         }
 
 
 def estimate(value: float, unit: str, meaning: str) -> xr.DataArray:
-    """A number without an error."""
+    """Make a number without an error."""
     return xr.DataArray(value, attrs={"units": unit, "long_name": meaning, **ESTIMATE})
 
 
 #: A number that a contact does not have.
-NOTHING = Answer(math.nan, math.nan, math.nan)
+NO_ANSWER = Answer(math.nan, math.nan, math.nan)

@@ -1,4 +1,4 @@
-"""What is compared: a body, and what is known of its layers."""
+"""A candidate of a comparison: a body with data of its layers."""
 
 from __future__ import annotations
 
@@ -26,14 +26,14 @@ if TYPE_CHECKING:
     from pyfret._core import Body
     from pyfret.fatigue.criteria import CriterionName
 
-__all__ = ["Candidate", "Duty", "candidate"]
+__all__ = ["Candidate", "Duty", "to_candidate"]
 
 
 @part()
 class Candidate:
-    """A body that is compared with others, and what is known of its layers.
+    """A body that is compared with others, with data of its layers.
 
-    A question whose numbers are missing has no answer; the comparison says which are missing.
+    A question whose numbers are missing has no answer; the comparison lists the missing ones.
     Layers count from the surface down, the substrate last.
 
     Examples
@@ -51,7 +51,7 @@ class Candidate:
     mu: FrictionCoefficient | None = None
     #: Material of the substrate, or of every layer, for lives.
     materials: Materials | None = None
-    #: Yield stress of the substrate, or of every layer [Pa] (default: that of the materials).
+    #: Yield stress of the substrate, or of every layer [Pa] (default: from the materials).
     s_y: YieldStresses | None = None
     #: Residual stress of every layer, each a stress [Pa] or a table over depth (default: that of
     #: the body).
@@ -74,36 +74,38 @@ class Candidate:
         return len(self.body.coatings) + 1
 
     @property
-    def of_layers(self) -> list[Material | None]:
-        """The material of every layer; None where nothing is known."""
+    def layer_materials(self) -> list[Material | None]:
+        """The material of every layer; None where it is not given."""
         if self.materials is None:
             return [None] * self.layers
-        each: list[Material | None] = for_each_layer(
+        layers: list[Material | None] = for_each_layer(
             self.materials, self.layers, "material", "materials"
         )
-        return each
+        return layers
 
     @property
     def yields(self) -> list[float | Material | None]:
-        """The yield stress of every layer; None where it is not known."""
+        """The yield stress of every layer; None where it is not given."""
         if self.s_y is not None:
-            given = self.s_y
-            if not isinstance(given, Sequence | Material):
-                given = [*[None] * (self.layers - 1), given]
-            each: list[float | Material | None] = for_each_layer(
-                given, self.layers, "yield stress", "yield stresses"
+            s_y = self.s_y
+            if not isinstance(s_y, Sequence | Material):
+                s_y = [*[None] * (self.layers - 1), s_y]
+            layers: list[float | Material | None] = for_each_layer(
+                s_y, self.layers, "yield stress", "yield stresses"
             )
-            return each
-        return [of if of and has(of, "s_y") else None for of in self.of_layers]
+            return layers
+        return [
+            layer if layer and has_number(layer, "s_y") else None for layer in self.layer_materials
+        ]
 
     def describe(self) -> dict[str, Any]:
-        """All of it as text, to tell comparisons apart."""
-        return {of.name: repr(getattr(self, of.name)) for of in fields(self)}
+        """Return all data as text, so that comparisons can be distinguished."""
+        return {item.name: repr(getattr(self, item.name)) for item in fields(self)}
 
 
 @dataclass(frozen=True, kw_only=True)
 class Duty:
-    """What all candidates go through, and what they run against."""
+    """The load, the questions' parameters and the other body, common to all candidates."""
 
     #: Which body is exchanged.
     body_number: Literal[1, 2] = 2
@@ -121,19 +123,19 @@ class Duty:
     frequency: float | None = None
 
     def pair(self, exchanged: Any, other: Any) -> tuple[Any, Any]:
-        """What belongs to body 1 and to body 2."""
+        """Order two values by body: for body 1, for body 2."""
         return (other, exchanged) if self.body_number == 2 else (exchanged, other)
 
     def describe(self) -> dict[str, Any]:
-        """All of it as text, to tell comparisons apart."""
-        return {of.name: repr(getattr(self, of.name)) for of in fields(self)}
+        """Return all data as text, so that comparisons can be distinguished."""
+        return {item.name: repr(getattr(self, item.name)) for item in fields(self)}
 
 
-def has(material: Material, name: str) -> bool:
-    """Whether a number of a material is known."""
+def has_number(material: Material, name: str) -> bool:
+    """Check that a material has a number."""
     return any(key == name for key, _, _ in material.numbers())
 
 
-def candidate(of: Body | Candidate) -> Candidate:
-    """A candidate of which the body alone may be given."""
-    return of if isinstance(of, Candidate) else Candidate(of)
+def to_candidate(body: Body | Candidate) -> Candidate:
+    """Convert a body to a candidate."""
+    return body if isinstance(body, Candidate) else Candidate(body)

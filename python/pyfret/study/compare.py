@@ -1,4 +1,4 @@
-"""The same contact with one body or another: which of these coatings."""
+"""Comparison of several bodies, for example coatings, in the same contact."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from pyfret.fatigue.criteria import CriterionName
 from pyfret.heat import Conductors
 from pyfret.quantities import Frequency, as_number, quantities
 from pyfret.solution import read
-from pyfret.study.candidate import Candidate, Duty, candidate
+from pyfret.study.candidate import Candidate, Duty, to_candidate
 from pyfret.study.comparison import Comparison
 from pyfret.study.loop import run
 from pyfret.study.questions import QUESTIONS, Answers
@@ -29,8 +29,8 @@ if TYPE_CHECKING:
 
 __all__ = ["compare"]
 
-#: Cells of the second solution of every candidate, which tells the error: along a side half as
-#: many.
+#: Refinement factor between the two solutions of every candidate, which give the error: the second
+#: one has half as many cells along a side.
 COARSER = 2
 
 
@@ -54,32 +54,32 @@ def compare(
     progress: bool = True,
     on_point: Callable[[int, int], object] | None = None,
 ) -> Comparison:
-    """Put several bodies side by side in the same contact, such as one with several coatings.
+    """Compare several bodies, for example coatings, in the same contact.
 
     Every body is solved twice, on the grid of the scene and on cells twice as large. The error of a
-    number is what the two differ by, or its own estimate where that is larger. Numbers whose ranges
-    overlap are called "no difference". What is common to all bodies, such as the scatter of one
-    substrate's life, is no part of these errors.
+    number is the difference of the two, or its own estimate if this is larger. Numbers whose ranges
+    overlap are called "no difference". Errors common to all bodies, for example the scatter of one
+    substrate's life, are not included.
 
-    A life is that of the mean stress over the critical distance of the material. A material without
-    one has the life of the worst point. The table names the stress.
+    A life follows from the mean stress over the critical distance of the material. A material
+    without one has the life of the worst point. The table names the stress.
 
     Parameters
     ----------
     bodies : mapping of str to Body or Candidate
-        What is compared, by its name. A :class:`pyfret.study.Candidate` is a body and what is known
+        The bodies by their names. A :class:`pyfret.study.Candidate` is a body with data
         of its layers: friction, materials, strengths, laws of wear.
     scene : Scene or path
         The contact; the body `body_number` is exchanged.
     path : LoadPath, optional
         Load history (default: that of the scene). Most questions need a closed cycle.
     questions : sequence of str, optional
-        Of ``"tension"``, ``"yield"``, ``"adhesion"``, ``"life"``, ``"wear"``, ``"energy"`` and
-        ``"temperature"`` (default: all). Those that no body can answer are left out.
+        Some of ``"tension"``, ``"yield"``, ``"adhesion"``, ``"life"``, ``"wear"``, ``"energy"`` and
+        ``"temperature"`` (default: all). Questions that no body can answer are left out.
     body_number : 1 or 2
         The body that is exchanged.
     criterion : str
-        Of the lives, one of :data:`pyfret.fatigue.CRITERIA`.
+        Criterion of the lives, one of :data:`pyfret.fatigue.CRITERIA`.
     cycles : float, optional
         Cycles of wear.
     cycling : "march" or "sliding"
@@ -114,8 +114,8 @@ def compare(
         raise ValueError('bodies = {}: give some, such as {"bare": body, "TiN": coated}')
     if body_number not in (1, 2):
         raise ValueError(f"body_number = {body_number}: must be 1 or 2")
-    asked = tuple(QUESTIONS) if questions is None else tuple(questions)
-    for name in asked:
+    question_names = tuple(QUESTIONS) if questions is None else tuple(questions)
+    for name in question_names:
         if name not in QUESTIONS:
             raise ValueError(f"question {name!r}: must be one of {', '.join(QUESTIONS)}")
     duty = Duty(
@@ -127,21 +127,21 @@ def compare(
         other_wear=other_wear,
         other_conductor=other_conductor,
     )
-    of = {name: candidate(body) for name, body in bodies.items()}
+    candidates = {name: to_candidate(body) for name, body in bodies.items()}
     whole = read(scene).replace(path=path)
-    answers = Answers(of, duty, asked)
+    answers = Answers(candidates, duty, question_names)
     variants = Variants(whole, answers)
     with warnings.catch_warnings():
-        # What is doubted stands in the table, once for each body.
+        # Doubts stand in the table, once for each body.
         warnings.simplefilter("ignore", SceneWarning)
-        for name, body in of.items():
+        for name, body in candidates.items():
             try:
                 variants.scene_of(name, 1).check()
             except InvalidSceneError as error:
-                raise type(error)(refusal(name, body, str(error))) from error
-        found = run(
+                raise type(error)(refusal_message(name, body, str(error))) from error
+        study = run(
             variants,
-            {"candidate": list(of), "coarser": [1, COARSER]},
+            {"candidate": list(candidates), "coarser": [1, COARSER]},
             measure=answers,
             executor=executor,
             out=out,
@@ -150,73 +150,73 @@ def compare(
             on_point=on_point,
         )
     missing: dict[str, str] = {}
-    doubts = {name: variants.scene_of(name, 1).doubts() for name in of}
-    for question in asked:
-        for name, body in of.items():
+    doubts = {name: variants.scene_of(name, 1).doubts() for name in candidates}
+    for question in question_names:
+        for name, body in candidates.items():
             if needed := QUESTIONS[question].missing(body, duty, whole):
                 missing[f"{name}, {question}"] = needed
             else:
                 doubts[name] += QUESTIONS[question].notes(body, duty)
-    return Comparison.of(
-        found,
+    return Comparison.from_study(
+        study,
         missing,
         title=whole.title,
-        coatings=[len(body.body.coatings) for body in of.values()],
+        coatings=[len(body.body.coatings) for body in candidates.values()],
         doubts=doubts,
     )
 
 
 @dataclass(frozen=True)
 class Variants:
-    """Makes the scene of a point: a body in its place, on cells of a size."""
+    """A function that makes the scene of a point: a candidate on cells of a given size."""
 
     scene: Scene
     answers: Answers
 
     def __call__(self, point: dict[str, Any]) -> Scene:
-        """The scene of a candidate, with its name as title."""
+        """Return the scene of a candidate, with its name as title."""
         return self.scene_of(point["candidate"], int(point["coarser"]))
 
     def scene_of(self, name: str, coarser: int) -> Scene:
-        """The scene of a candidate on cells so many times as large."""
-        of = self.answers.candidates[name]
+        """Return the scene of a candidate on cells larger by the factor `coarser`."""
+        candidate_of_point = self.answers.candidates[name]
         changes: dict[str, Any] = {
             "title": name,
-            f"body{self.answers.duty.body_number}": of.body,
+            f"body{self.answers.duty.body_number}": candidate_of_point.body,
             "grid": on_larger_cells(self.scene.grid, coarser),
             "save": "all" if self.answers.needs_fields() else "branches",
         }
-        if of.mu is not None:
-            changes["mu"] = self.scene.friction.replace(mu=of.mu)
+        if candidate_of_point.mu is not None:
+            changes["friction"] = self.scene.friction.replace(mu=candidate_of_point.mu)
         return self.scene.replace(**changes)
 
     def describe(self) -> str:
-        """Tell this comparison from others: its scene, its bodies and what is asked."""
-        said = [
+        """Describe scene, bodies and questions, so that comparisons can be distinguished."""
+        parts = [
             self.scene.to_toml(),
-            {name: of.describe() for name, of in self.answers.candidates.items()},
+            {name: item.describe() for name, item in self.answers.candidates.items()},
             self.answers.duty.describe(),
             self.answers.questions,
         ]
-        text = json.dumps(said)
+        text = json.dumps(parts)
         return f"comparison of {', '.join(self.answers.candidates)}, {zlib.crc32(text.encode()):x}"
 
 
-def refusal(name: str, of: Candidate, why: str) -> str:
-    """Why a candidate has no scene, and how it gets one where its own friction is too low."""
-    if of.mu is None:
+def refusal_message(name: str, body_data: Candidate, why: str) -> str:
+    """Explain why a candidate has no scene, with a remedy if its friction is too low."""
+    if body_data.mu is None:
         return f"candidate {name}: {why}"
-    way = ""
+    remedy = ""
     if "friction can carry" in why:
-        way = (
+        remedy = (
             ". All candidates run the path of the scene: lower its force below the friction of "
             "every candidate, or prescribe the displacement (delta_x) in place of the force"
         )
-    return f"candidate {name}, mu = {of.mu:g}: {why}{way}"
+    return f"candidate {name}, mu = {body_data.mu:g}: {why}{remedy}"
 
 
 def on_larger_cells(grid: Grid, times: int) -> Grid:
-    """The grid of the same size with larger cells."""
+    """Return a grid of the same size with larger cells."""
 
     def fewer(n: int) -> int:
         return max(-(-n // times), 2)

@@ -1,4 +1,4 @@
-"""The file of a comparison: TOML that says which bodies run in which scene, and what is asked."""
+"""The file of a comparison in TOML: bodies, scene and questions."""
 
 from __future__ import annotations
 
@@ -13,42 +13,42 @@ from pyfret.fracture import Threshold
 from pyfret.heat import Conductor
 from pyfret.study.candidate import Candidate
 from pyfret.study.compare import compare
-from pyfret.study.design import toml
-from pyfret.study.keys import known, place_of, read
+from pyfret.study.design import to_toml_value
+from pyfret.study.keys import check_key, read_document, store_path
 from pyfret.wear import Archard, DissipatedEnergy
 
 if TYPE_CHECKING:
     from pyfret.study.comparison import Comparison
 
-__all__ = ["run_file"]
+__all__ = ["run_compare_file"]
 
-#: Keys of the file, of a candidate, and those that are handed on as they are.
+#: Keys of the file and of a candidate. GIVEN and PLAIN are handed on as they are.
 GIVEN = ("questions", "body_number", "criterion", "cycles", "cycling", "frequency")
 KEYS = ("scene", "candidates", "out", "materials", "other_wear", "other_conductor", *GIVEN)
 PLAIN = ("mu", "residual", "toughness", "peel_strength", "shear_strength")
 CANDIDATE = ("coatings", "E", "nu", "material", "s_y", "threshold", "wear", "conductor", *PLAIN)
-#: Keys of a law of wear, of a conductor and of a threshold, and what is made of them.
+#: Keys of a law of wear, of a conductor and of a threshold, with the classes of the laws.
 LAWS: dict[str, Any] = {"k": Archard, "alpha": DissipatedEnergy}
 LAW = ("k", "alpha", "threshold")
 CONDUCTOR = ("conductivity", "heat_capacity")
 THRESHOLD = ("dK_th", "dS_0")
 
 
-def run_file(
+def run_compare_file(
     path: str | PathLike[str],
     *,
     out: str | PathLike[str] | None = None,
     executor: Any = None,
     again: bool = False,
 ) -> tuple[Comparison, Path]:
-    """Run the comparison of a file, or go on with it; what came out, and its store.
+    """Run the comparison of a file, or continue it; return the comparison and its store.
 
     Parameters
     ----------
     path : path
         The file; names in it are relative to its folder.
     out : path, optional
-        Store (default: that of the file, or the file's own name with the ending ``.zarr``).
+        Store (default: `out` of the file, or the file's own name with the ending ``.zarr``).
     executor, again
         As in :func:`pyfret.compare`.
 
@@ -58,102 +58,110 @@ def run_file(
         The file is no comparison; the message names the key and what is allowed.
     """
     file = Path(path)
-    says = read(file, KEYS, ("scene", "candidates"))
-    table = says["candidates"]
+    document = read_document(file, KEYS, ("scene", "candidates"))
+    table = document["candidates"]
     if not (isinstance(table, dict) and table and all(isinstance(v, dict) for v in table.values())):
         raise ValueError(f"{file}: `candidates`: must be tables, such as [candidates.TiN]")
-    scene, which = file.parent / says["scene"], says.get("body_number", 2)
-    materials = Materials(file.parent / says["materials"] if "materials" in says else None)
+    scene, which = file.parent / document["scene"], document.get("body_number", 2)
+    materials = Materials(file.parent / document["materials"] if "materials" in document else None)
     bodies = {
-        name: read_candidate(of, scene, which, materials, f"{file}: candidates.{name}")
-        for name, of in table.items()
+        name: read_candidate(candidate_table, scene, which, materials, f"{file}: candidates.{name}")
+        for name, candidate_table in table.items()
     }
-    others = {
-        f"other_{name}": made(says[f"other_{name}"], f"{file}: other_{name}", materials)
-        for name, made in (("wear", wear_of), ("conductor", conductor_of))
-        if f"other_{name}" in says
+    other_body = {
+        f"other_{name}": make(document[f"other_{name}"], f"{file}: other_{name}", materials)
+        for name, make in (("wear", read_wear), ("conductor", read_conductor))
+        if f"other_{name}" in document
     }
-    place = place_of(file, says, out)
-    given = {key: says[key] for key in GIVEN if key in says}
-    found = compare(
-        bodies, Scene.from_file(scene), executor=executor, out=place, again=again, **given, **others
+    store = store_path(file, document, out)
+    settings = {key: document[key] for key in GIVEN if key in document}
+    comparison = compare(
+        bodies,
+        Scene.from_file(scene),
+        executor=executor,
+        out=store,
+        again=again,
+        **settings,
+        **other_body,
     )
-    return found, place
+    return comparison, store
 
 
 def read_candidate(
-    says: Mapping[str, Any], scene: Path, body_number: int, materials: Materials, where: str
+    table: Mapping[str, Any], scene: Path, body_number: int, materials: Materials, where: str
 ) -> Candidate:
-    """A candidate of its table: the body of the scene with other keys, and what is known of it."""
-    for key in says:
-        known(key, CANDIDATE, where)
-    made = {key: says[key] for key in ("coatings", "E", "nu") if key in says}
-    settings = [f"body{body_number}.{key}={inline(value)}" for key, value in made.items()]
+    """Make a candidate from its table: the body of the scene with other keys, and its data."""
+    for key in table:
+        check_key(key, CANDIDATE, where)
+    body_values = {key: table[key] for key in ("coatings", "E", "nu") if key in table}
+    settings = [
+        f"body{body_number}.{key}={to_inline_toml(value)}" for key, value in body_values.items()
+    ]
     try:
         whole = Scene.from_file(scene, set=settings)
     except ValueError as error:
         raise ValueError(f"{where}: {error}") from error
     body = whole.body2 if body_number == 2 else whole.body1
-    more: dict[str, Any] = {key: says[key] for key in PLAIN if key in says}
-    if "material" in says:
-        more["materials"] = of_layers(says["material"], lambda name: materials[name])
-    if "s_y" in says:
-        more["s_y"] = says["s_y"]
-    if "wear" in says:
-        more["wear"] = wear_of(says["wear"], f"{where}.wear", materials)
-    if "conductor" in says:
-        more["conductor"] = conductor_of(says["conductor"], f"{where}.conductor", materials)
-    if "threshold" in says:
-        numbers = checked(says["threshold"], THRESHOLD, f"{where}.threshold")
-        more["threshold"] = Threshold(**numbers)
-    return Candidate(body, **more)
+    data: dict[str, Any] = {key: table[key] for key in PLAIN if key in table}
+    if "material" in table:
+        data["materials"] = map_layers(table["material"], lambda name: materials[name])
+    if "s_y" in table:
+        data["s_y"] = table["s_y"]
+    if "wear" in table:
+        data["wear"] = read_wear(table["wear"], f"{where}.wear", materials)
+    if "conductor" in table:
+        data["conductor"] = read_conductor(table["conductor"], f"{where}.conductor", materials)
+    if "threshold" in table:
+        numbers = check_table(table["threshold"], THRESHOLD, f"{where}.threshold")
+        data["threshold"] = Threshold(**numbers)
+    return Candidate(body, **data)
 
 
-def of_layers(says: Any, make: Any) -> Any:
-    """One thing, or one for each layer; an empty text where nothing is known of a layer."""
-    if isinstance(says, list):
-        return [make(of) if of else None for of in says]
-    return make(says)
+def map_layers(values: Any, make: Any) -> Any:
+    """Convert one value, or one for each layer; an empty text for a layer without a value."""
+    if isinstance(values, list):
+        return [make(value) if value else None for value in values]
+    return make(values)
 
 
-def wear_of(says: Any, where: str, materials: Materials) -> Any:
-    """Laws of wear: ``{ k = .. }`` or ``{ alpha = .. }``, one or one for each layer."""
+def read_wear(value: Any, where: str, materials: Materials) -> Any:
+    """Read laws of wear: ``{ k = .. }`` or ``{ alpha = .. }``, one or one for each layer."""
 
-    def law(of: Any) -> Any:
-        numbers = checked(of, LAW, where)
+    def law(table: Any) -> Any:
+        numbers = check_table(table, LAW, where)
         kind = [name for name in LAWS if name in numbers]
         if len(kind) != 1:
-            raise ValueError(f"{where} = {of!r}: must have k or alpha, one of them")
+            raise ValueError(f"{where} = {table!r}: must have k or alpha, one of them")
         coefficient = numbers.pop(kind[0])
         return LAWS[kind[0]](coefficient, **numbers)
 
-    return of_layers(says, law)
+    return map_layers(value, law)
 
 
-def conductor_of(says: Any, where: str, materials: Materials) -> Any:
-    """Conductors: the name of a material, or its numbers, one or one for each layer."""
+def read_conductor(value: Any, where: str, materials: Materials) -> Any:
+    """Read conductors: the name of a material, or its numbers, one or one for each layer."""
 
-    def conductor(of: Any) -> Conductor:
-        if isinstance(of, str):
-            return Conductor.of(materials[of])
-        return Conductor(**checked(of, CONDUCTOR, where))
+    def conductor(entry: Any) -> Conductor:
+        if isinstance(entry, str):
+            return Conductor.of(materials[entry])
+        return Conductor(**check_table(entry, CONDUCTOR, where))
 
-    return of_layers(says, conductor)
-
-
-def checked(says: Any, keys: tuple[str, ...], where: str) -> dict[str, Any]:
-    """A table whose keys are known."""
-    if not isinstance(says, dict):
-        raise ValueError(f"{where} = {says!r}: must be a table of {', '.join(keys)}")
-    for key in says:
-        known(key, keys, where)
-    return dict(says)
+    return map_layers(value, conductor)
 
 
-def inline(value: Any) -> str:
-    """A value on one line of TOML."""
+def check_table(table: Any, keys: tuple[str, ...], where: str) -> dict[str, Any]:
+    """Check that a table has valid keys only, and return it."""
+    if not isinstance(table, dict):
+        raise ValueError(f"{where} = {table!r}: must be a table of {', '.join(keys)}")
+    for key in table:
+        check_key(key, keys, where)
+    return dict(table)
+
+
+def to_inline_toml(value: Any) -> str:
+    """Write a value on one line of TOML."""
     if isinstance(value, dict):
-        return "{" + ", ".join(f"{key} = {inline(of)}" for key, of in value.items()) + "}"
+        return "{" + ", ".join(f"{key} = {to_inline_toml(of)}" for key, of in value.items()) + "}"
     if isinstance(value, list):
-        return "[" + ", ".join(map(inline, value)) + "]"
-    return toml(value)
+        return "[" + ", ".join(map(to_inline_toml, value)) + "]"
+    return to_toml_value(value)

@@ -1,4 +1,4 @@
-"""What a comparison of bodies came to: numbers side by side, each with its error."""
+"""The result of a comparison of bodies: numbers side by side, each with its error."""
 
 from __future__ import annotations
 
@@ -30,22 +30,22 @@ if TYPE_CHECKING:
 
 __all__ = ["Comparison", "Preference"]
 
-#: Endings of the names of places, and of what a margin is a mean over.
+#: Endings of the names of places and of averaging distances.
 PLACES = ("_x", "_z", "_layer", "_L")
 #: Digits of a number without an error.
 DIGITS = 4
 
 
 class Preference(NamedTuple):
-    """Which of the candidates a number speaks for."""
+    """The candidates that a number favours."""
 
-    #: Those that no other one is better than, beyond the errors.
+    #: Candidates without a better one, beyond the errors.
     best: list[str]
-    #: Those that are worse, beyond the errors.
+    #: Candidates that are worse, beyond the errors.
     worse: list[str]
 
     def __str__(self) -> str:
-        """Say so in a few words."""
+        """Describe the preference in a few words."""
         if not self.worse:
             return "no difference" if len(self.best) > 1 else ""
         alike = " (no difference)" if len(self.best) > 1 else ""
@@ -62,11 +62,11 @@ class Comparison(Labelled, Figured):
         gives its range, ``tension_low`` and ``tension_high``. Numbers that a candidate does not
         have are NaN.
     missing : mapping of str to str
-        What was not known, by candidate and question.
+        Missing data, by candidate and question.
     failed : mapping of str to str
-        Candidates without a solution, and why.
+        Candidates without a solution, with the reason.
     study : Study
-        The points that it was made of, on two grids.
+        The points of the comparison, on two grids.
     """
 
     figure = "comparison"
@@ -82,7 +82,7 @@ class Comparison(Labelled, Figured):
         self.missing, self.failed, self.study = dict(missing), dict(failed), study
 
     @classmethod
-    def of(
+    def from_study(
         cls,
         study: Study,
         missing: Mapping[str, str],
@@ -91,36 +91,41 @@ class Comparison(Labelled, Figured):
         coatings: Sequence[int],
         doubts: Mapping[str, Sequence[str]],
     ) -> Comparison:
-        """What a study of the candidates on two grids says; a RuntimeError if none was solved.
+        """Make the table from a study of the candidates on two grids.
 
-        `coatings` and `doubts` are the number of coatings of each, and what is doubted of it.
+        `coatings` and `doubts` are the number of coatings and the doubts of each candidate. A
+            RuntimeError is raised if no candidate was solved.
         """
-        given = study.dataset
-        names = [str(name) for name in given["candidate"].values]
+        results = study.dataset
+        names = [str(name) for name in results["candidate"].values]
         failed: dict[str, str] = {}
         for point, reason in study.failed():
             name = str(point["candidate"])
-            failed[unquoted(name)] = reason
-        fine = given.isel(coarser=0)
+            failed[strip_quotes(name)] = reason
+        fine = results.isel(coarser=0)
         if (fine["status"] == FAILED).all():
             reasons = "; ".join(f"{name}: {reason}" for name, reason in failed.items())
             raise RuntimeError(f"no candidate could be solved: {reasons}")
         dataset = xr.Dataset(
             {"coatings": ("candidate", list(coatings))},
-            coords={"candidate": [unquoted(name) for name in names]},
+            coords={"candidate": [strip_quotes(name) for name in names]},
             attrs={"title": title},
         )
         for name, about in NUMBERS.items():
-            if name in given and bool(np.isfinite(fine[name]).any() | np.isinf(fine[name]).any()):
-                for suffix, values in ranges(given, name, about).items():
+            if name in results and bool(np.isfinite(fine[name]).any() | np.isinf(fine[name]).any()):
+                for suffix, values in range_on_two_grids(results, name, about).items():
                     dataset[f"{name}{suffix}"] = ("candidate", values, fine[name].attrs)
         places = [str(v) for v in fine.data_vars if str(v).endswith(PLACES)]
         for name in places:
             if bool(np.isfinite(fine[name]).any()):
                 dataset[name] = ("candidate", fine[name].values, fine[name].attrs)
-        told = [f"{name}: {doubt}" for name, of in doubts.items() for doubt in of]
-        if told:
-            dataset.attrs["doubts"] = "\n".join(told)
+        doubt_lines = [
+            f"{name}: {doubt}"
+            for name, doubts_of_candidate in doubts.items()
+            for doubt in doubts_of_candidate
+        ]
+        if doubt_lines:
+            dataset.attrs["doubts"] = "\n".join(doubt_lines)
         return cls(dataset, missing, failed, study)
 
     @property
@@ -138,8 +143,8 @@ class Comparison(Labelled, Figured):
         """Names of the numbers that at least one candidate has."""
         return [name for name in NUMBERS if name in self.dataset]
 
-    def verdict(self, of: str) -> Preference:
-        """Give who is best in a number, and who is worse beyond the errors.
+    def preference(self, of: str) -> Preference:
+        """Return the best candidates by a number, and the worse ones beyond the errors.
 
         A candidate is worse where its range does not overlap with that of the best one.
 
@@ -152,18 +157,18 @@ class Comparison(Labelled, Figured):
             raise ValueError(f"of = {of!r}: must be one of {', '.join(self.numbers)}")
         d = self.dataset
         sign = 1.0 if NUMBERS[of].better == "larger" else -1.0
-        known = {
+        range_of = {
             name: sorted((sign * float(d[f"{of}_low"][n]), sign * float(d[f"{of}_high"][n])))
             for n, name in enumerate(self.candidates)
             if not math.isnan(float(d[of][n]))
         }
-        values = {name: sign * float(d[of].sel(candidate=name)) for name in known}
-        least = known[max(values, key=lambda name: values[name])][0]
-        best = [name for name, (_, most) in known.items() if most >= least]
-        return Preference(best, [name for name in known if name not in best])
+        values = {name: sign * float(d[of].sel(candidate=name)) for name in range_of}
+        best_low = range_of[max(values, key=lambda name: values[name])][0]
+        best = [name for name, (_, high) in range_of.items() if high >= best_low]
+        return Preference(best, [name for name in range_of if name not in best])
 
     def rows(self) -> list[list[str]]:
-        """The table as text: a head, then a line for every number."""
+        """Return the table as text: a head, then a line for every number."""
         lines = [["", "", *self.candidates, ""]]
         for name in self.numbers:
             lines.append(self.row(name))
@@ -171,73 +176,79 @@ class Comparison(Labelled, Figured):
                 places = [self.place(name, n) for n in range(len(self.candidates))]
                 lines.append(["  where", "", *places, ""])
             if f"{name}_L" in self.dataset:
-                means = [mean_over(float(L)) for L in self.dataset[f"{name}_L"].values]
+                means = [describe_averaging(float(L)) for L in self.dataset[f"{name}_L"].values]
                 lines.append(["  from the stress", "", *means, ""])
         return lines
 
     def row(self, name: str) -> list[str]:
-        """A number of all candidates as text."""
+        """Return the row of a number as text."""
         about = NUMBERS[name]
-        _, unit = in_table(about, str(self.dataset[name].attrs["units"]))
-        ends = [*self.told(name), str(self.verdict(name))]
+        _, unit = table_unit(about, str(self.dataset[name].attrs["units"]))
+        ends = [*self.formatted(name), str(self.preference(name))]
         return [about.title, "" if unit == "1" else unit, *ends]
 
-    def told(self, name: str) -> list[str]:
-        """A number of every candidate with its range, in the unit of the table."""
+    def formatted(self, name: str) -> list[str]:
+        """Format a number of every candidate with its range, in the unit of the table."""
         about, d = NUMBERS[name], self.dataset
-        scale, _ = in_table(about, str(d[name].attrs["units"]))
+        scale, _ = table_unit(about, str(d[name].attrs["units"]))
         sides = zip(
             *(d[f"{name}{side}"].values / scale for side in ("", "_low", "_high")), strict=True
         )
-        return [cell(about, *map(float, row)) for row in sides]
+        return [format_cell(about, *map(float, row)) for row in sides]
 
     def place(self, name: str, n: int) -> str:
-        """Where a number of a candidate is found: its layer, and the place in it."""
+        """Describe the place of a number of a candidate: the layer, and the point in it."""
         d = self.dataset
         layer = float(d[f"{name}_layer"][n])
         if math.isnan(layer):
             return ""
         x = f", x = {length(float(d[f'{name}_x'][n]))}" if f"{name}_x" in d else ""
         z = float(d[f"{name}_z"][n])
-        below = f"z = {length(z)}" if z else "surface"
-        return f"{self.layer_names[n][int(layer)]}, {below}{x}"
+        depth = f"z = {length(z)}" if z else "surface"
+        return f"{self.layer_names[n][int(layer)]}, {depth}{x}"
 
     def summary(self) -> str:
-        """The table as text, and what is missing or to be doubted."""
+        """Return the table as text, with missing answers and doubts."""
         rows = self.rows()
         widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
         lines = [
-            "  ".join(of.ljust(width) for of, width in zip(row, widths, strict=True)).rstrip()
+            "  ".join(text.ljust(width) for text, width in zip(row, widths, strict=True)).rstrip()
             for row in rows
         ]
         return "\n".join([str(self.dataset.attrs["title"] or "comparison"), *lines, *self.notes()])
 
     def notes(self) -> list[str]:
-        """What has no answer, what failed and what is to be doubted."""
-        lines = [f"no answer for {name}: missing is {what}" for name, what in self.missing.items()]
+        """List missing answers, failed candidates and doubts."""
+        lines = [
+            f"no answer for {name}: missing is {missing_data}"
+            for name, missing_data in self.missing.items()
+        ]
         lines += [f"{name} failed: {reason}" for name, reason in self.failed.items()]
         doubts = str(self.dataset.attrs.get("doubts", ""))
         return lines + [f"doubted: {doubt}" for doubt in doubts.splitlines()]
 
     def panels(self) -> list[Panel]:
-        """The numbers as a figure has them: in the units of the table, ordered by the verdict."""
+        """Return the numbers for a figure: in the units of the table, ordered by preference."""
         from pyfret.plot.comparison import Panel
 
-        found = []
+        panels = []
         for name in self.numbers:
-            about, d, verdict = NUMBERS[name], self.dataset, self.verdict(name)
-            scale, unit = in_table(about, str(d[name].attrs["units"]))
-            alike = not verdict.worse and len(verdict.best) > 1
-            order = [0 if alike else 1 if of in verdict.best else 2 for of in self.candidates]
+            about, d, preference = NUMBERS[name], self.dataset, self.preference(name)
+            scale, unit = table_unit(about, str(d[name].attrs["units"]))
+            alike = not preference.worse and len(preference.best) > 1
+            order = [
+                0 if alike else 1 if candidate in preference.best else 2
+                for candidate in self.candidates
+            ]
             values, low, high = (
                 d[f"{name}{side}"].values / scale for side in ("", "_low", "_high")
             )
-            found.append(
+            panels.append(
                 Panel(
                     about.title,
                     unit,
                     about.better,
-                    self.told(name),
+                    self.formatted(name),
                     about.logarithmic,
                     values,
                     low,
@@ -245,7 +256,7 @@ class Comparison(Labelled, Figured):
                     order,
                 )
             )
-        return found
+        return panels
 
     def save(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
         """Write the numbers to a Zarr folder (``.zarr``) or a NetCDF file (``.nc``).
@@ -253,7 +264,7 @@ class Comparison(Labelled, Figured):
         Parameters
         ----------
         path : path
-            Where to write; its ending says in which format.
+            The place to write to; its ending selects the format.
         overwrite : bool
             Whether what pyfret saved there is replaced (default: the place must be free).
         """
@@ -299,46 +310,46 @@ def layer_names(coatings: int) -> list[str]:
     return [*(["coating"] if coatings == 1 else many), "substrate"]
 
 
-def mean_over(L: float) -> str:
-    """What the stress of a margin is: its mean over a distance [m], or that at a point."""
+def describe_averaging(L: float) -> str:
+    """Describe the averaging of the stress of a margin: a distance [m], or a point."""
     if math.isnan(L):
         return ""
     return f"mean over L = {length(L)}" if L else "at the worst point"
 
 
-def unquoted(name: str) -> str:
-    """The name of a candidate, which a study holds as text of TOML."""
+def strip_quotes(name: str) -> str:
+    """Remove the quotes of a name, which a study holds as text of TOML."""
     return name[1:-1] if name.startswith('"') else name
 
 
-def ranges(study: xr.Dataset, name: str, about: Number) -> dict[str, np.ndarray]:
-    """A number on the finer cells with the range that the coarser ones and its own error leave."""
+def range_on_two_grids(study: xr.Dataset, name: str, about: Number) -> dict[str, np.ndarray]:
+    """Return a number on fine cells, with its range from coarse cells and its own error."""
     value = study[name].isel(coarser=0).values.astype(float)
     low, high = (study[f"{name}_{side}"].isel(coarser=0).values for side in ("low", "high"))
-    other = study[name].isel(coarser=1).values.astype(float)
+    coarse_value = study[name].isel(coarser=1).values.astype(float)
     with np.errstate(invalid="ignore", divide="ignore"):
         if about.logarithmic:
-            # As far below as above, as a factor; a life without end is one beyond the tests.
-            known, there = (np.where(np.isinf(v), LONGEST_LIFE, v) for v in (value, other))
-            factor = np.nan_to_num(np.maximum(known / there, there / known), nan=1.0)
+            # The range is symmetric as a factor; a life without end counts as one beyond the tests.
+            fine, coarse = (np.where(np.isinf(v), LONGEST_LIFE, v) for v in (value, coarse_value))
+            factor = np.nan_to_num(np.maximum(fine / coarse, coarse / fine), nan=1.0)
             # Where both are without a number, the cells do not limit them.
-            below = np.where(np.isinf(value) & np.isinf(other), np.inf, known / factor)
-            above = np.where(np.isinf(value) | np.isinf(other), np.inf, known * factor)
+            lower = np.where(np.isinf(value) & np.isinf(coarse_value), np.inf, fine / factor)
+            upper = np.where(np.isinf(value) | np.isinf(coarse_value), np.inf, fine * factor)
         else:
-            error = np.nan_to_num(np.abs(value - other))
-            below, above = value - error, value + error
-    return {"": value, "_low": np.fmin(low, below), "_high": np.fmax(high, above)}
+            error = np.nan_to_num(np.abs(value - coarse_value))
+            lower, upper = value - error, value + error
+    return {"": value, "_low": np.fmin(low, lower), "_high": np.fmax(high, upper)}
 
 
-def in_table(about: Number, unit: str) -> tuple[float, str]:
-    """Scale and unit of a number in the table; energies are those of the scene."""
+def table_unit(about: Number, unit: str) -> tuple[float, str]:
+    """Scale and unit of a number in the table; energies have the unit of the scene."""
     if about.si:
         return about.scale, about.unit
     return (1e-3, "mJ/m") if unit == "J/m" else (1e-6, "uJ")
 
 
-def cell(about: Number, value: float, low: float, high: float) -> str:
-    """A number with its range as text."""
+def format_cell(about: Number, value: float, low: float, high: float) -> str:
+    """Format a number with its range."""
     if math.isnan(value):
         return "-"
     if about.logarithmic and math.isfinite(low):

@@ -1,4 +1,4 @@
-"""Which points a study has, and the scene of each."""
+"""The points of a study, and the scene of each point."""
 
 from __future__ import annotations
 
@@ -26,14 +26,14 @@ from pyfret._util.parameters import SHORT, in_si, opposite, single
 from pyfret._util.scene_warnings import doubt_numbers, warn
 from pyfret._util.text import read_text
 from pyfret.quantities import quantities
-from pyfret.study.identity import identity
+from pyfret.study.identity import code_checksum
 
 if sys.version_info >= (3, 11):
     import tomllib
 else:
     import tomli as tomllib
 
-__all__ = ["Combine", "Design", "Source", "varied"]
+__all__ = ["Combine", "Design", "Source", "with_values"]
 
 #: How the values of several parameters are combined.
 Combine: TypeAlias = Literal["grid", "zip"]
@@ -42,11 +42,11 @@ Source: TypeAlias = "Scene | str | PathLike[str] | Callable[[dict[str, Any]], Sc
 
 
 @runtime_checkable
-class Described(Protocol):
-    """A function that says what its scenes are made of, by which studies are told apart."""
+class DescribesScenes(Protocol):
+    """A function that describes its scenes, so that studies can be distinguished."""
 
     def describe(self) -> str:
-        """All that its scenes follow from."""
+        """Return a text that differs if the scenes differ."""
 
 
 #: The dimension of a study whose parameters change together.
@@ -54,7 +54,7 @@ TOGETHER = "point"
 
 
 @quantities
-def varied(scene: Scene | str | PathLike[str], values: Mapping[str, Any]) -> Scene:
+def with_values(scene: Scene | str | PathLike[str], values: Mapping[str, Any]) -> Scene:
     """Give a scene with other values of its parameters.
 
     Parameters
@@ -64,7 +64,7 @@ def varied(scene: Scene | str | PathLike[str], values: Mapping[str, Any]) -> Sce
         follows the radius; a :class:`Scene` has all numbers in SI units.
     values : mapping of str to value
         By the keys of a scene file, such as ``"body2.coatings.0.thickness"`` or
-        ``"path.1.T_x.mu_W"``; ``"mu"`` is short for ``"friction.mu"``. ``"path.*.W"`` is that of
+        ``"path.1.T_x.mu_W"``; ``"mu"`` is short for ``"friction.mu"``. ``"path.*.W"`` stands for
         every branch. Several keys with commas between get the same value, and a key after a ``-``
         the opposite one. So ``"path.1.T_x,-path.2.T_x,path.3.T_x"`` is an amplitude.
 
@@ -75,71 +75,77 @@ def varied(scene: Scene | str | PathLike[str], values: Mapping[str, Any]) -> Sce
 
     Examples
     --------
-    >>> harder = varied("coated.toml", {"body2.coatings.0.E": 3e11})  # doctest: +SKIP
+    >>> harder = with_values("coated.toml", {"body2.coatings.0.E": 3e11})  # doctest: +SKIP
     """
-    settings = [f"{key}={toml(each)}" for key, _, each in once(values.items(), scene)]
+    settings = [
+        f"{key}={to_toml_value(item)}" for key, _, item in expand_keys(values.items(), scene)
+    ]
     if not isinstance(scene, Scene):
         return Scene.from_file(scene, set=settings)
     made = Scene.from_toml(scene.to_toml(), set=settings)
-    told_alone(values, scene)
+    warn_single_branch(values, scene)
     if callable(scene.friction.law):
         # A function stands in no text.
-        return made.replace(mu=made.friction.replace(law=scene.friction.law))
+        return made.replace(friction=made.friction.replace(law=scene.friction.law))
     return made
 
 
-def spread(key: str, value: Any, scene: Scene | str | PathLike[str]) -> Iterator[tuple[str, Any]]:
-    """The keys that one stands for, each with its value."""
+def expand_key(
+    key: str, value: Any, scene: Scene | str | PathLike[str]
+) -> Iterator[tuple[str, Any]]:
+    """Expand a key with commas, signs or ``*`` into keys with one value each."""
     for part in key.split(","):
         # The place in a list may stand in brackets, as messages write it.
-        one = single(part)
-        each = opposite(value) if part.strip().startswith("-") else value
-        if ".*." in one:
-            whole = scene if isinstance(scene, Scene) else Scene.from_file(scene)
-            for n in range(len(whole.path.branches)):
-                yield one.replace(".*.", f".{n}."), each
+        part_key = single(part)
+        part_value = opposite(value) if part.strip().startswith("-") else value
+        if ".*." in part_key:
+            read_scene = scene if isinstance(scene, Scene) else Scene.from_file(scene)
+            for n in range(len(read_scene.path.branches)):
+                yield part_key.replace(".*.", f".{n}."), part_value
         else:
-            yield one, each
+            yield part_key, part_value
 
 
-def once(
+def expand_keys(
     values: Iterable[tuple[str, Any]], scene: Scene | str | PathLike[str]
 ) -> list[tuple[str, str, Any]]:
-    """Keys of a scene file, the names that they were given by, and their values.
+    """Expand names to keys of a scene file; return key, original name and value of each.
 
-    An :exc:`InvalidSceneError` if two names set one value, or one of them what the other is part
-    of.
+    Raises an :exc:`InvalidSceneError` if two names set one value, or if a name sets a part of the
+    value of another one.
     """
-    found: list[tuple[str, str, Any]] = []
+    settings: list[tuple[str, str, Any]] = []
     for name, value in values:
-        for one, each in spread(name, value, scene):
-            key = SHORT.get(one, one)
-            for other, by, _ in found:
-                if f"{key}.".startswith(f"{other}.") or f"{other}.".startswith(f"{key}."):
+        for short_key, single_value in expand_key(name, value, scene):
+            key = SHORT.get(short_key, short_key)
+            for earlier, earlier_name, _ in settings:
+                if f"{key}.".startswith(f"{earlier}.") or f"{earlier}.".startswith(f"{key}."):
                     shared = (
-                        key if key == other else f"{min(key, other, key=len)} and what it holds"
+                        key if key == earlier else f"{min(key, earlier, key=len)} and its parts"
                     )
-                    both = f"{by} and {name} set" if by != name else f"{name} sets"
-                    raise InvalidSceneError(f"{both} {shared} twice: give it once")
-            found.append((key, name, each))
-    return found
+                    setters = (
+                        f"{earlier_name} and {name} set" if earlier_name != name else f"{name} sets"
+                    )
+                    raise InvalidSceneError(f"{setters} {shared} twice: give it once")
+            settings.append((key, name, single_value))
+    return settings
 
 
-def told_alone(values: Mapping[str, Any], scene: Scene) -> None:
+def warn_single_branch(values: Mapping[str, Any], scene: Scene) -> None:
     """Warn of a normal force of one branch from which the next goes back to the old one."""
     branches = scene.path.branches
     for key in values:
-        found = re.fullmatch(r"path\.(\d+)\.W", key)
-        after = int(found[1]) + 1 if found else len(branches)
+        match = re.fullmatch(r"path\.(\d+)\.W", key)
+        after = int(match[1]) + 1 if match else len(branches)
         if after < len(branches) and branches[after].W == branches[after - 1].W:
             warn(
                 f"{key}: of this branch alone, the next goes back to W = "
-                f"{branches[after].W:g}; path.*.W is that of all",
+                f"{branches[after].W:g}; path.*.W sets all",
             )
 
 
-def toml(value: Any) -> str:
-    """A value as a scene file has it."""
+def to_toml_value(value: Any) -> str:
+    """Write a value as in a scene file."""
     if isinstance(value, np.generic | np.ndarray):
         value = value.tolist()
     if isinstance(value, float) and not math.isfinite(value):
@@ -147,19 +153,19 @@ def toml(value: Any) -> str:
     return json.dumps(value)
 
 
-def function_name(of: object) -> str:
-    """How a function is told from others: by its name, and by what it does."""
-    name = getattr(of, "__qualname__", type(of).__qualname__)
-    return f"function {name} {identity(of)}"
+def describe_function(function: object) -> str:
+    """Return the name of a function with a checksum of its code."""
+    name = getattr(function, "__qualname__", type(function).__qualname__)
+    return f"function {name} {code_checksum(function)}"
 
 
-def listed(values: Any, key: str) -> list[Any]:
-    """The values of a parameter in a list, of arrays those of their one axis.
+def to_list(values: Any, key: str) -> list[Any]:
+    """Return the values of a parameter as a list.
 
     Raises
     ------
     TypeError
-        One of them is nothing that a scene file has.
+        A value is not a number, a text, a list or a table.
     ValueError
         They have no order, values are missing, or the array has several axes with names.
     """
@@ -174,11 +180,11 @@ def listed(values: Any, key: str) -> list[Any]:
         if np.ma.is_masked(array):
             raise ValueError(f"{key} has masked values: must have a value at every point")
         array = array.filled()
-    return [plain(value, key) for value in items(array, key)]
+    return [to_scene_value(value, key) for value in items(array, key)]
 
 
-def plain(value: Any, key: str) -> Any:
-    """A value as a scene file has it: a number, a text, a list or a table."""
+def to_scene_value(value: Any, key: str) -> Any:
+    """Convert a value to a number, a text, a list or a table of a scene file."""
     if isinstance(value, np.generic | np.ndarray):
         value = value.tolist()
     if isinstance(value, Decimal | Fraction):
@@ -187,7 +193,7 @@ def plain(value: Any, key: str) -> Any:
         json.dumps(value)
     except (TypeError, ValueError):
         raise TypeError(
-            f"{key} = {value!r:.60}: must be a number, a text, or what else a scene file has"
+            f"{key} = {value!r:.60}: must be a number, a text, a list or a table"
         ) from None
     return value
 
@@ -212,7 +218,7 @@ class Design:
     given: Mapping[str, Sequence[Any]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        """Refuse what is no study."""
+        """Reject values that define no study."""
         if not self.parameters:
             raise ValueError('no parameters: give some, such as {"mu": [0.2, 0.4]}')
         for key, values in self.parameters.items():
@@ -220,9 +226,9 @@ class Design:
                 raise ValueError(f"{key}: has no values")
             if "/" in key:
                 raise ValueError(f'{key}: a "/" parts folders of the store; write "_" or "over"')
-            plain = [one for one in values if isinstance(one, int | float | str)]
+            plain = [value for value in values if isinstance(value, int | float | str)]
             if self.combine == "grid" and len(set(plain)) < len(plain):
-                twice = next(one for one in plain if plain.count(one) > 1)
+                twice = next(value for value in plain if plain.count(value) > 1)
                 raise ValueError(f"{key}: {twice!r:.60} stands twice, a grid has each value once")
         lengths = {key: len(values) for key, values in self.parameters.items()}
         if self.combine not in ("grid", "zip"):
@@ -231,19 +237,23 @@ class Design:
             raise ValueError(f'combine = "zip": the numbers of values must be the same: {lengths}')
 
     @staticmethod
-    def of(parameters: Mapping[str, Any], combine: Combine, *, keys: bool = True) -> Design:
-        """The design of values in any form: lists, arrays, ranges, texts with units.
+    def from_values(
+        parameters: Mapping[str, Any], combine: Combine, *, keys: bool = True
+    ) -> Design:
+        """Make a design of values in any form: lists, arrays, ranges, texts with units.
 
         Quantities become numbers in SI where the names are `keys` of a scene file.
         """
-        given = {key: listed(values, key) for key, values in parameters.items()}
-        found = {
+        given = {key: to_list(values, key) for key, values in parameters.items()}
+        numbers = {
             key: [in_si(key, value) if keys else value for value in values]
             for key, values in given.items()
         }
-        for key, values in found.items():
+        for key, values in numbers.items():
             doubt_numbers("", **{SHORT.get(key, key): values})
-        return Design(found, combine, {k: of for k, of in given.items() if of != found[k]})
+        return Design(
+            numbers, combine, {k: values for k, values in given.items() if values != numbers[k]}
+        )
 
     @property
     def sizes(self) -> dict[str, int]:
@@ -260,70 +270,75 @@ class Design:
         """Indices of the n-th point along the dimensions; the last one changes first."""
         return tuple(int(i) for i in np.unravel_index(n, tuple(self.sizes.values())))
 
-    def values(self, n: int, of: Mapping[str, Sequence[Any]] | None = None) -> dict[str, Any]:
-        """Values of the parameters at the n-th point, in SI or as another list `of` has them."""
-        lists = self.parameters if of is None else of
+    def values(
+        self, n: int, other_lists: Mapping[str, Sequence[Any]] | None = None
+    ) -> dict[str, Any]:
+        """Values of the parameters at the n-th point, in SI or from `other_lists`."""
+        lists = self.parameters if other_lists is None else other_lists
         place = self.place(n) if self.combine == "grid" else self.place(n) * len(self.parameters)
-        return {key: each[i] for (key, each), i in zip(lists.items(), place, strict=True)}
+        return {
+            key: list_of_values[i]
+            for (key, list_of_values), i in zip(lists.items(), place, strict=True)
+        }
 
     def coords(self) -> dict[str, xr.Variable]:
-        """Coordinates of the study: numbers as they are, the rest as text."""
+        """Coordinates of the study: numbers as they are, other values as text."""
         coords = {}
         for key, values in self.parameters.items():
             numbers = all(isinstance(v, int | float) for v in values)
-            data = np.array(values if numbers else [toml(v) for v in values])
+            data = np.array(values if numbers else [to_toml_value(v) for v in values])
             dim = TOGETHER if self.combine == "zip" else key
             coords[key] = xr.Variable((dim,), data, {"long_name": key})
         return coords
 
     def scene(self, source: Source, n: int) -> Scene:
-        """The scene of the n-th point."""
+        """Return the scene of the n-th point."""
         if isinstance(source, Scene | str | PathLike):
-            return varied(source, self.values(n, {**self.parameters, **self.given}))
+            return with_values(source, self.values(n, {**self.parameters, **self.given}))
         return source(self.values(n))
 
     def describe(self, source: Source, code: Mapping[str, str]) -> str:
-        """Tell this study from others: what makes its points, as JSON.
+        """Describe the origin of the points as JSON, so that studies can be distinguished.
 
         `code` holds checksums of the functions that measure.
         """
         files: dict[str, int] = {}
         if isinstance(source, Scene):
-            what = source.to_toml()
+            text = source.to_toml()
         elif isinstance(source, str | PathLike):
-            what = read_text(Path(source))
-            files = self.files(Path(source), what)
-        elif isinstance(source, Described):
-            what = source.describe()
+            text = read_text(Path(source))
+            files = self.files(Path(source), text)
+        elif isinstance(source, DescribesScenes):
+            text = source.describe()
         else:
-            what = function_name(source)
+            text = describe_function(source)
         design = {
             "parameters": dict(self.parameters),
             "combine": self.combine,
-            "scene": what,
+            "scene": text,
             "files": files,
             "code": dict(code),
         }
         if isinstance(source, Scene) and callable(source.friction.law):
-            design["law"] = function_name(source.friction.law)
+            design["law"] = describe_function(source.friction.law)
         return json.dumps(design)
 
     def files(self, scene: Path, text: str) -> dict[str, int]:
-        """Checksums of the files that a scene file and the values of the parameters name."""
-        named = {v for of in self.parameters.values() for v in of if isinstance(v, str)}
-        named |= set(texts(tomllib.loads(text)))
-        found = {}
+        """Return checksums of the files named in a scene file and in parameter values."""
+        named = {v for values in self.parameters.values() for v in values if isinstance(v, str)}
+        named |= set(iter_texts(tomllib.loads(text)))
+        checksums = {}
         for name in sorted(named):
             path = scene.parent / name
             if name and path.is_file():
-                found[name] = zlib.crc32(path.read_bytes())
-        return found
+                checksums[name] = zlib.crc32(path.read_bytes())
+        return checksums
 
     def check(self, source: Source) -> None:
-        """Refuse parameters of which no value makes a scene, such as a key that is misspelt."""
+        """Reject parameters without any valid scene, for example a misspelt key."""
         if not isinstance(source, Scene | str | PathLike):
             return
-        self.check_each_sets(source)
+        self.check_effects(source)
         first: InvalidSceneError | None = None
         for n in range(len(self)):
             try:
@@ -338,48 +353,48 @@ class Design:
                 return
         if first is not None:
             why = "; ".join(str(first).splitlines())
-            raise ValueError(f"no point of the study has a scene: {why}{self.meant()}")
+            raise ValueError(f"no point of the study has a scene: {why}{self.suggest_name()}")
 
-    def check_each_sets(self, source: Scene | str | PathLike[str]) -> None:
-        """Refuse a parameter whose values make no difference, since another one sets the same."""
+    def check_effects(self, source: Scene | str | PathLike[str]) -> None:
+        """Reject a parameter whose values have no effect, since another one sets the same key."""
         try:
-            texts_of = {key: self.texts_of(source, key) for key in self.parameters}
+            counts = {key: self.count_scenes(source, key) for key in self.parameters}
         except (InvalidSceneError, OSError, ValueError, TypeError, ArithmeticError):
-            # What is wrong with it is said of the points.
+            # The points report the error.
             return
-        for key, (beside, alone) in texts_of.items():
-            if beside == 1 < alone:
-                others = ", ".join(other for other in self.parameters if other != key)
+        for key, (with_others, alone) in counts.items():
+            if with_others == 1 < alone:
+                others = ", ".join(name for name in self.parameters if name != key)
                 raise ValueError(f"{key}: its values make no difference beside {others}")
 
-    def texts_of(self, source: Scene | str | PathLike[str], key: str) -> tuple[int, int]:
-        """How many scenes two values of a parameter make, beside the others and alone."""
-        of = self.parameters[key]
-        two = [of[0], next((v for v in of if v != of[0]), of[0])]
+    def count_scenes(self, source: Scene | str | PathLike[str], key: str) -> tuple[int, int]:
+        """Count the different scenes of two values of a parameter, with other values and alone."""
+        values = self.parameters[key]
+        two = [values[0], next((v for v in values if v != values[0]), values[0])]
         first = {name: values[0] for name, values in self.parameters.items()}
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            beside = {varied(source, first | {key: value}).to_toml() for value in two}
-            alone = {varied(source, {key: value}).to_toml() for value in two}
-        return len(beside), len(alone)
+            with_others = {with_values(source, first | {key: value}).to_toml() for value in two}
+            alone = {with_values(source, {key: value}).to_toml() for value in two}
+        return len(with_others), len(alone)
 
-    def meant(self) -> str:
-        """What short names of parameters may have been meant."""
-        known = [*SHORT, "friction", "grid", "body1", "body2", "path", "solver", "kernel"]
+    def suggest_name(self) -> str:
+        """Suggest the nearest short name for an unknown parameter."""
+        valid = [*SHORT, "friction", "grid", "body1", "body2", "path", "solver", "kernel"]
         for key in self.parameters:
-            if key.split(".")[0] not in known:
+            if key.split(".")[0] not in valid:
                 near = difflib.get_close_matches(key, SHORT, n=1)
                 return f"; {key}: the nearest is {near[0]}" if near else ""
         return ""
 
 
-def texts(value: Any) -> Iterator[str]:
-    """The texts in the values of a scene file."""
+def iter_texts(value: Any) -> Iterator[str]:
+    """Yield the texts in the values of a scene file."""
     if isinstance(value, str):
         yield value
     elif isinstance(value, dict):
-        for one in value.values():
-            yield from texts(one)
+        for item in value.values():
+            yield from iter_texts(item)
     elif isinstance(value, list):
-        for one in value:
-            yield from texts(one)
+        for item in value:
+            yield from iter_texts(item)

@@ -1,11 +1,11 @@
-"""What tells a function from another one of its name: its code, and what it refers to.
+"""Checksums of functions from their code and everything that it refers to.
 
 A name is not enough: a formula that was corrected, a constant beside it, an argument of
 ``functools.partial`` are other measures under the same name. ::
 
     def peak(result): ...
 
-    peak.version = "2"  # optional: counts in place of all of this
+    peak.version = "2"  # optional: replaces the checksum
 """
 
 from __future__ import annotations
@@ -19,18 +19,18 @@ from typing import Any
 
 import numpy as np
 
-__all__ = ["identity"]
+__all__ = ["code_checksum"]
 
 #: Levels of functions and values in one another that are followed.
 DEEPEST = 40
 
 
 class Unknown(Exception):
-    """A value of which nothing tells whether it has changed."""
+    """A value whose changes cannot be detected."""
 
 
-def identity(of: Any) -> str:
-    """A checksum of what a function does, equal in every process of one version of Python.
+def code_checksum(of: Any) -> str:
+    """Return a checksum of the code of a function, equal in every process of one Python version.
 
     It covers the code without comments and the docstring, defaults, closures, arguments of
     ``functools.partial`` and the fields of an object that is called. It also covers the globals
@@ -40,21 +40,21 @@ def identity(of: Any) -> str:
     Raises
     ------
     ValueError
-        The function refers to something that cannot be told from another one.
+        The function refers to an object without a checksum.
     """
     try:
-        text = repr(parts(of, getattr(of, "__module__", None), ()))
+        text = repr(value_parts(of, getattr(of, "__module__", None), ()))
     except Unknown as unknown:
         name = getattr(of, "__qualname__", type(of).__qualname__)
         raise ValueError(
-            f"{name}: refers to {unknown}, and no store can tell whether that has changed; give "
+            f"{name}: refers to {unknown}, whose changes a store cannot detect; give "
             f'it a version that you change yourself, {name}.version = "1"'
         ) from None
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
-def parts(of: Any, home: str | None, within: tuple[int, ...]) -> Any:
-    """A value as nested tuples of text, of which equal ones mean the same."""
+def value_parts(of: Any, home: str | None, within: tuple[int, ...]) -> Any:
+    """Convert a value to nested tuples of text; equal tuples mean equal values."""
     if id(of) in within:
         return "again"
     if len(within) > DEEPEST:
@@ -62,7 +62,7 @@ def parts(of: Any, home: str | None, within: tuple[int, ...]) -> Any:
     deeper = (*within, id(of))
 
     def all_of(values: Any) -> tuple[Any, ...]:
-        return tuple(parts(value, home, deeper) for value in values)
+        return tuple(value_parts(value, home, deeper) for value in values)
 
     if (version := getattr(of, "version", None)) is not None and callable(of):
         return ("version", str(version))
@@ -79,45 +79,51 @@ def parts(of: Any, home: str | None, within: tuple[int, ...]) -> Any:
     if isinstance(of, types.MethodType):
         return ("method", *all_of((of.__func__, of.__self__)))
     if isinstance(of, types.FunctionType):
-        return ("function", *of_function(of, home, deeper))
+        return ("function", *function_parts(of, home, deeper))
     if isinstance(of, types.ModuleType):
         return ("module", of.__name__)
     if isinstance(of, (type, types.BuiltinFunctionType, np.ufunc)):
         return ("named", getattr(of, "__module__", ""), getattr(of, "__qualname__", str(of)))
     if isinstance(of, Mapping):
-        return ("mapping", tuple(sorted((repr(k), parts(v, home, deeper)) for k, v in of.items())))
+        return (
+            "mapping",
+            tuple(sorted((repr(k), value_parts(v, home, deeper)) for k, v in of.items())),
+        )
     if isinstance(of, Set):
         return ("set", tuple(sorted(map(repr, all_of(of)))))
     if isinstance(of, Sequence):
         return (type(of).__name__, *all_of(of))
-    return of_object(of, home, deeper)
+    return object_parts(of, home, deeper)
 
 
-def of_function(of: types.FunctionType, home: str | None, within: tuple[int, ...]) -> list[Any]:
-    """The code of a function, its defaults and closure, and the globals that it names."""
-    cells = [cell.cell_contents for cell in of.__closure__ or () if filled(cell)]
-    found = [of_code(of.__code__), *(parts(v, home, within) for v in (of.__defaults__, cells))]
-    found.append(parts(of.__kwdefaults__ or {}, home, within))
+def function_parts(of: types.FunctionType, home: str | None, within: tuple[int, ...]) -> list[Any]:
+    """Return the code of a function, its defaults and closure, and the globals that it names."""
+    cells = [cell.cell_contents for cell in of.__closure__ or () if is_filled(cell)]
+    parts_of_function = [
+        code_parts(of.__code__),
+        *(value_parts(v, home, within) for v in (of.__defaults__, cells)),
+    ]
+    parts_of_function.append(value_parts(of.__kwdefaults__ or {}, home, within))
     if of.__module__ != home:
         # Of another module, such as a library: its own code, not what that refers to.
-        return [of.__module__, of.__qualname__, *found]
-    for name in sorted(names_of(of.__code__)):
+        return [of.__module__, of.__qualname__, *parts_of_function]
+    for name in sorted(global_names(of.__code__)):
         if name in of.__globals__:
-            found.append((name, parts(of.__globals__[name], home, within)))
-    return found
+            parts_of_function.append((name, value_parts(of.__globals__[name], home, within)))
+    return parts_of_function
 
 
-def filled(cell: types.CellType) -> bool:
-    """Whether a cell of a closure holds something."""
+def is_filled(cell: types.CellType) -> bool:
+    """Check that a cell of a closure is not empty."""
     try:
         return cell.cell_contents is not cell
     except ValueError:
         return False
 
 
-def of_code(code: types.CodeType) -> tuple[Any, ...]:
-    """Instructions and constants; a docstring, names of files and lines are left out."""
-    consts = [of_code(c) if isinstance(c, types.CodeType) else repr(c) for c in code.co_consts]
+def code_parts(code: types.CodeType) -> tuple[Any, ...]:
+    """Return instructions and constants; a docstring, names of files and lines are left out."""
+    consts = [code_parts(c) if isinstance(c, types.CodeType) else repr(c) for c in code.co_consts]
     if code.co_consts and isinstance(code.co_consts[0], str):
         # Where a docstring stands, or None without one.
         consts[0] = "" if code.co_flags & DOCUMENTED or code.co_name != "<lambda>" else consts[0]
@@ -128,19 +134,19 @@ def of_code(code: types.CodeType) -> tuple[Any, ...]:
 DOCUMENTED = 0x4000000
 
 
-def names_of(code: types.CodeType) -> set[str]:
-    """Names that code and the code within it ask for."""
+def global_names(code: types.CodeType) -> set[str]:
+    """Return the names that code and nested code refer to."""
     inner = (c for c in code.co_consts if isinstance(c, types.CodeType))
-    return set(code.co_names).union(*map(names_of, inner))
+    return set(code.co_names).union(*map(global_names, inner))
 
 
-def of_object(of: Any, home: str | None, within: tuple[int, ...]) -> tuple[Any, ...]:
-    """An object by its class, by the code that calls it where that is of Python, and its state."""
+def object_parts(of: Any, home: str | None, within: tuple[int, ...]) -> tuple[Any, ...]:
+    """Return the class of an object, the Python code of its call, and its state."""
     kind = type(of)
-    found: list[Any] = ["object", kind.__module__, kind.__qualname__]
+    parts_of_object: list[Any] = ["object", kind.__module__, kind.__qualname__]
     call = getattr(kind, "__call__", None)  # noqa: B004
     if isinstance(call, types.FunctionType) and kind.__module__.split(".")[0] != "pyfret":
-        found.append(parts(call, home, within))
+        parts_of_object.append(value_parts(call, home, within))
     if is_dataclass(of):
         values: Any = {f.name: getattr(of, f.name) for f in fields(of)}
     else:
@@ -148,4 +154,4 @@ def of_object(of: Any, home: str | None, within: tuple[int, ...]) -> tuple[Any, 
             values = of.__reduce_ex__(4)[1:3]
         except Exception:
             raise Unknown(f"a {kind.__qualname__}") from None
-    return (*found, parts(values, home, within))
+    return (*parts_of_object, value_parts(values, home, within))

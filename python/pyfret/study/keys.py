@@ -1,4 +1,4 @@
-"""What a file of a study or of a comparison says: TOML whose keys are known."""
+"""Reader of study and comparison files: TOML with checked keys."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ if sys.version_info >= (3, 11):
 else:
     import tomli as tomllib
 
-__all__ = ["known", "place_of", "read"]
+__all__ = ["check_key", "read_document", "store_path"]
 
 #: Keys whose value names a file.
 FILES = ("scene", "out", "materials")
 
 
-def read(file: Path, keys: tuple[str, ...], needed: Iterable[str]) -> dict[str, Any]:
+def read_document(file: Path, keys: tuple[str, ...], needed: Iterable[str]) -> dict[str, Any]:
     """Read a file that may have these keys and must have some of them.
 
     Raises
@@ -30,29 +30,29 @@ def read(file: Path, keys: tuple[str, ...], needed: Iterable[str]) -> dict[str, 
         It is no TOML, a key is unknown or missing, or a file is not named in quotes.
     """
     try:
-        says = tomllib.loads(read_text(file))
+        document = tomllib.loads(read_text(file))
     except tomllib.TOMLDecodeError as error:
         raise ValueError(f"{file}: {error}") from error
-    for key in says:
-        known(key, keys, str(file))
+    for key in document:
+        check_key(key, keys, str(file))
     for key in needed:
-        if key not in says:
+        if key not in document:
             raise ValueError(f"{file}: the key `{key}` is missing")
     for key in FILES:
-        if not isinstance(says.get(key, ""), str):
+        if not isinstance(document.get(key, ""), str):
             raise ValueError(
-                f"{file}: `{key}` = {says[key]!r}: must be the name of a file in quotes"
+                f"{file}: `{key}` = {document[key]!r}: must be the name of a file in quotes"
             )
-    return says
+    return document
 
 
-def known(key: str, keys: tuple[str, ...], where: str) -> None:
-    """Refuse an unknown key and name the nearest one."""
+def check_key(key: str, keys: tuple[str, ...], where: str) -> None:
+    """Reject an unknown key and name the nearest one."""
     if key not in keys:
         nearest = difflib.get_close_matches(key, keys, n=1, cutoff=0.0)[0]
         raise ValueError(f"{where}: unknown key `{key}`: the nearest valid key is `{nearest}`")
 
 
-def place_of(file: Path, says: dict[str, Any], out: Any) -> Path:
-    """Where the store goes: `out`, what the file says, or the file's own name with ``.zarr``."""
+def store_path(file: Path, says: dict[str, Any], out: Any) -> Path:
+    """Return the path of the store: `out`, the one in the file, or a default by file name."""
     return Path(out) if out is not None else file.parent / says.get("out", f"{file.stem}.zarr")

@@ -1,7 +1,7 @@
 """The ledger of a study: a line for every point that has been written, with checksums.
 
 The file ``status/.points`` lies in the store, where no Zarr library looks for arrays. Its first
-line is that of the layout. Each other line is that of a point: its status, and checksums of its
+line describes the layout. Each other line describes a point: its status, and checksums of its
 values in the arrays. These are checksums of values and not of files, which points share. A line
 ends in its own checksum. A point counts once its line is whole. A killed process may leave the last
 line unfinished; it is then left out.
@@ -30,9 +30,9 @@ __all__ = ["FILE", "Ledger", "attributes", "checksum"]
 FILE = "status/.points"
 
 
-def checksum(of: xr.Variable, attrs: str = "") -> int:
-    """The CRC-32 of the values of a variable, with their type, their shape and its attributes."""
-    values = np.ascontiguousarray(of.values)
+def checksum(variable: xr.Variable, attrs: str = "") -> int:
+    """Compute the CRC-32 of a variable: its values, their type and shape, its attributes."""
+    values = np.ascontiguousarray(variable.values)
     text = values.dtype.kind in "OTSU"
     if text:
         content = json.dumps(values.tolist()).encode()
@@ -43,21 +43,21 @@ def checksum(of: xr.Variable, attrs: str = "") -> int:
 
 
 def attributes(dataset: xr.Dataset) -> dict[str, str]:
-    """The attributes of every variable, as text."""
+    """Return the attributes of every variable, as text."""
     return {
-        str(name): json.dumps(dict(of.attrs), sort_keys=True, default=str)
-        for name, of in dataset.variables.items()
+        str(name): json.dumps(dict(variable.attrs), sort_keys=True, default=str)
+        for name, variable in dataset.variables.items()
     }
 
 
-def line_of(entry: Any) -> bytes:
-    """An entry as a line."""
+def write_line(entry: Any) -> bytes:
+    """Write an entry as a line."""
     text = json.dumps(entry, separators=(",", ":"))
     return f"{text}\t{zlib.crc32(text.encode()):08x}\n".encode()
 
 
-def entry_of(line: bytes) -> Any:
-    """The entry of a line; a ValueError if the line is damaged."""
+def read_line(line: bytes) -> Any:
+    """Read the entry of a line; a ValueError if the line is damaged."""
     text, _, crc = line.rstrip(b"\n").partition(b"\t")
     if not line.endswith(b"\n") or f"{zlib.crc32(text):08x}".encode() != crc:
         raise ValueError("is damaged")
@@ -65,14 +65,14 @@ def entry_of(line: bytes) -> Any:
 
 
 class Ledger:
-    """What has been written of the points of a study.
+    """The record of the written points of a study.
 
     Attributes
     ----------
     layout : int
         Checksum of the coordinates and attributes.
     points : dict of int to (int, dict of str to int)
-        Status of each point, and checksums of what the arrays hold for it.
+        Status of each point, and checksums of its values in the arrays.
     """
 
     def __init__(self, place: Path) -> None:
@@ -86,7 +86,7 @@ class Ledger:
         entries: list[Any] = []
         for n, line in enumerate(lines):
             try:
-                entries.append(entry_of(line))
+                entries.append(read_line(line))
             except ValueError as error:
                 if n + 1 == len(lines) and not line.endswith(b"\n") and entries:
                     break
@@ -104,17 +104,17 @@ class Ledger:
     @staticmethod
     def begin(place: Path, layout: int) -> None:
         """Write the ledger of a study without points."""
-        (place / FILE).write_bytes(line_of(layout))
+        (place / FILE).write_bytes(write_line(layout))
 
     def add(
         self, n: int, status: int, values: dict[str, xr.Variable], attrs: dict[str, str]
     ) -> None:
-        """Say that the n-th point has been written, to variables of these attributes."""
-        sums = {name: checksum(of, attrs.get(name, "")) for name, of in values.items()}
+        """Record that the n-th point has been written, to variables of these attributes."""
+        sums = {name: checksum(variable, attrs.get(name, "")) for name, variable in values.items()}
         with (self.place / FILE).open("r+b") as file:
             file.truncate(self.length)
             file.seek(self.length)
-            line = line_of([n, status, sums])
+            line = write_line([n, status, sums])
             file.write(line)
             file.flush()
             os.fsync(file.fileno())
@@ -122,33 +122,33 @@ class Ledger:
         self.points[n] = status, sums
         self.last = n
 
-    def check(self, layout: int, dataset: xr.Dataset, own: Iterable[str]) -> None:
-        """Refuse arrays that do not hold what the ledger says; the message names array and point.
+    def check(self, layout: int, dataset: xr.Dataset, point_dims: Iterable[str]) -> None:
+        """Reject arrays that differ from the ledger; the message names array and point.
 
-        `own` are the dimensions of the points.
+        `point_dims` are the dimensions of the points.
         """
         if layout != self.layout:
             raise StoreError(
                 f"{self.place}: its coordinates or attributes are not those that were written"
             )
-        sizes = {dim: dataset.sizes[dim] for dim in own}
+        sizes = {dim: dataset.sizes[dim] for dim in point_dims}
         status, attrs = dataset["status"].values.ravel(), attributes(dataset)
         for n, (code, sums) in self.points.items():
-            at = dict(zip(sizes, np.unravel_index(n, tuple(sizes.values())), strict=True))
-            where = ", ".join(f"{dim} {int(i)}" for dim, i in at.items())
+            indices = dict(zip(sizes, np.unravel_index(n, tuple(sizes.values())), strict=True))
+            where = ", ".join(f"{dim} {int(i)}" for dim, i in indices.items())
             if int(status[n]) != code and n != self.last:
                 raise StoreError(f"{self.place}: status of point {where}: is not what was written")
             for name, crc in sums.items():
                 if name not in dataset:
                     raise StoreError(f"{self.place}: {name}: is missing")
-                one = dataset[name].variable.isel({dim: int(i) for dim, i in at.items()})
-                if checksum(one, attrs[name]) != crc:
+                value = dataset[name].variable.isel({dim: int(i) for dim, i in indices.items()})
+                if checksum(value, attrs[name]) != crc:
                     raise StoreError(
                         f"{self.place}: {name} of point {where}: is not what was written; a file "
                         f"of {name} is missing or damaged"
                     )
-        beyond = [n for n in np.flatnonzero(status) if int(n) not in self.points]
-        if beyond:
+        unlisted = [n for n in np.flatnonzero(status) if int(n) not in self.points]
+        if unlisted:
             raise StoreError(
-                f"{self.place}: point {beyond[0]} has a status and no line in the file {FILE}"
+                f"{self.place}: point {unlisted[0]} has a status and no line in the file {FILE}"
             )

@@ -25,12 +25,12 @@ if TYPE_CHECKING:
 
 __all__ = ["arrest_map", "running_conditions"]
 
-#: Number of gross slip, and what the numbers mean.
+#: Code of gross slip, and the meanings of the codes.
 SLIDES = 3
 STATUS = "0 no contact, 1 full stick, 2 partial slip, 3 gross slip"
 
-#: What the map shows of the last cycle: its names, and those of the measures.
-SHOWN = {
+#: Fields of the map from the last cycle: names in the map, and names of the measures.
+MAP_FIELDS = {
     "status": "regime",
     "energy_ratio": "energy_ratio",
     "sliding_ratio": "sliding_ratio",
@@ -39,8 +39,8 @@ SHOWN = {
     "delta": "delta",
     "stiffness": "stiffness",
 }
-#: What criteria and cracks add to a map.
-JUDGED = (
+#: Fields that criteria and cracks add to a map.
+JUDGED_FIELDS = (
     "safety_factor",
     "life",
     "crack_depth",
@@ -49,10 +49,11 @@ JUDGED = (
     "arrest_length",
 )
 BULK = "largest bulk stress"
-#: Part of mu W that is missing where the shift to gross slip is read: a grid slides 3e-4 before it.
-#: There a ball has 1 - ALMOST^(2/3) = 0.99 of its shift (Mindlin 1949), by which it is divided.
+#: The shift to gross slip is read at (1 - ALMOST) mu W: a grid slides 3e-4 before it.
+#: There a ball has 1 - ALMOST^(2/3) = 0.99 of its shift (Mindlin 1949), and is divided by this
+#: factor.
 ALMOST = 1e-3
-#: Name of a parameter of the map whose measure is called the same.
+#: Name of the amplitude parameter, since a measure has the name of the force or shift.
 AMPLITUDE = "amplitude"
 
 
@@ -72,7 +73,7 @@ def running_conditions(
     executor: Any = None,
     on_point: Callable[[int, int], object] | None = None,
 ) -> xr.Dataset:
-    """Running conditions of fretting cycles under the normal force W: a study of the load path.
+    """Map the running conditions of fretting cycles over normal force and amplitude.
 
     Every combination is solved: indentation, first loading, then `cycles` cycles between -T and T,
     or between the shifts -delta and delta.
@@ -103,9 +104,9 @@ def running_conditions(
     arrest : Arrest, optional
         Whether a crack stops: ``study.Arrest(fracture.Threshold(dK_th, dS_0))``.
     executor : int, Executor or distributed.Client, optional
-        Who solves, as in :func:`pyfret.study.run`.
+        The workers, as in :func:`pyfret.study.run`.
     on_point : callable, optional
-        Told how many points are done, and how many there are.
+        A function called with the number of points done, and of all points.
 
     Returns
     -------
@@ -125,11 +126,11 @@ def running_conditions(
         A point could not be solved. The message names the point and the reason.
     """
     driven = "T" if delta is None else "delta"
-    given = T if delta is None else delta
-    if given is None or (T is None) == (delta is None):
+    amplitudes = T if delta is None else delta
+    if amplitudes is None or (T is None) == (delta is None):
         raise ValueError("give the amplitudes T or delta, one of them")
-    normal, tangential = np.atleast_1d(plain(W, "W")), np.atleast_1d(plain(given, driven))
-    measures: list[Measure] = [name for shown, name in SHOWN.items() if shown != driven]
+    normal, tangential = np.atleast_1d(plain(W, "W")), np.atleast_1d(plain(amplitudes, driven))
+    measures: list[Measure] = [name for map_name, name in MAP_FIELDS.items() if map_name != driven]
     bulk = np.atleast_1d(plain(sigma_B, "sigma_B"))
     if driven == "delta" and bulk.any():
         raise ValueError("sigma_B: must be 0 with shifts delta; it goes with forces T")
@@ -145,24 +146,27 @@ def running_conditions(
         sigma_B=float(bulk[0]),
         bulk_ratio=bulk_ratio,
     )
-    found = run(
+    study = run(
         template,
         loads,
-        measure=[*measures, *(one for one in (cracking, arrest) if one)],
+        measure=[
+            *measures,
+            *(measure_class for measure_class in (cracking, arrest) if measure_class),
+        ],
         executor=executor,
         progress=False,
         on_point=on_point,
     )
-    for point, reason in found.failed():
+    for point, reason in study.failed():
         if not reason.startswith(Slides.__name__):
             raise RuntimeError(
                 f"W = {told(point['W'])}, {driven} = {told(point[AMPLITUDE])}: {reason}"
             )
-    table = labelled(found.dataset, scene, driven)
+    table = rename_to_map(study.dataset, scene, driven)
     if (limit := sliding_limit(scene, normal, driven, increments, executor)) is not None:
         unit = table[driven].attrs["units"]
-        about = {"units": unit, "long_name": "amplitude of gross slip"}
-        table["slides_from"] = ("W", limit, about)
+        slides_attrs = {"units": unit, "long_name": "amplitude of gross slip"}
+        table["slides_from"] = ("W", limit, slides_attrs)
     if "sigma_B" in table.dims:
         table["sigma_B"] = table["sigma_B"].assign_attrs(units="Pa", long_name=BULK)
         return table
@@ -183,7 +187,7 @@ def arrest_map(
     executor: Any = None,
     on_point: Callable[[int, int], object] | None = None,
 ) -> xr.Dataset:
-    """Where cracks stop in fretting fatigue: a study over shear and bulk stress in phase.
+    """Map the arrest of cracks in fretting fatigue over shear and bulk stress in phase.
 
     At every point the pad is pressed on. Then T and the bulk stress go to their largest values, to
     -T and `bulk_ratio` times the bulk stress, and back.
@@ -222,37 +226,44 @@ def arrest_map(
         "sigma_B": np.atleast_1d(plain(sigma_B, "sigma_B")),
     }
     measures: list[Measure] = [arrest, *([cracking] if cracking else [])]
-    pressed = number(W, "W")
-    template = BulkCycle(scene, pressed, bulk_ratio, increments)
-    found = run(
+    normal_force = number(W, "W")
+    template = BulkCycle(scene, normal_force, bulk_ratio, increments)
+    study = run(
         template, loads, measure=measures, executor=executor, progress=False, on_point=on_point
     )
-    for point, reason in found.failed():
+    for point, reason in study.failed():
         if not reason.startswith(Slides.__name__):
             raise RuntimeError(f"T = {point['T']}, sigma_B = {point['sigma_B']} Pa: {reason}")
-    judged = [f"{name}{side}" for name in JUDGED for side in SIDES]
-    table = found.dataset[[name for name in judged if name in found.dataset]]
+    wanted_names = [f"{name}{side}" for name in JUDGED_FIELDS for side in SIDES]
+    table = study.dataset[[name for name in wanted_names if name in study.dataset]]
     unit = scene.grid.unit_of("N")
     table["T"] = table["T"].assign_attrs(units=unit, long_name="amplitude of the force")
     table["sigma_B"] = table["sigma_B"].assign_attrs(units="Pa", long_name=BULK)
-    return table.assign_attrs({"title": scene.title, "mu": scene.mu, "W": pressed})
+    return table.assign_attrs({"title": scene.title, "mu": scene.mu, "W": normal_force})
 
 
-def labelled(found: xr.Dataset, scene: Scene, driven: str) -> xr.Dataset:
-    """The study of the loads with the names of the map."""
+def rename_to_map(study_data: xr.Dataset, scene: Scene, driven: str) -> xr.Dataset:
+    """Rename the study of the loads to the names of the map."""
     units = {"T": ("N", "amplitude of the force"), "delta": ("m", "amplitude of the shift")}
-    names = {name: shown for shown, name in SHOWN.items()} | {name: name for name in JUDGED}
-    kept = {
-        f"{name}{side}": f"{shown}{side}"
-        for name, shown in names.items()
-        for side in SIDES
-        if f"{name}{side}" in found
+    names = {name: map_name for map_name, name in MAP_FIELDS.items()} | {
+        name: name for name in JUDGED_FIELDS
     }
-    table = found[list(kept)].rename(kept).drop_vars(AMPLITUDE).rename({AMPLITUDE: driven})
+    new_names = {
+        f"{name}{side}": f"{map_name}{side}"
+        for name, map_name in names.items()
+        for side in SIDES
+        if f"{name}{side}" in study_data
+    }
+    table = (
+        study_data[list(new_names)]
+        .rename(new_names)
+        .drop_vars(AMPLITUDE)
+        .rename({AMPLITUDE: driven})
+    )
     table["status"] = table["status"].fillna(SLIDES).assign_attrs(long_name=STATUS)
     unit, meaning = units[driven]
     unit = scene.grid.unit_of(unit)
-    amplitude = found[AMPLITUDE].values
+    amplitude = study_data[AMPLITUDE].values
     table = table.assign_coords(
         {driven: (driven, amplitude, {"units": unit, "long_name": meaning})}
     )
@@ -263,26 +274,30 @@ def labelled(found: xr.Dataset, scene: Scene, driven: str) -> xr.Dataset:
 def sliding_limit(
     scene: Scene, W: NDArray[np.float64], driven: str, increments: tuple[int, int], executor: Any
 ) -> NDArray[np.float64] | None:
-    """The amplitude from which on the contact slides under each normal force."""
+    """Return the amplitude at which the contact begins to slide under each normal force."""
     if not scene.friction.is_constant or not 0.0 < scene.mu < np.inf:
         return None
     if driven == "T":
         return np.asarray(scene.mu * W)
-    found = run(
-        Pushed(scene, increments), {"W": W}, measure=shift, executor=executor, progress=False
+    study = run(
+        PushToSliding(scene, increments),
+        {"W": W},
+        measure=final_shift,
+        executor=executor,
+        progress=False,
     )
-    return np.asarray(found.dataset["shift"].values / (1.0 - ALMOST ** (2.0 / 3.0)))
+    return np.asarray(study.dataset["shift"].values / (1.0 - ALMOST ** (2.0 / 3.0)))
 
 
 @dataclass(frozen=True)
-class Pushed:
-    """Makes the scene of a contact that is pushed until it all but slides."""
+class PushToSliding:
+    """A function that makes the scene of a contact pushed almost to gross slip."""
 
     scene: Scene
     increments: tuple[int, int]
 
     def __call__(self, point: dict[str, float]) -> Scene:
-        """The scene under a normal force."""
+        """Return the scene under a normal force."""
         W = point["W"]
         indentation, stroke = self.increments
         path = LoadPath.start().normal(W, increments=indentation)
@@ -290,8 +305,8 @@ class Pushed:
         return self.scene.replace(path=path, save=[len(path)])
 
 
-def shift(result: Run) -> float:
-    """The shift along x at the end of the path [m]."""
+def final_shift(result: Run) -> float:
+    """Return the shift along x at the end of the path [m]."""
     return float(result.dataset["delta_x"].values[-1])
 
 
@@ -299,9 +314,9 @@ class Slides(Exception):
     """The force is more than friction can bear."""
 
 
-def refuse_sliding(scene: Scene, T: float, W: float) -> None:
-    """Raise where friction cannot bear a force [N]."""
-    # What a law of one's own bears the run tells.
+def check_friction_limit(scene: Scene, T: float, W: float) -> None:
+    """Raise :exc:`Slides` if friction cannot bear a force [N]."""
+    # The limit of a user's law follows from the run alone.
     if scene.friction.law is None and scene.mu * W * (1 - 1e-9) < T:
         unit = scene.grid.unit_of("N")
         raise Slides(
@@ -311,7 +326,7 @@ def refuse_sliding(scene: Scene, T: float, W: float) -> None:
 
 @dataclass(frozen=True)
 class Cycles:
-    """Makes the scene of a point: indentation, first loading, cycles."""
+    """A function that makes the scene of a point: indentation, first loading, cycles."""
 
     scene: Scene
     driven: str
@@ -324,10 +339,10 @@ class Cycles:
     bulk_ratio: float = 0.0
 
     def __call__(self, point: dict[str, float]) -> Scene:
-        """The scene under the normal force and the amplitude of a point."""
+        """Return the scene under the normal force and the amplitude of a point."""
         W, amplitude = point["W"], point[AMPLITUDE]
         if self.driven == "T":
-            refuse_sliding(self.scene, amplitude, W)
+            check_friction_limit(self.scene, amplitude, W)
         indentation, stroke = self.increments
         path = LoadPath.start().normal(W, increments=indentation)
         largest = point.get("sigma_B", self.sigma_B)
@@ -345,7 +360,7 @@ class Cycles:
 
 @dataclass(frozen=True)
 class BulkCycle:
-    """Makes the scene of a point: indentation, then a cycle of shear and bulk stress in phase."""
+    """A function that makes the scene of a point: indentation, shear and bulk stress in phase."""
 
     scene: Scene
     W: float
@@ -353,9 +368,9 @@ class BulkCycle:
     increments: tuple[int, int]
 
     def __call__(self, point: dict[str, float]) -> Scene:
-        """The scene under the force and the bulk stress of a point."""
+        """Return the scene under the force and the bulk stress of a point."""
         T, sigma_B = point["T"], point["sigma_B"]
-        refuse_sliding(self.scene, T, self.W)
+        check_friction_limit(self.scene, T, self.W)
         indentation, stroke = self.increments
         path = LoadPath.start().normal(self.W, increments=indentation)
         turns = ((T, sigma_B), (-T, self.bulk_ratio * sigma_B), (T, sigma_B))

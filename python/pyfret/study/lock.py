@@ -12,11 +12,11 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
-__all__ = ["writing"]
+__all__ = ["only_writer"]
 
 
 @contextmanager
-def writing(place: Path) -> Iterator[None]:
+def only_writer(place: Path) -> Iterator[None]:
     """Hold the folder `place` as its only writer; a StoreError if another process does.
 
     Where folders cannot be locked, as on Windows, nothing is held.

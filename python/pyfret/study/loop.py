@@ -13,8 +13,8 @@ from pyfret._core import OffGridError, Scene
 from pyfret._util.progress import Progress
 from pyfret.quantities import quantities
 from pyfret.study.design import Combine, Design, Source
-from pyfret.study.lock import writing
-from pyfret.study.measures import Measure, checked, code_of, names_of
+from pyfret.study.lock import only_writer
+from pyfret.study.measures import Measure, check_measures, code_checksums, measure_names
 from pyfret.study.memory import Columns
 from pyfret.study.outcome import Study, open_study
 from pyfret.study.point import Outcome, failure, solve_point
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 __all__ = ["run"]
 
-#: What is measured unless something else is said.
+#: The default measures.
 DEFAULT = ("loop_energy", "energy_ratio", "stick_ratio", "p_max")
 
 
@@ -49,7 +49,7 @@ def run(
     Parameters
     ----------
     scene : Scene, path or callable
-        What is varied: a scene with its load path, its file, or a function that makes the scene
+        The contact: a scene with its load path, its file, or a function that makes the scene
         of a ``dict`` of values. A file keeps its own measures, such as ``{ a_H = 1.0 }``, a
         :class:`Scene` has all numbers in SI units.
     parameters : mapping of str to values
@@ -61,12 +61,12 @@ def run(
         Every combination of the values, or the values in step: the first of each, then the
         second of each. Samples (SALib, Latin hypercubes) are of the second kind.
     measure : str, callable, or sequence of these
-        What is kept of each result: names of :data:`pyfret.study.MEASURES`, or functions of the
+        Numbers to keep of each result: names of :data:`pyfret.study.MEASURES`, or functions of the
         :class:`Result`. A function gives a number, an :class:`xarray.DataArray`, or a mapping or
         dataset of these. Default: energy and energy ratio of the last cycle, stick ratio at the
         end, largest pressure.
     executor : int, Executor or distributed.Client, optional
-        Who solves: so many processes of this machine (default: one for each processor, which
+        The workers: so many processes of this machine (default: one for each processor, which
         they share out), an executor of ``concurrent.futures``, or a client of a Dask cluster.
     out : path, optional
         Store that is filled while the study goes on. Where there is one of the same study its
@@ -79,7 +79,7 @@ def run(
     progress : bool
         Whether to draw a progress bar on a terminal or in a notebook.
     on_point : callable, optional
-        Told how many points are done, and how many there are.
+        A function called with the number of points done, and of all points.
 
     Returns
     -------
@@ -89,13 +89,13 @@ def run(
     Raises
     ------
     StoreError
-        At `out` there is something else, or another study. The message names the difference.
+        The place `out` is taken, or holds another study. The message names the difference.
     ValueError
         Parameters or measures have no meaning.
 
     Examples
     --------
-    >>> table = solve(
+    >>> table = run(
     ...     "coated.toml",
     ...     {"body2.coatings.0.E.E_substrate": [0.5, 1, 2], "mu": [0.2, 0.4]},
     ...     measure=["loop_energy", "von_mises"],
@@ -104,11 +104,11 @@ def run(
     >>> table.map("von_mises")  # doctest: +SKIP
     """
     keys = isinstance(scene, Scene | str | os.PathLike)
-    design, measures = Design.of(parameters, combine, keys=keys), checked(measure)
+    design, measures = Design.from_values(parameters, combine, keys=keys), check_measures(measure)
     check_names(design, measures)
-    said = {
-        "study": design.describe(scene, {} if out is None else code_of(measures)),
-        "measures": ", ".join(names_of(measures)),
+    attributes = {
+        "study": design.describe(scene, {} if out is None else code_checksums(measures)),
+        "measures": ", ".join(measure_names(measures)),
         "title": scene.title if isinstance(scene, Scene) else "",
     }
 
@@ -117,7 +117,7 @@ def run(
     def go_through(store: Store | Columns) -> None:
         points = store.open_points(again=again)
         done, total = len(design) - len(points), len(design)
-        with Progress(title=said["title"] or "study", shown=progress) as bar:
+        with Progress(title=attributes["title"] or "study", shown=progress) as bar:
             for n, outcome in outcomes(points, design, scene, measures, executor, grow=grow):
                 store.write(n, outcome)
                 done += 1
@@ -126,23 +126,27 @@ def run(
                     on_point(done, total)
 
     if out is None:
-        columns = Columns(design, said)
+        columns = Columns(design, attributes)
         go_through(columns)
         study = Study(columns.dataset())
     else:
-        Store.prepare(out, design, said)
-        with writing(Path(out)):
-            go_through(Store(out, design, said))
+        Store.prepare(out, design, attributes)
+        with only_writer(Path(out)):
+            go_through(Store(out, design, attributes))
         study = open_study(out)
-    # Where every point failed nothing has been measured.
-    for name in (of for of in measures if isinstance(of, str) and of not in study.dataset):
+    # Measures have no values where every point failed.
+    for name in (
+        measure_name
+        for measure_name in measures
+        if isinstance(measure_name, str) and measure_name not in study.dataset
+    ):
         status = study.dataset["status"]
         study.dataset[name] = (status.dims, np.full(status.shape, np.nan))
     return study
 
 
-def middle(design: Design, source: Source) -> Scene | None:
-    """The scene in the middle of the study, whose increments are the first guess of all others.
+def middle_scene(design: Design, source: Source) -> Scene | None:
+    """Return the scene in the middle of the study, the first guess of the increments of all others.
 
     It depends on the study alone, so that a study that goes on gives the same bits.
     """
@@ -165,7 +169,7 @@ def outcomes(
     *,
     grow: bool,
 ) -> Iterator[tuple[int, Outcome]]:
-    """Solve the points; pairs of a point and its outcome, as they come."""
+    """Solve the points; yield each point with its outcome."""
     scenes: dict[int, Scene] = {}
     home = os.getpid()
     for n in points:
@@ -180,7 +184,7 @@ def outcomes(
     if not scenes:
         return
     workers = Workers(executor, len(scenes))
-    like = middle(design, source)
+    like = middle_scene(design, source)
 
     def submit(to: Executor, n: int) -> Future[Outcome]:
         return to.submit(

@@ -1,4 +1,4 @@
-"""What is kept of the result of a point."""
+"""Numbers to keep of the result of a point."""
 
 from __future__ import annotations
 
@@ -27,8 +27,8 @@ from pyfret.quantities import (
     quantities,
 )
 from pyfret.run.summary import directions
-from pyfret.study.answer import NOTHING, Answer, estimate
-from pyfret.study.identity import identity
+from pyfret.study.answer import NO_ANSWER, Answer, estimate
+from pyfret.study.identity import code_checksum
 from pyfret.subsurface.tensor import LABELS
 
 if TYPE_CHECKING:
@@ -36,92 +36,106 @@ if TYPE_CHECKING:
     from pyfret.result import Result
     from pyfret.subsurface.tensor import Stress
 
-__all__ = ["MEASURES", "Arrest", "Cracking", "FirstToFail", "Measure", "WornDepth", "measured"]
+__all__ = [
+    "MEASURES",
+    "Arrest",
+    "Cracking",
+    "FirstToFail",
+    "Measure",
+    "WornDepth",
+    "evaluate_measures",
+]
 
 #: A name of :data:`MEASURES`, or a function of the result.
 Measure: TypeAlias = "str | Callable[[Result], Any]"
 
 
-def of_last_cycle(name: str) -> Callable[[Result], float | Answer]:
-    """A number of the last closed cycle, with its error where it has one; NaN without a cycle."""
+def cycle_measure(name: str) -> Callable[[Result], float | Answer]:
+    """Make a measure: a number of the last closed cycle with its error; NaN without a cycle."""
 
     def measure(result: Result) -> float | Answer:
         loops = result.loops(direction=next(iter(directions(result)), "x"))
-        last = {key: float(of[-1]) if of.size else math.nan for key, of in loops.items()}
+        last = {
+            key: float(column[-1]) if column.size else math.nan for key, column in loops.items()
+        }
         error = last.get(f"{name}_error")
-        return last[name] if error is None else Answer.within(last[name], error, least=0.0)
+        return last[name] if error is None else Answer.from_error(last[name], error, least=0.0)
 
     return measure
 
 
-def of_path(name: str, of: Callable[[xr.DataArray], Any]) -> Callable[[Result], float]:
-    """A number of a scalar over the path."""
-    return lambda result: float(of(result.dataset[name]))
+def path_measure(name: str, reduce: Callable[[xr.DataArray], Any]) -> Callable[[Result], float]:
+    """Make a measure: a scalar over the path, reduced to a number."""
+    return lambda result: float(reduce(result.dataset[name]))
 
 
-#: Difference of a largest stress and the highest sample of its section, over the stress, up to
+#: Relative difference of a largest stress and the highest sample of its section, up to
 #: which the samples show the increment at which it is largest.
-OFF_SECTION = 0.05
+SECTION_TOLERANCE = 0.05
 
 
-def on_section(below: Stress, name: str) -> float:
-    """The highest sample of a measure on a section, the rim of the contact among them."""
+def largest_sample(below: Stress, name: str) -> float:
+    """Return the highest sample of a measure on a section, rims of the contact included."""
     samples = [below.measure(name)]
     if not name.startswith("interface"):
         samples += [border.measure(name) for border in (below.rims(), below.stick_borders())]
-    return max(float(of.max()) for of in samples if of.size)
+    return max(float(sample.max()) for sample in samples if sample.size)
 
 
-def largest(name: str) -> Callable[[Result], Answer]:
-    """The largest value of a measure of stress in body 2, over the increments with fields."""
+def stress_measure(name: str) -> Callable[[Result], Answer]:
+    """Make a measure: the largest stress in body 2, over the increments with fields."""
 
     def measure(result: Result) -> Answer:
         layered = bool(result.scene.body2.coatings)
         if name.startswith("interface") and not layered:
-            return NOTHING
-        kept = (result.at(int(n)) for n in result.dataset.saved_increment.values)
-        below = [at.stress() for at in kept if bool(at.contact.any())]
-        if not below:
-            return NOTHING
-        tops = [on_section(of, name) for of in below]
+            return NO_ANSWER
+        states = (result.at(int(n)) for n in result.dataset.saved_increment.values)
+        sections = [state.stress() for state in states if bool(state.contact.any())]
+        if not sections:
+            return NO_ANSWER
+        tops = [largest_sample(section, name) for section in sections]
         highest = int(np.argmax(tops))
-        worst = below[highest].maximum(name)
-        if not abs(worst.value - tops[highest]) <= OFF_SECTION * abs(worst.value):
+        worst = sections[highest].maximum(name)
+        if not abs(worst.value - tops[highest]) <= SECTION_TOLERANCE * abs(worst.value):
             # The sections do not show at which increment the largest value is.
-            worst = max((of.maximum(name) for of in below), key=lambda of: of.value)
-        return Answer.within(worst.value, worst.error, least=-math.inf if name in SIGNED else 0.0)
+            worst = max(
+                (section.maximum(name) for section in sections), key=lambda found: found.value
+            )
+        return Answer.from_error(
+            worst.value, worst.error, least=-math.inf if name in SIGNED else 0.0
+        )
 
     return measure
 
 
 def half_length(result: Result) -> float:
-    """The contact radius at the end, of a line contact half its width."""
+    """Return the contact radius at the end, for a line contact half its width."""
     d = result.dataset
     return float(d["half_width" if "half_width" in d else "contact_radius"][-1])
 
 
 #: Ready measures: unit, meaning, function of the result.
 MEASURES: dict[str, tuple[str, str, Callable[[Result], float | Answer]]] = {
-    "loop_energy": ("J", "energy dissipated in the last cycle", of_last_cycle("dissipated")),
-    "energy_ratio": ("1", "energy ratio of the last cycle", of_last_cycle("energy_ratio")),
-    "sliding_ratio": ("1", "sliding ratio of the last cycle", of_last_cycle("sliding_ratio")),
-    "stiffness": ("N/m", "stiffness right after the reversals", of_last_cycle("stiffness")),
-    "T": ("N", "half the range of the force", of_last_cycle("T")),
-    "delta": ("m", "half the range of the shift", of_last_cycle("delta")),
+    "loop_energy": ("J", "energy dissipated in the last cycle", cycle_measure("dissipated")),
+    "energy_ratio": ("1", "energy ratio of the last cycle", cycle_measure("energy_ratio")),
+    "sliding_ratio": ("1", "sliding ratio of the last cycle", cycle_measure("sliding_ratio")),
+    "stiffness": ("N/m", "stiffness right after the reversals", cycle_measure("stiffness")),
+    "T": ("N", "half the range of the force", cycle_measure("T")),
+    "delta": ("m", "half the range of the shift", cycle_measure("delta")),
     "regime": (
         "1",
         "last cycle: 0 no contact, 1 full stick, 2 partial slip, 3 gross slip",
-        of_last_cycle("status"),
+        cycle_measure("status"),
     ),
     "stick_ratio": (
         "1",
         "stick ratio at the end of the path",
-        of_path("stick_ratio", lambda v: v[-1]),
+        path_measure("stick_ratio", lambda v: v[-1]),
     ),
     "least_stick_ratio": (
         "1",
         "smallest stick ratio of the path",
-        of_path("stick_ratio", lambda v: v.min()),
+        path_measure("stick_ratio", lambda v: v.min()),
     ),
     "contact_radius": (
         "m",
@@ -136,12 +150,16 @@ MEASURES: dict[str, tuple[str, str, Callable[[Result], float | Answer]]] = {
     "dissipated": (
         "J",
         "energy dissipated over the path",
-        of_path("dissipated", lambda v: v.sum()),
+        path_measure("dissipated", lambda v: v.sum()),
     ),
-    "p_max": ("Pa", "largest pressure of the path", of_path("p_max", lambda v: v.max())),
-    "q_max": ("Pa", "largest shear traction of the path", of_path("q_max", lambda v: v.max())),
+    "p_max": ("Pa", "largest pressure of the path", path_measure("p_max", lambda v: v.max())),
+    "q_max": ("Pa", "largest shear traction of the path", path_measure("q_max", lambda v: v.max())),
     **{
-        name: ("Pa", f"largest {LABELS[name][1].removeprefix('largest ')} in body 2", largest(name))
+        name: (
+            "Pa",
+            f"largest {LABELS[name][1].removeprefix('largest ')} in body 2",
+            stress_measure(name),
+        )
         for name in ("von_mises", "tresca", "s_1", "interface_shear", "interface_peel")
     },
 }
@@ -153,19 +171,19 @@ SIGNED = ("interface_peel",)
 CODES = ("regime", "first")
 
 
-#: What ranges of a study leave out, since points of one material are compared.
+#: Scatter that ranges of a study exclude, since points of one material are compared.
 SCATTER_OF_K = "the scatter of the wear coefficient, which WearResult.range_of_cycles() has"
 SCATTER_OF_MATERIAL = "the scatter of the material, which Life.range has"
 
 
 @part()
 class WornDepth(wear.Wear):
-    """A measure: what many cycles wear off, by :func:`pyfret.wear.solve` on the scene of the point.
+    """A measure: wear by many cycles, from :func:`pyfret.wear.solve` on the scene of the point.
 
     Gives ``worn_volume1``, ``worn_volume2`` [m^3], ``worn_depth1``, ``worn_depth2`` [m], and, where
     a body is coated, ``coating_life1``, ``coating_life2`` [cycles], NaN for one that outlives the
     run. Each has its range, such as ``worn_depth1_low`` and ``worn_depth1_high``, from
-    ``depth_error``, the error of the depths over the depths. The lives are those of
+    ``depth_error``, the error of the depths over the depths. The lives come from
     :meth:`pyfret.wear.WearResult.range_of_cycles` with ``scatter=1``: the scatter of the wear
     coefficient is no part of a comparison. ``range_of_cycles()`` adds a factor of 3 for it.
 
@@ -186,18 +204,20 @@ class WornDepth(wear.Wear):
         worn = run.dataset
         numbers: dict[str, xr.DataArray] = {}
         part = float(worn["depth_error"][-1])
-        for of, unit in (("volume", "m^3"), ("depth", "m")):
+        for quantity, unit in (("volume", "m^3"), ("depth", "m")):
             for body in (1, 2):
-                value = float(worn[f"{of}{body}"][-1])
-                answer = Answer.within(value, part * value)
-                numbers |= answer.arrays(f"worn_{of}{body}", unit, f"worn {of} of body {body}")
+                value = float(worn[f"{quantity}{body}"][-1])
+                answer = Answer.from_error(value, part * value)
+                numbers |= answer.arrays(
+                    f"worn_{quantity}{body}", unit, f"worn {quantity} of body {body}"
+                )
         numbers["depth_error"] = worn["depth_error"][-1]
         for body in (1, 2):
             if (result.scene.body1 if body == 1 else result.scene.body2).coatings:
                 # Candidates are compared: the scatter of a coefficient is left to the reader.
                 life = run.range_of_cycles(scatter=1.0, part_of_coating=self.part, body_number=body)
                 ends = (life.best, life.low, life.high)
-                answer = Answer(*ends) if math.isfinite(life.best) else NOTHING
+                answer = Answer(*ends) if math.isfinite(life.best) else NO_ANSWER
                 meaning = f"life of the coating of body {body}"
                 numbers |= answer.arrays(
                     f"coating_life{body}", "cycles", meaning, without=SCATTER_OF_K
@@ -212,14 +232,15 @@ class Cracking:
 
     Gives ``safety_factor``, or ``life`` [cycles] for criteria with a strain-life curve, and
     ``crack_depth`` [m], the depth of the worst point, by :meth:`pyfret.Result.life`. The margin is
-    that of the mean stress over the critical distance of the material, as of
-    :func:`pyfret.study.compare`, and at the worst point of a material without one. The error of the
+    evaluated on the mean stress over the critical distance of the material, as of
+    :func:`pyfret.study.compare`, or at the worst point of a material without one. The error of the
     stress gives its range, ``safety_factor_low`` and ``safety_factor_high``.
 
     Parameters
     ----------
     materials : Material or sequence of Material or None
-        That of the substrate, or one for each layer from the surface down, the substrate's last.
+        Material of the substrate, or one for each layer from the surface down, the substrate's
+        last.
     criterion : str
         One of :data:`pyfret.fatigue.CRITERIA`.
     body_number : 1 or 2
@@ -234,8 +255,8 @@ class Cracking:
         """Judge the body in the plane of the shear."""
         life = result.life(self.materials, self.criterion, body_number=self.body_number)
         least, margin = life.least_margin(), life.margin
-        of = "at the worst point" if least.L is None else f"of the mean over {um(least.L)}"
-        unit, meaning = margin.attrs["units"], f"{margin.attrs['long_name']} {of}"
+        place = "at the worst point" if least.L is None else f"of the mean over {um(least.L)}"
+        unit, meaning = margin.attrs["units"], f"{margin.attrs['long_name']} {place}"
         answer = Answer(least.best, least.low, least.high)
         depth = estimate(life.worst.z, "m", "depth of the worst point")
         numbers = answer.arrays(str(margin.name), unit, meaning, without=SCATTER_OF_MATERIAL)
@@ -246,7 +267,7 @@ class Cracking:
 class Arrest:
     """A measure: whether a crack below the last closed cycle stops.
 
-    ``arrest_margin`` is the smallest range of K over its threshold on the way, below 1 where a
+    ``arrest_margin`` is the smallest range of K over its threshold along its path, below 1 where a
     crack stops. ``arrest_length`` [m] is the first length where it does not grow at all, NaN where
     it grows through all lengths. ``start_margin`` is the range of K over its threshold at the first
     length, below 1 where the crack never starts.
@@ -254,7 +275,7 @@ class Arrest:
     Parameters
     ----------
     threshold : pyfret.fracture.Threshold
-        Of the material.
+        Threshold of the material.
     x, lengths, angle, azimuth, aspect, friction, body_number, residual
         The crack, as in :func:`pyfret.fracture.crack`.
     """
@@ -273,16 +294,16 @@ class Arrest:
         """Follow the crack."""
         options = {f.name: getattr(self, f.name) for f in fields(self) if f.name != "threshold"}
         cracks = fracture.crack(result, **options)
-        found = cracks.arrest(self.threshold)
-        length = math.nan if found.verdict == "grows" else found.tip
-        ends = (math.nan, math.nan) if found.lengths is None else found.lengths
-        off = math.nan if found.margin_error is None else found.margin_error
-        off_start = math.nan if found.at_start_error is None else found.at_start_error
+        arrest = cracks.arrest(self.threshold)
+        length = math.nan if arrest.verdict == "grows" else arrest.tip
+        ends = (math.nan, math.nan) if arrest.lengths is None else arrest.lengths
+        margin_error = math.nan if arrest.margin_error is None else arrest.margin_error
+        start_error = math.nan if arrest.at_start_error is None else arrest.at_start_error
         mark = self.threshold.mark
         start = f"range of K over its threshold{mark} at the first length"
         return {
-            **Answer.within(found.at_start, off_start).arrays("start_margin", "1", start),
-            **Answer.within(found.margin, off).arrays(
+            **Answer.from_error(arrest.at_start, start_error).arrays("start_margin", "1", start),
+            **Answer.from_error(arrest.margin, margin_error).arrays(
                 "arrest_margin", "1", f"least range of K over its threshold{mark}"
             ),
             **Answer(length, *ends).arrays(
@@ -315,77 +336,83 @@ class FirstToFail:
     body_number: int = 2
 
     def __call__(self, result: Result) -> dict[str, xr.DataArray]:
-        """Compare the three."""
+        """Compare film, interface and substrate."""
         options = {f.name: getattr(self, f.name) for f in fields(self)}
-        found = fracture.first_to_fail(result, **options)
+        failure = fracture.first_to_fail(result, **options)
         numbers: dict[str, xr.DataArray] = {}
         for name in fracture.PARTS:
-            value, meaning = getattr(found, name), f"{name}: load over limit"
-            error = found.errors[name]
+            value, meaning = getattr(failure, name), f"{name}: load over limit"
+            error = failure.errors[name]
             if error is None:
                 numbers[name] = estimate(value, "1", meaning)
             else:
-                numbers |= Answer.within(value, error).arrays(name, "1", meaning)
+                numbers |= Answer.from_error(value, error).arrays(name, "1", meaning)
         order = f"0 none, {', '.join(f'{n + 1} {name}' for n, name in enumerate(fracture.PARTS))}"
-        first = 0 if found.first is None else 1 + fracture.PARTS.index(found.first)
+        first = 0 if failure.first is None else 1 + fracture.PARTS.index(failure.first)
         attrs = {"units": "1", "long_name": f"what fails first: {order}"}
         return numbers | {"first": xr.DataArray(first, attrs=attrs)}
 
 
-def code_of(measures: Sequence[Measure]) -> dict[str, str]:
-    """Checksums of the measures that are functions, by their names."""
+def code_checksums(measures: Sequence[Measure]) -> dict[str, str]:
+    """Return checksums of the measures that are functions, by their names."""
     return {
-        f"{name_of(one)}{suffix}": identity(one)
-        for one, suffix in zip(measures, suffixes(measures), strict=True)
-        if not isinstance(one, str)
+        f"{function_name(measure)}{suffix}": code_checksum(measure)
+        for measure, suffix in zip(measures, suffixes(measures), strict=True)
+        if not isinstance(measure, str)
     }
 
 
 def suffixes(measures: Sequence[Measure]) -> list[str]:
-    """What tells measures of one class apart: nothing for the first, ``_2`` for the second."""
-    kinds = [type(one) if is_own(one) else None for one in measures]
+    """Number the measures of one class: nothing for the first, ``_2`` for the second."""
+    kinds = [type(measure) if is_of_pyfret(measure) else None for measure in measures]
     counts = [kinds[: n + 1].count(kind) if kind else 1 for n, kind in enumerate(kinds)]
     return [f"_{count}" if count > 1 else "" for count in counts]
 
 
-def is_own(measure: Measure) -> bool:
-    """Whether a measure is one of this package, which names what it gives itself."""
+def is_of_pyfret(measure: Measure) -> bool:
+    """Check that a measure is a class of this package, which names its numbers itself."""
     return isinstance(measure, (WornDepth, Cracking, Arrest, FirstToFail))
 
 
-def differing(measure: Any, measures: Sequence[Measure]) -> str:
-    """In what a measure of this package differs from the others of its class, in words."""
-    others = [one for one in measures if type(one) is type(measure) and one is not measure]
+def describe_differences(measure: Any, measures: Sequence[Measure]) -> str:
+    """Describe the fields in which a measure differs from the others of its class."""
+    siblings = [
+        other_measure
+        for other_measure in measures
+        if type(other_measure) is type(measure) and other_measure is not measure
+    ]
     names = [
         f.name
         for f in fields(measure)
-        if any(getattr(one, f.name) != getattr(measure, f.name) for one in others)
+        if any(getattr(sibling, f.name) != getattr(measure, f.name) for sibling in siblings)
     ]
     return ", ".join(f"{name} = {getattr(measure, name)!r}" for name in names)
 
 
-def names_of(measures: Sequence[Measure]) -> list[str]:
-    """Names of measures, to tell studies apart."""
-    return [m if isinstance(m, str) else name_of(m) for m in measures]
+def measure_names(measures: Sequence[Measure]) -> list[str]:
+    """Return the names of measures, which distinguish studies."""
+    return [m if isinstance(m, str) else function_name(m) for m in measures]
 
 
-def name_of(function: Any) -> str:
-    """Name of a function, of that which a partial one was made of, or of a class."""
+def function_name(function: Any) -> str:
+    """Return the name of a function, of the function of a partial, or of a class."""
     function = getattr(function, "func", function)
     return str(getattr(function, "__name__", type(function).__name__))
 
 
-def checked(measure: Measure | Sequence[Measure]) -> list[Measure]:
-    """The measures as a list; a ValueError with what is allowed if there is no such measure."""
+def check_measures(measure: Measure | Sequence[Measure]) -> list[Measure]:
+    """Return the measures as a list; a ValueError for an unknown measure lists the names."""
     measures = [measure] if isinstance(measure, str) or callable(measure) else list(measure)
-    for one in measures:
-        if isinstance(one, str) and one not in MEASURES:
-            raise ValueError(f"measure {one!r}: must be a function or one of {', '.join(MEASURES)}")
-        if not (isinstance(one, str) or callable(one) or is_own(one)):
-            raise TypeError(f"measure = {one!r:.60}: must be a function or the name of a measure")
-    names = names_of(measures)
+    for entry in measures:
+        if isinstance(entry, str) and entry not in MEASURES:
+            raise ValueError(
+                f"measure {entry!r}: must be a function or one of {', '.join(MEASURES)}"
+            )
+        if not (isinstance(entry, str) or callable(entry) or is_of_pyfret(entry)):
+            raise TypeError(f"measure = {entry!r:.60}: must be a function or the name of a measure")
+    names = measure_names(measures)
     for n, name in enumerate(names):
-        if name in names[:n] and not is_own(measures[n]):
+        if name in names[:n] and not is_of_pyfret(measures[n]):
             raise ValueError(
                 f"two measures have the name {name}: give each a name of its own, "
                 "def of_stress(result): ..."
@@ -393,45 +420,49 @@ def checked(measure: Measure | Sequence[Measure]) -> list[Measure]:
     return measures
 
 
-def measured(result: Result, measures: Sequence[Measure]) -> dict[str, xr.Variable]:
-    """All measures of a result by name; a ValueError if two of them give one name.
+def evaluate_measures(result: Result, measures: Sequence[Measure]) -> dict[str, xr.Variable]:
+    """Evaluate all measures of a result by name; a ValueError if two of them give one name.
 
     Second and further measures of one class of this package have their number behind the name.
     """
-    found: dict[str, xr.Variable] = {}
-    for one, suffix in zip(measures, suffixes(measures), strict=True):
-        if isinstance(one, str):
-            units, meaning, of = MEASURES[one]
-            units, found_here = result.scene.grid.unit_of(units), of(result)
-            if isinstance(found_here, Answer):
-                arrays = found_here.arrays(one, units, meaning)
+    values: dict[str, xr.Variable] = {}
+    for measure, suffix in zip(measures, suffixes(measures), strict=True):
+        if isinstance(measure, str):
+            units, meaning, function = MEASURES[measure]
+            units, answer = result.scene.grid.unit_of(units), function(result)
+            if isinstance(answer, Answer):
+                arrays = answer.arrays(measure, units, meaning)
             else:
-                arrays = {one: estimate(found_here, units, meaning)}
-                if one in CODES:
-                    del arrays[one].attrs["accuracy"]
-            given = {name: array.variable for name, array in arrays.items()}
+                arrays = {measure: estimate(answer, units, meaning)}
+                if measure in CODES:
+                    del arrays[measure].attrs["accuracy"]
+            arrays_by_name = {name: array.variable for name, array in arrays.items()}
         else:
-            given = variables(one(result), name_of(one))
-            if is_own(one) and (words := differing(one, measures)):
-                for of_one in given.values():
-                    of_one.attrs["long_name"] = f"{of_one.attrs.get('long_name', '')} ({words})"
-        for name, value in given.items():
-            base, side = split(name, given)
-            if f"{base}{suffix}{side}" in found:
+            arrays_by_name = to_variables(measure(result), function_name(measure))
+            if is_of_pyfret(measure) and (words := describe_differences(measure, measures)):
+                for variable in arrays_by_name.values():
+                    variable.attrs["long_name"] = f"{variable.attrs.get('long_name', '')} ({words})"
+        for name, value in arrays_by_name.items():
+            base, side = split(name, arrays_by_name)
+            if f"{base}{suffix}{side}" in values:
                 raise ValueError(f"two measures give {name}: give each a name of its own")
-            found[f"{base}{suffix}{side}"] = value
-    return found
+            values[f"{base}{suffix}{side}"] = value
+    return values
 
 
-def variables(value: Any, name: str) -> dict[str, xr.Variable]:
-    """What a user's function gave, as variables: a number, an array of xarray, or several."""
+def to_variables(value: Any, name: str) -> dict[str, xr.Variable]:
+    """Convert the value of a user's function to variables: a number, an array, or several."""
     if isinstance(value, xr.Dataset | Mapping):
-        return {str(k): v for key, of in value.items() for k, v in variables(of, str(key)).items()}
+        return {
+            str(k): v
+            for key, item in value.items()
+            for k, v in to_variables(item, str(key)).items()
+        }
     if isinstance(value, xr.DataArray):
         if value.dtype.kind not in "biufUS":
             raise TypeError(f"measure {name}: gave values of the type {value.dtype}, no numbers")
         return {name: value.variable}
-    # Nothing and a masked value are missing ones.
+    # None and a masked value are missing values.
     masked = np.ma.isMaskedArray(value) and np.ma.is_masked(value)
     number = np.ma.filled(np.ma.asarray(value, dtype=float), np.nan) if masked else value
     number = np.asarray(number, dtype=float)

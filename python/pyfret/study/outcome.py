@@ -1,4 +1,4 @@
-"""What a study came to."""
+"""The result of a study."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from pyfret.quantities import quantities
 from pyfret.saveable import Saveable
 from pyfret.scene.tables import table
 from pyfret.study.point import DONE, FAILED, OPEN
-from pyfret.study.store import OWN, read
+from pyfret.study.store import POINT_VARIABLES, read_study
 
 if TYPE_CHECKING:
     import os
@@ -56,27 +56,27 @@ class Study(Saveable, Labelled, Figured):
     @property
     def measures(self) -> list[str]:
         """Names of the measures, without the ends of their ranges."""
-        names = [str(name) for name in self.dataset.data_vars if name not in OWN]
+        names = [str(name) for name in self.dataset.data_vars if name not in POINT_VARIABLES]
         return [name for name in names if not is_bound(name, names)]
 
     def count(self) -> dict[str, int]:
-        """How many points are open, done and failed."""
+        """Count the open, done and failed points."""
         status = self.dataset["status"].values
         codes = {"open": OPEN, "done": DONE, "failed": FAILED}
         return {name: int(np.count_nonzero(status == code)) for name, code in codes.items()}
 
     def failed(self) -> list[tuple[dict[str, Any], str]]:
-        """Points that failed: their parameters, and why."""
+        """List the failed points: their parameters, and the reason."""
         d = self.dataset
-        found = []
+        points = []
         for place in np.argwhere(d["status"].values == FAILED):
             point = d.isel(dict(zip(d["status"].dims, place.tolist(), strict=True)))
             values = {name: point[name].item() for name in self.parameters}
-            found.append((values, str(point["reason"].item())))
-        return found
+            points.append((values, str(point["reason"].item())))
+        return points
 
     def to_dataframe(self) -> pd.DataFrame:
-        """Give a row for every point: its parameters, its measures and what became of it.
+        """Give a row for every point: its parameters, its measures and its outcome.
 
         Measures that are fields are left out, with a warning that names them; the ``dataset`` has
         them. ``study.to_dataframe().to_csv("points.csv")`` writes a table, ``to_excel`` and
@@ -84,26 +84,29 @@ class Study(Saveable, Labelled, Figured):
         """
         d = self.dataset
         dims = set(d["status"].dims)
-        beside = {
-            str(name): [str(dim) for dim in of.dims if dim not in dims] for name, of in d.items()
+        field_dims = {
+            str(name): [str(dim) for dim in variable.dims if dim not in dims]
+            for name, variable in d.items()
         }
-        if fields := [f"{name} (over {', '.join(of)})" for name, of in beside.items() if of]:
+        if fields := [
+            f"{name} (over {', '.join(dims)})" for name, dims in field_dims.items() if dims
+        ]:
             warnings.warn(
                 f"left out, since a row has no room for a field: {'; '.join(fields)}. "
                 "study.dataset has them",
                 UserWarning,
                 stacklevel=2,
             )
-        scalars = d[[name for name, of in beside.items() if not of]]
+        scalars = d[[name for name, dims in field_dims.items() if not dims]]
         return scalars.to_dataframe().reset_index()
 
     def sensitivity(self, of: str | None = None) -> xr.DataArray:
-        """Give the part of a measure's variance over the study that each parameter makes alone.
+        """Return the share of each parameter alone in the variance of a measure.
 
-        The variance of the mean over all other parameters, over that of all points, which count
-        alike: the first-order index of I. M. Sobol' (Math. Model. Comput. Exp. 1 (1993) 407-414) of
-        the values studied. What the parts leave to 1 is interaction. Points without a value are
-        refused, since they would weigh on one side.
+        The variance of the mean over all other parameters, over the variance of all points, which
+        count alike: the first-order index of I. M. Sobol' (Math. Model. Comput. Exp. 1 (1993)
+        407-414) of the values studied. The remainder to 1 is interaction. Points without a value
+        are refused, since they would weigh on one side.
 
         Parameters
         ----------
@@ -131,17 +134,18 @@ class Study(Saveable, Labelled, Figured):
             )
         if (lost := int(values.isnull().sum())) > 0:
             failed = int((self.dataset["status"] != DONE).sum())
-            where = "study.failed() tells which"
+            where = "study.failed() lists them"
             if failed < lost:
                 where = (
-                    f"{failed} have no answer, the others no such number, as that of a coating "
-                    "which outlives its run; study.dataset tells which"
+                    f"{failed} have no answer, the others no such number, like the life of a "
+                    "coating which outlives its run; study.dataset lists them"
                 )
             raise ValueError(f"{lost} of {values.size} points have no {chosen}: {where}")
         names = [str(name) for name in values.dims]
         whole = float(values.var())
         parts = [
-            float(values.mean([other for other in names if other != name]).var()) / whole
+            float(values.mean([other_name for other_name in names if other_name != name]).var())
+            / whole
             if whole > 0.0
             else 0.0
             for name in names
@@ -155,7 +159,7 @@ class Study(Saveable, Labelled, Figured):
         )
 
     def summary(self) -> str:
-        """Say how many points are done, what parameters and measures span, and what failed.
+        """Return the counts of points, the ranges of parameters and measures, and the failures.
 
         Measures have their errors, or two digits and the word "estimate".
         """
@@ -170,15 +174,15 @@ class Study(Saveable, Labelled, Figured):
             "  ".join(c.ljust(w) for c, w in zip(r, widths, strict=True)).rstrip() for r in rows
         ]
         for name in self.measures:
-            if without := self.dataset[name].attrs.get("without"):
-                lines.append(f"{name}: its range is without {without}")
+            if excluded := self.dataset[name].attrs.get("without"):
+                lines.append(f"{name}: its range is without {excluded}")
         for values, why in self.failed():
-            at = ", ".join(f"{name} = {told(value)}" for name, value in values.items())
-            lines.append(f"failed at {at}: {' '.join(why.split())}")
+            position = ", ".join(f"{name} = {told(value)}" for name, value in values.items())
+            lines.append(f"failed at {position}: {' '.join(why.split())}")
         return shown("\n".join(lines))
 
     def _spans(self) -> list[tuple[str, str, str, str]]:
-        """Kind, name, range and unit of every parameter and measure."""
+        """Return kind, name, range and unit of every parameter and measure."""
         d = self.dataset
         rows = []
         for kind, names in (("parameter", self.parameters), ("measure", self.measures)):
@@ -189,9 +193,9 @@ class Study(Saveable, Labelled, Figured):
                 else:
                     span = f"{np.unique(values).size} values"
                 unit = unit_of(name, d[name])
-                # Measures have their unit; keys are those of any contact.
-                along = kind == "parameter" and of_line_contacts(d)
-                rows.append((kind, name, span, PER_METRE.get(unit, unit) if along else unit))
+                # Measures have their unit; keys have the units of a three-dimensional contact.
+                per_metre = kind == "parameter" and of_line_contacts(d)
+                rows.append((kind, name, span, PER_METRE.get(unit, unit) if per_metre else unit))
         return rows
 
     def map(self, of: str | None = None, *, ax: Axes | None = None, **options: Any) -> Drawn:
@@ -201,19 +205,19 @@ class Study(Saveable, Labelled, Figured):
         return study_map(self, of, ax=ax, **options)
 
     def _repr_html_(self) -> str:
-        """A table for notebooks."""
+        """Return a table for notebooks."""
         return study_html(self)
 
     def __repr__(self) -> str:
         """Give the parameters, the measures and how many points are done."""
         counts = ", ".join(f"{n} {name}" for name, n in self.count().items() if n)
         sizes = " x ".join(str(n) for n in self.dataset["status"].shape)
-        over, of = ", ".join(self.parameters), ", ".join(self.measures)
-        return shown(f"Study({sizes} points over {over}: {counts}; {of})")
+        parameter_names, measure_names = ", ".join(self.parameters), ", ".join(self.measures)
+        return shown(f"Study({sizes} points over {parameter_names}: {counts}; {measure_names})")
 
 
 def study_html(study: Study) -> str:
-    """A study as a table: range of every parameter and measure."""
+    """Write a study as a table: range of every parameter and measure."""
     rows = [[kind, html(name), span, html(unit)] for kind, name, span, unit in study._spans()]
     counts = ", ".join(f"{n} {name}" for name, n in study.count().items() if n)
     return f"<p><b>Study</b>: {counts}</p>{table(['', '', 'from, to', 'unit'], rows)}"
@@ -228,4 +232,4 @@ def open_study(store: str | os.PathLike[str]) -> Study:
     StoreError
         There is no study there.
     """
-    return Study(read(store))
+    return Study(read_study(store))

@@ -1,4 +1,4 @@
-"""One point of a study, solved in whatever process it lands in."""
+"""One point of a study, solved in any process."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from pyfret._core import Grid, OffGridError, Scene
 from pyfret._util.scene_warnings import SceneWarning
 from pyfret.solution import solve
-from pyfret.study.measures import measured
+from pyfret.study.measures import evaluate_measures
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -25,13 +25,13 @@ __all__ = ["DONE", "FAILED", "OPEN", "Outcome", "solve_point"]
 #: Codes of the status of a point, and their meanings.
 OPEN, DONE, FAILED = 0, 1, 2
 MEANINGS = "open done failed"
-#: What a grid that is too small grows by, its cells as they are, and how often at most: 7.5 times.
+#: Growth factor of a grid that is too small, and the largest number of growths: 7.5 times in all.
 GROWTH, GROWTHS = 1.4, 6
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of a point."""
+    """The outcome of a point."""
 
     status: int
     reason: str = ""
@@ -44,12 +44,12 @@ class Outcome:
 
 
 def failure(error: BaseException) -> Outcome:
-    """A point that has no answer, and why."""
+    """Make the outcome of a point without an answer, with the reason."""
     return Outcome(FAILED, f"{type(error).__name__}: {' '.join(str(error).split())}")
 
 
-def grown(grid: Grid) -> Grid:
-    """The grid with more cells of the same size, evenly many where they were."""
+def enlarge_grid(grid: Grid) -> Grid:
+    """Return the grid with more cells of the same size; even numbers stay even."""
 
     def more(n: int) -> int:
         return n + 2 * max(round(n * (GROWTH - 1) / 2), 1)
@@ -73,7 +73,7 @@ def solve_point(
     scene : Scene
         The scene with its load path.
     measures : sequence of str or callable
-        What is kept.
+        Numbers to keep.
     like : Scene, optional
         The scene of the study whose increments are the first guess.
     grow : bool
@@ -90,17 +90,17 @@ def solve_point(
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", SceneWarning)
             result: Any = None
-            for left in reversed(range(GROWTHS + 1)):
+            for growths_left in reversed(range(GROWTHS + 1)):
                 try:
                     result = solve(scene, like=like, progress=False)
                     break
                 except OffGridError:
-                    if not (grow and left):
+                    if not (grow and growths_left):
                         raise
-                    scene = scene.replace(grid=grown(scene.grid))
-            found = measured(result, measures)
+                    scene = scene.replace(grid=enlarge_grid(scene.grid))
+            values = evaluate_measures(result, measures)
     except (Exception, SystemExit) as error:
         return failure(error)
     seconds = time.process_time() - started
     doubts = " ".join(result.doubts)
-    return Outcome(DONE, doubts, found, seconds, scene.grid.nx, scene.grid.ny)
+    return Outcome(DONE, doubts, values, seconds, scene.grid.nx, scene.grid.ny)

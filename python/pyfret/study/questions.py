@@ -1,4 +1,4 @@
-"""What is asked of every candidate: a row for every question, and one for every number."""
+"""Questions about every candidate, and the numbers that answer them."""
 
 from __future__ import annotations
 
@@ -29,22 +29,22 @@ __all__ = ["NUMBERS", "QUESTIONS", "Answers", "Number", "Question"]
 class Number:
     """A number of the comparison."""
 
-    #: What it is.
+    #: Name in the table.
     title: str
-    #: Unit in SI; of energies none, since those of line contacts are per metre.
+    #: Unit in SI; empty for energies, which are per metre in line contacts.
     si: str
     #: Unit of the tables, and how much it is in SI.
     unit: str
     scale: float
-    #: Which of two is better: the smaller or the larger one.
+    #: The better one of two: the smaller or the larger one.
     better: Literal["smaller", "larger"]
-    #: Whether its error is a factor, as that of a life.
+    #: Whether its error is a factor, for example for a life.
     logarithmic: bool = field(default=False, kw_only=True)
-    #: What an infinite value means.
+    #: Text for an infinite value.
     endless: str = field(default="no limit", kw_only=True)
 
 
-#: What lives have in common.
+#: Common settings of lives.
 LIFE: dict[str, Any] = {"logarithmic": True, "endless": "endless"}
 #: All numbers, in the order of the table.
 NUMBERS: dict[str, Number] = {
@@ -71,48 +71,48 @@ NUMBERS: dict[str, Number] = {
     "temperature": Number("largest rise of temperature", "K", "K", 1.0, "smaller"),
 }
 
-#: What answers a question: numbers by name, and places that belong to them.
-Found: TypeAlias = "tuple[dict[str, Answer], dict[str, float]]"
+#: The answer to a question: numbers by name, and places that belong to them.
+Answered: TypeAlias = "tuple[dict[str, Answer], dict[str, float]]"
 
 
 def no_notes(candidate: Candidate, duty: Duty) -> list[str]:
-    """Nothing is doubted."""
+    """Return no notes."""
     return []
 
 
 @dataclass(frozen=True)
 class Question:
-    """A question: what it needs, and what answers it."""
+    """A question: its requirements, and the function that answers it."""
 
-    #: What is missing, in words; nothing if it can be answered.
+    #: Returns the missing data in words; nothing if the question can be answered.
     missing: Callable[[Candidate, Duty, Scene], str]
     #: The answer.
-    ask: Callable[[Result, Candidate, Duty], Found]
+    ask: Callable[[Result, Candidate, Duty], Answered]
     #: Whether it needs the fields of the whole cycle.
     fields: bool = True
-    #: What is to be doubted of the answer, as known before the contact is solved.
+    #: Returns doubts of the answer, before the contact is solved.
     notes: Callable[[Candidate, Duty], list[str]] = field(default=no_notes, kw_only=True)
 
 
-def ready(candidate: Candidate, duty: Duty, scene: Scene) -> str:
-    """Nothing is needed."""
+def nothing_missing(candidate: Candidate, duty: Duty, scene: Scene) -> str:
+    """Return nothing, since no data are needed."""
     return ""
 
 
-def ends(result: Result) -> list[int]:
-    """Kept increments at the ends of the branches of the last closed cycle, or of the path."""
+def branch_ends(result: Result) -> list[int]:
+    """Return kept increments at branch ends of the last closed cycle, or of the path."""
     branch = result.dataset.branch_of_increment
     last = np.flatnonzero(np.diff(branch.values, append=branch.values[-1] + 1))
-    found = set((last + 1).tolist()) & set(result.dataset.saved_increment.values.tolist())
+    kept_ends = set((last + 1).tolist()) & set(result.dataset.saved_increment.values.tolist())
     try:
         cycle = set(cycle_increments(result, -1).tolist())
     except ValueError:
-        cycle = found
-    return sorted(found & cycle) or sorted(found)
+        cycle = kept_ends
+    return sorted(kept_ends & cycle) or sorted(kept_ends)
 
 
-def tension(result: Result, candidate: Candidate, duty: Duty) -> Found:
-    """The largest principal stress of the body at the ends of the branches of the cycle."""
+def tension(result: Result, candidate: Candidate, duty: Duty) -> Answered:
+    """Find the largest principal stress of the body at the ends of the branches of the cycle."""
     last = candidate.layers - 1
     numbers: dict[str, Answer] = {}
     places: dict[str, float] = {}
@@ -120,14 +120,14 @@ def tension(result: Result, candidate: Candidate, duty: Duty) -> Found:
         if last == 0 and layer is not None:
             numbers[name] = numbers["tension"]
             continue
-        found = [
+        extrema = [
             result.at(n)
             .stress(body_number=duty.body_number, residual=candidate.residual)
             .maximum("s_1", layer=layer)
-            for n in ends(result)
+            for n in branch_ends(result)
         ]
-        worst = max(found, key=lambda of: of.value)
-        numbers[name] = Answer.within(worst.value, worst.error)
+        worst = max(extrema, key=lambda extremum: extremum.value)
+        numbers[name] = Answer.from_error(worst.value, worst.error)
         if layer is None:
             places = {
                 "tension_x": worst.x,
@@ -137,24 +137,24 @@ def tension(result: Result, candidate: Candidate, duty: Duty) -> Found:
     return numbers, places
 
 
-def first_yield(result: Result, candidate: Candidate, duty: Duty) -> Found:
-    """The least load factor of first yield over the cycle, by von Mises' condition."""
+def first_yield(result: Result, candidate: Candidate, duty: Duty) -> Answered:
+    """Find the least load factor of first yield over the cycle, by von Mises' condition."""
     factors = result.load_factors(
         candidate.yields, body_number=duty.body_number, residual=candidate.residual
     )
     least = factors.least("von_mises")
     places = {"first_yield_layer": float(least.layer), "first_yield_z": least.z}
-    return {"first_yield": Answer.within(least.factor, least.error)}, places
+    return {"first_yield": Answer.from_error(least.value, least.error)}, places
 
 
-def no_yield_stress(candidate: Candidate, duty: Duty, scene: Scene) -> str:
-    """A yield stress is needed."""
-    return "" if any(of is not None for of in candidate.yields) else "s_y of a layer"
+def missing_yield_stress(candidate: Candidate, duty: Duty, scene: Scene) -> str:
+    """Return the missing yield stress, in words."""
+    return "" if any(s_y is not None for s_y in candidate.yields) else "s_y of a layer"
 
 
-def adhesion(result: Result, candidate: Candidate, duty: Duty) -> Found:
-    """Film, interface and substrate: load over what each can bear."""
-    found = fracture.first_to_fail(
+def adhesion(result: Result, candidate: Candidate, duty: Duty) -> Answered:
+    """Compute load over limit of film, interface and substrate."""
+    failure = fracture.first_to_fail(
         result,
         toughness=candidate.toughness,
         peel_strength=candidate.peel_strength,
@@ -164,46 +164,48 @@ def adhesion(result: Result, candidate: Candidate, duty: Duty) -> Found:
         body_number=duty.body_number,
     )
     names = dict(zip(fracture.PARTS, ("film", "interface", "crack"), strict=True))
-    # The change on coarser cells is added to all.
+    # The change on coarser cells is added to all of them.
     return {
-        names[part]: Answer.within(getattr(found, part), found.errors[part] or 0.0, least=0.0)
+        names[part]: Answer.from_error(
+            getattr(failure, part), failure.errors[part] or 0.0, least=0.0
+        )
         for part in fracture.PARTS
     }, {}
 
 
-def no_limits(candidate: Candidate, duty: Duty, scene: Scene) -> str:
-    """A coating and one of its limits are needed."""
+def missing_limits(candidate: Candidate, duty: Duty, scene: Scene) -> str:
+    """Return a missing coating or its missing limits, in words."""
     if candidate.layers == 1:
         return "a coating"
-    given = (candidate.toughness, candidate.threshold, candidate.peel_strength)
-    if all(of is None for of in given):
+    limits = (candidate.toughness, candidate.threshold, candidate.peel_strength)
+    if all(limit is None for limit in limits):
         return "toughness, peel_strength and shear_strength, or threshold"
     return ""
 
 
-def life(result: Result, candidate: Candidate, duty: Duty) -> Found:
-    """Lives, or safety factors, of the substrate and of the coatings, and what they are means over.
+def life(result: Result, candidate: Candidate, duty: Duty) -> Answered:
+    """Compute lives or safety factors of substrate and coatings, and their averaging distances.
 
-    The stress is averaged over the critical distance of the material, where it has one, as that of
-    a single run. The range is that of the error of this mean: the scatter of the material is the
+    The stress is averaged over the critical distance of the material, where it has one, as for
+    a single run. The range covers the error of this mean: the scatter of the material is the
     same for all candidates.
     """
-    found = result.life(
-        candidate.of_layers,
+    judged = result.life(
+        candidate.layer_materials,
         duty.criterion,
         body_number=duty.body_number,
         residual=candidate.residual,
     )
-    kind = "life" if found.margin.name == "life" else "safety"
+    kind = "life" if judged.margin.name == "life" else "safety"
     substrate = candidate.layers - 1
     numbers: dict[str, Answer] = {}
     places: dict[str, float] = {}
     for part, layers in (
-        ("substrate", [n for n in found.layers if n == substrate]),
-        ("coating", [n for n in found.layers if n != substrate]),
+        ("substrate", [n for n in judged.layers if n == substrate]),
+        ("coating", [n for n in judged.layers if n != substrate]),
     ):
         if layers:
-            least = found.least_margin(layers)
+            least = judged.least_margin(layers)
             name = f"{kind}_of_{part}"
             numbers[name] = Answer(least.best, least.low, least.high)
             places[f"{name}_L"] = least.L or 0.0
@@ -211,15 +213,15 @@ def life(result: Result, candidate: Candidate, duty: Duty) -> Found:
 
 
 def notes_on_life(candidate: Candidate, duty: Duty) -> list[str]:
-    """What is to be known of the materials by the criterion of the lives."""
-    return notes_on_materials(duty.criterion, candidate.body, candidate.of_layers)
+    """Return notes on the materials for the criterion of the lives."""
+    return notes_on_materials(duty.criterion, candidate.body, candidate.layer_materials)
 
 
-def no_materials(candidate: Candidate, duty: Duty, scene: Scene) -> str:
-    """Materials with the numbers of the criterion are needed."""
-    if all(of is None for of in candidate.of_layers):
+def missing_materials(candidate: Candidate, duty: Duty, scene: Scene) -> str:
+    """Return missing materials or numbers of the criterion, in words."""
+    if all(material is None for material in candidate.layer_materials):
         return "materials"
-    for material in (of for of in candidate.of_layers if of is not None):
+    for material in filter(None, candidate.layer_materials):
         try:
             material.assessment(duty.criterion)
         except ValueError as error:
@@ -227,8 +229,8 @@ def no_materials(candidate: Candidate, duty: Duty, scene: Scene) -> str:
     return ""
 
 
-def wear(result: Result, candidate: Candidate, duty: Duty) -> Found:
-    """Cycles until the outermost coating is worn through, and depth after all cycles."""
+def wear(result: Result, candidate: Candidate, duty: Duty) -> Answered:
+    """Compute the cycles until the outermost coating is worn through, and the final depth."""
     assert duty.cycles is not None
     body1, body2 = duty.pair(candidate.wear, duty.other_wear)
     run = solve(
@@ -240,14 +242,16 @@ def wear(result: Result, candidate: Candidate, duty: Duty) -> Found:
         worn_through="go_on" if candidate.layers == 1 or layered(candidate.wear) else "stop",
         progress=False,
     )
-    part = float(run.depth_error[-1])
+    depth_error = float(run.depth_error[-1])
     depth = float(run.dataset[f"depth{duty.body_number}"][-1])
-    numbers = {"worn_depth": Answer.within(depth, part * depth)}
+    numbers = {"worn_depth": Answer.from_error(depth, depth_error * depth)}
     if candidate.layers > 1:
         cycles = run.cycles_to(part_of_coating=1.0, body_number=duty.body_number)
-        least = cycles if cycles.beyond is None else cycles.beyond
+        lower_bound = cycles if cycles.beyond is None else cycles.beyond
         best = math.inf if math.isnan(cycles) else float(cycles)
-        numbers["wear_through"] = Answer(best, least / (1.0 + part), best * (1.0 + part))
+        numbers["wear_through"] = Answer(
+            best, lower_bound / (1.0 + depth_error), best * (1.0 + depth_error)
+        )
         if float(run.cycles[-1]) < duty.cycles:
             # The run ends where the coating does.
             del numbers["worn_depth"]
@@ -255,32 +259,32 @@ def wear(result: Result, candidate: Candidate, duty: Duty) -> Found:
 
 
 def layered(law: object) -> bool:
-    """Whether every layer has a law of its own."""
+    """Check that every layer has its own law."""
     return isinstance(law, list)
 
 
-def no_law(candidate: Candidate, duty: Duty, scene: Scene) -> str:
-    """A law of wear and a number of cycles are needed."""
+def missing_law(candidate: Candidate, duty: Duty, scene: Scene) -> str:
+    """Return a missing law of wear or number of cycles, in words."""
     return "wear" if candidate.wear is None else "cycles" if duty.cycles is None else ""
 
 
-def energy(result: Result, candidate: Candidate, duty: Duty) -> Found:
-    """The energy that the last cycle dissipates."""
+def energy(result: Result, candidate: Candidate, duty: Duty) -> Answered:
+    """Return the energy that the last cycle dissipates."""
     loops = result.loops(direction=next(iter(directions(result)), "x"))
     value = float(loops.dissipated[-1]) if loops.sizes["cycle"] else math.nan
-    return {"energy": Answer.within(value)}, {}
+    return {"energy": Answer.from_error(value)}, {}
 
 
-def temperature(result: Result, candidate: Candidate, duty: Duty) -> Found:
-    """The largest rise of the surface temperature."""
+def temperature(result: Result, candidate: Candidate, duty: Duty) -> Answered:
+    """Compute the largest rise of the surface temperature."""
     assert duty.frequency is not None
     conductors = duty.pair(candidate.conductor, duty.other_conductor)
     table = result.temperature(*conductors, frequency=duty.frequency)
-    return {"temperature": Answer.within(float(table.attrs["maximum"]))}, {}
+    return {"temperature": Answer.from_error(float(table.attrs["maximum"]))}, {}
 
 
-def no_heat(candidate: Candidate, duty: Duty, scene: Scene) -> str:
-    """Conductors of both bodies and a frequency are needed."""
+def missing_heat_data(candidate: Candidate, duty: Duty, scene: Scene) -> str:
+    """Return missing conductors or the missing frequency, in words."""
     if scene.grid.plane_strain:
         return "a contact that is not in plane strain"
     needed = {
@@ -288,18 +292,18 @@ def no_heat(candidate: Candidate, duty: Duty, scene: Scene) -> str:
         "other_conductor": duty.other_conductor,
         "frequency": duty.frequency,
     }
-    return ", ".join(name for name, of in needed.items() if of is None)
+    return ", ".join(name for name, value in needed.items() if value is None)
 
 
 #: All questions by name.
 QUESTIONS: dict[str, Question] = {
-    "tension": Question(ready, tension),
-    "yield": Question(no_yield_stress, first_yield),
-    "adhesion": Question(no_limits, adhesion),
-    "life": Question(no_materials, life, notes=notes_on_life),
-    "wear": Question(no_law, wear, fields=False),
-    "energy": Question(ready, energy, fields=False),
-    "temperature": Question(no_heat, temperature),
+    "tension": Question(nothing_missing, tension),
+    "yield": Question(missing_yield_stress, first_yield),
+    "adhesion": Question(missing_limits, adhesion),
+    "life": Question(missing_materials, life, notes=notes_on_life),
+    "wear": Question(missing_law, wear, fields=False),
+    "energy": Question(nothing_missing, energy, fields=False),
+    "temperature": Question(missing_heat_data, temperature),
 }
 
 
@@ -313,34 +317,34 @@ class Answers:
 
     def __call__(self, result: Result) -> dict[str, xr.DataArray]:
         """Ask all questions that the candidate can answer."""
-        of = self.candidates[result.scene.title]
+        candidate = self.candidates[result.scene.title]
         table: dict[str, float] = {}
         for name in self.questions:
-            if QUESTIONS[name].missing(of, self.duty, result.scene):
+            if QUESTIONS[name].missing(candidate, self.duty, result.scene):
                 continue
-            numbers, places = QUESTIONS[name].ask(result, of, self.duty)
+            numbers, places = QUESTIONS[name].ask(result, candidate, self.duty)
             for number, answer in numbers.items():
                 table |= {f"{number}{side}": value for side, value in answer.sides()}
             table |= places
         energy = result.scene.grid.unit_of("J")
-        found = {}
+        arrays = {}
         for number, about in NUMBERS.items():
             for side, which in SIDES.items():
                 attrs = {"units": about.si or energy, "long_name": f"{about.title}{which}"}
                 name = f"{number}{side}"
-                found[name] = xr.DataArray(table.get(name, math.nan), attrs=attrs)
+                arrays[name] = xr.DataArray(table.get(name, math.nan), attrs=attrs)
         for name, (unit, meaning) in PLACES.items():
             attrs = {"units": unit, "long_name": meaning}
-            found[name] = xr.DataArray(table.get(name, math.nan), attrs=attrs)
-        return found
+            arrays[name] = xr.DataArray(table.get(name, math.nan), attrs=attrs)
+        return arrays
 
     def needs_fields(self) -> bool:
-        """Whether the fields of all increments are needed."""
+        """Check whether the fields of all increments are needed."""
         return any(QUESTIONS[name].fields for name in self.questions)
 
 
-#: What a margin is a mean over.
-L_OF = "critical distance that the stress is averaged over, for the margin"
+#: Meaning of an averaging distance.
+AVERAGING_DISTANCE = "critical distance that the stress is averaged over, for the margin"
 #: Places that belong to numbers: unit and meaning.
 PLACES = {
     "tension_x": ("m", "place of the largest tension"),
@@ -349,7 +353,10 @@ PLACES = {
     "first_yield_z": ("m", "depth of first yield"),
     "first_yield_layer": ("1", "layer of first yield, from the surface down"),
     **{
-        f"{kind}_of_{part}_L": ("m", f"{L_OF} of the {part}, 0 for the value at a point")
+        f"{kind}_of_{part}_L": (
+            "m",
+            f"{AVERAGING_DISTANCE} of the {part}, 0 for the value at a point",
+        )
         for kind in ("life", "safety")
         for part in ("substrate", "coating")
     },

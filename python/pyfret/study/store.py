@@ -23,7 +23,7 @@ from pyfret._util.lazy import xr
 from pyfret._util.stores import check_store
 from pyfret.study.design import TOGETHER
 from pyfret.study.ledger import FILE, Ledger, attributes, checksum
-from pyfret.study.measures import names_of
+from pyfret.study.measures import measure_names
 from pyfret.study.point import FAILED, MEANINGS, OPEN, Outcome
 
 if TYPE_CHECKING:
@@ -32,16 +32,16 @@ if TYPE_CHECKING:
     from pyfret.study.design import Design
     from pyfret.study.measures import Measure
 
-__all__ = ["Store", "read"]
+__all__ = ["Store", "read_study"]
 
 #: Version of the layout.
 SCHEMA = 2
-#: How often a store that is being written is looked at again.
+#: Attempts to read a store while it is written.
 ATTEMPTS = 20
 #: Characters of a reason that are kept.
 REASON = 240
 #: Variables of every study beside its measures: type, value of an open point, unit, meaning.
-OWN: dict[str, tuple[str, Any, str, str]] = {
+POINT_VARIABLES: dict[str, tuple[str, Any, str, str]] = {
     "nx": ("int32", 0, "1", "cells along x that the point took"),
     "ny": ("int32", 0, "1", "cells along y that the point took"),
     "seconds": ("float64", np.nan, "s", "processor time of the point"),
@@ -51,7 +51,7 @@ OWN: dict[str, tuple[str, Any, str, str]] = {
 
 
 class Store:
-    """A study on its way, in a folder that :meth:`prepare` has made.
+    """A running study in a folder that :meth:`prepare` has made.
 
     Parameters
     ----------
@@ -60,90 +60,107 @@ class Store:
     design : Design
         The points.
     said : dict of str to str
-        Attributes that tell the study from others (``study``, ``measures``) or its title.
+        Attributes that distinguish the study (``study``, ``measures``) or its title.
     """
 
-    def __init__(self, place: str | os.PathLike[str], design: Design, said: dict[str, str]) -> None:
+    def __init__(
+        self, place: str | os.PathLike[str], design: Design, study_attrs: dict[str, str]
+    ) -> None:
         self.place, self.design = Path(place), design
-        self.check(said)
-        own = set(design.sizes)
+        self.check(study_attrs)
+        point_dims = set(design.sizes)
         self.ledger = Ledger(self.place)
-        there = read(self.place)
+        stored = read_study(self.place)
         self.shapes: dict[str, dict[str, int]] = {
-            str(name): {str(k): n for k, n in of.sizes.items() if k not in own}
-            for name, of in there.data_vars.items()
+            str(name): {str(k): n for k, n in variable.sizes.items() if k not in point_dims}
+            for name, variable in stored.data_vars.items()
         }
-        self.attrs = attributes(there)
+        self.attrs = attributes(stored)
         last = self.ledger.last
-        if last is not None and there["status"].values.ravel()[last] != self.ledger.points[last][0]:
+        if (
+            last is not None
+            and stored["status"].values.ravel()[last] != self.ledger.points[last][0]
+        ):
             # A killed process has written the line and not the status.
             self.write_status(last, self.ledger.points[last][0])
 
     @staticmethod
-    def prepare(place: str | os.PathLike[str], design: Design, said: dict[str, str]) -> None:
+    def prepare(place: str | os.PathLike[str], design: Design, study_attrs: dict[str, str]) -> None:
         """Lay out the store of a study where there is nothing."""
         target = Path(place)
         if target.exists():
             return
-        beside = target.with_name(f".{target.name}.{os.getpid()}.unfinished")
-        shutil.rmtree(beside, ignore_errors=True)
+        unfinished = target.with_name(f".{target.name}.{os.getpid()}.unfinished")
+        shutil.rmtree(unfinished, ignore_errors=True)
         try:
-            begun = template(design, {**said, **Store.marks()}, OWN)
+            empty_study = empty_dataset(design, {**study_attrs, **Store.marks()}, POINT_VARIABLES)
             shape = tuple(design.sizes.values())
-            encoding: dict[str, Any] = {str(name): gzip() for name in begun.variables}
-            encoding |= {name: {"chunks": shape, "_FillValue": None, **gzip()} for name in OWN}
-            begun.to_zarr(beside, mode="w-", zarr_format=2, consolidated=True, encoding=encoding)
-            Ledger.begin(beside, layout_of(opened(beside)))
+            encoding: dict[str, Any] = {str(name): gzip() for name in empty_study.variables}
+            encoding |= {
+                name: {"chunks": shape, "_FillValue": None, **gzip()} for name in POINT_VARIABLES
+            }
+            empty_study.to_zarr(
+                unfinished, mode="w-", zarr_format=2, consolidated=True, encoding=encoding
+            )
+            Ledger.begin(unfinished, layout_checksum(load_folder(unfinished)))
             try:
-                beside.rename(target)
+                unfinished.rename(target)
             except OSError:
                 # Another process may have been faster.
                 if not target.exists():
                     raise
         finally:
-            shutil.rmtree(beside, ignore_errors=True)
+            shutil.rmtree(unfinished, ignore_errors=True)
 
     @staticmethod
     def marks() -> dict[str, Any]:
         """Attributes of every store of a study."""
         return {"kind": "study", "schema": SCHEMA, "version": __version__}
 
-    def check(self, said: dict[str, str]) -> None:
-        """Refuse a store of another study."""
-        there = read(self.place).attrs
+    def check(self, study_attrs: dict[str, str]) -> None:
+        """Reject a store of another study."""
+        stored = read_study(self.place).attrs
         for name in ("study", "measures"):
-            if there.get(name) != said[name]:
+            if stored.get(name) != study_attrs[name]:
                 raise StoreError(
-                    f"{self.place}: is the store of another study; {difference(there, said)}. "
+                    f"{self.place}: is the store of another study; "
+                    f"{describe_difference(stored, study_attrs)}. "
                     "Give another place, or the same study to go on with it"
                 )
 
     def make_room(self, measures: dict[str, xr.Variable]) -> None:
-        """Lay out what the first point that is done has measured."""
-        new = {name: of for name, of in measures.items() if name not in self.shapes}
-        if not new:
+        """Lay out the arrays of the measures of the first point that is done."""
+        new_measures = {
+            name: variable for name, variable in measures.items() if name not in self.shapes
+        }
+        if not new_measures:
             return
-        for name in new:
-            # What a killed process has left of it.
+        for name in new_measures:
+            # A killed process may have left a part of it.
             shutil.rmtree(self.place / name, ignore_errors=True)
         sizes = self.design.sizes
-        room, encoding = xr.Dataset(attrs=read(self.place).attrs), {}
-        for name, of in new.items():
+        new_arrays, encoding = xr.Dataset(attrs=read_study(self.place).attrs), {}
+        for name, variable in new_measures.items():
             # A field has a chunk for each point, scalars of all points share one.
-            alone = tuple(1 for _ in sizes) if of.ndim else tuple(sizes.values())
-            values = np.full((*sizes.values(), *of.shape), np.nan)
-            room[name] = ((*sizes, *of.dims), values, of.attrs)
-            encoding[name] = {"chunks": (*alone, *of.shape), "_FillValue": np.nan, **gzip()}
-        room.to_zarr(self.place, mode="a", zarr_format=2, consolidated=True, encoding=encoding)
-        self.shapes |= {name: {str(k): n for k, n in of.sizes.items()} for name, of in new.items()}
-        self.attrs = attributes(opened(self.place))
+            chunk = tuple(1 for _ in sizes) if variable.ndim else tuple(sizes.values())
+            values = np.full((*sizes.values(), *variable.shape), np.nan)
+            new_arrays[name] = ((*sizes, *variable.dims), values, variable.attrs)
+            encoding[name] = {"chunks": (*chunk, *variable.shape), "_FillValue": np.nan, **gzip()}
+        new_arrays.to_zarr(
+            self.place, mode="a", zarr_format=2, consolidated=True, encoding=encoding
+        )
+        self.shapes |= {
+            name: {str(k): n for k, n in variable.sizes.items()}
+            for name, variable in new_measures.items()
+        }
+        self.attrs = attributes(load_folder(self.place))
 
     def write(self, n: int, outcome: Outcome) -> None:
-        """Write what became of the n-th point, its status last."""
+        """Write the outcome of the n-th point, its status last."""
         if n in self.ledger.points:
             self.ledger.add(n, OPEN, {}, {})
             self.write_status(n, OPEN)
-        outcome = fitting(outcome, self.design, self.shapes)
+        outcome = reject_misfits(outcome, self.design, self.shapes)
         self.make_room(outcome.measures)
         numbers = {
             "nx": np.int32(outcome.nx),
@@ -154,34 +171,39 @@ class Store:
         if outcome.status == FAILED:
             values["reason"] = xr.Variable((), np.array(outcome.reason, f"<U{REASON}"))
         written = {**values, **outcome.measures}
-        self.region(n, written)
-        self.ledger.add(n, outcome.status, self.kept(written), self.attrs)
+        self.write_region(n, written)
+        self.ledger.add(n, outcome.status, self.as_stored(written), self.attrs)
         self.write_status(n, outcome.status)
 
     def write_status(self, n: int, status: int) -> None:
         """Write the status of the n-th point."""
-        self.region(n, {"status": xr.Variable((), np.int8(status))})
+        self.write_region(n, {"status": xr.Variable((), np.int8(status))})
 
-    def kept(self, written: dict[str, xr.Variable]) -> dict[str, xr.Variable]:
-        """What the arrays, whose types may be others, hold of what was written."""
-        kinds = {name: of[0] for name, of in OWN.items()}
+    def as_stored(self, written: dict[str, xr.Variable]) -> dict[str, xr.Variable]:
+        """Convert written values to the types of the arrays."""
+        kinds = {name: column[0] for name, column in POINT_VARIABLES.items()}
         return {
-            name: xr.Variable(of.dims, np.asarray(of.values).astype(kinds.get(name, "float64")))
-            for name, of in written.items()
+            name: xr.Variable(
+                variable.dims, np.asarray(variable.values).astype(kinds.get(name, "float64"))
+            )
+            for name, variable in written.items()
         }
 
-    def region(self, n: int, values: dict[str, xr.Variable]) -> None:
+    def write_region(self, n: int, values: dict[str, xr.Variable]) -> None:
         """Write variables of one point."""
         if not values:
             return
         place = dict(zip(self.design.sizes, self.design.place(n), strict=True))
-        one = xr.Dataset(
+        point_dataset = xr.Dataset(
             {
-                name: ((*place, *of.dims), of.values.reshape((1,) * len(place) + of.shape))
-                for name, of in values.items()
+                name: (
+                    (*place, *variable.dims),
+                    variable.values.reshape((1,) * len(place) + variable.shape),
+                )
+                for name, variable in values.items()
             }
         )
-        one.to_zarr(
+        point_dataset.to_zarr(
             self.place,
             mode="r+",
             zarr_format=2,
@@ -190,38 +212,38 @@ class Store:
         )
 
     def open_points(self, *, again: bool) -> list[int]:
-        """Points that are to be solved: open ones, and `again` those that failed."""
-        wanted = (OPEN, FAILED) if again else (OPEN,)
-        of = {n: status for n, (status, _) in self.ledger.points.items()}
-        return [n for n in range(len(self.design)) if of.get(n, OPEN) in wanted]
+        """Return the points to solve: open ones, and with `again` the failed ones."""
+        statuses = (OPEN, FAILED) if again else (OPEN,)
+        status_of = {n: status for n, (status, _) in self.ledger.points.items()}
+        return [n for n in range(len(self.design)) if status_of.get(n, OPEN) in statuses]
 
 
-def fitting(outcome: Outcome, design: Design, shapes: dict[str, dict[str, int]]) -> Outcome:
-    """The outcome, failed if a measure cannot stand beside the others.
+def reject_misfits(outcome: Outcome, design: Design, shapes: dict[str, dict[str, int]]) -> Outcome:
+    """Return the outcome, as failed if a measure does not fit the study.
 
-    A measure fails if its name, or one of its dimensions, is that of the study itself. A field
-    fails if its shape is not that of the other points, `shapes`.
+    A measure fails if the study itself uses its name, or the name of one of its dimensions. A field
+    fails if its shape differs from the other points, `shapes`.
     """
-    taken = {*OWN, *design.parameters, *design.sizes}
+    taken = {*POINT_VARIABLES, *design.parameters, *design.sizes}
 
     def failed(reason: str) -> Outcome:
         return replace(outcome, status=FAILED, reason=reason, measures={})
 
-    for name, of in outcome.measures.items():
-        sizes = {str(dim): n for dim, n in of.sizes.items()}
-        for word, what in [(name, "name"), *((dim, "dimension") for dim in sizes)]:
-            if why := refused_name(word, taken):
-                return failed(f"{name}: the {what} {word!r} {why}")
+    for name, variable in outcome.measures.items():
+        sizes = {str(dim): n for dim, n in variable.sizes.items()}
+        for word, kind in [(name, "name"), *((dim, "dimension") for dim in sizes)]:
+            if why := why_invalid(word, taken):
+                return failed(f"{name}: the {kind} {word!r} {why}")
         if name in shapes and sizes != shapes[name]:
             return failed(
-                f"{name} is a field of {sizes}, that of other points one of {shapes[name]}; "
+                f"{name} is a field of {sizes}, at other points one of {shapes[name]}; "
                 "interpolate it, or keep the grid with grow=False"
             )
     return outcome
 
 
-def refused_name(name: str, taken: Iterable[str]) -> str:
-    """Why a measure cannot have a name; nothing if it can."""
+def why_invalid(name: str, taken: Iterable[str]) -> str:
+    """Return why a measure cannot have a name; an empty text if it can."""
     if name in taken:
         return "is one that the study has itself: give another"
     if not name or name.startswith((".", "_")) or "/" in name or "\\" in name:
@@ -236,72 +258,74 @@ LONGEST = 250
 
 
 def check_names(design: Design, measures: Sequence[Measure]) -> None:
-    """Refuse names of parameters and measures that the store of the study needs itself."""
+    """Reject names of parameters and measures that the store of the study needs itself."""
     for key in design.parameters:
-        if why := refused_name(key, {*OWN, TOGETHER}):
+        if why := why_invalid(key, {*POINT_VARIABLES, TOGETHER}):
             raise ValueError(f"parameter {key!r}: {why}")
-    for name in names_of(measures):
-        if why := refused_name(name, {*OWN, *design.parameters, *design.sizes}):
+    for name in measure_names(measures):
+        if why := why_invalid(name, {*POINT_VARIABLES, *design.parameters, *design.sizes}):
             raise ValueError(f"measure {name!r} {why}")
 
 
-def difference(there: dict[Any, Any], said: dict[str, str]) -> str:
-    """In what two studies differ."""
-    if there.get("measures") != said["measures"]:
-        return f"it measures {there.get('measures')}, not {said['measures']}"
-    theirs, ours = json.loads(there.get("study", "{}")), json.loads(said["study"])
-    # Stores of before have no code, which is right where no measure is a function.
+def describe_difference(stored: dict[Any, Any], study_attrs: dict[str, str]) -> str:
+    """Describe the difference of two studies."""
+    if stored.get("measures") != study_attrs["measures"]:
+        return f"it measures {stored.get('measures')}, not {study_attrs['measures']}"
+    theirs, ours = json.loads(stored.get("study", "{}")), json.loads(study_attrs["study"])
+    # A store without measures that are functions has no code.
     parts = [
         name for name in ours if ours[name] != theirs.get(name, {} if name == "code" else None)
     ]
     if parts == ["code"]:
-        before = theirs.get("code") or {}
-        changed = [name for name, sum_of in ours["code"].items() if before.get(name) != sum_of]
+        old_checksums = theirs.get("code") or {}
+        changed = [
+            name for name, sum_of in ours["code"].items() if old_checksums.get(name) != sum_of
+        ]
         return (
             f"the code of the measure {', '.join(changed)}, what it refers to, or the version of "
             "Python is another"
         )
     if parts == ["files"]:
-        before = theirs.get("files") or {}
-        changed = [name for name, crc in ours["files"].items() if before.get(name) != crc]
-        return f"{', '.join(changed or before)} has changed since"
+        old_checksums = theirs.get("files") or {}
+        changed = [name for name, crc in ours["files"].items() if old_checksums.get(name) != crc]
+        return f"{', '.join(changed or old_checksums)} has changed since"
     return f"they differ in {' and '.join(parts)}"
 
 
-def template(
-    design: Design, attrs: dict[str, Any], own: dict[str, tuple[str, Any, str, str]]
+def empty_dataset(
+    design: Design, attrs: dict[str, Any], variables: dict[str, tuple[str, Any, str, str]]
 ) -> xr.Dataset:
-    """A study without a point: coordinates, and variables without values."""
+    """Make an empty study: coordinates, and variables without values."""
     dataset = xr.Dataset(coords=design.coords(), attrs=attrs)
     shape = tuple(design.sizes.values())
-    for name, (kind, empty, unit, meaning) in own.items():
-        of_one: dict[str, Any] = {"units": unit, "long_name": meaning}
+    for name, (kind, empty, unit, meaning) in variables.items():
+        variable_attrs: dict[str, Any] = {"units": unit, "long_name": meaning}
         if name == "status":
-            of_one |= {"flag_values": [0, 1, 2], "flag_meanings": MEANINGS}
-        dataset[name] = (tuple(design.sizes), np.full(shape, empty, dtype=kind), of_one)
+            variable_attrs |= {"flag_values": [0, 1, 2], "flag_meanings": MEANINGS}
+        dataset[name] = (tuple(design.sizes), np.full(shape, empty, dtype=kind), variable_attrs)
     return dataset
 
 
-def layout_of(dataset: xr.Dataset) -> int:
-    """Checksum of the attributes and coordinates of a study."""
+def layout_checksum(dataset: xr.Dataset) -> int:
+    """Compute a checksum of the attributes and coordinates of a study."""
     attrs = json.dumps(dict(sorted(dataset.attrs.items())), default=str)
     attrs_of = attributes(dataset)
     sums = {
-        str(name): checksum(of.variable, attrs_of[str(name)])
-        for name, of in sorted(dataset.coords.items())
+        str(name): checksum(coordinate.variable, attrs_of[str(name)])
+        for name, coordinate in sorted(dataset.coords.items())
     }
     return zlib.crc32(json.dumps([attrs, sums]).encode())
 
 
-def opened(place: str | os.PathLike[str]) -> xr.Dataset:
-    """The dataset of a folder, read into memory."""
+def load_folder(place: str | os.PathLike[str]) -> xr.Dataset:
+    """Read the dataset of a folder into memory."""
     with xr.open_zarr(place, chunks=None) as lazy:
         dataset: xr.Dataset = lazy.load()
     return dataset
 
 
-def read(place: str | os.PathLike[str]) -> xr.Dataset:
-    """The dataset of a study, read into memory and checked.
+def read_study(place: str | os.PathLike[str]) -> xr.Dataset:
+    """Read the dataset of a study into memory and check it.
 
     Raises
     ------
@@ -316,14 +340,14 @@ def read(place: str | os.PathLike[str]) -> xr.Dataset:
     for _ in range(ATTEMPTS):
         ledger = Ledger(folder)
         try:
-            dataset = opened(place)
+            dataset = load_folder(place)
         except Exception as error:
             message = " ".join(str(error).split())
             raise StoreError(f"{fspath(place)}: {type(error).__name__}: {message}") from error
         if dataset.attrs.get("kind") != "study":
             raise StoreError(f"{fspath(place)}: is not the store of a study")
         try:
-            ledger.check(layout_of(dataset), dataset, dims_of(dataset))
+            ledger.check(layout_checksum(dataset), dataset, point_dims(dataset))
             return dataset
         except StoreError:
             # Another process may have written meanwhile.
@@ -332,8 +356,8 @@ def read(place: str | os.PathLike[str]) -> xr.Dataset:
     raise StoreError(f"{fspath(place)}: is being written too fast to be read")
 
 
-def dims_of(dataset: xr.Dataset) -> list[str]:
-    """Dimensions of the points."""
+def point_dims(dataset: xr.Dataset) -> list[str]:
+    """Return the dimensions of the points."""
     if "status" not in dataset:
         raise StoreError("status: is missing")
     return [str(dim) for dim in dataset["status"].dims]

@@ -25,7 +25,7 @@ from pyfret.fatigue.criteria import Material
 from pyfret.fatigue.lives import life
 from pyfret.quantities import InSI, Length, as_number, by_default, part, quantities
 from pyfret.solution import solve
-from pyfret.study.design import varied
+from pyfret.study.design import with_values
 
 if TYPE_CHECKING:
     import os
@@ -41,7 +41,7 @@ __all__ = ["Averaged", "Limits", "ThresholdLoad", "fit_limits", "threshold"]
 #: A scene, its file, or a function that makes one of the value of the parameters.
 Source: TypeAlias = "Scene | str | os.PathLike[str] | Callable[[dict[str, Any]], Scene]"
 #: Most solves of a threshold.
-MOST = 24
+MAX_SOLVES = 24
 
 
 @part()
@@ -51,11 +51,11 @@ class Averaged:
     Parameters
     ----------
     material : Material
-        What is judged, with its limits.
+        The material with its limits.
     criterion : str
         One of :data:`pyfret.fatigue.CRITERIA`.
     L : float, optional
-        Critical distance [m] (default: that of the material).
+        Critical distance [m] (default: the material's own).
     method : "point", "line", "area" or "volume"
         As in :func:`pyfret.fatigue.average`.
     body_number : 1 or 2
@@ -69,8 +69,8 @@ class Averaged:
     body_number: int = 2
 
     def __call__(self, result: Any) -> float:
-        """The margin of a result: safety factor or life, the smallest along the surface."""
-        found = average(
+        """Return the smallest margin of a result along the surface: safety factor or life."""
+        margins = average(
             result,
             self.material,
             self.criterion,
@@ -78,19 +78,19 @@ class Averaged:
             method=self.method,
             body_number=self.body_number,
         )
-        margin = found.life if "life" in found else found.safety_factor
+        margin = margins.life if "life" in margins else margins.safety_factor
         return float(margin.min())
 
     @property
     def estimate(self) -> str | None:
-        """Which numbers of the material that it uses are estimates, in words."""
+        """Names of the used material numbers that are estimates."""
         notes = self.material.assessment(self.criterion).range_at(1.0, 0.0, self.material)[3]
         if self.L is None:
             notes.append(self.material.estimate_of(["dK_th", "s_D"]) or "")
         return "; ".join(filter(None, notes)) or None
 
     def range_of(self, result: Any) -> LifeRange:
-        """The range of the margin of a result, 10 to 90 %: stress, material and distance."""
+        """Return the range of the margin of a result, 10 to 90 %: stress, material and distance."""
         judged = life(result, self.material, self.criterion, body_number=self.body_number)
         return judged.range_of(judged.worst.layer, L=self.L, method=self.method)
 
@@ -102,18 +102,18 @@ class ThresholdLoad:
     Attributes
     ----------
     value : float
-        The threshold; infinite or zero where the measure does not get there within the range.
+        The threshold; infinite or zero where the measure does not reach its value within the range.
     error : float
-        Half of the bracket, and what cells twice as wide move it by.
+        Half of the bracket, plus the change on cells twice as wide.
     solves : int
         Contacts solved.
     path : tuple of (float, float)
-        Loads tried and what was measured.
+        Loads tried and their measures.
     low, high : float
-        The range of 10 to 90 % of the specimens, by the range of the margin at the threshold (of
+        The range of 10 to 90 % of the specimens, from the range of the margin at the threshold (for
         :class:`Averaged`); NaN where the measure has no range or ``error=False``.
     estimate : str or None
-        Which numbers of the material of an :class:`Averaged` are estimates, in words.
+        Names of the material numbers of an :class:`Averaged` that are estimates.
     """
 
     value: float
@@ -125,7 +125,7 @@ class ThresholdLoad:
     estimate: str | None = None
 
     def __float__(self) -> float:
-        """The threshold."""
+        """Return the threshold."""
         return self.value
 
 
@@ -149,7 +149,7 @@ def threshold(
         The contact with its path, its file, or a function that makes the scene of a ``dict`` of
         values, as in :func:`pyfret.study.run`.
     parameter : str
-        What is searched: a key of the scene file such as ``"path.1.T_x"``, or a name of your own
+        The searched parameter: a key of the scene file, ``"path.1.T_x"``, or a name of your own
         where `scene` is a function.
     measure : callable
         A function of the :class:`pyfret.Result` that grows or falls with the parameter, such as
@@ -157,7 +157,7 @@ def threshold(
     between : (float, float)
         Range that is searched, above 0.
     value : float
-        What the measure is to be (default 1).
+        The value that the measure shall reach (default 1).
     over : mapping of str to list, optional
         A curve over other parameters: every combination of their values, numbers in SI or texts
         with a unit.
@@ -177,14 +177,14 @@ def threshold(
         The measure is on one side of its value within the whole range. The message names the side.
     """
     if over is None:
-        return one(scene, parameter, measure, between, value, {}, tolerance, error=error)
+        return find_threshold(scene, parameter, measure, between, value, {}, tolerance, error=error)
     lists: dict[str, Sequence[Any]] = dict(over)
     if not callable(scene) or isinstance(scene, Scene):
-        lists = {name: [in_si(name, each) for each in of] for name, of in over.items()}
+        lists = {name: [in_si(name, item) for item in items] for name, items in over.items()}
     names = list(over)
     shape = [len(over[name]) for name in names]
-    found = [
-        one(
+    thresholds = [
+        find_threshold(
             scene,
             parameter,
             measure,
@@ -197,64 +197,64 @@ def threshold(
         for point in product(*lists.values())
     ]
     fields = {
-        "threshold": np.reshape([f.value for f in found], shape),
-        "error": np.reshape([f.error for f in found], shape),
-        "low": np.reshape([f.low for f in found], shape),
-        "high": np.reshape([f.high for f in found], shape),
-        "solves": np.reshape([f.solves for f in found], shape),
+        "threshold": np.reshape([f.value for f in thresholds], shape),
+        "error": np.reshape([f.error for f in thresholds], shape),
+        "low": np.reshape([f.low for f in thresholds], shape),
+        "high": np.reshape([f.high for f in thresholds], shape),
+        "solves": np.reshape([f.solves for f in thresholds], shape),
     }
     return xr.Dataset(
         {name: (names, values) for name, values in fields.items()},
         coords={name: np.asarray(lists[name], dtype=float) for name in names},
-        attrs={"parameter": parameter, "value": value, **estimated(measure)},
+        attrs={"parameter": parameter, "value": value, **estimate_attribute(measure)},
     )
 
 
-def estimated(measure: Callable[[Any], float]) -> dict[str, str]:
-    """What of a measure rests on estimates, as an attribute."""
+def estimate_attribute(measure: Callable[[Any], float]) -> dict[str, str]:
+    """Return the estimates that a measure uses, as an attribute."""
     note = measure.estimate if isinstance(measure, Averaged) else None
     return {"estimate": note} if note else {}
 
 
-def one(
+def find_threshold(
     source: Source,
     parameter: str,
     measure: Callable[[Any], float],
     between: tuple[float, float],
     value: float,
-    others: Mapping[str, float],
+    other_values: Mapping[str, float],
     tolerance: float,
     *,
     error: bool,
 ) -> ThresholdLoad:
-    """One threshold."""
+    """Find one threshold."""
     low, high = (float(v) for v in between)
     if not 0 < low < high:
         raise ValueError(f"between = {between}: must be two loads above 0, the smaller one first")
     if not 0 < value < math.inf:
         raise ValueError(f"value = {value}: must be above 0")
     optimize = needed("scipy.optimize", "fit")
-    first = scene_of(source, {**others, parameter: low})
+    first = scene_of(source, {**other_values, parameter: low})
     tried: dict[float, float] = {}
 
-    def margin(load: float, coarser: int = 1) -> float:
-        scene = scene_of(source, {**others, parameter: load})
+    def log_margin(load: float, coarser: int = 1) -> float:
+        scene = scene_of(source, {**other_values, parameter: load})
         if coarser > 1:
-            scene = scene.replace(grid=wider(scene.grid, coarser))
-        found = float(measure(quiet(scene, like=first)))
-        if not found > 0:
-            raise ValueError(f"{parameter} = {load:g}: the measure is {found}: must be above 0")
+            scene = scene.replace(grid=widen_cells(scene.grid, coarser))
+        measured = float(measure(solve_silently(scene, like=first)))
+        if not measured > 0:
+            raise ValueError(f"{parameter} = {load:g}: the measure is {measured}: must be above 0")
         # A life without end counts as long.
-        return min(math.log(found / value), 700.0)
+        return min(math.log(measured / value), 700.0)
 
-    def at(log_load: float) -> float:
+    def solved_margin(log_load: float) -> float:
         load = math.exp(log_load)
         if load not in tried:
-            tried[load] = margin(load)
+            tried[load] = log_margin(load)
         return tried[load]
 
     ends = math.log(low), math.log(high)
-    sides = at(ends[0]), at(ends[1])
+    sides = solved_margin(ends[0]), solved_margin(ends[1])
     if sides[0] * sides[1] > 0:
         where = "above" if sides[0] > 0 else "below"
         raise ValueError(
@@ -262,28 +262,38 @@ def one(
             f"({value * math.exp(sides[0]):.4g}) "
             f"to {high:g} ({value * math.exp(sides[1]):.4g}): widen `between`"
         )
-    root = float(optimize.toms748(at, *ends, xtol=0.5 * tolerance, rtol=1e-6, maxiter=MOST, k=1))
-    at(root)
+    root = float(
+        optimize.toms748(
+            solved_margin, *ends, xtol=0.5 * tolerance, rtol=1e-6, maxiter=MAX_SOLVES, k=1
+        )
+    )
+    solved_margin(root)
     points = sorted((math.log(load), m) for load, m in tried.items())
     near = min(points, key=lambda p: abs(p[1]))
     root = near[0] if abs(near[1]) < abs(tried[math.exp(root)]) else root
     bracket = 0.5 * tolerance * math.exp(root)
-    solves, of_grid, spread = len(tried), 0.0, (math.nan, math.nan)
+    solves, grid_error, spread = len(tried), 0.0, (math.nan, math.nan)
     if error:
-        slope = steepness(points, root)
-        of_grid = abs(margin(math.exp(root), 2) - at(root)) / max(abs(slope), 1e-3) * math.exp(root)
+        slope = slope_at(points, root)
+        grid_error = (
+            abs(log_margin(math.exp(root), 2) - solved_margin(root))
+            / max(abs(slope), 1e-3)
+            * math.exp(root)
+        )
         solves += 1
         if isinstance(measure, Averaged):
-            there = scene_of(source, {**others, parameter: math.exp(root)})
-            spread = scattered(measure.range_of(quiet(there, like=first)), math.exp(root), slope)
+            root_scene = scene_of(source, {**other_values, parameter: math.exp(root)})
+            spread = threshold_range(
+                measure.range_of(solve_silently(root_scene, like=first)), math.exp(root), slope
+            )
             solves += 1
     path = tuple((load, value * math.exp(m)) for load, m in tried.items())
-    note = estimated(measure).get("estimate")
-    return ThresholdLoad(math.exp(root), bracket + of_grid, solves, path, *spread, note)
+    note = estimate_attribute(measure).get("estimate")
+    return ThresholdLoad(math.exp(root), bracket + grid_error, solves, path, *spread, note)
 
 
-def scattered(margin: LifeRange, load: float, slope: float) -> tuple[float, float]:
-    """The range of a threshold, for a margin that goes as the load to the power of the slope.
+def threshold_range(margin: LifeRange, load: float, slope: float) -> tuple[float, float]:
+    """Return the range of a threshold, for a margin that is a power of the load.
 
     A margin m of the range stands for specimens whose threshold is off by (m/best)^(-1/slope).
     """
@@ -292,32 +302,32 @@ def scattered(margin: LifeRange, load: float, slope: float) -> tuple[float, floa
     return min(ends), max(ends)
 
 
-def quiet(scene: Scene, *, like: Scene) -> Any:
-    """The result of a scene with increments like those of a neighbour, its doubts unsaid."""
+def solve_silently(scene: Scene, *, like: Scene) -> Any:
+    """Solve a scene with the increments of a similar one, without warnings."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         return solve(scene, like=like, progress=False)
 
 
-def steepness(points: list[tuple[float, float]], root: float) -> float:
-    """Slope of the logarithms about the root, between the nearest loads that are well apart."""
+def slope_at(points: list[tuple[float, float]], root: float) -> float:
+    """Return the slope of the logarithms at the root, between the nearest distinct loads."""
     near = sorted(points, key=lambda p: abs(p[0] - root))
-    here = near[0]
-    for other in near[1:]:
-        if abs(other[0] - here[0]) > 1e-3:
-            return (other[1] - here[1]) / (other[0] - here[0])
+    nearest = near[0]
+    for neighbour in near[1:]:
+        if abs(neighbour[0] - nearest[0]) > 1e-3:
+            return (neighbour[1] - nearest[1]) / (neighbour[0] - nearest[0])
     return 1.0
 
 
 def scene_of(source: Source, values: dict[str, Any]) -> Scene:
-    """The scene of some values."""
+    """Return the scene of some values."""
     if callable(source) and not isinstance(source, Scene):
         return source(values)
-    return varied(source, values)
+    return with_values(source, values)
 
 
-def wider(grid: Grid, times: int) -> Grid:
-    """The same place in wider cells."""
+def widen_cells(grid: Grid, times: int) -> Grid:
+    """Return a grid over the same area with wider cells."""
     nx = max(grid.nx // times, 1)
     ny = grid.ny if grid.plane_strain else max(grid.ny // times, 1)
     return grid.replace(nx=nx, ny=ny, dx=grid.dx * grid.nx / nx, dy=grid.dy * grid.ny / ny)
@@ -334,9 +344,9 @@ class Limits(HoldsArrays):
     L : float
         Critical distance [m].
     limit : float
-        Factor on the limits of the material that was given.
+        Factor on the limits of the given material.
     scatter : float
-        Standard deviation of ln of the thresholds computed over those measured.
+        Standard deviation of ln of the the ratios of computed to measured thresholds.
     ratios : array
         Threshold computed over measured of each test, to first order.
     L_range : (float, float)
@@ -353,12 +363,12 @@ class Limits(HoldsArrays):
     def measure(
         self, criterion: CriterionName = "crossland", method: Averaging = "line"
     ) -> Averaged:
-        """The measure of :func:`threshold` with these numbers."""
+        """Return the measure of :func:`threshold` with these numbers."""
         return Averaged(self.material, criterion, self.L, method)
 
 
-#: Part of the load by which the sensitivity of the margin is told.
-LESS = 0.9
+#: Load ratio for the sensitivity of the margin.
+LOAD_RATIO = 0.9
 
 
 @quantities
@@ -378,7 +388,7 @@ def fit_limits(
     the load as its power -s puts the threshold at m^(1/s) of the load. The distance is the one at
     which these thresholds scatter least. The limit makes the mean of their logarithms 0. A scatter
     of margins alone would favour distances at which no load matters. Few tests determine the
-    distance badly. The uncertainty of the limits beforehand, `known`, then counts beside them.
+    distance badly. The uncertainty of the limits beforehand, `known`, then is added.
 
     Parameters
     ----------
@@ -402,17 +412,17 @@ def fit_limits(
     if len(tests) < 3:
         raise ValueError(f"{len(tests)} tests: two numbers need 3 at least")
     pairs = [
-        [solve(scene(part * load), save="all", progress=False) for part in (1.0, LESS)]
+        [solve(scene(part * load), save="all", progress=False) for part in (1.0, LOAD_RATIO)]
         for scene, load in tests
     ]
     solved: dict[float, tuple[float, NDArray[np.float64]]] = {}
 
     def thresholds(log_L: float) -> tuple[float, NDArray[np.float64]]:
-        """Factor of the limits, and ln of the thresholds over those measured."""
+        """Return the factor of the limits, and ln of computed over measured thresholds."""
         if log_L not in solved:
             judge = Averaged(material, criterion, math.exp(log_L), method)
             logs = np.log([[judge(result) for result in pair] for pair in pairs])
-            slopes = np.maximum((logs[:, 1] - logs[:, 0]) / -math.log(LESS), 0.05)
+            slopes = np.maximum((logs[:, 1] - logs[:, 0]) / -math.log(LOAD_RATIO), 0.05)
             factor = -float(np.sum(logs[:, 0] / slopes) / np.sum(1 / slopes))
             solved[log_L] = math.exp(factor), (logs[:, 0] + factor) / slopes
         return solved[log_L]
@@ -421,20 +431,20 @@ def fit_limits(
         return float(np.sqrt(np.sum(thresholds(log_L)[1] ** 2) / (len(tests) - 2)))
 
     def misfit(log_L: float) -> float:
-        """Minus the logarithm of the likelihood, the scatter unknown, with what is known before."""
-        before = 0.5 * (math.log(thresholds(log_L)[0]) / known) ** 2
-        return len(tests) * math.log(scatter(log_L)) + before
+        """Return minus the logarithm of the likelihood with unknown scatter and the prior."""
+        prior = 0.5 * (math.log(thresholds(log_L)[0]) / known) ** 2
+        return len(tests) * math.log(scatter(log_L)) + prior
 
-    low, high = (math.log(as_number(of)) for of in L)
-    tried = np.linspace(low, high, n)
-    best = int(np.argmin([misfit(float(t)) for t in tried]))
+    low, high = (math.log(as_number(bound)) for bound in L)
+    distances = np.linspace(low, high, n)
+    best = int(np.argmin([misfit(float(t)) for t in distances]))
     optimize = needed("scipy.optimize", "fit")
-    ends = float(tried[max(best - 1, 0)]), float(tried[min(best + 1, n - 1)])
+    ends = float(distances[max(best - 1, 0)]), float(distances[min(best + 1, n - 1)])
     optimize.minimize_scalar(misfit, bounds=ends, method="bounded", options={"maxiter": 5})
-    at = min(solved, key=misfit)
-    factor, logs = thresholds(at)
-    # Variances of ratio 1 + 4/(tests - 2) are not told apart by so many tests.
-    alike = scatter(at) * math.sqrt(1 + 4 / (len(tests) - 2))
+    best_log_L = min(solved, key=misfit)
+    factor, logs = thresholds(best_log_L)
+    # Variances of ratio 1 + 4/(tests - 2) cannot be distinguished by this number of tests.
+    alike = scatter(best_log_L) * math.sqrt(1 + 4 / (len(tests) - 2))
     good = [log_L for log_L in solved if scatter(log_L) <= alike]
     numbers = [
         (name, factor * number if name in ("s_D", "t_D") else number, source)
@@ -442,9 +452,9 @@ def fit_limits(
     ]
     return Limits(
         material=Material(material.name, numbers, material.title),
-        L=math.exp(at),
+        L=math.exp(best_log_L),
         limit=factor,
-        scatter=scatter(at),
+        scatter=scatter(best_log_L),
         ratios=np.exp(logs),
         L_range=(math.exp(min(good)), math.exp(max(good))),
     )

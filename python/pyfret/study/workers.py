@@ -1,4 +1,4 @@
-"""Sharing points out to processes, threads or a cluster."""
+"""Distribution of points to processes, threads or a cluster."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ from pyfret.study.point import FAILED, Outcome, failure
 
 __all__ = ["Workers"]
 
-#: Points that are handed out for each worker: one at work, one waiting.
-AHEAD = 2
-#: How often a point may be at work when a worker dies before it is taken for the cause.
+#: Points that are submitted for each worker: one at work, one waiting.
+POINTS_PER_WORKER = 2
+#: Deaths of workers at a point after which the point is taken for the cause.
 DEATHS = 3
 
-#: Seconds between two looks of a worker whether the process that it works for is still there.
+#: Seconds between two checks of a worker that its parent process is alive.
 WATCH = 0.5
 
 #: Hands the n-th point to an executor.
@@ -37,7 +37,7 @@ Submit = Callable[[Executor, int], "Future[Outcome]"]
 
 @contextlib.contextmanager
 def standard_streams() -> Iterator[None]:
-    """Put streams that lead nowhere where there are none, as under pythonw and in services.
+    """Replace missing standard streams, as under pythonw and in services.
 
     Libraries that start processes flush them.
     """
@@ -54,14 +54,14 @@ def standard_streams() -> Iterator[None]:
 
 
 def processors() -> int:
-    """Processors that this process may use."""
+    """Count the processors that this process may use."""
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
 
 
 class Workers:
-    """An executor, whose it is, and how many points it takes at a time.
+    """An executor, and the number of points that it takes at a time.
 
     Parameters
     ----------
@@ -69,7 +69,7 @@ class Workers:
         None: one local process for each processor; a number: that many; an executor of
         ``concurrent.futures``; or a client of a Dask cluster.
     points : int
-        Number of points, more processes than which are of no use.
+        Number of points, the upper limit of the processes.
     """
 
     def __init__(self, executor: Any, points: int) -> None:
@@ -77,19 +77,19 @@ class Workers:
         if executor is None or isinstance(executor, int):
             count = max(min(executor or processors(), points), 1)
             self.threads: int | None = max(processors() // count, 1)
-            self.ahead = AHEAD * count
-            self.own = lambda: local(count, self.threads or 1)
+            self.ahead = POINTS_PER_WORKER * count
+            self.own = lambda: local_executor(count, self.threads or 1)
             self.executor = self.own()
         elif hasattr(executor, "get_executor"):
             # A client of Dask: it hands the points of a dead worker to others by itself.
             self.executor = executor.get_executor(pure=False)
-            each = list(executor.nthreads().values())
-            self.threads = max(each, default=1)
-            self.ahead = AHEAD * max(sum(each), 1)
+            threads_per_worker = list(executor.nthreads().values())
+            self.threads = max(threads_per_worker, default=1)
+            self.ahead = POINTS_PER_WORKER * max(sum(threads_per_worker), 1)
         elif isinstance(executor, Executor):
             count = int(getattr(executor, "_max_workers", None) or processors())
             self.executor, self.threads = executor, max(processors() // count, 1)
-            self.ahead = AHEAD * count
+            self.ahead = POINTS_PER_WORKER * count
         else:
             raise TypeError(
                 f"executor = {executor!r}: must be a number of processes, an executor of "
@@ -97,7 +97,7 @@ class Workers:
             )
 
     def run(self, points: list[int], submit: Submit) -> Iterator[tuple[int, Outcome]]:
-        """Give the outcomes of all points as they come."""
+        """Yield the outcomes of all points as they come."""
         waiting = points[::-1]
         at_work: dict[Future[Outcome], int] = {}
         deaths: dict[int, int] = {}
@@ -122,7 +122,7 @@ class Workers:
             for future in at_work:
                 future.cancel()
             if self.own is not None:
-                shut(self.executor)
+                shut_down(self.executor)
             streams.close()
 
     def hand_out(
@@ -132,7 +132,7 @@ class Workers:
         deaths: dict[int, int],
         submit: Submit,
     ) -> bool:
-        """Hand out as many points as the workers take; whether the executor is broken.
+        """Submit as many points as the workers take; return True if the executor is broken.
 
         Points that were at work when a process died are handed out alone, so that no other one is
         taken for the cause.
@@ -169,24 +169,24 @@ class Workers:
             else:
                 reason = f"its process was killed {DEATHS} times; is there enough memory?"
                 yield point, Outcome(FAILED, reason)
-        shut(self.executor)
+        shut_down(self.executor)
         self.executor = self.own()
 
 
-def local(count: int, threads: int) -> Executor:
-    """Processes of this machine that share its processors out."""
+def local_executor(count: int, threads: int) -> Executor:
+    """Make an executor of local processes that share the processors."""
     from loky import ProcessPoolExecutor
 
     # What lies in the current folder is no part of Python.
     env = {"RAYON_NUM_THREADS": str(threads), "PYTHONSAFEPATH": "1"}
     pool: Executor = ProcessPoolExecutor(
-        count, env=env, initializer=end_with, initargs=(os.getpid(),)
+        count, env=env, initializer=end_with_parent, initargs=(os.getpid(),)
     )
     return pool
 
 
-def end_with(parent: int) -> None:
-    """End this process once its parent is gone, whatever it is at."""
+def end_with_parent(parent: int) -> None:
+    """End this process once its parent has ended."""
 
     def watch() -> None:
         while os.getppid() == parent:
@@ -197,6 +197,6 @@ def end_with(parent: int) -> None:
         threading.Thread(target=watch, daemon=True, name="watch the parent").start()
 
 
-def shut(executor: Executor) -> None:
-    """End the processes of an executor of ours, whatever they are at."""
+def shut_down(executor: Executor) -> None:
+    """End the processes of our own executor at once."""
     executor.shutdown(wait=True, kill_workers=True)  # type: ignore[call-arg]

@@ -6,14 +6,16 @@ Most people start from :meth:`pyfret.Snapshot.stress`; the functions here take a
 """
 
 from pyfret._util.names import listing
+from pyfret.subsurface.extremum import Errors, Extremum, Place
 from pyfret.subsurface.fields import displacement, envelope, stress, write_volume
 from pyfret.subsurface.residual import thermal_stress
-from pyfret.subsurface.tensor import Errors, Extreme, Stress
+from pyfret.subsurface.tensor import Stress
 from pyfret.subsurface.zones import Zone
 
 __all__ = [
     "Errors",
-    "Extreme",
+    "Extremum",
+    "Place",
     "Stress",
     "Zone",
     "displacement",

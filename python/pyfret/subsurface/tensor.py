@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,68 +11,19 @@ from pyfret._util.attributes import attribute_error
 from pyfret._util.figures import Figured
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
-from pyfret._util.numbers import in_words, layer_name, place
+from pyfret._util.numbers import layer_name
 from pyfret._util.scene_warnings import warn
 from pyfret.scene.tables import table
+from pyfret.subsurface.extremum import Errors, Extremum, Place
 from pyfret.subsurface.line import line_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["COMPONENTS", "DISPLACEMENTS", "LABELS", "Errors", "Extreme", "Stress"]
+__all__ = ["COMPONENTS", "DISPLACEMENTS", "LABELS", "Stress"]
 
 #: The six components, in their order.
 COMPONENTS = ("s_xx", "s_yy", "s_zz", "s_xy", "s_xz", "s_yz")
-
-
-class Errors(NamedTuple):
-    """What may be wrong with the value at a worst point by its sources, in its unit."""
-
-    #: What the search along x leaves.
-    x: float
-    #: What the search along y leaves.
-    y: float
-    #: What the search over the depths leaves.
-    z: float
-    #: By how much the value differs under the tractions of cells twice as large; NaN where that was
-    #: not looked at.
-    tractions: float
-    #: The error of the stress that the errors of the tractions cause; None without error bars
-    #: (``solve(..., error=True)``). Of a criterion or a load factor that of the increments, where
-    #: they were chosen.
-    solution: float | None = None
-
-    @property
-    def sum(self) -> float:
-        """All together: of a number that is no linear function of the stress."""
-        return sum(error for error in self if error is not None and not math.isnan(error))
-
-
-class Extreme(NamedTuple):
-    """The largest value of a measure and where it is: its value at a point."""
-
-    #: Value [Pa].
-    value: float
-    #: Place [m].
-    x: float
-    y: float
-    #: Depth [m].
-    z: float
-    #: Index of the layer from the surface down, from 0; the number of coatings for the substrate.
-    layer: int
-    #: The border that it lies on, "rim" or "stick border", or none. At the rim a value depends on
-    #: how well the tractions are known there: fatigue wants a mean over a critical distance.
-    at: str | None
-    #: Error of the value: the root of the sum of squares of those by source [Pa].
-    error: float
-    #: The same by its sources [Pa].
-    errors: Errors
-
-    def __repr__(self) -> str:
-        """Give value, error and place in a few digits."""
-        value, error = (in_words(1e-6 * of) for of in (self.value, self.error))
-        at = f", {self.at}" if self.at else ""
-        return f"Extreme({value} MPa +- {error}, {place(self)}{at})"
 
 
 class Stress(Labelled, Figured):
@@ -145,7 +95,7 @@ class Stress(Labelled, Figured):
             coords={**pattern.coords, "axis": ["x", "y", "z"]},
         )
 
-    def maximum(self, of: str = "von_mises", *, layer: int | None = None) -> Extreme:
+    def maximum(self, of: str = "von_mises", *, layer: int | None = None) -> Extremum:
         """Give the largest value and its place: a value at a point.
 
         Of a section that was asked for, the largest value on it; of the section that
@@ -200,8 +150,9 @@ class Stress(Labelled, Figured):
             raise ValueError(f"{of}: no interface lies among the depths of the section")
         if found is None:
             raise ValueError("the section holds no number")
-        value, x, y, z, in_layer, at, error, errors = found
-        return Extreme(value, x, y, z, in_layer, at, error, Errors(*errors))
+        value, x, y, z, in_layer, border, error, errors = found
+        point = Place(x, y, z)
+        return Extremum(value, error, point, in_layer, "Pa", border, Errors(*errors))
 
     def on_surface(self) -> Stress:
         """Give the stress at the first depth alone."""

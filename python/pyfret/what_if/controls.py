@@ -119,7 +119,7 @@ CONTROLS = (
         1.0,
         2.0,
         lambda scene: scene.mu or None,
-        lambda scene, value: scene.replace(mu=scene.friction.replace(mu=value)),
+        lambda scene, value: scene.replace(friction=scene.friction.replace(mu=value)),
     ),
     Control(
         "thickness",

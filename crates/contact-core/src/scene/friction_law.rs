@@ -104,7 +104,7 @@ pub fn is_missing() -> Error {
         "friction.law",
         "own",
         "given again: a law of your own is in no file. pyfret.resume(store, friction_law=...) goes on with a store, \
-         pyfret.wear.resume(store, friction_law=...) with a run of wear. scene.replace(mu=Friction(mu, law=...)) \
+         pyfret.wear.resume(store, friction_law=...) with a run of wear. scene.replace(friction=Friction(mu, law=...)) \
          gives it to a scene",
     )
 }

@@ -137,7 +137,7 @@ impl SurfaceMap {
                 return format!(": with these cells that is Grid.strip(extent={x:e}, n={nx}) at most");
             }
             format!(
-                ": with these cells that is Grid.centred(extent=({x:e}, {y:e}), n=({nx}, {ny})) at most, in a \
+                ": with these cells that is Grid.centred(width=({x:e}, {y:e}), n=({nx}, {ny})) at most, in a \
                  scene file extent = [{x:e}, {y:e}] and n = [{nx}, {ny}]"
             )
         });

@@ -86,7 +86,7 @@ impl<'py> FromPyObject<'_, 'py> for Count {
 pub(crate) struct Grid(pub(crate) core::Grid);
 
 parts!(Grid: nx, ny, dx, dy, plane_strain);
-takes!(Grid, "a grid, such as Grid.centred(extent=1e-3, n=128)");
+takes!(Grid, "a grid, such as Grid.centred(width=1e-3, n=128)");
 
 #[pymethods]
 impl Grid {
@@ -110,11 +110,11 @@ impl Grid {
         Ok(Self(grid))
     }
 
-    /// `n` by `n` cells on a square of side `extent` [m]; a rectangle by pairs (x, y).
+    /// Place `n` by `n` cells on a square of side `width` [m]; a rectangle by pairs (x, y).
     #[staticmethod]
-    #[pyo3(signature = (*, extent, n))]
-    fn centred(extent: Pitch, n: Cells) -> Answer<Self> {
-        let ((x, y), (nx, ny)) = (extent.0, n.0);
+    #[pyo3(signature = (*, width, n))]
+    fn centred(width: Pitch, n: Cells) -> Answer<Self> {
+        let ((x, y), (nx, ny)) = (width.0, n.0);
         Ok(Self(core::Grid::from_spacing(
             (nx, ny),
             (x / nx as f64, y / ny as f64),

@@ -16,7 +16,7 @@ use crate::reference::Hertz;
 /// ----------
 /// body1, body2 : Body
 ///     The upper body (the indenter) and the lower one.
-/// mu : float, Friction or "stick"
+/// friction : float, Friction or "stick"
 ///     Friction coefficient, >= 0, a friction law, or no slip.
 /// grid : Grid
 ///     Mesh of the contact plane; it has to hold the contact.
@@ -30,10 +30,10 @@ use crate::reference::Hertz;
 #[derive(Clone, PartialEq)]
 pub(crate) struct Scene(pub(crate) core::Scene);
 
-parts!(pickled Scene: body1, body2, mu = friction, grid, path, settings, title);
+parts!(pickled Scene: body1, body2, friction, grid, path, settings, title);
 takes!(
     Scene,
-    "a scene, such as Scene(body1=.., body2=.., mu=0.3, grid=..) or Scene.from_file(\"scene.toml\")"
+    "a scene, such as Scene(body1=.., body2=.., friction=0.3, grid=..) or Scene.from_file(\"scene.toml\")"
 );
 
 impl Scene {
@@ -50,11 +50,11 @@ impl Scene {
 #[pymethods]
 impl Scene {
     #[new]
-    #[pyo3(signature = (*, body1, body2, mu, grid, path = None, settings = None, title = String::new()))]
+    #[pyo3(signature = (*, body1, body2, friction, grid, path = None, settings = None, title = String::new()))]
     fn new(
         body1: Body,
         body2: Body,
-        mu: AnyFriction,
+        friction: AnyFriction,
         grid: Grid,
         path: Option<LoadPath>,
         settings: Option<Settings>,
@@ -64,7 +64,7 @@ impl Scene {
             title,
             body1: body1.0,
             body2: body2.0,
-            friction: mu.0,
+            friction: friction.0,
             grid: grid.0,
             path: path.map_or_else(core::LoadPath::start, |p| p.0),
             settings: settings.unwrap_or_default().0,
@@ -110,21 +110,51 @@ impl Scene {
         self.0.to_toml()
     }
 
-    /// The same scene with some of its parts exchanged.
-    #[pyo3(signature = (*, body1 = None, body2 = None, grid = None, path = None, settings = None,
-                        save: "Literal['branches', 'all'] | Sequence[int] | None" = None, mu = None, title = None))]
+    /// Return the scene with other values, or with other parts.
+    ///
+    /// Parameters
+    /// ----------
+    /// values : mapping of str to value, optional
+    ///     By the keys of a scene file: ``"body2.coatings.0.thickness"`` or ``"path.1.T_x.mu_W"``.
+    ///     ``"mu"`` is short for ``"friction.mu"``. ``"path.*.W"`` stands for every branch.
+    ///     Several keys with commas between get the same value, and a key after a ``-`` gets the
+    ///     opposite value. So ``"path.1.T_x,-path.2.T_x,path.3.T_x"`` is an amplitude.
+    /// body1, body2, grid, path, settings, friction, title : optional
+    ///     Parts as in the constructor. They replace the parts of the scene with new values.
+    /// save : "branches", "all" or sequence of int, optional
+    ///     Increments whose fields are kept.
+    ///
+    /// Raises
+    /// ------
+    /// InvalidSceneError
+    ///     A key does not exist, or a value has no meaning; the message names both.
+    ///
+    /// Examples
+    /// --------
+    /// >>> harder = scene.replace({"body2.coatings.0.E": 3e11})  # doctest: +SKIP
+    #[pyo3(signature = (values: "Mapping[str, Any] | None" = None, *, body1 = None, body2 = None, grid = None, path = None, settings = None,
+                        save: "Literal['branches', 'all'] | Sequence[int] | None" = None, friction = None, title = None))]
     fn replace(
         &self,
+        py: Python<'_>,
+        values: Option<&Bound<'_, PyAny>>,
         body1: Option<Body>,
         body2: Option<Body>,
         grid: Option<Grid>,
         path: Option<LoadPath>,
         settings: Option<Settings>,
         save: Option<&Bound<'_, PyAny>>,
-        mu: Option<AnyFriction>,
+        friction: Option<AnyFriction>,
         title: Option<String>,
     ) -> PyResult<Self> {
-        let mut scene = self.0.clone();
+        let mut scene = match values {
+            Some(values) => {
+                let design = py.import("pyfret.study.design")?;
+                let changed = design.call_method1("with_values", (self.clone(), values))?;
+                changed.extract::<Self>()?.0
+            }
+            None => self.0.clone(),
+        };
         if let Some(body1) = body1 {
             scene.body1 = body1.0;
         }
@@ -143,8 +173,8 @@ impl Scene {
         if let Some(save) = save {
             scene.settings.save = save_fields(save)?;
         }
-        if let Some(mu) = mu {
-            scene.friction = mu.0;
+        if let Some(friction) = friction {
+            scene.friction = friction.0;
         }
         if let Some(title) = title {
             scene.title = title;
@@ -227,7 +257,7 @@ impl Scene {
 
     fn __repr__(&self) -> String {
         format!(
-            "Scene(title={:?}, body1={}, body2={}, mu={}, grid={}, path={})",
+            "Scene(title={:?}, body1={}, body2={}, friction={}, grid={}, path={})",
             self.0.title,
             self.body1().__repr__(),
             self.body2().__repr__(),
