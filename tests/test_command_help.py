@@ -29,6 +29,7 @@ COMMANDS = (
     "crack",
     "fit",
     "threshold",
+    "info",
     "report",
     "verify",
     "cite",

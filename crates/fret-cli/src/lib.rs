@@ -100,6 +100,9 @@ enum Command {
     /// Find unknowns of a scene (mu, a rig, a coating, wear) from a measured table (needs the
     /// Python package)
     Fit(python::Options),
+    /// Print what a file is: format, units, axes, size, what is read of it, doubts (needs the Python
+    /// package)
+    Info(python::Options),
     // The program itself.
     /// Check this installation against closed forms in minutes (needs the Python package)
     Verify(python::Options),
@@ -156,6 +159,7 @@ pub fn run_command(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Report(options) => return in_python("report", &options.arguments),
         Command::Fit(options) => return in_python("fit", &options.arguments),
         Command::Threshold(options) => return in_python("threshold", &options.arguments),
+        Command::Info(options) => return in_python("info", &options.arguments),
         Command::Verify(options) => return in_python("verify", &options.arguments),
         Command::Cite(options) => return in_python("cite", &options.arguments),
     };

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pyfret import verification
-from pyfret._cli import compare, crack, explore, export, fit, threshold
+from pyfret._cli import compare, crack, explore, export, fit, info, threshold
 from pyfret._cli.parser import Parser, added
 from pyfret._cli.say import say, say_json
 from pyfret._cli.values import FIGURES, ending
@@ -64,6 +64,7 @@ def parser() -> argparse.ArgumentParser:
     crack.add_options(commands)
     fit.add_options(commands)
     threshold.add_options(commands)
+    info.add_options(commands)
     report = added(commands, "report", "write a result as one page for a browser")
     report.add_argument("store", help="result of a run, of wear, of a study, or what save() wrote")
     report.add_argument("-o", "--out", help="page to write (default: NAME.html)")
@@ -85,7 +86,7 @@ def parser() -> argparse.ArgumentParser:
 
 
 def study(options: argparse.Namespace) -> int:
-    """Run the study of a file and say what came out."""
+    """Run the study of a file and print its outcome."""
     client = None
     if options.scheduler:
         from distributed import Client
@@ -247,6 +248,7 @@ def run(arguments: Sequence[str] | None) -> int:
         "cite": cite,
         "fit": fit.run,
         "threshold": threshold.run,
+        "info": info.run,
     }
     # What people read; JSON is for programs, and stays.
     quiet = options.quiet and not getattr(options, "json", False)

@@ -7,6 +7,8 @@ import io
 import re
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from pyfret._core import read_bytes, shown
 from pyfret._util.extras import needed
 
@@ -52,6 +54,19 @@ def is_keyword_file(path: Path) -> bool:
         if text and not text.startswith(b"**"):
             return re.match(rb"\*[A-Za-z]", text) is not None
     return False
+
+
+def check_mesh(mesh: Any) -> None:
+    """Refuse places that are not finite, and elements whose nodes the file does not have."""
+    points = np.asarray(mesh.points)
+    if points.ndim != 2 or not 1 <= points.shape[1] <= 3 or not np.isfinite(points).all():
+        raise ValueError("has nodes without a finite place in space")
+    for block in mesh.cells:
+        data = np.asarray(block.data)
+        if data.dtype.kind not in "iu" or data.ndim != 2:
+            raise ValueError(f"has elements {block.type!r} of different numbers of nodes")
+        if data.size and not 0 <= data.min() <= data.max() < len(points):
+            raise ValueError(f"has elements {block.type!r} of nodes that the file does not have")
 
 
 def read_component_names(path: Path, field: str) -> tuple[str, ...]:
@@ -104,7 +119,9 @@ def read_by_meshio(path: Path) -> Any:
     nowhere = io.StringIO()
     try:
         with contextlib.redirect_stdout(nowhere), contextlib.redirect_stderr(nowhere):
-            return meshio.read(path)
+            mesh = meshio.read(path)
+        check_mesh(mesh)
+        return mesh
     except (Exception, SystemExit) as error:
         said = " ".join(str(error).split()) or type(error).__name__
         reason = f"is no {FORMATS[ending]} file that can be read" if said == "1" else said

@@ -120,7 +120,9 @@ def _increment(head: str, parameters: dict[str, list[str]], path: Path) -> Incre
     code, analysis = head[KIND].strip(), head[ANALYSIS].strip().upper()
     kind = KINDS.get(code, f"step of kind {code}")
     step = parameters.get("STEP", [])
-    count, number_of_step = (int(word) for word in step[1:3]) if len(step) > 2 else (None, None)
+    count, number_of_step = None, None
+    if len(step) > 2 and all(word.lstrip("-").isdigit() for word in step[1:3]):
+        count, number_of_step = (int(word) for word in step[1:3])
     mode = parameters.get("MODE", [""])[0]
     if analysis == "MODAL" or mode:
         kind = "mode"

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from pathlib import Path
 
-__all__ = ["Increment", "choose_increment"]
+__all__ = ["FAILED", "Increment", "choose_increment", "mark_failure"]
 
 #: Blocks that CalculiX writes of an iteration that did not converge: displacements and residual
 #: forces, in a thermal step temperatures and fluxes (``storeresidual.f`` of ccx 2.20).
@@ -68,7 +68,7 @@ def choose_increment(
 
     Refused are files whose last load has no such field, and iterations that did not converge.
     """
-    increments = _with_failure(increments, path)
+    increments = mark_failure(increments, path)
     if step is not None:
         return _named_increment(increments, block, step, path)
     loads = [increment for increment in increments if increment.kind in ("load", FAILED)]
@@ -101,7 +101,7 @@ def is_bare(increment: Increment) -> bool:
     return names <= RESIDUAL and bool(names & {"FORC", "RFL"})
 
 
-def _with_failure(increments: Sequence[Increment], path: Path) -> list[Increment]:
+def mark_failure(increments: Sequence[Increment], path: Path) -> list[Increment]:
     """Return the increments, the last load marked if its iteration failed.
 
     The ``.sta`` file decides, if it is of the same run. Without it an iteration counts as failed

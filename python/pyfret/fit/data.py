@@ -351,7 +351,10 @@ def read_loops(
     force = table.column("force", ("t", "q", "kraft", "f", "force"), T)
     rows = read_pair(table, shift, force)
     options: dict[str, Any] = {"W": W, "noise": noise, "tilt": tilt, "drift": drift}
-    return Loops.of(rows[:, 0], rows[:, 1], detrend=detrend, **options)
+    try:
+        return Loops.of(rows[:, 0], rows[:, 1], detrend=detrend, **options)
+    except ValueError as error:
+        raise ValueError(f"{table.place}: {error}") from error
 
 
 @quantities

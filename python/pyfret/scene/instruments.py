@@ -65,20 +65,19 @@ def read_by_surface_topography(
             must_be_its_format(path, reader)
             reading, index = described(path, reader, channel, release)
             surface = measured(reader, index, spacing, unit)
-            if surface.dim == 2:
-                surface = surface.to_unit("m").detrend(detrend)
+            if surface.dim != 2:
+                raise StoreError(profile(surface.nb_grid_pts[0]))
+            surface = surface.to_unit("m").detrend(detrend)
+            heights: Any = np.ma.asarray(surface.heights(), dtype=float)
+            x, y = surface.pixel_size
     except StoreError:
         raise
     except Exception as error:
         raise StoreError(why_not(path, error)) from error
-    if surface.dim != 2:
-        raise StoreError(profile(surface.nb_grid_pts[0]))
-    heights: Any = np.ma.asarray(surface.heights(), dtype=float)
     if reader.format() == "gwy" and np.ma.is_masked(heights):
         count = int(np.ma.getmaskarray(heights).sum())
         reading.notes.append(f"{count} points under a mask of Gwyddion count as not measured")
     reading.heights = heights.filled(np.nan)
-    x, y = surface.pixel_size
     reading.spacing = (float(x), float(y))
     if spacing is not None and reader.channels[index].physical_sizes is not None:
         replace_spacing(reading, spacing)
