@@ -290,7 +290,7 @@ def oblique(file: Path, n: int) -> str:
         for ax, entering in zip(axes, (True, False), strict=True):
             for increments in (1, 5, 20):
                 path = fret.LoadPath.start().force(W=W, T_x=k * W, increments=increments)
-                settings = fret.Settings(tolerance=1e-9, entering=entering)
+                settings = fret.Settings(tolerance=1e-9, cell_entry_correction=entering)
                 scene = sphere(CORK, path, n=n).replace(settings=settings)
                 at = solved(scene).at(-1)
                 hertz = at.scene.hertz

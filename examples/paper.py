@@ -45,7 +45,7 @@ def one_jump(scene: fret.Scene) -> fret.Scene:
     """The indentation alone in one increment that leaves out the load history within it."""
     path = fret.LoadPath.start().normal(float(scene.path.W.max()), increments=1)
     alone = scene.replace(path=path, save="all", title=f"{scene.title}, one increment")
-    settings = alone.settings.replace(entering=False, turning=False)
+    settings = alone.settings.replace(cell_entry_correction=False, slip_rotation_correction=False)
     return alone.replace(settings=settings)
 
 

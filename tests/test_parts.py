@@ -65,7 +65,7 @@ PARTS: list[tuple[Any, dict[str, Any]]] = [
     (fret.PerRange(40), {"increments": 20}),
     (SETTINGS, {"save": "all"}),
     (fret.Plastic(s_y=1e9, hardening=2e9), {"s_y": 2e9}),
-    (fret.settings.Skip(far=False), {"far": True}),
+    (fret.settings.Skip(contact_window=False), {"contact_window": True}),
     (fret.settings.Hankel(), {}),
     (fret.settings.InverseFft(enlargement=4), {"aliases": 2}),
     (fret.settings.FrequencyDomain(enlargement=4), {"enlargement": 5}),

@@ -65,7 +65,7 @@ VALUES: list[Any] = [
     fret.LoadPath.start().normal(1e3).tangential([50.0, -50.0]),
     fret.LoadPath.start().normal(1e3).branches[0],
     fret.Settings(save=[1, 2]),
-    fret.settings.Skip(far=False),
+    fret.settings.Skip(contact_window=False),
     fret.settings.Preset.SPINU2020,
     fret.settings.Hankel(),
     fret.settings.InverseFft(enlargement=4),

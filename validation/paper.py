@@ -56,7 +56,7 @@ def solve(n: int) -> tuple[Results, fret.Result, float]:
     results = {ratio: fret.solve(scene(ratio, n), progress=False) for ratio in RATIOS}
     path = fret.LoadPath.start().normal(results[2.0].W_max, increments=1)
     alone = results[2.0].scene.replace(path=path, save="all")
-    settings = alone.settings.replace(entering=False, turning=False)
+    settings = alone.settings.replace(cell_entry_correction=False, slip_rotation_correction=False)
     jump = fret.solve(alone.replace(settings=settings), progress=False)
     return results, jump, time.process_time() - started
 
@@ -204,7 +204,7 @@ FIGURES = (
                 history_left_out,
             ),
         ),
-        "The one increment is solved with `entering = false` and `turning = false`: each cell then "
+        "The one increment is solved with `cell_entry_correction = false` and `slip_rotation_correction = false`: each cell then "
         "begins to stick at the end of the load, wherever it came into contact. By default the "
         "solver follows the history within an increment, and one increment has the shear of 100. "
         "The peaks of one increment in (b) lie where slip begins; between the middles of the cells "

@@ -89,23 +89,23 @@ class Skip(Replaceable):
         Leave out the normal-tangential kernels where they vanish (default True).
     mirror : bool
         Solve on half of a mirror-symmetric scene (default True).
-    digits : bool
-        Answer changes of the tractions in single precision where the tolerance is 1e-6 or more
-        (default True).
-    far : bool
+    single_precision : bool
+        Compute responses to changes of the tractions in single precision where the tolerance is
+        1e-6 or more (default True).
+    contact_window : bool
         Solve in a window around the contact, where no cell beyond it can touch (default True).
-    path : bool
-        Leave out the increments of branches whose end does not depend on the way there
-        (default False: results have a row for every increment asked for); they are solved if
+    path_independent_branches : bool
+        Leave out the increments of branches whose end does not depend on the path
+        (default False: results have a row for every increment asked for). They are solved if
         their fields are to be kept.
     """
 
     equal_layers: bool = True
     coupling: bool = True
     mirror: bool = True
-    digits: bool = True
-    far: bool = True
-    path: bool = False
+    single_precision: bool = True
+    contact_window: bool = True
+    path_independent_branches: bool = False
 
 
 @part(kw_only=True)
@@ -121,8 +121,8 @@ class Settings(Replaceable):
         the tangential misfit over mu h. It holds for the last change of the tractions, too. Default
         1e-6. Where increments are chosen it is 1/125 of ``path_tolerance`` if that is more, 1/2500
         where loads only press.
-    entering : bool
-        Reckon the slip of cells that come into contact from their entry (default True). It takes
+    cell_entry_correction : bool
+        Compute the slip of cells that come into contact from their entry (default True). It takes
         far fewer increments, with one more solution in each in which the contact grows.
     path_tolerance : float
         Largest error of the shear at the ends of branches that ``increments="auto"`` leaves, over
@@ -134,8 +134,8 @@ class Settings(Replaceable):
         chosen with the increments, such that ``path_tolerance`` holds; ``"same"`` where these are
         given. The error that a number leaves is in ``path_error``, in the bars and in the doubts of
         a result.
-    turning : bool
-        Let slip follow the turn of the shear within an increment (default True): the path becomes
+    slip_rotation_correction : bool
+        Let the direction of slip follow the shear within an increment (default True): the path becomes
         of second order.
     max_alternations : int
         Most passes of the intermediate loop per increment (default 60).
@@ -159,8 +159,8 @@ class Settings(Replaceable):
 
     preset: Preset = Preset.FAST
     tolerance: float | None = None
-    entering: bool = True
-    turning: bool = True
+    cell_entry_correction: bool = True
+    slip_rotation_correction: bool = True
     path_tolerance: float = 5e-3
     path_grid: Literal["auto", "same"] | int = "auto"
     max_alternations: int = 60

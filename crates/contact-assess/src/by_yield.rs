@@ -39,7 +39,7 @@ impl Judge for ByYield {
         let Some(s_y) = self.s_y.get(layer).copied().flatten() else {
             return Ok(Vec::new());
         };
-        let residual = z.iter().map(|z| self.residual.at(layer, *z));
+        let residual = z.iter().map(|z| self.residual.stress_at(layer, *z));
         let residual: Vec<[f64; 2]> = residual.collect();
         // Points of one residual stress together, as those of a depth are.
         let mut found = Vec::with_capacity(residual.len());

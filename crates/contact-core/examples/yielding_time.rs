@@ -12,7 +12,8 @@ use std::time::Instant;
 use contact_core::estimate::choose_increments;
 use contact_core::march::March;
 use contact_core::scene::{
-    Body, Branch, Elastic, Friction, Given, Grid, LoadPath, Loads, Plastic, Scene, Shape,
+    Body, Branch, Elastic, Friction, Grid, LoadPath, Loads, Plastic, PrescribedMotions, Scene,
+    Shape,
 };
 
 const STEEL: Elastic = Elastic { E: 210e9, nu: 0.3 };
@@ -38,9 +39,9 @@ fn path(branches: Vec<Branch>) -> LoadPath {
 }
 
 fn indentation() -> Scene {
-    let given = Given {
+    let given = PrescribedMotions {
         delta_z: Some(7.23e-6),
-        ..Given::default()
+        ..PrescribedMotions::default()
     };
     let to = Loads {
         given,

@@ -13,7 +13,7 @@ pub const SMALLEST: f64 = 1e-75;
 pub const LARGEST: f64 = 1e75;
 
 /// Fails at a size that is neither zero nor infinite nor within the range of the arithmetic.
-pub(crate) fn within(smallest: f64, key: &str, value: f64) -> Result<(), Error> {
+pub(crate) fn check_range(smallest: f64, key: &str, value: f64) -> Result<(), Error> {
     let size = value.abs();
     if size == 0.0 || size == f64::INFINITY || (smallest..=LARGEST).contains(&size) {
         return Ok(());

@@ -1,13 +1,13 @@
 //! The friction law of a run that is gone on with: no store can hold it.
 
 use contact_core::Error;
-use contact_core::scene::{OwnFriction, Scene, is_missing};
+use contact_core::scene::{Scene, UserFriction, missing_law_error};
 
 /// The scene of a store with the friction law that is given for it.
-pub(super) fn with_law(scene: &Scene, law: Option<&OwnFriction>) -> Result<Scene, Error> {
+pub(super) fn with_law(scene: &Scene, law: Option<&UserFriction>) -> Result<Scene, Error> {
     let mut scene = scene.clone();
     match (&scene.friction.law, law) {
-        (Some(_), None) => return Err(is_missing()),
+        (Some(_), None) => return Err(missing_law_error()),
         (None, Some(_)) => {
             let allowed = "left out: the run has a coefficient and no law of your own";
             return Err(Error::invalid("friction.law", "a law of your own", allowed));

@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 
 use contact_core::Error;
 use contact_core::march::{Increment, March};
-use contact_core::scene::OwnFriction;
+use contact_core::scene::UserFriction;
 use serde_json::json;
 
 use super::catalogue::{FIELDS, Kind, YIELDED};
@@ -52,7 +52,7 @@ pub fn resume(
 /// again. Fails if the run has such a law and none is given, or the other way about.
 pub fn resume_by(
     path: impl AsRef<Path>,
-    law: Option<&OwnFriction>,
+    law: Option<&UserFriction>,
     stop: Option<&Arc<AtomicBool>>,
 ) -> Result<Option<Resumed>, Error> {
     let stop = stop.cloned().unwrap_or_default();

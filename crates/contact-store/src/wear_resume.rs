@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use contact_core::Error;
-use contact_core::scene::{OwnFriction, Scene};
+use contact_core::scene::{Scene, UserFriction};
 use contact_wear::{BodyWear, Law, Wear, WearRun};
 use serde_json::Value;
 
@@ -38,14 +38,14 @@ pub fn resume_wear(
 pub fn resume_wear_by(
     path: impl AsRef<Path>,
     own: &[Vec<Arc<dyn Law>>; 2],
-    friction: Option<&OwnFriction>,
+    friction: Option<&UserFriction>,
     stop: &Arc<AtomicBool>,
 ) -> Result<Option<(WearRun, WearStore)>, Error> {
     take_up(path.as_ref(), None, (own, friction), stop)
 }
 
 /// The laws of wear of each body and the law of friction that are of the user's own.
-type OwnLaws<'a> = (&'a [Vec<Arc<dyn Law>>; 2], Option<&'a OwnFriction>);
+type OwnLaws<'a> = (&'a [Vec<Arc<dyn Law>>; 2], Option<&'a UserFriction>);
 
 fn take_up(
     path: &Path,

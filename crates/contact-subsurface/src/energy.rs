@@ -292,21 +292,21 @@ mod tests {
 
     #[test]
     fn cycles_of_given_motions() {
-        let shifted = |path: LoadPath, by: f64| path.to(|l| l.given.delta_x = Some(by), 2);
+        let shifted = |path: LoadPath, by: f64| path.change_to(|l| l.given.delta_x = Some(by), 2);
         let path = [1e-6, -1e-6, 1e-6, 0.0]
             .into_iter()
             .fold(LoadPath::start().normal(10.0, 1), shifted);
         // The force that was given before the shifts is no end of a cycle of shifts.
         assert_eq!(cycles(&path), [(2, 3)]);
-        let lower = |path: LoadPath, by: f64| path.to(|l| l.sigma_B = by, 2);
-        let upper = |path: LoadPath, by: f64| path.to(|l| l.sigma_B1 = by, 2);
+        let lower = |path: LoadPath, by: f64| path.change_to(|l| l.sigma_B = by, 2);
+        let upper = |path: LoadPath, by: f64| path.change_to(|l| l.sigma_B1 = by, 2);
         for pulled in [lower, upper] {
             let path = [1e8, -1e8, 1e8]
                 .into_iter()
                 .fold(LoadPath::start().normal(10.0, 1), pulled);
             assert_eq!(cycles(&path), [(2, 3)]);
         }
-        let rocking = |path: LoadPath, by: f64| path.to(|l| l.given.phi_y = Some(by), 2);
+        let rocking = |path: LoadPath, by: f64| path.change_to(|l| l.given.phi_y = Some(by), 2);
         let path = [1e-4, -1e-4, 0.0]
             .into_iter()
             .fold(LoadPath::start().normal(10.0, 1), rocking);

@@ -140,7 +140,7 @@ impl<A: Accumulate> Stream<A> {
             accumulate,
             kept,
             rim: false,
-            residual: ResidualStress::of(body),
+            residual: ResidualStress::from_body(body),
             waiting: Vec::with_capacity(BATCH),
             eigenstresses: None,
             stop: Arc::default(),
@@ -163,7 +163,7 @@ impl<A: Accumulate> Stream<A> {
 
     /// Takes the residual stress of every layer in place of that of the body: [`ResidualStress::given`].
     pub fn residual(mut self, residual: &[Profile]) -> Result<Self, Error> {
-        self.residual = ResidualStress::given(&self.body, residual)?;
+        self.residual = ResidualStress::from_profiles(&self.body, residual)?;
         Ok(self)
     }
 

@@ -38,7 +38,7 @@ impl Uniform {
             plane_strain: grid.plane_strain,
             residual: residual
                 .cloned()
-                .unwrap_or_else(|| ResidualStress::of(body)),
+                .unwrap_or_else(|| ResidualStress::from_body(body)),
             eigenstress: eigenstress.to_vec(),
         })
     }
@@ -46,7 +46,7 @@ impl Uniform {
     /// s_xx and s_yy of a state that are the same all over a depth of the body \[Pa\].
     pub(super) fn stress(&self, body: &Body, state: usize, depth: Depth) -> [f64; 2] {
         let sigma_B = self.sigma_B.get(state).copied().unwrap_or(0.0);
-        let [xx, yy] = self.residual.at(depth.layer, depth.z);
+        let [xx, yy] = self.residual.stress_at(depth.layer, depth.z);
         let [along, across] = body.bulk_stress(sigma_B, self.plane_strain, depth.layer);
         [along + xx, across + yy]
     }

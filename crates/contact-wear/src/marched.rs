@@ -100,7 +100,7 @@ impl Marched {
         for (i, branch) in scene.path.branches.iter_mut().enumerate() {
             branch.t_end = (i + 1) as f64;
         }
-        scene.settings.skip.far = false;
+        scene.settings.skip.contact_window = false;
         scene.settings.solver.path_grid = PathGrid::Same;
         let mut march = March::until(&scene, stop)?;
         let scene = march.scene().clone();
@@ -346,7 +346,7 @@ impl Marched {
 /// The coefficient of friction, if uniform apart from a dependence on cycles.
 fn plain(friction: &Friction) -> Option<f64> {
     friction
-        .depends_on_no_more_than(&[Dependence::Cycles])
+        .depends_only_on(&[Dependence::Cycles])
         .then_some(friction.mu)
 }
 

@@ -58,7 +58,7 @@ impl Pressing {
             stretch: 1.0,
         };
         let cells = arms.x.len();
-        let tolerance = scene.tolerance() * scene.approach();
+        let tolerance = scene.tolerance() * scene.reference_approach();
         Ok(Self {
             grid,
             mirror,

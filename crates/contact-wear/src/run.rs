@@ -137,7 +137,7 @@ impl WearRun {
             Jumps::Tolerance(_) => {
                 let rate = self.rate()?;
                 let first = if rate > 0.0 {
-                    FIRST_JUMP * self.scene.approach() / rate
+                    FIRST_JUMP * self.scene.reference_approach() / rate
                 } else {
                     all
                 };
@@ -203,7 +203,7 @@ impl WearRun {
     /// The physical cause of jumps that do not converge, as the end of a sentence: large wear in
     /// one cycle.
     fn why(&mut self) -> String {
-        let (rate, approach) = (self.rate().unwrap_or(0.0), self.scene.approach());
+        let (rate, approach) = (self.rate().unwrap_or(0.0), self.scene.reference_approach());
         if rate < FIRST_JUMP * approach {
             return String::new();
         }

@@ -210,7 +210,8 @@ impl Wear {
             let name = if ends[k].is_some() {
                 contact_core::scene::RigidMotion::ALL.map(contact_core::scene::RigidMotion::name)
             } else {
-                contact_core::scene::RigidMotion::ALL.map(contact_core::scene::RigidMotion::load)
+                contact_core::scene::RigidMotion::ALL
+                    .map(contact_core::scene::RigidMotion::load_name)
             }[k];
             // Closed up to rounding.
             let largest = |of: &dyn Fn(&Branch) -> f64| {

@@ -101,7 +101,7 @@ impl Sliding {
         let h = plan.mirror.fold(&scene.h_init());
         // Hertz's pressure at first, up to a factor.
         let lowest = h.iter().fold(f64::INFINITY, |m, h| m.min(*h));
-        let approach = scene.approach();
+        let approach = scene.reference_approach();
         let guess: Vec<f64> = h
             .iter()
             .map(|h| (1.0 - 2.0 * (h - lowest) / approach).max(0.0).sqrt())

@@ -107,7 +107,7 @@ fn check(scene: &Scene, first_branch: usize, rigid: bool) -> Result<(), Error> {
         |key: String, value: String, allowed: &str| Err(Error::invalid(key, value, allowed));
     let friction = &scene.friction;
     let known = [Dependence::Direction, Dependence::Cycles];
-    if !friction.depends_on_no_more_than(&known[..if rigid { 2 } else { 1 }]) {
+    if !friction.depends_only_on(&known[..if rigid { 2 } else { 1 }]) {
         let allowed = "one coefficient mu where wear.cycling = \"sliding\", or, without a spring of the rig, one with a \
                        history of cycles. wear.cycling = \"march\" takes all of them";
         let value = if friction.law.is_some() {

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use contact_core::Error;
-use contact_core::scene::{Fault, Reach, Scene, Section, read_with, text_of};
+use contact_core::scene::{Fault, Reach, Scene, Section, read_scene_and, read_text};
 use toml::{Table, Value};
 
 use super::law::{Archard, BodyWear, CellCycle, DissipatedEnergy, Law};
@@ -38,7 +38,7 @@ impl Wear {
         settings: &[String],
         reach: Reach,
     ) -> Result<(Scene, Self), Error> {
-        let (text, file) = text_of(path.as_ref())?;
+        let (text, file) = read_text(path.as_ref())?;
         read(&text, &file, settings, reach)
     }
 
@@ -59,7 +59,7 @@ impl Wear {
             wear.check(&scene)?;
             Ok(Some((wear, scene)))
         };
-        let (scene, found) = read_with(text, file, settings, reach, both)?;
+        let (scene, found) = read_scene_and(text, file, settings, reach, both)?;
         Ok(found.map_or((scene, None), |(wear, scene)| (scene, Some(wear))))
     }
 
@@ -81,7 +81,7 @@ impl Wear {
     ) -> Result<(Scene, Self), Error> {
         let root = Table::from_iter([("wear".to_owned(), Value::Table(table.clone()))]);
         let both = || {
-            let section = Section::root(&root, &["wear"])?.need_section("wear", &KEYS)?;
+            let section = Section::root(&root, &["wear"])?.require_section("wear", &KEYS)?;
             Ok((wear(&section)?, rig(&section)?))
         };
         let (mut wear, rig) = both().map_err(Fault::into_error)?;
@@ -171,10 +171,10 @@ fn read_unchecked(
     reach: Reach,
 ) -> Result<(Scene, Wear), Error> {
     let both = |root: &Section<'_>, _: &Scene| {
-        let section = root.need_section("wear", &KEYS)?;
+        let section = root.require_section("wear", &KEYS)?;
         Ok((wear(&section)?, rig(&section)?))
     };
-    let (mut scene, (wear, rig)) = read_with(text, file, settings, reach, both)?;
+    let (mut scene, (wear, rig)) = read_scene_and(text, file, settings, reach, both)?;
     scene.path.rig_stiffness = rig.or(scene.path.rig_stiffness);
     Ok((scene, wear))
 }

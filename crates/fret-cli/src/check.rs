@@ -287,7 +287,7 @@ fn increments(scene: &Scene) -> String {
         .iter()
         .filter_map(|b| b.increments)
         .sum();
-    if scene.path.is_open() {
+    if scene.path.has_open_increments() {
         let tolerance = 100.0 * scene.settings.solver.path_tolerance;
         let others = if given > 0 {
             format!("{given} increments and as many")
@@ -334,7 +334,7 @@ impl Work {
     /// It in words.
     fn told(&self, scene: &Scene) -> String {
         let ([least, most], [few, many]) = (self.increments, self.each);
-        let increments = if scene.path.is_open() {
+        let increments = if scene.path.has_open_increments() {
             format!("some {least} to {most} increments")
         } else {
             format!("{least} increments")

@@ -142,7 +142,7 @@ fn branch(scene: &Scene, b: &BranchSummary, own: &[Increment], error: Option<f64
     set("t", json!(last.point.t));
     let (loads, motions) = (b.loads.forces(), b.motion.motions());
     for of in RigidMotion::ALL {
-        set(of.load(), json!(loads[of.index()]));
+        set(of.load_name(), json!(loads[of.index()]));
         set(of.name(), json!(motions[of.index()]));
     }
     set(length_of(scene), json!(b.contact_radius));

@@ -4,7 +4,7 @@ use std::io::Read;
 use std::path::PathBuf;
 
 use clap::Args;
-use contact_core::scene::{Reach, text_of};
+use contact_core::scene::{Reach, read_text};
 use contact_core::{Error, Scene};
 use contact_wear::Wear;
 
@@ -67,7 +67,7 @@ impl SceneOptions {
             }
             return Ok((text, "standard input".into()));
         }
-        text_of(&self.scene)
+        read_text(&self.scene)
     }
 }
 

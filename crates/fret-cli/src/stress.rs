@@ -144,7 +144,7 @@ struct Task {
 /// Residual stress of a body: a stress given for each layer \[Pa\], or its own.
 pub(crate) fn given_residual(body: &Body, given: &[f64]) -> Result<ResidualStress, Error> {
     let layers: Vec<_> = given.iter().copied().map(Profile::uniform).collect();
-    ResidualStress::given(body, &layers)
+    ResidualStress::from_profiles(body, &layers)
 }
 
 /// Computes the stress below the contact of a result.
@@ -215,7 +215,7 @@ impl Task {
         let probes = probes.collect::<Result<Vec<_>, _>>()?;
         check_interfaces(body, &probes)?;
         let loads = Loads::of(&store, options.increment, options.body, !options.no_bulk)?;
-        let length = scene.length(&loads.p);
+        let length = scene.reference_length(&loads.p);
         let deepest = options.depth.unwrap_or(2.0 * length);
         let chosen = chosen_depths(body, length, deepest, 1.0)?;
         let evenly = |n: u16| {

@@ -50,7 +50,7 @@ pub(crate) fn line(scene: &Scene, branch: &BranchSummary, t: f64) -> String {
             (0.0, _) | (_, Some(0.0)) => text,
             (load, _) => {
                 let unit = units(scene, *of).0;
-                text + &format!(", {} = {} {unit}", of.load(), short(load))
+                text + &format!(", {} = {} {unit}", of.load_name(), short(load))
             }
         }
     });
@@ -196,7 +196,7 @@ fn columns(scene: &Scene, increments: &[Increment], wide: bool) -> Vec<Column> {
         column(format!("T_x\n[{force}]"), |b, _| short(b.loads.T_x)),
     ];
     for of in driven(scene) {
-        let title = format!("{}\n[{}]", of.load(), units(scene, of).0);
+        let title = format!("{}\n[{}]", of.load_name(), units(scene, of).0);
         let k = of.index();
         columns.push(column(title, move |b, _| short(b.loads.forces()[k])));
     }
@@ -326,7 +326,7 @@ fn answers(scene: &Scene) -> Vec<Answer> {
         ends().any(|to| to.given.motions()[of.index()].is_some_and(|motion| motion != 0.0))
     };
     let loads = RigidMotion::ALL.into_iter().filter(given).map(|of| Answer {
-        title: format!("{}\n[{}]", of.load(), units(scene, of).0),
+        title: format!("{}\n[{}]", of.load_name(), units(scene, of).0),
         of: Box::new(move |branch, bar| {
             (
                 branch.loads.forces()[of.index()],

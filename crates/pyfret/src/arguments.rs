@@ -9,7 +9,7 @@ use crate::hints::sequence_of;
 use crate::prelude::*;
 use crate::python::from_python;
 use contact_core::memory::available_memory;
-use contact_core::scene::{Grid, in_si};
+use contact_core::scene::{Grid, convert_to_si};
 use contact_subsurface::Side;
 use ndarray::{Dimension, Ix2};
 use numpy::{AllowTypeChange, PyArrayLike, PyReadonlyArray};
@@ -36,7 +36,7 @@ fn refuse_texts(value: &Bound<'_, PyAny>) -> PyResult<()> {
     let Some(text) = crate::document::text_of(value)? else {
         return Ok(());
     };
-    let write = in_si(&text).map_or(", not a text".to_owned(), |(number, unit)| {
+    let write = convert_to_si(&text).map_or(", not a text".to_owned(), |(number, unit)| {
         format!(" in SI units: write {number:?}, which is in {unit}")
             .trim_end_matches(", which is in ")
             .to_owned()
@@ -149,7 +149,7 @@ impl<'py, D: Dimension + 'py> Array<'py, D> {
             must_fit(size, 8.0)?;
         }
         let text = crate::document::text_of(value)?;
-        if text.is_some_and(|text| in_si(&text).is_some()) {
+        if text.is_some_and(|text| convert_to_si(&text).is_some()) {
             refuse_texts(value)?;
         }
         let py = value.py();

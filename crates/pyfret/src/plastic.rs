@@ -105,7 +105,7 @@ impl Plastic {
             chaboche_C: of_back_stresses("chaboche_C", chaboche_C)?,
             chaboche_gamma: of_back_stresses("chaboche_gamma", chaboche_gamma)?,
         };
-        core::check_plastic(&law, "plastic")?;
+        core::check_plastic_law(&law, "plastic")?;
         Ok(Self(law))
     }
 

@@ -18,7 +18,10 @@ pub(crate) type Profiles = Option<List<Profile>>;
 /// The residual stress of a body: what is given for each layer, or its own.
 pub(crate) fn of_body(body: &Body, given: Profiles) -> Answer<ResidualStress> {
     let layers = given.unwrap_or_default().into_iter().map(|layer| layer.0);
-    Ok(ResidualStress::given(body, &layers.collect::<Vec<_>>())?)
+    Ok(ResidualStress::from_profiles(
+        body,
+        &layers.collect::<Vec<_>>(),
+    )?)
 }
 
 impl<'py> FromPyObject<'_, 'py> for Profile {

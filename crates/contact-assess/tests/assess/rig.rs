@@ -35,7 +35,7 @@ fn rig(n: usize, coatings: Vec<Coating>, branches: usize) -> Scene {
             loads.T_x = sign * T;
             loads.sigma_B = if sign > 0.0 { 350e6 } else { 0.0 };
         };
-        path.to(to, 12)
+        path.change_to(to, 12)
     });
     let mut flat = Body::homogeneous(TITANIUM, Shape::Flat);
     flat.coatings = coatings;
@@ -153,7 +153,7 @@ fn below_a_coating() {
     let scene = rig(64, vec![coating], 3);
     let cycle = recorded(&scene);
     let layers = [-2.5e9, 0.0].map(Profile::uniform);
-    let residual = ResidualStress::given(&scene.body2, &layers).unwrap();
+    let residual = ResidualStress::from_profiles(&scene.body2, &layers).unwrap();
     let site = site(&scene, &cycle, &residual);
     let of = swt(&scene.body2, vec![Some(material("titanium", 150e9))]);
     assert!(!of.judges(0) && of.judges(1));

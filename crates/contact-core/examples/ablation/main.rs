@@ -105,7 +105,7 @@ const METHODS: [Method; 15] = [
     },
     Method {
         name: "turn of the slip",
-        off: |m| m.turning = false,
+        off: |m| m.slip_rotation = false,
         files: &["solvers/no_slip/turn.rs"],
     },
     Method {

@@ -61,7 +61,7 @@ const MOST_OF_BRANCH: usize = 1000;
 /// ([`PathGrid::Cells`]). Ends when `stop` is raised:
 /// [`Error::Interrupted`] after increment 0.
 pub fn choose_increments(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene, Error> {
-    if !scene.path.is_open() {
+    if !scene.path.has_open_increments() {
         let known = scene.path.branches.iter().all(|b| b.path_error.is_some());
         return if scene.path_grid().is_some() && !known {
             with_path_errors(scene, stop)
@@ -114,7 +114,7 @@ pub(super) fn begun(scene: &Scene) -> Scene {
 /// Compared with half of the increments, or with twice as many where a branch has only one. Ends
 /// when `stop` is raised.
 pub fn estimate_path_error(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene, Error> {
-    if scene.path.is_open() {
+    if scene.path.has_open_increments() {
         choose_increments(scene, stop)
     } else {
         with_path_errors(scene, stop)

@@ -53,7 +53,8 @@ pub(super) fn choose_path_grid(scene: &mut Scene, stop: &Arc<AtomicBool>) -> Res
             scene.settings.solver.path_grid = PathGrid::Same;
             let possible = |ratio: &usize| {
                 let coarser = on_path_grid(scene, nx / ratio);
-                let allowed = coarser.check_path_grid().is_ok() && coarser.resolves_on_path_grid();
+                let allowed =
+                    coarser.check_path_grid().is_ok() && coarser.is_resolved_on_path_grid();
                 allowed && shorter >= FEWEST_PATH_CELLS * ratio
             };
             let ratios: Vec<usize> = RATIOS.into_iter().filter(possible).collect();

@@ -103,7 +103,7 @@ impl Trial {
             trial.grid = grid;
             let mut once = trial.clone();
             // Only the area of the contact is needed.
-            once.settings.solver.entering = false;
+            once.settings.solver.cell_entry_correction = false;
             once.path
                 .branches
                 .iter_mut()
@@ -229,7 +229,7 @@ fn halvings(scene: &Scene) -> Vec<Grid> {
 fn few(scene: &Scene, grid: &Grid) -> Option<Grid> {
     let Grid { nx, ny, .. } = *grid;
     let shorter = nx.min(ny);
-    if shorter <= FEW || grid.plane_strain || !scene.is_plain() {
+    if shorter <= FEW || grid.plane_strain || !scene.is_sum_of_paraboloids() {
         return None;
     }
     let cells = |n: usize| 2 * ((n * FEW) as f64 / (2 * shorter) as f64).round() as usize;

@@ -244,7 +244,12 @@ fn mu(problem: &Problem, (nx, ny): (usize, usize)) -> impl Fn(usize) -> f64 {
         ..problem.scene.grid
     };
     let map = friction.map.as_ref();
-    let map = map.map(|map| problem.plan.mirror.fold(&grid.map(|x, y| map.at(x, y))));
+    let map = map.map(|map| {
+        problem
+            .plan
+            .mirror
+            .fold(&grid.map(|x, y| map.interpolate(x, y)))
+    });
     let mu = friction.mu;
     move |n| map.as_ref().map_or(mu, |map| mu * map[n])
 }

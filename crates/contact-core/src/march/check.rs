@@ -7,7 +7,7 @@ use super::transmitted::transmitted;
 use super::{Increment, Residuals, Status, off_grid};
 use crate::cells::{size, sums, survey};
 use crate::error::Error;
-use crate::scene::{Given, LoadPoint, Loads, RigidMotion};
+use crate::scene::{LoadPoint, Loads, PrescribedMotions, RigidMotion};
 use crate::solvers::intermediate::AlternationInfo;
 use crate::solvers::no_slip::{NoSlipTerms, not_opposite, slip};
 use crate::solvers::{Interface, friction_bound};
@@ -62,7 +62,7 @@ pub(super) fn residuals(
     now: &Interface,
     info: &AlternationInfo,
 ) -> (Residuals, [f64; 3]) {
-    let mu = setup.problem.scene.friction.scale();
+    let mu = setup.problem.scene.friction.reference_mu();
     let approach = setup.problem.approach;
     let arms = &setup.geometry.arms;
     let [x_0, y_0] = no_slip.displacement();
@@ -129,7 +129,7 @@ fn missing_loads(setup: &Setup<'_>, now: &Interface) -> f64 {
     let point = setup.point;
     let all_given = LoadPoint {
         loads: Loads {
-            given: Given::from_motions([Some(0.0); 6]),
+            given: PrescribedMotions::from_motions([Some(0.0); 6]),
             ..point.loads
         },
         ..*point
@@ -175,7 +175,7 @@ fn unresisted(setup: &Setup<'_>, now: &Interface) -> Option<Error> {
     let motion = RigidMotion::ALL[k];
     Some(Error::Unresisted {
         increment: setup.state.increments + 1,
-        load: motion.load(),
+        load: motion.load_name(),
         value: prescribed[k],
         why: if pressed > 0.0 {
             "no cell in contact has friction"
@@ -196,7 +196,7 @@ pub(super) fn within_tolerance(
 ) -> Result<(), Error> {
     let (scene, approach) = (&setup.problem.scene, setup.problem.approach);
     let r = &increment.residuals;
-    let mu = scene.friction.scale();
+    let mu = scene.friction.reference_mu();
     let slips = if increment.status == Status::GrossSlip {
         // In gross slip the shift is arbitrary beyond the incipient one.
         0.0

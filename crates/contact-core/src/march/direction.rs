@@ -1,6 +1,6 @@
 //! The direction of the load path from one increment to the next.
 
-use crate::scene::{Given, Loads};
+use crate::scene::{Loads, PrescribedMotions};
 
 /// Kinds of loads and motions that share a scale, in the order of `RigidMotion::ALL`: the two tilts
 /// are one kind, and so are the forces or shifts along x and y.
@@ -23,7 +23,7 @@ impl Loads {
         }
         .with_forces(
             std::array::from_fn(force),
-            Given::from_motions(std::array::from_fn(motion)),
+            PrescribedMotions::from_motions(std::array::from_fn(motion)),
         )
     }
 

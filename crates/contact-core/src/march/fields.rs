@@ -56,7 +56,7 @@ impl March {
     fn shear_of(&self, state: &State) -> [Array2<f64>; 2] {
         let unfold = |f: &[f64], half| on_grid(&self.problem, state, f, half);
         let [q_x, q_y] = &state.interface.q;
-        let q_y = unfold(q_y, Half::Odd) * self.problem.scene.friction.stretch();
+        let q_y = unfold(q_y, Half::Odd) * self.problem.scene.friction.axis_ratio();
         [unfold(q_x, Half::Even), q_y]
     }
 
@@ -90,7 +90,7 @@ impl March {
             phi_y,
             ..
         } = s.motion;
-        let stretch = self.problem.scene.friction.stretch();
+        let stretch = self.problem.scene.friction.axis_ratio();
         let rigid = self
             .problem
             .scene

@@ -6,7 +6,7 @@
 
 use super::setup::Setup;
 use crate::error::Error;
-use crate::scene::{CellHistory, History, OwnFriction};
+use crate::scene::{CellHistory, History, UserFriction};
 
 /// Most corrections of the coefficient in an increment, and the relative change that ends them.
 pub(super) const CORRECTIONS: usize = 8;
@@ -27,7 +27,7 @@ pub(super) fn update(
     let last = setup.last();
     let origin = |n: usize| setup.roll.origin(geometry, setup.problem.plan.mirror, n);
     for (n, (mu, before)) in mu.iter_mut().zip(before).enumerate() {
-        let level = friction.level(last.slips[n]);
+        let level = friction.mu_of_cell(last.slips[n]);
         let map = geometry.friction_map.get(n).copied().unwrap_or(1.0);
         let at = |field: &[f64]| origin(n).map_or(0.0, |n| field[n]);
         let factors = friction.history.as_ref().map_or([1.0; 2], |history| {
@@ -57,7 +57,7 @@ pub(super) struct Solved<'a> {
 /// solved.
 pub(super) fn by_law(
     setup: &Setup<'_>,
-    law: &OwnFriction,
+    law: &UserFriction,
     solved: Option<&Solved<'_>>,
     mu: &mut [f64],
 ) -> Result<(), Error> {

@@ -57,7 +57,7 @@ pub(super) fn steps(problem: &Problem, state: &State, point: &LoadPoint) -> Vec<
     };
     let (loads, motions) = (&state.loads, state.motion.motions());
     (1..steps)
-        .map(|k| point.on_the_way(loads, motions, part(k)))
+        .map(|k| point.interpolate_to(loads, motions, part(k)))
         .collect()
 }
 
@@ -105,7 +105,7 @@ pub(crate) fn is_remembered(scene: &Scene, plan: &Plan) -> bool {
         && (plan.coupling && plan.friction && plan.methods.entry)
         && law.map.is_none()
         && !law.varies()
-        && law.stretch() == 1.0
+        && law.axis_ratio() == 1.0
         && scene.path.branches[0].only_presses()
 }
 

@@ -93,7 +93,7 @@ impl March {
     /// As [`Self::until`], of a scene that has been checked, with a plan that may differ from
     /// [`Plan::new`] in its methods.
     pub fn planned(scene: &Scene, plan: Plan, stop: &Arc<AtomicBool>) -> Result<Self, Error> {
-        scene.path.check_increments()?;
+        scene.path.check_increments_chosen()?;
         plan.check_memory(scene)?;
         let coarse = Self::on_path_grid(scene, &plan, stop)?;
         let domain = Domain::new(scene, &plan, stop)?;
@@ -111,7 +111,7 @@ impl March {
             workspace: Workspace::new(domain.cells(), scene.friction.mu),
             problem: Problem {
                 largest: Largest::of(&scene.path),
-                approach: scene.approach(),
+                approach: scene.reference_approach(),
                 cycles: 0.0,
                 share: 1.0,
                 remembers: false,

@@ -144,7 +144,7 @@ impl Problem {
         let solver = &self.scene.settings.solver;
         let gap = self.share * share * self.scene.tolerance() * self.approach;
         // An error of the shear acts on the gap, however large mu is: the factor mu is capped at 1.
-        let slip = TANGENTIAL_SHARE * self.scene.friction.scale().min(1.0) * gap;
+        let slip = TANGENTIAL_SHARE * self.scene.friction.reference_mu().min(1.0) * gap;
         AlternationParams {
             tolerance: gap,
             normal: NormalParams {

@@ -60,9 +60,10 @@ impl Reached {
     /// grid, or is as wide as a body.
     pub fn check(&self, scene: &Scene) -> Result<(), Error> {
         if self.cells_per_radius > 0.0 {
-            scene.check_cells(self.cells_per_radius, 1.0)?;
+            scene.check_cells_across_radius(self.cells_per_radius, 1.0)?;
         }
-        self.breadth(scene).map_or(Ok(()), |of| scene.refuse(&of))
+        self.breadth(scene)
+            .map_or(Ok(()), |of| scene.check_ratio(&of))
     }
 
     /// The half width of the contact beside the radius of a body, where their ratio is largest.
@@ -74,7 +75,7 @@ impl Reached {
             // Curved along one direction alone: the smaller semi-axis lies along it.
             self.cells_per_radius * scene.grid.dx.min(scene.grid.dy)
         };
-        scene.hertz_breadth_of(a)
+        scene.breadth_for_radius(a)
     }
 
     /// All that is to be doubted of a run: [`Scene::doubts`], then [`Self::doubts`]. What the scene
@@ -83,7 +84,7 @@ impl Reached {
         if self.cells_per_radius == 0.0 {
             return scene.doubts();
         }
-        let mut all = scene.doubts_of_numbers();
+        let mut all = scene.doubts_without_breadth();
         all.extend(self.doubts(scene));
         all
     }
@@ -102,7 +103,7 @@ impl Reached {
     pub fn doubts(&self, scene: &Scene) -> Vec<String> {
         let mut doubts = Vec::new();
         if self.cells_per_radius > 0.0 {
-            doubts.extend(scene.doubts_of(self.cells_per_radius, 1.0));
+            doubts.extend(scene.doubts_about_cells(self.cells_per_radius, 1.0));
         }
         let allowed = scene.settings.solver.path_tolerance;
         let errors = shear_errors(scene, &self.ends).into_iter().enumerate();

@@ -155,7 +155,7 @@ fn in_halves(
         }
         ended
     };
-    let middle = point.on_the_way(&state.loads, state.motion.motions(), 0.5);
+    let middle = point.interpolate_to(&state.loads, state.motion.motions(), 0.5);
     let first = piece(state, &middle)?;
     // Both halves are one increment of the path.
     state.increments -= 1;

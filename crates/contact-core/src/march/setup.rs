@@ -103,7 +103,7 @@ impl Setup<'_> {
 
     /// The start of the slip increment; with the earlier tractions if the turn of the shear counts.
     fn start(&self, turns: bool) -> Start<'_> {
-        let turns = turns && self.problem.plan.methods.turning;
+        let turns = turns && self.problem.plan.methods.slip_rotation;
         Start {
             interface: self.last(),
             residual: self.residual(),
@@ -112,7 +112,7 @@ impl Setup<'_> {
                 .goes_on
                 .filter(|_| turns)
                 .map(|ratio| self.earlier(ratio)),
-            elastic_slip: self.problem.scene.friction.scale() * self.problem.approach,
+            elastic_slip: self.problem.scene.friction.reference_mu() * self.problem.approach,
         }
     }
 

@@ -11,7 +11,7 @@ impl March {
 
     /// Sets the march to a state of its path, on surfaces with the gap `h_init` on the kept cells
     /// \[m\]. If wear has changed the gap, the next increment also brings the contact to the new
-    /// surfaces. For scenes without a window (`skip.far = false`).
+    /// surfaces. For scenes without a window (`skip.contact_window = false`).
     pub fn go_on_from(&mut self, state: State, h_init: &[f64]) {
         debug_assert_eq!(state.window, self.domain.shape());
         self.state = state;

@@ -48,7 +48,7 @@ impl March {
             Err(error @ Error::NotConverged { .. }) if halvings > 0 => error,
             ended => return ended,
         };
-        let middle = point.on_the_way(&start.loads, start.motion.motions(), 0.5);
+        let middle = point.interpolate_to(&start.loads, start.motion.motions(), 0.5);
         let mut halves = || {
             let first = self.in_yielding_halves(&middle, halvings - 1)?;
             self.state.increments -= 1;
@@ -213,7 +213,7 @@ impl March {
             residual,
             tolerance,
             iterations: MOST_PASSES,
-            why: self.problem.scene.why_it_flows(self.mean_shear()),
+            why: self.problem.scene.describe_shear_flow(self.mean_shear()),
         })
     }
 

@@ -18,8 +18,8 @@ pub(crate) fn direct_branches(
 ) -> (Vec<bool>, Result<&'static str, &'static str>) {
     let branches = &scene.path.branches;
     let none = |reason| (vec![false; branches.len()], Err(reason));
-    if !scene.settings.skip.path {
-        return none("skip.path is off: each has its row in the results");
+    if !scene.settings.skip.path_independent_branches {
+        return none("skip.path_independent_branches is off: each has its row in the results");
     }
     if scene.settings.save != SaveFields::Branches {
         return none("fields within the branches are to be kept");

@@ -31,7 +31,7 @@ pub struct Methods {
     /// meanwhile (default 20; 1 for whole increments).
     pub growth_steps: usize,
     /// Let slip follow the turn of the shear within an increment (default: the setting).
-    pub turning: bool,
+    pub slip_rotation: bool,
     /// Correct the next increment by the residual slip that the last one left (default true).
     pub residual_slip: bool,
     /// Extrapolate the first guess along a path that keeps its direction (default true).
@@ -77,10 +77,10 @@ impl Methods {
                 Preset::Spinu2020 => TangentialMethod::Gradient,
             },
             preconditioner: fast,
-            entry: fast && solver.entering,
+            entry: fast && solver.cell_entry_correction,
             order_of_entry: fast,
             growth_steps: GROWTH_STEPS,
-            turning: fast && solver.turning,
+            slip_rotation: fast && solver.slip_rotation_correction,
             residual_slip: fast,
             extrapolation: fast,
             first_contact: true,
@@ -104,8 +104,8 @@ const SINGLE: f64 = 1e-6;
 /// Whether, and why, single precision is enough for the response to a change of the tractions; the
 /// response to the whole tractions is computed in double precision in each increment.
 pub(super) fn single_precision(scene: &Scene) -> Result<&'static str, &'static str> {
-    if !scene.settings.skip.digits {
-        Err("skip.digits is off")
+    if !scene.settings.skip.single_precision {
+        Err("skip.single_precision is off")
     } else if scene.settings.solver.preset != Preset::Fast {
         Err("solver.preset is spinu2020")
     } else if in_frequency_domain(scene) {
@@ -119,8 +119,8 @@ pub(super) fn single_precision(scene: &Scene) -> Result<&'static str, &'static s
 
 /// Whether, and why, a window around the contact is enough to solve on.
 pub(super) fn window(scene: &Scene) -> Result<&'static str, &'static str> {
-    if !scene.settings.skip.far {
-        return Err("skip.far is off");
+    if !scene.settings.skip.contact_window {
+        return Err("skip.contact_window is off");
     }
     if scene.settings.solver.preset != Preset::Fast {
         return Err("solver.preset is spinu2020");

@@ -192,7 +192,7 @@ fn mirror(scene: &Scene) -> Result<&'static str, &'static str> {
     if !is_mirror_symmetric(&scene.h_init()) {
         return Err("the surfaces are not mirror-symmetric in y");
     }
-    let map = |map: &SurfaceMap| is_mirror_symmetric(&scene.grid.map(|x, y| map.at(x, y)));
+    let map = |map: &SurfaceMap| is_mirror_symmetric(&scene.grid.map(|x, y| map.interpolate(x, y)));
     if let Some(why) = scene.friction.laws().find_map(|law| law.is_uneven(map)) {
         return Err(why);
     }

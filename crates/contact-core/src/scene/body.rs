@@ -5,8 +5,8 @@ use crate::error::Error;
 use crate::material::{Bond, Coating, Elastic};
 use plasticity::Plastic;
 
-/// Fails at a number without meaning; `key` says where the law stands.
-pub fn check_plastic(law: &Plastic, key: &str) -> Result<(), Error> {
+/// Fails at a number without meaning; `key` is the key of the law in the scene.
+pub fn check_plastic_law(law: &Plastic, key: &str) -> Result<(), Error> {
     let checked = law.check(key);
     checked.map_err(|e| Error::invalid(e.key, e.value, e.allowed))
 }
@@ -20,10 +20,10 @@ pub struct Body {
     pub coatings: Vec<Coating>,
     /// Bond of each layer to the one below it; missing ones are perfect.
     pub bonds: Vec<Bond>,
-    /// How each layer yields, from the surface down, the substrate last; missing ones stay elastic.
+    /// Yield law of each layer, from the surface down, the substrate last; missing ones stay elastic.
     pub plastic: Vec<Option<Plastic>>,
     /// Residual stress of each layer, from the surface down, the substrate last; missing ones have none.
-    pub residual: Vec<Profile>,
+    pub residual_text: Vec<Profile>,
     /// Shape of the undeformed surface.
     pub shape: Shape,
 }
@@ -36,7 +36,7 @@ impl Body {
             coatings: Vec::new(),
             bonds: Vec::new(),
             plastic: Vec::new(),
-            residual: Vec::new(),
+            residual_text: Vec::new(),
             shape,
         }
     }
@@ -54,7 +54,7 @@ impl Body {
     }
 
     /// The material at the surface.
-    pub fn outermost(&self) -> Elastic {
+    pub fn surface_material(&self) -> Elastic {
         self.coatings.first().map_or(self.substrate, |c| c.material)
     }
 
@@ -63,7 +63,7 @@ impl Body {
         self.bonds.get(layer).copied().unwrap_or_default()
     }
 
-    /// How a layer yields, if it does; the substrate is the last one.
+    /// Yield law of a layer, if it has one; the substrate is the last one.
     pub fn plastic(&self, layer: usize) -> Option<Plastic> {
         self.plastic.get(layer).copied().flatten()
     }
@@ -73,7 +73,7 @@ impl Body {
         self.plastic.iter().any(Option::is_some)
     }
 
-    /// The same body, elastic.
+    /// Returns the body without its yield laws.
     #[must_use]
     pub fn elastic(&self) -> Self {
         Self {
@@ -84,11 +84,11 @@ impl Body {
 
     /// Whether every layer has the properties of the substrate and is perfectly bonded.
     pub fn is_homogeneous(&self) -> bool {
-        let same = self.coatings.iter().all(|c| c.material == self.substrate);
-        same && self.bonds.iter().all(|bond| *bond == Bond::PERFECT)
+        let all_equal = self.coatings.iter().all(|c| c.material == self.substrate);
+        all_equal && self.bonds.iter().all(|bond| *bond == Bond::PERFECT)
     }
 
-    /// What a layer is called, by its index from the surface down: coatings count from one.
+    /// Name of a layer, by its index from the surface down: coatings count from one.
     pub fn layer_name(&self, layer: usize) -> String {
         if layer < self.coatings.len() {
             format!("coating {}", layer + 1)
@@ -106,9 +106,8 @@ impl Body {
         self.coatings.iter().scan(0.0, bottom).collect()
     }
 
-    /// The elastic make-up: E, nu, thickness and bond of each layer from the surface down, 0 for
-    /// the substrate; with `shortcut` one of layers that all equal the substrate is the substrate
-    /// alone.
+    /// Returns E, nu, thickness and bond of each layer from the surface down, thickness 0 for the
+    /// substrate. With `shortcut`, layers that all equal the substrate are left out.
     pub(crate) fn layers(&self, shortcut: bool) -> Vec<[f64; 5]> {
         let coatings = if shortcut && self.is_homogeneous() {
             &[][..]
@@ -125,32 +124,32 @@ impl Body {
     }
 
     /// The key of a layer of the body `key`.
-    pub(crate) fn key_of(&self, layer: usize, key: &str) -> String {
+    pub(crate) fn layer_key(&self, layer: usize, key: &str) -> String {
         match self.coatings.get(layer) {
             Some(_) => format!("{key}.coatings[{layer}]"),
             None => key.to_owned(),
         }
     }
 
-    /// Fails if a residual stress has no meaning, or is more than its layer bears; `key` names the body.
+    /// Fails if a residual stress is not finite, or above the yield stress of its layer; `key` is the body's.
     pub fn check_residual(&self, key: &str) -> Result<(), Error> {
         let layers = self.coatings.len() + 1;
-        if self.residual.len() > layers {
+        if self.residual_text.len() > layers {
             let allowed = format!("{layers}, one for each layer, or fewer");
             let key = format!("{key}.residual");
-            return Err(Error::invalid(key, self.residual.len(), allowed));
+            return Err(Error::invalid(key, self.residual_text.len(), allowed));
         }
-        for (layer, profile) in self.residual.iter().enumerate() {
-            let key = format!("{}.residual", self.key_of(layer, key));
+        for (layer, profile) in self.residual_text.iter().enumerate() {
+            let key = format!("{}.residual", self.layer_key(layer, key));
             profile.check(&key)?;
             let limit = self.plastic(layer).map_or(f64::INFINITY, |law| law.s_y);
-            let alone = profile.von_mises();
-            if alone > limit {
+            let von_mises = profile.von_mises();
+            if von_mises > limit {
                 let allowed = format!(
                     "within the yield stress of its layer, {limit:e} Pa: give the s_y that the layer has with it"
                 );
-                let found = format!("{alone:e} Pa by von Mises");
-                return Err(Error::invalid(key, found, allowed));
+                let stress = format!("{von_mises:e} Pa by von Mises");
+                return Err(Error::invalid(key, stress, allowed));
             }
         }
         Ok(())
@@ -168,7 +167,7 @@ impl Body {
             return Ok(());
         }
         for layer in 0..layers {
-            let key = self.key_of(layer, key);
+            let key = self.layer_key(layer, key);
             let material = self
                 .coatings
                 .get(layer)
@@ -183,7 +182,7 @@ impl Body {
                 return Err(Error::invalid(format!("{key}.nu"), material.nu, allowed));
             }
             if let Some(plastic) = self.plastic(layer) {
-                check_plastic(&plastic, &format!("{key}.plastic"))?;
+                check_plastic_law(&plastic, &format!("{key}.plastic"))?;
             }
             if self.bond(layer) != Bond::PERFECT {
                 let allowed =

@@ -1,7 +1,7 @@
 //! Bulk stress: a uniform stress of a body along x, independent of the contact.
 //!
 //! Layers that are bonded to the substrate are stretched as it is, and no traction acts on planes
-//! z = const. So the strains eps_x, eps_y are those of the substrate at every depth, and each layer
+//! z = const. So the strains eps_x, eps_y are equal at every depth, and each layer
 //! has the stress that belongs to them with s_zz = s_xz = s_yz = 0 (derived from Hooke's law):
 //!
 //! ```text
@@ -30,8 +30,8 @@ impl Body {
     /// `sigma_B` \[Pa\] of the substrate; the other components are zero.
     pub fn bulk_stress(&self, sigma_B: f64, plane_strain: bool, layer: usize) -> [f64; 2] {
         let Some(coating) = self.coatings.get(layer) else {
-            let across = if plane_strain { self.substrate.nu } else { 0.0 };
-            return [sigma_B, across * sigma_B];
+            let transverse = if plane_strain { self.substrate.nu } else { 0.0 };
+            return [sigma_B, transverse * sigma_B];
         };
         let (E, nu) = (coating.material.E, coating.material.nu);
         let [eps_x, eps_y] = self.bulk_strain(sigma_B, plane_strain);
@@ -41,12 +41,12 @@ impl Body {
 }
 
 impl Scene {
-    /// Bulk strains eps_x, eps_y of body 2 less those of body 1: their part of the gradients of u =
+    /// Bulk strains eps_x, eps_y of body 2 minus body 1: their part of the gradients of u =
     /// u(2) - u(1).
     pub(crate) fn bulk_mismatch(&self, loads: &Loads) -> [f64; 2] {
-        let of = |body: &Body, sigma_B| body.bulk_strain(sigma_B, self.grid.plane_strain);
-        let upper = of(&self.body1, loads.sigma_B1);
-        let lower = of(&self.body2, loads.sigma_B);
+        let bulk_strain = |body: &Body, sigma_B| body.bulk_strain(sigma_B, self.grid.plane_strain);
+        let upper = bulk_strain(&self.body1, loads.sigma_B1);
+        let lower = bulk_strain(&self.body2, loads.sigma_B);
         [lower[0] - upper[0], lower[1] - upper[1]]
     }
 }
@@ -55,7 +55,7 @@ impl Scene {
 mod tests {
     use crate::scene::{Body, Coating, Elastic, Shape};
 
-    /// Hooke's law backwards: the strains of every layer are those of the substrate.
+    /// Inverts Hooke's law: every layer has the strains of the substrate.
     #[test]
     fn layers_are_stretched_alike() {
         let mut body = Body::homogeneous(Elastic { E: 210e9, nu: 0.3 }, Shape::Flat);
@@ -75,15 +75,21 @@ mod tests {
                     .get(layer)
                     .map_or(body.substrate, |c| c.material);
                 let [xx, yy] = body.bulk_stress(2e8, plane_strain, layer);
-                let found = [(xx - m.nu * yy) / m.E, (yy - m.nu * xx) / m.E];
-                for (found, strain) in found.iter().zip(strain) {
-                    assert!((found - strain).abs() < 1e-16, "{layer}: {found} {strain}");
+                let strains = [(xx - m.nu * yy) / m.E, (yy - m.nu * xx) / m.E];
+                for (found_strain, strain) in strains.iter().zip(strain) {
+                    assert!(
+                        (found_strain - strain).abs() < 1e-16,
+                        "{layer}: {found_strain} {strain}"
+                    );
                 }
             }
-            // A layer of the substrate's material is no layer.
-            let [same, own] = [2, 3].map(|layer| body.bulk_stress(2e8, plane_strain, layer));
-            for (same, own) in same.iter().zip(own) {
-                assert!((same - own).abs() < 1e-6 * 2e8 * 1e-6, "{same} {own}");
+            // A layer of the substrate's material has the stress of the substrate.
+            let [same, substrate] = [2, 3].map(|layer| body.bulk_stress(2e8, plane_strain, layer));
+            for (same, of_substrate) in same.iter().zip(substrate) {
+                assert!(
+                    (same - of_substrate).abs() < 1e-6 * 2e8 * 1e-6,
+                    "{same} {of_substrate}"
+                );
             }
         }
     }

@@ -18,7 +18,7 @@
 //! l = (c D)^(1/4),
 //! ```
 //!
-//! and what of it lies beyond the grid is not there to resist.
+//! and the part of it beyond the grid does not resist.
 
 use super::{Body, Prescribed, RigidMotion, Scene};
 use crate::error::Error;
@@ -31,42 +31,42 @@ impl Scene {
     /// grid, or where a given approach bends the layers above a bond over more than that.
     pub(super) fn check_bonds(&self) -> Result<(), Error> {
         let W = self.path.W_max();
-        let given = |branch: &super::Branch| {
+        let prescribes_approach = |branch: &super::Branch| {
             matches!(
                 branch.to.prescribed(RigidMotion::DeltaZ),
                 Prescribed::Motion(_)
             )
         };
-        let approach_is_given = self.path.branches.iter().any(given);
+        let approach_is_given = self.path.branches.iter().any(prescribes_approach);
         for (key, body) in [("body1", &self.body1), ("body2", &self.body2)] {
-            for (n, c) in (0..body.coatings.len()).map(|n| (n, body.bond(n).normal)) {
-                let (most, D) = (self.grid.extent().0, bending_stiffness(body, n));
-                let bends = (c * D).powf(0.25);
-                if approach_is_given && bends > most {
+            for (layer, c) in (0..body.coatings.len()).map(|n| (n, body.bond(n).normal)) {
+                let (most, D) = (self.grid.extent().0, bending_stiffness(body, layer));
+                let bending_length = (c * D).powf(0.25);
+                if approach_is_given && bending_length > most {
                     return Err(Error::invalid(
-                        format!("{key}.coatings[{n}].bond_normal"),
+                        format!("{key}.coatings[{layer}].bond_normal"),
                         c,
                         format!(
                             "at most {:.1e} m/Pa where delta_z is given. This bond lets the layers above it bend over \
-                             {bends:.1e} m, more than the length of the grid, {most:.1e} m",
+                             {bending_length:.1e} m, more than the length of the grid, {most:.1e} m",
                             most.powi(4) / D
                         ),
                     ));
                 }
-                let sinks = self.sinks(W, c, D);
-                if c > 0.0 && sinks > most {
+                let approach = self.least_approach(W, c, D);
+                if c > 0.0 && approach > most {
                     // w grows with c^(1/2), of a line load with c^(3/4).
                     let power = if self.grid.plane_strain {
                         4.0 / 3.0
                     } else {
                         2.0
                     };
-                    let softest = c * (most / sinks).powf(power);
+                    let softest = c * (most / approach).powf(power);
                     return Err(Error::invalid(
-                        format!("{key}.coatings[{n}].bond_normal"),
+                        format!("{key}.coatings[{layer}].bond_normal"),
                         c,
                         format!(
-                            "at most {softest:.1e} m/Pa: under W = {W:.3e} {} this bond alone gives way by {sinks:.1e} m, \
+                            "at most {softest:.1e} m/Pa: under W = {W:.3e} {} this bond alone gives way by {approach:.1e} m, \
                              more than the length of the grid, {most:.1e} m",
                             self.grid.unit_of("N")
                         ),
@@ -79,7 +79,7 @@ impl Scene {
 
     /// Least approach under a load W by a bond of the compliance `c` below layers of the bending
     /// stiffness `D` \[m\].
-    fn sinks(&self, W: f64, c: f64, D: f64) -> f64 {
+    fn least_approach(&self, W: f64, c: f64, D: f64) -> f64 {
         if self.grid.plane_strain {
             0.5 * (W / self.grid.dy) * c * (4.0 * c * D).powf(-0.25)
         } else {
@@ -104,11 +104,11 @@ mod tests {
     use crate::Scene;
 
     /// A sphere of steel on a coated flat with a bond of a compliance; W = 100 N, 0.56 mm of grid.
-    fn refused(bond: f64) -> Option<String> {
-        refused_under("W = 100.0", bond)
+    fn refusal(bond: f64) -> Option<String> {
+        refusal_under("W = 100.0", bond)
     }
 
-    fn refused_under(drive: &str, bond: f64) -> Option<String> {
+    fn refusal_under(drive: &str, bond: f64) -> Option<String> {
         let text = format!(
             "schema = 1\nbody1 = {{ shape.sphere.R = 0.01, E = 210e9, nu = 0.3 }}\nfriction.mu = 0.3\n\
              grid = {{ n = 48, extent = 5.6e-4 }}\npath = [{{ {drive}, increments = 2 }}]\n\
@@ -123,31 +123,41 @@ mod tests {
     #[test]
     fn under_a_given_approach_the_layers_bend_on_the_grid() {
         for bond in [0.0, 1e-15, 1e-13, 1e-11] {
-            assert_eq!(refused_under("delta_z = 2e-6", bond), None, "{bond:e}");
+            assert_eq!(refusal_under("delta_z = 2e-6", bond), None, "{bond:e}");
         }
         for bond in [1e-10, 1e-6, 1e12] {
-            let said = refused_under("delta_z = 2e-6", bond).expect("a refusal");
-            assert!(said.contains("body2.coatings[0].bond_normal"), "{said}");
-            assert!(said.contains("where delta_z is given"), "{said}");
-            let most = said.split("at most ").nth(1).expect("a bound");
-            let most: f64 = most.split(' ').next().unwrap().parse().unwrap();
-            assert_eq!(refused_under("delta_z = 2e-6", 0.9 * most), None, "{said}");
+            let message = refusal_under("delta_z = 2e-6", bond).expect("a refusal");
+            assert!(
+                message.contains("body2.coatings[0].bond_normal"),
+                "{message}"
+            );
+            assert!(message.contains("where delta_z is given"), "{message}");
+            let bound = message.split("at most ").nth(1).expect("a bound");
+            let bound: f64 = bound.split(' ').next().unwrap().parse().unwrap();
+            assert_eq!(
+                refusal_under("delta_z = 2e-6", 0.9 * bound),
+                None,
+                "{message}"
+            );
         }
     }
 
     #[test]
     fn a_bond_that_sinks_beyond_the_grid_is_refused_by_its_name() {
         for bond in [0.0, 1e-17, 1e-14, 1e-13] {
-            assert_eq!(refused(bond), None, "{bond:e}");
+            assert_eq!(refusal(bond), None, "{bond:e}");
         }
         for bond in [1e-11, 1e-8, 1e4, 1e18] {
-            let said = refused(bond).expect("a refusal");
-            assert!(said.contains("body2.coatings[0].bond_normal"), "{said}");
+            let message = refusal(bond).expect("a refusal");
+            assert!(
+                message.contains("body2.coatings[0].bond_normal"),
+                "{message}"
+            );
             // The bound that it names is allowed.
-            let most = said.split("at most ").nth(1).expect("a bound");
-            let most: f64 = most.split(' ').next().unwrap().parse().unwrap();
-            assert_eq!(refused(0.9 * most), None, "{said}");
-            assert!(refused(1.2 * most).is_some(), "{said}");
+            let bound = message.split("at most ").nth(1).expect("a bound");
+            let bound: f64 = bound.split(' ').next().unwrap().parse().unwrap();
+            assert_eq!(refusal(0.9 * bound), None, "{message}");
+            assert!(refusal(1.2 * bound).is_some(), "{message}");
         }
     }
 }

@@ -12,8 +12,8 @@ use crate::error::Error;
 
 /// Peak pressure over the contact modulus, or bulk strain, beyond which strains are not small.
 pub(crate) const LARGE_STRAIN: f64 = 0.1;
-/// Young's moduli below those of rubber, which in MPa are those of all solids \[Pa\]; and lengths
-/// that then are hardly in metres: of a grid, of a radius \[m\].
+/// Young's modulus below the softest rubber; the numbers of all solids in MPa lie below it \[Pa\]. Lengths
+/// that are hardly in metres then: of a grid, of a radius \[m\].
 const GEL: f64 = 2e6;
 const LONG: [f64; 2] = [0.05, 0.5];
 /// Thickness over contact radius above which the substrate of a coating hardly matters.
@@ -28,15 +28,15 @@ const CERTAIN: f64 = 0.97;
 impl Scene {
     /// Fails at impossible values: a contact as wide as a body, heights beyond the length of
     /// their map.
-    pub(crate) fn check_sense(&self) -> Result<(), Error> {
+    pub(crate) fn check_plausibility(&self) -> Result<(), Error> {
         for (key, body) in [("body1", &self.body1), ("body2", &self.body2)] {
-            for map in maps(&body.shape) {
+            for map in height_maps(&body.shape) {
                 let (nx, ny) = map.values.dim();
                 let length = (nx as f64 * map.spacing.0).max(ny as f64 * map.spacing.1);
-                let range = range_of(map);
-                if range > length {
+                let height_range = height_range(map);
+                if height_range > length {
                     let allowed = format!("below the length of the map, {length:.3e} m: {UNITS}");
-                    let heights = format!("heights over a range of {range:.3e} m");
+                    let heights = format!("heights over a range of {height_range:.3e} m");
                     return Err(Error::invalid(
                         format!("{key}.shape.height_map"),
                         heights,
@@ -52,16 +52,19 @@ impl Scene {
     /// material alone, or to be too small for its cells, even if it were of its softest. A scene
     /// that passes may still turn out so when it is solved.
     pub fn check_fit(&self) -> Result<(), Error> {
-        let stiff = Self {
+        let stiffest_scene = Self {
             body1: stiffest(&self.body1),
             body2: stiffest(&self.body2),
             ..self.clone()
         };
-        let Some(hertz) = stiff.hertz().filter(|_| self.is_plain()) else {
+        let Some(hertz) = stiffest_scene
+            .hertz()
+            .filter(|_| self.is_sum_of_paraboloids())
+        else {
             return self.check_resolution();
         };
         let (extent_x, extent_y) = self.grid.extent();
-        let across = if self.grid.plane_strain {
+        let narrower_side = if self.grid.plane_strain {
             extent_x
         } else {
             extent_x.min(extent_y)
@@ -69,7 +72,7 @@ impl Scene {
         // The axes of an ellipse lie on either side of the mean; its area decides.
         let (k_1, k_2) = self.principal_curvatures();
         let fits = if self.grid.plane_strain || k_1 - k_2 <= 1e-9 * k_1 {
-            2.0 * CERTAIN * hertz.a < across
+            2.0 * CERTAIN * hertz.a < narrower_side
         } else {
             std::f64::consts::PI * (CERTAIN * hertz.a).powi(2) < extent_x * extent_y
         };
@@ -89,36 +92,36 @@ impl Scene {
     }
 
     /// Whether both surfaces are sums of paraboloids alone, so that nothing keeps a contact small.
-    pub(crate) fn is_plain(&self) -> bool {
-        fn plain(shape: &Shape) -> bool {
+    pub(crate) fn is_sum_of_paraboloids(&self) -> bool {
+        fn is_paraboloid(shape: &Shape) -> bool {
             match shape {
                 Shape::Flat | Shape::Sphere { .. } | Shape::Ellipsoid { .. } => true,
                 Shape::Cylinder { length, .. } => *length == f64::INFINITY,
-                Shape::Sum(parts) => parts.iter().all(plain),
+                Shape::Sum(parts) => parts.iter().all(is_paraboloid),
                 _ => false,
             }
         }
-        plain(&self.body1.shape) && plain(&self.body2.shape)
+        is_paraboloid(&self.body1.shape) && is_paraboloid(&self.body2.shape)
     }
 
     /// Allowed but implausible values, one sentence each with the interpretation used.
     pub fn doubts(&self) -> Vec<String> {
-        let mut doubts = self.doubts_of_numbers();
+        let mut doubts = self.doubts_without_breadth();
         let breadth = self.hertz_breadth();
-        doubts.extend(breadth.and_then(|of| self.doubt_of_breadth(&of)));
+        doubts.extend(breadth.and_then(|breadth| self.doubt_of_breadth(&breadth)));
         doubts.extend(self.doubts_of_cells());
         doubts
     }
 
-    /// Those that do not follow from an estimate of the contact.
-    pub(crate) fn doubts_of_numbers(&self) -> Vec<String> {
+    /// Returns the doubts that need no estimate of the contact.
+    pub(crate) fn doubts_without_breadth(&self) -> Vec<String> {
         let mut doubts = self.doubts_of_values();
-        let wide = self.grid.wide();
+        let longer_side = self.grid.longer_side();
         for (key, body) in [("body1", &self.body1), ("body2", &self.body2)] {
             doubts.extend(self.doubt_of_thin_layers(key, body));
-            for map in maps(&body.shape) {
+            for map in height_maps(&body.shape) {
                 doubts.extend(self.doubts_of_map(map, &format!("{key}.shape.height_map")));
-                let slope = slope_of(map);
+                let slope = rms_slope(map);
                 if slope > STEEP {
                     doubts.push(format!(
                         "{key}.shape.height_map has slopes of {slope:.2} (root mean square), {:.0} \
@@ -129,17 +132,17 @@ impl Scene {
             }
         }
         if let Some(map) = &self.friction.map {
-            doubts.extend(doubt_of_filled(map, "friction.map"));
+            doubts.extend(doubt_of_filled_points(map, "friction.map"));
         }
-        doubts.extend(self.doubts_of_loads(wide));
+        doubts.extend(self.doubts_of_loads(longer_side));
         doubts
     }
 
-    /// Those of single values, whatever the cells are.
+    /// Returns the doubts about single values, whatever the cells are.
     pub(super) fn doubts_of_values(&self) -> Vec<String> {
         let mut doubts = self.doubts_of_units();
-        let wide = self.grid.wide();
-        let a = self.hertz().map_or(wide, |h| h.a);
+        let longer_side = self.grid.longer_side();
+        let a = self.hertz().map_or(longer_side, |h| h.a);
         for (key, body) in [("body1", &self.body1), ("body2", &self.body2)] {
             for (i, Coating { thickness, .. }) in body.coatings.iter().enumerate() {
                 if *thickness > THICK * a {
@@ -154,7 +157,7 @@ impl Scene {
         doubts
     }
 
-    /// Numbers that are hardly in SI units.
+    /// Returns the doubts about numbers that are hardly in SI units.
     fn doubts_of_units(&self) -> Vec<String> {
         let mut doubts = Vec::new();
         let mut stiffest: f64 = 0.0;
@@ -163,30 +166,30 @@ impl Scene {
             for n in 0..=body.coatings.len() {
                 let coating = body.coatings.get(n);
                 let E = coating.map_or(body.substrate, |c| c.material).E;
-                let at = match coating {
+                let layer_key = match coating {
                     Some(_) => format!("{key}.coatings[{n}]"),
                     None => key.to_owned(),
                 };
                 stiffest = stiffest.max(if E.is_finite() { E } else { 0.0 });
-                let mut ask = |name: String, value| doubts.extend(doubt_of(&name, &name, value));
-                ask(format!("{at}.E"), E);
+                let mut check = |name: String, value| doubts.extend(doubt_of(&name, &name, value));
+                check(format!("{layer_key}.E"), E);
                 if let Some(law) = body.plastic(n) {
-                    ask(format!("{at}.plastic.s_y"), law.s_y);
-                    ask(format!("{at}.plastic.hardening"), law.hardening);
-                    ask(format!("{at}.plastic.kinematic"), law.kinematic);
+                    check(format!("{layer_key}.plastic.s_y"), law.s_y);
+                    check(format!("{layer_key}.plastic.hardening"), law.hardening);
+                    check(format!("{layer_key}.plastic.kinematic"), law.kinematic);
                 }
-                ask(format!("{at}.bond_normal"), body.bond(n).normal);
+                check(format!("{layer_key}.bond_normal"), body.bond(n).normal);
             }
-            for (layer, profile) in body.residual.iter().enumerate() {
-                let name = format!("{}.residual", body.key_of(layer, key));
+            for (layer, profile) in body.residual_text.iter().enumerate() {
+                let name = format!("{}.residual", body.layer_key(layer, key));
                 let stresses = profile.rows.iter().flat_map(|[_, xx, yy]| [*xx, *yy]);
                 let largest = stresses.fold(
                     0.0,
-                    |most: f64, s| if s.abs() > most.abs() { s } else { most },
+                    |extreme: f64, s| if s.abs() > extreme.abs() { s } else { extreme },
                 );
                 doubts.extend(doubt_of(&name, &name, largest));
             }
-            for R in radii(&body.shape) {
+            for R in radii_of_curvature(&body.shape) {
                 radius = radius.max(R);
                 doubts.extend(doubt_of("R", &format!("{key}.shape.R"), R));
             }
@@ -212,8 +215,7 @@ impl Scene {
         doubts
     }
 
-    /// That the outermost interface lies within a cell below the surface, if what is below it
-    /// differs.
+    /// Doubts an outermost layer thinner than a cell, if the material below it differs.
     fn doubt_of_thin_layers(&self, key: &str, body: &Body) -> Option<String> {
         let Grid { dx, dy, .. } = self.grid;
         let cell = if self.grid.plane_strain {
@@ -236,15 +238,15 @@ impl Scene {
         })
     }
 
-    /// The same of measured heights: points farther apart than cells, points that were not
-    /// measured.
+    /// Doubts measured heights whose points are farther apart than cells, or were not measured.
     fn doubts_of_map(&self, map: &SurfaceMap, key: &str) -> Vec<String> {
         let mut doubts = Vec::new();
         let (nx, ny) = map.values.dim();
-        let along = |points: usize, spacing: f64, cell: f64| (points > 1).then_some(spacing / cell);
+        let cells_between_points =
+            |points: usize, spacing: f64, cell: f64| (points > 1).then_some(spacing / cell);
         let (x, y) = (
-            along(nx, map.spacing.0, self.grid.dx),
-            along(ny, map.spacing.1, self.grid.dy),
+            cells_between_points(nx, map.spacing.0, self.grid.dx),
+            cells_between_points(ny, map.spacing.1, self.grid.dy),
         );
         let coarser = x.into_iter().chain(y).fold(0.0, f64::max);
         if coarser > COARSE_MAP {
@@ -255,12 +257,12 @@ impl Scene {
                 map.spacing.0, map.spacing.1
             ));
         }
-        doubts.extend(doubt_of_filled(map, key));
+        doubts.extend(doubt_of_filled_points(map, key));
         doubts
     }
 
-    /// The same of the load path, on a grid of that length.
-    fn doubts_of_loads(&self, wide: f64) -> Vec<String> {
+    /// Doubts the load path, on a grid with the side `longer_side`.
+    fn doubts_of_loads(&self, longer_side: f64) -> Vec<String> {
         let mut doubts = Vec::new();
         for (i, branch) in self.path.branches.iter().enumerate() {
             let bulk = [
@@ -277,13 +279,13 @@ impl Scene {
                     ));
                 }
             }
-            for of in [RigidMotion::DeltaX, RigidMotion::DeltaY] {
-                if let Prescribed::Motion(shift) = branch.to.prescribed(of)
-                    && shift.abs() > wide
+            for motion in [RigidMotion::DeltaX, RigidMotion::DeltaY] {
+                if let Prescribed::Motion(shift) = branch.to.prescribed(motion)
+                    && shift.abs() > longer_side
                 {
-                    let name = of.name();
+                    let name = motion.name();
                     doubts.push(format!(
-                        "path[{i}].{name} = {shift:.3e} m is beyond the grid, {wide:.3e} m: {UNITS}"
+                        "path[{i}].{name} = {shift:.3e} m is beyond the grid, {longer_side:.3e} m: {UNITS}"
                     ));
                 }
             }
@@ -302,20 +304,20 @@ pub(super) fn softest(body: &Body) -> Body {
     Body::homogeneous(substrate, body.shape.clone())
 }
 
-/// The sizes of the radii of curvature in a shape that is no plane \[m\].
-fn radii(shape: &Shape) -> Vec<f64> {
+/// Absolute radii of curvature of a shape that is no plane \[m\].
+fn radii_of_curvature(shape: &Shape) -> Vec<f64> {
     match shape {
         Shape::Sphere { R } | Shape::Cylinder { R, .. } | Shape::CrownedRoller { R, .. } => {
             vec![R.abs()]
         }
         Shape::Ellipsoid { R_x, R_y, .. } => vec![R_x.abs(), R_y.abs()],
-        Shape::Sum(parts) => parts.iter().flat_map(radii).collect(),
+        Shape::Sum(parts) => parts.iter().flat_map(radii_of_curvature).collect(),
         _ => Vec::new(),
     }
 }
 
-/// What stands for points of a map that were not measured.
-fn doubt_of_filled(map: &SurfaceMap, key: &str) -> Option<String> {
+/// Doubts a map of which some points were filled with the mean of their neighbours.
+fn doubt_of_filled_points(map: &SurfaceMap, key: &str) -> Option<String> {
     (map.filled > 0).then(|| {
         format!(
             "{} of {} points of the map {key} were not measured: each has the mean of its neighbours",
@@ -326,15 +328,15 @@ fn doubt_of_filled(map: &SurfaceMap, key: &str) -> Option<String> {
 }
 
 /// The measured heights in a shape.
-fn maps(shape: &Shape) -> Vec<&SurfaceMap> {
+fn height_maps(shape: &Shape) -> Vec<&SurfaceMap> {
     match shape {
         Shape::HeightMap(map) => vec![map],
-        Shape::Sum(parts) => parts.iter().flat_map(maps).collect(),
+        Shape::Sum(parts) => parts.iter().flat_map(height_maps).collect(),
         _ => Vec::new(),
     }
 }
 
-fn range_of(map: &SurfaceMap) -> f64 {
+fn height_range(map: &SurfaceMap) -> f64 {
     let (low, high) = map
         .values
         .iter()
@@ -345,15 +347,15 @@ fn range_of(map: &SurfaceMap) -> f64 {
 }
 
 /// Root mean square of the slope between neighbouring points.
-fn slope_of(map: &SurfaceMap) -> f64 {
+fn rms_slope(map: &SurfaceMap) -> f64 {
     let (nx, ny) = map.values.dim();
     let z = &map.values;
     let (mut sum, mut n) = (0.0, 0_usize);
     for i in 1..nx {
         for j in 1..ny {
-            let along = (z[(i, j)] - z[(i - 1, j)]) / map.spacing.0;
-            let across = (z[(i, j)] - z[(i, j - 1)]) / map.spacing.1;
-            sum += along * along + across * across;
+            let slope_x = (z[(i, j)] - z[(i - 1, j)]) / map.spacing.0;
+            let slope_y = (z[(i, j)] - z[(i, j - 1)]) / map.spacing.1;
+            sum += slope_x * slope_x + slope_y * slope_y;
             n += 1;
         }
     }

@@ -12,17 +12,17 @@ const COPIES: f64 = 12.0;
 
 /// Fails where there is no file, but a folder, a pipe or a device, and if what is made of the file
 /// would not fit into memory.
-pub(crate) fn check(path: &Path) -> Result<(), Error> {
+pub(crate) fn check_file(path: &Path) -> Result<(), Error> {
     let failed = |message: String| Error::File {
         path: path.display().to_string(),
         message,
     };
     // A pipe would be waited for when it is opened, and a device has no end.
-    let about = fs::metadata(path).map_err(|e| failed(e.to_string()))?;
-    if !about.is_file() {
+    let metadata = fs::metadata(path).map_err(|e| failed(e.to_string()))?;
+    if !metadata.is_file() {
         return Err(failed("is not a file".into()));
     }
-    fits("the numbers of a file", COPIES * about.len() as f64)
+    fits("the numbers of a file", COPIES * metadata.len() as f64)
 }
 
 /// The content of a file that somebody names, whatever it is read for: checked first.
@@ -32,18 +32,18 @@ pub(crate) fn check(path: &Path) -> Result<(), Error> {
 /// [`Error::File`] where there is no file, but a folder, a pipe or a device, or where it cannot be
 /// read; [`Error::TooLarge`] where what is made of it would not fit into memory.
 pub fn read(path: &Path) -> Result<Vec<u8>, Error> {
-    check(path)?;
+    check_file(path)?;
     fs::read(path).map_err(|e| Error::File {
         path: path.display().to_string(),
         message: e.to_string(),
     })
 }
 
-/// Where the files that a scene names may lie.
+/// Folders in which the files of a scene may lie.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Reach {
-    /// In the folder of the scene file, or below it (default): a scene from somebody else reads
-    /// nothing but what came with it.
+    /// The folder of the scene file and those below it (default). A scene from somebody else
+    /// reads only files that came with it.
     #[default]
     Folder,
     /// Anywhere.
@@ -59,7 +59,7 @@ pub(in crate::scene) struct Files<'a> {
 }
 
 impl Files<'_> {
-    /// The path of the file of that name; the error is what is wrong with the name.
+    /// Returns the path of the file `name`; the error describes what is wrong with the name.
     pub(in crate::scene) fn find(&self, name: &str) -> Result<PathBuf, String> {
         let path = self.folder.join(name);
         if self.reach == Reach::Anywhere {
@@ -71,22 +71,22 @@ impl Files<'_> {
                  (--allow-outside, allow_outside=True)"
             )
         };
-        let within = |c: Component<'_>| matches!(c, Component::Normal(_) | Component::CurDir);
-        if !Path::new(name).components().all(within) {
+        let stays_inside = |c: Component<'_>| matches!(c, Component::Normal(_) | Component::CurDir);
+        if !Path::new(name).components().all(stays_inside) {
             return Err(outside());
         }
         // Links lead out too.
-        let real = |path: &Path| {
+        let canonical = |path: &Path| {
             path.canonicalize()
                 .map_err(|e| format!("{}: {e}", path.display()))
         };
-        let here = Path::new(".");
+        let current = Path::new(".");
         let folder = if self.folder.as_os_str().is_empty() {
-            here
+            current
         } else {
             self.folder
         };
-        let (folder, path) = (real(folder)?, real(&path)?);
+        let (folder, path) = (canonical(folder)?, canonical(&path)?);
         if path.starts_with(folder) {
             Ok(path)
         } else {

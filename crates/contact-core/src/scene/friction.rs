@@ -2,26 +2,26 @@
 
 use std::cmp::Ordering;
 
-use super::{FrictionLaw, Grid, OwnFriction, SurfaceMap};
+use super::{FrictionLaw, Grid, SurfaceMap, UserFriction};
 use crate::error::Error;
-use crate::magnitude::{SMALLEST, within};
+use crate::magnitude::{SMALLEST, check_range};
 
 /// Largest factor of a coefficient of friction over the surface, in the other direction, in motion
 /// or over the history: six orders of magnitude are more than any surface has, and the equations of
 /// cells that differ by more can't be solved to six digits together.
 const FACTOR: f64 = 1e6;
 
-/// Coulomb's law, `|q| <= mu p`, with a coefficient that may depend on the direction, the place and
+/// Coulomb's law, `|q| <= mu p`, with a coefficient that may depend on the direction, the position and
 /// the history of each cell.
 ///
-/// The coefficient of an increment is that of the history at its end, extrapolated from the last
-/// increment where the path goes on.
+/// The coefficient of an increment belongs to the history at its end, extrapolated from the last
+/// the path goes on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Friction {
-    /// Coefficient mu >= 0, where it depends on the direction that along x; 0 for a frictionless
+    /// Coefficient mu >= 0, along x where it depends on the direction; 0 for a frictionless
     /// contact, infinite for one that never slips.
     pub mu: f64,
-    /// Coefficient along y; `None` for that along x. The bound is the ellipse
+    /// Coefficient along y; `None` for an isotropic law. The bound is the ellipse
     /// (q_x/mu)^2 + (q_y/mu_y)^2 <= p^2, and slip is normal to it.
     pub mu_y: Option<f64>,
     /// Coefficient, along x, of cells that slipped in the increment before; `None` for mu.
@@ -30,10 +30,10 @@ pub struct Friction {
     pub map: Option<SurfaceMap>,
     /// Factor of the coefficient as a function of the history of a cell.
     pub history: Option<FrictionHistory>,
-    /// A law of the user's own, which gives the coefficient, along x, in place of `mu`: that is
-    /// about what it gives, the measure of tolerances and of what is dimensionless. No map, history
-    /// or kinetic coefficient beside it.
-    pub law: Option<OwnFriction>,
+    /// A user's law of the coefficient along x, in place of `mu`. Then `mu` is a typical value of
+    /// the law, which scales tolerances and dimensionless results. No map, history or kinetic
+    /// coefficient beside it.
+    pub law: Option<UserFriction>,
 }
 
 /// A piecewise linear function of the history of a cell, level beyond its ends.
@@ -52,7 +52,7 @@ pub enum History {
     Increment,
     /// Cycles of wear done, the same for all cells; a path that is run through once has done none.
     Cycles,
-    /// Length of the way that the cell has slipped \[m\].
+    /// Distance that the cell has slipped \[m\].
     Slip,
     /// Energy dissipated per area \[J/m^2\].
     Dissipated,
@@ -71,26 +71,26 @@ impl Friction {
         }
     }
 
-    /// A law of the user's own; `mu` is about what it gives.
-    pub fn own(mu: f64, law: impl FrictionLaw + 'static) -> Self {
+    /// A user's law; `mu` is a typical value of it.
+    pub fn from_law(mu: f64, law: impl FrictionLaw + 'static) -> Self {
         Self {
-            law: Some(OwnFriction::new(law)),
+            law: Some(UserFriction::new(law)),
             ..Self::coulomb(mu)
         }
     }
 
-    /// The size of mu that displacements are compared with; 1 for a contact that never slips.
-    pub fn scale(&self) -> f64 {
+    /// Coefficient that scales displacements: mu, or 1 for a contact that never slips.
+    pub fn reference_mu(&self) -> f64 {
         if self.mu.is_finite() { self.mu } else { 1.0 }
     }
 
     /// The coefficient along y over that along x.
-    pub fn stretch(&self) -> f64 {
+    pub fn axis_ratio(&self) -> f64 {
         self.mu_y.map_or(1.0, |mu_y| mu_y / self.mu)
     }
 
-    /// The laws beside the coefficient mu. A field that is added here asks for a [`Law`], and a law
-    /// for an answer to every question of this file.
+    /// Returns the laws beside the coefficient mu. A field that is added here needs a [`Law`], and a
+    /// law must answer every question of this file.
     pub(crate) fn laws(&self) -> impl Iterator<Item = Law<'_>> {
         let Self {
             mu: _,
@@ -110,12 +110,12 @@ impl Friction {
         laws.into_iter().flatten()
     }
 
-    /// The coefficients beside mu, by their keys in a scene file.
+    /// Returns the coefficients beside mu, by their keys in a scene file.
     pub fn coefficients(&self) -> impl Iterator<Item = (&'static str, f64)> {
         self.laws().filter_map(|law| law.coefficient())
     }
 
-    /// Where the coefficients beside mu are kept, by their keys in a scene file.
+    /// Returns the coefficients beside mu by reference, by their keys in a scene file.
     pub(super) fn coefficients_mut(&mut self) -> [(&'static str, &mut Option<f64>); 2] {
         let Self { mu_y, kinetic, .. } = self;
         [("mu_y", mu_y), ("kinetic", kinetic)]
@@ -127,33 +127,33 @@ impl Friction {
     }
 
     /// Whether the coefficient depends on these alone.
-    pub fn depends_on_no_more_than(&self, allowed: &[Dependence]) -> bool {
+    pub fn depends_only_on(&self, allowed: &[Dependence]) -> bool {
         self.laws()
             .all(|law| law.depends_on().iter().all(|on| allowed.contains(on)))
     }
 
     /// Whether the coefficient of a cell changes along the path.
     pub(crate) fn varies(&self) -> bool {
-        !self.depends_on_no_more_than(&[Dependence::Direction, Dependence::Place])
+        !self.depends_only_on(&[Dependence::Direction, Dependence::Place])
     }
 
     /// The coefficient along x, before factors of place and history, of a cell that slipped in the
     /// increment before, or did not.
-    pub(crate) fn level(&self, slipped: bool) -> f64 {
+    pub(crate) fn mu_of_cell(&self, slipped: bool) -> f64 {
         self.kinetic.filter(|_| slipped).unwrap_or(self.mu)
     }
 
-    /// The tangential force that friction carries at most under `W`, if the law says so alone.
-    pub(crate) fn limit(&self, W: f64) -> Option<f64> {
-        self.depends_on_no_more_than(&[Dependence::LastSlip])
+    /// The largest tangential force under `W`, if the law alone gives it.
+    pub(crate) fn max_tangential_force(&self, W: f64) -> Option<f64> {
+        self.depends_only_on(&[Dependence::LastSlip])
             .then_some(if W > 0.0 { self.mu * W } else { 0.0 })
     }
 
-    /// The law in words: names with their values, and facts without one.
-    pub fn words(&self) -> Vec<(&'static str, Option<f64>)> {
-        let mut words = vec![("mu", Some(self.mu))];
-        words.extend(self.laws().map(|law| law.words()));
-        words
+    /// Describes the law: names with their values, and facts without one.
+    pub fn describe(&self) -> Vec<(&'static str, Option<f64>)> {
+        let mut description = vec![("mu", Some(self.mu))];
+        description.extend(self.laws().map(|law| law.describe()));
+        description
     }
 
     /// Fails if a coefficient, map or history has no meaning, or, given a `grid`, does not cover
@@ -163,14 +163,14 @@ impl Friction {
             return Err(Error::invalid("friction.mu", self.mu, "a number >= 0"));
         }
         self.laws().try_for_each(|law| law.check(self.mu, grid))?;
-        let beside = [
+        let compatible = [
             Dependence::Direction,
             Dependence::Place,
             Dependence::Pressure,
             Dependence::Cells,
         ];
-        let alone = self.map.is_none() && self.history.is_none();
-        if self.law.is_some() && !(alone && self.depends_on_no_more_than(&beside)) {
+        let without_map_and_history = self.map.is_none() && self.history.is_none();
+        if self.law.is_some() && !(without_map_and_history && self.depends_only_on(&compatible)) {
             let allowed = "without map, history and kinetic: the law knows place and history";
             return Err(Error::invalid("friction.law", "a law of your own", allowed));
         }
@@ -180,13 +180,13 @@ impl Friction {
     /// Fails at coefficients or factors that are so small or so large that nothing could be computed
     /// from them.
     pub(super) fn check_magnitudes(&self) -> Result<(), Error> {
-        within(SMALLEST, "friction.mu", self.mu)?;
+        check_range(SMALLEST, "friction.mu", self.mu)?;
         self.laws()
             .try_for_each(|law| law.check_magnitudes(self.mu))
     }
 }
 
-/// A law beside the coefficient mu: what it depends on, its range, its words.
+/// A law beside the coefficient mu: its dependences, its range, its description.
 pub(crate) enum Law<'a> {
     /// Another coefficient along y.
     Direction(f64),
@@ -196,16 +196,16 @@ pub(crate) enum Law<'a> {
     Place(&'a SurfaceMap),
     /// A factor of the history.
     History(&'a FrictionHistory),
-    /// A function of the user's own.
+    /// A user's function.
     Own,
 }
 
-/// What a coefficient of friction depends on.
+/// A variable that a coefficient of friction depends on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dependence {
     /// The direction of the shear.
     Direction,
-    /// The place of a cell.
+    /// The position of a cell.
     Place,
     /// The pressure of a cell.
     Pressure,
@@ -220,7 +220,7 @@ pub enum Dependence {
 }
 
 impl Law<'_> {
-    /// What it depends on.
+    /// The variables that it depends on.
     pub(crate) fn depends_on(&self) -> &'static [Dependence] {
         match self {
             Self::Direction(_) => &[Dependence::Direction],
@@ -244,8 +244,8 @@ impl Law<'_> {
         }
     }
 
-    /// Why the coefficient may differ between y and -y, if it may; `is_even` says whether a map is
-    /// the same at both.
+    /// Reason why the coefficient may differ between y and -y, if it may; `is_even` checks whether a
+    /// map is the same at both.
     pub(crate) fn is_uneven(&self, is_even: impl Fn(&SurfaceMap) -> bool) -> Option<&'static str> {
         match self {
             Self::Own => Some("friction is a law of the user's own"),
@@ -254,8 +254,8 @@ impl Law<'_> {
         }
     }
 
-    /// What it is called, with its value if it is one number.
-    fn words(&self) -> (&'static str, Option<f64>) {
+    /// Describes the law, with its value if it is one number.
+    fn describe(&self) -> (&'static str, Option<f64>) {
         match self {
             Self::Direction(mu) => ("mu along y", Some(*mu)),
             Self::Kinetic(mu) => ("mu of cells that slip", Some(*mu)),
@@ -273,11 +273,11 @@ impl Law<'_> {
     /// Fails if it has no meaning beside `mu`, or, given a `grid`, does not cover it.
     fn check(&self, mu: f64, grid: Option<&Grid>) -> Result<(), Error> {
         let positive = |mu: f64| mu > 0.0 && mu.is_finite();
-        if let Some((key, of)) = self.coefficient()
-            && !(positive(of) && positive(mu))
+        if let Some((key, value)) = self.coefficient()
+            && !(positive(value) && positive(mu))
         {
             let allowed = "a positive number, as friction.mu";
-            return Err(Error::invalid(format!("friction.{key}"), of, allowed));
+            return Err(Error::invalid(format!("friction.{key}"), value, allowed));
         }
         match self {
             Self::Place(map) => {
@@ -301,12 +301,12 @@ impl Law<'_> {
 
     /// Fails at a coefficient or factor that is far from the order of one.
     fn check_magnitudes(&self, mu: f64) -> Result<(), Error> {
-        let is_far = |of: f64| of.is_finite() && !(1.0 / FACTOR..=FACTOR).contains(&of);
-        if let Some((key, of)) = self.coefficient()
-            && is_far(of / mu)
+        let is_far = |ratio: f64| ratio.is_finite() && !(1.0 / FACTOR..=FACTOR).contains(&ratio);
+        if let Some((key, value)) = self.coefficient()
+            && is_far(value / mu)
         {
             let allowed = format!("between 1/{FACTOR:e} and {FACTOR:e} of friction.mu");
-            return Err(Error::invalid(format!("friction.{key}"), of, allowed));
+            return Err(Error::invalid(format!("friction.{key}"), value, allowed));
         }
         let (key, factors): (_, Vec<f64>) = match self {
             Self::Direction(_) | Self::Kinetic(_) | Self::Own => return Ok(()),
@@ -333,8 +333,9 @@ impl FrictionHistory {
         if table.is_empty() {
             return Err(Error::invalid(key, "empty", "at least one pair"));
         }
-        let falls = |w: &&[(f64, f64)]| w[1].0.partial_cmp(&w[0].0) != Some(Ordering::Greater);
-        if let Some(pair) = table.windows(2).find(falls) {
+        let does_not_grow =
+            |w: &&[(f64, f64)]| w[1].0.partial_cmp(&w[0].0) != Some(Ordering::Greater);
+        if let Some(pair) = table.windows(2).find(does_not_grow) {
             return Err(Error::invalid(key, pair[1].0, "a history that grows"));
         }
         match table.iter().find(|(_, f)| !(*f >= 0.0 && f.is_finite())) {
@@ -362,15 +363,15 @@ mod tests {
     use super::{Dependence, Friction, FrictionHistory, History};
     use crate::scene::{Grid, SurfaceMap};
 
-    /// Every kind of law, alone.
-    fn each() -> Vec<Friction> {
+    /// Returns one law of every kind.
+    fn all_laws() -> Vec<Friction> {
         let plain = Friction::coulomb(0.3);
         let history = |of| FrictionHistory {
             of,
             table: vec![(0.0, 1.0), (1.0, 2.0)],
         };
         let map = Grid::centred(1e-3, 4).unwrap().map(|_, _| 1.0);
-        let mut all = vec![
+        let mut laws = vec![
             Friction {
                 mu_y: Some(0.2),
                 ..plain.clone()
@@ -386,57 +387,59 @@ mod tests {
                 ..plain.clone()
             },
             Friction {
-                law: Some(super::OwnFriction::elsewhere()),
+                law: Some(super::UserFriction::unavailable()),
                 ..plain.clone()
             },
         ];
-        for of in [
+        for variable in [
             History::Increment,
             History::Cycles,
             History::Slip,
             History::Dissipated,
         ] {
-            all.push(Friction {
-                history: Some(history(of)),
+            laws.push(Friction {
+                history: Some(history(variable)),
                 ..plain.clone()
             });
         }
-        all
+        laws
     }
 
     #[test]
-    fn every_law_is_known_to_its_readers() {
+    fn every_law_has_a_description_and_dependences() {
         let plain = Friction::coulomb(0.3);
-        assert!(plain.laws().next().is_none() && plain.words().len() == 1);
-        for friction in each() {
+        assert!(plain.laws().next().is_none() && plain.describe().len() == 1);
+        for friction in all_laws() {
             assert_eq!(friction.laws().count(), 1, "{friction:?}");
-            assert_eq!(friction.words().len(), 2);
+            assert_eq!(friction.describe().len(), 2);
             let mut same = friction.clone();
-            let kept = same.coefficients_mut();
-            let kept = kept.into_iter().filter_map(|(key, mu)| Some((key, (*mu)?)));
+            let coefficients = same.coefficients_mut();
+            let kept = coefficients
+                .into_iter()
+                .filter_map(|(key, mu)| Some((key, (*mu)?)));
             assert!(kept.eq(friction.coefficients()), "{friction:?}");
             assert!(friction.check(None).is_ok() && friction.check_magnitudes().is_ok());
-            let on = friction.laws().flat_map(|law| law.depends_on().iter());
-            let on: Vec<_> = on.copied().collect();
-            assert!(!on.is_empty() && friction.depends_on_no_more_than(&on));
+            let dependences = friction.laws().flat_map(|law| law.depends_on().iter());
+            let on: Vec<_> = dependences.copied().collect();
+            assert!(!on.is_empty() && friction.depends_only_on(&on));
             let fixed = [Dependence::Direction, Dependence::Place];
             assert_eq!(friction.varies(), on.iter().any(|d| !fixed.contains(d)));
         }
     }
 
     #[test]
-    fn a_law_of_ones_own_stands_alone_but_for_the_direction() {
-        let own = Friction {
-            law: Some(super::OwnFriction::elsewhere()),
+    fn a_users_law_allows_only_another_coefficient_along_y() {
+        let user = Friction {
+            law: Some(super::UserFriction::unavailable()),
             ..Friction::coulomb(0.3)
         };
-        for other in each() {
-            let both = Friction {
-                law: own.law.clone(),
-                ..other.clone()
+        for user_or_other in all_laws() {
+            let with_law = Friction {
+                law: user.law.clone(),
+                ..user_or_other.clone()
             };
-            let alone = other.law.is_some() || other.mu_y.is_some();
-            assert_eq!(both.check(None).is_ok(), alone, "{other:?}");
+            let allowed = user_or_other.law.is_some() || user_or_other.mu_y.is_some();
+            assert_eq!(with_law.check(None).is_ok(), allowed, "{user_or_other:?}");
         }
     }
 

@@ -1,28 +1,28 @@
-//! Friction laws of the user's own.
+//! Friction laws written by the user.
 
 use std::fmt::Debug;
 use std::sync::Arc;
 
 use crate::error::{Error, LawError, Raised};
 
-/// Cells, and what each has been through.
+/// Cells with their pressure and history.
 #[derive(Clone, Copy, Debug)]
 pub struct CellHistory<'a> {
-    /// Places of their centres \[m\].
+    /// Coordinates of their centres along x \[m\].
     pub x: &'a [f64],
-    /// See `x`.
+    /// Coordinates of their centres along y \[m\].
     pub y: &'a [f64],
     /// Pressure \[Pa\].
     pub p: &'a [f64],
-    /// Length of the way slipped \[m\].
+    /// Distance slipped \[m\].
     pub slip: &'a [f64],
     /// Energy dissipated per area \[J/m^2\].
     pub dissipated: &'a [f64],
 }
 
-/// A friction coefficient of place, pressure and history. Any type with this trait is one.
+/// A friction coefficient as a function of position, pressure and history.
 ///
-/// The coefficient at the end of an increment is that of the pressure and the history there: the
+/// The coefficient at the end of an increment belongs to the pressure and the history there: the
 /// increment is solved again until it no longer changes.
 pub trait FrictionLaw: Debug + Send + Sync {
     /// Writes the coefficient, finite and >= 0, of each cell. Where nothing is pressed (p = 0) it
@@ -34,50 +34,50 @@ pub trait FrictionLaw: Debug + Send + Sync {
         std::ptr::from_ref(self).cast::<()>() as usize
     }
 
-    /// Itself, for who wants to know what it is.
+    /// Returns the law itself for a downcast to its type.
     fn as_any(&self) -> Option<&dyn std::any::Any> {
         None
     }
 
-    /// Whether only its name is known: a store keeps no law of the user's own.
-    fn is_elsewhere(&self) -> bool {
+    /// Whether the law itself is missing: a store keeps only the fact that there was one.
+    fn is_unavailable(&self) -> bool {
         false
     }
 }
 
-/// A law of the user's own, as part of a scene.
+/// A user's law, as part of a scene.
 #[derive(Clone, Debug)]
-pub struct OwnFriction(pub Arc<dyn FrictionLaw>);
+pub struct UserFriction(pub Arc<dyn FrictionLaw>);
 
-impl PartialEq for OwnFriction {
+impl PartialEq for UserFriction {
     fn eq(&self, other: &Self) -> bool {
         self.0.identity() == other.0.identity()
     }
 }
 
-impl OwnFriction {
+impl UserFriction {
     /// A law.
     pub fn new(law: impl FrictionLaw + 'static) -> Self {
         Self(Arc::new(law))
     }
 
-    /// The law of a store or of a scene file, which can only say that there is one.
-    pub fn elsewhere() -> Self {
-        Self::new(Elsewhere)
+    /// Stands for the law of a store or of a scene file, where the function itself is not kept.
+    pub fn unavailable() -> Self {
+        Self::new(UnavailableLaw)
     }
 
-    /// The coefficients of cells, `nominal` where nothing is pressed.
+    /// Writes the coefficients of cells, `nominal` where the pressure is zero.
     pub(crate) fn coefficients(
         &self,
         cells: &CellHistory<'_>,
         nominal: f64,
         mu: &mut [f64],
     ) -> Result<(), Error> {
-        if self.0.is_elsewhere() {
-            return Err(is_missing());
+        if self.0.is_unavailable() {
+            return Err(missing_law_error());
         }
-        let given = self.0.coefficients(cells, mu);
-        given.map_err(|raised| Error::FrictionLaw {
+        let result = self.0.coefficients(cells, mu);
+        result.map_err(|raised| Error::FrictionLaw {
             raised: Raised(raised),
         })?;
         for (n, mu) in mu.iter_mut().enumerate() {
@@ -98,8 +98,8 @@ impl OwnFriction {
     }
 }
 
-/// The refusal of a law of which only its name is known.
-pub fn is_missing() -> Error {
+/// Refuses a law of which only the name is known.
+pub fn missing_law_error() -> Error {
     Error::invalid(
         "friction.law",
         "own",
@@ -110,18 +110,18 @@ pub fn is_missing() -> Error {
 }
 
 #[derive(Debug)]
-struct Elsewhere;
+struct UnavailableLaw;
 
-impl FrictionLaw for Elsewhere {
+impl FrictionLaw for UnavailableLaw {
     fn coefficients(&self, _: &CellHistory<'_>, _: &mut [f64]) -> Result<(), LawError> {
-        Err(Arc::new(is_missing()))
+        Err(Arc::new(missing_law_error()))
     }
 
     fn identity(&self) -> usize {
         0
     }
 
-    fn is_elsewhere(&self) -> bool {
+    fn is_unavailable(&self) -> bool {
         true
     }
 }

@@ -20,8 +20,8 @@ pub struct Grid {
     pub dx: f64,
     /// Cell length along y \[m\].
     pub dy: f64,
-    /// Plane strain: one row of cells that are infinitely long along y, of which `dy` is the width
-    /// that forces, moments and energies are reckoned over.
+    /// Plane strain: one row of cells that are infinitely long along y. Forces, moments and
+    /// energies are integrals over the width `dy`.
     pub plane_strain: bool,
 }
 
@@ -31,15 +31,15 @@ impl Grid {
         Self::from_spacing((n, n), (extent / n as f64, extent / n as f64))
     }
 
-    /// As many of these cells as fit on a rectangle of given sides \[m\]; none if not one does.
-    pub(crate) fn within(&self, sides: (f64, f64)) -> Option<Self> {
-        let fit = |side: f64, cell: f64, most: usize| {
+    /// Returns the same cells, as many as fit on a rectangle of given sides \[m\]; none if not one does.
+    pub(crate) fn fit_into(&self, sides: (f64, f64)) -> Option<Self> {
+        let cells_along = |side: f64, cell: f64, limit: usize| {
             let cells = (side / cell * (1.0 + 1e-9)).floor();
-            (cells >= 1.0).then(|| (cells as usize).min(most))
+            (cells >= 1.0).then(|| (cells as usize).min(limit))
         };
         Some(Self {
-            nx: fit(sides.0, self.dx, self.nx)?,
-            ny: fit(sides.1, self.dy, self.ny)?,
+            nx: cells_along(sides.0, self.dx, self.nx)?,
+            ny: cells_along(sides.1, self.dy, self.ny)?,
             ..*self
         })
     }
@@ -78,8 +78,8 @@ impl Grid {
         self.dx * self.dy
     }
 
-    /// Radius of the circle of an area \[m^2\], of a line contact half its width \[m\].
-    pub fn radius_of(&self, area: f64) -> f64 {
+    /// Radius of the circle with this area \[m^2\]; in a line contact half the width \[m\].
+    pub fn equivalent_radius(&self, area: f64) -> f64 {
         if self.plane_strain {
             area / (2.0 * self.dy)
         } else {
@@ -87,9 +87,9 @@ impl Grid {
         }
     }
 
-    /// The unit of a number of a run, by that of a contact of two directions: on a strip one metre
-    /// wide forces, moments, energies, areas, volumes and stiffnesses are those per metre; on a
-    /// strip of another width they are those on that width.
+    /// Unit of a result on this grid, given its unit in a contact of two directions. On a strip one
+    /// metre wide, forces, moments, energies, areas, volumes and stiffnesses are per metre. On a
+    /// strip of another width they are integrals over that width.
     pub fn unit_of<'a>(&self, unit: &'a str) -> &'a str {
         if !(self.plane_strain && self.dy == 1.0) {
             return unit;
@@ -111,8 +111,8 @@ impl Grid {
         (self.nx as f64 * self.dx, self.ny as f64 * self.dy)
     }
 
-    /// The longer side, of a line contact that along x \[m\].
-    pub(crate) fn wide(&self) -> f64 {
+    /// The longer side; of a line contact the length along x \[m\].
+    pub(crate) fn longer_side(&self) -> f64 {
         let (x, y) = self.extent();
         if self.plane_strain { x } else { x.max(y) }
     }

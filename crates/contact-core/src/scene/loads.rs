@@ -24,19 +24,19 @@ pub struct Loads {
     /// Bulk stress along x of body 2, away from the contact \[Pa\], tension positive: a fatigue
     /// load.
     pub sigma_B: f64,
-    /// The same of body 1.
+    /// Bulk stress along x of body 1 \[Pa\].
     pub sigma_B1: f64,
-    /// Way that the contact has rolled along x over both bodies \[m\].
+    /// Distance that the contact has rolled along x over both bodies \[m\].
     pub rolled: f64,
-    /// Motions that are given. The load that goes with each is what the solution says; in a path
-    /// its value has no meaning.
-    pub given: Given,
+    /// Prescribed motions. The load of each follows from the solution, so that its value in a
+    /// path has no meaning.
+    pub given: PrescribedMotions,
 }
 
-/// Rigid motions of body 1 against body 2 that are given; `None` where the load is. Without a word
-/// the forces are given and the bodies do not rotate.
+/// Prescribed rigid motions of body 1 against body 2; `None` where the load is prescribed. By default
+/// the forces are prescribed and the bodies do not rotate.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Given {
+pub struct PrescribedMotions {
     /// Approach \[m\], instead of W.
     pub delta_z: Option<f64>,
     /// Shift along x \[m\], instead of T_x.
@@ -51,7 +51,7 @@ pub struct Given {
     pub phi_z: Option<f64>,
 }
 
-impl Default for Given {
+impl Default for PrescribedMotions {
     fn default() -> Self {
         Self {
             delta_z: None,
@@ -66,22 +66,22 @@ impl Default for Given {
 
 impl Loads {
     /// A motion or its load, whichever is prescribed.
-    pub fn prescribed(&self, of: RigidMotion) -> Prescribed {
-        match self.given.motions()[of.index()] {
-            None => Prescribed::Load(self.forces()[of.index()]),
+    pub fn prescribed(&self, motion: RigidMotion) -> Prescribed {
+        match self.given.motions()[motion.index()] {
+            None => Prescribed::Load(self.forces()[motion.index()]),
             Some(motion) => Prescribed::Motion(motion),
         }
     }
 
     /// Prescribes a load, which frees its motion, or a motion, whose load has no value of its own
     /// then.
-    pub fn prescribe(&mut self, of: RigidMotion, prescribed: Prescribed) {
+    pub fn prescribe(&mut self, motion: RigidMotion, prescribed: Prescribed) {
         let (mut forces, mut motions) = (self.forces(), self.given.motions());
-        (forces[of.index()], motions[of.index()]) = match prescribed {
+        (forces[motion.index()], motions[motion.index()]) = match prescribed {
             Prescribed::Load(load) => (load, None),
-            Prescribed::Motion(motion) => (0.0, Some(motion)),
+            Prescribed::Motion(value) => (0.0, Some(value)),
         };
-        *self = self.with_forces(forces, Given::from_motions(motions));
+        *self = self.with_forces(forces, PrescribedMotions::from_motions(motions));
     }
 
     /// The six loads in the order of [`RigidMotion::ALL`].
@@ -89,9 +89,9 @@ impl Loads {
         [self.W, self.M_x, self.M_y, self.T_x, self.T_y, self.M_z]
     }
 
-    /// The same with other loads, as in [`Self::forces`], and motions given.
+    /// Returns the loads with other forces, in the order of [`Self::forces`], and prescribed motions.
     #[must_use]
-    pub fn with_forces(self, forces: [f64; 6], given: Given) -> Self {
+    pub fn with_forces(self, forces: [f64; 6], given: PrescribedMotions) -> Self {
         let [W, M_x, M_y, T_x, T_y, M_z] = forces;
         Self {
             W,
@@ -106,7 +106,7 @@ impl Loads {
     }
 }
 
-impl Given {
+impl PrescribedMotions {
     /// The six motions in the order of [`RigidMotion::ALL`].
     pub fn motions(&self) -> [Option<f64>; 6] {
         [
@@ -119,7 +119,7 @@ impl Given {
         ]
     }
 
-    /// The motions of [`Self::motions`].
+    /// Builds from the six motions in the order of [`Self::motions`].
     pub fn from_motions(motions: [Option<f64>; 6]) -> Self {
         let [delta_z, phi_x, phi_y, delta_x, delta_y, phi_z] = motions;
         Self {
@@ -178,15 +178,15 @@ impl Loads {
             return Ok(());
         }
         // The load of a motion, zero where the motion is prescribed.
-        let load = |of: RigidMotion| match self.prescribed(of) {
+        let load = |motion: RigidMotion| match self.prescribed(motion) {
             Prescribed::Load(load) => load,
             Prescribed::Motion(_) => 0.0,
         };
-        for motion in &RigidMotion::ALL[1..] {
-            if self.W == 0.0 && load(*motion) != 0.0 {
+        for rotation_or_shear in &RigidMotion::ALL[1..] {
+            if self.W == 0.0 && load(*rotation_or_shear) != 0.0 {
                 return Err(Error::invalid(
-                    key(motion.load()),
-                    load(*motion),
+                    key(rotation_or_shear.load_name()),
+                    load(*rotation_or_shear),
                     "0 where W = 0: the bodies part",
                 ));
             }
@@ -200,7 +200,7 @@ impl Loads {
                 "0 without friction: nothing resists torsion",
             ));
         }
-        let Some(limit) = friction.limit(self.W) else {
+        let Some(limit) = friction.max_tangential_force(self.W) else {
             return Ok(());
         };
         let T = T_x.hypot(T_y);

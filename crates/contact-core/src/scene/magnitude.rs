@@ -3,10 +3,10 @@
 use super::shape::Range;
 use super::{Body, Grid, RigidMotion, Scene, Shape};
 use crate::error::Error;
-use crate::magnitude::{LARGEST, SMALLEST, within};
+use crate::magnitude::{LARGEST, SMALLEST, check_range};
 
 impl Body {
-    /// The same checks as in a scene, but for the shape, where a body is used by itself.
+    /// Checks a body that is used by itself as in a scene, except for its shape.
     pub fn check_alone(&self) -> Result<(), Error> {
         self.check("body")?;
         check_layers("body", self)
@@ -14,46 +14,46 @@ impl Body {
 }
 
 impl Grid {
-    /// The same checks as in a scene, where a grid is used by itself.
+    /// Checks a grid that is used by itself as in a scene.
     pub fn check_alone(&self) -> Result<(), Error> {
         self.check()?;
-        within(SMALLEST, "grid.dx", self.dx)?;
-        within(SMALLEST, "grid.dy", self.dy)
+        check_range(SMALLEST, "grid.dx", self.dx)?;
+        check_range(SMALLEST, "grid.dy", self.dy)
     }
 }
 
 impl Scene {
     /// Fails at the first number that is so small or so large that nothing could be computed from
-    /// it. Zero is a number like others here, and so is infinity, which stands for no number.
+    /// it. Zero and infinity are allowed here.
     pub(crate) fn check_magnitudes(&self) -> Result<(), Error> {
         for (key, body) in [("body1", &self.body1), ("body2", &self.body2)] {
             check_body(key, body)?;
         }
         self.friction.check_magnitudes()?;
-        within(SMALLEST, "grid.dx", self.grid.dx)?;
-        within(SMALLEST, "grid.dy", self.grid.dy)?;
+        check_range(SMALLEST, "grid.dx", self.grid.dx)?;
+        check_range(SMALLEST, "grid.dy", self.grid.dy)?;
         for (i, branch) in self.path.branches.iter().enumerate() {
-            within(SMALLEST, &format!("path[{i}].W"), branch.to.W)?;
+            check_range(SMALLEST, &format!("path[{i}].W"), branch.to.W)?;
             for motion in RigidMotion::ALL {
                 let prescribed = branch.to.prescribed(motion);
                 let key = format!("path[{i}].{}", prescribed.name(motion));
-                within(0.0, &key, prescribed.value())?;
+                check_range(0.0, &key, prescribed.value())?;
             }
             for (name, value) in [
                 ("sigma_B", branch.to.sigma_B),
                 ("sigma_B1", branch.to.sigma_B1),
             ] {
-                within(0.0, &format!("path[{i}].{name}"), value)?;
+                check_range(0.0, &format!("path[{i}].{name}"), value)?;
             }
         }
         Ok(())
     }
 
-    /// The same for the scales that follow from them. The approach of a line contact is negative on
+    /// Fails where the approach that follows from the numbers is out of range. The approach of a line contact is negative on
     /// a grid shorter than 0.3 of its half-width, on which it does not fit
     /// ([`Self::check_fit`]).
-    pub(super) fn check_yardsticks(&self) -> Result<(), Error> {
-        let approach = self.approach().abs();
+    pub(super) fn check_approach(&self) -> Result<(), Error> {
+        let approach = self.reference_approach().abs();
         if approach == 0.0 || (SMALLEST..=LARGEST).contains(&approach) {
             return Ok(());
         }
@@ -71,11 +71,11 @@ fn check_body(key: &str, body: &Body) -> Result<(), Error> {
 }
 
 fn check_layers(key: &str, body: &Body) -> Result<(), Error> {
-    within(SMALLEST, &format!("{key}.E"), body.substrate.E)?;
+    check_range(SMALLEST, &format!("{key}.E"), body.substrate.E)?;
     for (i, coating) in body.coatings.iter().enumerate() {
         let key = format!("{key}.coatings[{i}]");
-        within(SMALLEST, &format!("{key}.E"), coating.material.E)?;
-        within(SMALLEST, &format!("{key}.thickness"), coating.thickness)?;
+        check_range(SMALLEST, &format!("{key}.E"), coating.material.E)?;
+        check_range(SMALLEST, &format!("{key}.thickness"), coating.thickness)?;
     }
     Ok(())
 }
@@ -83,21 +83,21 @@ fn check_layers(key: &str, body: &Body) -> Result<(), Error> {
 fn check_shape(key: &str, shape: &Shape) -> Result<(), Error> {
     for (name, value, range) in shape.parameters() {
         let smallest = if range == Range::Any { 0.0 } else { SMALLEST };
-        within(smallest, &format!("{key}.{name}"), value)?;
+        check_range(smallest, &format!("{key}.{name}"), value)?;
     }
     match shape {
         Shape::HeightMap(map) => {
             let key = format!("{key}.height_map");
-            within(SMALLEST, &format!("{key}.spacing"), map.spacing.0)?;
-            within(SMALLEST, &format!("{key}.spacing"), map.spacing.1)?;
+            check_range(SMALLEST, &format!("{key}.spacing"), map.spacing.0)?;
+            check_range(SMALLEST, &format!("{key}.spacing"), map.spacing.1)?;
             let highest = map.values.iter().fold(0.0, |m: f64, z| m.max(z.abs()));
-            within(0.0, &format!("{key}.z"), highest)
+            check_range(0.0, &format!("{key}.z"), highest)
         }
         Shape::Rough(rough) => {
             let key = format!("{key}.rough");
-            within(0.0, &format!("{key}.rms"), rough.rms)?;
-            within(SMALLEST, &format!("{key}.shortest"), rough.shortest)?;
-            within(SMALLEST, &format!("{key}.longest"), rough.longest)
+            check_range(0.0, &format!("{key}.rms"), rough.rms)?;
+            check_range(SMALLEST, &format!("{key}.shortest"), rough.shortest)?;
+            check_range(SMALLEST, &format!("{key}.longest"), rough.longest)
         }
         Shape::Sum(parts) => (parts.iter().enumerate())
             .try_for_each(|(i, part)| check_shape(&format!("{key}.sum[{i}]"), part)),

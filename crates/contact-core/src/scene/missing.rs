@@ -5,19 +5,19 @@ use ndarray::{Array2, Axis, Slice};
 /// Treatment of points without a number.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Missing {
-    /// An error says how many there are and where (default).
+    /// An error gives their number and the first place (default).
     #[default]
     Refuse,
     /// Lines at the edges are left out until every point has a number; the middle moves with them.
     Crop,
-    /// Each has the mean of its neighbours, those next to numbers first; refused where the holes
-    /// are many or large, since nothing is known of what lies in them.
+    /// Each has the mean of its neighbours, beginning at the border of each hole. Many or large
+    /// holes are refused, since nothing is known of the surface in them.
     Fill,
 }
 
 impl Missing {
-    /// The choice of a word: "refuse", "crop" or "fill".
-    pub fn named(word: &str) -> Option<Self> {
+    /// Parses a word: "refuse", "crop" or "fill".
+    pub fn from_word(word: &str) -> Option<Self> {
         match word {
             "refuse" => Some(Self::Refuse),
             "crop" => Some(Self::Crop),
@@ -27,40 +27,40 @@ impl Missing {
     }
 }
 
-/// Part of the points that is filled at most.
+/// Largest part of the points that may be filled.
 const MOST_FILLED: f64 = 0.1;
-/// Points by which a filled one lies within its hole at most.
+/// Largest depth of a filled point within its hole, in points.
 const DEEPEST: usize = 5;
 
-/// The numbers without holes, and how many of them are filled; the error says where the holes are.
-pub(super) fn completed(
+/// Refuses, crops or fills the holes; returns the numbers and how many of them are filled.
+pub(super) fn treat_holes(
     values: Array2<f64>,
     missing: Missing,
 ) -> Result<(Array2<f64>, usize), String> {
-    let (holes, all) = (values.iter().filter(|v| v.is_nan()).count(), values.len());
-    if holes == all {
+    let (holes, total) = (values.iter().filter(|v| v.is_nan()).count(), values.len());
+    if holes == total {
         return Err("holds no number".into());
     }
     if holes == 0 {
         return Ok((values, 0));
     }
-    let share = 100.0 * holes as f64 / all as f64;
+    let share = 100.0 * holes as f64 / total as f64;
     match missing {
-        Missing::Refuse => Err(where_they_are(&values, holes)),
-        Missing::Crop => Ok((cropped(&values), 0)),
-        Missing::Fill if holes as f64 > MOST_FILLED * all as f64 => Err(format!(
-            "{holes} of {all} points ({share:.1} %) have no number, too many to fill: a tenth of them at most"
+        Missing::Refuse => Err(describe_holes(&values, holes)),
+        Missing::Crop => Ok((crop_edges(&values), 0)),
+        Missing::Fill if holes as f64 > MOST_FILLED * total as f64 => Err(format!(
+            "{holes} of {total} points ({share:.1} %) have no number, too many to fill: a tenth of them at most"
         )),
-        Missing::Fill => filled(values).map(|values| (values, holes)).ok_or_else(|| {
+        Missing::Fill => fill_from_neighbours(values).map(|values| (values, holes)).ok_or_else(|| {
             format!(
-                "{holes} of {all} points ({share:.1} %) have no number, and a hole among them is too large to fill. \
+                "{holes} of {total} points ({share:.1} %) have no number, and a hole among them is too large to fill. \
                  Every point of it must lie within {DEEPEST} points of measured ones"
             )
         }),
     }
 }
 
-fn where_they_are(values: &Array2<f64>, holes: usize) -> String {
+fn describe_holes(values: &Array2<f64>, holes: usize) -> String {
     let (nx, ny) = values.dim();
     let missing = values.indexed_iter().filter(|(_, v)| v.is_nan());
     let (mut first, mut depth) = (None, 0);
@@ -80,26 +80,26 @@ fn where_they_are(values: &Array2<f64>, holes: usize) -> String {
 }
 
 /// Takes the line at the edge with the largest part of holes off, until there is none.
-fn cropped(values: &Array2<f64>) -> Array2<f64> {
-    let mut rest = values.view();
-    while rest.iter().any(|v| v.is_nan()) {
-        let (nx, ny) = rest.dim();
-        let part = |line: ndarray::ArrayView1<'_, f64>| {
+fn crop_edges(values: &Array2<f64>) -> Array2<f64> {
+    let mut kept = values.view();
+    while kept.iter().any(|v| v.is_nan()) {
+        let (nx, ny) = kept.dim();
+        let share_of_holes = |line: ndarray::ArrayView1<'_, f64>| {
             line.iter().filter(|v| v.is_nan()).count() as f64 / line.len() as f64
         };
-        let parts = [
-            part(rest.row(0)),
-            part(rest.row(nx - 1)),
-            part(rest.column(0)),
-            part(rest.column(ny - 1)),
+        let shares = [
+            share_of_holes(kept.row(0)),
+            share_of_holes(kept.row(nx - 1)),
+            share_of_holes(kept.column(0)),
+            share_of_holes(kept.column(ny - 1)),
         ];
         let worst = (0..4)
-            .max_by(|&a, &b| parts[a].total_cmp(&parts[b]))
+            .max_by(|&a, &b| shares[a].total_cmp(&shares[b]))
             .unwrap_or(0);
-        let worst = if parts[worst] > 0.0 {
+        let worst = if shares[worst] > 0.0 {
             worst
         } else {
-            nearest_edge(&rest)
+            edge_nearest_to_a_hole(&kept)
         };
         let (axis, slice) = match worst {
             0 => (Axis(0), Slice::from(1..)),
@@ -107,13 +107,13 @@ fn cropped(values: &Array2<f64>) -> Array2<f64> {
             2 => (Axis(1), Slice::from(1..)),
             _ => (Axis(1), Slice::from(..ny - 1)),
         };
-        rest.slice_axis_inplace(axis, slice);
+        kept.slice_axis_inplace(axis, slice);
     }
-    rest.to_owned()
+    kept.to_owned()
 }
 
-/// The edge that is nearest to the first hole, in the order of [`cropped`].
-fn nearest_edge(values: &ndarray::ArrayView2<'_, f64>) -> usize {
+/// Edge nearest to the first hole, in the order of [`crop_edges`].
+fn edge_nearest_to_a_hole(values: &ndarray::ArrayView2<'_, f64>) -> usize {
     let (nx, ny) = values.dim();
     let hole = values.indexed_iter().find(|(_, v)| v.is_nan());
     let (i, j) = hole.map_or((0, 0), |(at, _)| at);
@@ -122,7 +122,7 @@ fn nearest_edge(values: &ndarray::ArrayView2<'_, f64>) -> usize {
 }
 
 /// Fills from the borders of the holes inwards; `None` where they are too large.
-fn filled(mut values: Array2<f64>) -> Option<Array2<f64>> {
+fn fill_from_neighbours(mut values: Array2<f64>) -> Option<Array2<f64>> {
     let (nx, ny) = values.dim();
     let mut holes: Vec<(usize, usize)> = values
         .indexed_iter()
@@ -132,18 +132,18 @@ fn filled(mut values: Array2<f64>) -> Option<Array2<f64>> {
     for _ in 0..DEEPEST {
         let mean = |&(i, j): &(usize, usize)| {
             let rows = i.saturating_sub(1)..(i + 2).min(nx);
-            let around = |row: usize| {
+            let cells_of_row = |row: usize| {
                 let columns = j.saturating_sub(1)..(j + 2).min(ny);
                 columns.map(move |column| (row, column))
             };
-            let known = rows.flat_map(around).map(|at| values[at]);
-            let known = known.filter(|v| !v.is_nan());
-            let (sum, n) = known.fold((0.0, 0), |(sum, n), v| (sum + v, n + 1));
+            let neighbours = rows.flat_map(cells_of_row).map(|at| values[at]);
+            let neighbours = neighbours.filter(|v| !v.is_nan());
+            let (sum, n) = neighbours.fold((0.0, 0), |(sum, n), v| (sum + v, n + 1));
             (n > 0).then(|| sum / f64::from(n))
         };
-        let found: Vec<_> = holes.iter().map(|at| (*at, mean(at))).collect();
+        let means: Vec<_> = holes.iter().map(|at| (*at, mean(at))).collect();
         holes.clear();
-        for (at, value) in found {
+        for (at, value) in means {
             match value {
                 Some(value) => values[at] = value,
                 None => holes.push(at),
@@ -157,10 +157,10 @@ fn filled(mut values: Array2<f64>) -> Option<Array2<f64>> {
 mod tests {
     use ndarray::Array2;
 
-    use super::{Missing, completed};
+    use super::{Missing, treat_holes};
 
     /// A plane with holes at two edges.
-    fn with_holes() -> Array2<f64> {
+    fn plane_with_holes() -> Array2<f64> {
         let mut z = Array2::from_shape_fn((6, 5), |(i, j)| i as f64 + 2.0 * j as f64);
         for at in [(0, 0), (0, 1), (0, 3), (4, 4)] {
             z[at] = f64::NAN;
@@ -170,7 +170,7 @@ mod tests {
 
     #[test]
     fn holes_are_named() {
-        let error = completed(with_holes(), Missing::Refuse).expect_err("holes");
+        let error = treat_holes(plane_with_holes(), Missing::Refuse).expect_err("holes");
         assert!(
             error.starts_with("4 of 30 points have no number, the first in row 1"),
             "{error}"
@@ -179,7 +179,7 @@ mod tests {
 
     #[test]
     fn edges_with_holes_are_cut_off() {
-        let (z, filled) = completed(with_holes(), Missing::Crop).expect("numbers");
+        let (z, filled) = treat_holes(plane_with_holes(), Missing::Crop).expect("numbers");
         assert!(
             z.dim() == (5, 4) && z[(0, 0)] == 1.0 && z[(4, 3)] == 11.0 && filled == 0,
             "{z}"
@@ -192,20 +192,20 @@ mod tests {
         for at in [(0, 3), (4, 4), (4, 5), (29, 19)] {
             plane[at] = f64::NAN;
         }
-        let (z, filled) = completed(plane.clone(), Missing::Fill).expect("numbers");
+        let (z, filled) = treat_holes(plane.clone(), Missing::Fill).expect("numbers");
         assert!(filled == 4 && z.iter().all(|v| v.is_finite()));
         // The mean of the neighbours of a plane that lie on one side is off by a point at most.
         assert!((z[(0, 3)] - 6.0).abs() <= 2.0 && (z[(4, 4)] - 12.0).abs() <= 2.0);
         for at in (10..21).flat_map(|i| (0..20).map(move |j| (i, j))) {
             plane[at] = f64::NAN;
         }
-        let many = completed(plane.clone(), Missing::Fill).expect_err("many");
+        let many = treat_holes(plane.clone(), Missing::Fill).expect_err("many");
         assert!(many.contains("too many to fill"), "{many}");
         let mut large = Array2::ones((60, 60));
         for at in (20..31).flat_map(|i| (20..31).map(move |j| (i, j))) {
             large[at] = f64::NAN;
         }
-        let large = completed(large, Missing::Fill).expect_err("a large hole");
+        let large = treat_holes(large, Missing::Fill).expect_err("a large hole");
         assert!(
             large.contains("121 of 3600 points (3.4 %)") && large.contains("too large"),
             "{large}"

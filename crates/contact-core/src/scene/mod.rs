@@ -28,19 +28,19 @@ mod validity;
 mod yields;
 
 pub use crate::material::{Bond, Coating, Elastic, dundurs_beta};
-pub use body::{Body, check_plastic};
-pub use case::{Fault, Section, in_si, quantity, read_with, text_of};
+pub use body::{Body, check_plastic_law};
+pub use case::{Fault, Section, convert_to_si, quantity, read_scene_and, read_text};
 pub use files::{Reach, read as read_file};
 pub use friction::Dependence;
 pub use friction::{Friction, FrictionHistory, History};
-pub use friction_law::is_missing;
-pub use friction_law::{CellHistory, FrictionLaw, OwnFriction};
+pub use friction_law::missing_law_error;
+pub use friction_law::{CellHistory, FrictionLaw, UserFriction};
 pub use grid::Grid;
 pub use load_path::{Branch, Increments, LoadPath, LoadPoint, Spacing};
-pub use loads::{Given, Loads};
+pub use loads::{Loads, PrescribedMotions};
 pub use missing::Missing;
 pub use motion::{Prescribed, RigidMotion};
-pub use number_files::{FileOfNumbers, tolerant as text_of_numbers};
+pub use number_files::{FileOfNumbers, decode_any as text_of_numbers};
 pub use plasticity::{BACK_STRESSES, Plastic};
 pub use residual_stress::ResidualStress;
 pub use resolution::{FEW_CELLS, FEWEST_CELLS};
@@ -62,7 +62,7 @@ pub use crate::error::LawError;
 use crate::hertz::{Hertz, contact_modulus, hertz, hertz_ellipse, line_contact};
 use crate::memory::fits;
 
-/// Numbers per cell that laying out the surfaces takes: each of them, their sum, their making.
+/// Arrays per cell needed for the surfaces: both heights, their sum, and temporaries.
 const SURFACES: f64 = 6.0;
 
 /// A fretting contact problem.
@@ -102,8 +102,8 @@ impl Scene {
     pub fn check(&self) -> Result<(), Error> {
         self.body1.check("body1")?;
         self.body2.check("body2")?;
-        let unyielding = |body: &Body| body.substrate.is_rigid() && body.coatings.is_empty();
-        if unyielding(&self.body1) && unyielding(&self.body2) {
+        let is_rigid = |body: &Body| body.substrate.is_rigid() && body.coatings.is_empty();
+        if is_rigid(&self.body1) && is_rigid(&self.body2) {
             return Err(Error::invalid(
                 "body2.E",
                 "inf",
@@ -127,15 +127,15 @@ impl Scene {
         }
         self.body1.shape.check_on(&self.grid, "body1.shape")?;
         self.body2.shape.check_on(&self.grid, "body2.shape")?;
-        if !self.parts_at_the_border() {
-            let (one, other) = (self.body1.shape.word(), self.body2.shape.word());
+        if !self.opens_at_the_border() {
+            let (first, second) = (self.body1.shape.name(), self.body2.shape.name());
             return Err(Error::invalid(
                 "body1.shape",
-                format!("{one} on {other}"),
+                format!("{first} on {second}"),
                 "a surface that parts from the other one towards the border of the grid",
             ));
         }
-        self.path.check(&self.friction)?;
+        self.path.check_for_friction(&self.friction)?;
         self.path.check_on(&self.grid)?;
         if self.grid.plane_strain && self.settings.kernel.method != KernelMethod::Hankel {
             return Err(Error::invalid(
@@ -145,8 +145,8 @@ impl Scene {
             ));
         }
         for (key, body, number) in [("sigma_B", &self.body2, 2), ("sigma_B1", &self.body1, 1)] {
-            let bulk = |to: &Loads| if number == 1 { to.sigma_B1 } else { to.sigma_B };
-            let stresses = self.path.branches.iter().map(|b| bulk(&b.to));
+            let bulk_stress = |to: &Loads| if number == 1 { to.sigma_B1 } else { to.sigma_B };
+            let stresses = self.path.branches.iter().map(|b| bulk_stress(&b.to));
             let stress = stresses
                 .filter(|_| body.substrate.is_rigid())
                 .find(|s| *s != 0.0);
@@ -155,13 +155,13 @@ impl Scene {
                 return Err(Error::invalid(format!("path.{key}"), stress, allowed));
             }
         }
-        self.check_sense()?;
+        self.check_plausibility()?;
         self.check_bonds()?;
-        self.check_yardsticks()?;
+        self.check_approach()?;
         self.settings.check()?;
         self.check_yielding()?;
         self.check_path_grid()?;
-        self.check_saved()
+        self.check_saved_increments()
     }
 
     /// Whether any layer of the bodies may yield.
@@ -169,7 +169,7 @@ impl Scene {
         self.body1.yields() || self.body2.yields()
     }
 
-    /// The same scene with bodies that never yield.
+    /// Returns the scene with bodies that never yield.
     #[must_use]
     pub fn elastic(&self) -> Self {
         Self {
@@ -180,8 +180,10 @@ impl Scene {
     }
 
     /// Fails if fields are to be kept of increments that the path does not have.
-    fn check_saved(&self) -> Result<(), Error> {
-        let (SaveFields::Indices(kept), false) = (&self.settings.save, self.path.is_open()) else {
+    fn check_saved_increments(&self) -> Result<(), Error> {
+        let (SaveFields::Indices(kept), false) =
+            (&self.settings.save, self.path.has_open_increments())
+        else {
             return Ok(());
         };
         let last = self.path.increments();
@@ -203,9 +205,9 @@ impl Scene {
 
     /// The Hertz contact of the uncoated pair at the largest normal load of the path, or at the
     /// largest approach that it gives: the yardstick `a_H`, `p_H` of every dimensionless result.
-    /// `None` where a substrate pair is rigid, nothing presses the bodies together or their shapes
-    /// meet in no point. A contact of unequal radii has the mean of its semi-axes for `a_H`, the
-    /// geometric one. In plane strain it is that of parallel cylinders, `a_H` their half-width, the
+    /// `None` where both substrates are rigid, nothing presses the bodies together or their shapes
+    /// do not meet in a point. A contact of unequal radii has the mean of its semi-axes for `a_H`, the
+    /// geometric one. In plane strain it is the contact of parallel cylinders, `a_H` their half-width, the
     /// approach relative to the points at the grid's length; `None` there if the path gives no W.
     pub fn hertz(&self) -> Option<Hertz> {
         let both_rigid = self.body1.substrate.is_rigid() && self.body2.substrate.is_rigid();
@@ -216,7 +218,7 @@ impl Scene {
         if k_2 <= 1e-9 * k_1 || both_rigid {
             return None;
         }
-        let at = |W| {
+        let hertz_under = |W| {
             let round = hertz(1.0 / k_1, self.body1.substrate, self.body2.substrate, W);
             if k_1 - k_2 <= 1e-12 * k_1 {
                 return round;
@@ -231,8 +233,11 @@ impl Scene {
         };
         // delta_z grows with W^(2/3).
         let delta_z = self.path.delta_z_max();
-        let W = self.path.W_max().max((delta_z / at(1.0).delta_z).powf(1.5));
-        (W > 0.0).then(|| at(W))
+        let W = self
+            .path
+            .W_max()
+            .max((delta_z / hertz_under(1.0).delta_z).powf(1.5));
+        (W > 0.0).then(|| hertz_under(W))
     }
 
     /// The Hertz contact of the sections y = 0 in plane strain.
@@ -250,10 +255,10 @@ impl Scene {
         })
     }
 
-    /// The length that results of an increment of pressure `p`, shape (nx, ny) \[Pa\], are measured
-    /// in \[m\]: a_H, or where there is no Hertz contact half the longer side of the box around the
+    /// Reference length of the results of an increment with the pressure `p`, shape (nx, ny) \[Pa\], in
+    /// \[m\]. It is a_H. Without a Hertz contact it is half the longer side of the box around the
     /// contact, or of the grid where nothing touches.
-    pub fn length(&self, p: &ndarray::Array2<f64>) -> f64 {
+    pub fn reference_length(&self, p: &ndarray::Array2<f64>) -> f64 {
         if let Some(hertz) = self.hertz() {
             return hertz.a;
         }
@@ -261,8 +266,8 @@ impl Scene {
             .indexed_iter()
             .filter(|(_, p)| **p > 0.0)
             .map(|(at, _)| at);
-        let none = ((usize::MAX, 0), (usize::MAX, 0));
-        let ((left, right), (low, high)) = touching.fold(none, |((l, r), (b, t)), (i, j)| {
+        let empty_box = ((usize::MAX, 0), (usize::MAX, 0));
+        let ((left, right), (low, high)) = touching.fold(empty_box, |((l, r), (b, t)), (i, j)| {
             ((l.min(i), r.max(i)), (b.min(j), t.max(j)))
         });
         let grid = &self.grid;
@@ -279,19 +284,18 @@ impl Scene {
         longer / 2.0
     }
 
-    /// The length that approaches are compared with \[m\]: Hertz's approach, or where there is none
-    /// the largest approach that is given or that the largest force would cause under a punch as
-    /// wide as the grid; between rigid substrates at most what it would press their layers together
-    /// by.
-    pub fn approach(&self) -> f64 {
+    /// Reference approach \[m\]: Hertz's approach. Without a Hertz contact it is the largest prescribed
+    /// approach, or the one of a punch as wide as the grid under the largest force. Between rigid
+    /// substrates the compression of the layers under that force is an upper bound.
+    pub fn reference_approach(&self) -> f64 {
         self.hertz().map_or_else(
-            || self.path.delta_z_max().max(self.approach_of_a_punch()),
+            || self.path.delta_z_max().max(self.approach_of_punch()),
             |hertz| hertz.delta_z,
         )
     }
 
     /// The approach under the largest force, spread over the grid \[m\].
-    fn approach_of_a_punch(&self) -> f64 {
+    fn approach_of_punch(&self) -> f64 {
         let bodies = [&self.body1, &self.body2];
         let softest = |body: &Body| {
             let coatings = body.coatings.iter().map(|c| c.material);
@@ -300,22 +304,22 @@ impl Scene {
         };
         let E_star = contact_modulus(softest(bodies[0]), softest(bodies[1]));
         let (length, width) = self.grid.extent();
-        let wide = if self.grid.plane_strain {
+        let longer_side = if self.grid.plane_strain {
             width
         } else {
             length.max(width)
         };
         let W = self.path.W_max();
-        let of_half_spaces = W / (E_star * wide);
+        let approach_of_half_spaces = W / (E_star * longer_side);
         if !bodies.iter().all(|body| body.substrate.is_rigid()) {
-            return of_half_spaces;
+            return approach_of_half_spaces;
         }
         let layers = bodies.iter().flat_map(|body| &body.coatings);
-        let soft: f64 = layers.map(|c| c.thickness / c.material.E).sum();
-        of_half_spaces.min(W / (length * width) * soft)
+        let compliance: f64 = layers.map(|c| c.thickness / c.material.E).sum();
+        approach_of_half_spaces.min(W / (length * width) * compliance)
     }
 
-    /// Fails if the path grid does not divide the grid, or the scene needs its own grid for the path.
+    /// Fails if the path grid does not divide the grid, or a feature of the scene needs the full grid for the path.
     pub(crate) fn check_path_grid(&self) -> Result<(), Error> {
         let PathGrid::Cells(cells) = self.settings.solver.path_grid else {
             return Ok(());
@@ -323,7 +327,7 @@ impl Scene {
         let (nx, ny) = (self.grid.nx, self.grid.ny);
         let divides = |ratio: &usize| nx.is_multiple_of(2 * ratio) && ny.is_multiple_of(2 * ratio);
         let rolls = self.path.branches.iter().any(|b| b.to.rolled != 0.0);
-        let same = if self.grid.plane_strain {
+        let refusing_feature = if self.grid.plane_strain {
             Some("in plane strain")
         } else if rolls {
             Some("where the bodies roll")
@@ -337,11 +341,11 @@ impl Scene {
             None
         };
         let ratios: Vec<usize> = [2, 4].into_iter().filter(divides).collect();
-        if same.is_none() && ratios.iter().any(|ratio| nx == ratio * cells) {
+        if refusing_feature.is_none() && ratios.iter().any(|ratio| nx == ratio * cells) {
             return Ok(());
         }
         let cells_of = |ratio: &usize| format!(", {}", nx / ratio);
-        let allowed = match same {
+        let allowed = match refusing_feature {
             Some(why) => format!("\"auto\" or \"same\" {why}"),
             None => format!(
                 "\"auto\", \"same\"{}: an even half or quarter of the cells along x and y",
@@ -351,15 +355,15 @@ impl Scene {
         Err(Error::invalid("solver.path_grid", cells, allowed))
     }
 
-    /// Relative tolerance of the solution: that of the settings, or 1e-6, or where increments are
-    /// chosen 1/125 of the tolerance on the path (1/2500 of a path that only presses) if that is
+    /// Relative tolerance of the solution: the one of the settings, or 1e-6. Where increments are
+    /// chosen it is 1/125 of the tolerance on the path (1/2500 of a path that only presses) if that is
     /// more.
     pub fn tolerance(&self) -> f64 {
         let solver = &self.settings.solver;
         if let Some(tolerance) = solver.tolerance {
             return tolerance;
         }
-        if self.path.is_open() && self.friction.mu > 0.0 {
+        if self.path.has_open_increments() && self.friction.mu > 0.0 {
             let part = PATH_PART[usize::from(!self.path.only_presses())];
             (part * solver.path_tolerance).max(TOLERANCE)
         } else {
@@ -370,22 +374,22 @@ impl Scene {
     /// Gap between the undeformed surfaces, h_init \[m\], shape (nx, ny).
     pub fn h_init(&self) -> ndarray::Array2<f64> {
         match (&self.body1.shape, &self.body2.shape) {
-            (shape, Shape::Flat) | (Shape::Flat, shape) => shape.fall(&self.grid),
-            (one, other) => one.fall(&self.grid) + other.fall(&self.grid),
+            (shape, Shape::Flat) | (Shape::Flat, shape) => shape.drop(&self.grid),
+            (first, second) => first.drop(&self.grid) + second.drop(&self.grid),
         }
     }
 
     /// The larger and the smaller principal curvature of the gap between the nominal shapes
     /// \[1/m\].
     pub fn principal_curvatures(&self) -> (f64, f64) {
-        let (one, other) = (self.body1.shape.curvature(), self.body2.shape.curvature());
-        let [xx, xy, yy]: [f64; 3] = std::array::from_fn(|i| one[i] + other[i]);
+        let (first, second) = (self.body1.shape.curvature(), self.body2.shape.curvature());
+        let [xx, xy, yy]: [f64; 3] = std::array::from_fn(|i| first[i] + second[i]);
         let (mean, half) = (0.5 * (xx + yy), (0.5 * (xx - yy)).hypot(xy));
         (mean + half, mean - half)
     }
 
-    /// Whether the gap is narrower somewhere inside than all along the border of the grid.
-    fn parts_at_the_border(&self) -> bool {
+    /// Whether the gap is narrower somewhere inside than everywhere along the border of the grid.
+    fn opens_at_the_border(&self) -> bool {
         let h = self.h_init();
         let (nx, ny) = h.dim();
         let (mut inside, mut border) = (f64::INFINITY, f64::INFINITY);

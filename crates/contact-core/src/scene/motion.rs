@@ -1,4 +1,4 @@
-//! The six rigid motions of body 1 against body 2, each given or driven by its load.
+//! The six rigid motions of body 1 against body 2, each prescribed or driven by its load.
 
 /// A rigid motion of body 1 against body 2; the first three lie across the contact plane, the
 /// others in it.
@@ -18,8 +18,8 @@ pub enum RigidMotion {
     PhiZ,
 }
 
-/// What is prescribed of a rigid motion: either the load that drives it, which leaves the motion
-/// free to balance that load, or the motion itself, whose load follows from the solution.
+/// Prescribed part of a rigid motion: either the load that drives it, and the motion is free to
+/// balance that load, or the motion itself, and its load follows from the solution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Prescribed {
     /// A force \[N\] or moment \[N m\].
@@ -39,7 +39,7 @@ impl RigidMotion {
         Self::PhiZ,
     ];
 
-    /// The place in [`Self::ALL`].
+    /// Index in [`Self::ALL`].
     pub const fn index(self) -> usize {
         self as usize
     }
@@ -57,7 +57,7 @@ impl RigidMotion {
     }
 
     /// The name of the load that drives it.
-    pub const fn load(self) -> &'static str {
+    pub const fn load_name(self) -> &'static str {
         match self {
             Self::DeltaZ => "W",
             Self::PhiX => "M_x",
@@ -71,15 +71,15 @@ impl RigidMotion {
     /// The names of all loads and of all motions.
     pub fn names() -> [&'static str; 12] {
         std::array::from_fn(|n| match Self::ALL.get(n) {
-            Some(motion) => motion.load(),
+            Some(motion) => motion.load_name(),
             None => Self::ALL[n - Self::ALL.len()].name(),
         })
     }
 
-    /// The motion of which a quantity of this name, a load or a motion, prescribes this value.
-    pub fn of(quantity: &str, value: f64) -> Option<(Self, Prescribed)> {
+    /// Returns the motion with this name, or driven by the load with this name, and the prescribed value.
+    pub fn from_quantity(quantity: &str, value: f64) -> Option<(Self, Prescribed)> {
         Self::ALL.into_iter().find_map(|motion| {
-            if quantity == motion.load() {
+            if quantity == motion.load_name() {
                 Some((motion, Prescribed::Load(value)))
             } else if quantity == motion.name() {
                 Some((motion, Prescribed::Motion(value)))
@@ -107,7 +107,7 @@ impl RigidMotion {
 }
 
 impl Prescribed {
-    /// The value of whichever is prescribed.
+    /// The value of the load or the motion, whichever is prescribed.
     pub const fn value(self) -> f64 {
         match self {
             Self::Load(value) | Self::Motion(value) => value,
@@ -120,14 +120,14 @@ impl Prescribed {
     }
 
     /// The name of the prescribed motion or load.
-    pub const fn name(self, of: RigidMotion) -> &'static str {
+    pub const fn name(self, motion: RigidMotion) -> &'static str {
         match self {
-            Self::Load(_) => of.load(),
-            Self::Motion(_) => of.name(),
+            Self::Load(_) => motion.load_name(),
+            Self::Motion(_) => motion.name(),
         }
     }
 
-    /// The same with another value.
+    /// Applies a function to the value.
     #[must_use]
     pub fn map(self, f: impl FnOnce(f64) -> f64) -> Self {
         match self {
@@ -157,13 +157,17 @@ mod tests {
                 let others = RigidMotion::ALL
                     .into_iter()
                     .filter(|other| *other != motion);
-                for other in others {
-                    assert_eq!(loads.prescribed(other), Loads::default().prescribed(other));
+                for other_motion in others {
+                    assert_eq!(
+                        loads.prescribed(other_motion),
+                        Loads::default().prescribed(other_motion)
+                    );
                 }
-                let named = RigidMotion::of(prescribed.name(motion), prescribed.value());
-                assert_eq!(named, Some((motion, prescribed)));
+                let parsed =
+                    RigidMotion::from_quantity(prescribed.name(motion), prescribed.value());
+                assert_eq!(parsed, Some((motion, prescribed)));
             }
         }
-        assert_eq!(RigidMotion::of("sigma_B", 1.0), None);
+        assert_eq!(RigidMotion::from_quantity("sigma_B", 1.0), None);
     }
 }

@@ -7,39 +7,39 @@
 use super::{Body, Profile};
 use crate::error::Error;
 
-/// Residual stress of every layer of a body; that of none by default.
+/// Residual stress of every layer of a body; zero by default.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ResidualStress {
     /// Depth of the top of each layer \[m\].
     tops: Vec<f64>,
-    /// Of each layer from the surface down, the substrate last; missing ones have none.
+    /// Profile of each layer from the surface down, the substrate last; missing ones have no stress.
     layers: Vec<Profile>,
 }
 
 impl ResidualStress {
-    /// That which a body has.
-    pub fn of(body: &Body) -> Self {
+    /// Returns the residual stress of a body.
+    pub fn from_body(body: &Body) -> Self {
         Self {
             tops: std::iter::once(0.0).chain(body.interfaces()).collect(),
-            layers: body.residual.clone(),
+            layers: body.residual_text.clone(),
         }
     }
 
-    /// One that is given in place of that of the body, for each layer; none is that of the body.
+    /// Replaces the residual stress of a body by a profile for each layer; without profiles it is the one of the body.
     ///
     /// Fails for another number of layers, at a number without meaning, and where a layer yields: there
-    /// the plastic strain of a run depends on the stress that its scene has.
-    pub fn given(body: &Body, layers: &[Profile]) -> Result<Self, Error> {
+    /// the plastic strain of a run depends on the residual stress of its scene.
+    pub fn from_profiles(body: &Body, layers: &[Profile]) -> Result<Self, Error> {
         if layers.is_empty() {
-            return Ok(Self::of(body));
+            return Ok(Self::from_body(body));
         }
         let count = body.coatings.len() + 1;
         if layers.len() != count {
             let allowed = format!(
                 "one for each of the {count} layers from the surface down, the substrate last"
             );
-            let found = format!("{} of them", layers.len());
-            return Err(Error::invalid("residual", found, allowed));
+            let message = format!("{} of them", layers.len());
+            return Err(Error::invalid("residual", message, allowed));
         }
         for (n, layer) in layers.iter().enumerate() {
             layer.check(&format!("residual[{n}]"))?;
@@ -51,15 +51,15 @@ impl ResidualStress {
         }
         Ok(Self {
             layers: layers.to_vec(),
-            ..Self::of(body)
+            ..Self::from_body(body)
         })
     }
 
     /// s_xx and s_yy of a layer at a depth below the surface of the body \[Pa\].
-    pub fn at(&self, layer: usize, z: f64) -> [f64; 2] {
+    pub fn stress_at(&self, layer: usize, z: f64) -> [f64; 2] {
         let Some(profile) = self.layers.get(layer) else {
             return [0.0; 2];
         };
-        profile.at(z - self.tops.get(layer).copied().unwrap_or(0.0))
+        profile.stress_at(z - self.tops.get(layer).copied().unwrap_or(0.0))
     }
 }

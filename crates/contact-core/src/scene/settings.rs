@@ -11,14 +11,14 @@ pub struct Settings {
     pub solver: SolverSettings,
     /// Computations that may be skipped where the scene does not need them.
     pub skip: SkipSettings,
-    /// Which increments save their fields.
+    /// Choice of the increments whose fields are saved.
     pub save: SaveFields,
 }
 
-/// Tolerance of the solution, and where the increments are chosen its part of the tolerance on the
-/// path, which is the larger error: of one that only presses the bodies together, where slip is
-/// about the rim alone, and of others: on the paper's scene with E1/E2 = 0.5, 2, 4 (256 x 256
-/// cells) five eighths of it take 7 % more convolutions for shear at the ends of branches that is
+/// Tolerance of the solution, and its part of the tolerance on the path where the increments are
+/// chosen: of a path that only presses the bodies together, where slip is near the rim alone, and
+/// of other paths. On the paper's scene with E1/E2 = 0.5, 2, 4 (256 x 256 cells) five eighths of it
+/// take 7 % more convolutions for shear at the ends of branches that is
 /// 0, 5 and 4 % better, five quarters 3 % fewer for 2 % worse, 1 % better and 8 % worse.
 pub(super) const TOLERANCE: f64 = 1e-6;
 pub(super) const PATH_PART: [f64; 2] = [4e-4, 8e-3];
@@ -26,13 +26,12 @@ pub(super) const PATH_PART: [f64; 2] = [4e-4, 8e-3];
 /// Highest order of an alias sum; its work grows with the square.
 pub(crate) const MOST_ALIASES: usize = 32;
 
-/// How influence coefficients are made from the frequency response of a coated body.
+/// Settings of the conversion from the frequency response of a coated body to influence coefficients.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct KernelSettings {
     /// Method of conversion (default: [`KernelMethod::Hankel`]).
     pub method: KernelMethod,
-    /// Largest error allowed, over `C33(0,0)` (default 1e-10). Only the Hankel method can promise
-    /// it.
+    /// Largest error allowed, over `C33(0,0)` (default 1e-10). Only the Hankel method keeps it.
     pub tolerance: f64,
 }
 
@@ -70,22 +69,22 @@ pub enum KernelMethod {
 /// Settings of the iterations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SolverSettings {
-    /// Which algorithms (default: [`Preset::Fast`]).
+    /// Family of algorithms (default: [`Preset::Fast`]).
     pub preset: Preset,
-    /// Relative tolerance of the solution (default: that of
+    /// Relative tolerance of the solution (default:
     /// [`Scene::tolerance`](super::Scene::tolerance)): root-mean-square gap error in the contact
     /// and deepest overlap outside over the Hertz approach, tangential misfit over mu times the
     /// Hertz approach.
     pub tolerance: Option<f64>,
-    /// Reckon the slip of cells that come into contact from their entry (default true): one more
+    /// Compute the slip of cells that come into contact from their entry (default true): one more
     /// solution in increments in which the contact grows, and far fewer increments. The preset
     /// [`Preset::Spinu2020`] does without.
-    pub entering: bool,
-    /// Let slip follow the turn of the shear within an increment (default true): the path becomes
+    pub cell_entry_correction: bool,
+    /// Let the direction of slip follow the shear within an increment (default true): the path becomes
     /// of second order. The preset [`Preset::Spinu2020`] does without.
-    pub turning: bool,
-    /// Largest error of the shear at the ends of branches that increments are chosen for where no
-    /// number is given, over the largest shear of the path (L2, default 5e-3).
+    pub slip_rotation_correction: bool,
+    /// Largest error of the shear at the ends of branches for chosen increments,
+    /// over the largest shear of the path (L2, default 5e-3).
     pub path_tolerance: f64,
     /// The grid that the path is solved on between the increments whose fields are kept (default:
     /// [`PathGrid::Auto`]).
@@ -101,8 +100,8 @@ impl Default for SolverSettings {
         Self {
             preset: Preset::Fast,
             tolerance: None,
-            entering: true,
-            turning: true,
+            cell_entry_correction: true,
+            slip_rotation_correction: true,
             path_tolerance: 5e-3,
             path_grid: PathGrid::Auto,
             max_alternations: 60,
@@ -120,7 +119,7 @@ pub enum PathGrid {
     Auto,
     /// The grid of the scene.
     Same,
-    /// Cells along x: an even half or quarter of those of the grid.
+    /// Cells along x: an even half or quarter of the cells of the grid.
     Cells(usize),
 }
 
@@ -134,8 +133,8 @@ pub enum Preset {
     Spinu2020,
 }
 
-/// What may be skipped. Every rule leaves the answer as it is; each can be switched off to prove
-/// it.
+/// Parts of the computation that may be skipped. No rule changes the result; each can be switched
+/// off to prove it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(clippy::struct_excessive_bools)] // one for each rule
 pub struct SkipSettings {
@@ -146,15 +145,15 @@ pub struct SkipSettings {
     pub coupling: bool,
     /// Solve on half of a mirror-symmetric scene (default true).
     pub mirror: bool,
-    /// Answer changes of the tractions in single precision where the tolerance is a thousand times
-    /// coarser than its digits (default true).
-    pub digits: bool,
+    /// Compute responses to changes of the tractions in single precision where the tolerance is a
+    /// thousand times coarser than its digits (default true).
+    pub single_precision: bool,
     /// Solve in a window around the contact, where no cell beyond it can touch (default true).
-    pub far: bool,
-    /// Leave out the increments of branches whose end does not depend on the way (default false:
-    /// the results have a row for every increment asked for, and loops their points); they are
+    pub contact_window: bool,
+    /// Leave out the increments of branches whose end does not depend on the path (default false:
+    /// the results have a row for every increment asked for, and loops their points). They are
     /// solved all the same if their fields are to be saved.
-    pub path: bool,
+    pub path_independent_branches: bool,
 }
 
 impl Default for SkipSettings {
@@ -163,14 +162,14 @@ impl Default for SkipSettings {
             equal_layers: true,
             coupling: true,
             mirror: true,
-            digits: true,
-            far: true,
-            path: false,
+            single_precision: true,
+            contact_window: true,
+            path_independent_branches: false,
         }
     }
 }
 
-/// Which increments save their fields; scalars are saved for all.
+/// Choice of the increments whose fields are saved; scalars are saved for all.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum SaveFields {
     /// The ends of the branches (default).

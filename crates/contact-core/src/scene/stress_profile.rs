@@ -13,7 +13,7 @@ pub struct Profile {
 }
 
 impl Profile {
-    /// The same stress s_xx = s_yy at every depth \[Pa\].
+    /// A uniform stress s_xx = s_yy \[Pa\].
     pub fn uniform(stress: f64) -> Self {
         Self {
             rows: vec![[0.0, stress, stress]],
@@ -26,31 +26,31 @@ impl Profile {
     }
 
     /// s_xx and s_yy at a depth below the top of the layer \[Pa\].
-    pub fn at(&self, depth: f64) -> [f64; 2] {
-        let after = self.rows.partition_point(|row| row[0] <= depth);
+    pub fn stress_at(&self, depth: f64) -> [f64; 2] {
+        let next_row = self.rows.partition_point(|row| row[0] <= depth);
         let (Some(below), Some(above)) = (
-            self.rows.get(after).or(self.rows.last()),
-            self.rows.get(after.saturating_sub(1)),
+            self.rows.get(next_row).or(self.rows.last()),
+            self.rows.get(next_row.saturating_sub(1)),
         ) else {
             return [0.0; 2];
         };
-        let part = if below[0] > above[0] && depth > above[0] {
+        let fraction = if below[0] > above[0] && depth > above[0] {
             ((depth - above[0]) / (below[0] - above[0])).min(1.0)
         } else {
             0.0
         };
-        [1, 2].map(|n| above[n] + part * (below[n] - above[n]))
+        [1, 2].map(|n| above[n] + fraction * (below[n] - above[n]))
     }
 
-    /// Largest stress of von Mises \[Pa\]; between two rows it is at most that of one of them.
+    /// Largest stress of von Mises \[Pa\]; between two rows it is at most the larger one of theirs.
     pub fn von_mises(&self) -> f64 {
-        let of = |[_, xx, yy]: &[f64; 3]| (xx * xx - xx * yy + yy * yy).sqrt();
-        self.rows.iter().map(of).fold(0.0, f64::max)
+        let equivalent_stress = |[_, xx, yy]: &[f64; 3]| (xx * xx - xx * yy + yy * yy).sqrt();
+        self.rows.iter().map(equivalent_stress).fold(0.0, f64::max)
     }
 
-    /// Fails at a number without meaning and at depths that do not grow; `key` says where it stands.
+    /// Fails at a number that is not finite and at depths that do not grow; `key` is the key of the profile.
     pub fn check(&self, key: &str) -> Result<(), Error> {
-        let mut before = None;
+        let mut previous_depth = None;
         for (n, [depth, xx, yy]) in self.rows.iter().enumerate() {
             let uniform = self.rows.len() == 1;
             let name = |column: usize| {
@@ -64,12 +64,12 @@ impl Profile {
                 let allowed = "a depth in m below the top of the layer, 0 or more";
                 return Err(Error::invalid(name(0), *depth, allowed));
             }
-            if let Some(before) = before.filter(|before| depth <= before) {
+            if let Some(previous) = previous_depth.filter(|before| depth <= before) {
                 let allowed =
-                    format!("above {before:e} m, the depth of the row before: depths grow");
+                    format!("above {previous:e} m, the depth of the row before: depths grow");
                 return Err(Error::invalid(name(0), *depth, allowed));
             }
-            before = Some(*depth);
+            previous_depth = Some(*depth);
             for (column, stress) in [(1, xx), (2, yy)] {
                 if !stress.is_finite() {
                     return Err(Error::invalid(
@@ -106,14 +106,14 @@ mod tests {
             (70e-6, -80e6, -50e6),
             (1.0, 40e6, 0.0),
         ] {
-            let found = table.at(depth);
+            let stress = table.stress_at(depth);
             assert!(
-                (found[0] - xx).abs() < 1e-3 && (found[1] - yy).abs() < 1e-3,
+                (stress[0] - xx).abs() < 1e-3 && (stress[1] - yy).abs() < 1e-3,
                 "{depth}"
             );
         }
-        assert_eq!(Profile::uniform(-1e9).at(3e-6), [-1e9, -1e9]);
-        assert_eq!(Profile::default().at(3e-6), [0.0, 0.0]);
+        assert_eq!(Profile::uniform(-1e9).stress_at(3e-6), [-1e9, -1e9]);
+        assert_eq!(Profile::default().stress_at(3e-6), [0.0, 0.0]);
     }
 
     #[test]
@@ -128,9 +128,9 @@ mod tests {
         ] {
             let mut rows = sound.to_vec();
             rows[row][column] = value;
-            let told = Profile { rows }.check("body2.residual").expect_err("bad");
+            let error = Profile { rows }.check("body2.residual").expect_err("bad");
             let key = format!("body2.residual[{row}][{column}]");
-            assert!(told.to_string().contains(&key), "{told}");
+            assert!(error.to_string().contains(&key), "{error}");
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Numbers given on points of the contact plane: heights, friction.
+//! Numbers on points of the contact plane: heights, friction.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -7,19 +7,18 @@ use ndarray::Array2;
 
 use super::Grid;
 use super::files;
-use super::missing::{Missing, completed};
-use super::number_files::{FileOfNumbers, Heights, heights};
+use super::missing::{Missing, treat_holes};
+use super::number_files::{FileOfNumbers, Heights, read_heights};
 use crate::error::Error;
 
-/// Numbers over the contact plane on points of their own, the middle of the map over the origin.
+/// Numbers on points of the contact plane; the middle of the map lies over the origin.
 #[derive(Clone, Debug)]
 pub struct SurfaceMap {
     /// Numbers, shape (points along x, along y).
     pub values: Arc<Array2<f64>>,
     /// Distance of the points along x and y \[m\].
     pub spacing: (f64, f64),
-    /// How many of the numbers are the mean of their neighbours, since those points were not
-    /// measured.
+    /// Number of points that were not measured and have the mean of their neighbours.
     pub filled: usize,
 }
 
@@ -32,10 +31,10 @@ impl PartialEq for SurfaceMap {
 
 impl SurfaceMap {
     /// Reads numbers from a `.npy` array, or from text: a table, one line per x, points x, y and
-    /// height in any order, Gwyddion's export, an ESRI grid. What the file does not say of them,
-    /// `told` says.
+    /// height in any order, Gwyddion's export, an ESRI grid. `format` gives the facts that the file
+    /// does not.
     pub fn from_file(path: &Path, format: &FileOfNumbers) -> Result<Self, Error> {
-        // Readers may say it in several lines; an error is one sentence.
+        // Readers may give several lines; an error is one sentence.
         let failed = |message: String| Error::File {
             path: path.display().to_string(),
             message: message.split_whitespace().collect::<Vec<_>>().join(" "),
@@ -44,8 +43,8 @@ impl SurfaceMap {
             .extension()
             .is_some_and(|ending| ending.eq_ignore_ascii_case("xyz"));
         let Heights { values, spacing } =
-            heights(files::read(path)?, format, has_points).map_err(failed)?;
-        let (values, filled) = completed(values, format.missing).map_err(failed)?;
+            read_heights(files::read(path)?, format, has_points).map_err(failed)?;
+        let (values, filled) = treat_holes(values, format.missing).map_err(failed)?;
         let map = Self {
             values: Arc::new(values),
             spacing,
@@ -55,10 +54,9 @@ impl SurfaceMap {
         Ok(map)
     }
 
-    /// Numbers on points with a `spacing` \[m\]; what becomes of those that are NaN, `missing`
-    /// says.
+    /// Builds a map of numbers on points with a `spacing` \[m\]; `missing` is the treatment of NaN.
     pub fn new(values: Array2<f64>, spacing: (f64, f64), missing: Missing) -> Result<Self, Error> {
-        let (values, filled) = completed(values, missing)
+        let (values, filled) = treat_holes(values, missing)
             .map_err(|holes| Error::invalid("map", holes, "a number at every point"))?;
         let map = Self {
             values: Arc::new(values),
@@ -79,24 +77,23 @@ impl SurfaceMap {
 
     /// Largest less smallest number: S_z of heights, after ISO 25178-2.
     pub fn peak_to_valley(&self) -> f64 {
-        let ends = (f64::INFINITY, f64::NEG_INFINITY);
-        let ends = (self.values.iter()).fold(ends, |(low, high), z| (low.min(*z), high.max(*z)));
-        ends.1 - ends.0
+        let range = (f64::INFINITY, f64::NEG_INFINITY);
+        let range = (self.values.iter()).fold(range, |(low, high), z| (low.min(*z), high.max(*z)));
+        range.1 - range.0
     }
 
     /// The number at (x, y), linear between the points, level beyond the border.
-    pub(crate) fn at(&self, x: f64, y: f64) -> f64 {
+    pub(crate) fn interpolate(&self, x: f64, y: f64) -> f64 {
         let (nx, ny) = self.values.dim();
-        let (i, s) = place(x / self.spacing.0, nx);
-        let (j, t) = place(y / self.spacing.1, ny);
+        let (i, s) = index_and_fraction(x / self.spacing.0, nx);
+        let (j, t) = index_and_fraction(y / self.spacing.1, ny);
         let (k, l) = ((i + 1).min(nx - 1), (j + 1).min(ny - 1));
         let z = &self.values;
         (1.0 - s) * ((1.0 - t) * z[(i, j)] + t * z[(i, l)])
             + s * ((1.0 - t) * z[(k, j)] + t * z[(k, l)])
     }
 
-    /// Fails if it holds no number, one that is not finite, or has no spacing; `key` says where it
-    /// stands.
+    /// Fails if it holds no number, one that is not finite, or has no spacing; `key` is the key of the map.
     pub fn check(&self, key: &str) -> Result<(), Error> {
         if self.values.is_empty() {
             return Err(Error::invalid(
@@ -130,9 +127,9 @@ impl SurfaceMap {
             return Ok(());
         }
         let size = (nx as f64 * x, ny as f64 * y);
-        let fits = grid.within(size).map_or(String::new(), |grid| {
+        let suggestion = grid.fit_into(size).map_or(String::new(), |grid| {
             let ((x, y), (nx, ny)) = (grid.extent(), (grid.nx, grid.ny));
-            let (x, y) = (rounded_down(x), rounded_down(y));
+            let (x, y) = (round_down(x), round_down(y));
             if grid.plane_strain {
                 return format!(": with these cells that is Grid.strip(extent={x:e}, n={nx}) at most");
             }
@@ -144,22 +141,22 @@ impl SurfaceMap {
         Err(Error::invalid(
             key,
             format!("{:e} m by {:e} m", size.0, size.1),
-            format!("at least as large as the grid{fits}"),
+            format!("at least as large as the grid{suggestion}"),
         ))
     }
 }
 
-/// A length in six digits, no longer than it is but for rounding.
-fn rounded_down(length: f64) -> f64 {
+/// Rounds a length down to six digits.
+fn round_down(length: f64) -> f64 {
     let shift = 5 - length.log10().floor() as i32;
     let (up, down) = (10f64.powi(shift.max(0)), 10f64.powi((-shift).max(0)));
     (length * up / down * (1.0 + 1e-12)).floor() * down / up
 }
 
-/// The point before a place given in spacings from the middle, and the part of the way to the next.
-fn place(at: f64, n: usize) -> (usize, f64) {
-    let at = (at + (n - 1) as f64 / 2.0).clamp(0.0, (n - 1) as f64);
-    (at.floor() as usize, at.fract())
+/// Index of the point before a position (in spacings from the middle), and the fraction of the spacing beyond it.
+fn index_and_fraction(position: f64, n: usize) -> (usize, f64) {
+    let position = (position + (n - 1) as f64 / 2.0).clamp(0.0, (n - 1) as f64);
+    (position.floor() as usize, position.fract())
 }
 
 #[cfg(test)]
@@ -171,7 +168,7 @@ mod tests {
     use super::SurfaceMap;
 
     #[test]
-    fn a_plane_is_met_between_its_points() {
+    fn a_plane_is_interpolated_exactly() {
         let values = Array2::from_shape_fn((5, 4), |(i, j)| 2.0 * i as f64 - 3.0 * j as f64);
         let map = SurfaceMap {
             values: Arc::new(values),
@@ -181,9 +178,9 @@ mod tests {
         let (middle_i, middle_j) = (2.0, 1.5);
         for (x, y) in [(0.0, 0.0), (0.3, -0.1), (-0.99, 0.37)] {
             let expected = 2.0 * (x / 0.5 + middle_i) - 3.0 * (y / 0.25 + middle_j);
-            assert!((map.at(x, y) - expected).abs() < 1e-13);
+            assert!((map.interpolate(x, y) - expected).abs() < 1e-13);
         }
-        let beyond = map.at(-9.0, -9.0);
+        let beyond = map.interpolate(-9.0, -9.0);
         assert!(beyond.abs() < 1e-15, "{beyond}");
     }
 }

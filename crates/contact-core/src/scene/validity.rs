@@ -33,8 +33,8 @@ impl Breadth {
         self.half_width / self.R.abs()
     }
 
-    /// What it is, for people.
-    fn told(&self) -> String {
+    /// Describes the ratio for people.
+    fn describe(&self) -> String {
         let Self {
             half_width,
             R,
@@ -62,38 +62,39 @@ impl Scene {
     /// every direction \[rad\]; `None` where no body is curved.
     pub fn breadth(&self, half_width: impl Fn(f64) -> f64) -> Option<Breadth> {
         let bodies = [&self.body1, &self.body2];
-        let mut all = Vec::new();
+        let mut breadths = Vec::new();
         for (n, body) in bodies.into_iter().enumerate() {
-            for (k, azimuth) in self.principal(&body.shape) {
-                let other = normal_curvature(bodies[1 - n].shape.curvature(), azimuth);
-                all.push(Breadth {
+            for (k, azimuth) in self.principal_curvatures_of(&body.shape) {
+                let other_curvature = normal_curvature(bodies[1 - n].shape.curvature(), azimuth);
+                breadths.push(Breadth {
                     half_width: half_width(azimuth),
                     R: 1.0 / k,
                     body: n + 1,
-                    conforms_to: (k * other < 0.0).then(|| 1.0 / other),
+                    conforms_to: (k * other_curvature < 0.0).then(|| 1.0 / other_curvature),
                 });
             }
         }
-        all.into_iter()
+        breadths
+            .into_iter()
             .max_by(|a, b| a.ratio().total_cmp(&b.ratio()))
     }
 
-    /// That of the Hertz contact of the substrates under the largest load of the path.
+    /// Breadth of the Hertz contact of the substrates under the largest load of the path.
     pub fn hertz_breadth(&self) -> Option<Breadth> {
-        self.hertz_breadth_of(self.hertz()?.a)
+        self.breadth_for_radius(self.hertz()?.a)
     }
 
-    /// That of a contact of the Hertz shape and such a mean radius or half width \[m\]. Of bodies
-    /// without a Hertz contact it is taken as round.
-    pub(crate) fn hertz_breadth_of(&self, a: f64) -> Option<Breadth> {
+    /// Breadth of a contact of the Hertz shape with the mean radius or half width `a` \[m\]. Without a
+    /// Hertz contact the shape is taken as round.
+    pub(crate) fn breadth_for_radius(&self, a: f64) -> Option<Breadth> {
         let (steep, shallow) = self.principal_curvatures();
         if self.grid.plane_strain || shallow <= 1e-9 * steep {
             return self.breadth(|_| a);
         }
-        let of = hertz_ellipse(1.0 / shallow, 1.0 / steep, 1.0, 1.0);
-        let mean = (of.a_x * of.a_y).sqrt();
-        let [cos, sin] = self.steepest();
-        let (long, short) = (a * of.a_x / mean, a * of.a_y / mean);
+        let ellipse = hertz_ellipse(1.0 / shallow, 1.0 / steep, 1.0, 1.0);
+        let mean = (ellipse.a_x * ellipse.a_y).sqrt();
+        let [cos, sin] = self.steepest_direction();
+        let (long, short) = (a * ellipse.a_x / mean, a * ellipse.a_y / mean);
         self.breadth(|azimuth| {
             let (s, c) = azimuth.sin_cos();
             (short * (c * cos + s * sin)).hypot(long * (s * cos - c * sin))
@@ -103,17 +104,17 @@ impl Scene {
     /// Fails if the contact is certain to be wider than a body, even if each were of its stiffest
     /// material alone.
     pub(super) fn check_breadth(&self) -> Result<(), Error> {
-        let stiff = Self {
+        let stiffest_scene = Self {
             body1: stiffest(&self.body1),
             body2: stiffest(&self.body2),
             ..self.clone()
         };
-        let breadth = stiff.hertz_breadth();
-        breadth.map_or(Ok(()), |breadth| stiff.refuse(&breadth))
+        let breadth = stiffest_scene.hertz_breadth();
+        breadth.map_or(Ok(()), |breadth| stiffest_scene.check_ratio(&breadth))
     }
 
     /// Fails at a contact that is as wide as a body.
-    pub(crate) fn refuse(&self, breadth: &Breadth) -> Result<(), Error> {
+    pub(crate) fn check_ratio(&self, breadth: &Breadth) -> Result<(), Error> {
         if breadth.ratio() < WIDEST {
             return Ok(());
         }
@@ -127,14 +128,14 @@ impl Scene {
         });
         Err(Error::invalid(
             "path",
-            format!("a contact with {}{load}", breadth.told()),
+            format!("a contact with {}{load}", breadth.describe()),
             format!(
                 "below a/R = {WIDEST}: half-spaces hold up to a/R = {WIDE}, and a conformal contact needs another method; {UNITS}"
             ),
         ))
     }
 
-    /// The doubt of a contact that is wide for a body; none of one that is refused.
+    /// Doubts a contact that is wide for a body but not refused.
     pub(crate) fn doubt_of_breadth(&self, breadth: &Breadth) -> Option<String> {
         let pressure = self.hertz().map_or(String::new(), |hertz| {
             format!(", the peak pressure {:.2} E*", hertz.p0 / hertz.E_star)
@@ -142,14 +143,14 @@ impl Scene {
         (WIDE..WIDEST).contains(&breadth.ratio()).then(|| {
             format!(
                 "{}{pressure}: half-spaces hold up to a/R = {WIDE}; {UNITS}",
-                breadth.told()
+                breadth.describe()
             )
         })
     }
 
-    /// The principal curvatures of a shape that are not zero \[1/m\], with their directions
-    /// \[rad\]; of line contacts that along x.
-    fn principal(&self, shape: &Shape) -> Vec<(f64, f64)> {
+    /// Returns the principal curvatures of a shape that are not zero \[1/m\], with their directions
+    /// \[rad\]; of line contacts the one along x.
+    fn principal_curvatures_of(&self, shape: &Shape) -> Vec<(f64, f64)> {
         let [xx, xy, yy] = shape.curvature();
         if self.grid.plane_strain {
             return if xx == 0.0 {
@@ -160,12 +161,14 @@ impl Scene {
         }
         let (mean, half) = (0.5 * (xx + yy), (0.5 * (xx - yy)).hypot(xy));
         let azimuth = 0.5 * xy.atan2(0.5 * (xx - yy));
-        let both = [
+        let principal_pairs = [
             (mean + half, azimuth),
             (mean - half, azimuth + std::f64::consts::FRAC_PI_2),
         ];
-        let flat = 1e-9 * mean.abs().max(half);
-        let curved = both.into_iter().filter(|(k, _)| k.abs() > flat);
+        let negligible = 1e-9 * mean.abs().max(half);
+        let curved = principal_pairs
+            .into_iter()
+            .filter(|(k, _)| k.abs() > negligible);
         curved.collect()
     }
 }

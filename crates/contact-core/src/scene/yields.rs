@@ -6,21 +6,21 @@ use crate::error::Error;
 /// Largest pressure over the yield stress at which a body below a round contact begins to yield after von
 /// Mises: a fit for nu = 0.2 to 0.5 (D. J. Chang et al., after K. L. Johnson, Contact Mechanics, 1985,
 /// section 6.1: 1.60 for nu = 0.3).
-fn begins(nu: f64) -> f64 {
+fn first_yield_pressure_ratio(nu: f64) -> f64 {
     1.234 + 1.256 * nu
 }
 
-/// Mean pressure over the largest yield stress that a body bears whose hardening ends: its hardness (D. Tabor,
+/// Hardness: largest mean pressure over the largest yield stress of a body whose hardening ends (D. Tabor,
 /// The Hardness of Metals, 1951; K. L. Johnson, Contact Mechanics, 1985, section 6.3).
-const MOST_PRESSURE: f64 = 2.8;
-/// Loads at which the mean pressure comes to that, over that of first yield: 0.94 (w/w_c)^1.263 at the
+const HARDNESS_RATIO: f64 = 2.8;
+/// Load at this mean pressure over the load of first yield: 0.94 (w/w_c)^1.263 at the
 /// approach w = 110 w_c (L. Kogut, I. Etsion, J. Appl. Mech. 69 (2002) 657-662, eqs. 13, 14).
-const FULLY: f64 = 356.0;
+const FULLY_PLASTIC_LOAD_RATIO: f64 = 356.0;
 /// Part of the shear yield stress s_y/sqrt(3) that the mean shear of a contact comes to where a surface without
 /// hardening begins to flow: the pressure takes a part of the yield stress.
-const FLOWS: f64 = 0.8;
+const FLOW_SHEAR_RATIO: f64 = 0.8;
 
-/// Where yielding begins under a growing normal load.
+/// First point that yields under a growing normal load.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FirstYield {
     /// Normal force \[N\].
@@ -34,7 +34,7 @@ pub struct FirstYield {
 }
 
 impl Scene {
-    /// Fails where a layer may yield and the loads are such that this is not computed.
+    /// Fails where a layer may yield under loads or settings for which this is not computed.
     pub(super) fn check_yielding(&self) -> Result<(), Error> {
         let Some(number) = [&self.body1, &self.body2]
             .iter()
@@ -64,16 +64,16 @@ impl Scene {
         self.check_mean_pressure(number + 1)
     }
 
-    /// The physical cause, as the end of a sentence, of an increment of bodies that yield without a solution:
-    /// the mean shear \[Pa\] of the contact is that at which a surface flows. Empty if it is less.
-    pub(crate) fn why_it_flows(&self, shear: f64) -> String {
+    /// Returns the physical cause, as the end of a sentence, of an increment of yielding bodies without a
+    /// solution: the mean shear \[Pa\] of the contact makes the surface flow. Empty if it is less.
+    pub(crate) fn describe_shear_flow(&self, shear: f64) -> String {
         let surfaces = [&self.body1, &self.body2].map(|body| body.plastic(0));
         let strengths = surfaces
             .iter()
             .flatten()
             .map(|law| law.s_y / 3.0_f64.sqrt());
         let strength = strengths.fold(f64::INFINITY, f64::min);
-        if shear < FLOWS * strength {
+        if shear < FLOW_SHEAR_RATIO * strength {
             return String::new();
         }
         format!(
@@ -84,21 +84,21 @@ impl Scene {
         )
     }
 
-    /// Fails where the mean pressure is more than a homogeneous body bears whose hardening ends.
+    /// Fails where the mean pressure is more than a homogeneous body without further hardening can bear.
     fn check_mean_pressure(&self, number: usize) -> Result<(), Error> {
         let bodies = [&self.body1, &self.body2];
-        let most_of = |number: usize| {
+        let largest_yield_stress = |number: usize| {
             let body = bodies[number - 1];
-            let most = body.plastic(0).map(|law| law.most());
-            let most = most.filter(|most| most.is_finite() && body.coatings.is_empty())?;
-            Some((most, body.substrate.nu))
+            let s_max = body.plastic(0).map(|law| law.most());
+            let s = s_max.filter(|s_max| s_max.is_finite() && body.coatings.is_empty())?;
+            Some((s, body.substrate.nu))
         };
-        let Some((s_y, nu)) = most_of(number) else {
+        let Some((s_y, nu)) = largest_yield_stress(number) else {
             return Ok(());
         };
         let W = self.path.W_max();
-        let fully = if let Some(radius) = self.punch() {
-            MOST_PRESSURE * s_y * std::f64::consts::PI * radius * radius
+        let fully_plastic_load = if let Some(radius) = self.punch_radius() {
+            HARDNESS_RATIO * s_y * std::f64::consts::PI * radius * radius
         } else {
             let round = self
                 .hertz()
@@ -107,23 +107,25 @@ impl Scene {
                 return Ok(());
             };
             // Loads grow with the cube of the largest pressure.
-            FULLY * hertz.W * (begins(nu) * s_y / hertz.p0).powi(3)
+            FULLY_PLASTIC_LOAD_RATIO
+                * hertz.W
+                * (first_yield_pressure_ratio(nu) * s_y / hertz.p0).powi(3)
         };
-        if W <= fully {
+        if W <= fully_plastic_load {
             return Ok(());
         }
         Err(Error::invalid(
             format!("body{number}.plastic.hardening"),
             format!("0 (none), with a yield stress of at most {s_y:.3e} Pa, and W = {W:.3e} N"),
             format!(
-                "above 0, or a W of at most {fully:.3e} N, where the mean pressure comes to {MOST_PRESSURE} s_y of \
+                "above 0, or a W of at most {fully_plastic_load:.3e} N, where the mean pressure comes to {HARDNESS_RATIO} s_y of \
                  that stress. A body without more hardening bears no more"
             ),
         ))
     }
 
     /// Radius of a flat punch that is pressed on a flat \[m\].
-    fn punch(&self) -> Option<f64> {
+    fn punch_radius(&self) -> Option<f64> {
         match (&self.body1.shape, &self.body2.shape) {
             (Shape::FlatPunch { radius, .. }, Shape::Flat)
             | (Shape::Flat, Shape::FlatPunch { radius, .. }) => Some(*radius),

@@ -234,7 +234,10 @@ fn depth(scene: &Scene, body: &Body) -> f64 {
     // What the residual stress leaves of the yield stress, a hundredth at least.
     let left = |layer: usize| {
         let law = body.plastic(layer)?;
-        let before = body.residual.get(layer).map_or(0.0, Profile::von_mises);
+        let before = body
+            .residual_text
+            .get(layer)
+            .map_or(0.0, Profile::von_mises);
         Some((law.s_y - before).max(0.01 * law.s_y))
     };
     let weakest = (0..=body.coatings.len())

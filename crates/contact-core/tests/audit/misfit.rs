@@ -29,7 +29,7 @@ pub(crate) struct Misfit {
 
 impl Misfit {
     pub(crate) fn of(scene: &Scene) -> Self {
-        let yardstick = scene.approach();
+        let yardstick = scene.reference_approach();
         let gap = scene.tolerance() * yardstick;
         let [normal, _] = least_response(scene);
         Self {

@@ -23,7 +23,7 @@ fn waypoints() -> impl Strategy<Value = Vec<(f64, f64)>> {
 fn scene(points: &[(f64, f64)], increments: usize, n: usize) -> Scene {
     let mut path = LoadPath::start();
     for (i, &(load, T_x)) in points.iter().enumerate() {
-        path = path.branch(Branch {
+        path = path.push_branch(Branch {
             to: Loads {
                 W: load,
                 T_x,

@@ -67,7 +67,7 @@ pub(crate) fn coated(mut scene: Scene, material: Elastic, thickness: f64) -> Sce
 
 /// Indentation to W in steps of equal contact radius.
 pub(crate) fn indentation(increments: usize) -> LoadPath {
-    LoadPath::start().branch(Branch {
+    LoadPath::start().push_branch(Branch {
         to: Loads {
             W,
             ..Loads::default()
@@ -127,7 +127,8 @@ fn along(
         // the cell has other material than before.
         let fields = march.fields();
         let cells = fields.contact.iter().filter(|c| **c).count() as f64;
-        let along = tolerance * scene.approach() * scene.friction.mu.min(1.0) * cells.sqrt();
+        let along =
+            tolerance * scene.reference_approach() * scene.friction.mu.min(1.0) * cells.sqrt();
         q_max = q_max.max(increment.q_max);
         if increment.point.loads.rolled == 0.0 {
             Zip::from(&fields.dissipated)

@@ -61,7 +61,7 @@ fn the_difference_of_the_strains_counts() {
     let mut scene = sphere_on_flat(STEEL, STEEL, 0.3, (2.6, 24), LoadPath::start());
     scene.settings.solver.tolerance = Some(1e-11);
     let mut pulled = |lower: f64, upper: f64| {
-        scene.path = LoadPath::start().normal(W, 2).to(
+        scene.path = LoadPath::start().normal(W, 2).change_to(
             |to| (to.T_x, to.sigma_B, to.sigma_B1) = (0.1 * W, lower, upper),
             3,
         );

@@ -73,7 +73,7 @@ fn a_loop_has_its_stiffness_and_stick_zone_after_a_reversal() {
 /// The scene, the increments left out that its ends do not depend on.
 fn directly(scene: &Scene) -> Scene {
     let mut scene = scene.clone();
-    scene.settings.skip.path = true;
+    scene.settings.skip.path_independent_branches = true;
     scene
 }
 

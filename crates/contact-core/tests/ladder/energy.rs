@@ -35,9 +35,9 @@ fn sums(scene: &Scene) -> [f64; 3] {
 /// W to and fro with T: cells enter, leave, stick, slip and turn.
 fn mixed(scene: fn(LoadPath) -> Scene, increments: usize) -> Scene {
     let path = indentation(increments)
-        .to(|to| (to.W, to.T_x) = (W, 0.6 * MU * W), increments)
-        .to(|to| (to.W, to.T_x) = (0.5 * W, -0.3 * MU * W), increments)
-        .to(|to| (to.W, to.T_x) = (W, 0.4 * MU * W), increments);
+        .change_to(|to| (to.W, to.T_x) = (W, 0.6 * MU * W), increments)
+        .change_to(|to| (to.W, to.T_x) = (0.5 * W, -0.3 * MU * W), increments)
+        .change_to(|to| (to.W, to.T_x) = (W, 0.4 * MU * W), increments);
     scene(path)
 }
 

@@ -2,7 +2,7 @@
 //! how.
 //!
 //! A cell that the contact reaches within an increment has moved freely until then, and its slip is
-//! reckoned from there (`solver.entering`). What it moves as the edge of the contact comes nearer
+//! reckoned from there (`solver.cell_entry_correction`). What it moves as the edge of the contact comes nearer
 //! bends like a root of the distance to it. So what one increment of N that lead to the radius a
 //! tells of that way, from one edge to the next, is good to the 3/2 power of its length, 1/N; once
 //! an increment is as short as a cell, the cells are what is left. The truth are increments of half
@@ -21,7 +21,7 @@ const GRID: (f64, usize) = (2.2, 64);
 
 /// W and in proportion to it T_x, in increments of equal radius.
 fn proportional(T_x: f64, increments: usize) -> LoadPath {
-    LoadPath::start().branch(Branch {
+    LoadPath::start().push_branch(Branch {
         to: Loads {
             W,
             T_x,
@@ -64,7 +64,7 @@ fn leads_to_the_limit_of_short_increments(of: impl Fn(usize) -> Scene) {
     }
     let [long, short] = [2, 4].map(|parts| {
         let mut scene = of(parts * radius);
-        scene.settings.solver.entering = false;
+        scene.settings.solver.cell_entry_correction = false;
         distance(&shear(&scene), &limit)
     });
     assert!(short < 0.5 * (long + FIELD * d), "{long:.1e} {short:.1e}");

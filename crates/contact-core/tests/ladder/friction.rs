@@ -58,7 +58,7 @@ fn a_map_is_weighed_with_the_pressure() {
         ..Friction::coulomb(MU)
     };
     let far = 4.0 * incipient();
-    let path = indentation(1).to(shifted_to(far, 0.0), 4);
+    let path = indentation(1).change_to(shifted_to(far, 0.0), 4);
     let scene = scene(friction, path);
     let increments = audited(&scene, |_, _| ());
     let end = increments.last().expect("an increment");
@@ -84,7 +84,7 @@ fn friction_that_grows_with_the_increments_does_so() {
         ..Friction::coulomb(MU)
     };
     let far = 8.0 * incipient();
-    let path = indentation(1).to(shifted_to(far, 0.0), 12);
+    let path = indentation(1).change_to(shifted_to(far, 0.0), 12);
     let increments = audited(&scene(friction, path), |_, _| ());
     let mut sliding = 0;
     for i in increments.iter().filter(|i| i.status == Status::GrossSlip) {
@@ -99,7 +99,7 @@ fn friction_that_grows_with_the_increments_does_so() {
 #[test]
 fn friction_follows_the_slip_and_the_energy_of_each_cell() {
     let delta = incipient();
-    let path = || indentation(1).to(shifted_to(8.0 * delta, 0.0), 10);
+    let path = || indentation(1).change_to(shifted_to(8.0 * delta, 0.0), 10);
     let p_0 = hertz_of(&scene(Friction::coulomb(MU), path())).p0;
     // To 1.5 mu over what slips by 4 delta.
     for (of, full) in [
@@ -161,8 +161,8 @@ const P_MU: f64 = 1e9;
 fn a_law_of_pressure_is_that_of_the_pressure_at_the_end() {
     // mu = MU p/P: the sum of mu p is MU/P times that of p^2, 3/4 p_H W under Hertz's pressure.
     let law = Given(|p, _| MU * p / P_MU);
-    let path = indentation(1).to(shifted_to(6.0 * incipient(), 0.0), 6);
-    let scene = scene(Friction::own(MU, law), path);
+    let path = indentation(1).change_to(shifted_to(6.0 * incipient(), 0.0), 6);
+    let scene = scene(Friction::from_law(MU, law), path);
     let p_H = hertz_of(&scene).p0;
     let increments = audited(&scene, |_, _| ());
     let end = increments.last().expect("an increment");
@@ -184,8 +184,8 @@ const FULL: f64 = 4e-5;
 fn a_law_of_slip_is_that_of_the_slip_at_the_end() {
     let grown = |slip: f64| MU * (1.0 + 0.5 * (slip / FULL).min(1.0));
     let law = Given(|_, slip| MU * (1.0 + 0.5 * (slip / FULL).min(1.0)));
-    let path = indentation(1).to(shifted_to(8.0 * incipient(), 0.0), 10);
-    let scene = scene(Friction::own(MU, law), path);
+    let path = indentation(1).change_to(shifted_to(8.0 * incipient(), 0.0), 10);
+    let scene = scene(Friction::from_law(MU, law), path);
     let area = scene.grid.cell_area();
     let (mut sliding, mut most) = (0, 0.0_f64);
     audited(&scene, |fields, i| {
@@ -207,7 +207,7 @@ fn a_law_of_slip_is_that_of_the_slip_at_the_end() {
 #[test]
 fn a_law_that_gives_no_coefficient_is_refused() {
     for bad in [|_, _| f64::NAN, |_, _| -0.1, |_, _| f64::INFINITY] as [fn(f64, f64) -> f64; 3] {
-        let scene = scene(Friction::own(MU, Given(bad)), indentation(1));
+        let scene = scene(Friction::from_law(MU, Given(bad)), indentation(1));
         let refused = contact_core::march::solve(&scene, &mut ()).expect_err("no coefficient");
         let text = refused.to_string();
         assert!(text.starts_with("friction.law = "), "{text}");
@@ -226,7 +226,7 @@ fn a_contact_that_has_broken_loose_slides_more_easily() {
         ..Friction::coulomb(MU)
     };
     let far = 3.0 * incipient();
-    let path = indentation(1).to(shifted_to(far, 0.0), 12);
+    let path = indentation(1).change_to(shifted_to(far, 0.0), 12);
     let increments = audited(&scene(friction, path), |_, _| ());
     let force: Vec<f64> = increments.iter().map(|i| i.point.loads.T_x / W).collect();
     let end = force[force.len() - 1];
@@ -246,7 +246,7 @@ fn an_ellipse_turns_the_force_from_the_slip() {
         12.0 * incipient() * angle.cos(),
         12.0 * incipient() * angle.sin(),
     );
-    let path = indentation(1).to(shifted_to(far_x, far_y), 8);
+    let path = indentation(1).change_to(shifted_to(far_x, far_y), 8);
     let increments = audited(&scene(friction.clone(), path), |fields, i| {
         Zip::from(&fields.p)
             .and(&fields.q_x)
@@ -278,8 +278,9 @@ fn an_ellipse_turns_the_force_from_the_slip() {
         close("T", force(&end) / W, truth / W, 1.1 * left);
     }
     // By force: the ellipse is the limit of both, and beyond it there is no equilibrium.
-    let by_force =
-        |part: f64| indentation(1).to(move |to| (to.T_x, to.T_y) = (part * T_x, part * T_y), 3);
+    let by_force = |part: f64| {
+        indentation(1).change_to(move |to| (to.T_x, to.T_y) = (part * T_x, part * T_y), 3)
+    };
     let increments = audited(&scene(friction.clone(), by_force(0.95)), |_, _| ());
     assert_eq!(increments[3].status, Status::PartialSlip);
     let mut beyond =
@@ -294,7 +295,7 @@ fn an_ellipse_turns_the_force_from_the_slip() {
 #[test]
 fn a_contact_that_never_slips_is_a_spring() {
     let path = indentation(1)
-        .to(|to| to.T_x = 5.0 * W, 2)
+        .change_to(|to| to.T_x = 5.0 * W, 2)
         .torsion(&[W * 1e-3], 1);
     let mut scene = sphere_on_flat(STEEL, STEEL, f64::INFINITY, (2.2, 96), path);
     scene.friction = Friction::coulomb(f64::INFINITY);

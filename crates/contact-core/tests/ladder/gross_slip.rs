@@ -28,9 +28,9 @@ fn sliding_shift() -> f64 {
 fn a_given_shift_draws_the_trapezoid_of_gross_slip() {
     let delta = 5.05 * sliding_shift();
     let path = indentation(1)
-        .to(shifted_to(delta), 20)
-        .to(shifted_to(-delta), 40)
-        .to(shifted_to(delta), 40);
+        .change_to(shifted_to(delta), 20)
+        .change_to(shifted_to(-delta), 40)
+        .change_to(shifted_to(delta), 40);
     let scene = scene(path);
     let tolerance = scene.tolerance();
     let increments = run(&scene, |_, _| ());
@@ -86,8 +86,8 @@ fn loads_beyond_friction_are_named() {
     // The limit of a given approach is known only when it is solved.
     let a = hertz_of(&scene(indentation(1)));
     let path = LoadPath::start()
-        .to(|to| to.given.delta_z = Some(a.delta_z), 1)
-        .to(|to| to.T_x = 1.1 * MU * W, 2);
+        .change_to(|to| to.given.delta_z = Some(a.delta_z), 1)
+        .change_to(|to| to.T_x = 1.1 * MU * W, 2);
     let mut march = March::new(&scene(path)).expect("a scene");
     let outcome: Vec<_> = std::iter::from_fn(|| march.advance()).take(3).collect();
     assert!(outcome[1].is_ok());
@@ -104,7 +104,7 @@ fn a_given_approach_is_a_given_force() {
     let mut path = LoadPath::start();
     for i in &forces {
         let (delta_z, delta_x) = (i.motion.delta_z, i.motion.delta_x);
-        path = path.to(
+        path = path.change_to(
             |to| {
                 to.given.delta_z = Some(delta_z);
                 to.given.delta_x = Some(delta_x);
@@ -148,9 +148,9 @@ fn contact_is_lost_and_found_again() {
             }
         };
         let path = LoadPath::start()
-            .to(press(1.0), 3)
-            .to(press(if given { -0.5 } else { 0.0 }), 3)
-            .to(press(1.0), 3);
+            .change_to(press(1.0), 3)
+            .change_to(press(if given { -0.5 } else { 0.0 }), 3)
+            .change_to(press(1.0), 3);
         let mut scene = sphere_on_flat(STEEL, CORK, MU, (3.4, 40), path);
         scene.settings.solver.tolerance = Some(1e-7);
         let increments = run(&scene, |_, _| ());

@@ -44,7 +44,7 @@ prop_compose! {
     ) -> Scene {
         let body1 = Body::homogeneous(upper, Shape::Sphere { R });
         let body2 = Body::homogeneous(lower, Shape::Flat);
-        let mut path = LoadPath::start().branch(Branch {
+        let mut path = LoadPath::start().push_branch(Branch {
             to: Loads { W, ..Loads::default() },
             increments: Some(4),
             spacing: Spacing::EqualRadius,
@@ -53,7 +53,7 @@ prop_compose! {
         });
         for (i, (part, x, y, increments)) in branches.into_iter().enumerate() {
             let load = part * W;
-            path = path.branch(Branch {
+            path = path.push_branch(Branch {
                 to: Loads {
                     W: load,
                     T_x: x * mu * load,
@@ -272,9 +272,9 @@ pub(crate) fn twin() -> Scene {
         move |to: &mut Loads| (to.W, to.T_x, to.T_y) = (normal, along_x, along_y)
     };
     let path = LoadPath::start()
-        .to(loads(W, 0.0, 0.0), 4)
-        .to(loads(W, 0.15 * W, 0.05 * W), 3)
-        .to(loads(0.8 * W, 0.02 * W, -0.16 * W), 3);
+        .change_to(loads(W, 0.0, 0.0), 4)
+        .change_to(loads(W, 0.15 * W, 0.05 * W), 3)
+        .change_to(loads(0.8 * W, 0.02 * W, -0.16 * W), 3);
     let mut settings = Settings::default();
     settings.solver.tolerance = Some(TIGHT);
     Scene {

@@ -173,7 +173,7 @@ fn a_bulk_stress_shifts_the_stick_zone() {
         let mut scene = bare;
         scene.path = LoadPath::start()
             .normal(W, 1)
-            .to(|to| (to.T_x, to.sigma_B) = (T, sigma_B), 5);
+            .change_to(|to| (to.T_x, to.sigma_B) = (T, sigma_B), 5);
         let eps_x = sigma_B * (1.0 - STEEL.nu * STEEL.nu) / STEEL.E;
         let e = line.stick_middle(eps_x, e_star(STEEL, STEEL), MU);
         close("e/a", e / line.a, part, 1e-12);
@@ -208,7 +208,7 @@ fn a_bulk_stress_out_of_phase_keeps_the_energy() {
         (1.0, 0.0),
         (0.0, 1.0),
     ] {
-        path = path.to(move |to| (to.T_x, to.sigma_B) = (x * T, s * sigma), 4);
+        path = path.change_to(move |to| (to.T_x, to.sigma_B) = (x * T, s * sigma), 4);
     }
     scene.path = path;
     scene.settings.solver.tolerance = Some(1e-8);
@@ -222,8 +222,8 @@ fn a_bulk_stress_out_of_phase_keeps_the_energy() {
     let mut sphere = sphere_on_flat(STEEL, CORK, MU, (2.6, 32), LoadPath::start());
     sphere.path = LoadPath::start()
         .normal(crate::bench::W, 3)
-        .to(|to| to.sigma_B = 2e8, 3)
-        .to(|to| to.T_y = 0.5 * MU * crate::bench::W, 3);
+        .change_to(|to| to.sigma_B = 2e8, 3)
+        .change_to(|to| to.T_y = 0.5 * MU * crate::bench::W, 3);
     for i in run(&sphere, |_, _| ()) {
         assert!(
             i.residuals.energy.abs() < sphere.tolerance() && i.energy.dissipated >= -1e-12,
@@ -296,7 +296,7 @@ fn rolling_goes_from_cattaneo_to_carter() {
     scene.path = LoadPath::start()
         .normal(W, 1)
         .tangential(&[T], 1)
-        .to(|to| to.rolled = rolled, way);
+        .change_to(|to| to.rolled = rolled, way);
     let all = audited(&scene);
     let cell = EXTENT / n as f64;
     let c = line.stick_half_width(T, MU);
@@ -351,7 +351,7 @@ fn a_coated_body_rolls_into_a_steady_state() {
     scene.path = LoadPath::start()
         .normal(W, 4)
         .tangential(&[0.5 * MU * W], 4)
-        .to(|to| to.rolled = rolled, way);
+        .change_to(|to| to.rolled = rolled, way);
     let all = audited(&scene);
     let creep =
         |k: usize| all[all.len() - k].1.motion.delta_x - all[all.len() - k - 1].1.motion.delta_x;

@@ -16,10 +16,10 @@ fn misfit(increments: usize, entering: bool) -> f64 {
         to.W = W;
         to.T_x = K * W;
     };
-    let path = LoadPath::start().to(to, increments);
+    let path = LoadPath::start().change_to(to, increments);
     let mut scene = sphere_on_flat(CORK, CORK, MU, (2.4, 64), path);
     scene.settings.solver.tolerance = Some(1e-9);
-    scene.settings.solver.entering = entering;
+    scene.settings.solver.cell_entry_correction = entering;
     let mut worst = 0.0_f64;
     run(&scene, |march, increment| {
         if entering {

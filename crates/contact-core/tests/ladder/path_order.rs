@@ -41,7 +41,7 @@ fn fretted(increments: usize, turning: bool) -> Scene {
     let scene = sphere_on_flat(STEEL, STEEL, MU, (2.4, 48), path);
     let a = hertz_of(&scene).a;
     let mut scene = coated(scene, Elastic { E: 420e9, nu: 0.3 }, a);
-    scene.settings.solver.turning = turning;
+    scene.settings.solver.slip_rotation_correction = turning;
     scene
 }
 
@@ -64,7 +64,7 @@ fn turned(increments: usize, turning: bool) -> Scene {
         .normal(W, 1)
         .ellipse((T, T), 1, increments);
     let mut scene = sphere_on_flat(STEEL, STEEL, MU, (2.3, 32), path);
-    scene.settings.solver.turning = turning;
+    scene.settings.solver.slip_rotation_correction = turning;
     scene
 }
 
@@ -101,7 +101,7 @@ fn indented(increments: usize, entering: bool) -> Scene {
     let scene = sphere_on_flat(STEEL, STEEL, MU, (2.4, 96), indentation(increments));
     let a = hertz_of(&scene).a;
     let mut scene = coated(scene, Elastic { E: 420e9, nu: 0.3 }, a);
-    scene.settings.solver.entering = entering;
+    scene.settings.solver.cell_entry_correction = entering;
     scene
 }
 

@@ -17,7 +17,7 @@ fn rolled(material: Elastic, change: impl Fn(&mut Loads, f64)) -> (Scene, Increm
     scene.friction = Friction::coulomb(f64::INFINITY);
     let way = (12 * N) * 10 / 24;
     let rolled = way as f64 * scene.grid.dx;
-    scene.path = LoadPath::start().normal(W, 1).to(
+    scene.path = LoadPath::start().normal(W, 1).change_to(
         |to| {
             to.rolled = rolled;
             change(to, rolled);
@@ -76,8 +76,8 @@ fn a_tilted_sphere_rolls_beside_the_middle() {
     scene.settings.solver.tolerance = Some(1e-8);
     scene.path = LoadPath::start()
         .normal(W, 2)
-        .to(|to| to.T_x = 0.15 * W, 2)
-        .to(
+        .change_to(|to| to.T_x = 0.15 * W, 2)
+        .change_to(
             |to| {
                 to.given.phi_x = None;
                 to.M_x = W * aside;

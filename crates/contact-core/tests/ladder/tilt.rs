@@ -12,7 +12,7 @@ fn a_moment_moves_the_contact_of_a_sphere() {
     let scene = sphere_on_flat(STEEL, STEEL, 0.0, (3.2, 64), indentation(3));
     let a = hertz_of(&scene).a;
     let mut tilted = scene.clone();
-    tilted.path = indentation(1).to(
+    tilted.path = indentation(1).change_to(
         |to| {
             to.given.phi_x = None;
             to.given.phi_y = None;
@@ -54,7 +54,7 @@ fn a_flat_punch_balances_its_moments() {
         radius: 0.8 * a,
         edge: 0.02,
     };
-    scene.path = LoadPath::start().normal(W, 2).to(
+    scene.path = LoadPath::start().normal(W, 2).change_to(
         |to| {
             (to.given.phi_x, to.given.phi_y) = (None, None);
             (to.M_x, to.M_y) = (0.1 * W * a, 0.15 * W * a);
@@ -93,7 +93,7 @@ fn a_conformal_contact_balances_its_moments() {
     let a = hertz_of(&scene).a;
     scene.grid = Grid::centred(3.2 * a, 64).expect("a grid");
     let (e_x, e_y) = (0.25, -0.1);
-    scene.path = scene.path.to(
+    scene.path = scene.path.change_to(
         |to| {
             (to.given.phi_x, to.given.phi_y) = (None, None);
             (to.M_x, to.M_y) = (e_y * W * a, -e_x * W * a);

@@ -51,7 +51,7 @@ fn whatever_is_combined_balances() {
     scene.path = scene
         .path
         .clone()
-        .to(
+        .change_to(
             |to| {
                 (to.T_x, to.T_y, to.sigma_B, to.sigma_B1) = (0.1 * W, -0.08 * W, 2e8, -5e7);
                 (to.M_x, to.M_y, to.M_z) = (0.05 * W * a, -0.04 * W * a, 0.02 * W * a);
@@ -59,7 +59,7 @@ fn whatever_is_combined_balances() {
             },
             4,
         )
-        .to(
+        .change_to(
             |to| {
                 (to.T_x, to.T_y, to.sigma_B, to.sigma_B1) = (-0.1 * W, 0.05 * W, -1e8, 5e7);
                 (to.W, to.M_z) = (0.8 * W, -0.02 * W * a);
@@ -67,7 +67,7 @@ fn whatever_is_combined_balances() {
             4,
         )
         .ellipse((0.08 * W, 0.04 * W), 1, 6)
-        .to(
+        .change_to(
             |to| {
                 (to.given.delta_x, to.given.delta_y) = (Some(3e-6), Some(-1e-6));
                 (to.given.phi_z, to.given.delta_z) = (Some(2e-4), Some(0.5 * a * a / R));
@@ -75,7 +75,7 @@ fn whatever_is_combined_balances() {
             5,
         )
         // Moments held would keep the bodies leaning on each other.
-        .to(
+        .change_to(
             |to| {
                 (to.given.phi_x, to.given.phi_y) = (Some(0.0), Some(0.0));
                 to.given.delta_z = Some(-0.5 * a * a / R);

@@ -93,8 +93,8 @@ fn the_torque_of_full_slip() {
     let a = lubkin.hertz.a;
     let phi = lubkin.phi(0.01 * a);
     let path = pressed()
-        .to(turned_to(0.5 * phi), 1)
-        .to(turned_to(20.0 * phi), 1);
+        .change_to(turned_to(0.5 * phi), 1)
+        .change_to(turned_to(20.0 * phi), 1);
     let (scene, _) = scene(path);
     let increments = run(&scene, |_, _| ());
     let end = increments.last().expect("an increment");
@@ -113,7 +113,9 @@ fn torque_given_is_rotation_given() {
     let mut by_rotation = by_moment.clone();
     by_rotation.path = pressed();
     for increment in &moments[1..] {
-        by_rotation.path = by_rotation.path.to(turned_to(increment.motion.phi_z), 1);
+        by_rotation.path = by_rotation
+            .path
+            .change_to(turned_to(increment.motion.phi_z), 1);
     }
     let rotations = run(&by_rotation, |_, _| ());
     for (m, r) in moments.iter().zip(&rotations) {

@@ -15,7 +15,7 @@ body2 = { shape = "flat", E = 70e9, nu = 0.2 }
 friction.mu = 0.8
 grid = { n = 20, extent = { a_H = 2.6 } }
 # Else the contact grows in steps.
-solver.entering = false
+solver.cell_entry_correction = false
 path = [
     { W = 1000.0, increments = 1 },
     { T_x = { mu_W = 0.95 }, increments = 1 },
@@ -33,7 +33,7 @@ fn scene(settings: &[&str]) -> Scene {
 fn an_increment_that_does_not_converge_is_solved_in_pieces() {
     let whole = solve(&scene(&[]), &mut ()).unwrap();
     assert!(whole.iter().all(|i| i.work.parts == 1));
-    let tight = scene(&["skip.digits=false", "solver.max_iterations=3"]);
+    let tight = scene(&["skip.single_precision=false", "solver.max_iterations=3"]);
     let pieces = solve(&tight, &mut ()).unwrap();
     assert_eq!(pieces.len(), 3);
     let mut done = 0.0;

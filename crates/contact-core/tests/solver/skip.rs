@@ -161,13 +161,17 @@ fn a_coating_like_its_substrate() {
 
 #[test]
 fn increments_whose_way_does_not_count() {
-    let isotropic = ["body1.nu=0.0", "body2.nu=0.0", "skip.path=true"];
+    let isotropic = [
+        "body1.nu=0.0",
+        "body2.nu=0.0",
+        "skip.path_independent_branches=true",
+    ];
     assert!(line(&scene(&isotropic), "increments").skipped);
-    let [with, without] = same_without(&isotropic, "skip.path=false");
+    let [with, without] = same_without(&isotropic, "skip.path_independent_branches=false");
     assert_eq!((with.len(), without.len()), (4, 16));
     // A cell slips at its bound: what one increment dissipates is known without the way, too.
     let many = [
-        "skip.path=false",
+        "skip.path_independent_branches=false",
         "path.1.increments=64",
         "path.2.increments=64",
         "path.3.increments=64",
@@ -187,10 +191,10 @@ fn increments_whose_way_does_not_count() {
     }
 
     // Where slip turns, the indentation alone is direct.
-    let path = "skip.path=true";
+    let path = "skip.path_independent_branches=true";
     let mixed = line(&scene(&[path]), "increments");
     assert!(mixed.skipped && mixed.subject.contains("1 of 4"), "{mixed}");
-    let [with, without] = same_without(&[path], "skip.path=false");
+    let [with, without] = same_without(&[path], "skip.path_independent_branches=false");
     assert_eq!((with.len(), without.len()), (14, 16));
 
     // Without friction any path of normal loads is.
@@ -200,7 +204,7 @@ fn increments_whose_way_does_not_count() {
             "friction.mu=0.0",
             "path=[{ W = 500.0, increments = 3 }, { W = 1500.0, increments = 3 }, { W = 1000.0, increments = 2 }]",
         ],
-        "skip.path=false",
+        "skip.path_independent_branches=false",
     );
     assert_eq!(with.len(), 3);
 }
@@ -208,7 +212,11 @@ fn increments_whose_way_does_not_count() {
 /// Where the way counts, or is asked for, every increment is solved.
 #[test]
 fn increments_whose_way_counts() {
-    let isotropic = ["body1.nu=0.0", "body2.nu=0.0", "skip.path=true"];
+    let isotropic = [
+        "body1.nu=0.0",
+        "body2.nu=0.0",
+        "skip.path_independent_branches=true",
+    ];
     for setting in [
         "body2.E=70e9",
         "path.2.T_y=100.0",
@@ -231,7 +239,7 @@ fn digits_that_the_tolerance_does_not_need() {
         let asked = format!("solver.tolerance={tolerance}");
         let single = scene(&[coated, &asked]);
         assert!(line(&single, "digits").skipped);
-        let double = scene(&[coated, &asked, "skip.digits=false"]);
+        let double = scene(&[coated, &asked, "skip.single_precision=false"]);
         assert!(!line(&double, "digits").skipped);
         let exact = scene(&[coated]);
         assert!(!line(&exact, "digits").skipped);
@@ -283,9 +291,9 @@ fn cells_far_from_the_contact() {
     ] {
         let windowed = scene(settings);
         assert!(line(&windowed, "far").skipped);
-        let whole = scene(&[settings, &["skip.far=false"]].concat());
+        let whole = scene(&[settings, &["skip.contact_window=false"]].concat());
         assert!(!line(&whole, "far").skipped);
-        let [with, without] = same_without(settings, "skip.far=false");
+        let [with, without] = same_without(settings, "skip.contact_window=false");
         let pairs = with.iter().zip(&without);
         for (a, b) in pairs.filter(|(a, _)| a.contact_area > 0.0) {
             assert!((a.contact_area / b.contact_area - 1.0).abs() < 1e-6);

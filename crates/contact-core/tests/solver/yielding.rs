@@ -6,17 +6,17 @@ use std::path::Path;
 use contact_core::estimate::first_yield;
 use contact_core::march::{Increment, March};
 use contact_core::scene::{
-    Body, Branch, Coating, Elastic, Friction, Given, Grid, LoadPath, Loads, Plastic, Profile,
-    Scene, Shape,
+    Body, Branch, Coating, Elastic, Friction, Grid, LoadPath, Loads, Plastic, PrescribedMotions,
+    Profile, Scene, Shape,
 };
 use serde_json::Value;
 
 const STEEL: Elastic = Elastic { E: 210e9, nu: 0.3 };
 
 fn approach(delta_z: f64, increments: usize, t_end: f64) -> Branch {
-    let given = Given {
+    let given = PrescribedMotions {
         delta_z: Some(delta_z),
-        ..Given::default()
+        ..PrescribedMotions::default()
     };
     let to = Loads {
         given,
@@ -356,7 +356,7 @@ fn residual_compression_moves_first_yield_as_it_does_by_hand() {
             ..Loads::default()
         };
         let mut scene = indentation(0.01, law, grid, vec![Branch::new(to, 1, 1.0)]);
-        scene.body2.residual = residual;
+        scene.body2.residual_text = residual;
         scene
     };
     let begins = |residual: Vec<Profile>| {

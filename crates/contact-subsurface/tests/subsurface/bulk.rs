@@ -166,8 +166,8 @@ fn a_fatigue_criterion_streams_with_the_bulk_stress() -> Result<(), Error> {
         grid: Grid::centred(1.2e-3, 16)?,
         path: LoadPath::start()
             .normal(W, 2)
-            .to(pulled(0.5 * mu * W, 2e8, 5e7), 3)
-            .to(pulled(-0.5 * mu * W, -1e8, 5e7), 3),
+            .change_to(pulled(0.5 * mu * W, 2e8, 5e7), 3)
+            .change_to(pulled(-0.5 * mu * W, -1e8, 5e7), 3),
         settings: Settings::default(),
     };
     let normals: Vec<[f64; 2]> = (0..18)
@@ -250,7 +250,7 @@ fn residual_stress_is_added_in_its_layer_alone() {
     let residual = [-3.0, 0.5, 0.25];
     let given = |layers: &[f64]| {
         let layers: Vec<_> = layers.iter().copied().map(Profile::uniform).collect();
-        ResidualStress::given(&body, &layers)
+        ResidualStress::from_profiles(&body, &layers)
     };
     let with = |residual| States {
         residual: Some(residual),

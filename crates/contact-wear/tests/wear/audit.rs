@@ -145,7 +145,7 @@ impl<'a> Audit<'a> {
         let rms = touching.iter().map(|g| (g - rest).powi(2)).sum::<f64>();
         let rms = (rms / touching.len().max(1) as f64).sqrt();
         let overlap = cells(&gap, &now.p, false).fold(0.0, |m: f64, g| m.max(rest - g));
-        let allowed = scene.tolerance() * scene.approach();
+        let allowed = scene.tolerance() * scene.reference_approach();
         assert!(
             rms <= allowed && overlap <= allowed,
             "{name}: gap {rms:e}, overlap {overlap:e}, allowed {allowed:e} m"

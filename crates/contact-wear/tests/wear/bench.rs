@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use contact_core::scene::{Body, Elastic, Friction, Given, Grid, LoadPath, Scene, Settings, Shape};
+use contact_core::scene::{
+    Body, Elastic, Friction, Grid, LoadPath, PrescribedMotions, Scene, Settings, Shape,
+};
 use contact_wear::{Archard, BodyWear, Cycling, Jump, Wear, WearRun};
 use ndarray::Array2;
 
@@ -17,9 +19,9 @@ pub(crate) fn to_and_fro(W: f64, stroke: f64, places: usize) -> LoadPath {
     let ways = [(stroke, 1), (-stroke, places), (stroke, places)];
     ways.into_iter()
         .fold(LoadPath::start().normal(W, 1), |path, (to, places)| {
-            path.to(
+            path.change_to(
                 |at| {
-                    at.given = Given {
+                    at.given = PrescribedMotions {
                         delta_x: Some(to),
                         ..at.given
                     }

@@ -209,7 +209,7 @@ fn what_is_left_open_is_chosen() {
         (open.first_branch, open.jumps) = (None, Jumps::Number(1));
         let (chosen, jumps) = run(&scene, &open);
         assert_eq!(chosen.wear().first_branch, Some(2));
-        assert!(!chosen.scene().path.is_open());
+        assert!(!chosen.scene().path.has_open_increments());
         open.first_branch = Some(2);
         let (_, asked) = run(&given, &open);
         near(jumps[0].volume[0], asked[0].volume[0], 0.1);
@@ -268,7 +268,7 @@ fn runs_of_tables_and_of_functions_are_taken_up_to_the_same_bytes() {
         ..sticks.friction
     };
     let softens = Scene {
-        friction: Friction::own(sticks.friction.mu, Softens),
+        friction: Friction::from_law(sticks.friction.mu, Softens),
         ..partial_slip()
     };
     let cases = [

@@ -2,8 +2,8 @@
 
 use contact_core::Error;
 use contact_core::scene::{
-    Body, Coating, Elastic, Friction, FrictionHistory, Given, Grid, History, LoadPath, Loads,
-    Scene, Settings, Shape,
+    Body, Coating, Elastic, Friction, FrictionHistory, Grid, History, LoadPath, Loads,
+    PrescribedMotions, Scene, Settings, Shape,
 };
 use contact_wear::{BodyWear, Cycling, Jumps, Wear, WornThrough};
 
@@ -101,8 +101,8 @@ fn wear(scene: &Scene, bodies: [BodyWear; 2], cycles: f64, cycling: Cycling) -> 
 /// Cycles of k = 1e-14 /Pa that wear about as deep as the bodies come together.
 fn natural_cycles(scene: &Scene) -> f64 {
     let p0 = scene.hertz().unwrap().p0;
-    let slid = 4.0 * scene.friction.scale() * scene.approach();
-    scene.approach() / (1e-14 * p0 * slid)
+    let slid = 4.0 * scene.friction.reference_mu() * scene.reference_approach();
+    scene.reference_approach() / (1e-14 * p0 * slid)
 }
 
 fn scene(draw: &mut Draw, sliding: bool, flat: bool) -> Scene {
@@ -194,7 +194,7 @@ fn slid(draw: &mut Draw, W: f64, a: f64) -> LoadPath {
 /// One of the motions to and fro, below gross slip or beyond it.
 fn path(draw: &mut Draw, scene: &mut Scene, W: f64, a: f64, flat: bool) -> LoadPath {
     let mu = scene.friction.mu;
-    let (most, far) = (mu * W, mu * scene.approach());
+    let (most, far) = (mu * W, mu * scene.reference_approach());
     let part = 0.1 + 0.85 * draw.next();
     if draw.next() < 0.2 {
         let table = vec![(0.0, 1.0), (far, 0.6)];
@@ -208,7 +208,7 @@ fn path(draw: &mut Draw, scene: &mut Scene, W: f64, a: f64, flat: bool) -> LoadP
         [1.0, -1.0, 1.0]
             .into_iter()
             .fold(start.clone(), |path, sign| {
-                path.to(|to| change(to, sign), increments)
+                path.change_to(|to| change(to, sign), increments)
             })
     };
     let strongest = if scene.friction.history.is_some() {
@@ -220,7 +220,7 @@ fn path(draw: &mut Draw, scene: &mut Scene, W: f64, a: f64, flat: bool) -> LoadP
     // Forces on a strip are those on its width.
     let width = if flat { scene.grid.dy } else { a };
     let given = |to: &mut Loads, delta_x: f64| {
-        to.given = Given {
+        to.given = PrescribedMotions {
             delta_x: Some(delta_x),
             ..to.given
         };

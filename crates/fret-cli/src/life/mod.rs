@@ -6,7 +6,7 @@ mod table;
 
 use contact_assess::{ByCriterion, Judged, Site, judge, materials_of_layers, of_criteria};
 use contact_core::Error;
-use contact_core::scene::text_of;
+use contact_core::scene::read_text;
 use contact_store::Store;
 use contact_store::StoredCycle;
 use contact_subsurface::{Line, Side, chosen_depths, depths};
@@ -74,7 +74,7 @@ fn judged(options: &Options) -> Result<Vec<String>, Error> {
     let mut notes = of[0].notes.clone();
     notes.extend(note_on_cycle(&cycle)?);
     let last = cycle.moments(&[cycle.count() - 1])?;
-    let length = scene.length(&last.tractions[0][2]);
+    let length = scene.reference_length(&last.tractions[0][2]);
     let asked = if options.depths.is_empty() {
         chosen_depths(body, length, 2.0 * length, 1.0)?
     } else {
@@ -147,7 +147,7 @@ fn given_materials(options: &Options) -> Result<Vec<Option<Material>>, Error> {
     let mut table = materials();
     let mut names = options.material.clone();
     if let Some(file) = &options.materials {
-        let (text, name) = text_of(file)?;
+        let (text, name) = read_text(file)?;
         let own = read(&text, &name).map_err(|e| of_criteria(e.into()))?;
         if names.is_empty() && own.len() == 1 {
             names = own.keys().cloned().collect();

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use contact_core::scene::text_of;
+use contact_core::scene::read_text;
 use fatigue as core;
 
 use crate::error::Answer;
@@ -117,7 +117,7 @@ pub(crate) fn materials(file: Option<PathBuf>) -> Answer<Vec<Material>> {
     let found = match file {
         None => core::materials(),
         Some(file) => {
-            let (text, name) = text_of(&file)?;
+            let (text, name) = read_text(&file)?;
             core::read(&text, &name)?
         }
     };

@@ -16,9 +16,9 @@ pub(super) fn branch(
     t: Option<f64>,
     change: impl FnOnce(&mut core::Loads),
 ) -> core::LoadPath {
-    let (mut to, t_before) = path.last();
+    let (mut to, t_before) = path.end_point();
     change(&mut to);
-    path.clone().branch(core::Branch {
+    path.clone().push_branch(core::Branch {
         spacing: spacing.into(),
         ..core::Branch::new(to, increments, t.unwrap_or(t_before + 1.0))
     })
@@ -67,7 +67,7 @@ pub(super) fn moved(
     let (start, of) = (path.branches.len(), RigidMotion::ALL[k]);
     let mut path = path
         .clone()
-        .through(of, Prescribed::Motion, values, increments);
+        .visit_values(of, Prescribed::Motion, values, increments);
     for branch in &mut path.branches[start..] {
         branch.spacing = spacing.into();
         prescribe(&mut branch.to, others);
@@ -98,7 +98,7 @@ pub(super) fn cycled(
     };
     core::LoadPath::check_branches(n.saturating_mul(2))?;
     let values = core::LoadPath::cycle(amplitude.value(), n);
-    Ok(path.clone().through(of, kind, &values, increments))
+    Ok(path.clone().visit_values(of, kind, &values, increments))
 }
 
 /// Prescribes what is given of the six motions or their loads.

@@ -89,7 +89,7 @@ impl Friction {
 
     /// The law in words: names with their values, and facts without a value.
     fn words(&self) -> Vec<(&'static str, Option<f64>)> {
-        self.0.words()
+        self.0.describe()
     }
 
     pub(crate) fn __repr__(&self) -> String {
@@ -112,7 +112,7 @@ attributes!(Friction, self:
     /// Coefficient.
     mu: f64 = self.0.mu;
     /// Whether it is the same everywhere and at all times, if not in all directions.
-    is_constant: bool = self.0.depends_on_no_more_than(&[core::Dependence::Direction]);
+    is_constant: bool = self.0.depends_only_on(&[core::Dependence::Direction]);
     /// Coefficient along y, if it is another.
     mu_y: Option<f64> = self.0.mu_y;
     /// Coefficient of cells that slipped in the increment before.

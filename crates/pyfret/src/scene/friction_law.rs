@@ -66,12 +66,12 @@ impl core::FrictionLaw for Own {
 }
 
 /// A law from a function, or from the word for one that is elsewhere.
-pub(crate) fn own_law(given: &Bound<'_, PyAny>) -> PyResult<core::OwnFriction> {
+pub(crate) fn own_law(given: &Bound<'_, PyAny>) -> PyResult<core::UserFriction> {
     if given.extract::<&str>().is_ok_and(|word| word == OWN) {
-        return Ok(core::OwnFriction::elsewhere());
+        return Ok(core::UserFriction::unavailable());
     }
     if given.is_callable() {
-        return Ok(core::OwnFriction::new(Own(given.clone().unbind())));
+        return Ok(core::UserFriction::new(Own(given.clone().unbind())));
     }
     Err(crate::error::must_be(
         given,
@@ -80,7 +80,7 @@ pub(crate) fn own_law(given: &Bound<'_, PyAny>) -> PyResult<core::OwnFriction> {
 }
 
 /// The function of a law, or the word for one that is elsewhere.
-pub(crate) fn function<'py>(py: Python<'py>, law: &core::OwnFriction) -> Bound<'py, PyAny> {
+pub(crate) fn function<'py>(py: Python<'py>, law: &core::UserFriction) -> Bound<'py, PyAny> {
     let own = law.0.as_any().and_then(|law| law.downcast_ref::<Own>());
     own.map_or_else(
         || pyo3::types::PyString::new(py, OWN).into_any(),

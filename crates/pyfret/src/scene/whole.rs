@@ -234,7 +234,7 @@ impl Scene {
     /// That is a_H. Without a Hertz contact it is half the longer side of the box around the cells
     /// under the pressure `p` [Pa], shape (nx, ny).
     fn length(&self, p: Field<'_>) -> f64 {
-        self.0.length(&p.as_array().to_owned())
+        self.0.reference_length(&p.as_array().to_owned())
     }
 
     /// What is allowed but hardly meant: numbers that look like another unit's, few cells.

@@ -204,7 +204,10 @@ impl<'a> Cells<'a> {
     /// The rim of the contact.
     fn rim(&self) -> Vec<(usize, Edge)> {
         let (now, scene) = (self.now, &self.setup.problem.scene);
-        let beta = dundurs_beta(scene.body1.outermost(), scene.body2.outermost());
+        let beta = dundurs_beta(
+            scene.body1.surface_material(),
+            scene.body2.surface_material(),
+        );
         let laws = |line: &mut Line| {
             let at = line.outermost();
             let ring = line.cells().iter().take_while(|&&n| now.slips[n]).count();

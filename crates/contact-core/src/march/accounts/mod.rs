@@ -62,7 +62,7 @@ pub(super) fn draw_up(
             .problem
             .scene
             .grid
-            .radius_of(zones.contact * cell_area),
+            .equivalent_radius(zones.contact * cell_area),
         p_max,
         q_max,
         q_rms,

@@ -86,7 +86,7 @@ impl Domain {
             plan.kernels(),
             Some(stop),
         )?;
-        let mut pair = pair.stretched(scene.friction.stretch());
+        let mut pair = pair.stretched(scene.friction.axis_ratio());
         if let Some(K) = scene.path.rig_stiffness.filter(|_| plan.friction) {
             // A spring in series: the force sum of q_x dA moves every cell by as much, eq. (7).
             pair.xx += scene.grid.cell_area() / K;
@@ -249,9 +249,10 @@ impl Geometry {
                 length,
                 x: fold(grid.map(|x, _| x / length)),
                 y: fold(grid.map(|_, y| y / length)),
-                stretch: scene.friction.stretch(),
+                stretch: scene.friction.axis_ratio(),
             },
-            friction_map: map.map_or_else(Vec::new, |map| fold(grid.map(|x, y| map.at(x, y)))),
+            friction_map: map
+                .map_or_else(Vec::new, |map| fold(grid.map(|x, y| map.interpolate(x, y)))),
             grid,
         }
     }

@@ -55,8 +55,12 @@ impl<'a> Document<'a> {
     pub(super) fn error(&self, fault: &Fault) -> Error {
         let path = steps(&fault.key);
         let related = |setting: &&String| {
-            let own = steps(setting.split('=').next().unwrap_or_default().trim());
-            own.iter().zip(&path).all(|(a, b)| a == b || *a == EVERY) && !path.is_empty()
+            let setting_path = steps(setting.split('=').next().unwrap_or_default().trim());
+            setting_path
+                .iter()
+                .zip(&path)
+                .all(|(a, b)| a == b || *a == EVERY)
+                && !path.is_empty()
         };
         if let Some(setting) = self.settings.iter().rev().find(related) {
             return Error::Setting {
@@ -71,16 +75,16 @@ impl<'a> Document<'a> {
         }
     }
 
-    /// Where the key stands in the file, or the innermost table on the way to it that does.
+    /// Offset of the key in the file, or of the innermost table above it that the file has.
     fn offset(&self, path: &[&str]) -> usize {
-        let Some((first, rest)) = path.split_first() else {
+        let Some((first, steps_below)) = path.split_first() else {
             return 0;
         };
         let Some((mut offset, mut value)) = entry(self.places.get_ref(), first) else {
             return 0;
         };
-        for step in rest {
-            let next = match value {
+        for step in steps_below {
+            let child = match value {
                 DeValue::Table(table) => entry(table, step),
                 DeValue::Array(array) => step
                     .parse::<usize>()
@@ -89,20 +93,20 @@ impl<'a> Document<'a> {
                     .map(|item| (item.span().start, item.get_ref())),
                 _ => None,
             };
-            let Some(inner) = next else { break };
+            let Some(inner) = child else { break };
             (offset, value) = inner;
         }
         offset
     }
 }
 
-/// An entry of a table and where its key stands.
+/// Returns an entry of a table with the offset of its key.
 fn entry<'t, 'a>(table: &'t DeTable<'a>, name: &str) -> Option<(usize, &'t DeValue<'a>)> {
     let (key, value) = table.iter().find(|(key, _)| key.get_ref() == name)?;
     Some((key.span().start, value.get_ref()))
 }
 
-/// The text without its line breaks: an error is one sentence.
+/// Replaces line breaks by spaces: an error is one sentence.
 fn one_line(text: &str) -> String {
     text.replace(char::is_control, " ")
 }
@@ -123,60 +127,62 @@ pub(super) fn steps(key: &str) -> Vec<&str> {
 /// Stands in a key for every element of a list.
 const EVERY: &str = "*";
 
-/// Applies `key=value` to the values; the message says what is wrong with it.
+/// Applies `key=value` to the values; the message describes the fault.
 pub(super) fn apply(root: &mut Table, setting: &str) -> Result<(), String> {
     let (key, value) = setting
         .split_once('=')
         .ok_or("a setting must be of the form key=value")?;
-    put_each(root, &steps(key), &parse_value(value.trim())?)
+    set_every(root, &steps(key), &parse_value(value.trim())?)
 }
 
-/// Puts a value at a key, or at every element of the list before a star.
-fn put_each(root: &mut Table, path: &[&str], value: &Value) -> Result<(), String> {
+/// Sets the value at a key, or at every element of the list before a star.
+fn set_every(root: &mut Table, path: &[&str], value: &Value) -> Result<(), String> {
     let Some(star) = path.iter().position(|&step| step == EVERY) else {
-        return put(root, path, value.clone());
+        return set_value(root, path, value.clone());
     };
     let list = path[..star].join(".");
-    let found = path[..star].split_first().and_then(|(first, way)| {
-        way.iter().try_fold(root.get(*first)?, |at, step| match at {
-            Value::Array(array) => array.get(step.parse::<usize>().ok()?),
-            at => at.get(step),
-        })
+    let list_value = path[..star].split_first().and_then(|(first, inner_steps)| {
+        inner_steps
+            .iter()
+            .try_fold(root.get(*first)?, |node, step| match node {
+                Value::Array(array) => array.get(step.parse::<usize>().ok()?),
+                table => table.get(step),
+            })
     });
-    let Some(Value::Array(array)) = found else {
+    let Some(Value::Array(array)) = list_value else {
         return Err(format!("{list} is no list: * stands for its elements"));
     };
     for n in 0..array.len() {
-        let place = n.to_string();
-        let mut one = path.to_vec();
-        one[star] = &place;
-        put_each(root, &one, value)?;
+        let index = n.to_string();
+        let mut element_path = path.to_vec();
+        element_path[star] = &index;
+        set_every(root, &element_path, value)?;
     }
     Ok(())
 }
 
-/// Puts a value at a key.
-fn put(root: &mut Table, path: &[&str], value: Value) -> Result<(), String> {
-    let (last, way) = path.split_last().ok_or("the key is empty")?;
-    let Some((first, way)) = way.split_first() else {
+/// Sets the value at a key.
+fn set_value(root: &mut Table, path: &[&str], value: Value) -> Result<(), String> {
+    let (last, parents) = path.split_last().ok_or("the key is empty")?;
+    let Some((first, parents)) = parents.split_first() else {
         root.insert((*last).to_owned(), value);
         return Ok(());
     };
-    let mut at = table_entry(root, first, way.first().unwrap_or(last));
-    let mut passed = (*first).to_owned();
-    for (i, step) in way.iter().enumerate() {
-        let next = way.get(i + 1).unwrap_or(last);
-        at = match at {
-            Value::Array(array) => element(array, step, &passed)?,
-            at => table_entry(as_table(at), step, next),
+    let mut node = table_entry(root, first, parents.first().unwrap_or(last));
+    let mut key_so_far = (*first).to_owned();
+    for (i, step) in parents.iter().enumerate() {
+        let next_step = parents.get(i + 1).unwrap_or(last);
+        node = match node {
+            Value::Array(array) => element(array, step, &key_so_far)?,
+            table => table_entry(as_table(table), step, next_step),
         };
-        passed = format!("{passed}.{step}");
+        key_so_far = format!("{key_so_far}.{step}");
     }
-    match at {
-        Value::Array(array) => *element(array, last, &passed)? = value,
-        at => {
-            let table = as_table(at);
-            if measure::is_name(last) {
+    match node {
+        Value::Array(array) => *element(array, last, &key_so_far)? = value,
+        table => {
+            let table = as_table(table);
+            if measure::is_measure(last) {
                 table.clear();
             }
             table.insert((*last).to_owned(), value);
@@ -185,7 +191,7 @@ fn put(root: &mut Table, path: &[&str], value: Value) -> Result<(), String> {
     Ok(())
 }
 
-/// The entry `name` of a table, made where it is missing.
+/// Returns the entry `name` of a table, and creates it where it is missing.
 fn table_entry<'t>(table: &'t mut Table, name: &str, next: &str) -> &'t mut Value {
     let missing = if next.parse::<usize>().is_ok() {
         Value::Array(Vec::new())
@@ -195,7 +201,7 @@ fn table_entry<'t>(table: &'t mut Table, name: &str, next: &str) -> &'t mut Valu
     table.entry(name.to_owned()).or_insert(missing)
 }
 
-/// The value as a table; a plain number gives way to one.
+/// Makes the value a table, in place of a plain number, and returns it.
 fn as_table(value: &mut Value) -> &mut Table {
     if !value.is_table() {
         *value = Value::Table(Table::new());

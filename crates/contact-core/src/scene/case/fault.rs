@@ -4,7 +4,7 @@ use toml::Value;
 
 use crate::error::Error;
 
-/// What is wrong, and at which key.
+/// A message about the value at a key.
 #[derive(Debug)]
 pub struct Fault {
     /// The key, `body2.coatings[0].E`; it may be missing from the file.
@@ -13,7 +13,7 @@ pub struct Fault {
     pub(super) message: String,
     /// The nearest valid name of a key that is unknown.
     pub(super) nearest: Option<String>,
-    /// Whether the value can be read, and is wrong by its size or beside other values.
+    /// Whether the value can be read, but is out of range or contradicts other values.
     pub(super) is_of_meaning: bool,
 }
 

@@ -6,9 +6,9 @@ use super::fault::Fault;
 use super::section::Section;
 use super::shape::{MAP, map_text, surface_map};
 use crate::scene::files::Files;
-use crate::scene::{Friction, FrictionHistory, History, OwnFriction};
+use crate::scene::{Friction, FrictionHistory, History, UserFriction};
 
-/// The word for a law of the user's own.
+/// The word for a user's law.
 const OWN: &str = "own";
 /// The words of the histories.
 const HISTORIES: [(&str, History); 4] = [
@@ -23,27 +23,31 @@ pub(super) fn friction(root: &Section<'_>, files: &Files<'_>) -> Result<Friction
     let mut friction = Friction::coulomb(f64::INFINITY);
     let coefficients = friction.coefficients_mut().map(|(key, _)| key);
     let keys = [&["mu"], &coefficients[..], &["map", "history", "law"]].concat();
-    let section = root.need_section("friction", &keys)?;
-    let what = "a number >= 0, or \"stick\" for no slip";
-    let mu = match section.need("mu", what)? {
+    let section = root.require_section("friction", &keys)?;
+    let expected = "a number >= 0, or \"stick\" for no slip";
+    let mu = match section.require("mu", expected)? {
         Value::String(word) if word == "stick" => f64::INFINITY,
         Value::String(_) => {
-            return Err(Fault::value("friction.mu", section.need("mu", what)?, what));
+            return Err(Fault::value(
+                "friction.mu",
+                section.require("mu", expected)?,
+                expected,
+            ));
         }
-        _ => section.number("mu", what, &[])?,
+        _ => section.number("mu", expected, &[])?,
     };
     if mu.is_infinite() && section.get("mu").is_some_and(|mu| !mu.is_str()) {
         let finite = "a finite number >= 0, or \"stick\" for no slip";
         return Err(Fault::value(
             "friction.mu",
-            section.need("mu", what)?,
+            section.require("mu", expected)?,
             finite,
         ));
     }
     for (key, coefficient) in friction.coefficients_mut() {
-        let given = section.get(key);
-        let given = given.map(|_| section.number(key, "a positive number", &[]));
-        *coefficient = given.transpose()?;
+        let present = section.get(key);
+        let coefficient_if_present = present.map(|_| section.number(key, "a positive number", &[]));
+        *coefficient = coefficient_if_present.transpose()?;
     }
     // Its numbers have no unit.
     let map = section.section("map", &MAP[..MAP.len() - 1])?;
@@ -51,19 +55,19 @@ pub(super) fn friction(root: &Section<'_>, files: &Files<'_>) -> Result<Friction
         mu,
         map: map.map(|map| surface_map(&map, files)).transpose()?,
         history: friction_history(&section)?,
-        law: own_law(&section)?,
+        law: user_law(&section)?,
         ..friction
     })
 }
 
-/// That the law is the user's own, which no file can hold.
-fn own_law(friction: &Section<'_>) -> Result<Option<OwnFriction>, Fault> {
+/// Reads the word for a user's law, which no file can hold.
+fn user_law(friction: &Section<'_>) -> Result<Option<UserFriction>, Fault> {
     match friction.get("law") {
         None => Ok(None),
-        Some(Value::String(word)) if word == OWN => Ok(Some(OwnFriction::elsewhere())),
+        Some(Value::String(word)) if word == OWN => Ok(Some(UserFriction::unavailable())),
         Some(other) => {
-            let what = "\"own\": it is a function, given in Python or Rust";
-            Err(Fault::value("friction.law", other, what))
+            let expected = "\"own\": it is a function, given in Python or Rust";
+            Err(Fault::value("friction.law", other, expected))
         }
     }
 }
@@ -72,13 +76,16 @@ fn friction_history(friction: &Section<'_>) -> Result<Option<FrictionHistory>, F
     let Some(section) = friction.section("history", &["of", "table"])? else {
         return Ok(None);
     };
-    let of = section.choice("of", &HISTORIES)?;
+    let variable = section.choice("of", &HISTORIES)?;
     let table = section.pairs("table", "a list of pairs [history, factor]")?;
-    Ok(Some(FrictionHistory { of, table }))
+    Ok(Some(FrictionHistory {
+        of: variable,
+        table,
+    }))
 }
 
 /// The law as lines of its section.
-pub(super) fn text(friction: &Friction) -> String {
+pub(super) fn to_text(friction: &Friction) -> String {
     let mut lines = vec![if friction.mu.is_finite() {
         format!("mu = {:?}", friction.mu)
     } else {
@@ -91,13 +98,15 @@ pub(super) fn text(friction: &Friction) -> String {
     lines.extend(map.map(|map| format!("map = {{ {} }}", map_text(map))));
     if let Some(FrictionHistory { of, table }) = &friction.history {
         let word = HISTORIES.iter().find(|(_, history)| history == of);
-        let of = word.map_or("", |(word, _)| word);
+        let word = word.map_or("", |(word, _)| word);
         let pairs: Vec<_> = table
             .iter()
             .map(|(at, f)| format!("[{at:?}, {f:?}]"))
             .collect();
         let table = pairs.join(", ");
-        lines.push(format!("history = {{ of = \"{of}\", table = [{table}] }}"));
+        lines.push(format!(
+            "history = {{ of = \"{word}\", table = [{table}] }}"
+        ));
     }
     lines.join("\n")
 }

@@ -1,4 +1,4 @@
-//! Numbers in other measures than SI: tables of one key; and in other units: texts.
+//! Numbers in other measures than SI, as tables of one key; numbers in other units, as texts.
 
 use plausible::unit::times;
 use toml::Value;
@@ -11,15 +11,15 @@ use crate::scene::number_files::{Kind, named, names};
 pub struct Measure {
     /// Name, such as `a_H`.
     name: &'static str,
-    /// Its value in SI, or why it has none.
+    /// Its value in SI, or the reason why it has none.
     value: Result<f64, &'static str>,
 }
 
 const NAMES: [&str; 4] = ["a_H", "p_H", "mu_W", "E_substrate"];
 const NO_HERTZ: &str = "the uncoated bodies form no Hertz contact under the loads of the path";
 
-/// Whether the name is that of a measure.
-pub(super) fn is_name(name: &str) -> bool {
+/// Whether the name is a measure.
+pub(super) fn is_measure(name: &str) -> bool {
     NAMES.contains(&name)
 }
 
@@ -48,7 +48,7 @@ impl Measure {
         }
     }
 
-    /// Young's modulus of the body's own substrate \[Pa\].
+    /// Young's modulus of the substrate of the same body \[Pa\].
     pub(super) fn E_substrate(value: f64) -> Self {
         Self {
             name: "E_substrate",
@@ -61,18 +61,18 @@ impl Measure {
     }
 }
 
-/// The kind of a key, `grid.spacing[1]`; none of a number without a unit.
+/// The kind of quantity of a key, `grid.spacing[1]`; none of a number without a unit.
 fn kind_of(key: &str) -> Option<Kind> {
     let kind = plausible::of_key(key)?.kind;
     (kind != Kind::Number).then_some(kind)
 }
 
-/// A number and the word behind it, `3 um`.
-fn split(text: &str) -> Option<(f64, &str)> {
+/// Splits a text into a number and the word behind it, `3 um`.
+fn split_unit(text: &str) -> Option<(f64, &str)> {
     let text = text.trim();
     let digit = |c: char| c.is_ascii_digit() || "+-.eE".contains(c);
     let mut end = text.find(|c| !digit(c)).unwrap_or(text.len());
-    // The e of `3 eV` belongs to the word, that of `3e9 Pa` to the number.
+    // The e of `3 eV` belongs to the word, the e of `3e9 Pa` to the number.
     while end > 0 {
         if let Ok(number) = text[..end].parse() {
             return Some((number, text[end..].trim()));
@@ -84,16 +84,16 @@ fn split(text: &str) -> Option<(f64, &str)> {
 
 /// Whether a text is a number with a word behind it that is a unit or a measure.
 pub(super) fn has_unit(text: &str) -> bool {
-    split(text).is_some_and(|(_, word)| is_name(word) || named(word).is_some())
+    split_unit(text).is_some_and(|(_, word)| is_measure(word) || named(word).is_some())
 }
 
-/// The number in SI: given as such, as a text with its unit, or in one of the measures.
+/// Reads a number in SI: a plain number, a text with its unit, or a number in one of the measures.
 pub(super) fn number(key: &str, value: &Value, measures: &[Measure]) -> Result<f64, Fault> {
-    number_named(key, key, value, measures)
+    number_of_quantity(key, key, value, measures)
 }
 
-/// The same of a value that is what another key would be, such as a depth in a table.
-pub(super) fn number_named(
+/// Reads a number as [`number`] does, with the units of the key `name`, such as a depth in a table.
+pub(super) fn number_of_quantity(
     key: &str,
     name: &str,
     value: &Value,
@@ -108,19 +108,19 @@ pub(super) fn number_named(
         return Ok(x);
     }
     let kind = kind_of(name);
-    let wrong = || Fault::value(key, value, &allowed(kind, measures));
+    let wrong = || Fault::value(key, value, &describe_allowed(kind, measures));
     let in_measure = |name: &str, number: f64| {
         let measure = measures.iter().find(|m| m.name == name).ok_or_else(wrong)?;
-        // What the measure follows from is at fault.
-        let why = |why| Fault {
+        // The fault lies in the values that the measure follows from.
+        let fault = |why| Fault {
             is_of_meaning: true,
             ..Fault::new(key, format!("{key} is given in {name}, but {why}"))
         };
-        Ok(number * measure.value.map_err(why)?)
+        Ok(number * measure.value.map_err(fault)?)
     };
     match value {
         Value::String(text) => {
-            let (number, word) = split(text).ok_or_else(wrong)?;
+            let (number, word) = split_unit(text).ok_or_else(wrong)?;
             match kind.and_then(|kind| kind.size(word)) {
                 Some(size) => Ok(times(number, size)),
                 None => in_measure(word, number),
@@ -139,29 +139,32 @@ pub(super) fn number_named(
     }
 }
 
-/// A text with a unit in SI, by the name that the quantity has in a scene file, such as `E`; the
+/// Converts a text with a unit to SI, by the name of the quantity in a scene file, such as `E`; the
 /// error is what is allowed.
 pub fn quantity(name: &str, text: &str) -> Result<f64, String> {
     let value = Value::String(text.to_owned());
-    number(name, &value, &[]).map_err(|_| allowed(kind_of(name), &[]))
+    number(name, &value, &[]).map_err(|_| describe_allowed(kind_of(name), &[]))
 }
 
-/// A text with a unit in SI, whatever it measures, and the unit that it then has.
-pub fn in_si(text: &str) -> Option<(f64, &'static str)> {
-    let (number, word) = split(text)?;
+/// Converts a text with a unit to SI; returns the number and its SI unit.
+pub fn convert_to_si(text: &str) -> Option<(f64, &'static str)> {
+    let (number, word) = split_unit(text)?;
     let (kind, size) = plausible::unit::named(word)?;
     Some((times(number, size), kind.unit()))
 }
 
-/// The load of a contact: a force per length, `300 N/mm`, where and only where cells are without end
-/// along y and forces are those on a `width` \[m\].
+/// Reads the load of a contact: a force per length, `300 N/mm`, if and only if cells are infinitely
+/// long along y and forces are integrals over a `width` \[m\].
 pub(super) fn load(
     key: &str,
     value: &Value,
     measures: &[Measure],
     width: Option<f64>,
 ) -> Result<f64, Fault> {
-    let word = value.as_str().and_then(split).map_or("", |(_, word)| word);
+    let word = value
+        .as_str()
+        .and_then(split_unit)
+        .map_or("", |(_, word)| word);
     let per_length = word.contains('/');
     let load = number(key, value, measures)?;
     let allowed = match (width, Kind::Force.size(word).is_some()) {
@@ -173,7 +176,7 @@ pub(super) fn load(
     Err(Fault::value(key, value, allowed))
 }
 
-fn allowed(kind: Option<Kind>, measures: &[Measure]) -> String {
+fn describe_allowed(kind: Option<Kind>, measures: &[Measure]) -> String {
     let mut allowed = match kind {
         None if measures.is_empty() => return "a number".to_owned(),
         None => "a number in SI units".to_owned(),
@@ -219,8 +222,8 @@ mod tests {
             ("rig.stiffness", "24 N/um", 24e6),
             ("wear.frequency", "2 kHz", 2e3),
         ] {
-            let found = read(key, text).unwrap();
-            assert_eq!(found, right, "{key} = {text}");
+            let number = read(key, text).unwrap();
+            assert_eq!(number, right, "{key} = {text}");
         }
     }
 
@@ -240,8 +243,8 @@ mod tests {
             ("path[0].W", "10 Nm", "a number in N, a text"),
             ("grid.extent", "2 p_H", "or { a_H = number }"),
         ] {
-            let told = read(key, text).unwrap_err();
-            assert!(told.contains(allowed), "{told}");
+            let message = read(key, text).unwrap_err();
+            assert!(message.contains(allowed), "{message}");
         }
     }
 }

@@ -3,17 +3,17 @@
 //! [`Scene::from_file`] reads it, [`Scene::to_toml`] writes it back with every number in SI. A
 //! number in another measure is a table of one key, `thickness = { a_H = 1.0 }`, and one in another
 //! unit a text, `thickness = "3 um"`. Every error names the key and its line, and an unknown key the
-//! nearest valid one; a file that is wrong in several places has all of them told.
+//! nearest valid one; of a file with several faults all are reported.
 
+mod all_faults;
 mod document;
-mod every;
 mod fault;
 mod friction;
 mod measure;
 mod path;
 mod read;
 #[cfg(test)]
-mod refused;
+mod refusal_tests;
 mod section;
 mod settings;
 mod shape;
@@ -26,14 +26,14 @@ use std::path::Path;
 use toml::Table;
 
 pub use fault::Fault;
-pub use measure::{in_si, quantity};
+pub use measure::{convert_to_si, quantity};
 pub use section::Section;
 
 use document::Document;
 
 use super::Scene;
 use super::files::{self, Files, Reach};
-use super::number_files::strict;
+use super::number_files::decode_unicode;
 use crate::error::Error;
 
 impl Scene {
@@ -50,7 +50,7 @@ impl Scene {
         settings: &[String],
         reach: Reach,
     ) -> Result<Self, Error> {
-        let (text, file) = text_of(path.as_ref())?;
+        let (text, file) = read_text(path.as_ref())?;
         Self::from_toml_str_reaching(&text, &file, settings, reach)
     }
 
@@ -66,18 +66,18 @@ impl Scene {
         settings: &[String],
         reach: Reach,
     ) -> Result<Self, Error> {
-        Ok(read_with(text, file, settings, reach, |_, _| Ok(()))?.0)
+        Ok(read_scene_and(text, file, settings, reach, |_, _| Ok(()))?.0)
     }
 }
 
-/// The text of a file in UTF-8 or UTF-16, and its name in errors.
+/// Reads a text file in UTF-8 or UTF-16; returns its text and its name in errors.
 ///
 /// # Errors
 ///
-/// Those of [`read_file`](crate::scene::read_file), and [`Error::File`] where it is no text.
-pub fn text_of(path: &Path) -> Result<(String, String), Error> {
+/// The errors of [`read_file`](crate::scene::read_file), and [`Error::File`] where it is no text.
+pub fn read_text(path: &Path) -> Result<(String, String), Error> {
     let file = path.display().to_string();
-    match strict(files::read(path)?) {
+    match decode_unicode(files::read(path)?) {
         Ok(text) => Ok((text, file)),
         Err(message) => Err(Error::File {
             path: file,
@@ -86,27 +86,27 @@ pub fn text_of(path: &Path) -> Result<(String, String), Error> {
     }
 }
 
-/// Reads and checks a scene, and what else its file says of it: `more` gets the file's root and the
-/// scene.
-pub fn read_with<T>(
+/// Reads and checks a scene and further sections of its file: `read_more` gets the root of the file
+/// and the scene.
+pub fn read_scene_and<T>(
     text: &str,
     file: &str,
     settings: &[String],
     reach: Reach,
-    more: impl Fn(&Section<'_>, &Scene) -> Result<T, Fault>,
+    read_more: impl Fn(&Section<'_>, &Scene) -> Result<T, Fault>,
 ) -> Result<(Scene, T), Error> {
     let document = Document::parse(text, file, settings)?;
     let folder = Path::new(file).parent().unwrap_or_else(|| Path::new(""));
-    let both = |root: &Table| -> Result<_, Fault> {
+    let read_document = |root: &Table| -> Result<_, Fault> {
         let scene = read::scene(root, &Files { folder, reach })?;
         scene.check()?;
         let root = Section::root(root, &read::ROOT)?;
-        let more = more(&root, &scene)?;
-        Ok((scene, more))
+        let extra = read_more(&root, &scene)?;
+        Ok((scene, extra))
     };
-    both(document.root()).map_err(|first| {
-        let read = |root: &Table| both(root).map(|(scene, _)| scene);
-        let (faults, doubts) = every::every(document.root(), first, read);
+    read_document(document.root()).map_err(|first| {
+        let read = |root: &Table| read_document(root).map(|(scene, _)| scene);
+        let (faults, doubts) = all_faults::find_all_faults(document.root(), first, read);
         let mut errors: Vec<_> = faults.iter().map(|fault| document.error(fault)).collect();
         if errors.len() == 1 && doubts.is_empty() {
             return errors.remove(0);

@@ -16,7 +16,7 @@ pub(super) fn path(
     mu: f64,
     width: Option<f64>,
 ) -> Result<LoadPath, Fault> {
-    let own = [
+    let other_keys = [
         "sigma_B",
         "sigma_B1",
         "rolled",
@@ -25,18 +25,18 @@ pub(super) fn path(
         "spacing",
         "path_error",
     ];
-    let keys = [&RigidMotion::names()[..], &own].concat();
+    let keys = [&RigidMotion::names()[..], &other_keys].concat();
     if let Some(Value::Table(_)) = root.get("path") {
-        return measured(root, files);
+        return measured_path(root, files);
     }
     let mut path = LoadPath::start();
-    let (mut at, mut t) = (Loads::default(), 0.0);
+    let (mut current, mut t) = (Loads::default(), 0.0);
     for section in root.sections("path", &keys)? {
-        at = loads(&section, at, mu, width)?;
+        current = loads(&section, current, mu, width)?;
         let t_end = section.number_or("t", t + 1.0, &[])?;
         t = t_end;
-        path = path.branch(Branch {
-            to: at,
+        path = path.push_branch(Branch {
+            to: current,
             increments: branch_increments(&section)?,
             spacing: section.choice(
                 "spacing",
@@ -74,7 +74,7 @@ fn branch_increments(section: &Section<'_>) -> Result<Option<usize>, Fault> {
 fn loads(section: &Section<'_>, at: Loads, mu: f64, width: Option<f64>) -> Result<Loads, Fault> {
     let mut to = at;
     for motion in RigidMotion::ALL {
-        let (load, name) = (motion.load(), motion.name());
+        let (load, name) = (motion.load_name(), motion.name());
         let mu_W = [Measure::mu_W(mu * to.W)];
         let measures = match motion {
             RigidMotion::DeltaX | RigidMotion::DeltaY => &mu_W[..],
@@ -107,33 +107,33 @@ fn loads(section: &Section<'_>, at: Loads, mu: f64, width: Option<f64>) -> Resul
 }
 
 /// A measured history: a table of waypoints in a file.
-fn measured(root: &Section<'_>, files: &Files<'_>) -> Result<LoadPath, Fault> {
-    let section = root.need_section("path", &["file", "increments", "drive"])?;
-    let what = "the name of a file of text";
-    let (key, value) = (section.path("file"), section.need("file", what)?);
+fn measured_path(root: &Section<'_>, files: &Files<'_>) -> Result<LoadPath, Fault> {
+    let section = root.require_section("path", &["file", "increments", "drive"])?;
+    let expected = "the name of a file of text";
+    let (key, value) = (section.path("file"), section.require("file", expected)?);
     let name = value
         .as_str()
-        .ok_or_else(|| Fault::value(&key, value, what))?;
-    let what = "a whole number >= 1, { per_range = number }, or \"auto\"";
+        .ok_or_else(|| Fault::value(&key, value, expected))?;
+    let expected = "a whole number >= 1, { per_range = number }, or \"auto\"";
     let increments = match section.get("increments") {
         None => Increments::Each(1),
         Some(Value::String(auto)) if auto == "auto" => Increments::Chosen,
         Some(Value::Table(_)) => {
-            let auto = section.need_section("increments", &["per_range"])?;
+            let auto = section.require_section("increments", &["per_range"])?;
             Increments::PerRange(auto.count("per_range", 1)?)
         }
         Some(n @ Value::Integer(_)) => Increments::Each(count("path.increments", n, 1)?),
-        Some(other) => return Err(Fault::value("path.increments", other, what)),
+        Some(other) => return Err(Fault::value("path.increments", other, expected)),
     };
     let wrong = |e: &dyn std::fmt::Display| Fault::new(&key, format!("{key}: {e}"));
     let path = files.find(name).map_err(|e| wrong(&e))?;
-    let drive = drive(&section)?;
+    let drive = driving_columns(&section)?;
     LoadPath::from_csv(&path, increments, &drive).map_err(|e| wrong(&e))
 }
 
-/// The columns that drive, where a motion and its load both stand in a file.
-fn drive<'a>(section: &Section<'a>) -> Result<Vec<&'a str>, Fault> {
-    let what = "the name of a column in quotes, or a list of names";
+/// Reads the names of the columns that drive, where a file has both a motion and its load.
+fn driving_columns<'a>(section: &Section<'a>) -> Result<Vec<&'a str>, Fault> {
+    let expected = "the name of a column in quotes, or a list of names";
     let Some(value) = section.get("drive") else {
         return Ok(Vec::new());
     };
@@ -141,5 +141,5 @@ fn drive<'a>(section: &Section<'a>) -> Result<Vec<&'a str>, Fault> {
         Value::Array(names) => names.iter().map(Value::as_str).collect(),
         name => name.as_str().map(|name| vec![name]),
     };
-    names.ok_or_else(|| Fault::value(&section.path("drive"), value, what))
+    names.ok_or_else(|| Fault::value(&section.path("drive"), value, expected))
 }

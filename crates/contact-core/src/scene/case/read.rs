@@ -28,10 +28,10 @@ const BODY: [&str; 7] = [
 /// The whole scene, not yet checked for meaning.
 pub(super) fn scene(table: &Table, files: &Files<'_>) -> Result<Scene, Fault> {
     let root = Section::root(table, &ROOT)?;
-    let what = "1, the version of the scene file";
-    match root.need("schema", what)? {
+    let expected = "1, the version of the scene file";
+    match root.require("schema", expected)? {
         Value::Integer(SCHEMA) => {}
-        other => return Err(Fault::value("schema", other, what)),
+        other => return Err(Fault::value("schema", other, expected)),
     }
     let title = root.get("title").map_or(Ok(""), |value| {
         value
@@ -39,16 +39,16 @@ pub(super) fn scene(table: &Table, files: &Files<'_>) -> Result<Scene, Fault> {
             .ok_or_else(|| Fault::value("title", value, "a text in quotes"))
     })?;
     let bodies = [
-        root.need_section("body1", &BODY)?,
-        root.need_section("body2", &BODY)?,
+        root.require_section("body1", &BODY)?,
+        root.require_section("body2", &BODY)?,
     ];
     let friction = friction(&root, files)?;
     let mu = friction.mu;
-    let (plane_strain, dy) = (plane_strain(&root)?, row(&root)?);
+    let (plane_strain, dy) = (plane_strain(&root)?, strip_width(&root)?);
     let mut scene = Scene {
         title: title.to_owned(),
-        body1: uncoated(&bodies[0], files)?,
-        body2: uncoated(&bodies[1], files)?,
+        body1: uncoated_body(&bodies[0], files)?,
+        body2: uncoated_body(&bodies[1], files)?,
         friction,
         grid: Grid {
             nx: 0,
@@ -67,7 +67,7 @@ pub(super) fn scene(table: &Table, files: &Files<'_>) -> Result<Scene, Fault> {
     scene.body1.check("body1")?;
     scene.body2.check("body2")?;
     scene.friction.check(None)?;
-    scene.path.check(&scene.friction)?;
+    scene.path.check_for_friction(&scene.friction)?;
     scene.check_magnitudes()?;
 
     let hertz = scene.hertz();
@@ -79,13 +79,13 @@ pub(super) fn scene(table: &Table, files: &Files<'_>) -> Result<Scene, Fault> {
     scene.body2.bonds = bonds(&bodies[1])?;
     scene.body1.plastic = plastic(&bodies[0])?;
     scene.body2.plastic = plastic(&bodies[1])?;
-    scene.body1.residual = residual(&bodies[0])?;
-    scene.body2.residual = residual(&bodies[1])?;
+    scene.body1.residual_text = residual(&bodies[0])?;
+    scene.body2.residual_text = residual(&bodies[1])?;
     scene.grid = grid(&root, a_H)?;
     Ok(scene)
 }
 
-fn uncoated(section: &Section<'_>, files: &Files<'_>) -> Result<Body, Fault> {
+fn uncoated_body(section: &Section<'_>, files: &Files<'_>) -> Result<Body, Fault> {
     let rigid = section.get("E").and_then(Value::as_str) == Some("rigid");
     let substrate = if rigid {
         Elastic {
@@ -98,25 +98,26 @@ fn uncoated(section: &Section<'_>, files: &Files<'_>) -> Result<Body, Fault> {
     Ok(Body::homogeneous(substrate, shape(section, files)?))
 }
 
-/// The material of a body or of a layer: by its name in the table, by E and nu, or by both, where a
-/// number of the file stands in place of that of the table.
+/// Reads the material of a body or of a layer: by its name in the table, by E and nu, or by both, where a
+/// number of the file replaces the number of the table.
 fn elastic(section: &Section<'_>, what: &str, moduli: &[Measure]) -> Result<Elastic, Fault> {
     let key = section.path("material");
-    let named = section.get("material").map(|value| {
+    let material = section.get("material").map(|value| {
         let name = value.as_str();
         let name = name.ok_or_else(|| Fault::value(&key, value, "the name of a material"))?;
         in_table(&key, name).map_err(Fault::from)
     });
-    let named = named.transpose()?;
+    let named_material = material.transpose()?;
     let number = |name: &str, what: &str, measures: &[Measure]| {
-        let (given, named) = (section.number_if(name, measures)?, named);
-        let in_table = named.and_then(|of| of.numbers.get(name));
-        match (given.or(in_table.map(|of| of.value)), named) {
+        let (given, named) = (section.number_if(name, measures)?, named_material);
+        let tabulated = named.and_then(|of| of.numbers.get(name));
+        match (given.or(tabulated.map(|of| of.value)), named) {
             (Some(number), _) => Ok(number),
             (None, Some(of)) => {
                 let (key, table) = (section.path(name), &of.name);
-                let told = format!("{key} is missing: the table of materials has none of {table}");
-                Err(Fault::new(key, format!("{told}; it must be {what}")))
+                let message =
+                    format!("{key} is missing: the table of materials has none of {table}");
+                Err(Fault::new(key, format!("{message}; it must be {what}")))
             }
             (None, None) => section.number(name, what, measures),
         }
@@ -138,37 +139,37 @@ const COATING: [&str; 8] = [
     "residual",
 ];
 
-/// How the layers yield, the substrate last; none where all stay elastic.
+/// Reads the yield laws of the layers, the substrate last; none where all stay elastic.
 fn plastic(body: &Section<'_>) -> Result<Vec<Option<Plastic>>, Fault> {
     let law = |section: &Section<'_>| -> Result<Option<Plastic>, Fault> {
         let names = NUMBERS.map(|number| number.name);
-        let Some(given) = section.section("plastic", &names)? else {
+        let Some(numbers) = section.section("plastic", &names)? else {
             return Ok(None);
         };
-        let mut law = Plastic::perfect(given.number("s_y", "a yield stress in Pa", &[])?);
+        let mut law = Plastic::perfect(numbers.number("s_y", "a yield stress in Pa", &[])?);
         for number in &NUMBERS {
-            let Some(value) = given.get(number.name) else {
+            let Some(value) = numbers.get(number.name) else {
                 continue;
             };
-            let (key, room) = (given.path(number.name), (number.of)(&mut law));
-            let one = std::slice::from_ref(value);
-            let values = value.as_array().map_or(one, Vec::as_slice);
+            let (key, slots) = (numbers.path(number.name), (number.of)(&mut law));
+            let single = std::slice::from_ref(value);
+            let values = value.as_array().map_or(single, Vec::as_slice);
             if values.is_empty()
-                || values.len() > room.len()
-                || (room.len() == 1 && value.is_array())
+                || values.len() > slots.len()
+                || (slots.len() == 1 && value.is_array())
             {
-                let what = match room.len() {
+                let expected = match slots.len() {
                     1 => "one number".to_owned(),
                     most => format!("one to {most} numbers, one for each back stress"),
                 };
-                return Err(Fault::value(&key, value, &what));
+                return Err(Fault::value(&key, value, &expected));
             }
             for (n, value) in values.iter().enumerate() {
-                let key = match room.len() {
+                let key = match slots.len() {
                     1 => key.clone(),
                     _ => format!("{key}[{n}]"),
                 };
-                room[n] = measure::number(&key, value, &[])?;
+                slots[n] = measure::number(&key, value, &[])?;
             }
         }
         Ok(Some(law))
@@ -182,17 +183,20 @@ fn plastic(body: &Section<'_>) -> Result<Vec<Option<Plastic>>, Fault> {
 
 /// Residual stress of the layers, the substrate last; none where no layer has any.
 fn residual(body: &Section<'_>) -> Result<Vec<Profile>, Fault> {
-    let of = |section: &Section<'_>| -> Result<Profile, Fault> {
+    let layer_profile = |section: &Section<'_>| -> Result<Profile, Fault> {
         let key = section.path("residual");
         section
             .get("residual")
             .map_or_else(|| Ok(Profile::default()), |value| profile(&key, value))
     };
     let coatings = body.sections("coatings", &COATING)?;
-    let layers = coatings.iter().map(of).chain([of(body)]);
+    let layers = coatings
+        .iter()
+        .map(layer_profile)
+        .chain([layer_profile(body)]);
     let layers = layers.collect::<Result<Vec<_>, Fault>>()?;
-    let none = layers.iter().all(|profile| profile.rows.is_empty());
-    Ok(if none { Vec::new() } else { layers })
+    let stress_free = layers.iter().all(|profile| profile.rows.is_empty());
+    Ok(if stress_free { Vec::new() } else { layers })
 }
 
 /// A stress, or a table of depth and stress.
@@ -207,7 +211,7 @@ fn profile(key: &str, value: &Value) -> Result<Profile, Fault> {
         let row = row.as_array().ok_or_else(wrong)?;
         let number = |column: usize, name: &str| {
             let key = format!("{key}[{n}][{column}]");
-            measure::number_named(&key, name, &row[column], &[])
+            measure::number_of_quantity(&key, name, &row[column], &[])
         };
         match row.len() {
             2 => {
@@ -267,17 +271,17 @@ fn coatings(
 const GRID: [&str; 4] = ["n", "extent", "spacing", "plane_strain"];
 
 fn plane_strain(root: &Section<'_>) -> Result<bool, Fault> {
-    let section = root.need_section("grid", &GRID)?;
+    let section = root.require_section("grid", &GRID)?;
     section.flag_or("plane_strain", false)
 }
 
 /// The length along y of the row of cells in plane strain \[m\], on which a_H depends: 1 m, so that
 /// forces are those per metre, or the second of two lengths.
-fn row(root: &Section<'_>) -> Result<f64, Fault> {
-    let section = root.need_section("grid", &GRID)?;
-    let two =
+fn strip_width(root: &Section<'_>) -> Result<f64, Fault> {
+    let section = root.require_section("grid", &GRID)?;
+    let second_lengths =
         ["extent", "spacing"].map(|name| Some((name, section.get(name)?.as_array()?.get(1)?)));
-    match two.into_iter().flatten().next() {
+    match second_lengths.into_iter().flatten().next() {
         Some((name, along_y)) if plane_strain(root)? => {
             measure::number(&format!("{}[1]", section.path(name)), along_y, &[])
         }
@@ -287,9 +291,9 @@ fn row(root: &Section<'_>) -> Result<f64, Fault> {
 
 /// Cells by number, and either the extent of the grid or the size of a cell.
 fn grid(root: &Section<'_>, a_H: Measure) -> Result<Grid, Fault> {
-    let section = root.need_section("grid", &GRID)?;
+    let section = root.require_section("grid", &GRID)?;
     let plane_strain = plane_strain(root)?;
-    let n = section.need("n", "the number of cells, or two along x and y")?;
+    let n = section.require("n", "the number of cells, or two along x and y")?;
     let n = match n {
         Value::Integer(_) if plane_strain => (count("grid.n", n, 1)?, 1),
         n => pair(&section.path("n"), n, |key, value| count(key, value, 1))?,
@@ -303,10 +307,10 @@ fn grid(root: &Section<'_>, a_H: Measure) -> Result<Grid, Fault> {
         }
     };
     let lengths = |name: &str| {
-        let value = section.need(name, "a length in m, or two along x and y")?;
+        let value = section.require(name, "a length in m, or two along x and y")?;
         // One length in plane strain: forces are reckoned per metre.
         if plane_strain && !value.is_array() {
-            return Ok((length(&section.path(name), value)?, row(root)?));
+            return Ok((length(&section.path(name), value)?, strip_width(root)?));
         }
         pair(&section.path(name), value, length)
     };

@@ -75,14 +75,14 @@ impl<'a> Section<'a> {
     }
 
     /// The entry, which must be there.
-    pub(crate) fn need(&self, name: &str, what: &str) -> Result<&'a Value, Fault> {
+    pub(crate) fn require(&self, name: &str, what: &str) -> Result<&'a Value, Fault> {
         self.get(name).ok_or_else(|| {
             let key = self.path(name);
             Fault::new(&key, format!("{key} is missing: it must be {what}"))
         })
     }
 
-    /// A table inside; the empty one where it is missing.
+    /// A table inside; none where it is missing.
     pub fn section(&self, name: &str, allowed: &[&str]) -> Result<Option<Self>, Fault> {
         self.get(name)
             .map(|value| Self::from_value(self.path(name), value, allowed))
@@ -90,8 +90,8 @@ impl<'a> Section<'a> {
     }
 
     /// A table inside, which must be there.
-    pub fn need_section(&self, name: &str, allowed: &[&str]) -> Result<Self, Fault> {
-        let value = self.need(name, &format!("a table of {}", allowed.join(", ")))?;
+    pub fn require_section(&self, name: &str, allowed: &[&str]) -> Result<Self, Fault> {
+        let value = self.require(name, &format!("a table of {}", allowed.join(", ")))?;
         Self::from_value(self.path(name), value, allowed)
     }
 
@@ -112,7 +112,7 @@ impl<'a> Section<'a> {
 
     /// A list of pairs of numbers.
     pub fn pairs(&self, name: &str, what: &str) -> Result<Vec<(f64, f64)>, Fault> {
-        let (key, value) = (self.path(name), self.need(name, what)?);
+        let (key, value) = (self.path(name), self.require(name, what)?);
         let wrong = || Fault::value(&key, value, what);
         let table = value.as_array().ok_or_else(wrong)?;
         let pairs = table.iter().map(|row| {
@@ -126,12 +126,12 @@ impl<'a> Section<'a> {
         pairs.collect()
     }
 
-    /// A number that has to be there, in one of its measures; `what` says what it is.
+    /// A number that must be there, in one of its measures; `what` describes it in the error.
     pub fn number(&self, name: &str, what: &str, measures: &[Measure]) -> Result<f64, Fault> {
-        measure::number(&self.path(name), self.need(name, what)?, measures)
+        measure::number(&self.path(name), self.require(name, what)?, measures)
     }
 
-    /// A number, or what it is where it is left out.
+    /// A number, or its default where it is left out.
     pub fn number_or(&self, name: &str, default: f64, measures: &[Measure]) -> Result<f64, Fault> {
         Ok(self.number_if(name, measures)?.unwrap_or(default))
     }
@@ -144,8 +144,8 @@ impl<'a> Section<'a> {
 
     /// A whole number of at least `least`.
     pub fn count(&self, name: &str, least: i64) -> Result<usize, Fault> {
-        let what = format!("a whole number >= {least}");
-        count(&self.path(name), self.need(name, &what)?, least)
+        let expected = format!("a whole number >= {least}");
+        count(&self.path(name), self.require(name, &expected)?, least)
     }
 
     pub(crate) fn count_or(&self, name: &str, least: i64, default: usize) -> Result<usize, Fault> {
@@ -161,7 +161,7 @@ impl<'a> Section<'a> {
         })
     }
 
-    /// One of several words; the first stands for a missing key.
+    /// Reads one of several words; the first is the default.
     pub fn choice<T: Copy>(&self, name: &str, choices: &[(&str, T)]) -> Result<T, Fault> {
         let Some(value) = self.get(name) else {
             return Ok(choices[0].1);
@@ -176,7 +176,7 @@ impl<'a> Section<'a> {
     }
 }
 
-/// The name that is nearest to one that is unknown.
+/// The allowed name that is nearest to an unknown one.
 fn nearest(unknown: &str, allowed: &[&str]) -> Option<String> {
     let distance = |name: &&&str| strsim::damerau_levenshtein(unknown, name);
     allowed

@@ -12,8 +12,8 @@ use crate::scene::{
     SolverSettings,
 };
 
-/// Where a key stands among the settings `T` of its section.
-enum Place<T> {
+/// Access to the value of a key among the settings `T` of its section.
+enum Access<T> {
     Flag(fn(&mut T) -> &mut bool),
     /// A whole number from 1.
     Count(fn(&mut T) -> &mut usize),
@@ -27,43 +27,55 @@ enum Place<T> {
 }
 
 /// The keys of a section.
-type Keys<T> = [(&'static str, Place<T>)];
+type Keys<T> = [(&'static str, Access<T>)];
 
 const KERNEL: &Keys<KernelSettings> = &[
-    ("method", Place::Kernel(|k| &mut k.method)),
-    ("tolerance", Place::Number(|k| &mut k.tolerance)),
+    ("method", Access::Kernel(|k| &mut k.method)),
+    ("tolerance", Access::Number(|k| &mut k.tolerance)),
 ];
 const SOLVER: &Keys<SolverSettings> = &[
-    ("preset", Place::Preset(|s| &mut s.preset)),
-    ("tolerance", Place::Open(|s| &mut s.tolerance)),
-    ("entering", Place::Flag(|s| &mut s.entering)),
-    ("turning", Place::Flag(|s| &mut s.turning)),
-    ("path_tolerance", Place::Number(|s| &mut s.path_tolerance)),
-    ("path_grid", Place::PathGrid(|s| &mut s.path_grid)),
+    ("preset", Access::Preset(|s| &mut s.preset)),
+    ("tolerance", Access::Open(|s| &mut s.tolerance)),
+    (
+        "cell_entry_correction",
+        Access::Flag(|s| &mut s.cell_entry_correction),
+    ),
+    (
+        "slip_rotation_correction",
+        Access::Flag(|s| &mut s.slip_rotation_correction),
+    ),
+    ("path_tolerance", Access::Number(|s| &mut s.path_tolerance)),
+    ("path_grid", Access::PathGrid(|s| &mut s.path_grid)),
     (
         "max_alternations",
-        Place::Count(|s| &mut s.max_alternations),
+        Access::Count(|s| &mut s.max_alternations),
     ),
-    ("max_iterations", Place::Count(|s| &mut s.max_iterations)),
+    ("max_iterations", Access::Count(|s| &mut s.max_iterations)),
 ];
 const SKIP: &Keys<SkipSettings> = &[
-    ("equal_layers", Place::Flag(|s| &mut s.equal_layers)),
-    ("coupling", Place::Flag(|s| &mut s.coupling)),
-    ("mirror", Place::Flag(|s| &mut s.mirror)),
-    ("digits", Place::Flag(|s| &mut s.digits)),
-    ("far", Place::Flag(|s| &mut s.far)),
-    ("path", Place::Flag(|s| &mut s.path)),
+    ("equal_layers", Access::Flag(|s| &mut s.equal_layers)),
+    ("coupling", Access::Flag(|s| &mut s.coupling)),
+    ("mirror", Access::Flag(|s| &mut s.mirror)),
+    (
+        "single_precision",
+        Access::Flag(|s| &mut s.single_precision),
+    ),
+    ("contact_window", Access::Flag(|s| &mut s.contact_window)),
+    (
+        "path_independent_branches",
+        Access::Flag(|s| &mut s.path_independent_branches),
+    ),
 ];
-const OUTPUT: &Keys<SaveFields> = &[("save", Place::Save(|s| s))];
+const OUTPUT: &Keys<SaveFields> = &[("save", Access::Save(|s| s))];
 /// The words of the presets.
 const PRESETS: [(&str, Preset); 2] = [("fast", Preset::Fast), ("spinu2020", Preset::Spinu2020)];
 
 pub(super) fn settings(root: &Section<'_>) -> Result<Settings, Fault> {
     let mut settings = Settings::default();
-    read(root, "kernel", KERNEL, &mut settings.kernel)?;
-    read(root, "solver", SOLVER, &mut settings.solver)?;
-    read(root, "skip", SKIP, &mut settings.skip)?;
-    read(root, "output", OUTPUT, &mut settings.save)?;
+    read_section(root, "kernel", KERNEL, &mut settings.kernel)?;
+    read_section(root, "solver", SOLVER, &mut settings.solver)?;
+    read_section(root, "skip", SKIP, &mut settings.skip)?;
+    read_section(root, "output", OUTPUT, &mut settings.save)?;
     Ok(settings)
 }
 
@@ -79,63 +91,68 @@ impl Settings {
 
     /// The tables of a scene file, every key in full.
     pub fn to_table(&self) -> Table {
-        toml::from_str(&text(self)).unwrap_or_default()
+        toml::from_str(&to_text(self)).unwrap_or_default()
     }
 }
 
 /// The sections of the settings, every key in full.
-pub(super) fn text(settings: &Settings) -> String {
+pub(super) fn to_text(settings: &Settings) -> String {
     let mut settings = settings.clone();
-    let mut text = String::new();
-    write(&mut text, "kernel", KERNEL, &mut settings.kernel);
-    write(&mut text, "solver", SOLVER, &mut settings.solver);
-    write(&mut text, "skip", SKIP, &mut settings.skip);
-    write(&mut text, "output", OUTPUT, &mut settings.save);
-    text
+    let mut to_text = String::new();
+    write_section(&mut to_text, "kernel", KERNEL, &mut settings.kernel);
+    write_section(&mut to_text, "solver", SOLVER, &mut settings.solver);
+    write_section(&mut to_text, "skip", SKIP, &mut settings.skip);
+    write_section(&mut to_text, "output", OUTPUT, &mut settings.save);
+    to_text
 }
 
 /// Reads a section; keys that are missing stay as they are.
-fn read<T>(root: &Section<'_>, name: &str, keys: &Keys<T>, into: &mut T) -> Result<(), Fault> {
+fn read_section<T>(
+    root: &Section<'_>,
+    name: &str,
+    keys: &Keys<T>,
+    into: &mut T,
+) -> Result<(), Fault> {
     let names: Vec<_> = keys.iter().map(|(key, _)| *key).collect();
     let Some(section) = root.section(name, &names)? else {
         return Ok(());
     };
-    for (key, place) in keys {
-        match place {
-            Place::Flag(of) => *of(into) = section.flag_or(key, *of(into))?,
-            Place::Count(of) => *of(into) = section.count_or(key, 1, *of(into))?,
-            Place::Number(of) => *of(into) = section.number_or(key, *of(into), &[])?,
-            Place::Open(of) => *of(into) = section.number_if(key, &[])?.or(*of(into)),
-            Place::Preset(of) => *of(into) = section.choice(key, &PRESETS)?,
-            Place::PathGrid(of) => *of(into) = path_grid(&section)?,
-            Place::Kernel(of) => *of(into) = kernel_method(&section)?,
-            Place::Save(of) => *of(into) = save(&section)?,
+    for (key, access) in keys {
+        match access {
+            Access::Flag(of) => *of(into) = section.flag_or(key, *of(into))?,
+            Access::Count(of) => *of(into) = section.count_or(key, 1, *of(into))?,
+            Access::Number(of) => *of(into) = section.number_or(key, *of(into), &[])?,
+            Access::Open(of) => *of(into) = section.number_if(key, &[])?.or(*of(into)),
+            Access::Preset(of) => *of(into) = section.choice(key, &PRESETS)?,
+            Access::PathGrid(of) => *of(into) = path_grid(&section)?,
+            Access::Kernel(of) => *of(into) = kernel_method(&section)?,
+            Access::Save(of) => *of(into) = save_fields(&section)?,
         }
     }
     Ok(())
 }
 
-fn write<T>(text: &mut String, name: &str, keys: &Keys<T>, from: &mut T) {
+fn write_section<T>(text: &mut String, name: &str, keys: &Keys<T>, from: &mut T) {
     // Writing to a text cannot fail.
     let _ = writeln!(text, "\n[{name}]");
-    for (key, place) in keys {
-        let value = match place {
-            Place::Flag(of) => Some(of(from).to_string()),
-            Place::Count(of) => Some(of(from).to_string()),
-            Place::Number(of) => Some(format!("{:?}", of(from))),
-            Place::Open(of) => of(from).map(|number| format!("{number:?}")),
-            Place::Preset(of) => {
+    for (key, access) in keys {
+        let value = match access {
+            Access::Flag(of) => Some(of(from).to_string()),
+            Access::Count(of) => Some(of(from).to_string()),
+            Access::Number(of) => Some(format!("{:?}", of(from))),
+            Access::Open(of) => of(from).map(|number| format!("{number:?}")),
+            Access::Preset(of) => {
                 let preset = *of(from);
                 let word = PRESETS.iter().find(|(_, of)| *of == preset);
                 word.map(|(word, _)| format!("\"{word}\""))
             }
-            Place::PathGrid(of) => Some(match *of(from) {
+            Access::PathGrid(of) => Some(match *of(from) {
                 PathGrid::Auto => "\"auto\"".to_owned(),
                 PathGrid::Same => "\"same\"".to_owned(),
                 PathGrid::Cells(cells) => cells.to_string(),
             }),
-            Place::Kernel(of) => Some(kernel_text(*of(from))),
-            Place::Save(of) => Some(save_text(of(from))),
+            Access::Kernel(of) => Some(kernel_text(*of(from))),
+            Access::Save(of) => Some(save_text(of(from))),
         };
         if let Some(value) = value {
             let _ = writeln!(text, "{key} = {value}");
@@ -150,21 +167,21 @@ fn path_grid(solver: &Section<'_>) -> Result<PathGrid, Fault> {
         Some(Value::String(word)) if word == "same" => Ok(PathGrid::Same),
         Some(Value::Integer(_)) => Ok(PathGrid::Cells(solver.count_or("path_grid", 1, 1)?)),
         Some(other) => {
-            let what = "\"auto\", \"same\", or a half or a quarter of the cells along x";
-            Err(Fault::value(&solver.path("path_grid"), other, what))
+            let expected = "\"auto\", \"same\", or a half or a quarter of the cells along x";
+            Err(Fault::value(&solver.path("path_grid"), other, expected))
         }
     }
 }
 
 fn kernel_method(kernel: &Section<'_>) -> Result<KernelMethod, Fault> {
-    let what = "\"hankel\", { inverse_fft = { lambda = 8, aliases = 0 } } or \
+    let expected = "\"hankel\", { inverse_fft = { lambda = 8, aliases = 0 } } or \
                 { frequency_domain = { lambda = 8 } }";
     let key = kernel.path("method");
     let value = match kernel.get("method") {
         None => return Ok(KernelSettings::default().method),
         Some(Value::String(word)) if word == "hankel" => return Ok(KernelMethod::Hankel),
         Some(table @ Value::Table(inner)) if inner.len() == 1 => table,
-        Some(other) => return Err(Fault::value(&key, other, what)),
+        Some(other) => return Err(Fault::value(&key, other, expected)),
     };
     let method = Section::from_value(key, value, &["inverse_fft", "frequency_domain"])?;
     if let Some(section) = method.section("inverse_fft", &["lambda", "aliases"])? {
@@ -173,14 +190,14 @@ fn kernel_method(kernel: &Section<'_>) -> Result<KernelMethod, Fault> {
             aliases: section.count_or("aliases", 0, 0)?,
         });
     }
-    let section = method.need_section("frequency_domain", &["lambda"])?;
+    let section = method.require_section("frequency_domain", &["lambda"])?;
     Ok(KernelMethod::FrequencyDomain {
         lambda: section.count_or("lambda", 1, 8)?,
     })
 }
 
-fn save(output: &Section<'_>) -> Result<SaveFields, Fault> {
-    let what = "\"branches\", \"all\" or a list of increments, counted from 1";
+fn save_fields(output: &Section<'_>) -> Result<SaveFields, Fault> {
+    let expected = "\"branches\", \"all\" or a list of increments, counted from 1";
     let key = output.path("save");
     match output.get("save") {
         None => Ok(SaveFields::default()),
@@ -192,7 +209,7 @@ fn save(output: &Section<'_>) -> Result<SaveFields, Fault> {
             .map(|(i, item)| count(&format!("{key}[{i}]"), item, 1))
             .collect::<Result<_, _>>()
             .map(SaveFields::Indices),
-        Some(other) => Err(Fault::value(&key, other, what)),
+        Some(other) => Err(Fault::value(&key, other, expected)),
     }
 }
 

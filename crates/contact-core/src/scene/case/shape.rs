@@ -22,21 +22,26 @@ const SHAPES: [&str; 11] = [
     "sum",
 ];
 
-/// The shape of a body; `files` are those that it may name.
+/// Reads the shape of a body; `files` are the files that the scene may read.
 pub(super) fn shape(body: &Section<'_>, files: &Files<'_>) -> Result<Shape, Fault> {
-    let what = "\"flat\" or a table such as { sphere = { R = radius in m } }";
-    let value = body.need("shape", what)?;
-    any(&body.path("shape"), value, files, what)
+    let expected = "\"flat\" or a table such as { sphere = { R = radius in m } }";
+    let value = body.require("shape", expected)?;
+    shape_from_value(&body.path("shape"), value, files, expected)
 }
 
-fn any(key: &str, value: &Value, files: &Files<'_>, what: &str) -> Result<Shape, Fault> {
+fn shape_from_value(
+    key: &str,
+    value: &Value,
+    files: &Files<'_>,
+    what: &str,
+) -> Result<Shape, Fault> {
     match value {
         Value::String(word) if word == "flat" => Ok(Shape::Flat),
         Value::Table(table) if !table.is_empty() => {
             let shapes = Section::from_value(key.to_owned(), value, &SHAPES)?;
             let mut parts = Vec::with_capacity(table.len());
             for name in table.keys() {
-                parts.push(one(&shapes, name, files)?);
+                parts.push(named_shape(&shapes, name, files)?);
             }
             // One part stands for itself.
             Ok(if parts.len() == 1 {
@@ -50,8 +55,8 @@ fn any(key: &str, value: &Value, files: &Files<'_>, what: &str) -> Result<Shape,
 }
 
 /// The shape under one key of the table.
-fn one(shapes: &Section<'_>, name: &str, files: &Files<'_>) -> Result<Shape, Fault> {
-    let numbers = |keys: &[&str]| shapes.need_section(name, keys);
+fn named_shape(shapes: &Section<'_>, name: &str, files: &Files<'_>) -> Result<Shape, Fault> {
+    let numbers = |keys: &[&str]| shapes.require_section(name, keys);
     let length = "a length in m";
     let slope = "the slope of the flank";
     Ok(match name {
@@ -124,31 +129,31 @@ fn one(shapes: &Section<'_>, name: &str, files: &Files<'_>) -> Result<Shape, Fau
             })
         }
         "height_map" => Shape::HeightMap(surface_map(&numbers(&MAP)?, files)?),
-        _ => sum(shapes, files)?,
+        _ => sum_of_shapes(shapes, files)?,
     })
 }
 
-fn sum(shapes: &Section<'_>, files: &Files<'_>) -> Result<Shape, Fault> {
-    let what = "a list of shapes";
-    let (key, value) = (shapes.path("sum"), shapes.need("sum", what)?);
+fn sum_of_shapes(shapes: &Section<'_>, files: &Files<'_>) -> Result<Shape, Fault> {
+    let expected = "a list of shapes";
+    let (key, value) = (shapes.path("sum"), shapes.require("sum", expected)?);
     let parts = value
         .as_array()
-        .ok_or_else(|| Fault::value(&key, value, what))?;
+        .ok_or_else(|| Fault::value(&key, value, expected))?;
     let parts = parts.iter().enumerate();
     parts
-        .map(|(i, part)| any(&format!("{key}[{i}]"), part, files, "a shape"))
+        .map(|(i, part)| shape_from_value(&format!("{key}[{i}]"), part, files, "a shape"))
         .collect::<Result<_, _>>()
         .map(Shape::Sum)
 }
 
-/// What becomes of points of a file without a number.
-fn missing(section: &Section<'_>) -> Result<Missing, Fault> {
+/// Reads the treatment of points of a file without a number.
+fn missing_points(section: &Section<'_>) -> Result<Missing, Fault> {
     let Some(value) = section.get("missing") else {
         return Ok(Missing::default());
     };
-    let what = "\"refuse\", \"crop\" or \"fill\"";
-    let word = value.as_str().and_then(Missing::named);
-    word.ok_or_else(|| Fault::value(&section.path("missing"), value, what))
+    let expected = "\"refuse\", \"crop\" or \"fill\"";
+    let word = value.as_str().and_then(Missing::from_word);
+    word.ok_or_else(|| Fault::value(&section.path("missing"), value, expected))
 }
 
 /// The keys of numbers over the plane.
@@ -158,21 +163,21 @@ pub(super) const MAP: [&str; 7] = [
 
 /// Numbers from a file, or in the scene itself: a list along x of lists along y.
 pub(super) fn surface_map(section: &Section<'_>, files: &Files<'_>) -> Result<SurfaceMap, Fault> {
-    let what = "the distance of the points in m, or two";
+    let expected = "the distance of the points in m, or two";
     let spacing = |value| {
         pair(&section.path("spacing"), value, |key, value| {
             super::measure::number(key, value, &[])
         })
     };
     if section.get("z").is_some() {
-        return inline(section, spacing(section.need("spacing", what)?)?);
+        return inline_map(section, spacing(section.require("spacing", expected)?)?);
     }
-    let what = "the name of a .npy file or a text of numbers";
-    let file = section.need("file", what)?;
+    let expected = "the name of a .npy file or a text of numbers";
+    let file = section.require("file", expected)?;
     let key = section.path("file");
     let name = file
         .as_str()
-        .ok_or_else(|| Fault::value(&key, file, what))?;
+        .ok_or_else(|| Fault::value(&key, file, expected))?;
     let word = |key: &str, what: &str| match section.get(key) {
         None => Ok(None),
         Some(Value::String(word)) => Ok(Some(word.clone())),
@@ -182,7 +187,7 @@ pub(super) fn surface_map(section: &Section<'_>, files: &Files<'_>) -> Result<Su
         spacing: section.get("spacing").map(spacing).transpose()?,
         unit: word("unit", "a unit of length in quotes, such as \"um\"")?,
         channel: word("channel", "the name of a column or channel in quotes")?,
-        missing: missing(section)?,
+        missing: missing_points(section)?,
     };
     let wrong = |e: &dyn std::fmt::Display| Fault::new(&key, format!("{key}: {e}"));
     let path = files.find(name).map_err(|e| wrong(&e))?;
@@ -190,18 +195,18 @@ pub(super) fn surface_map(section: &Section<'_>, files: &Files<'_>) -> Result<Su
 }
 
 /// Numbers in the scene itself.
-fn inline(section: &Section<'_>, spacing: (f64, f64)) -> Result<SurfaceMap, Fault> {
-    let of_files = ["file", "unit", "channel"];
-    if let Some(key) = of_files.into_iter().find(|key| section.get(key).is_some()) {
+fn inline_map(section: &Section<'_>, spacing: (f64, f64)) -> Result<SurfaceMap, Fault> {
+    let file_keys = ["file", "unit", "channel"];
+    if let Some(key) = file_keys.into_iter().find(|key| section.get(key).is_some()) {
         let key = section.path(key);
         return Err(Fault::new(
             &key,
             format!("{key}: must be left out where z has the numbers, in SI units"),
         ));
     }
-    let what = "a list along x of lists along y of numbers, all of one length";
-    let (key, value) = (section.path("z"), section.need("z", what)?);
-    let wrong = || Fault::new(&key, format!("{key}: must be {what}"));
+    let expected = "a list along x of lists along y of numbers, all of one length";
+    let (key, value) = (section.path("z"), section.require("z", expected)?);
+    let wrong = || Fault::new(&key, format!("{key}: must be {expected}"));
     let rows = value.as_array().ok_or_else(wrong)?;
     let mut heights = Vec::new();
     for row in rows {
@@ -211,7 +216,7 @@ fn inline(section: &Section<'_>, spacing: (f64, f64)) -> Result<SurfaceMap, Faul
     }
     let shape = (rows.len(), heights.len() / rows.len().max(1));
     let values = Array2::from_shape_vec(shape, heights).map_err(|_| wrong())?;
-    let missing = missing(section)?;
+    let missing = missing_points(section)?;
     let mut map = SurfaceMap::new(values, spacing, missing)
         .map_err(|e| Fault::new(&key, format!("{key}: {e}")))?;
     map.filled += section.count_or("filled", 0, 0)?;
@@ -219,11 +224,11 @@ fn inline(section: &Section<'_>, spacing: (f64, f64)) -> Result<SurfaceMap, Faul
 }
 
 /// The shape as a value of a scene file, every number in full.
-pub(super) fn text(shape: &Shape) -> String {
+pub(super) fn to_text(shape: &Shape) -> String {
     let fields = match shape {
         Shape::Flat => return "\"flat\"".to_owned(),
         Shape::Sum(parts) => {
-            let parts: Vec<_> = parts.iter().map(text).collect();
+            let parts: Vec<_> = parts.iter().map(to_text).collect();
             return format!("{{ sum = [{}] }}", parts.join(", "));
         }
         Shape::HeightMap(map) => map_text(map),
@@ -240,7 +245,7 @@ pub(super) fn text(shape: &Shape) -> String {
             numbers.collect::<Vec<_>>().join(", ")
         }
     };
-    format!("{{ {} = {{ {fields} }} }}", shape.word())
+    format!("{{ {} = {{ {fields} }} }}", shape.name())
 }
 
 /// The entries of a surface map.

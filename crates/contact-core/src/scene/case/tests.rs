@@ -40,25 +40,25 @@ T_x = { mu_W = 0.9 }
 increments = 10
 "#;
 
-pub(super) fn set(settings: &[&str]) -> Result<Scene, Error> {
+pub(super) fn with_settings(settings: &[&str]) -> Result<Scene, Error> {
     let settings: Vec<_> = settings.iter().map(|&s| s.to_owned()).collect();
     Scene::from_toml_str(GOOD, FILE, &settings)
 }
 
 /// The good scene with one line changed.
-pub(super) fn changed(from: &str, to: &str) -> Result<Scene, Error> {
+pub(super) fn with_change(from: &str, to: &str) -> Result<Scene, Error> {
     assert!(GOOD.contains(from), "{from}");
     Scene::from_toml_str(&GOOD.replacen(from, to, 1), FILE, &[])
 }
 
-pub(super) fn complaint(result: Result<Scene, Error>) -> String {
+pub(super) fn error_text(result: Result<Scene, Error>) -> String {
     result.unwrap_err().to_string()
 }
 
 /// The complaint is one line that starts with the file and the line and holds all the parts.
 #[track_caller]
 pub(super) fn assert_refused(result: Result<Scene, Error>, line: usize, parts: &[&str]) {
-    let text = complaint(result);
+    let text = error_text(result);
     let prefix = format!("scene.toml:{line}: ");
     assert!(text.starts_with(&prefix), "{text:?} is not at line {line}");
     assert_eq!(text.lines().count(), 1, "{text}");
@@ -69,7 +69,7 @@ pub(super) fn assert_refused(result: Result<Scene, Error>, line: usize, parts: &
 
 #[test]
 fn measures_become_si() {
-    let scene = set(&[]).unwrap();
+    let scene = with_settings(&[]).unwrap();
     let hertz = scene.hertz().unwrap();
     let coating = scene.body2.coatings[0];
     assert_eq!(coating.material.E, 420e9);
@@ -83,23 +83,23 @@ fn measures_become_si() {
 
 #[test]
 fn a_star_stands_for_every_element_of_a_list() {
-    let scene = set(&["path.*.W=500", "body2.coatings[*].nu=0.25"]).unwrap();
+    let scene = with_settings(&["path.*.W=500", "body2.coatings[*].nu=0.25"]).unwrap();
     assert!(scene.path.branches.iter().all(|b| b.to.W == 500.0));
     assert_eq!(scene.body2.coatings[0].material.nu, 0.25);
-    for (setting, told) in [
+    for (setting, part) in [
         ("grid.*.n=3", "setting grid.*.n=3: grid is no list"),
         ("pat.*.W=3", "pat is no list"),
         ("path.*.W=-1", "path.*.W=-1"),
         ("path.*.X=1", "path.*.X=1"),
     ] {
-        let text = complaint(set(&[setting]));
-        assert!(text.contains(told), "{text}");
+        let text = error_text(with_settings(&[setting]));
+        assert!(text.contains(part), "{text}");
     }
 }
 
 #[test]
 fn settings_change_the_scene() {
-    let scene = set(&[
+    let scene = with_settings(&[
         "friction.mu=0.5",
         "body2.coatings.0.E.E_substrate=4",
         "body2.coatings[0].thickness = 1e-3",
@@ -130,15 +130,16 @@ fn settings_change_the_scene() {
 
 #[test]
 fn a_setting_may_change_the_measure() {
-    let by_stress = set(&["body2.coatings.0.E.p_H=100"]).unwrap();
-    let p_H = by_stress.hertz().unwrap().p0;
-    assert_eq!(by_stress.body2.coatings[0].material.E, 100.0 * p_H);
-    let from_number = set(&["path.0.W=500", "path.1.T_x=10", "path.1.T_x.mu_W=0.5"]).unwrap();
+    let scene_by_stress = with_settings(&["body2.coatings.0.E.p_H=100"]).unwrap();
+    let p_H = scene_by_stress.hertz().unwrap().p0;
+    assert_eq!(scene_by_stress.body2.coatings[0].material.E, 100.0 * p_H);
+    let from_number =
+        with_settings(&["path.0.W=500", "path.1.T_x=10", "path.1.T_x.mu_W=0.5"]).unwrap();
     assert_eq!(from_number.path.branches[1].to.T_x, 0.5 * (0.3 * 500.0));
 }
 
 #[test]
-fn a_line_contact_has_its_yardstick() {
+fn a_line_contact_has_a_hertz_half_width() {
     let line = GOOD
         .replace("sphere", "cylinder")
         .replace("n = 32", "n = 32\nplane_strain = true");
@@ -163,7 +164,7 @@ fn a_line_contact_has_its_yardstick() {
 
 #[test]
 fn a_scene_written_reads_back_equal() {
-    let mut scene = set(&["body1.E=rigid", "body1.nu=0.0", "grid.n=[33, 47]"]).unwrap();
+    let mut scene = with_settings(&["body1.E=rigid", "body1.nu=0.0", "grid.n=[33, 47]"]).unwrap();
     let read = |scene: &Scene| Scene::from_toml_str(&scene.to_toml(), FILE, &[]).unwrap();
     assert_eq!(read(&scene), scene);
     scene.title = "two\nlines, a \u{1} and \\ \"quotes\" '''".into();
@@ -186,7 +187,7 @@ fn a_scene_written_reads_back_equal() {
     assert_eq!(read(&scene), scene);
 }
 
-/// The scenes of the repository are what their names say.
+/// Reads the scenes of the repository and checks their main numbers.
 #[test]
 fn the_scenes_of_the_repository_are_good() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
@@ -217,14 +218,14 @@ fn the_scenes_of_the_repository_are_good() {
         (1.0, T),
     ];
     assert_eq!(ends, figure_4);
-    let soft = ["body2.coatings.0.E.E_substrate=0.5".to_owned()];
-    let soft = Scene::from_file(folder.join("coated_fretting.toml"), &soft).unwrap();
-    assert_eq!(soft.body2.coatings[0].material.E, 105e9);
+    let settings = ["body2.coatings.0.E.E_substrate=0.5".to_owned()];
+    let scene = Scene::from_file(folder.join("coated_fretting.toml"), &settings).unwrap();
+    assert_eq!(scene.body2.coatings[0].material.E, 105e9);
 }
 
 #[test]
 fn a_missing_file_is_named() {
-    let text = complaint(Scene::from_file("no/such/scene.toml", &[]));
+    let text = error_text(Scene::from_file("no/such/scene.toml", &[]));
     assert!(text.starts_with("no/such/scene.toml: "), "{text}");
 }
 
@@ -256,8 +257,8 @@ fn hostile_text_is_survived() {
         let settings = &settings[..usize::from(random(8) == 0)];
         match Scene::from_toml_str(&text, FILE, settings) {
             Ok(scene) => {
-                let again = Scene::from_toml_str(&scene.to_toml(), FILE, &[]).unwrap();
-                assert_eq!(again, scene);
+                let reread = Scene::from_toml_str(&scene.to_toml(), FILE, &[]).unwrap();
+                assert_eq!(reread, scene);
                 good += 1;
             }
             Err(error) => {
@@ -275,7 +276,7 @@ fn hostile_text_is_survived() {
 
 #[test]
 fn a_branch_gives_loads_or_motions() {
-    let scene = changed("T_x = { mu_W = 0.9 }", "delta_x = 1e-6\nM_z = 0.5").unwrap();
+    let scene = with_change("T_x = { mu_W = 0.9 }", "delta_x = 1e-6\nM_z = 0.5").unwrap();
     let to = scene.path.branches[1].to;
     assert_eq!(
         to.given.motions(),
@@ -288,9 +289,13 @@ fn a_branch_gives_loads_or_motions() {
     );
     let points = scene.path.points();
     assert!(points[10].loads.T_x.is_nan() && points[19].loads.M_z.to_bits() == 0.5_f64.to_bits());
-    let both = changed("T_x = { mu_W = 0.9 }", "T_x = 10.0\ndelta_x = 1e-6");
-    assert_refused(both, 33, &["path[1].T_x", "path[1].delta_x", "both given"]);
-    let lifted = changed("T_x = { mu_W = 0.9 }", "W = 0.0\nM_y = 0.5");
+    let both_given = with_change("T_x = { mu_W = 0.9 }", "T_x = 10.0\ndelta_x = 1e-6");
+    assert_refused(
+        both_given,
+        33,
+        &["path[1].T_x", "path[1].delta_x", "both given"],
+    );
+    let lifted = with_change("T_x = { mu_W = 0.9 }", "W = 0.0\nM_y = 0.5");
     assert_refused(lifted, 33, &["path[1].M_y = 0.5", "W = 0"]);
 }
 
@@ -300,12 +305,16 @@ fn a_material_has_the_numbers_of_its_name() {
     let nitride = Elastic::named("TiN").unwrap();
     let numbers =
         "E = 210e9\nnu = 0.3\n\n[[body2.coatings]]\nE = { E_substrate = 2.0 }\nnu = 0.3\n";
-    let named = "material = \"Ti-6Al-4V\"\n\n[[body2.coatings]]\nmaterial = \"tin\"\n";
-    let scene = changed(numbers, named).unwrap();
+    let by_name = "material = \"Ti-6Al-4V\"\n\n[[body2.coatings]]\nmaterial = \"tin\"\n";
+    let scene = with_change(numbers, by_name).unwrap();
     assert_eq!(scene.body2.substrate, titanium);
     assert_eq!(scene.body2.coatings[0].material, nitride);
     assert_eq!(
-        set(&["body1.material=Ti64"]).unwrap().body1.substrate.E,
+        with_settings(&["body1.material=Ti64"])
+            .unwrap()
+            .body1
+            .substrate
+            .E,
         210e9
     );
     // The file that is written has the numbers.
@@ -315,22 +324,22 @@ fn a_material_has_the_numbers_of_its_name() {
 }
 
 #[test]
-fn a_number_beside_a_material_stands_in_place_of_that_of_the_table() {
+fn a_number_beside_a_material_replaces_the_tabulated_one() {
     let nitride = Elastic::named("TiN").unwrap();
     let film = "E = { E_substrate = 2.0 }\nnu = 0.3\nthickness";
-    let of = |text: &str| {
-        let scene = changed(film, &format!("material = \"TiN\"\n{text}\nthickness")).unwrap();
+    let coating_with = |text: &str| {
+        let scene = with_change(film, &format!("material = \"TiN\"\n{text}\nthickness")).unwrap();
         scene.body2.coatings[0].material
     };
-    assert_eq!(of("nu = 0.2"), Elastic { nu: 0.2, ..nitride });
+    assert_eq!(coating_with("nu = 0.2"), Elastic { nu: 0.2, ..nitride });
     assert_eq!(
-        of("E = \"300 GPa\""),
+        coating_with("E = \"300 GPa\""),
         Elastic {
             E: 300e9,
             ..nitride
         }
     );
-    assert_eq!(of("E = { E_substrate = 3.0 }").E, 630e9);
+    assert_eq!(coating_with("E = { E_substrate = 3.0 }").E, 630e9);
 }
 
 #[test]
@@ -339,22 +348,24 @@ fn a_material_that_is_unknown_has_its_nearest() {
     for (name, near) in [("Ti-6Al-V4", "titanium_6Al4V"), ("TiiN", "TiN")] {
         let film_of = format!("material = \"{name}\"\nthickness");
         assert_refused(
-            changed(film, &film_of),
+            with_change(film, &film_of),
             15,
             &["body2.coatings[0].material", name, "nearest", near],
         );
     }
     assert_refused(
-        changed(film, "material = 3\nthickness"),
+        with_change(film, "material = 3\nthickness"),
         15,
         &["body2.coatings[0].material = 3", "the name of a material"],
     );
     // A number that the table does not have is asked for.
     let bare = material_table::materials();
-    let bare = bare.values().find(|of| !of.numbers.contains_key("nu"));
+    let bare = bare
+        .values()
+        .find(|material| !material.numbers.contains_key("nu"));
     let name = &bare.unwrap().name;
     let film_of = format!("material = \"{name}\"\nthickness");
     let parts = ["body2.coatings[0].nu is missing", name, "Poisson's ratio"];
-    let told = complaint(changed(film, &film_of));
-    assert!(parts.iter().all(|part| told.contains(part)), "{told}");
+    let text = error_text(with_change(film, &film_of));
+    assert!(parts.iter().all(|part| text.contains(part)), "{text}");
 }

@@ -11,16 +11,16 @@ use crate::scene::{Body, Bond, Elastic, Loads, Plastic, Profile, RigidMotion, Sc
 impl Scene {
     /// The scene in the format of the scene file, every number in SI, nothing left to a default.
     pub fn to_toml(&self) -> String {
-        let mut text = format!("schema = {SCHEMA}\ntitle = {}\n", quoted(&self.title));
+        let mut text = format!("schema = {SCHEMA}\ntitle = {}\n", quote(&self.title));
         let mut line = |line: std::fmt::Arguments<'_>| {
             // Writing to a text cannot fail.
             let _ = writeln!(text, "{line}");
         };
         for (name, body) in [("body1", &self.body1), ("body2", &self.body2)] {
-            line(format_args!("\n[{name}]\n{}", substrate(body)));
+            line(format_args!("\n[{name}]\n{}", substrate_text(body)));
             for (n, coating) in body.coatings.iter().enumerate() {
                 line(format_args!("\n[[{name}.coatings]]"));
-                line(format_args!("{}", material(coating.material)));
+                line(format_args!("{}", material_text(coating.material)));
                 line(format_args!("thickness = {:?}", coating.thickness));
                 let bond = body.bond(n);
                 if bond != Bond::PERFECT {
@@ -28,16 +28,16 @@ impl Scene {
                     line(format_args!("bond_shear = {:?}", bond.shear));
                 }
                 if let Some(law) = body.plastic(n) {
-                    line(format_args!("{}", plastic(law)));
+                    line(format_args!("{}", plastic_text(law)));
                 }
-                if let Some(text) = residual(body, n) {
+                if let Some(text) = residual_text(body, n) {
                     line(format_args!("{text}"));
                 }
             }
         }
         line(format_args!(
             "\n[friction]\n{}",
-            super::friction::text(&self.friction)
+            super::friction::to_text(&self.friction)
         ));
         let grid = &self.grid;
         line(format_args!("\n[grid]\nn = [{}, {}]", grid.nx, grid.ny));
@@ -78,21 +78,21 @@ impl Scene {
         if let Some(K) = self.path.rig_stiffness {
             line(format_args!("\n[rig]\nstiffness = {K:?}"));
         }
-        text += &super::settings::text(&self.settings);
+        text += &super::settings::to_text(&self.settings);
         text
     }
 }
 
-/// All numbers that are not zero; lists as far as they are not.
-fn plastic(mut law: Plastic) -> String {
+/// Writes all numbers that are not zero; lists without their trailing zeros.
+fn plastic_text(mut law: Plastic) -> String {
     let mut entries = Vec::new();
     for number in &NUMBERS {
         let values = (number.of)(&mut law);
-        let room = values.len();
-        let used = values.iter().rposition(|value| *value != 0.0);
-        match used {
+        let slots = values.len();
+        let last_nonzero = values.iter().rposition(|value| *value != 0.0);
+        match last_nonzero {
             None => {}
-            Some(_) if room == 1 => entries.push(format!("{} = {:?}", number.name, values[0])),
+            Some(_) if slots == 1 => entries.push(format!("{} = {:?}", number.name, values[0])),
             Some(last) => entries.push(format!("{} = {:?}", number.name, &values[..=last])),
         }
     }
@@ -100,8 +100,8 @@ fn plastic(mut law: Plastic) -> String {
 }
 
 /// Residual stress of a layer, if it has any.
-fn residual(body: &Body, layer: usize) -> Option<String> {
-    let Profile { rows } = body.residual.get(layer)?;
+fn residual_text(body: &Body, layer: usize) -> Option<String> {
+    let Profile { rows } = body.residual_text.get(layer)?;
     match rows.as_slice() {
         [] => None,
         [[_, xx, yy]] if xx == yy => Some(format!("residual = {xx:?}")),
@@ -109,27 +109,27 @@ fn residual(body: &Body, layer: usize) -> Option<String> {
     }
 }
 
-fn quoted(text: &str) -> String {
+fn quote(text: &str) -> String {
     Value::String(text.to_owned()).to_string()
 }
 
-fn substrate(body: &Body) -> String {
-    let shape = super::shape::text(&body.shape);
+fn substrate_text(body: &Body) -> String {
+    let shape = super::shape::to_text(&body.shape);
     let law = body.plastic(body.coatings.len());
-    let law = law.map_or_else(String::new, |law| format!("\n{}", plastic(law)));
-    let residual = residual(body, body.coatings.len());
+    let law = law.map_or_else(String::new, |law| format!("\n{}", plastic_text(law)));
+    let residual = residual_text(body, body.coatings.len());
     let residual = residual.map_or_else(String::new, |text| format!("\n{text}"));
     format!(
         "shape = {shape}\n{}{law}{residual}",
-        material(body.substrate)
+        material_text(body.substrate)
     )
 }
 
-fn material(material: Elastic) -> String {
-    let E = if material.is_rigid() {
+fn material_text(material_text: Elastic) -> String {
+    let E = if material_text.is_rigid() {
         "\"rigid\"".to_owned()
     } else {
-        format!("{:?}", material.E)
+        format!("{:?}", material_text.E)
     };
-    format!("E = {E}\nnu = {:?}", material.nu)
+    format!("E = {E}\nnu = {:?}", material_text.nu)
 }

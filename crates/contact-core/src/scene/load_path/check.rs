@@ -14,7 +14,7 @@ const POINT: f64 = 256.0;
 const BRANCH: f64 = 1024.0;
 
 impl LoadPath {
-    /// Fails if the path has more increments than can be told apart in memory.
+    /// Fails if the path has more increments than fit into memory.
     pub fn check_length(&self) -> Result<(), Error> {
         if self.increments() > MOST_INCREMENTS {
             return Err(Error::invalid(
@@ -57,7 +57,7 @@ impl LoadPath {
     }
 
     /// Fails where the increments of a branch are yet to be chosen.
-    pub(crate) fn check_increments(&self) -> Result<(), Error> {
+    pub(crate) fn check_increments_chosen(&self) -> Result<(), Error> {
         match self.branches.iter().position(|b| b.increments.is_none()) {
             None => Ok(()),
             Some(branch) => Err(Error::invalid(
@@ -68,7 +68,7 @@ impl LoadPath {
         }
     }
 
-    pub(crate) fn check(&self, friction: &Friction) -> Result<(), Error> {
+    pub(crate) fn check_for_friction(&self, friction: &Friction) -> Result<(), Error> {
         if self.branches.is_empty() {
             return Err(Error::invalid("path", "empty", "at least one branch"));
         }
@@ -95,7 +95,7 @@ impl LoadPath {
         Ok(())
     }
 
-    /// Fails if the grid cannot follow: the contact rolls whole cells in an increment, along x and
+    /// Fails where the grid cannot represent the path: the contact rolls whole cells in an increment, along x and
     /// so about y, and a strip neither twists nor tilts about its length.
     pub(crate) fn check_on(&self, grid: &Grid) -> Result<(), Error> {
         let mut rolled = 0.0;

@@ -3,11 +3,11 @@
 use std::path::Path;
 
 use super::LoadPath;
-use super::waypoints::{Column, Increments, drives};
+use super::waypoints::{Column, Increments, driven_motion};
 use crate::error::Error;
 use crate::scene::Prescribed;
 use crate::scene::files;
-use crate::scene::number_files::{Kind, Table, of_titles, tolerant};
+use crate::scene::number_files::{Kind, Table, decode_any, names_and_units};
 
 /// A table of loads and motions in SI units.
 #[derive(Debug)]
@@ -19,13 +19,13 @@ pub(in crate::scene) struct History {
 }
 
 impl History {
-    /// The history of a text; the error names line, column and what was found there.
-    pub(super) fn of(text: &str) -> Result<Self, String> {
-        let table = Table::of(text)?;
+    /// Parses the history in a text; the error gives line, column and the text found there.
+    pub(super) fn parse(text: &str) -> Result<Self, String> {
+        let table = Table::parse(text)?;
         if table.rows() == 0 {
             return Err("has no row of numbers".into());
         }
-        let (names, units) = of_titles(&table.titles(), table.columns);
+        let (names, units) = names_and_units(&table.titles(), table.columns);
         if names.is_empty() {
             return Err(format!(
                 "line {}: {} numbers come without names: the line above must name the columns, such as t, W, T_x",
@@ -34,8 +34,8 @@ impl History {
         }
         let mut scales = Vec::with_capacity(names.len());
         for (n, name) in names.iter().enumerate() {
-            let column = Column::named(name).map_err(|e| e.to_string())?;
-            scales.push(scale(name, column, units[n].as_deref())?);
+            let column = Column::from_name(name).map_err(|e| e.to_string())?;
+            scales.push(si_scale(name, column, units[n].as_deref())?);
         }
         if let Some(hole) = table.numbers.iter().position(|value| value.is_nan()) {
             let (row, column) = (hole / table.columns, hole % table.columns);
@@ -55,8 +55,8 @@ impl History {
         Ok(Self { names, rows })
     }
 
-    /// The columns that drive: of a motion and its load the one that `drive` names.
-    pub(super) fn driving(&self, drive: &[&str]) -> Result<Vec<usize>, String> {
+    /// Returns the columns that drive: of a motion and its load the one that `drive` names.
+    pub(super) fn driving_columns(&self, drive: &[&str]) -> Result<Vec<usize>, String> {
         if let Some(absent) = drive
             .iter()
             .find(|name| !self.names.iter().any(|n| n == *name))
@@ -66,25 +66,26 @@ impl History {
                 self.names.join(", ")
             ));
         }
-        let kept = |n: &usize| {
+        let is_kept = |n: &usize| {
             let name = self.names[*n].as_str();
-            let by_other = |other: &&str| *other != name && drives(other) == drives(name);
-            drive.contains(&name) || !drive.iter().any(by_other)
+            let is_driven_by_other =
+                |other: &&str| *other != name && driven_motion(other) == driven_motion(name);
+            drive.contains(&name) || !drive.iter().any(is_driven_by_other)
         };
-        let kept: Vec<usize> = (0..self.names.len()).filter(kept).collect();
+        let kept: Vec<usize> = (0..self.names.len()).filter(is_kept).collect();
         for (i, n) in kept.iter().enumerate() {
             let (name, others) = (&self.names[*n], &kept[..i]);
-            let same = others
+            let conflict = others
                 .iter()
-                .find(|other| drives(&self.names[**other]) == drives(name));
-            if let Some(other) = same {
-                let other = &self.names[*other];
-                return Err(if other == name {
+                .find(|other| driven_motion(&self.names[**other]) == driven_motion(name));
+            if let Some(conflicting) = conflict {
+                let conflicting = &self.names[*conflicting];
+                return Err(if conflicting == name {
                     format!("two columns are called {name}: must be one")
                 } else {
                     format!(
-                        "{other} and {name} both stand in it, and the one follows from the other: say which drives, \
-                         drive = \"{other}\" or drive = \"{name}\""
+                        "{conflicting} and {name} both stand in it, and the one follows from the other: choose the one that drives, \
+                         drive = \"{conflicting}\" or drive = \"{name}\""
                     )
                 });
             }
@@ -102,13 +103,13 @@ impl LoadPath {
             path: path.display().to_string(),
             message: message.split_whitespace().collect::<Vec<_>>().join(" "),
         };
-        let history = tolerant(files::read(path)?).and_then(|text| History::of(&text));
+        let history = decode_any(files::read(path)?).and_then(|text| History::parse(&text));
         let history = history.map_err(failed)?;
-        let kept = history.driving(drive).map_err(failed)?;
-        let names: Vec<&str> = kept.iter().map(|n| history.names[*n].as_str()).collect();
+        let driving = history.driving_columns(drive).map_err(failed)?;
+        let names: Vec<&str> = driving.iter().map(|n| history.names[*n].as_str()).collect();
         let rows = history.rows.chunks_exact(history.names.len());
         let rows: Vec<Vec<f64>> = rows
-            .map(|row| kept.iter().map(|n| row[*n]).collect())
+            .map(|row| driving.iter().map(|n| row[*n]).collect())
             .collect();
         Self::start()
             .waypoints(&names, &rows, increments)
@@ -117,11 +118,11 @@ impl LoadPath {
 }
 
 /// The size of the unit of a column in SI units.
-fn scale(name: &str, column: Column, unit: Option<&str>) -> Result<f64, String> {
+fn si_scale(name: &str, column: Column, unit: Option<&str>) -> Result<f64, String> {
     let Some(word) = unit else {
         return Ok(1.0);
     };
-    let (wanted, allowed) = match column {
+    let (kind, allowed) = match column {
         Column::Time => (Kind::Time, "a unit of time, such as s"),
         Column::Prescribed(of, Prescribed::Load(_)) if of.is_rotation() => {
             (Kind::Moment, "a unit of moments, such as N m")
@@ -136,7 +137,7 @@ fn scale(name: &str, column: Column, unit: Option<&str>) -> Result<f64, String> 
         Column::Other(_) if name == "rolled" => (Kind::Length, "a unit of length, such as m or um"),
         Column::Other(_) => (Kind::Stress, "a unit of stress, such as Pa or MPa"),
     };
-    let size = wanted.size(word);
+    let size = kind.size(word);
     size.ok_or_else(|| format!("column {name} is in `{word}`: must be {allowed}"))
 }
 
@@ -145,7 +146,7 @@ mod tests {
     use super::History;
 
     #[test]
-    fn titles_and_units_say_what_the_columns_are() {
+    fn titles_and_units_identify_the_columns() {
         for text in [
             "t,W,T_x\n1,10,0\n2,10,2.5\n",
             "t;W;T_x\n1;10;0\n2;10;2,5\n",
@@ -155,7 +156,7 @@ mod tests {
             "rig of May\nt W T_x\nms N kN\n1000 10 0\n2000 10 0.0025\n",
             "# t,W,T_x\n1.0,10.0,0.0\n2.0,10.0,2.5\n",
         ] {
-            let history = History::of(text).unwrap_or_else(|e| panic!("{text:?}: {e}"));
+            let history = History::parse(text).unwrap_or_else(|e| panic!("{text:?}: {e}"));
             assert_eq!(history.names, ["t", "W", "T_x"], "{text:?}");
             for (found, value) in history.rows.iter().zip([1.0, 10.0, 0.0, 2.0, 10.0, 2.5]) {
                 assert!((found - value).abs() < 1e-12, "{text:?}");
@@ -178,21 +179,21 @@ mod tests {
                 "T_x is in `mm`: must be a unit of force",
             ),
         ] {
-            let told = History::of(text).expect_err(text);
-            assert!(told.contains(part), "{told}");
+            let message = History::parse(text).expect_err(text);
+            assert!(message.contains(part), "{message}");
         }
     }
 
     #[test]
-    fn of_a_load_and_its_motion_one_drives() {
-        let loop_ = History::of("W,T_x,delta_x\n10,0,0\n10,1,1e-6\n").expect("a loop");
-        let asked = loop_.driving(&[]).expect_err("which drives");
+    fn either_a_load_or_its_motion_drives() {
+        let loop_ = History::parse("W,T_x,delta_x\n10,0,0\n10,1,1e-6\n").expect("a loop");
+        let message = loop_.driving_columns(&[]).expect_err("which drives");
         assert!(
-            asked.contains("T_x and delta_x both stand in it"),
-            "{asked}"
+            message.contains("T_x and delta_x both stand in it"),
+            "{message}"
         );
-        assert_eq!(loop_.driving(&["delta_x"]), Ok(vec![0, 2]));
-        assert_eq!(loop_.driving(&["T_x"]), Ok(vec![0, 1]));
-        assert!(loop_.driving(&["delta_y"]).is_err());
+        assert_eq!(loop_.driving_columns(&["delta_x"]), Ok(vec![0, 2]));
+        assert_eq!(loop_.driving_columns(&["T_x"]), Ok(vec![0, 1]));
+        assert!(loop_.driving_columns(&["delta_y"]).is_err());
     }
 }

@@ -11,36 +11,36 @@ pub use waypoints::Increments;
 
 use super::{Loads, RigidMotion};
 
-/// How the increments of a branch are spaced.
+/// Spacing of the increments of a branch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Spacing {
     /// Equal increments of force (default).
     #[default]
     Uniform,
     /// Increments of equal contact radius for a paraboloid: the force grows with the cube of the
-    /// count, an approach that is given with the square. The natural spacing of an indentation.
+    /// count, a prescribed approach with the square. The natural spacing of an indentation.
     EqualRadius,
     /// A short first increment, at whose end the branch has its largest stick zone and the
     /// stiffness right after the reversal, then equal ones. Chosen automatically after a reversal.
     ShortFirst,
 }
 
-/// Part of a branch that a short first increment covers. Right after a reversal by 2 mu W the
-/// secant stiffness of a Cattaneo-Mindlin contact is low by a sixth of that part, its stick ratio
+/// Fraction of a branch that a short first increment covers. Right after a reversal by 2 mu W the
+/// secant stiffness of a Cattaneo-Mindlin contact is low by a sixth of this fraction, its stick ratio
 /// by two thirds.
-const SHORT: f64 = 1.0 / 64.0;
+const SHORT_FRACTION: f64 = 1.0 / 64.0;
 
 impl Spacing {
-    /// Increments that are not those of equal size.
-    fn extra(self) -> usize {
+    /// Number of increments besides the equal ones.
+    fn unequal_increments(self) -> usize {
         match self {
             Self::Uniform | Self::EqualRadius => 0,
             Self::ShortFirst => 1,
         }
     }
 
-    /// Part of the branch, and of its path time, covered after `i` of its `n` increments.
-    pub(crate) fn covered(self, i: usize, n: usize, approach_given: bool) -> (f64, f64) {
+    /// Fractions of the branch, and of its path time, covered after `i` of its `n` increments.
+    pub(crate) fn covered_fraction(self, i: usize, n: usize, approach_given: bool) -> (f64, f64) {
         let s = i as f64 / n as f64;
         match (self, approach_given) {
             (Self::Uniform, _) => (s, s),
@@ -51,7 +51,7 @@ impl Spacing {
                 let s = if n == 1 {
                     1.0
                 } else {
-                    SHORT + (1.0 - SHORT) * equal
+                    SHORT_FRACTION + (1.0 - SHORT_FRACTION) * equal
                 };
                 (s, s)
             }
@@ -67,12 +67,12 @@ pub struct Branch {
     /// Number of increments, at least one; `None`: as many as the tolerance on the path needs,
     /// [`choose_increments`](crate::estimate::choose_increments).
     pub increments: Option<usize>,
-    /// How they are spaced.
+    /// Spacing of the increments.
     pub spacing: Spacing,
     /// Path time at the end of the branch; only a label, the contact is quasi-static.
     pub t_end: f64,
-    /// Estimated error of the shear at the end of the branch that its increments leave: relative to
-    /// the largest shear of the path (L2), as known before a run
+    /// Estimated error of the shear at the end of the branch due to its increments: relative to
+    /// the largest shear of the path (L2), as estimated before a run
     /// ([`shear_errors`](crate::march::shear_errors) after it). `None` without an estimate.
     pub path_error: Option<f64>,
 }
@@ -89,28 +89,30 @@ impl Branch {
         }
     }
 
-    /// Increments, one where the number is yet to be chosen.
+    /// Number of increments; one where the number is not yet chosen.
     pub fn count(&self) -> usize {
         self.increments.unwrap_or(1)
     }
 
-    /// Those of them that are of equal size, a short first one left out.
+    /// Number of equal increments (a shorter first one is not counted).
     pub(crate) fn equal_increments(&self) -> usize {
-        self.count().saturating_sub(self.spacing.extra()).max(1)
+        self.count()
+            .saturating_sub(self.spacing.unequal_increments())
+            .max(1)
     }
 
     /// Sets the number of equal increments.
     pub(crate) fn set_equal_increments(&mut self, count: usize) {
-        self.increments = Some(count + self.spacing.extra());
+        self.increments = Some(count + self.spacing.unequal_increments());
     }
 
-    /// Whether nothing but normal forces and tilting moments, or their motions, act at its end.
+    /// Whether only normal forces and tilting moments, or their motions, act at its end.
     pub(crate) fn only_presses(&self) -> bool {
         let to = &self.to;
-        let in_plane = |of: RigidMotion| of.is_in_plane() && to.prescribed(of).value() != 0.0;
-        let shears = RigidMotion::ALL.into_iter().any(in_plane);
-        let strained = [to.sigma_B, to.sigma_B1, to.rolled];
-        !shears && strained.iter().all(|s| *s == 0.0)
+        let shears_along = |of: RigidMotion| of.is_in_plane() && to.prescribed(of).value() != 0.0;
+        let is_sheared = RigidMotion::ALL.into_iter().any(shears_along);
+        let other_loads = [to.sigma_B, to.sigma_B1, to.rolled];
+        !is_sheared && other_loads.iter().all(|s| *s == 0.0)
     }
 }
 
@@ -120,41 +122,41 @@ pub struct LoadPath {
     /// Branches in the order they are run through.
     pub branches: Vec<Branch>,
     /// Stiffness along x of a rig, a spring in series with the contact through which the shift
-    /// delta_x is given or read \[N/m\]; `None`: the bodies themselves are moved. With the spring's
-    /// end at u the contact's own shift is u - T_x/K.
+    /// delta_x is prescribed or read \[N/m\]; `None`: the bodies themselves are moved. With the end of the
+    /// spring at u the shift of the contact is u - T_x/K.
     pub rig_stiffness: Option<f64>,
 }
 
 impl LoadPath {
-    /// Number of increments of the whole path; a branch whose number is yet to be chosen counts as
+    /// Number of increments of the whole path; a branch whose number is not yet chosen counts as
     /// one.
     pub fn increments(&self) -> usize {
         let counts = self.branches.iter().map(Branch::count);
         counts.fold(0, usize::saturating_add)
     }
 
-    /// Whether nothing but normal forces and tilting moments, or their motions, act.
+    /// Whether only normal forces and tilting moments, or their motions, act.
     pub(crate) fn only_presses(&self) -> bool {
         self.branches.iter().all(Branch::only_presses)
     }
 
-    /// Whether the increments of a branch are yet to be chosen.
-    pub fn is_open(&self) -> bool {
+    /// Whether the increments of a branch are not yet chosen.
+    pub fn has_open_increments(&self) -> bool {
         self.branches.iter().any(|b| b.increments.is_none())
     }
 
-    /// The largest normal force that the path gives \[N\].
+    /// The largest prescribed normal force \[N\].
     pub fn W_max(&self) -> f64 {
-        let given = self
+        let prescribing = self
             .branches
             .iter()
             .filter(|b| b.to.given.delta_z.is_none());
-        given.fold(0.0, |m, b| m.max(b.to.W))
+        prescribing.fold(0.0, |m, b| m.max(b.to.W))
     }
 
-    /// The largest approach that the path gives \[m\].
+    /// The largest prescribed approach \[m\].
     pub fn delta_z_max(&self) -> f64 {
-        let given = self.branches.iter().filter_map(|b| b.to.given.delta_z);
-        given.fold(0.0, f64::max)
+        let approaches = self.branches.iter().filter_map(|b| b.to.given.delta_z);
+        approaches.fold(0.0, f64::max)
     }
 }

@@ -3,50 +3,54 @@
 use serde::{Deserialize, Serialize};
 
 use super::LoadPath;
-use crate::scene::{Given, Loads};
+use crate::scene::{Loads, PrescribedMotions};
 
 /// One point of the load history: the loads at the end of an increment.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LoadPoint {
-    /// Branch the increment belongs to, from 0.
+    /// Branch of the increment, from 0.
     pub branch: usize,
     /// Whether it is the last increment of its branch.
     pub ends_branch: bool,
     /// Path time.
     pub t: f64,
-    /// Part of the rest of the branch that the increment covers.
+    /// Fraction of the remaining branch that the increment covers.
     pub part: f64,
     /// Loads at the end of the increment; NaN before the solution for loads that follow from it.
     pub loads: Loads,
 }
 
 impl LoadPoint {
-    /// A part of the way to this point from where `loads` and `motions` stand; not the end of a
+    /// Interpolates from `loads` and `motions` towards this point; the result is not the end of a
     /// branch.
-    pub(crate) fn on_the_way(&self, loads: &Loads, motions: [f64; 6], part: f64) -> Self {
-        let between = |a: f64, b: f64| a + part * (b - a);
+    pub(crate) fn interpolate_to(&self, loads: &Loads, motions: [f64; 6], fraction: f64) -> Self {
+        let interpolate = |a: f64, b: f64| a + fraction * (b - a);
         let forces = loads.forces();
         let (ends, given) = (self.loads.forces(), self.loads.given.motions());
-        let reached = std::array::from_fn(|k| between(forces[k], ends[k]));
-        let moved = std::array::from_fn(|k| given[k].map(|end| between(motions[k], end)));
+        let forces_between = std::array::from_fn(|k| interpolate(forces[k], ends[k]));
+        let motions_between =
+            std::array::from_fn(|k| given[k].map(|end| interpolate(motions[k], end)));
         Self {
             ends_branch: false,
             loads: Loads {
-                sigma_B: between(loads.sigma_B, self.loads.sigma_B),
-                sigma_B1: between(loads.sigma_B1, self.loads.sigma_B1),
-                rolled: between(loads.rolled, self.loads.rolled),
+                sigma_B: interpolate(loads.sigma_B, self.loads.sigma_B),
+                sigma_B1: interpolate(loads.sigma_B1, self.loads.sigma_B1),
+                rolled: interpolate(loads.rolled, self.loads.rolled),
                 ..Loads::default()
             }
-            .with_forces(reached, Given::from_motions(moved)),
+            .with_forces(
+                forces_between,
+                PrescribedMotions::from_motions(motions_between),
+            ),
             ..*self
         }
     }
 
-    /// The point with what is given in full: a load or a motion that was not given in the branch
-    /// before goes straight from where it stands, `forces` and `motions`, to the `end` of the
+    /// Resolves loads or motions that are NaN since they were not prescribed in the branch before: they go
+    /// straight from their present values, `forces` and `motions`, to the `end` of the
     /// branch.
     pub(crate) fn resolved(&self, end: &Loads, forces: [f64; 6], motions: [f64; 6]) -> Self {
-        let onward = |value: f64, now: f64, end: f64| {
+        let fill_in = |value: f64, now: f64, end: f64| {
             if value.is_nan() {
                 now + self.part * (end - now)
             } else {
@@ -55,61 +59,64 @@ impl LoadPoint {
         };
         let (planned, given) = (self.loads.forces(), self.loads.given.motions());
         let (ends, given_ends) = (end.forces(), end.given.motions());
-        let resolved = std::array::from_fn(|k| onward(planned[k], forces[k], ends[k]));
-        let moved = std::array::from_fn(|k| {
+        let resolved_forces = std::array::from_fn(|k| fill_in(planned[k], forces[k], ends[k]));
+        let resolved_motions = std::array::from_fn(|k| {
             let end = given_ends[k].unwrap_or_default();
-            given[k].map(|value| onward(value, motions[k], end))
+            given[k].map(|value| fill_in(value, motions[k], end))
         });
         Self {
-            loads: self.loads.with_forces(resolved, Given::from_motions(moved)),
+            loads: self.loads.with_forces(
+                resolved_forces,
+                PrescribedMotions::from_motions(resolved_motions),
+            ),
             ..*self
         }
     }
 }
 
 impl LoadPath {
-    /// The loads at the end of every increment. What only the solution can say is NaN: the load of
-    /// a motion that is given, and inside a branch whatever was not given in the branch before.
+    /// Returns the loads at the end of every increment. NaN stands for numbers that only the solution
+    /// gives: the load of a prescribed motion, and inside a branch a quantity that the branch before did not prescribe.
     pub fn points(&self) -> Vec<LoadPoint> {
         let mut points = Vec::with_capacity(self.increments());
         let (mut forces, mut motions, mut t0) = ([0.0; 6], [0.0; 6], 0.0);
-        let mut from = Loads::default();
+        let mut start = Loads::default();
         for (branch, b) in self.branches.iter().enumerate() {
             let (to, given) = (b.to.forces(), b.to.given.motions());
-            let mut before = 0.0;
+            let mut f_before = 0.0;
             for i in 1..=b.count() {
-                let last = i == b.count();
+                let is_last = i == b.count();
                 let approach_given = b.to.given.delta_z.is_some();
-                let (f, s) = b.spacing.covered(i, b.count(), approach_given);
-                let between = |a: f64, c: f64| if last { c } else { a + f * (c - a) };
+                let (f, s) = b.spacing.covered_fraction(i, b.count(), approach_given);
+                let interpolate = |a: f64, c: f64| if is_last { c } else { a + f * (c - a) };
                 let force =
-                    |k: usize| given[k].map_or_else(|| between(forces[k], to[k]), |_| f64::NAN);
-                let motion = |k: usize| given[k].map(|to| between(motions[k], to));
+                    |k: usize| given[k].map_or_else(|| interpolate(forces[k], to[k]), |_| f64::NAN);
+                let motion = |k: usize| given[k].map(|to| interpolate(motions[k], to));
                 points.push(LoadPoint {
                     branch,
-                    ends_branch: last,
-                    t: if last {
+                    ends_branch: is_last,
+                    t: if is_last {
                         b.t_end
                     } else {
                         t0 + s * (b.t_end - t0)
                     },
-                    part: if last {
+                    part: if is_last {
                         1.0
                     } else {
-                        (f - before) / (1.0 - before)
+                        (f - f_before) / (1.0 - f_before)
                     },
                     loads: Loads {
-                        sigma_B: between(from.sigma_B, b.to.sigma_B),
-                        sigma_B1: between(from.sigma_B1, b.to.sigma_B1),
-                        rolled: between(from.rolled, b.to.rolled),
+                        sigma_B: interpolate(start.sigma_B, b.to.sigma_B),
+                        sigma_B1: interpolate(start.sigma_B1, b.to.sigma_B1),
+                        rolled: interpolate(start.rolled, b.to.rolled),
                         ..Loads::default()
                     }
                     .with_forces(
                         std::array::from_fn(force),
-                        Given::from_motions(std::array::from_fn(motion)),
+                        PrescribedMotions::from_motions(std::array::from_fn(motion)),
                     ),
                 });
-                before = f;
+                f_before = f;
             }
             for k in 0..6 {
                 (forces[k], motions[k]) = match given[k] {
@@ -117,7 +124,7 @@ impl LoadPath {
                     Some(motion) => (f64::NAN, motion),
                 };
             }
-            (t0, from) = (b.t_end, b.to);
+            (t0, start) = (b.t_end, b.to);
         }
         points
     }

@@ -4,23 +4,23 @@ use super::{Branch, LoadPath};
 use crate::error::Error;
 use crate::scene::{Loads, Prescribed, RigidMotion};
 
-/// How many increments lie between two waypoints.
+/// Number of increments between two waypoints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Increments {
-    /// The same number for each.
+    /// Equal numbers for all.
     Each(usize),
-    /// As many as the change needs if the whole range of a load or motion takes this many; the one
-    /// that needs most decides.
+    /// The number that the change needs if the whole range of a load or motion takes this number; the
+    /// largest number over loads and motions counts.
     PerRange(usize),
-    /// As many as the tolerance on the path needs,
+    /// The number that the tolerance on the path needs,
     /// [`choose_increments`](crate::estimate::choose_increments).
     Chosen,
 }
 
 impl Increments {
-    /// The increments of each of the steps, whose changes are given by load or motion; none where
-    /// they are yet to be chosen.
-    fn of(self, steps: &[Vec<f64>], ranges: &[f64]) -> Vec<Option<usize>> {
+    /// Number of increments of each step, given the changes of loads or motions in it; none where
+    /// they are not yet chosen.
+    fn per_step(self, steps: &[Vec<f64>], ranges: &[f64]) -> Vec<Option<usize>> {
         let per_range = match self {
             Self::Each(n) => return vec![Some(n); steps.len()],
             Self::Chosen => return vec![None; steps.len()],
@@ -34,11 +34,11 @@ impl Increments {
                 0
             }
         };
-        let of_step = |step: &Vec<f64>| {
-            let each = step.iter().zip(ranges).map(|(c, r)| needed(*c, *r));
-            Some(each.max().unwrap_or(0).max(1))
+        let increments_of_step = |step: &Vec<f64>| {
+            let counts = step.iter().zip(ranges).map(|(c, r)| needed(*c, *r));
+            Some(counts.max().unwrap_or(0).max(1))
         };
-        steps.iter().map(of_step).collect()
+        steps.iter().map(increments_of_step).collect()
     }
 }
 
@@ -62,22 +62,25 @@ const OTHERS: [(&str, Column); 4] = [
 ];
 
 impl Column {
-    pub(super) fn named(name: &str) -> Result<Self, Error> {
-        let other = OTHERS.iter().find(|(other, _)| *other == name);
-        let known = RigidMotion::of(name, 0.0).map(|(of, kind)| Self::Prescribed(of, kind));
-        known.or(other.map(|(_, column)| *column)).ok_or_else(|| {
-            let known = [&RigidMotion::names()[..], &OTHERS.map(|(name, _)| name)].concat();
-            let nearest = known
-                .iter()
-                .min_by_key(|known| strsim::damerau_levenshtein(name, known));
-            let nearest = nearest.copied().unwrap_or_default();
-            let allowed = format!("one of {}; the nearest is {nearest}", known.join(", "));
-            Error::invalid("path column", name, allowed)
-        })
+    pub(super) fn from_name(name: &str) -> Result<Self, Error> {
+        let other_column = OTHERS.iter().find(|(other, _)| *other == name);
+        let motion_column =
+            RigidMotion::from_quantity(name, 0.0).map(|(of, kind)| Self::Prescribed(of, kind));
+        motion_column
+            .or(other_column.map(|(_, column)| *column))
+            .ok_or_else(|| {
+                let names = [&RigidMotion::names()[..], &OTHERS.map(|(name, _)| name)].concat();
+                let nearest = names
+                    .iter()
+                    .min_by_key(|known| strsim::damerau_levenshtein(name, known));
+                let nearest = nearest.copied().unwrap_or_default();
+                let allowed = format!("one of {}; the nearest is {nearest}", names.join(", "));
+                Error::invalid("path column", name, allowed)
+            })
     }
 
-    /// Enters a value of the column; `t` is that of path time.
-    fn enter(self, loads: &mut Loads, t: &mut f64, value: f64) {
+    /// Writes a value of the column into the loads or into the path time `t`.
+    fn set(self, loads: &mut Loads, t: &mut f64, value: f64) {
         match self {
             Self::Time => *t = value,
             Self::Prescribed(of, kind) => loads.prescribe(of, kind.map(|_| value)),
@@ -85,7 +88,7 @@ impl Column {
         }
     }
 
-    /// The value of the column at a waypoint; zero where a motion is not prescribed, and of path
+    /// Value of the column at a waypoint; zero where a motion is not prescribed, and of path
     /// time.
     fn value(self, mut loads: Loads) -> f64 {
         match self {
@@ -99,18 +102,18 @@ impl Column {
     }
 }
 
-/// What a column drives: a motion and its load are one thing.
-pub(super) fn drives(name: &str) -> (Option<usize>, &str) {
-    match RigidMotion::of(name, 0.0) {
+/// Identifies the motion that a column drives by itself or by its load.
+pub(super) fn driven_motion(name: &str) -> (Option<usize>, &str) {
+    match RigidMotion::from_quantity(name, 0.0) {
         Some((of, _)) => (Some(of.index()), ""),
         None => (None, name),
     }
 }
 
 impl LoadPath {
-    /// Goes straight from waypoint to waypoint, a branch for each. `names` are those of loads and
+    /// Goes straight from waypoint to waypoint, one branch each. `names` are names of loads and
     /// motions, `sigma_B`, `sigma_B1`, `rolled` and the path time `t`, which grows from row to row;
-    /// each row has a value for each. What has no column stays as it is.
+    /// each row has a value for each. Quantities without a column stay as they are.
     pub fn waypoints(
         mut self,
         names: &[&str],
@@ -119,14 +122,14 @@ impl LoadPath {
     ) -> Result<Self, Error> {
         let columns: Vec<Column> = names
             .iter()
-            .map(|name| Column::named(name))
+            .map(|name| Column::from_name(name))
             .collect::<Result<_, _>>()?;
         for (n, name) in names.iter().enumerate() {
             if let Some(other) = names[..n]
                 .iter()
-                .find(|other| drives(other) == drives(name))
+                .find(|other| driven_motion(other) == driven_motion(name))
             {
-                let allowed = format!("left out, since {other} says the same");
+                let allowed = format!("left out, since {other} is the same quantity");
                 return Err(Error::invalid("path column", name, allowed));
             }
         }
@@ -141,38 +144,38 @@ impl LoadPath {
                 ),
             ));
         }
-        let mut waypoints = vec![self.last()];
+        let mut waypoints = vec![self.end_point()];
         for (n, row) in rows.iter().enumerate() {
             let (mut to, t) = waypoints[waypoints.len() - 1];
             let mut t_end = t + 1.0;
             for (column, value) in columns.iter().zip(row) {
-                column.enter(&mut to, &mut t_end, *value);
+                column.set(&mut to, &mut t_end, *value);
             }
             if !(t_end > t && t_end.is_finite()) {
                 return Err(Error::invalid(
                     format!("t of path row {}", n + 1),
                     t_end,
                     format!(
-                        "a time after {t}, that of the row before or of the start: rows in the order of time"
+                        "a time after {t}, the time of the row before or of the start: rows in the order of time"
                     ),
                 ));
             }
             waypoints.push((to, t_end));
         }
-        let range = |column: &Column| {
+        let range_of_column = |column: &Column| {
             let values = waypoints.iter().map(|(loads, _)| column.value(*loads));
-            let ends = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| {
+            let extremes = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| {
                 [low.min(v), high.max(v)]
             });
-            ends[1] - ends[0]
+            extremes[1] - extremes[0]
         };
-        let ranges: Vec<f64> = columns.iter().map(range).collect();
-        let change = |pair: &[(Loads, f64)]| -> Vec<f64> {
+        let ranges: Vec<f64> = columns.iter().map(range_of_column).collect();
+        let changes = |pair: &[(Loads, f64)]| -> Vec<f64> {
             let change = |column: &Column| column.value(pair[1].0) - column.value(pair[0].0);
             columns.iter().map(change).collect()
         };
-        let steps: Vec<Vec<f64>> = waypoints.windows(2).map(change).collect();
-        let counts = increments.of(&steps, &ranges);
+        let steps: Vec<Vec<f64>> = waypoints.windows(2).map(changes).collect();
+        let counts = increments.per_step(&steps, &ranges);
         for ((to, t_end), increments) in waypoints.into_iter().skip(1).zip(counts) {
             self.branches.push(Branch::new(to, increments, t_end));
         }
@@ -213,8 +216,8 @@ mod tests {
                 "t of path row 1 = NaN",
             ),
         ] {
-            let refused = LoadPath::start().waypoints(&names, rows, Increments::Each(1));
-            let text = refused.expect_err("refused").to_string();
+            let result = LoadPath::start().waypoints(&names, rows, Increments::Each(1));
+            let text = result.expect_err("refused").to_string();
             assert!(text.contains(part), "{text}");
         }
     }

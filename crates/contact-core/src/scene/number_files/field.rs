@@ -2,9 +2,9 @@
 
 use std::borrow::Cow;
 
-/// The separator of the fields of a line.
+/// Separator of the fields of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Parting {
+pub(super) enum Separator {
     /// One character.
     Mark(char),
     /// Any number of blanks and tabs.
@@ -12,68 +12,73 @@ pub(super) enum Parting {
 }
 
 /// Lines at either end of a text from which the separator is determined.
-const SAMPLE: usize = 100;
+const SAMPLE_LINES: usize = 100;
 
-impl Parting {
-    /// What parts most of the lines into numbers, two or more in each. Blanks come before commas,
-    /// which between digits may be decimal ones.
-    pub(super) fn of(lines: &[(usize, &str)]) -> Self {
+impl Separator {
+    /// Detects the separator that splits most lines into two or more numbers. Blanks come before commas,
+    /// which between digits may be decimal commas.
+    pub(super) fn detect(lines: &[(usize, &str)]) -> Self {
         let order = [
             Self::Mark(';'),
             Self::Mark('\t'),
             Self::Blanks,
             Self::Mark(','),
         ];
-        let ends = lines.iter().take(SAMPLE);
-        let ends = ends.chain(lines.iter().skip(SAMPLE).rev().take(SAMPLE));
-        let sample: Vec<&str> = ends.map(|(_, line)| *line).collect();
+        let first_lines = lines.iter().take(SAMPLE_LINES);
+        let first_and_last_lines =
+            first_lines.chain(lines.iter().skip(SAMPLE_LINES).rev().take(SAMPLE_LINES));
+        let sample: Vec<&str> = first_and_last_lines.map(|(_, line)| *line).collect();
         let score = |parting: &Self| {
-            let (mut whole, mut numbers, mut rest) = (0, 0, 0);
+            let (mut good_lines, mut numbers, mut other_numbers) = (0, 0, 0);
             for line in &sample {
-                let (mut fields, mut good) = (0, 0);
+                let (mut fields, mut numeric) = (0, 0);
                 for field in parting.fields(line) {
                     fields += 1;
-                    good += usize::from(number(&field).is_some());
+                    numeric += usize::from(parse_number(&field).is_some());
                 }
-                if fields > 1 && good == fields {
-                    whole += 1;
-                    numbers += good;
+                if fields > 1 && numeric == fields {
+                    good_lines += 1;
+                    numbers += numeric;
                 } else if fields > 1 {
-                    rest += good;
+                    other_numbers += numeric;
                 }
             }
-            (whole, numbers, if whole == 0 { rest } else { 0 })
+            (
+                good_lines,
+                numbers,
+                if good_lines == 0 { other_numbers } else { 0 },
+            )
         };
         // The first of the best.
         let best = order.into_iter().rev().max_by_key(score);
         best.unwrap_or(Self::Blanks)
     }
 
-    /// The fields of a line; one in quotes may hold the mark.
+    /// Splits a line into its fields; a field in quotes may hold the mark.
     pub(super) fn fields(self, line: &str) -> Vec<Cow<'_, str>> {
         let mark = match self {
-            Self::Blanks => return line.split_whitespace().map(unquoted).collect(),
+            Self::Blanks => return line.split_whitespace().map(unquote).collect(),
             Self::Mark(mark) => mark,
         };
         if !line.contains('"') {
             return line.split(mark).map(|field| field.trim().into()).collect();
         }
         let (mut fields, mut begin, mut quoted) = (Vec::new(), 0, false);
-        for (at, c) in line.char_indices() {
+        for (position, c) in line.char_indices() {
             if c == '"' {
                 quoted = !quoted;
             } else if c == mark && !quoted {
-                fields.push(unquoted(&line[begin..at]));
-                begin = at + c.len_utf8();
+                fields.push(unquote(&line[begin..position]));
+                begin = position + c.len_utf8();
             }
         }
-        fields.push(unquoted(&line[begin..]));
+        fields.push(unquote(&line[begin..]));
         fields
     }
 }
 
-/// A field without the blanks and the quotes around it.
-fn unquoted(field: &str) -> Cow<'_, str> {
+/// Removes the blanks and the quotes around a field.
+fn unquote(field: &str) -> Cow<'_, str> {
     field.trim().trim_matches('"').trim().into()
 }
 
@@ -101,14 +106,14 @@ const MISSING: [&str; 20] = [
     "-1.#ind",
 ];
 
-/// Whether the field says that there is no number.
+/// Whether the field stands for a missing number.
 pub(super) fn is_missing(field: &str) -> bool {
     field.len() <= 9 && MISSING.iter().any(|word| field.eq_ignore_ascii_case(word))
 }
 
-/// The number of a field, NaN for one that was not measured; `None` if it is no finite number. The
-/// decimal sign may be a comma, the minus sign that of typesetting, the exponent one of Fortran.
-pub(super) fn number(field: &str) -> Option<f64> {
+/// Parses a field: NaN for a number that was not measured, `None` for anything but a finite number. The
+/// decimal sign may be a comma, the minus sign typographic, the exponent one of Fortran.
+pub(super) fn parse_number(field: &str) -> Option<f64> {
     // Letters alone, such as `infinity`, are no number.
     let digits = field.bytes().any(|b| b.is_ascii_digit());
     if !digits {
@@ -144,7 +149,7 @@ pub(super) fn number(field: &str) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Parting, number};
+    use super::{Separator, parse_number};
 
     #[test]
     fn numbers_are_read_as_they_are_written() {
@@ -158,10 +163,10 @@ mod tests {
             ("1.5-106", 1.5e-106),
             ("\u{2212}2", -2.0),
         ] {
-            assert_eq!(number(field), Some(value), "{field}");
+            assert_eq!(parse_number(field), Some(value), "{field}");
         }
         for field in ["", "NaN", "n/a", "--", "-1.#IND"] {
-            assert!(number(field).is_some_and(f64::is_nan), "{field}");
+            assert!(parse_number(field).is_some_and(f64::is_nan), "{field}");
         }
         for field in [
             "z",
@@ -177,13 +182,13 @@ mod tests {
             "e5",
             "0x10",
         ] {
-            assert_eq!(number(field), None, "{field}");
+            assert_eq!(parse_number(field), None, "{field}");
         }
     }
 
     #[test]
     fn lines_are_parted_by_what_parts_numbers() {
-        use Parting::{Blanks, Mark};
+        use Separator::{Blanks, Mark};
         for (line, parting) in [
             ("1,2", Mark(',')),
             ("1, 2", Mark(',')),
@@ -196,7 +201,7 @@ mod tests {
             ("\"1,5\",\"2,5\"", Mark(',')),
         ] {
             assert_eq!(
-                Parting::of(&[(1, "height, of 3 May"), (2, line)]),
+                Separator::detect(&[(1, "height, of 3 May"), (2, line)]),
                 parting,
                 "{line}"
             );

@@ -4,23 +4,23 @@ use ndarray::Array2;
 
 use super::npy;
 use super::points::Lattice;
-use super::profile::profile;
+use super::profile::profile_message;
 use super::raster::{EsriGrid, Header};
 use super::table::Table;
-use super::text::tolerant;
+use super::text::decode_any;
 use super::unit::{self, Kind};
 use crate::scene::Missing;
 
-/// What a file of numbers leaves open.
+/// Facts about a file of numbers that the file may leave open.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FileOfNumbers {
-    /// Distance of the points along x and y \[m\]; `None` where the file says it.
+    /// Distance of the points along x and y \[m\]; `None` where the file gives it.
     pub spacing: Option<(f64, f64)>,
-    /// Unit of the numbers, in a list of points of x and y too, such as "um"; `None`: that of the
-    /// file, SI where it says none.
+    /// Unit of the numbers, also of x and y in a list of points, such as "um"; `None` for the unit of
+    /// the file, or SI where it has none.
     pub unit: Option<String>,
-    /// The column of a list of points that holds the numbers, by its title or its number from 1, or
-    /// the name of the channel in Gwyddion's text; `None` where there is one.
+    /// Column of the numbers in a list of points, by its title or its number from 1, or
+    /// the name of the channel in Gwyddion's text; `None` where there is only one.
     pub channel: Option<String>,
     /// Treatment of points without a number.
     pub missing: Missing,
@@ -34,48 +34,48 @@ pub(in crate::scene) struct Heights {
     pub(in crate::scene) spacing: (f64, f64),
 }
 
-/// Lines from which on two columns are no map.
+/// Lines from which on two columns are a profile.
 const PROFILE: usize = 8;
-/// Lines from which on three columns are no map.
+/// Lines from which on three columns are points.
 const POINTS: usize = 16;
 /// Relative difference of two lengths that are the same: headers have few digits.
 const SAME: f64 = 1e-3;
 
-/// The numbers of a file; the error says what is wrong and what to give. The ending `.xyz` of its
-/// name `has_points`.
-pub(in crate::scene) fn heights(
+/// Reads the heights in a file; the error gives the fault and its remedy. `has_points` is true for the
+/// extension `.xyz`.
+pub(in crate::scene) fn read_heights(
     bytes: Vec<u8>,
     format: &FileOfNumbers,
     has_points: bool,
 ) -> Result<Heights, String> {
-    let reader = Reader {
+    let reader = Interpreter {
         format,
-        unit: format.unit.as_deref().map(length).transpose()?,
+        unit: format.unit.as_deref().map(unit_of_length).transpose()?,
     };
     if npy::is_npy(&bytes) {
         let values = npy::read(bytes)?;
-        return reader.plain(values, None);
+        return reader.place_array(values, None);
     }
-    let text = tolerant(bytes)?;
-    if let Some(grid) = EsriGrid::of(&text) {
+    let text = decode_any(bytes)?;
+    if let Some(grid) = EsriGrid::parse(&text) {
         let EsriGrid {
             values,
             pitch: (x, y),
         } = grid?;
         let scale = reader.unit.unwrap_or(1.0);
-        return reader.with_pitch(values * scale, (x * scale, y * scale));
+        return reader.place_with_pitch(values * scale, (x * scale, y * scale));
     }
-    let mut table = Table::of(&text)?;
+    let mut table = Table::parse(&text)?;
     if table.rows() == 0 {
         return Err("holds no number".into());
     }
-    if let Some(header) = Header::of(&table.comments)? {
-        return reader.picture(&table, &header);
+    if let Some(header) = Header::parse(&table.comments)? {
+        return reader.place_picture(&table, &header);
     }
     table.leave_out_index()?;
-    let (names, units) = unit::of_titles(&table.titles(), table.columns);
-    if let Some(columns) = Columns::of(&table, &names, format, has_points)? {
-        return reader.points(&table, &columns, &units);
+    let (names, units) = unit::names_and_units(&table.titles(), table.columns);
+    if let Some(columns) = Columns::find(&table, &names, format, has_points)? {
+        return reader.place_points(&table, &columns, &units);
     }
     check_map(&table, &names)?;
     let unit = units.iter().flatten().next();
@@ -87,27 +87,27 @@ pub(in crate::scene) fn heights(
     }
     let shape = (table.rows(), table.columns);
     let unit = unit.cloned();
-    let unit = unit.or_else(|| unit::of_whole(&table.titles(), &table.comments));
+    let unit = unit.or_else(|| unit::unit_of_table(&table.titles(), &table.comments));
     let values = Array2::from_shape_vec(shape, table.numbers).map_err(|e| e.to_string())?;
-    reader.plain(values, unit.as_deref())
+    reader.place_array(values, unit.as_deref())
 }
 
-/// The size of a unit of length.
-fn length(word: &str) -> Result<f64, String> {
-    let known = unit::named(word).filter(|(kind, _)| *kind == Kind::Length);
+/// Size of a unit of length in m.
+fn unit_of_length(word: &str) -> Result<f64, String> {
+    let length_unit = unit::named(word).filter(|(kind, _)| *kind == Kind::Length);
     let allowed = || {
         format!(
             "unit = `{word}`: must be one of {}",
             unit::names(Kind::Length)
         )
     };
-    known.map(|(_, size)| size).ok_or_else(allowed)
+    length_unit.map(|(_, size)| size).ok_or_else(allowed)
 }
 
-/// Fails if rows and columns are those of a profile.
+/// Fails if rows and columns are a profile or points.
 fn check_map(table: &Table, names: &[String]) -> Result<(), String> {
     let (rows, columns) = (table.rows(), table.columns);
-    let even = |n: usize| {
+    let is_evenly_spaced = |n: usize| {
         let x: Vec<f64> = table.column(n).collect();
         let mean = (x[rows - 1] - x[0]) / (rows - 1).max(1) as f64;
         mean > 0.0
@@ -118,17 +118,18 @@ fn check_map(table: &Table, names: &[String]) -> Result<(), String> {
     let is_profile = narrow == 1
         || narrow == 2 && rows.max(columns) >= PROFILE
         || columns == 2
-            && (names.iter().any(|name| is_axis(name, 'x')) || rows > 2 && (even(0) || even(1)));
+            && (names.iter().any(|name| is_axis(name, 'x'))
+                || rows > 2 && (is_evenly_spaced(0) || is_evenly_spaced(1)));
     if is_profile {
-        return Err(profile(rows.max(columns)));
+        return Err(profile_message(rows.max(columns)));
     }
-    let constant = |n: usize| {
-        let mut all = table.column(n);
-        let first = all.next();
-        all.all(|x| Some(x) == first)
+    let is_constant = |n: usize| {
+        let mut column = table.column(n);
+        let first = column.next();
+        column.all(|x| Some(x) == first)
     };
-    if columns == 3 && rows >= PROFILE && (constant(0) || constant(1)) {
-        return Err(profile(rows));
+    if columns == 3 && rows >= PROFILE && (is_constant(0) || is_constant(1)) {
+        return Err(profile_message(rows));
     }
     if columns == 3 && rows >= POINTS {
         return Err(format!(
@@ -157,17 +158,17 @@ struct Columns {
 }
 
 impl Columns {
-    /// The columns, if the table is a list of points.
-    fn of(
+    /// Finds the columns, if the table is a list of points.
+    fn find(
         table: &Table,
         names: &[String],
         format: &FileOfNumbers,
         has_points: bool,
     ) -> Result<Option<Self>, String> {
         let (rows, columns) = (table.rows(), table.columns);
-        let named = |axis| names.iter().position(|name| is_axis(name, axis));
-        let lattice = |x, y| Lattice::of(table.column(x), table.column(y), rows);
-        let of = |x, y, lattice| {
+        let axis_column = |axis| names.iter().position(|name| is_axis(name, axis));
+        let lattice = |x, y| Lattice::find(table.column(x), table.column(y), rows);
+        let with_values = |x, y, lattice| {
             let value = value_column(columns, (x, y), names, format)?;
             Ok(Some(Self {
                 x,
@@ -176,33 +177,33 @@ impl Columns {
                 lattice,
             }))
         };
-        if let (Some(x), Some(y), true) = (named('x'), named('y'), columns > 2) {
-            let lattice = lattice(x, y).ok_or_else(|| no_lattice((x, y), rows))?;
-            return of(x, y, lattice);
+        if let (Some(x), Some(y), true) = (axis_column('x'), axis_column('y'), columns > 2) {
+            let lattice = lattice(x, y).ok_or_else(|| no_lattice_message((x, y), rows))?;
+            return with_values(x, y, lattice);
         }
         let pairs: &[(usize, usize)] = match columns {
             3 if rows >= 4 => &[(0, 1), (0, 2), (1, 2)],
             4..10 if rows >= 9 => &[(0, 1)],
             _ => &[],
         };
-        let found = pairs
+        let points_on_lattice = pairs
             .iter()
             .find_map(|&(x, y)| Some((x, y, lattice(x, y)?)));
-        if let Some((x, y, lattice)) = found {
-            return of(x, y, lattice);
+        if let Some((x, y, lattice)) = points_on_lattice {
+            return with_values(x, y, lattice);
         }
-        let near =
+        let is_near_lattice =
             |&&(x, y): &&(usize, usize)| Lattice::is_near(table.column(x), table.column(y), rows);
-        match pairs.iter().find(near) {
-            Some((x, y)) => Err(no_lattice((*x, *y), rows)),
-            None if has_points => Err(no_lattice((0, 1), rows)),
+        match pairs.iter().find(is_near_lattice) {
+            Some((x, y)) => Err(no_lattice_message((*x, *y), rows)),
+            None if has_points => Err(no_lattice_message((0, 1), rows)),
             None => Ok(None),
         }
     }
 }
 
-/// What is said of points that lie on no lattice.
-fn no_lattice((x, y): (usize, usize), rows: usize) -> String {
+/// Message for points that lie on no lattice.
+fn no_lattice_message((x, y): (usize, usize), rows: usize) -> String {
     format!(
         "columns {} and {}: {rows} points x and y on no even grid. Each place of an even grid must have \
          one point, at most a tenth of a step off it. Interpolate them to such a grid",
@@ -211,83 +212,85 @@ fn no_lattice((x, y): (usize, usize), rows: usize) -> String {
     )
 }
 
-/// The column of the values of points whose x and y have theirs.
+/// Column of the values in a list of points with the columns x and y.
 fn value_column(
     columns: usize,
     (x, y): (usize, usize),
     names: &[String],
     format: &FileOfNumbers,
 ) -> Result<usize, String> {
-    let others: Vec<usize> = (0..columns).filter(|n| *n != x && *n != y).collect();
+    let candidates: Vec<usize> = (0..columns).filter(|n| *n != x && *n != y).collect();
     let name = |n: usize| {
         names
             .get(n)
             .map_or_else(|| (n + 1).to_string(), Clone::clone)
     };
     if let Some(channel) = &format.channel {
-        let by_name = others.iter().find(|n| name(**n) == *channel);
+        let by_name = candidates.iter().find(|n| name(**n) == *channel);
         let by_number = channel.parse::<usize>().ok().map(|n| n.wrapping_sub(1));
-        let by_number = by_number.filter(|n| others.contains(n));
+        let by_number = by_number.filter(|n| candidates.contains(n));
         if let Some(n) = by_name.copied().or(by_number) {
             return Ok(n);
         }
-    } else if let [only] = others[..] {
+    } else if let [only] = candidates[..] {
         return Ok(only);
     } else {
-        let heights = |n: &&usize| {
+        let is_height = |n: &&usize| {
             matches!(
                 name(**n).to_lowercase().as_str(),
                 "z" | "height" | "heights" | "h"
             )
         };
-        let mut heights = others.iter().filter(heights);
-        if let (Some(only), None) = (heights.next(), heights.next()) {
+        let mut height_columns = candidates.iter().filter(is_height);
+        if let (Some(only), None) = (height_columns.next(), height_columns.next()) {
             return Ok(*only);
         }
     }
-    let all: Vec<String> = others.iter().map(|n| format!("`{}`", name(*n))).collect();
-    let wanted = format
+    let names_of_all: Vec<String> = candidates
+        .iter()
+        .map(|n| format!("`{}`", name(*n)))
+        .collect();
+    let missing_channel = format
         .channel
         .as_ref()
         .map_or_else(String::new, |channel| format!("none is `{channel}`; "));
     Err(format!(
-        "points with {} columns beside x and y: {}: {wanted}say which with channel",
-        others.len(),
-        all.join(", ")
+        "points with {} columns beside x and y: {}: {missing_channel}choose one with channel",
+        candidates.len(),
+        names_of_all.join(", ")
     ))
 }
 
-/// Numbers of one kind or another, with what the caller says of them.
-struct Reader<'a> {
+/// Interpretation of numbers of one kind or another with the facts from the caller.
+struct Interpreter<'a> {
     format: &'a FileOfNumbers,
-    /// Size of the unit that the caller gives.
+    /// Size of the unit from the caller.
     unit: Option<f64>,
 }
 
-impl Reader<'_> {
-    /// The size of the unit, of which a file says the word.
-    fn scale(&self, word: Option<&str>) -> Result<f64, String> {
+impl Interpreter<'_> {
+    /// Size of the unit, for the word in the file.
+    fn unit_size(&self, word: Option<&str>) -> Result<f64, String> {
         let Some(word) = word else {
             return Ok(self.unit.unwrap_or(1.0));
         };
-        let given = self.format.unit.as_deref().unwrap_or_default();
+        let requested = self.format.unit.as_deref().unwrap_or_default();
         match (unit::named(word), self.unit) {
             (Some((Kind::Length, size)), None) => Ok(size),
-            (Some((Kind::Length, size)), Some(unit)) if close(size, unit) => Ok(size),
+            (Some((Kind::Length, size)), Some(unit)) if is_close(size, unit) => Ok(size),
             (Some((Kind::Length, _)), Some(_)) => Err(format!(
-                "says that its numbers are in {word}, unit = `{given}` that they are not: leave unit out, or mend \
-                 the file"
+                "has numbers in {word}, but unit = `{requested}`: leave unit out, or correct the file"
             )),
             (None, Some(unit)) => Ok(unit),
             _ => Err(format!(
-                "says that its numbers are in `{word}`, which is no unit of length: must be one of {}. If they \
+                "has numbers in `{word}`, which is no unit of length: must be one of {}. If they \
                  are lengths all the same, give their unit with unit",
                 unit::names(Kind::Length)
             )),
         }
     }
 
-    /// Only a list of points, or a text of Gwyddion, has channels.
+    /// Fails for a channel that the file does not have: only a list of points, or a text of Gwyddion, has channels.
     fn check_channel(&self, has: Option<&str>) -> Result<(), String> {
         match (&self.format.channel, has) {
             (Some(wanted), Some(has)) if wanted != has => {
@@ -298,30 +301,30 @@ impl Reader<'_> {
         }
     }
 
-    /// Numbers that stand in the order of their points.
-    fn plain(&self, values: Array2<f64>, unit: Option<&str>) -> Result<Heights, String> {
+    /// Interprets numbers in the order of their points.
+    fn place_array(&self, values: Array2<f64>, unit: Option<&str>) -> Result<Heights, String> {
         self.check_channel(None)?;
         let spacing = self.format.spacing.ok_or_else(|| {
             let (nx, ny) = values.dim();
             format!("{nx} by {ny} plain numbers need the distance of the points in m, such as spacing = 2e-6")
         })?;
-        let scale = self.scale(unit)?;
+        let scale = self.unit_size(unit)?;
         Ok(Heights {
             values: values * scale,
             spacing,
         })
     }
 
-    /// Numbers of a file that says the distance of their points \[m\].
-    fn with_pitch(&self, values: Array2<f64>, said: (f64, f64)) -> Result<Heights, String> {
+    /// Interprets numbers of a file that gives the distance of its points \[m\].
+    fn place_with_pitch(&self, values: Array2<f64>, pitch: (f64, f64)) -> Result<Heights, String> {
         let spacing = match self.format.spacing {
-            None => said,
-            Some(given) if close(given.0, said.0) && close(given.1, said.1) => given,
+            None => pitch,
+            Some(given) if is_close(given.0, pitch.0) && is_close(given.1, pitch.1) => given,
             Some((x, y)) => {
                 return Err(format!(
-                    "says that its points lie {:.6e} m by {:.6e} m apart, spacing that they lie {x:e} m by {y:e} m. \
+                    "has points {:.6e} m by {:.6e} m apart, but spacing = ({x:e} m, {y:e} m). \
                      Either leave spacing out or give the unit of the file with unit",
-                    said.0, said.1
+                    pitch.0, pitch.1
                 ));
             }
         };
@@ -329,18 +332,18 @@ impl Reader<'_> {
     }
 
     /// The rows below a header of Gwyddion.
-    fn picture(&self, table: &Table, header: &Header) -> Result<Heights, String> {
+    fn place_picture(&self, table: &Table, header: &Header) -> Result<Heights, String> {
         if let Some(channel) = &header.channel {
             self.check_channel(Some(channel))?;
         }
         let values = Header::values(table)?;
         let (nx, ny) = values.dim();
-        let scale = self.scale(header.unit.as_deref().filter(|unit| !unit.is_empty()))?;
+        let scale = self.unit_size(header.unit.as_deref().filter(|unit| !unit.is_empty()))?;
         let pitch = (header.size.0 / nx as f64, header.size.1 / ny as f64);
-        self.with_pitch(values * scale, pitch)
+        self.place_with_pitch(values * scale, pitch)
     }
 
-    fn points(
+    fn place_points(
         &self,
         table: &Table,
         columns: &Columns,
@@ -355,30 +358,31 @@ impl Reader<'_> {
         let unit = |n: usize| units[n].as_deref();
         let rows = table.numbers.chunks_exact(table.columns);
         let points = rows.map(|row| [row[*x], row[*y], row[*value]]);
-        let values = lattice.lay_out(points).map_err(|(first, second)| {
+        let values = lattice.arrange(points).map_err(|(first, second)| {
             format!(
                 "lines {} and {} are points at one place: must be one height for each",
                 table.lines[first], table.lines[second]
             )
         })?;
-        let values = values * self.scale(unit(*value))?;
+        let values = values * self.unit_size(unit(*value))?;
         let pitch = lattice.pitch();
-        let counts = close(pitch.0, 1.0) && close(pitch.1, 1.0) && unit(*x).or(unit(*y)).is_none();
+        let x_and_y_count =
+            is_close(pitch.0, 1.0) && is_close(pitch.1, 1.0) && unit(*x).or(unit(*y)).is_none();
         match self.format.spacing {
-            Some(spacing) if counts => Ok(Heights { values, spacing }),
-            None if counts && self.unit.is_none() => Err(
-                "x and y of its points count them: say their distance in m, such as spacing = 2e-6, or their unit, \
+            Some(spacing) if x_and_y_count => Ok(Heights { values, spacing }),
+            None if x_and_y_count && self.unit.is_none() => Err(
+                "x and y of its points count them: give their distance in m, such as spacing = 2e-6, or their unit, \
                  such as unit = um"
                     .into(),
             ),
             _ => {
-                let pitch = (pitch.0 * self.scale(unit(*x))?, pitch.1 * self.scale(unit(*y))?);
-                self.with_pitch(values, pitch)
+                let pitch = (pitch.0 * self.unit_size(unit(*x))?, pitch.1 * self.unit_size(unit(*y))?);
+                self.place_with_pitch(values, pitch)
             }
         }
     }
 }
 
-fn close(a: f64, b: f64) -> bool {
+fn is_close(a: f64, b: f64) -> bool {
     (a - b).abs() <= SAME * b.abs()
 }

@@ -1,14 +1,14 @@
-//! Text with a header of its own: Gwyddion's export and ESRI's ASCII grid. Their lines run along x,
+//! Text with a header: Gwyddion's export and ESRI's ASCII grid. Their lines run along x,
 //! from the top. There y is smallest in a picture of Gwyddion, in which z points into the picture,
 //! and largest on a map of ESRI.
 
 use ndarray::{Array2, Axis};
 
-use super::field::{Parting, number};
-use super::table::{Lines, Signs, Table, no_number};
+use super::field::{Separator, parse_number};
+use super::table::{DecimalSigns, Lines, Table, no_number_message};
 use super::unit::{self, Kind};
 
-/// What the header of Gwyddion's text says of the rows below it.
+/// Header of Gwyddion's text.
 #[derive(Debug, PartialEq)]
 pub(super) struct Header {
     /// Name of the channel.
@@ -20,25 +20,25 @@ pub(super) struct Header {
 }
 
 impl Header {
-    /// The header in the comments of a table, if it is one.
-    pub(super) fn of(comments: &[String]) -> Result<Option<Self>, String> {
+    /// Reads the header in the comments of a table, if there is one.
+    pub(super) fn parse(comments: &[String]) -> Result<Option<Self>, String> {
         let entry = |key: &str| {
-            let of_key = comments.iter().filter_map(|line| line.split_once(':'));
-            let mut values = of_key.filter(|(name, _)| name.trim().eq_ignore_ascii_case(key));
+            let entries = comments.iter().filter_map(|line| line.split_once(':'));
+            let mut values = entries.filter(|(name, _)| name.trim().eq_ignore_ascii_case(key));
             values.next().map(|(_, value)| value.trim())
         };
         let (Some(width), Some(height)) = (entry("Width"), entry("Height")) else {
-            return Ok(Self::of_another_language(comments));
+            return Ok(Self::parse_other_language(comments));
         };
         Ok(Some(Self {
             channel: entry("Channel").map(ToOwned::to_owned),
-            size: (length(width)?, length(height)?),
+            size: (parse_length(width)?, parse_length(height)?),
             unit: entry("Value units").map(ToOwned::to_owned),
         }))
     }
 
-    /// The same four lines in another language: channel, width, height and unit, in this order.
-    fn of_another_language(comments: &[String]) -> Option<Self> {
+    /// Reads the four lines in another language: channel, width, height and unit, in this order.
+    fn parse_other_language(comments: &[String]) -> Option<Self> {
         let values = |line: &'_ String| {
             line.split_once(':')
                 .map(|(_, value)| value.trim().to_owned())
@@ -53,7 +53,7 @@ impl Header {
             unit::named(&unit)?;
             Some(Self {
                 channel: Some(channel),
-                size: (length(&width).ok()?, length(&height).ok()?),
+                size: (parse_length(&width).ok()?, parse_length(&height).ok()?),
                 unit: Some(unit),
             })
         })
@@ -68,11 +68,11 @@ impl Header {
 }
 
 /// A length with its unit, in m.
-fn length(text: &str) -> Result<f64, String> {
+fn parse_length(text: &str) -> Result<f64, String> {
     let (value, word) = text.split_once(char::is_whitespace).unwrap_or((text, ""));
-    let known = unit::named(word).filter(|(kind, _)| *kind == Kind::Length);
-    let length = number(value)
-        .zip(known)
+    let length_unit = unit::named(word).filter(|(kind, _)| *kind == Kind::Length);
+    let length = parse_number(value)
+        .zip(length_unit)
         .map(|(value, (_, size))| value * size);
     length.ok_or_else(|| {
         format!(
@@ -111,74 +111,78 @@ const OTHERS: [(&str, &str); 6] = [
     ("proj:", "GRASS"),
     ("isnm", "SurfStand"),
 ];
-/// What stands for no number where the header does not say it.
+/// Number for a missing value where the header gives none.
 const NODATA: f64 = -9999.0;
-/// Most samples along a side that a header may ask for.
+/// Largest number of samples along a side that a header may give.
 const MOST_SAMPLES: f64 = 1e9;
 
 impl EsriGrid {
-    /// The grid of a text, if it begins as one.
-    pub(super) fn of(text: &str) -> Option<Result<Self, String>> {
-        let Lines { lines, .. } = Lines::of(text);
+    /// Reads the grid in a text, if it begins as one.
+    pub(super) fn parse(text: &str) -> Option<Result<Self, String>> {
+        let Lines { lines, .. } = Lines::split(text);
         let first = lines.first()?.1.split_whitespace().next()?.to_lowercase();
         if let Some((_, program)) = OTHERS.iter().find(|(mark, _)| **mark == first) {
             return Some(Err(format!(
                 "is a grid of {program}: export it as an ESRI ASCII grid, or as points x, y and height"
             )));
         }
-        KEYS.contains(&first.as_str()).then(|| Self::read(&lines))
+        KEYS.contains(&first.as_str())
+            .then(|| Self::parse_lines(&lines))
     }
 
-    fn read(lines: &[(usize, &str)]) -> Result<Self, String> {
+    fn parse_lines(lines: &[(usize, &str)]) -> Result<Self, String> {
         let mut entries = [None; KEYS.len()];
-        let mut rest = lines;
-        while let Some((&(n, line), after)) = rest.split_first() {
+        let mut remaining = lines;
+        while let Some((&(n, line), after)) = remaining.split_first() {
             let mut words = line.split_whitespace();
             let key = words.next().unwrap_or_default().to_lowercase();
-            let Some(place) = KEYS.iter().position(|known| **known == key) else {
+            let Some(key_index) = KEYS.iter().position(|known| **known == key) else {
                 break;
             };
             let word = words.next().unwrap_or_default();
             if key == "byteorder" {
                 return Err("header: byteorder belongs to a binary grid (.hdr, .flt): export it as an ASCII grid".into());
             }
-            entries[place] = Some(number(word).ok_or_else(|| no_number(n, 1, word))?);
-            rest = after;
+            entries[key_index] =
+                Some(parse_number(word).ok_or_else(|| no_number_message(n, 1, word))?);
+            remaining = after;
         }
         let entry = |key: &str| {
             KEYS.iter()
                 .position(|known| *known == key)
                 .and_then(|n| entries[n])
         };
-        let count = |key: &str| {
-            let found = entry(key).ok_or_else(|| format!("header: {key} is missing"))?;
-            if found >= 1.0 && found.fract() == 0.0 && found <= MOST_SAMPLES {
-                Ok(found as usize)
+        let count_of = |key: &str| {
+            let number = entry(key).ok_or_else(|| format!("header: {key} is missing"))?;
+            if number >= 1.0 && number.fract() == 0.0 && number <= MOST_SAMPLES {
+                Ok(number as usize)
             } else {
                 Err(format!(
-                    "header: {key} = {found}: must be a whole number from 1 to {MOST_SAMPLES:.0e}"
+                    "header: {key} = {number}: must be a whole number from 1 to {MOST_SAMPLES:.0e}"
                 ))
             }
         };
-        let (nx, ny) = (count("ncols")?, count("nrows")?);
+        let (nx, ny) = (count_of("ncols")?, count_of("nrows")?);
         let length = |key: &str| {
             let length = entry(key).or(entry("cellsize")).filter(|d| *d > 0.0);
             length.ok_or_else(|| "header: cellsize must be a positive length".to_owned())
         };
         let pitch = (length("dx")?, length("dy")?);
         let nodata = entry("nodata_value").or(entry("nodata")).unwrap_or(NODATA);
-        let parting = Parting::of(rest);
-        let (mut numbers, mut signs) = (Vec::new(), Signs::default());
-        for &(n, line) in rest {
+        let parting = Separator::detect(remaining);
+        let (mut numbers, mut signs) = (Vec::new(), DecimalSigns::default());
+        for &(n, line) in remaining {
             for (column, field) in parting.fields(line).iter().enumerate() {
-                signs.see(n, field)?;
-                let value = number(field).ok_or_else(|| no_number(n, column, field))?;
+                signs.check(n, field)?;
+                let value =
+                    parse_number(field).ok_or_else(|| no_number_message(n, column, field))?;
                 numbers.push(if value == nodata { f64::NAN } else { value });
             }
         }
-        let found = numbers.len();
-        let mut rows = Array2::from_shape_vec((ny, nx), numbers)
-            .map_err(|_| format!("has {found} numbers: must have ncols x nrows = {nx} x {ny}"))?;
+        let number_count = numbers.len();
+        let mut rows = Array2::from_shape_vec((ny, nx), numbers).map_err(|_| {
+            format!("has {number_count} numbers: must have ncols x nrows = {nx} x {ny}")
+        })?;
         // The first line is the northernmost.
         rows.invert_axis(Axis(0));
         Ok(Self {
@@ -193,21 +197,21 @@ mod tests {
     use super::Header;
 
     #[test]
-    fn the_header_of_gwyddion_is_known_in_any_language() {
+    fn the_header_of_gwyddion_is_read_in_any_language() {
         let lines = |text: &str| text.lines().map(ToOwned::to_owned).collect::<Vec<_>>();
-        let said =
+        let header =
             lines("Channel: Topography\nWidth: 48.0 \u{b5}m\nHeight: 40 \u{3bc}m\nValue units: nm");
-        let english = Header::of(&said).expect("a header");
-        let said = lines(
+        let english = Header::parse(&header).expect("a header");
+        let header = lines(
             "Kanal: Topography\nBreite: 48,0 \u{b5}m\nH\u{f6}he: 40 \u{b5}m\nWerteinheiten: nm",
         );
-        assert_eq!(Header::of(&said), Ok(english));
-        for none in [
+        assert_eq!(Header::parse(&header), Ok(english));
+        for lines_without_header in [
             "a: 1 um\nb: 2 um",
             "Rig: A\nStroke: 4 um\nDrift: 1 um\nMade by: me",
         ] {
-            assert_eq!(Header::of(&lines(none)), Ok(None));
+            assert_eq!(Header::parse(&lines(lines_without_header)), Ok(None));
         }
-        assert!(Header::of(&lines("Width: 4 apples\nHeight: 3 um")).is_err());
+        assert!(Header::parse(&lines("Width: 4 apples\nHeight: 3 um")).is_err());
     }
 }

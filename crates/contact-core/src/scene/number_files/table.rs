@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::field::{Parting, is_missing, number};
+use super::field::{Separator, is_missing, parse_number};
 
 /// A table of text: comments, titles, rows of numbers.
 #[derive(Debug, Default)]
@@ -19,18 +19,18 @@ pub(in crate::scene) struct Table {
     pub(in crate::scene) lines: Vec<usize>,
 }
 
-/// The lines of a text with something in them, comments apart.
+/// Lines of a text that are not empty, without comments.
 pub(super) struct Lines<'a> {
     pub(super) comments: Vec<String>,
     pub(super) lines: Vec<(usize, &'a str)>,
 }
 
 impl<'a> Lines<'a> {
-    pub(super) fn of(text: &'a str) -> Self {
+    pub(super) fn split(text: &'a str) -> Self {
         let mark = if text.contains('\n') { '\n' } else { '\r' };
         let (mut comments, mut lines) = (Vec::new(), Vec::new());
         for (n, line) in text.split(mark).enumerate() {
-            // A tab at an end parts a field that is empty.
+            // A tab at an end separates an empty field.
             let line = line.trim_matches([' ', '\r', '\u{c}', '\u{a0}', '\u{feff}']);
             if let Some(comment) = line.trim_start().strip_prefix('#') {
                 comments.push(comment.trim().to_owned());
@@ -43,31 +43,31 @@ impl<'a> Lines<'a> {
 }
 
 impl Table {
-    /// The table of a text; the error names line, column and what was found there.
-    pub(in crate::scene) fn of(text: &str) -> Result<Self, String> {
-        let Lines { comments, lines } = Lines::of(text);
-        let parting = Parting::of(&lines);
+    /// Parses a table; the error gives line, column and the text found there.
+    pub(in crate::scene) fn parse(text: &str) -> Result<Self, String> {
+        let Lines { comments, lines } = Lines::split(text);
+        let parting = Separator::detect(&lines);
         let mut table = Self {
             comments,
             ..Self::default()
         };
-        let (mut blank_ends, mut signs) = (true, Signs::default());
-        let mut rest = lines.as_slice();
-        while let Some((&(_, line), after)) = rest.split_first() {
+        let (mut blank_ends, mut signs) = (true, DecimalSigns::default());
+        let mut remaining = lines.as_slice();
+        while let Some((&(_, line), after)) = remaining.split_first() {
             let fields = parting.fields(line);
-            let is_number = |field: &Cow<'_, str>| number(field).is_some();
+            let is_number = |field: &Cow<'_, str>| parse_number(field).is_some();
             let words = fields.iter().filter(|field| !is_missing(field));
             if words.clone().next().is_none() || words.clone().any(is_number) {
                 break;
             }
-            let owned = fields.into_iter().map(Cow::into_owned).collect();
+            let titles = fields.into_iter().map(Cow::into_owned).collect();
             table.titles.push(match parting {
-                Parting::Blanks => with_units(owned),
-                Parting::Mark(_) => owned,
+                Separator::Blanks => join_units(titles),
+                Separator::Mark(_) => titles,
             });
-            rest = after;
+            remaining = after;
         }
-        for &(n, line) in rest {
+        for &(n, line) in remaining {
             let fields = parting.fields(line);
             if table.lines.is_empty() {
                 table.columns = fields.len();
@@ -80,43 +80,44 @@ impl Table {
                 ));
             }
             for (column, field) in fields.iter().enumerate() {
-                signs.see(n, field)?;
-                let number = number(field).ok_or_else(|| no_number(n, column, field))?;
+                signs.check(n, field)?;
+                let number =
+                    parse_number(field).ok_or_else(|| no_number_message(n, column, field))?;
                 table.numbers.push(number);
             }
             blank_ends &= fields.last().is_some_and(|field| field.is_empty());
             table.lines.push(n);
         }
-        // A mark at the end of every line parts nothing.
+        // A mark at the end of every line separates nothing.
         if blank_ends && table.columns > 1 {
-            table.leave_out_last_column();
+            table.remove_last_column();
         }
         Ok(table)
     }
 
-    /// Lines of titles; where there are none the last comment, if it has a word for each column:
-    /// NumPy writes them so.
+    /// Returns the lines of titles; without any the last comment, if it has a word for each column, as
+    /// NumPy writes them.
     pub(in crate::scene) fn titles(&self) -> Vec<Vec<String>> {
         if !self.titles.is_empty() {
             return self.titles.clone();
         }
-        let owned = |words: Vec<&str>| words.into_iter().map(ToOwned::to_owned).collect();
-        let fits = |words: &Vec<String>| words.len() == self.columns;
-        let parted = |comment: &String| -> Vec<String> {
-            owned(comment.split([',', ';', '\t']).map(str::trim).collect())
+        let to_strings = |words: Vec<&str>| words.into_iter().map(ToOwned::to_owned).collect();
+        let has_all_columns = |words: &Vec<String>| words.len() == self.columns;
+        let split_at_marks = |comment: &String| -> Vec<String> {
+            to_strings(comment.split([',', ';', '\t']).map(str::trim).collect())
         };
-        let blanks = |comment: &String| -> Vec<String> {
-            with_units(owned(comment.split_whitespace().collect()))
+        let split_at_blanks = |comment: &String| -> Vec<String> {
+            join_units(to_strings(comment.split_whitespace().collect()))
         };
         let last = self.comments.last();
-        let words = last.map(parted).filter(fits);
+        let words = last.map(split_at_marks).filter(has_all_columns);
         words
-            .or(last.map(blanks).filter(fits))
+            .or(last.map(split_at_blanks).filter(has_all_columns))
             .into_iter()
             .collect()
     }
 
-    /// Rows.
+    /// Number of rows.
     pub(in crate::scene) fn rows(&self) -> usize {
         self.lines.len()
     }
@@ -130,17 +131,17 @@ impl Table {
             .copied()
     }
 
-    fn leave_out_last_column(&mut self) {
+    fn remove_last_column(&mut self) {
         let columns = self.columns;
-        self.leave_out(columns - 1);
+        self.remove_column(columns - 1);
         for titles in &mut self.titles {
             titles.truncate(columns - 1);
         }
     }
 
-    pub(super) fn leave_out_first_column(&mut self) {
+    pub(super) fn remove_first_column(&mut self) {
         let columns = self.columns;
-        self.leave_out(0);
+        self.remove_column(0);
         for titles in &mut self.titles {
             if titles.len() == columns {
                 titles.remove(0);
@@ -148,20 +149,20 @@ impl Table {
         }
     }
 
-    /// Leaves the numbers of a column out.
-    fn leave_out(&mut self, column: usize) {
+    /// Removes the numbers of a column.
+    fn remove_column(&mut self, column: usize) {
         let columns = self.columns;
-        let mut place = 0;
+        let mut index = 0;
         self.numbers.retain(|_| {
-            place += 1;
-            (place - 1) % columns != column
+            index += 1;
+            (index - 1) % columns != column
         });
         self.columns -= 1;
     }
 }
 
-/// Titles that blanks part, each together with the unit in brackets after it.
-fn with_units(words: Vec<String>) -> Vec<String> {
+/// Joins each title of a line split at blanks with the unit in brackets after it.
+fn join_units(words: Vec<String>) -> Vec<String> {
     let mut titles: Vec<String> = Vec::with_capacity(words.len());
     for word in words {
         match titles.last_mut() {
@@ -175,8 +176,8 @@ fn with_units(words: Vec<String>) -> Vec<String> {
     titles
 }
 
-/// The text in place of a number.
-pub(super) fn no_number(line: usize, column: usize, field: &str) -> String {
+/// Message for a text in place of a number.
+pub(super) fn no_number_message(line: usize, column: usize, field: &str) -> String {
     let shown: String = field.chars().take(40).collect();
     format!(
         "line {line}, column {}: `{shown}` is no number. A line of titles holds no number, a comment begins \
@@ -185,15 +186,15 @@ pub(super) fn no_number(line: usize, column: usize, field: &str) -> String {
     )
 }
 
-/// The line of the first decimal point and of the first decimal comma: only one of the two is one.
+/// Lines of the first decimal point and of the first decimal comma: a file may have only one of the two.
 #[derive(Default)]
-pub(super) struct Signs {
+pub(super) struct DecimalSigns {
     point: Option<usize>,
     comma: Option<usize>,
 }
 
-impl Signs {
-    pub(super) fn see(&mut self, line: usize, field: &str) -> Result<(), String> {
+impl DecimalSigns {
+    pub(super) fn check(&mut self, line: usize, field: &str) -> Result<(), String> {
         if field.contains('.') && !is_missing(field) {
             self.point.get_or_insert(line);
         } else if field.contains(',') {
@@ -230,19 +231,19 @@ mod tests {
             "1 2.5\r3 -0.4\r",
             "1,2.5\n3,\u{2212}0.4",
         ] {
-            let table = Table::of(text).unwrap_or_else(|e| panic!("{text:?}: {e}"));
+            let table = Table::parse(text).unwrap_or_else(|e| panic!("{text:?}: {e}"));
             assert_eq!((table.rows(), table.columns), (2, 2), "{text:?}");
             assert_eq!(table.numbers, [1.0, 2.5, 3.0, -0.4], "{text:?}");
         }
-        let holes = Table::of("nan,,\n1,2,\n3,nan,\n").expect("holes");
+        let holes = Table::parse("nan,,\n1,2,\n3,nan,\n").expect("holes");
         assert_eq!((holes.rows(), holes.columns), (3, 2));
         assert_eq!(holes.numbers.iter().filter(|z| z.is_nan()).count(), 3);
-        let tabs = Table::of("1\t2\t3\n\t4\t\n").expect("holes at both ends");
+        let tabs = Table::parse("1\t2\t3\n\t4\t\n").expect("holes at both ends");
         assert!(tabs.numbers[3].is_nan() && tabs.numbers[4] == 4.0 && tabs.numbers[5].is_nan());
     }
 
     #[test]
-    fn what_is_no_number_is_named() {
+    fn texts_in_place_of_numbers_are_named() {
         for (text, part) in [
             ("1,2\n3,four\n", "line 2, column 2: `four` is no number"),
             ("7 8 z\n1 2 3\n", "line 1, column 3: `z` is no number"),
@@ -260,9 +261,9 @@ mod tests {
                 "line 1 has decimal points and line 2 decimal commas",
             ),
         ] {
-            let told = Table::of(text).expect_err(text);
-            assert!(told.contains(part), "{told}");
+            let message = Table::parse(text).expect_err(text);
+            assert!(message.contains(part), "{message}");
         }
-        assert_eq!(Table::of("").expect("nothing").rows(), 0);
+        assert_eq!(Table::parse("").expect("nothing").rows(), 0);
     }
 }

@@ -2,13 +2,13 @@
 
 pub(in crate::scene) use plausible::unit::{Kind, named, names};
 
-/// The name and the unit of a title such as `T_x [N]`, `height (um)`, `X_(microns)`; without
-/// brackets all is name.
-pub(in crate::scene) fn of_title(title: &str) -> (&str, Option<&str>) {
+/// Splits a title such as `T_x [N]`, `height (um)`, `X_(microns)` into name and unit; without
+/// brackets all of it is the name.
+pub(in crate::scene) fn split_title(title: &str) -> (&str, Option<&str>) {
     let title = title.trim();
     for (open, close) in [('[', ']'), ('(', ')')] {
-        if let Some(rest) = title.strip_suffix(close)
-            && let Some((name, unit)) = rest.rsplit_once(open)
+        if let Some(inside) = title.strip_suffix(close)
+            && let Some((name, unit)) = inside.rsplit_once(open)
         {
             return (name.trim_end_matches(['_', ' ']), Some(unit.trim()));
         }
@@ -18,24 +18,24 @@ pub(in crate::scene) fn of_title(title: &str) -> (&str, Option<&str>) {
 
 const BRACKETS: [char; 4] = ['[', ']', '(', ')'];
 
-/// Whether every field of a line of titles that says something is a unit.
+/// Whether every field of a line of titles that is not empty is a unit.
 fn is_row_of_units(fields: &[String]) -> bool {
     let words = fields.iter().map(|field| field.trim_matches(BRACKETS));
     let kinds = words
-        .filter(|word| !is_none(word))
+        .filter(|word| !is_no_unit(word))
         .map(|word| Some(named(word)?.0));
     let kinds: Option<Vec<Kind>> = kinds.collect();
     kinds.is_some_and(|kinds| kinds.iter().any(|kind| *kind != Kind::Number))
 }
 
 /// Words for a number without a unit.
-fn is_none(unit: &str) -> bool {
+fn is_no_unit(unit: &str) -> bool {
     matches!(unit.trim(), "" | "-" | "1")
 }
 
-/// The names of the columns and the words for their units, from lines of titles of which the last
-/// may be one of units alone.
-pub(in crate::scene) fn of_titles(
+/// Returns the names of the columns and the words for their units, from lines of titles of which the last
+/// may have units alone.
+pub(in crate::scene) fn names_and_units(
     titles: &[Vec<String>],
     columns: usize,
 ) -> (Vec<String>, Vec<Option<String>>) {
@@ -46,56 +46,59 @@ pub(in crate::scene) fn of_titles(
         None => (None, None),
     };
     let unit = |n: usize| {
-        let in_row = row.map(|row| row[n].trim_matches(BRACKETS));
-        let in_title = || names.and_then(|names| of_title(&names[n]).1);
-        let word = in_row.or_else(in_title);
-        word.filter(|word| !is_none(word)).map(ToOwned::to_owned)
+        let from_row = row.map(|row| row[n].trim_matches(BRACKETS));
+        let from_title = || names.and_then(|names| split_title(&names[n]).1);
+        let word = from_row.or_else(from_title);
+        word.filter(|word| !is_no_unit(word)).map(ToOwned::to_owned)
     };
     let units = (0..columns).map(unit).collect();
     let names = names.into_iter().flat_map(|line| line.iter());
     (
-        names.map(|title| of_title(title).0.to_owned()).collect(),
+        names.map(|title| split_title(title).0.to_owned()).collect(),
         units,
     )
 }
 
-/// The unit of length in brackets at the end of the one title of a whole table, such as `z [um]`
+/// Unit of length in brackets at the end of the only title of a table, such as `z [um]`
 /// above a map, or of its last comment, in which NumPy writes a title.
-pub(in crate::scene) fn of_whole(titles: &[Vec<String>], comments: &[String]) -> Option<String> {
-    let only = |line: &Vec<String>| -> Option<String> {
+pub(in crate::scene) fn unit_of_table(
+    titles: &[Vec<String>],
+    comments: &[String],
+) -> Option<String> {
+    let single_title = |line: &Vec<String>| -> Option<String> {
         let mut words = line.iter().filter(|word| !word.trim().is_empty());
         words.next().filter(|_| words.next().is_none()).cloned()
     };
-    let title = titles.iter().rev().find_map(only);
-    // A number in a comment is a setting, and its unit not that of the heights.
+    let title = titles.iter().rev().find_map(single_title);
+    // A number in a comment is a setting, and its unit does not belong to the heights.
     let comment = || {
         comments
             .last()
             .filter(|text| !text.contains(char::is_numeric))
     };
     let title = title.or_else(|| comment().cloned())?;
-    let unit = of_title(&title).1?;
+    let unit = split_title(&title).1?;
     named(unit).filter(|(kind, _)| *kind == Kind::Length)?;
     Some(unit.to_owned())
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Kind, named, of_titles, of_whole};
+    use super::{Kind, named, names_and_units, unit_of_table};
 
     fn line(words: &str) -> Vec<String> {
         words.split(',').map(ToOwned::to_owned).collect()
     }
 
     #[test]
-    fn a_title_above_a_map_says_its_unit() {
+    fn a_title_above_a_map_gives_its_unit() {
         let comments = |text: &str| vec![text.to_owned()];
         for (titles, comments) in [
             (vec![line("z [um]")], vec![]),
             (vec![line("Scan of May"), line("Höhe (µm),,")], vec![]),
             (vec![], comments("heights [um]")),
         ] {
-            let unit = of_whole(&titles, &comments).expect("a unit");
+            let unit = unit_of_table(&titles, &comments).expect("a unit");
             assert_eq!(named(&unit), Some((Kind::Length, 1e-6)));
         }
         for (titles, comments) in [
@@ -104,7 +107,7 @@ mod tests {
             (vec![], comments("pitch 2 [um]")),
             (vec![line("force [N]")], vec![]),
         ] {
-            assert_eq!(of_whole(&titles, &comments), None);
+            assert_eq!(unit_of_table(&titles, &comments), None);
         }
     }
 
@@ -115,7 +118,7 @@ mod tests {
             &[line("x,y,z"), line("mm,mm,um")],
             &[line("Scan of May"), line("x,y,z"), line("[mm],[mm],[um]")],
         ] {
-            let (names, units) = of_titles(titles, 3);
+            let (names, units) = names_and_units(titles, 3);
             assert_eq!(names, ["x", "y", "z"]);
             let sizes = units
                 .iter()
@@ -126,7 +129,7 @@ mod tests {
                 [Some(1e-3), Some(1e-3), Some(1e-6)]
             );
         }
-        let (names, units) = of_titles(&[line("a,b")], 2);
+        let (names, units) = names_and_units(&[line("a,b")], 2);
         assert!(names == ["a", "b"] && units == [None, None]);
     }
 }

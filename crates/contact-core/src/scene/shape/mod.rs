@@ -11,9 +11,9 @@ use ndarray::Array2;
 use super::{Grid, SurfaceMap};
 use crate::error::Error;
 
-/// The undeformed surface of a body, as the height it falls back from the contact plane.
+/// The undeformed surface of a body, as the height that it falls back from the contact plane.
 ///
-/// Near the contact every curved surface is taken as its parabola, as in Hertz's theory. An `angle`
+/// Near the contact every curved surface is replaced by its parabola, as in Hertz's theory. An `angle`
 /// turns the shape about z, from x towards y \[rad\].
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
@@ -106,41 +106,42 @@ impl Shape {
         }
     }
 
-    /// Distance of the surface from the contact plane at the cell centres \[m\], shape (nx, ny).
-    pub fn fall(&self, grid: &Grid) -> Array2<f64> {
+    /// Drop of the surface below the contact plane at the cell centres \[m\], shape (nx, ny).
+    pub fn drop(&self, grid: &Grid) -> Array2<f64> {
         match self {
             Self::Sum(parts) => parts
                 .iter()
                 .fold(Array2::zeros((grid.nx, grid.ny)), |sum, s| {
-                    sum + s.fall(grid)
+                    sum + s.drop(grid)
                 }),
-            Self::Rough(rough) => rough.fall(grid),
-            shape => grid.map(|x, y| shape.fall_at(x, y)),
+            Self::Rough(rough) => rough.drop(grid),
+            shape => grid.map(|x, y| shape.drop_at(x, y)),
         }
     }
 
-    /// Distance from the contact plane at (x, y) \[m\]; zero for shapes that need the whole grid.
-    fn fall_at(&self, x: f64, y: f64) -> f64 {
-        let across = |angle: f64| x * angle.cos() + y * angle.sin();
-        let along = |angle: f64| y * angle.cos() - x * angle.sin();
-        let beyond = |r: f64, radius: f64| {
-            let out = (r.abs() - radius).max(0.0);
-            out * out
+    /// Drop below the contact plane at (x, y) \[m\]; zero for shapes that need the whole grid.
+    fn drop_at(&self, x: f64, y: f64) -> f64 {
+        let perpendicular_coordinate = |angle: f64| x * angle.cos() + y * angle.sin();
+        let axial_coordinate = |angle: f64| y * angle.cos() - x * angle.sin();
+        let squared_excess = |r: f64, radius: f64| {
+            let excess = (r.abs() - radius).max(0.0);
+            excess * excess
         };
         match *self {
             Self::Flat | Self::Rough(_) | Self::Sum(_) => 0.0,
             Self::Sphere { R } => (x * x + y * y) / (2.0 * R),
             Self::Ellipsoid { R_x, R_y, angle } => {
-                across(angle).powi(2) / (2.0 * R_x) + along(angle).powi(2) / (2.0 * R_y)
+                perpendicular_coordinate(angle).powi(2) / (2.0 * R_x)
+                    + axial_coordinate(angle).powi(2) / (2.0 * R_y)
             }
             Self::Cylinder { R, length, angle } => {
                 // Beyond its ends there is nothing that could touch.
-                let end = if 2.0 * along(angle).abs() > length {
+                let end = if 2.0 * axial_coordinate(angle).abs() > length {
                     R.abs()
                 } else {
                     0.0
                 };
-                across(angle).powi(2) / (2.0 * R) + end
+                perpendicular_coordinate(angle).powi(2) / (2.0 * R) + end
             }
             Self::CrownedRoller {
                 R,
@@ -148,26 +149,29 @@ impl Shape {
                 crown,
                 angle,
             } => {
-                across(angle).powi(2) / (2.0 * R)
-                    + beyond(along(angle), 0.5 * length) / (2.0 * crown)
+                perpendicular_coordinate(angle).powi(2) / (2.0 * R)
+                    + squared_excess(axial_coordinate(angle), 0.5 * length) / (2.0 * crown)
             }
             Self::Cone { slope } => slope * x.hypot(y),
-            Self::Wedge { slope, angle } => slope * across(angle).abs(),
-            Self::FlatPunch { radius, edge } => beyond(x.hypot(y), radius) / (2.0 * edge),
+            Self::Wedge { slope, angle } => slope * perpendicular_coordinate(angle).abs(),
+            Self::FlatPunch { radius, edge } => squared_excess(x.hypot(y), radius) / (2.0 * edge),
             Self::Waviness {
                 amplitude,
                 wavelength,
                 angle,
                 phase,
-            } => amplitude * (1.0 - (TAU * across(angle) / wavelength + phase).cos()),
-            Self::HeightMap(ref map) => -map.at(x, y),
+            } => {
+                amplitude
+                    * (1.0 - (TAU * perpendicular_coordinate(angle) / wavelength + phase).cos())
+            }
+            Self::HeightMap(ref map) => -map.interpolate(x, y),
         }
     }
 
-    /// Second derivatives (xx, xy, yy) of the fall at the origin \[1/m\] of the nominal shape:
+    /// Second derivatives (xx, xy, yy) of the drop at the origin \[1/m\] of the nominal shape:
     /// waves, roughness and measured heights are left out, edges and flats have none.
     pub fn curvature(&self) -> [f64; 3] {
-        let principal = |k_x: f64, k_y: f64, angle: f64| {
+        let rotated = |k_x: f64, k_y: f64, angle: f64| {
             let (s, c) = angle.sin_cos();
             [
                 k_x * c * c + k_y * s * s,
@@ -177,8 +181,8 @@ impl Shape {
         };
         match self {
             Self::Sphere { R } => [1.0 / R, 0.0, 1.0 / R],
-            Self::Ellipsoid { R_x, R_y, angle } => principal(1.0 / R_x, 1.0 / R_y, *angle),
-            Self::Cylinder { R, angle, .. } => principal(1.0 / R, 0.0, *angle),
+            Self::Ellipsoid { R_x, R_y, angle } => rotated(1.0 / R_x, 1.0 / R_y, *angle),
+            Self::Cylinder { R, angle, .. } => rotated(1.0 / R, 0.0, *angle),
             Self::CrownedRoller {
                 R,
                 length,
@@ -186,7 +190,7 @@ impl Shape {
                 angle,
             } => {
                 let along = if *length > 0.0 { 0.0 } else { 1.0 / crown };
-                principal(1.0 / R, along, *angle)
+                rotated(1.0 / R, along, *angle)
             }
             Self::Sum(parts) => parts.iter().fold([0.0; 3], |sum, part| {
                 let k = part.curvature();
@@ -226,7 +230,7 @@ impl Shape {
         }
     }
 
-    /// Fails if the shape says nothing, or too little, about some cells of the grid.
+    /// Fails if the shape has too few data for the cells of the grid.
     pub(crate) fn check_on(&self, grid: &Grid, key: &str) -> Result<(), Error> {
         match self {
             Self::HeightMap(map) => map.check_on(grid, &format!("{key}.height_map")),
@@ -239,8 +243,8 @@ impl Shape {
         }
     }
 
-    /// The name of the shape in a scene file; empty for one that has none of its own.
-    pub(crate) fn word(&self) -> &'static str {
+    /// Name of the shape in a scene file.
+    pub(crate) fn name(&self) -> &'static str {
         match self {
             Self::Flat => "flat",
             Self::Sphere { .. } => "sphere",

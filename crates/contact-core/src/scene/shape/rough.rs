@@ -29,15 +29,15 @@ pub struct Rough {
 }
 
 impl Rough {
-    /// Minus the heights, whose mean is zero \[m\].
-    pub(crate) fn fall(&self, grid: &Grid) -> Array2<f64> {
+    /// Drop below the mean plane, minus the heights, whose mean is zero \[m\].
+    pub(crate) fn drop(&self, grid: &Grid) -> Array2<f64> {
         let (nx, ny) = (grid.nx, grid.ny);
         let (length_x, length_y) = grid.extent();
-        let reach = |length: f64| (length / self.shortest).floor() as i64;
+        let largest_wave_number = |length: f64| (length / self.shortest).floor() as i64;
         let mut spectrum = Array2::<Complex64>::zeros((nx, ny));
         let mut squares = 0.0;
-        for m in 0..=reach(length_x) {
-            for n in -reach(length_y)..=reach(length_y) {
+        for m in 0..=largest_wave_number(length_x) {
+            for n in -largest_wave_number(length_y)..=largest_wave_number(length_y) {
                 // One of each pair of opposite waves.
                 if m == 0 && n <= 0 {
                     continue;
@@ -49,10 +49,10 @@ impl Rough {
                 }
                 let amplitude = size.max(1.0 / self.longest).powf(-1.0 - self.hurst);
                 squares += 0.5 * amplitude * amplitude;
-                let at_first_cell = k.0 * grid.x(0) + k.1 * grid.y(0);
-                let phase = TAU * (uniform(self.seed, m, n) + at_first_cell);
-                let place = (m as usize % nx, n.rem_euclid(ny as i64) as usize);
-                spectrum[place] += Complex64::from_polar(amplitude, phase);
+                let phase_at_first_cell = k.0 * grid.x(0) + k.1 * grid.y(0);
+                let phase = TAU * (hashed_uniform(self.seed, m, n) + phase_at_first_cell);
+                let index = (m as usize % nx, n.rem_euclid(ny as i64) as usize);
+                spectrum[index] += Complex64::from_polar(amplitude, phase);
             }
         }
         let heights = sum_of_waves(spectrum);
@@ -124,7 +124,7 @@ fn sum_of_waves(mut spectrum: Array2<Complex64>) -> Array2<Complex64> {
 
 /// A number in [0, 1) that a seed and two wave numbers determine: the mixing function of SplitMix64
 /// (G. L. Steele, D. Lea, C. H. Flood, OOPSLA 2014).
-fn uniform(seed: u32, m: i64, n: i64) -> f64 {
+fn hashed_uniform(seed: u32, m: i64, n: i64) -> f64 {
     let mix = |mut z: u64| {
         z = z.wrapping_add(0x9e37_79b9_7f4a_7c15);
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -149,22 +149,22 @@ mod tests {
     };
 
     #[test]
-    fn its_height_is_the_one_asked_for() {
+    fn the_rms_height_is_as_prescribed() {
         let grid = Grid::centred(1e-3, 64).expect("a grid");
-        let z = ROUGH.fall(&grid);
+        let z = ROUGH.drop(&grid);
         let mean = z.sum() / 4096.0;
         let rms = (z.mapv(|z| z * z).sum() / 4096.0).sqrt();
         assert!((rms / ROUGH.rms - 1.0).abs() < 1e-12 && mean.abs() < 1e-12 * rms);
-        let other = Rough { seed: 8, ..ROUGH }.fall(&grid);
-        assert!((&other - &z).mapv(f64::abs).sum() > 0.1 * z.mapv(f64::abs).sum());
+        let other_surface = Rough { seed: 8, ..ROUGH }.drop(&grid);
+        assert!((&other_surface - &z).mapv(f64::abs).sum() > 0.1 * z.mapv(f64::abs).sum());
     }
 
     #[test]
-    fn a_finer_grid_sees_the_same_surface() {
+    fn a_finer_grid_has_the_same_surface() {
         // Every third cell of the fine grid has the centre of a coarse one.
         let (coarse, fine) = (Grid::centred(1e-3, 48), Grid::centred(1e-3, 144));
-        let coarse = ROUGH.fall(&coarse.expect("a grid"));
-        let fine = ROUGH.fall(&fine.expect("a grid"));
+        let coarse = ROUGH.drop(&coarse.expect("a grid"));
+        let fine = ROUGH.drop(&fine.expect("a grid"));
         for ((i, j), z) in coarse.indexed_iter() {
             assert!((z - fine[(3 * i + 1, 3 * j + 1)]).abs() < 1e-12 * 1e-6);
         }

@@ -64,8 +64,8 @@ impl YieldingBody {
             body.plastic(layer).map(|law| (law, mu))
         };
         let laws: Vec<_> = (0..mesh.planes()).map(law).collect();
-        let residual = ResidualStress::of(body);
-        let initial = (0..mesh.planes()).map(|n| residual.at(mesh.layer(n), mesh.depth(n)));
+        let residual = ResidualStress::from_body(body);
+        let initial = (0..mesh.planes()).map(|n| residual.stress_at(mesh.layer(n), mesh.depth(n)));
         let initial = initial.collect();
         let cells = volume.cells.len();
         let operator = Operator::new(mesh);

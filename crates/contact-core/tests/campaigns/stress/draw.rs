@@ -55,7 +55,7 @@ fn roll(rng: &mut Rng, scene: &mut Scene) {
     let (mut to, t_end) = (before.to, before.t_end + 1.0);
     to.rolled = if rng.bool() { way } else { -way };
     if rng.bool() {
-        let creep = scene.friction.mu * scene.approach() * power(rng, -2.0, 0.5);
+        let creep = scene.friction.mu * scene.reference_approach() * power(rng, -2.0, 0.5);
         to.given.delta_x = Some(if rng.bool() { creep } else { -creep });
     }
     scene.path.branches.push(Branch {
@@ -73,7 +73,7 @@ fn shape(rng: &mut Rng, drawn: &mut Drawn) {
     let scene = &mut drawn.scene;
     let R = 0.018;
     let extent = scene.grid.extent();
-    let (narrow, approach) = (extent.0.min(extent.1), scene.approach());
+    let (narrow, approach) = (extent.0.min(extent.1), scene.reference_approach());
     let sphere = Shape::Sphere { R };
     let shortest = 3.0 * scene.grid.dx.max(scene.grid.dy);
     scene.body1.shape = match rng.u32(0..4) {
@@ -268,7 +268,7 @@ fn path(rng: &mut Rng, mu: f64, W: f64) -> LoadPath {
     let mut t = 0.0;
     let mut to = |path: LoadPath, to: Loads, increments: usize, spacing| {
         t += 1.0;
-        path.branch(Branch {
+        path.push_branch(Branch {
             to,
             increments: Some(increments),
             spacing,

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use contact_core::march::Fields;
-use contact_core::scene::{Given, Loads, Scene};
+use contact_core::scene::{Loads, PrescribedMotions, Scene};
 use ndarray::Array2;
 
 use super::audit::misfit::{Misfit, least_response};
@@ -47,7 +47,7 @@ pub(crate) fn compared(
     };
     let unturned = |scene: &Scene| {
         let mut scene = scene.clone();
-        scene.settings.solver.turning = false;
+        scene.settings.solver.slip_rotation_correction = false;
         scene.settings.solver.tolerance = Some(CLOSER * scene.tolerance());
         run("unturned", &scene).map(|end| (end, Allowed::of(&scene)))
     };
@@ -91,7 +91,7 @@ fn twins_of(scene: &Scene) -> Vec<(&'static str, Scene, Back)> {
         T_x: l.T_x * force,
         T_y: l.T_y * force,
         rolled: l.rolled * length,
-        given: Given {
+        given: PrescribedMotions {
             delta_x: l.given.delta_x.map(|shift| shift * length),
             ..l.given
         },

@@ -64,7 +64,7 @@ fn parted_surfaces_carry_nothing() {
             let largest = field.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
             // What sums of displacements leave where they cancel.
             assert!(
-                largest < 1e-3 * scene.tolerance() * scene.approach(),
+                largest < 1e-3 * scene.tolerance() * scene.reference_approach(),
                 "{largest:e}"
             );
         }
@@ -182,7 +182,7 @@ fn surfaces_touch_where_they_lie() {
     for ((one, fields), (other, _)) in all.iter().zip(&plain) {
         let off = one.motion.delta_z + 1e-3 - other.motion.delta_z;
         assert!(
-            off.abs() < 1e-5 * scene.approach(),
+            off.abs() < 1e-5 * scene.reference_approach(),
             "{}: {off:e}",
             one.index
         );
@@ -190,7 +190,7 @@ fn surfaces_touch_where_they_lie() {
         assert!(off.abs() < 1e-3 * plain[1].0.energy.work, "{off:e}");
         let lowest = fields.gap.iter().fold(f64::INFINITY, |m, g| m.min(*g));
         assert!(
-            lowest.abs() < 1e-5 * scene.approach(),
+            lowest.abs() < 1e-5 * scene.reference_approach(),
             "{}: {lowest:e}",
             one.index
         );
@@ -213,7 +213,7 @@ fn shear_lifts_cells_of_a_contact_that_never_slips() {
         let whole = increment.work.parts == 1 || increment.point.branch == 0;
         assert!(whole && increment.work.convolutions < 500.0);
         for (n, &p) in fields.p.indexed_iter() {
-            let overlap = -fields.gap[n] / scene.approach();
+            let overlap = -fields.gap[n] / scene.reference_approach();
             assert!(p > 0.0 || (overlap < 1e-6 && fields.q_x[n] == 0.0));
         }
     }

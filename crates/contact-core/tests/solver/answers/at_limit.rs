@@ -21,7 +21,7 @@ fn rig(n: usize, extent: f64, coatings: Vec<Coating>) -> Scene {
     let a = line_contact(R, E_star, P).a;
     let mut path = LoadPath::start().normal(P, None);
     for sign in [1.0, -1.0, 1.0, -1.0, 1.0] {
-        path = path.to(
+        path = path.change_to(
             |to| (to.T_x, to.sigma_B) = (sign * 0.6 * MU * P, 175e6 * (1.0 + sign)),
             None,
         );

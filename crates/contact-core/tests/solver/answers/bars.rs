@@ -29,8 +29,8 @@ fn forces_and_moments_that_are_answered_have_bars() {
     };
     let (mut scene, delta_z, a) = given(LoadPath::start());
     scene.path = LoadPath::start()
-        .to(|to| to.given.delta_z = Some(delta_z), 8)
-        .to(
+        .change_to(|to| to.given.delta_z = Some(delta_z), 8)
+        .change_to(
             |to| {
                 to.given.delta_x = Some(0.15 * delta_z);
                 to.given.delta_y = Some(0.05 * delta_z);

@@ -16,8 +16,8 @@ fn rolled(n: usize, k: f64, tolerance: f64) -> Result<Tractions, contact_core::E
     scene.settings.solver.tolerance = Some(tolerance);
     scene.path = LoadPath::start()
         .normal(W, 1)
-        .to(|to| to.T_x = 10.0, 2)
-        .to(|to| to.rolled = 3.0 * k * dx, 3);
+        .change_to(|to| to.T_x = 10.0, 2)
+        .change_to(|to| to.rolled = 3.0 * k * dx, 3);
     last(&scene)
 }
 

@@ -13,7 +13,7 @@ fn sheared(part: f64, n: usize, increments: Option<usize>) -> Scene {
     let lower = Elastic { E: 70e9, nu: 0.2 };
     let path = LoadPath::start()
         .normal(W, 20)
-        .to(|to| to.T_x = part * 0.3 * W, increments);
+        .change_to(|to| to.T_x = part * 0.3 * W, increments);
     sphere((STEEL, lower), (2.6, n), path).0
 }
 

@@ -23,7 +23,7 @@ fn the_area_of_a_contact_that_sticks_is_a_number() {
         scene.friction = Friction::coulomb(f64::INFINITY);
         scene.settings.solver.tolerance = Some(10f64.powf(-7.0 + 4.0 * rng.f64()));
         let (x, y) = (0.2 + 2.3 * rng.f64(), 2.0 * rng.f64() - 1.0);
-        scene.path = LoadPath::start().normal(W, 2).to(
+        scene.path = LoadPath::start().normal(W, 2).change_to(
             |to| {
                 to.given.delta_x = Some(x * hertz.delta_z);
                 to.given.delta_y = Some(y * hertz.delta_z);

@@ -110,8 +110,8 @@ fn rims_of_line_contacts_are_right_on_every_grid() {
             let (s, back) = (sigma(&line), 1.0);
             let path = LoadPath::start()
                 .normal(W, 1)
-                .to(|to| (to.T_x, to.sigma_B) = (T, s), 1)
-                .to(
+                .change_to(|to| (to.T_x, to.sigma_B) = (T, s), 1)
+                .change_to(
                     |to| (to.T_x, to.sigma_B) = ((1.0 - back) * T, (1.0 - back) * s),
                     1,
                 );

@@ -101,7 +101,7 @@ fn draw(seed: u64) -> Drawn {
         }
         _ => {
             let shift = 20.0 * mu * h.delta_z;
-            let path = pressed.to(|to| to.given.delta_x = Some(shift), 4);
+            let path = pressed.change_to(|to| to.given.delta_x = Some(shift), 4);
             (mu, path, format!("sliding, mu = {mu:.2}"))
         }
     };

@@ -146,7 +146,7 @@ fn said(py: Python<'_>, map: core::SurfaceMap) -> Answer<SurfaceMap> {
 
 /// What becomes of points without a number.
 fn word(missing: &str) -> Answer<core::Missing> {
-    core::Missing::named(missing).ok_or_else(|| {
+    core::Missing::from_word(missing).ok_or_else(|| {
         let allowed = "\"refuse\", \"crop\" or \"fill\"";
         Error::invalid("missing", missing, allowed).into()
     })

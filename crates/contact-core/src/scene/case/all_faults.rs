@@ -1,19 +1,19 @@
-//! Every fault of a scene file: a value that is refused gives way to one that could stand there, and
-//! the file is read again.
+//! All faults of a scene file: a refused value is replaced by a valid one, and the file is read
+//! again.
 
 use toml::{Table, Value};
 
 use super::document::{apply, steps};
 use super::fault::Fault;
-use super::measure::is_name;
+use super::measure::is_measure;
 use crate::scene::Scene;
 
-/// Most faults that are told, and most readings of a file.
-const MOST: usize = 50;
+/// Largest number of faults that are reported, and of readings of a file.
+const MAX_FAULTS: usize = 50;
 
-/// What stands for a key that is missing or refused, by its name: nothing beside it becomes wrong. A
-/// key without one is taken out.
-const STAND_INS: [(&str, &str); 21] = [
+/// Valid values for keys that are missing or refused, by name: none makes another value wrong. A
+/// refused key that is not in this list is removed.
+const REPLACEMENTS: [(&str, &str); 21] = [
     ("schema", "1"),
     ("title", "\"\""),
     (
@@ -44,57 +44,57 @@ const STAND_INS: [(&str, &str); 21] = [
 const SECTIONS: [&str; 5] = ["body1", "body2", "friction", "grid", "path"];
 
 /// Names of the path whose range depends on other values.
-const DEPEND: [&str; 3] = ["T_x", "T_y", "M_z"];
+const DEPENDENT: [&str; 3] = ["T_x", "T_y", "M_z"];
 
-/// The faults of a document of which one is known, and the doubts of what is right in it; `read`
-/// gives the scene or its first fault.
-pub(super) fn every(
+/// Finds all faults of a document after the first, and the doubts about its valid numbers; `read`
+/// returns the scene or its first fault.
+pub(super) fn find_all_faults(
     root: &Table,
     first: Fault,
     read: impl Fn(&Table) -> Result<Scene, Fault>,
 ) -> (Vec<Fault>, Vec<String>) {
     let mut root = root.clone();
-    let (mut faults, mut mended) = (Vec::<Fault>::new(), Vec::<String>::new());
+    let (mut faults, mut replaced) = (Vec::<Fault>::new(), Vec::<String>::new());
     let mut fault = first;
-    for _ in 0..MOST {
-        if mended.contains(&fault.key) {
+    for _ in 0..MAX_FAULTS {
+        if replaced.contains(&fault.key) {
             break;
         }
-        mended.push(fault.key.clone());
-        let goes_on = mend(&mut root, &fault);
-        if faults.is_empty() || is_its_own(&fault) {
+        replaced.push(fault.key.clone());
+        let was_replaced = replace_refused_value(&mut root, &fault);
+        if faults.is_empty() || is_independent(&fault) {
             faults.push(fault);
         }
-        if !goes_on {
+        if !was_replaced {
             break;
         }
         match read(&root) {
-            Ok(scene) => return (faults, doubts(&scene, &mended)),
+            Ok(scene) => return (faults, doubts(&scene, &replaced)),
             Err(next) => fault = next,
         }
     }
     (faults, Vec::new())
 }
 
-/// Whether a fault that is found beside stand-ins is one of its value, whatever stands beside it.
-fn is_its_own(fault: &Fault) -> bool {
+/// Whether a fault is found whatever the replaced values beside it are.
+fn is_independent(fault: &Fault) -> bool {
     if !fault.is_of_meaning {
         return true;
     }
     let path = steps(&fault.key);
     match path[..] {
-        ["path", .., name] => path.len() > 2 && !DEPEND.contains(&name),
+        ["path", .., name] => path.len() > 2 && !DEPENDENT.contains(&name),
         ["body1" | "body2" | "friction" | "kernel" | "wear", .., name] => name != "shape",
         ["solver", name] => name != "path_grid",
         _ => false,
     }
 }
 
-/// Replaces what is refused; false if it cannot be.
-fn mend(root: &mut Table, fault: &Fault) -> bool {
+/// Replaces the refused value; false if it cannot be replaced.
+fn replace_refused_value(root: &mut Table, fault: &Fault) -> bool {
     let mut path = steps(&fault.key);
     // One of several numbers, or the number of a measure: all of them.
-    let inner = |step: &&str| is_name(step) || step.parse::<usize>().is_ok();
+    let inner = |step: &&str| is_measure(step) || step.parse::<usize>().is_ok();
     while path.len() > 1 && path.last().is_some_and(inner) {
         path.pop();
     }
@@ -111,57 +111,57 @@ fn mend(root: &mut Table, fault: &Fault) -> bool {
         }
         return true;
     }
-    if let Some(value) = stand_in(&path) {
+    if let Some(value) = replacement(&path) {
         return apply(root, &format!("{}={value}", path.join("."))).is_ok();
     }
-    let Some(rest) = table_at(root, table) else {
+    let Some(parent) = table_at(root, table) else {
         return false;
     };
-    let found = rest.remove(*name).is_some();
-    let above = Some(table).filter(|_| rest.is_empty());
+    let removed = parent.remove(*name).is_some();
+    let emptied_table = Some(table).filter(|_| parent.is_empty());
     // A table of which nothing is left is missing as a whole.
-    if let Some(value) = above.and_then(stand_in) {
+    if let Some(value) = emptied_table.and_then(replacement) {
         return apply(root, &format!("{}={value}", table.join("."))).is_ok();
     }
-    found
+    removed
 }
 
-/// What stands for a key, by its name.
-fn stand_in(path: &[&str]) -> Option<&'static str> {
+/// Returns a valid value for a key, by its name.
+fn replacement(path: &[&str]) -> Option<&'static str> {
     let name = path.last()?;
     if path.len() > 1 && SECTIONS.contains(name) {
         return None;
     }
-    let found = STAND_INS.iter().find(|(of, _)| of == name);
-    found.map(|(_, value)| *value)
+    let entry = REPLACEMENTS.iter().find(|(key, _)| key == name);
+    entry.map(|(_, value)| *value)
 }
 
 /// The table at the end of a path.
 fn table_at<'t>(root: &'t mut Table, path: &[&str]) -> Option<&'t mut Table> {
-    let Some((first, rest)) = path.split_first() else {
+    let Some((first, steps_below)) = path.split_first() else {
         return Some(root);
     };
-    let mut at = root.get_mut(*first)?;
-    for step in rest {
-        at = match at {
+    let mut node = root.get_mut(*first)?;
+    for step in steps_below {
+        node = match node {
             Value::Table(table) => table.get_mut(*step)?,
             Value::Array(array) => array.get_mut(step.parse::<usize>().ok()?)?,
             _ => return None,
         };
     }
-    at.as_table_mut()
+    node.as_table_mut()
 }
 
-/// The doubts about single values that were read as they stand.
+/// Doubts about single values of the file, without the replaced ones.
 fn doubts(scene: &Scene, mended: &[String]) -> Vec<String> {
-    let stands = |doubt: &String| {
+    let is_original = |doubt: &String| {
         let key = doubt.split([' ', '=']).next().unwrap_or_default();
-        let same = |of: &String| key.starts_with(of.as_str()) || of.starts_with(key);
-        !mended.iter().any(same)
+        let is_replaced = |of: &String| key.starts_with(of.as_str()) || of.starts_with(key);
+        !mended.iter().any(is_replaced)
     };
     scene
         .doubts_of_values()
         .into_iter()
-        .filter(stands)
+        .filter(is_original)
         .collect()
 }

@@ -1,6 +1,6 @@
-//! What the text of a scene is refused for.
+//! Reasons for which the text of a scene is refused.
 
-use super::tests::{FILE, GOOD, assert_refused, changed, set};
+use super::tests::{FILE, GOOD, assert_refused, with_change, with_settings};
 use super::*;
 
 #[test]
@@ -28,7 +28,7 @@ fn bad_settings_are_named() {
             "path[1].T_x = 360: must be |T| <= mu W = 300",
         ),
     ] {
-        let error = set(&[setting]).unwrap_err();
+        let error = with_settings(&[setting]).unwrap_err();
         assert!(matches!(&error, Error::Setting { setting: s, .. } if s == setting));
         let text = error.to_string();
         assert!(text.contains(part), "{text:?} lacks {part:?}");
@@ -38,12 +38,12 @@ fn bad_settings_are_named() {
 #[test]
 fn unknown_keys_name_the_nearest() {
     assert_refused(
-        changed("[friction]", "[frcition]"),
+        with_change("[friction]", "[frcition]"),
         19,
         &["unknown key `frcition`", "nearest valid key is `friction`"],
     );
     assert_refused(
-        changed("thickness =", "thicknes ="),
+        with_change("thickness =", "thicknes ="),
         17,
         &[
             "unknown key `body2.coatings[0].thicknes`",
@@ -51,23 +51,23 @@ fn unknown_keys_name_the_nearest() {
         ],
     );
     assert_refused(
-        changed("T_x = {", "Tx = {"),
+        with_change("T_x = {", "Tx = {"),
         32,
         &["unknown key `path[1].Tx`", "`path[1].T_x`"],
     );
     assert_refused(
-        changed("shape.sphere.R", "shape.sphere.radius"),
+        with_change("shape.sphere.R", "shape.sphere.radius"),
         5,
         &["`body1.shape.sphere.radius`", "`body1.shape.sphere.R`"],
     );
     assert_refused(
-        changed("{ a_H = 2.4 }", "{ a_h = 2.4 }"),
+        with_change("{ a_H = 2.4 }", "{ a_h = 2.4 }"),
         24,
         &["grid.extent = { a_h = 2.4 }", "{ a_H = number }"],
     );
 }
 
-/// What the good scene says; what it is changed to; the line; the key and value named; what is
+/// Text of the good scene; its replacement; the line; the key and value named; what is
 /// allowed.
 const WITHOUT_MEANING: &str = r#"
 E = 210e9;  E = -210e9;  6;  body1.E = -210000000000;  a positive modulus in Pa
@@ -104,7 +104,11 @@ fn values_without_meaning_are_refused() {
         let [from, to, line, value, allowed] = parts[..] else {
             panic!("{row}");
         };
-        assert_refused(changed(from, to), line.parse().unwrap(), &[value, allowed]);
+        assert_refused(
+            with_change(from, to),
+            line.parse().unwrap(),
+            &[value, allowed],
+        );
         count += 1;
     }
     assert_eq!(count, 23);
@@ -112,37 +116,37 @@ fn values_without_meaning_are_refused() {
 
 #[test]
 fn missing_values_are_named() {
-    assert_refused(changed("E = 210e9\n", ""), 4, &["body1.E is missing"]);
-    assert_refused(changed("n = 32\n", ""), 22, &["grid.n is missing"]);
-    assert_refused(changed("schema = 1\n", ""), 1, &["schema is missing"]);
+    assert_refused(with_change("E = 210e9\n", ""), 4, &["body1.E is missing"]);
+    assert_refused(with_change("n = 32\n", ""), 22, &["grid.n is missing"]);
+    assert_refused(with_change("schema = 1\n", ""), 1, &["schema is missing"]);
     assert_refused(
-        changed("[friction]\nmu = 0.3\n", ""),
+        with_change("[friction]\nmu = 0.3\n", ""),
         1,
         &["friction is missing"],
     );
     assert_refused(
-        changed("extent = { a_H = 2.4 }", ""),
+        with_change("extent = { a_H = 2.4 }", ""),
         22,
         &["grid.extent is missing"],
     );
-    let both = changed("n = 32", "n = 32\nspacing = 1e-5");
-    assert_refused(both, 24, &["grid.extent and grid.spacing"]);
+    let both_sizes = with_change("n = 32", "n = 32\nspacing = 1e-5");
+    assert_refused(both_sizes, 24, &["grid.extent and grid.spacing"]);
 }
 
 #[test]
 fn broken_toml_names_its_line() {
-    assert_refused(changed("mu = 0.3", "mu = = 0.3"), 20, &[]);
+    assert_refused(with_change("mu = 0.3", "mu = = 0.3"), 20, &[]);
     assert_refused(
-        changed("nu = 0.3", "nu = 0.3\nnu = 0.2"),
+        with_change("nu = 0.3", "nu = 0.3\nnu = 0.2"),
         8,
         &["duplicate key"],
     );
-    assert_refused(changed("W = 1000.0", "W = 1e999"), 27, &[]);
+    assert_refused(with_change("W = 1000.0", "W = 1e999"), 27, &[]);
 }
 
 #[test]
-fn a_missing_yardstick_is_named() {
-    let flat = changed("shape.sphere.R = 0.018", "shape = \"flat\"");
+fn a_missing_hertz_contact_is_named() {
+    let flat = with_change("shape.sphere.R = 0.018", "shape = \"flat\"");
     assert_refused(flat, 17, &["thickness is given in a_H", "no Hertz contact"]);
     let rigid = GOOD
         .replace("E = 210e9", "E = \"rigid\"")
