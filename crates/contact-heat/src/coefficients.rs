@@ -57,7 +57,7 @@ pub(super) fn coefficients(body: &Layers, grid: &Grid, w: f64) -> Result<Array2<
     let table = hankel.tabulate(r_max);
     // An error e/r of the kernel adds at most e times the integral of 1/r over a cell.
     let reach = cell_integral_of_1_over_r(grid);
-    let estimate = hankel.error(&table, r_max) * reach / coefficients[(0, 0)].norm();
+    let estimate = hankel.max_deviation(&table, r_max) * reach / coefficients[(0, 0)].norm();
     if !(estimate <= TOLERANCE) {
         return Err(Error::TemperatureInaccurate {
             estimate,
@@ -83,7 +83,7 @@ fn over_cell(table: &RadialTable<2>, grid: &Grid, (i, j): (usize, usize), zeta: 
     };
     let mut sum = Complex64::ZERO;
     cell.nodes_of_parts(zeta, CUBATURE, &mut |x, y, weight| {
-        let [re, im] = table.at(x * x + y * y);
+        let [re, im] = table.evaluate(x * x + y * y);
         sum += weight * Complex64::new(re, im);
     });
     sum

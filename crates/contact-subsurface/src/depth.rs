@@ -1,7 +1,7 @@
 //! Body, layer and depth.
 
 use contact_core::Error;
-use contact_core::kernels::{Stack, refuse_rigid};
+use contact_core::kernels::{Stack, check_not_rigid};
 use contact_core::scene::{Body, Scene};
 
 /// A depth and the layer in which the stress is taken.
@@ -51,11 +51,11 @@ pub fn depths(body: &Body, z: &[f64]) -> Result<Vec<Depth>, Error> {
     let stack = Stack::new(body);
     let mut all = Vec::with_capacity(z.len());
     for &z in z {
-        let upper = stack.place(z, None)?.layer;
-        refuse_rigid(body, upper)?;
+        let upper = stack.locate_depth(z, None)?.layer;
+        check_not_rigid(body, upper)?;
         all.push(Depth { z, layer: upper });
         let next = upper + 1;
-        if stack.place(z, Some(next)).is_ok() && refuse_rigid(body, next).is_ok() {
+        if stack.locate_depth(z, Some(next)).is_ok() && check_not_rigid(body, next).is_ok() {
             all.push(Depth { z, layer: next });
         }
     }

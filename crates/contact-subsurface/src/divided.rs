@@ -140,7 +140,7 @@ impl Division<'_> {
             half_x: 0.5 * d_x,
             half_y: 0.5 * d_y,
         };
-        let mut response = self.kernel.under(&cell);
+        let mut response = self.kernel.response_to_cell(&cell);
         // In the body's own frame the shear and the components with one z have its sign.
         for (row, response) in response.iter_mut().enumerate() {
             for (column, v) in response.iter_mut().enumerate() {

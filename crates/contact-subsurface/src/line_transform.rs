@@ -11,7 +11,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use contact_core::Error;
-use contact_core::convolution::{Tractions, good_size};
+use contact_core::convolution::{Tractions, fast_length};
 use contact_core::kernels::{DepthKernel, Quantity};
 use contact_core::stop::unless;
 use ndarray::Array2;
@@ -61,7 +61,7 @@ impl LineTransform {
             .collect();
         // Columns lie symmetric to the middle of the grid.
         let offsets = (plane.n.0 as isize - patch.start.0) as usize;
-        let period = good_size(2 * offsets - 1);
+        let period = fast_length(2 * offsets - 1);
         let mut planner = RealFftPlanner::new();
         let (forward, inverse) = (
             planner.plan_fft_forward(period),

@@ -50,11 +50,11 @@ impl Source {
         mut put: impl FnMut(usize, [[f64; 3]; R]),
     ) {
         match self {
-            Self::Cells => kernel.under_row(0..n, y, d, put),
+            Self::Cells => kernel.responses_to_row(0..n, y, d, put),
             Self::Points => {
                 let area = d.0 * d.1;
                 for i in 0..n {
-                    let point = kernel.at_point(i as f64 * d.0, y);
+                    let point = kernel.response_to_point(i as f64 * d.0, y);
                     put(i, point.map(|row| row.map(|v| area * v)));
                 }
             }

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use contact_core::Error;
-use contact_core::convolution::{Tractions, good_size};
+use contact_core::convolution::{Tractions, fast_length};
 use contact_core::kernels::{DepthKernel, Quantity};
 use contact_core::stop::unless;
 use ndarray::Array2;
@@ -53,7 +53,10 @@ impl PlaneTransform {
             (plane.n.0 as isize - patch.start.0) as usize,
             (plane.n.1 as isize - patch.start.1).max(beyond + 1) as usize,
         );
-        let period = (good_size(2 * offsets.0 - 1), good_size(2 * offsets.1 - 1));
+        let period = (
+            fast_length(2 * offsets.0 - 1),
+            fast_length(2 * offsets.1 - 1),
+        );
         let mut real = RealFftPlanner::new();
         let mut complex = FftPlanner::new();
         let mut transform = Self {

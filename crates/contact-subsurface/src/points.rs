@@ -255,10 +255,10 @@ impl Points {
                 }
             };
             match source {
-                Source::Cells => kernel.under_cells(offsets, from_y, d, add),
+                Source::Cells => kernel.responses_to_cells(offsets, from_y, d, add),
                 Source::Points => {
                     for (i, from_x) in offsets {
-                        let response = kernel.at_point(from_x * d.0, from_y);
+                        let response = kernel.response_to_point(from_x * d.0, from_y);
                         add(i, response.map(|row| row.map(|v| d.0 * d.1 * v)));
                     }
                 }

@@ -257,7 +257,7 @@ impl Rows {
         let turn = |own: Array2<f64>| {
             Array2::from_shape_fn(own.dim(), |(row, i)| {
                 let from = if exchanged {
-                    Q::exchanged(row, 0).0
+                    Q::transposed(row, 0).0
                 } else {
                     row
                 };

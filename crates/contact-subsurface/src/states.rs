@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 
 use contact_core::Error;
 use contact_core::convolution::Tractions;
-use contact_core::kernels::{DepthKernel, Quantity, Stack, refuse_rigid};
+use contact_core::kernels::{DepthKernel, Quantity, Stack, check_not_rigid};
 use contact_core::scene::{Body, Grid, ResidualStress};
 use contact_core::stop::unless;
 use stress_tensor::StressTensor;
@@ -110,9 +110,9 @@ impl Loaded {
         depth: Depth,
         reach: f64,
     ) -> Result<DepthKernel<Q, N, R>, Error> {
-        refuse_rigid(&self.body, depth.layer)?;
+        check_not_rigid(&self.body, depth.layer)?;
         unless(&self.stop)?;
-        let place = self.stack.place(depth.z, Some(depth.layer))?;
+        let place = self.stack.locate_depth(depth.z, Some(depth.layer))?;
         let (dx, dy) = (self.grid.dx, self.grid.dy);
         DepthKernel::new(&self.stack, place, reach, (dx, dy))
     }

@@ -1,7 +1,7 @@
 //! The fields at the end of a block of cycles.
 
 use contact_core::convolution::Convolutions;
-use contact_core::plan::Half;
+use contact_core::plan::Parity;
 use ndarray::Array2;
 
 use super::WearRun;
@@ -53,7 +53,11 @@ impl WearRun {
     pub fn block(&self) -> Block {
         let pressing = self.model.pressing();
         let grid = &pressing.grid;
-        let whole = |field: &[f64]| pressing.mirror.unfold(field, grid.nx, grid.ny, Half::Even);
+        let whole = |field: &[f64]| {
+            pressing
+                .mirror
+                .unfold(field, grid.nx, grid.ny, Parity::Even)
+        };
         let seen = self.model.seen();
         let stick = match seen.stick {
             Some(stick) => {

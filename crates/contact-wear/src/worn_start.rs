@@ -1,7 +1,7 @@
 //! A run that starts from worn surfaces.
 
 use contact_core::Error;
-use contact_core::plan::{Half, Mirror};
+use contact_core::plan::{Mirror, Parity};
 use contact_core::scene::Grid;
 use ndarray::Array2;
 
@@ -41,7 +41,7 @@ impl WornStart {
                 return Err(Error::invalid(key, bad, "finite, >= 0 in every cell"));
             }
             let kept = mirror.fold(field);
-            let whole = mirror.unfold(&kept, grid.nx, grid.ny, Half::Even);
+            let whole = mirror.unfold(&kept, grid.nx, grid.ny, Parity::Even);
             let largest = field.iter().fold(0.0, |m: f64, v| m.max(*v));
             let alike = |(a, b): (&f64, &f64)| (a - b).abs() <= 1e-6 * largest;
             if !whole.iter().zip(field).all(alike) {

@@ -18,7 +18,7 @@ pub(crate) fn surface_frf<'py>(
     k_x: Array<'py, Ix1>,
     k_y: Array<'py, Ix1>,
 ) -> Answer<Bound<'py, PyArray3<Complex64>>> {
-    let stack = Stack::checked(&body.0)?;
+    let stack = Stack::from_checked_body(&body.0)?;
     let mut frf = Array3::zeros((k_x.len()?, 3, 3));
     let waves = k_x.as_array().into_iter().zip(k_y.as_array());
     for (n, (&k_x, &k_y)) in waves.enumerate() {
@@ -115,7 +115,7 @@ pub(crate) fn stress_at(
     #[pyo3(from_py_with = number)] point: (f64, f64, f64),
     #[pyo3(from_py_with = number)] layer: Option<usize>,
 ) -> Answer<Bound<'_, PyArray2<f64>>> {
-    let at = || core::stress_at(&body.0, cell, point, layer);
+    let at = || core::stress_of_cell_at(&body.0, cell, point, layer);
     let stress = interruptible(py, &Arc::default(), at)??;
     Ok(Array2::from_shape_fn((6, 3), |(i, j)| stress[i][j]).into_pyarray(py))
 }

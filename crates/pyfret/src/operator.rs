@@ -54,7 +54,7 @@ impl SurfaceOperator {
         let given = settings.unwrap_or_default();
         let bodies = (&body1.0, &body2.0);
         let operator = stoppable(py, |stop| {
-            convolution::of_bodies(bodies, &grid.0, &given.0, stop)
+            convolution::operator_of_bodies(bodies, &grid.0, &given.0, stop)
         })??;
         Ok(Self {
             shape: (grid.0.nx, grid.0.ny),

@@ -1,4 +1,4 @@
-//! Complex numbers that are worked on together, real and imaginary parts apart.
+//! Blocks of complex numbers that are processed together, real and imaginary parts apart.
 
 use rustfft::num_complex::Complex;
 
@@ -15,12 +15,12 @@ pub(crate) enum Unit {
 
 /// N complex numbers, real and imaginary parts apart.
 #[derive(Clone, Copy)]
-pub(crate) struct Complexes<T, const N: usize> {
+pub(crate) struct ComplexBlock<T, const N: usize> {
     pub(crate) re: [T; N],
     pub(crate) im: [T; N],
 }
 
-impl<T: Precision, const N: usize> Complexes<T, N> {
+impl<T: Precision, const N: usize> ComplexBlock<T, N> {
     #[inline]
     pub(crate) fn zero() -> Self {
         Self {
@@ -38,7 +38,7 @@ impl<T: Precision, const N: usize> Complexes<T, N> {
         }
     }
 
-    /// Conjugates, in reverse order; so they are stored by [`Self::store_mirrored`].
+    /// Loads conjugates in reverse order, as [`Self::store_mirrored`] stores them.
     #[inline]
     pub(crate) fn load_mirrored(z: &[Complex<T>]) -> Self {
         let z: &[Complex<T>; N] = z.try_into().expect("N numbers");
@@ -95,45 +95,45 @@ impl<T: Precision, const N: usize> Complexes<T, N> {
         }
     }
 
-    /// Each pair of numbers through `f`, given their real and imaginary parts.
+    /// Applies `f` to each pair of numbers, given their real and imaginary parts.
     #[inline]
-    fn with(&self, other: &Self, f: impl Fn([T; 2], [T; 2]) -> [T; 2]) -> Self {
-        let of = |i: usize| f([self.re[i], self.im[i]], [other.re[i], other.im[i]]);
+    fn map_pairs(&self, other: &Self, f: impl Fn([T; 2], [T; 2]) -> [T; 2]) -> Self {
+        let pair = |i: usize| f([self.re[i], self.im[i]], [other.re[i], other.im[i]]);
         Self {
-            re: std::array::from_fn(|i| of(i)[0]),
-            im: std::array::from_fn(|i| of(i)[1]),
+            re: std::array::from_fn(|i| pair(i)[0]),
+            im: std::array::from_fn(|i| pair(i)[1]),
         }
     }
 
     #[inline]
     pub(crate) fn plus(&self, other: &Self) -> Self {
-        self.with(other, |z, w| [z[0] + w[0], z[1] + w[1]])
+        self.map_pairs(other, |z, w| [z[0] + w[0], z[1] + w[1]])
     }
 
     #[inline]
     pub(crate) fn minus(&self, other: &Self) -> Self {
-        self.with(other, |z, w| [z[0] - w[0], z[1] - w[1]])
+        self.map_pairs(other, |z, w| [z[0] - w[0], z[1] - w[1]])
     }
 
     #[inline]
     pub(crate) fn times(&self, other: &Self) -> Self {
-        self.with(other, |z, w| {
+        self.map_pairs(other, |z, w| {
             [z[0] * w[0] - z[1] * w[1], z[0] * w[1] + z[1] * w[0]]
         })
     }
 
     #[inline]
     pub(crate) fn times_i(&self) -> Self {
-        self.with(self, |z, _| [-z[1], z[0]])
+        self.map_pairs(self, |z, _| [-z[1], z[0]])
     }
 
     #[inline]
     pub(crate) fn negative(&self) -> Self {
-        self.with(self, |z, _| [-z[0], -z[1]])
+        self.map_pairs(self, |z, _| [-z[0], -z[1]])
     }
 
     #[inline]
     pub(crate) fn conjugate(&self) -> Self {
-        self.with(self, |z, _| [z[0], -z[1]])
+        self.map_pairs(self, |z, _| [z[0], -z[1]])
     }
 }

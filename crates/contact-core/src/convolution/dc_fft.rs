@@ -2,7 +2,7 @@
 
 use std::sync::atomic::AtomicBool;
 
-use super::good_size::good_size;
+use super::good_size::fast_length;
 use super::{Convolutions, Displacements, Spectra, SpectralProduct, SurfaceOperator, Tractions};
 use crate::error::Error;
 use crate::kernels::{InfluenceCoefficients, norm};
@@ -21,19 +21,19 @@ pub struct DcFft {
     self_coefficients: (f64, f64),
 }
 
-/// What single precision misses at most of a displacement, over the norms (roots of the sums of
-/// squares) of the tractions and of a kernel: transforms spread an error of each number over all of
-/// them, so that where tractions cancel it does not.
+/// Largest error of a displacement in single precision, over the norms (roots of the sums of
+/// squares) of the tractions and of a kernel. Transforms spread the error of each number over all
+/// numbers, so that it does not cancel where tractions do.
 const ROUNDING: f64 = 1e-7;
 
 impl DcFft {
-    /// For the coefficients of a pair of bodies. With [`Mirror::Y`] the fields are those of the
+    /// Builds the operator of a pair of bodies. With [`Mirror::Y`] the fields cover the
     /// half y > 0; without `coupling` the normal-tangential kernels are taken as zero.
     pub fn new(coefficients: &InfluenceCoefficients, mirror: Mirror, coupling: bool) -> Self {
         Self::with_single(coefficients, mirror, coupling, false)
     }
 
-    /// As [`Self::new`]; if `single`, changes are answered in single precision
+    /// Builds the operator as [`Self::new`] does; if `single`, responses to changes are computed in single precision
     /// ([`SurfaceOperator::respond`]).
     pub fn with_single(
         coefficients: &InfluenceCoefficients,
@@ -42,12 +42,12 @@ impl DcFft {
         single: bool,
     ) -> Self {
         let stop = AtomicBool::new(false);
-        Self::until(coefficients, mirror, coupling, single, &stop).expect(NOBODY)
+        Self::new_unless_stopped(coefficients, mirror, coupling, single, &stop).expect(NOBODY)
     }
 
-    /// As [`Self::with_single`]; ends when `stop` is raised: [`Error::Interrupted`] after
+    /// Builds the operator as [`Self::with_single`] does; fails when `stop` is raised: [`Error::Interrupted`] after
     /// increment 0.
-    pub fn until(
+    pub fn new_unless_stopped(
         coefficients: &InfluenceCoefficients,
         mirror: Mirror,
         coupling: bool,
@@ -55,8 +55,8 @@ impl DcFft {
         stop: &AtomicBool,
     ) -> Result<Self, Error> {
         let shape = coefficients.zz.dim();
-        let period = (good_size(2 * shape.0 - 1), good_size(2 * shape.1 - 1));
-        let spectra = Spectra::of(coefficients, period, coupling, stop)?;
+        let period = (fast_length(2 * shape.0 - 1), fast_length(2 * shape.1 - 1));
+        let spectra = Spectra::from_coefficients(coefficients, period, coupling, stop)?;
         let product = SpectralProduct::new(shape, mirror, &spectra, period, stop)?;
         let single = single.then(|| SpectralProduct::new(shape, mirror, &spectra, period, stop));
         Ok(Self {
@@ -69,7 +69,7 @@ impl DcFft {
             },
             single: single.transpose()?,
             coupled: coupling,
-            self_coefficients: coefficients.at_origin(),
+            self_coefficients: coefficients.self_coefficients(),
         })
     }
 }
@@ -102,7 +102,7 @@ impl SurfaceOperator for DcFft {
 
     fn work(&self) -> Convolutions {
         let single = self.single.as_ref().map_or(0, |single| single.transforms);
-        Convolutions::of_components(self.product.transforms + single)
+        Convolutions::from_components(self.product.transforms + single)
     }
 
     fn is_coupled(&self) -> bool {

@@ -1,4 +1,4 @@
-//! The O(N^2) sum over all pairs of cells: the yardstick of the fast operators.
+//! The O(N^2) sum over all pairs of cells: the reference of the fast operators.
 
 use ndarray::Array2;
 
@@ -12,7 +12,7 @@ pub struct Direct {
 }
 
 impl Direct {
-    /// For the coefficients of a pair of bodies.
+    /// Builds the operator of a pair of bodies.
     pub fn new(coefficients: InfluenceCoefficients) -> Self {
         Self {
             coefficients,
@@ -23,17 +23,17 @@ impl Direct {
     /// u += sign * C * q.
     fn add(&self, u: &mut [f64], c: &Quadrant, odd: (bool, bool), sign: f64, q: &[f64]) {
         let (nx, ny) = self.shape();
-        let at = |i: usize, j: usize, k: usize, l: usize| {
-            let flips = (odd.0 && i < k) != (odd.1 && j < l);
+        let coefficient = |i: usize, j: usize, k: usize, l: usize| {
+            let changes_sign = (odd.0 && i < k) != (odd.1 && j < l);
             let value = c[(i.abs_diff(k), j.abs_diff(l))];
-            if flips { -value } else { value }
+            if changes_sign { -value } else { value }
         };
         let q = Array2::from_shape_fn((nx, ny), |(k, l)| q[k * ny + l]);
         for (n, u) in u.iter_mut().enumerate() {
             let (i, j) = (n / ny, n % ny);
             *u += sign
                 * q.indexed_iter()
-                    .map(|((k, l), q)| at(i, j, k, l) * q)
+                    .map(|((k, l), q)| coefficient(i, j, k, l) * q)
                     .sum::<f64>();
         }
     }
@@ -79,7 +79,7 @@ impl SurfaceOperator for Direct {
     }
 
     fn work(&self) -> Convolutions {
-        Convolutions::of_components(self.components)
+        Convolutions::from_components(self.components)
     }
 
     fn is_coupled(&self) -> bool {

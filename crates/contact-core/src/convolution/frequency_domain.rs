@@ -25,8 +25,8 @@ pub struct FrequencyDomain {
 }
 
 impl FrequencyDomain {
-    /// For the bodies 1 and 2 on a domain enlarged `lambda` times; without `coupling` the
-    /// normal-tangential responses are taken as zero. `coefficients` are those of the pair.
+    /// Builds the operator of bodies 1 and 2 on a domain enlarged `lambda` times; without `coupling` the
+    /// normal-tangential responses are taken as zero. `coefficients` belong to the pair.
     pub fn new(
         bodies: (&Body, &Body),
         grid: &Grid,
@@ -35,11 +35,11 @@ impl FrequencyDomain {
         coefficients: &InfluenceCoefficients,
     ) -> Self {
         let stop = AtomicBool::new(false);
-        Self::until(bodies, grid, lambda, coupling, coefficients, &stop).expect(NOBODY)
+        Self::new_unless_stopped(bodies, grid, lambda, coupling, coefficients, &stop).expect(NOBODY)
     }
 
-    /// As [`Self::new`]; ends when `stop` is raised.
-    pub(crate) fn until(
+    /// Builds the operator as [`Self::new`] does; fails when `stop` is raised.
+    pub(crate) fn new_unless_stopped(
         bodies: (&Body, &Body),
         grid: &Grid,
         lambda: usize,
@@ -54,20 +54,20 @@ impl FrequencyDomain {
         let norm = 1.0 / (px * py) as f64;
         // A kernel odd along n axes has the transform (-i)^n times its spectrum; the coupling of
         // the two bodies subtracts, eq. (4).
-        let at = |n: usize, m: usize| {
-            let (two, one) = (lower.at(m, n), upper.at(m, n));
+        let sample = |n: usize, m: usize| {
+            let (lower_sample, upper_sample) = (lower.sample(m, n), upper.sample(m, n));
             [
-                norm * (two[0] + one[0]),
-                norm * (two[1] + one[1]),
-                norm * (two[2] + one[2]),
-                -norm * (two[3] + one[3]),
-                -norm * (two[4] - one[4]),
-                -norm * (two[5] - one[5]),
+                norm * (lower_sample[0] + upper_sample[0]),
+                norm * (lower_sample[1] + upper_sample[1]),
+                norm * (lower_sample[2] + upper_sample[2]),
+                -norm * (lower_sample[3] + upper_sample[3]),
+                -norm * (lower_sample[4] - upper_sample[4]),
+                -norm * (lower_sample[5] - upper_sample[5]),
             ]
         };
         let row = |n: usize| {
             unless(stop)?;
-            Ok((0..=px / 2).map(|m| at(n, m)).collect())
+            Ok((0..=px / 2).map(|m| sample(n, m)).collect())
         };
         let rows: Vec<Vec<[f64; 6]>> = (0..=py / 2)
             .into_par_iter()
@@ -92,21 +92,21 @@ impl FrequencyDomain {
                 .map(|(i, s)| if vanishes(i) { 0.0 } else { s[c] })
                 .collect()
         };
-        let if_coupled = |c: usize| if coupling { spectrum(c) } else { Vec::new() };
+        let spectrum_if_coupled = |c: usize| if coupling { spectrum(c) } else { Vec::new() };
         let spectra = Spectra {
             xx: spectrum(0),
             yy: spectrum(1),
             zz: spectrum(2),
             xy: spectrum(3),
-            xz: if_coupled(4),
-            yz: if_coupled(5),
+            xz: spectrum_if_coupled(4),
+            yz: spectrum_if_coupled(5),
         };
         let shape = (grid.nx, grid.ny);
         Ok(Self {
             shape,
             product: SpectralProduct::new(shape, Mirror::None, &spectra, (px, py), stop)?,
             coupled: coupling,
-            self_coefficients: coefficients.at_origin(),
+            self_coefficients: coefficients.self_coefficients(),
         })
     }
 }
@@ -121,7 +121,7 @@ impl SurfaceOperator for FrequencyDomain {
     }
 
     fn work(&self) -> Convolutions {
-        Convolutions::of_components(self.product.transforms)
+        Convolutions::from_components(self.product.transforms)
     }
 
     fn is_coupled(&self) -> bool {

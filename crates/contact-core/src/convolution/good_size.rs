@@ -1,6 +1,6 @@
 //! Lengths that transform fast.
 
-/// Odd parts of lengths, and what a point of such a transform costs over one of a power of two, as
+/// Odd factors of lengths, and the cost of a point of such a transform over one with a power of two, as
 /// measured with `rustfft`.
 const ODD_PARTS: [(usize, f64); 6] = [
     (1, 1.0),
@@ -11,8 +11,8 @@ const ODD_PARTS: [(usize, f64); 6] = [
     (15, 1.35),
 ];
 
-/// The even length >= `n` that takes least time.
-pub fn good_size(n: usize) -> usize {
+/// Even length >= `n` whose transform is fastest.
+pub fn fast_length(n: usize) -> usize {
     let sizes = ODD_PARTS.map(|(odd, cost)| {
         let mut size = 2 * odd;
         while size < n {
@@ -26,20 +26,20 @@ pub fn good_size(n: usize) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::good_size;
+    use super::fast_length;
 
     #[test]
     fn is_even_and_large_enough() {
         for n in 1..3000 {
-            let size = good_size(n);
+            let size = fast_length(n);
             assert!(
                 size >= n && size.is_multiple_of(2) && size < 2 * n.max(2),
                 "{n} -> {size}"
             );
         }
-        assert_eq!(good_size(399), 432);
-        assert_eq!(good_size(470), 512);
-        assert_eq!(good_size(511), 512);
-        assert_eq!(good_size(513), 576);
+        assert_eq!(fast_length(399), 432);
+        assert_eq!(fast_length(470), 512);
+        assert_eq!(fast_length(511), 512);
+        assert_eq!(fast_length(513), 576);
     }
 }

@@ -29,7 +29,7 @@ pub(crate) struct LineSpectra<T> {
     coupling: Group<T>,
 }
 
-/// What acts on one line; a group is empty where its kernels vanish.
+/// The kernels that act on one line; a group is empty where its kernels vanish.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LineKernels<'a, T> {
     /// xx, yy, xy
@@ -41,8 +41,8 @@ pub(crate) struct LineKernels<'a, T> {
 }
 
 impl<T: Precision> LineSpectra<T> {
-    /// `row` numbers per frequency k_y, divided by `unit`; lines of two frequencies if `mirrored`.
-    /// Ends when `stop` is raised.
+    /// Arranges the spectra: `row` numbers per frequency k_y, divided by `unit`; lines of two frequencies if `mirrored`.
+    /// Fails when `stop` is raised.
     pub(crate) fn new(
         s: &Spectra,
         row: usize,
@@ -58,11 +58,11 @@ impl<T: Precision> LineSpectra<T> {
         })
     }
 
-    pub(crate) fn of(&self, line: usize) -> LineKernels<'_, T> {
+    pub(crate) fn kernels_of_line(&self, line: usize) -> LineKernels<'_, T> {
         LineKernels {
-            tangential: self.tangential.of(line),
-            normal: self.normal.of(line),
-            coupling: self.coupling.of(line),
+            tangential: self.tangential.values_of_line(line),
+            normal: self.normal.values_of_line(line),
+            coupling: self.coupling.values_of_line(line),
         }
     }
 }
@@ -80,37 +80,37 @@ impl<T: Precision> Group<T> {
         }
         let blocks = row.div_ceil(LANES);
         let frequencies = spectra[0].len() / row;
-        let each = if mirrored { 2 } else { 1 };
-        let lines = frequencies.div_ceil(each);
-        let mut values = Vec::with_capacity(lines * blocks * spectra.len() * each);
+        let kernels_per_line = if mirrored { 2 } else { 1 };
+        let lines = frequencies.div_ceil(kernels_per_line);
+        let mut values = Vec::with_capacity(lines * blocks * spectra.len() * kernels_per_line);
         for line in 0..lines {
             unless(stop)?;
             for block in 0..blocks {
                 for spectrum in spectra {
-                    for l in 0..each {
+                    for l in 0..kernels_per_line {
                         // The last line may have one frequency only, the last block fewer.
-                        let k_y = line * each + l;
-                        let at = |i: usize| {
+                        let k_y = line * kernels_per_line + l;
+                        let value_at = |i: usize| {
                             let k_x = block * LANES + i;
                             let inside = k_x < row && k_y < frequencies;
                             if inside {
-                                T::of(spectrum[k_y * row + k_x] / unit)
+                                T::from_double(spectrum[k_y * row + k_x] / unit)
                             } else {
                                 T::zero()
                             }
                         };
-                        values.push(std::array::from_fn(at));
+                        values.push(std::array::from_fn(value_at));
                     }
                 }
             }
         }
         Ok(Self {
-            per_line: blocks * spectra.len() * each,
+            per_line: blocks * spectra.len() * kernels_per_line,
             values,
         })
     }
 
-    fn of(&self, line: usize) -> &[[T; LANES]] {
+    fn values_of_line(&self, line: usize) -> &[[T; LANES]] {
         &self.values[line * self.per_line..(line + 1) * self.per_line]
     }
 }

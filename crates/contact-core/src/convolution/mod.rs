@@ -1,6 +1,6 @@
 //! Stage 3: u = C * q, the displacement that tractions cause.
 //!
-//! [`SurfaceOperator`] is the only thing the solvers know of elasticity. [`DcFft`] computes it by
+//! The solvers use elasticity only through [`SurfaceOperator`]. [`DcFft`] computes it by
 //! discrete convolution with transforms on a doubled domain (S. Liu, Q. Wang, G. Liu, Wear 243
 //! (2000) 101-111); [`Direct`] sums cell by cell and exists to check the others.
 
@@ -22,15 +22,15 @@ mod y_transform;
 pub use dc_fft::DcFft;
 pub use direct::Direct;
 pub use frequency_domain::FrequencyDomain;
-pub use good_size::good_size;
+pub use good_size::fast_length;
 pub(crate) use operator::{approximate_inverse, surface_operator};
-pub use operator::{normal_operator, of_bodies, scalar_operator};
+pub use operator::{normal_operator, operator_of_bodies, scalar_operator};
 pub use preconditioner::CirculantInverse;
 pub(crate) use spectra::Spectra;
 pub(crate) use spectral_product::{PARALLEL_FROM, SpectralProduct};
 pub use work::Convolutions;
 
-/// The tractions that act, each a field \[Pa\] in row-major (nx, ny) order; those left out are
+/// The tractions that act, each a field \[Pa\] in row-major (nx, ny) order; missing ones are
 /// zero.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Tractions<'a> {
@@ -42,7 +42,7 @@ pub struct Tractions<'a> {
     pub p: Option<&'a [f64]>,
 }
 
-/// The relative displacements u = u(2) - u(1) asked for \[m\]; those left out are not computed.
+/// The relative displacements u = u(2) - u(1) to be computed \[m\]; missing ones are not computed.
 #[derive(Debug, Default)]
 pub struct Displacements<'a> {
     /// Along x.
@@ -58,14 +58,14 @@ pub trait SurfaceOperator: Send + Sync {
     /// Shape (nx, ny) of the fields.
     fn shape(&self) -> (usize, usize);
 
-    /// Computes the displacements asked for under the tractions given.
+    /// Computes the displacements requested under the given tractions.
     ///
     /// # Panics
     /// If a field does not have nx ny entries.
     fn apply(&mut self, tractions: Tractions<'_>, displacements: Displacements<'_>);
 
-    /// As [`Self::apply`] for a change of the tractions, of which some digits are enough: an
-    /// operator that has single precision at hand errs by about 1e-7 of the largest displacement.
+    /// Computes as [`Self::apply`] does, for a change of the tractions, of which some digits are enough: an
+    /// operator with single precision errs by about 1e-7 of the largest displacement.
     ///
     /// # Panics
     /// If a field does not have nx ny entries.
@@ -73,8 +73,8 @@ pub trait SurfaceOperator: Send + Sync {
         self.apply(tractions, displacements);
     }
 
-    /// What [`Self::respond`] may miss of a displacement, over the root of the sum of squares of
-    /// the tractions \[m/Pa\]; zero where it has all digits.
+    /// Largest error of [`Self::respond`] in a displacement, over the root of the sum of squares of
+    /// the tractions \[m/Pa\]; zero in double precision.
     fn rounding(&self) -> f64 {
         0.0
     }

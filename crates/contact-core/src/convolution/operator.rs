@@ -1,4 +1,4 @@
-//! Where operators are made: those of a scene as its plan asks for them, of a pair of bodies, of
+//! Construction of operators: for a scene and its plan, for a pair of bodies, for
 //! pressure alone.
 
 use std::sync::atomic::AtomicBool;
@@ -11,7 +11,7 @@ use crate::kernels::{InfluenceCoefficients, influence_coefficients};
 use crate::plan::{Mirror, Plan};
 use crate::scene::{Body, Grid, KernelMethod, Scene, Settings};
 
-/// u = C * q on a grid with the coefficients `pair` of that; ends when `stop` is raised.
+/// Builds u = C * q on a grid with the coefficients `pair`; fails when `stop` is raised.
 pub(crate) fn surface_operator(
     scene: &Scene,
     plan: &Plan,
@@ -21,7 +21,7 @@ pub(crate) fn surface_operator(
 ) -> Result<Box<dyn SurfaceOperator>, Error> {
     let single = plan.methods.single_precision;
     Ok(match scene.settings.kernel.method {
-        KernelMethod::FrequencyDomain { lambda } => Box::new(FrequencyDomain::until(
+        KernelMethod::FrequencyDomain { lambda } => Box::new(FrequencyDomain::new_unless_stopped(
             (&scene.body1, &scene.body2),
             grid,
             lambda,
@@ -29,7 +29,7 @@ pub(crate) fn surface_operator(
             pair,
             stop,
         )?),
-        _ => Box::new(DcFft::until(
+        _ => Box::new(DcFft::new_unless_stopped(
             pair,
             plan.mirror,
             plan.coupling,
@@ -39,7 +39,7 @@ pub(crate) fn surface_operator(
     })
 }
 
-/// Its approximate inverse, where the plan has one; ends when `stop` is raised.
+/// Builds the approximate inverse, where the plan has one; fails when `stop` is raised.
 pub(crate) fn approximate_inverse(
     plan: &Plan,
     pair: &InfluenceCoefficients,
@@ -49,23 +49,23 @@ pub(crate) fn approximate_inverse(
         return Ok(None);
     }
     let single = plan.methods.single_precision;
-    let inverse = CirculantInverse::until(pair, plan.mirror, single, stop)?;
+    let inverse = CirculantInverse::new_unless_stopped(pair, plan.mirror, single, stop)?;
     Ok(Some(Box::new(inverse)))
 }
 
-/// u = C * q of a pair of bodies, all components in double precision; ends when `stop` is raised.
-pub fn of_bodies(
+/// Builds u = C * q of a pair of bodies, all components in double precision; fails when `stop` is raised.
+pub fn operator_of_bodies(
     (body1, body2): (&Body, &Body),
     grid: &Grid,
     settings: &Settings,
     stop: &AtomicBool,
 ) -> Result<Box<dyn SurfaceOperator>, Error> {
-    let of = |body| {
+    let coefficients_of = |body| {
         let shortcut = settings.skip.equal_layers;
         influence_coefficients(body, grid, &settings.kernel, shortcut, Some(stop))
     };
-    let pair = of(body2)?.pair(&of(body1)?);
-    Ok(Box::new(DcFft::until(
+    let pair = coefficients_of(body2)?.pair(&coefficients_of(body1)?);
+    Ok(Box::new(DcFft::new_unless_stopped(
         &pair,
         Mirror::None,
         true,
@@ -74,20 +74,22 @@ pub fn of_bodies(
     )?))
 }
 
-/// u_z = C_zz * p on the kept cells, in double precision; ends when `stop` is raised.
+/// Builds u_z = C_zz * p on the kept cells, in double precision; fails when `stop` is raised.
 pub fn normal_operator(
     pair: &InfluenceCoefficients,
     mirror: Mirror,
     stop: &AtomicBool,
 ) -> Result<Box<dyn SurfaceOperator>, Error> {
-    Ok(Box::new(DcFft::until(pair, mirror, false, false, stop)?))
+    Ok(Box::new(DcFft::new_unless_stopped(
+        pair, mirror, false, false, stop,
+    )?))
 }
 
-/// The convolution of one scalar field with even coefficients `c`, as that of p to u_z.
+/// Builds the convolution of a scalar field with even coefficients `c`, in place of p and u_z.
 pub fn scalar_operator(c: Array2<f64>) -> Box<dyn SurfaceOperator> {
-    let one = InfluenceCoefficients {
+    let coefficients = InfluenceCoefficients {
         zz: c,
         ..InfluenceCoefficients::default()
     };
-    Box::new(DcFft::new(&one, Mirror::None, false))
+    Box::new(DcFft::new(&coefficients, Mirror::None, false))
 }

@@ -11,22 +11,22 @@ use rustfft::num_traits::Float;
 
 /// f64 or f32.
 pub(crate) trait Precision: FftNum + Float + AddAssign + SubAssign + Default {
-    /// A number in this precision.
-    fn of(value: f64) -> Self;
+    /// Converts from f64 to this precision.
+    fn from_double(value: f64) -> Self;
 
-    /// The number as f64.
-    fn wide(self) -> f64;
+    /// Converts to f64.
+    fn to_double(self) -> f64;
 
     /// The scale of fields with this largest absolute value, a power of two.
     fn unit(largest: impl FnOnce() -> f64) -> f64;
 }
 
 impl Precision for f64 {
-    fn of(value: f64) -> Self {
+    fn from_double(value: f64) -> Self {
         value
     }
 
-    fn wide(self) -> f64 {
+    fn to_double(self) -> f64 {
         self
     }
 
@@ -36,11 +36,11 @@ impl Precision for f64 {
 }
 
 impl Precision for f32 {
-    fn of(value: f64) -> Self {
+    fn from_double(value: f64) -> Self {
         value as f32
     }
 
-    fn wide(self) -> f64 {
+    fn to_double(self) -> f64 {
         f64::from(self)
     }
 

@@ -2,12 +2,12 @@
 //!
 //! The coefficients, cut at half the grid and continued periodically (G. Strang, Stud. Appl. Math.
 //! 74 (1986) 171-176), are a circulant matrix, which a transform inverts. It knows the layers,
+//! 74 (1986) 171-176), are a circulant matrix, which a transform inverts. It includes the layers,
 //! since it is made of their coefficients. Masked to the contact it is used for C restricted to
-//! the contact; normal and tangential parts are inverted separately.
 
 use std::sync::atomic::AtomicBool;
 
-use super::good_size::good_size;
+use super::good_size::fast_length;
 use super::{ApproximateInverse, Displacements, Spectra, SpectralProduct, Tractions};
 use crate::error::Error;
 use crate::kernels::{InfluenceCoefficients, Quadrant};
@@ -26,21 +26,21 @@ enum Product {
 }
 
 impl CirculantInverse {
-    /// For the coefficients of a pair of bodies, on the whole grid or its mirrored half, in single
+    /// Builds the inverse for the coefficients of a pair of bodies, on the whole grid or its mirrored half, in single
     /// precision if `single`.
     pub fn new(c: &InfluenceCoefficients, mirror: Mirror, single: bool) -> Self {
-        Self::until(c, mirror, single, &AtomicBool::new(false)).expect(NOBODY)
+        Self::new_unless_stopped(c, mirror, single, &AtomicBool::new(false)).expect(NOBODY)
     }
 
-    /// As [`Self::new`]; ends when `stop` is raised.
-    pub(crate) fn until(
+    /// Builds the inverse as [`Self::new`] does; fails when `stop` is raised.
+    pub(crate) fn new_unless_stopped(
         c: &InfluenceCoefficients,
         mirror: Mirror,
         single: bool,
         stop: &AtomicBool,
     ) -> Result<Self, Error> {
         let shape = c.zz.dim();
-        let period = (good_size(shape.0), good_size(shape.1));
+        let period = (fast_length(shape.0), fast_length(shape.1));
         let cut = |q: &Quadrant, odd: bool| cut_at_half(q, period, odd);
         let half = InfluenceCoefficients {
             xx: cut(&c.xx, false),
@@ -50,7 +50,7 @@ impl CirculantInverse {
             xz: Quadrant::zeros((0, 0)),
             yz: Quadrant::zeros((0, 0)),
         };
-        let forward = Spectra::of(&half, period, false, stop)?;
+        let forward = Spectra::from_coefficients(&half, period, false, stop)?;
         let inverse = invert(&forward, (period.0 * period.1) as f64);
         unless(stop)?;
         let product = if single {
@@ -106,8 +106,12 @@ fn cut_at_half(q: &Quadrant, period: (usize, usize), odd: bool) -> Quadrant {
     }
     let shape = (nx.min(period.0 / 2 + 1), ny.min(period.1 / 2 + 1));
     Quadrant::from_shape_fn(shape, |(i, j)| {
-        let meets = 2 * i == period.0 || 2 * j == period.1;
-        if odd && meets { 0.0 } else { q[(i, j)] }
+        let is_at_half_period = 2 * i == period.0 || 2 * j == period.1;
+        if odd && is_at_half_period {
+            0.0
+        } else {
+            q[(i, j)]
+        }
     })
 }
 
@@ -115,12 +119,16 @@ fn cut_at_half(q: &Quadrant, period: (usize, usize), odd: bool) -> Quadrant {
 ///
 /// `cells` undoes the factor of the inverse transform inside the spectra and puts it back.
 fn invert(s: &Spectra, cells: f64) -> Spectra {
-    let positive = |s: &[f64]| {
+    let positive_spectrum = |s: &[f64]| {
         // A cut kernel can dip below zero where it should be small; the inverse must not.
         let floor = s.iter().fold(0.0, |m: f64, v| m.max(v.abs())) * 1e-6;
         s.iter().map(|v| v.max(floor) * cells).collect::<Vec<_>>()
     };
-    let (xx, yy, zz) = (positive(&s.xx), positive(&s.yy), positive(&s.zz));
+    let (xx, yy, zz) = (
+        positive_spectrum(&s.xx),
+        positive_spectrum(&s.yy),
+        positive_spectrum(&s.zz),
+    );
     let xy: Vec<f64> = (s.xy.iter().zip(&xx).zip(&yy))
         .map(|((xy, xx), yy)| {
             let limit = 0.999 * (xx * yy).sqrt();

@@ -8,7 +8,7 @@ use rustfft::num_complex::Complex64;
 
 use crate::error::Error;
 use crate::kernels::{InfluenceCoefficients, Quadrant};
-use crate::plan::Half;
+use crate::plan::Parity;
 use crate::stop::unless;
 
 /// One real spectrum S, k_y-major, shape (period_y/2 + 1, period_x/2 + 1); the transform of the
@@ -29,17 +29,17 @@ pub(crate) struct Spectra {
 }
 
 impl Spectra {
-    /// Spectra of influence coefficients on a domain of the given periods; without `coupling` the
-    /// normal-tangential ones are left out. Ends when `stop` is raised.
-    pub(crate) fn of(
+    /// Computes the spectra of influence coefficients on a domain of the given periods; without `coupling` the
+    /// normal-tangential ones are left out. Fails when `stop` is raised.
+    pub(crate) fn from_coefficients(
         c: &InfluenceCoefficients,
         period: (usize, usize),
         coupling: bool,
         stop: &AtomicBool,
     ) -> Result<Self, Error> {
-        use Half::{Even, Odd};
-        let transform = |q: &Quadrant, x, y| transform(q, (x, y), period, stop);
-        let if_coupled = |q: &Quadrant, x, y| {
+        use Parity::{Even, Odd};
+        let transform = |q: &Quadrant, x, y| transform_quadrant(q, (x, y), period, stop);
+        let transform_if_coupled = |q: &Quadrant, x, y| {
             if coupling {
                 transform(q, x, y)
             } else {
@@ -51,16 +51,16 @@ impl Spectra {
             yy: transform(&c.yy, Even, Even)?,
             zz: transform(&c.zz, Even, Even)?,
             xy: transform(&c.xy, Odd, Odd)?,
-            xz: if_coupled(&c.xz, Odd, Even)?,
-            yz: if_coupled(&c.yz, Even, Odd)?,
+            xz: transform_if_coupled(&c.xz, Odd, Even)?,
+            yz: transform_if_coupled(&c.yz, Even, Odd)?,
         })
     }
 }
 
-/// The spectrum of a kernel given on the offsets >= 0, along x and then along y.
-fn transform(
+/// Computes the spectrum of a kernel from its values at the offsets >= 0, along x and then along y.
+fn transform_quadrant(
     quadrant: &Quadrant,
-    half: (Half, Half),
+    half: (Parity, Parity),
     period: (usize, usize),
     stop: &AtomicBool,
 ) -> Result<Spectrum, Error> {
@@ -68,12 +68,13 @@ fn transform(
     if quadrant.is_empty() {
         return Ok(Spectrum::new());
     }
-    let along_x = by_parity(ny, nx, |j, i| quadrant[(i, j)], half.0, period.0, stop)?;
+    let transformed_x =
+        transform_by_parity(ny, nx, |j, i| quadrant[(i, j)], half.0, period.0, stop)?;
     let frequencies_x = period.0 / 2 + 1;
-    let along_y = by_parity(
+    let transformed_y = transform_by_parity(
         frequencies_x,
         ny,
-        |k, j| along_x[j * frequencies_x + k],
+        |k, j| transformed_x[j * frequencies_x + k],
         half.1,
         period.1,
         stop,
@@ -82,17 +83,17 @@ fn transform(
     let norm = 1.0 / (period.0 * period.1) as f64;
     Ok((0..frequencies_y)
         .flat_map(|l| (0..frequencies_x).map(move |k| (k, l)))
-        .map(|(k, l)| norm * along_y[k * frequencies_y + l])
+        .map(|(k, l)| norm * transformed_y[k * frequencies_y + l])
         .collect())
 }
 
-/// For each of `lines` sequences `f(line, i)`, i < n, continued to i < 0 by their parity: the sums
+/// Continues each of `lines` sequences `f(line, i)`, i < n, to i < 0 by their parity; returns the sums
 /// of f cos(2 pi k i / period), or of f sin, for k = 0 to period/2.
-fn by_parity(
+fn transform_by_parity(
     lines: usize,
     n: usize,
     f: impl Fn(usize, usize) -> f64 + Sync,
-    half: Half,
+    half: Parity,
     period: usize,
     stop: &AtomicBool,
 ) -> Result<Vec<f64>, Error> {
@@ -115,23 +116,23 @@ fn by_parity(
             for i in 0..n {
                 let value = f(line, i);
                 match half {
-                    Half::Even => {
+                    Parity::Even => {
                         real[i] = value;
                         real[(period - i) % period] = value;
                     }
-                    Half::Odd if i > 0 => {
+                    Parity::Odd if i > 0 => {
                         real[i] = value;
                         real[period - i] = -value;
                     }
-                    Half::Odd => {}
+                    Parity::Odd => {}
                 }
             }
             fft.process_with_scratch(real, spectrum, scratch)
                 .expect("buffers have the planned lengths");
             for (s, v) in out.iter_mut().zip(spectrum.iter()) {
                 *s = match half {
-                    Half::Even => v.re,
-                    Half::Odd => -v.im,
+                    Parity::Even => v.re,
+                    Parity::Odd => -v.im,
                 };
             }
             Ok(())

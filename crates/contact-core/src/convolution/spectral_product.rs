@@ -20,14 +20,14 @@ use super::precision::Precision;
 use super::y_transform::{ROWS, YScratch, YTransform};
 use super::{Displacements, Spectra, Tractions};
 use crate::error::Error;
-use crate::plan::{Half, Mirror};
+use crate::plan::{Mirror, Parity};
 
-/// Cells below which a second thread costs more than it brings.
+/// Number of cells below which a second thread costs more than it saves.
 pub(crate) const PARALLEL_FROM: usize = 48 * 48;
-/// Parts of the work per thread: a thread that is held up leaves the rest to the others.
+/// Parts of the work per thread: a delayed thread leaves the remaining parts to the others.
 const PARTS_PER_THREAD: usize = 4;
 /// Behaviour of the components x, y, z of tractions and displacements under y -> -y.
-const HALF: [Half; 3] = [Half::Even, Half::Odd, Half::Even];
+const PARITIES: [Parity; 3] = [Parity::Even, Parity::Odd, Parity::Even];
 
 /// Planned transforms, spectra and buffers for fields of one shape.
 pub(crate) struct SpectralProduct<T: Precision> {
@@ -35,7 +35,7 @@ pub(crate) struct SpectralProduct<T: Precision> {
     /// Rows stored along y.
     rows: usize,
     mirror: Mirror,
-    /// The components that there are kernels for.
+    /// The components that have kernels.
     components: Range<usize>,
     /// Period along x.
     period: usize,
@@ -60,7 +60,7 @@ pub(crate) struct SpectralProduct<T: Precision> {
 /// Buffers of one part of the work.
 struct Scratch<T> {
     y: YScratch<T>,
-    /// A line per component that there is, one number more than the period and space for a last
+    /// A line per component with kernels, one number longer than the period, with space for a last
     /// block.
     line: [Vec<Complex<T>>; 3],
     fft: Vec<Complex<T>>,
@@ -69,8 +69,8 @@ struct Scratch<T> {
 }
 
 impl<T: Precision> SpectralProduct<T> {
-    /// For fields of the whole grid of nx x ny cells, or of its mirrored half, and spectra of the
-    /// given periods (even). Ends when `stop` is raised.
+    /// Plans the product for fields of the whole grid of nx x ny cells, or of its mirrored half, and spectra of the
+    /// given periods (even). Fails when `stop` is raised.
     pub(crate) fn new(
         (nx, ny): (usize, usize),
         mirror: Mirror,
@@ -139,36 +139,40 @@ impl<T: Precision> SpectralProduct<T> {
         for size in sizes {
             assert_eq!(size, cells, "a field must cover the operator's cells");
         }
-        let wanted: [bool; 3] = std::array::from_fn(|c| output[c].is_some());
-        for c in (0..3).filter(|&c| input[c].is_some() || wanted[c]) {
+        let is_wanted: [bool; 3] = std::array::from_fn(|c| output[c].is_some());
+        for c in (0..3).filter(|&c| input[c].is_some() || is_wanted[c]) {
             assert!(self.components.contains(&c), "component {c} has no kernels");
         }
         self.transforms += input.iter().flatten().count() + output.iter().flatten().count();
-        let (loaded, largest) = self.survey(input);
+        let (loaded_blocks, largest) = self.find_loaded_blocks(input);
         let unit = T::unit(|| largest);
-        self.rows_forward(input, 1.0 / unit, &loaded);
-        self.lines(input.map(|f| f.is_some()), wanted, &loaded);
-        self.rows_inverse(unit * self.unit, &mut output);
+        self.transform_rows(input, 1.0 / unit, &loaded_blocks);
+        self.convolve_lines(input.map(|f| f.is_some()), is_wanted, &loaded_blocks);
+        self.transform_rows_back(unit * self.unit, &mut output);
     }
 
-    /// The blocks of rows outside which nothing acts, and the largest absolute value.
-    fn survey(&mut self, input: [Option<&[f64]>; 3]) -> (Range<usize>, f64) {
+    /// Returns the blocks of rows outside which no traction acts, and the largest absolute value.
+    fn find_loaded_blocks(&mut self, input: [Option<&[f64]>; 3]) -> (Range<usize>, f64) {
         let block = ROWS * self.rows;
         let work = |(b, largest): (usize, &mut [u64]), _: &mut Scratch<T>| {
             let fields = input.into_iter().flatten();
             let blocks = fields.filter_map(|field| field.chunks(block).nth(b));
-            largest[0] = blocks.map(largest_of).max().unwrap_or(0);
+            largest[0] = blocks.map(max_abs_bits).max().unwrap_or(0);
         };
-        share(&mut self.parts, &mut self.largest, 1, work);
-        let acts = |&largest: &u64| largest != 0;
-        let first = self.largest.iter().position(acts).unwrap_or(0);
-        let last = self.largest.iter().rposition(acts).map_or(0, |b| b + 1);
+        share_work(&mut self.parts, &mut self.largest, 1, work);
+        let is_loaded = |&largest: &u64| largest != 0;
+        let first = self.largest.iter().position(is_loaded).unwrap_or(0);
+        let last = self
+            .largest
+            .iter()
+            .rposition(is_loaded)
+            .map_or(0, |b| b + 1);
         let largest = self.largest.iter().max().copied().unwrap_or(0);
         (first..last, f64::from_bits(largest))
     }
 
-    /// Along y, from the rows of the fields to blocks of rows by line.
-    fn rows_forward(&mut self, input: [Option<&[f64]>; 3], scale: f64, loaded: &Range<usize>) {
+    /// Transforms along y, from the rows of the fields to blocks of rows by line.
+    fn transform_rows(&mut self, input: [Option<&[f64]>; 3], scale: f64, loaded: &Range<usize>) {
         let (rows, y) = (self.rows, &self.y);
         let (lines, components) = (y.lines(), self.components.clone());
         let per_block = components.len() * lines * ROWS;
@@ -178,32 +182,32 @@ impl<T: Precision> SpectralProduct<T> {
             for (component, field) in input.iter().enumerate() {
                 let Some(field) = field else { continue };
                 let from = &field[(first + b) * ROWS * rows..];
-                let mut each = from.chunks(rows);
-                let place = component - components.start;
-                let block = &mut block[place * lines * ROWS..][..lines * ROWS];
+                let mut field_rows = from.chunks(rows);
+                let component_index = component - components.start;
+                let block = &mut block[component_index * lines * ROWS..][..lines * ROWS];
                 for r in (0..ROWS).step_by(2) {
-                    let (one, two) = (each.next(), each.next());
-                    match one {
+                    let (first_row, second_row) = (field_rows.next(), field_rows.next());
+                    match first_row {
                         Some(one) => y.forward(
-                            [one, two.unwrap_or_default()],
+                            [one, second_row.unwrap_or_default()],
                             scale,
-                            HALF[component],
+                            PARITIES[component],
                             &mut s.y,
                             &mut block[r..],
                         ),
-                        None => clear(block, r),
+                        None => clear_row(block, r),
                     }
-                    if two.is_none() {
-                        clear(block, r + 1);
+                    if second_row.is_none() {
+                        clear_row(block, r + 1);
                     }
                 }
             }
         };
-        share(&mut self.parts, acting, per_block, work);
+        share_work(&mut self.parts, acting, per_block, work);
     }
 
-    /// Along x: transforms of all components of a line, product, and back.
-    fn lines(&mut self, given: [bool; 3], wanted: [bool; 3], loaded: &Range<usize>) {
+    /// Transforms all components of a line along x, multiplies them by the kernels, and transforms back.
+    fn convolve_lines(&mut self, is_given: [bool; 3], is_wanted: [bool; 3], loaded: &Range<usize>) {
         let (period, mirrored) = (self.period, self.mirror != Mirror::None);
         let (by_row, spectra) = (&self.by_row, &self.spectra);
         let (forward, inverse) = (&self.x_forward, &self.x_inverse);
@@ -211,108 +215,115 @@ impl<T: Precision> SpectralProduct<T> {
         let width = self.nx.next_multiple_of(ROWS);
         let work = |(l, convolved): (usize, &mut [Complex<T>]), s: &mut Scratch<T>| {
             let Scratch { line, fft, .. } = s;
-            for component in (0..3).filter(|&c| given[c]) {
+            for component in (0..3).filter(|&c| is_given[c]) {
                 let z = &mut line[component];
                 z[..loaded.start * ROWS].fill(Complex::default());
                 z[loaded.end * ROWS..].fill(Complex::default());
                 for b in loaded.clone() {
-                    let place = component - components.start;
-                    let from = ((b * components.len() + place) * lines + l) * ROWS;
+                    let component_index = component - components.start;
+                    let from = ((b * components.len() + component_index) * lines + l) * ROWS;
                     copy_block(&mut z[b * ROWS..], &by_row[from..]);
                 }
                 forward.process_with_scratch(&mut z[..period], fft);
             }
-            let whole = line.each_mut().map(|z| &mut z[..=period]);
-            multiply(whole, spectra.of(l), given, wanted, mirrored);
-            for component in (0..3).filter(|&c| wanted[c]) {
+            let full_lines = line.each_mut().map(|z| &mut z[..=period]);
+            multiply(
+                full_lines,
+                spectra.kernels_of_line(l),
+                is_given,
+                is_wanted,
+                mirrored,
+            );
+            for component in (0..3).filter(|&c| is_wanted[c]) {
                 let z = &mut line[component];
                 inverse.process_with_scratch(&mut z[..period], fft);
                 convolved[(component - components.start) * width..][..width]
                     .copy_from_slice(&z[..width]);
             }
         };
-        share(&mut self.parts, &mut self.by_line, self.stride, work);
+        share_work(&mut self.parts, &mut self.by_line, self.stride, work);
     }
 
-    /// Along y, back to the rows of the fields, side by side.
-    fn rows_inverse(&mut self, scale: f64, output: &mut [Option<&mut [f64]>; 3]) {
+    /// Transforms along y, back to the rows of the fields, in parallel.
+    fn transform_rows_back(&mut self, scale: f64, output: &mut [Option<&mut [f64]>; 3]) {
         let (rows, y, by_line) = (self.rows, &self.y, &self.by_line);
         let (width, stride) = (self.nx.next_multiple_of(ROWS), self.stride);
         let first = self.components.start;
-        let of_field = |component: usize, field: &mut [f64], parts: &mut [Scratch<T>]| {
+        let transform_field = |component: usize, field: &mut [f64], parts: &mut [Scratch<T>]| {
             let work = |(b, cells): (usize, &mut [f64]), s: &mut Scratch<T>| {
                 for (l, to) in s.block.chunks_mut(ROWS).enumerate() {
                     let from = l * stride + (component - first) * width + b * ROWS;
                     copy_block(to, &by_line[from..]);
                 }
                 for (r, pair) in cells.chunks_mut(2 * rows).enumerate() {
-                    let (one, two) = pair.split_at_mut(rows);
+                    let (first_row, second_row) = pair.split_at_mut(rows);
                     y.inverse(
-                        HALF[component],
+                        PARITIES[component],
                         scale,
                         &mut s.y,
                         &s.block[2 * r..],
-                        [one, two],
+                        [first_row, second_row],
                     );
                 }
             };
-            share(parts, field, ROWS * rows, work);
+            share_work(parts, field, ROWS * rows, work);
         };
         let count = output.iter().flatten().count().max(1);
         let fields = (output.iter_mut().enumerate())
             .filter_map(|(component, field)| field.as_deref_mut().map(|f| (component, f)));
         if self.parts.len() < count || count == 1 {
-            fields.for_each(|(component, field)| of_field(component, field, &mut self.parts));
+            fields
+                .for_each(|(component, field)| transform_field(component, field, &mut self.parts));
             return;
         }
-        let each = self.parts.len() / count;
+        let parts_per_field = self.parts.len() / count;
         rayon::scope(|scope| {
-            for ((component, field), parts) in fields.zip(self.parts.chunks_mut(each)) {
-                scope.spawn(move |_| of_field(component, field, parts));
+            for ((component, field), parts) in fields.zip(self.parts.chunks_mut(parts_per_field)) {
+                scope.spawn(move |_| transform_field(component, field, parts));
             }
         });
     }
 }
 
 /// The bits of the largest absolute value; they are ordered like the values, NaN last.
-fn largest_of(field: &[f64]) -> u64 {
+fn max_abs_bits(field: &[f64]) -> u64 {
     let size = |v: &f64| v.abs().to_bits();
     field.iter().map(size).max().unwrap_or(0)
 }
 
-/// A constant size spares the call that a copy of any size is.
+/// Copies a block of constant size, which spares a call of memcpy.
 fn copy_block<T: Copy>(to: &mut [Complex<T>], from: &[Complex<T>]) {
     if let (Some(to), Some(from)) = (to.first_chunk_mut::<ROWS>(), from.first_chunk()) {
         *to = *from;
     }
 }
 
-/// A row of a block that lies beyond the grid.
-fn clear<T: Precision>(block: &mut [Complex<T>], row: usize) {
+/// Clears a row of a block that lies beyond the grid.
+fn clear_row<T: Precision>(block: &mut [Complex<T>], row: usize) {
     for line in block.chunks_mut(ROWS) {
         line[row] = Complex::default();
     }
 }
 
-/// Does the `work` on every `size` items, in as many parts as there are buffers.
-fn share<T: Send, P: Precision>(
+/// Shares the `work` on every `size` items among as many parts as there are buffers.
+fn share_work<T: Send, P: Precision>(
     parts: &mut [Scratch<P>],
     items: &mut [T],
     size: usize,
     work: impl Fn((usize, &mut [T]), &mut Scratch<P>) + Sync,
 ) {
-    let each = items.len().div_ceil(size).div_ceil(parts.len()).max(1);
+    let items_per_part = items.len().div_ceil(size).div_ceil(parts.len()).max(1);
     if let [scratch] = parts {
         (items.chunks_mut(size).enumerate()).for_each(|item| work(item, scratch));
         return;
     }
     items
-        .par_chunks_mut(each * size)
+        .par_chunks_mut(items_per_part * size)
         .zip(parts)
         .enumerate()
         .for_each(|(part, (chunk, scratch))| {
             for (i, item) in chunk.chunks_mut(size).enumerate() {
-                work((part * each + i, item), scratch);
+                work((part * items_per_part + i, item), scratch);
             }
         });
 }

@@ -13,28 +13,28 @@ pub struct Convolutions(usize);
 const COMPONENTS: usize = 6;
 
 impl Convolutions {
-    /// More than any run comes to.
+    /// Larger than the work of any run.
     pub const MAX: Self = Self(usize::MAX);
 
-    /// So many components convolved, those of the tractions and those of the displacements.
-    pub fn of_components(components: usize) -> Self {
+    /// Work of convolving this number of components of tractions and displacements.
+    pub fn from_components(components: usize) -> Self {
         Self(components)
     }
 
-    /// So many of three tractions to three displacements.
-    pub fn whole(convolutions: usize) -> Self {
+    /// Work of this number of convolutions of three tractions to three displacements.
+    pub fn from_convolutions(convolutions: usize) -> Self {
         Self(COMPONENTS * convolutions)
     }
 
-    /// How many of three tractions to three displacements.
+    /// Number of convolutions of three tractions to three displacements.
     #[allow(clippy::cast_precision_loss)] // a run comes to fewer than 2^53
     pub fn count(self) -> f64 {
         self.0 as f64 / COMPONENTS as f64
     }
 
-    /// Less the work `done`, or none.
+    /// Remaining work after the work `done`, not below zero.
     #[must_use]
-    pub fn left_after(self, done: Self) -> Self {
+    pub fn remaining_after(self, done: Self) -> Self {
         Self(self.0.saturating_sub(done.0))
     }
 }
@@ -42,8 +42,8 @@ impl Convolutions {
 impl Add for Convolutions {
     type Output = Self;
 
-    fn add(self, other: Self) -> Self {
-        Self(self.0 + other.0)
+    fn add(self, addend: Self) -> Self {
+        Self(self.0 + addend.0)
     }
 }
 

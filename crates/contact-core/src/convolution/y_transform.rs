@@ -14,10 +14,10 @@ use std::sync::Arc;
 use rustfft::num_complex::Complex;
 use rustfft::{Fft, FftPlanner};
 
-use super::complexes::Complexes;
+use super::complexes::ComplexBlock;
 use super::line_spectra::LANES;
 use super::precision::Precision;
-use crate::plan::{Half, Mirror};
+use crate::plan::{Mirror, Parity};
 
 /// Rows that travel together: eight complex numbers of single precision fill a cache line.
 pub(crate) const ROWS: usize = 8;
@@ -43,7 +43,7 @@ pub(crate) struct YScratch<T> {
 }
 
 impl<T: Precision> YTransform<T> {
-    /// For rows periodic after `period` (even) cells.
+    /// Plans the transforms of rows periodic after `period` (even) cells.
     pub(crate) fn new(mirror: Mirror, period: usize, planner: &mut FftPlanner<T>) -> Self {
         let (length, twiddles) = match mirror {
             Mirror::None => (period, 0),
@@ -58,7 +58,7 @@ impl<T: Precision> YTransform<T> {
             twiddle: (0..twiddles)
                 .map(|k| {
                     let (sin, cos) = angle(k).sin_cos();
-                    Complex::new(T::of(cos), T::of(sin))
+                    Complex::new(T::from_double(cos), T::from_double(sin))
                 })
                 .collect(),
         }
@@ -85,7 +85,7 @@ impl<T: Precision> YTransform<T> {
         &self,
         rows: [&[f64]; 2],
         scale: f64,
-        half: Half,
+        half: Parity,
         s: &mut YScratch<T>,
         lines: &mut [Complex<T>],
     ) {
@@ -93,31 +93,34 @@ impl<T: Precision> YTransform<T> {
         s.pair[..n].fill(Complex::default());
         match self.mirror {
             Mirror::None if rows[1].is_empty() => {
-                (s.pair.iter_mut().zip(rows[0])).for_each(|(v, a)| v.re = T::of(a * scale));
+                (s.pair.iter_mut().zip(rows[0]))
+                    .for_each(|(v, a)| v.re = T::from_double(a * scale));
             }
             Mirror::None => {
-                let both = rows[0].iter().zip(rows[1]);
-                (s.pair.iter_mut().zip(both)).for_each(|(v, (a, b))| {
-                    *v = Complex::new(T::of(a * scale), T::of(b * scale));
+                let pairs = rows[0].iter().zip(rows[1]);
+                (s.pair.iter_mut().zip(pairs)).for_each(|(v, (a, b))| {
+                    *v = Complex::new(T::from_double(a * scale), T::from_double(b * scale));
                 });
             }
             Mirror::Y => {
                 // Even cells forwards, odd ones backwards from the end; no second row counts as
                 // zero.
-                let (two, scale_2) = match rows[1] {
+                let (second, scale_2) = match rows[1] {
                     [] => (rows[0], 0.0),
                     two => (two, scale),
                 };
-                let ((one, last_1), (two, last_2)) = (rows[0].as_chunks(), two.as_chunks());
-                let both = |a: f64, b: f64| Complex::new(T::of(a * scale), T::of(b * scale_2));
-                let sign = T::of(half.sign());
+                let ((one, last_1), (two, last_2)) = (rows[0].as_chunks(), second.as_chunks());
+                let pair = |a: f64, b: f64| {
+                    Complex::new(T::from_double(a * scale), T::from_double(b * scale_2))
+                };
+                let sign = T::from_double(half.sign());
                 let (low, high) = s.pair[..n].split_at_mut(n / 2);
-                let places = low.iter_mut().zip(high.iter_mut().rev());
-                for (([a, c], [b, d]), (even, odd)) in one.iter().zip(two).zip(places) {
-                    (*even, *odd) = (both(*a, *b), both(*c, *d) * sign);
+                let halves = low.iter_mut().zip(high.iter_mut().rev());
+                for (([a, c], [b, d]), (even, odd)) in one.iter().zip(two).zip(halves) {
+                    (*even, *odd) = (pair(*a, *b), pair(*c, *d) * sign);
                 }
                 for (a, b) in last_1.iter().zip(last_2) {
-                    s.pair[one.len()] = both(*a, *b);
+                    s.pair[one.len()] = pair(*a, *b);
                 }
             }
         }
@@ -130,18 +133,18 @@ impl<T: Precision> YTransform<T> {
             Mirror::None => {
                 let values = s.pair.iter().zip(s.pair.iter().rev()).zip(lines);
                 match half {
-                    Half::Even => values.for_each(|((v, w), line)| {
+                    Parity::Even => values.for_each(|((v, w), line)| {
                         line[0] = v + w.conj();
                         line[1] = over_i(v - w.conj());
                     }),
-                    Half::Odd => values.for_each(|((v, w), line)| {
+                    Parity::Odd => values.for_each(|((v, w), line)| {
                         line[0] = over_i(v + w.conj());
                         line[1] = w.conj() - v;
                     }),
                 }
             }
             Mirror::Y => {
-                self.to_cosines(s, half);
+                self.compute_cosines(s, half);
                 for ([a, b], line) in s.cosines.as_chunks().0.iter().zip(lines) {
                     if let Some(rows) = line.first_chunk_mut() {
                         *rows = [Complex::new(a.re, b.re), Complex::new(a.im, b.im)];
@@ -154,7 +157,7 @@ impl<T: Precision> YTransform<T> {
     /// Inverse of [`Self::forward`] times the period and `scale`; the second row may be empty.
     pub(crate) fn inverse(
         &self,
-        half: Half,
+        half: Parity,
         scale: f64,
         s: &mut YScratch<T>,
         lines: &[Complex<T>],
@@ -166,8 +169,8 @@ impl<T: Precision> YTransform<T> {
             Mirror::None => {
                 for (k, line) in lines.take(n / 2 + 1).enumerate() {
                     let (f, ig) = match half {
-                        Half::Even => (line[0], times_i(line[1])),
-                        Half::Odd => (times_i(line[0]), -line[1]),
+                        Parity::Even => (line[0], times_i(line[1])),
+                        Parity::Odd => (times_i(line[0]), -line[1]),
                     };
                     s.pair[k] = f + ig;
                     s.pair[n - k] = (f - ig).conj();
@@ -179,7 +182,7 @@ impl<T: Precision> YTransform<T> {
                         *c = [Complex::new(a.re, b.re), Complex::new(a.im, b.im)];
                     }
                 }
-                self.take_cosines(s, half);
+                self.invert_cosines(s, half);
             }
         }
         self.inverse
@@ -189,99 +192,104 @@ impl<T: Precision> YTransform<T> {
         let scale = 0.5 * scale;
         match self.mirror {
             Mirror::None => {
-                (first.iter_mut().zip(&s.pair)).for_each(|(f, v)| *f = scale * v.re.wide());
-                (second.iter_mut().zip(&s.pair)).for_each(|(f, v)| *f = scale * v.im.wide());
+                (first.iter_mut().zip(&s.pair)).for_each(|(f, v)| *f = scale * v.re.to_double());
+                (second.iter_mut().zip(&s.pair)).for_each(|(f, v)| *f = scale * v.im.to_double());
             }
             Mirror::Y => {
                 let scales = [scale, scale * half.sign()];
-                spread(&s.pair[..n], first, scales, |v| v.re);
-                spread(&s.pair[..n], second, scales, |v| v.im);
+                write_row(&s.pair[..n], first, scales, |v| v.re);
+                write_row(&s.pair[..n], second, scales, |v| v.im);
             }
         }
     }
 
-    /// C(k) = 2 sum f_j cos(pi k (j + 1/2)/n); an odd field has its sine sums, those of
+    /// Computes C(k) = 2 sum f_j cos(pi k (j + 1/2)/n). An odd field has its sine sums, which are the cosine sums of
     /// (-1)^j f_j read backwards, with the factor -i of the spectrum of q_y.
-    fn to_cosines(&self, s: &mut YScratch<T>, half: Half) {
+    fn compute_cosines(&self, s: &mut YScratch<T>, half: Parity) {
         let n = self.length;
-        let whole = self.twiddle.len() / LANES * LANES;
-        for k in (0..whole).step_by(LANES) {
-            self.cosines_at::<LANES>(s, half, k);
+        let full_blocks = self.twiddle.len() / LANES * LANES;
+        for k in (0..full_blocks).step_by(LANES) {
+            self.unpack_cosines::<LANES>(s, half, k);
         }
-        for k in whole..self.twiddle.len() {
-            self.cosines_at::<1>(s, half, k);
+        for k in full_blocks..self.twiddle.len() {
+            self.unpack_cosines::<1>(s, half, k);
         }
-        // The zero frequency of the sines and the last one of the cosines carry nothing.
-        s.cosines[if half == Half::Even { n } else { 0 }] = Complex::default();
+        // The zero frequency of the sines and the last one of the cosines are zero.
+        s.cosines[if half == Parity::Even { n } else { 0 }] = Complex::default();
         s.cosines[n + 1] = Complex::default();
     }
 
-    /// The frequencies k to k + N - 1 and n less these.
+    /// Unpacks the frequencies `k..k+N` and their mirror `n-k-N+1..=n-k`.
     #[inline]
-    fn cosines_at<const N: usize>(&self, s: &mut YScratch<T>, half: Half, k: usize) {
-        let (here, there) = (k..k + N, self.length + 1 - k - N..=self.length - k);
-        let w = Complexes::<T, N>::load(&self.twiddle[here.clone()]);
-        let a = Complexes::load(&s.pair[here.clone()]).times(&w);
-        let b = Complexes::load_mirrored(&s.pair[there.clone()])
+    fn unpack_cosines<const N: usize>(&self, s: &mut YScratch<T>, half: Parity, k: usize) {
+        let (frequencies, mirrored) = (k..k + N, self.length + 1 - k - N..=self.length - k);
+        let w = ComplexBlock::<T, N>::load(&self.twiddle[frequencies.clone()]);
+        let a = ComplexBlock::load(&s.pair[frequencies.clone()]).times(&w);
+        let b = ComplexBlock::load_mirrored(&s.pair[mirrored.clone()])
             .times(&w)
             .conjugate();
         let (low, high) = (a.plus(&b), a.minus(&b).times_i());
         let (low, high) = match half {
-            Half::Even => (low, high),
-            Half::Odd => (high.negative(), low.negative()),
+            Parity::Even => (low, high),
+            Parity::Odd => (high.negative(), low.negative()),
         };
-        low.store(&mut s.cosines[here]);
-        high.conjugate().store_mirrored(&mut s.cosines[there]);
+        low.store(&mut s.cosines[frequencies]);
+        high.conjugate().store_mirrored(&mut s.cosines[mirrored]);
     }
 
-    /// The other way.
-    fn take_cosines(&self, s: &mut YScratch<T>, half: Half) {
+    /// Inverts [`Self::compute_cosines`].
+    fn invert_cosines(&self, s: &mut YScratch<T>, half: Parity) {
         let n = self.length;
-        s.cosines[if half == Half::Even { n } else { 0 }] = Complex::default();
-        let whole = self.twiddle.len() / LANES * LANES;
-        for k in (0..whole).step_by(LANES) {
-            self.pair_at::<LANES>(s, half, k);
+        s.cosines[if half == Parity::Even { n } else { 0 }] = Complex::default();
+        let full_blocks = self.twiddle.len() / LANES * LANES;
+        for k in (0..full_blocks).step_by(LANES) {
+            self.pack_cosines::<LANES>(s, half, k);
         }
-        for k in whole..self.twiddle.len() {
-            self.pair_at::<1>(s, half, k);
+        for k in full_blocks..self.twiddle.len() {
+            self.pack_cosines::<1>(s, half, k);
         }
     }
 
-    /// The frequencies k to k + N - 1 and n less these.
+    /// Packs the frequencies `k..k+N` and their mirror `n-k-N+1..=n-k`.
     #[inline]
-    fn pair_at<const N: usize>(&self, s: &mut YScratch<T>, half: Half, k: usize) {
-        let (here, there) = (k..k + N, self.length + 1 - k - N..=self.length - k);
-        let w = Complexes::<T, N>::load(&self.twiddle[here.clone()]);
-        let a = Complexes::load(&s.cosines[here.clone()]);
-        let b = Complexes::load_mirrored(&s.cosines[there.clone()]).conjugate();
+    fn pack_cosines<const N: usize>(&self, s: &mut YScratch<T>, half: Parity, k: usize) {
+        let (frequencies, mirrored) = (k..k + N, self.length + 1 - k - N..=self.length - k);
+        let w = ComplexBlock::<T, N>::load(&self.twiddle[frequencies.clone()]);
+        let a = ComplexBlock::load(&s.cosines[frequencies.clone()]);
+        let b = ComplexBlock::load_mirrored(&s.cosines[mirrored.clone()]).conjugate();
         let (low, high) = match half {
-            Half::Even => (a, b),
-            Half::Odd => (b.negative(), a.negative()),
+            Parity::Even => (a, b),
+            Parity::Odd => (b.negative(), a.negative()),
         };
         let high = high.times_i();
-        let (less, more) = (low.minus(&high), low.plus(&high));
-        less.times(&w.conjugate()).store(&mut s.pair[here]);
-        let more = more.times(&w).conjugate();
-        more.store_mirrored(&mut s.pair[there]);
+        let (difference, sum) = (low.minus(&high), low.plus(&high));
+        difference
+            .times(&w.conjugate())
+            .store(&mut s.pair[frequencies]);
+        let sum = sum.times(&w).conjugate();
+        sum.store_mirrored(&mut s.pair[mirrored]);
     }
 }
 
-/// The cells of a row from its even ones, forwards, and its odd ones, backwards from the end, times
+/// Writes the cells of a row from its even ones, forwards, and its odd ones, backwards from the end, times
 /// their scales.
 #[inline]
-fn spread<T: Precision>(
+fn write_row<T: Precision>(
     pair: &[Complex<T>],
     row: &mut [f64],
     scales: [f64; 2],
-    part: impl Fn(&Complex<T>) -> T,
+    component: impl Fn(&Complex<T>) -> T,
 ) {
     let (low, high) = pair.split_at(pair.len() / 2);
     let (cells, last) = row.as_chunks_mut::<2>();
     for (j, cell) in last.iter_mut().enumerate() {
-        *cell = scales[0] * part(&pair[cells.len() + j]).wide();
+        *cell = scales[0] * component(&pair[cells.len() + j]).to_double();
     }
     for (cells, (even, odd)) in cells.iter_mut().zip(low.iter().zip(high.iter().rev())) {
-        *cells = [scales[0] * part(even).wide(), scales[1] * part(odd).wide()];
+        *cells = [
+            scales[0] * component(even).to_double(),
+            scales[1] * component(odd).to_double(),
+        ];
     }
 }
 

@@ -1,9 +1,9 @@
 //! Bessel functions of the first kind of the orders 0 to 3.
 
-/// J_0 to J_3 at t >= 0, to about 1e-16 absolute; where t is small also relative.
+/// J_0 to J_3 at t >= 0, to about 1e-16 absolute; for small t also relative.
 ///
-/// J_0 and J_1 are those of `libm`; the higher ones follow by recurrence where that is stable and
-/// by the power series where it is not.
+/// J_0 and J_1 are computed by `libm`; the higher ones follow by recurrence where it is stable and
+/// by the power series elsewhere.
 pub(crate) fn bessel(t: f64) -> [f64; 4] {
     let (j0, j1) = (libm::j0(t), libm::j1(t));
     // Upward recurrence loses digits as t^-n below t ~ n.

@@ -10,7 +10,7 @@ use crate::scene::{Body, Grid, KernelMethod, KernelSettings};
 /// more.
 const CAPACITY: usize = 1 << 24;
 
-/// All that the coefficients depend on; reals by their bits.
+/// All data that the coefficients depend on; real numbers by their bits.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Key {
     /// E, nu, thickness and bond of each layer, the substrate last.
@@ -58,18 +58,18 @@ static ENTRIES: LazyLock<Mutex<Entries>> = LazyLock::new(Mutex::default);
 /// The coefficients of a `key`, if they are in the cache.
 pub(crate) fn get(key: &Key) -> Option<Arc<InfluenceCoefficients>> {
     let mut entries = ENTRIES.lock().unwrap_or_else(PoisonError::into_inner);
-    let found = entries.iter().position(|(k, _)| k == key)?;
-    let entry = entries.remove(found);
+    let index = entries.iter().position(|(k, _)| k == key)?;
+    let entry = entries.remove(index);
     let coefficients = Arc::clone(&entry.1);
     entries.push(entry);
     Some(coefficients)
 }
 
-/// Keeps coefficients, and forgets the longest unused ones if there are too many.
-pub(crate) fn keep(key: Key, coefficients: &Arc<InfluenceCoefficients>) {
+/// Inserts coefficients, and removes the longest unused ones if there are too many.
+pub(crate) fn insert(key: Key, coefficients: &Arc<InfluenceCoefficients>) {
     let size = |c: &InfluenceCoefficients| {
-        let each = [&c.xx, &c.yy, &c.zz, &c.xy, &c.xz, &c.yz];
-        each.iter().map(|q| q.len()).sum::<usize>()
+        let quadrants = [&c.xx, &c.yy, &c.zz, &c.xy, &c.xz, &c.yz];
+        quadrants.iter().map(|q| q.len()).sum::<usize>()
     };
     if size(coefficients) > CAPACITY {
         return;

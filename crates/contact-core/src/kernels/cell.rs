@@ -5,7 +5,7 @@ use quadrature::gauss;
 /// Most Gauss nodes along one side; a cell that needs more is halved.
 const MOST_NODES: usize = 10;
 
-/// A rectangle of the contact plane, seen from the point where the effect is asked for.
+/// A rectangle of the contact plane, relative to the point where the effect is evaluated.
 #[derive(Clone, Copy, Debug)]
 pub struct Cell {
     /// Middle \[m\].
@@ -29,8 +29,8 @@ impl Cell {
             let nearest = (y.abs() - half_y).max(0.0);
             let square = (zeta * zeta + nearest * nearest) / (half_x * half_x);
             let (left, right) = (x / half_x - 1.0, x / half_x + 1.0);
-            let to = |end: f64| (end * end + square).sqrt();
-            let axis = f64::midpoint(to(left), to(right));
+            let to_end = |end: f64| (end * end + square).sqrt();
+            let axis = f64::midpoint(to_end(left), to_end(right));
             let rho = axis + (axis * axis - 1.0).max(0.0).sqrt();
             let mut error = 1.0 / (rho * rho);
             let mut n = 1;
@@ -55,7 +55,7 @@ impl Cell {
         }
     }
 
-    /// The same over parts of the cell small enough for the function's scale zeta.
+    /// Calls `f` with the nodes of parts of the cell that are small enough for the function's scale zeta.
     pub fn nodes_of_parts(&self, zeta: f64, tolerance: f64, f: &mut impl FnMut(f64, f64, f64)) {
         if let Some(orders) = self.orders(zeta, tolerance) {
             self.nodes(orders, f);

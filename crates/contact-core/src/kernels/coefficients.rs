@@ -7,8 +7,8 @@ use ndarray::{Array2, Array4};
 /// (i dx, j dy) of the observed cell from the loaded one. The other quadrants follow by parity.
 pub type Quadrant = Array2<f64>;
 
-/// The independent surface coefficients of a body, or of a pair of bodies \[m/Pa\]; those that are
-/// not asked for are empty.
+/// The independent surface coefficients of a body, or of a pair of bodies \[m/Pa\]; coefficients
+/// outside the requested set are empty.
 ///
 /// `C_ij(x)` is the displacement u_i at offset x under unit traction q_j on the cell at the
 /// origin (q_1 = q_x, q_2 = q_y, q_3 = p). Isotropic layers leave six of the nine independent:
@@ -44,7 +44,7 @@ pub(crate) fn norm(quarter: &Quadrant) -> f64 {
 }
 
 impl InfluenceCoefficients {
-    /// The coefficients of the pair, eq. (4) of the paper, `self` being body 2: those that keep to
+    /// The coefficients of the pair, eq. (4) of the paper, `self` being body 2: coefficients within
     /// one direction family add, those that couple normal and tangential subtract.
     #[must_use]
     pub fn pair(mut self, body1: &Self) -> Self {
@@ -61,8 +61,8 @@ impl InfluenceCoefficients {
         self
     }
 
-    /// [`Self::pair`] of two bodies that have these coefficients.
-    pub(crate) fn twice(mut self) -> Self {
+    /// [`Self::pair`] of two bodies that both have these coefficients.
+    pub(crate) fn pair_of_equal_bodies(mut self) -> Self {
         for c in [&mut self.xx, &mut self.yy, &mut self.zz, &mut self.xy] {
             *c *= 2.0;
         }
@@ -71,44 +71,44 @@ impl InfluenceCoefficients {
         self
     }
 
-    /// Those of a set.
-    pub(crate) fn only(mut self, set: KernelSet) -> Self {
+    /// Keeps the coefficients of a set.
+    pub(crate) fn keep_only(mut self, set: KernelSet) -> Self {
         if set != KernelSet::All {
-            (self.xz, self.yz) = (none(), none());
+            (self.xz, self.yz) = (empty_quadrant(), empty_quadrant());
         }
         if set == KernelSet::Normal {
-            (self.xx, self.yy, self.xy) = (none(), none(), none());
+            (self.xx, self.yy, self.xy) = (empty_quadrant(), empty_quadrant(), empty_quadrant());
         }
         self
     }
 
-    /// C_xx(0,0), zero if not asked for, and C_zz(0,0).
-    pub(crate) fn at_origin(&self) -> (f64, f64) {
+    /// C_xx(0,0), zero if it is not in the set, and C_zz(0,0).
+    pub(crate) fn self_coefficients(&self) -> (f64, f64) {
         let value = |c: &Quadrant| c.get((0, 0)).copied().unwrap_or_default();
         (value(&self.xx), value(&self.zz))
     }
 
-    /// The coefficients between u_y times and q_y over `stretch`.
-    pub(crate) fn stretched(mut self, stretch: f64) -> Self {
-        self.yy *= stretch * stretch;
-        self.xy *= stretch;
-        self.yz *= stretch;
+    /// The coefficients between `ratio` u_y and q_y / `ratio`.
+    pub(crate) fn scale_y(mut self, ratio: f64) -> Self {
+        self.yy *= ratio * ratio;
+        self.xy *= ratio;
+        self.yz *= ratio;
         self
     }
 
-    /// Those of the offsets within nx x ny cells.
-    pub(crate) fn within(&self, (nx, ny): (usize, usize)) -> Self {
-        let part = |q: &Quadrant| {
+    /// Truncates to the offsets within nx x ny cells.
+    pub(crate) fn truncate(&self, (nx, ny): (usize, usize)) -> Self {
+        let truncated = |q: &Quadrant| {
             let shape = if q.is_empty() { (0, 0) } else { (nx, ny) };
             Quadrant::from_shape_fn(shape, |at| q[at])
         };
         Self {
-            xx: part(&self.xx),
-            yy: part(&self.yy),
-            zz: part(&self.zz),
-            xy: part(&self.xy),
-            xz: part(&self.xz),
-            yz: part(&self.yz),
+            xx: truncated(&self.xx),
+            yy: truncated(&self.yy),
+            zz: truncated(&self.zz),
+            xy: truncated(&self.xy),
+            xz: truncated(&self.xz),
+            yz: truncated(&self.yz),
         }
     }
 
@@ -141,8 +141,8 @@ pub(super) const ODD: [(bool, bool); 6] = [
     (false, true),
 ];
 
-/// A coefficient that is not asked for.
-pub(super) fn none() -> Quadrant {
+/// A coefficient outside the requested set.
+pub(super) fn empty_quadrant() -> Quadrant {
     Quadrant::zeros((0, 0))
 }
 

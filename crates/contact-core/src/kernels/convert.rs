@@ -1,9 +1,9 @@
-//! Conversion of a user's own frequency response to influence coefficients.
+//! Conversion of a user's frequency response to influence coefficients.
 //!
 //! The paper's method, eq. (9)-(13), for any response f(k_x, k_y) with f(-k) = conj f(k), isotropic
 //! or not: the response is sampled, weighted with the transform of uniform traction on a cell and
-//! transformed back. [`Conversion`] names the points first, so that a whole table of samples can be
-//! made in one go; [`convert`] is the short form.
+//! transformed back. [`Conversion`] lists the wave vectors first, so that a whole table of samples can be
+//! computed at once; [`convert`] is the short form.
 
 use std::f64::consts::PI;
 
@@ -46,7 +46,7 @@ struct Point {
 }
 
 impl Conversion {
-    /// On a domain `lambda` times as long as the grid, with the alias sums up to `aliases`.
+    /// Plans a conversion on a domain `lambda` times as long as the grid, with the alias sums up to `aliases`.
     pub fn new(grid: &Grid, lambda: usize, aliases: usize) -> Result<Self, Error> {
         if lambda < 2 {
             let allowed = "2 or more: offsets reach over twice the grid";
@@ -65,7 +65,7 @@ impl Conversion {
             2.0 * PI / (period.0 as f64 * grid.dx),
             2.0 * PI / (period.1 as f64 * grid.dy),
         );
-        let signed = |m: usize, n: usize| {
+        let signed_frequency = |m: usize, n: usize| {
             if 2 * m > n {
                 m as i64 - n as i64
             } else {
@@ -80,10 +80,14 @@ impl Conversion {
             let index = m * frequencies + n;
             for r in orders.clone() {
                 for s in orders.clone() {
-                    let m = signed(m, period.0) + r * period.0 as i64;
+                    let m = signed_frequency(m, period.0) + r * period.0 as i64;
                     let n = n as i64 + s * period.1 as i64;
                     if (m, n) == (0, 0) {
-                        points.extend(mean(step).map(|(k, weight)| Point { k, index, weight }));
+                        points.extend(mean_nodes(step).map(|(k, weight)| Point {
+                            k,
+                            index,
+                            weight,
+                        }));
                         continue;
                     }
                     let phase = |m: i64, period: usize| PI * m as f64 / period as f64;
@@ -145,7 +149,7 @@ impl Conversion {
                 for (n, s) in spectrum.iter_mut().enumerate() {
                     *s = lines[n * px + x];
                 }
-                // Real by the symmetry of the response; rounding says otherwise.
+                // Real by the symmetry of the response, up to rounding.
                 spectrum[0].im = 0.0;
                 if py.is_multiple_of(2) {
                     spectrum[frequencies - 1].im = 0.0;
@@ -163,9 +167,9 @@ impl Conversion {
 }
 
 /// Nodes and weights of the mean over the cell of the frequency plane around zero, for functions
-/// singular like 1/k, on its half k_x > 0; the other half is the complex conjugate, and the
-/// imaginary part is dropped with that of all samples at zero.
-fn mean(step: (f64, f64)) -> impl Iterator<Item = ((f64, f64), f64)> {
+/// singular like 1/k, on its half k_x > 0; the other half is the complex conjugate. The
+/// imaginary part of the sum at zero is dropped, as for all samples there.
+fn mean_nodes(step: (f64, f64)) -> impl Iterator<Item = ((f64, f64), f64)> {
     let (half_x, half_y) = (step.0 / 2.0, step.1 / 2.0);
     let corner = half_y.atan2(half_x);
     let sectors = [
@@ -187,8 +191,8 @@ fn mean(step: (f64, f64)) -> impl Iterator<Item = ((f64, f64), f64)> {
     })
 }
 
-/// The coefficients of a user's own frequency response `frf(k_x, k_y)`, as
-/// [`Conversion::convert`] gives them.
+/// The coefficients of a user's frequency response `frf(k_x, k_y)`, in the form of
+/// [`Conversion::convert`].
 pub fn convert(
     mut frf: impl FnMut(f64, f64) -> SurfaceFrf,
     grid: &Grid,

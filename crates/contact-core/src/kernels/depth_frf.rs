@@ -30,12 +30,12 @@ pub struct FrequencyResponse {
     pub s: [[Complex64; 3]; 6],
 }
 
-/// A depth and the material it lies in.
+/// A depth and the material at this depth.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct DepthPoint {
     /// Depth \[m\].
     pub(crate) z: f64,
-    /// Layer from the surface down; their number for the substrate.
+    /// Layer from the surface down; the number of coatings for the substrate.
     pub layer: usize,
     /// Depth below the top of the layer \[m\].
     pub(crate) below_top: f64,
@@ -81,8 +81,8 @@ impl WaveFields {
 }
 
 impl Stack {
-    /// Where a depth lies; `layer` decides at an interface (default: the upper one).
-    pub fn place(&self, z: f64, layer: Option<usize>) -> Result<Place, Error> {
+    /// Finds the layer of a depth; `layer` decides at an interface (default: the upper one).
+    pub fn locate_depth(&self, z: f64, layer: Option<usize>) -> Result<DepthPoint, Error> {
         let height: f64 = self.layers.iter().map(|l| l.1).sum();
         let slack = ROUNDING * height;
         if !(z >= 0.0 && z.is_finite()) {
@@ -98,7 +98,7 @@ impl Stack {
         {
             let inside = z >= top - slack && z <= top + thickness + slack;
             if inside && layer.is_none_or(|l| l == n) {
-                return Ok(Place {
+                return Ok(DepthPoint {
                     z,
                     layer: n,
                     below_top: (z - top).clamp(0.0, thickness),
@@ -116,9 +116,9 @@ impl Stack {
         ))
     }
 
-    /// The response at depth; `remainder` leaves out that of the half-space of the outermost
+    /// The response at depth; `remainder` subtracts the half-space of the outermost
     /// material, which decays slower (only for places in the outermost layer).
-    pub(crate) fn fields(&self, k: f64, place: &Place, remainder: bool) -> WaveFields {
+    pub(crate) fn fields(&self, k: f64, place: &DepthPoint, remainder: bool) -> WaveFields {
         let waves = self.waves(k);
         let (mut traction, mut traction_t) = (Matrix2::ONE, 1.0);
         for (wave, (_, h)) in waves.iter().zip(&self.layers).take(place.layer) {
@@ -127,24 +127,24 @@ impl Stack {
             traction_t *= wave.s_t * (-x).exp() * wave.down_t;
         }
         let x = k * place.below_top;
-        let down_to = propagate_down(x);
+        let decay_down = propagate_down(x);
         let Some((wave, (material, h))) = waves.get(place.layer).zip(self.layers.get(place.layer))
         else {
-            let (down, down_t) = (down_to * traction, (-x).exp() * traction_t);
+            let (down, down_t) = (decay_down * traction, (-x).exp() * traction_t);
             return WaveFields::new(&self.substrate, down, Matrix2::default(), down_t, 0.0);
         };
         let (start, start_t) = (wave.down * traction, wave.down_t * traction_t);
-        let rest = k * h - x;
-        let up = propagate_up(rest) * wave.r0 * propagate_down(k * h) * start;
-        let up_t = wave.r0_t * (-rest - k * h).exp() * start_t;
+        let phase_to_bottom = k * h - x;
+        let up = propagate_up(phase_to_bottom) * wave.r0 * propagate_down(k * h) * start;
+        let up_t = wave.r0_t * (-phase_to_bottom - k * h).exp() * start_t;
         let (down, down_t) = if remainder {
             // (1 + R)^-1 - 1 = -R (1 + R)^-1
             (
-                -(down_to * wave.r * wave.down),
+                -(decay_down * wave.r * wave.down),
                 -(-x).exp() * wave.r_t * wave.down_t,
             )
         } else {
-            (down_to * start, (-x).exp() * start_t)
+            (decay_down * start, (-x).exp() * start_t)
         };
         WaveFields::new(material, down, up, down_t, up_t)
     }
@@ -159,7 +159,7 @@ impl Stack {
     }
 
     /// Displacements and stresses at the depth `z` \[m\] under tractions exp(i(k_x x + k_y y));
-    /// `layer` (their number for the substrate) decides at an interface, by default the upper one.
+    /// `layer` (the number of coatings for the substrate) decides at an interface, by default the upper one.
     pub fn frf(
         &self,
         k_x: f64,
@@ -168,7 +168,7 @@ impl Stack {
         layer: Option<usize>,
     ) -> Result<FrequencyResponse, Error> {
         let k = wave_number(k_x, k_y)?;
-        let place = self.place(z, layer)?;
+        let place = self.locate_depth(z, layer)?;
         let f = self.fields(k, &place, false);
         let wave = (k_x, k_y, k);
         Ok(FrequencyResponse {
@@ -211,27 +211,27 @@ fn stresses(f: &WaveFields, wave: (f64, f64, f64)) -> [[Complex64; 3]; 6] {
     let over_i = |v: f64| Complex64::new(0.0, -v);
     let real = |v: f64| Complex64::new(v, 0.0);
     let imaginary = |v: f64| Complex64::new(0.0, v);
-    let none = Complex64::default();
+    let zero = Complex64::default();
     // (rr, tt, zz, rt, rz, tz); s_rz = -q_r = -i Q.
     let t = f.traction;
     let under_r = [
         over_i(f.s_rr[0]),
         over_i(f.s_tt[0]),
         over_i(-t.2),
-        none,
+        zero,
         real(-t.0),
-        none,
+        zero,
     ];
-    let under_t = [none, none, none, imaginary(f.s_rt), none, real(-f.q_t)];
+    let under_t = [zero, zero, zero, imaginary(f.s_rt), zero, real(-f.q_t)];
     let under_p = [
         real(f.s_rr[1]),
         real(f.s_tt[1]),
         real(-t.3),
-        none,
+        zero,
         imaginary(-t.1),
-        none,
+        zero,
     ];
-    let turn = |[rr, tt, zz, rt, rz, tz]: [Complex64; 6]| {
+    let rotate_to_xy = |[rr, tt, zz, rt, rz, tz]: [Complex64; 6]| {
         [
             rr * c * c + tt * s * s - rt * 2.0 * c * s,
             rr * s * s + tt * c * c + rt * 2.0 * c * s,
@@ -241,6 +241,10 @@ fn stresses(f: &WaveFields, wave: (f64, f64, f64)) -> [[Complex64; 3]; 6] {
             rz * s + tz * c,
         ]
     };
-    let (r, t, p) = (turn(under_r), turn(under_t), turn(under_p));
+    let (r, t, p) = (
+        rotate_to_xy(under_r),
+        rotate_to_xy(under_t),
+        rotate_to_xy(under_p),
+    );
     std::array::from_fn(|row| [r[row] * c - t[row] * s, r[row] * s + t[row] * c, p[row]])
 }

@@ -1,8 +1,8 @@
 //! The response at one depth as a function of the offset from a loaded cell.
 //!
-//! In the outermost layer it is that of a half-space of its material, in closed form, plus a
-//! remainder that decays like exp(-k (2h - z)); further down all of it decays like exp(-k z). What
-//! decays is tabulated over the radius and integrated over the cell.
+//! In the outermost layer it is the response of a half-space of its material, in closed form, plus a
+//! remainder that decays like exp(-k (2h - z)); below it all of the response decays like exp(-k z). The
+//! decaying part is tabulated over the radius and integrated over the cell.
 
 use std::f64::consts::TAU;
 use std::marker::PhantomData;
@@ -14,15 +14,15 @@ use rayon::prelude::*;
 
 use super::Quadrant;
 use super::cell::Cell;
-use super::depth_frf::{Place, WaveFields};
+use super::depth_frf::{DepthPoint, WaveFields};
 use super::layered_frf::{HalfSpace, Stack};
 use super::radial_table::{Hankel, RadialTable};
 use crate::error::Error;
 use crate::stop::unless;
 
-/// Relative error that a cell's Gauss rule may leave, against the response under the load.
+/// Relative error of a cell's Gauss rule, against the response under the load.
 const CUBATURE: f64 = 1e-13;
-/// Largest error of the tabulated part over that of the half-space.
+/// Largest error of the tabulated part over the response of the half-space.
 const TOLERANCE: f64 = 1e-9;
 
 /// A quantity of R components under each of q_x, q_y, p, made of N radial functions.
@@ -39,26 +39,26 @@ pub trait Quantity<const N: usize, const R: usize> {
     /// The radial functions over r^m of a half-space at the depth z > 0, s = r^2.
     fn radial(material: &HalfSpace, s: f64, z: f64) -> [f64; N];
 
-    /// The response of a half-space at (x, y, z) from one corner of a uniformly loaded rectangle;
-    /// on the line of an edge as if it were `edge` away along x and along y.
+    /// The response of a half-space at (x, y, z) from one corner of a uniformly loaded rectangle.
+    /// On the line of an edge the distance from it is replaced by `edge`, along x and along y.
     fn corner(material: &HalfSpace, at: (f64, f64, f64), edge: (f64, f64)) -> [[f64; 3]; R];
 
-    /// Whether an entry changes its sign with x and with y.
+    /// Whether an entry is odd in x and in y.
     fn is_odd(row: usize, column: usize) -> (bool, bool);
 
     /// Row and column that an entry becomes when x and y are exchanged.
-    fn exchanged(row: usize, column: usize) -> (usize, usize);
+    fn transposed(row: usize, column: usize) -> (usize, usize);
 
-    /// Whether a component has one index z, so that it changes its sign with that axis.
+    /// Whether a component has exactly one index z, so that it is odd in z.
     fn has_one_z(row: usize) -> bool;
 
-    /// What errors of the table, r times the deviation, are compared with.
-    fn scale(stack: &Stack, zeta: f64) -> f64;
+    /// Reference value for errors of the table, r times the deviation.
+    fn error_scale(stack: &Stack, zeta: f64) -> f64;
 }
 
 /// A quantity at a depth.
 pub struct DepthKernel<Q, const N: usize, const R: usize> {
-    pub(crate) place: Place,
+    pub(crate) place: DepthPoint,
     /// The outermost material where its closed form takes part.
     closed: Option<HalfSpace>,
     /// The tabulated part and its smallest scale \[m\].
@@ -70,15 +70,15 @@ pub struct DepthKernel<Q, const N: usize, const R: usize> {
 }
 
 impl<Q: Quantity<N, R>, const N: usize, const R: usize> DepthKernel<Q, N, R> {
-    /// For offsets up to `r_max` \[m\] from loads on cells of the sides `d` \[m\].
+    /// Builds the kernel for offsets up to `r_max` \[m\] from loads on cells of the sides `d` \[m\].
     ///
-    /// A step of the traction at an edge between cells has infinite stress on the edge. Of a
-    /// traction that changes evenly from cell to cell the stress there is finite, and a 2 pi-th of
-    /// a cell beside the edge that of the steps is the same: with the distance e from it, steps g d
-    /// at k d from the point make 1/s into g d [ln(d/e) + 2 sum (k + 1/2) ln((k + 1)/k)] and the
-    /// traction g s into g d [2 + 2 sum 1], equal for ln(d/e) = 2 - 2 (1 - ln(2 pi)/2) = ln(2 pi)
+    /// A step of the traction at an edge between cells has infinite stress on the edge. The stress of a
+    /// traction that changes evenly from cell to cell is finite there, and equals the stress of the steps at
+    /// the distance e = d/(2 pi) from the edge. Steps g d at k d from the point make
+    /// 1/s into g d [ln(d/e) + 2 sum (k + 1/2) ln((k + 1)/k)]; the
+    /// traction g s gives g d [2 + 2 sum 1]. Both are equal for ln(d/e) = 2 - 2 (1 - ln(2 pi)/2) = ln(2 pi)
     /// by Stirling's formula.
-    pub fn new(stack: &Stack, place: Place, r_max: f64, d: (f64, f64)) -> Result<Self, Error> {
+    pub fn new(stack: &Stack, place: DepthPoint, r_max: f64, d: (f64, f64)) -> Result<Self, Error> {
         let outermost = place.layer == 0;
         let mut kernel = Self {
             place,
@@ -99,7 +99,7 @@ impl<Q: Quantity<N, R>, const N: usize, const R: usize> DepthKernel<Q, N, R> {
             k_low: stack.lowest_scale(),
         };
         let table = hankel.tabulate(r_max);
-        let estimate = hankel.error(&table, r_max) / Q::scale(stack, zeta);
+        let estimate = hankel.max_deviation(&table, r_max) / Q::error_scale(stack, zeta);
         if estimate.is_nan() || estimate > TOLERANCE {
             return Err(Error::StressInaccurate {
                 z: place.z,
@@ -117,37 +117,42 @@ impl<Q: Quantity<N, R>, const N: usize, const R: usize> DepthKernel<Q, N, R> {
             return;
         };
         cell.nodes_of_parts(*zeta, CUBATURE, &mut |x, y, w| {
-            Q::add(sum, x, y, table.at(x * x + y * y).map(|g| w * g));
+            Q::add(sum, x, y, table.evaluate(x * x + y * y).map(|g| w * g));
         });
     }
 
     /// The response at the offset of the cell's middle to unit traction on the cell.
-    pub fn under(&self, cell: &Cell) -> [[f64; 3]; R] {
+    pub fn response_to_cell(&self, cell: &Cell) -> [[f64; 3]; R] {
         let mut sum = [[0.0; 3]; R];
         if let Some(material) = &self.closed {
             let (x0, x1) = (cell.x - cell.half_x, cell.x + cell.half_x);
             let (y0, y1) = (cell.y - cell.half_y, cell.y + cell.half_y);
-            let at = |x, y| Q::corner(material, (x, y, self.place.z), self.edge);
-            sum = difference(&at(x1, y1), &at(x0, y1), &at(x1, y0), &at(x0, y0));
+            let corner = |x, y| Q::corner(material, (x, y, self.place.z), self.edge);
+            sum = corner_difference(
+                &corner(x1, y1),
+                &corner(x0, y1),
+                &corner(x1, y0),
+                &corner(x0, y0),
+            );
         }
         self.add_smooth(&mut sum, cell);
         sum
     }
 
     /// The responses to unit traction on the cells at (i dx, y), i in `range`, of the sides `d`.
-    pub fn under_row(
+    pub fn responses_to_row(
         &self,
         range: Range<usize>,
         y: f64,
         d: (f64, f64),
         put: impl FnMut(usize, [[f64; 3]; R]),
     ) {
-        self.under_cells(range.map(|i| (i, i as f64)), y, d, put);
+        self.responses_to_cells(range.map(|i| (i, i as f64)), y, d, put);
     }
 
     /// The responses to unit traction on cells of the sides `d` at an offset y and at offsets along
     /// x, in cells and a cell apart, each with its index.
-    pub fn under_cells(
+    pub fn responses_to_cells(
         &self,
         cells: impl Iterator<Item = (usize, f64)>,
         y: f64,
@@ -156,29 +161,29 @@ impl<Q: Quantity<N, R>, const N: usize, const R: usize> DepthKernel<Q, N, R> {
     ) {
         let side = |x: f64| {
             self.closed.map(|material| {
-                let at = |y| Q::corner(&material, (x * d.0, y, self.place.z), self.edge);
-                (at(y - d.1 / 2.0), at(y + d.1 / 2.0))
+                let corner = |y| Q::corner(&material, (x * d.0, y, self.place.z), self.edge);
+                (corner(y - d.1 / 2.0), corner(y + d.1 / 2.0))
             })
         };
-        // The side that neighbours share.
-        let mut shared: Option<(f64, _)> = None;
+        // Values at the common side of two neighbours.
+        let mut common_side: Option<(f64, _)> = None;
         for (i, x) in cells {
-            let known = |at: f64| {
-                shared
+            let reuse = |position: f64| {
+                common_side
                     .as_ref()
-                    .filter(|(x, _)| (x - at).abs() < 0.25)
+                    .filter(|(x, _)| (x - position).abs() < 0.25)
                     .map(|(_, s)| *s)
             };
-            let [left, right] = [x - 0.5, x + 0.5].map(|at| known(at).unwrap_or_else(|| side(at)));
+            let [left, right] = [x - 0.5, x + 0.5].map(|at| reuse(at).unwrap_or_else(|| side(at)));
             let mut sum = match (&left, &right) {
-                (Some(l), Some(r)) => difference(&r.1, &l.1, &r.0, &l.0),
+                (Some(l), Some(r)) => corner_difference(&r.1, &l.1, &r.0, &l.0),
                 _ => [[0.0; 3]; R],
             };
-            let next = match shared {
-                Some((before, _)) if before > x => (x - 0.5, left),
+            let next_side = match common_side {
+                Some((previous, _)) if previous > x => (x - 0.5, left),
                 _ => (x + 0.5, right),
             };
-            shared = Some(next);
+            common_side = Some(next_side);
             let cell = Cell {
                 x: x * d.0,
                 y,
@@ -191,14 +196,14 @@ impl<Q: Quantity<N, R>, const N: usize, const R: usize> DepthKernel<Q, N, R> {
     }
 
     /// The response at the offset (x, y) from unit forces; not on the surface.
-    pub fn at_point(&self, x: f64, y: f64) -> [[f64; 3]; R] {
+    pub fn response_to_point(&self, x: f64, y: f64) -> [[f64; 3]; R] {
         let s = x * x + y * y;
         let mut g = match &self.closed {
             Some(material) => Q::radial(material, s, self.place.z),
             None => [0.0; N],
         };
         if let Some((table, _)) = &self.smooth {
-            for (g, t) in g.iter_mut().zip(table.at(s)) {
+            for (g, t) in g.iter_mut().zip(table.evaluate(s)) {
                 *g += t;
             }
         }
@@ -209,7 +214,7 @@ impl<Q: Quantity<N, R>, const N: usize, const R: usize> DepthKernel<Q, N, R> {
 }
 
 /// (far - left) - (near - opposite) of the four corners.
-fn difference<const R: usize>(
+fn corner_difference<const R: usize>(
     both: &[[f64; 3]; R],
     low_x: &[[f64; 3]; R],
     low_y: &[[f64; 3]; R],
@@ -221,7 +226,7 @@ fn difference<const R: usize>(
 }
 
 /// The responses to unit traction on cells of the sides `d` at the offsets (i dx, j dy), i and j
-/// below `n`. Where cells are square, exchange of the axes gives one octant from the other. Ends
+/// below `n`. For square cells, exchange of the axes gives one octant from the other. Fails
 /// when `stop` is raised.
 pub(crate) fn quadrants<Q: Quantity<N, R> + Sync, const N: usize, const R: usize>(
     kernel: &DepthKernel<Q, N, R>,
@@ -232,26 +237,26 @@ pub(crate) fn quadrants<Q: Quantity<N, R> + Sync, const N: usize, const R: usize
     let is_square = d.0.to_bits() == d.1.to_bits();
     let square = if is_square { n.0.min(n.1) } else { 0 };
     // Row j holds i >= j of the square and all beyond it.
-    let mirrored = |i: usize, j: usize| i < j && j < square;
+    let is_mirrored = |i: usize, j: usize| i < j && j < square;
     let rows: Vec<Vec<[[f64; 3]; R]>> = (0..n.1)
         .into_par_iter()
         .map(|j| {
             unless(stop)?;
             let first = if j < square { j } else { 0 };
             let mut row = Vec::with_capacity(n.0 - first.min(n.0));
-            kernel.under_row(first..n.0, j as f64 * d.1, d, |_, s| row.push(s));
+            kernel.responses_to_row(first..n.0, j as f64 * d.1, d, |_, s| row.push(s));
             Ok(row)
         })
         .collect::<Result<_, Error>>()?;
     let entry = |row: usize, column: usize| {
         let odd = Q::is_odd(row, column);
-        let (row_there, column_there) = Q::exchanged(row, column);
+        let (transposed_row, transposed_column) = Q::transposed(row, column);
         Array2::from_shape_fn(n, |(i, j)| {
             let vanishes = odd.0 && i == 0 || odd.1 && j == 0;
             if vanishes {
                 0.0
-            } else if mirrored(i, j) {
-                rows[i][j - i][row_there][column_there]
+            } else if is_mirrored(i, j) {
+                rows[i][j - i][transposed_row][transposed_column]
             } else {
                 let first = if j < square { j } else { 0 };
                 rows[j][i - first][row][column]

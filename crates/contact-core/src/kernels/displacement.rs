@@ -47,7 +47,7 @@ impl Quantity<5, 3> for Displacement {
     }
 
     fn radial(material: &HalfSpace, s: f64, z: f64) -> [f64; 5] {
-        half_space_displacement::radial(s, z, material)
+        half_space_displacement::radial_functions(s, z, material)
     }
 
     fn corner(
@@ -62,7 +62,7 @@ impl Quantity<5, 3> for Displacement {
         ((row == 0) != (column == 0), (row == 1) != (column == 1))
     }
 
-    fn exchanged(row: usize, column: usize) -> (usize, usize) {
+    fn transposed(row: usize, column: usize) -> (usize, usize) {
         ([1, 0, 2][row], [1, 0, 2][column])
     }
 
@@ -70,8 +70,8 @@ impl Quantity<5, 3> for Displacement {
         row == 2
     }
 
-    /// Displacement falls off like 1/r: against the softest material's.
-    fn scale(stack: &Stack, _: f64) -> f64 {
-        stack.softest()
+    /// Displacement decays like 1/r: the reference is the displacement of the softest material.
+    fn error_scale(stack: &Stack, _: f64) -> f64 {
+        stack.largest_compliance()
     }
 }

@@ -3,14 +3,14 @@
 use crate::error::Error;
 use crate::scene::{Coating, Elastic};
 
-/// Most layers that stand for a coating: the error falls with the square of their number, and a
-/// thousand leave a millionth of it.
+/// Largest number of layers in place of a coating: the error falls with the square of their number, and
+/// a thousand layers have a millionth of it.
 const MOST_LAYERS: usize = 10_000;
 
-/// How a property changes from the surface of a graded coating to its bottom.
+/// Variation of a property from the surface of a graded coating to its bottom.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Profile {
-    /// The same everywhere.
+    /// Constant over the depth.
     Constant(f64),
     /// v = top + (bottom - top) s with s = z/h from 0 to 1.
     Linear {
@@ -30,7 +30,7 @@ pub enum Profile {
     },
     /// v = top (bottom/top)^s.
     Exponential {
-        /// Value at the surface, of the sign of the other.
+        /// Value at the surface, of the same sign as the value at the bottom.
         top: f64,
         /// Value at the bottom.
         bottom: f64,
@@ -41,7 +41,7 @@ pub enum Profile {
 
 impl Profile {
     /// The value at s = z/h.
-    pub fn at(&self, s: f64) -> f64 {
+    pub fn value_at(&self, s: f64) -> f64 {
         match self {
             Self::Constant(v) => *v,
             Self::Linear { top, bottom } => top + (bottom - top) * s,
@@ -52,10 +52,10 @@ impl Profile {
             } => top + (bottom - top) * s.powf(*exponent),
             Self::Exponential { top, bottom } => top * (bottom / top).powf(s),
             Self::Table(points) => {
-                let next = points
+                let upper = points
                     .partition_point(|p| p.0 < s)
                     .clamp(1, points.len() - 1);
-                let ((s0, v0), (s1, v1)) = (points[next - 1], points[next]);
+                let ((s0, v0), (s1, v1)) = (points[upper - 1], points[upper]);
                 v0 + (v1 - v0) * (s - s0) / (s1 - s0)
             }
         }
@@ -74,10 +74,11 @@ impl Profile {
                 ))
             }
             Self::Table(points) => {
-                let rises = points.windows(2).all(|p| p[0].0 < p[1].0);
-                let ends = [points.first(), points.last()].map(|p| p.map(|p| p.0.to_bits()));
-                let spans = ends == [Some(0.0_f64.to_bits()), Some(1.0_f64.to_bits())];
-                if rises && spans {
+                let is_increasing = points.windows(2).all(|p| p[0].0 < p[1].0);
+                let end_points = [points.first(), points.last()].map(|p| p.map(|p| p.0.to_bits()));
+                let covers_coating =
+                    end_points == [Some(0.0_f64.to_bits()), Some(1.0_f64.to_bits())];
+                if is_increasing && covers_coating {
                     return Ok(());
                 }
                 let allowed = "at least two points (z/h, value), z/h rising from 0 to 1";
@@ -101,7 +102,7 @@ pub struct Graded {
     pub nu: Profile,
     /// Thickness h \[m\].
     pub thickness: f64,
-    /// Number of layers that stand for it; the error falls with its square.
+    /// Number of layers in place of it; the error falls with its square.
     pub layers: usize,
 }
 
@@ -121,7 +122,7 @@ impl Graded {
         let layer = |i: usize| {
             let s = (i as f64 + 0.5) / self.layers as f64;
             Ok(Coating {
-                material: Elastic::new(self.E.at(s), self.nu.at(s))?,
+                material: Elastic::new(self.E.value_at(s), self.nu.value_at(s))?,
                 thickness: self.thickness / self.layers as f64,
             })
         };

@@ -22,7 +22,7 @@ use crate::plan::KernelSet;
 pub(crate) type Six = [f64; 6];
 
 /// The radial functions of a surface kernel at s = r^2: zz, (xx + yy)/2, the amplitude of
-/// x^2 - y^2 in (yy - xx)/2, and that of x in -xz.
+/// x^2 - y^2 in (yy - xx)/2, and the amplitude of x in -xz.
 pub(crate) type Radial = [f64; 4];
 
 /// Adds `weight` times the kernel at (x, y).
@@ -38,7 +38,7 @@ pub(crate) fn add_kernel(sum: &mut Six, x: f64, y: f64, weight: f64, g: Radial) 
 }
 
 /// The radial functions of a half-space.
-pub(crate) fn radial(material: &HalfSpace, s: f64) -> Radial {
+pub(crate) fn radial_functions(material: &HalfSpace, s: f64) -> Radial {
     let HalfSpace { a, b, c, .. } = *material;
     let inverse_r = 1.0 / (2.0 * PI * s.sqrt());
     [
@@ -49,25 +49,28 @@ pub(crate) fn radial(material: &HalfSpace, s: f64) -> Radial {
     ]
 }
 
-/// The closed form over a cell, of a set of the coefficients, the others zero; it loses about as
+/// The closed form over a cell, for a set of the coefficients, the others zero; it loses about as
 /// many digits as the cell is cells away.
-pub(crate) fn over_cell(material: &HalfSpace, cell: &Cell, set: KernelSet) -> Six {
+pub(crate) fn integrate_over_cell(material: &HalfSpace, cell: &Cell, set: KernelSet) -> Six {
     let HalfSpace { a, b, c, .. } = *material;
-    let corners = |f: fn(f64, f64) -> f64| {
+    let corner_difference = |f: fn(f64, f64) -> f64| {
         let (x0, x1) = (cell.x - cell.half_x, cell.x + cell.half_x);
         let (y0, y1) = (cell.y - cell.half_y, cell.y + cell.half_y);
         ((f(x1, y1) - f(x0, y1)) - (f(x1, y0) - f(x0, y0))) / (2.0 * PI)
     };
-    // Integrals of x^2/r^3, y^2/r^3 (their sum is that of 1/r), x y/r^3, x/r^2, y/r^2.
-    let xx = corners(y_asinh);
-    let yy = corners(|x, y| y_asinh(y, x));
+    // Integrals of x^2/r^3, y^2/r^3 (their sum is the integral of 1/r), x y/r^3, x/r^2, y/r^2.
+    let xx = corner_difference(y_asinh);
+    let yy = corner_difference(|x, y| y_asinh(y, x));
     let inverse_r = xx + yy;
     if set == KernelSet::Normal {
         return [0.0, 0.0, a * inverse_r, 0.0, 0.0, 0.0];
     }
-    let xy = corners(|x, y| -x.hypot(y));
+    let xy = corner_difference(|x, y| -x.hypot(y));
     let [x, y] = if set == KernelSet::All {
-        [corners(log_atan), corners(|x, y| log_atan(y, x))]
+        [
+            corner_difference(log_atan),
+            corner_difference(|x, y| log_atan(y, x)),
+        ]
     } else {
         [0.0; 2]
     };

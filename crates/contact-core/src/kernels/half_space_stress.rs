@@ -31,38 +31,41 @@ pub type StressResponse = [[f64; 3]; 6];
 pub(crate) fn corner(x: f64, y: f64, z: f64, edge: (f64, f64), nu: f64) -> StressResponse {
     let rho = x.hypot(y).hypot(z);
     let (xz2, yz2) = (x * x + z * z, y * y + z * z);
-    let along = rho + z;
+    let rho_plus_z = rho + z;
     // L_xx, L_yy, L_zz, L_xy, L_xz, L_yz.
-    let depth_angle = angle(x * y, z * rho);
-    let l_xx = polar(y, x) - polar(y * z, x * rho);
-    let l_yy = polar(x, y) - polar(x * z, y * rho);
+    let depth_angle = angle_or_zero(x * y, z * rho);
+    let l_xx = mean_angle(y, x) - mean_angle(y * z, x * rho);
+    let l_yy = mean_angle(x, y) - mean_angle(x * z, y * rho);
     let l_zz = -depth_angle;
     let vertex = edge.0.hypot(edge.1);
     let (l_xy, l_xz, l_yz) = (
-        log(along / vertex),
+        log_or_zero(rho_plus_z / vertex),
         log_sum(y, xz2, edge.0),
         log_sum(x, yz2, edge.1),
     );
     // z times the third derivatives.
-    let over = |numerator: f64, denominator: f64| {
+    let quotient_or_zero = |numerator: f64, denominator: f64| {
         if numerator == 0.0 {
             0.0
         } else {
             numerator / denominator
         }
     };
-    let z_xxz = -over(z * x * y, rho * xz2);
-    let z_yyz = -over(z * x * y, rho * yz2);
+    let z_xxz = -quotient_or_zero(z * x * y, rho * xz2);
+    let z_yyz = -quotient_or_zero(z * x * y, rho * yz2);
     let z_zzz = -(z_xxz + z_yyz);
-    let z_xyz = over(z, rho);
-    let z_xzz = -over(z * z * y, rho * xz2);
-    let z_yzz = -over(z * z * x, rho * yz2);
-    let z_xyy = over(z * y, rho * along);
-    let z_xxy = over(z * x, rho * along);
+    let z_xyz = quotient_or_zero(z, rho);
+    let z_xzz = -quotient_or_zero(z * z * y, rho * xz2);
+    let z_yzz = -quotient_or_zero(z * z * x, rho * yz2);
+    let z_xyy = quotient_or_zero(z * y, rho * rho_plus_z);
+    let z_xxy = quotient_or_zero(z * x, rho * rho_plus_z);
     let z_xxx = -z_xyy - z_xzz;
     let z_yyy = -z_xxy - z_yzz;
     // Third derivatives of W.
-    let (w_xxy, w_xyy) = (-over(x, along), -over(y, along));
+    let (w_xxy, w_xyy) = (
+        -quotient_or_zero(x, rho_plus_z),
+        -quotient_or_zero(y, rho_plus_z),
+    );
     let (w_xxx, w_yyy) = (-w_xyy - l_xz, -w_xxy - l_yz);
     let (n, m) = (2.0 * nu, 1.0 - 2.0 * nu);
     let s = [
@@ -93,7 +96,7 @@ pub(crate) fn corner(x: f64, y: f64, z: f64, edge: (f64, f64), nu: f64) -> Stres
 ///
 /// With D = rho + z and U = 2 nu W - z L as a function of s, under q_x (xx - yy)/2 and xy hold
 /// 4 U_ss + 2 s U_sss in cos(theta) and 2 U_sss in cos(3 theta).
-pub(crate) fn radial(s: f64, z: f64, nu: f64) -> [f64; 10] {
+pub(crate) fn radial_functions(s: f64, z: f64, nu: f64) -> [f64; 10] {
     let rho2 = s + z * z;
     let rho = rho2.sqrt();
     let d = rho + z;
@@ -122,26 +125,26 @@ pub(crate) fn radial(s: f64, z: f64, nu: f64) -> [f64; 10] {
 }
 
 /// ln(v), zero at v = 0: there only differences between corners are finite.
-pub(super) fn log(v: f64) -> f64 {
+pub(super) fn log_or_zero(v: f64) -> f64 {
     if v > 0.0 { v.ln() } else { 0.0 }
 }
 
 /// atan(n/d), zero where both vanish.
-pub(super) fn angle(n: f64, d: f64) -> f64 {
+pub(super) fn angle_or_zero(n: f64, d: f64) -> f64 {
     if n == 0.0 { 0.0 } else { (n / d).atan() }
 }
 
 /// atan(n/d); zero for d = 0, the mean of its limits from both sides, so that on the border of a
 /// loaded cell the surface stress is the mean of both sides.
-pub(super) fn polar(n: f64, d: f64) -> f64 {
+pub(super) fn mean_angle(n: f64, d: f64) -> f64 {
     if d == 0.0 { 0.0 } else { (n / d).atan() }
 }
 
-/// ln(rho + y) up to a function of `rest` = rho^2 - y^2; where that vanishes, only differences
-/// between y of one sign are finite, others as if it were `edge`^2, small against y^2.
-pub(super) fn log_sum(y: f64, rest: f64, edge: f64) -> f64 {
-    if rest > 0.0 {
-        (y / rest.sqrt()).asinh()
+/// ln(rho + y) up to a function of `rest` = rho^2 - y^2. Where `rest` vanishes, only differences
+/// between y of one sign are finite; for others it is replaced by `edge`^2, small against y^2.
+pub(super) fn log_sum(y: f64, rho2_minus_y2: f64, edge: f64) -> f64 {
+    if rho2_minus_y2 > 0.0 {
+        (y / rho2_minus_y2.sqrt()).asinh()
     } else if y == 0.0 {
         0.0
     } else {

@@ -1,6 +1,6 @@
 //! The paper's conversion, eq. (9)-(13): inverse transform on an enlarged domain.
 //!
-//! Every sample has a definite parity, so that sine and cosine sums do: along y first, of which
+//! Every sample has a definite parity, so that sine and cosine sums are sufficient: along y first, of which
 //! the ny offsets of the grid are kept, then along x.
 
 use ndarray::Array2;
@@ -18,7 +18,7 @@ use crate::error::Error;
 use crate::scene::Grid;
 use crate::stop::unless;
 
-/// The coefficients by inverse transform on a domain `lambda` times as long. Ends when `stop` is
+/// The coefficients by inverse transform on a domain `lambda` times as long. Fails when `stop` is
 /// raised.
 pub(crate) fn inverse_fft(
     stack: &Stack,
@@ -35,8 +35,8 @@ pub(crate) fn inverse_fft(
 
     // One line of 6 ny numbers per frequency k_x >= 0.
     let frequencies = px / 2 + 1;
-    let mut half_way = vec![0.0; frequencies * 6 * ny];
-    half_way
+    let mut transformed_along_y = vec![0.0; frequencies * 6 * ny];
+    transformed_along_y
         .par_chunks_mut(6 * ny)
         .enumerate()
         .try_for_each_init(
@@ -44,10 +44,10 @@ pub(crate) fn inverse_fft(
             |(buffers, line), (m, out)| {
                 unless(stop)?;
                 for (n, sample) in line.iter_mut().enumerate() {
-                    *sample = samples.at(m, n);
+                    *sample = samples.sample(m, n);
                 }
                 for ((out, odd), c) in out.chunks_mut(ny).zip(ODD).zip(0..) {
-                    along_y.sum(buffers, odd.1, |n| line[n][c], out);
+                    along_y.sum_frequencies(buffers, odd.1, |n| line[n][c], out);
                 }
                 Ok(())
             },
@@ -60,7 +60,12 @@ pub(crate) fn inverse_fft(
         slice.par_chunks_mut(nx).enumerate().for_each_init(
             || along_x.buffers(),
             |buffers, (j, out)| {
-                along_x.sum(buffers, ODD[c].0, |m| half_way[(6 * m + c) * ny + j], out);
+                along_x.sum_frequencies(
+                    buffers,
+                    ODD[c].0,
+                    |m| transformed_along_y[(6 * m + c) * ny + j],
+                    out,
+                );
             },
         );
         // Sines come from i: i^2 for xy, i times the i of the response for xz and yz.
@@ -98,7 +103,13 @@ impl Inverse {
     }
 
     /// out_j = sum over all n of f_n cos(2 pi n j/N), or of f_n sin where f is odd.
-    fn sum(&self, b: &mut Buffers, odd: bool, f: impl Fn(usize) -> f64, out: &mut [f64]) {
+    fn sum_frequencies(
+        &self,
+        b: &mut Buffers,
+        odd: bool,
+        f: impl Fn(usize) -> f64,
+        out: &mut [f64],
+    ) {
         for (n, s) in b.spectrum.iter_mut().enumerate() {
             *s = if odd {
                 Complex64::new(0.0, -f(n))

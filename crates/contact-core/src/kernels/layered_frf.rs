@@ -37,12 +37,12 @@ use crate::error::Error;
 use crate::scene::{Body, Bond, Elastic};
 
 /// Phase thickness k h below which Y is computed as a change of the response of the material below
-/// the layer, and above which as a change of that of the layer's own half-space; both forms are
+/// the layer, and above which as a change of the response of the layer's half-space; both forms are
 /// valid on either side.
 const THIN: f64 = 0.5;
 
-/// If the response of the material below a thin layer exceeds SOFT times the layer's own, the
-/// second form is used for a thin layer, too: the change by the layer would be nearly the whole
+/// Ratio of the response of the material below a thin layer to the layer's own above which the
+/// second form is used for the thin layer, too: the change by the layer would be nearly the whole
 /// response.
 const SOFT: f64 = 1e4;
 
@@ -136,15 +136,15 @@ fn one_minus_round_trip(x: f64) -> Matrix2 {
 
 /// The response of the material below a plane.
 #[derive(Clone, Copy, Debug)]
-struct Below {
+struct ResponseBelow {
     /// In-plane response.
     y: Matrix2,
-    /// The same less that of the half-space of the uppermost material.
-    y_rest: Matrix2,
+    /// The same minus the response of the half-space of the uppermost material.
+    y_remainder: Matrix2,
     /// Out-of-plane response.
     t: f64,
-    /// The same less that of the half-space of the uppermost material.
-    t_rest: f64,
+    /// The same minus the response of the half-space of the uppermost material.
+    t_remainder: f64,
     /// The uppermost material.
     top: HalfSpace,
 }
@@ -167,27 +167,27 @@ pub(crate) struct LayerWaves {
     pub(crate) down_t: f64,
 }
 
-impl Below {
+impl ResponseBelow {
     fn half_space(material: HalfSpace) -> Self {
         Self {
             y: material.down(),
-            y_rest: Matrix2::default(),
+            y_remainder: Matrix2::default(),
             t: material.c,
-            t_rest: 0.0,
+            t_remainder: 0.0,
             top: material,
         }
     }
 
-    /// The response less that of the half-space of `layer`, by whichever of its two forms
-    /// cancels less.
+    /// The response minus the response of the half-space of `layer`, by the one of its two forms
+    /// that cancels less.
     fn mismatch(&self, layer: HalfSpace) -> (Matrix2, f64) {
-        let in_plane = if self.y_rest.size() < 0.5 * self.top.a {
-            (self.top.down() - layer.down()) + self.y_rest
+        let in_plane = if self.y_remainder.size() < 0.5 * self.top.a {
+            (self.top.down() - layer.down()) + self.y_remainder
         } else {
             self.y - layer.down()
         };
-        let out_of_plane = if self.t_rest.abs() < 0.5 * self.top.c {
-            (self.top.c - layer.c) + self.t_rest
+        let out_of_plane = if self.t_remainder.abs() < 0.5 * self.top.c {
+            (self.top.c - layer.c) + self.t_remainder
         } else {
             self.t - layer.c
         };
@@ -195,20 +195,20 @@ impl Below {
     }
 
     /// The response through a bond, at the wave number k.
-    fn through(self, bond: Bond, k: f64) -> Self {
+    fn add_bond(self, bond: Bond, k: f64) -> Self {
         let (shear, normal) = (k * bond.shear, k * bond.normal);
-        let more = Matrix2(shear, 0.0, 0.0, normal);
+        let compliance = Matrix2(shear, 0.0, 0.0, normal);
         Self {
-            y: self.y + more,
-            y_rest: self.y_rest + more,
+            y: self.y + compliance,
+            y_remainder: self.y_remainder + compliance,
             t: self.t + shear,
-            t_rest: self.t_rest + shear,
+            t_remainder: self.t_remainder + shear,
             top: self.top,
         }
     }
 
-    /// The response once `layer` of phase thickness x = k h lies on top.
-    fn under(&self, layer: HalfSpace, x: f64) -> (Self, LayerWaves) {
+    /// The response with `layer` of phase thickness x = k h on top, and the waves in the layer.
+    fn add_layer(&self, layer: HalfSpace, x: f64) -> (Self, LayerWaves) {
         let (d, d_t) = self.mismatch(layer);
         let (a2, c2) = (2.0 * layer.a, 2.0 * layer.c);
         let sum = Matrix2::ONE * a2 + d;
@@ -245,9 +245,9 @@ impl Below {
         };
         let below = Self {
             y,
-            y_rest,
+            y_remainder: y_rest,
             t,
-            t_rest,
+            t_remainder: t_rest,
             top: layer,
         };
         let waves = LayerWaves {
@@ -276,13 +276,13 @@ pub struct Stack {
 }
 
 impl Stack {
-    /// The layers of a body; fails if it has no meaning.
-    pub fn checked(body: &Body) -> Result<Self, Error> {
+    /// Builds the stack of a body; fails if the body has no meaning.
+    pub fn from_checked_body(body: &Body) -> Result<Self, Error> {
         body.check_alone()?;
         Ok(Self::new(body))
     }
 
-    /// The layers of a body.
+    /// Builds the stack of a body.
     pub fn new(body: &Body) -> Self {
         let layer = |c: &crate::scene::Coating| (HalfSpace::new(c.material), c.thickness);
         Self {
@@ -297,18 +297,18 @@ impl Stack {
         self.layers.first().map_or(self.substrate, |l| l.0)
     }
 
-    /// From the substrate up.
-    fn surface(&self, k: f64) -> Below {
-        let start = Below::half_space(self.substrate);
+    /// Computes the response at the surface from the substrate up.
+    fn response_at_surface(&self, k: f64) -> ResponseBelow {
+        let start = ResponseBelow::half_space(self.substrate);
         let layers = self.layers.iter().zip(&self.bonds).rev();
         layers.fold(start, |below, ((layer, h), bond)| {
-            below.through(*bond, k).under(*layer, k * h).0
+            below.add_bond(*bond, k).add_layer(*layer, k * h).0
         })
     }
 
     /// The surface response times k, at the wave number `k` \[1/m\] >= 0.
     pub fn response(&self, k: f64) -> RadialResponse {
-        let Below { y, t, .. } = self.surface(k);
+        let ResponseBelow { y, t, .. } = self.response_at_surface(k);
         RadialResponse {
             zz: y.3,
             rr: y.0,
@@ -317,10 +317,14 @@ impl Stack {
         }
     }
 
-    /// The surface response times k less that of the half-space of the outermost material; it
+    /// The surface response times k minus the response of the half-space of the outermost material; it
     /// decays like exp(-2 k h) with the thickness h of the outermost layer.
     pub fn remainder(&self, k: f64) -> RadialResponse {
-        let Below { y_rest, t_rest, .. } = self.surface(k);
+        let ResponseBelow {
+            y_remainder: y_rest,
+            t_remainder: t_rest,
+            ..
+        } = self.response_at_surface(k);
         RadialResponse {
             zz: y_rest.3,
             rr: y_rest.0,
@@ -331,19 +335,19 @@ impl Stack {
 
     /// The two families of fields in every layer, from the surface down.
     pub(crate) fn waves(&self, k: f64) -> Vec<LayerWaves> {
-        let mut below = Below::half_space(self.substrate);
+        let mut below = ResponseBelow::half_space(self.substrate);
         let mut waves = Vec::with_capacity(self.layers.len());
         for ((layer, h), bond) in self.layers.iter().zip(&self.bonds).rev() {
-            let (next, wave) = below.through(*bond, k).under(*layer, k * h);
+            let (with_layer, wave) = below.add_bond(*bond, k).add_layer(*layer, k * h);
             waves.push(wave);
-            below = next;
+            below = with_layer;
         }
         waves.reverse();
         waves
     }
 
     /// The largest 1/G of the layers and the substrate \[1/Pa\].
-    pub(crate) fn softest(&self) -> f64 {
+    pub(crate) fn largest_compliance(&self) -> f64 {
         let materials = self.layers.iter().map(|l| l.0).chain([self.substrate]);
         materials.map(|m| m.c).fold(0.0, f64::max)
     }

@@ -1,4 +1,4 @@
-//! Surface coefficients in plane strain: strips of width dx without end along y.
+//! Surface coefficients in plane strain: infinitely long strips of width dx along y.
 //!
 //! With A(k)/k the response of the body to tractions exp(i k x), a line load displaces the surface
 //! by
@@ -11,8 +11,8 @@
 //! over k > 0. A line load leaves a constant open: displacements are relative to the points at the
 //! distance L, here the grid's length, of any stack of layers; of a homogeneous body the integral
 //! is -A/pi ln(|x|/L) (K. L. Johnson, Contact Mechanics (1985), eq. (2.19), (2.22)). As in three
-//! dimensions A is that of the outermost material, whose integral over a strip is closed, plus a
-//! remainder that decays like exp(-2 k h), whose integral over k a Gauss rule takes.
+//! dimensions A is the response of the outermost material, whose integral over a strip is closed, plus a
+//! remainder that decays like exp(-2 k h), whose integral over k is taken by a Gauss rule.
 
 use std::f64::consts::PI;
 
@@ -35,9 +35,9 @@ const NODES: usize = 20;
 pub(crate) fn line_coefficients(stack: &Stack, grid: &Grid) -> InfluenceCoefficients {
     let (dx, length) = (grid.dx, grid.nx as f64 * grid.dx);
     let nodes = remainder_nodes(stack, length);
-    let at = |i: usize| {
+    let coefficients_at = |i: usize| {
         let x = i as f64 * dx;
-        let mut sum = over_strip(&stack.outermost(), i, dx, length);
+        let mut sum = integrate_over_strip(&stack.outermost(), i, dx, length);
         for Node { k, far, d } in &nodes {
             let strip = dx * sinc(k * dx / 2.0);
             let (sine, cosine) = (k * x).sin_cos();
@@ -50,22 +50,22 @@ pub(crate) fn line_coefficients(stack: &Stack, grid: &Grid) -> InfluenceCoeffici
         }
         sum
     };
-    let rows: Vec<[f64; 4]> = (0..grid.nx).into_par_iter().map(at).collect();
+    let rows: Vec<[f64; 4]> = (0..grid.nx).into_par_iter().map(coefficients_at).collect();
     let quadrant = |c: usize| Array2::from_shape_fn((grid.nx, 1), |(i, _)| rows[i][c]);
-    let none = || Array2::zeros((grid.nx, 1));
+    let zeros = || Array2::zeros((grid.nx, 1));
     InfluenceCoefficients {
         xx: quadrant(0),
         yy: quadrant(1),
         zz: quadrant(2),
         xz: quadrant(3),
-        xy: none(),
-        yz: none(),
+        xy: zeros(),
+        yz: zeros(),
     }
 }
 
 /// xx, yy, zz, xz of a half-space under a strip `i` strips away: the integrals of ln(|x|/L) and of
 /// the sign of x.
-fn over_strip(material: &HalfSpace, i: usize, dx: f64, length: f64) -> [f64; 4] {
+fn integrate_over_strip(material: &HalfSpace, i: usize, dx: f64, length: f64) -> [f64; 4] {
     let HalfSpace { a, b, c, .. } = *material;
     let primitive = |x: f64| x * ((x.abs() / length).ln() - 1.0);
     let x = i as f64 * dx;
@@ -87,28 +87,33 @@ fn remainder_nodes(stack: &Stack, length: f64) -> Vec<Node> {
     };
     let k_max = DECAY / (2.0 * h);
     let mut nodes = Vec::new();
-    let (mut from, mut to) = (
+    let (mut panel_start, mut panel_end) = (
         0.0,
         (stack.lowest_scale().min(1.0 / length) / 8.0).min(k_max),
     );
-    while from < k_max {
+    while panel_start < k_max {
         for (t, weight) in gauss(NODES) {
-            let half = (to - from) / 2.0;
-            let k = f64::midpoint(from, to) + half * t;
+            let half = (panel_end - panel_start) / 2.0;
+            let k = f64::midpoint(panel_start, panel_end) + half * t;
             let d = stack.remainder(k);
-            let part = weight * half / PI;
+            let weight_over_pi = weight * half / PI;
             nodes.push(Node {
                 k,
                 far: (k * length).cos(),
                 d: RadialResponse {
-                    zz: part * d.zz,
-                    rr: part * d.rr,
-                    tt: part * d.tt,
-                    rz: part * d.rz,
+                    zz: weight_over_pi * d.zz,
+                    rr: weight_over_pi * d.rr,
+                    tt: weight_over_pi * d.tt,
+                    rz: weight_over_pi * d.rz,
                 },
             });
         }
-        (from, to) = (to, (2.0 * to).min(to + LONGEST / length).min(k_max));
+        (panel_start, panel_end) = (
+            panel_end,
+            (2.0 * panel_end)
+                .min(panel_end + LONGEST / length)
+                .min(k_max),
+        );
     }
     nodes
 }

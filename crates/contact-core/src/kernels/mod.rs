@@ -1,6 +1,6 @@
 //! Stage 2: RESPONSE of a body to tractions on its surface.
 //!
-//! [`Stack`] knows the frequency response of any number of bonded layers.
+//! [`Stack`] has the frequency response of any number of bonded layers.
 //! [`influence_coefficients`] turns it into the displacements that unit traction on one cell
 //! causes, by the method of the [`KernelSettings`]; [`stress_coefficients`] does so for the stress
 //! at any depth.
@@ -41,7 +41,9 @@ pub use layered_frf::{RadialResponse, Stack};
 pub use radial_table::{Hankel, RadialTable};
 pub use rustfft::num_complex::Complex64;
 pub(crate) use sampled_frf::SampledFrf;
-pub use stress::{Stress, StressCoefficients, refuse_rigid, stress_at, stress_coefficients};
+pub use stress::{
+    Stress, StressCoefficients, check_not_rigid, stress_coefficients, stress_of_cell_at,
+};
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -51,7 +53,7 @@ use crate::memory::fits;
 use crate::plan::KernelSet;
 use crate::scene::{Body, Grid, KernelMethod, KernelSettings};
 
-/// Memory that the coefficients of a body take per cell while they are made: nine quadrants, twice
+/// Memory of the coefficients of a body per cell while they are computed: nine quadrants, twice
 /// \[bytes\].
 const NUMBERS: f64 = 18.0 * 8.0;
 
@@ -59,13 +61,13 @@ const NUMBERS: f64 = 18.0 * 8.0;
 ///
 /// A rigid body gives zeros. A homogeneous body needs no conversion whatever the method: its
 /// closed form is used; with `shortcut_equal_layers` also for a body whose layers all equal its
-/// substrate. Under [`KernelMethod::FrequencyDomain`], which convolves without coefficients, they
-/// are those of the default method.
+/// substrate. [`KernelMethod::FrequencyDomain`] convolves without coefficients; here it gives
+/// the coefficients of the default method.
 ///
-/// On a grid in plane strain they are those of strips without end along y: displacements relative
+/// On a grid in plane strain the cells are strips, infinitely long along y: displacements are relative
 /// to the points at the grid's length from the load, since a line load has no absolute ones.
 ///
-/// Ends when `stop` is raised, if there is one: [`Error::Interrupted`] after increment 0.
+/// Fails when `stop` is raised, if there is one: [`Error::Interrupted`] after increment 0.
 pub fn influence_coefficients(
     body: &Body,
     grid: &Grid,
@@ -74,14 +76,15 @@ pub fn influence_coefficients(
     stop: Option<&AtomicBool>,
 ) -> Result<InfluenceCoefficients, Error> {
     let set = KernelSet::All;
-    let coefficients = of_body(body, grid, settings, shortcut_equal_layers, set, stop)?;
+    let coefficients =
+        coefficients_of_body(body, grid, settings, shortcut_equal_layers, set, stop)?;
     Ok(Arc::unwrap_or_clone(coefficients))
 }
 
-/// The coefficients of a pair of bodies, eq. (4) of the paper, those of a set; of bodies of the
+/// The coefficients of a pair of bodies, eq. (4) of the paper, for a set; of bodies with the
 /// same layers they are computed once.
 ///
-/// Ends when `stop` is raised, if there is one: [`Error::Interrupted`] after increment 0.
+/// Fails when `stop` is raised, if there is one: [`Error::Interrupted`] after increment 0.
 pub fn pair_coefficients(
     (body1, body2): (&Body, &Body),
     grid: &Grid,
@@ -90,15 +93,16 @@ pub fn pair_coefficients(
     set: KernelSet,
     stop: Option<&AtomicBool>,
 ) -> Result<InfluenceCoefficients, Error> {
-    let of = |body| of_body(body, grid, settings, shortcut_equal_layers, set, stop);
-    let two = Arc::unwrap_or_clone(of(body2)?);
+    let coefficients_of =
+        |body| coefficients_of_body(body, grid, settings, shortcut_equal_layers, set, stop);
+    let coefficients2 = Arc::unwrap_or_clone(coefficients_of(body2)?);
     if body1.layers(shortcut_equal_layers) == body2.layers(shortcut_equal_layers) {
-        return Ok(two.twice());
+        return Ok(coefficients2.pair_of_equal_bodies());
     }
-    Ok(two.pair(&*of(body1)?))
+    Ok(coefficients2.pair(&*coefficients_of(body1)?))
 }
 
-fn of_body(
+fn coefficients_of_body(
     body: &Body,
     grid: &Grid,
     settings: &KernelSettings,
@@ -111,8 +115,8 @@ fn of_body(
     fits("the influence coefficients", NUMBERS * grid.cells() as f64)?;
     let bare = shortcut_equal_layers && body.is_homogeneous();
     let key = cache::Key::new(body, grid, settings, bare, set);
-    if let Some(kept) = cache::get(&key) {
-        return Ok(kept);
+    if let Some(cached) = cache::get(&key) {
+        return Ok(cached);
     }
     let never = AtomicBool::new(false);
     let stop = stop.unwrap_or(&never);
@@ -122,17 +126,17 @@ fn of_body(
         stack.bonds.clear();
     }
     let coefficients = match settings.method {
-        _ if grid.plane_strain => line::line_coefficients(&stack, grid).only(set),
+        _ if grid.plane_strain => line::line_coefficients(&stack, grid).keep_only(set),
         KernelMethod::InverseFft { lambda, aliases } if !stack.layers.is_empty() => {
-            inverse_fft::inverse_fft(&stack, grid, (lambda, aliases), stop)?.only(set)
+            inverse_fft::inverse_fft(&stack, grid, (lambda, aliases), stop)?.keep_only(set)
         }
         _ => {
             let (coefficients, estimate) = surface::surface_coefficients(&stack, grid, set, stop)?;
-            surface::check(estimate, settings.tolerance)?;
+            surface::check_estimate(estimate, settings.tolerance)?;
             coefficients
         }
     };
     let coefficients = Arc::new(coefficients);
-    cache::keep(key, &coefficients);
+    cache::insert(key, &coefficients);
     Ok(coefficients)
 }

@@ -94,13 +94,13 @@ type Octave = (Vec<f64>, Vec<Vec<[f64; 4]>>);
 /// Most rules whose Bessel functions are kept, some megabyte each.
 const KEPT: usize = 16;
 
-/// Those computed before, by the number of nodes, which distinguishes rules from 0 to the window's
-/// end apart: kernels at many depths share them.
+/// Octaves computed before, by the number of nodes, which distinguishes rules from 0 to the window's
+/// end: kernels at many depths share them.
 static OCTAVES: Mutex<BTreeMap<usize, Arc<Octave>>> = Mutex::new(BTreeMap::new());
 
 fn octave(rule: &Rule) -> Arc<Octave> {
-    let kept = || OCTAVES.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some(octave) = kept().get(&rule.0.len()) {
+    let lock_cache = || OCTAVES.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(octave) = lock_cache().get(&rule.0.len()) {
         return octave.clone();
     }
     let radii: Vec<f64> = (0..PANELS)
@@ -113,14 +113,14 @@ fn octave(rule: &Rule) -> Arc<Octave> {
             })
         })
         .collect();
-    let of_radius = |rho: &f64| rule.0.iter().map(|(t, _)| bessel(t * rho)).collect();
-    let bessels = radii.par_iter().map(of_radius).collect();
+    let bessels_at_radius = |rho: &f64| rule.0.iter().map(|(t, _)| bessel(t * rho)).collect();
+    let bessels = radii.par_iter().map(bessels_at_radius).collect();
     let octave = Arc::new((radii, bessels));
-    let mut kept = kept();
-    if kept.len() >= KEPT {
-        kept.clear();
+    let mut cache = lock_cache();
+    if cache.len() >= KEPT {
+        cache.clear();
     }
-    kept.insert(rule.0.len(), octave.clone());
+    cache.insert(rule.0.len(), octave.clone());
     octave
 }
 
@@ -132,22 +132,22 @@ impl<const N: usize> Hankel<'_, N> {
     }
 
     /// Smallest scale of a rule whose unit is 1/r \[-\].
-    fn low(&self, r: f64) -> f64 {
+    fn smallest_scale(&self, r: f64) -> f64 {
         self.k_low * r / 8.0
     }
 
     /// The amplitudes times weight and window at the nodes of a rule for radii from `r_a`.
-    fn weighted(&self, rule: &Rule, r_a: f64, window: Option<f64>) -> Vec<[f64; N]> {
-        let at = |&(t, w): &(f64, f64)| {
+    fn weighted_amplitudes(&self, rule: &Rule, r_a: f64, window: Option<f64>) -> Vec<[f64; N]> {
+        let amplitude_at = |&(t, w): &(f64, f64)| {
             let k = t / r_a;
             if k * self.zeta > DECAY {
                 return [0.0; N];
             }
-            let open = window.map_or(1.0, |c| libm::erfc((t - c) / WINDOW_WIDTH) / 2.0);
-            let factor = open * w / r_a / (2.0 * PI);
+            let window_value = window.map_or(1.0, |c| libm::erfc((t - c) / WINDOW_WIDTH) / 2.0);
+            let factor = window_value * w / r_a / (2.0 * PI);
             (self.amplitude)(k).map(|a| a * factor)
         };
-        rule.0.par_iter().map(at).collect()
+        rule.0.par_iter().map(amplitude_at).collect()
     }
 
     /// g_n(r)/r^m at r = `rho` r_a, from the weighted amplitudes.
@@ -161,10 +161,10 @@ impl<const N: usize> Hankel<'_, N> {
                 }
             }
         }
-        self.reduced(g, rho * r_a)
+        self.divide_by_powers(g, rho * r_a)
     }
 
-    fn reduced(&self, mut g: [f64; N], r: f64) -> [f64; N] {
+    fn divide_by_powers(&self, mut g: [f64; N], r: f64) -> [f64; N] {
         for (g, m) in g.iter_mut().zip(self.orders) {
             *g /= r.powi(m as i32);
         }
@@ -172,23 +172,23 @@ impl<const N: usize> Hankel<'_, N> {
     }
 
     /// The functions at one radius by a finer rule than the table's.
-    fn check(&self, r: f64) -> [f64; N] {
+    fn evaluate_finer(&self, r: f64) -> [f64; N] {
         let middle = 1.25 * WINDOW_MIDDLE;
         let high = (2.0 * middle).min(DECAY / self.zeta * r);
-        let rule = Rule::new(self.low(r) / 2.0, high, NODES + 6);
+        let rule = Rule::new(self.smallest_scale(r) / 2.0, high, NODES + 6);
         let window = (high > middle / 4.0).then_some(middle);
-        let weighted = self.weighted(&rule, r, window);
+        let weighted = self.weighted_amplitudes(&rule, r, window);
         self.sum(&rule, &weighted, 1.0, r)
     }
 
     /// Tabulates the functions for r <= `r_max`.
     pub fn tabulate(&self, r_max: f64) -> RadialTable<N> {
         let r_first = self.r_first(r_max);
-        let mut coefficients = self.first_panel(r_first);
+        let mut coefficients = self.tabulate_first_panel(r_first);
         // A radius at the very end of an octave belongs to the next one.
         let octaves = ((r_max / r_first).log2().floor() + 1.0).max(0.0) as usize;
         if octaves > 0 {
-            coefficients.extend(self.octaves(r_first, octaves));
+            coefficients.extend(self.tabulate_octaves(r_first, octaves));
         }
         RadialTable {
             s_first: r_first * r_first,
@@ -196,22 +196,26 @@ impl<const N: usize> Hankel<'_, N> {
         }
     }
 
-    fn first_panel(&self, r_first: f64) -> Vec<[f64; N]> {
-        let rule = Rule::new(self.low(r_first), DECAY / self.zeta * r_first, NODES);
-        let weighted = self.weighted(&rule, r_first, None);
+    fn tabulate_first_panel(&self, r_first: f64) -> Vec<[f64; N]> {
+        let rule = Rule::new(
+            self.smallest_scale(r_first),
+            DECAY / self.zeta * r_first,
+            NODES,
+        );
+        let weighted = self.weighted_amplitudes(&rule, r_first, None);
         let radii = cosines().map(|x| f64::midpoint(1.0, x).sqrt());
         let values = radii.map(|rho| self.sum(&rule, &weighted, rho, r_first));
         transform(&values).to_vec()
     }
 
-    fn octaves(&self, r_first: f64, octaves: usize) -> Vec<[f64; N]> {
-        let rule = Rule::new(self.low(r_first), 2.0 * WINDOW_MIDDLE, NODES);
+    fn tabulate_octaves(&self, r_first: f64, octaves: usize) -> Vec<[f64; N]> {
+        let rule = Rule::new(self.smallest_scale(r_first), 2.0 * WINDOW_MIDDLE, NODES);
         let (radii, bessels) = &*octave(&rule);
         (0..octaves)
             .into_par_iter()
             .flat_map_iter(|octave| {
                 let r_a = r_first * (octave as f64).exp2();
-                let weighted = self.weighted(&rule, r_a, Some(WINDOW_MIDDLE));
+                let weighted = self.weighted_amplitudes(&rule, r_a, Some(WINDOW_MIDDLE));
                 let values: Vec<[f64; N]> = bessels
                     .iter()
                     .zip(radii)
@@ -222,7 +226,7 @@ impl<const N: usize> Hankel<'_, N> {
                                 g[n] += a[n] * j[self.orders[n]];
                             }
                         }
-                        self.reduced(g, rho * r_a)
+                        self.divide_by_powers(g, rho * r_a)
                     })
                     .collect();
                 let panels = values.chunks_exact(ORDER);
@@ -235,7 +239,7 @@ impl<const N: usize> Hankel<'_, N> {
 
     /// Largest deviation of the table from a finer integration, each function in the unit r^m,
     /// times `r`: one radius in each octave, off the nodes.
-    pub fn error(&self, table: &RadialTable<N>, r_max: f64) -> f64 {
+    pub fn max_deviation(&self, table: &RadialTable<N>, r_max: f64) -> f64 {
         let mut radii = vec![0.37 * table.s_first.sqrt()];
         let mut r = 1.23 * table.s_first.sqrt();
         while r < r_max {
@@ -243,10 +247,11 @@ impl<const N: usize> Hankel<'_, N> {
             r *= 2.13;
         }
         let deviation = |r: &f64| {
-            let (fine, table) = (self.check(*r), table.at(r * r));
-            let each = (0..N).map(|n| (fine[n] - table[n]).abs() * r.powi(self.orders[n] as i32));
+            let (fine, table) = (self.evaluate_finer(*r), table.evaluate(r * r));
+            let deviations =
+                (0..N).map(|n| (fine[n] - table[n]).abs() * r.powi(self.orders[n] as i32));
             // A maximum would ignore NaN.
-            let largest = each.fold(
+            let largest = deviations.fold(
                 0.0,
                 |m: f64, v| if v.is_nan() { f64::INFINITY } else { m.max(v) },
             );
@@ -258,7 +263,7 @@ impl<const N: usize> Hankel<'_, N> {
 
 impl<const N: usize> RadialTable<N> {
     /// g_n(r)/r^m at s = r^2, within the range tabulated.
-    pub fn at(&self, s: f64) -> [f64; N] {
+    pub fn evaluate(&self, s: f64) -> [f64; N] {
         let ratio = s / self.s_first;
         let (panel, x) = if ratio < 1.0 {
             (0, 2.0 * ratio - 1.0)
@@ -266,9 +271,12 @@ impl<const N: usize> RadialTable<N> {
             let bits = ratio.to_bits();
             let octave = (bits >> 52) as usize - 1023;
             let mantissa = f64::from_bits((bits & ((1 << 52) - 1)) | (1023 << 52));
-            let place = (mantissa - 1.0) * SPLITS as f64;
-            let sub = place as usize;
-            (1 + octave * SPLITS + sub, 2.0 * (place - sub as f64) - 1.0)
+            let position = (mantissa - 1.0) * SPLITS as f64;
+            let sub = position as usize;
+            (
+                1 + octave * SPLITS + sub,
+                2.0 * (position - sub as f64) - 1.0,
+            )
         };
         clenshaw(&self.coefficients[panel * ORDER..][..ORDER], x)
     }
@@ -296,15 +304,15 @@ fn transform<const N: usize>(values: &[[f64; N]; ORDER]) -> [[f64; N]; ORDER] {
 
 /// The sum of Chebyshev polynomials at x.
 fn clenshaw<const N: usize>(coefficients: &[[f64; N]], x: f64) -> [f64; N] {
-    let (mut b, mut last) = ([0.0; N], [0.0; N]);
+    let (mut b, mut previous) = ([0.0; N], [0.0; N]);
     for c in coefficients[1..].iter().rev() {
         for n in 0..N {
-            let next = c[n] + 2.0 * x * b[n] - last[n];
-            last[n] = b[n];
-            b[n] = next;
+            let new = c[n] + 2.0 * x * b[n] - previous[n];
+            previous[n] = b[n];
+            b[n] = new;
         }
     }
-    std::array::from_fn(|n| coefficients[0][n] + x * b[n] - last[n])
+    std::array::from_fn(|n| coefficients[0][n] + x * b[n] - previous[n])
 }
 
 #[cfg(test)]
@@ -314,7 +322,7 @@ mod tests {
     use super::*;
 
     /// Amplitudes exp(-k z) of all orders, whose integrals are known, as an image source has.
-    fn image(z: f64, r_max: f64) -> (RadialTable<4>, f64) {
+    fn image_source_table(z: f64, r_max: f64) -> (RadialTable<4>, f64) {
         let hankel = Hankel {
             amplitude: &|k| [(-k * z).exp(); 4],
             orders: [0, 1, 2, 3],
@@ -322,12 +330,12 @@ mod tests {
             k_low: 1.0 / z,
         };
         let table = hankel.tabulate(r_max);
-        let error = hankel.error(&table, r_max);
+        let error = hankel.max_deviation(&table, r_max);
         (table, error)
     }
 
     /// (rho - z)^n/(r^n rho), rho^2 = r^2 + z^2; over r^n, without cancellation.
-    fn exact(z: f64, r: f64, n: usize) -> f64 {
+    fn exact_value(z: f64, r: f64, n: usize) -> f64 {
         let rho = r.hypot(z);
         1.0 / (rho * (rho + z).powi(n as i32)) / (2.0 * PI)
     }
@@ -335,14 +343,14 @@ mod tests {
     #[test]
     fn reproduces_image_sources() {
         for (z, r_max) in [(1.0, 1e5), (1e-4, 3.0), (7e3, 1.0)] {
-            let (table, estimate) = image(z, r_max);
+            let (table, estimate) = image_source_table(z, r_max);
             assert!(estimate < 1e-13, "{estimate:.1e}");
             for i in 0..500 {
                 let r = r_max * (f64::from(i) / 500.0).powi(4);
-                let values = table.at(r * r);
+                let values = table.evaluate(r * r);
                 for (n, value) in values.iter().enumerate() {
                     let scale = (r + z).powi(n as i32 + 1);
-                    let error = (value - exact(z, r, n)).abs() * scale;
+                    let error = (value - exact_value(z, r, n)).abs() * scale;
                     assert!(error < 1e-13, "z = {z}, r = {r}, J_{n}: {error:.1e}");
                 }
             }
@@ -354,7 +362,7 @@ mod tests {
     #[test]
     fn integrates_image_sources_over_cells() {
         for (z, half_y) in [(0.05, 0.5), (0.2, 10.0), (2.0, 0.5), (100.0, 0.025)] {
-            let (table, _) = image(z, 100.0);
+            let (table, _) = image_source_table(z, 100.0);
             for (x, y) in [
                 (0.0, 0.0),
                 (1.0, 0.0),
@@ -369,7 +377,7 @@ mod tests {
                 };
                 let mut sum = [0.0; 6];
                 cell.nodes_of_parts(z, 1e-14, &mut |x, y, w| {
-                    let g = table.at(x * x + y * y);
+                    let g = table.evaluate(x * x + y * y);
                     add_kernel(&mut sum, x, y, w, [g[0], 0.0, 0.0, 0.0]);
                 });
                 let corner = |x: f64, y: f64| {

@@ -1,4 +1,4 @@
-//! Rows of coefficients, computed side by side until somebody asks to stop.
+//! Rows of coefficients, computed in parallel until the run is stopped.
 
 use std::sync::atomic::AtomicBool;
 
@@ -7,8 +7,8 @@ use rayon::prelude::*;
 use crate::error::Error;
 use crate::stop::unless;
 
-/// Does the work on every row; fails once `stop` is raised, with the rows that are begun.
-pub(super) fn each_row<R: Send>(
+/// Does the work on every row; fails once `stop` is raised, after the rows in progress.
+pub(super) fn for_each_row<R: Send>(
     rows: &mut [R],
     stop: &AtomicBool,
     work: impl Fn(usize, &mut R) + Sync,
@@ -26,12 +26,12 @@ mod tests {
 
     use super::*;
 
-    /// No thread begins a row after the flag is up, but for one that has just looked.
+    /// No thread begins a row after the flag is up, except one that has just looked.
     #[test]
     fn a_raised_flag_ends_the_rows() {
         let (stop, begun_after) = (AtomicBool::new(false), AtomicUsize::new(0));
         let mut rows = vec![0.0; 1024];
-        let ended = each_row(&mut rows, &stop, |i, row| {
+        let result = for_each_row(&mut rows, &stop, |i, row| {
             if stop.load(Ordering::SeqCst) {
                 begun_after.fetch_add(1, Ordering::SeqCst);
             }
@@ -40,7 +40,7 @@ mod tests {
                 stop.store(true, Ordering::SeqCst);
             }
         });
-        assert_eq!(ended, Err(Error::Interrupted { increment: 0 }));
+        assert_eq!(result, Err(Error::Interrupted { increment: 0 }));
         let late = begun_after.into_inner();
         assert!(late < rayon::current_num_threads(), "{late} rows");
         assert!(rows.contains(&0.0));

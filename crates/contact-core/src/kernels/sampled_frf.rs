@@ -40,9 +40,9 @@ impl<'a> SampledFrf<'a> {
         }
     }
 
-    /// The samples xx, yy, zz, xy \[m/Pa\] and those of xz, yz over i at the frequency number
-    /// (m, n), 0 <= m <= lambda nx/2 and n alike; what is odd vanishes at the Nyquist frequency.
-    pub(crate) fn at(&self, m: usize, n: usize) -> Six {
+    /// The samples xx, yy, zz, xy \[m/Pa\] and xz, yz over i at the frequency number
+    /// (m, n), 0 <= m <= lambda nx/2 and n alike; odd samples vanish at the Nyquist frequency.
+    pub(crate) fn sample(&self, m: usize, n: usize) -> Six {
         let (m, n) = (m as i64, n as i64);
         let (px, py) = (self.period.0 as i64, self.period.1 as i64);
         let orders = || -self.aliases..=self.aliases;
@@ -52,9 +52,9 @@ impl<'a> SampledFrf<'a> {
             let (k_x, k_y) = (m as f64 * self.step.0, n as f64 * self.step.1);
             let (phase_x, phase_y) = (PI * m as f64 / px as f64, PI * n as f64 / py as f64);
             let term = if (m, n) == (0, 0) {
-                self.mean()
+                self.mean_at_zero()
             } else {
-                turned(&self.stack.response(k_x.hypot(k_y)), k_x, k_y)
+                rotate_response(&self.stack.response(k_x.hypot(k_y)), k_x, k_y)
             };
             let shape = sinc(phase_x) * sinc(phase_y);
             for (sum, term) in sum.iter_mut().zip(term) {
@@ -69,8 +69,8 @@ impl<'a> SampledFrf<'a> {
     }
 
     /// The mean of the response over the cell of the frequency plane around zero, eq. (11). In
-    /// polar coordinates the 1/k drops out; the odd terms have none.
-    fn mean(&self) -> Six {
+    /// polar coordinates the 1/k drops out; the mean of the odd terms is zero.
+    fn mean_at_zero(&self) -> Six {
         let (half_x, half_y) = (self.step.0 / 2.0, self.step.1 / 2.0);
         let corner = half_y.atan2(half_x);
         let mut sum = [0.0; 6];
@@ -78,11 +78,11 @@ impl<'a> SampledFrf<'a> {
             for (t, weight_t) in gauss(MEAN) {
                 let angle = from + (to - from) * (1.0 + t) / 2.0;
                 let (s, c) = angle.sin_cos();
-                let reach = (half_x / c).min(half_y / s);
+                let radius = (half_x / c).min(half_y / s);
                 for (r, weight_r) in gauss(MEAN) {
-                    let k = reach * (1.0 + r) / 2.0;
-                    let term = turned(&self.stack.response(k), k * c, k * s);
-                    let weight = weight_t * (to - from) / 2.0 * weight_r * reach / 2.0 * k;
+                    let k = radius * (1.0 + r) / 2.0;
+                    let term = rotate_response(&self.stack.response(k), k * c, k * s);
+                    let weight = weight_t * (to - from) / 2.0 * weight_r * radius / 2.0 * k;
                     for (sum, term) in sum.iter_mut().zip(term).take(3) {
                         *sum += weight * term;
                     }
@@ -94,7 +94,7 @@ impl<'a> SampledFrf<'a> {
 }
 
 /// f(k_x, k_y): xx, yy, zz, xy, and xz, yz over i.
-fn turned(response: &RadialResponse, k_x: f64, k_y: f64) -> Six {
+fn rotate_response(response: &RadialResponse, k_x: f64, k_y: f64) -> Six {
     let k = k_x.hypot(k_y);
     let (c, s) = (k_x / k, k_y / k);
     let RadialResponse { zz, rr, tt, rz } = *response;

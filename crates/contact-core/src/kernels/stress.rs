@@ -28,7 +28,7 @@ use crate::magnitude::LARGEST;
 use crate::memory::fits;
 use crate::scene::{Body, Grid};
 
-/// Memory that the stress coefficients of a body take per cell while they are made: eighteen
+/// Memory of the stress coefficients of a body per cell while they are computed: eighteen
 /// quadrants, twice \[bytes\].
 const NUMBERS: f64 = 36.0 * 8.0;
 
@@ -41,7 +41,7 @@ pub(crate) type StressKernel = DepthKernel<Stress, 10, 6>;
 impl Quantity<10, 6> for Stress {
     const ORDERS: [usize; 10] = [0, 0, 2, 1, 1, 1, 1, 3, 0, 2];
 
-    /// With the k of k dk.
+    /// Includes the factor k of k dk.
     fn amplitudes(k: f64, f: &WaveFields) -> [f64; 10] {
         let t = f.traction;
         let mean = |n: usize| f64::midpoint(f.s_rr[n], f.s_tt[n]);
@@ -89,7 +89,7 @@ impl Quantity<10, 6> for Stress {
     }
 
     fn radial(material: &HalfSpace, s: f64, z: f64) -> [f64; 10] {
-        half_space_stress::radial(s, z, material.nu)
+        half_space_stress::radial_functions(s, z, material.nu)
     }
 
     fn corner(
@@ -110,7 +110,7 @@ impl Quantity<10, 6> for Stress {
         (x != (column == 0), y != (column == 1))
     }
 
-    fn exchanged(row: usize, column: usize) -> (usize, usize) {
+    fn transposed(row: usize, column: usize) -> (usize, usize) {
         ([1, 0, 2, 3, 5, 4][row], [1, 0, 2][column])
     }
 
@@ -118,8 +118,8 @@ impl Quantity<10, 6> for Stress {
         row >= 4
     }
 
-    /// Stress falls off like 1/r^2: against 1/(2 pi zeta^2), the most that a unit force causes.
-    fn scale(_: &Stack, zeta: f64) -> f64 {
+    /// Stress decays like 1/r^2: the reference is 1/(2 pi zeta^2), the largest value that a unit force causes.
+    fn error_scale(_: &Stack, zeta: f64) -> f64 {
         1.0 / zeta
     }
 }
@@ -130,14 +130,14 @@ impl Quantity<10, 6> for Stress {
 pub struct StressCoefficients {
     /// Depth \[m\].
     pub z: f64,
-    /// Layer from the surface down; their number for the substrate.
+    /// Layer from the surface down; the number of coatings for the substrate.
     pub layer: usize,
     /// Rows xx, yy, zz, xy, xz, yz; columns q_x, q_y, p; each of shape (nx, ny).
     pub s: [[Quadrant; 3]; 6],
 }
 
 impl StressCoefficients {
-    /// Whether an entry changes its sign with x and with y.
+    /// Whether an entry is odd in x and in y.
     pub fn is_odd(row: usize, column: usize) -> (bool, bool) {
         Stress::is_odd(row, column)
     }
@@ -157,7 +157,7 @@ impl StressCoefficients {
 /// centred at the origin; `layer` decides at an interface (default: the upper one).
 ///
 /// On the surface the stress jumps at the cell's border, and on the border it has no value.
-pub fn stress_at(
+pub fn stress_of_cell_at(
     body: &Body,
     cell: (f64, f64),
     point: (f64, f64, f64),
@@ -172,22 +172,22 @@ pub fn stress_at(
         }
     }
     let stack = Stack::new(body);
-    let place = stack.place(point.2, layer)?;
+    let place = stack.locate_depth(point.2, layer)?;
     let rectangle = Cell {
         x: point.0,
         y: point.1,
         half_x: cell.0 / 2.0,
         half_y: cell.1 / 2.0,
     };
-    refuse_rigid(body, place.layer)?;
-    let reach = (point.0.abs() + cell.0).hypot(point.1.abs() + cell.1);
-    Ok(StressKernel::new(&stack, place, reach, cell)?.under(&rectangle))
+    check_not_rigid(body, place.layer)?;
+    let r_max = (point.0.abs() + cell.0).hypot(point.1.abs() + cell.1);
+    Ok(StressKernel::new(&stack, place, r_max, cell)?.response_to_cell(&rectangle))
 }
 
 /// The stress coefficients of a body on a grid at the depth `z` \[m\]; `layer` decides at an
 /// interface (default: the upper one).
 ///
-/// Ends when `stop` is raised, if there is one: [`Error::Interrupted`] after increment 0.
+/// Fails when `stop` is raised, if there is one: [`Error::Interrupted`] after increment 0.
 pub fn stress_coefficients(
     body: &Body,
     grid: &Grid,
@@ -199,8 +199,8 @@ pub fn stress_coefficients(
     grid.check_alone()?;
     fits("the stress coefficients", NUMBERS * grid.cells() as f64)?;
     let stack = Stack::new(body);
-    let place = stack.place(z, layer)?;
-    refuse_rigid(body, place.layer)?;
+    let place = stack.locate_depth(z, layer)?;
+    check_not_rigid(body, place.layer)?;
     let r_max = (grid.nx as f64 * grid.dx).hypot(grid.ny as f64 * grid.dy);
     let kernel = StressKernel::new(&stack, place, r_max, (grid.dx, grid.dy))?;
     let never = AtomicBool::new(false);
@@ -213,7 +213,7 @@ pub fn stress_coefficients(
 }
 
 /// Fails for a rigid material, where stress has no meaning.
-pub fn refuse_rigid(body: &Body, layer: usize) -> Result<(), Error> {
+pub fn check_not_rigid(body: &Body, layer: usize) -> Result<(), Error> {
     if layer == body.coatings.len() && body.substrate.is_rigid() {
         return Err(Error::invalid(
             "layer",

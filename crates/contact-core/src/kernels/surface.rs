@@ -1,9 +1,9 @@
 //! Surface coefficients of any body, exact to rounding.
 //!
-//! The response is that of a half-space of the outermost material, known in closed form, plus a
-//! remainder that decays like exp(-2 k h) and is smooth: its radial functions are tabulated once
-//! and integrated over each cell by Gauss rules, with parts of the cell where the layer is thin
-//! against it.
+//! The response of a half-space of the outermost material is known in closed form. A
+//! remainder that decays like exp(-2 k h) is smooth: its radial functions are tabulated once
+//! and integrated over each cell by Gauss rules; where the layer is thin against the cell, over parts
+//! of it.
 
 use std::sync::atomic::AtomicBool;
 
@@ -11,16 +11,16 @@ use ndarray::Array2;
 
 use super::InfluenceCoefficients;
 use super::cell::Cell;
-use super::coefficients::{ODD, none};
-use super::half_space::{Radial, Six, add_kernel, over_cell, radial};
+use super::coefficients::{ODD, empty_quadrant};
+use super::half_space::{Radial, Six, add_kernel, integrate_over_cell, radial_functions};
 use super::layered_frf::{HalfSpace, Stack};
 use super::radial_table::{Hankel, RadialTable};
-use super::rows::each_row;
+use super::rows::for_each_row;
 use crate::error::Error;
 use crate::plan::KernelSet;
 use crate::scene::Grid;
 
-/// Relative error that a cell's Gauss rule may leave, against C33(0,0).
+/// Relative error of a cell's Gauss rule, against C33(0,0).
 const CUBATURE: f64 = 1e-14;
 
 /// The smooth part of a coated body's response.
@@ -38,8 +38,8 @@ struct SurfaceKernel<'a> {
     set: KernelSet,
 }
 
-/// The coefficients of a stack on a grid, those of a set, and an estimate of their error over
-/// C33(0,0). Ends when `stop` is raised.
+/// The coefficients of a stack on a grid, for a set, and an estimate of their error over
+/// C33(0,0). Fails when `stop` is raised.
 pub(crate) fn surface_coefficients(
     stack: &Stack,
     grid: &Grid,
@@ -60,7 +60,7 @@ pub(crate) fn surface_coefficients(
             k_low: stack.lowest_scale(),
         };
         let table = hankel.tabulate(r_max);
-        estimate = hankel.error(&table, r_max);
+        estimate = hankel.max_deviation(&table, r_max);
         Remainder { table, zeta }
     });
     let kernel = SurfaceKernel {
@@ -69,9 +69,9 @@ pub(crate) fn surface_coefficients(
         grid,
         set,
     };
-    let coefficients = kernel.fill(stop)?;
+    let coefficients = kernel.compute_all_offsets(stop)?;
     // An error e/r of the kernel adds e times the integral of 1/r over the cell.
-    let one = HalfSpace {
+    let unit_material = HalfSpace {
         a: 2.0 * std::f64::consts::PI,
         b: 0.0,
         c: 0.0,
@@ -80,7 +80,8 @@ pub(crate) fn surface_coefficients(
     let origin = kernel.cell(0, 0);
     let self_zz = coefficients.zz[(0, 0)];
     let estimate = if self_zz > 0.0 {
-        estimate * over_cell(&one, &origin, KernelSet::Normal)[2] / self_zz + CUBATURE
+        estimate * integrate_over_cell(&unit_material, &origin, KernelSet::Normal)[2] / self_zz
+            + CUBATURE
     } else {
         0.0
     };
@@ -99,7 +100,7 @@ impl SurfaceKernel<'_> {
     }
 
     /// The coefficients at one offset; entries outside the set are arbitrary.
-    fn at(&self, i: usize, j: usize) -> Six {
+    fn coefficients_at(&self, i: usize, j: usize) -> Six {
         let cell = self.cell(i, j);
         // The kernel falls off like 1/r, and so does the allowed error of its integral.
         let cells_away = cell.x.hypot(cell.y) / (2.0 * cell.half_x.max(cell.half_y));
@@ -107,9 +108,9 @@ impl SurfaceKernel<'_> {
         let mut sum = [0.0; 6];
         if let Some(orders) = cell.orders(0.0, tolerance) {
             let functions = |s: f64| {
-                let mut g = radial(&self.outermost, s);
+                let mut g = radial_functions(&self.outermost, s);
                 if let Some(remainder) = &self.remainder {
-                    add(&mut g, remainder.table.at(s));
+                    add_functions(&mut g, remainder.table.evaluate(s));
                 }
                 g
             };
@@ -124,33 +125,33 @@ impl SurfaceKernel<'_> {
         }
         if let Some(Remainder { table, zeta }) = &self.remainder {
             cell.nodes_of_parts(*zeta, tolerance, &mut |x, y, w| {
-                add_kernel(&mut sum, x, y, w, table.at(x * x + y * y));
+                add_kernel(&mut sum, x, y, w, table.evaluate(x * x + y * y));
             });
         }
-        let closed = over_cell(&self.outermost, &cell, self.set);
-        std::array::from_fn(|n| sum[n] + closed[n])
+        let closed_form = integrate_over_cell(&self.outermost, &cell, self.set);
+        std::array::from_fn(|n| sum[n] + closed_form[n])
     }
 
-    /// Which of the six are of the set.
-    fn wanted(&self) -> [bool; 6] {
+    /// Flags of the six coefficients that are in the set.
+    fn in_set(&self) -> [bool; 6] {
         let (shear, coupling) = (self.set != KernelSet::Normal, self.set == KernelSet::All);
         [shear, shear, true, shear, coupling, coupling]
     }
 
-    /// All offsets >= 0; where cells are square, one octant is computed and mirrored.
-    fn fill(&self, stop: &AtomicBool) -> Result<InfluenceCoefficients, Error> {
+    /// Computes all offsets >= 0; for square cells one octant is computed and mirrored.
+    fn compute_all_offsets(&self, stop: &AtomicBool) -> Result<InfluenceCoefficients, Error> {
         let Grid { nx, ny, dx, dy, .. } = *self.grid;
         let square = if dx.to_bits() == dy.to_bits() {
             nx.min(ny)
         } else {
             0
         };
-        let mirrored = |i: usize, j: usize| i < j && j < square;
-        let mut c = self.wanted().map(|wanted| {
-            if wanted {
+        let is_mirrored = |i: usize, j: usize| i < j && j < square;
+        let mut c = self.in_set().map(|is_wanted| {
+            if is_wanted {
                 Array2::<f64>::zeros((nx, ny))
             } else {
-                none()
+                empty_quadrant()
             }
         });
         let mut rows: Vec<[&mut [f64]; 6]> = (0..nx).map(|_| Default::default()).collect();
@@ -160,9 +161,9 @@ impl SurfaceKernel<'_> {
                 row[n] = c;
             }
         }
-        each_row(&mut rows, stop, |i, row| {
-            for j in (0..ny).filter(|j| !mirrored(i, *j)) {
-                for ((c, value), odd) in row.iter_mut().zip(self.at(i, j)).zip(ODD) {
+        for_each_row(&mut rows, stop, |i, row| {
+            for j in (0..ny).filter(|j| !is_mirrored(i, *j)) {
+                for ((c, value), odd) in row.iter_mut().zip(self.coefficients_at(i, j)).zip(ODD) {
                     if let Some(c) = c.get_mut(j) {
                         // Odd kernels vanish on their axis.
                         let vanishes = (odd.0 && i == 0) || (odd.1 && j == 0);
@@ -174,14 +175,14 @@ impl SurfaceKernel<'_> {
         drop(rows);
         let [mut xx, mut yy, mut zz, mut xy, mut xz, mut yz] = c;
         for (i, j) in (0..square).flat_map(|i| (i + 1..square).map(move |j| (i, j))) {
-            let (here, there) = ((i, j), (j, i));
-            zz[here] = zz[there];
+            let (above_diagonal, below_diagonal) = ((i, j), (j, i));
+            zz[above_diagonal] = zz[below_diagonal];
             if !xx.is_empty() {
-                (xx[here], yy[here]) = (yy[there], xx[there]);
-                xy[here] = xy[there];
+                (xx[above_diagonal], yy[above_diagonal]) = (yy[below_diagonal], xx[below_diagonal]);
+                xy[above_diagonal] = xy[below_diagonal];
             }
             if !xz.is_empty() {
-                (xz[here], yz[here]) = (yz[there], xz[there]);
+                (xz[above_diagonal], yz[above_diagonal]) = (yz[below_diagonal], xz[below_diagonal]);
             }
         }
         Ok(InfluenceCoefficients {
@@ -195,14 +196,14 @@ impl SurfaceKernel<'_> {
     }
 }
 
-fn add(g: &mut Radial, other: Radial) {
-    for (g, o) in g.iter_mut().zip(other) {
+fn add_functions(g: &mut Radial, addend: Radial) {
+    for (g, o) in g.iter_mut().zip(addend) {
         *g += o;
     }
 }
 
-/// Fails if the estimated error is more than the tolerance asked for.
-pub(crate) fn check(estimate: f64, tolerance: f64) -> Result<(), Error> {
+/// Fails if the estimated error is larger than the tolerance.
+pub(crate) fn check_estimate(estimate: f64, tolerance: f64) -> Result<(), Error> {
     if estimate <= tolerance {
         return Ok(());
     }

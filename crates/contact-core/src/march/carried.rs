@@ -25,7 +25,7 @@ use super::domain::embedded_state;
 use super::problem::Problem;
 use super::state::{Along, State};
 use crate::cells::size;
-use crate::plan::{Half, Mirror};
+use crate::plan::{Mirror, Parity};
 use crate::scene::Grid;
 use crate::solvers::Interface;
 
@@ -72,7 +72,7 @@ pub(super) fn pressed(
     change.displacements_and_sums(&mut pressed);
     let pressure = |p: &[f64]| -> Vec<f64> {
         let squares: Vec<f64> = p.iter().map(|p| p * p).collect();
-        let on_fine = change.linear.of(&squares, Half::Even);
+        let on_fine = change.linear.of(&squares, Parity::Even);
         let roots: Vec<f64> = on_fine.iter().map(|p| p.sqrt()).collect();
         let factor = (ratio * ratio) as f64 * total(p) / total(&roots).max(f64::MIN_POSITIVE);
         roots.iter().map(|p| factor * p).collect()
@@ -85,7 +85,7 @@ pub(super) fn pressed(
         pressed.q_before[c] = change.of(&now.q_before[c], &none[c], half);
     }
     let mark = |of: &[bool]| -> Vec<bool> {
-        let part = change.masked(|n| is(of[n]), Half::Even);
+        let part = change.masked(|n| is(of[n]), Parity::Even);
         part.iter().map(|part| *part > 0.5).collect()
     };
     pressed.interface.slips = mark(&now.interface.slips);
@@ -93,7 +93,7 @@ pub(super) fn pressed(
     pressed
 }
 
-const HALVES: [Half; 2] = [Half::Even, Half::Odd];
+const HALVES: [Parity; 2] = [Parity::Even, Parity::Odd];
 
 /// Change of the coarse grid since the fine one was solved last.
 struct Change<'a> {
@@ -126,7 +126,7 @@ impl<'a> Change<'a> {
         Self {
             now,
             then,
-            within: linear.of(&contact, Half::Even),
+            within: linear.of(&contact, Parity::Even),
             cubic,
             linear,
             contact,
@@ -134,7 +134,7 @@ impl<'a> Change<'a> {
     }
 
     /// A field interpolated between cells in contact.
-    fn masked(&self, of: impl Fn(usize) -> f64, half: Half) -> Vec<f64> {
+    fn masked(&self, of: impl Fn(usize) -> f64, half: Parity) -> Vec<f64> {
         let field: Vec<f64> = (self.contact.iter().enumerate())
             .map(|(n, contact)| if *contact > 0.0 { of(n) } else { 0.0 })
             .collect();
@@ -146,7 +146,7 @@ impl<'a> Change<'a> {
     }
 
     /// The change of a field from one to another, interpolated between cells in contact.
-    fn of(&self, to: &[f64], from: &[f64], half: Half) -> Vec<f64> {
+    fn of(&self, to: &[f64], from: &[f64], half: Parity) -> Vec<f64> {
         self.masked(|n| to[n] - from[n], half)
     }
 
@@ -159,17 +159,17 @@ impl<'a> Change<'a> {
             let slip = self.of(&now.total_slip[c], &then.total_slip[c], HALVES[c]);
             add(&mut carried.total_slip[c], &slip);
         }
-        let u_z = self.cubic.of(&difference(&i.u_z, &j.u_z), Half::Even);
+        let u_z = self.cubic.of(&difference(&i.u_z, &j.u_z), Parity::Even);
         add(&mut carried.interface.u_z, &u_z);
-        let length = self.of(&now.slip_length, &then.slip_length, Half::Even);
+        let length = self.of(&now.slip_length, &then.slip_length, Parity::Even);
         add(&mut carried.slip_length, &length);
-        let dissipated = self.of(&now.dissipated, &then.dissipated, Half::Even);
+        let dissipated = self.of(&now.dissipated, &then.dissipated, Parity::Even);
         add(&mut carried.dissipated, &dissipated);
     }
 
     fn pressure(&self, carried: &mut State) {
         let (i, j) = (&self.now.interface, &self.then.interface);
-        let change = self.of(&i.p, &j.p, Half::Even);
+        let change = self.of(&i.p, &j.p, Parity::Even);
         let p = &mut carried.interface.p;
         let sum = total(p) * total(&i.p) / total(&j.p);
         for (p, change) in p.iter_mut().zip(&change).filter(|(p, _)| **p > 0.0) {
@@ -181,7 +181,7 @@ impl<'a> Change<'a> {
                 *p *= factor;
             }
         }
-        let last = self.of(&i.p, &self.now.p_before, Half::Even);
+        let last = self.of(&i.p, &self.now.p_before, Parity::Even);
         let before = p.iter().zip(&last);
         carried.p_before = before
             .map(|(p, last)| if *p > 0.0 { (p - last).max(0.0) } else { 0.0 })
@@ -192,8 +192,8 @@ impl<'a> Change<'a> {
     fn shear(&self, carried: &mut State, mu: impl Fn(usize) -> f64, ratio: usize) {
         let (now, then) = (self.now, self.then);
         let (i, j) = (&now.interface, &then.interface);
-        let slipping = self.masked(|n| is(i.slips[n]), Half::Even);
-        let at_limit = self.masked(|n| is(now.at_limit[n]), Half::Even);
+        let slipping = self.masked(|n| is(i.slips[n]), Parity::Even);
+        let at_limit = self.masked(|n| is(now.at_limit[n]), Parity::Even);
         let direction = [0, 1].map(|c| self.masked(|n| i.q[c][n], HALVES[c]));
         let change = [0, 1].map(|c| self.of(&i.q[c], &j.q[c], HALVES[c]));
         let last = [0, 1].map(|c| self.of(&i.q[c], &now.q_before[c], HALVES[c]));
@@ -323,7 +323,7 @@ struct Interpolation {
 }
 
 impl Interpolation {
-    fn of(&self, field: &[f64], half: Half) -> Vec<f64> {
+    fn of(&self, field: &[f64], half: Parity) -> Vec<f64> {
         let along_rows = |column: &[f64]| -> Vec<f64> {
             let value = |part: &Part| {
                 let sign = if part.image { half.sign() } else { 1.0 };

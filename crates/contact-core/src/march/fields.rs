@@ -5,7 +5,7 @@ use ndarray::Array2;
 use super::domain::on_grid;
 use super::{March, Motion, State};
 use crate::convolution;
-use crate::plan::Half;
+use crate::plan::Parity;
 use crate::yielding::Yielded;
 use crate::zones::Outline;
 
@@ -56,14 +56,14 @@ impl March {
     fn shear_of(&self, state: &State) -> [Array2<f64>; 2] {
         let unfold = |f: &[f64], half| on_grid(&self.problem, state, f, half);
         let [q_x, q_y] = &state.interface.q;
-        let q_y = unfold(q_y, Half::Odd) * self.problem.scene.friction.axis_ratio();
-        [unfold(q_x, Half::Even), q_y]
+        let q_y = unfold(q_y, Parity::Odd) * self.problem.scene.friction.axis_ratio();
+        [unfold(q_x, Parity::Even), q_y]
     }
 
     /// p, `q_x`, `q_y` after the last increment on the whole grid \[Pa\], shape (nx, ny).
     pub fn tractions(&self) -> Tractions {
         let state = self.caught_up();
-        let p = on_grid(&self.problem, &state, &state.interface.p, Half::Even);
+        let p = on_grid(&self.problem, &state, &state.interface.p, Parity::Even);
         let [q_x, q_y] = self.shear_of(&state);
         [p, q_x, q_y]
     }
@@ -97,11 +97,11 @@ impl March {
             .grid
             .map(|x, y| delta_z + y * phi_x - x * phi_y);
         let [q_x, q_y] = self.shear_of(s);
-        let p = unfold(&now.p, Half::Even);
+        let p = unfold(&now.p, Parity::Even);
         let [u_x, u_y, u_z] = self.domain.displacements(&self.problem, s);
         let mask = |mask: &[bool]| {
             let field: Vec<f64> = mask.iter().map(|&yes| f64::from(u8::from(yes))).collect();
-            unfold(&field, Half::Even).mapv(|yes| yes > 0.0)
+            unfold(&field, Parity::Even).mapv(|yes| yes > 0.0)
         };
         let (slips, at_limit) = (mask(&now.slips), mask(&s.at_limit));
         let contact = p.mapv(|p| p > 0.0);
@@ -119,9 +119,9 @@ impl March {
             q_y,
             u_x,
             u_y: u_y / stretch,
-            slip_x: unfold(&s.total_slip[0], Half::Even),
-            slip_y: unfold(&s.total_slip[1], Half::Odd) / stretch,
-            dissipated: unfold(&s.dissipated, Half::Even),
+            slip_x: unfold(&s.total_slip[0], Parity::Even),
+            slip_y: unfold(&s.total_slip[1], Parity::Odd) / stretch,
+            dissipated: unfold(&s.dissipated, Parity::Even),
             p,
             u_z,
             contact,

@@ -256,7 +256,8 @@ impl March {
     /// Computes the increment to a point.
     fn advance_to(&mut self, point: &LoadPoint) -> Result<Increment, Error> {
         let before = self.domain.work();
-        self.domain.allow(Convolutions::whole(CONVOLUTIONS));
+        self.domain
+            .allow(Convolutions::from_convolutions(CONVOLUTIONS));
         // The state in the window that it was found in, once that has changed.
         let mut found = None;
         let mut ended = self.in_a_window(point, &mut found);

@@ -11,48 +11,53 @@
 
 use crate::scene::{Branch, Loads, RigidMotion, SaveFields, Scene};
 
-/// For every branch whether its increments may be left out, and why any or none are.
+/// Decides for every branch whether its increments may be left out, with the reason why any or none are.
 pub(crate) fn direct_branches(
     scene: &Scene,
     coupling: bool,
 ) -> (Vec<bool>, Result<&'static str, &'static str>) {
     let branches = &scene.path.branches;
-    let none = |reason| (vec![false; branches.len()], Err(reason));
+    let keep_all = |reason| (vec![false; branches.len()], Err(reason));
     if !scene.settings.skip.path_independent_branches {
-        return none("skip.path_independent_branches is off: each has its row in the results");
+        return keep_all("skip.path_independent_branches is off: each has its row in the results");
     }
     if scene.settings.save != SaveFields::Branches {
-        return none("fields within the branches are to be kept");
+        return keep_all("fields within the branches are to be kept");
     }
     if branches.iter().all(|b| b.increments == Some(1)) {
-        return none("every branch has one increment");
+        return keep_all("every branch has one increment");
     }
     if scene.friction.mu == 0.0 {
-        let all = vec![true; branches.len()];
+        let every_branch = vec![true; branches.len()];
         return (
-            all,
+            every_branch,
             Ok("without friction pressure depends on the loads alone"),
         );
     }
     if scene.friction.varies() {
-        return none("friction depends on what cells have been through");
+        return keep_all("friction depends on what cells have been through");
     }
     if branches.iter().any(|b| {
         [b.to.sigma_B, b.to.sigma_B1, b.to.rolled]
             .iter()
             .any(|v| *v != 0.0)
     }) {
-        return none("the bodies roll or are stretched meanwhile");
+        return keep_all("the bodies roll or are stretched meanwhile");
     }
     if coupling {
-        return none("pressure and shear act on each other, the way counts");
+        return keep_all("pressure and shear act on each other, the way counts");
     }
-    let without_shear = branches.iter().take_while(|b| is_normal(&b.to)).count();
-    let along_line = isotropic(scene) && on_a_line(branches);
+    let unsheared = branches
+        .iter()
+        .take_while(|b| is_without_shear(&b.to))
+        .count();
+    let isotropic_on_a_line = is_isotropic(scene) && shear_is_along_a_line(branches);
     let direct: Vec<bool> = (0..branches.len())
-        .map(|b| b < without_shear || (along_line && b > 0 && same_pressure(branches, b)))
+        .map(|b| {
+            b < unsheared || (isotropic_on_a_line && b > 0 && has_constant_pressure(branches, b))
+        })
         .collect();
-    let verdict = match (direct.contains(&true), along_line) {
+    let verdict = match (direct.contains(&true), isotropic_on_a_line) {
         (true, true) => {
             Ok("similar bodies under a constant W, shear along one line: one increment is exact")
         }
@@ -66,16 +71,16 @@ pub(crate) fn direct_branches(
     (direct, verdict)
 }
 
-/// Whether no shear is asked for.
-fn is_normal(to: &Loads) -> bool {
-    let in_plane = RigidMotion::ALL.into_iter().filter(|of| of.is_in_plane());
-    in_plane
+/// Whether no shear is prescribed.
+fn is_without_shear(to: &Loads) -> bool {
+    let in_plane_motions = RigidMotion::ALL.into_iter().filter(|of| of.is_in_plane());
+    in_plane_motions
         .map(|of| to.prescribed(of))
         .all(|p| p.value() == 0.0)
 }
 
-/// Whether shear along a line causes displacements along that line alone, and slip follows.
-fn isotropic(scene: &Scene) -> bool {
+/// Whether shear along a line causes displacements, and so slip, along this line alone.
+fn is_isotropic(scene: &Scene) -> bool {
     if scene.friction.mu_y.is_some() {
         return false;
     }
@@ -87,26 +92,28 @@ fn isotropic(scene: &Scene) -> bool {
     })
 }
 
-/// Whether all tangential forces are along one line and nothing turns or is pushed in the plane.
-fn on_a_line(branches: &[Branch]) -> bool {
+/// Whether all tangential forces are along one line and no twist or shift in the plane is prescribed.
+fn shear_is_along_a_line(branches: &[Branch]) -> bool {
     let mut line = (0.0_f64, 0.0_f64);
     branches.iter().all(|b| {
         let Loads { T_x, T_y, .. } = b.to;
         if line == (0.0, 0.0) {
             line = (T_x, T_y);
         }
-        let across = (T_x * line.1 - T_y * line.0).abs();
-        let prescribed = |of: RigidMotion| b.to.prescribed(of);
-        let turns = prescribed(RigidMotion::PhiZ).value() != 0.0;
-        let pushed = [RigidMotion::DeltaX, RigidMotion::DeltaY]
+        let cross_product = (T_x * line.1 - T_y * line.0).abs();
+        let prescribed = |motion: RigidMotion| b.to.prescribed(motion);
+        let is_turned = prescribed(RigidMotion::PhiZ).value() != 0.0;
+        let is_displaced = [RigidMotion::DeltaX, RigidMotion::DeltaY]
             .iter()
             .any(|of| prescribed(*of).is_motion());
-        across <= 1e-12 * T_x.hypot(T_y) * line.0.hypot(line.1) && !turns && !pushed
+        cross_product <= 1e-12 * T_x.hypot(T_y) * line.0.hypot(line.1)
+            && !is_turned
+            && !is_displaced
     })
 }
 
-/// Whether the loads across the plane stay as they are in branch `b`.
-fn same_pressure(branches: &[Branch], b: usize) -> bool {
-    let mut across = RigidMotion::ALL.into_iter().filter(|of| !of.is_in_plane());
-    across.all(|of| branches[b].to.prescribed(of) == branches[b - 1].to.prescribed(of))
+/// Whether the loads across the plane are constant in branch `b`.
+fn has_constant_pressure(branches: &[Branch], b: usize) -> bool {
+    let mut out_of_plane = RigidMotion::ALL.into_iter().filter(|of| !of.is_in_plane());
+    out_of_plane.all(|of| branches[b].to.prescribed(of) == branches[b - 1].to.prescribed(of))
 }

@@ -16,22 +16,22 @@ const HALF_WAY: f64 = 6.0;
 /// Numbers per increment: its loads, its results, its line in the store.
 const INCREMENT: f64 = 200.0;
 
-/// Most that a window around the contact, 0.9 times as long and wide as the grid, adds to the
-/// operators of that.
+/// Upper bound of the memory of operators with a window around the contact, 0.9 times as long and
+/// wide as the grid, over the memory of the operators without it.
 const WINDOW: f64 = 1.8;
 
 const BYTES: f64 = 8.0;
 
-/// Numbers that a solution keeps.
-struct Numbers {
-    /// Per cell that is solved for: fields, their last values, buffers of the solvers.
+/// Arrays of a solution.
+struct ArraysPerCell {
+    /// Per cell that is solved for: fields, their previous values, buffers of the solvers.
     fields: f64,
     /// Per cell of the grid: kernels, their spectra, buffers of the transforms.
     spectra: f64,
 }
 
-impl Numbers {
-    fn of(kernels: KernelSet) -> Self {
+impl ArraysPerCell {
+    fn for_kernels(kernels: KernelSet) -> Self {
         let (fields, spectra) = match kernels {
             KernelSet::Normal => (50.0, 34.0),
             KernelSet::Uncoupled => (116.0, 26.0),
@@ -43,15 +43,15 @@ impl Numbers {
 
 impl Plan {
     /// Peak memory of a solution of the scene \[bytes\], including nested grids, the choice of
-    /// increments, error bars, the store. A bound from above: runs were measured to take 0.5 to 0.8
+    /// increments, error bars, the store. This is an upper bound: measured runs take 0.5 to 0.8
     /// times as much from 256 cells per side on.
     pub fn memory(&self, scene: &Scene) -> f64 {
         let grid = &scene.grid;
-        let (kept, cells) = (
+        let (solved_cells, cells) = (
             grid.nx as f64 * self.mirror.rows(grid.ny) as f64,
             cells(grid),
         );
-        let Numbers { fields, spectra } = Numbers::of(self.kernels());
+        let ArraysPerCell { fields, spectra } = ArraysPerCell::for_kernels(self.kernels());
         let conversion = match scene.settings.kernel.method {
             KernelMethod::Hankel => 0.0,
             KernelMethod::InverseFft { lambda, .. } => HALF_WAY * lambda as f64,
@@ -63,7 +63,7 @@ impl Plan {
             spectra
         };
         let increments = INCREMENT * scene.path.increments() as f64;
-        PROGRAM + BYTES * (fields * kept + (spectra + conversion) * cells + increments)
+        PROGRAM + BYTES * (fields * solved_cells + (spectra + conversion) * cells + increments)
     }
 
     /// Fails with both numbers if the solution needs more memory than there is.

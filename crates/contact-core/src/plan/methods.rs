@@ -3,7 +3,7 @@
 use crate::scene::{KernelMethod, Preset, Scene};
 use crate::yielding::volume_cells;
 
-/// How the tangential problem is solved.
+/// Algorithm of the tangential problem.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TangentialMethod {
     /// Semi-smooth Newton steps, [`tangential`](crate::solvers::inner::tangential()).
@@ -12,35 +12,35 @@ pub enum TangentialMethod {
     Gradient,
 }
 
-/// The numerical methods of a run, decided once; each can be switched off alone to see what it buys
-/// (`docs/ablation.md`). `spinu2020` is the paper's own choice: none of them.
+/// The numerical methods of a run, decided once; each can be switched off alone to measure its benefit
+/// (`docs/ablation.md`). `spinu2020` is the paper's choice: none of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(clippy::struct_excessive_bools)] // one for each method
 pub struct Methods {
-    /// How the tangential problem is solved (default [`TangentialMethod::Newton`]).
+    /// Algorithm of the tangential problem (default [`TangentialMethod::Newton`]).
     pub tangential: TangentialMethod,
     /// Precondition the conjugate gradients with a circulant inverse (default true).
     pub preconditioner: bool,
-    /// Reckon the slip of cells that come into contact from their entry (default: the setting).
+    /// Compute the slip of cells that come into contact from their entry (default: the setting).
     pub entry: bool,
     /// Order the entry of the cells next to the contact one by one; without it their motion is
-    /// summed from cell to cell like that of cells farther off (default true).
+    /// summed from cell to cell, as for cells farther away (default true).
     pub order_of_entry: bool,
-    /// Steps of equal root of the radius in which a contact of dissimilar bodies grows to the
-    /// largest of the path, and twice the steps of equal radius of similar ones that are sheared
+    /// Number of substeps, equal in the root of the radius, in which a contact of dissimilar bodies grows to
+    /// the largest of the path; twice the number of substeps of equal radius for similar bodies sheared
     /// meanwhile (default 20; 1 for whole increments).
     pub growth_steps: usize,
-    /// Let slip follow the turn of the shear within an increment (default: the setting).
+    /// Let the direction of slip follow the shear within an increment (default: the setting).
     pub slip_rotation: bool,
-    /// Correct the next increment by the residual slip that the last one left (default true).
+    /// Correct the next increment by the residual slip of the last one (default true).
     pub residual_slip: bool,
     /// Extrapolate the first guess along a path that keeps its direction (default true).
     pub extrapolation: bool,
     /// Begin a first contact from the pressure of a paraboloid (default true).
     pub first_contact: bool,
-    /// End the inner loops early in a pass that others follow (default true).
+    /// End the inner loops early in all passes but the last (default true).
     pub inexact: bool,
-    /// Let cells slip at once that the normal solver brings into contact, where friction does not
+    /// Let cells that the normal solver brings into contact slip at once, where friction does not
     /// hold them (default true).
     pub new_cells_slip: bool,
     /// Accelerate an alternation that is slow (default true).
@@ -51,23 +51,23 @@ pub struct Methods {
     /// Continue zones to their borders within the cells: areas and radii; without it whole cells
     /// count (default true).
     pub partial_cells: bool,
-    /// Most cells of the volume grid of bodies that yield along a side (default 64, of a line contact 256);
+    /// Largest number of cells along a side of the volume grid of yielding bodies (default 64, of a line contact 256);
     /// elements grow with the cells.
     pub volume_cells: usize,
     /// Keep the threads of the pool awake while an increment is solved (default true).
     pub busy_threads: bool,
     /// Solve in a window around the contact (default: the rule of the plan).
     pub window: bool,
-    /// Answer changes of the tractions in single precision (default: the rule of the plan).
+    /// Compute responses to changes of the tractions in single precision (default: the rule of the plan).
     pub single_precision: bool,
 }
 
-/// The largest error of a cell that an indentation of the paper's scene leaves is 1.8 to 2.5 % with
-/// them, 1.4 to 1.7 % with 24.
+/// The largest error of a cell after an indentation of the paper's scene is 1.8 to 2.5 % with
+/// 20 substeps, 1.4 to 1.7 % with 24.
 const GROWTH_STEPS: usize = 20;
 
 impl Methods {
-    /// Those of a scene's preset and settings.
+    /// Chooses the methods of a scene by its preset and settings.
     pub(super) fn new(scene: &Scene, window: bool, single_precision: bool) -> Self {
         let solver = &scene.settings.solver;
         let fast = solver.preset == Preset::Fast;
@@ -103,12 +103,12 @@ const SINGLE: f64 = 1e-6;
 
 /// Whether, and why, single precision is enough for the response to a change of the tractions; the
 /// response to the whole tractions is computed in double precision in each increment.
-pub(super) fn single_precision(scene: &Scene) -> Result<&'static str, &'static str> {
+pub(super) fn decide_single_precision(scene: &Scene) -> Result<&'static str, &'static str> {
     if !scene.settings.skip.single_precision {
         Err("skip.single_precision is off")
     } else if scene.settings.solver.preset != Preset::Fast {
         Err("solver.preset is spinu2020")
-    } else if in_frequency_domain(scene) {
+    } else if uses_frequency_domain(scene) {
         Err("the frequency-domain operator has double precision alone")
     } else if scene.tolerance() < SINGLE {
         Err("the tolerance is finer than 1e-6")
@@ -118,14 +118,14 @@ pub(super) fn single_precision(scene: &Scene) -> Result<&'static str, &'static s
 }
 
 /// Whether, and why, a window around the contact is enough to solve on.
-pub(super) fn window(scene: &Scene) -> Result<&'static str, &'static str> {
+pub(super) fn decide_window(scene: &Scene) -> Result<&'static str, &'static str> {
     if !scene.settings.skip.contact_window {
         return Err("skip.contact_window is off");
     }
     if scene.settings.solver.preset != Preset::Fast {
         return Err("solver.preset is spinu2020");
     }
-    if in_frequency_domain(scene) {
+    if uses_frequency_domain(scene) {
         return Err("the frequency-domain operator works on the whole grid");
     }
     if scene.grid.plane_strain {
@@ -137,7 +137,7 @@ pub(super) fn window(scene: &Scene) -> Result<&'static str, &'static str> {
     Ok("a window goes with the contact; the gap beyond it is checked")
 }
 
-pub(super) fn in_frequency_domain(scene: &Scene) -> bool {
+pub(super) fn uses_frequency_domain(scene: &Scene) -> bool {
     let method = &scene.settings.kernel.method;
     matches!(method, KernelMethod::FrequencyDomain { .. })
 }

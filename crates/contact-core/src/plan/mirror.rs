@@ -4,15 +4,15 @@ use ndarray::Array2;
 
 /// Behaviour of a field under y -> -y.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Half {
+pub enum Parity {
     /// f(x, -y) = f(x, y): p, q_x, u_x, u_z.
     Even,
     /// f(x, -y) = -f(x, y): q_y, u_y.
     Odd,
 }
 
-impl Half {
-    /// The sign that goes with y -> -y.
+impl Parity {
+    /// Sign of the field at -y over the field at y.
     pub(crate) fn sign(self) -> f64 {
         match self {
             Self::Even => 1.0,
@@ -39,7 +39,7 @@ impl Mirror {
         }
     }
 
-    /// How many cells of the grid one kept cell stands for.
+    /// Number of cells of the grid per kept cell.
     pub fn multiplicity(self) -> f64 {
         match self {
             Self::None => 1.0,
@@ -50,18 +50,18 @@ impl Mirror {
     /// The kept part of a field of shape (nx, ny), row-major.
     pub fn fold(self, full: &Array2<f64>) -> Vec<f64> {
         let (nx, ny) = full.dim();
-        let skipped = ny - self.rows(ny);
+        let first = ny - self.rows(ny);
         (0..nx)
-            .flat_map(|i| (skipped..ny).map(move |j| full[(i, j)]))
+            .flat_map(|i| (first..ny).map(move |j| full[(i, j)]))
             .collect()
     }
 
     /// The field of shape (nx, ny) whose kept part is `kept`.
-    pub fn unfold(self, kept: &[f64], nx: usize, ny: usize, half: Half) -> Array2<f64> {
+    pub fn unfold(self, kept: &[f64], nx: usize, ny: usize, half: Parity) -> Array2<f64> {
         let rows = self.rows(ny);
         let sign = half.sign();
         Array2::from_shape_fn((nx, ny), |(i, j)| match (ny - rows).checked_sub(j) {
-            Some(below) if below > 0 => sign * kept[i * rows + below - 1],
+            Some(rows_below) if rows_below > 0 => sign * kept[i * rows + rows_below - 1],
             _ => kept[i * rows + j + rows - ny],
         })
     }

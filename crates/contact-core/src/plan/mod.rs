@@ -6,7 +6,7 @@ mod methods;
 mod mirror;
 
 pub use methods::{Methods, TangentialMethod};
-pub use mirror::{Half, Mirror};
+pub use mirror::{Mirror, Parity};
 
 use ndarray::Array2;
 
@@ -18,7 +18,7 @@ use crate::scene::{Body, LoadPoint, Loads, RigidMotion, Scene, Spacing, SurfaceM
 #[allow(clippy::struct_excessive_bools)] // one for each rule
 pub struct Plan {
     /// Whether pressure and shear act on each other: the normal-tangential kernels and the
-    /// intermediate loop.
+    /// Whether pressure and shear influence each other: the normal-tangential kernels and the
     pub coupling: bool,
     /// Whether there is friction: the tangential kernels and solver.
     pub friction: bool,
@@ -26,18 +26,18 @@ pub struct Plan {
     pub mirror: Mirror,
     /// The numerical methods.
     pub methods: Methods,
-    /// Branches of the load path whose end does not depend on the way there.
+    /// Branches of the load path whose end does not depend on the path.
     pub direct: Vec<bool>,
     /// A readable line for each rule.
     pub lines: Vec<PlanLine>,
 }
 
-/// Which of the coefficients are asked for.
+/// Set of influence coefficients.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum KernelSet {
-    /// `zz`, all that a contact without friction needs.
+    /// `zz`, sufficient for a contact without friction.
     Normal,
-    /// `xx`, `yy`, `zz` and `xy`: pressure and shear do not act on each other.
+    /// `xx`, `yy`, `zz` and `xy`: pressure and shear do not influence each other.
     Uncoupled,
     /// All six.
     #[default]
@@ -51,7 +51,7 @@ pub struct PlanLine {
     pub subject: String,
     /// Whether it is skipped in this scene.
     pub skipped: bool,
-    /// Why.
+    /// Reason for the decision.
     pub reason: String,
 }
 
@@ -72,15 +72,15 @@ impl Plan {
         }
     }
 
-    /// The increments that are solved: of a branch whose end does not depend on the way, the last,
+    /// The increments that are solved: of a branch whose end does not depend on the path, the last,
     /// and a short first one.
     pub fn points(&self, scene: &Scene) -> Vec<LoadPoint> {
         let mut points = scene.path.points();
-        let mut before = None;
+        let mut previous_branch = None;
         points.retain(|point| {
-            let begins = before.replace(point.branch) != Some(point.branch);
-            let short = scene.path.branches[point.branch].spacing == Spacing::ShortFirst;
-            point.ends_branch || !self.direct[point.branch] || (begins && short)
+            let is_first = previous_branch.replace(point.branch) != Some(point.branch);
+            let has_short_first = scene.path.branches[point.branch].spacing == Spacing::ShortFirst;
+            point.ends_branch || !self.direct[point.branch] || (is_first && has_short_first)
         });
         points
     }
@@ -108,13 +108,13 @@ impl Plan {
                 Err("friction transmits shear")
             },
         );
-        rule("influence coefficients of body 1", alike(scene));
-        let coupling = !rule("normal-tangential coupling", uncoupled(scene));
-        let half = rule("the half y < 0 of the grid", mirror(scene));
-        let window = rule("cells far from the contact", methods::window(scene));
+        rule("influence coefficients of body 1", compare_bodies(scene));
+        let coupling = !rule("normal-tangential coupling", decide_coupling(scene));
+        let half = rule("the half y < 0 of the grid", decide_mirror(scene));
+        let window = rule("cells far from the contact", methods::decide_window(scene));
         let single = rule(
             "digits beyond single precision in the iterations",
-            methods::single_precision(scene),
+            methods::decide_single_precision(scene),
         );
         let (direct, verdict) = direct_branches(scene, coupling);
         let subject = match direct.iter().filter(|&&d| d).count() {
@@ -134,8 +134,8 @@ impl Plan {
     }
 }
 
-/// Whether, and why, the coefficients of one body are those of the other.
-fn alike(scene: &Scene) -> Result<&'static str, &'static str> {
+/// Whether, and why, both bodies have the same coefficients.
+fn compare_bodies(scene: &Scene) -> Result<&'static str, &'static str> {
     if layers(&scene.body1, scene) == layers(&scene.body2, scene) {
         Ok("those of body 2, which has the same layers")
     } else {
@@ -144,21 +144,24 @@ fn alike(scene: &Scene) -> Result<&'static str, &'static str> {
 }
 
 /// Whether, and why, pressure causes no tangential mismatch.
-fn uncoupled(scene: &Scene) -> Result<&'static str, &'static str> {
+fn decide_coupling(scene: &Scene) -> Result<&'static str, &'static str> {
     if scene.friction.mu == 0.0 {
         return Ok("without shear there is nothing to couple");
     }
     if !scene.settings.skip.coupling {
         return Err("skip.coupling is off");
     }
-    if alike(scene).is_ok() {
+    if compare_bodies(scene).is_ok() {
         return Ok("the bodies are elastically alike, eq. (4): C_13(2) = C_13(1)");
     }
-    let alone = |b: &Body| {
+    let coupling_compliance = |b: &Body| {
         let homogeneous = layers(b, scene).len() == 1;
         homogeneous.then(|| (1.0 - 2.0 * b.substrate.nu) / b.substrate.G())
     };
-    match (alone(&scene.body1), alone(&scene.body2)) {
+    match (
+        coupling_compliance(&scene.body1),
+        coupling_compliance(&scene.body2),
+    ) {
         (Some(a), Some(b)) if a.to_bits() == b.to_bits() => {
             Ok("(1 - 2 nu)/G is the same in both bodies")
         }
@@ -179,11 +182,11 @@ fn is_mirror_symmetric(h: &Array2<f64>) -> bool {
 }
 
 /// Whether, and why, the solution is its own mirror image under y -> -y.
-fn mirror(scene: &Scene) -> Result<&'static str, &'static str> {
+fn decide_mirror(scene: &Scene) -> Result<&'static str, &'static str> {
     if !scene.settings.skip.mirror {
         return Err("skip.mirror is off");
     }
-    if methods::in_frequency_domain(scene) {
+    if methods::uses_frequency_domain(scene) {
         return Err("the frequency-domain operator works on the whole grid");
     }
     if !scene.grid.ny.is_multiple_of(2) {
@@ -192,15 +195,16 @@ fn mirror(scene: &Scene) -> Result<&'static str, &'static str> {
     if !is_mirror_symmetric(&scene.h_init()) {
         return Err("the surfaces are not mirror-symmetric in y");
     }
-    let map = |map: &SurfaceMap| is_mirror_symmetric(&scene.grid.map(|x, y| map.interpolate(x, y)));
-    if let Some(why) = scene.friction.laws().find_map(|law| law.is_uneven(map)) {
+    let is_even =
+        |map: &SurfaceMap| is_mirror_symmetric(&scene.grid.map(|x, y| map.interpolate(x, y)));
+    if let Some(why) = scene.friction.laws().find_map(|law| law.is_uneven(is_even)) {
         return Err(why);
     }
-    let uneven = |to: &Loads| {
+    let drives_odd_motion = |to: &Loads| {
         let mut odd = RigidMotion::ALL.into_iter().filter(|of| of.is_odd_in_y());
         odd.any(|of| to.prescribed(of).value() != 0.0)
     };
-    if scene.path.branches.iter().any(|b| uneven(&b.to)) {
+    if scene.path.branches.iter().any(|b| drives_odd_motion(&b.to)) {
         return Err("the load path drives a motion along y or a rotation about x or z");
     }
     Ok("shapes and loads are mirror-symmetric in y")

@@ -5,7 +5,7 @@ use contact_core::convolution::{
     ApproximateInverse, CirculantInverse, DcFft, Direct, Displacements, SurfaceOperator, Tractions,
 };
 use contact_core::kernels::InfluenceCoefficients;
-use contact_core::plan::{Half, Mirror};
+use contact_core::plan::{Mirror, Parity};
 use ndarray::Array2;
 
 /// A reproducible sequence in (-1, 1).
@@ -102,7 +102,7 @@ fn dc_fft_equals_the_direct_sum() {
 
 #[test]
 fn the_mirrored_half_equals_the_whole() {
-    let halves = [Half::Even, Half::Odd, Half::Even];
+    let halves = [Parity::Even, Parity::Odd, Parity::Even];
     for (nx, ny) in [(8, 8), (9, 6), (20, 2), (5, 14), (31, 50), (80, 96)] {
         let c = coefficients(nx, ny);
         let mut random = noise(5);
@@ -127,7 +127,7 @@ fn the_mirrored_half_equals_the_whole() {
 /// Nothing pads the rows of the inverse: an odd number of them fills its whole length.
 #[test]
 fn the_mirrored_inverse_equals_the_whole() {
-    let halves = [Half::Even, Half::Odd];
+    let halves = [Parity::Even, Parity::Odd];
     for (nx, ny) in [(16, 16), (9, 18), (12, 54), (23, 20)] {
         let c = coefficients(nx, ny);
         let mut random = noise(9);

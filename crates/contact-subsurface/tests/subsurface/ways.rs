@@ -1,7 +1,7 @@
 //! The three ways to ask against the direct sum and the table of single cells.
 
 use contact_core::convolution::Tractions;
-use contact_core::kernels::stress_at;
+use contact_core::kernels::stress_of_cell_at;
 use contact_core::scene::{Body, Grid};
 use contact_subsurface::{Depth, Line, Points, Section, Side, Slices, depths};
 use ndarray::Array2;
@@ -25,7 +25,7 @@ fn direct(
                 continue;
             }
             let from = (at.0 - grid.x(i), at.1 - grid.y(j), depth.z);
-            let s = stress_at(body, (grid.dx, grid.dy), from, Some(depth.layer)).unwrap();
+            let s = stress_of_cell_at(body, (grid.dx, grid.dy), from, Some(depth.layer)).unwrap();
             for (sum, row) in sum.iter_mut().zip(s) {
                 *sum += row[0] * loads[0] + row[1] * loads[1] + row[2] * loads[2];
             }

@@ -15,7 +15,7 @@
 
 use crate::cells::Lattice;
 use crate::march::domain::Geometry;
-use crate::plan::{Half, Mirror};
+use crate::plan::{Mirror, Parity};
 use crate::solvers::Interface;
 
 /// Coefficients of the sixth difference.
@@ -43,7 +43,7 @@ pub(super) fn scatter(
     let stick = |n: usize| now.p[n] > 0.0 && !now.slips[n];
     let shear = |(i, j): (isize, isize)| {
         let n = lattice.kept(i, j).filter(|&n| stick(n))?;
-        let odd = if j < 0 { Half::Odd.sign() } else { 1.0 };
+        let odd = if j < 0 { Parity::Odd.sign() } else { 1.0 };
         Some([now.q[0][n], odd * now.q[1][n]])
     };
     let stride = ((cells_per_radius / SAMPLES) as usize).max(1);

@@ -27,7 +27,7 @@ use crate::convolution::{
 };
 use crate::error::Error;
 use crate::kernels::{InfluenceCoefficients, norm, pair_coefficients};
-use crate::plan::{Half, Mirror, Plan};
+use crate::plan::{Mirror, Parity, Plan};
 use crate::scene::{Grid, Scene};
 use crate::solvers::Response;
 
@@ -86,7 +86,7 @@ impl Domain {
             plan.kernels(),
             Some(stop),
         )?;
-        let mut pair = pair.stretched(scene.friction.axis_ratio());
+        let mut pair = pair.scale_y(scene.friction.axis_ratio());
         if let Some(K) = scene.path.rig_stiffness.filter(|_| plan.friction) {
             // A spring in series: the force sum of q_x dA moves every cell by as much, eq. (7).
             pair.xx += scene.grid.cell_area() / K;
@@ -138,7 +138,8 @@ impl Domain {
 
     /// The work of the window's operator at which what is allowed is used up.
     pub(super) fn most_work(&self) -> Convolutions {
-        self.limit.left_after(self.work() - self.window.op.work())
+        self.limit
+            .remaining_after(self.work() - self.window.op.work())
     }
 
     /// A window of that shape; fails where the run is stopped meanwhile.
@@ -163,7 +164,7 @@ impl Domain {
         let (scene, plan) = (&problem.scene, &problem.plan);
         let (grid, mirror) = (&scene.grid, plan.mirror);
         let now = &state.interface;
-        let halves = [Half::Even, Half::Odd, Half::Even];
+        let halves = [Parity::Even, Parity::Odd, Parity::Even];
         let solved = [&now.u[0], &now.u[1], &now.u_z];
         let part = state.window;
         if part == shape_of(grid) {
@@ -195,7 +196,12 @@ impl Domain {
 }
 
 /// A field of the kept cells of a state on the whole grid; zero beyond its window.
-pub(super) fn on_grid(problem: &Problem, state: &State, field: &[f64], half: Half) -> Array2<f64> {
+pub(super) fn on_grid(
+    problem: &Problem,
+    state: &State,
+    field: &[f64],
+    half: Parity,
+) -> Array2<f64> {
     let (grid, mirror) = (&problem.scene.grid, problem.plan.mirror);
     let to = (grid.nx, mirror.rows(grid.ny));
     let from = (state.window.0, mirror.rows(state.window.1));
@@ -217,7 +223,7 @@ impl Kernels {
         let pair = if geometry.grid == scene.grid {
             &self.pair
         } else {
-            cut = self.pair.within(shape);
+            cut = self.pair.truncate(shape);
             &cut
         };
         Ok(Window {

@@ -1,6 +1,6 @@
 //! Shapes of windows: as many cells as are asked for, in lengths that the operator is fast for.
 
-use crate::convolution::good_size;
+use crate::convolution::fast_length;
 use crate::plan::Plan;
 use crate::scene::{Grid, Scene};
 
@@ -29,7 +29,7 @@ pub(super) fn shape_for(grid: &Grid, cells: [usize; 2]) -> (usize, usize) {
     let along = |whole: usize, cells: usize| {
         // A window of an odd grid is odd, too, so that it has the same middle.
         let odd = whole % 2;
-        let longest = good_size(2 * (cells + odd)) / 2;
+        let longest = fast_length(2 * (cells + odd)) / 2;
         let length = longest - (longest + odd) % 2;
         if length as f64 >= WHOLE * whole as f64 {
             whole

@@ -3,7 +3,9 @@
 
 use crate::kernel_tables::{load, number, off, whole};
 use crate::splitmix::Draw;
-use contact_core::kernels::{Complex64, RadialResponse, Stack, influence_coefficients, stress_at};
+use contact_core::kernels::{
+    Complex64, RadialResponse, Stack, influence_coefficients, stress_of_cell_at,
+};
 use contact_core::scene::{Body, Bond, Coating, Elastic, Grid, KernelSettings, Shape};
 use serde_json::Value;
 
@@ -201,7 +203,7 @@ fn incompressible_materials_are_the_limit_of_nearly_incompressible_ones() {
             }
         }
     }
-    let at = |nu| stress_at(&of(nu, STEEL), (1e-6, 1e-6), (2e-6, 0.0, 3e-6), None).unwrap();
+    let at = |nu| stress_of_cell_at(&of(nu, STEEL), (1e-6, 1e-6), (2e-6, 0.0, 3e-6), None).unwrap();
     let (exact, limit) = (at(0.5), at(0.5 - 1e-8));
     for (a, b) in exact.iter().flatten().zip(limit.iter().flatten()) {
         assert!((a - b).abs() < 1e-6, "{a} {b}");

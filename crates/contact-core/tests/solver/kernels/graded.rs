@@ -73,10 +73,10 @@ fn an_exponential_coating_has_its_closed_form() {
 #[test]
 fn profiles_pass_through_their_ends() {
     for profile in profiles() {
-        assert!((profile.at(0.0) / 800e9 - 1.0).abs() < 1e-15);
-        assert!((profile.at(1.0) / 210e9 - 1.0).abs() < 1e-15);
+        assert!((profile.value_at(0.0) / 800e9 - 1.0).abs() < 1e-15);
+        assert!((profile.value_at(1.0) / 210e9 - 1.0).abs() < 1e-15);
     }
-    assert!((profiles()[3].at(0.5) / (500e9 - 290e9 / 3.0) - 1.0).abs() < 1e-15);
+    assert!((profiles()[3].value_at(0.5) / (500e9 - 290e9 / 3.0) - 1.0).abs() < 1e-15);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Stress below one loaded cell, against a table made with multi-precision arithmetic.
 
 use crate::kernel_tables::{body, load, matrix, number, whole};
-use contact_core::kernels::{StressCoefficients, stress_at, stress_coefficients};
+use contact_core::kernels::{StressCoefficients, stress_coefficients, stress_of_cell_at};
 use contact_core::scene::{Body, Coating, Elastic, Grid, Shape};
 
 /// The table's own accuracy is 2.5e-12 of the largest component.
@@ -13,7 +13,7 @@ fn reproduces_the_table() {
         let cell = (number(&entry, "d1"), number(&entry, "d2"));
         let [x, y, z] = ["x1", "x2", "x3"].map(|key| number(&entry, key));
         let layer = Some(whole(&entry, "layer_index") as usize);
-        let ours = stress_at(&body(&entry), cell, (x, y, z), layer).unwrap();
+        let ours = stress_of_cell_at(&body(&entry), cell, (x, y, z), layer).unwrap();
         let theirs = matrix(&entry["s"]);
         let largest = theirs
             .iter()
@@ -53,7 +53,7 @@ fn coefficients_are_the_stress_at_the_offsets() {
             (2, 0),
         ] {
             let at = (f64::from(i) * d.0, f64::from(j) * d.1, z);
-            let point = stress_at(&body, d, at, layer).unwrap();
+            let point = stress_of_cell_at(&body, d, at, layer).unwrap();
             for (row, point) in point.iter().enumerate() {
                 for (column, point) in point.iter().enumerate() {
                     let (odd_x, odd_y) = StressCoefficients::is_odd(row, column);
@@ -117,8 +117,8 @@ fn a_layer_may_be_cut_in_two() {
                 continue;
             }
             let at = (point[0], point[1], depth);
-            let ours = stress_at(&whole, (1.0, 0.8), at, Some(layer)).unwrap();
-            let theirs = stress_at(&cut, (1.0, 0.8), at, Some(cut_layer)).unwrap();
+            let ours = stress_of_cell_at(&whole, (1.0, 0.8), at, Some(layer)).unwrap();
+            let theirs = stress_of_cell_at(&cut, (1.0, 0.8), at, Some(cut_layer)).unwrap();
             let largest = ours.iter().flatten().fold(0.0, |m: f64, s| m.max(s.abs()));
             for (a, b) in ours.iter().flatten().zip(theirs.iter().flatten()) {
                 // Where a soft layer carries little, two large parts cancel: then against the
