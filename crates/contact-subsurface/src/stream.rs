@@ -161,7 +161,7 @@ impl<A: Accumulate> Stream<A> {
         self
     }
 
-    /// Takes the residual stress of every layer in place of that of the body: [`ResidualStress::given`].
+    /// Takes the residual stress of every layer in place of that of the body: [`ResidualStress::from_profiles`].
     pub fn residual(mut self, residual: &[Profile]) -> Result<Self, Error> {
         self.residual = ResidualStress::from_profiles(&self.body, residual)?;
         Ok(self)
