@@ -75,7 +75,11 @@ def ends(result: fret.Result) -> tuple[Array, Array]:
 
 def runs(family: Family, n: int) -> dict[str, list[tuple[str, Callable[[], fret.Result]]]]:
     """What is run: name of the method, then how finely, and the run."""
-    old = fret.Settings(preset=fret.settings.Preset.SPINU2020, cell_entry_correction=False, slip_rotation_correction=False)
+    old = fret.Settings(
+        preset=fret.settings.Preset.SPINU2020,
+        cell_entry_correction=False,
+        slip_rotation_correction=False,
+    )
 
     def fixed(k: int, settings: fret.Settings, spacing: fret.Spacing) -> Callable[[], fret.Result]:
         scene = family(k, n, spacing).replace(settings=settings)
