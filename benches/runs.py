@@ -63,7 +63,8 @@ RUNS: tuple[tuple[str, tuple[str, ...]], ...] = (
         (PAPER, *ratio(1.0), *tolerance(1e-5)),
     ),
     (
-        "paper, 256 x 256, E1/E2 = 1, nu = 0, `skip.path_independent_branches` (6 increments), tolerance 1e-5",
+        "paper, 256 x 256, E1/E2 = 1, nu = 0, `skip.path_independent_branches` (6 increments), "
+        "tolerance 1e-5",
         (PAPER, *ALIKE, *tolerance(1e-5), "--set", "skip.path_independent_branches=true"),
     ),
     (

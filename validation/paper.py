@@ -204,7 +204,8 @@ FIGURES = (
                 history_left_out,
             ),
         ),
-        "The one increment is solved with `cell_entry_correction = false` and `slip_rotation_correction = false`: each cell then "
+        "The one increment is solved with `cell_entry_correction = false` and "
+        "`slip_rotation_correction = false`: each cell then "
         "begins to stick at the end of the load, wherever it came into contact. By default the "
         "solver follows the history within an increment, and one increment has the shear of 100. "
         "The peaks of one increment in (b) lie where slip begins; between the middles of the cells "

@@ -135,8 +135,8 @@ class Settings(Replaceable):
         given. The error that a number leaves is in ``path_error``, in the bars and in the doubts of
         a result.
     slip_rotation_correction : bool
-        Let the direction of slip follow the shear within an increment (default True): the path becomes
-        of second order.
+        Let the direction of slip follow the shear within an increment (default True): the path
+        becomes of second order.
     max_alternations : int
         Most passes of the intermediate loop per increment (default 60).
     max_iterations : int
