@@ -175,6 +175,6 @@ def __getattr__(name: str) -> Any:
     if name in _LATER:
         globals()[name] = _LATER[name]()
         return globals()[name]
-    meant = OTHER_NAMES.get(name)
-    hint = f"; it is called pyfret.{meant}" if meant else ""
+    public_name = OTHER_NAMES.get(name)
+    hint = f"; it is called pyfret.{public_name}" if public_name else ""
     raise AttributeError(f"module 'pyfret' has no attribute {name!r}{hint}")

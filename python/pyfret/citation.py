@@ -1,4 +1,4 @@
-"""What to cite for a result: pyfret, and the sources of the methods that it took."""
+"""Citations for a result: pyfret, and the sources of the methods used."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What goes wrong, by area: errors, and warnings of what is hardly meant.
+"""Errors by area, and warnings of doubtful input.
 
 ===========  ===========================  ==============================================
 area         error                        what is wrong

@@ -171,7 +171,7 @@ def for_contact(
             raise ValueError("mu: must be given with wear, since only what slips wears")
         scene = Scene(body1=smooth1, body2=smooth2, friction=mu, grid=_square(first), path=path)
         lengths = _scar(scene, lengths, dict(wear), plane_strain=plane_strain)
-    sides = [(ROUGH if rough else 1.0) * room * of for of in lengths]
+    sides = [(ROUGH if rough else 1.0) * room * length_of_side for length_of_side in lengths]
     cells = CELLS_TIMES_ERROR / error * room
     wave = min((_shortest(body.shape) for body in (body1, body2)), default=math.inf)
     shortest = min(sides)
@@ -195,7 +195,7 @@ def for_contact(
             path=path if whole else pressed,
         )
         sides, along = _refined(scene, sides, along, error, of)
-    _doubt_films(body1, body2, [side / of for side, of in zip(sides, along, strict=True)])
+    _doubt_films(body1, body2, [side / n_cells for side, n_cells in zip(sides, along, strict=True)])
     if max(along) > MOST:
         raise ValueError(
             f"{max(along)} cells along a side: the contact is {lengths[0]:.3g} m long; a larger "
@@ -225,10 +225,10 @@ def _pressed(path: LoadPath) -> LoadPath:
     """
     tilted = [b for b in path.branches if b.W and (b.M_x or b.M_y)]
     if tilted:
-        found = LoadPath.start().normal(max(b.W for b in path.branches if b.W), increments=1)
+        normal_path = LoadPath.start().normal(max(b.W for b in path.branches if b.W), increments=1)
         for b in tilted:
-            found = found.force(W=b.W, M_x=b.M_x or 0.0, M_y=b.M_y or 0.0, increments=1)
-        return found
+            normal_path = normal_path.force(W=b.W, M_x=b.M_x or 0.0, M_y=b.M_y or 0.0, increments=1)
+        return normal_path
     loads = [b.W for b in path.branches if b.W]
     shifts = [b.delta_z for b in path.branches if b.delta_z]
     if loads:
@@ -265,8 +265,8 @@ def _lengths(
     # Sides that were too short, and the last ones that the contact fitted.
     extent, too_short, fits = [first, first], [0.0, 0.0], [math.inf, math.inf]
     for _ in range(TRIES * len(axes)):
-        found = _box(_scene(body1, body2, path, (extent[0], extent[1]), plane_strain=plane_strain))
-        if found is None:
+        box = _box(_scene(body1, body2, path, (extent[0], extent[1]), plane_strain=plane_strain))
+        if box is None:
             # The sides that became shorter since it fitted are too short; else any.
             shorter = [k for k in axes if extent[k] < fits[k] < math.inf]
             for k in shorter or axes:
@@ -275,24 +275,24 @@ def _lengths(
                 extent[k] = math.sqrt(extent[k] * fits[k]) if shorter else 2 * extent[k]
         else:
             fits = list(extent)
-            if max(found) <= 0.0:
+            if max(box) <= 0.0:
                 # Too few cells in it: one side shorter, which has not been found to be long.
                 free = [k for k in axes if too_short[k] == 0.0] or axes
                 k = max(free, key=lambda k: extent[k])
                 extent[k] = max(extent[k] / 4, math.sqrt(extent[k] * too_short[k]))
-                found = None
-            elif all(0.4 * extent[k] <= found[k] <= 0.97 * extent[k] for k in axes):
-                return found
+                box = None
+            elif all(0.4 * extent[k] <= box[k] <= 0.97 * extent[k] for k in axes):
+                return box
             else:
                 for k in axes:
-                    if found[k] > 0.97 * extent[k]:
+                    if box[k] > 0.97 * extent[k]:
                         too_short[k], extent[k] = extent[k], 2 * extent[k]
-                    elif found[k] < 0.4 * extent[k]:
-                        wanted = 1.5 * found[k]
-                        above = wanted > too_short[k]
-                        extent[k] = wanted if above else math.sqrt(extent[k] * too_short[k])
+                    elif box[k] < 0.4 * extent[k]:
+                        wanted_extent = 1.5 * box[k]
+                        above = wanted_extent > too_short[k]
+                        extent[k] = wanted_extent if above else math.sqrt(extent[k] * too_short[k])
         if all(too_short[k] > 0.0 and fits[k] < 1.05 * too_short[k] for k in axes):
-            return found or (extent[0], extent[1])
+            return box or (extent[0], extent[1])
     raise ValueError(
         "found no grid that the contact fits: flat surfaces touch all over; give start= of about "
         "its length, or make the grid yourself"
@@ -340,8 +340,8 @@ def _scar(
     scene: Scene, first: tuple[float, float], wear: dict[str, Any], *, plane_strain: bool
 ) -> tuple[float, float]:
     """Lengths of the box around contact and scar of a run of wear on few cells [m]."""
-    given = {"tolerance", "jumps", "explicit_jumps"} & wear.keys()
-    how = wear if given else {**wear, "tolerance": ROUGHLY}
+    fixed = {"tolerance", "jumps", "explicit_jumps"} & wear.keys()
+    how = wear if fixed else {**wear, "tolerance": ROUGHLY}
     extent = 2.0 * max(first)
     for _ in range(TRIES):
         cells = IN_A_TRIAL * extent / min(first)
@@ -429,8 +429,8 @@ def _numbers(result: Result, of: Number) -> NDArray[np.float64]:
     if of == "loop":
         d = result.dataset
         ranges = [float(np.ptp(d[name].values)) for name in ("T_x", "T_y", "delta_x", "delta_y")]
-        found = np.array([float(d.dissipated.sum()), *ranges])
-        return found[found > 1e-6 * np.abs(found).max()] if found.any() else np.ones(1)
+        sizes = np.array([float(d.dissipated.sum()), *ranges])
+        return sizes[sizes > 1e-6 * np.abs(sizes).max()] if sizes.any() else np.ones(1)
     at = result.at(-1)
     if of == "s_xx":
         return np.array([at.stress().maximum("s_xx").value])
@@ -449,7 +449,7 @@ def _refined(
     """
     flat = scene.grid.plane_strain
     axes = 1 if flat else 2
-    most = MOST if flat else MOST_TRIED
+    max_cells = MOST if flat else MOST_TRIED
 
     def numbers(cells: list[int]) -> NDArray[np.float64]:
         if flat:
@@ -463,7 +463,7 @@ def _refined(
             return _numbers(solve(scene.replace(grid=grid), progress=False), of)
 
     def too_many(cells: list[int]) -> bool:
-        return max(cells) > MOST or math.prod(cells[:axes]) > most
+        return max(cells) > MOST or math.prod(cells[:axes]) > max_cells
 
     if too_many([2 * cells for cells in n]):
         # No finer grid is tried: a coarser one tells what the cells do.
@@ -488,9 +488,9 @@ def _refined(
         if now is not None and before is not None and now.shape == before.shape:
             last, change = change, float(np.abs(now / before - 1.0).max())
             ratio = change / last if math.isfinite(last) else 0.0
-            left = change * ratio / (1.0 - ratio) if ratio < 1.0 else math.inf
+            remaining = change * ratio / (1.0 - ratio) if ratio < 1.0 else math.inf
             allowed = error if math.isfinite(last) else error / 2.0
-            if change <= allowed and left <= error:
+            if change <= allowed and remaining <= error:
                 return sides, n
         finer = [2 * cells for cells in n]
         if too_many(finer):

@@ -67,9 +67,9 @@ class Conductor:
 
         A ValueError says which of them is missing.
         """
-        of = as_material(material)
-        conductivity = of.number("conductivity")
-        heat_capacity = of.number("density") * of.number("specific_heat")
+        table_material = as_material(material)
+        conductivity = table_material.number("conductivity")
+        heat_capacity = table_material.number("density") * table_material.number("specific_heat")
         return cls(conductivity=conductivity, heat_capacity=heat_capacity)
 
 
@@ -78,15 +78,16 @@ Conductors = Conductor | Material | Sequence[Conductor | Material]
 
 
 def _of_layers(conductors: Conductors, layers: int, name: str) -> list[Conductor]:
-    given: Any = conductors
-    several = isinstance(given, list | tuple)
-    found: list[Any] = items(given, name) if several else [given] * layers
-    for one in found:
-        if not isinstance(one, Conductor | Material):
+    layers_or_one: Any = conductors
+    several = isinstance(layers_or_one, list | tuple)
+    conductor_list: list[Any] = items(layers_or_one, name) if several else [layers_or_one] * layers
+    for conductor in conductor_list:
+        if not isinstance(conductor, Conductor | Material):
             raise TypeError(
-                f"{name} = {one!r:.60}: must be a Conductor or a Material, or one for each layer"
+                f"{name} = {conductor!r:.60}: must be a Conductor or a Material, "
+                "or one for each layer"
             )
-    return [Conductor.of(c) if isinstance(c, Material) else c for c in found]
+    return [Conductor.of(c) if isinstance(c, Material) else c for c in conductor_list]
 
 
 def _numbers(layers: list[Conductor]) -> list[tuple[float, float]]:
@@ -105,8 +106,8 @@ def _ends(result: Run, kept: NDArray[np.int64], wave: str) -> NDArray[np.float64
         before = t.values[branch.values < number]
         start = before[-1] if before.size else 0.0
         length = float(t.values[branch.values == number][-1]) - start
-        here = kept[branch.sel(increment=kept).values == number]
-        along = (t.sel(increment=here).values - start) / length
+        in_branch = kept[branch.sel(increment=kept).values == number]
+        along = (t.sel(increment=in_branch).values - start) / length
         if wave == "sine":
             along = np.arccos(np.clip(1.0 - 2.0 * along, -1.0, 1.0)) / np.pi
         parts.append(period + length * along)
@@ -141,7 +142,7 @@ def _maximum(table: xr.Dataset, bulk: tuple[float, float]) -> dict[str, Any]:
         "maximum_x": float(table.x[i]),
         "maximum_y": float(table.y[j]),
         "maximum_body": int(body) + 1,
-        "bulk": [float(of) for of in bulk],
+        "bulk": [float(temperature) for temperature in bulk],
     }
 
 
@@ -243,21 +244,21 @@ def temperature(
             jumps=wave == "linear",
         )
 
-    found = solved(scene.grid, heat, contact)
+    fine = solved(scene.grid, heat, contact)
     coarse = solved(*_on_coarser_cells(scene.grid, heat, contact))
-    of_cells = float(found["largest"].max() - coarse["largest"].max())
-    table = _table(result, found)
+    of_cells = float(fine["largest"].max() - coarse["largest"].max())
+    table = _table(result, fine)
     area = scene.grid.dx * scene.grid.dy
-    into1 = float(found["flux"].sum() * area)
+    into1 = float(fine["flux"].sum() * area)
     yardsticks = {k: v for k, v in result.dataset.attrs.items() if k in ("a_H", "p_H")}
     return table.assign_attrs(
         yardsticks,
         **({"doubts": "\n".join(dict.fromkeys(doubts))} if doubts else {}),
         frequency=frequency,
         heat_into_body1=into1,
-        heat_into_body2=float(found["heat"].sum() * area) - into1,
+        heat_into_body2=float(fine["heat"].sum() * area) - into1,
         **_maximum(table, bulk),
-        maximum_error=float(np.hypot(found["error"], of_cells)),
+        maximum_error=float(np.hypot(fine["error"], of_cells)),
     )
 
 
@@ -276,17 +277,17 @@ def _on_coarser_cells(
 
 
 def _table(result: Run, found: dict[str, Any]) -> xr.Dataset:
-    """What was found, with coordinates, units and meanings."""
+    """Make a dataset with coordinates, units and meanings."""
     coords = {"body": [1, 2], "x": result.dataset.x, "y": result.dataset.y}
     table = xr.Dataset(coords={**coords, "time": found["instants"]})
     heat = found["heat"]
     share = np.divide(found["flux"], heat, out=np.full_like(heat, np.nan), where=heat > 0.0)
     flash = found["largest"] - found["mean"]
-    field, both = ("x", "y"), ("body", "x", "y")
+    field, over_bodies = ("x", "y"), ("body", "x", "y")
     for name, dims, values, unit, meaning in (
-        ("steady", both, found["mean"], "K", "mean temperature over the cycle"),
-        ("largest", both, found["largest"], "K", "largest temperature of the cycle"),
-        ("flash", both, flash, "K", "largest temperature less the mean"),
+        ("steady", over_bodies, found["mean"], "K", "mean temperature over the cycle"),
+        ("largest", over_bodies, found["largest"], "K", "largest temperature of the cycle"),
+        ("flash", over_bodies, flash, "K", "largest temperature less the mean"),
         ("heat", field, heat, "W/m^2", "mean frictional heat"),
         ("share", field, share, "1", "part of the mean heat that flows into body 1"),
         ("peak", ("time",), found["peaks"], "K", "largest temperature of the surfaces"),

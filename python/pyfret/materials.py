@@ -64,12 +64,12 @@ def material(
     >>> material("titanium_6Al4V").E > 1e11
     True
     """
-    found = Materials(file)[name]
-    sources = {key: source for key, _, source in found.numbers()}
+    chosen = Materials(file)[name]
+    sources = {key: source for key, _, source in chosen.numbers()}
     if known_as(sources.get("E", "")) == "recalled":
         warn(
-            f"{found.name}: its modulus of {found.number('E') / 1e9:g} GPa is from memory, without "
-            "a source; give your own, Elastic(E=..., nu=...)",
+            f"{chosen.name}: its modulus of {chosen.number('E') / 1e9:g} GPa is from memory, "
+            "without a source; give your own, Elastic(E=..., nu=...)",
         )
     if nu is None and "nu" not in sources:
         warn(
@@ -83,6 +83,6 @@ def material(
                 f"{name}: the table has no yield stress of it; give your own, "
                 "Elastic(E=..., nu=..., plastic=Plastic(s_y=...))"
             )
-        law = Plastic(s_y=found.number("s_y"))
-    nu = found.number("nu") if nu is None else nu
-    return Elastic(E=found.number("E"), nu=nu, plastic=law)
+        law = Plastic(s_y=chosen.number("s_y"))
+    nu = chosen.number("nu") if nu is None else nu
+    return Elastic(E=chosen.number("E"), nu=nu, plastic=law)

@@ -80,10 +80,10 @@ def _attributes(path: Path) -> dict[str, Any]:
             return dict(dataset.attrs)
     for name in ("zarr.json", ".zattrs"):
         try:
-            found = json.loads(read_bytes(path / name))
+            document = json.loads(read_bytes(path / name))
         except (OSError, ValueError):
             continue
-        if isinstance(found, dict):
-            inner = found.get("attributes", found)
+        if isinstance(document, dict):
+            inner = document.get("attributes", document)
             return inner if isinstance(inner, dict) else {}
     return {}

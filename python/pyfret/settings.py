@@ -27,7 +27,7 @@ class Preset(Enum):
     SPINU2020 = "spinu2020"
 
     def __repr__(self) -> str:
-        """As it is written in a program."""
+        """Return the constructor call as text."""
         return f"Preset.{self.name}"
 
 
@@ -36,7 +36,7 @@ class Hankel(Replaceable):
     """Influence coefficients by Hankel integrals: exact to round-off."""
 
     def written(self) -> str:
-        """As in a scene file."""
+        """Return the value in a scene file."""
         return "hankel"
 
 
@@ -56,7 +56,7 @@ class InverseFft(Replaceable):
     aliases: int = 0
 
     def written(self) -> dict[str, Any]:
-        """As in a scene file."""
+        """Return the value in a scene file."""
         return {"inverse_fft": {"lambda": self.enlargement, "aliases": self.aliases}}
 
 
@@ -73,7 +73,7 @@ class FrequencyDomain(Replaceable):
     enlargement: int = 8
 
     def written(self) -> dict[str, Any]:
-        """As in a scene file."""
+        """Return the value in a scene file."""
         return {"frequency_domain": {"lambda": self.enlargement}}
 
 
@@ -185,8 +185,8 @@ class Settings(Replaceable):
         }
         skip, output = vars(solver.pop("skip")), {"save": solver.pop("save")}
         solver["preset"] = self.preset.value
-        given = {name: value for name, value in solver.items() if value is not None}
-        return {"kernel": kernel, "solver": given, "skip": skip, "output": output}
+        solver_values = {name: value for name, value in solver.items() if value is not None}
+        return {"kernel": kernel, "solver": solver_values, "skip": skip, "output": output}
 
     @classmethod
     def of(cls, document: dict[str, Any]) -> Settings:

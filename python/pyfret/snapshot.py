@@ -39,7 +39,7 @@ class Overview(Figures):
 
 
 class Shows(Figured):
-    """What is shown by six panels in one figure."""
+    """A state that six panels show in one figure."""
 
     figure = "overview"
 
@@ -61,7 +61,7 @@ class Snapshot(State, Shows):
         return state_html(self)
 
     def _elsewhere(self, name: str) -> dict[str, str]:
-        stresses = {of: f"it is a stress, snapshot.stress().{of}" for of in LABELS}
+        stresses = {measure: f"it is a stress, snapshot.stress().{measure}" for measure in LABELS}
         return {**stresses, **super()._elsewhere(name)}
 
     @property
@@ -188,7 +188,7 @@ class Snapshot(State, Shows):
 
     @quantities
     def stick_zone(self, *, y: float = 0.0) -> Zone:
-        """Where the stick zone begins and ends along a line of constant `y` [m], within the cells.
+        """Return the ends of the stick zone along a line of constant `y` [m], within the cells.
 
         Its ``left`` and ``right`` border and its ``middle``, the offset that a bulk stress gives
         it, in m; NaN where nothing sticks.
@@ -197,7 +197,7 @@ class Snapshot(State, Shows):
 
     @quantities
     def contact_zone(self, *, y: float = 0.0) -> Zone:
-        """Where the contact begins and ends along a line of constant `y`, as :meth:`stick_zone`."""
+        """Return the ends of the contact along a line of constant `y`, as :meth:`stick_zone`."""
         return zone(self, "contact", y)
 
     @quantities

@@ -104,12 +104,12 @@ def solve(
                 like=like,
                 on_increment=bar.update,
             )
-            return told(open_result(out))
+            return warn_and_return(open_result(out))
         run = _core.solve_in_memory(scene, error=error, like=like, on_increment=bar.update)
-    return told(Result(dataset(*run)))
+    return warn_and_return(Result(dataset(*run)))
 
 
-def told(result: Result) -> Result:
+def warn_and_return(result: Result) -> Result:
     """The result; warned of is what the run came to, after :func:`doubt_scene`."""
     doubt_run(result.doubts, result.scene)
     return result
@@ -149,7 +149,7 @@ def resume(
         _core.resume(
             store, checkpoint=checkpoint, friction_law=friction_law, on_increment=bar.update
         )
-    return told(open_result(store))
+    return warn_and_return(open_result(store))
 
 
 def read(scene: Scene | str | os.PathLike[str]) -> Scene:

@@ -95,8 +95,8 @@ class Verification:
             for c in self.checks
         ]
         bad = sum(not c.passed for c in self.checks)
-        told = "all passed" if self.passed else f"{bad} FAILED"
-        return "\n".join([*lines, f"{len(self.checks)} numbers, {told}, {self.seconds:.0f} s"])
+        outcome = "all passed" if self.passed else f"{bad} FAILED"
+        return "\n".join([*lines, f"{len(self.checks)} numbers, {outcome}, {self.seconds:.0f} s"])
 
     __repr__ = __str__
 
@@ -269,9 +269,9 @@ def verify(*, on_check: Callable[[Check], object] | None = None) -> Verification
     started = time.perf_counter()
     checks = []
     for title, source, numbers, n, last in GROUPS:
-        for (what, ours, truth, scale), before in zip(numbers(n), last, strict=True):
+        for (quantity, ours, truth, scale), before in zip(numbers(n), last, strict=True):
             over = abs(truth) if scale is None else scale
-            check = Check(f"{title}: {what}", source, ours, truth, over, before)
+            check = Check(f"{title}: {quantity}", source, ours, truth, over, before)
             checks.append(check)
             if on_check is not None:
                 on_check(check)

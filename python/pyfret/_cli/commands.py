@@ -93,7 +93,7 @@ def study(options: argparse.Namespace) -> int:
 
         client = Client(options.scheduler)
     try:
-        found, place = run_study_file(
+        study, store = run_study_file(
             options.file,
             out=options.out,
             executor=client or options.workers,
@@ -106,70 +106,70 @@ def study(options: argparse.Namespace) -> int:
     finally:
         if client is not None:
             client.close()
-    failed = found.failed()
+    failed = study.failed()
     if options.json:
         tell(
-            store=str(place),
-            points=found.count(),
-            measures=found.measures,
+            store=str(store),
+            points=study.count(),
+            measures=study.measures,
             failed=[{**values, "reason": reason} for values, reason in failed],
             map=options.map,
             **({} if options.map else {"map_why": "not asked for"}),
         )
     else:
-        say(f"{place}: {found!r}")
+        say(f"{store}: {study!r}")
         for values, reason in failed:
             say(f"{', '.join(f'{k} = {told_of(v)}' for k, v in values.items())}: {reason}")
     if options.map:
         import matplotlib.pyplot as plt
 
         figure, ax = plt.subplots(layout="constrained")
-        found.map(ax=ax)
+        study.map(ax=ax)
         figure.savefig(options.map)
     return ENDED_EARLY if failed else DONE
 
 
 def report(options: argparse.Namespace) -> int:
     """Write the page of a result."""
-    place = Path(options.out or Path(options.store).with_suffix(".html").name)
+    page = Path(options.out or Path(options.store).with_suffix(".html").name)
     worn = open_run(options.wear) if options.wear else None
     result = open_any(options.store)
     if not isinstance(result, Result):
         if options.crack or worn is not None:
             raise ValueError(f"{options.store}: --crack and --wear belong to the result of a run")
-        result.report(place)
+        result.report(page)
     else:
         cracks = threshold = None
         if options.crack:
             cracks, threshold = crack.cracks_of(result, options), crack.threshold_of(options)
-        result.report(place, wear=worn, crack=cracks, threshold=threshold)
-    size = place.stat().st_size
+        result.report(page, wear=worn, crack=cracks, threshold=threshold)
+    size = page.stat().st_size
     if options.json:
-        tell(page=str(place), bytes=size)
+        tell(page=str(page), bytes=size)
     else:
-        say(f"{place}: {size / 1e6:.1f} MB")
+        say(f"{page}: {size / 1e6:.1f} MB")
     return DONE
 
 
 def verify(options: argparse.Namespace) -> int:
     """Compare with closed forms, a line for every number."""
-    found = verification.verify()
+    checked = verification.verify()
     if options.json:
         checks = [
             {
-                "what": of.what,
-                "source": of.source,
-                "ours": of.ours,
-                "truth": of.truth,
-                "error": of.error,
-                "passed": of.passed,
+                "what": check.what,
+                "source": check.source,
+                "ours": check.ours,
+                "truth": check.truth,
+                "error": check.error,
+                "passed": check.passed,
             }
-            for of in found.checks
+            for check in checked.checks
         ]
-        tell(passed=found.passed, checks=checks)
+        tell(passed=checked.passed, checks=checks)
     else:
-        say(found)
-    return DONE if found.passed else ENDED_EARLY
+        say(checked)
+    return DONE if checked.passed else ENDED_EARLY
 
 
 def cite(options: argparse.Namespace) -> int:
@@ -213,12 +213,12 @@ def pass_over_matplotlibrc() -> None:
     Those of the user and of ``MATPLOTLIBRC`` hold.
     """
     if Path("matplotlibrc").exists():
-        here = Path.cwd()
+        folder = Path.cwd()
         os.chdir(Path(__file__).parent)
         try:
             importlib.import_module("matplotlib")
         finally:
-            os.chdir(here)
+            os.chdir(folder)
 
 
 def stop(*_: object) -> None:
@@ -262,8 +262,8 @@ def run(arguments: Sequence[str] | None) -> int:
     except BrokenPipeError:
         raise
     except OSError as error:
-        place = f"{error.filename}: " if error.filename else ""
-        say(f"fret: {place}{error.strerror or error}", file=sys.stderr)
+        prefix = f"{error.filename}: " if error.filename else ""
+        say(f"fret: {prefix}{error.strerror or error}", file=sys.stderr)
         return UNWRITTEN if error.errno in FULL else BAD_INPUT
     except (ValueError, KeyError, ImportError) as error:
         say(f"fret: {' '.join(str(error).split())}", file=sys.stderr)

@@ -36,32 +36,34 @@ def add_options(commands: argparse._SubParsersAction[Any]) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Compare and print the table; 1 where a body could not be solved."""
-    found, place = run_compare_file(
+    comparison, store = run_compare_file(
         options.file, out=options.out, executor=options.workers, again=options.again
     )
     if options.json:
-        d = found.dataset
+        d = comparison.dataset
         numbers = {
             name: {
                 "unit": d[name].attrs["units"],
                 "better": verdict.best,
                 "worse": verdict.worse,
                 "values": {
-                    of: [float(d[f"{name}{side}"][n]) for side in ("_low", "", "_high")]
-                    for n, of in enumerate(found.candidates)
+                    candidate: [float(d[f"{name}{side}"][n]) for side in ("_low", "", "_high")]
+                    for n, candidate in enumerate(comparison.candidates)
                 },
-                "told": dict(zip(found.candidates, found.formatted(name), strict=True)),
+                "told": dict(zip(comparison.candidates, comparison.formatted(name), strict=True)),
                 # What a margin is a mean over [m]: 0 for the value at a point.
                 **({"L": d[f"{name}_L"].values.tolist()} if f"{name}_L" in d else {}),
             }
-            for name, verdict in ((name, found.preference(name)) for name in found.numbers)
+            for name, verdict in (
+                (name, comparison.preference(name)) for name in comparison.numbers
+            )
         }
-        answer = {"store": str(place), "numbers": numbers, "missing": found.missing}
-        say_json({**answer, "failed": found.failed}, indent=2)
+        answer = {"store": str(store), "numbers": numbers, "missing": comparison.missing}
+        say_json({**answer, "failed": comparison.failed}, indent=2)
     else:
-        say(found.summary())
+        say(comparison.summary())
     if options.figure:
-        found.plot().savefig(options.figure)
+        comparison.plot().savefig(options.figure)
     if options.report:
-        found.report(options.report)
-    return 1 if found.failed else 0
+        comparison.report(options.report)
+    return 1 if comparison.failed else 0

@@ -190,7 +190,7 @@ def _rows(cracks: Cracks, threshold: Threshold | None) -> list[dict[str, object]
 
 
 def _verdict(cracks: Cracks, found: CrackArrest) -> dict[str, object]:
-    """What becomes of the crack; a number that there is not has its reason."""
+    """Return the row of the arrest; a missing number has its reason."""
     row: dict[str, object] = {
         "x": cracks.dataset.attrs["x"],
         "verdict": found.verdict,

@@ -67,30 +67,30 @@ def run(options: argparse.Namespace) -> int:
         data = fit.read_loops(options.data, delta=options.x, T=options.force, units=units)
     else:
         data = fit.read_indentation(options.data, delta_z=options.x, W=options.force, units=units)
-    found = fit.fit(scene, data, unknown=unknown, posterior=options.posterior)
+    fitted = fit.fit(scene, data, unknown=unknown, posterior=options.posterior)
     if options.json:
-        said: dict[str, Any] = {
+        answer: dict[str, Any] = {
             "unknown": {
                 key: {"value": k.value, "low": k.low, "high": k.high, "solver": k.solver}
-                for key, k in found.known.items()
+                for key, k in fitted.known.items()
             },
-            "offsets": found.offsets,
-            "correlation": found.correlation.tolist(),
-            "noise": found.noise,
-            "solves": found.solves,
-            "doubts": found.doubts,
+            "offsets": fitted.offsets,
+            "correlation": fitted.correlation.tolist(),
+            "noise": fitted.noise,
+            "solves": fitted.solves,
+            "doubts": fitted.doubts,
         }
-        if found.posterior is not None:
-            said["posterior"] = {key: found.posterior.interval(key) for key in found.known}
-        say_json(said)
+        if fitted.posterior is not None:
+            answer["posterior"] = {key: fitted.posterior.interval(key) for key in fitted.known}
+        say_json(answer)
     else:
-        say(found.summary())
+        say(fitted.summary())
     if options.out:
         import matplotlib.pyplot as plt
 
         figure, (above, below) = plt.subplots(2, 1, layout="constrained", figsize=(6.4, 7.2))
-        found.plot(ax=above)
-        found.plot_residuals(ax=below)
+        fitted.plot(ax=above)
+        fitted.plot_residuals(ax=below)
         figure.savefig(options.out)
     return 0
 

@@ -29,22 +29,22 @@ class Parser(argparse.ArgumentParser):
         self, args: Any = None, namespace: Any = None
     ) -> tuple[argparse.Namespace, list[str]]:
         """Parse the arguments; a command names those that it does not know, with its own usage."""
-        known, unknown = super().parse_known_args(args, namespace)
+        parsed, unknown = super().parse_known_args(args, namespace)
         if unknown and self._commands() is None:
             self.error(f"unexpected argument '{unknown[0]}' found")
-        return known, unknown
+        return parsed, unknown
 
     def format_usage(self) -> str:
         """The usage in a line."""
         needed = [a for a in self._actions if a.option_strings and a.required]
-        given = [f"{a.option_strings[-1]} {value(a)}" for a in needed]
+        needed_options = [f"{a.option_strings[-1]} {value(a)}" for a in needed]
         places = [value(a) for a in self._places()]
         options = [] if self._commands() is not None else ["[OPTIONS]"]
         command = [] if options else ["<COMMAND>"]
-        return " ".join(["Usage:", self.prog, *options, *given, *places, *command]) + "\n"
+        return " ".join(["Usage:", self.prog, *options, *needed_options, *places, *command]) + "\n"
 
     def format_help(self) -> str:
-        """What the command does, how it is called, and what each part means."""
+        """Format the help of the command: purpose, usage, arguments."""
         parts = [sentence(self.description or ""), "", self.format_usage()]
         commands = self._commands()
         if commands is not None:
@@ -80,8 +80,8 @@ class Parser(argparse.ArgumentParser):
         ]
 
     def _commands(self) -> Iterable[argparse.Action] | None:
-        found = (a for a in self._actions if isinstance(a, argparse._SubParsersAction))
-        return next((a._choices_actions for a in found), None)
+        subparsers = (a for a in self._actions if isinstance(a, argparse._SubParsersAction))
+        return next((a._choices_actions for a in subparsers), None)
 
 
 def added(
@@ -98,7 +98,7 @@ def sentence(text: str) -> str:
 
 
 def value(action: argparse.Action) -> str:
-    """What stands for the value of an argument or an option."""
+    """Return the placeholder of an argument or an option."""
     name = action.metavar if isinstance(action.metavar, str) else action.dest
     name = f"<{name.upper() if action.metavar is None else name}>".replace("_", "-")
     return name if action.option_strings or action.nargs != "?" else f"[{name[1:-1]}]"
@@ -114,13 +114,13 @@ def names(action: argparse.Action) -> str:
 
 
 def meaning(action: argparse.Action) -> str:
-    """What an argument means, its default and what it may be."""
+    """Describe an argument: its meaning, default and choices."""
     text = sentence(action.help or "")
     default = action.default
     if default not in (None, False, argparse.SUPPRESS, []) and "default" not in text.lower():
         text += f" [default: {default}]"
     if action.choices is not None:
-        text += f" [possible values: {', '.join(str(of) for of in action.choices)}]"
+        text += f" [possible values: {', '.join(str(choice) for choice in action.choices)}]"
     return text.strip()
 
 
@@ -129,11 +129,11 @@ def table(rows: list[tuple[str, str]]) -> list[str]:
     width = min(max((len(name) for name, _ in rows), default=0) + 2, NAMES)
     lines = []
     for name, text in rows:
-        told = textwrap.wrap(text, WIDTH - width) or [""]
+        wrapped = textwrap.wrap(text, WIDTH - width) or [""]
         if len(name) + 2 > width:
             lines.append(name)
-            lines += [" " * width + line for line in told]
+            lines += [" " * width + line for line in wrapped]
         else:
-            lines.append(name.ljust(width) + told[0])
-            lines += [" " * width + line for line in told[1:]]
+            lines.append(name.ljust(width) + wrapped[0])
+            lines += [" " * width + line for line in wrapped[1:]]
     return [line.rstrip() for line in lines]

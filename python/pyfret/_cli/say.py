@@ -1,4 +1,4 @@
-"""What the commands write: text of others cannot act on the terminal."""
+"""Output of the commands, made safe for the terminal."""
 
 from __future__ import annotations
 
@@ -32,8 +32,8 @@ def written(answer: Any) -> Any:
     """
     if isinstance(answer, dict):
         reasons = {f"{name}_why": reason(value) for name, value in answer.items()}
-        found = {name: why for name, why in reasons.items() if why is not None}
-        return found | {name: written(value) for name, value in answer.items()}
+        reasons_given = {name: why for name, why in reasons.items() if why is not None}
+        return reasons_given | {name: written(value) for name, value in answer.items()}
     if isinstance(answer, list | tuple):
         return [written(value) for value in answer]
     if hasattr(answer, "item"):
@@ -46,8 +46,8 @@ def reason(value: Any) -> Any:
     if value is None:
         return "not known"
     if isinstance(value, list | tuple):
-        each = [reason(of) for of in value]
-        return each if any(each) else None
+        reasons_of_items = [reason(item) for item in value]
+        return reasons_of_items if any(reasons_of_items) else None
     if not isinstance(value, float) or math.isfinite(value):
         return None
     return "not known" if math.isnan(value) else "infinite"

@@ -76,7 +76,7 @@ def run(options: argparse.Namespace) -> int:
     if options.over:
         key, values = pair(options.over, "--over")
         over = {key: [number(key, value) for value in values.split(",")]}
-    found = threshold(
+    load = threshold(
         scene,
         options.parameter,
         measure=measure,
@@ -84,28 +84,28 @@ def run(options: argparse.Namespace) -> int:
         value=options.value,
         over=over,
     )
-    if isinstance(found, ThresholdLoad):
+    if isinstance(load, ThresholdLoad):
         rows = [
             {
-                "threshold": found.value,
-                "error": found.error,
-                "low": found.low,
-                "high": found.high,
-                "solves": found.solves,
+                "threshold": load.value,
+                "error": load.error,
+                "low": load.low,
+                "high": load.high,
+                "solves": load.solves,
             }
         ]
     else:
         name = next(iter(over or {}))
         rows = [
             {
-                name: float(found[name][n]),
-                "threshold": float(found.threshold[n]),
-                "error": float(found.error[n]),
-                "low": float(found.low[n]),
-                "high": float(found.high[n]),
-                "solves": int(found.solves[n]),
+                name: float(load[name][n]),
+                "threshold": float(load.threshold[n]),
+                "error": float(load.error[n]),
+                "low": float(load.low[n]),
+                "high": float(load.high[n]),
+                "solves": int(load.solves[n]),
             }
-            for n in range(found.sizes[name])
+            for n in range(load.sizes[name])
         ]
     note = measure.estimate
     grid = with_values(options.scene, changes).grid
@@ -116,8 +116,12 @@ def run(options: argparse.Namespace) -> int:
         if options.json:
             say_json(row | {"unit": units[searched]} | ({"estimate": note} if note else {}))
         else:
-            of = units | dict.fromkeys(("threshold", "error", "low", "high"), units[searched])
-            told_of = (f"{name} = {told(value)} {of.get(name, '')}" for name, value in row.items())
+            row_units = units | dict.fromkeys(
+                ("threshold", "error", "low", "high"), units[searched]
+            )
+            told_of = (
+                f"{name} = {told(value)} {row_units.get(name, '')}" for name, value in row.items()
+            )
             text = ", ".join(part.rstrip() for part in told_of)
             say(f"{text}; estimate: {note}" if note else text)
     return 0

@@ -1,4 +1,4 @@
-"""From a contact to finite elements and back: tractions, stresses, forces on nodes, loops.
+"""Exchange with finite elements: tractions, stresses, forces on nodes, loops.
 
 A :class:`Frame` places the component in the other model. It holds the middle of the grid, the
 directions of its axes, and the model's unit of length. ::

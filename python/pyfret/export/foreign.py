@@ -104,17 +104,17 @@ def read_by_meshio(path: Path) -> Any:
     """What meshio reads of a file; a ValueError if that is of another format, or misses a part."""
     ending = path.suffix.lower()
     if ending not in FORMATS:
-        known = ", ".join(FORMATS)
-        raise ValueError(f"{path}: must end in .inp, or in one of {known}")
+        endings = ", ".join(FORMATS)
+        raise ValueError(f"{path}: must end in .inp, or in one of {endings}")
     if is_keyword_file(path):
         raise ValueError(f"{path}: holds keywords of Abaqus; name it .inp")
     content = read_bytes(path)
     if ending == ".msh" and not content.lstrip().startswith((b"$", b"(")):
         raise ValueError(f"{path}: is no Gmsh file: must begin with $MeshFormat")
-    for mark, what in PASSED_OVER.get(ending, ()):
+    for mark, part in PASSED_OVER.get(ending, ()):
         lines = (line.lstrip() for line in content.splitlines())
         if any(line.startswith(mark) if mark.isalpha() else mark in line for line in lines):
-            raise ValueError(f"{path}: has {what}, which is not read; write the mesh without it")
+            raise ValueError(f"{path}: has {part}, which is not read; write the mesh without it")
     meshio = needed("meshio", "mesh")
     nowhere = io.StringIO()
     try:
@@ -123,6 +123,6 @@ def read_by_meshio(path: Path) -> Any:
         check_mesh(mesh)
         return mesh
     except (Exception, SystemExit) as error:
-        said = " ".join(str(error).split()) or type(error).__name__
-        reason = f"is no {FORMATS[ending]} file that can be read" if said == "1" else said
+        message = " ".join(str(error).split()) or type(error).__name__
+        reason = f"is no {FORMATS[ending]} file that can be read" if message == "1" else message
         raise ValueError(shown(f"{path}: {reason}")) from error

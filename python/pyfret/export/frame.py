@@ -1,4 +1,4 @@
-"""Where a contact lies in another model, and in which units that is written."""
+"""Position of a contact in another model, and the units of that model."""
 
 from __future__ import annotations
 

@@ -87,8 +87,8 @@ def _backbone(
     """Shift and force from no shear on, along the first branch that shears at a constant W."""
     branch = dataset.branch_of_increment.values
     W, T, delta = (dataset[name].values for name in ("W", force, shift))
-    for of in np.unique(branch).tolist():
-        inside = np.flatnonzero(branch == of)
+    for number in np.unique(branch).tolist():
+        inside = np.flatnonzero(branch == number)
         before = inside[0] - 1
         if before < 0 or T[inside[-1]] == 0.0:
             continue
@@ -124,8 +124,8 @@ def _masing_error(result: Run, direction: Literal["x", "y", "torsion"], table: x
     if loops.sizes["cycle"] == 0:
         return float("nan")
     last = loops.isel(cycle=-1)
-    half, own = float(last.delta), float(last.dissipated)
-    if own <= 0.0 or half > float(table.delta[-1]) * (1 + 1e-6):
+    half, loop_energy = float(last.delta), float(last.dissipated)
+    if loop_energy <= 0.0 or half > float(table.delta[-1]) * (1 + 1e-6):
         return float("nan")
-    told = float(np.interp(half, table.delta.values, table.dissipated.values))
-    return abs(told - own) / own
+    masing_energy = float(np.interp(half, table.delta.values, table.dissipated.values))
+    return abs(masing_energy - loop_energy) / loop_energy

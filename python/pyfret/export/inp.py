@@ -91,11 +91,11 @@ def lines_of(path: Path) -> Iterator[Line]:
             yield Line(n, text)
             continue
         while text.endswith(","):
-            text += next((more for _, more in rows), "").strip()
-        head, *options = (one.strip() for one in text[1:].split(","))
-        pairs = (one.partition("=") for one in options if one)
-        told = {key.strip().upper(): value.strip().strip('"') for key, _, value in pairs}
-        yield Line(n, text, " ".join(head.upper().split()), told)
+            text += next((continued for _, continued in rows), "").strip()
+        head, *options = (cell.strip() for cell in text[1:].split(","))
+        pairs = (option.partition("=") for option in options if option)
+        options_of_line = {key.strip().upper(): value.strip().strip('"') for key, _, value in pairs}
+        yield Line(n, text, " ".join(head.upper().split()), options_of_line)
 
 
 def read_parts(path: Path) -> list[Part]:
@@ -127,18 +127,18 @@ class _Reader:
         if line.keyword:
             self.begin(line)
         elif self.keyword == "NODE":
-            row = [one.strip() for one in line.text.rstrip(",").split(",")]
+            row = [cell.strip() for cell in line.text.rstrip(",").split(",")]
             self.now.numbers.append(int(row[0]))
-            point = [number(one) if one else 0.0 for one in row[1:4]]
+            point = [number(coordinate) if coordinate else 0.0 for coordinate in row[1:4]]
             self.now.points.append(point + [0.0] * (3 - len(point)))
         elif self.keyword == "ELEMENT" and self.kind:
-            row_of = [int(one) for one in line.text.rstrip(",").split(",")]
+            row_of = [int(cell) for cell in line.text.rstrip(",").split(",")]
             rows = self.now.volumes if self.kind == "volume" else self.now.faces
             # An element goes on in the next line after a comma.
             rows[-1].extend(row_of) if self.open_line else rows.append(row_of)
             self.open_line = line.text.endswith(",")
         elif self.keyword == "INSTANCE":
-            row_of_move = [number(one) for one in line.text.rstrip(",").split(",")]
+            row_of_move = [number(cell) for cell in line.text.rstrip(",").split(",")]
             self.instances[-1][3].append(row_of_move)
 
     def begin(self, line: Line) -> None:
@@ -147,9 +147,9 @@ class _Reader:
         for name, why in REFUSED.items():
             if line.keyword == name:
                 raise ValueError(f"*{name}: {why}, which is not read; write the mesh without it")
-        given = set(line.options) - OPTIONS.get(line.keyword, set(line.options))
-        if given:
-            raise ValueError(f"*{line.keyword}, {', '.join(sorted(given))}: is not read")
+        unread = set(line.options) - OPTIONS.get(line.keyword, set(line.options))
+        if unread:
+            raise ValueError(f"*{line.keyword}, {', '.join(sorted(unread))}: is not read")
         if line.keyword == "NODE" and line.options.get("SYSTEM", "R").upper() != "R":
             raise ValueError("*NODE, SYSTEM: only R, rectangular coordinates, is read")
         if line.keyword == "ELEMENT":
@@ -168,22 +168,24 @@ class _Reader:
 
     def placed(self) -> list[Part]:
         """All parts, in the axes of the assembly."""
-        found = [self.flat] if self.flat.numbers else []
+        parts = [self.flat] if self.flat.numbers else []
         if self.parts and not self.instances:
             raise ValueError(f"{self.path}: its *PART stands in no *INSTANCE: nothing places it")
         for n, (name, part, line, moves) in enumerate(self.instances):
-            own = self.own[n]
-            of = own if own.numbers else self.parts.get(part)
-            if of is None:
+            own_nodes = self.own[n]
+            nodes = own_nodes if own_nodes.numbers else self.parts.get(part)
+            if nodes is None:
                 raise ValueError(f"{self.path}, line {line}: *INSTANCE: there is no *PART {part}")
             try:
-                points = moved(np.array(of.points).reshape(-1, 3), moves)
+                points = moved(np.array(nodes.points).reshape(-1, 3), moves)
             except ValueError as error:
                 raise ValueError(f"{self.path}, line {line}: *INSTANCE: {error}") from error
-            found.append(Part(of.numbers, points.tolist(), of.volumes, of.faces, prefix=f"{name}."))
-        if not any(part.numbers for part in found):
+            parts.append(
+                Part(nodes.numbers, points.tolist(), nodes.volumes, nodes.faces, prefix=f"{name}.")
+            )
+        if not any(part.numbers for part in parts):
             raise ValueError(f"{self.path}: has no *NODE block with nodes")
-        return found
+        return parts
 
 
 def kind_of(kind: str) -> str:

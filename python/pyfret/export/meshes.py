@@ -66,15 +66,13 @@ def read_mesh(path: str | os.PathLike[str]) -> Mesh:
     Nodes of an ``.inp`` keep their numbers, in an assembly behind the name of their instance; those
     of other formats count from 1.
     """
-    place = Path(path)
-    if place.suffix.lower() == ".inp" or (
-        place.suffix.lower() in FORMATS and is_keyword_file(place)
-    ):
-        return joined(read_parts(place), place)
-    found = read_by_meshio(place)
-    points = np.zeros((len(found.points), 3))
-    points[:, : found.points.shape[1]] = found.points
-    blocks = [(block.type, np.asarray(block.data, np.int64)) for block in found.cells]
+    file = Path(path)
+    if file.suffix.lower() == ".inp" or (file.suffix.lower() in FORMATS and is_keyword_file(file)):
+        return joined(read_parts(file), file)
+    mesh = read_by_meshio(file)
+    points = np.zeros((len(mesh.points), 3))
+    points[:, : mesh.points.shape[1]] = mesh.points
+    blocks = [(block.type, np.asarray(block.data, np.int64)) for block in mesh.cells]
     volumes = [data for name, data in blocks if name not in PLANE and data.shape[1] in FACES]
     faces = [data for name, data in blocks if name in PLANE]
     return Mesh([str(n + 1) for n in range(len(points))], points, volumes, faces)
@@ -96,15 +94,15 @@ def joined(parts: list[Part], path: Path) -> Mesh:
             for count in sorted({len(row) - 1 for row in rows}):
                 if ((found is volumes) and count not in FACES) or count < 3:
                     continue
-                named = np.array([row[1:] for row in rows if len(row) == count + 1])
-                at = np.searchsorted(numbers, named, sorter=order)
-                known = order[np.minimum(at, numbers.size - 1)]
-                if (numbers[known] != named).any():
-                    missing = named[numbers[known] != named][0]
+                node_numbers = np.array([row[1:] for row in rows if len(row) == count + 1])
+                at = np.searchsorted(numbers, node_numbers, sorter=order)
+                positions = order[np.minimum(at, numbers.size - 1)]
+                if (numbers[positions] != node_numbers).any():
+                    missing = node_numbers[numbers[positions] != node_numbers][0]
                     raise ValueError(
                         f"{path}: an element has the node {missing}, which *NODE lacks"
                     )
-                found.setdefault(count, []).append(known + len(names))
+                found.setdefault(count, []).append(positions + len(names))
         names += [f"{part.prefix}{n}" for n in part.numbers]
         points.append(np.array(part.points).reshape(-1, 3))
     kept = {count: rows for count, rows in faces.items() if count in (3, 4, 6, 8)}
@@ -121,7 +119,7 @@ def faces_in_plane(mesh: Mesh, frame: Frame) -> list[NDArray[np.int64]]:
     height = frame.contact_place(mesh.points)[:, 2]
     extent = np.ptp(frame.contact_place(mesh.points), axis=0).max()
     inside = np.abs(height) <= IN_PLANE * extent
-    found: dict[int, list[NDArray[np.int64]]] = {}
+    faces: dict[int, list[NDArray[np.int64]]] = {}
     for elements in mesh.volumes:
         count = elements.shape[1]
         quadratic = count in (10, 15, 20)
@@ -129,10 +127,10 @@ def faces_in_plane(mesh: Mesh, frame: Frame) -> list[NDArray[np.int64]]:
             used = face if quadratic else face[: len(face) // 2]
             rows = elements[:, used]
             kept = rows[inside[rows].all(axis=1)]
-            found.setdefault(kept.shape[1], []).append(kept)
+            faces.setdefault(kept.shape[1], []).append(kept)
     for rows in mesh.faces:
-        found.setdefault(rows.shape[1], []).append(rows[inside[rows].all(axis=1)])
-    whole = [np.concatenate(rows) for rows in found.values()]
+        faces.setdefault(rows.shape[1], []).append(rows[inside[rows].all(axis=1)])
+    whole = [np.concatenate(rows) for rows in faces.values()]
     # The same face may be given by an element and as an element of its own.
     once = [rows[np.unique(np.sort(rows, axis=1), axis=0, return_index=True)[1]] for rows in whole]
     return [rows for rows in once if rows.size]

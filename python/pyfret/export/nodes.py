@@ -39,15 +39,15 @@ NODES = (3, 4, 6, 8)
 
 def checked(rows: ArrayLike, nodes: int) -> NDArray[np.int64]:
     """The nodes of faces of one kind; a ValueError for what is none."""
-    found = np.asarray(plain(rows, "faces"), dtype=np.int64)
-    if found.size and (found.ndim != 2 or found.shape[1] not in NODES):
+    node_rows = np.asarray(plain(rows, "faces"), dtype=np.int64)
+    if node_rows.size and (node_rows.ndim != 2 or node_rows.shape[1] not in NODES):
         raise ValueError(
-            f"faces: an array of the shape {found.shape}: must be (faces, nodes of each), "
+            f"faces: an array of the shape {node_rows.shape}: must be (faces, nodes of each), "
             f"with {', '.join(map(str, NODES))} nodes"
         )
-    if found.size and not (found.min() >= 0 and found.max() < nodes):
+    if node_rows.size and not (node_rows.min() >= 0 and node_rows.max() < nodes):
         raise ValueError(f"faces: indices of nodes must be from 0 to {nodes - 1}")
-    return found
+    return node_rows
 
 
 @quantities
@@ -102,14 +102,14 @@ def nodal_forces(
     parts = int(np.clip(np.ceil(max(grid.dx, grid.dy) / (PART * shortest)), 1, MOST))
     cut = (np.arange(parts) + 0.5) / parts - 0.5
     s, t = (v.ravel() for v in np.meshgrid(cut * grid.dx, cut * grid.dy, indexing="ij"))
-    place = np.stack([(x[:, None] + s).ravel(), (y[:, None] + t).ravel()], -1)
+    quadrature_points = np.stack([(x[:, None] + s).ravel(), (y[:, None] + t).ravel()], -1)
     area = grid.dx * grid.dy / parts**2
     force = np.repeat(sign * area * frame.vector(np.column_stack([q, p])), parts**2, axis=0)
-    carried = np.zeros(len(place), dtype=bool)
+    carried = np.zeros(len(quadrature_points), dtype=bool)
     forces = np.zeros_like(nodes)
     for rows in tables:
         for row in rows:
-            _give(forces, carried, place, force, row, at[row])
+            _give(forces, carried, quadrature_points, force, row, at[row])
     lost = np.linalg.norm(force[~carried], axis=1).sum()
     if lost > LOST * np.linalg.norm(force, axis=1).sum():
         share = lost / np.linalg.norm(force, axis=1).sum()
@@ -197,8 +197,8 @@ def _give(
     if inside.size == 0:
         return
     local = _local(place[inside], corners)
-    here = _is_inside(local, len(corners))
-    inside, local = inside[here], local[here]
+    is_inside = _is_inside(local, len(corners))
+    inside, local = inside[is_inside], local[is_inside]
     carried[inside] = True
     for node, shape in zip(row.tolist(), _shapes(local, row.size), strict=True):
         forces[node] += shape @ force[inside]

@@ -34,12 +34,12 @@ def numbers(text: str) -> list[float]:
 
     A ValueError where something else stands there, such as the stars of a column too narrow.
     """
-    found, at = [], 0
+    numbers, at = [], 0
     text = text.rstrip()
     while at < len(text):
         match = TOUCHING.match(text, at)
         if match is None:
             raise ValueError(f"{text[at : at + 40].strip()!r} is no number")
-        found.append(number(match[1]))
+        numbers.append(number(match[1]))
         at = match.end()
-    return found
+    return numbers

@@ -101,16 +101,16 @@ def tractions(
     if of not in TRACTIONS:
         raise ValueError(f"of = {of!r}: must be one of {', '.join(TRACTIONS)}")
     x, y, p, q = cells_of(state, MARGIN)
-    place = frame.place(np.stack([x, y, np.zeros_like(x)], -1))
+    points = frame.place(np.stack([x, y, np.zeros_like(x)], -1))
     vector = sign * frame.per_pascal * frame.vector(np.column_stack([q, p]))
     # Without the sign of zeros.
     along = frame.per_pascal * np.column_stack([p, sign * q]) + 0.0
     vector += 0.0
     if form == "abaqus":
-        _write(path, "", np.column_stack([place, along[:, TRACTIONS.index(of)]]), ", ")
+        _write(path, "", np.column_stack([points, along[:, TRACTIONS.index(of)]]), ", ")
         return
     names = ("x", "y", "z", *TRACTIONS, "t_1", "t_2", "t_3")
-    values = np.column_stack([place, along, vector])
+    values = np.column_stack([points, along, vector])
     if form == "csv":
         _write(path, _head(names, frame), values, ",")
         return
@@ -171,14 +171,14 @@ def stress(
     tops = np.concatenate([[0.0], fields.interfaces(body)])
     layer = np.searchsorted(tops, depth, side="right") - 1
     below = loaded_by(state, body_number, bulk=bulk, residual=residual)
-    asked = [
+    wanted_points = [
         (x, y, z, n)
         for x, y, z, n in zip(
             at[:, 0].tolist(), at[:, 1].tolist(), depth.tolist(), layer.tolist(), strict=True
         )
     ]
-    found, _ = below.points(asked)
-    xx, yy, zz, xy, xz, yz = np.asarray(found).T
+    stresses, _ = below.points(wanted_points)
+    xx, yy, zz, xy, xz, yz = np.asarray(stresses).T
     tensor = np.stack([xx, xy, xz, xy, yy, yz, xz, yz, zz], -1).reshape(-1, 3, 3)
     tensor = frame.stress(tensor)
     values = tensor[:, [0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]

@@ -75,9 +75,9 @@ class Columns(ABC):
         for index in indices:
             unit = self.units[index]
             if unit and not kind_of(unit):
-                known = _core.units(KINDS)
+                kind_units = _core.units(KINDS)
                 raise ValueError(
-                    f"{self.place}: {self.names[index]}: unit {unit!r}: must be one of {known}"
+                    f"{self.place}: {self.names[index]}: unit {unit!r}: must be one of {kind_units}"
                 )
         values = self.raw(indices)
         for column, index in enumerate(indices):

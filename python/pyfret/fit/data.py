@@ -1,4 +1,4 @@
-"""What is measured: friction loops, indentation curves, scars, lives."""
+"""Measured data: friction loops, indentation curves, scars, lives."""
 
 from __future__ import annotations
 
@@ -100,8 +100,8 @@ class Loops(HoldsArrays):
         ends, flanks = [], []
         for n in range(int(self.cycle.max()) + 1):
             for down in (False, True):
-                here = (self.cycle == n) & (self.down == down)
-                shift, force = self.delta[here], self.T[here]
+                in_branch = (self.cycle == n) & (self.down == down)
+                shift, force = self.delta[in_branch], self.T[in_branch]
                 length = float(np.ptp(shift)) if shift.size else 0.0
                 if length == 0.0:
                     continue
@@ -157,8 +157,8 @@ class Loops(HoldsArrays):
             down[first : last + 1] = shift[last] < shift[first]
             cycle[first : last + 1] = n // 2
         if closed:
-            rest = np.r_[0 : turns[0], turns[1] + 1 : shift.size]
-            down[rest] = shift[turns[1]] > shift[turns[0]]
+            outside = np.r_[0 : turns[0], turns[1] + 1 : shift.size]
+            down[outside] = shift[turns[1]] > shift[turns[0]]
         # The first and the last whole cycle: half of one has another middle.
         begin = order.start
         ends = [slice(0, None)] * 2
@@ -240,8 +240,8 @@ class Scar(HoldsArrays):
         noise: float | None = None,
     ) -> Scar:
         """A profile of points; those with a missing value are left out."""
-        place, worn = together(x=x, depth=depth, holes=True)
-        return Scar(place, worn, wear, body_number, noise)
+        positions, worn = together(x=x, depth=depth, holes=True)
+        return Scar(positions, worn, wear, body_number, noise)
 
 
 @quantities
@@ -396,14 +396,15 @@ def read_scar(
 ) -> Scar:
     """Read the profile of a scar of a file, depth downwards positive, as :func:`read_loops`."""
     table = read_columns(path, units, skip=skip, group=group)
-    place = table.column("length", ("x", "pos"), x)
+    x_column = table.column("length", ("x", "pos"), x)
     worn = table.column("length", ("depth", "z", "h", "worn", "tiefe"), depth)
-    if place == worn:
+    if x_column == worn:
         raise ValueError(
-            f"{table.place}: has one column of lengths, {table.names[place]}: a profile has two, "
+            f"{table.place}: has one column of lengths, {table.names[x_column]}: "
+            "a profile has two, "
             "place and depth"
         )
-    rows = read_pair(table, place, worn)
+    rows = read_pair(table, x_column, worn)
     return Scar.of(rows[:, 0], rows[:, 1], wear=wear, body_number=body_number, noise=noise)
 
 
@@ -427,18 +428,18 @@ def read_lives(
     table = read_columns(path, units, skip=skip, group=group)
     if cycles not in table.names:
         raise ValueError(f"{table.place}: has no column {cycles!r}, but {', '.join(table.names)}")
-    of = table.names.index(cycles)
+    cycles_column = table.names.index(cycles)
     for at, name in enumerate(table.names):
         kind, unit = _core.measured_by(name) or ("", "")
-        if at != of and unit:
+        if at != cycles_column and unit:
             table.must_measure(at, kind)
     rows = table.numbers(*range(len(table.names)))
     settings = [
         {
             name: float(v)
             for n, (name, v) in enumerate(zip(table.names, row, strict=True))
-            if n != of
+            if n != cycles_column
         }
         for row in rows
     ]
-    return Lives(rows[:, of], settings, wear, part, body_number, noise)
+    return Lives(rows[:, cycles_column], settings, wear, part, body_number, noise)

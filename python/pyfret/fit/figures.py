@@ -37,7 +37,7 @@ def curves(
     values: Mapping[str, float],
     ax: Axes | None = None,
 ) -> Axes:
-    """What was measured, as points, and what the values found make of it, as a line."""
+    """Draw the measurement as points and the fitted computation as a line."""
     ax = axes(ax)
     along, label = shown(of.labels[0], of.along)
     ax.set_xlabel(label)
@@ -51,8 +51,8 @@ def curves(
         name = "computed" if n == 0 else None
         ax.plot(along[part][order], line[part][order], color=STICK, label=name)
     ax.set_ylabel(label)
-    said = "\n".join(f"{key} = {value:.4g}" for key, value in values.items())
-    ax.legend(title=said, title_fontsize="small", fontsize="small")
+    legend_title = "\n".join(f"{key} = {value:.4g}" for key, value in values.items())
+    ax.legend(title=legend_title, title_fontsize="small", fontsize="small")
     return ax
 
 
@@ -62,11 +62,11 @@ def residuals(of: Measured, left_over: NDArray[np.float64], ax: Axes | None = No
     ax = axes(ax)
     along, label = shown(of.labels[0], of.along)
     ax.set_xlabel(label)
-    left, label = shown(of.labels[1], left_over)
+    residuals_scaled, label = shown(of.labels[1], left_over)
     down = getattr(of.data, "down", None)
     parts = {"": np.ones(along.size, bool)} if down is None else {"back": down, "forth": ~down}
     for name, part in parts.items():
-        ax.plot(along[part], left[part], ".", markersize=3, label=name or None)
+        ax.plot(along[part], residuals_scaled[part], ".", markersize=3, label=name or None)
     ax.axhline(0.0, color="0.5", linewidth=0.8)
     ax.set_ylabel(f"measured less computed: {label}")
     if down is not None:

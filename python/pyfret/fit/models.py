@@ -1,4 +1,4 @@
-"""What a measurement should have been: the scene with given unknowns, solved."""
+"""Prediction of a measurement: the scene with given unknowns, solved."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ class Model(Measured):
     zeros: NDArray[np.float64]
 
     def without(self) -> Measured:
-        """What was measured, without what computes it."""
+        """Return the measurement without its callables."""
         return Measured(self.data, self.measured, self.along, self.labels)
 
 
@@ -94,10 +94,10 @@ def through(x: NDArray[np.float64], y: NDArray[np.float64]) -> Curve:
     ends = [(x[k], y[k], float(curve(x[k], 1))) for k in (0, -1)]
 
     def at(where: NDArray[np.float64]) -> NDArray[np.float64]:
-        found = np.asarray(curve(where))
+        y = np.asarray(curve(where))
         (low, y_low, s_low), (high, y_high, s_high) = ends
-        found = np.where(where < low, y_low + s_low * (where - low), found)
-        return np.where(where > high, y_high + s_high * (where - high), found)
+        y = np.where(where < low, y_low + s_low * (where - low), y)
+        return np.where(where > high, y_high + s_high * (where - high), y)
 
     return at
 
@@ -113,8 +113,8 @@ def of_loops(data: Loops) -> Model:
     reach = 0.5 * float(np.median([np.ptp(shift) for shift in of_cycle]))
     middle = float(np.median([0.5 * (s.max() + s.min()) for s in of_cycle]))
     unsure = 0.0
-    if known := reach_of_turns(data, drifts=drifts):
-        reach, unsure = known
+    if reach_and_error := reach_of_turns(data, drifts=drifts):
+        reach, unsure = reach_and_error
     force = 0.5 * float(np.median([np.ptp(data.T[data.cycle == n]) for n in cycles]))
     tilts = data.tilt if data.tilt is not None else data.sliding_slope is not None
 
@@ -133,27 +133,36 @@ def of_loops(data: Loops) -> Model:
             curves.append(through(shift[ways], T[ways]))
 
         def at(offsets: NDArray[np.float64], moved: float = 0.0) -> NDArray[np.float64]:
-            more = dict(zip(named, offsets, strict=True))
-            where = data.delta - middle - more[SHIFT] - more.get(DRIFTS[0], 0.0) * time
+            values_of_offsets = dict(zip(offset_scales, offsets, strict=True))
+            where = (
+                data.delta
+                - middle
+                - values_of_offsets[SHIFT]
+                - values_of_offsets.get(DRIFTS[0], 0.0) * time
+            )
             # Turns farther out move the branches apart.
             down, up = (
-                curve(where - way * moved * unsure)
-                for way, curve in zip((1.0, -1.0), curves, strict=True)
+                curve(where - sign * moved * unsure)
+                for sign, curve in zip((1.0, -1.0), curves, strict=True)
             )
-            beside = more[FORCE] + more.get(DRIFTS[1], 0.0) * time + more.get(TILT, 0.0) * where
+            beside = (
+                values_of_offsets[FORCE]
+                + values_of_offsets.get(DRIFTS[1], 0.0) * time
+                + values_of_offsets.get(TILT, 0.0) * where
+            )
             return np.asarray(np.where(data.down, down, up) + beside)
 
         return at
 
-    named = {SHIFT: reach, FORCE: force}
+    offset_scales = {SHIFT: reach, FORCE: force}
     if tilts:
-        named[TILT] = force / reach
+        offset_scales[TILT] = force / reach
     if drifts:
-        named |= dict(zip(DRIFTS, (reach, force), strict=True))
-    scales = np.array(list(named.values()))
-    zeros = np.array([middle, *np.zeros(len(named) - 1)])
+        offset_scales |= dict(zip(DRIFTS, (reach, force), strict=True))
+    scales = np.array(list(offset_scales.values()))
+    zeros = np.array([middle, *np.zeros(len(offset_scales) - 1)])
     labels = ("shift [m]", "force [N]")
-    along, names = data.delta, tuple(named)
+    along, names = data.delta, tuple(offset_scales)
     return Model(data, data.T, along, labels, names, scales, 1, predict, data.noise, zeros)
 
 
@@ -172,13 +181,13 @@ def reach_of_turns(data: Loops, *, drifts: bool) -> tuple[float, float] | None:
     if at.size < len(columns) or upper.all() or not upper.any():
         return None
     matrix = np.stack(columns, axis=1)
-    found = np.linalg.lstsq(matrix, shift, rcond=None)[0]
-    rest = shift - matrix @ found
+    coefficients = np.linalg.lstsq(matrix, shift, rcond=None)[0]
+    residual = shift - matrix @ coefficients
     spare = at.size - len(columns)
-    scatter = float(np.sqrt(rest @ rest / spare)) if spare else 0.0
-    each = max(scatter, float(np.sqrt(np.mean(error**2))))
+    scatter = float(np.sqrt(residual @ residual / spare)) if spare else 0.0
+    point_error = max(scatter, float(np.sqrt(np.mean(error**2))))
     of_reach = float(np.sqrt(np.linalg.inv(matrix.T @ matrix)[0, 0]))
-    return float(found[0]), each * of_reach
+    return float(coefficients[0]), point_error * of_reach
 
 
 def drift_of_turns(delta: NDArray[np.float64], time: NDArray[np.float64]) -> float:
@@ -194,26 +203,26 @@ def drift_of_turns(delta: NDArray[np.float64], time: NDArray[np.float64]) -> flo
 
 def of_indentation(data: Indentation) -> Model:
     """An indentation curve: the approach at the measured forces."""
-    most = float(data.W.max())
+    W_max = float(data.W.max())
 
     def predict(scene: Scene, _: Mapping[str, float], finer: float) -> Predicted:
         path = LoadPath.start()
         steps = np.linspace(0, 1, round(INDENTATION * finer) + 1)[1:] ** 1.5
         for part in steps:
-            path = path.normal(most * float(part), increments=1)
+            path = path.normal(W_max * float(part), increments=1)
         d = growing(scene, lambda s: solve(s, path, save=[len(path)], progress=False)).dataset
         # Over W^(2/3) the curve of a homogeneous sphere is straight.
         curve = through(np.r_[0.0, d.W.values] ** (2 / 3), np.r_[0.0, d.delta_z.values])
-        found = curve(data.W ** (2 / 3))
+        approach = curve(data.W ** (2 / 3))
         frame = data.W if data.frame else np.zeros_like(data.W)
 
         def at(offsets: NDArray[np.float64], _: float = 0.0) -> NDArray[np.float64]:
-            return np.asarray(found + offsets[0] + offsets[-1] * frame)
+            return np.asarray(approach + offsets[0] + offsets[-1] * frame)
 
         return at
 
     reach = float(np.ptp(data.delta_z))
-    scales, zeros = np.array([reach, reach / most]), np.zeros(2)
+    scales, zeros = np.array([reach, reach / W_max]), np.zeros(2)
     labels = ("normal force [N]", "approach [m]")
     offsets: tuple[str, ...] = ("offset of the approach [m]", "compliance of the frame [m/N]")
     if not data.frame:
@@ -248,7 +257,7 @@ def of_lives(data: Lives) -> Model:
     """Lives: ln of the cycles to a part of the thickness in each test."""
 
     def predict(scene: Scene, values: Mapping[str, float], finer: float) -> Predicted:
-        found = []
+        lives = []
         for n, settings in enumerate(data.settings):
             arguments = jumping(wear_arguments(data.wear, {**values, **split(settings)[1]}), finer)
             arguments.setdefault("cycles", 4 * float(data.cycles[n]))
@@ -256,8 +265,8 @@ def of_lives(data: Lives) -> Model:
             cycles = worn.cycles_to(part_of_coating=data.part, body_number=data.body_number)
             # A coating that outlives the run by far counts as one that lives four times as long.
             longest = 4 * float(data.cycles[n])
-            found.append(longest if cycles.beyond is not None else min(cycles, longest))
-        logs = np.log(found)
+            lives.append(longest if cycles.beyond is not None else min(cycles, longest))
+        logs = np.log(lives)
 
         def at(_: NDArray[np.float64], __: float = 0.0) -> NDArray[np.float64]:
             return logs
@@ -309,16 +318,18 @@ def wear_arguments(given: Mapping[str, Any], values: Mapping[str, float]) -> dic
     """The arguments of a run of wear with values such as ``wear.body2.alpha`` put in."""
     arguments = dict(given)
     for key, value in split(values)[1].items():
-        name, _, rest = key.removeprefix("wear.").partition(".")
-        if name in ("body1", "body2") and rest in ("k", "alpha", "threshold"):
+        name, _, law_key = key.removeprefix("wear.").partition(".")
+        if name in ("body1", "body2") and law_key in ("k", "alpha", "threshold"):
             law = arguments.get(name)
-            if isinstance(law, wear.Archard | wear.DissipatedEnergy) and hasattr(law, rest):
-                arguments[name] = law.replace(**{rest: value})
+            if isinstance(law, wear.Archard | wear.DissipatedEnergy) and hasattr(law, law_key):
+                arguments[name] = law.replace(**{law_key: value})
             else:
-                arguments[name] = {"k": wear.Archard, "alpha": wear.DissipatedEnergy}[rest](value)
-        elif name in ("body1", "body2") and rest == "share":
+                arguments[name] = {"k": wear.Archard, "alpha": wear.DissipatedEnergy}[law_key](
+                    value
+                )
+        elif name in ("body1", "body2") and law_key == "share":
             arguments[f"share{name[-1]}"] = value
-        elif not rest:
+        elif not law_key:
             arguments[name] = value
         else:
             raise ValueError(

@@ -115,15 +115,16 @@ class FitResult(Saveable, HoldsArrays):
         """Best values and 95 % confidence over ``unknown``, and all that :meth:`save` keeps."""
         arrays: dict[str, NDArray[Any]] = {}
         tree = json.dumps(packed(self, arrays))
-        known = {
-            name: ("unknown", [float(getattr(one, name)) for one in self.known.values()])
+        unknown_columns = {
+            name: ("unknown", [float(getattr(item, name)) for item in self.known.values()])
             for name in ("value", "low", "high")
         }
         parts = {
-            name: (tuple(f"{name}_{n}" for n in range(of.ndim)), of) for name, of in arrays.items()
+            name: (tuple(f"{name}_{n}" for n in range(array.ndim)), array)
+            for name, array in arrays.items()
         }
         return xr.Dataset(
-            {**known, **parts},
+            {**unknown_columns, **parts},
             coords={"unknown": np.array(list(self.known), dtype=str)},
             attrs={"title": "fit", "found": tree},
         )
@@ -135,7 +136,7 @@ class FitResult(Saveable, HoldsArrays):
     @property
     def values(self) -> dict[str, float]:
         """Values of the unknowns."""
-        return {key: known.value for key, known in self.known.items()}
+        return {key: unknown.value for key, unknown in self.known.items()}
 
     def plot(self, *, ax: Axes | None = None, data: int = 0, **options: Any) -> Drawn:
         """Draw what was measured, and what the values found make of it."""
@@ -152,48 +153,50 @@ class FitResult(Saveable, HoldsArrays):
 
     @property
     def doubts(self) -> list[str]:
-        """What these data cannot tell, in words."""
-        said = []
+        """Sentences on what these data cannot determine."""
+        sentences = []
         keys = list(self.known)
-        for (i, one), (j, two) in combinations(enumerate(keys), 2):
+        for (i, key_i), (j, key_j) in combinations(enumerate(keys), 2):
             r = float(self.correlation[i, j])
             if abs(r) > ALIKE:
-                said.append(
-                    f"{one} and {two} cannot be told apart from these data (correlation {r:+.3f}): "
+                sentences.append(
+                    f"{key_i} and {key_j} cannot be distinguished by these data "
+                    f"(correlation {r:+.3f}): "
                     "fix one of them, or measure what changes only one"
                 )
-        for key, known in self.known.items():
-            if known.at_bound:
-                said.append(f"{key} ended at a bound of its range: widen it, or fix {key}")
+        for key, unknown in self.known.items():
+            if unknown.at_bound:
+                sentences.append(f"{key} ended at a bound of its range: widen it, or fix {key}")
             elif (
-                known.low <= 0 < known.value or known.high > UNRESOLVED * max(known.low, 1e-300) > 0
+                unknown.low <= 0 < unknown.value
+                or unknown.high > UNRESOLVED * max(unknown.low, 1e-300) > 0
             ):
-                said.append(
-                    f"{key} is not resolved by these data: {known.low:.3g} to {known.high:.3g}"
+                sentences.append(
+                    f"{key} is not resolved by these data: {unknown.low:.3g} to {unknown.high:.3g}"
                 )
         if not self.solver_known:
-            said.append(
+            sentences.append(
                 "cells twice as wide, or half of the increments, could not be solved: what they "
                 "leave is not in the confidence; give more cells"
             )
         if self.posterior is not None and self.posterior.error > ROUGH:
-            said.append(
+            sentences.append(
                 "the posterior is that of a quadratic model of the contact, which errs by "
                 f"{self.posterior.error:.2g} of the noise: the confidence by profiles is better"
             )
         if not self.converged:
-            said.append(f"the search did not settle in {self.solves} solves")
+            sentences.append(f"the search did not settle in {self.solves} solves")
         for n, measured in enumerate(self.sets):
             if isinstance(measured.data, Loops):
-                said += self._doubts_of_loops(measured.data, self.noise[n])
-        return said
+                sentences += self._doubts_of_loops(measured.data, self.noise[n])
+        return sentences
 
     def _doubts_of_loops(self, data: Loops, noise: float) -> list[str]:
-        """What of loops the contact does not explain."""
-        said = []
+        """Describe features of loops that the contact does not explain."""
+        sentences = []
         drift = data.drift
         if data.drifts is False and abs(drift[1]) > 2 * noise:
-            said.append(
+            sentences.append(
                 f"the middle of the loops drifts by {drift[0]:.2g} m and {drift[1]:.2g} N from the "
                 "first to the last: fit it by drift=True"
             )
@@ -205,8 +208,8 @@ class FitResult(Saveable, HoldsArrays):
                 else "it is taken for a spring beside the contact; friction that grows with the "
                 "shift looks alike"
             )
-            said.append(f"the sliding branches rise by {slope:.2g} N/m: {cause}")
-        return said
+            sentences.append(f"the sliding branches rise by {slope:.2g} N/m: {cause}")
+        return sentences
 
     def summary(self) -> str:
         """Values, confidence, offsets, and what cannot be told, as text."""
@@ -227,9 +230,15 @@ class FitResult(Saveable, HoldsArrays):
             f"{name}: {with_error(value, self.offset_errors[name])}"
             for name, value in self.offsets.items()
         ]
-        for of, noise in zip(self.sets, self.noise, strict=True):
-            part = noise / float(np.ptp(of.measured)) if np.ptp(of.measured) else 0.0
-            lines.append(f"residual of {of.labels[1]}: {noise:.3g}, {part:.1%} of its range")
+        for measured_set, noise in zip(self.sets, self.noise, strict=True):
+            part = (
+                noise / float(np.ptp(measured_set.measured))
+                if np.ptp(measured_set.measured)
+                else 0.0
+            )
+            lines.append(
+                f"residual of {measured_set.labels[1]}: {noise:.3g}, {part:.1%} of its range"
+            )
         lines.append(f"{self.solves} solves")
         return "\n".join(lines + self.doubts)
 

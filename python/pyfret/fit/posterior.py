@@ -61,11 +61,11 @@ class Posterior(HoldsArrays):
 
     def __repr__(self) -> str:
         """Tell the medians and the 95 % intervals."""
-        said = []
+        intervals = []
         for key, values in self.samples.items():
             low, high = self.interval(key)
-            said.append(f"{key} = {np.median(values):.4g} [{low:.4g}, {high:.4g}]")
-        return f"Posterior({', '.join(said)}; model errs by {self.error:.2g} of the noise)"
+            intervals.append(f"{key} = {np.median(values):.4g} [{low:.4g}, {high:.4g}]")
+        return f"Posterior({', '.join(intervals)}; model errs by {self.error:.2g} of the noise)"
 
 
 def monomials(z: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -133,10 +133,12 @@ def sampled(
     aside = dice.standard_normal((CHECKS, n))
     aside *= THROUGH / np.linalg.norm(aside, axis=1, keepdims=True)
     points = within(np.vstack([np.zeros(n), THROUGH * design(n), aside]))
-    found = np.stack(solved(list(at(points))))
+    predictions = np.stack(solved(list(at(points))))
     fitted, checks = slice(None, -CHECKS), slice(-CHECKS, None)
-    terms = np.asarray(np.linalg.lstsq(monomials(points[fitted]), found[fitted])[0], np.float64)
-    off = monomials(points[checks]) @ terms - found[checks]
+    terms = np.asarray(
+        np.linalg.lstsq(monomials(points[fitted]), predictions[fitted])[0], np.float64
+    )
+    off = monomials(points[checks]) @ terms - predictions[checks]
 
     # Offsets act linearly: what they can explain is no misfit.
     basis = np.linalg.qr(gauges)[0] if gauges.shape[1] else np.zeros((len(measured), 0))
@@ -145,15 +147,15 @@ def sampled(
         return rows - (rows @ basis) @ basis.T
 
     terms[0] -= measured
-    left = unexplained(terms)
-    gram, degrees = left @ left.T, len(measured) - gauges.shape[1]
+    unexplained_terms = unexplained(terms)
+    gram, degrees = unexplained_terms @ unexplained_terms.T, len(measured) - gauges.shape[1]
 
     def log_probability(z: NDArray[np.float64]) -> NDArray[np.float64]:
         u, rows = at(z), monomials(z)
         squares = np.maximum(np.einsum("ki,ij,kj->k", rows, gram, rows), 1e-300)
-        told = -0.5 * squares / noise**2 if noise else -0.5 * degrees * np.log(squares)
+        log_likelihood = -0.5 * squares / noise**2 if noise else -0.5 * degrees * np.log(squares)
         outside = np.any((u < 0) | (u > 1) | (np.abs(z) > FARTHEST), axis=1)
-        return np.where(outside, -np.inf, told)
+        return np.where(outside, -np.inf, log_likelihood)
 
     walkers = max(32, 4 * n)
     sampler = emcee.EnsembleSampler(walkers, n, log_probability, vectorize=True)

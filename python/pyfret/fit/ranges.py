@@ -1,4 +1,4 @@
-"""Where the unknowns of a fit are searched."""
+"""Ranges of the unknowns of a fit."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ STEP = 0.02
 
 @dataclass(frozen=True)
 class SearchRange:
-    """Where an unknown is searched: u from 0 to 1 between its ends, by the logarithm if so."""
+    """The range of an unknown: u from 0 to 1 between its ends, optionally by the logarithm."""
 
     key: str
     low: float
@@ -47,24 +47,26 @@ class SearchRange:
         return float(self.low + u * self.width)
 
     def at(self, value: float) -> float:
-        """Where a value lies."""
-        way = np.log(value / self.low) if self.by_log else value - self.low
-        return float(way / self.width)
+        """Return the u of a value."""
+        offset = np.log(value / self.low) if self.by_log else value - self.low
+        return float(offset / self.width)
 
 
 def ranges(unknown: Mapping[str, tuple[float, ...]]) -> list[SearchRange]:
     """The ranges of the unknowns, checked; ends that are hardly meant are warned of."""
     if not unknown:
         raise ValueError('unknown: none, give some, such as {"mu": (0.1, 1.5)}')
-    found = []
-    for key, given in unknown.items():
-        ends = tuple(number(v, f"unknown: {key}") for v in items(given, f"unknown: {key}"))
+    search_ranges = []
+    for key, bounds in unknown.items():
+        ends = tuple(number(v, f"unknown: {key}") for v in items(bounds, f"unknown: {key}"))
         if len(ends) == 2:
             low, high = ends
             middle = np.sqrt(low * high) if low > 0 else 0.5 * (low + high)
             ends = (low, float(middle), high)
         if len(ends) != 3 or not ends[0] <= ends[1] <= ends[2] or not ends[0] < ends[2]:
-            raise ValueError(f"unknown: {key} = {given}: must be (low, high) or (low, start, high)")
+            raise ValueError(
+                f"unknown: {key} = {bounds}: must be (low, high) or (low, start, high)"
+            )
         doubt_numbers("", **{key: (ends[0], ends[-1])})
-        found.append(SearchRange(key, *ends))
-    return found
+        search_ranges.append(SearchRange(key, *ends))
+    return search_ranges

@@ -52,32 +52,32 @@ def read_columns(
 
     ``group`` is the group of channels, the sheet of a workbook or the structure that has them.
     """
-    place = Path(path)
-    kind = kind_of_recording(place)
+    file = Path(path)
+    kind = kind_of_recording(file)
     if kind == "text":
         if group is not None:
-            raise ValueError(f"{place}: is text, which has no groups: leave group out")
-        return read_table(place, units, skip=skip)
+            raise ValueError(f"{file}: is text, which has no groups: leave group out")
+        return read_table(file, units, skip=skip)
     if kind in REFUSED:
-        raise ValueError(f"{place}: {REFUSED[kind]}")
+        raise ValueError(f"{file}: {REFUSED[kind]}")
     if skip and kind != "Excel":
-        raise ValueError(f"{place}: skip = {skip}: only text and sheets have lines")
+        raise ValueError(f"{file}: skip = {skip}: only text and sheets have lines")
     try:
         if kind == "Excel":
-            return read_sheet(place, units, skip, group)
-        channels = list(READERS[kind](place))
+            return read_sheet(file, units, skip, group)
+        channels = list(READERS[kind](file))
     except ImportError:
         raise
     except Exception as error:
-        if isinstance(error, ValueError) and str(error).startswith(str(place)):
+        if isinstance(error, ValueError) and str(error).startswith(str(file)):
             raise
         text = " ".join(str(error).split())[:300] or type(error).__name__
-        raise ValueError(shown(f"{place}: is no whole {kind} file: {text}")) from error
+        raise ValueError(shown(f"{file}: is no whole {kind} file: {text}")) from error
     groups = list(dict.fromkeys(channel.group for channel in channels))
     if group is not None and group not in groups:
-        raise ValueError(f"{place}: has no group {group!r}, but {', '.join(map(repr, groups))}")
+        raise ValueError(f"{file}: has no group {group!r}, but {', '.join(map(repr, groups))}")
     chosen = [channel for channel in channels if group in (None, channel.group)]
-    return Recording(str(place), chosen, units)
+    return Recording(str(file), chosen, units)
 
 
 def kind_of_recording(path: Path) -> str:
@@ -107,14 +107,14 @@ def channels_of_tdms(path: Path) -> Iterator[Channel]:
     nptdms = needed("nptdms", "rigs")
     with nptdms.TdmsFile.open(path) as file:
         listed = [(group.name, channel) for group in file.groups() for channel in group.channels()]
-        known = [
+        channels = [
             (name, channel.name, channel.properties, len(channel), channel.dtype)
             for name, channel in listed
         ]
         incomplete = getattr(file.file_status, "incomplete_final_segment", False)
     if incomplete:
         raise ValueError(f"{path}: is no whole TDMS file: its last segment is not complete")
-    for group, name, properties, size, dtype in known:
+    for group, name, properties, size, dtype in channels:
         if np.dtype(dtype).kind not in "fiub":
             continue
         unit = str(properties.get("unit_string") or properties.get("NI_UnitDescription") or "")
@@ -196,7 +196,7 @@ def channels_of_hdf5(path: Path) -> Iterator[Channel]:
     h5py = needed("h5py", "rigs")
     with h5py.File(path, "r") as file:
         turned = file.userblock_size >= 512
-        found: list[tuple[str, Any, str, Any]] = []
+        datasets: list[tuple[str, Any, str, Any]] = []
 
         def visit(name: str, node: Any) -> None:
             if not isinstance(node, h5py.Dataset) or name.startswith("#"):
@@ -204,10 +204,10 @@ def channels_of_hdf5(path: Path) -> Iterator[Channel]:
             unit = next((node.attrs[key] for key in ("units", "unit") if key in node.attrs), "")
             unit = unit.decode("utf-8", "replace") if isinstance(unit, bytes) else str(unit)
             names = node.attrs.get("columns", node.attrs.get("names"))
-            found.append((name, (node.shape, node.dtype), unit, names))
+            datasets.append((name, (node.shape, node.dtype), unit, names))
 
         file.visititems(visit)
-    for name, (shape, dtype), unit, names in found:
+    for name, (shape, dtype), unit, names in datasets:
         group, _, short = name.rpartition("/")
         if dtype.names:
             for key in dtype.names:

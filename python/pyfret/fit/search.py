@@ -109,11 +109,11 @@ def fit(
     if not isinstance(scene, Scene):
         scene = Scene.from_file(scene)
     sets: list[Data] = list(data) if isinstance(data, Sequence) else [data]
-    search = Search(scene, [model_of(one) for one in sets], ranges(unknown), executor)
+    search = Search(scene, [model_of(item) for item in sets], ranges(unknown), executor)
     with warnings.catch_warnings():
         # Scenes on the way may be odd; that of the end is told of by who solves it.
         warnings.simplefilter("ignore")
-        found = optimize.least_squares(
+        minimum = optimize.least_squares(
             search.residual,
             search.start(),
             jac=search.jacobian,
@@ -124,9 +124,9 @@ def fit(
             gtol=1e-9,
             max_nfev=MOST,
         )
-        best = np.asarray(found.x)
-        told = search.outcome(best, converged=bool(found.status > 0))
-        return search.with_posterior(told, best, posterior, seed) if posterior else told
+        best = np.asarray(minimum.x)
+        fitted = search.outcome(best, converged=bool(minimum.status > 0))
+        return search.with_posterior(fitted, best, posterior, seed) if posterior else fitted
 
 
 @dataclass
@@ -195,13 +195,13 @@ class Search:
     def computed(
         self, predictions: list[Any], gauges: NDArray[np.float64], moved: float = 0.0
     ) -> list[NDArray[np.float64]]:
-        """What should have been measured."""
-        found, first = [], 0
+        """Return the predicted measurements."""
+        predicted, first = [], 0
         for model, predict in zip(self.models, predictions, strict=True):
             offsets = gauges[first : first + len(model.offsets)] * model.scales
             first += len(model.offsets)
-            found.append(predict(offsets, moved))
-        return found
+            predicted.append(predict(offsets, moved))
+        return predicted
 
     def weighted(
         self, predictions: list[Any], gauges: NDArray[np.float64], moved: float = 0.0
@@ -230,9 +230,9 @@ class Search:
             step = r.step if u[k] + r.step <= 1 else -r.step
             stepped.append((*u[:k], u[k] + step, *u[k + 1 :]))
         self.solved([u, *stepped])
-        here = self.weighted(self.known[u], gauges)
+        weighted_here = self.weighted(self.known[u], gauges)
         columns = [
-            (self.weighted(self.known[to], gauges) - here) / (to[k] - u[k])
+            (self.weighted(self.known[to], gauges) - weighted_here) / (to[k] - u[k])
             for k, to in enumerate(stepped)
         ]
         for g in range(self.gauges):
@@ -250,33 +250,35 @@ class Search:
         n = len(self.ranges)
         residual, jacobian = self.residual(x), self.jacobian(x)
         degrees = max(residual.size - x.size, 1)
-        left = float(residual @ residual) / degrees
+        variance = float(residual @ residual) / degrees
         if all(model.noise is not None for model in self.models):
-            left = max(left, 1.0)
+            variance = max(variance, 1.0)
         scale = np.linalg.norm(jacobian, axis=0)
         scale[scale == 0] = 1.0
         inverse = np.linalg.pinv(jacobian / scale, rcond=1e-9)
-        covariance = left * (inverse @ inverse.T) / np.outer(scale, scale)
+        covariance = variance * (inverse @ inverse.T) / np.outer(scale, scale)
         spread = np.sqrt(np.diag(covariance))
         safe = np.where(spread > 0, spread, 1.0)
         correlation = covariance[:n, :n] / np.outer(safe[:n], safe[:n])
         t = float(stats.t.ppf(0.975, degrees))
-        half = [(t * one, t * one) for one in spread[:n]]
+        ends_by_model = [
+            (t * spread_of_unknown, t * spread_of_unknown) for spread_of_unknown in spread[:n]
+        ]
         for k, r in enumerate(self.ranges):
             if t * spread[k] * r.width > WIDE and min(u[k], 1 - u[k]) > 0:
-                half[k] = self.profile(x, k, covariance, (jacobian, t * np.sqrt(left)))
+                ends_by_model[k] = self.profile(x, k, covariance, (jacobian, t * np.sqrt(variance)))
         to_all = (inverse.T / scale).T
         moved = sum(np.abs(to_all @ off) for off in self.solver_errors(u, gauges))
-        known = {}
+        unknowns = {}
         for k, r in enumerate(self.ranges):
             value = r.value(u[k])
-            low, high = (r.value(u[k] + s * (half[k][s > 0] + moved[k])) for s in (-1, 1))
+            low, high = (r.value(u[k] + s * (ends_by_model[k][s > 0] + moved[k])) for s in (-1, 1))
             slope = value * r.width if r.by_log else r.width
-            known[r.key] = Known(
+            unknowns[r.key] = Known(
                 value,
                 low,
                 high,
-                slope * 0.5 * sum(half[k]),
+                slope * 0.5 * sum(ends_by_model[k]),
                 slope * moved[k],
                 bool(min(u[k], 1 - u[k]) < 2e-3),
             )
@@ -285,19 +287,19 @@ class Search:
         zeros = [float(zero) for model in self.models for zero in model.zeros]
         offsets = [float(g) * s + z for g, s, z in zip(gauges, scales, zeros, strict=True)]
         half_widths = (t * spread + moved)[n:].tolist()
-        of_offsets = [one * s for one, s in zip(half_widths, scales, strict=True)]
+        offset_errors = [half_width * s for half_width, s in zip(half_widths, scales, strict=True)]
         computed = self.computed(self.known[u], gauges)
-        rest = [m.measured - c for m, c in zip(self.models, computed, strict=True)]
+        residuals = [m.measured - c for m, c in zip(self.models, computed, strict=True)]
         values = split(self.values(u))[0]
         return FitResult(
-            known=known,
+            known=unknowns,
             offsets=dict(zip(names, offsets, strict=True)),
-            offset_errors=dict(zip(names, of_offsets, strict=True)),
+            offset_errors=dict(zip(names, offset_errors, strict=True)),
             correlation=correlation,
-            residual=rest,
+            residual=residuals,
             computed=computed,
             sets=[model.without() for model in self.models],
-            noise=[float(np.sqrt(np.mean(r**2))) for r in rest],
+            noise=[float(np.sqrt(np.mean(r**2))) for r in residuals],
             solves=self.solves,
             solver_known=self.solver_known,
             converged=converged,
@@ -307,31 +309,31 @@ class Search:
     def with_posterior(
         self, found: FitResult, x: NDArray[np.float64], count: int, seed: int
     ) -> FitResult:
-        """What was found, with samples of the posterior around x."""
+        """Return the fit with samples of the posterior around x."""
         u, gauges = self.parted(x)
         n = len(self.ranges)
         jacobian, residual = self.jacobian(x), self.residual(x)
-        left = float(residual @ residual) / max(residual.size - x.size, 1)
-        known = all(model.noise is not None for model in self.models)
+        variance = float(residual @ residual) / max(residual.size - x.size, 1)
+        has_noise = all(model.noise is not None for model in self.models)
         before = self.solves
 
         def solved(points: list[NDArray[np.float64]]) -> list[NDArray[np.float64]]:
             places = [tuple(float(v) for v in point) for point in points]
             self.solved(places)
-            return [self.weighted(self.known[place], gauges) for place in places]
+            return [self.weighted(self.known[point], gauges) for point in places]
 
         samples, error = sampled(
             solved,
             np.array(u),
-            np.asarray(left * np.linalg.pinv(jacobian.T @ jacobian)[:n, :n], np.float64),
+            np.asarray(variance * np.linalg.pinv(jacobian.T @ jacobian)[:n, :n], np.float64),
             self.weighted(self.known[u], gauges) - residual,
             jacobian[:, n:],
-            noise=np.sqrt(max(left, 1.0)) if known else None,
+            noise=np.sqrt(max(variance, 1.0)) if has_noise else None,
             count=count,
             seed=seed,
         )
         values = {
-            r.key: np.array([r.value(float(one)) for one in samples[:, k]])
+            r.key: np.array([r.value(float(u_k)) for u_k in samples[:, k]])
             for k, r in enumerate(self.ranges)
         }
         posterior = Posterior(values, error, self.solves - before)
@@ -350,10 +352,10 @@ class Search:
         shorter than that of the linear model. ``known``: the Jacobian, and the root of the rise
         asked for.
         """
-        jacobian, asked = known
+        jacobian, rise_wanted = known
         others = np.delete(jacobian, k, axis=1)
         along = covariance[:, k] / covariance[k, k]
-        linear = asked / float(np.linalg.norm(jacobian @ along))
+        linear = rise_wanted / float(np.linalg.norm(jacobian @ along))
         residual = self.residual(x)
         least = float(residual @ residual)
 
@@ -362,20 +364,20 @@ class Search:
             there[: len(self.ranges)] = np.clip(there[: len(self.ranges)], 0.0, 1.0)
             residual = self.residual(there)
             fitted = others @ np.linalg.lstsq(others, residual, rcond=None)[0]
-            rest = residual - fitted
-            return float(np.sqrt(max(float(rest @ rest) - least, 0.0)))
+            unfitted = residual - fitted
+            return float(np.sqrt(max(float(unfitted @ unfitted) - least, 0.0)))
 
         def end(sign: float, room: float) -> float:
             if linear >= room:
                 return linear
-            rise = max(risen(sign * linear), 1e-3 * asked)
-            if rise >= asked:
+            rise = max(risen(sign * linear), 1e-3 * rise_wanted)
+            if rise >= rise_wanted:
                 return linear
-            to = min(linear * min(asked / rise, FARTHER), room)
+            to = min(linear * min(rise_wanted / rise, FARTHER), room)
             further = risen(sign * to)
-            if further <= max(asked, rise):
+            if further <= max(rise_wanted, rise):
                 return to
-            return linear + (to - linear) * (asked - rise) / (further - rise)
+            return linear + (to - linear) * (rise_wanted - rise) / (further - rise)
 
         return end(-1, x[k]), end(1, 1 - x[k])
 
@@ -387,24 +389,24 @@ class Search:
         Each is more than cells and increments leave themselves. What the record leaves unsure, the
         turns of a loop, is moved by :data:`SURE` errors.
         """
-        here = self.weighted(self.known[u], gauges)
+        reference = self.weighted(self.known[u], gauges)
         coarse = self.scene.replace(grid=coarser(self.scene.grid))
-        changes = [self.weighted(self.known[u], gauges, SURE) - here]
+        changes = [self.weighted(self.known[u], gauges, SURE) - reference]
         for scene, finer in ((coarse, 1.0), (self.scene, 0.5)):
             try:
                 predictions = self.predictions(scene, u, finer)
             except (RuntimeError, ValueError):
                 # On cells that are too wide for the contact there is no telling.
                 self.solver_known = False
-                changes.append(np.zeros_like(here))
+                changes.append(np.zeros_like(reference))
             else:
-                changes.append(self.weighted(predictions, gauges) - here)
+                changes.append(self.weighted(predictions, gauges) - reference)
                 self.solves += sum(model.solves for model in self.models)
         return changes
 
 
 def coarser(grid: Grid) -> Grid:
-    """The same place in cells twice as wide."""
+    """Return a grid over the same area with cells twice as wide."""
     nx = max(grid.nx // 2, 1)
     ny = grid.ny if grid.plane_strain else max(grid.ny // 2, 1)
     dx, dy = grid.dx * grid.nx / nx, grid.dy * grid.ny / ny

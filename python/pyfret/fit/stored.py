@@ -18,8 +18,8 @@ __all__ = ["fit_from_dataset"]
 
 #: What a file may hold; nothing else is made of it.
 PARTS: dict[str, type] = {
-    of.__name__: of
-    for of in (FitResult, Known, Posterior, Measured, Loops, Indentation, Scar, Lives)
+    part.__name__: part
+    for part in (FitResult, Known, Posterior, Measured, Loops, Indentation, Scar, Lives)
 }
 
 

@@ -75,12 +75,12 @@ def read_table(
     ValueError
         There is no head; the message has the line.
     """
-    place = Path(path)
-    lines = list(enumerate(_core.read_text(place).splitlines(), 1))[skip:]
+    file = Path(path)
+    lines = list(enumerate(_core.read_text(file).splitlines(), 1))[skip:]
     kept = [(n, line.strip(" \r")) for n, line in lines if not is_comment(line)]
     filled = [line for _, line in kept if line.strip()]
     if len(filled) < 2:
-        raise ValueError(f"{place}: must be a head and rows of numbers")
+        raise ValueError(f"{file}: must be a head and rows of numbers")
     separator = find_separator(filled)
     rows = [(n, cells(line, separator) if line.strip() else []) for n, line in kept]
     first = first_row([row for _, row in rows if row])
@@ -91,7 +91,7 @@ def read_table(
         ]
         heads = [(n, cells(line, separator)) for n, line in comments if line.strip()]
         rows = heads + rows
-    return table_from_rows(str(place), rows, units)
+    return table_from_rows(str(file), rows, units)
 
 
 def table_from_rows(place: str, rows: list[Row], units: dict[str, str] | None = None) -> Table:
@@ -154,10 +154,10 @@ def number_or_fault(row: list[str], column: int, line: int, faults: dict[int, st
 def check_units(place: str, heads: list[str], said: dict[str, str], units: dict[str, str]) -> None:
     """Refuse units of columns that are not there, or of which the file says another one."""
     for name, unit in units.items():
-        of = [head for head in heads if name in (head, split_unit(head)[0])]
-        if not of:
+        matching = [head for head in heads if name in (head, split_unit(head)[0])]
+        if not matching:
             raise ValueError(f"{place}: units: has no column {name!r}, but {', '.join(heads)}")
-        there = said.get(of[0]) or split_unit(of[0])[1]
+        there = said.get(matching[0]) or split_unit(matching[0])[1]
         if kind_of(there) and _core.unit_of(there) != _core.unit_of(unit):
             raise ValueError(
                 f"{place}: units: {name!r} is given in {unit!r}, and the file says {there!r}: "
@@ -216,9 +216,9 @@ def cells(line: str, separator: str | None) -> list[str]:
         parts = line.split()
     else:
         parts = re.split(r"\s+(?![\[(/])", line)
-    found = [cell.strip().strip('"') for cell in parts]
+    cells = [cell.strip().strip('"') for cell in parts]
     # Some programs end a line as they part its columns.
-    return found[:-1] if len(found) > 1 and not found[-1] else found
+    return cells[:-1] if len(cells) > 1 and not cells[-1] else cells
 
 
 def named(head: str, units: dict[str, str]) -> tuple[str, str]:

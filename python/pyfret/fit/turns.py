@@ -96,7 +96,7 @@ def turns_between(delta: NDArray[np.float64], turns: list[int]) -> NDArray[np.fl
     turn the shift is the lower of both, and the turn lies where that is largest. Points rarely lie
     on the turn.
     """
-    found = []
+    refined = []
     for n, at in enumerate(turns):
         before = at - turns[n - 1] if n > 0 else at
         after = turns[n + 1] - at if n + 1 < len(turns) else delta.size - 1 - at
@@ -104,17 +104,19 @@ def turns_between(delta: NDArray[np.float64], turns: list[int]) -> NDArray[np.fl
         if min(before, after) < many:
             continue
         sign = 1.0 if delta[at] > delta[at - many] else -1.0
-        way = np.linspace(-1.0, 1.0, 401)
+        s = np.linspace(-1.0, 1.0, 401)
         sides = []
         for side in (np.arange(-many, 0), np.arange(1, many + 1)):
             parabola = np.polyfit(side, sign * delta[at + side], 2)
-            rest = sign * delta[at + side] - np.polyval(parabola, side)
-            sides.append((np.polyval(parabola, way), float(np.sqrt(rest @ rest / (many - 3)))))
+            residual = sign * delta[at + side] - np.polyval(parabola, side)
+            sides.append(
+                (np.polyval(parabola, s), float(np.sqrt(residual @ residual / (many - 3))))
+            )
         lower = np.minimum(sides[0][0], sides[1][0])
         top = int(lower.argmax())
         # Not below the outermost point, unless that stands out by its noise.
         noise = max(sides[0][1], sides[1][1])
         turn = max(float(lower[top]), sign * float(delta[at]) - 2.0 * noise)
         error = OF_WAY * abs(turn - sign * float(delta[at])) + noise
-        found.append((at + float(way[top]), sign * turn, error))
-    return np.array(found).reshape(-1, 3)
+        refined.append((at + float(s[top]), sign * turn, error))
+    return np.array(refined).reshape(-1, 3)

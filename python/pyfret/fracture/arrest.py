@@ -1,4 +1,4 @@
-"""What becomes of a crack, and how many cycles it takes: numbers, and the words for them."""
+"""Arrest and life of a crack: numbers, and their descriptions."""
 
 from __future__ import annotations
 
@@ -29,12 +29,12 @@ UNDECIDED = "not decided within the error of K"
 def of_estimates(*estimates: str | None, has_range: bool) -> list[str]:
     """Notes on the numbers that are estimates: ranges are those of the error of K alone."""
     beyond = " (the ranges leave out the scatter of estimates)" if has_range else ""
-    return [f"estimate: {of}{beyond}" for of in dict.fromkeys(estimates) if of]
+    return [f"estimate: {note}{beyond}" for note in dict.fromkeys(estimates) if note]
 
 
 @dataclass(frozen=True)
 class CrackArrest:
-    """What becomes of a crack that begins with a length.
+    """The arrest of a crack that begins with a length.
 
     Parameters
     ----------
@@ -82,8 +82,8 @@ class CrackArrest:
     @property
     def is_sure(self) -> bool:
         """Whether the error of K leaves one verdict: no bar reaches over the threshold."""
-        over = any(e is not None and abs(of - 1.0) < e for of, e in self._deciding())
-        return len(self.verdicts) == 1 and not over
+        undecided = any(e is not None and abs(value - 1.0) < e for value, e in self._deciding())
+        return len(self.verdicts) == 1 and not undecided
 
     @property
     def tip(self) -> float:
@@ -96,10 +96,10 @@ class CrackArrest:
     def growing(self) -> tuple[tuple[float, float], ...]:
         """Between which first lengths [m] a crack grows, to the longer one of each pair."""
         ends = [self.computed[0], *self.crossings, self.computed[1]]
-        own = sum(at < self.start for at in self.crossings)
+        crossings_before = sum(at < self.start for at in self.crossings)
         grows = self.at_start > 1.0
         pieces = enumerate(pairwise(ends))
-        return tuple(piece for n, piece in pieces if ((n - own) % 2 == 0) == grows)
+        return tuple(piece for n, piece in pieces if ((n - crossings_before) % 2 == 0) == grows)
 
     def __repr__(self) -> str:
         """Give :meth:`told`."""
@@ -112,23 +112,23 @@ class CrackArrest:
     def notes(self) -> list[str]:
         """Give :meth:`told` as a list, a fact each."""
         start, least = (
-            f"dK/dK_th {with_error(of, error)}"
-            for of, error in (
+            f"dK/dK_th {with_error(value, error)}"
+            for value, error in (
                 (self.at_start, self.at_start_error),
                 (self.margin, self.margin_error),
             )
         )
         begins = self.verdict == "dormant" or "dormant" in self.verdicts
-        bars = [(of, error) for of, error in self._deciding() if error is not None]
-        said = [
+        bars = [(value, error) for value, error in self._deciding() if error is not None]
+        sentences = [
             f"{self._alone()} from a length of {self.told_start()}{self._end()}{self._unsure()}",
             *self.others(),
             *([f"{start} at that length"] if begins else []),
             *([] if self.verdict == "dormant" else [f"least {least} at {um(self.margin_at)}"]),
         ]
         if any(error >= of > 0.0 for of, error in bars):
-            said.append("the error of K is as large as dK there")
-        return [*said, *of_estimates(self.estimate, has_range=self.lengths is not None)]
+            sentences.append("the error of K is as large as dK there")
+        return [*sentences, *of_estimates(self.estimate, has_range=self.lengths is not None)]
 
     def briefly(self) -> str:
         """Give the verdict in a few words, as figures have it."""
@@ -152,20 +152,22 @@ class CrackArrest:
         return um(self.start) + (", the shortest computed" if shortest else "")
 
     def others(self) -> list[str]:
-        """What cracks of other first lengths would do, a sentence each."""
-        said = []
+        """Describe the arrest of cracks of other first lengths, a sentence each."""
+        sentences = []
         for low, high in self.growing:
             whole = high >= self.computed[1]
             if self.at_start > 1.0 and low <= self.start <= high:
                 if low > self.computed[0]:
-                    said.append(f"one shorter than {um(low)} would not grow")
+                    sentences.append(f"one shorter than {um(low)} would not grow")
             elif whole:
-                said.append(f"one longer than {um(low)} would grow through all lengths")
+                sentences.append(f"one longer than {um(low)} would grow through all lengths")
             else:
-                said.append(f"one of {um(low)} to {um(high)} would grow, and stop at {um(high)}")
+                sentences.append(
+                    f"one of {um(low)} to {um(high)} would grow, and stop at {um(high)}"
+                )
         if not self.growing:
-            said.append(f"nor would one of any length up to {um(self.computed[1])}")
-        return said
+            sentences.append(f"nor would one of any length up to {um(self.computed[1])}")
+        return sentences
 
     def _alone(self) -> str:
         if self.verdict == "stops":
@@ -178,8 +180,8 @@ class CrackArrest:
     def _unsure(self) -> str:
         if not self.verdicts or self.is_sure:
             return ""
-        others = [MAY[of] for of in self.verdicts if of != self.verdict]
-        return f" ({UNDECIDED}{': it may ' if others else ''}{' or '.join(others)})"
+        alternatives = [MAY[verdict] for verdict in self.verdicts if verdict != self.verdict]
+        return f" ({UNDECIDED}{': it may ' if alternatives else ''}{' or '.join(alternatives)})"
 
     def _deciding(self) -> list[tuple[float, float | None]]:
         """The numbers that the verdict follows from, and their errors."""
@@ -234,15 +236,15 @@ class CrackLife:
 
     def notes(self) -> list[str]:
         """Give :meth:`told` as a list, a fact each."""
-        way = f"from {um(self.arrest.start)} to {um(self.length)}"
-        way += ", where it stops" if self.stopped else ""
+        path_text = f"from {um(self.arrest.start)} to {um(self.length)}"
+        path_text += ", where it stops" if self.stopped else ""
         if math.isinf(self.cycles):
             least = self.low is not None and math.isfinite(self.low)
             within = f" (within the error of K {rough(self.low or 0.0)} or more)"
-            said = f"no number of cycles{within if least else ''}: {self.why_infinite()}"
+            text = f"no number of cycles{within if least else ''}: {self.why_infinite()}"
         elif self.low is None or self.high is None:
-            said = f"{rough(self.cycles)} cycles (estimate) {way}"
+            text = f"{rough(self.cycles)} cycles (estimate) {path_text}"
         else:
-            said = f"{with_range(self.cycles, self.low, self.high)} cycles {way}"
+            text = f"{with_range(self.cycles, self.low, self.high)} cycles {path_text}"
         notes = self.arrest.estimate, self.estimate
-        return [said, *of_estimates(*notes, has_range=self.low is not None)]
+        return [text, *of_estimates(*notes, has_range=self.low is not None)]

@@ -110,7 +110,7 @@ def crack(
     if lengths is None:
         lengths = cycle_of.lengths
     lengths = np.sort(np.atleast_1d(plain(lengths, "lengths")))
-    found = cycle_of.intensity(
+    intensity = cycle_of.intensity(
         x=x, lengths=lengths.tolist(), angle=angle, kink=kink, azimuth=azimuth, friction=friction
     )
     sin, cos = np.sin(angle), np.cos(angle)
@@ -120,7 +120,7 @@ def crack(
         tips["x"] = x + first * sin + turned * np.sin(kink[1])
         tips["z"] = first * cos + turned * np.cos(kink[1])
     about = {"x": x, "angle": angle, "azimuth": azimuth, "friction": friction}
-    cracks = labelled(found, cycle_of, lengths, tips, about)
+    cracks = labelled(intensity, cycle_of, lengths, tips, about)
     if aspect is None:
         return cracks
     estimate = cracks.scaled(_core.ellipse_factor(aspect))
@@ -184,7 +184,7 @@ def grow(
     cycle_of = Cycle(result, cycle, body_number, residual)
     angle = as_number(angle)
     x, azimuth = cycle_of.place(x, as_number(azimuth), angle, friction)
-    found = cycle_of.growth(
+    growth = cycle_of.growth(
         x=x,
         start=cycle_of.shortest(0.02) if start is None else as_number(start),
         end=cycle_of.half_width if end is None else as_number(end),
@@ -195,8 +195,8 @@ def grow(
         friction=friction,
     )
     about: dict[str, Any] = {"x": x, "angle": angle, "azimuth": azimuth, "friction": friction}
-    about |= {"direction": direction, "path_error": found["path_error"], "end": found["end"]}
-    return labelled(found, cycle_of, found["length"], found, about)
+    about |= {"direction": direction, "path_error": growth["path_error"], "end": growth["end"]}
+    return labelled(growth, cycle_of, growth["length"], growth, about)
 
 
 @dataclass(frozen=True)
@@ -210,7 +210,7 @@ class Cycle:
 
     @cached_property
     def increments(self) -> NDArray[np.int64]:
-        """Which increments."""
+        """Return the increments."""
         return cycle_increments(self.result, self.cycle)
 
     @cached_property
@@ -248,7 +248,9 @@ class Cycle:
     def lines(self) -> list[Line]:
         """The sections of the cycle by default, the first along the shear."""
         section = Section(cycle=self.cycle, body_number=self.body_number)
-        return [one.line for one in sections_of_cycle(self.result, section)]
+        return [
+            section_of_cycle.line for section_of_cycle in sections_of_cycle(self.result, section)
+        ]
 
     @cached_property
     def above(self) -> _core.States:
@@ -256,7 +258,7 @@ class Cycle:
         return states_of(self.states, self.body_number)
 
     def found(self, of: Callable[..., dict[str, Any]], options: dict[str, Any]) -> dict[str, Any]:
-        """What a function of the core finds in the body under its states."""
+        """Call a function of the core with the body and its states."""
         scene = self.states[0].scene
         body = scene.body1 if self.body_number == 1 else scene.body2
         residual = None if self.residual is None else list(self.residual)

@@ -1,4 +1,4 @@
-"""What goes first below a coated contact: the film, the interface or the substrate."""
+"""First failure below a coated contact: film, interface or substrate."""
 
 from __future__ import annotations
 
@@ -66,24 +66,26 @@ class FailureOrder(NamedTuple):
         """The errors of the three; None of an estimate."""
         return {"film": None, "interface": None, "substrate": self.substrate_error}
 
-    def _told(self) -> list[str]:
-        told = [f"{of} {with_error(getattr(self, of), self.errors[of])}" for of in PARTS]
+    def _sentences(self) -> list[str]:
+        sentences = [
+            f"{part} {with_error(getattr(self, part), self.errors[part])}" for part in PARTS
+        ]
         if self.arrest is not None:
             mark = (
                 " (estimate)" if self.arrest.estimate and self.substrate_error is not None else ""
             )
             start, at = um(self.arrest.start), um(self.arrest.margin_at)
-            told[-1] += f"{mark} (least dK/dK_th from a length of {start} on, at {at})"
-        return told
+            sentences[-1] += f"{mark} (least dK/dK_th from a length of {start} on, at {at})"
+        return sentences
 
     def __repr__(self) -> str:
         """The three with their errors."""
-        return f"FailureOrder({', '.join(self._told())}; first: {self.first or 'none'})"
+        return f"FailureOrder({', '.join(self._sentences())}; first: {self.first or 'none'})"
 
     def summary(self) -> str:
         """The three with their errors, a line each, which fails first, and what a crack does."""
         crack = [] if self.arrest is None else [f"a crack {self.arrest.told()}"]
-        return "\n".join([*self._told(), f"first to fail: {self.first or 'none'}", *crack])
+        return "\n".join([*self._sentences(), f"first to fail: {self.first or 'none'}", *crack])
 
 
 @quantities
@@ -168,16 +170,16 @@ def first_to_fail(
         largest = float((cos**2 * xx + 2.0 * cos * sin * xy + sin**2 * yy).max())
         film = math.sqrt(channel_release(coating, below, largest) / toughness)
     if peel_strength is not None or shear_strength is not None:
-        found = over_cycle(
+        on_interface = over_cycle(
             result,
             peel_strength=peel_strength,
             shear_strength=shear_strength,
             body_number=body_number,
             cycle=cycle,
         )
-        interface = math.sqrt(float(found.criterion.max()))
+        interface = math.sqrt(float(on_interface.criterion.max()))
     if threshold is not None:
-        at = None if lengths is None else [as_number(one) for one in lengths]
+        at = None if lengths is None else [as_number(length) for length in lengths]
         cracks = crack(
             result, x, lengths=at, body_number=body_number, cycle=cycle, residual=residual
         )

@@ -99,15 +99,15 @@ class Threshold:
         material's ``walker`` where it has one and none is given. ``growth`` is its law of growth,
         where it has one.
         """
-        of = as_material(material)
-        known = {name: value for name, value, _ in of.numbers()}
+        table_material = as_material(material)
+        numbers = {name: value for name, value, _ in table_material.numbers()}
         names = ["dK_th", "s_D"]
-        if walker is None and "walker" in known:
-            walker = known["walker"]
+        if walker is None and "walker" in numbers:
+            walker = numbers["walker"]
             names.append("walker")
-        estimate = of.estimate_of(names)
-        growth = Paris.of(of) if {"paris_C", "paris_m"} <= set(known) else None
-        dK_th, dS_0 = of.number("dK_th") / 2.0, of.number("s_D")
+        estimate = table_material.estimate_of(names)
+        growth = Paris.of(table_material) if {"paris_C", "paris_m"} <= set(numbers) else None
+        dK_th, dS_0 = table_material.number("dK_th") / 2.0, table_material.number("s_D")
         return cls(dK_th, dS_0, Y, walker, estimate=estimate, growth=growth)
 
     def _numbers(
@@ -118,7 +118,7 @@ class Threshold:
 
     @property
     def mark(self) -> str:
-        """What stands behind its numbers where they are printed."""
+        """Return the mark behind its numbers where they are printed."""
         return " (estimate)" if self.estimate else ""
 
     @property
@@ -129,8 +129,8 @@ class Threshold:
     def at(self, lengths: ArrayLike) -> NDArray[np.float64]:
         """Threshold of cracks of the lengths [m] at R = 0 [Pa m^0.5]."""
         lengths = plain(lengths, "lengths")
-        found, _ = _core.threshold_at(self._numbers(), lengths.ravel().tolist())
-        return np.reshape(found, lengths.shape)
+        dK, _ = _core.threshold_at(self._numbers(), lengths.ravel().tolist())
+        return np.reshape(dK, lengths.shape)
 
 
 @part()
@@ -164,9 +164,11 @@ class Paris:
     @quantities
     def of(cls, material: Material | str) -> Paris:
         """Take ``paris_C`` and ``paris_m`` of a material; one without them is refused by name."""
-        of = as_material(material)
-        estimate = of.estimate_of(["paris_C", "paris_m"])
-        return cls(of.number("paris_C"), of.number("paris_m"), estimate=estimate)
+        table_material = as_material(material)
+        estimate = table_material.estimate_of(["paris_C", "paris_m"])
+        return cls(
+            table_material.number("paris_C"), table_material.number("paris_m"), estimate=estimate
+        )
 
 
 class Cracks(Saveable, Labelled, Figured):
@@ -182,8 +184,8 @@ class Cracks(Saveable, Labelled, Figured):
     @classmethod
     def from_arrays(cls, lengths: ArrayLike, K_max: ArrayLike, K_min: ArrayLike) -> Cracks:
         """Take the largest and the smallest K_I [Pa m^0.5] at lengths [m] from elsewhere."""
-        at, most, least = together(lengths=lengths, K_max=K_max, K_min=K_min)
-        K = np.stack([most, least])
+        at, largest, smallest = together(lengths=lengths, K_max=K_max, K_min=K_min)
+        K = np.stack([largest, smallest])
         about = {"units": "m", "long_name": "crack length"}
         length = ("length", at, about)
         return cls(xr.Dataset({"K_I": (("increment", "length"), K)}, coords={"length": length}))
@@ -233,21 +235,21 @@ class Cracks(Saveable, Labelled, Figured):
         along is 0, whatever the pressure between its faces. Its error is then max(``K_I_linear`` +
         ``error``, 0): by this it may be open.
         """
-        of = self.dataset
-        if "error" not in of:
-            return np.full(of.K_I.shape, np.nan)
-        error = np.asarray(of["error"].values, float)
-        if "open" not in of:
+        data = self.dataset
+        if "error" not in data:
+            return np.full(data.K_I.shape, np.nan)
+        error = np.asarray(data["error"].values, float)
+        if "open" not in data:
             return error
-        most = np.clip(np.asarray(of["K_I_linear"].values, float) + error, 0.0, error)
-        return np.where(np.asarray(of["open"].values) > 0.0, error, most)
+        limited = np.clip(np.asarray(data["K_I_linear"].values, float) + error, 0.0, error)
+        return np.where(np.asarray(data["open"].values) > 0.0, error, limited)
 
     @quantities
     def at_length(self, length: Length) -> xr.Dataset:
         """Give K over the cycle at the nearest length [m], ``K_I_error`` and ``K_II_error`` too."""
         d = self.dataset
-        both = d.assign(K_I_error=d.K_I.copy(data=self.K_I_error), K_II_error=d["error"])
-        return both.sel(length=as_number(length), method="nearest")
+        with_errors = d.assign(K_I_error=d.K_I.copy(data=self.K_I_error), K_II_error=d["error"])
+        return with_errors.sel(length=as_number(length), method="nearest")
 
     def _error_where(
         self, extreme: NDArray[np.float64], of: Callable[..., Any]
@@ -278,8 +280,10 @@ class Cracks(Saveable, Labelled, Figured):
         return Cracks(
             xr.Dataset(
                 {
-                    name: of if name == "open" else (of * factor).assign_attrs(of.attrs)
-                    for name, of in self.dataset.data_vars.items()
+                    name: variable
+                    if name == "open"
+                    else (variable * factor).assign_attrs(variable.attrs)
+                    for name, variable in self.dataset.data_vars.items()
                 },
                 attrs=self.dataset.attrs,
             )
@@ -288,11 +292,12 @@ class Cracks(Saveable, Labelled, Figured):
     def summary(self) -> str:
         """Tabulate K of the cycle over the length: um, and MPa m^0.5."""
         rows = ["length [um]  K_max  K_min  range [MPa m^0.5]"]
-        for length, most, least, span in zip(
+        for length, largest, smallest, span in zip(
             self.lengths, self.K_max, self.K_min, self.dK(), strict=True
         ):
             rows.append(
-                f"{1e6 * length:11.4g}  {1e-6 * most:5.3g}  {1e-6 * least:5.3g}  {1e-6 * span:.4g}"
+                f"{1e6 * length:11.4g}  {1e-6 * largest:5.3g}  {1e-6 * smallest:5.3g}  "
+                f"{1e-6 * span:.4g}"
             )
         if "error" in self.dataset:
             for name, error in (("K_max", self.error), ("range", self.dK_error())):
@@ -308,10 +313,10 @@ class Cracks(Saveable, Labelled, Figured):
         self, threshold: Threshold | None, more: NDArray[np.float64] | float
     ) -> NDArray[np.float64]:
         """The range with `more` of K_max."""
-        _, most, least = self._curve(more)
-        if threshold is None or not np.all(np.isfinite(most)):
-            return np.maximum(most, 0.0) - np.maximum(least, 0.0)
-        return np.asarray(_core.equivalent_range(threshold._numbers(), most, least))
+        _, largest, smallest = self._curve(more)
+        if threshold is None or not np.all(np.isfinite(largest)):
+            return np.maximum(largest, 0.0) - np.maximum(smallest, 0.0)
+        return np.asarray(_core.equivalent_range(threshold._numbers(), largest, smallest))
 
     def _curve(
         self, more: NDArray[np.float64] | float = 0.0
@@ -338,7 +343,7 @@ class Cracks(Saveable, Labelled, Figured):
             return _core.arrest(*self._curve(more), below._numbers(), first)
 
         verdict, length, crossings, at_start, margin, at = followed(0.0)
-        found = CrackArrest(
+        arrest = CrackArrest(
             verdict,
             first,
             length if verdict == "stops" else None,
@@ -350,14 +355,14 @@ class Cracks(Saveable, Labelled, Figured):
             estimate=below.estimate,
         )
         if "error" not in self.dataset:
-            return found
+            return arrest
         ends = [followed(error) for error in self._ends()]
         stops = [
             {"dormant": first, "grows": math.inf}.get(end[0], end[1])
             for end in (*ends, [verdict, length])
         ]
         return replace(
-            found,
+            arrest,
             margin_error=max(abs(end[4] - margin) for end in ends),
             at_start_error=max(abs(end[3] - at_start) for end in ends),
             lengths=(float(min(stops)), float(max(stops))),
@@ -401,13 +406,13 @@ class Cracks(Saveable, Labelled, Figured):
                 end=float(self.lengths[-1]) if end is None else as_number(end),
             )
 
-        found = CrackLife(
+        life = CrackLife(
             *followed(0.0), self.arrest(threshold, start=start), estimate=growth.estimate
         )
         if "error" not in self.dataset:
-            return found
+            return life
         ends = [followed(error)[0] for error in self._ends()]
-        return replace(found, low=min(found.cycles, *ends), high=max(found.cycles, *ends))
+        return replace(life, low=min(life.cycles, *ends), high=max(life.cycles, *ends))
 
     @quantities
     def kitagawa(self, threshold: Threshold) -> xr.Dataset:

@@ -70,9 +70,9 @@ def over_cycle(
         raise ValueError(f"body {where.body_number} has no coating and no interface")
     peel_strength, shear_strength = as_number(peel_strength), as_number(shear_strength)
     strengths = {"peel_strength": peel_strength, "shear_strength": shear_strength}
-    given = [name for name, value in strengths.items() if value is not None]
-    if len(given) == 1:
-        raise ValueError(f"{given[0]} is given alone: the criterion needs both strengths")
+    given_strengths = [name for name, value in strengths.items() if value is not None]
+    if len(given_strengths) == 1:
+        raise ValueError(f"{given_strengths[0]} is given alone: the criterion needs both strengths")
     for name, value in strengths.items():
         if value is not None and not (value > 0.0 and np.isfinite(value)):
             raise ValueError(f"{name} = {value}: must be a positive stress in Pa")
@@ -91,7 +91,7 @@ def over_cycle(
     dims = ("interface", along)
     # The error of the stress over a cycle is not known.
     pascal = {"units": "Pa", **ESTIMATE}
-    found = xr.Dataset(
+    result_fields = xr.Dataset(
         {
             "peel": (dims, peel.max(axis=0), {**pascal, "long_name": "largest peel of the cycle"}),
             "shear": (
@@ -114,8 +114,8 @@ def over_cycle(
             "units": "1",
             "long_name": "quadratic criterion of the interface, 1 at failure",
         }
-        found["criterion"] = (dims, square.max(axis=0), attrs)
-    return found
+        result_fields["criterion"] = (dims, square.max(axis=0), attrs)
+    return result_fields
 
 
 def _half_chord(path: np.ndarray) -> np.ndarray:

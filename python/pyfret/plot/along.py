@@ -88,10 +88,10 @@ def zones_along(ax: Axes | None, snapshot: State, by: Scales, zone: NDArray[np.i
     x, p = snapshot.dataset.x.values / by.length.value, snapshot.dataset.p.values[:, 0]
     cell = snapshot.scene.grid.dx / by.length.value
     for n, colour in ((1, SLIP), (2, STICK)):
-        here = zone[:, 0] == n
+        in_zone = zone[:, 0] == n
         # A hair wider than a cell, so that no white shows between neighbours.
-        height = p[here] / by.stress.value
-        ax.bar(x[here], height, width=1.02 * cell, color=colour, linewidth=0)
+        height = p[in_zone] / by.stress.value
+        ax.bar(x[in_zone], height, width=1.02 * cell, color=colour, linewidth=0)
     look_along(ax, snapshot, by.length, fresh=True)
     ax.set_xlabel(by.length.label("x"))
     ax.set_ylabel(by.stress.label("p"))
@@ -129,8 +129,10 @@ def shear_along(ax: Axes | None, snapshot: State, by: Scales) -> Axes:
     d = snapshot.dataset
     x, contact = d.x.values / by.length.value, d.contact.values.astype(bool)[:, 0]
     q = {name: d[name].values[:, 0] / by.shear.value for name in ("q_x", "q_y")}
-    largest = max(float(np.abs(of).max()) for of in q.values())
-    shown = [name for name, of in q.items() if np.abs(of).max() > 1e-6 * largest] or ["q_x"]
+    largest = max(float(np.abs(tractions).max()) for tractions in q.values())
+    shown = [name for name, tractions in q.items() if np.abs(tractions).max() > 1e-6 * largest] or [
+        "q_x"
+    ]
     for name in shown:
         ax.plot(x, np.where(contact, q[name], np.nan), label=f"${name}$")
     label = f"${shown[0]}$" if len(shown) == 1 else None

@@ -55,11 +55,11 @@ def animate(
     ValueError
         The ending of the file is another, or fewer than two increments kept their fields.
     """
-    place = Path(path)
-    if place.suffix not in WRITERS:
-        raise ValueError(f"{place}: must end in {' or '.join(WRITERS)}")
-    if place.suffix == ".mp4" and not FFMpegWriter.isAvailable():
-        raise ValueError(f"{place}: films as .mp4 need the program ffmpeg; .gif needs none")
+    target = Path(path)
+    if target.suffix not in WRITERS:
+        raise ValueError(f"{target}: must end in {' or '.join(WRITERS)}")
+    if target.suffix == ".mp4" and not FFMpegWriter.isAvailable():
+        raise ValueError(f"{target}: films as .mp4 need the program ffmpeg; .gif needs none")
     kept = result.dataset.saved_increment.values
     if increments is not None:
         kept = plain(increments, "increments").astype(np.int64)
@@ -89,5 +89,5 @@ def animate(
         return (dot, bar)
 
     film = FuncAnimation(figure, draw, frames=len(snapshots), blit=False)
-    film.save(place, writer=WRITERS[place.suffix](fps=fps), dpi=dpi)
+    film.save(target, writer=WRITERS[target.suffix](fps=fps), dpi=dpi)
     plt.close(figure)

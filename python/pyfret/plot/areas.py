@@ -68,8 +68,10 @@ class Raster:
     def nearest(self, field: NDArray[Any]) -> NDArray[Any]:
         """Values of the nearest samples, of a field over (y, x)."""
         places = [
-            np.rint(along(fine, given, np.arange(given.size), log=log)).astype(int)
-            for fine, given, log in zip((self.x, self.y), self._samples, self._log, strict=True)
+            np.rint(along(fine, given_samples, np.arange(given_samples.size), log=log)).astype(int)
+            for fine, given_samples, log in zip(
+                (self.x, self.y), self._samples, self._log, strict=True
+            )
         ]
         near: NDArray[Any] = np.asarray(field)[np.ix_(places[1], places[0])]
         return near
@@ -116,5 +118,7 @@ def along(
 ) -> NDArray[np.float64]:
     """Linear interpolation over ascending samples, or over their logarithm."""
     order = np.argsort(samples)
-    of = np.log if log else np.asarray
-    return np.asarray(np.interp(of(places), of(samples[order]), np.asarray(values, float)[order]))
+    scale = np.log if log else np.asarray
+    return np.asarray(
+        np.interp(scale(places), scale(samples[order]), np.asarray(values, float)[order])
+    )

@@ -48,7 +48,7 @@ class Panel(NamedTuple):
 
 
 class SideBySide(Protocol):
-    """What has candidates and numbers of each."""
+    """An object with candidates and the numbers of each."""
 
     @property
     def candidates(self) -> list[str]:
@@ -85,7 +85,7 @@ def comparison(of: SideBySide) -> Figure:
         draw(ax, panel)
     for ax in axes.flat[len(panels) :]:
         ax.set_axis_off()
-    axes[0, 0].set_yticks(range(len(candidates)), [literal(one) for one in candidates])
+    axes[0, 0].set_yticks(range(len(candidates)), [literal(candidate) for candidate in candidates])
     return figure
 
 

@@ -66,17 +66,17 @@ def crack_path(
     x = cracks.places(np.concatenate([[mouth], dataset.x.values])) / scale
     z = np.concatenate([[0.0], dataset.z.values]) / scale
     s = np.concatenate([[0.0], cracks.lengths])
-    found = None if threshold is None else cracks.arrest(threshold, start=start)
-    end = s[-1] if found is None else found.tip
+    arrest = None if threshold is None else cracks.arrest(threshold, start=start)
+    end = s[-1] if arrest is None else arrest.tip
     grown = np.append(s[s < end], end)
     ax.plot(np.interp(grown, s, x), np.interp(grown, s, z), color="k", linewidth=1.8, zorder=4)
-    if found is not None and found.verdict != "grows":
-        rest = np.insert(s[s > end], 0, end)
-        line = np.interp(rest, s, x), np.interp(rest, s, z)
+    if arrest is not None and arrest.verdict != "grows":
+        unreached = np.insert(s[s > end], 0, end)
+        line = np.interp(unreached, s, x), np.interp(unreached, s, z)
         ax.plot(*line, color="k", linewidth=0.8, linestyle="dashed", zorder=4)
         ax.plot(line[0][0], line[1][0], "o", color="#a50f15", markersize=4, zorder=5)
         ax.annotate(
-            in_letters(found.briefly()),
+            in_letters(arrest.briefly()),
             (float(line[0][0]), float(line[1][0])),
             xytext=(6, -3),
             textcoords="offset points",
@@ -122,8 +122,8 @@ def crack_panels(
     names = {"x": r"\sigma_{xx}", "y": r"\sigma_{yy}", "s": r"\sigma_{ss}"}
     section_map(across.assign_attrs(stress.s_xx.attrs), symbol=names[line.along], ax=axes[0, 0])
     crack_path(cracks, threshold, start=start, ax=axes[0, 0])
-    found = cracks.arrest(threshold, start=start)
-    length = cracks.lengths[len(cracks.lengths) // 2] if found.verdict == "grows" else found.tip
+    arrest = cracks.arrest(threshold, start=start)
+    length = cracks.lengths[len(cracks.lengths) // 2] if arrest.verdict == "grows" else arrest.tip
     intensity_history(cracks, float(length), ax=axes[0, 1])
     crack_arrest(cracks, threshold, start=start, ax=axes[1, 0])
     kitagawa(cracks, threshold, ax=axes[1, 1])

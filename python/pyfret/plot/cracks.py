@@ -62,23 +62,25 @@ def intensity_history(cracks: Cracks, length: Length, *, ax: Axes | None = None)
         Where to draw.
     """
     ax = axes(ax)
-    one = cracks.at_length(length)
+    at_length = cracks.at_length(length)
     for name, label, colour in (
         ("K_I", r"$K_\mathrm{I}$", "C0"),
         ("K_II", r"$K_\mathrm{II}$", "C1"),
     ):
         ax.errorbar(
-            one.increment,
-            one[name] * MEGA,
-            yerr=one[f"{name}_error"] * MEGA,
+            at_length.increment,
+            at_length[name] * MEGA,
+            yerr=at_length[f"{name}_error"] * MEGA,
             color=colour,
             label=label,
             elinewidth=0.6,
         )
-        ax.plot(one.increment, one[f"{name}_linear"] * MEGA, color=colour, linewidth=0.5)
+        ax.plot(
+            at_length.increment, at_length[f"{name}_linear"] * MEGA, color=colour, linewidth=0.5
+        )
     ax.plot([], [], color="0.3", linewidth=0.5, label="faces that pass through each other")
     ax.axhline(0.0, color="0.7", linewidth=0.5, zorder=0)
-    ax.set_title(rf"$l = {float(one.length) * MICRO:.3g}$ µm")
+    ax.set_title(rf"$l = {float(at_length.length) * MICRO:.3g}$ µm")
     ax.xaxis.set_major_locator(MaxNLocator(6, integer=True))
     ax.set_xlabel("increment")
     ax.set_ylabel(r"$K$ [MPa m$^{1/2}$]")
@@ -116,11 +118,11 @@ def crack_arrest(
     ax.plot(lengths, cracks.dK(threshold) * MEGA, color="C0", label=r"$\Delta K$")
     limit = rf"$\Delta K_\mathrm{{th}}${threshold.mark}"
     ax.plot(lengths, threshold.at(cracks.lengths) * MEGA, "k--", label=limit)
-    found = cracks.arrest(threshold, start=start)
-    tip = np.atleast_1d(threshold.at(found.tip))[0] * MEGA
-    if found.verdict != "grows":
-        ax.plot(found.tip * MICRO, tip, "o", color="C3", zorder=3)
-    ax.set_title(in_letters(f"the crack {found.briefly()}"), fontsize="medium")
+    arrest = cracks.arrest(threshold, start=start)
+    tip = np.atleast_1d(threshold.at(arrest.tip))[0] * MEGA
+    if arrest.verdict != "grows":
+        ax.plot(arrest.tip * MICRO, tip, "o", color="C3", zorder=3)
+    ax.set_title(in_letters(f"the crack {arrest.briefly()}"), fontsize="medium")
     ax.set_xscale("log")
     ax.set_ylim(bottom=0.0)
     ax.set_xlabel(r"crack length $l$ [µm]")
@@ -152,11 +154,11 @@ def kitagawa(cracks: Cracks, threshold: Threshold, *, ax: Axes | None = None) ->
         Where to draw.
     """
     ax = axes(ax)
-    found = cracks.kitagawa(threshold)
-    lengths = found.length * MICRO
-    load = found["load"].where(found["load"] > 0.0)
+    diagram = cracks.kitagawa(threshold)
+    lengths = diagram.length * MICRO
+    load = diagram["load"].where(diagram["load"] > 0.0)
     ax.plot(lengths, load * MEGA, color="C0", label="load")
-    ax.plot(lengths, found["limit"] * MEGA, "k--", label=f"limit{threshold.mark}")
+    ax.plot(lengths, diagram["limit"] * MEGA, "k--", label=f"limit{threshold.mark}")
     if threshold.dS_0 is not None:
         ax.axhline(threshold.dS_0 * MEGA, color="0.6", linestyle=":", label=r"$\Delta\sigma_0$")
     ax.set_xscale("log")

@@ -63,10 +63,10 @@ def design_chart(
     at_x, at_y = table[x].values / units[0], table[y].values / units[1]
     raster = Raster(at_x, at_y)
     loads = np.array([raster.of(table[name].values) for name in PARTS])
-    known = np.isfinite(loads)
-    worst = np.where(known, loads, -np.inf)
+    has_value = np.isfinite(loads)
+    worst = np.where(has_value, loads, -np.inf)
     first = np.where(worst.max(axis=0) >= 1.0, 1.0 + worst.argmax(axis=0), 0.0)
-    first[~known.any(axis=0)] = np.nan
+    first[~has_value.any(axis=0)] = np.nan
     entries: list[Patch | Line2D] = [*raster.draw(ax, first, FIRST)]
     for name, style in zip(PARTS, STYLES, strict=True):
         load = table[name].values

@@ -72,12 +72,12 @@ def fretting_map(table: xr.Dataset, *, ax: Axes | None = None) -> Axes:
     raster = Raster(W, amplitude)
     entries: list[Patch | Line2D] = [*raster.draw(ax, conditions(table, raster, scale), CONDITIONS)]
     energy, meaning = in_figures(table.dissipated)
-    meaning = told(meaning, table, "dissipated")
+    meaning = label_with_error(meaning, table, "dissipated")
     entries += lines(ax, W, amplitude, energy.values, None, ENERGY, "dashed", meaning)
     for name, levels in (("safety_factor", FACTORS), ("life", LIVES)):
         if name in table:
             meaning = {"safety_factor": "safety factor", "life": "life [cycles]"}[name]
-            meaning = told(meaning, table, name)
+            meaning = label_with_error(meaning, table, name)
             entries += lines(ax, W, amplitude, table[name].values, levels, CRACK, "solid", meaning)
     entries += arrest_lines(ax, raster, table)
     ax.set_xlabel(f"$W$ [{force_unit(table)}]")
@@ -119,8 +119,8 @@ def carried(field: NDArray[Any], order: NDArray[np.int_]) -> NDArray[np.float64]
     return back
 
 
-def told(meaning: str, table: xr.Dataset, name: str) -> str:
-    """What contours are, and how well their numbers are known."""
+def label_with_error(meaning: str, table: xr.Dataset, name: str) -> str:
+    """Return the label of contours, with the error of their numbers."""
     return ", ".join(filter(None, (meaning, known_to(table, name))))
 
 
@@ -143,11 +143,11 @@ def lines(
     shown = np.ma.masked_invalid(field)
     if min(shown.shape) < 2 or shown.count() < 4:
         return []
-    given: dict[str, Any] = {} if levels is None else {"levels": levels}
-    found = levels if levels is not None else np.array([])
-    widths = np.where(found == 1.0, 2.0, 1.0) if found.size else 0.8
+    options: dict[str, Any] = {} if levels is None else {"levels": levels}
+    given_levels = levels if levels is not None else np.array([])
+    widths = np.where(given_levels == 1.0, 2.0, 1.0) if given_levels.size else 0.8
     drawn = ax.contour(
-        W, amplitude, shown, colors=colour, linestyles=style, linewidths=widths, **given
+        W, amplitude, shown, colors=colour, linestyles=style, linewidths=widths, **options
     )
     whole_labels(ax, ax.clabel(drawn, fontsize=7, fmt="%g"))
     return [Line2D([], [], color=colour, linestyle=style, linewidth=1.0, label=meaning)]
@@ -162,7 +162,7 @@ def arrest_lines(ax: Axes, raster: Raster, table: xr.Dataset, colour: str = ARRE
     if "start_margin" in table:
         # A crack that does not grow stops nowhere.
         length = np.where(raster.of(table.start_margin.values) < 1.0, np.nan, length)
-    meaning = told("crack stops at [µm]", table, "arrest_length")
+    meaning = label_with_error("crack stops at [µm]", table, "arrest_length")
     entries = lines(ax, x, y, length, LENGTHS, colour, "dotted", meaning)
     margin = np.ma.masked_invalid(raster.of(table.arrest_margin.values))
     if min(margin.shape) > 1 and margin.min() < 1.0 < margin.max():
@@ -175,7 +175,7 @@ def arrest_lines(ax: Axes, raster: Raster, table: xr.Dataset, colour: str = ARRE
 
 @styled
 def arrest_map(table: xr.Dataset, *, ax: Axes | None = None) -> Axes:
-    """Where cracks stop over shear and bulk stress, and at which length.
+    """Map where cracks stop over shear and bulk stress, and at which length.
 
     Three areas: no crack grows from its first length, cracks stop, cracks grow. Dotted lines are
     the lengths at which they stop. Full lines are the criterion of initiation, if the map has one.
@@ -193,16 +193,16 @@ def arrest_map(table: xr.Dataset, *, ax: Axes | None = None) -> Axes:
     table = table.transpose("T", "sigma_B")
     bulk, T = table.sigma_B.values / 1e6, table["T"].values / 1e3
     raster = Raster(bulk, T)
-    start, most = (raster.of(table[name].values) for name in ("start_margin", "arrest_margin"))
-    fate = np.where(start < 1.0, 0.0, np.where(most < 1.0, 1.0, 2.0))
-    fate[np.isnan(most)] = np.nan
+    start, arrest = (raster.of(table[name].values) for name in ("start_margin", "arrest_margin"))
+    fate = np.where(start < 1.0, 0.0, np.where(arrest < 1.0, 1.0, 2.0))
+    fate[np.isnan(arrest)] = np.nan
     entries: list[Patch | Line2D] = [*raster.draw(ax, fate, FATES)]
     for name, levels, meaning in (
         ("safety_factor", FACTORS, "safety factor of initiation"),
         ("life", LIVES, "cycles to initiation"),
     ):
         if name in table:
-            about = told(meaning, table, name)
+            about = label_with_error(meaning, table, name)
             entries += lines(ax, bulk, T, table[name].values, levels, CRACK, "solid", about)
     entries += arrest_lines(ax, raster, table)
     ax.set_xlabel(r"bulk stress $\sigma_\mathrm{B}$ [MPa]")

@@ -102,8 +102,8 @@ def temperature_map(
     values = found[of].sel(body=body_number).values
     look = {"cmap": "YlGnBu", "aspect": ax.get_aspect(), **image}
     drawn = ax.imshow(values.T, origin="lower", extent=extent, **look)
-    place = found.attrs["maximum_x"] / length.value, found.attrs["maximum_y"] / length.value
-    ax.plot(*place, marker="x", color="0.1", markersize=5)
+    hottest = found.attrs["maximum_x"] / length.value, found.attrs["maximum_y"] / length.value
+    ax.plot(*hottest, marker="x", color="0.1", markersize=5)
     ax.set_xlabel(length.label("x"))
     ax.set_ylabel(length.label("y"))
     beside(ax, drawn, rf"{NAMES[of]} of body {body_number} [K]")

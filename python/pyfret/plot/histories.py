@@ -118,7 +118,7 @@ def fretting_loop(
 
 
 def loop_point(result: Run, at: State) -> tuple[list[float], list[float]]:
-    """Where an increment lies on the drawn loop of :func:`fretting_loop`."""
+    """Return the point of an increment on the loop of :func:`fretting_loop`."""
     force, shift, *_ = NAMES[driven(result.scene.path)]
     d = result.dataset
     started = np.flatnonzero(d.branch_of_increment.values == 0)[-1]
@@ -207,9 +207,9 @@ def load_path(
     """
     ax = axes(ax)
     t, columns = histories(path)
-    given = getattr(path, "mu", mu)
+    path_mu = getattr(path, "mu", mu)
     # Without friction the normal force itself is the yardstick.
-    mu, times = (1.0, "") if given is None else (given, r"\mu\, ")
+    mu, times = (1.0, "") if path_mu is None else (path_mu, r"\mu\, ")
     W_max = np.nanmax(np.abs(columns["W"])) if "W" in columns else 0.0
     for name, values in columns.items():
         symbol, unit = DRIVEN[name]
@@ -241,10 +241,10 @@ def histories(
     branches = path.branches if isinstance(path, LoadPath) else path.scene.path.branches
     names = [name for name in DRIVEN if any(getattr(b, name) for b in branches)]
     if isinstance(path, LoadPath):
-        of = {name: [getattr(b, name) for b in branches] for name in names}
+        values = {name: [getattr(b, name) for b in branches] for name in names}
         columns = {
             name: np.array([np.nan if v is None else v for v in values], dtype=float)
-            for name, values in of.items()
+            for name, values in values.items()
         }
         t = np.array([b.t for b in branches])
     else:

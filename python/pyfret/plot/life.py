@@ -103,8 +103,8 @@ def criterion_map(
     """
     worst = life.worst
     safety = life.margin.name == "safety_factor"
-    told = worst.format_margin()
-    margin = f"safety {told}" if safety else f"{told} cycles"
+    margin_text = worst.format_margin()
+    margin = f"safety {margin_text}" if safety else f"{margin_text} cycles"
     field, label = _shown(life)
     shown = life.dataset.value.copy(data=field).assign_attrs(life.dataset.attrs)
     ax = _contours(shown, label, units, levels, ax, stretch=stretch, limit=1.0 if safety else None)
@@ -177,8 +177,8 @@ def _contours(
     stretch = draw_depth_axis(ax, borders, "y", length, stretch=stretch)
     ax.set_facecolor(UNJUDGED)
     for part, (top, bottom) in enumerate(pairwise(borders)):
-        of = shown.values[shown.layer.values == shown.layer.values[0] + part]
-        if np.isnan(of).all():
+        field_of_layer = shown.values[shown.layer.values == shown.layer.values[0] + part]
+        if np.isnan(field_of_layer).all():
             ax.axhspan(top, bottom, **NO_MATERIAL)
     image = _filled(ax, x, z, shown, levels, limit)
     for depth in inner:
@@ -202,8 +202,8 @@ def _enlarge(ax: Axes, shown: xr.DataArray, value: NDArray[np.float64], units: U
     near = np.nan_to_num(value) >= HALF * np.nanmax(value)
     places = [shown[str(shown.dims[1])].values / length.value, shown.z.values / length.value]
     spans = []
-    for at, here in zip(places, (near.any(axis=0), near.any(axis=1)), strict=True):
-        low, high = float(at[here].min()), float(at[here].max())
+    for at, near_point in zip(places, (near.any(axis=0), near.any(axis=1)), strict=True):
+        low, high = float(at[near_point].min()), float(at[near_point].max())
         # A margin of their own size, of three points at least.
         room = max(high - low, 3.0 * float(np.ptp(at)) / at.size)
         spans.append((max(low - room, float(at[0])), min(high + room, float(at[-1]))))
@@ -234,24 +234,26 @@ def _filled(
     if limit is not None and np.nanmax(np.abs(field)) < NOTHING:
         note(ax, "nothing of the limit is used")
         return None
-    most = np.nanmax(field)
+    highest = np.nanmax(field)
     if limit is None:
-        most = min(most, np.log10(ENDLESS))
-    steps = np.asarray(MaxNLocator(levels).tick_values(np.nanmin(field), most))
-    if limit is None and np.nanmax(field) > most:
-        steps = np.append(steps[steps < most], most)
+        highest = min(highest, np.log10(ENDLESS))
+    steps = np.asarray(MaxNLocator(levels).tick_values(np.nanmin(field), highest))
+    if limit is None and np.nanmax(field) > highest:
+        steps = np.append(steps[steps < highest], highest)
         if steps.size < 2:
             return None
     bold = False
     for part in np.unique(layers):
-        here = layers == part
-        if np.count_nonzero(here) < 2 or not np.isfinite(field[here]).any():
+        in_layer = layers == part
+        if np.count_nonzero(in_layer) < 2 or not np.isfinite(field[in_layer]).any():
             continue
-        image = ax.contourf(x, z[here], field[here], levels=steps, cmap=colours)
+        image = ax.contourf(x, z[in_layer], field[in_layer], levels=steps, cmap=colours)
         lines = steps[steps > 0.0]
-        ax.contour(x, z[here], field[here], levels=lines, colors="0.2", linewidths=0.4)
-        if limit is not None and field[here].min() < limit < field[here].max():
-            ax.contour(x, z[here], field[here], levels=[limit], colors="0.1", linewidths=1.8)
+        ax.contour(x, z[in_layer], field[in_layer], levels=lines, colors="0.2", linewidths=0.4)
+        if limit is not None and field[in_layer].min() < limit < field[in_layer].max():
+            ax.contour(
+                x, z[in_layer], field[in_layer], levels=[limit], colors="0.1", linewidths=1.8
+            )
             bold = True
     if bold:
         # For the legend; the contour itself has no label.
@@ -284,12 +286,12 @@ def history_of(stress: ArrayLike | Life) -> tuple[NDArray[np.float64], fatigue.C
     """The stress history of one point of shape (time, 6) [Pa], and the criterion of a life."""
     if isinstance(stress, fatigue.Life):
         return stress.history(), stress.criterion
-    found = histories(stress, "stress").whole()
-    if found.size != 6 * len(found):
+    history = histories(stress, "stress").whole()
+    if history.size != 6 * len(history):
         raise ValueError(
-            f"stress has the shape {found.shape}: must be that of one point, (time, 6)"
+            f"stress has the shape {history.shape}: must be that of one point, (time, 6)"
         )
-    return found.reshape(-1, 6), None
+    return history.reshape(-1, 6), None
 
 
 @styled
@@ -299,7 +301,7 @@ def critical_plane_rose(
     *,
     plastic_strain: Numbers | None = None,
 ) -> Axes:
-    """What acts on the planes through one point whose normal lies in the x-z plane.
+    """Draw the stresses on the planes through one point whose normal lies in the x-z plane.
 
     The angle is that of the normal from x towards z, downwards as in a section. Curves are the
     largest tension and half of the range of the shear within the x-z plane. A bar is the normal of
@@ -315,17 +317,19 @@ def critical_plane_rose(
     plastic_strain : array of the shape of the stress, optional
         Plastic strain at the same instants (default: that of the life).
     """
-    given = stress
-    stress, own = history_of(stress)
-    criterion = own if criterion is None else criterion
+    life_or_stress = stress
+    stress, own_criterion = history_of(stress)
+    criterion = own_criterion if criterion is None else criterion
     if criterion is None:
         raise TypeError("criterion: must be given with a history, such as Criterion.findley(k=0.3)")
     if not criterion.has_plane:
         raise ValueError(f"{criterion.name} has no critical plane")
-    if isinstance(given, fatigue.Life):
-        plastic_strain, given = given.history("plastic_strain"), stress
-    found = fatigue.evaluate_criterion(given, criterion, plastic_strain=plastic_strain)
-    normal = found.normal.values.reshape(3)
+    if isinstance(life_or_stress, fatigue.Life):
+        plastic_strain, life_or_stress = life_or_stress.history("plastic_strain"), stress
+    criterion_values = fatigue.evaluate_criterion(
+        life_or_stress, criterion, plastic_strain=plastic_strain
+    )
+    normal = criterion_values.normal.values.reshape(3)
     angle = np.radians(np.arange(0.0, 360.5, 1.0))
     c, s = np.cos(angle)[:, None], np.sin(angle)[:, None]
     xx, zz, xz = stress[:, 0], stress[:, 2], stress[:, 4]
@@ -417,11 +421,11 @@ def haigh_diagram(
         raise ValueError(f"{criterion} has no critical plane")
     ax = axes(ax)
     for layer in life.layers:
-        here = d.layer.values == layer
-        mean, amplitude = (d[f"normal_{k}"].values[here] / 1e6 for k in ("mean", "amplitude"))
+        in_layer = d.layer.values == layer
+        mean, amplitude = (d[f"normal_{k}"].values[in_layer] / 1e6 for k in ("mean", "amplitude"))
         colour = f"C{layer}"
         ax.plot(mean.ravel(), amplitude.ravel(), ".", ms=2.5, color=colour, alpha=0.35)
-        n = int(np.nanargmax(d.value.values[here]))
+        n = int(np.nanargmax(d.value.values[in_layer]))
         name = layer_name(layer, len(d.attrs["interfaces"]))
         at = (mean.ravel()[n], amplitude.ravel()[n])
         ax.plot(*at, "x", color=colour, ms=8, mew=1.8, label=f"worst point, {name}")
@@ -439,10 +443,10 @@ def _limit_of_uniaxial_stress(ax: Axes, material: Material) -> None:
     """The amplitude that a mean stress leaves, where there are points."""
     slope, name = fatigue.mean_stress_slope(material)
     s_D = material.number("s_D") / 1e6
-    left, right = ax.get_xlim()
-    ends = np.array([min(left, 0.0), s_D / slope if slope > 0.0 else right])
+    x_min, right = ax.get_xlim()
+    ends = np.array([min(x_min, 0.0), s_D / slope if slope > 0.0 else right])
     ax.plot(ends, s_D - slope * ends, color="0.2", linestyle="--", label=f"limit, {name}")
-    ax.set_xlim(left, right)
+    ax.set_xlim(x_min, right)
 
 
 class OverDistances(Protocol):

@@ -61,7 +61,7 @@ def is_round(snapshot: State) -> bool:
 
 @styled
 def stick_slip(shown: State | Run, *, units: Units = "auto", ax: Axes | None = None) -> Axes:
-    """Where the contact sticks and where it slips; dashed, the Hertz circle of spheres.
+    """Draw stick and slip zones; dashed, the Hertz circle of spheres.
 
     Of a line contact the pressure along x, coloured by the zones.
 
@@ -226,8 +226,8 @@ def shear_streamlines(
     if min(size.shape) > 1 and np.nanmax(size, initial=0.0) > 0.0:
         ax.streamplot(x, y, q_x.T, q_y.T, density=1.3, color="0.15", linewidth=0.6, arrowsize=0.6)
     stick = np.where(contact, d.stick.values, np.nan)
-    both = contact.any() and np.nanmin(stick) < np.nanmax(stick)
-    if min(size.shape) > 1 and both:
+    has_both_zones = contact.any() and np.nanmin(stick) < np.nanmax(stick)
+    if min(size.shape) > 1 and has_both_zones:
         ax.contour(x, y, stick.T, levels=[0.5], colors=[STICK], linewidths=1.2)
         ax.plot([], [], color=STICK, linewidth=1.2, label="edge of the stick zone")
         ax.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), borderpad=0.1)

@@ -1,4 +1,4 @@
-"""What a run came to, in one figure."""
+"""Overview of a run in one figure."""
 
 from __future__ import annotations
 

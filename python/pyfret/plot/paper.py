@@ -41,7 +41,7 @@ def name(ratio: float) -> str:
 
 def loading_history(result: Run, jump: Run) -> Figure:
     """Figure 5: tractions after indentation, with and without reproduction of the load path."""
-    figure, (left, right) = plt.subplots(1, 2, figsize=(7.6, 3.2))
+    figure, (left_axes, right) = plt.subplots(1, 2, figsize=(7.6, 3.2))
     ends = result.dataset.branch_of_increment.values
     indented = int(np.flatnonzero(ends == ends[0])[-1]) + 1
     curves: list[tuple[State, str, dict[str, Any]]] = [
@@ -49,11 +49,11 @@ def loading_history(result: Run, jump: Run) -> Figure:
         (jump.at(-1), "history left out", {"color": "0.25", "linestyle": "--"}),
     ]
     for run, label, line in curves:
-        pressure_profile(run, ax=left, label=label, **line)
+        pressure_profile(run, ax=left_axes, label=label, **line)
         shear_profile(run, ax=right, label=label, **line)
-    left.set_title("(a)  pressure")
+    left_axes.set_title("(a)  pressure")
     right.set_title("(b)  shear")
-    left.legend(loc="lower center")
+    left_axes.legend(loc="lower center")
     return figure
 
 
@@ -134,8 +134,8 @@ def stick_areas(results: Mapping[float, Run]) -> Figure:
         colour = RATIO_COLOURS.get(ratio)
         stick_ratio(result, ax=whole, label=name(ratio), color=colour, linewidth=1.0)
         t = result.dataset.t.values / tau(result)
-        other = np.interp(t, same.dataset.t.values / tau(same), same.stick_ratio.values)
-        apart.plot(t, result.stick_ratio.values - other, color=colour, linewidth=1.0)
+        reference_ratio = np.interp(t, same.dataset.t.values / tau(same), same.stick_ratio.values)
+        apart.plot(t, result.stick_ratio.values - reference_ratio, color=colour, linewidth=1.0)
     whole.legend(loc="lower center", ncols=2, columnspacing=1.2)
     whole.set_title("(a)")
     apart.set_title("(b) difference from $E_1/E_2 = 1$")

@@ -1,4 +1,4 @@
-"""What parameters of studies are called in figures: keys of scene files in words, with units."""
+"""Names of parameters in figures: keys of scene files in words, with units."""
 
 from __future__ import annotations
 
@@ -50,18 +50,18 @@ PLACES = (
 
 
 def place_in_words(whole: str) -> str | None:
-    """What a number belongs to; nothing for the whole scene, None if that is not known."""
+    """Return the owner of a number; an empty text for the whole scene, None if unknown."""
     if whole in ("", "friction", "grid"):
         return ""
     for form, words in PLACES:
-        if found := re.fullmatch(form, whole):
-            first, last = found[1], found[found.lastindex or 1]
+        if match := re.fullmatch(form, whole):
+            first, last = match[1], match[match.lastindex or 1]
             return words.format(body=first, branch=first, n=int(last) + 1) if words else ""
     return None
 
 
 def parameter_label(key: str, *, per_metre: bool = False) -> tuple[str, float]:
-    """What a parameter is called, with its unit, and the size of that unit in SI units.
+    """Return the name of a parameter with its unit, and the size of that unit in SI.
 
     What is no key of a scene file stays as it is. Forces of line contacts are `per_metre`.
 
@@ -72,25 +72,25 @@ def parameter_label(key: str, *, per_metre: bool = False) -> tuple[str, float]:
     >>> parameter_label("speed")
     ('speed', 1.0)
     """
-    first, *more = key.split(",")
-    amplitude = any(part.strip().startswith("-") for part in more)
+    first, *other_keys = key.split(",")
+    amplitude = any(part.strip().startswith("-") for part in other_keys)
     whole, _, last = first.removeprefix("-").rpartition(".")
     over = OVER.get(last)
     if over is not None:
         whole, _, last = whole.rpartition(".")
-    place = place_in_words(whole)
+    owner = place_in_words(whole)
     # A name without a point is that of the user's own function, whatever its unit is.
-    if last not in MEANINGS or place is None or not (whole or last == "mu"):
+    if last not in MEANINGS or owner is None or not (whole or last == "mu"):
         return literal(key), 1.0
     words, unit, size = MEANINGS[last]
-    if more:
-        place = ""
+    if other_keys:
+        owner = ""
         words = f"amplitude of {words}" if amplitude else words
     if over is not None:
         words, unit, size = f"{words} over {over}", "", 1.0
     if per_metre and unit in LOADS:
         unit = f"{unit}/m"
-    label = f"{words}, {place}" if place else words
+    label = f"{words}, {owner}" if owner else words
     label = f"{label} [{unit}]" if unit else label
     # As long as an axis is.
     return (label.replace(", ", ",\n", 1) if len(label) > LONG else label), size

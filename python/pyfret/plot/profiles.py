@@ -103,8 +103,8 @@ def _shear_on(
     ax.plot(s, cut[name] / by.shear.value, **line)
     if bound and np.isfinite(snapshot.mu):
         for sign in (1, -1):
-            most = sign * snapshot.mu * cut.p / by.shear.value
-            ax.plot(s, most, color=REFERENCE, linestyle=":", linewidth=1.0)
+            bound_line = sign * snapshot.mu * cut.p / by.shear.value
+            ax.plot(s, bound_line, color=REFERENCE, linestyle=":", linewidth=1.0)
     look_along(ax, snapshot, by.length, along, fresh=fresh)
     ax.set_xlabel(by.length.label(along.along))
     ax.set_ylabel(by.shear.label(name))
@@ -148,8 +148,8 @@ def shear_profiles(result: Run, *, units: Units = "auto", ax: Axes | None = None
             }
         _shear_on(along, result.at(int(number)), name, units, ax, **line)
     if few:
-        place = (1.0, 0.5)
-        ax.legend(title=r"$t/\tau$", loc="center left", bbox_to_anchor=place, alignment="left")
+        anchor = (1.0, 0.5)
+        ax.legend(title=r"$t/\tau$", loc="center left", bbox_to_anchor=anchor, alignment="left")
     else:
         shades = ListedColormap(colormaps["viridis"](np.linspace(0.0, 0.88, 256)))
         bar = plt.colorbar(ScalarMappable(cmap=shades), ax=ax, pad=0.02)
@@ -182,9 +182,9 @@ def load_states(result: Run) -> list[tuple[int, int]]:
     for increment in d.saved_increment.values:
         i = int(increment) - 1
         before = max(i - 1, 0)
-        here = d.isel(increment=i)
-        rise = float(here[force] - d[force][before])
-        loads = (round(float(here[name]) / scale) for name, scale in scales.items())
+        row = d.isel(increment=i)
+        rise = float(row[force] - d[force][before])
+        loads = (round(float(row[name]) / scale) for name, scale in scales.items())
         state = (*loads, np.sign(rise))
         if state not in seen:
             seen.append(state)

@@ -18,7 +18,7 @@ Units: TypeAlias = Literal["auto", "dimensionless", "SI"]
 
 @dataclass(frozen=True)
 class Scale:
-    """What numbers are divided by, and how that is written."""
+    """A divisor of numbers, with its name."""
 
     #: The divisor, in SI units.
     value: float

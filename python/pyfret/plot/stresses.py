@@ -60,19 +60,19 @@ TOLD = 0.02
 
 def _scales(attrs: Mapping[Any, Any], units: Units, a_H: float | None, p_H: float | None) -> Scales:
     """Scales of a dataset, or those given."""
-    given = {k: v for k, v in (("a_H", a_H), ("p_H", p_H)) if v is not None}
-    return scales({**attrs, **given}, units)
+    yardsticks = {k: v for k, v in (("a_H", a_H), ("p_H", p_H)) if v is not None}
+    return scales({**attrs, **yardsticks}, units)
 
 
 def _mark(ax: Axes, largest: Extremum, line: Line, by: Scales, *, marker: str = "x") -> None:
     """Mark a value at its place along the section and its depth, and say it in the legend."""
     at = (line.place(largest.x, largest.y) / by.length.value, largest.z / by.length.value)
     where = "largest" if marker == "x" else "on the surface"
-    said = in_words(largest.value / by.stress.value)
+    text = in_words(largest.value / by.stress.value)
     if largest.error > TOLD * abs(largest.value):
-        said += f" ± {in_words(largest.error / by.stress.value, digits=2)}"
-    said += f" {by.stress.name}" if by.stress.is_unit else ""
-    mark(ax, at, f"{where} {said}", marker=marker)
+        text += f" ± {in_words(largest.error / by.stress.value, digits=2)}"
+    text += f" {by.stress.name}" if by.stress.is_unit else ""
+    mark(ax, at, f"{where} {text}", marker=marker)
 
 
 def section_size(values: xr.DataArray, width: float = 4.8) -> tuple[float, float]:
@@ -180,13 +180,13 @@ def section_map(
     steps, colours = contour_levels(field, levels)
     image = None
     for part in np.unique(layer):
-        here = layer == part
-        if np.count_nonzero(here) < 2:
+        in_layer = layer == part
+        if np.count_nonzero(in_layer) < 2:
             continue
-        image = ax.contourf(x, z[here], field[here], levels=steps, cmap=colours)
-        ax.contour(x, z[here], field[here], levels=steps, colors="0.2", linewidths=0.4)
+        image = ax.contourf(x, z[in_layer], field[in_layer], levels=steps, cmap=colours)
+        ax.contour(x, z[in_layer], field[in_layer], levels=steps, colors="0.2", linewidths=0.4)
         if colours is SIGNED:
-            ax.contour(x, z[here], field[here], levels=[0.0], colors="0.1", linewidths=1.3)
+            ax.contour(x, z[in_layer], field[in_layer], levels=[0.0], colors="0.1", linewidths=1.3)
     for depth in inner:
         ax.axhline(depth, color="0.2", linewidth=0.8, linestyle=(0, (6, 3)))
     ax.set_xlim(x[0], x[-1])
@@ -274,11 +274,11 @@ def stress_along_depth(
     for n, name in enumerate(of):
         values = stress.measure(name).values / by.stress.value
         for part in np.unique(layer):
-            here = layer == part
+            in_layer = layer == part
             label = f"${SYMBOLS.get(name, name)}$" if part == layer[0] else None
             # On an axis of symmetry two of the stresses are one line.
             dashes = (0, (3, 3)) if name == "s_yy" else "-"
-            ax.plot(z[here], values[here], color=f"C{n}", linestyle=dashes, label=label)
+            ax.plot(z[in_layer], values[in_layer], color=f"C{n}", linestyle=dashes, label=label)
     for depth in inner:
         ax.axvline(depth, color="0.6", linewidth=0.8, linestyle=(0, (6, 3)), zorder=0)
     ax.set_xlim(z[0], z[-1])

@@ -97,8 +97,8 @@ def study_map(
     """
     d = study.dataset
     labels = {
-        of if of in study.measures else one_of(study.parameters, of, "labels"): text
-        for of, text in (labels or {}).items()
+        key if key in study.measures else one_of(study.parameters, key, "labels"): text
+        for key, text in (labels or {}).items()
     }
     flat = of_line_contacts(d)
     words = {
@@ -139,8 +139,8 @@ def study_map(
     if values.ndim == 2 and bool((values.isnull() & (d["status"] == DONE)).any()):
         # A life that is longer than the run, a crack that never starts.
         ax.set_facecolor(NO_VALUE)
-        given = [*ax.get_legend_handles_labels()[0], Patch(color=NO_VALUE, label="no value")]
-        ax.legend(handles=given, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2)
+        handles = [*ax.get_legend_handles_labels()[0], Patch(color=NO_VALUE, label="no value")]
+        ax.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2)
     return ax
 
 
@@ -200,13 +200,15 @@ def scale_axis(
 
 def edges(places: np.ndarray, *, logarithmic: bool) -> np.ndarray:
     """Borders of cells around the values of a parameter, half way on its axis."""
-    of = np.log(places) if logarithmic else places
-    if of.size == 1:
-        step = 0.5 * abs(of[0]) or 0.5
-        borders = np.array([of[0] - step, of[0] + step])
+    values = np.log(places) if logarithmic else places
+    if values.size == 1:
+        step = 0.5 * abs(values[0]) or 0.5
+        borders = np.array([values[0] - step, values[0] + step])
     else:
-        middles = (of[:-1] + of[1:]) / 2
-        borders = np.r_[1.5 * of[0] - 0.5 * of[1], middles, 1.5 * of[-1] - 0.5 * of[-2]]
+        middles = (values[:-1] + values[1:]) / 2
+        borders = np.r_[
+            1.5 * values[0] - 0.5 * values[1], middles, 1.5 * values[-1] - 0.5 * values[-2]
+        ]
     return np.asarray(np.exp(borders) if logarithmic else borders)
 
 
@@ -289,8 +291,8 @@ def whole_labels(ax: Axes, labels: Iterable[Text]) -> None:
     """Take off labels of contours that the border of the axes would cut."""
     onto_axes = ax.transData + ax.transAxes.inverted()
     for label in list(labels):
-        place = onto_axes.transform(label.get_position())
-        if place.min() < BORDER or place.max() > 1.0 - BORDER:
+        position = onto_axes.transform(label.get_position())
+        if position.min() < BORDER or position.max() > 1.0 - BORDER:
             label.set_visible(False)
 
 

@@ -169,8 +169,8 @@ def axes(ax: Axes | None, *, square: bool = False) -> Axes:
 
 def beside(ax: Axes, image: Any, label: str, *, extend: str = "neither") -> None:
     """The scale of colours of `image` beside the axes, as high as they are."""
-    place = ax.inset_axes((1.03, 0.0, 0.05, 1.0))
-    bar = ax.get_figure().colorbar(image, cax=place, extend=extend)  # type: ignore[union-attr]
+    inset = ax.inset_axes((1.03, 0.0, 0.05, 1.0))
+    bar = ax.get_figure().colorbar(image, cax=inset, extend=extend)  # type: ignore[union-attr]
     bar.outline.set_visible(False)
     bar.set_label(label)
 
@@ -194,7 +194,7 @@ def mark(ax: Axes, at: tuple[float, float], text: str, *, marker: str = "x") -> 
 
 def inside_legend(ax: Axes, *, handles: list[Artist] | None = None) -> None:
     """A legend on the section, deep below the contact, legible on its colours."""
-    given = {} if handles is None else {"handles": handles}
+    options = {} if handles is None else {"handles": handles}
     ax.legend(
         loc="lower right",
         frameon=True,
@@ -202,7 +202,7 @@ def inside_legend(ax: Axes, *, handles: list[Artist] | None = None) -> None:
         edgecolor="none",
         handlelength=1.0,
         borderpad=0.3,
-        **given,
+        **options,
     ).set_zorder(5)
 
 

@@ -41,20 +41,20 @@ def wear_profiles(
     d = result.along()
     middle = _depth(d, of)
     along = str(d.worn2.dims[-1])
-    place = 1e3 * d[along].values
+    position = 1e3 * d[along].values
     last = len(middle) - 1
-    wanted = np.linspace(middle.max() / lines, middle.max(), lines)
+    wanted_depths = np.linspace(middle.max() / lines, middle.max(), lines)
     chosen = sorted(
-        {min(int(np.searchsorted(middle.max(axis=1), w)), last) for w in wanted} | {last}
+        {min(int(np.searchsorted(middle.max(axis=1), w)), last) for w in wanted_depths} | {last}
     )
     colours = plt.get_cmap("viridis")(np.linspace(0.9, 0.0, len(chosen)))
     for block, colour in zip(chosen, colours, strict=True):
         cycles = f"{float(result.dataset.block_cycles[block]):,.0f}".replace(",", " ")
-        ax.plot(place, 1e6 * middle[block], color=colour, label=cycles)
+        ax.plot(position, 1e6 * middle[block], color=colour, label=cycles)
     ax.invert_yaxis()
     worn = np.flatnonzero(middle[-1] > 1e-3 * middle.max())
     if len(worn):
-        low, high = place[worn[[0, -1]]]
+        low, high = position[worn[[0, -1]]]
         room = 0.125 * (high - low)
         ax.set_xlim(low - room, high + room)
     ax.set_xlabel(f"${along}$ [mm]")
@@ -99,8 +99,10 @@ def wear_history(result: WearResult, *, ax: Axes | None = None) -> Axes:
         for n, layer in enumerate(coated.coatings):
             bottom += 1e6 * layer.thickness
             if bottom < 3 * depth[-1]:
-                told = f"bottom of coating {n + 1} of body {body}"
-                ax.axhline(bottom, color=line.get_color(), linestyle=":", linewidth=1, label=told)
+                bottom_label = f"bottom of coating {n + 1} of body {body}"
+                ax.axhline(
+                    bottom, color=line.get_color(), linestyle=":", linewidth=1, label=bottom_label
+                )
     for event in result.events:
         if event["kind"] == "worn through":
             label = f"coating {event['coating'] + 1} of body {event['body']} is worn through"
@@ -119,13 +121,15 @@ def wear_loops(result: WearResult, *, ax: Axes | None = None) -> Axes:
     The axis is that of the largest force.
     """
     ax = axes(ax)
-    d, way = result.dataset, result.direction
+    d, direction = result.dataset, result.direction
     # The last one dashed, so that the first is seen where they are alike.
     for block, look in ((0, "-"), (-1, "--")):
-        shift, force = (np.asarray(d[f"loop_{of}_{way}"][block]) for of in ("delta", "T"))
+        shift, force = (
+            np.asarray(d[f"loop_{quantity}_{direction}"][block]) for quantity in ("delta", "T")
+        )
         cycles = f"after {float(d.block_cycles[block]):,.0f} cycles".replace(",", " ")
         ax.plot(1e6 * np.r_[shift[-1], shift], np.r_[force[-1], force], look, label=cycles)
-    ax.set_xlabel(rf"$\delta_{way}$ [µm]")
-    ax.set_ylabel(f"$T_{way}$ [{d.loop_T_x.attrs['units']}]")
+    ax.set_xlabel(rf"$\delta_{direction}$ [µm]")
+    ax.set_ylabel(f"$T_{direction}$ [{d.loop_T_x.attrs['units']}]")
     ax.legend()
     return ax

@@ -84,11 +84,13 @@ def plastic_zone(
         # What has not yielded stays white.
         levels = [LEAST * steps[1], *steps[1:]]
         for layer in np.unique(layers):
-            here = layers == layer
-            if np.count_nonzero(here) < 2 or not yielded[here].any():
+            in_layer = layers == layer
+            if np.count_nonzero(in_layer) < 2 or not yielded[in_layer].any():
                 continue
-            image = ax.contourf(x, z[here], percent[here], levels=levels, cmap=COLOURS)
-            ax.contour(x, z[here], percent[here], levels=steps[1:], colors="0.2", linewidths=0.4)
+            image = ax.contourf(x, z[in_layer], percent[in_layer], levels=levels, cmap=COLOURS)
+            ax.contour(
+                x, z[in_layer], percent[in_layer], levels=steps[1:], colors="0.2", linewidths=0.4
+            )
     else:
         ax.text(0.5, 0.5, "nothing has yielded", transform=ax.transAxes, ha="center")
     for depth in inner:
@@ -118,16 +120,16 @@ def plastic_zone(
 def _on_line(plastic: PlasticState, state: State, line: Line) -> xr.DataArray:
     """The equivalent strain below a line, over depth and place; 0 beside what may yield."""
     d = plastic.dataset[["equivalent"]].transpose("z", "x", "y")
-    found: xr.DataArray = cut(d, state.scene.grid, line).equivalent
-    inside = np.ones(found.sizes[line.along], dtype=bool)
+    strain: xr.DataArray = cut(d, state.scene.grid, line).equivalent
+    inside = np.ones(strain.sizes[line.along], dtype=bool)
     for name in ("x", "y"):
         cells = d[name].values
         if cells.size > 1:
-            at = found[name].values if name in found.coords else getattr(line, name)
+            at = strain[name].values if name in strain.coords else getattr(line, name)
             half = 0.5 * (cells[1] - cells[0])
             inside &= (at >= cells[0] - half) & (at <= cells[-1] + half)
-    found = found.where(xr.DataArray(inside, dims=line.along), 0.0).fillna(0.0)
-    return found
+    strain = strain.where(xr.DataArray(inside, dims=line.along), 0.0).fillna(0.0)
+    return strain
 
 
 @styled
@@ -173,11 +175,11 @@ def residual_stress(
     for n, name in enumerate(of):
         values = below.measure(name).values / by.stress.value
         for part in np.unique(layer):
-            here = layer == part
+            in_layer = layer == part
             label = f"${SYMBOLS.get(name, name)}$" if part == layer[0] else None
             # On an axis of symmetry two of the stresses are one line.
             dashes = (0, (3, 3)) if name == "s_yy" else "-"
-            ax.plot(z[here], values[here], color=f"C{n}", linestyle=dashes, label=label)
+            ax.plot(z[in_layer], values[in_layer], color=f"C{n}", linestyle=dashes, label=label)
     ax.axhline(0.0, color="0.6", linewidth=0.8, zorder=0)
     for depth in borders[1:-1]:
         ax.axvline(depth, color="0.6", linewidth=0.8, linestyle=(0, (6, 3)), zorder=0)

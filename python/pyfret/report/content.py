@@ -44,7 +44,7 @@ LOOPS = {
 
 
 def chosen(n: int, most: int) -> NDArray[np.int64]:
-    """At most so many of n indices, evenly, the first and the last among them."""
+    """Choose evenly spaced indices, the first and the last among them."""
     return np.unique(np.linspace(0, n - 1, min(n, most)).round().astype(int))
 
 
@@ -79,7 +79,7 @@ def increments(result: Run) -> dict[str, Any]:
     on_line = [fields_on(at, line) for at in snapshots]
     # The same component at every increment: the largest at the last.
     component = main_shear(on_line[-1])
-    near = around(np.logical_or.reduce([of.p.values > 0.0 for of in on_line]))
+    near = around(np.logical_or.reduce([state.p.values > 0.0 for state in on_line]))
     force = result.dataset.W.attrs["units"]
     shown = []
     for at, cut in zip(snapshots, on_line, strict=True):
@@ -107,7 +107,9 @@ def increments(result: Run) -> dict[str, Any]:
         )
     x, y = (1e6 * result.dataset[k].values for k in ("x", "y"))
     largest = {
-        name: float(max(np.nanmax(np.array(of[name], dtype=float), initial=0) for of in shown))
+        name: float(
+            max(np.nanmax(np.array(profile[name], dtype=float), initial=0) for profile in shown)
+        )
         for name in ("p", "q")
     }
     flat = bool(result.scene.grid.plane_strain)
@@ -167,16 +169,18 @@ def stress(result: Run, crack: CrackSection | None = None) -> dict[str, Any] | N
     stretch = thin(borders)
 
     def place(depth: NDArray[np.float64]) -> list[float]:
-        """Where a depth [um] is drawn, thin layers with room."""
+        """Return the drawn position of a depth [um]; thin layers get more room."""
         drawn = np.interp(depth, borders, stretched(borders)) if stretch else depth
-        return [float(of) for of in np.atleast_1d(drawn)]
+        return [float(position) for position in np.atleast_1d(drawn)]
 
     ticks = [*borders[:-1], (borders[-2] + borders[-1]) / 2, borders[-1]]
     return {
         "x": short(1e6 * x[along]),
         "z": short(1e6 * z[depths]),
         "place": place(1e6 * z[depths]),
-        "ticks": [place(np.array(ticks)), [in_words(of, 3) for of in ticks]] if stretch else None,
+        "ticks": [place(np.array(ticks)), [in_words(tick, 3) for tick in ticks]]
+        if stretch
+        else None,
         "equal": not (stretch or flat),
         "values": short(values[np.ix_(depths, along)], 3),
         "interfaces": place(borders[1:-1]),
@@ -195,7 +199,7 @@ def stress(result: Run, crack: CrackSection | None = None) -> dict[str, Any] | N
 def wear(worn: WearResult) -> dict[str, Any]:
     """Depths over cycles, and the worn profiles of both bodies at the end."""
     d = worn.dataset
-    cut, way = worn.along(), worn.direction
+    cut, direction = worn.along(), worn.direction
     along = str(cut.worn2.dims[-1])
     return {
         "cycles": short(d.cycles.values, 6),
@@ -206,12 +210,12 @@ def wear(worn: WearResult) -> dict[str, Any]:
         "loops": [
             {
                 "name": f"after {in_words(float(d.block_cycles[block]))} cycles",
-                "x": short(1e6 * closed(d[f"loop_delta_{way}"][block].values), 5),
-                "y": short(closed(d[f"loop_T_{way}"][block].values), 5),
+                "x": short(1e6 * closed(d[f"loop_delta_{direction}"][block].values), 5),
+                "y": short(closed(d[f"loop_T_{direction}"][block].values), 5),
             }
             for block in (0, -1)
         ],
-        "labels": [LOOPS[way][3], f"{LOOPS[way][2]} [{d.loop_T_x.attrs['units']}]"],
+        "labels": [LOOPS[direction][3], f"{LOOPS[direction][2]} [{d.loop_T_x.attrs['units']}]"],
     }
 
 

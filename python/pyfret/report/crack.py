@@ -33,7 +33,7 @@ class CrackSection:
 
     @property
     def about(self) -> dict[str, Any]:
-        """Where the crack is."""
+        """Describe the position of the crack."""
         return self.cracks.dataset.attrs
 
     def found(self) -> CrackArrest | None:
@@ -46,24 +46,24 @@ class CrackSection:
         return self.cracks.line
 
     def verdict(self) -> str:
-        """What the crack does, as a sentence."""
-        about, found = self.about, self.found()
+        """Describe the arrest of the crack in a sentence."""
+        about, arrest = self.about, self.found()
         body = "upper" if about["body_number"] == 1 else "lower"
         begun = f"The crack from x = {um(about['x'])} of the {body} body"
-        if found is None:
+        if arrest is None:
             first, last = (um(float(self.cracks.lengths[n])) for n in (0, -1))
             return in_letters(f"{begun}, {first} to {last} long.")
-        return in_letters(f"{begun} {found.told()}.")
+        return in_letters(f"{begun} {arrest.told()}.")
 
     def drawn(
         self, deepest: float, place: Callable[[NDArray[np.float64]], list[float]]
     ) -> dict[str, Any]:
         """Its way [µm] where depths [µm] are drawn at a place: to where it stops, and the rest."""
-        d, found = self.cracks.dataset, self.found()
+        d, arrest = self.cracks.dataset, self.found()
         s = np.concatenate([[0.0], self.cracks.lengths])
         x = MICRO * self.cracks.places(np.concatenate([[self.about["x"]], d.x.values]))
         z = MICRO * np.concatenate([[0.0], d.z.values])
-        stop = s[-1] if found is None else found.tip
+        stop = s[-1] if arrest is None else arrest.tip
 
         def way(of: NDArray[np.float64]) -> dict[str, Any]:
             depth = np.interp(of, s, z)
@@ -73,21 +73,21 @@ class CrackSection:
         return {
             "grown": way(np.append(s[s < stop], stop)),
             "rest": way(np.insert(s[s > stop], 0, stop)),
-            "end": None if found is None or found.verdict == "grows" else way(np.array([stop])),
-            "briefly": None if found is None else in_letters(found.briefly()),
+            "end": None if arrest is None or arrest.verdict == "grows" else way(np.array([stop])),
+            "briefly": None if arrest is None else in_letters(arrest.briefly()),
         }
 
     def numbers(self) -> dict[str, Any]:
         """K over the cycle at the length where the crack stops, or the longest; the diagram."""
-        found = self.found()
-        length = found.tip if found else float(self.cracks.lengths[-1])
-        one = self.cracks.at_length(length)
+        arrest = self.found()
+        length = arrest.tip if arrest else float(self.cracks.lengths[-1])
+        at_length = self.cracks.at_length(length)
         names = ("K_I", "K_II", "K_I_error", "K_II_error")
-        K = {name: short(MEGA * one[name].values) for name in names}
+        K = {name: short(MEGA * at_length[name].values) for name in names}
         return {
             "says": self.verdict(),
-            "length": in_words(MICRO * float(one.length), 3),
-            "increment": one.increment.values.astype(int).tolist(),
+            "length": in_words(MICRO * float(at_length.length), 3),
+            "increment": at_length.increment.values.astype(int).tolist(),
             **K,
             "kitagawa": None if self.threshold is None else self._diagram(self.threshold),
         }

@@ -84,15 +84,15 @@ def report(
         The ending of the file is another, or a threshold is given without a crack. The wear or the
         crack is that of other bodies, or does not say of which.
     """
-    place = Path(path)
-    if place.suffix not in (".html", ".htm"):
-        raise ValueError(f"{place}: must end in .html")
+    target = Path(path)
+    if target.suffix not in (".html", ".htm"):
+        raise ValueError(f"{target}: must end in .html")
     if threshold is not None and crack is None:
         raise ValueError("threshold: needs a crack, such as crack=result.crack()")
-    for name, of in (("wear", wear), ("crack", crack)):
-        if of is None:
+    for name, data in (("wear", wear), ("crack", crack)):
+        if data is None:
             continue
-        bodies = bodies_of(of)
+        bodies = bodies_of(data)
         if bodies is None:
             raise ValueError(
                 f"{name}: does not say which bodies it is in. It is from arrays, or an older "
@@ -109,13 +109,14 @@ def report(
         scene=scene_html(result.scene),
         ends=ends_table(result),
         bars=bars(result),
-        cycles="".join(cycles_table(result, of) for of in directions(result)),
+        cycles="".join(cycles_table(result, direction) for direction in directions(result)),
         plan=plan(result),
         sources=cited(result),
         surfaces="" if wear is None else SURFACES.format(of=html(wear.of_loops)),
         worn="" if wear is None else f"<pre>{html(wear.summary())}</pre>",
         more="".join(
-            picture(caption, of) for caption, of in {**yielded(result), **(figures or {})}.items()
+            picture(caption, figure)
+            for caption, figure in {**yielded(result), **(figures or {})}.items()
         ),
         toml=html(result.scene.to_toml()),
         css=(HERE / "page.css").read_text(encoding="utf-8"),
@@ -123,7 +124,7 @@ def report(
         numbers=packed(json.dumps(numbers(result, wear, cracked), allow_nan=False)),
         plotly=packed(drawing()),
     )
-    with beside(place) as unfinished:
+    with beside(target) as unfinished:
         unfinished.write_text(page, encoding="utf-8")
 
 
@@ -142,16 +143,20 @@ def yielded(result: Run) -> dict[str, Figure]:
     from pyfret import plot
 
     state = result.at(-1)
-    found = {}
+    figures_by_caption = {}
     for body_number in (n for n in (1, 2) if state.body(n).yields):
         if PlasticState(state, body_number).volume() == 0.0:
             continue
-        of = f"the {'upper' if body_number == 1 else 'lower'} body at the last increment"
+        location = f"the {'upper' if body_number == 1 else 'lower'} body at the last increment"
         zone = plot.plastic_zone(state, body_number=body_number, units="SI")
-        found[f"Plastic strain of {of}, on the section along the shear"] = zone.figure
-        left = plot.residual_stress(state, body_number=body_number, units="SI")
-        found[f"Residual stress below the middle of {of}, the contact taken apart"] = left.figure
-    return found
+        figures_by_caption[f"Plastic strain of {location}, on the section along the shear"] = (
+            zone.figure
+        )
+        residual = plot.residual_stress(state, body_number=body_number, units="SI")
+        figures_by_caption[
+            f"Residual stress below the middle of {location}, the contact taken apart"
+        ] = residual.figure
+    return figures_by_caption
 
 
 def drawing() -> str:
@@ -170,7 +175,7 @@ def packed(text: str) -> str:
 
 
 def bars(result: Run) -> str:
-    """What the error bars are, or how to get them."""
+    """Explain the error bars, or how to get them."""
     if result.dataset.attrs.get("error_bars"):
         return (
             "Behind &plusmn; stand estimated errors: of the cells, told by runs on other grids, of "
@@ -183,12 +188,12 @@ def bars(result: Run) -> str:
 
 
 def plan(result: Run) -> str:
-    """What was left out and what was kept, and why."""
+    """List the skipped and kept parts of the solution, with reasons."""
     rows = []
     for line in result.dataset.attrs.get("plan", ()):
-        what, _, why = str(line).partition(" (")
-        kind, _, of = what.partition(": ")
-        rows.append([html(kind), html(of), html(why.removesuffix(")"))])
+        decision, _, why = str(line).partition(" (")
+        kind, _, subject = decision.partition(": ")
+        rows.append([html(kind), html(subject), html(why.removesuffix(")"))])
     return table(["", "what", "why"], rows, words=True)
 
 

@@ -1,4 +1,4 @@
-"""What a result and each of its snapshots know of their run."""
+"""Attributes of a result and of each of its snapshots."""
 
 from __future__ import annotations
 

@@ -29,7 +29,7 @@ def dataset(variables: Mapping[str, Variable], attributes: str) -> xr.Dataset:
     # Of a store, where it says what are coordinates.
     attrs.pop("coordinates", None)
     return xr.Dataset(
-        {k: of for k, of in variables.items() if k not in COORDINATES},
-        coords={k: of for k, of in variables.items() if k in COORDINATES},
+        {k: variable for k, variable in variables.items() if k not in COORDINATES},
+        coords={k: variable for k, variable in variables.items() if k in COORDINATES},
         attrs=attrs,
     )

@@ -73,7 +73,7 @@ def of_cycles(
     torsion = direction == "torsion"
     bars = dataset.attrs.get("error_bars")
     force, shift = ("M_z", "phi_z") if torsion else (f"T_{direction}", f"delta_{direction}")
-    found = _core.loops(
+    loop_numbers = _core.loops(
         scene.path,
         torsion=torsion,
         branch=dataset.branch_of_increment.values.tolist(),
@@ -85,7 +85,7 @@ def of_cycles(
     )
     units = {"N": "N m", "m": "rad", "N/m": "N m/rad"} if torsion else {}
     names = [name for name in LOOP if bars or name not in OF_BARS]
-    table = tabulated(found, names, "cycle", scene.grid, units)
+    table = tabulated(loop_numbers, names, "cycle", scene.grid, units)
     return table.assign_attrs(dataset.attrs)
 
 
@@ -100,16 +100,16 @@ def of_corners(
     What needs increments within a branch, such as the stiffness right after a reversal, is left
     out.
     """
-    found: list[dict[str, float]] = []
+    loop_numbers: list[dict[str, float]] = []
     for shift, force, energy in zip(delta, T, dissipated, strict=True):
         first = int(shift.argmax())
-        u, f = (np.r_[of[first:], of[: first + 1]] for of in (shift, force))
+        u, f = (np.r_[values[first:], values[: first + 1]] for values in (shift, force))
         back = min(max(int(u.argmin()), 1), u.size - 2) if u.size > 2 else 1
         path = _core.LoadPath.start().force(W=1.0, increments=1).force(T_x=1.0, increments=1)
         path = path.force(T_x=-1.0, increments=back)
         path = path.force(T_x=1.0, increments=max(u.size - 1 - back, 1))
         counts = [1, 1, back, u.size - 1 - back]
-        found += _core.loops(
+        loop_numbers += _core.loops(
             path,
             torsion=False,
             branch=np.repeat(np.arange(4), counts).tolist(),
@@ -119,7 +119,7 @@ def of_corners(
             status=[0] * (u.size + 1),
             errors=[],
         )
-    return tabulated(found, OF_CORNERS, "block", grid, {})
+    return tabulated(loop_numbers, OF_CORNERS, "block", grid, {})
 
 
 def tabulated(

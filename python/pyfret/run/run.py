@@ -39,7 +39,7 @@ SUMMED = frozenset(
 
 
 class Run(OfRun):
-    """What a run gave.
+    """The result of a run.
 
     Its ``dataset`` has scalars over ``increment`` and fields over (``saved``, ``x``, ``y``) for the
     increments whose fields were kept. Its ``attrs`` hold the scene, the version, ``a_H``, ``p_H``
@@ -64,8 +64,8 @@ class Run(OfRun):
         if name == "contact_radius":
             fields[name] = "of a line contact it is half_width"
         public = (member for member in dir(type(self)) if not member.startswith("_"))
-        known = [*scalars, *map(str, self.dataset.attrs), *public]
-        raise attribute_error("result", name, known, fields)
+        names = [*scalars, *map(str, self.dataset.attrs), *public]
+        raise attribute_error("result", name, names, fields)
 
     def __dir__(self) -> list[str]:
         """The names of the class, and the scalars of every increment."""
@@ -117,10 +117,10 @@ class Run(OfRun):
 
         In J, of a line contact in J/m.
         """
-        of = self.dataset["dissipated"]
-        total = of.cumsum("increment")
+        dissipated = self.dataset["dissipated"]
+        total = dissipated.cumsum("increment")
         return total.assign_attrs(
-            units=of.attrs["units"], long_name="energy dissipated since the start"
+            units=dissipated.attrs["units"], long_name="energy dissipated since the start"
         )
 
     def at(self, which: float) -> State:
@@ -161,14 +161,18 @@ class Run(OfRun):
                 f"{start}no fields were kept at {which!r}; kept are the increments "
                 f"{saved.tolist()} at t = {times.tolist()}{ends if saved.size else ''}"
             )
-        place = int(places[-1])
-        fields = self.dataset.isel(saved=place)
-        increment = int(saved[place])
-        here = fields.sel(increment=increment).drop_vars(("saved_increment", "saved_t"))
-        if "yielded_increment" in here:
-            own = np.flatnonzero(here.yielded_increment.values == increment)
-            here = here.isel(yielded=slice(own[0], own[-1] + 1) if own.size else slice(0))
-        return here, self.scene
+        last_place = int(places[-1])
+        fields = self.dataset.isel(saved=last_place)
+        increment = int(saved[last_place])
+        row = fields.sel(increment=increment).drop_vars(("saved_increment", "saved_t"))
+        if "yielded_increment" in row:
+            yielded_rows = np.flatnonzero(row.yielded_increment.values == increment)
+            row = row.isel(
+                yielded=slice(yielded_rows[0], yielded_rows[-1] + 1)
+                if yielded_rows.size
+                else slice(0)
+            )
+        return row, self.scene
 
     def error_bars(self) -> xr.Dataset:
         """Estimated errors of the numbers at the end of every branch: dims (branch, part).
@@ -203,10 +207,10 @@ class Run(OfRun):
         adds to the estimate. So it may be larger than the ``path_error`` of the branch of the
         scene.
         """
-        of = self.dataset.branch_of_increment.values
-        starts = np.flatnonzero(np.diff(of, prepend=of[0] - 1))
-        ends = np.append(starts[1:], of.size) - 1
-        table = xr.Dataset(coords={"branch": of[ends]}, attrs=self.dataset.attrs)
+        branch = self.dataset.branch_of_increment.values
+        starts = np.flatnonzero(np.diff(branch, prepend=branch[0] - 1))
+        ends = np.append(starts[1:], branch.size) - 1
+        table = xr.Dataset(coords={"branch": branch[ends]}, attrs=self.dataset.attrs)
         for name, variable in self.dataset.variables.items():
             if variable.dims == ("increment",) and name not in self.dataset.indexes:
                 values = variable.values
@@ -214,7 +218,7 @@ class Run(OfRun):
                 table[name] = ("branch", kept, variable.attrs)
         if errors := self.dataset.attrs.get("path_error"):
             about = {"units": "1", "long_name": "estimated error of the shear from the increments"}
-            table["path_error"] = ("branch", np.asarray(errors, float)[of[ends]], about)
+            table["path_error"] = ("branch", np.asarray(errors, float)[branch[ends]], about)
         return table
 
     @quantities
@@ -240,7 +244,7 @@ class Run(OfRun):
 
     @quantities
     def regimes(self, *, direction: Literal["x", "y", "torsion"] = "x") -> list[str]:
-        """What each closed cycle was: "no contact", "full stick", "partial slip", "gross slip".
+        """Return the regime of each closed cycle, from "no contact" to "gross slip".
 
         With mu = 0 a cycle is "no friction".
 

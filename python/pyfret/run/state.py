@@ -112,19 +112,19 @@ class State(OfRun):
         if name in self.dataset.attrs:
             return self.dataset.attrs[name]  # type: ignore[no-any-return]
         public = (member for member in dir(type(self)) if not member.startswith("_"))
-        known = [*self.names(), *map(str, self.dataset.attrs), *public]
-        raise attribute_error("snapshot", name, known, self._elsewhere(name))
+        names = [*self.names(), *map(str, self.dataset.attrs), *public]
+        raise attribute_error("snapshot", name, names, self._elsewhere(name))
 
     def _elsewhere(self, name: str) -> dict[str, str]:
         """Names that this has not, and how what they mean is got from it."""
-        found = {}
+        hints = {}
         if name == "contact_radius":
-            found[name] = "of a line contact it is half_width"
-        for known, variable in self.dataset.variables.items():
+            hints[name] = "of a line contact it is half_width"
+        for variable_name, variable in self.dataset.variables.items():
             meaning = str(variable.attrs.get("long_name", ""))
             if meaning.split(",")[0] == name:
-                found[name] = f"it is called {known}, {meaning}"
-        return found
+                hints[name] = f"it is called {variable_name}, {meaning}"
+        return hints
 
     def names(self) -> list[str]:
         """Names of all variables, in order."""
@@ -140,7 +140,7 @@ class State(OfRun):
 
     @cached_property
     def outline(self) -> _core.Outline | None:
-        """Where the contact is: its border in any direction, its spots, the direction of its shear.
+        """The outline of the contact: border, spots and direction of the shear.
 
         None without a contact.
         """

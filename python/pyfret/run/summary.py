@@ -1,4 +1,4 @@
-"""What a run ended with, as a table for people."""
+"""Summary of a run as a table."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def half_length(ends: xr.Dataset) -> str:
 
 
 def energy_scale(unit: str) -> tuple[float, str]:
-    """What energies are told in: microjoules, of line contacts millijoules per metre."""
+    """Return the unit of energies: microjoules, for line contacts millijoules per metre."""
     return (1e3, "mJ/m") if unit == "J/m" else (1e6, "uJ")
 
 
@@ -71,10 +71,10 @@ def columns(result: Run, ends: xr.Dataset) -> list[list[str]]:
             numbers[3:3] = pair
     bars = result.error_bars().sel(part="total") if result.dataset.attrs.get("error_bars") else None
     if frictionless(result.scene):
-        numbers = [of for of in numbers if of[1] != "stick_ratio"]
+        numbers = [row for row in numbers if row[1] != "stick_ratio"]
     table = []
     for title, name, scale in numbers:
-        values = scale * told(result, ends, name)
+        values = scale * round_to_error(result, ends, name)
         if bars is not None and name in bars:
             errors = scale * bars[name].values
             cells = [
@@ -89,8 +89,8 @@ def columns(result: Run, ends: xr.Dataset) -> list[list[str]]:
     return [*table, ["state", *(state_in_words(code, result.scene) for code in ends.status)]]
 
 
-def told(result: Run, ends: xr.Dataset, name: str) -> NDArray[np.float64]:
-    """Give a number at the end of every branch, 0 where the run cannot tell it from zero.
+def round_to_error(result: Run, ends: xr.Dataset, name: str) -> NDArray[np.float64]:
+    """Return a number at the end of every branch, 0 where its error is larger.
 
     The slip in stick cells is held to `tolerance` mu times the approach. A shift that answers to a
     load is no better known. A force that answers to a shift is known to `tolerance` mu W. The arm
@@ -142,7 +142,7 @@ def summary(result: Run) -> str:
 
 
 def yardsticks(result: Run) -> list[str]:
-    """What lengths and pressures of the table are over, where there is a Hertz contact."""
+    """Return the Hertz yardsticks of lengths and pressures, if there are any."""
     if "a_H" not in result.dataset.attrs:
         return []
     a, p = 1e6 * result.a_H, 1e-6 * result.p_H
@@ -169,7 +169,7 @@ def far_from_yield(result: Run) -> list[str]:
 
 
 def strain_at_rim(result: Run) -> list[str]:
-    """What is to be known of a largest strain that does not converge."""
+    """Return the note on a largest strain that does not converge."""
     last = result.dataset.get("strain_at_rim")
     if last is None or not last.size or last.values[-1] == 0.0:
         return []
@@ -182,16 +182,16 @@ def cycle_lines(result: Run) -> list[str]:
     for direction in directions(result):
         loops = result.loops(direction=direction)
         for n in range(loops.sizes["cycle"]):
-            of = loops.isel(cycle=n)
-            scale, joules = energy_scale(of.dissipated.attrs["units"])
-            energy = with_bar(of, "dissipated", scale)
+            loop = loops.isel(cycle=n)
+            scale, joules = energy_scale(loop.dissipated.attrs["units"])
+            energy = with_bar(loop, "dissipated", scale)
             lines.append(
-                f"cycle {n + 1} ({direction}): {state_in_words(of.status, result.scene)}, "
+                f"cycle {n + 1} ({direction}): {state_in_words(loop.status, result.scene)}, "
                 f"{energy} {joules} dissipated, "
-                f"energy ratio {with_bar(of, 'energy_ratio', digits=3)}, "
+                f"energy ratio {with_bar(loop, 'energy_ratio', digits=3)}, "
                 f"sliding ratio "
-                f"{with_error(float(of.sliding_ratio), float(of.sliding_ratio_error))}, "
-                f"stiffness {stiffness(of)}"
+                f"{with_error(float(loop.sliding_ratio), float(loop.sliding_ratio_error))}, "
+                f"stiffness {stiffness(loop)}"
             )
     return lines
 
@@ -218,4 +218,4 @@ def directions(result: Run) -> list[Literal["x", "y", "torsion"]]:
         ("y", ("T_y", "delta_y")),
         ("torsion", ("M_z", "phi_z")),
     ]
-    return [of for of, names in motions if any(drives(result, name) for name in names)]
+    return [motion for motion, names in motions if any(drives(result, name) for name in names)]

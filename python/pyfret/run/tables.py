@@ -9,7 +9,7 @@ import numpy as np
 from pyfret._core import with_error
 from pyfret._util.text import html
 from pyfret.run.loops import frictionless, state_in_words
-from pyfret.run.summary import told, with_bar
+from pyfret.run.summary import round_to_error, with_bar
 from pyfret.scene.tables import number, table
 
 if TYPE_CHECKING:
@@ -70,8 +70,12 @@ def ends_table(result: Run) -> str:
     ends = result.branches()
     bars = result.error_bars().sel(part="total") if result.dataset.attrs.get("error_bars") else None
     names = [name for name in ENDS if name in ends and has(name, result.scene)]
-    values = {name: told(result, ends, name) for name in names}
-    shown = {name: heading(ends, name) for name, of in values.items() if name == "W" or np.any(of)}
+    values = {name: round_to_error(result, ends, name) for name in names}
+    shown = {
+        name: heading(ends, name)
+        for name, column in values.items()
+        if name == "W" or np.any(column)
+    }
     rows = []
     for n in range(ends.sizes["branch"]):
         cells = [str(int(ends.branch[n]))]
@@ -95,13 +99,13 @@ def cycles_table(result: Run, direction: Any) -> str:
     rows = [
         [
             str(n + 1),
-            with_bar(of, "dissipated", factor),
-            with_bar(of, "energy_ratio"),
-            with_error(float(of.sliding_ratio), float(of.sliding_ratio_error)),
-            with_error(float(of.stiffness), float(of.stiffness_error)),
-            state_in_words(of.status, result.scene),
+            with_bar(loop, "dissipated", factor),
+            with_bar(loop, "energy_ratio"),
+            with_error(float(loop.sliding_ratio), float(loop.sliding_ratio_error)),
+            with_error(float(loop.stiffness), float(loop.stiffness_error)),
+            state_in_words(loop.status, result.scene),
         ]
-        for n, of in ((n, loops.isel(cycle=n)) for n in range(loops.sizes["cycle"]))
+        for n, loop in ((n, loops.isel(cycle=n)) for n in range(loops.sizes["cycle"]))
     ]
     return table(titles, rows)
 

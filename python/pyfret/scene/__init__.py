@@ -1,1 +1,1 @@
-"""What is in contact: measured surfaces, warnings of what is hardly meant, tables for notebooks."""
+"""Parts of a scene in Python: measured surfaces, warnings, tables for notebooks."""

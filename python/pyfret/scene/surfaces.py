@@ -108,8 +108,8 @@ def read_surface(
         check_sizes(reading.heights.shape, reading.spacing)
     except StoreError as error:
         text = str(error)
-        named = text if text.startswith(fspath(path)) else f"{fspath(path)}: {text}"
-        raise StoreError(named) from error.__cause__
+        message = text if text.startswith(fspath(path)) else f"{fspath(path)}: {text}"
+        raise StoreError(message) from error.__cause__
     for note in reading.notes:
         warn(f"{fspath(path)}: {note}")
     try:

@@ -46,9 +46,9 @@ def table(heading: Sequence[str], rows: Iterable[Sequence[str]], *, words: bool 
 
     `words` are broken and begin on the left.
     """
-    left = ' style="text-align: left"' if words else ""
-    head = "".join(f"<th{left}>{cell}</th>" for cell in heading)
-    lines = ("".join(f"<td{left}>{cell}</td>" for cell in row) for row in rows)
+    alignment = ' style="text-align: left"' if words else ""
+    head = "".join(f"<th{alignment}>{cell}</th>" for cell in heading)
+    lines = ("".join(f"<td{alignment}>{cell}</td>" for cell in row) for row in rows)
     body = "".join(f"<tr>{line}</tr>" for line in lines)
     kind = ' class="words"' if words else ""
     return (
@@ -70,7 +70,7 @@ def material(of: Any) -> str:
 
 
 def body_rows(name: str, body: Body) -> list[list[str]]:
-    """What a body is: its shape, its coatings from the outermost on, its substrate."""
+    """Describe a body: its shape, its coatings from the outermost on, its substrate."""
     rows = [[name, "surface", shape_in_words(body.shape)]]
     for n, coating in enumerate(body.coatings):
         thick = length(coating.thickness)
@@ -98,7 +98,7 @@ def scene_html(scene: Scene) -> str:
 
 
 def plane_strain(grid: Grid) -> str:
-    """What is left to say of a grid of a line contact."""
+    """Describe the strip of a line contact."""
     if not grid.plane_strain:
         return ""
     return ", plane strain" + ("" if grid.dy == 1.0 else f", forces on {length(grid.dy)}")

@@ -1,4 +1,4 @@
-"""What is in contact, in words for people who do not know the package."""
+"""Descriptions of a scene for people who do not know the package."""
 
 from __future__ import annotations
 
@@ -54,8 +54,8 @@ def friction_in_words(scene: Scene) -> str:
     friction = scene.friction
     if not isinstance(friction, Friction) or not math.isfinite(friction.mu):
         return "none slips"
-    said = [
+    parts = [
         what if value is None else f"{what.replace('mu', '&mu;', 1)} = {in_words(value)}"
         for what, value in friction.words()
     ]
-    return ", ".join(said)
+    return ", ".join(parts)

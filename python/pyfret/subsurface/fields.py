@@ -254,8 +254,8 @@ def _sampled(
     dims = ["depth", *(k for k in ("s", "x", "y") if k in coords and coords[k][0] == k)]  # type: ignore[index]
     labels = DISPLACEMENTS if displacement else {name: LABELS[name] for name in COMPONENTS}
     variables = {
-        name: (dims, of, {"units": units, "long_name": meaning})
-        for (name, (units, meaning)), of in zip(labels.items(), values, strict=True)
+        name: (dims, values_of_field, {"units": units, "long_name": meaning})
+        for (name, (units, meaning)), values_of_field in zip(labels.items(), values, strict=True)
     }
     return xr.Dataset(variables, coords=coords)
 
@@ -386,8 +386,10 @@ def envelope(
         stick = snapshot.dataset["stick"].values.astype(bool)
         number, branch = (int(snapshot.dataset[k]) for k in ("increment", "branch_of_increment"))
         sigma_B = snapshot.bulk_stress(body_number) if bulk else 0.0
-        left = next(iter(eigenstress(snapshot, body_number)), None)
-        stream.push(number, branch, stick=stick, sigma_B=sigma_B, eigenstress=left, **fields)
+        eigenstress_of_state = next(iter(eigenstress(snapshot, body_number)), None)
+        stream.push(
+            number, branch, stick=stick, sigma_B=sigma_B, eigenstress=eigenstress_of_state, **fields
+        )
     result = xr.Dataset(coords=coordinates(scene.grid, depths, layers, x, y, azimuth))
     free = [name for name, at in (("x", x), ("y", y)) if at is None]
     along = free if azimuth is None else ["s"]
@@ -418,19 +420,19 @@ def envelope(
 
 def _largest(name: str, rows: NDArray[np.float64], along: str) -> xr.Dataset:
     """Give the largest value of a measure on a section at every increment, and its place."""
-    increment, value, place, z, layer, error = rows.T
+    increment, value, x, z, layer, error = rows.T
     meaning = f"largest {name} on the section"
     columns = {
         name + "_largest": (value, "Pa", meaning),
-        f"{name}_largest_{along}": (place, "m", f"{along} of the {meaning}"),
+        f"{name}_largest_{along}": (x, "m", f"{along} of the {meaning}"),
         name + "_largest_z": (z, "m", f"depth of the {meaning}"),
         name + "_largest_layer": (layer.astype(int), "1", f"layer of the {meaning}"),
         name + "_largest_error": (error, "Pa", f"what the samples leave of the {meaning}"),
     }
     return xr.Dataset(
         {
-            key: ("increment", values, {"units": units, "long_name": of})
-            for key, (values, units, of) in columns.items()
+            key: ("increment", values, {"units": units, "long_name": text})
+            for key, (values, units, text) in columns.items()
         },
         coords={"increment": increment.astype(int)},
     )

@@ -18,7 +18,7 @@ __all__ = ["Line", "along", "cut", "fields_on", "line_of", "main_line", "main_sh
 
 
 class Line(NamedTuple):
-    """Which line a section lies below: along x at y, along y at x, or through x, y at an angle."""
+    """The line above a section: along x at y, along y at x, or through x, y at an angle."""
 
     x: float | None
     y: float | None
@@ -91,8 +91,10 @@ def cut(d: xr.Dataset, grid: _core.Grid, line: Line) -> xr.Dataset:
     if line.azimuth is None:
         along = line.along
         coords = {along: (along, d[along].values, metres)}
-        place = {"x": d.x.values, "y": d.y.values}
-        at = {k: place[k] if k == along else np.full(d[along].size, getattr(line, k)) for k in "xy"}
+        points = {"x": d.x.values, "y": d.y.values}
+        at = {
+            k: points[k] if k == along else np.full(d[along].size, getattr(line, k)) for k in "xy"
+        }
         x, y = at["x"], at["y"]
     else:
         along = "s"
@@ -100,10 +102,10 @@ def cut(d: xr.Dataset, grid: _core.Grid, line: Line) -> xr.Dataset:
         x, y = np.transpose(places)
         coords = {k: ("s", v, metres) for k, v in {"s": np.asarray(s), "x": x, "y": y}.items()}
     weights = [_between(d[k].values, at) for k, at in (("x", x), ("y", y))]
-    (left, right, u), (near, far, v) = weights
+    (i_left, right, u), (near, far, v) = weights
 
     def on_line(field: NDArray[np.float64]) -> NDArray[np.float64]:
-        low = field[..., left, near] * (1 - v) + field[..., left, far] * v
+        low = field[..., i_left, near] * (1 - v) + field[..., i_left, far] * v
         high = field[..., right, near] * (1 - v) + field[..., right, far] * v
         return low * (1 - u) + high * u
 

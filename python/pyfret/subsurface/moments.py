@@ -29,15 +29,22 @@ def states_of(
     """
 
     def fields(name: str, kind: type) -> list[Any]:
-        return [np.ascontiguousarray(one.dataset[name].values, dtype=kind) for one in snapshots]
+        return [
+            np.ascontiguousarray(snapshot.dataset[name].values, dtype=kind)
+            for snapshot in snapshots
+        ]
 
-    each = snapshots if with_left else []
+    yielded_snapshots = snapshots if with_left else []
     return _core.States(
         snapshots[0].scene.grid,
         **{name: fields(name, float) for name in ("p", "q_x", "q_y")},
         stick=fields("stick", bool),
-        sigma_B=[one.bulk_stress(body_number) for one in snapshots],
-        eigenstress=[of for one in each for of in eigenstress(one, body_number)],
+        sigma_B=[snapshot.bulk_stress(body_number) for snapshot in snapshots],
+        eigenstress=[
+            eigenstress_of_state
+            for snapshot in yielded_snapshots
+            for eigenstress_of_state in eigenstress(snapshot, body_number)
+        ],
     )
 
 

@@ -75,15 +75,15 @@ def _of(state: State, body_number: int) -> _Of:
 def _strained(state: State, body_number: int) -> _Strained:
     """The points of a body that have yielded, as the core takes them."""
     columns = columns_of(state)
-    own = columns[YIELDED.index("yielded_body")] == body_number
-    columns = [np.ascontiguousarray(column[own]) for column in columns]
+    in_body = columns[YIELDED.index("yielded_body")] == body_number
+    columns = [np.ascontiguousarray(column[in_body]) for column in columns]
     # The increment is no part of what has yielded.
     digest = hashlib.sha256(b"".join(column.tobytes() for column in columns[1:])).digest()
     return _Strained(_of(state, body_number), digest, columns)
 
 
 def eigenstress(state: State, body_number: int) -> list[_core.Eigenstress | None]:
-    """What plastic strain leaves in a body of a state, as the core takes it.
+    """Return the eigenstress of a body of a state in the form of the core.
 
     Empty for a body that stays elastic; None stands for one that may yield and has not.
     """
@@ -167,12 +167,12 @@ class PlasticState:
         cells of the contact.
         """
         columns = self._columns
-        found = _body(self._of).fields(columns, **self._state.tractions())
-        left = _body(self._of).imprint(columns_of(self._state))
+        fields = _body(self._of).fields(columns, **self._state.tractions())
+        imprint = _body(self._of).imprint(columns_of(self._state))
         scalar, tensor = ("z", "y", "x"), ("z", "component", "y", "x")
 
         def over_y_x(name: str) -> NDArray[np.float64]:
-            return np.swapaxes(found[name], -1, -2)
+            return np.swapaxes(fields[name], -1, -2)
 
         grid = self._grid
         of_state = self._state.dataset
@@ -192,7 +192,7 @@ class PlasticState:
             for name, (unit, meaning) in labels.items()
         }
         about = {**metre, "long_name": "growth of the gap by plastic strain"}
-        variables["imprint"] = (("grid_y", "grid_x"), left["imprint"].T, about)
+        variables["imprint"] = (("grid_y", "grid_x"), imprint["imprint"].T, about)
         return xr.Dataset(
             variables,
             coords={

@@ -68,15 +68,15 @@ def thermal_stress(
         raise ValueError("alpha_coating is missing: a coating that is no material has no alpha_T")
     if not np.isfinite(E):
         raise ValueError("the coating is rigid: it has no finite thermal stress")
-    given = {
+    expansions = {
         "alpha_coating": _expansion(alpha_coating),
         "alpha_substrate": _expansion(alpha_substrate),
         "temperature_change": temperature_change,
     }
-    for name, value in given.items():
+    for name, value in expansions.items():
         if not np.isfinite(value):
             raise ValueError(f"{name} = {value}: must be a finite number")
-    mismatch = (given["alpha_substrate"] - given["alpha_coating"]) * temperature_change
+    mismatch = (expansions["alpha_substrate"] - expansions["alpha_coating"]) * temperature_change
     return E / (1.0 - nu) * mismatch
 
 

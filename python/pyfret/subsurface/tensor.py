@@ -71,8 +71,8 @@ class Stress(Labelled, Figured):
         if name in self.dataset.attrs:
             return self.dataset.attrs[name]  # type: ignore[no-any-return]
         public = (member for member in dir(type(self)) if not member.startswith("_"))
-        known = [*LABELS, *map(str, self.dataset.attrs), *public, "dataset"]
-        raise attribute_error("stress", name, known, {})
+        names = [*LABELS, *map(str, self.dataset.attrs), *public, "dataset"]
+        raise attribute_error("stress", name, names, {})
 
     def principal(self) -> xr.Dataset:
         """Principal values, the largest first, and unit vectors of their directions."""
@@ -129,7 +129,7 @@ class Stress(Labelled, Figured):
             raise ValueError(f"layer = {layer}: must be one of {sorted(set(layers))}")
         if self._below is None:
             raise ValueError("the largest value is that of a section as stress(...) gives it")
-        found, rises = self._below.maximum(
+        extremum, rises = self._below.maximum(
             of,
             self.measure(of).values,
             depths,
@@ -146,11 +146,11 @@ class Stress(Labelled, Figured):
                 f"{of} in {layers_said} still rises 8 lengths of the grid away from it: "
                 "a larger value may lie beyond; use a longer grid",
             )
-        if found is None and of.startswith("interface"):
+        if extremum is None and of.startswith("interface"):
             raise ValueError(f"{of}: no interface lies among the depths of the section")
-        if found is None:
+        if extremum is None:
             raise ValueError("the section holds no number")
-        value, x, y, z, in_layer, border, error, errors = found
+        value, x, y, z, in_layer, border, error, errors = extremum
         point = Place(x, y, z)
         return Extremum(value, error, point, in_layer, "Pa", border, Errors(*errors))
 
@@ -182,18 +182,18 @@ class Stress(Labelled, Figured):
             )
         line = line_of(self.dataset)
         borders = self._below.borders(**line.named())
-        places = [(x, y) for x, y, of, _ in borders if of == zone]
-        tensors = self._below.points([(x, y, 0.0, 0) for x, y in places])[0]
+        points = [(x, y) for x, y, border_zone, _ in borders if border_zone == zone]
+        tensors = self._below.points([(x, y, 0.0, 0) for x, y in points])[0]
         variables = {
             name: (zone.split()[0], values, surface[name].attrs)
             for name, values in zip(COMPONENTS, tensors.T, strict=True)
         }
         coords = {k: v for k, v in surface.coords.items() if along not in v.dims}
-        named = {"x": 0, "y": 1} if along == "s" else {along: "xy".index(along)}
-        for name, axis in named.items():
-            coords[name] = (zone.split()[0], [place[axis] for place in places], {"units": "m"})
+        coordinate_axes = {"x": 0, "y": 1} if along == "s" else {along: "xy".index(along)}
+        for name, axis in coordinate_axes.items():
+            coords[name] = (zone.split()[0], [place[axis] for place in points], {"units": "m"})
         if along == "s":
-            coords["s"] = (zone.split()[0], [line.place(*at) for at in places], {"units": "m"})
+            coords["s"] = (zone.split()[0], [line.place(*at) for at in points], {"units": "m"})
         return Stress(xr.Dataset(variables, coords))
 
     def _doubt_depths(self) -> None:
@@ -226,9 +226,9 @@ class Stress(Labelled, Figured):
         for name in ("von_mises", "tresca", "s_1", "hydrostatic"):
             field = self.measure(name)
             for layer in np.unique(layers).tolist():
-                here = field.isel(depth=layers == layer) if "depth" in field.dims else field
-                top = float(here.max())
-                z = float(here.where(here == top, drop=True).z.min())
+                in_layer = field.isel(depth=layers == layer) if "depth" in field.dims else field
+                top = float(in_layer.max())
+                z = float(in_layer.where(in_layer == top, drop=True).z.min())
                 depth = f"{1e6 * z:.4g}"
                 rows.append([LABELS[name][1], str(layer), f"{1e-6 * top:.4g}", depth])
         return table(["largest sample", "layer", "MPa", "z [µm]"], rows, words=True)

@@ -1,4 +1,4 @@
-"""What plastic strain leaves after the load is off: residual stress, and the imprint as a shape."""
+"""Unloaded state of bodies that yielded: residual stress, and the imprint as a shape."""
 
 from __future__ import annotations
 
@@ -77,16 +77,18 @@ class Unloaded:
         state = self._state
         body, grid = state.body(body_number), state.scene.grid
         none = (None, None, None)
-        left = eigenstress(state, body_number)
-        below = fields.subsurface(body, grid, none, body_number, 0.0, residual, left=left)
+        eigenstress_of_body = eigenstress(state, body_number)
+        below = fields.subsurface(
+            body, grid, none, body_number, 0.0, residual, left=eigenstress_of_body
+        )
         line = Line(x, y)
         if azimuth is not None:
             line = along(x or 0.0, y or 0.0, azimuth)
         length = state.length
-        found = fields.sampled_stress(
+        sampled = fields.sampled_stress(
             below, body, grid, z, line, length if length > 0 else fields.loaded_length(grid)
         )
-        return found.assign_attrs(
+        return sampled.assign_attrs(
             {k: v for k, v in state.dataset.attrs.items() if k in ("a_H", "p_H")}
         )
 

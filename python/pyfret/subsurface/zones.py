@@ -1,4 +1,4 @@
-"""Where the contact and its stick zone end along a line of the surface."""
+"""Ends of the contact and of its stick zone along a line of the surface."""
 
 from __future__ import annotations
 
@@ -49,9 +49,9 @@ class Zone(NamedTuple):
 def zone(state: State, of: Literal["contact", "stick"], y: float = 0.0) -> Zone:
     """The outermost borders of the contact or of its stick zone along the line of constant y."""
     d, grid = state.dataset, state.scene.grid
-    here = d[of].values.astype(bool)
+    in_zone = d[of].values.astype(bool)
     y = float(d.y[0]) if grid.plane_strain else y
-    row = here[:, int(np.abs(d.y.values - y).argmin())]
+    row = in_zone[:, int(np.abs(d.y.values - y).argmin())]
     touching = np.flatnonzero(d.contact.values.astype(bool).any(axis=1))
     if not row.any() or touching.size == 0:
         return Zone(np.nan, np.nan, 0)
@@ -62,14 +62,14 @@ def zone(state: State, of: Literal["contact", "stick"], y: float = 0.0) -> Zone:
     stick = d["stick"].values.astype(bool)
     below = _core.Subsurface(state.body(2), grid, p=p, q_x=q_x, q_y=q_y, rim=True, stick=stick)
     name = "stick border" if of == "stick" else "rim"
-    found = sorted(x for x, _, kind, _ in below.borders(y=y) if kind == name)
+    border_places = sorted(x for x, _, kind, _ in below.borders(y=y) if kind == name)
     cells = d.x.values[row]
     half = grid.dx / 2
-    if len(found) < 2:
+    if len(border_places) < 2:
         # A zone that ends at the rim has no border of its own there.
         low, high = cells[0] - grid.dx, cells[-1] + grid.dx
         rims = {x for x, _, kind, _ in below.borders(y=y) if kind == "rim" and low <= x <= high}
-        found = sorted({*found, *rims})
-    left = found[0] if found else float(cells[0] - half)
-    right = found[-1] if len(found) > 1 else float(cells[-1] + half)
-    return Zone(float(left), float(right), max(len(found) - 2, 0), grid.dx / 4)
+        border_places = sorted({*border_places, *rims})
+    x_left = border_places[0] if border_places else float(cells[0] - half)
+    right = border_places[-1] if len(border_places) > 1 else float(cells[-1] + half)
+    return Zone(float(x_left), float(right), max(len(border_places) - 2, 0), grid.dx / 4)

@@ -18,7 +18,7 @@ __all__ = ["Cycles", "RangeOfCycles", "reached", "spent"]
 
 
 def ended(cycles: float) -> str:
-    """What is known where a run ended before it reached a value."""
+    """Bounds for a run that ended before it reached a value."""
     return f"more than {_core.rough(cycles)} cycles (the run ended there)"
 
 
@@ -40,7 +40,7 @@ class Cycles(float):
 
     @classmethod
     def after(cls, last: float, rate: float) -> Cycles:
-        """Of a value that is not reached: endless where nothing wears, else beyond the run."""
+        """Make the cycles to an unreached value: endless without wear, else beyond the run."""
         return cls(math.nan, last) if rate > 0.0 else cls(math.inf)
 
     def __reduce__(self) -> tuple[type[Cycles], tuple[float, float | None]]:
@@ -72,7 +72,7 @@ class RangeOfCycles(Range):
 
 def spent(d: xr.Dataset, energy: float) -> Cycles:
     """Cycles at which the dissipated energy [J] reaches a value: linear within a jump."""
-    cycles, ends = (np.asarray(d[of].values, float) for of in ("cycles", "dissipated"))
+    cycles, ends = (np.asarray(d[name].values, float) for name in ("cycles", "dissipated"))
     before = float(cycles[0] - d["length"][0])
     start = float(ends[0] - d["dissipated_per_cycle"][0] * d["length"][0])
     if energy > ends[-1]:
@@ -96,10 +96,12 @@ def reached(d: xr.Dataset, name: str, target: float) -> Cycles:
         return Cycles.after(float(d.cycles[-1]), last)
     n = int(jumps[0])
     start = float(ends[n - 1]) if n else before
-    whole, asked = float(ends[n]) - start, target - start
-    if not (asked > 0.0 and whole > 0.0):
+    whole, energy_needed = float(ends[n]) - start, target - start
+    if not (energy_needed > 0.0 and whole > 0.0):
         return Cycles(d.cycles[n] - length[n])
     half = min(max(float(middles[n]) - start, 0.25 * whole), 0.75 * whole)
     slope, bend = 4.0 * half - whole, 2.0 * whole - 4.0 * half
-    part = 2.0 * asked / (slope + math.sqrt(max(slope**2 + 4.0 * bend * asked, 0.0)))
+    part = (
+        2.0 * energy_needed / (slope + math.sqrt(max(slope**2 + 4.0 * bend * energy_needed, 0.0)))
+    )
     return Cycles(d.cycles[n] - length[n] * (1.0 - min(part, 1.0)))

@@ -1,4 +1,4 @@
-"""What a run of wear leaves: its jumps, its worn surfaces, its events."""
+"""Result of a run of wear: its jumps, its worn surfaces, its events."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ class WearResult(Saveable, Labelled, Figured):
     @property
     def direction(self) -> Literal["x", "y"]:
         """The axis along which the force of the last friction loop is largest."""
-        T = [float(abs(self.dataset[f"loop_T_{of}"][-1]).max()) for of in ("x", "y")]
+        T = [float(abs(self.dataset[f"loop_T_{axis}"][-1]).max()) for axis in ("x", "y")]
         return "y" if T[1] > T[0] else "x"
 
     @quantities
@@ -80,15 +80,20 @@ class WearResult(Saveable, Labelled, Figured):
             [N] and ``delta`` [m], ``secant_stiffness`` [N/m]. Half the ``opening`` of the loop [m]
             and ``energy_ratio``. Of a line contact per metre.
         """
-        way = self.direction if direction is None else direction
-        if way not in ("x", "y"):
+        axis = self.direction if direction is None else direction
+        if axis not in ("x", "y"):
             raise ValueError(f'direction = {direction!r}: must be "x" or "y"')
         d = self.dataset
-        shift, force = (np.asarray(d[f"loop_{of}_{way}"], float) for of in ("delta", "T"))
-        at = [int(abs(d.cycles.values - of).argmin()) for of in d.block_cycles.values]
+        shift, force = (
+            np.asarray(d[f"loop_{quantity}_{axis}"], float) for quantity in ("delta", "T")
+        )
+        at = [
+            int(abs(d.cycles.values - block_cycles).argmin())
+            for block_cycles in d.block_cycles.values
+        ]
         energy = np.asarray(d.dissipated_per_cycle, float)[at]
-        found = of_corners(shift, force, energy, self.scene.grid)
-        return found.assign_coords(block_cycles=d.block_cycles)
+        loops = of_corners(shift, force, energy, self.scene.grid)
+        return loops.assign_coords(block_cycles=d.block_cycles)
 
     def along(self) -> xr.Dataset:
         """Fields of the blocks on the line along the shear, through the centre of the last contact.
@@ -104,10 +109,10 @@ class WearResult(Saveable, Labelled, Figured):
         p = np.asarray(d.p[-1], dtype=float)
         line = Line(None, 0.0)
         if p.any():
-            T = np.array([d[f"loop_T_{of}"][-1].values for of in ("x", "y")])
+            T = np.array([d[f"loop_T_{axis}"][-1].values for axis in ("x", "y")])
             T = T[:, np.hypot(*T).argmax()]
             # Shear in proportion to the pressure has the direction of the force.
-            q_x, q_y = (p * of / max(np.hypot(*T), 1e-300) for of in T)
+            q_x, q_y = (p * T_axis / max(np.hypot(*T), 1e-300) for T_axis in T)
             line = Line(*_core.main_sections(_core.Outline(grid, p=p, q_x=q_x, q_y=q_y))[0])
         return cut(d, grid, line)
 
@@ -151,14 +156,14 @@ class WearResult(Saveable, Labelled, Figured):
         ValueError
             Not one of the four is given, or the body has no such coating.
         """
-        given = {
+        criteria = {
             "depth": as_number(depth),
             "part_of_coating": part_of_coating,
             "volume": volume,
             "energy": energy,
         }
-        if sum(value is not None for value in given.values()) != 1:
-            raise ValueError(f"{', '.join(given)}: give one of them")
+        if sum(value is not None for value in criteria.values()) != 1:
+            raise ValueError(f"{', '.join(criteria)}: give one of them")
         if body_number not in (1, 2):
             raise ValueError(f"body_number = {body_number}: must be 1 or 2")
         if part_of_coating is not None:
@@ -194,12 +199,12 @@ class WearResult(Saveable, Labelled, Figured):
             raise ValueError(f"scatter = {scatter}: must be 1 or more, the highest over the lowest")
         best, error = self.cycles_to(**to), float(self.dataset["depth_error"][-1])
         part = math.exp(math.hypot(0.5 * math.log(scatter), math.log1p(error)))
-        known = best if best.beyond is None else best.beyond
-        return RangeOfCycles(known / part, float(best), best * part)
+        cycles = best if best.beyond is None else best.beyond
+        return RangeOfCycles(cycles / part, float(best), best * part)
 
     @property
     def gap(self) -> xr.DataArray:
-        """By how much the gap has grown: what both bodies lost less the debris that stays, m."""
+        """Growth of the gap [m]: the worn depth of both bodies minus the debris that stays."""
         opened: xr.DataArray = (1.0 - self.debris_kept) * self.worn
         return opened
 
@@ -270,7 +275,7 @@ class WearResult(Saveable, Labelled, Figured):
 
     @property
     def of_loops(self) -> str:
-        """What the friction loops are those of, in words: they are not the loop of the scene."""
+        """Describe the path of the friction loops, which is not the loop of the scene."""
         text = "on the worn surfaces"
         if self.table.get("cycling") == "sliding":
             text += (
@@ -285,7 +290,7 @@ class WearResult(Saveable, Labelled, Figured):
 
     @property
     def events(self) -> list[dict[str, Any]]:
-        """What happened to the coatings: kind, cycles, body, coating, x, y, ``cycles_error``.
+        """List the events of the coatings: kind, cycles, body, coating, x, y, ``cycles_error``.
 
         The error of the cycles is the relative error of the deepest depth at the event (variable
         ``depth_error``), times the cycles.
@@ -295,7 +300,10 @@ class WearResult(Saveable, Labelled, Figured):
     def _repr_html_(self) -> str:
         """Cycles and depths of the blocks, for notebooks."""
         d = self.dataset
-        at = [int(abs(d.cycles.values - of).argmin()) for of in d.block_cycles.values]
+        at = [
+            int(abs(d.cycles.values - block_cycles).argmin())
+            for block_cycles in d.block_cycles.values
+        ]
         rows = [
             [f"{float(d.cycles[n]):.4g}"]
             + [f"{1e6 * float(d[name][n]):.4g}" for name in ("depth1", "depth2")]
@@ -308,7 +316,10 @@ class WearResult(Saveable, Labelled, Figured):
     def __repr__(self) -> str:
         """Tell the cycles and the depths."""
         d = self.dataset
-        depths = [length(float(of[-1])).replace("µ", "u") for of in (d.depth1, d.depth2)]
+        depths = [
+            length(float(depths_of_body[-1])).replace("µ", "u")
+            for depths_of_body in (d.depth1, d.depth2)
+        ]
         return (
             f"WearResult({float(d.cycles[-1]):.0f} cycles in {d.sizes['jump']} jumps, depths "
             f"{depths[0]} and {depths[1]})"

@@ -75,16 +75,16 @@ def solve(
         scene, of_file = _core.wear_of_file(scene)
         wear = read(of_file) if wear is None else wear
     wear = Wear.of(wear, settings)
-    table, own = wear.document()
+    table, functions = wear.document()
     begins = None if start is None else surfaces(start)
     done = 0.0 if begins is None else begins[0]
-    given = scene if path is None else scene.replace(path=path)
+    worn_scene = scene if path is None else scene.replace(path=path)
 
-    with Progress(title=given.title or "wear", shown=progress) as bar:
+    with Progress(title=worn_scene.title or "wear", shown=progress) as bar:
         kept = _core.wear(
-            given,
+            worn_scene,
             table,
-            own,
+            functions,
             store=out,
             overwrite=overwrite,
             start=begins,

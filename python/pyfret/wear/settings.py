@@ -1,4 +1,4 @@
-"""What wears, over how many cycles, and how: the table ``[wear]`` of a scene file."""
+"""Laws, cycles and settings of wear: the table ``[wear]`` of a scene file."""
 
 from __future__ import annotations
 
@@ -93,7 +93,7 @@ Law = Archard | DissipatedEnergy | Function
 
 @part()
 class Wear(Replaceable):
-    """What wears, over how many cycles, and how.
+    """Laws, cycles and settings of a run of wear.
 
     Parameters
     ----------
@@ -170,9 +170,9 @@ class Wear(Replaceable):
         table = {name: value for name, value in vars(self).items() if value is not None}
         functions: list[list[Function]] = []
         for body in ("body1", "body2"):
-            given, share = table.pop(body, None), table.pop(f"share{body[-1]}", None)
-            laws = listed(given)
-            functions.append(own(given))
+            laws_of_body, share = table.pop(body, None), table.pop(f"share{body[-1]}", None)
+            laws = listed(laws_of_body)
+            functions.append(own(laws_of_body))
             if share is not None and not laws:
                 raise ValueError(f"share{body[-1]} = {share}: must come with a law, {body}")
             if laws:
@@ -192,18 +192,18 @@ def fix(law: Archard | DissipatedEnergy) -> None:
     if law.factor is None:
         return
     try:
-        of, given = law.factor
+        variable, given = law.factor
     except (TypeError, ValueError):
         raise TypeError(
             f"factor = {law.factor!r:.60}: must be what it changes with and its table, as in "
             '("cycles", [(0.0, 1.0), (1e4, 0.5)])'
         ) from None
-    name = f"factor over {of}"
+    name = f"factor over {variable}"
     array = hasattr(given, "__array__")
     table = plain(given if array else items(given, name), name)
     if table.ndim != 2 or table.shape[1] != 2:
         raise ValueError(f"{name} has the shape {table.shape}: must be pairs")
-    object.__setattr__(law, "factor", (of, tuple(map(tuple, table.tolist()))))
+    object.__setattr__(law, "factor", (variable, tuple(map(tuple, table.tolist()))))
 
 
 def listed(laws: Law | Sequence[Law | None] | None) -> list[Law | None]:
@@ -228,11 +228,11 @@ def read(text: str) -> Wear:
     """
     table = dict(tomllib.loads(text)["wear"])
     for body in ("body1", "body2"):
-        of = table.pop(body, {})
-        if "share" in of:
-            table[f"share{body[-1]}"] = of["share"]
-        if of.get("laws"):
-            table[body] = [law_of(law) for law in of["laws"]]
+        body_table = table.pop(body, {})
+        if "share" in body_table:
+            table[f"share{body[-1]}"] = body_table["share"]
+        if body_table.get("laws"):
+            table[body] = [law_of(law) for law in body_table["laws"]]
     return Wear(**table)
 
 
@@ -252,10 +252,10 @@ def written(law: Law | None) -> dict[str, Any]:
         # A layer that does not wear.
         return {"k": 0.0}
     if isinstance(law, Archard | DissipatedEnergy):
-        of = {name: value for name, value in vars(law).items() if value is not None}
+        numbers = {name: value for name, value in vars(law).items() if value is not None}
         if law.factor is not None:
-            of["factor"] = dict(zip(("of", "table"), law.factor, strict=True))
-        return of
+            numbers["factor"] = dict(zip(("of", "table"), law.factor, strict=True))
+        return numbers
     if callable(law):
         return {"own": True}
     raise TypeError(

@@ -34,7 +34,7 @@ ZONES = [[0.0, "#ffffff"], [0.5, "#F2C9A9"], [1.0, "#0072B2"]]
 
 @dataclass(frozen=True)
 class PageAnswer:
-    """What a contact came to."""
+    """The answer of a contact."""
 
     #: Numbers as the page shows them, by their names.
     numbers: dict[str, str]
@@ -79,7 +79,7 @@ def answer(
             # A preview looks at the plane of the shear, an answer in the whole body.
             plane = {} if counts is None else main_line(last).named()
             below = last.stress(**plane)
-            most = below.maximum("von_mises")
+            largest = below.maximum("von_mises")
     except (NoConvergenceError, OffGridError) as error:
         raise ValueError(str(error)) from error
     doubts = result.doubts
@@ -87,9 +87,9 @@ def answer(
     unit = scene.grid.unit_of("J")
     loops = result.loops()
     energy = float(loops.dissipated[-1]) if loops.sizes["cycle"] else None
+    mises = with_error(1e-6 * largest.value, 1e-6 * largest.error)
     numbers = {
-        "largest von Mises stress": f"{with_error(1e-6 * most.value, 1e-6 * most.error)} MPa in "
-        f"the {names[most.layer]}",
+        "largest von Mises stress": f"{mises} MPa in the {names[largest.layer]}",
         "largest pressure": f"{1e-6 * float(result.p_max[-1]):.4g} MPa",
         "stick ratio": NO_FRICTION
         if frictionless(scene)
@@ -98,14 +98,14 @@ def answer(
         if energy is None
         else f"{1e6 * energy:.4g} µ{unit}",
     }
-    found = np.bincount(result.dataset.branch_of_increment.values)
-    taken = [int(n) for n in found if n]
+    increments_of_branches = np.bincount(result.dataset.branch_of_increment.values)
+    taken = [int(n) for n in increments_of_branches if n]
     return PageAnswer(
         numbers,
-        most.value,
+        largest.value,
         doubts[0] if doubts else "",
         counts if counts is not None else taken,
-        figure(result, below, most),
+        figure(result, below, largest),
     )
 
 
@@ -144,8 +144,8 @@ def figure(result: Result, below: Any, most: Any) -> Any:
     for name, colour in (("p", "#009E73"), (q, "#AB63FA")):
         values, line = 1e-6 * cut[name].values, {"color": colour}
         drawn.add_trace(plotly.Scatter(x=along, y=values, mode="lines", name=name, line=line), 2, 1)
-    place = f"{section.along} [µm]"
-    axes += [(place, f"p, {q} [MPa]"), (place, "depth [µm]")]
+    axis_label = f"{section.along} [µm]"
+    axes += [(axis_label, f"p, {q} [MPa]"), (axis_label, "depth [µm]")]
     stress = 1e-6 * below.measure("von_mises")
     # A depth on an interface stands twice; a hair's breadth keeps both rows.
     depth = 1e6 * below.dataset.z.values + 1e-6 * np.arange(below.dataset.z.size)

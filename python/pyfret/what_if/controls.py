@@ -67,16 +67,16 @@ def with_coating(scene: Scene, coating: Coating) -> Scene:
 
 def thickness(scene: Scene, value: float) -> Scene:
     """The scene with another thickness."""
-    of = outermost(scene)
-    assert of is not None
-    return with_coating(scene, of.replace(thickness=value))
+    coating = outermost(scene)
+    assert coating is not None
+    return with_coating(scene, coating.replace(thickness=value))
 
 
 def modulus(scene: Scene, value: float) -> Scene:
     """The scene with another modulus of the coating."""
-    of = outermost(scene)
-    assert of is not None
-    return with_coating(scene, of.replace(material=Elastic(E=value, nu=of.material.nu)))
+    coating = outermost(scene)
+    assert coating is not None
+    return with_coating(scene, coating.replace(material=Elastic(E=value, nu=coating.material.nu)))
 
 
 def radius(scene: Scene) -> float | None:
@@ -127,7 +127,7 @@ CONTROLS = (
         "µm",
         1e-6,
         math.inf,
-        lambda scene: of.thickness if (of := outermost(scene)) else None,
+        lambda scene: coating.thickness if (coating := outermost(scene)) else None,
         thickness,
     ),
     Control(
@@ -136,7 +136,7 @@ CONTROLS = (
         "GPa",
         1e9,
         1.2e12,
-        lambda scene: of.material.E if (of := outermost(scene)) else None,
+        lambda scene: coating.material.E if (coating := outermost(scene)) else None,
         modulus,
     ),
     Control("radius", "radius of the upper body", "mm", 1e-3, math.inf, radius, with_radius),
@@ -145,7 +145,7 @@ CONTROLS = (
 
 def controls(scene: Scene) -> list[Control]:
     """The sliders that a scene has."""
-    return [of for of in CONTROLS if of.read(scene) is not None]
+    return [control for control in CONTROLS if control.read(scene) is not None]
 
 
 def changed(scene: Scene, values: Mapping[str, float], *, n: int) -> Scene:
@@ -154,9 +154,9 @@ def changed(scene: Scene, values: Mapping[str, float], *, n: int) -> Scene:
     The grid keeps its ratio to the Hertz contact of the uncoated pair.
     """
     made = scene
-    for of in controls(scene):
-        if of.name in values:
-            made = of.write(made, values[of.name])
+    for control in controls(scene):
+        if control.name in values:
+            made = control.write(made, values[control.name])
     before, after = scene.hertz, made.hertz
     ratio = after.a / before.a if before is not None and after is not None else 1.0
     grid = scene.grid

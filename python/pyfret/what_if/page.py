@@ -141,13 +141,13 @@ def layout(scene: Scene, dash: Any) -> Any:
     """The page."""
     html, dcc = dash.html, dash.dcc
     sliders = []
-    for of in controls(scene):
-        low, high = of.ends(scene)
-        value = of.read(scene)
+    for control in controls(scene):
+        low, high = control.ends(scene)
+        value = control.read(scene)
         assert value is not None
         sliders += [
             html.Div(
-                [of.label, ": ", html.B(of.text(value), id=f"text-{of.name}")],
+                [control.label, ": ", html.B(control.text(value), id=f"text-{control.name}")],
                 style={"marginTop": "1em"},
             ),
             dcc.Slider(
@@ -156,7 +156,7 @@ def layout(scene: Scene, dash: Any) -> Any:
                 value=math.log10(value),
                 step=0.001,
                 marks=None,
-                id=f"slider-{of.name}",
+                id=f"slider-{control.name}",
                 updatemode="drag",
                 allow_direct_input=False,
             ),
@@ -199,15 +199,15 @@ def layout(scene: Scene, dash: Any) -> Any:
 
 
 def answers(app: Any, scene: Scene, dash: Any) -> None:
-    """What the page does."""
+    """Connect the callbacks of the page."""
     shown = controls(scene)
-    inputs = [dash.Input(f"slider-{of.name}", "value") for of in shown]
-    states = [dash.State(f"slider-{of.name}", "value") for of in shown]
-    texts = [dash.Output(f"text-{of.name}", "children") for of in shown]
+    inputs = [dash.Input(f"slider-{control.name}", "value") for control in shown]
+    states = [dash.State(f"slider-{control.name}", "value") for control in shown]
+    texts = [dash.Output(f"text-{control.name}", "children") for control in shown]
     n = CELLS_OF_LINES if scene.grid.plane_strain else CELLS
 
     def made(places: tuple[float, ...], cells: int = n) -> Scene:
-        values = {of.name: 10.0**place for of, place in zip(shown, places, strict=True)}
+        values = {control.name: 10.0**place for control, place in zip(shown, places, strict=True)}
         return changed(scene, values, n=cells)
 
     def begun(cells: int) -> Scene:
@@ -242,13 +242,13 @@ def answers(app: Any, scene: Scene, dash: Any) -> None:
     def preview(*given: Any) -> list[Any]:
         """The first answer to a change."""
         *places, counts = given
-        labels = [of.text(10.0**place) for of, place in zip(shown, places, strict=True)]
+        labels = [control.text(10.0**place) for control, place in zip(shown, places, strict=True)]
         if counts is None:
             # Nothing is known of the increments yet: the full answer is the first.
             keep = dash.no_update
             return [keep, keep, "", "solving ...", places, *labels]
         try:
-            found = answer(made(tuple(places)), counts)
+            shown_answer = answer(made(tuple(places)), counts)
         except ValueError as error:
             return [*refused(error), places, *labels]
         cells = f"{n} x {n}" if not scene.grid.plane_strain else f"{n}"
@@ -256,7 +256,7 @@ def answers(app: Any, scene: Scene, dash: Any) -> None:
             f"preview: {cells} cells, 1/{FEWER} of the increments of the neighbouring scene; "
             "the full answer follows"
         )
-        return [*panel(found, state), places, *labels]
+        return [*panel(shown_answer, state), places, *labels]
 
     @app.callback(  # type: ignore[untyped-decorator]
         *everything,
@@ -281,11 +281,11 @@ def answers(app: Any, scene: Scene, dash: Any) -> None:
 
     def full(places: tuple[float, ...], cells: int) -> list[Any]:
         try:
-            found = answer(made(places, cells), like=begun(cells))
+            shown_answer = answer(made(places, cells), like=begun(cells))
         except ValueError as error:
             return [*refused(error), dash.no_update]
-        state = f"full answer: {cells} cells along x, {sum(found.counts)} chosen increments"
-        return [*panel(found, state), found.counts]
+        state = f"full answer: {cells} cells along x, {sum(shown_answer.counts)} chosen increments"
+        return [*panel(shown_answer, state), shown_answer.counts]
 
     @app.callback(  # type: ignore[untyped-decorator]
         dash.Output("file", "data"),
