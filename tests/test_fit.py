@@ -149,7 +149,7 @@ def test_separators_and_units_are_seen(tmp_path: Path, head: str) -> None:
     file = tmp_path / "table.txt"
     file.write_text(head, encoding="utf-8")
     table = fret.fit.tables.read_table(file)
-    assert np.allclose(table.numbers(0, 1), [[-1e-3, -2e3]])
+    assert np.allclose(table.numbers(0, 1), [[-1e-3], [-2e3]])
     assert table.names == ("d", "T")
 
 

@@ -134,29 +134,32 @@ def test_channels_of_one_clock_are_paired_as_they_are() -> None:
         recording = Recording(
             "made up", [channel("a", values[0], step), channel("b", values[1], step)]
         )
-        np.testing.assert_array_equal(recording.raw((0, 1)), values.T)
+        np.testing.assert_array_equal(recording.raw((0, 1)), values)
         assert recording.notes == []
+        # The samples of the file stay as they are.
+        recording.numbers(0, 1)
+        np.testing.assert_allclose(recording.numbers(0, 1), 1e-6 * values)
 
 
 def test_channels_of_different_clocks_are_resampled_to_the_slower_one_by_a_printed_rule() -> None:
     slow, fine = np.arange(11.0), np.linspace(0.0, 10.0, 101) ** 2
     recording = Recording("made up", [channel("a", slow, 1.0), channel("b", fine, 0.1)])
-    np.testing.assert_allclose(recording.raw((0, 1))[:, 1], slow**2, rtol=1e-12)
+    np.testing.assert_allclose(recording.raw((0, 1))[1], slow**2, rtol=1e-12)
     assert "b, 101 samples, is interpolated linearly at the 11 instants of a" in recording.notes
     # A late begin: where both were recorded.
     late = Recording("made up", [channel("a", slow, 1.0), channel("b", fine, 0.1, begin=2.5)])
     rows = late.raw((0, 1))
-    np.testing.assert_allclose(rows[:, 0], np.arange(3.0, 11.0))
-    np.testing.assert_allclose(rows[:, 1], (rows[:, 0] - 2.5) ** 2, atol=0.01)
+    np.testing.assert_allclose(rows[0], np.arange(3.0, 11.0))
+    np.testing.assert_allclose(rows[1], (rows[0] - 2.5) ** 2, atol=0.01)
     # The same number of samples at other instants is another clock.
     shifted = Recording("made up", [channel("a", slow, 1.0), channel("b", slow, 1.0, begin=0.5)])
-    np.testing.assert_allclose(shifted.raw((0, 1))[:, 1], shifted.raw((0, 1))[:, 0] - 0.5)
+    np.testing.assert_allclose(shifted.raw((0, 1))[1], shifted.raw((0, 1))[0] - 0.5)
 
 
 def test_whole_numbers_are_held_not_interpolated() -> None:
     count = np.arange(0, 101, dtype="i4") // 30
     recording = Recording("made up", [channel("a", np.arange(11.0), 1.0), channel("n", count, 0.1)])
-    held = recording.raw((0, 1))[:, 1]
+    held = recording.raw((0, 1))[1]
     np.testing.assert_array_equal(held, np.arange(0, 101, 10) // 30)
     assert any("the last whole number before" in note for note in recording.notes)
 

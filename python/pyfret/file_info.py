@@ -169,10 +169,10 @@ def _table_or_map(path: Path, start: bytes, kind: str) -> FileInfo:
     lines["read"] = f"shift {columns.names[shift]!r} over force {columns.names[force]!r}"
     info = FileInfo(str(path), kind, "fret.fit.read_loops", lines)
     try:
-        rows = columns.numbers(shift, force)
-        lines["points"] = str(len(rows))
-        low, high = length(float(rows[:, 0].min())), length(float(rows[:, 0].max()))
-        lines["range"] = f"shift {low} to {high}, force to {np.abs(rows[:, 1]).max():.4g} N"
+        shifts, forces = columns.numbers(shift, force)
+        lines["points"] = str(len(shifts))
+        low, high = length(float(shifts.min())), length(float(shifts.max()))
+        lines["range"] = f"shift {low} to {high}, force to {np.abs(forces).max():.4g} N"
     except ValueError as refusal:
         info.doubts.append(str(refusal))
     info.doubts += columns.notes

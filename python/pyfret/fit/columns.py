@@ -67,11 +67,11 @@ class Columns(ABC):
         self.notes: list[str] = []
 
     @abstractmethod
-    def raw(self, indices: tuple[int, ...]) -> NDArray[np.float64]:
-        """Read columns in their units, shape (rows, columns)."""
+    def raw(self, indices: tuple[int, ...]) -> list[NDArray[np.float64]]:
+        """Read columns in their units, as arrays that nobody else has."""
 
-    def numbers(self, *indices: int) -> NDArray[np.float64]:
-        """Read columns in SI units, shape (rows, columns)."""
+    def numbers(self, *indices: int) -> list[NDArray[np.float64]]:
+        """Read columns in SI units."""
         for index in indices:
             unit = self.units[index]
             if unit and not kind_of(unit):
@@ -79,14 +79,15 @@ class Columns(ABC):
                 raise ValueError(
                     f"{self.place}: {self.names[index]}: unit {unit!r}: must be one of {kind_units}"
                 )
-        values = self.raw(indices)
-        for column, index in enumerate(indices):
+        columns = self.raw(indices)
+        for values, index in zip(columns, indices, strict=True):
             factor = size_of(self.units[index])
             if factor != 1.0:
-                values[:, column] *= factor
-        if np.isinf(values).any():
-            raise ValueError(f"{self.place}: has numbers that are not finite")
-        return values
+                values *= factor
+            # A sum is finite where all numbers are.
+            if not np.isfinite(values.sum()) and np.isinf(values).any():
+                raise ValueError(f"{self.place}: has numbers that are not finite")
+        return columns
 
     def column(self, kind: str, names: tuple[str, ...], given: str | None) -> int:
         """Return the index of the column of a given name, or of the only one of a kind."""

@@ -282,12 +282,14 @@ class Measured(HoldsArrays):
     labels: tuple[str, str]
 
 
-def read_pair(columns: Columns, first: int, second: int) -> NDArray[np.float64]:
+def read_pair(
+    columns: Columns, first: int, second: int
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Read two columns [SI], and print how they were aligned."""
-    rows = columns.numbers(first, second)
+    x, y = columns.numbers(first, second)
     for note in columns.notes:
         print(f"{columns.place}: {note}", file=sys.stderr)
-    return rows
+    return x, y
 
 
 @quantities
@@ -349,10 +351,10 @@ def read_loops(
     table = read_columns(path, units, skip=skip, group=group)
     shift = table.column("length", ("delta", "d_", "weg", "x", "shift", "disp"), delta)
     force = table.column("force", ("t", "q", "kraft", "f", "force"), T)
-    rows = read_pair(table, shift, force)
+    x, y = read_pair(table, shift, force)
     options: dict[str, Any] = {"W": W, "noise": noise, "tilt": tilt, "drift": drift}
     try:
-        return Loops.of(rows[:, 0], rows[:, 1], detrend=detrend, **options)
+        return Loops.of(x, y, detrend=detrend, **options)
     except ValueError as error:
         raise ValueError(f"{table.place}: {error}") from error
 
@@ -377,8 +379,8 @@ def read_indentation(
     table = read_columns(path, units, skip=skip, group=group)
     force = table.column("force", ("w", "f", "p", "load"), W)
     approach = table.column("length", ("delta", "h", "z", "depth", "weg"), delta_z)
-    rows = read_pair(table, force, approach)
-    return Indentation.of(rows[:, 0], rows[:, 1], noise=noise, frame=frame)
+    forces, approaches = read_pair(table, force, approach)
+    return Indentation.of(forces, approaches, noise=noise, frame=frame)
 
 
 @quantities
@@ -404,8 +406,8 @@ def read_scar(
             "a profile has two, "
             "place and depth"
         )
-    rows = read_pair(table, x_column, worn)
-    return Scar.of(rows[:, 0], rows[:, 1], wear=wear, body_number=body_number, noise=noise)
+    places, depths = read_pair(table, x_column, worn)
+    return Scar.of(places, depths, wear=wear, body_number=body_number, noise=noise)
 
 
 @quantities
@@ -433,7 +435,7 @@ def read_lives(
         kind, unit = _core.measured_by(name) or ("", "")
         if at != cycles_column and unit:
             table.must_measure(at, kind)
-    rows = table.numbers(*range(len(table.names)))
+    rows = np.column_stack(table.numbers(*range(len(table.names))))
     settings = [
         {
             name: float(v)

@@ -132,6 +132,7 @@ def channels_of_tdms(path: Path) -> Iterator[Channel]:
             _tdms_reader(path, group, name),
             _even_clock(clock, size),
             clock,
+            is_fresh=True,
         )
 
 

@@ -43,6 +43,8 @@ class Channel:
     clock: Callable[[], NDArray[np.float64]] | None = None
     #: Begin, interval of an even clock [s].
     even: tuple[float, float] | None = None
+    #: Whether each reading gives an array of its own.
+    is_fresh: bool = False
 
 
 class Recording(Columns):
@@ -74,21 +76,21 @@ class Recording(Columns):
                 )
             self.units = (*self.units[:index], unit, *self.units[index + 1 :])
 
-    def raw(self, indices: tuple[int, ...]) -> NDArray[np.float64]:
+    def raw(self, indices: tuple[int, ...]) -> list[NDArray[np.float64]]:
         """Read channels in their units, aligned in time."""
         chosen = [self.channels[index] for index in indices]
         if not self.is_one_clock(chosen):
-            return self.aligned(chosen)
-        rows = np.empty((chosen[0].size, len(chosen)), order="F")
-        for column, channel in enumerate(chosen):
+            return list(self.aligned(chosen).T.copy())
+        columns = []
+        for channel in chosen:
             samples = channel.read()
             if len(samples) != channel.size:
                 raise ValueError(
                     f"{self.place}: {channel.name}: {len(samples)} samples of {channel.size}: the "
                     "file is not whole"
                 )
-            rows[:, column] = samples
-        return rows
+            columns.append(samples.astype(float, copy=not channel.is_fresh))
+        return columns
 
     def is_one_clock(self, channels: Sequence[Channel]) -> bool:
         """Check that channels have samples at the same instants."""

@@ -46,12 +46,12 @@ class Table(Columns):
         #: The first row of each column that has no number in it.
         self.faults = faults
 
-    def raw(self, indices: tuple[int, ...]) -> NDArray[np.float64]:
+    def raw(self, indices: tuple[int, ...]) -> list[NDArray[np.float64]]:
         """Return columns in their units."""
         for index in indices:
             if index in self.faults:
                 raise ValueError(f"{self.place}:{self.faults[index]}")
-        return np.concatenate([block[:, indices] for block in self.blocks])
+        return [np.concatenate([block[:, n] for block in self.blocks]) for n in indices]
 
 
 def read_table(

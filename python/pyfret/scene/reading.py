@@ -62,14 +62,19 @@ def check_sizes(shape: tuple[int, ...], spacing: tuple[float, float]) -> None:
 
 def remove_mean(heights: NDArray[np.float64]) -> None:
     """Subtract the mean of the measured points, in place."""
-    total, count = 0.0, 0
-    for first in range(0, len(heights), LINES):
-        rows = heights[first : first + LINES]
-        measured = ~np.isnan(rows)
-        total += float(np.sum(rows, where=measured))
-        count += int(measured.sum())
+    # Along the memory, whichever axis comes first in it.
+    lines = heights if heights.flags.c_contiguous else heights.T
+    total = float(lines.sum())
+    count = heights.size
+    if np.isnan(total):
+        total, count = 0.0, 0
+        for first in range(0, len(lines), LINES):
+            rows = lines[first : first + LINES]
+            measured = ~np.isnan(rows)
+            total += float(np.sum(rows, where=measured))
+            count += int(measured.sum())
     if count:
-        heights -= total / count
+        lines -= total / count
 
 
 def summarize(
