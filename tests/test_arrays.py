@@ -116,10 +116,10 @@ def test_points_are_not_paired_by_place_where_they_have_names() -> None:
     force = pd.Series([1.0, 2.0, 3.0], index=[0, 1, 2])
     approach = 1e-6 * force
     with pytest.raises(ValueError, match="other labels"):
-        fret.fit.Indentation.of(force, approach.sort_index(ascending=False))
+        fret.fit.Indentation.from_arrays(force, approach.sort_index(ascending=False))
     with pytest.raises(ValueError, match="as many"):
-        fret.fit.Scar.of([0.0, 1.0], [0.0], wear={})
-    assert fret.fit.Indentation.of(force, approach).W.size == 3
+        fret.fit.Scar.from_arrays([0.0, 1.0], [0.0], wear={})
+    assert fret.fit.Indentation.from_arrays(force, approach).W.size == 3
 
 
 STEEL = fret.Elastic(E=210e9, nu=0.3)

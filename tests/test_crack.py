@@ -117,24 +117,24 @@ def test_thresholds() -> None:
         fracture.Threshold(-1.0)
     unknown = fret.fatigue.Material("mine", [("s_D", 300e6, "a test")])
     with pytest.raises(ValueError, match="dK_th"):
-        fracture.Threshold.of(unknown)
+        fracture.Threshold.from_material(unknown)
     own = fret.fatigue.Material("mine", [("dK_th", 8e6, "a test"), ("s_D", 300e6, "another")])
-    assert fracture.Threshold.of(own) == fracture.Threshold(4e6, 300e6)
+    assert fracture.Threshold.from_material(own) == fracture.Threshold(4e6, 300e6)
 
 
 def test_growth_constants_of_the_table_of_materials() -> None:
     table = fret.fatigue.Materials()
-    alloy = fracture.Threshold.of(table["aluminium_4Cu"])
+    alloy = fracture.Threshold.from_material(table["aluminium_4Cu"])
     assert (alloy.dK_th, alloy.dS_0, alloy.walker) == (2.1e6, 124e6, None)
     assert alloy.a_0 == pytest.approx(91.29465388e-6)
-    assert fracture.Paris.of(table["aluminium_7075_T6"]) == fracture.Paris(2.71e-11, 3.7)
+    assert fracture.Paris.from_material(table["aluminium_7075_T6"]) == fracture.Paris(2.71e-11, 3.7)
     with pytest.raises(ValueError, match=r"aluminium_4Cu.*paris_C"):
-        fracture.Paris.of(table["aluminium_4Cu"])
+        fracture.Paris.from_material(table["aluminium_4Cu"])
     own = fret.fatigue.Material(
         "mine", [("dK_th", 8e6, "a test"), ("s_D", 300e6, "one"), ("walker", 0.6, "another")]
     )
-    assert fracture.Threshold.of(own).walker == 0.6
-    assert fracture.Threshold.of(own, walker=0.9).walker == 0.9
+    assert fracture.Threshold.from_material(own).walker == 0.6
+    assert fracture.Threshold.from_material(own, walker=0.9).walker == 0.9
 
 
 @pytest.mark.slow
@@ -436,19 +436,19 @@ def test_what_becomes_of_a_crack_has_the_error_of_k() -> None:
     without, found = plain.arrest(threshold), cracks.arrest(threshold)
     assert without.margin_error is None
     assert without.lengths is None
-    assert "(estimate)" in without.told()
+    assert "(estimate)" in without.describe()
     assert found.verdict == "stops"
     assert found.is_sure
     assert found.length == pytest.approx(1e-4, rel=2e-3)
     assert found.lengths == pytest.approx((0.95e-4, 1.05e-4), rel=2e-3)
     assert found.margin_error == pytest.approx(0.05 * found.margin, rel=1e-6)
-    assert "100 (95 to 105) um" in found.told()
-    assert "+-" in found.told()
+    assert "100 (95 to 105) um" in found.describe()
+    assert "+-" in found.describe()
     # At 1.02 times the threshold at its first length the error leaves two verdicts.
     unsure = cracks.arrest(fracture.Threshold(dK_th=3e7 / 1.02))
     assert (unsure.verdict, set(unsure.verdicts)) == ("stops", {"stops", "dormant"})
-    assert "not decided within the error of K: it may not grow" in unsure.told()
-    assert "dK/dK_th 1.020 +- 0.051 at that length" in unsure.told()
+    assert "not decided within the error of K: it may not grow" in unsure.describe()
+    assert "dK/dK_th 1.020 +- 0.051 at that length" in unsure.describe()
     assert not unsure.is_sure
     # The bar of the margin reaches over 1 where both of its ends grow: not decided.
     sure = cracks.arrest(fracture.Threshold(dK_th=2.9e5))
@@ -484,13 +484,13 @@ def test_a_verdict_says_for_which_length_it_holds_and_what_others_do(
     ((low, high),) = found.growing
     assert (low, high) == pytest.approx((17.40e-6, 91.97e-6), rel=1e-3)
     for word in words:
-        assert word in found.told()
-    assert found.told().startswith(found.briefly())
+        assert word in found.describe()
+    assert found.describe().startswith(found.briefly())
     if verdict == "dormant":
         assert found.length is None
         assert found.tip == found.start
         assert "stop at 91.97 um" in repr(life)
-        assert "no number of cycles" in life.told()
+        assert "no number of cycles" in life.describe()
         assert "does not grow" in str(life.why_infinite())
         # A crack of the length that it names does grow.
         longer = cracks.arrest(threshold, start=1.01 * low)
@@ -498,18 +498,18 @@ def test_a_verdict_says_for_which_length_it_holds_and_what_others_do(
         assert longer.length == pytest.approx(high)
     else:
         assert found.tip == found.length == pytest.approx(high)
-        assert "cycles from 20 um to 91.97 um, where it stops" in life.told()
+        assert "cycles from 20 um to 91.97 um, where it stops" in life.describe()
 
 
 def test_growth_through_all_lengths_and_through_none() -> None:
     cracks = bump()
     none = cracks.arrest(fracture.Threshold(dK_th=1e7))
     assert none.growing == ()
-    assert "nor would one of any length up to 600 um" in none.told()
+    assert "nor would one of any length up to 600 um" in none.describe()
     even = fracture.Cracks.from_arrays(cracks.lengths, np.full(24, 1e6), np.zeros(24))
     every = even.arrest(fracture.Threshold(dK_th=2e4))
     assert every.growing == ((5e-6, 6e-4),)
-    assert every.told().startswith(
+    assert every.describe().startswith(
         "grows through all lengths from a length of 5 um, the shortest computed, to 600 um; least"
     )
 
@@ -518,16 +518,16 @@ def test_an_error_as_large_as_the_number_is_told() -> None:
     cracks = bump()
     wide = cracks.dataset.assign(error=(1.2 * cracks.dataset.K_I).assign_attrs(units="Pa m^0.5"))
     found = fracture.Cracks(wide).arrest(fracture.Threshold(dK_th=1e6), start=4e-5)
-    assert "the error of K is as large as dK" in found.told()
+    assert "the error of K is as large as dK" in found.describe()
     assert not found.is_sure
 
 
 def test_what_rests_on_an_estimate_says_so() -> None:
     """Threshold, length, cycles, figures: the word stands at each; a measured one has none."""
     table = fret.fatigue.Materials()
-    estimated = fracture.Threshold.of(table["titanium_6Al4V"])
+    estimated = fracture.Threshold.from_material(table["titanium_6Al4V"])
     assert "dK_th" in str(estimated.estimate)
-    measured = fracture.Threshold.of(table["aluminium_4Cu"])
+    measured = fracture.Threshold.from_material(table["aluminium_4Cu"])
     assert measured.estimate is None
     cracks = bump(estimated.dK_th)
     paris = fracture.Paris(C=1e-11, m=3.0)
@@ -535,7 +535,7 @@ def test_what_rests_on_an_estimate_says_so() -> None:
         found = cracks.arrest(threshold, start=4e-5)
         life = cracks.life(threshold, paris, start=4e-5)
         assert found.verdict == "stops"
-        for text in (found.told(), found.briefly(), found.told_length(), repr(life)):
+        for text in (found.describe(), found.briefly(), found.describe_length(), repr(life)):
             assert ("estimate" in text) == marked, text
         axes = (
             fret.plot.crack_arrest(cracks, threshold, start=4e-5),
@@ -571,8 +571,8 @@ def test_command_figure_page_and_json_have_one_verdict(
     cracks = pulled.crack(lengths=[1e-5, 3e-5, 1e-4, 3e-4])
     threshold = fracture.Threshold(float(dK_th))
     found = cracks.arrest(threshold)
-    assert row["told"] == found.told()
-    assert found.told() in line
+    assert row["told"] == found.describe()
+    assert found.describe() in line
     assert f"from x = {1e6 * row['x']:.4g} um" in line
     assert (row["length"] is None) == ("length_why" in row)
     drawn = fret.plot.crack_panels(pulled, cracks, threshold)
@@ -585,7 +585,7 @@ def test_command_figure_page_and_json_have_one_verdict(
     assert (
         CrackSection(cracks, threshold)
         .numbers()["says"]
-        .endswith(f" body {found.told()}.".replace(" um", " µm").replace("+-", "±"))
+        .endswith(f" body {found.describe()}.".replace(" um", " µm").replace("+-", "±"))
     )
 
 

@@ -135,14 +135,14 @@ def test_the_first_to_fail_has_the_margin_of_the_same_cracks(
     )
     path = fret.LoadPath.start().normal(2e5).tangential([6e4, -6e4, 6e4], increments=3)
     result = fret.solve(scene, path, save="all", progress=False)
-    threshold = fracture.Threshold.of("steel_42CrMo4")
+    threshold = fracture.Threshold.from_material("steel_42CrMo4")
     # By default both begin where a crack has come through the coatings.
     for lengths, start in (([2e-5, 5e-5, 1e-4, 3e-4], 20), (None, 15)):
         found = fracture.first_to_fail(result, threshold=threshold, lengths=lengths)
         same = result.crack(lengths=lengths).arrest(threshold)
         assert (found.substrate, found.substrate_error) == (same.margin, same.margin_error)
         assert found.arrest == same
-        assert f"a crack {same.told()}" in found.summary()
+        assert f"a crack {same.describe()}" in found.summary()
         assert f"least dK/dK_th from a length of {start} um on" in repr(found)
     assert "the ranges leave out the scatter of estimates" in found.summary()
 
@@ -164,7 +164,7 @@ def test_a_range_says_that_it_leaves_out_the_scatter_of_estimates() -> None:
     words = "the ranges leave out the scatter of estimates"
     plain = fracture.Cracks.from_arrays(LENGTHS, np.geomspace(1e7, 1e6, 6), np.zeros(6))
     barred = fracture.Cracks(plain.dataset.assign(error=0.1 * plain.dataset.K_I))
-    of_rule = fracture.Threshold.of("titanium_6Al4V")
+    of_rule = fracture.Threshold.from_material("titanium_6Al4V")
     own = fracture.Threshold(of_rule.dK_th, of_rule.dS_0)
     paris = fracture.Paris(1e-11, 3.0)
     guessed = fracture.Paris(1e-11, 3.0, estimate="paris_C is an estimate")
@@ -174,5 +174,5 @@ def test_a_range_says_that_it_leaves_out_the_scatter_of_estimates() -> None:
         (barred, own, paris, False, False),
         (plain, of_rule, guessed, False, False),
     ):
-        assert (words in cracks.arrest(threshold).told()) == in_arrest
-        assert (words in cracks.life(threshold, law).told()) == in_life
+        assert (words in cracks.arrest(threshold).describe()) == in_arrest
+        assert (words in cracks.life(threshold, law).describe()) == in_life

@@ -49,7 +49,7 @@ def results() -> dict[str, Any]:
         executor=ThreadPoolExecutor(1),
         progress=False,
     )
-    loops = Loops.of(
+    loops = Loops.from_arrays(
         delta=np.array([0.0, 1e-6, 0.0, -1e-6, 0.0]), T=np.array([0.0, 5.0, 0.0, -5.0, 0.0]), W=W
     )
     measured = Measured(loops, loops.T, loops.delta, ("shift [um]", "force [N]"))

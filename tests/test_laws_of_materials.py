@@ -18,9 +18,9 @@ FILM = fret.Coating(fret.Elastic(E=400e9, nu=0.25), thickness=2e-6, residual=-2e
 STEEL = fret.material("steel")
 
 
-@pytest.mark.parametrize("given", ["7075-T6", ALLOY, fracture.Threshold.of("7075")])
+@pytest.mark.parametrize("given", ["7075-T6", ALLOY, fracture.Threshold.from_material("7075")])
 def test_a_threshold_is_that_of_a_material(given: Any) -> None:
-    right = fracture.Threshold.of(ALLOY)
+    right = fracture.Threshold.from_material(ALLOY)
     assert CRACKS.arrest(given) == CRACKS.arrest(right)
     np.testing.assert_array_equal(CRACKS.dK(given), CRACKS.dK(right))
     assert CRACKS.kitagawa(given).equals(CRACKS.kitagawa(right))
@@ -28,7 +28,7 @@ def test_a_threshold_is_that_of_a_material(given: Any) -> None:
     assert fret.study.FirstToFail(threshold=given).threshold == right
     assert plot.crack_arrest(CRACKS, given).lines
     # The law of growth is that of the same material, or the one that is given.
-    law = fracture.Paris.of(ALLOY)
+    law = fracture.Paris.from_material(ALLOY)
     assert CRACKS.life(given) == CRACKS.life(right, law) == CRACKS.life(given, "7075")
     assert CRACKS.life(given, fracture.Paris(1e-12, 3.0)).cycles != CRACKS.life(given).cycles
 
@@ -41,7 +41,7 @@ def test_what_has_no_law_is_refused_with_the_way() -> None:
         CRACKS.arrest("unobtainium")
     with pytest.raises(ValueError, match=r"paris"):
         CRACKS.life(own, "titanium_6Al4V")
-    assert fracture.Threshold.of("titanium_6Al4V").growth is None
+    assert fracture.Threshold.from_material("titanium_6Al4V").growth is None
 
 
 def test_a_film_has_its_own_residual_stress() -> None:

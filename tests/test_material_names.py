@@ -47,14 +47,16 @@ def test_a_misspelt_name_is_refused_with_the_nearest_everywhere() -> None:
         asked.add(name.removeprefix("pyfret."))
         with pytest.raises(ValueError, match=rf"(?s){key}.*tiatnium.*titanium"):
             call(**{key: "tiatnium"})
-    expected = {"fatigue.critical_distance", "fatigue.lives", "fracture.Paris.of"}
-    assert expected | {"heat.Conductor.of", "fatigue.average"} <= asked
+    expected = {"fatigue.critical_distance", "fatigue.lives", "fracture.Paris.from_material"}
+    assert expected | {"heat.Conductor.from_material", "fatigue.average"} <= asked
 
 
 def test_a_name_is_its_material() -> None:
     steel = fatigue.Materials()["42CrMo4"]
     assert fatigue.critical_distance("42CrMo4") == fatigue.critical_distance(steel)
-    assert fracture.Threshold.of("42CrMo4") == fracture.Threshold.of(steel)
-    assert heat.Conductor.of("Ti6Al4V") == heat.Conductor.of(fatigue.Materials()["Ti6Al4V"])
+    assert fracture.Threshold.from_material("42CrMo4") == fracture.Threshold.from_material(steel)
+    assert heat.Conductor.from_material("Ti6Al4V") == heat.Conductor.from_material(
+        fatigue.Materials()["Ti6Al4V"]
+    )
     with pytest.raises(TypeError, match="or its name"):
         fatigue.critical_distance(3.0)  # type: ignore[arg-type]

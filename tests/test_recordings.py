@@ -230,8 +230,8 @@ def test_a_drift_is_removed_on_request(capsys: pytest.CaptureFixture[str]) -> No
     angle = np.linspace(0.0, 12.0 * np.pi, 3000)
     shift = 1e-6 * np.cos(angle) + 5e-7 * angle / angle[-1]
     force = 5.0 * np.sin(angle) + 0.1 * angle
-    drifting = fret.fit.Loops.of(shift, force)
-    still = fret.fit.Loops.of(shift, force, detrend=True)
+    drifting = fret.fit.Loops.from_arrays(shift, force)
+    still = fret.fit.Loops.from_arrays(shift, force, detrend=True)
     assert abs(drifting.drift[1]) > 2.5
     assert abs(still.drift[1]) < 0.05
     assert abs(still.drift[0]) < 0.02 * abs(drifting.drift[0])

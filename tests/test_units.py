@@ -50,8 +50,14 @@ SLIPS: dict[str, tuple[Callable[[], Any], str]] = {
         ),
         "alpha_coating = 9.4 1/K",
     ),
-    "loop in um": (lambda: fret.fit.Loops.of([0, 9, 0, -9, 0], [0, 5, 0, -5, 0]), "delta = 9 m"),
-    "indentation in um": (lambda: fret.fit.Indentation.of([1.0, 2.0], [1.0, 2.0]), "delta_z = 2 m"),
+    "loop in um": (
+        lambda: fret.fit.Loops.from_arrays([0, 9, 0, -9, 0], [0, 5, 0, -5, 0]),
+        "delta = 9 m",
+    ),
+    "indentation in um": (
+        lambda: fret.fit.Indentation.from_arrays([1.0, 2.0], [1.0, 2.0]),
+        "delta_z = 2 m",
+    ),
     "friction of a fit in per cent": (lambda: ranges({"mu": (20.0, 60.0)}), "mu = 20"),
     "modulus of a fit in GPa": (lambda: ranges({"body2.E": (100.0, 300.0)}), "E = 100 Pa"),
     "rig of a fit in N/um": (lambda: ranges({"rig.stiffness": (1.0, 50.0)}), "stiffness = 1 N/m"),

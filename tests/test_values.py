@@ -114,9 +114,9 @@ VALUES: list[Any] = [
     fret.study.Limits(MATERIAL, 5e-5, 0.9, 0.1, np.array([0.9, np.nan, 1.1]), (2e-5, 1e-4)),
     fret.experiments.icf13("FF_1", n=64),
     fret.experiments.fouvry2007("TiC"),
-    fret.fit.Loops.of(1e-6 * np.cos(TURN), 5.0 * np.sin(TURN)),
-    fret.fit.Indentation.of([1.0, 2.0], [1e-7, 2e-7]),
-    fret.fit.Scar.of(1e-5 * TURN, 1e-6 * np.cos(TURN), wear={"cycles": 1e3, "body2": LAW}),
+    fret.fit.Loops.from_arrays(1e-6 * np.cos(TURN), 5.0 * np.sin(TURN)),
+    fret.fit.Indentation.from_arrays([1.0, 2.0], [1e-7, 2e-7]),
+    fret.fit.Scar.from_arrays(1e-5 * TURN, 1e-6 * np.cos(TURN), wear={"cycles": 1e3, "body2": LAW}),
     fret.fit.Lives(1e3 * TURN, [{"mu": 0.3}] * TURN.size, {"body2": LAW}),
     fret.fatigue.Range(1e4, 2e4, 4e4),
     fret.Plastic(s_y=1e9, hardening=1e10),
@@ -166,7 +166,9 @@ def of_a_run() -> list[Any]:
         {"coated": scene.body2}, scene, path, questions=["energy"], executor=1, progress=False
     )
     march = fret.march(scene, paper_path(1, 9))
-    curve = fret.fit.Indentation.of(W * np.array([0.3, 0.6, 1.0]), [6.1e-6, 9.6e-6, 1.33e-5])
+    curve = fret.fit.Indentation.from_arrays(
+        W * np.array([0.3, 0.6, 1.0]), [6.1e-6, 9.6e-6, 1.33e-5]
+    )
     of_path = scene.replace(path=path)
     found = fret.fit.fit(of_path, curve, unknown={"body2.E": (1e11, 4e11)})
     return [

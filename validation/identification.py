@@ -70,7 +70,9 @@ def loop(true: dict[str, float], rng: np.random.Generator) -> fret.fit.Loops:
     d = fret.solve(of, path, progress=False).dataset
     ways = np.arange(d.sizes["increment"])[-2 * WAYS :: max(WAYS // POINTS, 1)]
     T = d.T_x.values[ways]
-    return fret.fit.Loops.of(d.delta_x.values[ways], T + rng.normal(0, NOISE * np.ptp(T), T.size))
+    return fret.fit.Loops.from_arrays(
+        d.delta_x.values[ways], T + rng.normal(0, NOISE * np.ptp(T), T.size)
+    )
 
 
 def indentation(true: dict[str, float], rng: np.random.Generator) -> fret.fit.Indentation:
@@ -81,7 +83,7 @@ def indentation(true: dict[str, float], rng: np.random.Generator) -> fret.fit.In
         path = path.normal(W * float(part), increments=1)
     d = fret.solve(of, path, progress=False).dataset
     delta_z = d.delta_z.values
-    return fret.fit.Indentation.of(
+    return fret.fit.Indentation.from_arrays(
         d.W.values, delta_z + rng.normal(0, NOISE * np.ptp(delta_z), delta_z.size)
     )
 

@@ -176,7 +176,7 @@ def for_contact(
     wave = min((_shortest(body.shape) for body in (body1, body2)), default=math.inf)
     shortest = min(sides)
     if n is not None:
-        return _of_cells(body1, body2, sides, n, plane_strain=plane_strain)
+        return _grid_of_sides(body1, body2, sides, n, plane_strain=plane_strain)
     # Square cells, as many as the shorter side of the contact takes.
     size = min(shortest / max(cells, FEWEST), wave / IN_A_WAVE)
     if wear is not None:
@@ -206,7 +206,9 @@ def for_contact(
     return Grid.from_spacing((along[0], along[1]), (sides[0] / along[0], sides[1] / along[1]))
 
 
-def _of_cells(body1: Body, body2: Body, sides: list[float], n: int, *, plane_strain: bool) -> Grid:
+def _grid_of_sides(
+    body1: Body, body2: Body, sides: list[float], n: int, *, plane_strain: bool
+) -> Grid:
     """A grid of square cells on given sides [m], `n` of them along the shorter one."""
     size = min(sides) / n
     _doubt_films(body1, body2, [size])

@@ -62,7 +62,7 @@ class Conductor:
 
     @classmethod
     @quantities
-    def of(cls, material: Material | str) -> Conductor:
+    def from_material(cls, material: Material | str) -> Conductor:
         """Give what a material has as ``conductivity``, ``density`` and ``specific_heat``.
 
         A ValueError says which of them is missing.
@@ -77,7 +77,7 @@ class Conductor:
 Conductors = Conductor | Material | Sequence[Conductor | Material]
 
 
-def _of_layers(conductors: Conductors, layers: int, name: str) -> list[Conductor]:
+def _conductors_of_layers(conductors: Conductors, layers: int, name: str) -> list[Conductor]:
     layers_or_one: Any = conductors
     several = isinstance(layers_or_one, list | tuple)
     conductor_list: list[Any] = items(layers_or_one, name) if several else [layers_or_one] * layers
@@ -87,7 +87,7 @@ def _of_layers(conductors: Conductors, layers: int, name: str) -> list[Conductor
                 f"{name} = {conductor!r:.60}: must be a Conductor or a Material, "
                 "or one for each layer"
             )
-    return [Conductor.of(c) if isinstance(c, Material) else c for c in conductor_list]
+    return [Conductor.from_material(c) if isinstance(c, Material) else c for c in conductor_list]
 
 
 def _numbers(layers: list[Conductor]) -> list[tuple[float, float]]:
@@ -169,7 +169,8 @@ def temperature(
         Solved with ``save="all"``, or with the increments of the cycle and the one before it.
     conductor1, conductor2 : Conductor, Material, or sequence of them
         Of each body one for all layers, or one for each from the surface down, the substrate's
-        last; materials as in :meth:`Conductor.of`. The thicknesses are those of the scene.
+        last; materials as in :meth:`Conductor.from_material`. The thicknesses are those of the
+        scene.
     frequency : float
         Cycles per second [Hz].
     bulk : float or two floats
@@ -224,8 +225,8 @@ def temperature(
         harmonics = min(kept.size // 2, HARMONICS)
     if harmonics < 0:
         raise ValueError(f"harmonics = {harmonics}: must be 0 or more")
-    layers1 = _of_layers(conductor1, len(body1.coatings) + 1, "conductor1")
-    layers2 = _of_layers(conductor2, len(body2.coatings) + 1, "conductor2")
+    layers1 = _conductors_of_layers(conductor1, len(body1.coatings) + 1, "conductor1")
+    layers2 = _conductors_of_layers(conductor2, len(body2.coatings) + 1, "conductor2")
     doubts = [doubt for layer in (*layers1, *layers2) for doubt in layer.doubts]
 
     def solved(grid: Grid, heat: NDArray[np.float64], contact: NDArray[np.bool_]) -> dict[str, Any]:

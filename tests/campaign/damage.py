@@ -50,7 +50,7 @@ TIMES = ("seconds", "elapsed", "wall_time", "time_of_checkpoints")
 
 def a_fit() -> FitResult:
     """A fit of a loop, its numbers made up."""
-    loops = Loops.of(
+    loops = Loops.from_arrays(
         delta=1e-6 * np.array([0.0, 1.0, 2.0, 1.0, 0.0, -1.0, 0.0]),
         T=np.array([0.0, 3.0, 5.0, 0.0, -4.0, -5.0, 0.0]),
         W=10.0,

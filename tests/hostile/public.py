@@ -89,7 +89,7 @@ STUDY = fret.study.run(
 )
 CONDUCTOR = fret.heat.Conductor(conductivity=40.0, heat_capacity=3.6e6)
 HEAT = RUN.temperature(CONDUCTOR, CONDUCTOR, frequency=10.0)
-LOOPS = fret.fit.Loops.of(
+LOOPS = fret.fit.Loops.from_arrays(
     delta=np.array([0.0, 1e-6, 2e-6, 1e-6, 0.0, -1e-6, 0.0]),
     T=np.array([0.0, 3.0, 5.0, 0.0, -4.0, -5.0, 0.0]),
     W=100.0,
@@ -225,13 +225,13 @@ OF: dict[str, dict[str, Any]] = {
     "fatigue.Life.range_of": {"layer": 0},
     "fatigue.Life.worst_of": {"layer": 0},
     "fatigue.LoadFactors.least_of": {"layer": 0},
-    "fit.Loops.of": {"T": LOOPS.T},
-    "fit.Indentation.of": {"W": np.array([1.0, 2.0]), "delta_z": np.array([1e-6, 2e-6])},
-    "fit.Scar.of": {"x": LENGTHS, "depth": LENGTHS},
+    "fit.Loops.from_arrays": {"T": LOOPS.T},
+    "fit.Indentation.from_arrays": {"W": np.array([1.0, 2.0]), "delta_z": np.array([1e-6, 2e-6])},
+    "fit.Scar.from_arrays": {"x": LENGTHS, "depth": LENGTHS},
     "fracture.Crack.grow": {"end": 2e-5, "stress": flat_stress},
     "fracture.Crack.intensity": {"stress": np.ones((3, 40)) * 1e7},
-    "fracture.Paris.of": {"material": ALLOY},
-    "heat.Conductor.of": {"material": ALLOY},
+    "fracture.Paris.from_material": {"material": ALLOY},
+    "heat.Conductor.from_material": {"material": ALLOY},
     "export.Frame.contact_stress": {"stress": np.ones((2, 3, 3))},
     "export.Frame.stress": {"stress": np.ones((2, 3, 3))},
     "export.nodal_forces": {"faces": [np.array([[0, 1, 0]])]},
@@ -340,7 +340,7 @@ OF: dict[str, dict[str, Any]] = {
     "wear.solve": {"scene": small(path=CYCLE), "path": None, "wear": WEAR},
     "wear.Wear": {"body1": None, "body2": fret.wear.Archard(1e-14)},
     "study.WornDepth": {"body1": None, "body2": fret.wear.Archard(1e-14)},
-    "wear.Wear.of": {"settings": {}},
+    "wear.Wear.from_settings": {"settings": {}},
     "experiments.table": {"name": "baydoun2019"},
     "experiments.baydoun2019": {"n": 1},
     "experiments.fouvry2007": {"coating": "TiC"},
@@ -348,7 +348,7 @@ OF: dict[str, dict[str, Any]] = {
     "experiments.icf13": {"test": "PF_1", "n": 16},
     "experiments.vanpeteghem2011": {"test": 1},
     "fracture.Threshold": {"table": [(0.0, 2e6), (1e-3, 3e6)]},
-    "fracture.Threshold.of": {"material": MATERIALS["aluminium_4Cu"]},
+    "fracture.Threshold.from_material": {"material": MATERIALS["aluminium_4Cu"]},
     "fracture.crack": {"x": 0.0},
     "fracture.grow": {"x": 0.0},
     "fracture.buckling_release": {"stress": -1e9, "half_width": 1e-3},
@@ -529,9 +529,9 @@ OTHERS: dict[str, set[str]] = {
     "Profile.power": {"top", "bottom", "exponent"},
     # Missing values are holes: their rows are left out.
     "fatigue.rainflow": {"signal"},
-    "fit.Loops.of": {"delta", "T"},
-    "fit.Indentation.of": {"W", "delta_z"},
-    "fit.Scar.of": {"x", "depth"},
+    "fit.Loops.from_arrays": {"delta", "T"},
+    "fit.Indentation.from_arrays": {"W", "delta_z"},
+    "fit.Scar.from_arrays": {"x", "depth"},
     # Names of columns.
     "fit.read_scar": {"x", "depth"},
     # A yield stress for each layer is a list.

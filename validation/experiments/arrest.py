@@ -83,7 +83,7 @@ def page(out: Path) -> Page:
     head = ["test", "bulk [MPa]", "Q [N/mm]", "largest dK", "shut from [um] on", "a crack"]
     rows_of_tests = table(head, cells)
 
-    threshold = fracture.Threshold.of(fret.fatigue.Materials()["aluminium_4Cu"])
+    threshold = fracture.Threshold.from_material(fret.fatigue.Materials()["aluminium_4Cu"])
     margins = np.zeros((len(BULK), len(WIDTHS)))
     cells = []
     for n, bulk in enumerate(BULK):

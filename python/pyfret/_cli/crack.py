@@ -161,7 +161,7 @@ def threshold_of(options: argparse.Namespace) -> Threshold | None:
         table = fatigue.Materials(options.materials)
         if options.material not in table:
             raise ValueError(f"--material {options.material}: must be one of {', '.join(table)}")
-        return Threshold.of(table[options.material], walker=options.walker)
+        return Threshold.from_material(table[options.material], walker=options.walker)
     if options.dK_th is None:
         if options.dS_0 is not None:
             raise ValueError("--dS-0: needs --dK-th")
@@ -182,7 +182,7 @@ def _rows(cracks: Cracks, threshold: Threshold | None) -> list[dict[str, object]
     values = zip(*(column.tolist() for column in columns.values()), strict=True)
     rows: list[dict[str, object]] = [dict(zip(columns, row, strict=True)) for row in values]
     if threshold is not None:
-        for row, dK_th in zip(rows, threshold.at(cracks.lengths).tolist(), strict=True):
+        for row, dK_th in zip(rows, threshold.range_at(cracks.lengths).tolist(), strict=True):
             row["dK_th"] = dK_th
             if threshold.estimate:
                 row["estimate"] = threshold.estimate
@@ -205,7 +205,7 @@ def _verdict(cracks: Cracks, found: CrackArrest) -> dict[str, object]:
         "lengths": found.lengths,
         "verdicts": found.verdicts,
         "is_sure": found.is_sure,
-        "told": found.told(),
+        "told": found.describe(),
         "notes": found.notes(),
     }
     if found.length is None:
@@ -221,7 +221,7 @@ def _cycles(life: CrackLife) -> dict[str, object]:
         row
         | ({} if why is None else {"cycles_why": why})
         | {
-            "cycles_told": life.told(),
+            "cycles_told": life.describe(),
             "cycles_notes": life.notes(),
         }
     )

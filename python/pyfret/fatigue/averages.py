@@ -112,7 +112,7 @@ def average(
     below = cycle_section(result, first_section)
     fields = below.mean(L, method, judged_layer, materials, criterion, tolerance=tolerance)
     assessments = [None if m is None else m.assessment(criterion) for m in materials]
-    along = first_section.along
+    along = first_section.axis
     places = coordinates(result.scene.grid, [0.0], [judged_layer], *first_section.line)
     result_fields = xr.Dataset(coords=places).drop_dims("depth")
     result_fields = result_fields.assign_coords(axis=["x", "y", "z"])

@@ -111,7 +111,7 @@ def label_fields(
     places = coordinates(result.scene.grid, *depths, *section.line)
     labelled = xr.Dataset(coords={**xr.Dataset(coords=places).coords, "axis": ["x", "y", "z"]})
     for name, (values, attrs) in fields.items():
-        labelled[name] = (("depth", section.along, "axis")[: values.ndim], values, attrs)
+        labelled[name] = (("depth", section.axis, "axis")[: values.ndim], values, attrs)
     return labelled
 
 
@@ -120,7 +120,7 @@ def concat_sections(result: Run, section: Section, datasets: Sequence[xr.Dataset
     if np.ndim(section.places) == 0:
         whole = datasets[0]
     else:
-        whole = xr.concat(datasets, dim=section.across, coords="minimal", compat="override")
-        whole = whole.transpose("depth", section.along, section.across, ...)
+        whole = xr.concat(datasets, dim=section.cross_axis, coords="minimal", compat="override")
+        whole = whole.transpose("depth", section.axis, section.cross_axis, ...)
     yardsticks = {k: v for k, v in result.dataset.attrs.items() if k in ("a_H", "p_H")}
     return whole.assign_attrs(yardsticks, interfaces=interfaces(section_body(result, section)))

@@ -156,7 +156,7 @@ def _cycle_stress(
             body_number=body_number,
         )
         parts.append(np.moveaxis(stress, 1, -1))
-    along = line.along
+    along = line.axis
     stacked = xr.DataArray(
         np.concatenate(parts),
         dims=("increment", "depth", along, "component"),

@@ -68,7 +68,7 @@ class Section:
         if self.body_number not in (1, 2):
             raise ValueError(f"body_number = {self.body_number}: must be 1 or 2")
         if self.is_placed and np.size(self.places) == 0:
-            raise ValueError(f"{self.across} = []: must be one place or more")
+            raise ValueError(f"{self.cross_axis} = []: must be one place or more")
 
     @property
     def is_placed(self) -> bool:
@@ -76,12 +76,12 @@ class Section:
         return self.x is not None or self.y is not None
 
     @property
-    def along(self) -> str:
+    def axis(self) -> str:
         """The axis that the section runs along, or "s" in another direction."""
         return "s" if self.azimuth is not None else "y" if self.y is None else "x"
 
     @property
-    def across(self) -> str:
+    def cross_axis(self) -> str:
         """The axis on which the section has its place."""
         return "x" if self.y is None else "y"
 
@@ -98,19 +98,19 @@ class Section:
     def place(self) -> float:
         """The one place of the section [m]; a ValueError where there are several."""
         if np.ndim(self.places) != 0:
-            raise ValueError(f"{self.across} = {self.places}: must be one number here")
+            raise ValueError(f"{self.cross_axis} = {self.places}: must be one number here")
         return float(self.places)  # type: ignore[arg-type]
 
     def moved_to(self, place: float) -> Section:
         """Return the section at another place [m]."""
-        return replace(self, y=place) if self.across == "y" else replace(self, x=place)
+        return replace(self, y=place) if self.cross_axis == "y" else replace(self, x=place)
 
     @property
     def line(self) -> Line:
         """The line of the surface above the section."""
         if self.azimuth is None:
             place = self.place
-            return Line(*((place, None) if self.across == "x" else (None, place)))
+            return Line(*((place, None) if self.cross_axis == "x" else (None, place)))
         return Line(self.x, self.y, self.azimuth)  # type: ignore[arg-type]
 
     def moved_below(self, line: Line) -> Section:
@@ -123,7 +123,7 @@ class Section:
             return [self]
         return [
             self.moved_to(place)
-            for place in np.atleast_1d(plain(self.places, self.across)).tolist()
+            for place in np.atleast_1d(plain(self.places, self.cross_axis)).tolist()
         ]
 
 

@@ -120,7 +120,7 @@ class Loops(HoldsArrays):
 
     @staticmethod
     @quantities
-    def of(
+    def from_arrays(
         delta: Numbers,
         T: Numbers,
         *,
@@ -203,7 +203,7 @@ class Indentation(HoldsArrays):
 
     @staticmethod
     @quantities
-    def of(
+    def from_arrays(
         W: Forces, delta_z: Lengths, *, noise: float | None = None, frame: bool = False
     ) -> Indentation:
         """A curve of points in any order; those without load or with a hole are left out.
@@ -231,7 +231,7 @@ class Scar(HoldsArrays):
 
     @staticmethod
     @quantities
-    def of(
+    def from_arrays(
         x: Numbers,
         depth: Lengths,
         *,
@@ -354,7 +354,7 @@ def read_loops(
     x, y = read_pair(table, shift, force)
     options: dict[str, Any] = {"W": W, "noise": noise, "tilt": tilt, "drift": drift}
     try:
-        return Loops.of(x, y, detrend=detrend, **options)
+        return Loops.from_arrays(x, y, detrend=detrend, **options)
     except ValueError as error:
         raise ValueError(f"{table.place}: {error}") from error
 
@@ -380,7 +380,7 @@ def read_indentation(
     force = table.column("force", ("w", "f", "p", "load"), W)
     approach = table.column("length", ("delta", "h", "z", "depth", "weg"), delta_z)
     forces, approaches = read_pair(table, force, approach)
-    return Indentation.of(forces, approaches, noise=noise, frame=frame)
+    return Indentation.from_arrays(forces, approaches, noise=noise, frame=frame)
 
 
 @quantities
@@ -407,7 +407,7 @@ def read_scar(
             "place and depth"
         )
     places, depths = read_pair(table, x_column, worn)
-    return Scar.of(places, depths, wear=wear, body_number=body_number, noise=noise)
+    return Scar.from_arrays(places, depths, wear=wear, body_number=body_number, noise=noise)
 
 
 @quantities

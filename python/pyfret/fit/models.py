@@ -65,25 +65,25 @@ class Model(Measured):
     noise: float | None
     zeros: NDArray[np.float64]
 
-    def without(self) -> Measured:
+    def strip_callables(self) -> Measured:
         """Return the measurement without its callables."""
         return Measured(self.data, self.measured, self.along, self.labels)
 
 
 def model_of(data: Data) -> Model:
     """The model of a kind of data."""
-    for kind, make in ((Loops, of_loops), (Indentation, of_indentation), (Scar, of_scar)):
+    for kind, make in ((Loops, loops_model), (Indentation, indentation_model), (Scar, scar_model)):
         if isinstance(data, kind):
             return make(data)  # type: ignore[arg-type]
     if isinstance(data, Lives):
-        return of_lives(data)
+        return lives_model(data)
     raise TypeError(
         "data: must be loops, an indentation, a scar or lives (fret.fit.read_loops(...)), "
         f"not {data!r}"
     )
 
 
-def through(x: NDArray[np.float64], y: NDArray[np.float64]) -> Curve:
+def interpolate_smoothly(x: NDArray[np.float64], y: NDArray[np.float64]) -> Curve:
     """A smooth curve through points that does not swing between them, straight beyond its ends."""
     interpolate = needed("scipy.interpolate", "fit")
     order = np.argsort(x, kind="stable")
@@ -93,16 +93,16 @@ def through(x: NDArray[np.float64], y: NDArray[np.float64]) -> Curve:
     curve = interpolate.PchipInterpolator(x, y, extrapolate=True)
     ends = [(x[k], y[k], float(curve(x[k], 1))) for k in (0, -1)]
 
-    def at(where: NDArray[np.float64]) -> NDArray[np.float64]:
+    def extended(where: NDArray[np.float64]) -> NDArray[np.float64]:
         y = np.asarray(curve(where))
         (low, y_low, s_low), (high, y_high, s_high) = ends
         y = np.where(where < low, y_low + s_low * (where - low), y)
         return np.where(where > high, y_high + s_high * (where - high), y)
 
-    return at
+    return extended
 
 
-def of_loops(data: Loops) -> Model:
+def loops_model(data: Loops) -> Model:
     """Loops: the closed cycle between the ends of the measured shift, under the scene's W."""
     cycles = range(int(data.cycle.max()) + 1)
     many = len(cycles) > 1 or (data.turns is not None and len(data.turns) > 1)
@@ -130,9 +130,9 @@ def of_loops(data: Loops) -> Model:
         for n in (2, 3):
             first = int(np.flatnonzero(branch == n)[0])
             ways = np.r_[first - 1, np.flatnonzero(branch == n)]
-            curves.append(through(shift[ways], T[ways]))
+            curves.append(interpolate_smoothly(shift[ways], T[ways]))
 
-        def at(offsets: NDArray[np.float64], moved: float = 0.0) -> NDArray[np.float64]:
+        def predicted(offsets: NDArray[np.float64], moved: float = 0.0) -> NDArray[np.float64]:
             values_of_offsets = dict(zip(offset_scales, offsets, strict=True))
             where = (
                 data.delta
@@ -152,7 +152,7 @@ def of_loops(data: Loops) -> Model:
             )
             return np.asarray(np.where(data.down, down, up) + beside)
 
-        return at
+        return predicted
 
     offset_scales = {SHIFT: reach, FORCE: force}
     if tilts:
@@ -201,7 +201,7 @@ def drift_of_turns(delta: NDArray[np.float64], time: NDArray[np.float64]) -> flo
     return float(np.linalg.lstsq(columns, delta[turns], rcond=None)[0][0])
 
 
-def of_indentation(data: Indentation) -> Model:
+def indentation_model(data: Indentation) -> Model:
     """An indentation curve: the approach at the measured forces."""
     W_max = float(data.W.max())
 
@@ -212,14 +212,16 @@ def of_indentation(data: Indentation) -> Model:
             path = path.normal(W_max * float(part), increments=1)
         d = growing(scene, lambda s: solve(s, path, save=[len(path)], progress=False)).dataset
         # Over W^(2/3) the curve of a homogeneous sphere is straight.
-        curve = through(np.r_[0.0, d.W.values] ** (2 / 3), np.r_[0.0, d.delta_z.values])
+        curve = interpolate_smoothly(
+            np.r_[0.0, d.W.values] ** (2 / 3), np.r_[0.0, d.delta_z.values]
+        )
         approach = curve(data.W ** (2 / 3))
         frame = data.W if data.frame else np.zeros_like(data.W)
 
-        def at(offsets: NDArray[np.float64], _: float = 0.0) -> NDArray[np.float64]:
+        def predicted(offsets: NDArray[np.float64], _: float = 0.0) -> NDArray[np.float64]:
             return np.asarray(approach + offsets[0] + offsets[-1] * frame)
 
-        return at
+        return predicted
 
     reach = float(np.ptp(data.delta_z))
     scales, zeros = np.array([reach, reach / W_max]), np.zeros(2)
@@ -231,7 +233,7 @@ def of_indentation(data: Indentation) -> Model:
     return Model(data, data.delta_z, along, labels, offsets, scales, 1, predict, data.noise, zeros)
 
 
-def of_scar(data: Scar) -> Model:
+def scar_model(data: Scar) -> Model:
     """A scar: the worn depth along x at y = 0, at the end of a run of wear."""
     half = float(np.ptp(data.x[data.depth > 0.1 * data.depth.max()])) / 2
 
@@ -242,10 +244,10 @@ def of_scar(data: Scar) -> Model:
         profile = fields[data.body_number][-1].sel(y=0.0, method="nearest")
         x, depth = d.x.values, profile.values
 
-        def at(offsets: NDArray[np.float64], _: float = 0.0) -> NDArray[np.float64]:
+        def predicted(offsets: NDArray[np.float64], _: float = 0.0) -> NDArray[np.float64]:
             return np.asarray(np.interp(data.x - offsets[0], x, depth, left=0.0, right=0.0))
 
-        return at
+        return predicted
 
     labels = ("x [m]", "worn depth [m]")
     offsets = ("offset of x [m]",)
@@ -253,7 +255,7 @@ def of_scar(data: Scar) -> Model:
     return Model(data, data.depth, data.x, labels, offsets, scales, 1, predict, data.noise, zeros)
 
 
-def of_lives(data: Lives) -> Model:
+def lives_model(data: Lives) -> Model:
     """Lives: ln of the cycles to a part of the thickness in each test."""
 
     def predict(scene: Scene, values: Mapping[str, float], finer: float) -> Predicted:
@@ -268,10 +270,10 @@ def of_lives(data: Lives) -> Model:
             lives.append(longest if cycles.beyond is not None else min(cycles, longest))
         logs = np.log(lives)
 
-        def at(_: NDArray[np.float64], __: float = 0.0) -> NDArray[np.float64]:
+        def predicted(_: NDArray[np.float64], __: float = 0.0) -> NDArray[np.float64]:
             return logs
 
-        return at
+        return predicted
 
     labels = ("test", "ln of the cycles")
     count = len(data.cycles)

@@ -120,20 +120,20 @@ def sampled(
     # An unknown that the data do not tell is free over all of its range.
     root = ways * np.minimum(np.sqrt(np.maximum(values, 0.0)), 0.25)
 
-    def at(z: NDArray[np.float64]) -> NDArray[np.float64]:
+    def to_u(z: NDArray[np.float64]) -> NDArray[np.float64]:
         return np.asarray(best + z @ root.T)
 
-    def within(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    def pull_inside(points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Points moved towards the middle until u lies in its range."""
         for k, point in enumerate(points):
-            while np.any((at(point) < 0) | (at(point) > 1)):
+            while np.any((to_u(point) < 0) | (to_u(point) > 1)):
                 point = points[k] = 0.8 * point
         return points
 
     aside = dice.standard_normal((CHECKS, n))
     aside *= THROUGH / np.linalg.norm(aside, axis=1, keepdims=True)
-    points = within(np.vstack([np.zeros(n), THROUGH * design(n), aside]))
-    predictions = np.stack(solved(list(at(points))))
+    points = pull_inside(np.vstack([np.zeros(n), THROUGH * design(n), aside]))
+    predictions = np.stack(solved(list(to_u(points))))
     fitted, checks = slice(None, -CHECKS), slice(-CHECKS, None)
     terms = np.asarray(
         np.linalg.lstsq(monomials(points[fitted]), predictions[fitted])[0], np.float64
@@ -151,7 +151,7 @@ def sampled(
     gram, degrees = unexplained_terms @ unexplained_terms.T, len(measured) - gauges.shape[1]
 
     def log_probability(z: NDArray[np.float64]) -> NDArray[np.float64]:
-        u, rows = at(z), monomials(z)
+        u, rows = to_u(z), monomials(z)
         squares = np.maximum(np.einsum("ki,ij,kj->k", rows, gram, rows), 1e-300)
         log_likelihood = -0.5 * squares / noise**2 if noise else -0.5 * degrees * np.log(squares)
         outside = np.any((u < 0) | (u > 1) | (np.abs(z) > FARTHEST), axis=1)
@@ -161,7 +161,7 @@ def sampled(
     sampler = emcee.EnsembleSampler(walkers, n, log_probability, vectorize=True)
     sampler.random_state = np.random.RandomState(seed).get_state()
     steps = BURN + EVERY * -(-count // walkers)
-    sampler.run_mcmc(within(0.1 * dice.standard_normal((walkers, n))), steps)
+    sampler.run_mcmc(pull_inside(0.1 * dice.standard_normal((walkers, n))), steps)
     chain = sampler.get_chain(discard=BURN, thin=EVERY, flat=True)[-count:]
     scatter = noise or float(np.sqrt(max(gram[0, 0], 1e-300) / max(degrees - n, 1)))
-    return at(chain), float(np.sqrt(np.mean(unexplained(off) ** 2))) / scatter
+    return to_u(chain), float(np.sqrt(np.mean(unexplained(off) ** 2))) / scatter

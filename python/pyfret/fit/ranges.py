@@ -46,7 +46,7 @@ class SearchRange:
             return float(self.low * np.exp(u * self.width))
         return float(self.low + u * self.width)
 
-    def at(self, value: float) -> float:
+    def to_u(self, value: float) -> float:
         """Return the u of a value."""
         offset = np.log(value / self.low) if self.by_log else value - self.low
         return float(offset / self.width)

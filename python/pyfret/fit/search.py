@@ -144,7 +144,7 @@ class Search:
 
     def start(self) -> NDArray[np.float64]:
         """The first guess: unknowns, then offsets over their scales."""
-        first = [min(max(r.at(r.start), 1e-3), 1 - 1e-3) for r in self.ranges]
+        first = [min(max(r.to_u(r.start), 1e-3), 1 - 1e-3) for r in self.ranges]
         return np.concatenate([first, np.zeros(self.gauges)])
 
     @property
@@ -298,7 +298,7 @@ class Search:
             correlation=correlation,
             residual=residuals,
             computed=computed,
-            sets=[model.without() for model in self.models],
+            sets=[model.strip_callables() for model in self.models],
             noise=[float(np.sqrt(np.mean(r**2))) for r in residuals],
             solves=self.solves,
             solver_known=self.solver_known,

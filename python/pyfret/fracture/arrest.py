@@ -26,7 +26,7 @@ MAY = {"dormant": "not grow", "stops": "stop", "grows": "grow through all length
 UNDECIDED = "not decided within the error of K"
 
 
-def of_estimates(*estimates: str | None, has_range: bool) -> list[str]:
+def estimate_notes(*estimates: str | None, has_range: bool) -> list[str]:
     """Notes on the numbers that are estimates: ranges are those of the error of K alone."""
     beyond = " (the ranges leave out the scatter of estimates)" if has_range else ""
     return [f"estimate: {note}{beyond}" for note in dict.fromkeys(estimates) if note]
@@ -102,15 +102,15 @@ class CrackArrest:
         return tuple(piece for n, piece in pieces if ((n - crossings_before) % 2 == 0) == grows)
 
     def __repr__(self) -> str:
-        """Give :meth:`told`."""
-        return f"CrackArrest({self.told()})"
+        """Give :meth:`describe`."""
+        return f"CrackArrest({self.describe()})"
 
-    def told(self) -> str:
+    def describe(self) -> str:
         """Verdict, from which length it holds, what others would do, and numbers with errors."""
         return "; ".join(self.notes())
 
     def notes(self) -> list[str]:
-        """Give :meth:`told` as a list, a fact each."""
+        """Give :meth:`describe` as a list, a fact each."""
         start, least = (
             f"dK/dK_th {with_error(value, error)}"
             for value, error in (
@@ -121,14 +121,15 @@ class CrackArrest:
         begins = self.verdict == "dormant" or "dormant" in self.verdicts
         bars = [(value, error) for value, error in self._deciding() if error is not None]
         sentences = [
-            f"{self._alone()} from a length of {self.told_start()}{self._end()}{self._unsure()}",
+            f"{self._alone()} from a length of {self.describe_start()}{self._end()}"
+            f"{self._unsure()}",
             *self.others(),
             *([f"{start} at that length"] if begins else []),
             *([] if self.verdict == "dormant" else [f"least {least} at {um(self.margin_at)}"]),
         ]
         if any(error >= of > 0.0 for of, error in bars):
             sentences.append("the error of K is as large as dK there")
-        return [*sentences, *of_estimates(self.estimate, has_range=self.lengths is not None)]
+        return [*sentences, *estimate_notes(self.estimate, has_range=self.lengths is not None)]
 
     def briefly(self) -> str:
         """Give the verdict in a few words, as figures have it."""
@@ -136,7 +137,7 @@ class CrackArrest:
         marks += ["estimate"] if self.estimate and self.length is None else []
         return self._alone() + (f" ({', '.join(marks)})" if marks else "")
 
-    def told_length(self) -> str:
+    def describe_length(self) -> str:
         """The length at which the crack stops, with its range [um]."""
         if self.length is None:
             return "no length"
@@ -146,7 +147,7 @@ class CrackArrest:
         mark = " (estimate)" if self.estimate else ""
         return f"{with_range(1e6 * self.length, low, high)} um{mark}"
 
-    def told_start(self) -> str:
+    def describe_start(self) -> str:
         """The first length [um], and whether shorter ones were computed."""
         shortest = self.start <= self.computed[0]
         return um(self.start) + (", the shortest computed" if shortest else "")
@@ -171,7 +172,7 @@ class CrackArrest:
 
     def _alone(self) -> str:
         if self.verdict == "stops":
-            return f"{WORDS['stops']} at {self.told_length()}"
+            return f"{WORDS['stops']} at {self.describe_length()}"
         return WORDS[self.verdict]
 
     def _end(self) -> str:
@@ -219,8 +220,8 @@ class CrackLife:
     estimate: str | None = None
 
     def __repr__(self) -> str:
-        """Give :meth:`told`, and what other first lengths do."""
-        return f"CrackLife({'; '.join([self.told(), *self.arrest.others()])})"
+        """Give :meth:`describe`, and what other first lengths do."""
+        return f"CrackLife({'; '.join([self.describe(), *self.arrest.others()])})"
 
     def why_infinite(self) -> str | None:
         """Why there is no finite number of cycles."""
@@ -230,12 +231,12 @@ class CrackLife:
             return f"the crack does not grow from a length of {um(self.arrest.start)}"
         return f"the rate of growth goes to zero where the crack stops, at {um(self.length)}"
 
-    def told(self) -> str:
+    def describe(self) -> str:
         """Cycles with their range, from which length and to which."""
         return "; ".join(self.notes())
 
     def notes(self) -> list[str]:
-        """Give :meth:`told` as a list, a fact each."""
+        """Give :meth:`describe` as a list, a fact each."""
         path_text = f"from {um(self.arrest.start)} to {um(self.length)}"
         path_text += ", where it stops" if self.stopped else ""
         if math.isinf(self.cycles):
@@ -247,4 +248,4 @@ class CrackLife:
         else:
             text = f"{with_range(self.cycles, self.low, self.high)} cycles {path_text}"
         notes = self.arrest.estimate, self.estimate
-        return [text, *of_estimates(*notes, has_range=self.low is not None)]
+        return [text, *estimate_notes(*notes, has_range=self.low is not None)]

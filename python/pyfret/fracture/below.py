@@ -253,25 +253,27 @@ class Cycle:
         ]
 
     @cached_property
-    def above(self) -> _core.States:
-        """The states, as the core takes them."""
+    def core_states(self) -> _core.States:
+        """The states in the form of the core."""
         return states_of(self.states, self.body_number)
 
-    def found(self, of: Callable[..., dict[str, Any]], options: dict[str, Any]) -> dict[str, Any]:
+    def call_core(
+        self, function: Callable[..., dict[str, Any]], options: dict[str, Any]
+    ) -> dict[str, Any]:
         """Call a function of the core with the body and its states."""
         scene = self.states[0].scene
         body = scene.body1 if self.body_number == 1 else scene.body2
         residual = None if self.residual is None else list(self.residual)
         options |= {"residual": residual, "body_number": self.body_number}
-        return of(body, self.above, **options)
+        return function(body, self.core_states, **options)
 
     def intensity(self, **cracks: Any) -> dict[str, Any]:
         """K of cracks."""
-        return self.found(_core.crack_of_states, cracks)
+        return self.call_core(_core.crack_of_states, cracks)
 
     def growth(self, **crack: Any) -> dict[str, Any]:
         """K of a crack that grows."""
-        return self.found(_core.crack_growth_of_states, crack)
+        return self.call_core(_core.crack_growth_of_states, crack)
 
     def place(
         self, x: float | None, azimuth: float | None, angle: float, friction: float

@@ -84,7 +84,7 @@ class FailureOrder(NamedTuple):
 
     def summary(self) -> str:
         """The three with their errors, a line each, which fails first, and what a crack does."""
-        crack = [] if self.arrest is None else [f"a crack {self.arrest.told()}"]
+        crack = [] if self.arrest is None else [f"a crack {self.arrest.describe()}"]
         return "\n".join([*self._sentences(), f"first to fail: {self.first or 'none'}", *crack])
 
 

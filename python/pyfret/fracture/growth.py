@@ -28,7 +28,7 @@ from pyfret.quantities import (
     quantities,
 )
 from pyfret.saveable import Saveable
-from pyfret.subsurface.line import along
+from pyfret.subsurface.line import line_through_point
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -89,7 +89,7 @@ class Threshold:
 
     @classmethod
     @quantities
-    def of(
+    def from_material(
         cls, material: Material | str, *, Y: float = 1.0, walker: float | None = None
     ) -> Threshold:
         """Take the threshold from ``dK_th`` and ``s_D`` of a material, both fully reversed.
@@ -106,7 +106,9 @@ class Threshold:
             walker = numbers["walker"]
             names.append("walker")
         estimate = table_material.estimate_of(names)
-        growth = Paris.of(table_material) if {"paris_C", "paris_m"} <= set(numbers) else None
+        growth = (
+            Paris.from_material(table_material) if {"paris_C", "paris_m"} <= set(numbers) else None
+        )
         dK_th, dS_0 = table_material.number("dK_th") / 2.0, table_material.number("s_D")
         return cls(dK_th, dS_0, Y, walker, estimate=estimate, growth=growth)
 
@@ -126,7 +128,7 @@ class Threshold:
         """El Haddad's length [m]; 0 for the constant threshold."""
         return _core.threshold_at(self._numbers(), [])[1]
 
-    def at(self, lengths: ArrayLike) -> NDArray[np.float64]:
+    def range_at(self, lengths: ArrayLike) -> NDArray[np.float64]:
         """Threshold of cracks of the lengths [m] at R = 0 [Pa m^0.5]."""
         lengths = plain(lengths, "lengths")
         dK, _ = _core.threshold_at(self._numbers(), lengths.ravel().tolist())
@@ -162,7 +164,7 @@ class Paris:
 
     @classmethod
     @quantities
-    def of(cls, material: Material | str) -> Paris:
+    def from_material(cls, material: Material | str) -> Paris:
         """Take ``paris_C`` and ``paris_m`` of a material; one without them is refused by name."""
         table_material = as_material(material)
         estimate = table_material.estimate_of(["paris_C", "paris_m"])
@@ -193,7 +195,7 @@ class Cracks(Saveable, Labelled, Figured):
     @property
     def line(self) -> Line:
         """The line on the surface in whose plane the cracks lie: through the axis of depth."""
-        return along(0.0, 0.0, float(self.dataset.attrs.get("azimuth", 0.0)))
+        return line_through_point(0.0, 0.0, float(self.dataset.attrs.get("azimuth", 0.0)))
 
     @quantities
     def places(self, x: Numbers) -> NDArray[np.float64]:
@@ -429,7 +431,7 @@ class Cracks(Saveable, Labelled, Figured):
         units = {"units": "Pa"}
         return xr.Dataset(
             {
-                "limit": ("length", threshold.at(self.lengths) / root, units),
+                "limit": ("length", threshold.range_at(self.lengths) / root, units),
                 "load": ("length", self.dK(threshold) / root, units),
             },
             coords={"length": self.dataset.length},

@@ -76,7 +76,7 @@ def over_cycle(
     for name, value in strengths.items():
         if value is not None and not (value > 0.0 and np.isfinite(value)):
             raise ValueError(f"{name} = {value}: must be a positive stress in Pa")
-    along = where.along
+    along = where.axis
     stress = history(
         result,
         depths,

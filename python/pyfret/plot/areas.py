@@ -59,16 +59,20 @@ class Raster:
             fine(values, log=log) for values, log in zip(self._samples, self._log, strict=True)
         )
 
-    def of(self, field: NDArray[Any]) -> NDArray[np.float64]:
+    def resample(self, field: NDArray[Any]) -> NDArray[np.float64]:
         """A field over (y, x) on the raster; NaN beside a sample without a value."""
         (x, y), (log_x, log_y) = self._samples, self._log
-        rows = np.array([along(self.x, x, row, log=log_x) for row in np.asarray(field, float)])
-        return np.array([along(self.y, y, column, log=log_y) for column in rows.T]).T
+        rows = np.array(
+            [interpolate_axis(self.x, x, row, log=log_x) for row in np.asarray(field, float)]
+        )
+        return np.array([interpolate_axis(self.y, y, column, log=log_y) for column in rows.T]).T
 
     def nearest(self, field: NDArray[Any]) -> NDArray[Any]:
         """Values of the nearest samples, of a field over (y, x)."""
         places = [
-            np.rint(along(fine, given_samples, np.arange(given_samples.size), log=log)).astype(int)
+            np.rint(
+                interpolate_axis(fine, given_samples, np.arange(given_samples.size), log=log)
+            ).astype(int)
             for fine, given_samples, log in zip(
                 (self.x, self.y), self._samples, self._log, strict=True
             )
@@ -113,7 +117,7 @@ def fine(values: NDArray[Any], *, log: bool) -> NDArray[np.float64]:
     return np.asarray(np.geomspace(low, high, FINE) if log else np.linspace(low, high, FINE))
 
 
-def along(
+def interpolate_axis(
     places: NDArray[Any], samples: NDArray[Any], values: NDArray[Any], *, log: bool
 ) -> NDArray[np.float64]:
     """Linear interpolation over ascending samples, or over their logarithm."""

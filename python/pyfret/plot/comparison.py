@@ -36,7 +36,7 @@ class Panel(NamedTuple):
     #: "smaller" or "larger".
     better: str
     #: Values with their ranges, as the table has them: for those that no point can show.
-    told: Sequence[str]
+    texts: Sequence[str]
     #: Whether its error is a factor.
     logarithmic: bool
     values: NDArray[np.float64]
@@ -102,7 +102,7 @@ def draw(ax: Axes, panel: Panel) -> None:
             ax.text(
                 0.5,
                 n,
-                "no answer" if np.isnan(value) else panel.told[n],
+                "no answer" if np.isnan(value) else panel.texts[n],
                 transform=ax.get_yaxis_transform(),
                 ha="center",
                 va="center",

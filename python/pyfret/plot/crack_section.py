@@ -120,7 +120,7 @@ def crack_panels(
     # The normal stress across a crack along the depth.
     across = cos**2 * stress.s_xx + 2.0 * sin * cos * stress.s_xy + sin**2 * stress.s_yy
     names = {"x": r"\sigma_{xx}", "y": r"\sigma_{yy}", "s": r"\sigma_{ss}"}
-    section_map(across.assign_attrs(stress.s_xx.attrs), symbol=names[line.along], ax=axes[0, 0])
+    section_map(across.assign_attrs(stress.s_xx.attrs), symbol=names[line.axis], ax=axes[0, 0])
     crack_path(cracks, threshold, start=start, ax=axes[0, 0])
     arrest = cracks.arrest(threshold, start=start)
     length = cracks.lengths[len(cracks.lengths) // 2] if arrest.verdict == "grows" else arrest.tip

@@ -117,9 +117,9 @@ def crack_arrest(
     lengths = cracks.lengths * MICRO
     ax.plot(lengths, cracks.dK(threshold) * MEGA, color="C0", label=r"$\Delta K$")
     limit = rf"$\Delta K_\mathrm{{th}}${threshold.mark}"
-    ax.plot(lengths, threshold.at(cracks.lengths) * MEGA, "k--", label=limit)
+    ax.plot(lengths, threshold.range_at(cracks.lengths) * MEGA, "k--", label=limit)
     arrest = cracks.arrest(threshold, start=start)
-    tip = np.atleast_1d(threshold.at(arrest.tip))[0] * MEGA
+    tip = np.atleast_1d(threshold.range_at(arrest.tip))[0] * MEGA
     if arrest.verdict != "grows":
         ax.plot(arrest.tip * MICRO, tip, "o", color="C3", zorder=3)
     ax.set_title(in_letters(f"the crack {arrest.briefly()}"), fontsize="medium")

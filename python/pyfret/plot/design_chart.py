@@ -62,7 +62,7 @@ def design_chart(
         names, units = labels, (1.0, 1.0)
     at_x, at_y = table[x].values / units[0], table[y].values / units[1]
     raster = Raster(at_x, at_y)
-    loads = np.array([raster.of(table[name].values) for name in PARTS])
+    loads = np.array([raster.resample(table[name].values) for name in PARTS])
     has_value = np.isfinite(loads)
     worst = np.where(has_value, loads, -np.inf)
     first = np.where(worst.max(axis=0) >= 1.0, 1.0 + worst.argmax(axis=0), 0.0)
@@ -71,7 +71,7 @@ def design_chart(
     for name, style in zip(PARTS, STYLES, strict=True):
         load = table[name].values
         if min(load.shape) > 1 and np.nanmin(load) < 1.0 < np.nanmax(load):
-            fine = raster.of(load)
+            fine = raster.resample(load)
             ax.contour(raster.x, raster.y, fine, levels=[1.0], colors="0.2", linestyles=style)
             label = f"limit of the {name}"
             entries.append(Line2D([], [], color="0.2", linestyle=style, label=label))

@@ -14,7 +14,7 @@ from pyfret.fracture.arrest import WORDS
 from pyfret.plot.areas import Raster
 from pyfret.plot.stresses import COLOURS
 from pyfret.plot.studies import in_figures, whole_labels
-from pyfret.plot.style import axes, beside, styled
+from pyfret.plot.style import add_colour_bar, axes, styled
 from pyfret.plot.tables import must_hold
 
 if TYPE_CHECKING:
@@ -158,13 +158,13 @@ def arrest_lines(ax: Axes, raster: Raster, table: xr.Dataset, colour: str = ARRE
     if "arrest_margin" not in table:
         return []
     x, y = raster.x, raster.y
-    length = raster.of(table.arrest_length.values * 1e6)
+    length = raster.resample(table.arrest_length.values * 1e6)
     if "start_margin" in table:
         # A crack that does not grow stops nowhere.
-        length = np.where(raster.of(table.start_margin.values) < 1.0, np.nan, length)
+        length = np.where(raster.resample(table.start_margin.values) < 1.0, np.nan, length)
     meaning = label_with_error("crack stops at [µm]", table, "arrest_length")
     entries = lines(ax, x, y, length, LENGTHS, colour, "dotted", meaning)
-    margin = np.ma.masked_invalid(raster.of(table.arrest_margin.values))
+    margin = np.ma.masked_invalid(raster.resample(table.arrest_margin.values))
     if min(margin.shape) > 1 and margin.min() < 1.0 < margin.max():
         ax.contour(x, y, margin, levels=[1.0], colors=colour, linestyles="dotted", linewidths=2.2)
         line = Line2D([], [], color=colour, linestyle="dotted", linewidth=2.2)
@@ -193,7 +193,9 @@ def arrest_map(table: xr.Dataset, *, ax: Axes | None = None) -> Axes:
     table = table.transpose("T", "sigma_B")
     bulk, T = table.sigma_B.values / 1e6, table["T"].values / 1e3
     raster = Raster(bulk, T)
-    start, arrest = (raster.of(table[name].values) for name in ("start_margin", "arrest_margin"))
+    start, arrest = (
+        raster.resample(table[name].values) for name in ("start_margin", "arrest_margin")
+    )
     fate = np.where(start < 1.0, 0.0, np.where(arrest < 1.0, 1.0, 2.0))
     fate[np.isnan(arrest)] = np.nan
     entries: list[Patch | Line2D] = [*raster.draw(ax, fate, FATES)]
@@ -231,14 +233,14 @@ def running_map(table: xr.Dataset, *, ax: Axes | None = None) -> Axes:
     limit = onset(table, raster, scale)
     # Nothing is solved where a force slides: the ratio of the last one that does not.
     ratio = carried(table.energy_ratio.values, np.argsort(amplitude))
-    fine = np.ma.masked_invalid(raster.of(ratio))
+    fine = np.ma.masked_invalid(raster.resample(ratio))
     gross = conditions(table, raster, scale) == SLIDES
     if driven == "T":
         raster.draw(ax, np.where(gross, 1.0, np.nan), {1: ("", UNSOLVED)})
         fine = np.ma.masked_where(gross, fine)
     steps = MaxNLocator(10).tick_values(float(fine.min()), float(fine.max()))
     image = ax.contourf(raster.x, raster.y, fine, levels=steps, cmap=COLOURS)
-    beside(ax, image, "energy ratio")
+    add_colour_bar(ax, image, "energy ratio")
     if limit is not None:
         ax.plot(raster.x, limit, color="0.2", linestyle="-" if driven == "delta" else "--")
     elif gross.any() and not gross.all():

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from pyfret.plot.scales import Units, scales
-from pyfret.plot.style import axes, beside, styled
+from pyfret.plot.style import add_colour_bar, axes, styled
 from pyfret.plot.tables import must_hold
 
 if TYPE_CHECKING:
@@ -106,5 +106,5 @@ def temperature_map(
     ax.plot(*hottest, marker="x", color="0.1", markersize=5)
     ax.set_xlabel(length.label("x"))
     ax.set_ylabel(length.label("y"))
-    beside(ax, drawn, rf"{NAMES[of]} of body {body_number} [K]")
+    add_colour_bar(ax, drawn, rf"{NAMES[of]} of body {body_number} [K]")
     return ax

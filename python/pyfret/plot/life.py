@@ -22,8 +22,8 @@ from pyfret.plot.style import (
     MARK,
     REFERENCE,
     STICK,
+    add_colour_bar,
     axes,
-    beside,
     inside_legend,
     mark,
     note,
@@ -186,7 +186,7 @@ def _contours(
     ax.set_xlim(x[0], x[-1])
     ax.set_ylim(z[-1], z[0])
     if image is not None:
-        beside(ax, image, label)
+        add_colour_bar(ax, image, label)
     ax.set_xlabel(length.label(along))
     flat = x[-1] - x[0] > FLAT * (z[-1] - z[0])
     ax.set_aspect("auto" if stretch or flat else "equal")

@@ -16,8 +16,8 @@ from pyfret.plot.along import (
     touched,
     zones_along,
 )
-from pyfret.plot.scales import MICRO, Scale, Units, last_of, of_snapshot
-from pyfret.plot.style import SLIP, STICK, axes, beside, styled
+from pyfret.plot.scales import MICRO, Scale, Units, last_of, scales_of_snapshot
+from pyfret.plot.style import SLIP, STICK, add_colour_bar, axes, styled
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -78,9 +78,9 @@ def stick_slip(shown: State | Run, *, units: Units = "auto", ax: Axes | None = N
     contact, stick = (snapshot.dataset[k].values.astype(bool) for k in ("contact", "stick"))
     zone = np.where(contact, np.where(stick, 2, 1), 0)
     if snapshot.scene.grid.plane_strain:
-        return zones_along(ax, snapshot, of_snapshot(snapshot, units), zone)
+        return zones_along(ax, snapshot, scales_of_snapshot(snapshot, units), zone)
     ax = axes(ax, square=True)
-    extent = frame(ax, snapshot, of_snapshot(snapshot, units).length)
+    extent = frame(ax, snapshot, scales_of_snapshot(snapshot, units).length)
     ax.imshow(
         zone.T,
         origin="lower",
@@ -91,7 +91,7 @@ def stick_slip(shown: State | Run, *, units: Units = "auto", ax: Axes | None = N
         interpolation="nearest",
         aspect=ax.get_aspect(),
     )
-    look_at_contact(ax, snapshot, of_snapshot(snapshot, units).length)
+    look_at_contact(ax, snapshot, scales_of_snapshot(snapshot, units).length)
     legend_of_zones(ax, zone)
     return ax
 
@@ -141,7 +141,7 @@ def pressure_map(
         Passed on to ``imshow``, such as ``cmap`` and ``vmax``.
     """
     snapshot = last_of(shown)
-    by = of_snapshot(snapshot, units)
+    by = scales_of_snapshot(snapshot, units)
     values = snapshot.dataset.p.values
     if snapshot.scene.grid.plane_strain:
         shown_p = values / by.stress.value
@@ -169,7 +169,7 @@ def slip_map(
     farther than the others.
     """
     snapshot = last_of(shown)
-    by = of_snapshot(snapshot, units)
+    by = scales_of_snapshot(snapshot, units)
     slip = np.hypot(snapshot.dataset.slip_x.values, snapshot.dataset.slip_y.values)
     contact = snapshot.dataset.contact.values.astype(bool)
     largest = np.quantile(slip[contact], INNER) / MICRO.value if contact.any() else None
@@ -211,7 +211,7 @@ def shear_streamlines(
         Whether to draw the scale beside the map.
     """
     snapshot = last_of(shown)
-    by = of_snapshot(snapshot, units)
+    by = scales_of_snapshot(snapshot, units)
     d = snapshot.dataset
     if snapshot.scene.grid.plane_strain:
         return shear_along(ax, snapshot, by)
@@ -241,4 +241,4 @@ def label_scale(image: AxesImage, ax: Axes, label: str) -> None:
     values: Any = np.ma.masked_invalid(np.ma.asarray(image.get_array()))
     largest = image.get_clim()[1]
     extend = "max" if largest is not None and values.max() > largest else "neither"
-    beside(ax, image, label, extend=extend)
+    add_colour_bar(ax, image, label, extend=extend)

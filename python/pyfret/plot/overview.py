@@ -11,7 +11,7 @@ from pyfret._util.text import literal
 from pyfret.plot.along import look_along
 from pyfret.plot.histories import driven, fretting_loop, load_path, stick_ratio
 from pyfret.plot.maps import pressure_map, shear_streamlines, slip_map, stick_slip
-from pyfret.plot.scales import Scales, Units, last_of, of_snapshot
+from pyfret.plot.scales import Scales, Units, last_of, scales_of_snapshot
 from pyfret.plot.stresses import stress_map
 from pyfret.plot.style import REFERENCE, apart, note, styled
 from pyfret.run import Run, State
@@ -40,7 +40,7 @@ def overview(shown: Run | State, *, units: Units = "auto") -> Figure:
         Over a_H and p_H (default where there is a Hertz contact), or in um and MPa.
     """
     at = last_of(shown)
-    by = of_snapshot(at, units)
+    by = scales_of_snapshot(at, units)
     figure, grid = plt.subplots(2, 3, figsize=(11.8, 7.0))
     apart(figure)
     first, second, third, fourth, fifth, sixth = grid.ravel()
@@ -93,7 +93,7 @@ def _tractions(ax: Axes, at: State, by: Scales) -> None:
     """Pressure and shear along the shear on one scale, with the bounds of friction."""
     line = main_line(at)
     cut = fields_on(at, line)
-    x = cut[line.along] / by.length.value
+    x = cut[line.axis] / by.length.value
     ax.plot(x, cut.p / by.stress.value, label="$p$")
     q = main_shear(cut)
     ax.plot(x, cut[q] / by.stress.value, label=f"${q}$")
@@ -102,6 +102,6 @@ def _tractions(ax: Axes, at: State, by: Scales) -> None:
             bound = sign * at.mu * cut.p / by.stress.value
             ax.plot(x, bound, color=REFERENCE, linestyle=":", linewidth=1.0, label=label)
     look_along(ax, at, by.length, line, fresh=True)
-    ax.set_xlabel(by.length.label(line.along))
+    ax.set_xlabel(by.length.label(line.axis))
     ax.set_ylabel(f"traction [{by.stress.name}]" if by.stress.is_unit else r"traction over $p_H$")
     ax.legend(loc="upper right", ncols=3, bbox_to_anchor=(1.02, 1.12), borderpad=0.1)

@@ -12,7 +12,7 @@ from matplotlib.colors import ListedColormap
 
 from pyfret.plot.along import look_along
 from pyfret.plot.histories import NAMES, driven
-from pyfret.plot.scales import Units, last_of, of_snapshot, run_of
+from pyfret.plot.scales import Units, last_of, run_of, scales_of_snapshot
 from pyfret.plot.style import REFERENCE, axes, styled
 from pyfret.subsurface.line import fields_on, main_line, main_shear
 from pyfret.subsurface.moments import lines_of
@@ -44,12 +44,12 @@ def pressure_profile(
         Passed on to ``plot``.
     """
     snapshot = last_of(shown)
-    ax, by = axes(ax), of_snapshot(snapshot, units)
+    ax, by = axes(ax), scales_of_snapshot(snapshot, units)
     along, fresh = main_line(snapshot), not ax.lines
     cut = fields_on(snapshot, along)
-    ax.plot(cut[along.along] / by.length.value, cut.p / by.stress.value, **line)
+    ax.plot(cut[along.axis] / by.length.value, cut.p / by.stress.value, **line)
     look_along(ax, snapshot, by.length, along, fresh=fresh)
-    ax.set_xlabel(by.length.label(along.along))
+    ax.set_xlabel(by.length.label(along.axis))
     ax.set_ylabel(by.stress.label("p"))
     return ax
 
@@ -93,20 +93,20 @@ def _shear_on(
     **line: Any,
 ) -> Axes:
     """The shear of an increment on a line."""
-    ax, by = axes(ax), of_snapshot(snapshot, units)
+    ax, by = axes(ax), scales_of_snapshot(snapshot, units)
     cut, fresh = fields_on(snapshot, along), not ax.lines
     name = of or main_shear(cut)
     if name not in cut:
         components = ", ".join(str(k) for k in cut if str(k).startswith("q_"))
         raise ValueError(f"of = {name!r}: must be one of {components} on this line")
-    s = cut[along.along] / by.length.value
+    s = cut[along.axis] / by.length.value
     ax.plot(s, cut[name] / by.shear.value, **line)
     if bound and np.isfinite(snapshot.mu):
         for sign in (1, -1):
             bound_line = sign * snapshot.mu * cut.p / by.shear.value
             ax.plot(s, bound_line, color=REFERENCE, linestyle=":", linewidth=1.0)
     look_along(ax, snapshot, by.length, along, fresh=fresh)
-    ax.set_xlabel(by.length.label(along.along))
+    ax.set_xlabel(by.length.label(along.axis))
     ax.set_ylabel(by.shear.label(name))
     return ax
 

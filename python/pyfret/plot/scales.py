@@ -70,7 +70,7 @@ def scales(attrs: Mapping[Any, Any], units: Units, *, mu: float = 1.0) -> Scales
     return Scales(length, stress, shear)
 
 
-def of_snapshot(snapshot: State, units: Units) -> Scales:
+def scales_of_snapshot(snapshot: State, units: Units) -> Scales:
     """Scales of an increment."""
     return scales(snapshot.dataset.attrs, units, mu=snapshot.mu)
 

@@ -14,7 +14,7 @@ from pyfret._util.depths import interfaces, thin
 from pyfret._util.numbers import in_words
 from pyfret.plot.depth_axis import draw_depth_axis
 from pyfret.plot.scales import Scales, Units, scales
-from pyfret.plot.style import apart, axes, beside, mark, styled
+from pyfret.plot.style import add_colour_bar, apart, axes, mark, styled
 from pyfret.plot.tables import must_hold
 from pyfret.quantities import RelativeDepth
 from pyfret.subsurface.contact import stress_below
@@ -194,7 +194,7 @@ def section_map(
         _mark(ax, maximum, line_of(values), by)
     name = symbol if symbol is not None else SYMBOLS.get(str(values.name), str(values.name))
     if colorbar and image is not None:
-        beside(ax, image, by.stress.label(name))
+        add_colour_bar(ax, image, by.stress.label(name))
     else:
         ax.set_title(by.stress.label(name))
     ax.set_xlabel(by.length.label(along))
@@ -352,7 +352,7 @@ def stress_history(
         points.set_clim(0.0, float(envelope.z.max()) / by.length.value)
     ax.xaxis.set_major_locator(MaxNLocator(integer=True, min_n_ticks=1))
     ax.set_xlim(float(value.increment[0]) - 0.5, float(value.increment[-1]) + 0.5)
-    beside(ax, points, by.length.label("z"))
+    add_colour_bar(ax, points, by.length.label("z"))
     # Room above the largest value, and none below where it can't be negative.
     ax.margins(y=0.08)
     if float(value.min()) >= 0.0:

@@ -167,7 +167,7 @@ def axes(ax: Axes | None, *, square: bool = False) -> Axes:
     return ax
 
 
-def beside(ax: Axes, image: Any, label: str, *, extend: str = "neither") -> None:
+def add_colour_bar(ax: Axes, image: Any, label: str, *, extend: str = "neither") -> None:
     """The scale of colours of `image` beside the axes, as high as they are."""
     inset = ax.inset_axes((1.03, 0.0, 0.05, 1.0))
     bar = ax.get_figure().colorbar(image, cax=inset, extend=extend)  # type: ignore[union-attr]

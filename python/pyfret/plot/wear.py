@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Literal
 import matplotlib.pyplot as plt
 import numpy as np
 
-from pyfret.plot.style import axes, beside, inside_legend, styled
+from pyfret.plot.style import add_colour_bar, axes, inside_legend, styled
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -74,7 +74,7 @@ def depth_map(
     drawn = ax.pcolormesh(
         1e3 * d.x, 1e3 * d.y, depth, cmap="YlGnBu", shading="nearest", rasterized=True
     )
-    beside(ax, drawn, "worn depth [µm]")
+    add_colour_bar(ax, drawn, "worn depth [µm]")
     ax.set_xlabel("$x$ [mm]")
     ax.set_ylabel("$y$ [mm]")
     return ax

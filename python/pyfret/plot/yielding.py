@@ -11,7 +11,7 @@ from matplotlib.ticker import MaxNLocator
 from pyfret._util.depths import thin
 from pyfret._util.lazy import xr
 from pyfret.plot.depth_axis import draw_depth_axis
-from pyfret.plot.scales import Units, last_of, of_snapshot
+from pyfret.plot.scales import Units, last_of, scales_of_snapshot
 from pyfret.plot.stresses import COLOURS, SYMBOLS
 from pyfret.plot.style import axes, styled
 from pyfret.subsurface.fields import interfaces
@@ -57,11 +57,11 @@ def plastic_zone(
     """
     state = last_of(shown)
     plastic = PlasticState(state, body_number)
-    by = of_snapshot(state, units)
+    by = scales_of_snapshot(state, units)
     line = main_line(state)
     middle = _on_line(plastic, state, line)
     percent = 100.0 * middle.values
-    x, z = middle[line.along].values / by.length.value, plastic.dataset.z.values / by.length.value
+    x, z = middle[line.axis].values / by.length.value, plastic.dataset.z.values / by.length.value
     layers = plastic.dataset.layer.values
     yielded = percent > 0.0
     deepest, outline = z[-1], state.outline
@@ -110,7 +110,7 @@ def plastic_zone(
         ax.set_title(label)
     ax.set_xlim(middle_x - widest, middle_x + widest)
     ax.set_ylim(deepest, 0.0)
-    ax.set_xlabel(by.length.label(line.along))
+    ax.set_xlabel(by.length.label(line.axis))
     if not thin(borders):
         ax.set_aspect("equal")
     ax.grid(visible=False)
@@ -121,14 +121,14 @@ def _on_line(plastic: PlasticState, state: State, line: Line) -> xr.DataArray:
     """The equivalent strain below a line, over depth and place; 0 beside what may yield."""
     d = plastic.dataset[["equivalent"]].transpose("z", "x", "y")
     strain: xr.DataArray = cut(d, state.scene.grid, line).equivalent
-    inside = np.ones(strain.sizes[line.along], dtype=bool)
+    inside = np.ones(strain.sizes[line.axis], dtype=bool)
     for name in ("x", "y"):
         cells = d[name].values
         if cells.size > 1:
             at = strain[name].values if name in strain.coords else getattr(line, name)
             half = 0.5 * (cells[1] - cells[0])
             inside &= (at >= cells[0] - half) & (at <= cells[-1] + half)
-    strain = strain.where(xr.DataArray(inside, dims=line.along), 0.0).fillna(0.0)
+    strain = strain.where(xr.DataArray(inside, dims=line.axis), 0.0).fillna(0.0)
     return strain
 
 
@@ -164,7 +164,7 @@ def residual_stress(
     """
     state = last_of(shown)
     number = PlasticState(state, body_number).body_number
-    ax, by = axes(ax), of_snapshot(state, units)
+    ax, by = axes(ax), scales_of_snapshot(state, units)
     centre = (0.0, 0.0) if state.outline is None else state.outline.centre
     x, y = (c if at is None else at for at, c in zip((x, y), centre, strict=True))
     below = Unloaded(state, warn=False).stress(x=x, y=y, body_number=number)

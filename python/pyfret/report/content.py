@@ -51,10 +51,10 @@ def chosen(n: int, most: int) -> NDArray[np.int64]:
 def frame(result: Run, snapshots: list[State]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Columns and rows of cells to show: the box around all contacts with some room."""
     touched = np.logical_or.reduce([at.contact.values.astype(bool) for at in snapshots])
-    return around(touched.any(axis=1)), around(touched.any(axis=0))
+    return window_around(touched.any(axis=1)), window_around(touched.any(axis=0))
 
 
-def around(touched: NDArray[np.bool_]) -> NDArray[np.int64]:
+def window_around(touched: NDArray[np.bool_]) -> NDArray[np.int64]:
     """The places of a line that are shown: the contact with some room."""
     inside, n = np.flatnonzero(touched), touched.size
     first, last = (inside[0], inside[-1]) if inside.size else (0, n - 1)
@@ -79,7 +79,7 @@ def increments(result: Run) -> dict[str, Any]:
     on_line = [fields_on(at, line) for at in snapshots]
     # The same component at every increment: the largest at the last.
     component = main_shear(on_line[-1])
-    near = around(np.logical_or.reduce([state.p.values > 0.0 for state in on_line]))
+    near = window_around(np.logical_or.reduce([state.p.values > 0.0 for state in on_line]))
     force = result.dataset.W.attrs["units"]
     shown = []
     for at, cut in zip(snapshots, on_line, strict=True):
@@ -120,8 +120,8 @@ def increments(result: Run) -> dict[str, Any]:
         "largest": largest,
         "flat": flat,
         "line": {
-            "s": short(1e6 * on_line[-1][line.along].values[near]),
-            "along": line.along,
+            "s": short(1e6 * on_line[-1][line.axis].values[near]),
+            "along": line.axis,
             "component": component,
         },
     }
@@ -157,7 +157,7 @@ def stress(result: Run, crack: CrackSection | None = None) -> dict[str, Any] | N
     below = stress_below(at, **shown, body_number=number)
     largest = below.maximum()
     values = 1e-6 * below.von_mises.values
-    z, x = below.von_mises.z.values, below.von_mises[line.along].values
+    z, x = below.von_mises.z.values, below.von_mises[line.axis].values
     assert at.outline is not None
     ends = line.place(*at.outline.centre) + np.array(at.outline.border(line.angle))
     room = SIDEWAYS * max(np.ptp(ends), z[-1])
@@ -184,7 +184,7 @@ def stress(result: Run, crack: CrackSection | None = None) -> dict[str, Any] | N
         "equal": not (stretch or flat),
         "values": short(values[np.ix_(depths, along)], 3),
         "interfaces": place(borders[1:-1]),
-        "along": line.along,
+        "along": line.axis,
         "plane": "shear through the middle of the contact" if crack is None else "crack",
         "largest": {
             "value": with_error(1e-6 * largest.value, 1e-6 * largest.error),

@@ -53,7 +53,7 @@ class CrackSection:
         if arrest is None:
             first, last = (um(float(self.cracks.lengths[n])) for n in (0, -1))
             return in_letters(f"{begun}, {first} to {last} long.")
-        return in_letters(f"{begun} {arrest.told()}.")
+        return in_letters(f"{begun} {arrest.describe()}.")
 
     def drawn(
         self, deepest: float, place: Callable[[NDArray[np.float64]], list[float]]

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from pyfret._core import Grid, Scene
 
-__all__ = ["STATUS", "frictionless", "of_corners", "of_cycles", "state_in_words"]
+__all__ = ["STATUS", "frictionless", "loops_of_corners", "loops_of_cycles", "state_in_words"]
 
 #: What the codes of ``status`` mean.
 STATUS = ("no contact", "full stick", "partial slip", "gross slip")
@@ -64,7 +64,7 @@ OF_BARS = ("dissipated_error", "energy_ratio_error")
 OF_CORNERS = ("dissipated", "T", "delta", "secant_stiffness", "opening", "energy_ratio")
 
 
-def of_cycles(
+def loops_of_cycles(
     dataset: xr.Dataset, scene: Scene, direction: Literal["x", "y", "torsion"]
 ) -> xr.Dataset:
     """Give the loops of every closed cycle; parameters as of :meth:`pyfret.Result.loops`."""
@@ -89,7 +89,7 @@ def of_cycles(
     return table.assign_attrs(dataset.attrs)
 
 
-def of_corners(
+def loops_of_corners(
     delta: NDArray[np.float64],
     T: NDArray[np.float64],
     dissipated: NDArray[np.float64],

@@ -12,7 +12,7 @@ from pyfret._util.lazy import xr
 from pyfret._util.text import shown
 from pyfret.quantities import quantities
 from pyfret.run.attributes import OfRun
-from pyfret.run.loops import of_cycles, state_in_words
+from pyfret.run.loops import loops_of_cycles, state_in_words
 from pyfret.run.state import State
 
 if TYPE_CHECKING:
@@ -240,7 +240,7 @@ class Run(OfRun):
             branches that it spans. Of a line contact energies, forces and stiffness are per metre.
             ``dissipated_error`` and ``energy_ratio_error`` where the run has error bars.
         """
-        return of_cycles(self.dataset, self.scene, direction)
+        return loops_of_cycles(self.dataset, self.scene, direction)
 
     @quantities
     def regimes(self, *, direction: Literal["x", "y", "torsion"] = "x") -> list[str]:

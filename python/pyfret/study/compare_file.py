@@ -143,7 +143,7 @@ def read_conductor(value: Any, where: str, materials: Materials) -> Any:
 
     def conductor(entry: Any) -> Conductor:
         if isinstance(entry, str):
-            return Conductor.of(materials[entry])
+            return Conductor.from_material(materials[entry])
         return Conductor(**check_table(entry, CONDUCTOR, where))
 
     return map_layers(value, conductor)

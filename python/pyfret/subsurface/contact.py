@@ -9,7 +9,7 @@ import numpy as np
 from pyfret import _core
 from pyfret.scene.warnings import doubt_layers
 from pyfret.subsurface import fields
-from pyfret.subsurface.line import Line, along, main_line
+from pyfret.subsurface.line import Line, line_through_point, main_line
 from pyfret.subsurface.plastic import eigenstress
 from pyfret.subsurface.tensor import Stress
 
@@ -79,7 +79,7 @@ def line_below(
     if azimuth is not None:
         centre = (0.0, 0.0) if outline is None else outline.centre
         x, y = (c if at is None else at for at, c in zip((x, y), centre, strict=True))
-        return along(x, y, azimuth), False
+        return line_through_point(x, y, azimuth), False
     if z is not None or x is not None or y is not None:
         return Line(x, y), False
     return main_line(state), True

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from pyfret.run import State
 
-__all__ = ["Line", "along", "cut", "fields_on", "line_of", "main_line", "main_shear"]
+__all__ = ["Line", "cut", "fields_on", "line_of", "line_through_point", "main_line", "main_shear"]
 
 
 class Line(NamedTuple):
@@ -29,26 +29,26 @@ class Line(NamedTuple):
         return {"x": self.x, "y": self.y, "azimuth": self.azimuth}
 
     @property
-    def along(self) -> str:
-        """Name of the place along the line."""
+    def axis(self) -> str:
+        """Name of the coordinate along the line: "x", "y" or "s"."""
         return "s" if self.azimuth is not None else "y" if self.y is None else "x"
 
     @property
     def angle(self) -> float:
         """Angle of the line to the x axis [rad]."""
-        return {"x": 0.0, "y": np.pi / 2}.get(self.along, self.azimuth or 0.0)
+        return {"x": 0.0, "y": np.pi / 2}.get(self.axis, self.azimuth or 0.0)
 
     def place(self, x: Any, y: Any) -> Any:
         """The place along the line that is nearest to x, y [m], numbers or arrays."""
         if self.azimuth is None:
-            return x if self.along == "x" else y
+            return x if self.axis == "x" else y
         assert self.x is not None
         assert self.y is not None
         cos, sin = np.cos(self.azimuth), np.sin(self.azimuth)
         return (x - self.x) * cos + (y - self.y) * sin
 
 
-def along(x: float, y: float, azimuth: float) -> Line:
+def line_through_point(x: float, y: float, azimuth: float) -> Line:
     """The line through a point at an angle; along x or y where that is the angle."""
     return Line(*_core.line_through(x, y, azimuth))
 
@@ -89,7 +89,7 @@ def cut(d: xr.Dataset, grid: _core.Grid, line: Line) -> xr.Dataset:
     """
     metres = {"units": "m"}
     if line.azimuth is None:
-        along = line.along
+        along = line.axis
         coords = {along: (along, d[along].values, metres)}
         points = {"x": d.x.values, "y": d.y.values}
         at = {
@@ -101,7 +101,7 @@ def cut(d: xr.Dataset, grid: _core.Grid, line: Line) -> xr.Dataset:
         s, places = _core.line_places(grid, **line.named())
         x, y = np.transpose(places)
         coords = {k: ("s", v, metres) for k, v in {"s": np.asarray(s), "x": x, "y": y}.items()}
-    weights = [_between(d[k].values, at) for k, at in (("x", x), ("y", y))]
+    weights = [_interpolation_weights(d[k].values, at) for k, at in (("x", x), ("y", y))]
     (i_left, right, u), (near, far, v) = weights
 
     def on_line(field: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -126,7 +126,7 @@ def main_shear(cut: xr.Dataset) -> str:
     return max(components, key=lambda of: float(abs(cut[of]).max()))
 
 
-def _between(
+def _interpolation_weights(
     cells: NDArray[np.float64], at: NDArray[np.float64]
 ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]:
     """The cells on both sides of places and the share of the second; at the border the last one."""

@@ -65,10 +65,10 @@ def columns_of(state: State) -> list[NDArray[np.float64]]:
 
 def body_of(state: State, body_number: int) -> _core.PlasticBody:
     """The volume grid of a body; a ValueError where it stays elastic."""
-    return _body(_of(state, body_number))
+    return _body(_identify(state, body_number))
 
 
-def _of(state: State, body_number: int) -> _Of:
+def _identify(state: State, body_number: int) -> _Of:
     return _Of(str(state.dataset.attrs["scene"]), body_number, state.scene)
 
 
@@ -79,7 +79,7 @@ def _strained(state: State, body_number: int) -> _Strained:
     columns = [np.ascontiguousarray(column[in_body]) for column in columns]
     # The increment is no part of what has yielded.
     digest = hashlib.sha256(b"".join(column.tobytes() for column in columns[1:])).digest()
-    return _Strained(_of(state, body_number), digest, columns)
+    return _Strained(_identify(state, body_number), digest, columns)
 
 
 def eigenstress(state: State, body_number: int) -> list[_core.Eigenstress | None]:
@@ -138,7 +138,7 @@ class PlasticState:
         self._state = state
         if body_number is None:
             body_number = 1 if state.body(1).yields and not state.body(2).yields else 2
-        self._of = _of(state, body_number)
+        self._of = _identify(state, body_number)
         #: The body, 1 or 2.
         self.body_number = body_number
         _body(self._of)

@@ -122,7 +122,7 @@ class Stress(Labelled, Figured):
         if of not in LABELS:
             raise ValueError(f"{of!r}: must be one of {', '.join(sorted(LABELS))}")
         self._doubt_depths()
-        self._along()
+        self._section_axis()
         depths = self.dataset.z.values.tolist()
         layers = self.dataset.layer.values.tolist()
         if layer is not None and layer not in layers:
@@ -172,7 +172,7 @@ class Stress(Labelled, Figured):
         return self._on_borders("stick border")
 
     def _on_borders(self, zone: str) -> Stress:
-        along = self._along()
+        along = self._section_axis()
         surface = self.dataset.isel(depth=0)
         if float(surface.z) != 0.0:
             raise ValueError("the section has no surface: give stress(z=[0, ...], ...)")
@@ -211,7 +211,7 @@ class Stress(Labelled, Figured):
                 "lie there; leave z out, or add scene.interfaces()",
             )
 
-    def _along(self) -> str:
+    def _section_axis(self) -> str:
         dims = self.dataset[COMPONENTS[0]].dims
         if len(dims) != 2:
             raise ValueError(

@@ -10,7 +10,7 @@ import numpy as np
 from pyfret._core import SurfaceMap
 from pyfret._util.scene_warnings import warn as doubt
 from pyfret.subsurface import fields
-from pyfret.subsurface.line import Line, along
+from pyfret.subsurface.line import Line, line_through_point
 from pyfret.subsurface.plastic import body_of, columns_of, eigenstress
 
 if TYPE_CHECKING:
@@ -83,7 +83,7 @@ class Unloaded:
         )
         line = Line(x, y)
         if azimuth is not None:
-            line = along(x or 0.0, y or 0.0, azimuth)
+            line = line_through_point(x or 0.0, y or 0.0, azimuth)
         length = state.length
         sampled = fields.sampled_stress(
             below, body, grid, z, line, length if length > 0 else fields.loaded_length(grid)

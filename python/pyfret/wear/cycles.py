@@ -39,7 +39,7 @@ class Cycles(float):
         return made
 
     @classmethod
-    def after(cls, last: float, rate: float) -> Cycles:
+    def beyond_run(cls, last: float, rate: float) -> Cycles:
         """Make the cycles to an unreached value: endless without wear, else beyond the run."""
         return cls(math.nan, last) if rate > 0.0 else cls(math.inf)
 
@@ -76,7 +76,7 @@ def spent(d: xr.Dataset, energy: float) -> Cycles:
     before = float(cycles[0] - d["length"][0])
     start = float(ends[0] - d["dissipated_per_cycle"][0] * d["length"][0])
     if energy > ends[-1]:
-        return Cycles.after(float(cycles[-1]), float(d["dissipated_per_cycle"][-1]))
+        return Cycles.beyond_run(float(cycles[-1]), float(d["dissipated_per_cycle"][-1]))
     return Cycles(np.interp(energy, [max(start, 0.0), *ends], [before, *cycles]))
 
 
@@ -93,7 +93,7 @@ def reached(d: xr.Dataset, name: str, target: float) -> Cycles:
     jumps = np.flatnonzero(ends >= target * (1.0 - _core.DEPTH_ROUNDING))
     if jumps.size == 0:
         last = float(ends[-1] - (ends[-2] if ends.size > 1 else before))
-        return Cycles.after(float(d.cycles[-1]), last)
+        return Cycles.beyond_run(float(d.cycles[-1]), last)
     n = int(jumps[0])
     start = float(ends[n - 1]) if n else before
     whole, energy_needed = float(ends[n]) - start, target - start

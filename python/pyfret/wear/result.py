@@ -15,7 +15,7 @@ from pyfret._util.labelled import Labelled
 from pyfret._util.numbers import length, um
 from pyfret._util.text import shown
 from pyfret.quantities import Length, as_number, quantities
-from pyfret.run.loops import NO_FRICTION, frictionless, of_corners
+from pyfret.run.loops import NO_FRICTION, frictionless, loops_of_corners
 from pyfret.saveable import Saveable
 from pyfret.scene.tables import table
 from pyfret.subsurface.line import Line, cut
@@ -92,7 +92,7 @@ class WearResult(Saveable, Labelled, Figured):
             for block_cycles in d.block_cycles.values
         ]
         energy = np.asarray(d.dissipated_per_cycle, float)[at]
-        loops = of_corners(shift, force, energy, self.scene.grid)
+        loops = loops_of_corners(shift, force, energy, self.scene.grid)
         return loops.assign_coords(block_cycles=d.block_cycles)
 
     def along(self) -> xr.Dataset:

@@ -74,7 +74,7 @@ def solve(
     if not isinstance(scene, Scene):
         scene, of_file = _core.wear_of_file(scene)
         wear = read(of_file) if wear is None else wear
-    wear = Wear.of(wear, settings)
+    wear = Wear.from_settings(wear, settings)
     table, functions = wear.document()
     begins = None if start is None else surfaces(start)
     done = 0.0 if begins is None else begins[0]

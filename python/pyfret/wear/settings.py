@@ -150,7 +150,7 @@ class Wear(Replaceable):
     tell_from: float = 0.1
 
     @classmethod
-    def of(cls, wear: Wear | None, settings: Mapping[str, Any]) -> Wear:
+    def from_settings(cls, wear: Wear | None, settings: Mapping[str, Any]) -> Wear:
         """The settings of `wear` with some exchanged, or made of these alone.
 
         Raises
@@ -158,7 +158,7 @@ class Wear(Replaceable):
         TypeError
             One of them is no setting of wear; the message offers the nearest name.
         """
-        refuse_unknown("Wear.of", settings, [field.name for field in fields(cls)])
+        refuse_unknown("Wear.from_settings", settings, [field.name for field in fields(cls)])
         if wear is not None:
             return wear.replace(**settings)
         if "cycles" not in settings:

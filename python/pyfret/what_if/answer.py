@@ -123,7 +123,7 @@ def figure(result: Result, below: Any, most: Any) -> Any:
         subplot_titles=(
             "loop",
             "stick (blue) and slip",
-            f"pressure p (green), shear {q} (purple) along {section.along}",
+            f"pressure p (green), shear {q} (purple) along {section.axis}",
             "von Mises stress",
         ),
         horizontal_spacing=0.12,
@@ -140,20 +140,20 @@ def figure(result: Result, below: Any, most: Any) -> Any:
     y = 1e6 * last.p.y.values
     heat = {"colorscale": ZONES, "zmin": 0.0, "zmax": 1.0, "showscale": False}
     drawn.add_trace(plotly.Heatmap(x=x, y=y, z=zones.T, **heat), 1, 2)
-    along = 1e6 * cut[section.along].values
+    along = 1e6 * cut[section.axis].values
     for name, colour in (("p", "#009E73"), (q, "#AB63FA")):
         values, line = 1e-6 * cut[name].values, {"color": colour}
         drawn.add_trace(plotly.Scatter(x=along, y=values, mode="lines", name=name, line=line), 2, 1)
-    axis_label = f"{section.along} [µm]"
+    axis_label = f"{section.axis} [µm]"
     axes += [(axis_label, f"p, {q} [MPa]"), (axis_label, "depth [µm]")]
     stress = 1e-6 * below.measure("von_mises")
     # A depth on an interface stands twice; a hair's breadth keeps both rows.
     depth = 1e6 * below.dataset.z.values + 1e-6 * np.arange(below.dataset.z.size)
     drawn.add_trace(
         plotly.Heatmap(
-            x=1e6 * below.dataset[section.along].values,
+            x=1e6 * below.dataset[section.axis].values,
             y=depth,
-            z=stress.transpose("depth", section.along).values,
+            z=stress.transpose("depth", section.axis).values,
             colorscale="Viridis",
             colorbar={"title": "MPa", "len": 0.42, "y": 0.21, "thickness": 12},
         ),
