@@ -128,6 +128,7 @@ COMMANDS = (
         "fit",
         "threshold",
         "report",
+        "info",
         "verify",
         "cite",
     ),

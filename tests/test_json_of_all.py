@@ -75,6 +75,7 @@ WAYS: dict[str, list[list[str]]] = {
         ["threshold", "scene.toml", "--material", "7075", "--between", "2e4:5.9e4", *SEARCHED]
     ],
     "export": [["export", STORE, "-o", "p.csv"]],
+    "info": [["info", "loop.csv"], ["info", STORE]],
     "report": [["report", STORE, "-o", "page.html"]],
     "cite": [["cite"], ["cite", STORE]],
 }
