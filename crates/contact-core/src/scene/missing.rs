@@ -37,7 +37,8 @@ pub(super) fn treat_holes(
     values: Array2<f64>,
     missing: Missing,
 ) -> Result<(Array2<f64>, usize), String> {
-    let (holes, total) = (values.iter().filter(|v| v.is_nan()).count(), values.len());
+    let holes = values.fold(0, |count, v| count + usize::from(v.is_nan()));
+    let total = values.len();
     if holes == total {
         return Err("holds no number".into());
     }

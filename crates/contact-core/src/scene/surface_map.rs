@@ -71,14 +71,15 @@ impl SurfaceMap {
     pub fn rms(&self) -> f64 {
         let z = &self.values;
         let mean = z.mean().unwrap_or_default();
-        let square = z.iter().map(|z| (z - mean).powi(2)).sum::<f64>();
+        // `fold` follows the order of the memory, which `iter` does not.
+        let square = z.fold(0.0, |sum, z| sum + (z - mean).powi(2));
         (square / z.len() as f64).sqrt()
     }
 
     /// Largest less smallest number: S_z of heights, after ISO 25178-2.
     pub fn peak_to_valley(&self) -> f64 {
         let range = (f64::INFINITY, f64::NEG_INFINITY);
-        let range = (self.values.iter()).fold(range, |(low, high), z| (low.min(*z), high.max(*z)));
+        let range = (self.values).fold(range, |(low, high), z| (low.min(*z), high.max(*z)));
         range.1 - range.0
     }
 
@@ -102,7 +103,8 @@ impl SurfaceMap {
                 "at least one number",
             ));
         }
-        if let Some(z) = self.values.iter().find(|z| !z.is_finite()) {
+        let infinite = |first: Option<f64>, z: &f64| first.or((!z.is_finite()).then_some(*z));
+        if let Some(z) = self.values.fold(None, infinite) {
             return Err(Error::invalid(format!("{key}.z"), z, "finite numbers"));
         }
         for d in [self.spacing.0, self.spacing.1] {
