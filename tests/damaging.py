@@ -17,9 +17,9 @@ def damage(file: Path, rng: random.Random) -> None:
     elif kind == 2:
         file.write_bytes(content + bytes(rng.randrange(1, 9)))
     elif kind == 3:
-        other = rng.choice(sorted(f for f in file.parent.iterdir() if f.is_file()))
-        file.write_bytes(other.read_bytes())
+        alternative = rng.choice(sorted(f for f in file.parent.iterdir() if f.is_file()))
+        file.write_bytes(alternative.read_bytes())
     else:
-        place = rng.randrange(len(content))
-        content[place] ^= 1 << rng.randrange(8)
+        position = rng.randrange(len(content))
+        content[position] ^= 1 << rng.randrange(8)
         file.write_bytes(content)

@@ -92,8 +92,8 @@ class Ball:
         kernel = j0(r[:, None] * self.k) * (give * self.k * self.dk)
         system = np.column_stack([kernel @ self.transforms, -np.ones(r.size)])
         scale = np.abs(system).max(axis=0)
-        found, *_ = np.linalg.lstsq(system / scale, -(r**2) / (2.0 * R), rcond=None)
-        self.c = (found / scale)[:TERMS]
+        solution, *_ = np.linalg.lstsq(system / scale, -(r**2) / (2.0 * R), rcond=None)
+        self.c = (solution / scale)[:TERMS]
         return float(2.0 * np.pi * a**2 * (self.c / (2.0 * nu + 2.0)).sum())
 
     def _response(self, layers: list[Layer]) -> np.ndarray:
@@ -115,17 +115,19 @@ class Ball:
         for n in range(len(layers) - 1):
             scale[:, 2 + 4 * n : 4 + 4 * n] = (E * self.k)[:, None]
         unknown = 1.0 / (E * self.k)[:, None, None]
-        found = np.linalg.solve(system * scale[:, :, None] * unknown, (right * scale)[:, :, None])
+        solution = np.linalg.solve(
+            system * scale[:, :, None] * unknown, (right * scale)[:, :, None]
+        )
         flat = np.zeros((self.k.size, 4 * len(layers)))
-        flat[:, :size] = found[:, :, 0] * unknown[:, :, 0]
+        flat[:, :size] = solution[:, :, 0] * unknown[:, :, 0]
         return flat
 
     def stress(self, n: int, z: float) -> np.ndarray:
         """s_rr, s_tt, s_zz and s_rz [Pa] in layer n at a depth below its top, (4, RADII)."""
         layer = self.layers[n]
-        own = self.coefficients[:, 4 * n : 4 * n + 4]
+        own_values = self.coefficients[:, 4 * n : 4 * n + 4]
         if n > 0 or z > 0.0:
-            return self._of(layer, own, z)
+            return self._of(layer, own_values, z)
         # At the surface: a half-space (Johnson (3.42)) and the rest, which decays by exp(-2 k h).
         alone = self._response([replace(layer, thickness=np.inf)])
         below = RADII**2 < 1.0
@@ -136,9 +138,9 @@ class Ball:
         mean = np.divide(within, RADII**2, out=np.full(p.size, 0.5 * self.c.sum()), where=RADII > 0)
         part = (1.0 - 2.0 * layer.nu) * mean
         half_space = np.array([part - p, -part - 2.0 * layer.nu * p, -p, 0.0 * p])
-        rest = self._of(layer, own - alone, 0.0)
-        rest[2:] = 0.0
-        return half_space + rest
+        remainder = self._of(layer, own_values - alone, 0.0)
+        remainder[2:] = 0.0
+        return half_space + remainder
 
     def _of(self, layer: Layer, own: np.ndarray, z: float) -> np.ndarray:
         mu = layer.E / (2.0 * (1.0 + layer.nu))

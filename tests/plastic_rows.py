@@ -63,8 +63,8 @@ class Compared:
     ) -> None:
         """Note numbers of a row; `allowed` without the errors of the row."""
         truth = zip(values, of["value"], of["error"], strict=True)
-        for n, (value, wanted, error) in enumerate(truth):
-            self.see(f"{what}[{n}]", value, wanted, allowed + error)
+        for n, (value, expected, error) in enumerate(truth):
+            self.see(f"{what}[{n}]", value, expected, allowed + error)
 
     def balance(self, what: str, of: dict[str, Any], W: float, cycle: slice) -> None:
         """Note the energy balance of a cycle under a constant W, beside 1 % of what is lost.
@@ -77,8 +77,8 @@ class Compared:
         friction, plastic, elastic = (
             float(np.sum(of[name][inside])) for name in ("dissipated", "plastic_work", "elastic")
         )
-        given = loop + W * float(of["delta_z"][cycle.stop - 1] - of["delta_z"][cycle.start])
-        self.see(what, given - elastic, friction + plastic, 0.01 * (friction + plastic))
+        given_values = loop + W * float(of["delta_z"][cycle.stop - 1] - of["delta_z"][cycle.start])
+        self.see(what, given_values - elastic, friction + plastic, 0.01 * (friction + plastic))
 
     def over(self) -> list[str]:
         """Give what is out of its bar."""
@@ -109,9 +109,9 @@ def beside(of_axis: Any, depth: float, layer: int) -> float:
 def strain_along(row: dict[str, Any], stress: Any, layer: int) -> Any:
     """Give the elastic strain along the surface on the axis, of the planes of a layer."""
     inside = stress.isel(z=np.flatnonzero(stress.layer.to_numpy() == layer))
-    of = [*row["coatings"], row["substrate"]][layer]
+    item = [*row["coatings"], row["substrate"]][layer]
     xx, zz = (inside.sel(component=name) for name in ("xx", "zz"))
-    return ((1 - of["nu"]) * xx - of["nu"] * zz) / of["E"]
+    return ((1 - item["nu"]) * xx - item["nu"] * zz) / item["E"]
 
 
 def middle(field: Any) -> float:
@@ -155,33 +155,33 @@ def indented(
         path=path,
         **changes,
     )
-    found = Compared(f"{row['name']} {approach:g} by {given}, {n} cells")
+    compared = Compared(f"{row['name']} {approach:g} by {given}, {n} cells")
     (top, loaded), (_, unloaded) = followed(scene, [increments, increments + 4])
     if given == "approach":
-        found.see("load", float(top.W), load["value"], load["error"] + 5e-3 * load["value"])
+        compared.see("load", float(top.W), load["value"], load["error"] + 5e-3 * load["value"])
     else:
         part = load["error"] / load["value"] + 5e-3
-        found.see("approach", float(top.delta_z), approach, part * approach)
+        compared.see("approach", float(top.delta_z), approach, part * approach)
     volume = state["plastic_volume"]
     allowed = volume["error"] + 0.06 * volume["value"]
-    found.see("volume", loaded.volume(), volume["value"], allowed)
+    compared.see("volume", loaded.volume(), volume["value"], allowed)
     depths = state["depths"]
     strain = loaded.on_axis("equivalent")
     largest = state["largest_plastic_strain"]["value"]
     on_axis = [at(strain, z) for z in depths]
-    found.table("p", on_axis, state["plastic_strain_on_axis"], 0.03 * largest)
-    left = state["unloaded"]
-    if isinstance(left, str):  # the row says why it has none
-        return found
-    of = {axis: left[f"s_{axis}_on_axis"] for axis in ("rr", "zz")}
-    most = max(abs(value) for table in of.values() for value in table["value"])
+    compared.table("p", on_axis, state["plastic_strain_on_axis"], 0.03 * largest)
+    remaining = state["unloaded"]
+    if isinstance(remaining, str):  # the row says why it has none
+        return compared
+    options = {axis: remaining[f"s_{axis}_on_axis"] for axis in ("rr", "zz")}
+    upper = max(abs(value) for table in options.values() for value in table["value"])
     stress = unloaded.on_axis("residual_stress")
-    interfaces = left.get("s_rr_at_interfaces")
+    interfaces = remaining.get("s_rr_at_interfaces")
     if interfaces:
-        most = max(most, max(abs(value) for value in interfaces["value"]))
+        upper = max(upper, max(abs(value) for value in interfaces["value"]))
     for axis, component in (("rr", "xx"), ("zz", "zz")):
         values = [at(stress.sel(component=component), z) for z in depths]
-        found.table(axis, values, of[axis], 0.03 * most)
+        compared.table(axis, values, options[axis], 0.03 * upper)
     if interfaces:
         edges = np.cumsum([c["thickness"] for c in row["coatings"]])
         sides = [(z, n + side) for n, z in enumerate(edges) for side in (0, 1)]
@@ -191,14 +191,14 @@ def indented(
             below = strain_along(row, stress, 1)[:1]
             above = strain_along(row, stress, 0)
             line = np.polyfit(above.z, above, 2)
-            wanted = float(np.polyval(line, below.z)[0])
-            found.see("continuous strain", float(below[0]), wanted, 0.03 * abs(wanted))
-        found.table("interface", values[: len(interfaces["value"])], interfaces, 0.03 * most)
-    imprint = left["imprint_depth"]
+            expected = float(np.polyval(line, below.z)[0])
+            compared.see("continuous strain", float(below[0]), expected, 0.03 * abs(expected))
+        compared.table("interface", values[: len(interfaces["value"])], interfaces, 0.03 * upper)
+    imprint = remaining["imprint_depth"]
     depth = middle(unloaded.dataset.imprint.to_numpy())
     allowed = imprint["error"] + 0.015 * abs(imprint["value"])
-    found.see("imprint", depth, imprint["value"], allowed)
-    return found
+    compared.see("imprint", depth, imprint["value"], allowed)
+    return compared
 
 
 def end_point_friction(result: fret.Result) -> Any:
@@ -242,14 +242,14 @@ def fretted(row: dict[str, Any], *, n: int = 48, room: float = 1.3, **changes: A
         **changes,
     )
     result = fret.solve(scene, progress=False)
-    found = Compared(f"{row['name']}, {n} cells")
-    most = max(abs(T) for T in row["T"])
+    compared = Compared(f"{row['name']}, {n} cells")
+    largest = max(abs(T) for T in row["T"])
     done = {
         "plastic": np.cumsum(result.plastic_work.to_numpy()),
         "friction": np.cumsum(end_point_friction(result)),
     }
     columns = (
-        ("T", result.T_x.to_numpy(), 0.01 * most),
+        ("T", result.T_x.to_numpy(), 0.01 * largest),
         ("largest_pressure", result.p_max.to_numpy(), None),
         ("approach", result.delta_z.to_numpy(), None),
         ("plastic_volume", result.plastic_volume.to_numpy(), None),
@@ -259,21 +259,24 @@ def fretted(row: dict[str, Any], *, n: int = 48, room: float = 1.3, **changes: A
         truth = zip(values, row[name], row[f"{name}_error"], strict=True)
         worst = max(
             (
-                (value - wanted, (bars[name] * abs(wanted) if allowed is None else allowed) + error)
-                for n, (value, wanted, error) in enumerate(truth)
+                (
+                    value - expected,
+                    (bars[name] * abs(expected) if allowed is None else allowed) + error,
+                )
+                for n, (value, expected, error) in enumerate(truth)
                 if n >= 5
             ),
             key=lambda pair: abs(pair[0]) / pair[1],
         )
-        found.see(name, worst[0], 0.0, worst[1])
+        compared.see(name, worst[0], 0.0, worst[1])
     columns = {n: result.dataset[n].to_numpy() for n in ("T_x", "delta_x", *ENERGIES)}
     # The trapezoidal rule of the loop, of eight increments a stroke, leaves 2 %: it is told.
     columns["elastic"] = columns["elastic"] - result.dataset.quadrature.to_numpy()
     for k, start in enumerate((9, 17)):
-        found.balance(f"energy[{k}]", columns, row["W"], slice(start, start + 17))
+        compared.balance(f"energy[{k}]", columns, row["W"], slice(start, start + 17))
     ends = [5, 9, 17, 25, 33]
     for name, bar in (("plastic", 0.06), ("friction", 0.03)):
-        wanted, error = row[f"{name}_work"], row[f"{name}_work_error"]
+        expected, error = row[f"{name}_work"], row[f"{name}_work_error"]
         before = -1
         for stroke, end in enumerate(ends):
             if name == "friction" and stroke == 0:
@@ -282,24 +285,24 @@ def fretted(row: dict[str, Any], *, n: int = 48, room: float = 1.3, **changes: A
             start = (
                 (0.0, 0.0, 0.0)
                 if before < 0
-                else (done[name][before], wanted[before], error[before])
+                else (done[name][before], expected[before], error[before])
             )
-            truth = wanted[end] - start[1]
+            truth = expected[end] - start[1]
             allowed = bar * truth + max(error[end], start[2])
-            found.see(f"{name}_work[{stroke}]", done[name][end] - start[0], truth, allowed)
+            compared.see(f"{name}_work[{stroke}]", done[name][end] - start[0], truth, allowed)
             before = end
-    return found
+    return compared
 
 
 def drawn(row: dict[str, Any], *, n: int = 128, room: float = 1.5, **changes: Any) -> Compared:
     """Go along the path of a cylinder that frets, in plane strain, and take it off."""
-    of, a, T = row["cylinder"], row["a_of_the_bare_elastic_pair"], row["T_amplitude"]
+    item, a, T = row["cylinder"], row["a_of_the_bare_elastic_pair"], row["T_amplitude"]
     path = fret.LoadPath.start().normal(row["W"], increments=8).tangential([T], increments=8)
     for end in (-T, T, -T, T, -T):
         path = path.tangential([end], increments=16)
     path = path.tangential([0.0], increments=8).normal(1e-4 * row["W"], increments=8)
     scene = fret.Scene(
-        body1=fret.Body(fret.Elastic(E=of["E"], nu=of["nu"]), shape=fret.Cylinder(R=of["R"])),
+        body1=fret.Body(fret.Elastic(E=item["E"], nu=item["nu"]), shape=fret.Cylinder(R=item["R"])),
         body2=body(row),
         friction=row["friction"],
         grid=fret.Grid.strip(extent=2 * room * a, n=n),
@@ -314,7 +317,7 @@ def drawn(row: dict[str, Any], *, n: int = 128, room: float = 1.5, **changes: An
             state = increment.plastic()
     columns = dict(zip(names, np.transpose(rows_), strict=True))
     stops = [7, 15, 31, 47, 63, 79, 95]
-    found = Compared(f"{row['name']}, {n} cells")
+    compared = Compared(f"{row['name']}, {n} cells")
     for name, key, values, bar in (
         ("p_max", "largest_pressure", columns["p_max"], 0.005),
         ("area", "plastic_area", columns["plastic_volume"], 0.06),
@@ -323,14 +326,14 @@ def drawn(row: dict[str, Any], *, n: int = 128, room: float = 1.5, **changes: An
     ):
         truth = zip(values[stops], row[key]["value"], row[key]["error"], strict=True)
         floor = 1e-6 * max(row[key]["value"])
-        for k, (value, wanted, error) in enumerate(truth):
-            found.see(f"{name}[{k}]", value, wanted, error + bar * abs(wanted) + floor)
+        for k, (value, expected, error) in enumerate(truth):
+            compared.see(f"{name}[{k}]", value, expected, error + bar * abs(expected) + floor)
     for k, start in enumerate((15, 31, 47, 63)):
-        found.balance(f"energy[{k}]", columns, row["W"], slice(start, start + 33))
+        compared.balance(f"energy[{k}]", columns, row["W"], slice(start, start + 33))
     cycle = slice(63, 96)
     loop = float(np.trapezoid(columns["T_x"][cycle], columns["delta_x"][cycle]))
-    wanted = row["loop_of_the_last_cycle"]
-    found.see("loop", loop, wanted["value"], wanted["error"] + 0.01 * wanted["value"])
+    expected = row["loop_of_the_last_cycle"]
+    compared.see("loop", loop, expected["value"], expected["error"] + 0.01 * expected["value"])
     end = row["end_unloaded"]
     strain = state.on_axis("equivalent")
     stress = state.on_axis("residual_stress").sel(component="xx")
@@ -338,12 +341,12 @@ def drawn(row: dict[str, Any], *, n: int = 128, room: float = 1.5, **changes: An
         *end["plastic_strain_below_centre"]["value"], row["largest_plastic_strain"]["value"][1]
     )
     values = [at(strain, z) for z in end["depths"]]
-    found.table("p", values, end["plastic_strain_below_centre"], 0.03 * largest)
-    most = max(abs(value) for value in end["s_xx_below_centre"]["value"])
+    compared.table("p", values, end["plastic_strain_below_centre"], 0.03 * largest)
+    upper = max(abs(value) for value in end["s_xx_below_centre"]["value"])
     values = [at(stress, z) for z in end["depths"]]
-    found.table("xx", values, end["s_xx_below_centre"], 0.03 * most)
+    compared.table("xx", values, end["s_xx_below_centre"], 0.03 * upper)
     imprint = state.dataset.imprint.isel(grid_y=0)
     shape = PchipInterpolator(imprint.grid_x.to_numpy(), imprint.to_numpy())(end["imprint_x"])
-    most = max(abs(value) for value in end["imprint_relative_to_first"]["value"])
-    found.table("imprint", shape - shape[0], end["imprint_relative_to_first"], 0.015 * most)
-    return found
+    upper = max(abs(value) for value in end["imprint_relative_to_first"]["value"])
+    compared.table("imprint", shape - shape[0], end["imprint_relative_to_first"], 0.015 * upper)
+    return compared

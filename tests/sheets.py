@@ -90,14 +90,14 @@ def picture(draw: Callable[[], Any], name: str) -> Image.Image:
 def sheet(pictures: list[Image.Image]) -> Image.Image:
     """Pictures in rows."""
     places, x, y, high = [], 0, 0, 0
-    for of in pictures:
-        if x and x + of.width > WIDTH:
+    for picture in pictures:
+        if x and x + picture.width > WIDTH:
             x, y, high = 0, y + high + GAP, 0
         places.append((x, y))
-        x, high = x + of.width + GAP, max(high, of.height)
+        x, high = x + picture.width + GAP, max(high, picture.height)
     page = Image.new("RGB", (WIDTH, y + high), "white")
-    for of, place in zip(pictures, places, strict=True):
-        page.paste(of, place)
+    for picture, position in zip(pictures, places, strict=True):
+        page.paste(picture, position)
     return page
 
 
@@ -109,10 +109,10 @@ def main(out: str, *names: str) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     for name in names or SCENES:
         result = fret.solve(finer(SCENES[name]), save="all", progress=False)
-        pictures = [picture(draw, of) for of, draw in figures(result)]
-        place = folder / f"{name.replace(' ', '_').replace(',', '')}.png"
-        sheet(pictures).save(place)
-        print(place)
+        pictures = [picture(draw, item) for item, draw in figures(result)]
+        path = folder / f"{name.replace(' ', '_').replace(',', '')}.png"
+        sheet(pictures).save(path)
+        print(path)
 
 
 if __name__ == "__main__":

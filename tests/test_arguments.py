@@ -26,12 +26,12 @@ def test_every_public_callable_is_called_with_hostile_values(
     """Found by introspection: none is forgotten by ``tests/hostile``."""
     monkeypatch.syspath_prepend(str(Path(__file__).with_name("hostile")))
     public = importlib.import_module("public")
-    found = dict(public.public())
-    called = {name for name, call in found.items() if public.good(name, call) is not None}
-    record_property("callables", len(found))
-    assert len(found) > 330
+    computed = dict(public.public())
+    called = {name for name, call in computed.items() if public.good(name, call) is not None}
+    record_property("callables", len(computed))
+    assert len(computed) > 330
     # Constructors of the criteria take their numbers by name, whatever they are.
-    forgotten = set(found) - called - set(public.LEFT_OUT)
+    forgotten = set(computed) - called - set(public.LEFT_OUT)
     assert {name for name in forgotten if not name.startswith("fatigue.Criterion.")} == set()
 
 
@@ -43,26 +43,26 @@ def test_an_object_of_pyfret_is_no_plain_value(
     """Every parameter that takes one refuses a list by its name, before anything else is done."""
     monkeypatch.syspath_prepend(str(Path(__file__).with_name("hostile")))
     public = importlib.import_module("public")
-    asked = 0
+    count = 0
     for name, call in public.public():
-        found = None if name in public.LEFT_OUT else public.good(name, call)
-        if found is None or not isinstance(call, FunctionType):
+        computed = None if name in public.LEFT_OUT else public.good(name, call)
+        if computed is None or not isinstance(call, FunctionType):
             continue
         rules = quantities.Signature(inspect.unwrap(call)).rules.values()
         for rule in (rule for rule in rules if rule.objects):
-            asked += 1
+            count += 1
             text = rf"{rule.name} = \[1\.0\]: must be|argument '{rule.name}'|'{rule.name}'"
             with pytest.raises(TypeError, match=text):
-                public.invoked(call, found[0] | {rule.name: [1.0]})
-    record_property("parameters", asked)
-    assert asked > 100
+                public.invoked(call, computed[0] | {rule.name: [1.0]})
+    record_property("parameters", count)
+    assert count > 100
 
 
 def is_checked(call: Any) -> bool:
     """Whether the arguments of a function are checked by the decorator, or by the compiled one."""
     while call is not None:
-        of = getattr(call, "__code__", None)
-        if of is not None and of.co_filename in (quantities.__file__, compiled.__file__):
+        item = getattr(call, "__code__", None)
+        if item is not None and item.co_filename in (quantities.__file__, compiled.__file__):
             return True
         call = getattr(call, "__wrapped__", None)
     return False
@@ -75,16 +75,16 @@ def test_every_public_function_checks_its_arguments(
 ) -> None:
     monkeypatch.syspath_prepend(str(Path(__file__).with_name("hostile")))
     public = importlib.import_module("public")
-    asked, open_ones = 0, []
+    count, open_ones = 0, []
     for name, call in public.public():
-        own = isinstance(call, FunctionType) and "." not in call.__qualname__
-        if not own or not inspect.signature(call).parameters:
+        own_values = isinstance(call, FunctionType) and "." not in call.__qualname__
+        if not own_values or not inspect.signature(call).parameters:
             continue
-        asked += 1
+        count += 1
         if not is_checked(call):
             open_ones.append(name)
-    record_property("functions", asked)
-    assert asked > 100
+    record_property("functions", count)
+    assert count > 100
     assert open_ones == []
 
 
@@ -99,23 +99,25 @@ def test_every_compiled_callable_refuses_keywords(
     record_property: Callable[[str, object], None],
 ) -> None:
     """Methods, functions and constructors, private ones of the package included."""
-    asked, open_ones = 0, []
-    for name, of in vars(fret._core).items():
-        if isinstance(of, type) and not issubclass(of, BaseException):
-            members = {f"{name}.{one}": getattr(of, one) for one in vars(of) if one[0] != "_"}
-            if of.__text_signature__ is not None:
-                members[f"{name}.__new__"] = of.__new__
+    count, open_ones = 0, []
+    for name, entry in vars(fret._core).items():
+        if isinstance(entry, type) and not issubclass(entry, BaseException):
+            members = {
+                f"{name}.{item}": getattr(entry, item) for item in vars(entry) if item[0] != "_"
+            }
+            if entry.__text_signature__ is not None:
+                members[f"{name}.__new__"] = entry.__new__
         else:
-            members = {name: of}
-        for told, call in members.items():
-            criterion = told.partition(".")[0] == "Criterion" and told != "Criterion.of"
+            members = {name: entry}
+        for pattern, call in members.items():
+            criterion = pattern.partition(".")[0] == "Criterion" and pattern != "Criterion.of"
             if not callable(call) or isinstance(call, type) or criterion:
                 continue
-            asked += 1
+            count += 1
             if not is_checked(call):
-                open_ones.append(told)
-    record_property("callables", asked)
-    assert asked > 200
+                open_ones.append(pattern)
+    record_property("callables", count)
+    assert count > 200
     assert open_ones == []
 
 
@@ -143,20 +145,20 @@ def test_an_unknown_keyword_is_refused_with_those_that_are_known(
     """By every function, method and constructor whose names of arguments are known."""
     monkeypatch.syspath_prepend(str(Path(__file__).with_name("hostile")))
     public = importlib.import_module("public")
-    asked = 0
+    count = 0
     for _, call in public.public():
-        own = inspect.isclass(call) and call.__module__.partition(".")[0] == "pyfret"
-        function = constructor_of(call) if own else getattr(call, "__func__", call)
+        in_layer = inspect.isclass(call) and call.__module__.partition(".")[0] == "pyfret"
+        function = constructor_of(call) if in_layer else getattr(call, "__func__", call)
         if not isinstance(function, FunctionType) or not is_checked(function):
             continue
         if quantities.Signature(inspect.unwrap(function)).keywords is None:
             continue
-        asked += 1
-        of = call.__qualname__.rpartition(".")[2]
-        with pytest.raises(TypeError, match=rf"{of} has no argument 'no_such_name': it takes"):
+        count += 1
+        item = call.__qualname__.rpartition(".")[2]
+        with pytest.raises(TypeError, match=rf"{item} has no argument 'no_such_name': it takes"):
             call(no_such_name=1)
-    record_property("callables", asked)
-    assert asked > 260
+    record_property("callables", count)
+    assert count > 260
     with pytest.raises(TypeError, match="'tolerance_': the nearest is 'tolerance'"):
         fret.fatigue.lives(None, None, None, tolerance_=1e-3)  # type: ignore[call-arg]
     # Keywords that a class of options has are known by it.

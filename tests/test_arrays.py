@@ -47,21 +47,21 @@ JUDGES: dict[str, Callable[[Any], Any]] = {
 @pytest.mark.parametrize("order", ORDERS)
 @pytest.mark.parametrize("judge", JUDGES)
 def test_a_history_is_taken_by_its_labels(judge: str, order: str) -> None:
-    found = JUDGES[judge](ORDERS[order])
-    if isinstance(found, xr.DataArray):
-        found = found.transpose("depth", "x").values
+    computed = JUDGES[judge](ORDERS[order])
+    if isinstance(computed, xr.DataArray):
+        computed = computed.transpose("depth", "x").values
     elif order == "component first":
         # Without labels the axes are those that came in.
-        found = found.T
-    np.testing.assert_allclose(found, JUDGES[judge](HISTORY), rtol=1e-6)
+        computed = computed.T
+    np.testing.assert_allclose(computed, JUDGES[judge](HISTORY), rtol=1e-6)
 
 
 def test_results_keep_the_labels_that_came_in() -> None:
-    found = fatigue.evaluate_criterion(LABELLED, FINDLEY)
-    assert found.value.dims == ("depth", "x")
-    np.testing.assert_array_equal(found.x, LABELLED.x)
-    np.testing.assert_array_equal(found.z, LABELLED.z)
-    assert found.normal.dims == ("depth", "x", "axis")
+    fields = fatigue.evaluate_criterion(LABELLED, FINDLEY)
+    assert fields.value.dims == ("depth", "x")
+    np.testing.assert_array_equal(fields.x, LABELLED.x)
+    np.testing.assert_array_equal(fields.z, LABELLED.z)
+    assert fields.normal.dims == ("depth", "x", "axis")
     assert fatigue.evaluate_criterion(HISTORY, FINDLEY).value.dims == ("dim_0", "dim_1")
 
 
@@ -108,8 +108,8 @@ def test_numbers_of_every_kind_are_taken() -> None:
 
 def test_a_hole_is_masked_or_nan() -> None:
     masked = np.ma.masked_array([1.0, 9.0, 3.0, 4.0], mask=[False, True, False, False])
-    one, other = together(holes=True, one=masked, other=[1.0, 2.0, np.nan, 4.0])
-    np.testing.assert_array_equal([one, other], [[1.0, 4.0], [1.0, 4.0]])
+    first, second = together(holes=True, one=masked, other=[1.0, 2.0, np.nan, 4.0])
+    np.testing.assert_array_equal([first, second], [[1.0, 4.0], [1.0, 4.0]])
 
 
 def test_points_are_not_paired_by_place_where_they_have_names() -> None:
@@ -145,18 +145,18 @@ def test_a_field_is_taken_by_its_coordinates(take: str) -> None:
     right = np.asarray(FIELDS[take](FIELD.values))
     for same in (FIELD, FIELD.T, FIELD[::-1], FIELD.T[::-1], FIELD.drop_vars("x")):
         np.testing.assert_allclose(FIELDS[take](same), right, rtol=1e-12)
-    for other, told in (
+    for alternative, pattern in (
         (FIELD.assign_coords(x=1e3 * GRID.x), "along x lie"),
         (FIELD.assign_coords(y=range(3)), "along y lie"),
         (FIELD.assign_coords(x=[0.0, 1e-5, 2e-5, 4e-5]), "evenly spaced"),
         (FIELD.rename(x="i"), "order is not known|must be an array"),
     ):
-        with pytest.raises((ValueError, TypeError), match=told):
-            FIELDS[take](other)
+        with pytest.raises((ValueError, TypeError), match=pattern):
+            FIELDS[take](alternative)
 
 
 def test_a_table_of_wear_is_pairs_of_numbers() -> None:
-    for wrong, told in (
+    for wrong, pattern in (
         (np.ma.masked_equal([[0.0, 1.0], [9.0, 2.0]], 2.0), "masked"),
         ([(0.0, True), (9.0, False)], "no numbers"),
         (pd.DataFrame({"cycles": [0.0, 9.0], "factor": [1.0, 2.0]}), "order is not known"),
@@ -164,7 +164,7 @@ def test_a_table_of_wear_is_pairs_of_numbers() -> None:
         ([0.0, 1.0, 2.0], "pair|list"),
         ([(0.0, 1.0), (9.0, np.nan)], "finite"),
     ):
-        with pytest.raises((ValueError, TypeError), match=told):
+        with pytest.raises((ValueError, TypeError), match=pattern):
             fret.wear.Archard(1e-14, factor=("cycles", wrong))
     table = fret.wear.Archard(1e-14, factor=("cycles", np.array([[0.0, 1.0], [9.0, 2.0]])))
     assert table.factor == ("cycles", ((0.0, 1.0), (9.0, 2.0)))

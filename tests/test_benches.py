@@ -31,11 +31,11 @@ def test_the_judge_has_the_operator_of_the_half_spaces(name: str) -> None:
 def test_a_pressure_that_is_off_is_found_out() -> None:
     shape = hertz.SHAPES["hertz"]
     exact = hertz.pressure(shape, 64)
-    found = hertz.judge(1.01 * exact, shape)
-    assert found["error_p"] == pytest.approx(0.01)
-    assert found["balance"] == pytest.approx(0.01, abs=1e-3)
+    computed = hertz.judge(1.01 * exact, shape)
+    assert computed["error_p"] == pytest.approx(0.01)
+    assert computed["balance"] == pytest.approx(0.01, abs=1e-3)
     # The gap of one per cent too much pressure: 1.01 (2 - r^2/a^2)/2 instead of that.
-    assert 1e-3 < found["residual"] < 1e-2
+    assert 1e-3 < computed["residual"] < 1e-2
 
 
 def test_tables_go_between_their_marks(tmp_path: Path) -> None:

@@ -19,18 +19,18 @@ PAGES = [page for page in sorted(DOCS.rglob("*.md")) if "gallery" not in page.pa
 
 def page(source: Path, target: str) -> Path:
     """The file that a link of a page leads to, with or without its ending."""
-    place = (source.parent / target).resolve()
-    return place if place.suffix else place.with_suffix(".md")
+    position = (source.parent / target).resolve()
+    return position if position.suffix else position.with_suffix(".md")
 
 
 def is_there(source: Path, target: str) -> bool:
-    place = page(source, target)
-    if place.parent == DOCS / "gallery":
-        return place.stem in GALLERY
-    figure = re.fullmatch(r"sphx_glr_(\w+)_\d{3}", place.stem)
-    if place.parent == DOCS / "gallery" / "images":
+    position = page(source, target)
+    if position.parent == DOCS / "gallery":
+        return position.stem in GALLERY
+    figure = re.fullmatch(r"sphx_glr_(\w+)_\d{3}", position.stem)
+    if position.parent == DOCS / "gallery" / "images":
         return figure is not None and figure[1] in GALLERY
-    return place.exists()
+    return position.exists()
 
 
 @pytest.mark.parametrize("source", PAGES, ids=lambda page: str(page.relative_to(DOCS)))
@@ -44,16 +44,16 @@ def test_every_link_leads_somewhere(source: Path) -> None:
 
 def contents(source: Path) -> list[Path]:
     """The pages that the contents of a page name."""
-    found = []
+    collected = []
     blocks = re.findall(r"```\{toctree\}\n(.*?)```", source.read_text(encoding="utf-8"), re.DOTALL)
     for name in (line for block in blocks for line in block.splitlines()):
         if not name or name.startswith(":") or "gallery" in name:
             continue
         if "*" in name:
-            found += sorted(source.parent.glob(name + ".md"))
+            collected += sorted(source.parent.glob(name + ".md"))
         else:
-            found.append(page(source, name))
-    return found
+            collected.append(page(source, name))
+    return collected
 
 
 def test_every_page_is_in_the_contents() -> None:
@@ -122,7 +122,7 @@ def test_words_of_the_trade_are_in_their_pages(word: str, name: str) -> None:
 
 @pytest.mark.solves
 def test_sentences_of_the_use_book_are_short_and_plain() -> None:
-    found = subprocess.run(
+    ran = subprocess.run(
         [sys.executable, ROOT / "tools" / "prose.py"], capture_output=True, text=True, check=False
     )
-    assert found.returncode == 0, found.stdout
+    assert ran.returncode == 0, ran.stdout

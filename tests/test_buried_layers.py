@@ -62,8 +62,8 @@ def test_largest_stresses_of_layers_are_those_of_hankel_transforms(seed: int) ->
             at = fret.solve(scene, fret.LoadPath.start().normal(W), progress=False).at(-1)
             below = at.stress()
             for k in range(len(layers)):
-                for of in MEASURES:
-                    found, truth = below.maximum(of, layer=k), right.largest(k, of)
-                    if abs(found.value - truth) > max(0.02 * truth, found.error):
-                        off.append((extent, n, k, of, truth, found))
+                for item in MEASURES:
+                    extremum, truth = below.maximum(item, layer=k), right.largest(k, item)
+                    if abs(extremum.value - truth) > max(0.02 * truth, extremum.error):
+                        off.append((extent, n, k, item, truth, extremum))
     assert not off, "\n".join(map(str, [right.a, layers, *off]))

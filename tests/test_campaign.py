@@ -35,8 +35,8 @@ def test_a_contact_that_is_right_passes_and_every_error_shows() -> None:
     audit = Audit(SCENE)
     for increment in fret.march(audit.scene):
         before = audit.before
-        found = audit.look(increment)
-        assert max(found.values()) < 1, found
+        computed = audit.look(increment)
+        assert max(computed.values()) < 1, computed
     d = increment.dataset
     middle = tuple(n // 2 for n in d.p.shape)
     outside = (0, 0)
@@ -49,12 +49,12 @@ def test_a_contact_that_is_right_passes_and_every_error_shows() -> None:
         "gap inside": ("p", middle, 1.1 * d.p[middle]),
         "slip in stick": ("q_x", middle, 1.1 * d.q_x[middle]),
     }
-    for name, (field, place, wrong) in errors.items():
+    for name, (field, position, wrong) in errors.items():
         broken = d.copy(deep=True)
-        broken[field][place] = wrong
+        broken[field][position] = wrong
         audit.before = before
-        found = audit.look(SimpleNamespace(dataset=broken))
-        assert found[name] > 1, (name, found)
+        computed = audit.look(SimpleNamespace(dataset=broken))
+        assert computed[name] > 1, (name, computed)
 
 
 def test_most_of_what_is_drawn_is_a_scene() -> None:
@@ -80,10 +80,13 @@ def test_what_follows_from_random_contacts_is_found_or_refused_for_a_reason() ->
     outcomes = list(campaign(0, 24, whole=True))
     lines, right = told(outcomes)
     assert right, "\n".join(lines)
-    found = [
-        name for of in outcomes for name, why in dict(of.get("after") or {}).items() if not why
+    computed = [
+        name
+        for entry in outcomes
+        for name, why in dict(entry.get("after") or {}).items()
+        if not why
     ]  # type: ignore[call-overload]
-    assert {"heat", "crack", "wear"} <= set(found)
+    assert {"heat", "crack", "wear"} <= set(computed)
 
 
 @pytest.mark.slow
@@ -102,5 +105,5 @@ def test_the_papers_method_solves_contacts_that_slide_far() -> None:
     """Gross slip and a rotation many times the reach of the contact, under `spinu2020`."""
     for seed in (449, 748, 768, 867, 1175, 1331):
         assert "spinu2020" in draw(seed)
-        of = fate(seed)
-        assert of["fate"] == "solved", (seed, of)
+        item = fate(seed)
+        assert item["fate"] == "solved", (seed, item)

@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 @pytest.fixture(scope="module")
 def tool() -> ModuleType:
     """Give the tool as a module."""
-    place = Path(__file__).parent.parent / "tools/acyclic.py"
-    spec = importlib.util.spec_from_file_location("acyclic", place)
+    path = Path(__file__).parent.parent / "tools/acyclic.py"
+    spec = importlib.util.spec_from_file_location("acyclic", path)
     assert spec is not None
     assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
@@ -27,9 +27,9 @@ def tool() -> ModuleType:
 def package(folder: Path, **files: str) -> Path:
     """Write a package `pyfret` of these files."""
     for name, text in {"__init__": "", **files}.items():
-        place = folder / "pyfret" / f"{name.replace('__of__', '/__init__').replace('.', '/')}.py"
-        place.parent.mkdir(parents=True, exist_ok=True)
-        place.write_text(text)
+        path = folder / "pyfret" / f"{name.replace('__of__', '/__init__').replace('.', '/')}.py"
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
     return folder / "pyfret"
 
 
@@ -53,12 +53,12 @@ def test_a_late_import_upwards_is_a_circle(tool: ModuleType, tmp_path: Path) -> 
 def test_a_name_that_is_put_together_is_refused(
     tool: ModuleType, tmp_path: Path, argument: str, words: str
 ) -> None:
-    (said,) = tool.unseen(package(tmp_path, low=LATE.format(argument)))
-    assert words in said
+    (text,) = tool.unseen(package(tmp_path, low=LATE.format(argument)))
+    assert words in text
 
 
 def test_a_package_hands_on_late_what_it_holds_alone(tool: ModuleType, tmp_path: Path) -> None:
     late = {"__init__": LATE.format('"pyfret.plot"'), "low__of__": LATE.format('"pyfret.high"')}
-    (said,) = tool.unseen(package(tmp_path, **late))
-    assert "low/__init__.py" in said
-    assert "not within" in said
+    (text,) = tool.unseen(package(tmp_path, **late))
+    assert "low/__init__.py" in text
+    assert "not within" in text

@@ -110,11 +110,11 @@ def test_stresses_of_closed_forms_take_places_that_fit_together() -> None:
 
     x, y, z = line.a * np.linspace(-2, 2, 5)[:, None], 2e-5, line.a * np.linspace(0, 1, 4)
     for call, places in ((of_line, (x, z)), (ball.pressure, (x, y, z)), (ball.shear, (x, y, z))):
-        found = call(*places)
-        whole = [np.broadcast_to(of, (5, 4)) for of in places]
+        computed = call(*places)
+        whole = [np.broadcast_to(item, (5, 4)) for item in places]
         for at in np.ndindex(5, 4):
-            alone = call(*(float(of[at]) for of in whole))
-            assert [float(of[at]) for of in found] == [float(of) for of in alone]
+            alone = call(*(float(item[at]) for item in whole))
+            assert [float(item[at]) for item in computed] == [float(item) for item in alone]
         with pytest.raises(ValueError, match=r"must fit that of the other places"):
             call(*places[:-1], np.zeros((3, 4)))
     # At the surface the stress is that of the tractions, the stick zone where it was given.

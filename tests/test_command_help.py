@@ -45,16 +45,16 @@ def help_of(*words: str, capsys: pytest.CaptureFixture[str]) -> str:
 def test_help_says_what_a_command_does_how_and_with_what(
     command: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    said = help_of(command, capsys=capsys)
-    first, empty, usage, *_ = said.splitlines()
+    output = help_of(command, capsys=capsys)
+    first, empty, usage, *_ = output.splitlines()
     assert first[0].isupper()
     assert empty == ""
     assert usage.startswith(f"Usage: fret {command} [OPTIONS]")
-    options = said[said.index("Options:") :].splitlines()
+    options = output[output.index("Options:") :].splitlines()
     assert options[-1].split(maxsplit=2)[:2] == ["-h,", "--help"]
-    assert "  -q, --quiet" in said
-    assert "%%" not in said
-    assert max(len(line) for line in said.splitlines() if not line.startswith("Usage")) <= 100
+    assert "  -q, --quiet" in output
+    assert "%%" not in output
+    assert max(len(line) for line in output.splitlines() if not line.startswith("Usage")) <= 100
     # No option without a meaning.
     names = [line for line in options[1:] if line.lstrip().startswith("-")]
     for n, line in enumerate(options[1:]):
@@ -69,7 +69,7 @@ UNIT = re.compile(r"\[(?:m|N|Pa|Pa m\^0\.5|rad|degrees)\b[^]]*\]|metres|newtons|
 
 def quantities() -> Iterator[tuple[str, argparse.Action]]:
     """All options of the commands in Python that are numbers with a unit."""
-    chosen = next(of for of in commands.parser()._actions if of.dest == "command")
+    chosen = next(action for action in commands.parser()._actions if action.dest == "command")
     assert chosen.choices is not None
     for name, parser in dict(chosen.choices).items():  # type: ignore[call-overload]
         for action in parser._actions:
@@ -81,26 +81,28 @@ def quantities() -> Iterator[tuple[str, argparse.Action]]:
 
 def test_every_option_that_is_a_quantity_may_have_a_unit() -> None:
     """Of the commands in Python: lengths, stresses, angles, one or several."""
-    asked = set()
+    checked = set()
     for name, action in quantities():
-        asked.add((name, action.dest))
+        checked.add((name, action.dest))
         assert f"[{action.type.unit}, or with a unit]" in (action.help or "")  # type: ignore[union-attr]
-        each = action.type.each if isinstance(action.type, Values) else (action.type,)
-        for of in each:
-            assert isinstance(of, Value)
-            assert of("0.25") == 0.25
-            found = unit_of(of.unit)
-            if found is None:
+        parts = action.type.each if isinstance(action.type, Values) else (action.type,)
+        for item in parts:
+            assert isinstance(item, Value)
+            assert item("0.25") == 0.25
+            computed = unit_of(item.unit)
+            if computed is None:
                 continue
             # Every other unit of the same kind.
-            for unit in units(found[0]).split(", "):
-                other = unit_of(unit)
-                assert other is not None
-                assert of(f"2 {unit}") == pytest.approx(2.0 * other[1] / found[1], rel=1e-12)
+            for unit in units(computed[0]).split(", "):
+                alternative = unit_of(unit)
+                assert alternative is not None
+                assert item(f"2 {unit}") == pytest.approx(
+                    2.0 * alternative[1] / computed[1], rel=1e-12
+                )
             with pytest.raises(argparse.ArgumentTypeError, match="must be"):
-                of("2 parsec")
+                item("2 parsec")
     expected = {"lengths", "x", "angle", "kink", "azimuth", "residual", "dK_th", "dS_0"}
-    assert {("crack", of) for of in expected} | {("threshold", "distance")} <= asked
+    assert {("crack", item) for item in expected} | {("threshold", "distance")} <= checked
 
 
 #: Options of several numbers that are no quantities.
@@ -109,63 +111,63 @@ DIRECTIONS = {("export", "axis_x"), ("export", "axis_z")}
 
 def test_every_option_of_several_numbers_is_a_quantity_or_a_direction() -> None:
     """All options whose default is a text of numbers, read by the command itself."""
-    chosen = next(of for of in commands.parser()._actions if of.dest == "command")
+    chosen = next(action for action in commands.parser()._actions if action.dest == "command")
     assert chosen.choices is not None
-    found = set()
+    names = set()
     for name, parser in dict(chosen.choices).items():  # type: ignore[call-overload]
         for action in parser._actions:
             if isinstance(action.default, str) and re.fullmatch(r"[-\d.,]+", action.default):
-                found.add((name, action.dest))
+                names.add((name, action.dest))
                 taken = "or with a unit]" in (action.help or "")
                 assert taken != ((name, action.dest) in DIRECTIONS), action.option_strings
-    assert {("export", "origin"), *DIRECTIONS} <= found
+    assert {("export", "origin"), *DIRECTIONS} <= names
 
 
 @pytest.mark.parametrize(("text", "unit", "x"), [("20 um,0,0", "mm", 0.02), ("2,0,0", "mm", 2.0)])
 def test_the_origin_of_an_export_has_the_unit_of_the_model(text: str, unit: str, x: float) -> None:
-    of = Value("length", unit)
-    assert export.three(text, "--origin", of) == pytest.approx((x, 0.0, 0.0))
+    item = Value("length", unit)
+    assert export.three(text, "--origin", item) == pytest.approx((x, 0.0, 0.0))
     with pytest.raises(ValueError, match=r"--origin: .*must be"):
-        export.three("2 N,0,0", "--origin", of)
+        export.three("2 N,0,0", "--origin", item)
 
 
 @pytest.mark.parametrize("command", ["stress", "life"])
 def test_the_compiled_commands_say_so_too(command: str) -> None:
     fret_ = ROOT / "target" / "release" / "fret"
-    said = subprocess.run([fret_, command, "--help"], capture_output=True, text=True, check=True)
+    ran = subprocess.run([fret_, command, "--help"], capture_output=True, text=True, check=True)
     # Lines are broken anywhere.
-    words = " ".join(said.stdout.split())
-    found = UNIT.findall(words)
-    assert len(found) >= 4
-    assert {of.partition(",")[2] for of in found} == {" or with a unit]"}
+    words = " ".join(ran.stdout.split())
+    matches = UNIT.findall(words)
+    assert len(matches) >= 4
+    assert {item.partition(",")[2] for item in matches} == {" or with a unit]"}
 
 
 def test_the_help_of_all_names_the_commands_and_the_exit_codes(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    said = help_of(capsys=capsys)
-    assert all(f"  {command} " in said for command in COMMANDS)
-    assert "Exit codes: 0 done; 1" in said
+    output = help_of(capsys=capsys)
+    assert all(f"  {command} " in output for command in COMMANDS)
+    assert "Exit codes: 0 done; 1" in output
 
 
 def test_a_wrong_command_line_is_told_with_the_way_out(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     assert commands.main(["crack", "store.zarr", "--nothing"]) == 2
-    said = capsys.readouterr().err
-    assert said.startswith("error: ")
-    assert "--nothing" in said
-    assert "try '--help'" in said
+    output = capsys.readouterr().err
+    assert output.startswith("error: ")
+    assert "--nothing" in output
+    assert "try '--help'" in output
     # Half a name is no name: it would be another one with the next option.
     assert commands.main(["crack", "store.zarr", "--leng", "1e-5"]) == 2
 
 
 @pytest.fixture(scope="module")
 def store(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    place = tmp_path_factory.mktemp("quiet") / "out.zarr"
+    position = tmp_path_factory.mktemp("quiet") / "out.zarr"
     path = fret.LoadPath.start().normal(1e3, increments=2).cycles(1, T_x=100.0, increments=4)
-    fret.solve(sphere_on_flat(n=24), path, save="all", out=place, progress=False)
-    return place
+    fret.solve(sphere_on_flat(n=24), path, save="all", out=position, progress=False)
+    return position
 
 
 def test_quiet_prints_nothing_and_with_json_the_json(
@@ -186,13 +188,13 @@ def test_quiet_prints_nothing_and_with_json_the_json(
 def test_lengths_with_units_are_those_in_metres(
     store: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    told = []
+    progress = []
     for lengths, angle in (("1e-5,2e-5", "10"), ("10 um, 0.02 mm", "10 degrees")):
         crack = ["crack", str(store), "--lengths", lengths, "--angle", angle, "--json"]
         assert commands.main(crack) == 0
         rows = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
-        told.append([[row[name] for name in ("length", "K_max", "dK")] for row in rows])
-    assert told[0] == pytest.approx(np.array(told[1]), rel=1e-9)
+        progress.append([[row[name] for name in ("length", "K_max", "dK")] for row in rows])
+    assert progress[0] == pytest.approx(np.array(progress[1]), rel=1e-9)
     assert commands.main(["crack", str(store), "--lengths", "5 N"]) == 2
     assert "must be" in capsys.readouterr().err
 
@@ -227,9 +229,9 @@ def test_what_cannot_be_written_is_refused_before_anything_is_solved(
     out = tmp_path / "s.zarr"
     common = ["study", str(study), "-o", str(out), "--workers", "1"]
     assert commands.main([*common, "--map", str(tmp_path / "map.png")]) == 2
-    said = capsys.readouterr().err
-    assert "has 3 parameters" in said
-    assert '.map(at={"body1.nu": 0.3})' in said
+    output = capsys.readouterr().err
+    assert "has 3 parameters" in output
+    assert '.map(at={"body1.nu": 0.3})' in output
     assert commands.main([*common, "--map", str(tmp_path / "map.txt")]) == 2
     assert "must end in .png" in capsys.readouterr().err
     assert commands.main(["crack", str(store), "-o", "crack.txt"]) == 2
@@ -242,9 +244,9 @@ def test_every_command_tells_programs_what_came_out(
 ) -> None:
     def told(*words: str) -> dict[str, object]:
         assert commands.main([*words, "--json", "--quiet"]) == 0
-        found = json.loads(capsys.readouterr().out)
-        assert isinstance(found, dict)
-        return found
+        answer = json.loads(capsys.readouterr().out)
+        assert isinstance(answer, dict)
+        return answer
 
     out = tmp_path / "tractions.csv"
     assert told("export", str(store), "-o", str(out)) == {

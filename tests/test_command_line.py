@@ -105,10 +105,10 @@ def test_check_of_sliding_wear_has_the_places_of_its_stroke(tmp_path: Path) -> N
     assert "path error" not in sliding.stdout
     assert "some 12" not in sliding.stdout
     assert "in sliding: the pressure at the middle of every increment" in sliding.stdout
-    least, most = json.loads(fret_run("check", tmp_path / "open.toml", "--json").stdout)["path"][
+    least, upper = json.loads(fret_run("check", tmp_path / "open.toml", "--json").stdout)["path"][
         "increments"
     ]
-    assert least == most
+    assert least == upper
     # Those that the run takes.
     out = tmp_path / "worn.zarr"
     worn = fret_run("wear", tmp_path / "open.toml", "-o", out, "--set", "wear.cycles=10", "-q")
@@ -125,9 +125,9 @@ def test_the_summary_for_programs_has_the_error_bars(tmp_path: Path) -> None:
     out = tmp_path / "out.zarr"
     plain = fret_run("run", tmp_path / "scene.toml", "-o", out, "--json", "-q")
     assert json.loads(plain.stdout)["error_bars"] is None
-    told = fret_run("run", tmp_path / "scene.toml", "-o", out, "--overwrite", "--json", "--error")
-    assert told.returncode == 0, told.stderr
-    (branch,) = json.loads(told.stdout)["error_bars"]
+    ran = fret_run("run", tmp_path / "scene.toml", "-o", out, "--overwrite", "--json", "--error")
+    assert ran.returncode == 0, ran.stderr
+    (branch,) = json.loads(ran.stdout)["error_bars"]
     bars = fret.open(out).error_bars().isel(branch=0)
     for number in ("p_max", "delta_z", "contact_radius"):
         assert branch[number]["total"] > 0.0
@@ -139,35 +139,35 @@ def test_stress_below_is_that_of_python(coated: fret.Result, tmp_path: Path) -> 
     store = tmp_path / "out.zarr"
     result = fret.solve(coated.scene, out=store, progress=False)
     z = np.linspace(0.0, 2 * result.a_H, 17)
-    of = ("von_mises", "s_xz")
+    item = ("von_mises", "s_xz")
     section = result.at(-1).stress(z, y=0.0)
-    common = ("--depths", "17", "--of", ",".join(of))
+    common = ("--depths", "17", "--of", ",".join(item))
     run = fret_run("stress", store, *common, "-o", tmp_path / "section.zarr")
     assert run.returncode == 0, run.stderr
     written = xr.open_zarr(tmp_path / "section.zarr", chunks=None)
-    for name in of:
+    for name in item:
         np.testing.assert_array_equal(written[name], section.measure(name))
         # The largest value is looked for at the depths that the layers ask for as well.
-        told = re.search(rf"largest {name} ([\d.]+) MPa", run.stdout)
-        assert told is not None
+        match = re.search(rf"largest {name} ([\d.]+) MPa", run.stdout)
+        assert match is not None
         exact = 1e-6 * result.at(-1).stress().maximum(name).value
-        assert float(told[1]) == pytest.approx(exact, rel=2e-3)
+        assert float(match[1]) == pytest.approx(exact, rel=2e-3)
     for out in ("volume.zarr", "volume.vti"):
         run = fret_run("stress", store, "--volume", *common, "-o", tmp_path / out)
         assert run.returncode == 0, run.stderr
         snapshot = result.at(-1)
-        snapshot.write_volume(tmp_path / f"python_{out}", z, of=of)
+        snapshot.write_volume(tmp_path / f"python_{out}", z, of=item)
     assert (tmp_path / "volume.vti").read_bytes() == (tmp_path / "python_volume.vti").read_bytes()
     volume, ours = (
         xr.open_zarr(tmp_path / f"{n}volume.zarr", chunks=None) for n in ("", "python_")
     )
-    for name in of:
+    for name in item:
         np.testing.assert_array_equal(volume[name], ours[name])
     pressed = result.at(-1).stress(z, y=0.0, residual=[-1e9, 2e8])
     out = tmp_path / "pressed.zarr"
     run = fret_run("stress", store, *common, "--residual=-1e9,2e8", "-o", out)
     assert run.returncode == 0, run.stderr
-    for name in of:
+    for name in item:
         np.testing.assert_array_equal(xr.open_zarr(out, chunks=None)[name], pressed.measure(name))
     wrong = fret_run("stress", store, "--residual=1e8", "-o", tmp_path / "wrong.zarr")
     assert wrong.returncode == 2
@@ -276,20 +276,20 @@ def test_a_scene_comes_from_the_standard_input() -> None:
         [FRET, "check", "-", "--json"], input=text, capture_output=True, text=True, check=False
     )
     assert run.returncode == 0, run.stderr
-    told = json.loads(run.stdout)
-    assert told["title"] == "Alumina on DLC/Cr on titanium"
-    assert "0.500 um" in told["text"]["body 2"][0]
+    answer = json.loads(run.stdout)
+    assert answer["title"] == "Alumina on DLC/Cr on titanium"
+    assert "0.500 um" in answer["text"]["body 2"][0]
 
 
 @pytest.mark.solves
 def test_numbers_for_programs(coated: fret.Result, tmp_path: Path) -> None:
     (tmp_path / "scene.toml").write_text(coated.scene.to_toml())
     run = fret_run("run", tmp_path / "scene.toml", "-o", tmp_path / "out.zarr", "--json")
-    told = json.loads(run.stdout)
-    assert [b["T_x"] for b in told["branches"]] == coated.branches().T_x.values.tolist()
+    answer = json.loads(run.stdout)
+    assert [b["T_x"] for b in answer["branches"]] == coated.branches().T_x.values.tolist()
     loops = coated.loops()
-    assert [c["energy_ratio"] for c in told["cycles"]] == loops.energy_ratio.values.tolist()
-    assert {c["status"] for c in told["cycles"]} == {"partial_slip"}
+    assert [c["energy_ratio"] for c in answer["cycles"]] == loops.energy_ratio.values.tolist()
+    assert {c["status"] for c in answer["cycles"]} == {"partial_slip"}
     stress = fret_run(
         "stress", tmp_path / "out.zarr", "--json", "--of", "von_mises,interface_shear"
     )

@@ -62,50 +62,53 @@ def test_a_candidate_that_would_slide_is_named(mu: float | None) -> None:
     scene, path = contact()
     if mu is None:
         scene = scene.replace(friction=0.2)
-    of = {
+    options = {
         "grippy": Candidate(fret.Body(TITANIUM), mu=0.6),
         "slippery": Candidate(fret.Body(TITANIUM), mu=mu),
     }
     with pytest.raises(fret.errors.InvalidSceneError) as refused:
-        fret.compare(of, scene, path, questions=["energy"], progress=False)
-    told = str(refused.value)
-    assert told.count("slippery") == 1
-    assert "grippy" not in told
-    assert "T_x = 6" in told
-    assert ("mu = 0.2: " in told and "delta_x" in told) is (mu is not None)
+        fret.compare(options, scene, path, questions=["energy"], progress=False)
+    message = str(refused.value)
+    assert message.count("slippery") == 1
+    assert "grippy" not in message
+    assert "T_x = 6" in message
+    assert ("mu = 0.2: " in message and "delta_x" in message) is (mu is not None)
 
 
 @pytest.fixture(scope="module")
 def compared(tmp_path_factory: pytest.TempPathFactory) -> tuple[fret.study.Comparison, Path]:
-    place = tmp_path_factory.mktemp("compare") / "study.zarr"
+    position = tmp_path_factory.mktemp("compare") / "study.zarr"
     scene, path = contact()
-    found = fret.compare(bodies(), scene, path, cycles=1e3, executor=1, out=place, progress=False)
-    return found, place
+    comparison = fret.compare(
+        bodies(), scene, path, cycles=1e3, executor=1, out=position, progress=False
+    )
+    return comparison, position
 
 
 def test_numbers_are_those_of_single_runs(compared: tuple[fret.study.Comparison, Path]) -> None:
-    found = compared[0].dataset
+    computed = compared[0].dataset
     scene, path = contact()
-    for name, of in bodies().items():
-        mu = of.mu or scene.mu
+    for name, entry in bodies().items():
+        mu = entry.mu or scene.mu
         result = fret.solve(
-            scene.replace(body2=of.body, friction=mu), path, save="all", progress=False
+            scene.replace(body2=entry.body, friction=mu), path, save="all", progress=False
         )
-        here = found.sel(candidate=name)
-        assert float(here.energy) == pytest.approx(float(result.loops().dissipated[-1]))
-        least = result.load_factors(of.yields, residual=of.residual).least("von_mises")
-        assert float(here.first_yield) == pytest.approx(least.value)
+        selected = computed.sel(candidate=name)
+        assert float(selected.energy) == pytest.approx(float(result.loops().dissipated[-1]))
+        least = result.load_factors(entry.yields, residual=entry.residual).least("von_mises")
+        assert float(selected.first_yield) == pytest.approx(least.value)
         ends = np.flatnonzero(np.diff(result.dataset.branch_of_increment.values, append=-1)) + 1
-        most = max(
-            result.at(int(n)).stress(residual=of.residual).maximum("s_1").value for n in ends[-2:]
+        largest = max(
+            result.at(int(n)).stress(residual=entry.residual).maximum("s_1").value
+            for n in ends[-2:]
         )
-        assert float(here.tension) == pytest.approx(most)
-        life = result.life(of.layer_materials, "smith_watson_topper", residual=of.residual)
-        substrate = len(of.body.coatings)
+        assert float(selected.tension) == pytest.approx(largest)
+        life = result.life(entry.layer_materials, "smith_watson_topper", residual=entry.residual)
+        substrate = len(entry.body.coatings)
         # Over the critical distance of the material, as a single run.
         single = life.range_of(substrate)
-        assert float(here.life_of_substrate) == pytest.approx(single.best)
-        assert float(here.life_of_substrate_L) == pytest.approx(single.L)
+        assert float(selected.life_of_substrate) == pytest.approx(single.best)
+        assert float(selected.life_of_substrate_L) == pytest.approx(single.L)
         # A life beyond the tests is no endless one.
         words = compared[0].formatted("life_of_substrate")[compared[0].candidates.index(name)]
         assert ("or more" in words) == (math.isinf(single.high) and math.isfinite(single.low)), (
@@ -117,10 +120,10 @@ def test_numbers_are_those_of_single_runs(compared: tuple[fret.study.Comparison,
 def test_a_margin_says_what_the_stress_is_and_what_is_doubted() -> None:
     """Of every candidate, for a criterion with lives and for one with a limit."""
     scene, path = contact(n=12)
-    known = fatigue.Materials()
-    of = {
-        "alloy": Candidate(scene.body2, materials=known["titanium_6Al4V"]),
-        "other": Candidate(scene.body2, materials=known["7075"]),
+    known_values = fatigue.Materials()
+    material = {
+        "alloy": Candidate(scene.body2, materials=known_values["titanium_6Al4V"]),
+        "other": Candidate(scene.body2, materials=known_values["7075"]),
     }
     tests = "bending and torsion tests"
     bare = fatigue.Material("own", [("s_D", 4.1e8, tests), ("t_D", 2.7e8, tests)])
@@ -136,17 +139,25 @@ def test_a_margin_says_what_the_stress_is_and_what_is_doubted() -> None:
     assert float(at_a_point.dataset.safety_of_substrate_L[0]) == 0.0
     assert "at the worst point" in at_a_point.summary()
     for criterion, kind in (("fatemi_socie", "life"), ("crossland", "safety")):
-        found = fret.compare(
-            of, scene, path, questions=["life"], criterion=criterion, executor=1, progress=False
+        comparison = fret.compare(
+            material,
+            scene,
+            path,
+            questions=["life"],
+            criterion=criterion,
+            executor=1,
+            progress=False,
         )
-        table = found.summary()
-        for name, body in of.items():
+        table = comparison.summary()
+        for name, body in material.items():
             result = fret.solve(scene.replace(title=name), path, save="all", progress=False)
             single = result.life(body.materials, criterion)
-            here = found.dataset.sel(candidate=name)
-            assert float(here[f"{kind}_of_substrate_L"]) == pytest.approx(single.L)
-            told = [note for note in single.notes if "the scene has" in note or "estimate" in note]
-            assert all(f"doubted: {name}: {note}" in table for note in told)
+            selected = comparison.dataset.sel(candidate=name)
+            assert float(selected[f"{kind}_of_substrate_L"]) == pytest.approx(single.L)
+            pattern = [
+                note for note in single.notes if "the scene has" in note or "estimate" in note
+            ]
+            assert all(f"doubted: {name}: {note}" in table for note in pattern)
         assert table.count("mean over L = ") == 2
         assert "the scene has E = " in table
 
@@ -154,26 +165,26 @@ def test_a_margin_says_what_the_stress_is_and_what_is_doubted() -> None:
 def test_an_error_is_what_larger_cells_change(
     compared: tuple[fret.study.Comparison, Path],
 ) -> None:
-    found, _ = compared
+    computed, _ = compared
     scene, path = contact(n=7)
     result = fret.solve(scene, path, progress=False)
-    here = found.dataset.sel(candidate="bare")
-    changed = abs(float(here.energy) - float(result.loops().dissipated[-1]))
-    assert float(here.energy_high - here.energy) == pytest.approx(changed)
+    selected = computed.dataset.sel(candidate="bare")
+    changed = abs(float(selected.energy) - float(result.loops().dissipated[-1]))
+    assert float(selected.energy_high - selected.energy) == pytest.approx(changed)
 
 
 def test_missing_numbers_are_named(compared: tuple[fret.study.Comparison, Path]) -> None:
-    found, _ = compared
-    assert found.missing["bare, adhesion"] == "a coating"
-    assert "conductor" in found.missing["film, temperature"]
-    assert "no answer for bare, adhesion: missing is a coating" in found.summary()
-    assert np.isnan(float(found.dataset.film.sel(candidate="bare")))
+    computed, _ = compared
+    assert computed.missing["bare, adhesion"] == "a coating"
+    assert "conductor" in computed.missing["film, temperature"]
+    assert "no answer for bare, adhesion: missing is a coating" in computed.summary()
+    assert np.isnan(float(computed.dataset.film.sel(candidate="bare")))
 
 
 def test_alike_bodies_make_no_difference() -> None:
     scene, path = contact(n=12)
     body = fret.Body(TITANIUM)
-    found = fret.compare(
+    comparison = fret.compare(
         {"one": body, "other": body, "slippery": Candidate(body, mu=0.32)},
         scene,
         path,
@@ -181,7 +192,7 @@ def test_alike_bodies_make_no_difference() -> None:
         executor=1,
         progress=False,
     )
-    verdict = found.preference("energy")
+    verdict = comparison.preference("energy")
     assert verdict.best == ["one", "other"]
     assert verdict.worse == ["slippery"]
     assert str(verdict) == "best: one, other (no difference)"
@@ -193,23 +204,23 @@ def test_alike_bodies_make_no_difference() -> None:
 
 def test_it_goes_on_after_an_interrupt(tmp_path: Path) -> None:
     scene, path = contact(n=12)
-    place = tmp_path / "study.zarr"
-    some = {name: of.body for name, of in bodies().items()}
+    position = tmp_path / "study.zarr"
+    some = {name: entry.body for name, entry in bodies().items()}
 
     def stop(done: int, total: int) -> None:
         if done == 2:
             raise KeyboardInterrupt
 
-    options = {"questions": ["energy"], "executor": 1, "out": place, "progress": False}
+    options = {"questions": ["energy"], "executor": 1, "out": position, "progress": False}
     with pytest.raises(KeyboardInterrupt):
         fret.compare(some, scene, path, on_point=stop, **options)  # type: ignore[arg-type]
-    told: list[int] = []
-    found = fret.compare(
-        some, scene, path, on_point=lambda done, total: told.append(done), **options
+    progress: list[int] = []
+    comparison = fret.compare(
+        some, scene, path, on_point=lambda done, total: progress.append(done), **options
     )  # type: ignore[arg-type]
-    assert told == [3, 4]
+    assert progress == [3, 4]
     alone = fret.compare(some, scene, path, **{**options, "out": None})  # type: ignore[arg-type]
-    assert found == alone
+    assert comparison == alone
     with pytest.raises(fret.errors.StoreError, match="another study"):
         fret.compare(some, scene.replace(friction=0.3), path, **options)  # type: ignore[arg-type]
 
@@ -217,19 +228,19 @@ def test_it_goes_on_after_an_interrupt(tmp_path: Path) -> None:
 def test_it_is_drawn_and_written(
     compared: tuple[fret.study.Comparison, Path], tmp_path: Path
 ) -> None:
-    found, _ = compared
-    figure = found.plot()
+    computed, _ = compared
+    figure = computed.plot()
     titles = {ax.get_title(loc="left") for ax in figure.axes}
     assert {"largest tension", "energy dissipated in a cycle"} <= titles
-    found.report(tmp_path / "page.html")
+    computed.report(tmp_path / "page.html")
     page = (tmp_path / "page.html").read_text(encoding="utf-8")
     assert "load factor of first yield" in page
     assert "http://" not in page.replace("http://www.w3.org", "")
-    found.save(tmp_path / "numbers.nc")
-    found.to_csv(tmp_path / "numbers.csv")
+    computed.save(tmp_path / "numbers.nc")
+    computed.to_csv(tmp_path / "numbers.csv")
     head, *rows = (tmp_path / "numbers.csv").read_text().splitlines()
     assert head.startswith("candidate,")
-    assert len(rows) == found.dataset.sizes["candidate"]
+    assert len(rows) == computed.dataset.sizes["candidate"]
     assert (tmp_path / "numbers.nc").exists()
 
 
@@ -278,11 +289,11 @@ def test_the_command_reads_a_file(tmp_path: Path) -> None:
         "coatings.toml", "--workers", "1", "--json", "--figure", "all.png", folder=tmp_path
     )
     assert ran.returncode == 0, ran.stderr
-    told = json.loads(ran.stdout)
-    low, best, high = told["numbers"]["energy"]["values"]["film"]
+    answer = json.loads(ran.stdout)
+    low, best, high = answer["numbers"]["energy"]["values"]["film"]
     assert low < best < high
-    of = {"bare": bodies()["bare"], "film": bodies()["film"]}
-    same = fret.compare(of, scene, path, questions=["energy"], executor=1, progress=False)
+    options = {"bare": bodies()["bare"], "film": bodies()["film"]}
+    same = fret.compare(options, scene, path, questions=["energy"], executor=1, progress=False)
     assert best == pytest.approx(float(same.dataset.energy.sel(candidate="film")))
     assert (tmp_path / "all.png").exists()
     again = command("coatings.toml", folder=tmp_path)

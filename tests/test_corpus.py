@@ -158,25 +158,25 @@ def test_every_reader_is_right_or_refuses(name: str) -> None:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             try:
-                found = read(FILES / name)
+                surface = read(FILES / name)
             except (ValueError, OSError, LookupError) as refused:
-                found, told = None, str(refused)
+                surface, text = None, str(refused)
             else:
-                told = ""
-        if told:
-            assert reader not in right, f"{reader}: {told}"
-            assert name in told, f"{reader}: {told}"
+                text = ""
+        if text:
+            assert reader not in right, f"{reader}: {text}"
+            assert name in text, f"{reader}: {text}"
             if REFUSED.get(name, ("", ""))[0] == reader:
-                assert re.search(REFUSED[name][1], told), told
+                assert re.search(REFUSED[name][1], text), text
             continue
         assert REFUSED.get(name, ("", ""))[0] != reader, f"{reader} reads it"
         if reader in right:
-            assert right[reader](found), f"{reader}: {found}"
+            assert right[reader](surface), f"{reader}: {surface}"
         else:
             table = name.startswith(("surface", "loops", "history")) and reader in TABLES
             # Shift over force is an indentation as well; lines may be left out of any table.
             curve = reader in CURVES and name.startswith("loops")
-            assert table or curve, f"{reader} takes it for {found!r}"
+            assert table or curve, f"{reader} takes it for {surface!r}"
 
 
 def test_every_file_has_its_place() -> None:

@@ -118,8 +118,10 @@ def test_thresholds() -> None:
     unknown = fret.fatigue.Material("mine", [("s_D", 300e6, "a test")])
     with pytest.raises(ValueError, match="dK_th"):
         fracture.Threshold.from_material(unknown)
-    own = fret.fatigue.Material("mine", [("dK_th", 8e6, "a test"), ("s_D", 300e6, "another")])
-    assert fracture.Threshold.from_material(own) == fracture.Threshold(4e6, 300e6)
+    own_material = fret.fatigue.Material(
+        "mine", [("dK_th", 8e6, "a test"), ("s_D", 300e6, "another")]
+    )
+    assert fracture.Threshold.from_material(own_material) == fracture.Threshold(4e6, 300e6)
 
 
 def test_growth_constants_of_the_table_of_materials() -> None:
@@ -130,11 +132,11 @@ def test_growth_constants_of_the_table_of_materials() -> None:
     assert fracture.Paris.from_material(table["aluminium_7075_T6"]) == fracture.Paris(2.71e-11, 3.7)
     with pytest.raises(ValueError, match=r"aluminium_4Cu.*paris_C"):
         fracture.Paris.from_material(table["aluminium_4Cu"])
-    own = fret.fatigue.Material(
+    own_material = fret.fatigue.Material(
         "mine", [("dK_th", 8e6, "a test"), ("s_D", 300e6, "one"), ("walker", 0.6, "another")]
     )
-    assert fracture.Threshold.from_material(own).walker == 0.6
-    assert fracture.Threshold.from_material(own, walker=0.9).walker == 0.9
+    assert fracture.Threshold.from_material(own_material).walker == 0.6
+    assert fracture.Threshold.from_material(own_material, walker=0.9).walker == 0.9
 
 
 @pytest.mark.slow
@@ -263,8 +265,8 @@ def test_film_interface_or_substrate(rig: fret.Result) -> None:
     assert plain.film / tougher.film == pytest.approx(np.sqrt(2.0))
     assert np.isnan(tougher.substrate)
     assert pulled.first == "film"
-    found = fret.study.FirstToFail(**limits, residual=[2e9, 0.0])(result)
-    assert int(found["first"]) == 1
+    computed = fret.study.FirstToFail(**limits, residual=[2e9, 0.0])(result)
+    assert int(computed["first"]) == 1
     with pytest.raises(ValueError, match="no coating"):
         fracture.first_to_fail(rig, toughness=1.0)
 
@@ -323,16 +325,16 @@ def test_bulk_stress_moves_the_line_of_arrest_in_the_running_map(rig: fret.Resul
     assert set(table.arrest_margin.dims) == {"W", "T", "sigma_B"}
     assert table.sigma_B.attrs["units"] == "Pa"
     assert (table.arrest_margin.sel(sigma_B=2e8) > table.arrest_margin.sel(sigma_B=0.0)).all()
-    one = fret.study.running_conditions(scene, **loads, sigma_B=2e8, arrest=arrest)
-    assert one.attrs["sigma_B"] == 2e8
+    item = fret.study.running_conditions(scene, **loads, sigma_B=2e8, arrest=arrest)
+    assert item.attrs["sigma_B"] == 2e8
     np.testing.assert_allclose(
-        one.arrest_margin, table.arrest_margin.sel(sigma_B=2e8).transpose(*one.arrest_margin.dims)
+        item.arrest_margin, table.arrest_margin.sel(sigma_B=2e8).transpose(*item.arrest_margin.dims)
     )
     # A point is that of the map of shear and bulk stress.
     chart = fret.study.arrest_map(
         scene, W=2e5, T=[8e4], sigma_B=[2e8], arrest=arrest, increments=(2, 8), executor=1
     )
-    margin = float(one.arrest_margin.sel(W=2e5, T=8e4))
+    margin = float(item.arrest_margin.sel(W=2e5, T=8e4))
     assert margin == pytest.approx(float(chart.arrest_margin[0, 0]), rel=1e-9)
     ax = fret.plot.running_map(table.sel(sigma_B=0.0))
     labels = [text.get_text() for text in ax.get_legend().get_texts()]
@@ -345,9 +347,9 @@ def test_kitagawa_of_uniform_tension() -> None:
     lengths = np.geomspace(1e-6, 1e-3, 20)
     K = 100e6 * np.sqrt(np.pi * lengths)
     cracks = fracture.Cracks.from_arrays(lengths, K, 0 * K)
-    found = cracks.kitagawa(fracture.Threshold(2.1e6, 124e6))
-    assert found["load"].values == pytest.approx(100e6)
-    assert found.limit.values[0] == pytest.approx(124e6, rel=1e-2)
+    diagram = cracks.kitagawa(fracture.Threshold(2.1e6, 124e6))
+    assert diagram["load"].values == pytest.approx(100e6)
+    assert diagram.limit.values[0] == pytest.approx(124e6, rel=1e-2)
     assert cracks.scaled(0.5).K_max == pytest.approx(0.5 * K)
     assert fracture.ellipse_factor(1.0) == pytest.approx(0.590752, rel=1e-5)
 
@@ -395,9 +397,9 @@ def test_figures(rig: fret.Result) -> None:
         coords={"h": [1.0, 2.0], "s": [0.0, 1.0]},
     )
     chart = fret.plot.design_chart(table, "s", "h")
-    named = [text.get_text() for text in chart.get_legend().get_texts()]
-    assert named[:3] == ["nothing fails", "film", "interface"]
-    assert "limit of the film" in named
+    by_name = [text.get_text() for text in chart.get_legend().get_texts()]
+    assert by_name[:3] == ["nothing fails", "film", "interface"]
+    assert "limit of the film" in by_name
 
 
 @pytest.mark.solves
@@ -406,20 +408,20 @@ def test_command(pulled: fret.Result, tmp_path: Path, capsys: pytest.CaptureFixt
     pulled.save(store)
     figure = tmp_path / "crack.png"
     lengths = "1e-5,3e-5,1e-4,3e-4"
-    told = ["crack", str(store), "--lengths", lengths, "--dK-th", "2e6", "-o", str(figure)]
-    assert commands.main(told) == 0
-    said = capsys.readouterr().out
-    assert said.count("MPa m^0.5") == 4
-    assert "dK/dK_th" in said
-    assert "would" in said or "grows through" in said
+    message = ["crack", str(store), "--lengths", lengths, "--dK-th", "2e6", "-o", str(figure)]
+    assert commands.main(message) == 0
+    output = capsys.readouterr().out
+    assert output.count("MPa m^0.5") == 4
+    assert "dK/dK_th" in output
+    assert "would" in output or "grows through" in output
     assert figure.stat().st_size > 0
     assert commands.main(["crack", str(store), "--dS-0", "1e8"]) == 2
     assert "--dK-th" in capsys.readouterr().err
     grown = ["crack", str(store), "--grow", "tangential_stress", "--lengths", "3e-5,2e-4"]
     assert commands.main([*grown, "--dK-th", "1e3", "--paris", "1e-11,3"]) == 0
-    said = capsys.readouterr().out
-    assert said.count("MPa m^0.5") >= 9
-    assert " cycles" in said
+    output = capsys.readouterr().out
+    assert output.count("MPa m^0.5") >= 9
+    assert " cycles" in output
     kinked = ["crack", str(store), "--lengths", lengths, "--kink", "5e-5,20", "--aspect", "0.8"]
     assert commands.main(kinked) == 0
     assert commands.main([*grown, "--kink", "5e-5,20"]) == 2
@@ -433,17 +435,17 @@ def test_what_becomes_of_a_crack_has_the_error_of_k() -> None:
     error = (0.05 * plain.dataset.K_I).assign_attrs(units="Pa m^0.5")
     cracks = fracture.Cracks(plain.dataset.assign(error=error))
     threshold = fracture.Threshold(dK_th=3e6)
-    without, found = plain.arrest(threshold), cracks.arrest(threshold)
+    without, arrest = plain.arrest(threshold), cracks.arrest(threshold)
     assert without.margin_error is None
     assert without.lengths is None
     assert "(estimate)" in without.describe()
-    assert found.verdict == "stops"
-    assert found.is_sure
-    assert found.length == pytest.approx(1e-4, rel=2e-3)
-    assert found.lengths == pytest.approx((0.95e-4, 1.05e-4), rel=2e-3)
-    assert found.margin_error == pytest.approx(0.05 * found.margin, rel=1e-6)
-    assert "100 (95 to 105) um" in found.describe()
-    assert "+-" in found.describe()
+    assert arrest.verdict == "stops"
+    assert arrest.is_sure
+    assert arrest.length == pytest.approx(1e-4, rel=2e-3)
+    assert arrest.lengths == pytest.approx((0.95e-4, 1.05e-4), rel=2e-3)
+    assert arrest.margin_error == pytest.approx(0.05 * arrest.margin, rel=1e-6)
+    assert "100 (95 to 105) um" in arrest.describe()
+    assert "+-" in arrest.describe()
     # At 1.02 times the threshold at its first length the error leaves two verdicts.
     unsure = cracks.arrest(fracture.Threshold(dK_th=3e7 / 1.02))
     assert (unsure.verdict, set(unsure.verdicts)) == ("stops", {"stops", "dormant"})
@@ -477,18 +479,18 @@ def test_a_verdict_says_for_which_length_it_holds_and_what_others_do(
     start: float | None, verdict: str, words: list[str]
 ) -> None:
     cracks, threshold = bump(), fracture.Threshold(dK_th=1e6)
-    found = cracks.arrest(threshold, start=start)
+    arrest = cracks.arrest(threshold, start=start)
     life = cracks.life(threshold, fracture.Paris(C=1e-11, m=3.0), start=start)
-    assert found.verdict == verdict
-    assert found.start == (5e-6 if start is None else start)
-    ((low, high),) = found.growing
+    assert arrest.verdict == verdict
+    assert arrest.start == (5e-6 if start is None else start)
+    ((low, high),) = arrest.growing
     assert (low, high) == pytest.approx((17.40e-6, 91.97e-6), rel=1e-3)
     for word in words:
-        assert word in found.describe()
-    assert found.describe().startswith(found.briefly())
+        assert word in arrest.describe()
+    assert arrest.describe().startswith(arrest.briefly())
     if verdict == "dormant":
-        assert found.length is None
-        assert found.tip == found.start
+        assert arrest.length is None
+        assert arrest.tip == arrest.start
         assert "stop at 91.97 um" in repr(life)
         assert "no number of cycles" in life.describe()
         assert "does not grow" in str(life.why_infinite())
@@ -497,7 +499,7 @@ def test_a_verdict_says_for_which_length_it_holds_and_what_others_do(
         assert longer.verdict == "stops"
         assert longer.length == pytest.approx(high)
     else:
-        assert found.tip == found.length == pytest.approx(high)
+        assert arrest.tip == arrest.length == pytest.approx(high)
         assert "cycles from 20 um to 91.97 um, where it stops" in life.describe()
 
 
@@ -517,9 +519,9 @@ def test_growth_through_all_lengths_and_through_none() -> None:
 def test_an_error_as_large_as_the_number_is_told() -> None:
     cracks = bump()
     wide = cracks.dataset.assign(error=(1.2 * cracks.dataset.K_I).assign_attrs(units="Pa m^0.5"))
-    found = fracture.Cracks(wide).arrest(fracture.Threshold(dK_th=1e6), start=4e-5)
-    assert "the error of K is as large as dK" in found.describe()
-    assert not found.is_sure
+    arrest = fracture.Cracks(wide).arrest(fracture.Threshold(dK_th=1e6), start=4e-5)
+    assert "the error of K is as large as dK" in arrest.describe()
+    assert not arrest.is_sure
 
 
 def test_what_rests_on_an_estimate_says_so() -> None:
@@ -532,10 +534,10 @@ def test_what_rests_on_an_estimate_says_so() -> None:
     cracks = bump(estimated.dK_th)
     paris = fracture.Paris(C=1e-11, m=3.0)
     for threshold, marked in ((estimated, True), (measured, False)):
-        found = cracks.arrest(threshold, start=4e-5)
+        arrest = cracks.arrest(threshold, start=4e-5)
         life = cracks.life(threshold, paris, start=4e-5)
-        assert found.verdict == "stops"
-        for text in (found.describe(), found.briefly(), found.describe_length(), repr(life)):
+        assert arrest.verdict == "stops"
+        for text in (arrest.describe(), arrest.briefly(), arrest.describe_length(), repr(life)):
             assert ("estimate" in text) == marked, text
         axes = (
             fret.plot.crack_arrest(cracks, threshold, start=4e-5),
@@ -543,16 +545,16 @@ def test_what_rests_on_an_estimate_says_so() -> None:
         )
         for ax in axes:
             legend = [text.get_text() for text in ax.get_legend().get_texts()]
-            assert any("(estimate)" in of for of in legend) == marked
+            assert any("(estimate)" in item for item in legend) == marked
 
 
 def test_too_few_lengths_are_refused_with_what_to_do() -> None:
     lengths = [1e-5, 1e-4]
     cracks = fracture.Cracks.from_arrays(lengths, [1e6, 2e6], [0.0, 0.0])
-    wanted = r"number of lengths of the crack = 2: must be 4 or more.*more lengths.*default"
-    with pytest.raises(ValueError, match=wanted):
+    expected = r"number of lengths of the crack = 2: must be 4 or more.*more lengths.*default"
+    with pytest.raises(ValueError, match=expected):
         cracks.arrest(fracture.Threshold(dK_th=1e6))
-    with pytest.raises(ValueError, match=wanted):
+    with pytest.raises(ValueError, match=expected):
         cracks.life(fracture.Threshold(dK_th=1e6), fracture.Paris(C=1e-11, m=3.0))
 
 
@@ -562,30 +564,30 @@ def test_command_figure_page_and_json_have_one_verdict(
     pulled: fret.Result, tmp_path: Path, capsys: pytest.CaptureFixture[str], dK_th: str
 ) -> None:
     pulled.save(tmp_path / "rig.nc")
-    told = ["crack", str(tmp_path / "rig.nc"), "--lengths", "1e-5,3e-5,1e-4,3e-4"]
-    told += ["--dK-th", dK_th, "--paris", "1e-11,3"]
-    assert commands.main(told) == 0
+    message = ["crack", str(tmp_path / "rig.nc"), "--lengths", "1e-5,3e-5,1e-4,3e-4"]
+    message += ["--dK-th", dK_th, "--paris", "1e-11,3"]
+    assert commands.main(message) == 0
     line = capsys.readouterr().out.splitlines()[-1]
-    assert commands.main([*told, "--json"]) == 0
+    assert commands.main([*message, "--json"]) == 0
     row = json.loads(capsys.readouterr().out.splitlines()[-1])
     cracks = pulled.crack(lengths=[1e-5, 3e-5, 1e-4, 3e-4])
     threshold = fracture.Threshold(float(dK_th))
-    found = cracks.arrest(threshold)
-    assert row["told"] == found.describe()
-    assert found.describe() in line
+    arrest = cracks.arrest(threshold)
+    assert row["told"] == arrest.describe()
+    assert arrest.describe() in line
     assert f"from x = {1e6 * row['x']:.4g} um" in line
     assert (row["length"] is None) == ("length_why" in row)
     drawn = fret.plot.crack_panels(pulled, cracks, threshold)
-    said = {text.get_text() for text in drawn.findobj(Text)}
-    brief = found.briefly().replace(" um", " µm").replace("+-", "±")
-    assert f"the crack {brief}" in said
-    assert any("stops" in text for text in said) == (found.verdict == "stops")
+    options = {text.get_text() for text in drawn.findobj(Text)}
+    brief = arrest.briefly().replace(" um", " µm").replace("+-", "±")
+    assert f"the crack {brief}" in options
+    assert any("stops" in text for text in options) == (arrest.verdict == "stops")
     page = tmp_path / "page.html"
     pulled.report(page, crack=cracks, threshold=threshold)
     assert (
         CrackSection(cracks, threshold)
         .numbers()["says"]
-        .endswith(f" body {found.describe()}.".replace(" um", " µm").replace("+-", "±"))
+        .endswith(f" body {arrest.describe()}.".replace(" um", " µm").replace("+-", "±"))
     )
 
 
@@ -594,8 +596,8 @@ def test_a_note_on_estimates_stands_once_in_a_line(
     pulled: fret.Result, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     pulled.save(tmp_path / "rig.nc")
-    told = ["crack", str(tmp_path / "rig.nc"), "--lengths", "1e-5,3e-5,1e-4,3e-4"]
-    assert commands.main([*told, "--material", "titanium_6Al4V", "--paris", "1e-11,3"]) == 0
+    message = ["crack", str(tmp_path / "rig.nc"), "--lengths", "1e-5,3e-5,1e-4,3e-4"]
+    assert commands.main([*message, "--material", "titanium_6Al4V", "--paris", "1e-11,3"]) == 0
     assert capsys.readouterr().out.splitlines()[-1].count("estimate: ") == 1
 
 

@@ -70,21 +70,23 @@ def test_each_error_is_that_of_its_number(cracks: fracture.Cracks) -> None:
         assert np.all(off <= errors[name] + 1e-9 * cracks.K_max), name
     # A state of large pressure has an error of K of faces that pass through each other. K_I of the
     # closed crack is 0 and does not have it.
-    of = cracks.dataset
-    shut = (of.open.values == 0.0) & (of.K_I_linear.values + of["error"].values < 0.0)
+    dataset = cracks.dataset
+    shut = (dataset.open.values == 0.0) & (
+        dataset.K_I_linear.values + dataset["error"].values < 0.0
+    )
     assert shut.any(axis=0).all()
-    assert np.all(of["error"].values[shut] > 0.0)
+    assert np.all(dataset["error"].values[shut] > 0.0)
     assert np.all(cracks.K_I_error[shut] == 0.0)
 
 
 @pytest.mark.solves
 @pytest.mark.parametrize("start", LENGTHS[:3].tolist())
 def test_the_rows_and_the_verdict_have_one_error(cracks: fracture.Cracks, start: float) -> None:
-    found = cracks.arrest(THRESHOLD, start=start)
+    arrest = cracks.arrest(THRESHOLD, start=start)
     n = int(np.searchsorted(LENGTHS, start))
     limit = THRESHOLD.at(LENGTHS)[n]
-    assert found.at_start == pytest.approx(cracks.dK(THRESHOLD)[n] / limit, rel=1e-9)
-    assert found.at_start_error == pytest.approx(cracks.dK_error(THRESHOLD)[n] / limit, rel=1e-6)
+    assert arrest.at_start == pytest.approx(cracks.dK(THRESHOLD)[n] / limit, rel=1e-9)
+    assert arrest.at_start_error == pytest.approx(cracks.dK_error(THRESHOLD)[n] / limit, rel=1e-6)
 
 
 @pytest.mark.solves
@@ -95,9 +97,14 @@ def test_the_command_prints_each_error_beside_its_number(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     coarse.save(tmp_path / "pad.nc")
-    told = ["crack", str(tmp_path / "pad.nc"), "--lengths", ",".join(map(repr, LENGTHS.tolist()))]
-    told += ["--material", "titanium_6Al4V", "--paris", "1e-11,3"]
-    assert commands.main([*told, "--json"]) == 0
+    message = [
+        "crack",
+        str(tmp_path / "pad.nc"),
+        "--lengths",
+        ",".join(map(repr, LENGTHS.tolist())),
+    ]
+    message += ["--material", "titanium_6Al4V", "--paris", "1e-11,3"]
+    assert commands.main([*message, "--json"]) == 0
     rows = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
     assert [row["K_max_error"] for row in rows[:-1]] == pytest.approx(cracks.error)
     assert [row["K_min_error"] for row in rows[:-1]] == pytest.approx(cracks.K_min_error)
@@ -105,7 +112,7 @@ def test_the_command_prints_each_error_beside_its_number(
         assert row["dK_error"] <= row["K_max_error"] * (1.0 + 1e-12)
     assert "; ".join(rows[-1]["notes"]) == rows[-1]["told"]
     assert "; ".join(rows[-1]["cycles_notes"]) == rows[-1]["cycles_told"]
-    assert commands.main(told) == 0
+    assert commands.main(message) == 0
     for row, line in zip(rows, capsys.readouterr().out.splitlines(), strict=True):
         if "K_max" in row:
             assert fret._core.with_error(row["K_max"] / 1e6, row["K_max_error"] / 1e6) in line
@@ -113,8 +120,14 @@ def test_the_command_prints_each_error_beside_its_number(
 
 
 def test_a_crack_without_errors_has_none() -> None:
-    of = fracture.Cracks.from_arrays(LENGTHS, np.full(6, 2e6), np.zeros(6))
-    for error in (of.error, of.K_min_error, of.dK_error(), of.dK_error(THRESHOLD), of.K_I_error):
+    item = fracture.Cracks.from_arrays(LENGTHS, np.full(6, 2e6), np.zeros(6))
+    for error in (
+        item.error,
+        item.K_min_error,
+        item.dK_error(),
+        item.dK_error(THRESHOLD),
+        item.K_I_error,
+    ):
         assert np.all(np.isnan(error))
 
 
@@ -138,18 +151,18 @@ def test_the_first_to_fail_has_the_margin_of_the_same_cracks(
     threshold = fracture.Threshold.from_material("steel_42CrMo4")
     # By default both begin where a crack has come through the coatings.
     for lengths, start in (([2e-5, 5e-5, 1e-4, 3e-4], 20), (None, 15)):
-        found = fracture.first_to_fail(result, threshold=threshold, lengths=lengths)
+        computed = fracture.first_to_fail(result, threshold=threshold, lengths=lengths)
         same = result.crack(lengths=lengths).arrest(threshold)
-        assert (found.substrate, found.substrate_error) == (same.margin, same.margin_error)
-        assert found.arrest == same
-        assert f"a crack {same.describe()}" in found.summary()
-        assert f"least dK/dK_th from a length of {start} um on" in repr(found)
-    assert "the ranges leave out the scatter of estimates" in found.summary()
+        assert (computed.substrate, computed.substrate_error) == (same.margin, same.margin_error)
+        assert computed.arrest == same
+        assert f"a crack {same.describe()}" in computed.summary()
+        assert f"least dK/dK_th from a length of {start} um on" in repr(computed)
+    assert "the ranges leave out the scatter of estimates" in computed.summary()
 
 
 def test_a_comparison_keeps_the_error_of_a_crack(monkeypatch: pytest.MonkeyPatch) -> None:
-    found = fracture.FailureOrder(math.nan, 0.3, 0.5, 0.2)
-    monkeypatch.setattr(fracture, "first_to_fail", lambda *_, **__: found)
+    computed = fracture.FailureOrder(math.nan, 0.3, 0.5, 0.2)
+    monkeypatch.setattr(fracture, "first_to_fail", lambda *_, **__: computed)
     steel = fret.Elastic(E=210e9, nu=0.3)
     candidate = fret.study.Candidate(fret.Body(steel))
     nothing: Any = SimpleNamespace(body_number=2)
@@ -165,13 +178,13 @@ def test_a_range_says_that_it_leaves_out_the_scatter_of_estimates() -> None:
     plain = fracture.Cracks.from_arrays(LENGTHS, np.geomspace(1e7, 1e6, 6), np.zeros(6))
     barred = fracture.Cracks(plain.dataset.assign(error=0.1 * plain.dataset.K_I))
     of_rule = fracture.Threshold.from_material("titanium_6Al4V")
-    own = fracture.Threshold(of_rule.dK_th, of_rule.dS_0)
+    own_threshold = fracture.Threshold(of_rule.dK_th, of_rule.dS_0)
     paris = fracture.Paris(1e-11, 3.0)
     guessed = fracture.Paris(1e-11, 3.0, estimate="paris_C is an estimate")
     for cracks, threshold, law, in_arrest, in_life in (
         (barred, of_rule, paris, True, True),
-        (barred, own, guessed, False, True),
-        (barred, own, paris, False, False),
+        (barred, own_threshold, guessed, False, True),
+        (barred, own_threshold, paris, False, False),
         (plain, of_rule, guessed, False, False),
     ):
         assert (words in cracks.arrest(threshold).describe()) == in_arrest

@@ -48,6 +48,6 @@ def test_settings_of_matplotlib_in_the_current_folder_are_passed_over(folder: Pa
     ran = subprocess.run(
         command, capture_output=True, text=True, check=True, env=environment, cwd=folder
     )
-    program_of_films, here = ran.stdout.splitlines()[-1].split(" ", 1)
+    program_of_films, local = ran.stdout.splitlines()[-1].split(" ", 1)
     assert program_of_films == "ffmpeg"
-    assert Path(here) == folder
+    assert Path(local) == folder

@@ -55,18 +55,18 @@ def test_chosen_depths_find_the_largest_stress_of_random_layered_contacts() -> N
             scene.body2, a=last.length, deepest=2 * last.length, finer=10.0
         )
         chosen, finer = last.stress(), last.stress(np.unique(many), y=0.0)
-        for of in ("von_mises", "s_1", "interface_shear"):
-            found, truth = chosen.maximum(of), finer.maximum(of)
-            if of == "interface_shear":
-                assert min(abs(found.z - z) for z in scene.interfaces()) < 1e-12
+        for item in ("von_mises", "s_1", "interface_shear"):
+            extremum, truth = chosen.maximum(item), finer.maximum(item)
+            if item == "interface_shear":
+                assert min(abs(extremum.z - z) for z in scene.interfaces()) < 1e-12
             # Both are values at points: the larger is nearer to the largest of the body.
-            there = last.stress([found.z], x=found.x, y=found.y)
-            own = there.dataset.layer.values == found.layer
-            assert there.measure(of).values[own] == pytest.approx(found.value, rel=0.01)
-            difference = max(truth.value - found.value, 0.0) / truth.value
-            assert difference <= OFF, (scene.body2, of, found, truth)
+            there = last.stress([extremum.z], x=extremum.x, y=extremum.y)
+            in_layer = there.dataset.layer.values == extremum.layer
+            assert there.measure(item).values[in_layer] == pytest.approx(extremum.value, rel=0.01)
+            difference = max(truth.value - extremum.value, 0.0) / truth.value
+            assert difference <= OFF, (scene.body2, item, extremum, truth)
             worst = max(worst, difference)
-            covered.append(difference <= found.error / truth.value + 1e-9)
+            covered.append(difference <= extremum.error / truth.value + 1e-9)
     print(f"{CONTACTS} contacts: off by {worst:.1e} at most, covered {np.mean(covered):.2f}")
     assert np.mean(covered) >= 0.9
 
@@ -102,8 +102,8 @@ def test_a_rim_beside_a_narrow_slip_zone_is_right_on_coarse_cells() -> None:
     scene = sphere_on_flat(n=36).replace(path=path)
     finer = sphere_on_flat(n=128).replace(path=path)
     surface = [
-        fret.solve(of, progress=False).at(-1).stress(z=[0.0], y=0.0).maximum().value
-        for of in (scene, finer)
+        fret.solve(item, progress=False).at(-1).stress(z=[0.0], y=0.0).maximum().value
+        for item in (scene, finer)
     ]
     assert surface[0] == pytest.approx(surface[1], rel=0.1)
 

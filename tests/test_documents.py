@@ -71,10 +71,10 @@ def code_spans(document: Path) -> list[str]:
 
 def found(dotted: str) -> list[Any]:
     """The things that a dotted name may mean."""
-    first, *rest = dotted.split(".")
+    first, *remainder = dotted.split(".")
     if first in ("fret", "pyfret"):
-        return [resolved(fret, rest)]
-    return [resolved(owner, [first, *rest]) for owner in OWNERS if first in dir(owner)]
+        return [resolved(fret, remainder)]
+    return [resolved(owner, [first, *remainder]) for owner in OWNERS if first in dir(owner)]
 
 
 def resolved(owner: Any, names: list[str]) -> Any:
@@ -109,11 +109,21 @@ def test_its_keywords_exist(document: Path) -> None:
         parameters = [set(inspect.signature(thing).parameters) for thing in things]
         # What judges a section takes its fields as keywords.
         fields = set(inspect.signature(Section).parameters)
-        parameters = [of | fields if "section" in of else of for of in parameters]
+        parameters = [
+            parameter_names | fields if "section" in parameter_names else parameter_names
+            for parameter_names in parameters
+        ]
         # The settings of wear may stand in the call.
-        of_wear = {of.name for of in dataclasses.fields(fret.wear.Wear)}
-        parameters = [of | of_wear if "settings" in of else of for of in parameters]
-        assert any(keywords <= of for of in parameters), (name, keywords, parameters)
+        of_wear = {field.name for field in dataclasses.fields(fret.wear.Wear)}
+        parameters = [
+            parameter_names | of_wear if "settings" in parameter_names else parameter_names
+            for parameter_names in parameters
+        ]
+        assert any(keywords <= parameter_names for parameter_names in parameters), (
+            name,
+            keywords,
+            parameters,
+        )
 
 
 COMMANDS = (
@@ -196,6 +206,6 @@ def test_the_example_of_a_real_coating_is_short_and_runs(
     exec(compile(script.replace("n=128", "n=64"), "dlc_on_titanium.py", "exec"), {})
     plt.close("all")
     assert (tmp_path / "dlc_on_titanium.png").is_file()
-    told = capsys.readouterr().out
-    assert "energy ratio" in told
-    assert "partial slip" in told
+    text = capsys.readouterr().out
+    assert "energy ratio" in text
+    assert "partial slip" in text

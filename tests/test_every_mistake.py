@@ -78,11 +78,11 @@ def broken(mistakes: list[tuple[str, str, int, str]]) -> str:
 
 @pytest.mark.parametrize("skipped", range(len(MISTAKES) + 1))
 def test_all_mistakes_are_told_in_one_round(skipped: int) -> None:
-    mistakes = [of for n, of in enumerate(MISTAKES) if n != skipped]
-    with pytest.raises(fret.errors.InvalidSceneError) as told:
+    mistakes = [item for n, item in enumerate(MISTAKES) if n != skipped]
+    with pytest.raises(fret.errors.InvalidSceneError) as refused:
         fret.Scene.from_toml(broken(mistakes))
-    lines = str(told.value).splitlines()
-    assert len(lines) == len(mistakes), str(told.value)
+    lines = str(refused.value).splitlines()
+    assert len(lines) == len(mistakes), str(refused.value)
     for line, (_, _, number, says) in zip(lines, mistakes, strict=True):
         assert line.startswith(f"scene:{number}: "), line
         assert says in line
@@ -90,16 +90,16 @@ def test_all_mistakes_are_told_in_one_round(skipped: int) -> None:
 
 @pytest.mark.parametrize("mistake", MISTAKES)
 def test_one_mistake_is_one_line(mistake: tuple[str, str, int, str]) -> None:
-    with pytest.raises(fret.errors.InvalidSceneError) as told:
+    with pytest.raises(fret.errors.InvalidSceneError) as refused:
         fret.Scene.from_toml(broken([mistake]))
-    assert len(str(told.value).splitlines()) == 1
+    assert len(str(refused.value).splitlines()) == 1
 
 
 def test_doubts_are_told_beside_mistakes() -> None:
     text = GOOD.replace("R = 5e-3", "R = 5").replace("E = 380e9", "E = 380")
-    with pytest.raises(fret.errors.InvalidSceneError) as told:
+    with pytest.raises(fret.errors.InvalidSceneError) as refused:
         fret.Scene.from_toml(text.replace("n = 64", "n = 0").replace("mu = 0.15", "mu = 15"))
-    lines = str(told.value).splitlines()
+    lines = str(refused.value).splitlines()
     assert "grid.n = 0" in lines[0]
     doubts = ("body1.shape.R = 5 m", "coatings[0].E = 380 Pa", "friction.mu = 15")
     assert len(lines) == 1 + len(doubts)
@@ -110,11 +110,11 @@ def test_doubts_are_told_beside_mistakes() -> None:
 
 def test_a_value_that_depends_on_a_mistake_is_no_mistake() -> None:
     """A force is within friction or not once the friction is known."""
-    with pytest.raises(fret.errors.InvalidSceneError) as told:
+    with pytest.raises(fret.errors.InvalidSceneError) as refused:
         fret.Scene.from_toml(
             GOOD.replace("mu = 0.15", "muu = 0.15").replace("W = 10\n", "W = -1\n")
         )
-    lines = str(told.value).splitlines()
+    lines = str(refused.value).splitlines()
     assert len(lines) == 2
     assert "friction.mu" in lines[0]
     assert "path[0].W = -1" in lines[1]
@@ -128,10 +128,10 @@ def test_quantities_have_units() -> None:
         .replace("extent = { a_H = 2.4 }", 'extent = "2.4 a_H"')
         .replace("W = 10\n", 'W = "0.01 kN"\n')
     )
-    right, found = fret.Scene.from_toml(GOOD), fret.Scene.from_toml(text)
-    assert found.body1.substrate == right.body1.substrate
-    assert found.grid.dx == pytest.approx(right.grid.dx, rel=1e-12)
-    assert found.path.W.tolist() == pytest.approx(right.path.W.tolist())
+    right, computed = fret.Scene.from_toml(GOOD), fret.Scene.from_toml(text)
+    assert computed.body1.substrate == right.body1.substrate
+    assert computed.grid.dx == pytest.approx(right.grid.dx, rel=1e-12)
+    assert computed.path.W.tolist() == pytest.approx(right.path.W.tolist())
     assert fret.Scene.from_toml(GOOD, set=["path.0.W=0.01 kN"]).path.W[-1] == pytest.approx(10)
 
 
@@ -143,15 +143,17 @@ def test_a_material_has_its_name() -> None:
         assert fret.Scene.from_toml(scene.to_toml()) == scene
         # E and nu of the file stand in place of those of the table.
         assert scene == fret.Scene.from_toml(GOOD)
-    named = re.sub(r"(\[body1\][^[]*?)E = 210e9\nnu = 0.3", r'\1material = "Ti-6Al-4V"', GOOD)
-    assert named != GOOD
-    assert fret.Scene.from_toml(named).body1.substrate == fret.Elastic(
+    by_name = re.sub(r"(\[body1\][^[]*?)E = 210e9\nnu = 0.3", r'\1material = "Ti-6Al-4V"', GOOD)
+    assert by_name != GOOD
+    assert fret.Scene.from_toml(by_name).body1.substrate == fret.Elastic(
         E=table["Ti-6Al-4V"].number("E"), nu=table["Ti-6Al-4V"].number("nu")
     )
-    with pytest.raises(fret.errors.InvalidSceneError, match=r"nearest are titanium_6Al4V") as told:
-        fret.Scene.from_toml(named.replace("Ti-6Al-4V", "Ti-6Al-V4"))
-    line = named[: named.index("material =")].count("\n") + 1
-    assert f":{line}: body1.material" in str(told.value)
+    with pytest.raises(
+        fret.errors.InvalidSceneError, match=r"nearest are titanium_6Al4V"
+    ) as refused:
+        fret.Scene.from_toml(by_name.replace("Ti-6Al-4V", "Ti-6Al-V4"))
+    line = by_name[: by_name.index("material =")].count("\n") + 1
+    assert f":{line}: body1.material" in str(refused.value)
 
 
 def test_the_load_of_a_line_is_per_length() -> None:
@@ -173,12 +175,12 @@ def run(*arguments: str | Path, text: str | None = None) -> subprocess.Completed
 def test_check_prints_each_mistake_on_its_line(tmp_path: Path) -> None:
     file = tmp_path / "scene.toml"
     file.write_text(broken(MISTAKES))
-    found = run(file)
-    assert found.returncode == 2
-    lines = found.stderr.splitlines()
-    assert [line.split(": ")[1] for line in lines] == [f"{file}:{of[2]}" for of in MISTAKES]
-    told = json.loads(run(file, "--json").stdout)
-    assert [of["line"] for of in told["errors"]] == [of[2] for of in MISTAKES]
+    ran = run(file)
+    assert ran.returncode == 2
+    lines = ran.stderr.splitlines()
+    assert [line.split(": ")[1] for line in lines] == [f"{file}:{item[2]}" for item in MISTAKES]
+    answer = json.loads(run(file, "--json").stdout)
+    assert [item["line"] for item in answer["errors"]] == [item[2] for item in MISTAKES]
 
 
 def test_strict_exits_with_one_on_a_doubt() -> None:
@@ -191,31 +193,31 @@ def test_strict_exits_with_one_on_a_doubt() -> None:
 
 
 def test_json_has_numbers() -> None:
-    told = json.loads(run("-", "--json", text=GOOD).stdout)
+    answer = json.loads(run("-", "--json", text=GOOD).stdout)
     scene = fret.Scene.from_toml(GOOD)
     assert scene.hertz is not None
-    assert told["a_H"] == pytest.approx(scene.hertz.a)
-    assert told["cells_per_a_H"][0] == pytest.approx(scene.hertz.a / scene.grid.dx)
-    assert told["grid"]["n"] == [64, 64]
-    assert told["path"]["increments"] == [8, 8]
-    assert told["convolutions"][0] < told["convolutions"][1]
-    assert 0 < told["memory"]["needed"] < told["memory"]["available"]
-    assert told["errors"] == []
+    assert answer["a_H"] == pytest.approx(scene.hertz.a)
+    assert answer["cells_per_a_H"][0] == pytest.approx(scene.hertz.a / scene.grid.dx)
+    assert answer["grid"]["n"] == [64, 64]
+    assert answer["path"]["increments"] == [8, 8]
+    assert answer["convolutions"][0] < answer["convolutions"][1]
+    assert 0 < answer["memory"]["needed"] < answer["memory"]["available"]
+    assert answer["errors"] == []
     # Each number has a unit.
-    units = told["units"]
-    assert set(units) == {name for name in numbers_of(told) if not name.startswith("units")}
+    units = answer["units"]
+    assert set(units) == {name for name in numbers_of(answer) if not name.startswith("units")}
 
 
 def numbers_of(told: dict[str, object], within: str = "") -> set[str]:
     """Names of the numbers of an answer, and of the lists of them."""
-    found: set[str] = set()
+    names: set[str] = set()
     for name, value in told.items():
         first = value[0] if isinstance(value, list) and value else value
         if isinstance(value, dict):
-            found |= numbers_of(value, f"{within}{name}.")
+            names |= numbers_of(value, f"{within}{name}.")
         elif isinstance(first, int | float) and not isinstance(first, bool):
-            found.add(f"{within}{name}")
-    return found
+            names.add(f"{within}{name}")
+    return names
 
 
 class Quantity:
@@ -310,16 +312,16 @@ def test_the_table_of_wear_is_checked_with_the_rest() -> None:
         .replace("k = 1e-14", 'k = "3 um"\nthreshhold = 0.0')
         .replace("mu = 0.15", "mmu = 0.15")
     )
-    told = run("-", text=wrong)
-    assert told.returncode != 0
+    ran = run("-", text=wrong)
+    assert ran.returncode != 0
     for key, nearest in [
         ("friction.mmu", "friction.mu"),
         ("wear.cyclng", "wear.cycling"),
         ("wear.body2.threshhold", "wear.body2.threshold"),
     ]:
-        assert f"unknown key `{key}`: the nearest valid key is `{nearest}`" in told.stderr
-    assert 'wear.body2.k = "3 um": must be a number in m^2/N' in told.stderr
-    assert len(told.stderr.splitlines()) == 4, told.stderr
+        assert f"unknown key `{key}`: the nearest valid key is `{nearest}`" in ran.stderr
+    assert 'wear.body2.k = "3 um": must be a number in m^2/N' in ran.stderr
+    assert len(ran.stderr.splitlines()) == 4, ran.stderr
     doubtful = (GOOD + WORN).replace("k = 1e-14", "k = 1e-6")
     doubted = run("-", "--strict", text=doubtful)
     assert doubted.returncode == 1

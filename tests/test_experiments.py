@@ -60,7 +60,7 @@ def test_a_threshold_is_bracketed_in_few_solves() -> None:
     limits = [("s_D", 311e6, "fitted"), ("t_D", 209e6, "fitted")]
     steel = fret.fatigue.Material("steel", limits)
     measure = fret.study.Averaged(steel, "crossland", 85e-6)
-    found = fret.study.threshold(
+    threshold_load = fret.study.threshold(
         lambda values: experiments.icf13("FF_1", Q=values["Q"], n=64).scene,
         "Q",
         measure=measure,
@@ -68,8 +68,8 @@ def test_a_threshold_is_bracketed_in_few_solves() -> None:
         tolerance=0.02,
         error=False,
     )
-    assert found.solves <= 9
-    assert found.value == pytest.approx(2.73e5, rel=0.2)
+    assert threshold_load.solves <= 9
+    assert threshold_load.value == pytest.approx(2.73e5, rel=0.2)
     with pytest.raises(ValueError, match="widen"):
         fret.study.threshold(
             lambda values: experiments.icf13("FF_1", Q=values["Q"], n=64).scene,

@@ -36,22 +36,28 @@ def scene() -> fret.Scene:
 
 
 def test_sliders_change_what_they_name() -> None:
-    given = scene()
-    assert [of.name for of in controls(given)] == ["load", "mu", "thickness", "modulus", "radius"]
-    for of in controls(given):
-        before = of.read(given)
+    base_scene = scene()
+    assert [control.name for control in controls(base_scene)] == [
+        "load",
+        "mu",
+        "thickness",
+        "modulus",
+        "radius",
+    ]
+    for control in controls(base_scene):
+        before = control.read(base_scene)
         assert before is not None
-        made = changed(given, {of.name: 1.5 * before}, n=24)
-        assert of.read(made) == pytest.approx(1.5 * before)
-        others = [one for one in controls(given) if one.name != of.name]
-        assert all(one.read(made) == pytest.approx(one.read(given)) for one in others)
+        made = changed(base_scene, {control.name: 1.5 * before}, n=24)
+        assert control.read(made) == pytest.approx(1.5 * before)
+        others = [item for item in controls(base_scene) if item.name != control.name]
+        assert all(item.read(made) == pytest.approx(item.read(base_scene)) for item in others)
         # The grid follows the contact.
         assert made.hertz is not None
-        assert given.hertz is not None
+        assert base_scene.hertz is not None
         width = made.grid.nx * made.grid.dx / made.hertz.a
-        assert width == pytest.approx(given.grid.nx * given.grid.dx / given.hertz.a)
-    bare = given.replace(body2=fret.Body(given.body2.substrate))
-    assert [of.name for of in controls(bare)] == ["load", "mu", "radius"]
+        assert width == pytest.approx(base_scene.grid.nx * base_scene.grid.dx / base_scene.hertz.a)
+    bare = base_scene.replace(body2=fret.Body(base_scene.body2.substrate))
+    assert [control.name for control in controls(bare)] == ["load", "mu", "radius"]
 
 
 def test_loads_keep_their_ratios() -> None:
@@ -61,9 +67,9 @@ def test_loads_keep_their_ratios() -> None:
 
 @pytest.mark.solves
 def test_a_preview_has_fewer_increments_and_nearly_the_same_numbers() -> None:
-    given = changed(scene(), {}, n=32)
-    full = answer(given)
-    result = fret.solve(given, progress=False)
+    base_scene = changed(scene(), {}, n=32)
+    full = answer(base_scene)
+    result = fret.solve(base_scene, progress=False)
     assert full.largest == pytest.approx(result.at(-1).stress().maximum("von_mises").value)
     assert sum(full.counts) == result.dataset.sizes["increment"]
     near = changed(scene(), {"mu": 0.42}, n=32)
@@ -74,9 +80,9 @@ def test_a_preview_has_fewer_increments_and_nearly_the_same_numbers() -> None:
 
 
 def test_what_has_no_solution_is_told() -> None:
-    given = scene()
+    base_scene = scene()
     with pytest.raises(ValueError, match=r"T_x|friction|slide|resist"):
-        answer(changed(given, {"mu": 0.05}, n=24))
+        answer(changed(base_scene, {"mu": 0.05}, n=24))
 
 
 @pytest.mark.solves
@@ -94,9 +100,9 @@ def test_the_page_is_on_this_machine_alone() -> None:
         assert page.url.startswith("http://127.0.0.1:")
         with urllib.request.urlopen(page.url) as answered:
             assert answered.status == 200
-        asked = urllib.request.Request(page.url, headers={"Host": "elsewhere.example"})
+        request = urllib.request.Request(page.url, headers={"Host": "elsewhere.example"})
         with pytest.raises(urllib.error.HTTPError, match="403"):
-            urllib.request.urlopen(asked)
+            urllib.request.urlopen(request)
     finally:
         page.stop()
 
@@ -104,11 +110,11 @@ def test_the_page_is_on_this_machine_alone() -> None:
 @pytest.fixture
 def browser() -> Iterator[Any]:
     api = pytest.importorskip("playwright.sync_api", reason="no playwright")
-    found = shutil.which("chromium") or shutil.which("chromium-browser")
-    if found is None:
+    computed = shutil.which("chromium") or shutil.which("chromium-browser")
+    if computed is None:
         pytest.skip("there is no Chromium")
     with api.sync_playwright() as play:
-        chromium = play.chromium.launch(executable_path=found, args=["--no-sandbox"])
+        chromium = play.chromium.launch(executable_path=computed, args=["--no-sandbox"])
         yield chromium
         chromium.close()
 
@@ -149,43 +155,43 @@ def largest(view: Any) -> float:
 
 def test_a_slider_is_moved_in_a_browser(browser: Any, capsys: Any) -> None:
     page = fret.explore(scene())
-    asked: list[str] = []
+    requests: list[str] = []
     try:
-        one, other = (browser.new_context().new_page() for _ in range(2))
-        one.on("request", lambda request: asked.append(request.url))
-        one.set_viewport_size({"width": 1300, "height": 900})
-        for view in (one, other):
+        first, second = (browser.new_context().new_page() for _ in range(2))
+        first.on("request", lambda request: requests.append(request.url))
+        first.set_viewport_size({"width": 1300, "height": 900})
+        for view in (first, second):
             view.add_init_script(WATCH)
             view.goto(page.url)
             shown(view, "full answer")
-        before = largest(one)
+        before = largest(first)
         whole = changed(scene(), {}, n=48)
         assert before == pytest.approx(answer(whole).largest, rel=1e-4)
         times = []
-        handle = one.locator("#slider-mu [role=slider]")
+        handle = first.locator("#slider-mu [role=slider]")
         handle.focus()
         for _ in range(3):
-            forget(one)
+            forget(first)
             start = time.perf_counter()
-            one.keyboard.press("PageUp")
-            shown(one, "preview")
+            first.keyboard.press("PageUp")
+            shown(first, "preview")
             times.append(time.perf_counter() - start)
-            shown(one, "preview", "full answer")
+            shown(first, "preview", "full answer")
         value = 10.0 ** float(handle.get_attribute("aria-valuenow"))
         assert value > 0.4
         made = changed(scene(), {"mu": value}, n=48)
         # Increments are those of the scene that the page begins with.
         expected = answer(made, like=whole.replace(save="branches")).largest
-        assert largest(one) == pytest.approx(expected, rel=1e-4)
-        assert largest(one) == pytest.approx(answer(made).largest, rel=1e-2)
-        assert largest(one) != pytest.approx(before, rel=1e-3)
+        assert largest(first) == pytest.approx(expected, rel=1e-4)
+        assert largest(first) == pytest.approx(answer(made).largest, rel=1e-2)
+        assert largest(first) != pytest.approx(before, rel=1e-3)
         # The other browser has its own scene.
-        assert largest(other) == before
+        assert largest(second) == before
         # Nothing comes from outside.
-        assert asked
-        assert all(url.startswith((page.url, "data:", "blob:")) for url in asked)
-        with one.expect_download() as saved:
-            one.click("#as-scene")
+        assert requests
+        assert all(url.startswith((page.url, "data:", "blob:")) for url in requests)
+        with first.expect_download() as saved:
+            first.click("#as-scene")
         text = saved.value.path().read_text(encoding="utf-8")
         assert fret.Scene.from_toml(text).mu == pytest.approx(value)
         with capsys.disabled():

@@ -71,9 +71,11 @@ def test_forces_on_nodes_have_the_force_and_the_moment_of_the_contact(
     )
     sign = 1.0 if body_number == 2 else -1.0
     # Along the contact's axes: T_x, nothing, W into body 2.
-    own = forces @ FRAME.axes.T
-    np.testing.assert_allclose(own.sum(axis=0), [sign * state.T_x, 0.0, sign * W], atol=1e-9 * W)
-    moment = np.cross(nodes, own).sum(axis=0)
+    own_values = forces @ FRAME.axes.T
+    np.testing.assert_allclose(
+        own_values.sum(axis=0), [sign * state.T_x, 0.0, sign * W], atol=1e-9 * W
+    )
+    moment = np.cross(nodes, own_values).sum(axis=0)
     assert np.abs(moment).max() < 1e-9 * W * HERTZ.a
 
 
@@ -228,8 +230,8 @@ def test_stress_at_points_is_that_below_the_contact(result: fret.Result, tmp_pat
 def test_a_bulk_stress_comes_back(tmp_path: Path) -> None:
     meshio = pytest.importorskip("meshio")
     rng = np.random.default_rng(5)
-    own = np.diag([120e6, -30e6, 10e6]) + 5e6 * (np.ones((3, 3)) - np.eye(3))
-    model = FRAME.stress(own)
+    own_values = np.diag([120e6, -30e6, 10e6]) + 5e6 * (np.ones((3, 3)) - np.eye(3))
+    model = FRAME.stress(own_values)
     points = FRAME.place(rng.uniform(-1e-3, 1e-3, (30, 3)))
     values = np.tile(model[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]], (30, 1))
     cells = [("vertex", np.arange(30)[:, None])]

@@ -29,14 +29,14 @@ def axial(most: float, least: float) -> np.ndarray:
 
 def test_numbers_of_the_literature() -> None:
     stress = np.stack([axial(100, -100), axial(200, 0)], axis=1).reshape(2, 2, 1, 6)
-    found = fatigue.evaluate_criterion(stress, Criterion.findley(k=0.3))
+    fields = fatigue.evaluate_criterion(stress, Criterion.findley(k=0.3))
     np.testing.assert_allclose(
-        found.value.values.ravel(), [67.2015 * MPA, 88.3095 * MPA], rtol=1e-6
+        fields.value.values.ravel(), [67.2015 * MPA, 88.3095 * MPA], rtol=1e-6
     )
-    assert found.value.dims == ("dim_0", "dim_1")
-    assert found.normal.shape == (2, 1, 3)
-    np.testing.assert_allclose(np.linalg.norm(found.normal, axis=-1), 1.0)
-    assert (found.missed <= 5.01e-3 * found.value).all()
+    assert fields.value.dims == ("dim_0", "dim_1")
+    assert fields.normal.shape == (2, 1, 3)
+    np.testing.assert_allclose(np.linalg.norm(fields.normal, axis=-1), 1.0)
+    assert (fields.missed <= 5.01e-3 * fields.value).all()
     bent = np.zeros((2, 6))
     bent[:, 0], bent[:, 3] = [411 * MPA, -411 * MPA], [205 * MPA, -205 * MPA]
     alpha = (352 - 540.97 / np.sqrt(3)) / (540.97 / 3)
@@ -51,8 +51,8 @@ def test_materials_and_lives(tmp_path: Path) -> None:
     table = fatigue.Materials()
     assert all(source for m in table.values() for _, _, source in m.numbers())
     steel = table["steel_42CrMo4"]
-    found = fatigue.evaluate_margin(axial(398, -398), steel, "dang_van")
-    assert float(found.safety_factor) == pytest.approx(1.0)
+    fields = fatigue.evaluate_margin(axial(398, -398), steel, "dang_van")
+    assert float(fields.safety_factor) == pytest.approx(1.0)
     titanium = table["titanium_6Al4V"]
     lives = [
         float(fatigue.evaluate_margin(axial(s, -s), titanium, "smith_watson_topper").life)
@@ -124,10 +124,10 @@ def test_bad_input() -> None:
 
 
 def test_yield_and_shakedown() -> None:
-    found = fatigue.first_yield(axial(100, 0), s_y=250 * MPA)
-    assert float(found.von_mises) == pytest.approx(2.5)
-    assert float(found.tresca) == pytest.approx(2.5)
-    assert float(found.shakedown) == pytest.approx(5.0)
+    fields = fatigue.first_yield(axial(100, 0), s_y=250 * MPA)
+    assert float(fields.von_mises) == pytest.approx(2.5)
+    assert float(fields.tresca) == pytest.approx(2.5)
+    assert float(fields.shakedown) == pytest.approx(5.0)
     held = fatigue.first_yield(axial(100, 0), s_y=250 * MPA, constant=(50 * MPA, 0, 0, 0, 0, 0))
     assert float(held.von_mises) == pytest.approx(2.0)
 
@@ -157,15 +157,15 @@ def test_along_the_cycle_of_a_contact() -> None:
     assert stress.dims == ("increment", "depth", "x", "component")
     # The interface has two sides.
     assert stress.layer.values.tolist() == [0, 0, 0, 1]
-    found = fatigue.evaluate_criterion(stress.values, Criterion.findley(k=0.3))
-    worst = np.unravel_index(int(np.asarray(found.value).argmax()), found.value.shape)
+    fields = fatigue.evaluate_criterion(stress.values, Criterion.findley(k=0.3))
+    worst = np.unravel_index(int(np.asarray(fields.value).argmax()), fields.value.shape)
     assert worst[0] == 0
     pressed = fatigue.history(result, z, y=0.0, residual=[-1e9, 0.0])
     change = (pressed - stress).isel(increment=0, x=0)
     np.testing.assert_allclose(change.isel(depth=0), [-1e9, -1e9, 0, 0, 0, 0], atol=1.0)
     np.testing.assert_allclose(change.isel(depth=3), 0.0, atol=1.0)
     relieved = fatigue.evaluate_criterion(pressed.values, Criterion.findley(k=0.3))
-    assert float(relieved.value[worst]) < float(found.value[worst])
+    assert float(relieved.value[worst]) < float(fields.value[worst])
     with pytest.raises(ValueError, match="one for each of the 2 layers"):
         fatigue.history(result, z, y=0.0, residual=[0.0])
     few = fret.solve(scene, path, save=[1], progress=False)

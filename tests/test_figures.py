@@ -152,10 +152,10 @@ def test_a_summary_has_no_digits_of_rounding() -> None:
 
 def test_empty_axes_say_why() -> None:
     result = fret.solve(SCENES["cone"], progress=False)
-    (said,) = fret.plot.fretting_loop(result).texts
-    assert said.get_text() == "the path ends with the indentation"
-    (said,) = fret.plot.loop_evolution(result).texts
-    assert said.get_text() == "the path closes no cycle"
+    (text,) = fret.plot.fretting_loop(result).texts
+    assert text.get_text() == "the path ends with the indentation"
+    (text,) = fret.plot.loop_evolution(result).texts
+    assert text.get_text() == "the path closes no cycle"
     assert fret.plot.slip_map(result).images[0].get_clim() == (0.0, 1.0)
     assert fret.plot.shear_streamlines(result).images[0].get_clim() == (0.0, 1.0)
 

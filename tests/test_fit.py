@@ -53,29 +53,29 @@ def test_mu_and_the_rig_are_found_from_a_german_file(tmp_path: Path) -> None:
     file = tmp_path / "loop.csv"
     file.write_text("# Prüfstand 3\nWeg [µm];Kraft [N]\n" + "\n".join(rows), encoding="utf-8")
     loops = fret.fit.read_loops(file)
-    found = fret.fit(ball(), loops, unknown={"mu": (0.2, 1.2), "rig.stiffness": (1e6, 1e8)})
+    fitted = fret.fit(ball(), loops, unknown={"mu": (0.2, 1.2), "rig.stiffness": (1e6, 1e8)})
     for key, value in {"mu": 0.62, "rig.stiffness": 8e6}.items():
-        known = found.known[key]
-        assert known.low < value < known.high, f"{key}: {known}"
-        assert known.high - known.low < 0.4 * value
-    assert found.solves <= 40
-    assert found.converged
-    assert "95 %" in found.summary()
-    assert found.plot().get_ylabel() == "force [N]"
-    assert found.plot_residuals().get_xlabel() == "shift [um]"
+        unknown = fitted.known[key]
+        assert unknown.low < value < unknown.high, f"{key}: {unknown}"
+        assert unknown.high - unknown.low < 0.4 * value
+    assert fitted.solves <= 40
+    assert fitted.converged
+    assert "95 %" in fitted.summary()
+    assert fitted.plot().get_ylabel() == "force [N]"
+    assert fitted.plot_residuals().get_xlabel() == "shift [um]"
 
 
 def test_what_cannot_be_told_apart_is_said() -> None:
     # A loop that never slides knows the stiffness of rig and bodies together.
     true = ball().replace({"mu": 2.0, "rig.stiffness": 2e7})
     shift, T = loop(true, 1e-6, 0.01, 2)
-    found = fret.fit(
+    fitted = fret.fit(
         ball().replace({"mu": 2.0}),
         fret.fit.Loops.from_arrays(shift, T),
         unknown={"rig.stiffness": (2e6, 2e8), "body2.E": (5e10, 1e12)},
     )
-    assert any("cannot be distinguished" in said for said in found.doubts)
-    assert "rig.stiffness" in found.summary()
+    assert any("cannot be distinguished" in text for text in fitted.doubts)
+    assert "rig.stiffness" in fitted.summary()
 
 
 def test_a_coating_is_found_from_an_indentation_curve() -> None:
@@ -86,10 +86,10 @@ def test_a_coating_is_found_from_an_indentation_curve() -> None:
     d = fret.solve(true, path, progress=False).dataset
     noise = np.random.default_rng(3).normal(0, 2e-3 * float(d.delta_z[-1]), 20)
     curve = fret.fit.Indentation.from_arrays(d.W.values, d.delta_z.values + noise)
-    found = fret.fit(ball(E=300e9, h=40e-6), curve, unknown={"body2.coatings.0.E": (1e11, 1e12)})
-    known = found.known["body2.coatings.0.E"]
-    assert known.low < 420e9 < known.high
-    assert found.solves <= 30
+    fitted = fret.fit(ball(E=300e9, h=40e-6), curve, unknown={"body2.coatings.0.E": (1e11, 1e12)})
+    unknown = fitted.known["body2.coatings.0.E"]
+    assert unknown.low < 420e9 < unknown.high
+    assert fitted.solves <= 30
 
 
 def test_wear_and_debris_are_found_from_a_scar() -> None:
@@ -118,10 +118,10 @@ def test_wear_and_debris_are_found_from_a_scar() -> None:
     noise = np.random.default_rng(4).normal(0, 0.02 * depth.max(), depth.size)
     scar = fret.fit.Scar.from_arrays(worn.x.values, depth + noise, wear=run)
     unknown = {"wear.body2.k": (1e-15, 1e-12), "wear.debris_kept": (0.0, 0.5, 0.95)}
-    found = fret.fit(line, scar, unknown=unknown)
+    fitted = fret.fit(line, scar, unknown=unknown)
     for key, value in {"wear.body2.k": 4e-14, "wear.debris_kept": 0.7}.items():
-        assert found.known[key].low < value < found.known[key].high, found.summary()
-    assert found.solves <= 40
+        assert fitted.known[key].low < value < fitted.known[key].high, fitted.summary()
+    assert fitted.solves <= 40
 
 
 @pytest.mark.parametrize(
@@ -192,25 +192,25 @@ def test_ranges_are_refused_by_name() -> None:
 def test_the_posterior_is_that_of_the_confidence_where_the_model_is_linear() -> None:
     true = ball().replace({"mu": 0.62, "rig.stiffness": 8e6})
     shift, T = loop(true, 6e-6, 0.02, 1)
-    found = fret.fit(
+    fitted = fret.fit(
         ball(),
         fret.fit.Loops.from_arrays(shift, T),
         unknown={"mu": (0.2, 1.2), "rig.stiffness": (1e6, 1e8)},
         posterior=4000,
     )
-    posterior = found.posterior
+    posterior = fitted.posterior
     assert posterior is not None
     assert posterior.error < 0.2
     assert posterior.solves <= 12
     for key, value in {"mu": 0.62, "rig.stiffness": 8e6}.items():
         low, high = posterior.interval(key)
         assert low < value < high
-        known = found.known[key]
-        assert abs(known.value - np.median(posterior.samples[key])) < 0.2 * (high - low)
+        unknown = fitted.known[key]
+        assert abs(unknown.value - np.median(posterior.samples[key])) < 0.2 * (high - low)
         # Both without what the solver leaves.
-        assert (high - low) == pytest.approx(2 * known.noise, rel=0.15)
-    assert "95 % of the posterior" in found.summary()
-    again = [np.corrcoef(*posterior.samples.values())[0, 1], found.correlation[0, 1]]
+        assert (high - low) == pytest.approx(2 * unknown.noise, rel=0.15)
+    assert "95 % of the posterior" in fitted.summary()
+    again = [np.corrcoef(*posterior.samples.values())[0, 1], fitted.correlation[0, 1]]
     assert abs(again[0] - again[1]) < 0.15
 
 
@@ -226,9 +226,9 @@ def test_a_tilt_drifts_and_offsets_are_found_beside_mu_and_the_rig() -> None:
     loops = fret.fit.Loops.from_arrays(
         shift + 2e-6 + 3e-7 * time, T + tilt * shift + 1.0 + 0.1 * half * time + noise
     )
-    found = fret.fit(ball(), loops, unknown={"mu": (0.2, 1.2), "rig.stiffness": (1e6, 1e8)})
+    fitted = fret.fit(ball(), loops, unknown={"mu": (0.2, 1.2), "rig.stiffness": (1e6, 1e8)})
     for key, value in {"mu": 0.55, "rig.stiffness": 9e6}.items():
-        assert found.known[key].low < value < found.known[key].high, found.summary()
+        assert fitted.known[key].low < value < fitted.known[key].high, fitted.summary()
     for name, value in {
         "spring beside the contact [N/m]": tilt,
         "offset of the shift [m]": 2e-6,
@@ -236,8 +236,8 @@ def test_a_tilt_drifts_and_offsets_are_found_beside_mu_and_the_rig() -> None:
         "drift of the shift [m]": 3e-7,
         "drift of the force [N]": 0.1 * half,
     }.items():
-        assert abs(found.offsets[name] - value) < 1.5 * found.offset_errors[name], name
-    assert any("sliding branches rise" in said for said in found.doubts)
+        assert abs(fitted.offsets[name] - value) < 1.5 * fitted.offset_errors[name], name
+    assert any("sliding branches rise" in text for text in fitted.doubts)
 
 
 def test_the_frame_gives_way_under_an_indentation() -> None:
@@ -247,10 +247,10 @@ def test_the_frame_gives_way_under_an_indentation() -> None:
     d = fret.solve(ball(), path, progress=False).dataset
     approach = d.delta_z.values + 2e-9 * d.W.values + 1e-8
     curve = fret.fit.Indentation.from_arrays(d.W.values, approach, frame=True)
-    found = fret.fit(ball(), curve, unknown={"body2.E": (5e10, 1e12)})
-    known, name = found.known["body2.E"], "compliance of the frame [m/N]"
-    assert known.low < 210e9 < known.high, found.summary()
-    assert abs(found.offsets[name] - 2e-9) < found.offset_errors[name] < 2e-9
+    fitted = fret.fit(ball(), curve, unknown={"body2.E": (5e10, 1e12)})
+    unknown, name = fitted.known["body2.E"], "compliance of the frame [m/N]"
+    assert unknown.low < 210e9 < unknown.high, fitted.summary()
+    assert abs(fitted.offsets[name] - 2e-9) < fitted.offset_errors[name] < 2e-9
 
 
 class ClosedForm:
@@ -281,11 +281,11 @@ class ClosedForm:
         rig = path.rig_stiffness
         assert rig is not None
         reach = max(float(branch.delta_x or 0.0) for branch in path.branches)
-        of = ClosedForm(float(scene.mu), rig, reach)
+        item = ClosedForm(float(scene.mu), rig, reach)
         ways = np.linspace(reach, -reach, 25)
         branch = np.repeat([1, 2, 3], [1, 24, 24])
         shift = np.r_[ways, -ways[1:]]
-        force = np.r_[of.down(ways), -of.down(ways)[1:]]
+        force = np.r_[item.down(ways), -item.down(ways)[1:]]
         columns = {"branch_of_increment": branch, "delta_x": shift, "T_x": force}
         values = {name: SimpleNamespace(values=v) for name, v in columns.items()}
         return SimpleNamespace(dataset=SimpleNamespace(**values))
@@ -304,17 +304,19 @@ def test_ninety_of_a_hundred_records_lie_within_the_95_percent(
         true = {"mu": random.uniform(0.4, 0.8), "rig.stiffness": 10 ** random.uniform(6.6, 7.4)}
         stuck = ClosedForm(0.5, 1e7, 1e-6).stuck
         slides = true["mu"] * W * (1.5 * stuck + 1.0 / true["rig.stiffness"])
-        of = ClosedForm(true["mu"], true["rig.stiffness"], slides * random.uniform(1.5, 3.0))
+        item = ClosedForm(true["mu"], true["rig.stiffness"], slides * random.uniform(1.5, 3.0))
         phase = np.linspace(0.0, 2.5, 300) + random.uniform()
         along = 4.0 * np.abs(phase % 1.0 - 0.5) - 1.0
-        shift = of.reach * (along if wave == "triangle" else np.cos(2.0 * np.pi * phase))
-        force = np.where(phase % 1.0 < 0.5, of.down(shift), -of.down(-shift))
+        shift = item.reach * (along if wave == "triangle" else np.cos(2.0 * np.pi * phase))
+        force = np.where(phase % 1.0 < 0.5, item.down(shift), -item.down(-shift))
         time, half = np.linspace(-0.5, 0.5, 300), 0.5 * np.ptp(force)
-        force = force + 0.05 * half / of.reach * shift + random.normal(0.0, 0.04 * half, 300)
+        force = force + 0.05 * half / item.reach * shift + random.normal(0.0, 0.04 * half, 300)
         force += half * (random.uniform(-0.1, 0.1) + random.uniform(-0.1, 0.1) * time)
-        shift = shift + of.reach * (random.uniform(-0.3, 0.3) + random.uniform(-0.05, 0.05) * time)
+        shift = shift + item.reach * (
+            random.uniform(-0.3, 0.3) + random.uniform(-0.05, 0.05) * time
+        )
         ranges = {"mu": (0.2, 1.2), "rig.stiffness": (1e6, 1e8)}
-        found = fret.fit(ball(16), fret.fit.Loops.from_arrays(shift, force), unknown=ranges)
+        fitted = fret.fit(ball(16), fret.fit.Loops.from_arrays(shift, force), unknown=ranges)
         for key, value in true.items():
-            inside[key] += found.known[key].low < value < found.known[key].high
+            inside[key] += fitted.known[key].low < value < fitted.known[key].high
     assert min(inside.values()) >= 90, inside

@@ -45,11 +45,11 @@ def in_a_copy(work: Callable[[], bool]) -> int:
 def test_a_copy_solves_as_well() -> None:
     """The same numbers, in a copy and in a copy of the copy."""
     scene = sphere_on_flat(ratio=2.0, n=16)
-    here = fret.solve(scene, PATH, progress=False).dataset
+    in_process = fret.solve(scene, PATH, progress=False).dataset
 
     def same() -> bool:
         there = fret.solve(scene, PATH, progress=False).dataset
-        return bool(np.array_equal(there.q_x, here.q_x))
+        return bool(np.array_equal(there.q_x, in_process.q_x))
 
     assert in_a_copy(lambda: same() and in_a_copy(same) == 0) == 0
 

@@ -19,8 +19,8 @@ PATH = fret.LoadPath.start().normal(W, increments=2).cycles(1, T_x=0.5 * MU * W,
 
 
 def worn(of: fret.Scene, **options: Any) -> fret.wear.WearResult:
-    given: dict[str, Any] = {"cycles": 2e4, "body2": fret.wear.Archard(1e-14), "jumps": 3}
-    return fret.wear.solve(of, **{**given, "progress": False, **options})
+    arguments: dict[str, Any] = {"cycles": 2e4, "body2": fret.wear.Archard(1e-14), "jumps": 3}
+    return fret.wear.solve(of, **{**arguments, "progress": False, **options})
 
 
 def scene(law: Any, path: fret.LoadPath = PATH) -> fret.Scene:
@@ -59,12 +59,12 @@ def test_a_law_sees_every_cell_and_where_it_is() -> None:
     seen: list[tuple[np.ndarray[Any, Any], ...]] = []
 
     def law(*cells: Any) -> float:
-        seen.append(tuple(np.array(of) for of in cells))
+        seen.append(tuple(np.array(item) for item in cells))
         return MU
 
     result = fret.solve(scene(law), progress=False)
     x, y, p, slip, dissipated = seen[-1]
-    assert {of.shape for of in seen[-1]} == {x.shape}
+    assert {item.shape for item in seen[-1]} == {x.shape}
     at, places = result.at(-1), result.dataset
     i = np.abs(places.x.values[:, None] - x).argmin(axis=0)
     j = np.abs(places.y.values[:, None] - y).argmin(axis=0)

@@ -50,9 +50,9 @@ def test_a_punch_with_round_edges_is_refined_until_its_pressure_is_known() -> No
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         grid = fret.Grid.for_contact(punch, FLAT, path, error=0.02, plane_strain=True)
-    found = p_max(punch, FLAT, path, grid)
+    computed = p_max(punch, FLAT, path, grid)
     finest = p_max(punch, FLAT, path, fret.Grid.strip(extent=grid.nx * grid.dx, n=2048))
-    assert found == pytest.approx(finest, rel=0.03)
+    assert computed == pytest.approx(finest, rel=0.03)
 
 
 @pytest.mark.solves
@@ -63,15 +63,15 @@ def test_cells_resolve_the_waves_of_a_measured_surface() -> None:
     ball = fret.Body(STEEL, shape=fret.Sphere(R=2e-3))
     rough = fret.Body(STEEL, shape=shapes.SurfaceMap(heights, spacing=spacing))
     path = fret.LoadPath.start().normal(2.0, increments=1)
-    with warnings.catch_warnings(record=True) as told:
+    with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         grid = fret.Grid.for_contact(ball, rough, path, error=0.02)
     # The waves along the diagonals are shorter by the root of two.
     assert grid.dx <= wave / np.sqrt(2) / 7.0
     side = grid.nx * grid.dx
-    found = p_max(ball, rough, path, grid)
+    computed = p_max(ball, rough, path, grid)
     finest = p_max(ball, rough, path, fret.Grid.centred(width=side, n=2 * grid.nx))
-    assert told or found == pytest.approx(finest, rel=0.03)
+    assert caught or computed == pytest.approx(finest, rel=0.03)
 
 
 def test_a_coating_thinner_than_a_cell_is_told() -> None:
@@ -174,10 +174,10 @@ def test_a_grid_gives_the_numbers_of_the_finest_or_is_doubted(name: str) -> None
     upper, lower, load, strip = SURFACES[name]
     bodies = fret.Body(STEEL, shape=upper), fret.Body(STEEL, shape=lower)
     path = fret.LoadPath.start().normal(load, increments=1)
-    with warnings.catch_warnings(record=True) as told:
+    with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         grid = fret.Grid.for_contact(*bodies, path, error=0.02, plane_strain=strip)
-    found = p_max(*bodies, path, grid)
+    computed = p_max(*bodies, path, grid)
     finer = 8
     while grid.nx * finer * (1 if strip else grid.ny * finer) > (4096 if strip else 7e5):
         finer //= 2
@@ -187,9 +187,9 @@ def test_a_grid_gives_the_numbers_of_the_finest_or_is_doubted(name: str) -> None
         cells = (finer * grid.nx, finer * grid.ny)
         finest = fret.Grid.from_spacing(cells, (grid.dx / finer, grid.dy / finer))
     right = p_max(*bodies, path, finest)
-    assert told or (finer > 1 and found == pytest.approx(right, rel=0.03))
+    assert caught or (finer > 1 and computed == pytest.approx(right, rel=0.03))
     # An edge without a radius has no largest pressure.
-    assert bool(told) == (name in ("short roller", "long roller", "wedge"))
+    assert bool(caught) == (name in ("short roller", "long roller", "wedge"))
 
 
 @pytest.mark.parametrize("plane_strain", [False, True], ids=["roller", "strip"])
@@ -200,16 +200,16 @@ def test_the_number_of_cells_may_be_given(*, plane_strain: bool) -> None:
     roller = fret.Body(STEEL, shape=shapes.Cylinder(R=0.01, length=length))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", fret.errors.SceneWarning)
-        found = fret.Grid.for_contact(roller, FLAT, path, error=0.1, plane_strain=plane_strain)
+        computed = fret.Grid.for_contact(roller, FLAT, path, error=0.1, plane_strain=plane_strain)
     grid = fret.Grid.for_contact(roller, FLAT, path, n=48, plane_strain=plane_strain)
     if plane_strain:
-        assert grid == fret.Grid.strip(extent=found.nx * found.dx, n=48)
+        assert grid == fret.Grid.strip(extent=computed.nx * computed.dx, n=48)
         return
     assert min(grid.nx, grid.ny) == 48
     assert grid.dx == grid.dy
     for n, d, there, cell in (
-        (grid.nx, grid.dx, found.nx, found.dx),
-        (grid.ny, grid.dy, found.ny, found.dy),
+        (grid.nx, grid.dx, computed.nx, computed.dx),
+        (grid.ny, grid.dy, computed.ny, computed.dy),
     ):
         assert there * cell <= n * d * (1.0 + 1e-9) < there * cell + 1.001 * d
     with pytest.raises(ValueError, match="n = 0: must be 2 to"):

@@ -107,9 +107,9 @@ def test_what_is_not_there_is_told_with_what_is(
 
 
 def test_a_run_of_one_state_is_told_how_its_stress_is_got(result: fret.Result) -> None:
-    one = fret.solve(result.scene, PRESSED, progress=False)
+    item = fret.solve(result.scene, PRESSED, progress=False)
     with pytest.raises(ValueError, match=r"no closed cycle.*one state is result.at\(-1\).stress"):
-        fret.fatigue.history(one, [1e-5])
+        fret.fatigue.history(item, [1e-5])
 
 
 @pytest.mark.filterwarnings("ignore")
@@ -118,18 +118,20 @@ def test_what_a_dataset_says_of_itself_is_an_attribute(monkeypatch: pytest.Monke
     monkeypatch.syspath_prepend(str(Path(__file__).with_name("hostile")))
     public = importlib.import_module("public")
     results = [
-        of for of in vars(public).values() if isinstance(getattr(of, "dataset", None), Dataset)
+        item
+        for item in vars(public).values()
+        if isinstance(getattr(item, "dataset", None), Dataset)
     ]
     results += [public.BARE.grow_crack(0.0, end=2e-5), public.LIFE.over_distance([1e-5, 2e-5])]
-    asked, missing = 0, []
-    for one in results:
-        for name in map(str, one.dataset.attrs):
+    count, missing = 0, []
+    for item in results:
+        for name in map(str, item.dataset.attrs):
             if not name.isidentifier() or name.startswith("_"):
                 continue
-            asked += 1
-            if name not in dir(one) or not has(one, name):
-                missing.append(f"{type(one).__name__}.{name}")
-    assert asked > 60
+            count += 1
+            if name not in dir(item) or not has(item, name):
+                missing.append(f"{type(item).__name__}.{name}")
+    assert count > 60
     assert missing == []
     growth = public.BARE.grow_crack(0.0, end=2e-5)
     assert growth.end in ("reached", "closed", "surface", "kinks")

@@ -39,11 +39,11 @@ def coated() -> fret.Result:
 def test_gross_slip_heats_as_the_source_of_hertz_shape(sliding: fret.Result) -> None:
     """q_0 = mu p_H times the mean speed; pi q_0 a/(8 K) in each of two bodies alike."""
     frequency = 1e-6
-    found = sliding.temperature(STEEL, STEEL, frequency=frequency)
+    computed = sliding.temperature(STEEL, STEEL, frequency=frequency)
     loop = sliding.loops().isel(cycle=-1)
     heat = float(loop.dissipated) * frequency
-    np.testing.assert_allclose(found.attrs["heat_into_body1"], heat / 2, rtol=1e-6)
-    np.testing.assert_allclose(found.attrs["heat_into_body2"], heat / 2, rtol=1e-6)
+    np.testing.assert_allclose(computed.attrs["heat_into_body1"], heat / 2, rtol=1e-6)
+    np.testing.assert_allclose(computed.attrs["heat_into_body2"], heat / 2, rtol=1e-6)
     q_0 = 1.5 * heat / (np.pi * sliding.a_H**2)
     expected = np.pi * q_0 * sliding.a_H / (8 * STEEL.conductivity)
     # Of the middle four cells half a diagonal off: T falls like 1 - r^2/(2 a^2).
@@ -54,23 +54,23 @@ def test_gross_slip_heats_as_the_source_of_hertz_shape(sliding: fret.Result) -> 
     elastic = sliding.scene.body1.substrate
     give = 3 * MU * LOAD * (2 - elastic.nu) / (8 * elastic.G * sliding.a_H)
     unslipped = 0.075 * give / (SHIFT - 0.8 * give)
-    assert float(found.steady.max()) == pytest.approx(
+    assert float(computed.steady.max()) == pytest.approx(
         expected * (1 - off) * (1 - unslipped), rel=2e-3
     )
     # So slow a cycle is quasi-steady. Heat goes as |sin| but while the spheres give, so that its
     # largest value over the mean is pi/2 times all of the stroke over what of it slips; the
     # harmonics of the kept increments round the edges off.
     slips = (1 - 0.8 * give / SHIFT) * (1 - unslipped)
-    ratio = float(found.largest.max() / found.steady.max())
+    ratio = float(computed.largest.max() / computed.steady.max())
     assert ratio == pytest.approx(np.pi / 2 / slips, rel=1e-2)
 
 
 def test_a_fast_cycle_hardly_swings(sliding: fret.Result) -> None:
-    found = sliding.temperature(STEEL, STEEL, frequency=1e7)
-    swing = float(found.flash.max()) / float(found.steady.max())
+    heat = sliding.temperature(STEEL, STEEL, frequency=1e7)
+    swing = float(heat.flash.max()) / float(heat.steady.max())
     assert 0.0 < swing < 0.01
     steady = sliding.temperature(STEEL, STEEL, frequency=1e7, harmonics=0)
-    np.testing.assert_allclose(steady.steady, found.steady, rtol=1e-12)
+    np.testing.assert_allclose(steady.steady, heat.steady, rtol=1e-12)
     assert float(abs(steady.flash).max()) == 0.0
 
 
@@ -79,14 +79,14 @@ def test_heat_that_stops_at_once_does_not_overshoot(sliding: fret.Result, harmon
     """At a constant rate the heat of gross slip is even, and ends at the reversal."""
     a, K = sliding.a_H, STEEL.conductivity
     slowest = 1e-4 * K / STEEL.heat_capacity / a**2
-    found = sliding.temperature(
+    heat = sliding.temperature(
         STEEL, STEEL, frequency=slowest, wave="linear", harmonics=harmonics
     ).attrs
     # Quasi-steady: pi q_0 a/(8 K) for q_0 = mu p_H times the speed, four ways in a period.
     q_0 = 1.5 * MU * LOAD / (np.pi * a**2) * 4.0 * SHIFT * slowest
     right = np.pi * q_0 * a / (8.0 * K)
-    assert found["maximum"] == pytest.approx(right, rel=0.01)
-    assert 0.0 < found["maximum_error"] < 0.03 * right
+    assert heat["maximum"] == pytest.approx(right, rel=0.01)
+    assert 0.0 < heat["maximum_error"] < 0.03 * right
     for times in (1e2, 1e4, 1e6):
         many, few = (
             sliding.temperature(
@@ -99,19 +99,19 @@ def test_heat_that_stops_at_once_does_not_overshoot(sliding: fret.Result, harmon
 
 
 def test_surfaces_agree_where_they_touch(coated: fret.Result) -> None:
-    found = coated.temperature(STEEL, [POOR, STEEL], frequency=50.0, bulk=(293.0, 298.0))
+    heat = coated.temperature(STEEL, [POOR, STEEL], frequency=50.0, bulk=(293.0, 298.0))
     contact = np.any(coated.dataset.contact.values[5:], axis=0)
-    one, two = found.steady.values
-    warm = float(found.steady.max()) - 293.0
-    np.testing.assert_allclose(one[contact], two[contact], atol=1e-6 * warm)
-    assert found.attrs["maximum"] == float(found.largest.max())
-    hottest = found.largest.sel(body=found.attrs["maximum_body"])
-    at = hottest.sel(x=found.attrs["maximum_x"], y=found.attrs["maximum_y"])
-    assert float(at) == found.attrs["maximum"]
+    first, two = heat.steady.values
+    warm = float(heat.steady.max()) - 293.0
+    np.testing.assert_allclose(first[contact], two[contact], atol=1e-6 * warm)
+    assert heat.attrs["maximum"] == float(heat.largest.max())
+    hottest = heat.largest.sel(body=heat.attrs["maximum_body"])
+    at = hottest.sel(x=heat.attrs["maximum_x"], y=heat.attrs["maximum_y"])
+    assert float(at) == heat.attrs["maximum"]
     # The insulating coating sends heat to body 1, and what is warmer warms the other.
     alone = coated.temperature(STEEL, [POOR, STEEL], frequency=50.0)
     assert alone.attrs["heat_into_body1"] > alone.attrs["heat_into_body2"] > 0
-    assert found.attrs["heat_into_body1"] > alone.attrs["heat_into_body1"]
+    assert heat.attrs["heat_into_body1"] > alone.attrs["heat_into_body1"]
 
 
 def test_time_within_a_branch(sliding: fret.Result) -> None:
@@ -126,13 +126,13 @@ def test_time_within_a_branch(sliding: fret.Result) -> None:
 def test_materials_stand_for_conductors(coated: fret.Result) -> None:
     table = fatigue.Materials()
     titanium, alumina = table["titanium_6Al4V"], table["alumina"]
-    named = coated.temperature(titanium, [alumina, STEEL], frequency=10.0)
-    given = coated.temperature(
+    by_name = coated.temperature(titanium, [alumina, STEEL], frequency=10.0)
+    given_value = coated.temperature(
         Conductor(conductivity=6.7, heat_capacity=4430.0 * 610.0),
         [Conductor(conductivity=33.0, heat_capacity=3984.0 * 755.0), STEEL],
         frequency=10.0,
     )
-    xr.testing.assert_identical(named, given)
+    xr.testing.assert_identical(by_name, given_value)
     with pytest.raises(ValueError, match=r"steel_4340.*conductivity"):
         coated.temperature(table["steel_4340"], STEEL, frequency=10.0)
 
@@ -170,14 +170,14 @@ def test_refusals(coated: fret.Result) -> None:
 
 
 def test_figures(coated: fret.Result) -> None:
-    found = coated.temperature(STEEL, POOR, frequency=50.0)
-    ax = fret.plot.temperature(found)
+    heat = coated.temperature(STEEL, POOR, frequency=50.0)
+    ax = fret.plot.temperature(heat)
     # The mean temperatures of bodies that touch are one line.
     labels = [str(line.get_label()) for line in ax.lines]
     assert labels == ["largest, body 1", "largest, body 2", "mean, both bodies"]
-    mapped = fret.plot.temperature_map(found, of="flash", body_number=1, units="SI")
+    mapped = fret.plot.temperature_map(heat, of="flash", body_number=1, units="SI")
     shown = mapped.images[0].get_array()
-    np.testing.assert_allclose(shown, found.flash.sel(body=1).values.T)
+    np.testing.assert_allclose(shown, heat.flash.sel(body=1).values.T)
     with pytest.raises(ValueError, match="of = 'hot'"):
-        fret.plot.temperature_map(found, of="hot")  # type: ignore[arg-type]
+        fret.plot.temperature_map(heat, of="hot")  # type: ignore[arg-type]
     plt.close("all")

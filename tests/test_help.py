@@ -54,9 +54,13 @@ def test_every_public_name_has_its_docstring() -> None:
         for name, thing in public(module):
             if not (thing.__doc__ or "").strip():
                 empty.append(name)
-            for member, of in members(thing) if inspect.isclass(thing) else ():
-                if isinstance(of, type(_core.Sphere.R)) or callable(of) or isinstance(of, property):
-                    doc = getattr(of, "__doc__", None)
+            for member, item in members(thing) if inspect.isclass(thing) else ():
+                if (
+                    isinstance(item, type(_core.Sphere.R))
+                    or callable(item)
+                    or isinstance(item, property)
+                ):
+                    doc = getattr(item, "__doc__", None)
                     if not (doc or "").strip():
                         empty.append(f"{name}.{member}")
     assert not empty
@@ -73,9 +77,9 @@ def test_a_name_of_a_class_has_one_meaning() -> None:
             if inspect.isclass(thing) and thing not in owners.setdefault(name, []):
                 owners[name].append(thing)
     assert len(owners) > 100
-    several = {n: of for n, of in owners.items() if len(of) > 1}
+    several = {n: entry for n, entry in owners.items() if len(entry) > 1}
     assert all(
-        any(issubclass(a, b) for a in of for b in of if a is not b) for of in several.values()
+        any(issubclass(a, b) for a in item for b in item if a is not b) for item in several.values()
     ), several
 
 

@@ -32,25 +32,25 @@ def batch(start: int, *which: str, refused: bool = False) -> tuple[list[str], in
     command = [sys.executable, str(CALLS), str(start), *which]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL) as process:
         assert process.stdout is not None
-        wrong, rest, last, text = [], b"", None, "the imports"
+        wrong, remainder, last, text = [], b"", None, "the imports"
         begun, then = spent(process.pid), time.monotonic()
         while True:
             ready, _, _ = select.select([process.stdout], [], [], 1.0)
-            most = MOST if last is not None else LONGEST
+            upper = MOST if last is not None else LONGEST
             if (
                 not ready
-                and spent(process.pid) - begun < most
+                and spent(process.pid) - begun < upper
                 and time.monotonic() - then < LONGEST
             ):
                 continue
             data = os.read(process.stdout.fileno(), 1 << 16) if ready else b""
             if not data:
                 process.kill()
-                how = "ended the process" if ready else f"took longer than {most:g} s"
+                how = "ended the process" if ready else f"took longer than {upper:g} s"
                 assert last is not None, how
                 return [*wrong, f"{text} {how}"], last + 1
             begun, then = spent(process.pid), time.monotonic()
-            *lines, rest = (rest + data).split(b"\n")
+            *lines, remainder = (remainder + data).split(b"\n")
             for line in (line.decode() for line in lines):
                 number, _, words = line.partition("\t")
                 if number == "done":
@@ -70,8 +70,8 @@ def wrong_of(*which: str, refused: bool = False) -> list[str]:
     wrong: list[str] = []
     start: int | None = 0
     while start is not None:
-        more, start = batch(start, *which, refused=refused)
-        wrong += more
+        extra, start = batch(start, *which, refused=refused)
+        wrong += extra
     return wrong
 
 

@@ -30,8 +30,8 @@ SCALE = 1.0
 
 def solved(parameters: dict[str, Any], measure: Any, **options: Any) -> fret.study.Study:
     """A study in this process."""
-    said = {"executor": 1, "progress": False} | options
-    return fret.study.run(SCENE, parameters, measure=measure, **said)
+    text = {"executor": 1, "progress": False} | options
+    return fret.study.run(SCENE, parameters, measure=measure, **text)
 
 
 def scaled(result: Any, by: float = 1.0, *, offset: float = 0.0) -> float:
@@ -88,20 +88,22 @@ def test_a_function_is_told_by_what_it_does() -> None:
         "def f(r):\n    'one'\n    return r + 2\n",
         "def f(r):\n    'one'\n    return r - 1\n",
     ]
-    told = []
+    progress = []
     for source in sources:
         room: dict[str, Any] = {"__name__": "m"}
         exec(source, room)
-        told.append(code_checksum(room["f"]))
-    assert told[0] == told[1]
-    assert len(set(told)) == 3
+        progress.append(code_checksum(room["f"]))
+    assert progress[0] == progress[1]
+    assert len(set(progress)) == 3
     array = np.arange(3.0)
     assert code_checksum(functools.partial(np.dot, array)) != code_checksum(
         functools.partial(np.dot, 2 * array)
     )
     threshold = fret.fracture.Threshold(dK_th=1e6, dS_0=3e8)
-    other = fret.fracture.Threshold(dK_th=2e6, dS_0=3e8)
-    assert code_checksum(fret.study.Arrest(threshold)) != code_checksum(fret.study.Arrest(other))
+    alternative = fret.fracture.Threshold(dK_th=2e6, dS_0=3e8)
+    assert code_checksum(fret.study.Arrest(threshold)) != code_checksum(
+        fret.study.Arrest(alternative)
+    )
 
 
 def test_what_cannot_be_told_needs_a_version() -> None:
@@ -121,28 +123,28 @@ def test_what_cannot_be_told_needs_a_version() -> None:
 
 def test_a_store_of_other_code_is_refused(tmp_path: Path) -> None:
     """Of a measure, and of the function that makes the scenes."""
-    place = tmp_path / "s.zarr"
+    path = tmp_path / "s.zarr"
     values = {"mu": [0.3]}
-    solved(values, functools.partial(scaled, by=1.0), out=place)
-    solved(values, functools.partial(scaled, by=1.0), out=place)
+    solved(values, functools.partial(scaled, by=1.0), out=path)
+    solved(values, functools.partial(scaled, by=1.0), out=path)
     with pytest.raises(fret.errors.StoreError, match="the code of the measure scaled"):
-        solved(values, functools.partial(scaled, by=2.0), out=place)
+        solved(values, functools.partial(scaled, by=2.0), out=path)
 
     def scenes(W: float) -> Any:
         return lambda values: SCENE.replace(
             path=fret.LoadPath.start().normal(W, increments=1), friction=values["mu"]
         )
 
-    place = tmp_path / "f.zarr"
+    path = tmp_path / "f.zarr"
     for W, refused in ((10.0, False), (10.0, False), (20.0, True)):
         call = functools.partial(
             fret.study.run, scenes(W), values, measure="p_max", executor=1, progress=False
         )
         if refused:
             with pytest.raises(fret.errors.StoreError, match="differ in scene"):
-                call(out=place)
+                call(out=path)
         else:
-            call(out=place)
+            call(out=path)
 
 
 @pytest.mark.parametrize("name", ["status", "reason", "nx", "seconds", "mu", "a/b", ".x", ""])
@@ -198,8 +200,10 @@ def test_a_study_in_memory_is_that_of_a_store(tmp_path: Path) -> None:
         return math.pi
 
     for measures in (["p_max", profile], ["p_max", fails]):
-        of = [solved({"mu": [0.2, 0.4]}, measures, out=out) for out in (None, tmp_path / "s.zarr")]
-        kept, stored = (study.dataset.drop_vars("seconds") for study in of)
+        item = [
+            solved({"mu": [0.2, 0.4]}, measures, out=out) for out in (None, tmp_path / "s.zarr")
+        ]
+        kept, stored = (study.dataset.drop_vars("seconds") for study in item)
         kept.attrs.pop("study"), stored.attrs.pop("study")
         xr.testing.assert_identical(kept.drop_encoding(), stored.drop_encoding())
         import shutil

@@ -28,19 +28,19 @@ def cycled(*, ratio: float) -> fret.Result:
 def test_interface_over_a_cycle_is_the_largest_of_its_increments() -> None:
     result = cycled(ratio=2.0)
     Z, S = 150e6, 400e6
-    found = fracture.over_cycle(result, peel_strength=Z, shear_strength=S)
+    interface = fracture.over_cycle(result, peel_strength=Z, shear_strength=S)
     kept = fatigue.cycle_increments(result)
     depths = result.scene.interfaces()
     below = [result.at(int(n)).stress(depths, y=0.0) for n in kept]
     peel = np.stack([s.interface_peel.values[0] for s in below])
     shear = np.stack([s.interface_shear.values[0] for s in below])
-    np.testing.assert_allclose(found.shear[0], shear.max(axis=0), rtol=1e-9)
-    np.testing.assert_allclose(found.peel[0], np.maximum(peel, 0.0).max(axis=0), rtol=1e-9)
+    np.testing.assert_allclose(interface.shear[0], shear.max(axis=0), rtol=1e-9)
+    np.testing.assert_allclose(interface.peel[0], np.maximum(peel, 0.0).max(axis=0), rtol=1e-9)
     square = (np.maximum(peel, 0.0) / Z) ** 2 + (shear / S) ** 2
-    np.testing.assert_allclose(found.criterion[0], square.max(axis=0), rtol=1e-9)
-    assert (found.shear_amplitude <= found.shear * (1 + 1e-12)).all()
-    assert float(found.shear.max()) > 0.0
-    assert found.z.values.tolist() == depths
+    np.testing.assert_allclose(interface.criterion[0], square.max(axis=0), rtol=1e-9)
+    assert (interface.shear_amplitude <= interface.shear * (1 + 1e-12)).all()
+    assert float(interface.shear.max()) > 0.0
+    assert interface.z.values.tolist() == depths
     with pytest.raises(ValueError, match="peel_strength is given alone"):
         fracture.over_cycle(result, peel_strength=Z)
     with pytest.raises(ValueError, match="shear_strength = -1"):
@@ -109,14 +109,14 @@ def test_buckling_is_that_of_a_clamped_plate_by_finite_differences() -> None:
         return 2 * b * of_area
 
     for b in (40e-6, 60e-6, 200e-6):
-        found = fracture.buckling_release(COATING, -s, half_width=b)
-        assert found.critical_stress == pytest.approx(D * load / b**2 / h, rel=1e-4)
+        computed = fracture.buckling_release(COATING, -s, half_width=b)
+        assert computed.critical_stress == pytest.approx(D * load / b**2 / h, rel=1e-4)
         deflection = np.abs(w).max() * b * np.sqrt(stretch(b))
-        assert found.deflection == pytest.approx(deflection, rel=1e-4)
+        assert computed.deflection == pytest.approx(deflection, rel=1e-4)
         # Two fronts take up what the energy loses.
         d = 1e-4 * b
         loss = -(energy(b + d) - energy(b - d)) / (2 * d) / 2
-        assert found.release == pytest.approx(loss, rel=1e-4)
+        assert computed.release == pytest.approx(loss, rel=1e-4)
     wide = fracture.buckling_release(COATING, -s, half_width=5e-3)
     assert wide.release == pytest.approx(fracture.edge_release(COATING, s), rel=1e-4)
     narrow = fracture.buckling_release(COATING, -s, half_width=5e-6)
@@ -153,8 +153,8 @@ def test_thermal_stress_keeps_the_coating_as_wide_as_its_substrate() -> None:
     # By materials.
     table = fatigue.Materials()
     steel, alumina = table["steel_4340"], table["alumina"]
-    named = subsurface.thermal_stress(alumina, alpha_substrate=steel, temperature_change=-100.0)
-    assert named == pytest.approx(416e9 / (1 - 0.231) * (12.3e-6 - 7.4e-6) * -100.0, rel=1e-12)
+    by_name = subsurface.thermal_stress(alumina, alpha_substrate=steel, temperature_change=-100.0)
+    assert by_name == pytest.approx(416e9 / (1 - 0.231) * (12.3e-6 - 7.4e-6) * -100.0, rel=1e-12)
     # Of TiN by its crystal's constants (Kim et al. 1992), averaged after Voigt, Reuss and Hill.
     c_11, c_12, c_44 = 625.0, 165.0, 163.0
     K = (c_11 + 2 * c_12) / 3
@@ -173,10 +173,13 @@ def test_thermal_stress_keeps_the_coating_as_wide_as_its_substrate() -> None:
 def test_residual_stress_is_part_of_every_stress() -> None:
     now = cycled(ratio=2.0).at(-1)
     depths = [0.0, *now.scene.interfaces()]
-    given = [-5e8, 1e8]
-    for place in ({"y": 0.0}, {"x": 1e-5}, {"x": 1e-5, "y": 0.0}, {}):
-        without, with_it = now.stress(depths, **place), now.stress(depths, residual=given, **place)
-        of_depth = np.array(given)[without.dataset.layer.values]
+    given_values = [-5e8, 1e8]
+    for position in ({"y": 0.0}, {"x": 1e-5}, {"x": 1e-5, "y": 0.0}, {}):
+        without, with_it = (
+            now.stress(depths, **position),
+            now.stress(depths, residual=given_values, **position),
+        )
+        of_depth = np.array(given_values)[without.dataset.layer.values]
         for name in ("s_xx", "s_yy"):
             change = (with_it.measure(name) - without.measure(name)).values
             expected = np.broadcast_to(of_depth.reshape(-1, *[1] * (change.ndim - 1)), change.shape)
@@ -192,23 +195,27 @@ def test_residual_stress_is_part_of_every_stress() -> None:
 def test_residual_stress_is_part_of_envelopes_and_volumes(tmp_path: Path) -> None:
     result = cycled(ratio=2.0)
     depths = [0.0, *result.scene.interfaces()]
-    given = [-5e8, 1e8]
-    of = ("s_xx", "s_zz", "von_mises")
-    without, with_it = (result.envelope(depths, y=0.0, of=of, residual=r) for r in (None, given))
-    of_depth = np.array(given)[without.layer.values][:, None]
+    given_values = [-5e8, 1e8]
+    item = ("s_xx", "s_zz", "von_mises")
+    without, with_it = (
+        result.envelope(depths, y=0.0, of=item, residual=r) for r in (None, given_values)
+    )
+    of_depth = np.array(given_values)[without.layer.values][:, None]
     for kind in ("max", "min", "mean"):
         change = (with_it[f"s_xx_{kind}"] - without[f"s_xx_{kind}"]).values
         np.testing.assert_allclose(change, np.broadcast_to(of_depth, change.shape), atol=10.0)
     xr.testing.assert_equal(with_it.s_zz_max, without.s_zz_max)
-    histories = (result.at(int(n)).stress(depths, y=0.0, residual=given) for n in saved(result))
-    mises = np.max([of.von_mises.values for of in histories], axis=0)
+    histories = (
+        result.at(int(n)).stress(depths, y=0.0, residual=given_values) for n in saved(result)
+    )
+    mises = np.max([item.von_mises.values for item in histories], axis=0)
     np.testing.assert_allclose(with_it.von_mises_max, mises, rtol=1e-9)
     now = result.at(-1)
-    now.write_volume(tmp_path / "pressed.zarr", depths, of=of, residual=given)
+    now.write_volume(tmp_path / "pressed.zarr", depths, of=item, residual=given_values)
     stored = xr.open_zarr(tmp_path / "pressed.zarr", chunks=None)
-    planes = now.stress(depths, residual=given)
+    planes = now.stress(depths, residual=given_values)
     # Of the two values on the interface the volume has that of the coating.
-    for name in of:
+    for name in item:
         np.testing.assert_allclose(stored[name], planes.measure(name)[:2], rtol=1e-9, atol=1.0)
     with pytest.raises(ValueError, match="one for each of the 2 layers"):
         now.write_volume(tmp_path / "other.zarr", depths, residual=[1e8])

@@ -44,7 +44,7 @@ def test_one_writer_serves_all_commands() -> None:
 
 
 def test_a_number_that_is_not_finite_is_null_with_its_reason() -> None:
-    found = read(
+    surface = read(
         json.dumps(
             written(
                 {
@@ -64,14 +64,14 @@ def test_a_number_that_is_not_finite_is_null_with_its_reason() -> None:
             allow_nan=False,
         )
     )
-    assert found["life"] is found["error"] is None
-    assert (found["life_why"], found["error_why"]) == ("infinite", "not known")
-    assert (found["ends"], found["ends_why"]) == ([1.0, None], [None, "infinite"])
-    assert found["of"] == {"best": None, "best_why": "not known"}
-    assert found["rows"] == [{"x": None, "x_why": "infinite"}]
-    assert (found["missing"], found["missing_why"]) == (None, "not known")
-    assert found["deep_why"] == [[None, "not known"], None]
-    assert (found["n"], found["told"], found["cycles_why"]) == (3, "inf", "stops")
+    assert surface["life"] is surface["error"] is None
+    assert (surface["life_why"], surface["error_why"]) == ("infinite", "not known")
+    assert (surface["ends"], surface["ends_why"]) == ([1.0, None], [None, "infinite"])
+    assert surface["of"] == {"best": None, "best_why": "not known"}
+    assert surface["rows"] == [{"x": None, "x_why": "infinite"}]
+    assert (surface["missing"], surface["missing_why"]) == (None, "not known")
+    assert surface["deep_why"] == [[None, "not known"], None]
+    assert (surface["n"], surface["told"], surface["cycles_why"]) == (3, "inf", "stops")
 
 
 @pytest.mark.solves
@@ -88,8 +88,8 @@ def test_commands_print_json_where_numbers_end(
         capture_output=True, text=True, check=False,
     )  # fmt: skip
     assert run.returncode == 0, run.stderr
-    told = read(run.stdout)
-    assert (told["mu"], told["mu_why"]) == (None, "infinite")
+    text = read(run.stdout)
+    assert (text["mu"], text["mu_why"]) == (None, "infinite")
     life = subprocess.run(
         [FRET, "life", store, "--material", "7075", "--criterion", "smith_watson_topper", "--json"],
         capture_output=True, text=True, check=False,
@@ -123,9 +123,9 @@ def test_a_contact_without_friction_has_no_stick_ratio(tmp_path: Path) -> None:
         assert "no friction" in text
         assert "stick" not in text
     (tmp_path / "scene.toml").write_text(scene.to_toml())
-    for more in ((), ("--json",)):
+    for extra in ((), ("--json",)):
         command = [FRET, "run", tmp_path / "scene.toml", "-o", tmp_path / "a.zarr", "--overwrite"]
-        run = subprocess.run([*command, *more], capture_output=True, text=True, check=False)
+        run = subprocess.run([*command, *extra], capture_output=True, text=True, check=False)
         assert run.returncode == 0, run.stderr
         assert "full" not in run.stdout
     (branch,) = read(run.stdout)["branches"]

@@ -51,9 +51,9 @@ WAYS: dict[str, list[list[str]]] = {
     "check": [["check", "scene.toml"], ["check", "punch.toml"], ["check", "wrong.toml"]],
     "wear": [["wear", "wear.toml", "-o", "worn.zarr"]],
     "life": [
-        ["life", STORE, "--material", "7075", "--criterion", of, *more]
-        for of in ("smith_watson_topper", "crossland")
-        for more in ((), ("--distance", "2e-5"))
+        ["life", STORE, "--material", "7075", "--criterion", item, *extra]
+        for item in ("smith_watson_topper", "crossland")
+        for extra in ((), ("--distance", "2e-5"))
     ],
     "stress": [
         ["stress", STORE],
@@ -64,8 +64,8 @@ WAYS: dict[str, list[list[str]]] = {
         ["crack", STORE, "--lengths", LENGTHS],
         ["crack", STORE, "--lengths", LENGTHS, "--material", "titanium_6Al4V"],
         *(
-            ["crack", STORE, "--lengths", LENGTHS, "--dK-th", of, "--paris", "1e-11,3"]
-            for of in ("2e4", "1e6", "3e7")
+            ["crack", STORE, "--lengths", LENGTHS, "--dK-th", item, "--paris", "1e-11,3"]
+            for item in ("2e4", "1e6", "3e7")
         ),
     ],
     "study": [["study", "study.toml", "--workers", "1"]],
@@ -84,17 +84,17 @@ LONG = {"verify"}
 
 
 def fret_of(*words: str, folder: Path) -> subprocess.CompletedProcess[str]:
-    more = {"FRET_PYTHON": sys.executable, "MPLBACKEND": "Agg"}
+    extra = {"FRET_PYTHON": sys.executable, "MPLBACKEND": "Agg"}
     return subprocess.run(
         [FRET, *words], capture_output=True, text=True, cwd=folder, check=False,
-        env={**os.environ, **more},
+        env={**os.environ, **extra},
     )  # fmt: skip
 
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A line contact with a cycle of partial slip, what it is asked of, and a punch."""
-    place = tmp_path_factory.mktemp("json")
+    position = tmp_path_factory.mktemp("json")
     path = fret.LoadPath.start().normal(1e5, increments=2).cycles(1, T_x=2e4, increments=4)
     scene = fret.Scene(
         body1=fret.Body(STEEL, shape=fret.Cylinder(R=0.05)),
@@ -104,29 +104,29 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
         path=path,
     ).replace(save="all")
     text = scene.to_toml()
-    (place / "scene.toml").write_text(text)
-    (place / "wear.toml").write_text(text + WEAR)
-    (place / "wrong.toml").write_text(text.replace("mu = 0.6", "mu = -1"))
+    (position / "scene.toml").write_text(text)
+    (position / "wear.toml").write_text(text + WEAR)
+    (position / "wrong.toml").write_text(text.replace("mu = 0.6", "mu = -1"))
     punch = scene.replace(
         body1=fret.Body(STEEL, shape=fret.shapes.FlatPunch(radius=2e-4, edge=1e-4))
     )
-    (place / "punch.toml").write_text(
+    (position / "punch.toml").write_text(
         punch.replace(
             grid=fret.Grid.centred(width=8e-4, n=16),
             friction=0.0,
             path=fret.LoadPath.start().normal(100.0, increments=2),
         ).to_toml()
     )
-    (place / "study.toml").write_text(STUDY)
-    (place / "compare.toml").write_text(COMPARE)
-    result = fret.solve(scene, out=place / STORE, progress=False)
+    (position / "study.toml").write_text(STUDY)
+    (position / "compare.toml").write_text(COMPARE)
+    result = fret.solve(scene, out=position / STORE, progress=False)
     shift, force = (result.dataset[name].values for name in ("delta_x", "T_x"))
     rows = zip(1e6 * shift[2:], force[2:], strict=True)
     table = "\n".join(f"{x:.9g};{y:.9g}" for x, y in rows)
-    (place / "loop.csv").write_text(f"delta [um];T [N/m]\n{table}\n")
-    begun = fret_of("run", "scene.toml", "-o", "half.zarr", folder=place)
+    (position / "loop.csv").write_text(f"delta [um];T [N/m]\n{table}\n")
+    begun = fret_of("run", "scene.toml", "-o", "half.zarr", folder=position)
     assert begun.returncode == 0, begun.stderr
-    return place
+    return position
 
 
 def refused(name: str) -> None:
@@ -135,38 +135,38 @@ def refused(name: str) -> None:
 
 def answers(text: str) -> list[Any]:
     """The JSON objects of an output: one over several lines, or one a line."""
-    decoder, found, at = json.JSONDecoder(parse_constant=refused), [], 0
+    decoder, computed, at = json.JSONDecoder(parse_constant=refused), [], 0
     while text[at:].strip():
         at += len(text[at:]) - len(text[at:].lstrip())
         value, at = decoder.raw_decode(text, at)
-        found.append(value)
-    return found
+        computed.append(value)
+    return computed
 
 
 def without_reason(value: Any, at: str = "") -> list[str]:
     """Where a null stands without a reason beside it."""
     if isinstance(value, list):
-        return [w for n, of in enumerate(value) for w in without_reason(of, f"{at}[{n}]")]
+        return [w for n, item in enumerate(value) for w in without_reason(item, f"{at}[{n}]")]
     if not isinstance(value, dict):
         return []
-    found = []
-    for name, of in value.items():
+    collected = []
+    for name, entry in value.items():
         if name.endswith("_why"):
             continue
-        why, here = value.get(f"{name}_why"), f"{at}.{name}"
-        if not reasons_fit([of], [why]):
-            found.append(here)
-        found += without_reason(of, here)
-    return found
+        why, local = value.get(f"{name}_why"), f"{at}.{name}"
+        if not reasons_fit([entry], [why]):
+            collected.append(local)
+        collected += without_reason(entry, local)
+    return collected
 
 
 def reasons_fit(values: list[Any], reasons: Any) -> bool:
     """Whether every null of a list, at any depth, has its reason at the same place."""
-    for n, of in enumerate(values):
+    for n, item in enumerate(values):
         why = reasons[n] if isinstance(reasons, list) and n < len(reasons) else None
-        if of is None and not isinstance(why, str):
+        if item is None and not isinstance(why, str):
             return False
-        if isinstance(of, list) and not reasons_fit(of, why):
+        if isinstance(item, list) and not reasons_fit(item, why):
             return False
     return True
 
@@ -182,33 +182,35 @@ def test_the_search_for_nulls_finds_them() -> None:
 def test_every_command_with_json_is_walked_over(folder: Path) -> None:
     listed = re.findall(r"^  (\w+)  ", fret_of("--help", folder=folder).stdout, re.MULTILINE)
     assert len(listed) > 10
-    told = {of for of in listed if "--json" in fret_of(of, "--help", folder=folder).stdout}
-    assert told - LONG - {"help"} == set(WAYS)
+    progress = {
+        item for item in listed if "--json" in fret_of(item, "--help", folder=folder).stdout
+    }
+    assert progress - LONG - {"help"} == set(WAYS)
 
 
 @pytest.mark.solves
 @pytest.mark.parametrize("command", WAYS)
 def test_every_null_has_its_reason(folder: Path, command: str) -> None:
-    for way in WAYS[command]:
-        run = fret_of(*way, "--json", folder=folder)
-        assert run.returncode == (2 if "wrong.toml" in way else 0), (way, run.stderr)
-        found = answers(run.stdout)
+    for direction in WAYS[command]:
+        run = fret_of(*direction, "--json", folder=folder)
+        assert run.returncode == (2 if "wrong.toml" in direction else 0), (direction, run.stderr)
+        computed = answers(run.stdout)
         if command != "resume":
-            assert found, way
-        for answer in found:
-            assert without_reason(answer) == [], way
+            assert computed, direction
+        for answer in computed:
+            assert without_reason(answer) == [], direction
 
 
 @pytest.mark.solves
 @pytest.mark.parametrize("material", ["steel_42CrMo4", "titanium_6Al4V"])
 def test_a_threshold_that_rests_on_an_estimate_says_so(folder: Path, material: str) -> None:
     marked = material == "titanium_6Al4V"
-    way = [of if of != "7075" else material for of in WAYS["threshold"][0]]
-    way += ["--distance", "2e-5", "--value", "3"]
-    run = fret_of(*way, folder=folder)
+    direction = [item if item != "7075" else material for item in WAYS["threshold"][0]]
+    direction += ["--distance", "2e-5", "--value", "3"]
+    run = fret_of(*direction, folder=folder)
     assert run.returncode == 0, run.stderr
     assert ("estimate" in run.stdout) == marked
-    (row,) = answers(fret_of(*way, "--json", folder=folder).stdout)
+    (row,) = answers(fret_of(*direction, "--json", folder=folder).stdout)
     assert ("estimate" in row) == marked
     # The scene is a line contact.
     assert row["unit"] == "N/m"

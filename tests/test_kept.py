@@ -53,7 +53,7 @@ def results() -> dict[str, Any]:
         delta=np.array([0.0, 1e-6, 0.0, -1e-6, 0.0]), T=np.array([0.0, 5.0, 0.0, -5.0, 0.0]), W=W
     )
     measured = Measured(loops, loops.T, loops.delta, ("shift [um]", "force [N]"))
-    found = FitResult(
+    computed = FitResult(
         known={"friction.mu": Known(0.4, 0.38, 0.42, 0.01, 0.005, at_bound=False)},
         offsets={"offset of the force [N]": 0.1},
         offset_errors={"offset of the force [N]": 0.01},
@@ -71,7 +71,7 @@ def results() -> dict[str, Any]:
         "Result": run,
         "WearResult": worn,
         "Study": study,
-        "FitResult": found,
+        "FitResult": computed,
         "Cracks": run.crack(0.0, lengths=np.geomspace(1e-6, 1e-4, 5)),
     }
 
@@ -87,18 +87,18 @@ KINDS = ["Result", "WearResult", "Study", "FitResult", "Cracks"]
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_result_has_the_same_manner(every: dict[str, Any], kind: str, tmp_path: Path) -> None:
-    one = every[kind]
-    assert type(one).__name__ == kind
-    said = one.summary()
-    assert said
-    assert one._repr_html_()
-    drawn = one.plot()
+    item = every[kind]
+    assert type(item).__name__ == kind
+    summary = item.summary()
+    assert summary
+    assert item._repr_html_()
+    drawn = item.plot()
     assert hasattr(getattr(drawn, "figure", drawn), "savefig")
-    one.report(tmp_path / "page.html")
+    item.report(tmp_path / "page.html")
     page = (tmp_path / "page.html").read_text(encoding="utf-8")
     assert "http" not in page.replace("http://www.w3.org", "").split("<body")[0]
-    names = [str(name) for name in one.dataset.data_vars if kind not in ("FitResult", "Result")]
-    assert set(names) <= set(dir(one))
+    names = [str(name) for name in item.dataset.data_vars if kind not in ("FitResult", "Result")]
+    assert set(names) <= set(dir(item))
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -106,32 +106,32 @@ def test_every_result_has_the_same_manner(every: dict[str, Any], kind: str, tmp_
 def test_what_is_saved_is_opened_as_what_it_was(
     every: dict[str, Any], kind: str, ending: str, tmp_path: Path
 ) -> None:
-    one, place = every[kind], tmp_path / f"saved.{ending}"
-    one.save(place)
+    item, path = every[kind], tmp_path / f"saved.{ending}"
+    item.save(path)
     with pytest.raises(FileExistsError, match=r"already.*overwrite=True"):
-        one.save(place)
-    one.save(place, overwrite=True)
-    again = fret.open(place)
-    assert type(again) is type(one)
-    assert again.summary() == one.summary()
+        item.save(path)
+    item.save(path, overwrite=True)
+    again = fret.open(path)
+    assert type(again) is type(item)
+    assert again.summary() == item.summary()
     if kind != "Result":
-        assert again == one
+        assert again == item
 
 
 def test_overwriting_takes_no_other_file(every: dict[str, Any], tmp_path: Path) -> None:
-    other = tmp_path / "mine.zarr"
-    other.mkdir()
-    (other / "notes.txt").write_text("mine")
-    for one in every.values():
+    alternative = tmp_path / "mine.zarr"
+    alternative.mkdir()
+    (alternative / "notes.txt").write_text("mine")
+    for item in every.values():
         with pytest.raises(FileExistsError, match="no store or file of results"):
-            one.save(other, overwrite=True)
-    assert (other / "notes.txt").read_text() == "mine"
+            item.save(alternative, overwrite=True)
+    assert (alternative / "notes.txt").read_text() == "mine"
 
 
 def test_the_summary_has_the_bulk_stress(every: dict[str, Any]) -> None:
-    said = every["Result"].summary()
-    assert "sigma_B [MPa]" in said
-    assert " -40" in said
+    summary = every["Result"].summary()
+    assert "sigma_B [MPa]" in summary
+    assert " -40" in summary
 
 
 #: What nobody reads: more digits than are known, a negative zero, a place that is zero to rounding.
@@ -142,16 +142,16 @@ UNREAD = re.compile(
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_numbers_are_those_that_a_person_reads(every: dict[str, Any], kind: str) -> None:
-    one = every[kind]
-    texts = {"summary": one.summary(), "repr": repr(one)}
+    item = every[kind]
+    texts = {"summary": item.summary(), "repr": repr(item)}
     if kind == "Result":
-        life = one.life("7075", "crossland")
+        life = item.life("7075", "crossland")
         texts |= {"life": repr(life), "worst": repr(life.worst), "page": life._repr_html_()}
-        texts |= {"largest": repr(one.at(-1).stress().maximum()), "zone": repr(one.at(-1))}
+        texts |= {"largest": repr(item.at(-1).stress().maximum()), "zone": repr(item.at(-1))}
     if kind == "WearResult":
-        texts["cycles"] = repr(one.cycles_to(depth=0.3 * float(one.depth2[-1])))
+        texts["cycles"] = repr(item.cycles_to(depth=0.3 * float(item.depth2[-1])))
     if kind == "Cracks":
-        texts["verdict"] = repr(one.arrest(fret.fracture.Threshold(dK_th=1e6)))
+        texts["verdict"] = repr(item.arrest(fret.fracture.Threshold(dK_th=1e6)))
     for name, text in texts.items():
         assert not UNREAD.findall(text), (name, text)
 
@@ -173,11 +173,11 @@ def test_places_are_zero_where_they_are_zero_to_rounding(every: dict[str, Any]) 
     """Of a contact about the middle of its grid, whatever looks for the largest value."""
     run = every["Result"]
     size = max(run.scene.grid.nx * run.scene.grid.dx, run.scene.grid.ny * run.scene.grid.dy)
-    found = [run.life("7075", name).worst for name in ("crossland", "findley")]
-    found += [run.at(-1).stress().maximum(name) for name in ("von_mises", "s_1", "s_xx")]
-    for at in found:
-        for place in (at.x, at.y):
-            assert place == 0.0 or abs(place) >= 1e-9 * size, at
+    life = [run.life("7075", name).worst for name in ("crossland", "findley")]
+    life += [run.at(-1).stress().maximum(name) for name in ("von_mises", "s_1", "s_xx")]
+    for at in life:
+        for position in (at.x, at.y):
+            assert position == 0.0 or abs(position) >= 1e-9 * size, at
     assert _core.rounded_place(-2e-16, 1e-3) == 0.0
     assert _core.rounded_place(2e-6, 1e-3) == 2e-6
     assert _core.degrees(-1e-9) == "0 degrees"

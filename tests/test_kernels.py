@@ -96,13 +96,13 @@ def test_a_response_of_ones_own_is_converted_as_the_paper_does() -> None:
     exact = fret.kernels.influence_coefficients(COATED, GRID)[2, 2]
 
     def error(enlargement: int) -> float:
-        own = fret.kernels.convert(
+        own_values = fret.kernels.convert(
             lambda k_x, k_y: fret.kernels.surface_frf(COATED, k_x, k_y),
             GRID,
             enlargement=enlargement,
             aliases=2,
         )
-        return float(np.abs(own[2, 2] - exact).max() / exact.max())
+        return float(np.abs(own_values[2, 2] - exact).max() / exact.max())
 
     coarse, fine = error(4), error(8)
     assert fine < 0.55 * coarse
@@ -165,15 +165,15 @@ def test_an_eigenstrain_operator_without_meaning_is_refused(
     change: dict[str, Any], message: str
 ) -> None:
     """Lengths that are none, and a rigid body."""
-    given = {
+    arguments = {
         "body": fret.Body(fret.Elastic(E=210e9, nu=0.3)),
         "grid": fret.Grid.centred(width=1e-4, n=8),
         "depth": 2e-5,
         "height": 1e-5,
     }
     with pytest.raises(ValueError, match=message):
-        fret.kernels.EigenstrainOperator(**{**given, **change})
-    operator = fret.kernels.EigenstrainOperator(**given)
+        fret.kernels.EigenstrainOperator(**{**arguments, **change})
+    operator = fret.kernels.EigenstrainOperator(**arguments)
     with pytest.raises(ValueError, match="eigenstrain has the shape"):
         operator.apply(np.zeros((1, 6, 8, 8)))
     with pytest.raises(ValueError, match="must be a finite number"):

@@ -28,12 +28,12 @@ def largest(n: int, thickness: float) -> fret.subsurface.Extremum:
 @pytest.mark.solves
 def test_the_error_of_a_tension_on_the_rim_does_not_jump_with_the_grid() -> None:
     """The point lies on the rim, whether or not it is in the middle of a row of cells."""
-    found = [largest(n, 20e-6) for n in (40, 44, 48, 52, 56, 96)]
-    assert all(of.border == "rim" for of in found)
+    computed = [largest(n, 20e-6) for n in (40, 44, 48, 52, 56, 96)]
+    assert all(item.border == "rim" for item in computed)
     # Twice as many cells in each direction: all values are within their errors of it.
-    finest = found.pop()
-    off = np.array([abs(of.value - finest.value) for of in found])
-    errors = np.array([of.error for of in found])
+    finest = computed.pop()
+    off = np.array([abs(item.value - finest.value) for item in computed])
+    errors = np.array([item.error for item in computed])
     assert (off < errors).all()
     assert errors.max() < 2.0 * errors.min()
     assert errors.max() < 0.2 * finest.value

@@ -34,30 +34,30 @@ def test_a_threshold_is_that_of_a_material(given: Any) -> None:
 
 
 def test_what_has_no_law_is_refused_with_the_way() -> None:
-    own = fracture.Threshold(2e6, 200e6)
+    own_threshold = fracture.Threshold(2e6, 200e6)
     with pytest.raises(ValueError, match=r"paris: the threshold has no law of growth, give Paris"):
-        CRACKS.life(own)
+        CRACKS.life(own_threshold)
     with pytest.raises(ValueError, match=r"threshold: no material 'unobtainium'"):
         CRACKS.arrest("unobtainium")
     with pytest.raises(ValueError, match=r"paris"):
-        CRACKS.life(own, "titanium_6Al4V")
+        CRACKS.life(own_threshold, "titanium_6Al4V")
     assert fracture.Threshold.from_material("titanium_6Al4V").growth is None
 
 
 def test_a_film_has_its_own_residual_stress() -> None:
-    given = FILM.residual
-    assert isinstance(given, float)
+    given_value = FILM.residual
+    assert isinstance(given_value, float)
     bare = FILM.replace(residual=None)
-    of: list[Any] = [
+    item: list[Any] = [
         lambda *stress: fracture.edge_release(*stress),
         lambda film, *stress: fracture.channel_release(film, STEEL, *stress),
         lambda film, *stress: fracture.buckling_release(film, *stress, half_width=5e-5),
         lambda film, *stress: fracture.film_intensity(film, STEEL, 1e-6, *stress),
     ]
-    for one in of:
-        assert one(FILM) == one(bare, given)
+    for element in item:
+        assert element(FILM) == element(bare, given_value)
         with pytest.raises(ValueError, match=r"stress: give the stress of the coating"):
-            one(bare)
+            element(bare)
     assert fracture.edge_release(FILM) > 0.0
 
 
@@ -80,7 +80,7 @@ def test_several_criteria_are_those_of_lives() -> None:
 
 def test_a_word_of_others_names_what_it_means() -> None:
     at = fret.solve(SCENE, save="all", progress=False).at(-1)
-    for one, name, meant in (
+    for element, name, expected_name in (
         (SCENE, "save", "to_toml"),
         (SCENE, "to_file", "to_toml"),
         (SCENE.grid, "extent", "nx and dx"),
@@ -88,5 +88,5 @@ def test_a_word_of_others_names_what_it_means() -> None:
         (at.stress(), "max", "maximum"),
         (at.stick_zone(), "offset", "middle"),
     ):
-        with pytest.raises(AttributeError, match=f"it is called {meant}"):
-            getattr(one, name)
+        with pytest.raises(AttributeError, match=f"it is called {expected_name}"):
+            getattr(element, name)

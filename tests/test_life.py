@@ -55,9 +55,9 @@ def test_streamed_is_what_the_whole_history_gives(cycled: fret.Result) -> None:
 
 
 def test_worst_point_lies_between_the_cells(cycled: fret.Result) -> None:
-    found = cycled.life(BOTH, "dang_van")
-    worst = found.worst
-    largest = float(found.dataset.value.max())
+    life = cycled.life(BOTH, "dang_van")
+    worst = life.worst
+    largest = float(life.dataset.value.max())
     assert worst.value >= largest
     # The rim lies between two samples: a third more than the largest, as on three times the cells.
     path = cycled.scene.path
@@ -70,12 +70,12 @@ def test_worst_point_lies_between_the_cells(cycled: fret.Result) -> None:
     # The trailing edge, on the surface: fretting cracks start there.
     assert worst.z == 0.0
     assert 0.8 < abs(worst.x) / cycled.a_H < 1.1
-    assert worst == found.worst_of(0)
+    assert worst == life.worst_of(0)
     assert worst.normal is None
     on_a_plane = cycled.life(BOTH, "findley", [0.0]).worst
     assert np.linalg.norm(np.array(on_a_plane.normal)) == pytest.approx(1.0)
     assert abs(on_a_plane.inclination) <= 90.0
-    assert "safety factor" in repr(found)
+    assert "safety factor" in repr(life)
 
 
 def test_a_volume_is_its_sections(few: fret.Result) -> None:
@@ -84,14 +84,14 @@ def test_a_volume_is_its_sections(few: fret.Result) -> None:
     for across, along in (("y", "x"), ("x", "y")):
         whole = few.life(BOTH, "findley", depths, **{across: places})
         assert whole.dataset.value.dims == ("depth", along, across)
-        for n, place in enumerate(places):
-            one = few.life(BOTH, "findley", depths, **{across: place})
-            np.testing.assert_array_equal(whole.dataset.value[..., n], one.dataset.value)
-            assert whole.section(place).worst == one.worst
+        for n, position in enumerate(places):
+            item = few.life(BOTH, "findley", depths, **{across: position})
+            np.testing.assert_array_equal(whole.dataset.value[..., n], item.dataset.value)
+            assert whole.section(position).worst == item.worst
             again = pickle.loads(pickle.dumps(whole))
             assert again.worst == whole.worst
-            assert again.section(place).worst == one.worst
-        values = [whole.section(place).worst.value for place in places]
+            assert again.section(position).worst == item.worst
+        values = [whole.section(position).worst.value for position in places]
         assert whole.worst.value == max(values)
         assert getattr(whole.worst, across) == places[int(np.argmax(values))]
     with pytest.raises(ValueError, match="must be one number here"):
@@ -104,11 +104,11 @@ def test_a_volume_is_its_sections(few: fret.Result) -> None:
 
 def test_several_criteria_by_the_same_stress(few: fret.Result) -> None:
     criteria: list[fatigue.CriterionName] = ["findley", "crossland"]
-    found = fatigue.lives(few, [STEEL, STEEL], criteria, y=[0.0, 2e-5])
-    assert list(found) == criteria
-    for name, of in found.items():
-        assert of == few.life([STEEL, STEEL], name, y=[0.0, 2e-5])
-        assert of.worst == few.life([STEEL, STEEL], name, y=[0.0, 2e-5]).worst
+    life = fatigue.lives(few, [STEEL, STEEL], criteria, y=[0.0, 2e-5])
+    assert list(life) == criteria
+    for name, entry in life.items():
+        assert entry == few.life([STEEL, STEEL], name, y=[0.0, 2e-5])
+        assert entry.worst == few.life([STEEL, STEEL], name, y=[0.0, 2e-5]).worst
     with pytest.raises(ValueError, match="one or more"):
         fatigue.lives(few, STEEL, [])
 
@@ -196,8 +196,8 @@ def test_a_critical_distance_in_the_substrate(cycled: fret.Result) -> None:
     L = 3e-5
     top = cycled.scene.interfaces()[0]
     below = averages.average(cycled, STEEL, "crossland", L=L)
-    named = averages.average(cycled, STEEL, "crossland", L=L, layer=1)
-    np.testing.assert_array_equal(below.value, named.value)
+    by_name = averages.average(cycled, STEEL, "crossland", L=L, layer=1)
+    np.testing.assert_array_equal(below.value, by_name.value)
     z = top + (np.arange(60) + 0.5) / 60 * 2 * L
     mean = fatigue.history(cycled, z, y=0.0).mean("depth")
     brute = fatigue.evaluate_margin(
@@ -210,9 +210,9 @@ def test_a_critical_distance_in_the_substrate(cycled: fret.Result) -> None:
 
 def test_strains_are_those_of_the_scene(cycled: fret.Result) -> None:
     aluminium = fatigue.Materials()["aluminium_7075_T6"]
-    found = cycled.life(aluminium, "smith_watson_topper")
-    assert any("the scene has E = " in note for note in found.notes)
-    assert "the scene has E = " in repr(found)
+    life = cycled.life(aluminium, "smith_watson_topper")
+    assert any("the scene has E = " in note for note in life.notes)
+    assert "the scene has E = " in repr(life)
     # The cycle begins with the first shear and ends with its reversal back.
     assert fatigue.Materials()["steel_42CrMo4"] == STEEL
 
@@ -249,11 +249,11 @@ def test_what_was_not_kept_is_refused() -> None:
 
 def test_figures(cycled: fret.Result) -> None:
     aluminium = fatigue.Materials()["aluminium_7075_T6"]
-    for found in (
+    for life in (
         cycled.life(BOTH, "dang_van"),
         cycled.life([None, aluminium], "smith_watson_topper"),
     ):
-        ax = fret.plot.criterion_map(found)
+        ax = fret.plot.criterion_map(life)
         assert ax.lines
         assert ax.get_ylim()[0] > ax.get_ylim()[1]
     stress = fatigue.history(cycled, [0.0], y=0.0)[:, 0, 2].values
@@ -315,8 +315,10 @@ def test_the_mean_over_a_critical_distance_knows_the_width_of_the_contact() -> N
         cylinder, flat = fret.Body(alloy, shape=fret.Cylinder(R)), fret.Body(alloy)
         scene = fret.Scene(body1=cylinder, body2=flat, friction=mu, grid=grid)
         path = fret.LoadPath.start().normal(W, increments=1)
-        for way in (1, -1, 1):
-            path = path.force(T_x=way * 0.45 * mu * W, sigma_B=way * 92.7e6, increments=3)
+        for direction in (1, -1, 1):
+            path = path.force(
+                T_x=direction * 0.45 * mu * W, sigma_B=direction * 92.7e6, increments=3
+            )
         result = fret.solve(scene, path, save="all", progress=False)
         assert result.a_H == pytest.approx(a, rel=1e-9)
         stress = fatigue.history(result, [0.0, *((np.arange(10) + 0.5) / 5 * L)], y=0.0)

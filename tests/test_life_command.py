@@ -47,8 +47,8 @@ def test_several_criteria_are_those_one_by_one(store: Path, tmp_path: Path) -> N
     steel = ("--material", "steel_42CrMo4", "--json")
     together = life(store, *steel, "--criterion", "findley,crossland")
     assert together.returncode == 0, together.stderr
-    each = [life(store, *steel, "--criterion", name).stdout for name in ("findley", "crossland")]
-    assert together.stdout == "".join(each)
+    parts = [life(store, *steel, "--criterion", name).stdout for name in ("findley", "crossland")]
+    assert together.stdout == "".join(parts)
 
 
 def test_lengths_and_stresses_may_have_their_unit(store: Path) -> None:
@@ -56,12 +56,12 @@ def test_lengths_and_stresses_may_have_their_unit(store: Path) -> None:
     plain = life(*common, "--distance", "2e-5", "--along-x=1e-6", "--residual=-1e8,5e7")
     units = life(*common, "--distance", "20 um", "--along-x=1 um", "--residual=-100 MPa,50 MPa")
     assert plain.returncode == 0, plain.stderr
-    found, expected = (
-        {key: of for key, of in json.loads(one.stdout).items() if isinstance(of, float)}
-        for one in (units, plain)
+    answer, expected = (
+        {key: entry for key, entry in json.loads(item.stdout).items() if isinstance(entry, float)}
+        for item in (units, plain)
     )
     assert len(expected) > 5
-    assert found == pytest.approx(expected, rel=1e-9)
+    assert answer == pytest.approx(expected, rel=1e-9)
     refused = life(*common, "--distance", "20 N")
     assert refused.returncode == 2
     assert "must be a number in m" in refused.stderr
@@ -71,23 +71,26 @@ def test_several_criteria_stand_below_each_other_in_a_table(store: Path, tmp_pat
     steel = ("--material", "steel_42CrMo4", "--criterion")
     tables = {}
     names = ("findley", "smith_watson_topper", "crossland")
-    for of in (*names, ",".join(names)):
-        written = life(store, *steel, of, "-o", tmp_path / "a.csv")
+    for entry_name in (*names, ",".join(names)):
+        written = life(store, *steel, entry_name, "-o", tmp_path / "a.csv")
         assert written.returncode == 0, written.stderr
-        tables[of] = pd.read_csv(tmp_path / "a.csv")
+        tables[entry_name] = pd.read_csv(tmp_path / "a.csv")
     together = tables[",".join(names)]
     assert list(dict.fromkeys(together.criterion)) == list(names)
     for name in names:
-        of, alone = together[together.criterion == name].reset_index(drop=True), tables[name]
-        assert len(of) == len(alone) > 100
+        entry_name, alone = (
+            together[together.criterion == name].reset_index(drop=True),
+            tables[name],
+        )
+        assert len(entry_name) == len(alone) > 100
         for column in alone:
             title, _, unit = column.partition(" [")
             whole = title if title in ("value", "missed") else column
-            assert of[whole].equals(alone[column]), column
+            assert entry_name[whole].equals(alone[column]), column
             if title == "value":
-                assert set(of.unit) == {unit.rstrip("]")}
+                assert set(entry_name.unit) == {unit.rstrip("]")}
         empty = "life [cycles]" if "safety_factor" in alone else "safety_factor"
-        assert of[empty].isna().all()
+        assert entry_name[empty].isna().all()
 
 
 def test_rows_are_what_python_finds(store: Path, tmp_path: Path) -> None:
@@ -96,13 +99,13 @@ def test_rows_are_what_python_finds(store: Path, tmp_path: Path) -> None:
     steel = ("--material", "steel_42CrMo4,steel_42CrMo4")
     run = life(store, *common, *steel, "--json", "-o", fields)
     assert run.returncode == 0, run.stderr
-    found = fret.open(store).life([STEEL, STEEL], "findley", x=1e-4, residual=[-1e8, 5e7])
+    computed = fret.open(store).life([STEEL, STEEL], "findley", x=1e-4, residual=[-1e8, 5e7])
     rows = [json.loads(line) for line in run.stdout.splitlines()]
     assert [row["layer"] for row in rows] == [0, 1]
     for row in rows:
-        here = found.dataset.isel(depth=found.dataset.layer.values == row["layer"])
+        mask = computed.dataset.isel(depth=computed.dataset.layer.values == row["layer"])
         # No point of the section is worse, and the value is that of the margin.
-        assert row["value"] >= float(here.value.max()) * (1 - 1e-9)
+        assert row["value"] >= float(mask.value.max()) * (1 - 1e-9)
         assert row["safety_factor"] == pytest.approx(
             STEEL.assessment("findley").safety_factor(row["value"]), rel=1e-9
         )
@@ -110,18 +113,18 @@ def test_rows_are_what_python_finds(store: Path, tmp_path: Path) -> None:
         assert abs(row["inclination"]) <= 90.0
         assert row["error"] >= row["error_z"] >= 0.0
         assert row["x"] == 1e-4
-        told = found.range_of(row["layer"])
+        arguments = computed.range_of(row["layer"])
         assert [row[key] for key in ("low", "best", "high", "L")] == pytest.approx(
-            [told.low, told.best, told.high, told.L], rel=1e-9
+            [arguments.low, arguments.best, arguments.high, arguments.L], rel=1e-9
         )
-        assert row["notes"][: len(told.notes)] == list(told.notes)
+        assert row["notes"][: len(arguments.notes)] == list(arguments.notes)
         # The range at the point has the scatter of the material, as that of the mean.
-        worst = found.worst_of(row["layer"])
+        worst = computed.worst_of(row["layer"])
         assert row["at_point"] == pytest.approx(list(worst.whole), rel=1e-9)
-        assert worst.whole[1] / worst.whole[0] > told.material
+        assert worst.whole[1] / worst.whole[0] > arguments.material
     assert [row["decides"] for row in rows].count(True) == 1
     table = np.genfromtxt(fields, delimiter=",", skip_header=1)
-    np.testing.assert_allclose(table[:, 4], found.dataset.value.values.ravel(), rtol=1e-12)
+    np.testing.assert_allclose(table[:, 4], computed.dataset.value.values.ravel(), rtol=1e-12)
 
 
 def test_the_table_of_a_distance_has_the_means(store: Path, tmp_path: Path) -> None:
@@ -146,21 +149,21 @@ def test_the_table_of_a_distance_has_the_means(store: Path, tmp_path: Path) -> N
 
 def test_lines_and_distance(store: Path, tmp_path: Path) -> None:
     (tmp_path / "mine.toml").write_text(TABLE, encoding="utf-8")
-    own = ("--materials", tmp_path / "mine.toml", "--criterion", "dang_van")
-    run = life(store, *own)
+    own_values = ("--materials", tmp_path / "mine.toml", "--criterion", "dang_van")
+    run = life(store, *own_values)
     assert run.returncode == 0, run.stderr
     # One material is that of the substrate.
     assert run.stdout.startswith("the substrate: safety factor")
     assert ", the least of this body at a point, limited by dang_van = " in run.stdout
-    both = ("--material", "mine,mine")
-    run = life(store, *own, *both, "--distance", "3e-5", "--json")
+    pair = ("--material", "mine,mine")
+    run = life(store, *own_values, *pair, "--distance", "3e-5", "--json")
     assert run.returncode == 0, run.stderr
     stress = fatigue.history(fret.open(store), (np.arange(40) + 0.5) / 40 * 6e-5, y=0.0)
     mean = stress.mean("depth").transpose("increment", "x", "component")
     mine = fatigue.Materials(tmp_path / "mine.toml")["mine"]
     expected = float(fatigue.evaluate_margin(mean, mine, "dang_van").value.max())
     assert json.loads(run.stdout)["value"] == pytest.approx(expected, rel=2e-3)
-    run = life(store, *own, "--distance", "3e-5", "--json")
+    run = life(store, *own_values, "--distance", "3e-5", "--json")
     assert json.loads(run.stdout)["layer"] == 1
 
 

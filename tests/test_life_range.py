@@ -55,7 +55,7 @@ def test_a_life_has_low_best_and_high(life: fatigue.Life) -> None:
     assert life.low < life.best < life.high
     assert life.range.factor < 10.0
     assert life.range.material == 3.0
-    best, low, high = (fret._core.rough(of) for of in (life.best, life.low, life.high))
+    best, low, high = (fret._core.rough(item) for item in (life.best, life.low, life.high))
     assert f"{best} ({low} to {high})" in repr(life)
     # Twice as much scatter, a wider range; none leaves stress and distance.
     layer = life.worst.layer
@@ -77,20 +77,24 @@ def test_the_range_of_a_point_holds_the_scatter_of_the_material(
     few_cells: fret.Result, name: CriterionName
 ) -> None:
     """Of every criterion: the margin at a point is told with the scatter that a mean has."""
-    known = fatigue.Materials()["7075"].numbers()
-    names = [number for number, _, _ in known]
-    more = [(of, value, "test") for of, value in (("S", 0.3), ("k", 0.5)) if of not in names]
-    alloy = fatigue.Material("own", [*known, *more])
-    found = few_cells.life(alloy, name)
-    worst, scatter = found.worst, found.range.material
+    table = fatigue.Materials()["7075"].numbers()
+    names = [number for number, _, _ in table]
+    extra = [
+        (entry_name, value, "test")
+        for entry_name, value in (("S", 0.3), ("k", 0.5))
+        if entry_name not in names
+    ]
+    alloy = fatigue.Material("own", [*table, *extra])
+    life = few_cells.life(alloy, name)
+    worst, scatter = life.worst, life.range.material
     assert scatter > 1.0
-    (low, high), (least, most) = worst.range, worst.whole
-    assert math.isfinite(most)
-    assert least < low <= worst.margin <= high < most
+    (low, high), (least, upper) = worst.range, worst.whole
+    assert math.isfinite(upper)
+    assert least < low <= worst.margin <= high < upper
     # The logarithms add as squares.
     down = math.log(worst.margin / least) ** 2 - math.log(worst.margin / low) ** 2
     assert down == pytest.approx((0.5 * math.log(scatter)) ** 2, rel=1e-6)
-    assert fret._core.with_range(worst.margin, least, most) in repr(worst)
+    assert fret._core.with_range(worst.margin, least, upper) in repr(worst)
 
 
 @pytest.mark.solves
@@ -101,11 +105,11 @@ def test_the_range_of_the_stress_is_that_of_the_mean_and_covers(life: fatigue.Li
     L = fatigue.critical_distance(alloy)
     # On few cells the mean is off by less than is told, and told far better than the worst point.
     coarse = rig(32)
-    found = coarse.life(alloy, "smith_watson_topper")
-    told = found.range.stress
-    assert told.low <= finer.best <= told.high
-    low, high = found.worst.range
-    assert told.high / told.low < (high / low) ** 0.8
+    computed = coarse.life(alloy, "smith_watson_topper")
+    ranges = computed.range.stress
+    assert ranges.low <= finer.best <= ranges.high
+    low, high = computed.worst.range
+    assert ranges.high / ranges.low < (high / low) ** 0.8
     means = fatigue.averages.average(coarse, alloy, "smith_watson_topper", L=L)
     truth = fatigue.averages.average(rig(96), alloy, "smith_watson_topper", L=L)
     off = np.abs(means.value - truth.value.interp(x=means.x))
@@ -118,29 +122,29 @@ def test_the_range_of_the_stress_is_that_of_the_mean_and_covers(life: fatigue.Li
 def test_the_best_is_that_of_the_mean_over_the_critical_distance(life: fatigue.Life) -> None:
     L = fatigue.critical_distance(fatigue.Materials()["7075"])
     assert pytest.approx(L) == life.range.L
-    found = life.over_distance([L / 2, L, 2 * L])
-    assert float(found.margin[1]) == pytest.approx(life.best)
+    computed = life.over_distance([L / 2, L, 2 * L])
+    assert float(computed.margin[1]) == pytest.approx(life.best)
     # Every row is the range over a distance that is given.
     for n, at in enumerate((L / 2, L, 2 * L)):
         row = life.range_of(life.worst.layer, L=at)
-        told = [float(found.dataset[side][n]) for side in ("low", "high")]
-        assert (row.low, row.best, row.high) == (told[0], float(found.margin[n]), told[1])
+        pattern = [float(computed.dataset[side][n]) for side in ("low", "high")]
+        assert (row.low, row.best, row.high) == (pattern[0], float(computed.margin[n]), pattern[1])
     # Steep stresses: the longer the distance, the longer the life; a point is the worst.
-    assert np.all(np.diff(found.margin.values) > 0.0)
-    assert life.worst.margin < float(found.margin[0])
+    assert np.all(np.diff(computed.margin.values) > 0.0)
+    assert life.worst.margin < float(computed.margin[0])
     # A mean that goes deeper than half the width of the contact is noted wherever it is printed.
     notes = [life.range_of(life.worst.layer, L=at).notes for at in (L, 1e-3)]
-    assert [any("not small against the contact" in of for of in one) for one in notes] == [
+    assert [any("not small against the contact" in item for item in item) for item in notes] == [
         False,
         True,
     ]
     assert "L = 1000 um is not small against the contact" in repr(life.over_distance([L, 1e-3]))
     longest = life.over_distance([1e-3]).rows()[0]
     assert longest[-1] == "1e7 or more"
-    assert found.dataset.attrs["L"] == pytest.approx(L)
-    ax = fret.plot.life_over_distance(found)
+    assert computed.dataset.attrs["L"] == pytest.approx(L)
+    ax = fret.plot.life_over_distance(computed)
     assert "cycles" in ax.get_ylabel()
-    assert "life" in repr(found)
+    assert "life" in repr(computed)
 
 
 def test_no_life_is_told_beyond_the_tests_of_curves(life: fatigue.Life) -> None:
@@ -167,11 +171,11 @@ def test_a_wide_range_names_what_makes_it_wide() -> None:
     path = fret.LoadPath.start().force(W=500e3, increments=2)
     for sign in (1, -1, 1):
         path = path.force(T_x=sign * 0.6 * MU * 500e3, sigma_B=sign * 200e6, increments=6)
-    found = fret.solve(scene, path, save="all", progress=False).life(steel, "fatemi_socie").range
-    assert 10.0 < found.factor < 100.0
-    assert found.distance is not None
-    assert found.distance.factor > found.material
-    assert any("measure dK_th" in note for note in found.notes)
+    life = fret.solve(scene, path, save="all", progress=False).life(steel, "fatemi_socie").range
+    assert 10.0 < life.factor < 100.0
+    assert life.distance is not None
+    assert life.distance.factor > life.material
+    assert any("measure dK_th" in note for note in life.notes)
 
 
 def test_a_pickled_life_keeps_its_range(life: fatigue.Life) -> None:
@@ -222,17 +226,19 @@ def test_a_modulus_from_memory_is_marked() -> None:
 
 def test_estimates_follow_their_rules() -> None:
     numbers = [("E", 210e9, "tests"), ("s_u", 600e6, "tests"), ("s_y", 400e6, "tests")]
-    found = fatigue.Material("ours", numbers).estimated("steel")
-    assert found.number("s_f") == pytest.approx(900e6)
-    assert found.number("e_f") == pytest.approx(0.59)
+    computed = fatigue.Material("ours", numbers).estimated("steel")
+    assert computed.number("s_f") == pytest.approx(900e6)
+    assert computed.number("e_f") == pytest.approx(0.59)
     s_D = 900e6 * 2e6**-0.087
-    assert found.number("s_D") == pytest.approx(s_D)
-    assert found.number("t_D") == pytest.approx(s_D / math.sqrt(3.0))
+    assert computed.number("s_D") == pytest.approx(s_D)
+    assert computed.number("t_D") == pytest.approx(s_D / math.sqrt(3.0))
     # Both limits have the same value of Fatemi and Socie's criterion.
-    k = found.number("k")
-    assert 2.0 * found.number("t_D") == pytest.approx(s_D * (1.0 + k * s_D / (2.0 * 400e6)))
-    assert found.number("s_u") == 600e6
-    assert {known_as(of) for n, _, of in found.numbers() if n in ("s_u", "s_y", "E")} == {"known"}
+    k = computed.number("k")
+    assert 2.0 * computed.number("t_D") == pytest.approx(s_D * (1.0 + k * s_D / (2.0 * 400e6)))
+    assert computed.number("s_u") == 600e6
+    assert {known_as(item) for n, _, item in computed.numbers() if n in ("s_u", "s_y", "E")} == {
+        "known"
+    }
     with pytest.raises(ValueError, match="must be one of steel"):
         fatigue.Material("ours", numbers).estimated("copper")
 
@@ -243,8 +249,8 @@ def test_estimates_widen_the_range() -> None:
     rule = fatigue.Material("ours", [(n, v, f"estimate: {s}") for n, v, s in numbers])
     factors = []
     for material in (tests, rule):
-        of = material.assessment("crossland")
-        _, (low, _, high), _, notes = of.range_at(2e8, 0.0, material)
+        item = material.assessment("crossland")
+        _, (low, _, high), _, notes = item.range_at(2e8, 0.0, material)
         factors.append(high / low)
         assert bool(notes) == (material is rule)
     assert factors == pytest.approx([1.2, 1.5])
@@ -263,8 +269,8 @@ def test_published_lives_lie_in_their_ranges(coating: str, failed: float) -> Non
     options = {**test.arguments, "cycles": cycles, "jumps": 12, "worn_through": "go_on"}
     options.pop("tolerance", None)
     worn = fret.wear.solve(coarse, progress=False, **options)
-    found = worn.range_of_cycles(part_of_coating=failed)
-    assert found.factor < 10.0
+    range_found = worn.range_of_cycles(part_of_coating=failed)
+    assert range_found.factor < 10.0
     energy = float(worn.dissipated[-1] / worn.cycles[-1])
     area = math.pi * 183.3e-6**2
     rows = experiments.table(f"fouvry2007_{coating.lower()}_lives")
@@ -273,7 +279,7 @@ def test_published_lives_lie_in_their_ranges(coating: str, failed: float) -> Non
         # The life goes with the energy of a cycle, that of the test.
         scale = energy / (row["mean_energy_density_J_per_m2_cycle"] * area)
         lived = row["cycles_to_failure"]
-        inside.append(scale * found.low <= lived <= scale * found.high)
+        inside.append(scale * range_found.low <= lived <= scale * range_found.high)
     assert sum(inside) >= 0.8 * len(rows)
 
 
@@ -281,8 +287,8 @@ def test_published_lives_of_a_solid_lubricant_lie_in_their_ranges() -> None:
     """MoS2 between Ti-6Al-4V: the capacity of the three shortest lives foretells the others."""
     rows = experiments.table("fouvry2007_mos2_lives")
     density, lived = (
-        np.array([row[of] for row in rows])
-        for of in ("mean_energy_density_J_per_m2_cycle", "cycles_to_failure")
+        np.array([row[item] for row in rows])
+        for item in ("mean_energy_density_J_per_m2_cycle", "cycles_to_failure")
     )
     capacity = float(np.exp(np.log(density[:3] * lived[:3]).mean()))
     titanium = fret.Elastic(E=119e9, nu=0.29)
@@ -298,12 +304,12 @@ def test_published_lives_of_a_solid_lubricant_lie_in_their_ranges() -> None:
     # It fails before the substrate wears.
     options = {"cycling": "sliding", "body2": fret.wear.Archard(1e-20), "jumps": 2}
     worn = fret.wear.solve(scene, cycles=1e6, progress=False, **options)
-    found = worn.range_of_cycles(energy=capacity * 2 * a)
-    assert found.best == pytest.approx(capacity * 2 * a / (4 * mu * W * slip), rel=0.01)
-    assert found.factor < 10.0
+    range_found = worn.range_of_cycles(energy=capacity * 2 * a)
+    assert range_found.best == pytest.approx(capacity * 2 * a / (4 * mu * W * slip), rel=0.01)
+    assert range_found.factor < 10.0
     # The life goes with the energy of a cycle, that of the test.
     scale = 4 * mu * W * slip / (2 * a) / density[3:]
-    inside = (scale * found.low <= lived[3:]) & (lived[3:] <= scale * found.high)
+    inside = (scale * range_found.low <= lived[3:]) & (lived[3:] <= scale * range_found.high)
     assert inside.sum() >= 0.8 * inside.size
     assert worn.cycles_to(energy=1e12).beyond == float(worn.cycles[-1])
 
@@ -319,26 +325,26 @@ def test_published_thresholds_lie_in_their_ranges() -> None:
     inside = []
     for row in experiments.table("icf13_952_thresholds"):
         result = fret.solve(experiments.icf13(str(row["test"]), n=48).scene, progress=False)
-        found = result.life(steel, "crossland").range_of(0, L=39e-6)
-        assert found.factor < 2.0
-        inside.append(found.low <= 1.0 <= found.high)
+        life = result.life(steel, "crossland").range_of(0, L=39e-6)
+        assert life.factor < 2.0
+        inside.append(life.low <= 1.0 <= life.high)
     assert sum(inside) >= 0.8 * len(inside)
 
 
 @pytest.mark.solves
 def test_a_threshold_has_the_range_of_its_margin() -> None:
     steel = fatigue.Material("35NCD16", FITTED)
-    found = fret.study.threshold(
+    threshold_load = fret.study.threshold(
         lambda values: experiments.icf13("FF_1", Q=values["Q"], n=48).scene,
         "Q",
         measure=fret.study.Averaged(steel, "crossland", 39e-6),
         between=(1.5e5, 6e5),
         tolerance=0.05,
     )
-    assert found.low < found.value < found.high
+    assert threshold_load.low < threshold_load.value < threshold_load.high
     # The measured threshold lies within it; the range is that of strengths, not of lives.
-    assert found.low <= 2.73e5 <= found.high
-    assert found.high / found.low < 2.0
+    assert threshold_load.low <= 2.73e5 <= threshold_load.high
+    assert threshold_load.high / threshold_load.low < 2.0
 
 
 def test_a_stress_of_a_criterion_has_its_unit(life: fatigue.Life) -> None:
@@ -349,7 +355,7 @@ def test_a_stress_of_a_criterion_has_its_unit(life: fatigue.Life) -> None:
 
 
 def test_endless_lives_have_no_number() -> None:
-    of = fatigue.ranges.Range
-    assert repr(of(math.inf, math.inf, math.inf)) == "endless"
-    assert repr(of(3.2e6, math.inf, math.inf)) == "3.2e6 or more"
-    assert repr(of(3.2e6, 5e6, math.inf)) == "5.0e6 (3.2e6 or more)"
+    item = fatigue.ranges.Range
+    assert repr(item(math.inf, math.inf, math.inf)) == "endless"
+    assert repr(item(3.2e6, math.inf, math.inf)) == "3.2e6 or more"
+    assert repr(item(3.2e6, 5e6, math.inf)) == "5.0e6 (3.2e6 or more)"

@@ -63,8 +63,8 @@ def test_a_stiffness_in_partial_slip(
     if layer is not None:
         E, thick = layer
         layers = [fret.Coating(fret.Elastic(E=E, nu=0.2), thickness=thick * a)]
-    found, summary = loop(reach, increments, n=24, layers=layers)
-    stiffness, error = float(found.stiffness), float(found.stiffness_error)
+    loop_numbers, summary = loop(reach, increments, n=24, layers=layers)
+    stiffness, error = float(loop_numbers.stiffness), float(loop_numbers.stiffness_error)
     if np.isnan(stiffness):
         assert np.isnan(error)
         assert "use more" in summary
@@ -84,18 +84,18 @@ def test_a_stiffness_in_partial_slip(
 @pytest.mark.parametrize("increments", [3, 12, 40])
 def test_the_stiffness_is_mindlins_or_not_given(reach: float, increments: int) -> None:
     a = fret.reference.hertz(R=R, bodies=(SIC, STEEL), W=W).a
-    found, summary = loop(reach, increments)
-    stiffness = float(found.stiffness)
+    loop_numbers, summary = loop(reach, increments)
+    stiffness = float(loop_numbers.stiffness)
     # 40 increments of a way of 2 um have six in partial slip, 12 have two.
     if reach == 2e-7 or (reach < 1e-5 and increments >= 40):
         assert stiffness == pytest.approx(mindlin(a), rel=0.02)
-        assert float(found.stiffness_error) < 0.02 * stiffness
+        assert float(loop_numbers.stiffness_error) < 0.02 * stiffness
     elif reach > 1e-5:
         assert np.isnan(stiffness)
         assert "use more" in summary
     else:
         assert np.isnan(stiffness) or stiffness == pytest.approx(mindlin(a), rel=0.02)
-    sliding, error = float(found.sliding_ratio), float(found.sliding_ratio_error)
+    sliding, error = float(loop_numbers.sliding_ratio), float(loop_numbers.sliding_ratio_error)
     # 0.9777 and 0.6716 on 60 increments a branch and 48 cells.
     right = {15e-6: 0.9777, 1e-6: 0.6716, 2e-7: 0.0735}[reach]
     assert np.isnan(sliding) or abs(sliding - right) < error + 0.005
@@ -115,12 +115,12 @@ def test_a_stiffness_in_torsion(n: int, increments: int, part: float) -> None:
     )
     path = fret.LoadPath.start().normal(W, increments=1)
     for sign in (1.0, -1.0, 1.0):
-        most = 3.0 * np.pi / 16.0 * MU * W * a
-        path = path.force(M_z=sign * part * most, increments=increments)
-    found = fret.solve(scene, path, progress=False).loops(direction="torsion").isel(cycle=-1)
-    error = float(found.stiffness_error)
+        upper = 3.0 * np.pi / 16.0 * MU * W * a
+        path = path.force(M_z=sign * part * upper, increments=increments)
+    loop_numbers = fret.solve(scene, path, progress=False).loops(direction="torsion").isel(cycle=-1)
+    error = float(loop_numbers.stiffness_error)
     assert error < 0.06 * right
-    assert abs(float(found.stiffness) - right) < error
+    assert abs(float(loop_numbers.stiffness) - right) < error
 
 
 def sliding_ratio(T: float, limit: float) -> float:
@@ -144,19 +144,19 @@ def test_numbers_of_a_cycle_have_the_errors_of_its_branches() -> None:
                 path=fret.LoadPath.start().normal(W).cycles(1, T_x=T),
             )
             result = fret.solve(scene, error=True, progress=False)
-            found = result.loops().isel(cycle=-1)
+            loop_numbers = result.loops().isel(cycle=-1)
             for name, value in (
                 ("dissipated", right.loop_energy(T)),
                 ("energy_ratio", right.energy_ratio(T)),
                 ("sliding_ratio", sliding_ratio(T, right.T_limit)),
             ):
-                error = float(found[f"{name}_error"])
-                if np.isnan(found[name]):
+                error = float(loop_numbers[f"{name}_error"])
+                if np.isnan(loop_numbers[name]):
                     assert name == "sliding_ratio"
                     continue
                 # The opening has the bound of the increments, too.
                 assert 0.0 < error < (0.2 * value if name != "sliding_ratio" else 0.1)
-                ratios.append(abs(float(found[name]) - value) / error)
+                ratios.append(abs(float(loop_numbers[name]) - value) / error)
     assert np.mean(np.array(ratios) <= 1.5) >= 0.8
     assert max(ratios) < 2.0
     line = next(line for line in result.summary().splitlines() if line.startswith("cycle"))

@@ -45,9 +45,9 @@ def test_tables_of_every_style(
     rows = [*([["a", "b", "c", "d"]] if titles == "titles" else []), *HEIGHTS.tolist()]
     file = written(tmp_path / "z.csv", rows, parting, point, encoding)
     for read in (fret.read_surface, fret.SurfaceMap.from_file):
-        found = read(file, spacing=(2e-6, 3e-6))
-        np.testing.assert_allclose(found.values, HEIGHTS, rtol=1e-8)
-        assert found.spacing == (2e-6, 3e-6)
+        surface = read(file, spacing=(2e-6, 3e-6))
+        np.testing.assert_allclose(surface.values, HEIGHTS, rtol=1e-8)
+        assert surface.spacing == (2e-6, 3e-6)
 
 
 @pytest.mark.parametrize("columns", [(0, 1, 2), (2, 0, 1), (0, 2, 1)])
@@ -62,9 +62,9 @@ def test_points_in_any_order(
     if titles == "titles":
         rows.insert(0, [f"{'xyz'[c]} [um]" for c in columns])
     file = written(tmp_path / "z.xyz", rows, parting.replace("  ", "\t"), point)
-    found = fret.read_surface(file, unit=None if titles == "titles" else "um")
-    np.testing.assert_allclose(found.values, HEIGHTS, rtol=1e-6, atol=1e-15)
-    np.testing.assert_allclose(found.spacing, (2e-6, 3e-6), rtol=1e-6)
+    surface = fret.read_surface(file, unit=None if titles == "titles" else "um")
+    np.testing.assert_allclose(surface.values, HEIGHTS, rtol=1e-6, atol=1e-15)
+    np.testing.assert_allclose(surface.spacing, (2e-6, 3e-6), rtol=1e-6)
     with pytest.raises(StoreError, match="leave spacing out"):
         fret.read_surface(file, unit=None if titles == "titles" else "um", spacing=1e-6)
 
@@ -77,9 +77,9 @@ def test_points_with_holes_channels_and_twice_the_same(tmp_path: Path) -> None:
     with pytest.raises(StoreError, match="1 of 20 points have no number"):
         fret.read_surface(file, channel="current")
     with pytest.warns(UserWarning, match=r"1 of 20 points \(5.0 %\) were not measured"):
-        found = fret.read_surface(file, channel="current", missing="fill")
-    assert found.filled == 1
-    np.testing.assert_allclose(found.values[1:], 10 * HEIGHTS[1:], rtol=1e-8)
+        surface = fret.read_surface(file, channel="current", missing="fill")
+    assert surface.filled == 1
+    np.testing.assert_allclose(surface.values[1:], 10 * HEIGHTS[1:], rtol=1e-8)
     written(file, [*points(), points()[3]], ",", ".")
     with pytest.raises(StoreError, match=r"lines 4 and 21 are points at one place"):
         fret.read_surface(file)
@@ -96,15 +96,15 @@ def test_headers_say_spacing_and_unit(tmp_path: Path) -> None:
     head = "# Channel: Topo\n# Width: 10,0 \u00b5m\n# Height: 12.0 \u00b5m\n# Value units: nm\n"
     file.write_text(head + rows, encoding="utf-8")
     for options in ({}, {"spacing": (2e-6, 3e-6)}, {"channel": "Topo"}, {"unit": "nm"}):
-        found = fret.read_surface(file, **options)  # type: ignore[arg-type]
-        np.testing.assert_allclose(found.values, HEIGHTS, atol=1e-15)
-        np.testing.assert_allclose(found.spacing, (2e-6, 3e-6))
-    for options, said in (
+        surface = fret.read_surface(file, **options)  # type: ignore[arg-type]
+        np.testing.assert_allclose(surface.values, HEIGHTS, atol=1e-15)
+        np.testing.assert_allclose(surface.spacing, (2e-6, 3e-6))
+    for options, text in (
         ({"spacing": 1e-6}, "leave spacing out"),
         ({"unit": "um"}, "leave unit out"),
         ({"channel": "Phase"}, "has the channel `Topo`"),
     ):
-        with pytest.raises(StoreError, match=said):
+        with pytest.raises(StoreError, match=text):
             fret.read_surface(file, **options)  # type: ignore[arg-type]
     grid = tmp_path / "z.asc"
     grid.write_text(
@@ -148,10 +148,10 @@ def test_what_cannot_be_meant_is_refused(tmp_path: Path, text: str, said: str) -
     file = tmp_path / "z.csv"
     file.write_text(text)
     for read in (fret.read_surface, fret.SurfaceMap.from_file):
-        with pytest.raises(StoreError, match=said) as told:
+        with pytest.raises(StoreError, match=said) as refused:
             read(file, spacing=1e-6)
-        assert "z.csv" in str(told.value)
-        assert "\n" not in str(told.value)
+        assert "z.csv" in str(refused.value)
+        assert "\n" not in str(refused.value)
 
 
 @pytest.mark.solves
@@ -171,10 +171,10 @@ def test_files_of_no_instrument(tmp_path: Path, name: str, content: bytes | None
     file = tmp_path / name
     if content is not None:
         file.write_bytes(content)
-    with pytest.raises(StoreError) as told:
+    with pytest.raises(StoreError) as refused:
         fret.read_surface(file)
-    assert name in str(told.value)
-    assert "\n" not in str(told.value)
+    assert name in str(refused.value)
+    assert "\n" not in str(refused.value)
 
 
 def test_masks_are_holes_or_refused() -> None:

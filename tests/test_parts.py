@@ -94,12 +94,12 @@ def test_a_part_is_pickled_copied_and_exchanged(part: Any, changes: dict[str, An
         assert pickle.loads(pickle.dumps(part, protocol)) == part
     assert copy.copy(part) == part
     assert copy.deepcopy([part, part]) == [part, part]
-    other = part.replace(**changes)
-    assert type(other) is type(part)
-    assert (other == part) == (not changes)
-    assert part.__replace__(**changes) == other
+    alternative = part.replace(**changes)
+    assert type(alternative) is type(part)
+    assert (alternative == part) == (not changes)
+    assert part.__replace__(**changes) == alternative
     if hasattr(copy, "replace"):
-        assert copy.replace(part, **changes) == other
+        assert copy.replace(part, **changes) == alternative
 
 
 @pytest.mark.parametrize(
@@ -118,14 +118,14 @@ def test_members_of_enumerations_are_pickled(kind: Any) -> None:
 
 
 def test_all_classes_of_a_scene_are_here() -> None:
-    here = {type(part).__name__ for part, _ in PARTS} | {"Preset", "Spacing", "History"}
+    local = {type(part).__name__ for part, _ in PARTS} | {"Preset", "Spacing", "History"}
     elsewhere = {"Profile", "SurfaceOperator"}
     modules = (fret, fret.shapes, fret.settings, fret.wear)
-    made = {n for of in modules for n in of.__all__ if isinstance(getattr(of, n), type)}
-    of_data = {n for of in (fret.settings, fret.wear) for n in of.__all__ if n != "WearResult"}
+    made = {n for module in modules for n in module.__all__ if isinstance(getattr(module, n), type)}
+    of_data = {n for item in (fret.settings, fret.wear) for n in item.__all__ if n != "WearResult"}
     made |= {"Branch", "PerRange", "Spacing"}  # Parts of a load path that its methods make.
     parts = {n for n in made if hasattr(fret._core, n) or n in of_data}
-    assert parts == here | elsewhere
+    assert parts == local | elsewhere
 
 
 @pytest.mark.parametrize("scene", sorted((ROOT / "scenes").glob("*.toml")), ids=lambda p: p.stem)

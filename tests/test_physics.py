@@ -32,8 +32,8 @@ def test_complementarity_and_coulomb(coated: fret.Result) -> None:
     # Overlap is bounded in every cell, up to the rounding of u_z; the gap in the root mean square
     # over the contact, and one cell may hold all of it.
     assert (gap[~contact] >= -1.001 * TOLERANCE * coated.delta_H).all()
-    most = np.sqrt(contact.sum(axis=(1, 2)).max())
-    assert np.abs(gap[contact]).max() < most * TOLERANCE * coated.delta_H
+    largest = np.sqrt(contact.sum(axis=(1, 2)).max())
+    assert np.abs(gap[contact]).max() < largest * TOLERANCE * coated.delta_H
     assert (q <= MU * p * (1 + 1e-9)).all()
     np.testing.assert_allclose(q[slip], MU * p[slip], rtol=1e-9)
 
@@ -82,8 +82,8 @@ def test_answers_do_not_depend_on_the_mirror(coated: fret.Result) -> None:
     scene = coated.scene.replace(settings=settings)
     whole = fret.solve(scene, progress=False)
     # Waves of a few cells make of a misfit a hundred times as much traction.
-    known = 100 * TOLERANCE * MU * coated.p_H
-    np.testing.assert_allclose(whole.at(-1).q_x, coated.at(-1).q_x, atol=known)
+    known_values = 100 * TOLERANCE * MU * coated.p_H
+    np.testing.assert_allclose(whole.at(-1).q_x, coated.at(-1).q_x, atol=known_values)
 
 
 def test_two_runs_are_the_same_bit_for_bit(coated: fret.Result) -> None:

@@ -138,5 +138,5 @@ def test_a_figure_is_the_picture_that_was_looked_at(
     now = drawn(right, coated, tmp_path / "now.png")
     assert compare_images(str(picture), str(now), tol=ALIKE) is None
     # The tolerance tells a wrong figure.
-    other = drawn(wrong, coated, tmp_path / "wrong.png")
-    assert compare_images(str(picture), str(other), tol=ALIKE) is not None
+    alternative = drawn(wrong, coated, tmp_path / "wrong.png")
+    assert compare_images(str(picture), str(alternative), tol=ALIKE) is not None

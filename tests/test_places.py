@@ -173,7 +173,7 @@ def test_the_largest_stress_of_a_buried_layer_lies_beyond_the_grid() -> None:
 
 def test_worn_profiles_and_work_lie_along_the_shear() -> None:
     """Sheared along y, wear and Ruiz' parameters are those along x, on the line along y."""
-    found = []
+    collected = []
     for name, angle in (("x", 0.0), ("y", np.pi / 2)):
         run = sheared(angle, n=24)
         worn = fret.wear.solve(
@@ -190,9 +190,9 @@ def test_worn_profiles_and_work_lie_along_the_shear() -> None:
         assert fret.plot.wear_profiles(worn).get_xlabel() == f"${name}$ [mm]"
         assert fret.plot.wear_loops(worn).get_ylabel() == f"$T_{name}$ [N]"
         assert ruiz.F1.dims == (name,)
-        found.append((cut.worn2[-1].values, ruiz.F1.values, ruiz.F2.values))
+        collected.append((cut.worn2[-1].values, ruiz.F1.values, ruiz.F2.values))
     plt.close("all")
-    for along_x, along_y in zip(*found, strict=True):
+    for along_x, along_y in zip(*collected, strict=True):
         assert along_x.max() > 0.0
         np.testing.assert_allclose(along_y, along_x, rtol=1e-2, atol=1e-3 * along_x.max())
 

@@ -69,9 +69,9 @@ def test_bodies_that_do_not_yield_have_the_bits_of_elastic_ones() -> None:
     """A yield stress that is not reached changes nothing."""
     hard = fret.Elastic(E=210e9, nu=0.3, plastic=fret.Plastic(s_y=1e12))
     elastic = fret.solve(indentation(fret.Elastic(E=210e9, nu=0.3)), progress=False)
-    found = fret.solve(indentation(hard), progress=False)
+    solved = fret.solve(indentation(hard), progress=False)
     for name in ("W", "delta_z", "p_max", "p"):
-        np.testing.assert_array_equal(found.dataset[name], elastic.dataset[name])
+        np.testing.assert_array_equal(solved.dataset[name], elastic.dataset[name])
 
 
 def test_a_scene_file_keeps_the_law() -> None:
@@ -110,8 +110,8 @@ def test_a_store_keeps_the_plastic_strain(tmp_path: Path) -> None:
     assert state.largest() == float(kept.largest_plastic_strain[-1])
     # The increment under load has a plastic strain of its own.
     assert kept.at(3).plastic.volume() > 0
-    for other in (stored.at(-1), copied.at(-1), live):
-        xr.testing.assert_identical(other.plastic.dataset, state.dataset)
+    for alternative in (stored.at(-1), copied.at(-1), live):
+        xr.testing.assert_identical(alternative.plastic.dataset, state.dataset)
 
 
 def test_a_run_that_was_stopped_goes_on_to_the_same_plastic_strain(tmp_path: Path) -> None:
@@ -139,8 +139,8 @@ def test_the_stress_below_is_that_which_is_there() -> None:
     z = plastic.z.values[2:12:3]
     row = plastic.y.values[13]
     below = loaded.stress(z, y=row)
-    own = plastic.sel(z=z, y=row)
-    scale = float(np.abs(own.residual_stress).max())
+    own_values = plastic.sel(z=z, y=row)
+    scale = float(np.abs(own_values.residual_stress).max())
     assert scale > 1e8
     without = fret.subsurface.stress(
         result.scene.body2.replace(substrate=fret.Elastic(E=210e9, nu=0.3)),
@@ -152,9 +152,9 @@ def test_the_stress_below_is_that_which_is_there() -> None:
         **loaded.tractions(),
     )
     for name in ("xx", "yy", "zz", "xz"):
-        left = (below.dataset[f"s_{name}"] - without.dataset[f"s_{name}"]).values
+        remaining = (below.dataset[f"s_{name}"] - without.dataset[f"s_{name}"]).values
         np.testing.assert_allclose(
-            left, own.residual_stress.sel(component=name).values, atol=1e-6 * scale
+            remaining, own_values.residual_stress.sel(component=name).values, atol=1e-6 * scale
         )
     # A point, a plane, a history and an envelope have it, too.
     at = loaded.stress(z, x=plastic.x.values[9], y=row)
@@ -178,15 +178,15 @@ def test_stress_of_bodies_that_have_not_yielded_has_the_bits_of_elastic_ones() -
     """Below the surface as on it; the summary says how far they are from it."""
     hard = fret.Elastic(E=210e9, nu=0.3, plastic=fret.Plastic(s_y=5e9))
     elastic = fret.solve(indentation(fret.Elastic(E=210e9, nu=0.3)), progress=False)
-    found = fret.solve(indentation(hard), progress=False)
-    below, other = (run.at(3).stress(y=0.0).dataset for run in (found, elastic))
+    solved = fret.solve(indentation(hard), progress=False)
+    below, alternative = (run.at(3).stress(y=0.0).dataset for run in (solved, elastic))
     for name in ("s_xx", "s_zz", "s_xz"):
-        np.testing.assert_array_equal(below[name], other[name])
-    assert found.at(3).plastic.volume() == 0.0
-    ratio = float(found.yield_ratio.max())
+        np.testing.assert_array_equal(below[name], alternative[name])
+    assert solved.at(3).plastic.volume() == 0.0
+    ratio = float(solved.yield_ratio.max())
     # 0.62 p_H below a sphere for nu = 0.3.
-    assert ratio == pytest.approx(0.62 * found.p_H / 5e9, rel=0.02)
-    assert f"{ratio:.3g} of the yield stress" in found.summary()
+    assert ratio == pytest.approx(0.62 * solved.p_H / 5e9, rel=0.02)
+    assert f"{ratio:.3g} of the yield stress" in solved.summary()
     assert "yield stress" not in elastic.summary()
     assert float(elastic.yield_ratio.max()) == 0.0
 
@@ -195,28 +195,28 @@ def test_what_is_left_after_unloading(recwarn: pytest.WarningsRecorder) -> None:
     """Residual stress without tractions, and the imprint as the shape of the next scene."""
     scene = indentation()
     result = fret.solve(scene, progress=False)
-    left = result.unloaded()
+    remaining = result.unloaded()
     plastic = result.at(-1).plastic
     row = plastic.dataset.y.values[12]
     z = plastic.dataset.z.values[1:9]
-    found = left.stress(z, y=row)
-    own = plastic.dataset.residual_stress.sel(z=z, y=row, component="xx")
-    np.testing.assert_allclose(found.s_xx, own, rtol=1e-5, atol=1e3)
+    computed = remaining.stress(z, y=row)
+    own_values = plastic.dataset.residual_stress.sel(z=z, y=row, component="xx")
+    np.testing.assert_allclose(computed.s_xx, own_values, rtol=1e-5, atol=1e3)
     # Nothing is carried by the surface.
-    surface = left.stress([0.0], y=row)
+    surface = remaining.stress([0.0], y=row)
     for name in ("s_zz", "s_xz", "s_yz"):
         assert float(np.abs(surface.dataset[name]).max()) == 0.0
-    assert left.depth() == pytest.approx(float(plastic.dataset.imprint.max()), rel=1e-3)
-    assert left.depth(1) == 0.0
+    assert remaining.depth() == pytest.approx(float(plastic.dataset.imprint.max()), rel=1e-3)
+    assert remaining.depth(1) == 0.0
     # The ball rests deeper in the imprint than on the flat, and more softly.
     deeper = scene.replace(
-        body2=fret.Body(fret.Elastic(E=210e9, nu=0.3), shape=left.shape(2)),
+        body2=fret.Body(fret.Elastic(E=210e9, nu=0.3), shape=remaining.shape(2)),
         path=fret.LoadPath.start().normal(20.0, increments=1),
     )
     resting = fret.solve(deeper, progress=False)
     flat = fret.solve(deeper.replace(body2=fret.Body(STEEL.replace(plastic=None))), progress=False)
     sunk = float(resting.delta_z[-1] - flat.delta_z[-1])
-    assert 0.4 * left.depth() < sunk < left.depth()
+    assert 0.4 * remaining.depth() < sunk < remaining.depth()
     assert float(resting.p_max[-1]) < 0.9 * float(flat.p_max[-1])
     assert not [w for w in recwarn if "in reverse" in str(w.message)]
     with pytest.raises(ValueError, match="stay elastic"):
@@ -250,14 +250,14 @@ def test_the_verdict_of_cycles() -> None:
     assert 0 < shaken.after < 3
     assert str(shaken) == f"shakes down after {shaken.after} of 3 cycles"
     result = sheared(380e6, 3)
-    found = result.cyclic_response()
-    assert found.kind == "alternates"
+    computed = result.cyclic_response()
+    assert computed.kind == "alternates"
     # To and fro: much is added up and little is left.
-    assert 0.0 <= found.net_strain < 0.5 * found.strain
-    assert sum(found.work) <= float(result.plastic_work.sum())
-    assert found.where is not None
-    assert found.where.body_number == 2
-    assert "alternates" in str(found)
+    assert 0.0 <= computed.net_strain < 0.5 * computed.strain
+    assert sum(computed.work) <= float(result.plastic_work.sum())
+    assert computed.where is not None
+    assert computed.where.body_number == 2
+    assert "alternates" in str(computed)
     with pytest.raises(ValueError, match=r"body2\.plastic.*cyclic_response"):
         result.load_factors(380e6)
     with pytest.raises(ValueError, match="no closed cycle"):
@@ -269,8 +269,8 @@ def test_figures_of_what_has_yielded(tmp_path: Path) -> None:
     result = fret.solve(indentation(), progress=False)
     zone = result.plot.plastic_zone()
     assert zone.get_ylim()[0] > zone.get_ylim()[1] == 0.0
-    left = result.at(-1).plot.residual_stress(units="SI")
-    assert "MPa" in left.get_ylabel()
+    remaining = result.at(-1).plot.residual_stress(units="SI")
+    assert "MPa" in remaining.get_ylabel()
     result.report(tmp_path / "page.html")
     page = (tmp_path / "page.html").read_text(encoding="utf-8")
     assert "on the section along the shear" in page
@@ -308,11 +308,11 @@ def test_a_hard_film_is_in_tension_after_unloading() -> None:
     for n in (10, 12):
         s_xx = result.at(n).plastic.on_axis("stress").sel(component="xx")
         bottom.append(beside(s_xx, film, 0))
-    left = state["unloaded"]["s_rr_at_interfaces"]
+    remaining = state["unloaded"]["s_rr_at_interfaces"]
     under_load = state["s_rr_at_interfaces_loaded"]
-    for found, table in zip(bottom, (under_load, left), strict=True):
-        allowed = table["error"][0] + 0.03 * left["value"][0]
-        assert found == pytest.approx(table["value"][0], abs=allowed)
+    for candidate, table in zip(bottom, (under_load, remaining), strict=True):
+        allowed = table["error"][0] + 0.03 * remaining["value"][0]
+        assert candidate == pytest.approx(table["value"][0], abs=allowed)
     # What a user reads, of the run and without its load.
     z = [0.999 * film]
     assert float(result.at(10).stress(z, x=0.0, y=0.0).s_xx[0]) == pytest.approx(472e6, abs=75e6)
@@ -333,7 +333,7 @@ def elastic_film(row: dict[str, Any]) -> fret.Coating:
 
 def test_a_run_of_wear_begins_with_an_imprint() -> None:
     """A ball that frets in its imprint wears that shape, with a lower pressure."""
-    left = fret.solve(indentation(), progress=False).unloaded()
+    remaining = fret.solve(indentation(), progress=False).unloaded()
     elastic = fret.Elastic(E=210e9, nu=0.3)
 
     def worn(lower: fret.Body) -> fret.wear.WearResult:
@@ -350,7 +350,7 @@ def test_a_run_of_wear_begins_with_an_imprint() -> None:
         law = fret.wear.Archard(1e-14)
         return fret.wear.solve(scene, cycles=100, first_branch=2, body2=law, progress=False)
 
-    marked = worn(fret.Body(elastic, shape=left.shape(2)))
+    marked = worn(fret.Body(elastic, shape=remaining.shape(2)))
     flat = worn(fret.Body(elastic))
     # The imprint bears over a wider area: scars of about the same volume are shallower.
     assert float(marked.volume2[-1]) == pytest.approx(float(flat.volume2[-1]), rel=0.1)
@@ -391,9 +391,9 @@ def test_what_is_not_computed_of_bodies_that_yield_is_refused_by_name() -> None:
             r"body2\.plastic\.hardening.*a W of at most 1\.4\d*e1 N.*2\.8 s_y",
         ),
     ]
-    for of, said in refused:
-        with pytest.raises(fret.errors.InvalidSceneError, match=f"(?s){said}"):
-            fret.solve(of(), progress=False)
+    for item, text in refused:
+        with pytest.raises(fret.errors.InvalidSceneError, match=f"(?s){text}"):
+            fret.solve(item(), progress=False)
     path = pressed
     for to in (1e-6, -1e-6, 1e-6):
         path = path.displace(delta_x=to, increments=1)

@@ -45,9 +45,9 @@ def drawn(seed: int) -> fret.Scene:
     W = np.pi / 2 * a * p_0 if line else 2 / 3 * np.pi * a**2 * p_0
     layers = []
     for _ in range(rng.integers(0, 3)):
-        own = fret.Plastic(s_y=s_y * rng.uniform(0.7, 2.0), hardening=0.02 * E)
+        own_values = fret.Plastic(s_y=s_y * rng.uniform(0.7, 2.0), hardening=0.02 * E)
         material = fret.Elastic(
-            E=E * rng.uniform(0.5, 2.0), nu=0.3, plastic=own if rng.random() < 0.4 else None
+            E=E * rng.uniform(0.5, 2.0), nu=0.3, plastic=own_values if rng.random() < 0.4 else None
         )
         layers.append(fret.Coating(material, thickness=a * rng.uniform(0.1, 0.5)))
     mu = rng.choice([0.0, rng.uniform(0.05, 0.7)])
@@ -73,7 +73,7 @@ def over_the_yield_surface(scene: fret.Scene, found: object) -> float:
     body = scene.body2
     materials = [*(c.material for c in body.coatings), body.substrate]
     dataset = found.dataset
-    most = -1.0
+    upper = -1.0
     for plane, layer in enumerate(dataset.layer.to_numpy()):
         law = materials[int(layer)].plastic
         if law is None:
@@ -83,8 +83,8 @@ def over_the_yield_surface(scene: fret.Scene, found: object) -> float:
         s[:3] -= s[:3].mean(axis=0)
         mises = np.sqrt(1.5 * ((s[:3] ** 2).sum(axis=0) + 2 * (s[3:] ** 2).sum(axis=0)))
         yield_stress = law.s_y + law.hardening * dataset.equivalent.isel(z=plane).to_numpy()
-        most = max(most, float((mises / yield_stress).max()) - 1)
-    return most
+        upper = max(upper, float((mises / yield_stress).max()) - 1)
+    return upper
 
 
 def of_strain(found: fret.Result) -> dict[str, object]:

@@ -32,8 +32,8 @@ def resolved(scene: fret.Scene, times: int) -> fret.Scene:
 def left_on_axis(result: fret.Result) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Give depths, layers and residual stress (plane, component) below the middle."""
     stress = result.at(-1).plastic.on_axis("residual_stress")
-    of = stress.sel(component=["xx", "yy", "zz"]).transpose("z", "component")
-    return of.z.to_numpy(), of.layer.to_numpy(), of.to_numpy()
+    item = stress.sel(component=["xx", "yy", "zz"]).transpose("z", "component")
+    return item.z.to_numpy(), item.layer.to_numpy(), item.to_numpy()
 
 
 def off_on_axis(found: fret.Result, truth: fret.Result) -> float:
@@ -42,21 +42,21 @@ def off_on_axis(found: fret.Result, truth: fret.Result) -> float:
     fine_z, fine_layers, fine = left_on_axis(truth)
     off = 0.0
     for layer in np.unique(layers):
-        own, other = layers == layer, fine_layers == layer
-        inside = own & (z >= fine_z[other].min()) & (z <= fine_z[other].max())
+        in_layer, alternative = layers == layer, fine_layers == layer
+        inside = in_layer & (z >= fine_z[alternative].min()) & (z <= fine_z[alternative].max())
         for c in range(3):
-            wanted = np.interp(z[inside], fine_z[other], fine[other, c])
-            off = max(off, float(np.abs(stress[inside, c] - wanted).max(initial=0.0)))
+            expected = np.interp(z[inside], fine_z[alternative], fine[alternative, c])
+            off = max(off, float(np.abs(stress[inside, c] - expected).max(initial=0.0)))
     return off / float(np.abs(fine).max())
 
 
 def over_bars(seed: int) -> dict[str, float]:
     """Give true errors over bars, of the numbers at the end of every branch."""
     scene = drawn(seed)
-    found = fret.solve(resolved(scene, 1), error=True, progress=False)
+    solved = fret.solve(resolved(scene, 1), error=True, progress=False)
     truth = fret.solve(resolved(scene, TIMES), progress=False)
-    bars = found.error_bars().sel(part="total")
-    ours, theirs = found.branches(), truth.branches()
+    bars = solved.error_bars().sel(part="total")
+    ours, theirs = solved.branches(), truth.branches()
     parts = {}
     for n in range(ours.sizes["branch"]):
         for name in NAMES:
@@ -67,7 +67,7 @@ def over_bars(seed: int) -> dict[str, float]:
                 parts[f"{name}[{n}]"] = off / bar
     bar = float(bars.residual_stress[-1])
     if bar > 0:
-        parts["residual_stress"] = off_on_axis(found, truth) / bar
+        parts["residual_stress"] = off_on_axis(solved, truth) / bar
     return parts
 
 
@@ -87,6 +87,6 @@ def test_error_bars_of_bodies_that_yield_cover() -> None:
 @pytest.mark.filterwarnings("ignore::pyfret.errors.SceneWarning")
 def test_a_residual_stress_that_no_coarser_grid_has_is_unknown() -> None:
     """Seed 333 yields by a strain of 4e-5, and on fewer cells not at all."""
-    found = fret.solve(resolved(drawn(333), 1), error=True, progress=False)
-    assert float(found.branches().plastic_volume[0]) > 0.0
-    assert float(found.error_bars().sel(part="total").residual_stress[0]) >= 1.0
+    solved = fret.solve(resolved(drawn(333), 1), error=True, progress=False)
+    assert float(solved.branches().plastic_volume[0]) > 0.0
+    assert float(solved.error_bars().sel(part="total").residual_stress[0]) >= 1.0

@@ -55,9 +55,9 @@ def test_the_life_of_a_contact_that_goes_on_yielding_has_the_plastic_strain(tmp_
     assert result.cyclic_response().kind == "alternates"
     life = result.life(TITANIUM, "fatemi_socie", y=0.0)
     worst = life.worst
-    place = {"x": worst.x, "y": 0.0}
-    stress = fatigue.history(result, [worst.z], **place)
-    strain = fatigue.history(result, [worst.z], **place, of="plastic_strain")
+    position = {"x": worst.x, "y": 0.0}
+    stress = fatigue.history(result, [worst.z], **position)
+    strain = fatigue.history(result, [worst.z], **position, of="plastic_strain")
     numbers = TITANIUM.assessment("fatemi_socie").criterion.numbers
     criterion = fatigue.Criterion.fatemi_socie(**{**numbers, "E": E, "nu": NU})
     total = fatigue.evaluate_criterion(stress, criterion, plastic_strain=strain)
@@ -68,23 +68,23 @@ def test_the_life_of_a_contact_that_goes_on_yielding_has_the_plastic_strain(tmp_
     with pytest.raises(ValueError, match=r"fatemi_socie.*plastic_strain=fatigue"):
         fatigue.evaluate_criterion(stress, criterion)
     # A figure of the life draws the same plane.
-    own = fatigue.evaluate_criterion(
+    own_values = fatigue.evaluate_criterion(
         life.history(), criterion, plastic_strain=life.history("plastic_strain")
     ).normal
-    np.testing.assert_allclose(np.abs(own), np.abs(worst.normal), atol=1e-6)
+    np.testing.assert_allclose(np.abs(own_values), np.abs(worst.normal), atol=1e-6)
     assert len(fret.plot.critical_plane_rose(life).lines) == 3
     crossland = fatigue.Criterion.crossland(alpha=0.2)
     alone, beside = (
-        fatigue.evaluate_criterion(stress, crossland, plastic_strain=of).value
-        for of in (None, strain)
+        fatigue.evaluate_criterion(stress, crossland, plastic_strain=item).value
+        for item in (None, strain)
     )
     np.testing.assert_array_equal(alone, beside)
 
     store = tmp_path / "alternates.zarr"
     result.save(store)
     command = [FRET, "life", store, "--material", "titanium_6Al4V", "--criterion", "fatemi_socie"]
-    said = subprocess.run([*command, "--json"], capture_output=True, text=True, check=True)
-    assert json.loads(said.stdout.splitlines()[0])["value"] == pytest.approx(worst.value, rel=1e-9)
+    ran = subprocess.run([*command, "--json"], capture_output=True, text=True, check=True)
+    assert json.loads(ran.stdout.splitlines()[0])["value"] == pytest.approx(worst.value, rel=1e-9)
 
 
 @pytest.mark.parametrize("upper", [False, True])
@@ -92,9 +92,9 @@ def test_the_strain_is_that_of_plane_strain(*, upper: bool) -> None:
     """The whole strain along y is zero everywhere: elastic and plastic strain cancel there."""
     result, number = alternating(upper=upper), 1 if upper else 2
     depths = [10e-6, 60e-6, 200e-6, 500e-6]
-    place = {"y": 0.0, "body_number": number}
-    stress = fatigue.history(result, depths, **place)
-    strain = fatigue.history(result, depths, **place, of="plastic_strain")
+    position = {"y": 0.0, "body_number": number}
+    stress = fatigue.history(result, depths, **position)
+    strain = fatigue.history(result, depths, **position, of="plastic_strain")
     assert strain.dims == stress.dims
     assert strain.shape == stress.shape
     s_xx, s_yy, s_zz = (stress.sel(component=f"s_{c}").values for c in ("xx", "yy", "zz"))
@@ -112,34 +112,34 @@ def test_the_strain_is_that_of_the_points_of_the_volume_grid() -> None:
         state = result.at(-1)
         kept = state.plastic(body_number=number).dataset.strain.isel(z=slice(0, 6))
         depths = kept.z.values
-        found = fatigue.history(result, depths, y=0.0, body_number=number, of="plastic_strain")
-        last = found.isel(increment=-1).interp(x=kept.x.values)
-        own = kept.isel(y=0).transpose("z", "x", "component").values
-        assert np.abs(own).max() > 1e-3
-        np.testing.assert_allclose(last.values, own, rtol=1e-5, atol=1e-8)
+        computed = fatigue.history(result, depths, y=0.0, body_number=number, of="plastic_strain")
+        last = computed.isel(increment=-1).interp(x=kept.x.values)
+        own_values = kept.isel(y=0).transpose("z", "x", "component").values
+        assert np.abs(own_values).max() > 1e-3
+        np.testing.assert_allclose(last.values, own_values, rtol=1e-5, atol=1e-8)
 
 
 def test_where_nothing_yields_within_the_cycle_the_bits_are_those_of_the_elastic_strain() -> None:
     """Far below, and after shakedown, the plastic strain cancels from the amplitudes."""
     result = alternating()
-    place = {"y": 0.0}
+    position = {"y": 0.0}
     depths = [20e-6, 1.5e-3]
-    stress = fatigue.history(result, depths, **place)
-    strain = fatigue.history(result, depths, **place, of="plastic_strain")
+    stress = fatigue.history(result, depths, **position)
+    strain = fatigue.history(result, depths, **position, of="plastic_strain")
     still = (strain == strain.isel(increment=0)).all(("increment", "component")).values
     assert still.any()
     assert not still.all()
-    for of in (
+    for item in (
         fatigue.Criterion.fatemi_socie(E=E, nu=NU, k=1.0, s_y=880e6),
         fatigue.Criterion.brown_miller(E=E, nu=NU, S=0.5),
     ):
-        total = fatigue.evaluate_criterion(stress, of, plastic_strain=strain).value.values
-        elastic = fatigue.evaluate_criterion(stress.values, of).value.values
+        total = fatigue.evaluate_criterion(stress, item, plastic_strain=strain).value.values
+        elastic = fatigue.evaluate_criterion(stress.values, item).value.values
         np.testing.assert_array_equal(total[still], elastic[still])
         assert (total[~still] != elastic[~still]).any()
         # Where it yields most the strain is larger than that of the stress.
-        most = np.unravel_index(int(np.argmax(total - elastic)), total.shape)
-        assert total[most] > 1.3 * elastic[most]
+        largest = np.unravel_index(int(np.argmax(total - elastic)), total.shape)
+        assert total[largest] > 1.3 * elastic[largest]
 
 
 @pytest.mark.filterwarnings("ignore:the plastic strain comes to 6 %")

@@ -58,8 +58,8 @@ def test_a_notebook_shows_a_figure_once(
 
 
 def test_depths_given_on_both_sides_of_an_interface_are_one_line(coated: fret.Result) -> None:
-    both = coated.at(-1).stress().dataset.z.values
-    figure = fret.plot.envelope_maps(coated.envelope(both, y=0.0))
+    pair = coated.at(-1).stress().dataset.z.values
+    figure = fret.plot.envelope_maps(coated.envelope(pair, y=0.0))
     dashed = [line for line in figure.axes[0].lines if line.get_linestyle() == "--"]
     assert len(dashed) == 1
 
@@ -141,7 +141,7 @@ def test_scatter_of_a_study_is_drawn_in_cells(noise: float, *, contours: bool) -
     """Values from 0 to 2 in ten contours: islands would show a scatter of half a contour."""
     x, y = np.meshgrid(np.linspace(0.0, 1.0, 20), np.linspace(0.0, 1.0, 10), indexing="ij")
     scattered = x**2 + np.sin(2.0 * y) + noise * np.random.default_rng(5).normal(size=x.shape)
-    of = xr.DataArray(scattered, {"a": x[:, 0], "b": y[0]}, name="of")
-    status = xr.full_like(of, 1, dtype=np.int8).rename("status")
-    drawn = fret.study.Study(xr.merge([of, status])).map("of").collections[0]
+    item = xr.DataArray(scattered, {"a": x[:, 0], "b": y[0]}, name="of")
+    status = xr.full_like(item, 1, dtype=np.int8).rename("status")
+    drawn = fret.study.Study(xr.merge([item, status])).map("of").collections[0]
     assert hasattr(drawn, "levels") == contours

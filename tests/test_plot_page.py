@@ -53,7 +53,7 @@ RESULTS = (
 
 def test_a_figure_of_a_result_is_a_method_of_it() -> None:
     """All figures, by the type of their first argument."""
-    methods = {name for of in RESULTS for name in figures_of(of)}
+    methods = {name for picture in RESULTS for name in figures_of(picture)}
     for name in NAMES:
         alone = first_types(getattr(plot, name)) <= PLAIN
         assert alone != (name in methods), name
@@ -66,9 +66,9 @@ def test_a_figure_of_a_result_is_a_method_of_it() -> None:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_a_picture_can_be_read(name: str) -> None:
-    place: Path = plot_page.PICTURES / f"{name}.png"
-    assert 1000 < place.stat().st_size < 120_000
-    with Image.open(place) as image:
+    path: Path = plot_page.PICTURES / f"{name}.png"
+    assert 1000 < path.stat().st_size < 120_000
+    with Image.open(path) as image:
         # At least three inches at the size of the text of a page.
         assert 330 <= image.width <= plot_page.WIDTH
         assert image.height >= 200

@@ -109,9 +109,9 @@ def test_roughness_has_eight_cells_in_its_shortest_wave() -> None:
     ],
 )
 def test_a_grid_that_cannot_be_chosen_says_why(change: dict[str, object], said: str) -> None:
-    given: dict[str, object] = {"body1": BALL, "body2": FLAT, "path": PATH, **change}
+    arguments: dict[str, object] = {"body1": BALL, "body2": FLAT, "path": PATH, **change}
     with pytest.raises(ValueError, match=said):
-        fret.Grid.for_contact(**given)
+        fret.Grid.for_contact(**arguments)
 
 
 MCCOLL = (
@@ -203,9 +203,13 @@ def test_nothing_sticks_after_gross_slip_and_all_of_it_before_slip() -> None:
 def test_materials_have_names() -> None:
     names = list(fret.fatigue.Materials())
     numbers = {n: fret.fatigue.Materials()[n].numbers() for n in names}
-    known = [n for n in names if any(k == "E" and "recalled" not in of for k, _, of in numbers[n])]
-    assert len(known) > 5
-    for name in known:
+    known_items = [
+        n
+        for n in names
+        if any(k == "E" and "recalled" not in entry_name for k, _, entry_name in numbers[n])
+    ]
+    assert len(known_items) > 5
+    for name in known_items:
         elastic = fret.material(name, nu=0.3)
         assert 1e9 < elastic.E < 1.5e12
         assert elastic.nu == 0.3

@@ -46,11 +46,11 @@ def worn() -> fret.wear.WearResult:
 
 @pytest.fixture(scope="module")
 def page(result: fret.Result, worn: fret.wear.WearResult, tmp_path_factory: Any) -> Path:
-    place: Path = tmp_path_factory.mktemp("page") / "run.html"
+    path: Path = tmp_path_factory.mktemp("page") / "run.html"
     figure = fret.plot.load_path(result).figure
-    result.report(place, wear=worn, figures={"Load path": figure})
+    result.report(path, wear=worn, figures={"Load path": figure})
     plt.close("all")
-    return place
+    return path
 
 
 def test_a_page_with_wear_says_which_surfaces_its_loops_are_of(
@@ -64,15 +64,15 @@ def test_a_page_with_wear_says_which_surfaces_its_loops_are_of(
 
 
 def test_wear_of_other_bodies_is_refused(worn: fret.wear.WearResult, tmp_path: Path) -> None:
-    other = fret.solve(sphere_on_flat(ratio=4.0, n=16), PATH, progress=False)
+    alternative = fret.solve(sphere_on_flat(ratio=4.0, n=16), PATH, progress=False)
     with pytest.raises(ValueError, match="wear: is of other bodies than the run"):
-        other.report(tmp_path / "page.html", wear=worn)
+        alternative.report(tmp_path / "page.html", wear=worn)
     assert not (tmp_path / "page.html").exists()
 
 
 def test_a_crack_in_other_bodies_is_refused(result: fret.Result, tmp_path: Path) -> None:
-    other = fret.solve(sphere_on_flat(ratio=4.0, n=16), PATH, save="all", progress=False)
-    crack = other.crack(lengths=[1e-5, 2e-5])
+    alternative = fret.solve(sphere_on_flat(ratio=4.0, n=16), PATH, save="all", progress=False)
+    crack = alternative.crack(lengths=[1e-5, 2e-5])
     with pytest.raises(ValueError, match="crack: is of other bodies than the run"):
         result.report(tmp_path / "page.html", crack=crack)
     assert not (tmp_path / "page.html").exists()
@@ -120,9 +120,9 @@ def test_the_numbers_of_the_figures_are_those_of_the_result(result: fret.Result)
         1e-6 * float(result.dataset.p.max()), rel=1e-2
     )
     largest = result.at(-1).stress().maximum()
-    told = numbers["stress"]["largest"]
-    assert told["value"] == with_error(1e-6 * largest.value, 1e-6 * largest.error)
-    assert told["at"] == [1e6 * largest.x, 1e6 * largest.y, 1e6 * largest.z]
+    arguments = numbers["stress"]["largest"]
+    assert arguments["value"] == with_error(1e-6 * largest.value, 1e-6 * largest.error)
+    assert arguments["at"] == [1e6 * largest.x, 1e6 * largest.y, 1e6 * largest.z]
     assert numbers["loop"]["y"][-1] == pytest.approx(200.0, rel=1e-4)
     assert content.short([1.23456, np.nan, 0.0, np.inf]) == [1.235, None, 0.0, None]
 
@@ -149,28 +149,28 @@ def test_scenes_without_increments_of_interest_have_their_page(tmp_path: Path) -
 
 @pytest.fixture(scope="module")
 def cracked(result: fret.Result, tmp_path_factory: Any) -> Path:
-    place: Path = tmp_path_factory.mktemp("cracked") / "run.html"
+    path: Path = tmp_path_factory.mktemp("cracked") / "run.html"
     crack = result.crack(lengths=np.geomspace(5e-6, 4e-4, 12))
-    result.report(place, crack=crack, threshold=fret.fracture.Threshold(3e6, 300e6))
-    return place
+    result.report(path, crack=crack, threshold=fret.fracture.Threshold(3e6, 300e6))
+    return path
 
 
 def test_a_crack_is_in_the_section_with_its_numbers(result: fret.Result) -> None:
     crack = result.crack(lengths=np.geomspace(5e-6, 4e-4, 12))
     threshold = fret.fracture.Threshold(3e6, 300e6)
     numbers = content.figures(result, None, CrackSection(crack, threshold))
-    found = crack.arrest(threshold)
-    assert found.verdict == "stops"
-    assert found.length is not None
+    arrest = crack.arrest(threshold)
+    assert arrest.verdict == "stops"
+    assert arrest.length is not None
     # The length with its range.
-    assert f"stops at {1e6 * found.length:.3g} (" in numbers["crack"]["says"]
+    assert f"stops at {1e6 * arrest.length:.3g} (" in numbers["crack"]["says"]
     drawn = numbers["stress"]["crack"]
     # A normal crack: straight down from its mouth to where it stops, and on from there.
     mouth = 1e6 * crack.dataset.attrs["x"]
     assert drawn["grown"]["x"] == pytest.approx([mouth] * len(drawn["grown"]["x"]), rel=1e-3)
     assert drawn["rest"]["z"][0] == drawn["end"]["z"][0] == drawn["grown"]["z"][-1]
     length = float(numbers["crack"]["length"]) * 1e-6
-    nearest = crack.dataset.sel(length=found.length, method="nearest")
+    nearest = crack.dataset.sel(length=arrest.length, method="nearest")
     assert length == pytest.approx(float(nearest.length), rel=5e-3)
     np.testing.assert_allclose(numbers["crack"]["K_I"], 1e-6 * nearest.K_I, rtol=1e-3, atol=1e-9)
     diagram, truth = numbers["crack"]["kitagawa"], crack.kitagawa(threshold)
@@ -184,9 +184,9 @@ def test_a_crack_is_in_the_section_with_its_numbers(result: fret.Result) -> None
 
 def browser(play: Any) -> Any:
     """Chromium, or the test is skipped."""
-    found = shutil.which("chromium") or shutil.which("chromium-browser")
+    computed = shutil.which("chromium") or shutil.which("chromium-browser")
     try:
-        return play.chromium.launch(executable_path=found, args=["--no-sandbox"])
+        return play.chromium.launch(executable_path=computed, args=["--no-sandbox"])
     except Exception as absent:
         pytest.skip(f"no browser: {str(absent).splitlines()[0]}")
 
@@ -198,26 +198,26 @@ def test_it_is_drawn_in_a_browser_without_errors_or_requests(page: Path, cracked
         chromium = browser(play)
         for width, height in SCREENS.values():
             view = chromium.new_page(viewport={"width": width, "height": height})
-            said: list[str] = []
-            asked: list[str] = []
-            view.on("console", lambda m, said=said: said.append(m.text))
-            view.on("pageerror", lambda e, said=said: said.append(str(e)))
-            view.on("request", lambda r, asked=asked: asked.append(r.url))
+            text: list[str] = []
+            requests: list[str] = []
+            view.on("console", lambda m, said=text: said.append(m.text))
+            view.on("pageerror", lambda e, said=text: said.append(str(e)))
+            view.on("request", lambda r, asked=requests: asked.append(r.url))
             view.goto(page.as_uri())
             view.wait_for_selector("body[data-drawn=yes]", timeout=60_000)
             first = view.inner_text("#says")
             view.fill("#which", "4")
             assert view.inner_text("#number") == "5"
             assert view.inner_text("#says") != first
-            assert said == []
-            assert [url for url in asked if not url.startswith(("file:", "data:"))] == []
+            assert text == []
+            assert [url for url in requests if not url.startswith(("file:", "data:"))] == []
             assert view.evaluate("document.documentElement.scrollWidth") <= width
             for name in ("loop", "p", "q", "zone", "profile", "stress", "depths", "profiles"):
                 assert view.locator(f"#{name} .main-svg").count() > 0, name
             view.goto(cracked.as_uri())
             view.wait_for_selector("body[data-drawn=yes]", timeout=60_000)
             assert "stops at" in view.inner_text("#verdict")
-            assert said == []
+            assert text == []
             assert view.evaluate("document.documentElement.scrollWidth") <= width
             for name in ("stress", "intensity", "kitagawa"):
                 assert view.locator(f"#{name} .main-svg").count() > 0, name
@@ -284,17 +284,17 @@ def test_a_film_of_a_cycle(result: fret.Result, tmp_path: Path) -> None:
 
 
 def test_verification_ships_with_the_package() -> None:
-    found = fret.verify()
-    assert found.passed, str(found)
-    assert len(found.checks) >= 15
-    told = str(found)
-    assert "Lubkin" in told
-    assert "all passed" in told
+    computed = fret.verify()
+    assert computed.passed, str(computed)
+    assert len(computed.checks) >= 15
+    message = str(computed)
+    assert "Lubkin" in message
+    assert "all passed" in message
     worse = verification.Check("x", "y", ours=1.1, truth=1.0, scale=1.0, last=0.01)
     assert not worse.passed
     assert "1 FAILED" in str(verification.Verification([worse], 1.0))
     # JSON knows no other kind of it.
-    assert all(type(check.passed) is bool for check in found.checks)
+    assert all(type(check.passed) is bool for check in computed.checks)
 
 
 def test_fret_hands_over_to_python() -> None:

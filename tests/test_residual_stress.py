@@ -23,14 +23,14 @@ R, W = 10e-3, 100.0
 
 def scene(body: fret.Body, **changes: Any) -> fret.Scene:
     """A rigid ball on a body."""
-    given = {
+    arguments = {
         "body1": fret.Body(fret.RIGID, shape=fret.Sphere(R=R)),
         "body2": body,
         "friction": 0.0,
         "grid": fret.Grid.centred(width=6e-4, n=32),
         **changes,
     }
-    return fret.Scene(**given)
+    return fret.Scene(**arguments)
 
 
 def at(table: Any, depth: Any) -> Any:
@@ -52,7 +52,7 @@ def test_a_table_is_read_in_any_unit_and_written_back(tmp_path: Path) -> None:
     """Numbers, texts, arrays and tables of pandas are the same body, which a scene file holds."""
     texts = [["0 um", "-600 MPa"], ["40 um", "-0.7 GPa"], ["0.12 mm", "50 MPa"], [300e-6, 0]]
     frame = pd.DataFrame(TABLE, columns=["depth", "stress"])
-    bodies = [fret.Body(STEEL, residual=of) for of in (TABLE, texts, np.array(TABLE), frame)]
+    bodies = [fret.Body(STEEL, residual=item) for item in (TABLE, texts, np.array(TABLE), frame)]
     for body in bodies:
         np.testing.assert_allclose(body.residual, [[z, s, s] for z, s in TABLE], rtol=1e-14)
     assert fret.Body(STEEL, residual="-400 MPa").residual == -400e6
@@ -109,13 +109,22 @@ def test_every_stress_has_the_residual_stress_of_its_depth(pressed: fret.Result)
     now = pressed.at(-1)
     depths = [0.0, 20e-6, 90e-6, 200e-6, 5e-4]
     bare = [0.0]
-    for place in ({"y": 0.0}, {"x": 1e-5, "y": 0.0}, {}):
-        own, without = now.stress(depths, **place), now.stress(depths, residual=bare, **place)
-        for name, wanted in (("s_xx", at(TABLE, depths)), ("s_yy", at(TABLE, depths)), ("s_zz", 0)):
-            added = (getattr(own, name) - getattr(without, name)).transpose("depth", ...).values
+    for position in ({"y": 0.0}, {"x": 1e-5, "y": 0.0}, {}):
+        own_values, without = (
+            now.stress(depths, **position),
+            now.stress(depths, residual=bare, **position),
+        )
+        for name, expected in (
+            ("s_xx", at(TABLE, depths)),
+            ("s_yy", at(TABLE, depths)),
+            ("s_zz", 0),
+        ):
+            added = (
+                (getattr(own_values, name) - getattr(without, name)).transpose("depth", ...).values
+            )
             flat = added.reshape(len(depths), -1)
             np.testing.assert_allclose(
-                flat, np.broadcast_to(np.reshape(wanted, (-1, 1)), flat.shape), atol=10.0
+                flat, np.broadcast_to(np.reshape(expected, (-1, 1)), flat.shape), atol=10.0
             )
     same = now.stress(depths, y=0.0, residual=[TABLE])
     np.testing.assert_array_equal(same.s_xx, now.stress(depths, y=0.0).s_xx)
@@ -139,11 +148,13 @@ def test_depths_count_from_the_top_of_the_layer() -> None:
     )
     result = fret.solve(line, fret.LoadPath.start().normal(1e5, increments=1), progress=False)
     depths = [0.0, 5e-6, 10e-6, 50e-6]
-    own, without = (result.at(-1).stress(depths, y=0.0, residual=r) for r in (None, [0.0, 0.0]))
+    own_values, without = (
+        result.at(-1).stress(depths, y=0.0, residual=r) for r in (None, [0.0, 0.0])
+    )
     # Both sides of the interface.
-    wanted = {"s_xx": [-1e9, 0.0, 1e9, -600e6, -700e6], "s_yy": [-5e8, 0.0, 5e8, -600e6, -700e6]}
-    for name, values in wanted.items():
-        added = (getattr(own, name) - getattr(without, name)).values
+    expected = {"s_xx": [-1e9, 0.0, 1e9, -600e6, -700e6], "s_yy": [-5e8, 0.0, 5e8, -600e6, -700e6]}
+    for name, values in expected.items():
+        added = (getattr(own_values, name) - getattr(without, name)).values
         np.testing.assert_allclose(added, np.reshape(values, (-1, 1)) * np.ones(64), atol=10.0)
 
 
@@ -151,16 +162,16 @@ def test_depths_count_from_the_top_of_the_layer() -> None:
 def test_crossland_by_hand(pressed: fret.Result) -> None:
     """Amplitude of the contact, largest hydrostatic stress with 2/3 of the residual."""
     z, alpha = 60e-6, 0.3
-    bare, own = (
-        fatigue.history(pressed, [z], x=0.0, y=0.0, residual=given).values.reshape(-1, 6)
-        for given in ([0.0], None)
+    bare, own_values = (
+        fatigue.history(pressed, [z], x=0.0, y=0.0, residual=given_values).values.reshape(-1, 6)
+        for given_values in ([0.0], None)
     )
     # On the axis the path of the deviator is a straight line, sqrt(J2) of half its length.
     ends = bare[:, 0] - bare[:, 2]
     amplitude = (ends.max() - ends.min()) / 2.0 / math.sqrt(3.0)
     hydrostatic = (bare[:, :3].sum(axis=1) / 3.0).max() + 2.0 / 3.0 * at(TABLE, z)
-    found = fatigue.evaluate_criterion(own, fatigue.Criterion.crossland(alpha=alpha))
-    assert float(found.value) == pytest.approx(amplitude + alpha * hydrostatic, rel=1e-6)
+    fields = fatigue.evaluate_criterion(own_values, fatigue.Criterion.crossland(alpha=alpha))
+    assert float(fields.value) == pytest.approx(amplitude + alpha * hydrostatic, rel=1e-6)
 
 
 @pytest.mark.solves
@@ -173,8 +184,8 @@ def test_load_factor_of_first_yield_by_hand(pressed: fret.Result) -> None:
     # d > 0 below the contact: compression along z is larger.
     s_R = at(TABLE, z)
     factors = np.where(d > 0, (s_y - s_R) / d, (-s_y - s_R) / d)
-    found = pressed.load_factors(s_y, z, y=0.0).dataset.von_mises
-    on_axis = found.isel(x=[15, 16]).mean("x").values
+    computed = pressed.load_factors(s_y, z, y=0.0).dataset.von_mises
+    on_axis = computed.isel(x=[15, 16]).mean("x").values
     np.testing.assert_allclose(on_axis, factors, rtol=5e-3)
 
 
@@ -189,12 +200,13 @@ def test_residual_stress_intensity_of_a_crack() -> None:
     path = fret.LoadPath.start().normal(2e4, increments=1).normal(1e5, increments=1)
     result = fret.solve(line, path.normal(2e4, increments=1), save="all", progress=False)
     lengths = np.array([10e-6, 50e-6, 100e-6])
-    own, bare = (
-        result.crack(x=5e-5, lengths=lengths, residual=given).dataset for given in (None, [0.0])
+    own_values, bare = (
+        result.crack(x=5e-5, lengths=lengths, residual=given_values).dataset
+        for given_values in (None, [0.0])
     )
     end = 400e6 - 5e12 * lengths
     K = np.sqrt(np.pi * lengths) * (1.121522255 * 400e6 + 0.682862878 * (end - 400e6))
-    for added in (own.K_I_linear - bare.K_I_linear).values:
+    for added in (own_values.K_I_linear - bare.K_I_linear).values:
         np.testing.assert_allclose(added, K, rtol=2e-3)
     # Uniform in place of the table.
     same = result.crack(x=5e-5, lengths=lengths, residual=[1e8]).dataset
@@ -221,6 +233,6 @@ def test_a_body_that_yields_takes_its_own_residual_stress() -> None:
     mises = on_axis.sel(component="xx") - on_axis.sel(component="zz")
     R_of_p = law.s_y + law.hardening * now.plastic.on_axis("equivalent")
     assert float((np.abs(mises) / R_of_p).max()) < 1.001
-    left = now.plastic.on_axis("residual_stress").sel(component="xx")
-    own = result.unloaded().stress(left.z.values, x=0.0, y=0.0).s_xx.squeeze()
-    np.testing.assert_allclose(left, own, atol=30e6)
+    remaining = now.plastic.on_axis("residual_stress").sel(component="xx")
+    own_values = result.unloaded().stress(remaining.z.values, x=0.0, y=0.0).s_xx.squeeze()
+    np.testing.assert_allclose(remaining, own_values, atol=30e6)

@@ -216,11 +216,11 @@ def test_ctrl_c_keeps_everything_so_far(tmp_path: Path) -> None:
     with pytest.raises(KeyboardInterrupt):
         fret.solve(sphere_on_flat(ratio=2.0), long_path, out=tmp_path / "run.zarr", progress=False)
     ended.set()
-    left = fret.open(tmp_path / "run.zarr")
-    reached = left.dataset.sizes["increment"]
+    remaining = fret.open(tmp_path / "run.zarr")
+    reached = remaining.dataset.sizes["increment"]
     assert 0 < reached < len(long_path)
-    assert left.status == f"stopped after increment {reached}"
-    assert int(left.at(-1).increment) == reached
+    assert remaining.status == f"stopped after increment {reached}"
+    assert int(remaining.at(-1).increment) == reached
 
 
 @pytest.mark.usefixtures("ctrl_c")
@@ -306,7 +306,7 @@ def test_the_error_of_the_shear_is_told_where_no_coarse_grid_sees_it(tmp_path: P
     scene = fret.Scene.from_toml(NARROW_RING)
     with pytest.warns(fret.errors.SceneWarning, match="leaves the shear"):
         result = fret.solve(scene, out=tmp_path / "narrow.zarr", progress=False)
-    told = result.branches().path_error.values
+    text = result.branches().path_error.values
     chosen = result.scene.path.branches
     finer = [b.replace(increments=8 * (b.increments or 0), path_error=None) for b in chosen]
     truth = fret.solve(scene, result.scene.path.replace(branches=finer), progress=False)
@@ -317,8 +317,8 @@ def test_the_error_of_the_shear_is_told_where_no_coarse_grid_sees_it(tmp_path: P
     for k in range(2):
         error = np.linalg.norm(shears[0][k] - shears[1][k]) / largest
         # The estimate of the choice has a part of the ring, too: 0.57 % there, 0.98 % here.
-        assert told[k] > 1.2 * (chosen[k].path_error or 0.0)
-        assert 0.2 < error / told[k] < 1.5
-        assert f"{100 * told[k]:.2f} %" in result.summary()
+        assert text[k] > 1.2 * (chosen[k].path_error or 0.0)
+        assert 0.2 < error / text[k] < 1.5
+        assert f"{100 * text[k]:.2f} %" in result.summary()
     again = fret.open(tmp_path / "narrow.zarr").branches()
-    np.testing.assert_array_equal(again.path_error, told)
+    np.testing.assert_array_equal(again.path_error, text)

@@ -27,9 +27,9 @@ def test_a_saved_life_is_the_same_life(public: Any, tmp_path: Path, ending: str)
     steel = public.MATERIALS["steel_42CrMo4"]
     coated = public.RUN.life([steel, steel], "findley", y=0.0)
     for life in (public.LIFE, public.BARE.life(steel, "crossland"), coated):
-        place = tmp_path / f"{life.dataset.criterion}.{ending}"
-        life.save(place)
-        opened = fret.open(place)
+        path = tmp_path / f"{life.dataset.criterion}.{ending}"
+        life.save(path)
+        opened = fret.open(path)
         assert type(opened) is type(life)
         assert opened == life
         assert (opened.layers, opened.worst, opened.range) == (life.layers, life.worst, life.range)
@@ -73,11 +73,11 @@ def test_tables_have_units_in_their_head(public: Any, tmp_path: Path) -> None:
         "study": (public.STUDY, "body1.shape.sphere.R [m]"),
         "run": (public.RUN, "T_x [N]"),
     }
-    for name, (of, column) in results.items():
-        of.to_csv(tmp_path / f"{name}.csv")
+    for name, (entry, column) in results.items():
+        entry.to_csv(tmp_path / f"{name}.csv")
         with (tmp_path / f"{name}.csv").open() as file:
             rows = list(csv.DictReader(file))
         assert column in rows[0], (name, list(rows[0]))
-        values = of.dataset[column.split(" [")[0]]
-        found = {float(row[column]) for row in rows}
-        assert found == {float(value) for value in np.unique(values)}
+        values = entry.dataset[column.split(" [")[0]]
+        computed = {float(row[column]) for row in rows}
+        assert computed == {float(value) for value in np.unique(values)}

@@ -52,15 +52,15 @@ def test_the_bound_parts_shakedown_from_alternating_plasticity(part: float, bar:
     """
     elastic = fret.solve(scene(STEEL, 1, save="all"), progress=False)
     trial = 1e9
-    asked = trial / float(elastic.load_factors(trial).least("shakedown").value)
+    request = trial / float(elastic.load_factors(trial).least("shakedown").value)
     # Linear kinematic hardening: Melan's theorem is exact for it under given tractions.
-    law = fret.Plastic(s_y=part * asked, kinematic=20e9)
-    found = fret.solve(
+    law = fret.Plastic(s_y=part * request, kinematic=20e9)
+    solved = fret.solve(
         scene(fret.Elastic(E=STEEL.E, nu=STEEL.nu, plastic=law), CYCLES), progress=False
     )
     last = slice(-32, None)
-    plastic = float(found.plastic_work.to_numpy()[last].sum())
-    friction = float(found.dissipated.to_numpy()[last].sum())
+    plastic = float(solved.plastic_work.to_numpy()[last].sum())
+    friction = float(solved.dissipated.to_numpy()[last].sum())
     if part > 1:
         assert plastic < bar * friction
     else:

@@ -54,8 +54,8 @@ def melan(s: NDArray[np.float64]) -> float:
         steps = np.linspace(-reach, reach, 9)
         for at in [middle + np.array([i, j]) for i in steps for j in steps]:
             held = s + np.array([*at, 0, 0, 0, 0])[:, None]
-            if (most := float(root_J2(held).max())) < least:
-                least, middle = most, at
+            if (largest := float(root_J2(held).max())) < least:
+                least, middle = largest, at
         reach /= 2
     return least
 
@@ -72,14 +72,14 @@ def sliding(request: pytest.FixtureRequest) -> tuple[float, fret.Result]:
 
 def test_first_yield_is_below_until_mu_is_0_3_and_then_at_the_trailing_edge() -> None:
     """Hamilton and Goodman (1966): on the surface at x = -a two stresses alone act."""
-    for mu, place in ((0.0, 0.475), (0.25, 0.45), (0.35, 0.0), (0.5, 0.0)):
+    for mu, position in ((0.0, 0.475), (0.25, 0.45), (0.35, 0.0), (0.5, 0.0)):
         largest = [float(root_J2(below(mu, z)).max()) for z in DEPTHS]
-        assert DEPTHS[int(np.argmax(largest))] == pytest.approx(place, abs=0.026)
+        assert DEPTHS[int(np.argmax(largest))] == pytest.approx(position, abs=0.026)
         s_xx = (1 - 2 * NU) / 3 + mu * np.pi * (4 + NU) / 8
         s_yy = -(1 - 2 * NU) / 3 + mu * 3 * np.pi * NU / 8
         edge = np.sqrt((s_xx**2 - s_xx * s_yy + s_yy**2) / 3)
         assert largest[0] >= edge * (1 - 1e-9)
-        if place == 0.0:
+        if position == 0.0:
             assert max(largest) == pytest.approx(edge, rel=1e-9)
     # K. L. Johnson, Contact Mechanics (1985): p_0 = 2.8 k without friction.
     assert 1 / root_J2(below(0.0, 0.475)).max() == pytest.approx(2.8, rel=3e-3)
@@ -91,13 +91,13 @@ def test_first_yield_of_the_run_is_that_of_the_closed_form(
     mu, result = sliding
     exact = 1 / max(float(root_J2(below(mu, z)).max()) for z in DEPTHS)
     least = result.load_factors(S_Y).least("von_mises")
-    found = least.value * HERTZ.p0 / K
+    computed = least.value * HERTZ.p0 / K
     if mu == 0.25:
-        assert found == pytest.approx(exact, rel=3e-3)
+        assert computed == pytest.approx(exact, rel=3e-3)
         assert least.z / HERTZ.a == pytest.approx(0.445, abs=0.01)
     else:
         # The stress has a cusp at the edge, which no sample reaches: it is followed to the rim.
-        assert found == pytest.approx(exact, rel=3e-3)
+        assert computed == pytest.approx(exact, rel=3e-3)
         assert least.z == 0.0
         assert abs(abs(least.x) / HERTZ.a - 1.0) < 0.04
 
@@ -121,16 +121,16 @@ def test_a_sphere_that_passes_again_and_again(sliding: tuple[float, fret.Result]
     exact = 1 / max(melan(below(mu, z)) for z in DEPTHS)
     stress = result.at(-1).stress(DEPTHS * HERTZ.a, y=0.0)
     passing = np.stack([stress.measure(c).values.T for c in fatigue.COMPONENTS], axis=-1)
-    found = fatigue.moving_load(passing, s_y=S_Y).min() * HERTZ.p0 / K
-    assert found == pytest.approx(exact, rel=3e-3)
+    computed = fatigue.moving_load(passing, s_y=S_Y).min() * HERTZ.p0 / K
+    assert computed == pytest.approx(exact, rel=3e-3)
 
 
 def test_a_rolling_sphere_shakes_down_up_to_4_7_k() -> None:
     """A. R. S. Ponter, A. D. Hearle, K. L. Johnson, J. Mech. Phys. Solids 33 (1985) 339-362."""
     s = [below(0.0, z) for z in DEPTHS]
-    limits = [1 / melan(of) for of in s]
+    limits = [1 / melan(item) for item in s]
     assert min(limits) == pytest.approx(4.7, rel=1e-2)
     # No residual stress helps against s_xz, which decides: 0.214 p_0 at z = 0.35 a.
-    assert min(limits) == pytest.approx(1 / max(np.abs(of[4]).max() for of in s), rel=1e-4)
-    passing = np.stack([np.stack(of, axis=-1) for of in s], axis=1)
+    assert min(limits) == pytest.approx(1 / max(np.abs(item[4]).max() for item in s), rel=1e-4)
+    passing = np.stack([np.stack(item, axis=-1) for item in s], axis=1)
     assert fatigue.moving_load(passing, s_y=S_Y).min() / K == pytest.approx(min(limits), rel=1e-4)

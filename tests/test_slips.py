@@ -106,8 +106,8 @@ def test_what_is_plain_is_taken() -> None:
     heights = np.zeros((3, 4), dtype=np.float32)
     assert fret.SurfaceMap(heights, spacing=2e-6).spacing == (2e-6, 2e-6)
     assert fret.Grid.from_spacing(8, 1e-6) == fret.Grid.from_spacing((8, 8), (1e-6, 1e-6))
-    one = fret.Coating(STEEL, thickness=1e-6)
-    assert fret.Body(STEEL, coatings=one) == fret.Body(STEEL, coatings=[one])
+    item = fret.Coating(STEEL, thickness=1e-6)
+    assert fret.Body(STEEL, coatings=item) == fret.Body(STEEL, coatings=[item])
     by_body = fret.reference.hertz(R=R, bodies=(BALL, FLAT), W=W)
     assert by_body.a == fret.reference.hertz(R=R, bodies=(STEEL, STEEL), W=W).a
 
@@ -192,9 +192,9 @@ def test_a_contact_of_a_cell_is_refused_with_the_cells_that_it_takes() -> None:
 
 
 def test_a_contact_of_few_cells_is_doubted_before_and_after() -> None:
-    with pytest.warns(fret.errors.SceneWarning, match="cells across its radius") as said:
+    with pytest.warns(fret.errors.SceneWarning, match="cells across its radius") as text:
         result = fret.solve(few_cells(4.0), PRESSED, progress=False)
-    assert len(said) == 2
+    assert len(text) == 2
     assert "cells across its radius" in result.doubts[0]
     assert "doubted: the contact has" in result.summary()
     assert 3.0 < float(result.dataset.cells_per_radius[-1]) < 5.0
@@ -310,11 +310,13 @@ def test_a_notebook_has_the_bar_in_an_output_of_its_own(monkeypatch: pytest.Monk
 
 
 def test_a_run_with_chosen_increments_knows_how_many_there_are(tmp_path: Path) -> None:
-    told: list[tuple[int, int]] = []
+    progress: list[tuple[int, int]] = []
     scene = sphere_on_flat(n=16).replace(path=fret.LoadPath.start().normal(W))
-    fret._core.solve(scene, store=tmp_path / "run.zarr", on_increment=lambda *at: told.append(at))
+    fret._core.solve(
+        scene, store=tmp_path / "run.zarr", on_increment=lambda *at: progress.append(at)
+    )
     count = fret.open(tmp_path / "run.zarr").dataset.sizes["increment"]
-    assert told == [(n, count) for n in range(1, count + 1)]
+    assert progress == [(n, count) for n in range(1, count + 1)]
 
 
 TEMPLATES = Path(__file__).parents[1] / "crates" / "fret-cli" / "templates"
@@ -337,9 +339,9 @@ def test_slips_of_units_are_told_of_a_line_as_of_a_ball(of: str, slip: str, says
         warnings.simplefilter("always")
         try:
             fret.Scene.from_toml(text, set=[slip.format(of=of)]).check()
-            told = ""
+            message = ""
         except fret.errors.InvalidSceneError as refused:
-            told = str(refused)
-    told += " ".join(str(doubt.message) for doubt in doubts)
-    assert says in told
-    assert "approach" not in told
+            message = str(refused)
+    message += " ".join(str(doubt.message) for doubt in doubts)
+    assert says in message
+    assert "approach" not in message

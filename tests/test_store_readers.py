@@ -38,8 +38,8 @@ def test_zarr_python_reads_a_store_of_version_2(store: Path, pressure: np.ndarra
 
 def test_tensorstore_reads_it(store: Path, pressure: np.ndarray) -> None:
     tensorstore = pytest.importorskip("tensorstore")
-    place = {"driver": "file", "path": f"{store / 'p'}/"}
-    array = tensorstore.open({"driver": "zarr", "kvstore": place}).result().read().result()
+    position = {"driver": "file", "path": f"{store / 'p'}/"}
+    array = tensorstore.open({"driver": "zarr", "kvstore": position}).result().read().result()
     np.testing.assert_array_equal(array, pressure)
 
 

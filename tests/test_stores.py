@@ -46,26 +46,26 @@ def sent(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def changed(store: Path, change: Callable[[dict[str, Any]], None]) -> None:
     """Change what the metadata say of an array, in its own document and in the consolidated one."""
-    own = store / "p_max" / (".zarray" if (store / ".zgroup").exists() else "zarr.json")
-    document = json.loads(own.read_text())
+    own_values = store / "p_max" / (".zarray" if (store / ".zgroup").exists() else "zarr.json")
+    document = json.loads(own_values.read_text())
     change(document)
-    own.write_text(json.dumps(document))
+    own_values.write_text(json.dumps(document))
 
 
 def asks(version: int, what: str) -> Callable[[dict[str, Any]], None]:
     """A change that asks for something else."""
 
-    def change(of: dict[str, Any]) -> None:
+    def change(item: dict[str, Any]) -> None:
         if what == "codec" and version == 2:
-            of["compressor"] = {"id": "pickle"}
+            item["compressor"] = {"id": "pickle"}
         elif what == "codec":
-            of["codecs"] = [{"name": "numcodecs.pickle", "configuration": {}}]
+            item["codecs"] = [{"name": "numcodecs.pickle", "configuration": {}}]
         elif what == "object" and version == 2:
-            of |= {"dtype": "|O", "filters": [{"id": "vlen-utf8"}]}
+            item |= {"dtype": "|O", "filters": [{"id": "vlen-utf8"}]}
         elif what == "object":
-            of["data_type"] = "variable_length_bytes"
+            item["data_type"] = "variable_length_bytes"
         else:
-            of["shape"] = [1 << 40]
+            item["shape"] = [1 << 40]
 
     return change
 

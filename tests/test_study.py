@@ -69,9 +69,9 @@ def test_sensitivity_is_the_part_of_the_variance() -> None:
     np.testing.assert_allclose(parts.sel(parameter="a"), 0.0, atol=1e-12)
     np.testing.assert_allclose(parts.sel(parameter="b"), a.mean() ** 2 / (a**2).mean())
     holes = fret.study.Study(study.dataset.assign({"sum": sums.where(sums < 20.0)}))
-    for of, of_study, says in (("sum", holes, "have no sum"), ("none", study, "must be one of")):
+    for item, of_study, says in (("sum", holes, "have no sum"), ("none", study, "must be one of")):
         with pytest.raises(ValueError, match=says):
-            of_study.sensitivity(of)
+            of_study.sensitivity(item)
 
 
 @pytest.mark.parametrize("second", [2.0, np.nan])
@@ -80,8 +80,8 @@ def test_a_map_says_where_a_point_that_is_done_has_no_value(second: float) -> No
     life = xr.DataArray([[1.0, second], [3.0, 4.0]], axes, name="life")
     status = xr.full_like(life, 1, dtype=np.int8).rename("status")
     legend = fret.study.Study(xr.merge([life, status])).map("life").get_legend()
-    told = [] if legend is None else [text.get_text() for text in legend.texts]
-    assert told == (["no value"] if np.isnan(second) else [])
+    progress = [] if legend is None else [text.get_text() for text in legend.texts]
+    assert progress == (["no value"] if np.isnan(second) else [])
 
 
 def test_a_point_is_the_solution_of_its_scene(whole: fret.study.Study) -> None:
@@ -156,9 +156,9 @@ def test_an_interrupted_study_goes_on(whole: fret.study.Study, tmp_path: Path) -
     half = fret.open(tmp_path / "s.zarr")
     assert half.count() == {"open": 4, "done": 2, "failed": 0}
     assert "4 open, 2 done" in repr(half)
-    told: list[tuple[int, int]] = []
-    study = run(out=tmp_path / "s.zarr", on_point=lambda *n: told.append(n))
-    assert told == [(3, 6), (4, 6), (5, 6), (6, 6)]
+    progress: list[tuple[int, int]] = []
+    study = run(out=tmp_path / "s.zarr", on_point=lambda *n: progress.append(n))
+    assert progress == [(3, 6), (4, 6), (5, 6), (6, 6)]
     assert numbers(study).identical(numbers(whole))
 
 
@@ -200,12 +200,12 @@ def counted(result: fret.Result) -> dict[str, float]:
 
 
 def test_the_store_of_another_study_is_refused(tmp_path: Path) -> None:
-    place = tmp_path / "s.zarr"
-    fret.study.run(SCENE, {"mu": [0.3]}, measure="p_max", executor=HERE, out=place)
+    path = tmp_path / "s.zarr"
+    fret.study.run(SCENE, {"mu": [0.3]}, measure="p_max", executor=HERE, out=path)
     with pytest.raises(fret.errors.StoreError, match="differ in parameters"):
-        fret.study.run(SCENE, {"mu": [0.4]}, measure="p_max", executor=HERE, out=place)
+        fret.study.run(SCENE, {"mu": [0.4]}, measure="p_max", executor=HERE, out=path)
     with pytest.raises(fret.errors.StoreError, match="it measures p_max, not q_max"):
-        fret.study.run(SCENE, {"mu": [0.3]}, measure="q_max", executor=HERE, out=place)
+        fret.study.run(SCENE, {"mu": [0.3]}, measure="q_max", executor=HERE, out=path)
     fret.solve(SCENE, out=tmp_path / "run.zarr", progress=False)
     with pytest.raises(fret.errors.StoreError, match="not the store of a study"):
         open_study(tmp_path / "run.zarr")
@@ -261,16 +261,16 @@ def test_a_cluster_of_dask_loses_nothing_with_a_worker(
     cluster = distributed.LocalCluster(
         n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
     )
-    told: list[int] = []
+    progress: list[int] = []
     with cluster, distributed.Client(cluster) as client:
         study = run(
             measure=[*MEASURES, measure],
             executor=client,
             out=tmp_path / "s.zarr",
-            on_point=lambda n, _: told.append(n),
+            on_point=lambda n, _: progress.append(n),
         )
     assert (tmp_path / "died").exists()
-    assert told == [1, 2, 3, 4, 5, 6]
+    assert progress == [1, 2, 3, 4, 5, 6]
     assert numbers(study)[MEASURES].equals(numbers(whole)[MEASURES])
 
 
@@ -288,9 +288,9 @@ def test_a_study_file_is_the_same_study(whole: fret.study.Study, tmp_path: Path)
     assert ran.returncode == 0, ran.stderr
     assert "6 done" in ran.stdout
     assert (tmp_path / "map.png").stat().st_size > 10_000
-    found = fret.open(tmp_path / "study.zarr")
-    np.testing.assert_allclose(found.dataset.mu, whole.dataset.mu)
-    assert np.array_equal(found.dataset.p_max[:, 0], whole.dataset.p_max[:, 0])
+    computed = fret.open(tmp_path / "study.zarr")
+    np.testing.assert_allclose(computed.dataset.mu, whole.dataset.mu)
+    assert np.array_equal(computed.dataset.p_max[:, 0], whole.dataset.p_max[:, 0])
     file.write_text('scene = "scene.toml"\nparameter = 1\n')
     ran = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
     assert ran.returncode == 2
@@ -328,10 +328,10 @@ def test_measures_have_their_range_or_are_called_estimates() -> None:
     path = fret.LoadPath.start().normal(W, increments=2)
     for sign in (1, -1, 1):
         path = path.force(T_x=sign * 0.3 * SCENE.mu * W, increments=4)
-    judged = [fret.study.Cracking(steel, of) for of in ("crossland", "smith_watson_topper")]
+    judged = [fret.study.Cracking(steel, item) for item in ("crossland", "smith_watson_topper")]
     cycle = SCENE.replace(path=path, save="all")
     pressed = SCENE.replace(path=fret.LoadPath.start().normal(W, increments=2), save="all")
-    found: dict[str, fret.study.Study] = {}
+    computed: dict[str, fret.study.Study] = {}
     for scene, measure in (
         (cycle, ["loop_energy", "stiffness", "regime", *judged]),
         (pressed, ["s_1"]),
@@ -354,15 +354,15 @@ def test_measures_have_their_range_or_are_called_estimates() -> None:
                 assert ("estimate" in lines[name]) == (name != "regime"), lines[name]
             if name.startswith(("safety_factor", "life")):
                 assert "of the mean over 72.41 um" in d[name].attrs["long_name"]
-            found[name] = study
+            computed[name] = study
     names = ["loop_energy", "stiffness", "regime", "safety_factor", "crack_depth"]
-    assert list(found) == [*names, "life_2", "crack_depth_2", "s_1"]
+    assert list(computed) == [*names, "life_2", "crack_depth_2", "s_1"]
     for name in ("stiffness", "s_1", "safety_factor", "life_2"):
-        assert f"{name}_low" in found[name].dataset
+        assert f"{name}_low" in computed[name].dataset
     # A figure says how well its numbers are known, and a line has its range.
-    for name, told in (("s_1", ("±", "factor")), ("loop_energy", ("estimate",))):
-        drawn = found[name].map(name)
-        assert any(word in drawn.get_ylabel() for word in told), drawn.get_ylabel()
+    for name, pattern in (("s_1", ("±", "factor")), ("loop_energy", ("estimate",))):
+        drawn = computed[name].map(name)
+        assert any(word in drawn.get_ylabel() for word in pattern), drawn.get_ylabel()
         assert bool(drawn.collections) == (name == "s_1")
 
 
@@ -408,8 +408,8 @@ def test_a_study_can_be_pickled(whole: fret.study.Study) -> None:
 
 
 def test_sources_are_those_of_the_bibliography() -> None:
-    known = (ROOT / "references.bib").read_text()
-    assert all(source.doi in known for source in citation.sources())
+    known_values = (ROOT / "references.bib").read_text()
+    assert all(source.doi in known_values for source in citation.sources())
     assert "10.1115/1.3261591" in fret.cite(SCENE)
     assert "10.1115/1.3261591" not in fret.cite(sphere_on_flat())
 
@@ -448,12 +448,12 @@ def test_a_store_of_another_friction_law_is_another_study(tmp_path: Path) -> Non
         return 0.5
 
     path = fret.LoadPath.start().normal(1e3, increments=1)
-    place = tmp_path / "laws.zarr"
+    position = tmp_path / "laws.zarr"
 
     def solve(law: Any) -> fret.study.Study:
         scene = sphere_on_flat(n=16).replace(friction=fret.Friction(0.3, law=law), path=path)
         return fret.study.run(
-            scene, {"path.0.W": [900.0]}, measure="p_max", executor=1, out=place, progress=False
+            scene, {"path.0.W": [900.0]}, measure="p_max", executor=1, out=position, progress=False
         )
 
     solve(constant)
@@ -488,16 +488,16 @@ def test_values_of_parameters_in_any_form() -> None:
         [Decimal("0.2"), Fraction(3, 10)],
         (np.float32(0.2), 0.3),
     ):
-        found = Design.from_values({"mu": values}, "grid").parameters["mu"]
-        assert found == pytest.approx([0.2, 0.3])
+        computed = Design.from_values({"mu": values}, "grid").parameters["mu"]
+        assert computed == pytest.approx([0.2, 0.3])
     assert Design.from_values({"grid.n": range(8, 12, 2)}, "grid").parameters["grid.n"] == [8, 10]
 
 
 def test_what_a_measure_gives_is_a_number_or_missing() -> None:
-    given = {"masked": np.ma.masked, "none": None, "truth": True, "series": xr.DataArray(2.0)}
-    found = to_variables(given, "all")
-    assert np.isnan([float(found[name]) for name in ("masked", "none")]).all()
-    assert [float(found[name]) for name in ("truth", "series")] == [1.0, 2.0]
+    arguments = {"masked": np.ma.masked, "none": None, "truth": True, "series": xr.DataArray(2.0)}
+    computed = to_variables(arguments, "all")
+    assert np.isnan([float(computed[name]) for name in ("masked", "none")]).all()
+    assert [float(computed[name]) for name in ("truth", "series")] == [1.0, 2.0]
     for wrong in (np.zeros(3), 1j, "a", xr.DataArray(np.array([object()]), dims="k")):
         with pytest.raises((TypeError, ValueError)):
             to_variables(wrong, "all")

@@ -49,9 +49,9 @@ TEXTS = [
 
 @pytest.fixture
 def scene(tmp_path: Path) -> Path:
-    place = tmp_path / "s.toml"
-    place.write_text(SCENE)
-    return place
+    path = tmp_path / "s.toml"
+    path.write_text(SCENE)
+    return path
 
 
 def solved(scene: Any, parameters: dict[str, Any], **options: Any) -> fret.study.Study:
@@ -104,25 +104,25 @@ def test_the_opposite_of_a_text(text: Any, other: Any) -> None:
 @pytest.mark.solves
 def test_a_study_over_texts_is_the_one_over_numbers(scene: Path, tmp_path: Path) -> None:
     """The coordinates, the numbers and the store; a map of a part takes both forms, too."""
-    place = tmp_path / "st.zarr"
-    said = solved(scene, {THICKNESS: ["2 um", "4 um"], "friction.mu": [0.3, 0.5]}, out=place)
+    path = tmp_path / "st.zarr"
+    options = solved(scene, {THICKNESS: ["2 um", "4 um"], "friction.mu": [0.3, 0.5]}, out=path)
     plain = {THICKNESS: [2e-6, 4e-6], "friction.mu": [0.3, 0.5]}
     # It goes on with the same store.
-    again = solved(scene, plain, out=place)
-    assert said.dataset[THICKNESS].values.tolist() == plain[THICKNESS]
-    np.testing.assert_array_equal(said.dataset["p_max"], again.dataset["p_max"])
-    assert not np.isnan(said.dataset["p_max"]).any()
+    again = solved(scene, plain, out=path)
+    assert options.dataset[THICKNESS].values.tolist() == plain[THICKNESS]
+    np.testing.assert_array_equal(options.dataset["p_max"], again.dataset["p_max"])
+    assert not np.isnan(options.dataset["p_max"]).any()
     # A part is asked for by any name of the parameter, in any form of its value.
     for at in ({"mu": 0.5}, {"friction.mu": 0.48}):
-        drawn = fret.open(place).map(at=at).lines[0].get_ydata()
-        np.testing.assert_allclose(drawn, said.dataset["p_max"][:, 1] / 1e6)
+        drawn = fret.open(path).map(at=at).lines[0].get_ydata()
+        np.testing.assert_allclose(drawn, options.dataset["p_max"][:, 1] / 1e6)
     for at in ({THICKNESS: 4e-6}, {THICKNESS: "4 um"}, {"body2.coatings[0].thickness": "4 um"}):
-        drawn = said.map(at=at).lines[0].get_ydata()
-        np.testing.assert_allclose(drawn, said.dataset["p_max"][1] / 1e6)
+        drawn = options.map(at=at).lines[0].get_ydata()
+        np.testing.assert_allclose(drawn, options.dataset["p_max"][1] / 1e6)
     with pytest.raises(ValueError, match=rf"no parameter 'muu'.*\(of {THICKNESS}, friction.mu\)"):
-        said.map(at={"muu": 0.5})
+        options.map(at={"muu": 0.5})
     with pytest.raises(ValueError, match="must be a number in m"):
-        said.map(at={THICKNESS: "4 MPa"})
+        options.map(at={THICKNESS: "4 MPa"})
 
 
 @pytest.mark.parametrize("known", ["mu", "friction.mu"])
@@ -134,12 +134,12 @@ def test_a_short_name_and_its_key_are_one(known: str, name: str) -> None:
 def test_a_part_of_texts_and_of_samples() -> None:
     """A text is taken as it is, without quotes; samples have no part."""
     key = "body2.coatings.0.material"
-    of = Design.from_values({key: ["TiN", "CrN"], "mu": [0.1, 0.2]}, "grid")
-    assert str(part(empty_dataset(of, {}, POINT_VARIABLES), {key: "CrN"})[key].values) == '"CrN"'
+    item = Design.from_values({key: ["TiN", "CrN"], "mu": [0.1, 0.2]}, "grid")
+    assert str(part(empty_dataset(item, {}, POINT_VARIABLES), {key: "CrN"})[key].values) == '"CrN"'
     with pytest.raises(ValueError, match='must be one of "TiN", "CrN"'):
-        part(empty_dataset(of, {}, POINT_VARIABLES), {key: "DLC"})
+        part(empty_dataset(item, {}, POINT_VARIABLES), {key: "DLC"})
     with pytest.raises(ValueError, match="must be a number"):
-        part(empty_dataset(of, {}, POINT_VARIABLES), {"mu": "low"})
+        part(empty_dataset(item, {}, POINT_VARIABLES), {"mu": "low"})
     samples = Design.from_values({key: ["TiN", "CrN"], "mu": [0.1, 0.2]}, "zip")
     with pytest.raises(ValueError, match="changes together with others"):
         part(empty_dataset(samples, {}, POINT_VARIABLES), {"friction.mu": 0.1})
@@ -154,7 +154,7 @@ def test_a_force_per_length_is_none_of_a_ball(scene: Path) -> None:
 @pytest.mark.solves
 def test_a_threshold_over_texts_is_the_one_over_numbers(scene: Path) -> None:
     """The load of a largest pressure over the thickness, with and without units."""
-    of = [
+    item = [
         fret.study.threshold(
             scene,
             "path.0.W",
@@ -167,7 +167,7 @@ def test_a_threshold_over_texts_is_the_one_over_numbers(scene: Path) -> None:
         )
         for thickness in (["2 um"], [2e-6])
     ]
-    assert of[0].equals(of[1])
+    assert item[0].equals(item[1])
 
 
 @pytest.mark.parametrize(
@@ -181,10 +181,10 @@ def test_a_threshold_over_texts_is_the_one_over_numbers(scene: Path) -> None:
 def test_a_range_keeps_the_unit_that_it_was_given_in(
     name: str, given: dict[str, object], right: list[float]
 ) -> None:
-    found = file.read_values(given, name, "study.toml")
+    computed = file.read_values(given, name, "study.toml")
     unit = str(given["from"]).partition(" ")[2]
-    assert all(str(value).endswith(unit) for value in found)
-    assert [in_si(name, value) for value in found] == pytest.approx(right, rel=1e-12)
+    assert all(str(value).endswith(unit) for value in computed)
+    assert [in_si(name, value) for value in computed] == pytest.approx(right, rel=1e-12)
 
 
 def test_a_range_of_forces_per_length_is_refused_on_a_ball(scene: Path) -> None:

@@ -41,23 +41,23 @@ def solved(
     place: Path | None, values: object = (0.2, 0.3, 0.4), **options: object
 ) -> fret.study.Study:
     """The largest pressure over mu, in this process."""
-    said = {"measure": "p_max", "executor": ThreadPoolExecutor(1), "progress": False} | options
-    return fret.study.run(SCENE, {"mu": list(values)}, out=place, **said)  # type: ignore[call-overload]
+    text = {"measure": "p_max", "executor": ThreadPoolExecutor(1), "progress": False} | options
+    return fret.study.run(SCENE, {"mu": list(values)}, out=place, **text)  # type: ignore[call-overload]
 
 
 @pytest.fixture(scope="module")
 def whole(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A store of three points."""
-    place: Path = tmp_path_factory.mktemp("study") / "s.zarr"
-    solved(place)
-    return place
+    path: Path = tmp_path_factory.mktemp("study") / "s.zarr"
+    solved(path)
+    return path
 
 
 def files_of(store: Path) -> list[str]:
     """The files of a store, but for documents that are read from the consolidated ones."""
     single = (".zattrs", ".zarray", ".zgroup")
-    found = [p.relative_to(store) for p in store.rglob("*") if p.is_file()]
-    return sorted(str(p) for p in found if p.name not in single)
+    computed = [p.relative_to(store) for p in store.rglob("*") if p.is_file()]
+    return sorted(str(p) for p in computed if p.name not in single)
 
 
 def test_every_damage_is_named_or_harmless(whole: Path, tmp_path: Path) -> None:
@@ -67,10 +67,10 @@ def test_every_damage_is_named_or_harmless(whole: Path, tmp_path: Path) -> None:
     wrong = []
     for name in files_of(whole):
         for kind in ("gone", "cut", "changed"):
-            place = tmp_path / "copy.zarr"
-            shutil.rmtree(place, ignore_errors=True)
-            shutil.copytree(whole, place)
-            file = place / name
+            path = tmp_path / "copy.zarr"
+            shutil.rmtree(path, ignore_errors=True)
+            shutil.copytree(whole, path)
+            file = path / name
             content = file.read_bytes()
             if kind == "gone":
                 file.unlink()
@@ -82,27 +82,27 @@ def test_every_damage_is_named_or_harmless(whole: Path, tmp_path: Path) -> None:
                     content[:middle] + bytes([content[middle] ^ 0x24]) + content[middle + 1 :]
                 )
             try:
-                found = fret.open(place).dataset.load()
+                computed = fret.open(path).dataset.load()
             except StoreError as told:
                 if "copy.zarr" not in str(told):
                     wrong.append(f"{name} {kind}: {told}")
             except Exception as raw:
                 wrong.append(f"{name} {kind}: {type(raw).__name__} {raw}")
             else:
-                if not found.identical(right):
+                if not computed.identical(right):
                     wrong.append(f"{name} {kind}: read as other values")
     assert not wrong, "\n".join(wrong)
 
 
 def test_a_line_that_is_not_finished_is_left_out(whole: Path, tmp_path: Path) -> None:
-    place = tmp_path / "s.zarr"
-    shutil.copytree(whole, place)
-    ledger = (place / FILE).read_bytes()
+    path = tmp_path / "s.zarr"
+    shutil.copytree(whole, path)
+    ledger = (path / FILE).read_bytes()
     lines = ledger.splitlines(keepends=True)
     # The status of its point stands in the arrays: the file has been cut off later.
-    (place / FILE).write_bytes(b"".join(lines[:-1]) + lines[-1][:-9])
+    (path / FILE).write_bytes(b"".join(lines[:-1]) + lines[-1][:-9])
     with pytest.raises(StoreError, match="has a status and no line"):
-        fret.open(place)
+        fret.open(path)
 
 
 @pytest.mark.parametrize("after", ["values", "line"])
@@ -110,7 +110,7 @@ def test_a_kill_within_a_point(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, 
     """After the values, or after the line in the ledger: the point is solved again, or counts."""
     from pyfret.study import ledger, store
 
-    place, count = tmp_path / "s.zarr", 0
+    path, count = tmp_path / "s.zarr", 0
 
     def killed(*_: object) -> None:
         nonlocal count
@@ -119,21 +119,21 @@ def test_a_kill_within_a_point(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, 
             raise KeyboardInterrupt
 
     with monkeypatch.context() as patch:
-        of = ledger.Ledger if after == "values" else store.Store
+        item = ledger.Ledger if after == "values" else store.Store
         name = "add" if after == "values" else "write_status"
-        true = getattr(of, name)
+        true = getattr(item, name)
 
         def call(self: object, *arguments: object) -> None:
             killed()
             true(self, *arguments)
 
-        patch.setattr(of, name, call)
+        patch.setattr(item, name, call)
         with pytest.raises(KeyboardInterrupt):
-            solved(place)
-    assert fret.open(place).count()["done"] == 1
-    assert solved(place).count()["done"] == 3
+            solved(path)
+    assert fret.open(path).count()["done"] == 1
+    assert solved(path).count()["done"] == 3
     np.testing.assert_array_equal(
-        fret.open(place).dataset.p_max, solved(tmp_path / "other.zarr").dataset.p_max
+        fret.open(path).dataset.p_max, solved(tmp_path / "other.zarr").dataset.p_max
     )
 
 
@@ -142,7 +142,7 @@ def test_a_kill_while_it_is_laid_out_leaves_nothing(
 ) -> None:
     from pyfret.study import store
 
-    place = tmp_path / "s.zarr"
+    path = tmp_path / "s.zarr"
 
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")
@@ -150,13 +150,13 @@ def test_a_kill_while_it_is_laid_out_leaves_nothing(
     with monkeypatch.context() as patch:
         patch.setattr(store.Ledger, "begin", full)
         with pytest.raises(OSError, match="No space left"):
-            solved(place)
+            solved(path)
     assert not list(tmp_path.iterdir())
-    assert solved(place).count()["done"] == 3
+    assert solved(path).count()["done"] == 3
 
 
 def test_failed_points_are_solved_again_in_place(tmp_path: Path) -> None:
-    place, fails = tmp_path / "s.zarr", [True]
+    path, fails = tmp_path / "s.zarr", [True]
 
     def sometimes(result: fret.Result) -> float:
         if fails[0]:
@@ -165,12 +165,12 @@ def test_failed_points_are_solved_again_in_place(tmp_path: Path) -> None:
 
     # What it refers to changes, what it measures does not.
     sometimes.version = "1"  # type: ignore[attr-defined]
-    first = solved(place, measure=[sometimes])
+    first = solved(path, measure=[sometimes])
     assert first.count()["failed"] == 3
     assert "SystemExit" in str(first.dataset.reason.values[0])
     fails[0] = False
-    assert solved(place, measure=[sometimes]).count()["failed"] == 3
-    assert solved(place, measure=[sometimes], again=True).count()["done"] == 3
+    assert solved(path, measure=[sometimes]).count()["failed"] == 3
+    assert solved(path, measure=[sometimes], again=True).count()["done"] == 3
 
 
 def test_a_store_has_one_writer(whole: Path, tmp_path: Path) -> None:
@@ -234,8 +234,8 @@ def children(of: int) -> list[int]:
         ["ps", "-eo", "pid=,ppid="], capture_output=True, text=True, check=True
     ).stdout.splitlines()
     pairs = [tuple(int(n) for n in line.split()) for line in lines]
-    found = [pid for pid, parent in pairs if parent == of]
-    return found + [below for pid in found for below in children(pid)]
+    computed = [pid for pid, parent in pairs if parent == of]
+    return computed + [below for pid in computed for below in children(pid)]
 
 
 def alive(pid: int) -> bool:
@@ -250,9 +250,9 @@ def alive(pid: int) -> bool:
 def test_workers_end_with_a_caller_that_is_killed(tmp_path: Path) -> None:
     script = tmp_path / "caller.py"
     script.write_text(SCRIPT)
-    here = str(Path(__file__).parent)
+    folder = str(Path(__file__).parent)
     command = [sys.executable, str(script), str(tmp_path / "s.zarr")]
-    with subprocess.Popen(command, env=os.environ | {"PYTHONPATH": here}) as caller:
+    with subprocess.Popen(command, env=os.environ | {"PYTHONPATH": folder}) as caller:
         deadline = time.monotonic() + 60
         while time.monotonic() < deadline and len(children(caller.pid)) < 2:
             time.sleep(0.2)

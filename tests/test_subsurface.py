@@ -101,11 +101,11 @@ def test_the_largest_stress_in_partial_slip_is_within_its_error(n: int) -> None:
         "s_1": np.maximum((s_xx + s_zz) / 2 + plane, s_yy),
         "s_xx": s_xx,
     }
-    for of, field in exact.items():
-        found, right = below.maximum(of), field.max()
-        assert found.errors.solution == pytest.approx(float(bars.stress) * abs(found.value))
-        assert abs(found.value - right) <= found.error
-        assert abs(found.value - right) <= (0.01 if n >= 64 else 0.02) * line.p0
+    for entry, field in exact.items():
+        extremum, right = below.maximum(entry), field.max()
+        assert extremum.errors.solution == pytest.approx(float(bars.stress) * abs(extremum.value))
+        assert abs(extremum.value - right) <= extremum.error
+        assert abs(extremum.value - right) <= (0.01 if n >= 64 else 0.02) * line.p0
     if n >= 64:
         largest = below.maximum()
         assert largest.error < 0.05 * largest.value
@@ -184,9 +184,9 @@ def test_volumes_open_in_vtk_and_xarray(coated: fret.Result, tmp_path: Path) -> 
 
     snapshot = coated.at(-1)
     z = np.linspace(0, 2 * coated.a_H, 9)
-    of = ("von_mises", "u_z", "s_xz", "u_x")
-    snapshot.write_volume(tmp_path / "stress.vti", z, of=of)
-    snapshot.write_volume(tmp_path / "stress.zarr", z, of=of)
+    item = ("von_mises", "u_z", "s_xz", "u_x")
+    snapshot.write_volume(tmp_path / "stress.vti", z, of=item)
+    snapshot.write_volume(tmp_path / "stress.zarr", z, of=item)
     reader = vtkXMLImageDataReader()
     reader.SetFileName(str(tmp_path / "stress.vti"))
     reader.Update()

@@ -19,9 +19,9 @@ def test_arrays_of_any_kind_are_read(kind: str, tmp_path: Path) -> None:
     file = tmp_path / "heights.npy"
     np.save(file, HEIGHTS.astype(kind))
     for read in (fret.SurfaceMap.from_file, fret.read_surface):
-        found = read(file, spacing=2e-6)
-        np.testing.assert_array_equal(found.values, HEIGHTS)
-        assert found.spacing == (2e-6, 2e-6)
+        surface = read(file, spacing=2e-6)
+        np.testing.assert_array_equal(surface.values, HEIGHTS)
+        assert surface.spacing == (2e-6, 2e-6)
 
 
 @pytest.mark.parametrize(
@@ -82,17 +82,17 @@ def test_plain_numbers_need_a_spacing(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("ending", ["zarr", "nc"])
 def test_a_result_is_saved_and_opened(coated: fret.Result, ending: str, tmp_path: Path) -> None:
-    place = tmp_path / f"copy.{ending}"
-    coated.save(place)
+    path = tmp_path / f"copy.{ending}"
+    coated.save(path)
     with pytest.raises(FileExistsError):
-        coated.save(place)
-    found = fret.open(place)
-    xr.testing.assert_equal(found.dataset.load(), coated.dataset)
-    assert found.scene == coated.scene
-    assert found.dataset.attrs["Conventions"] == "CF-1.11"
-    assert found.summary() == coated.summary()
-    assert found.at(-1).stress([0.0], y=0.0).von_mises.max() > 0
-    found.dataset.close()
+        coated.save(path)
+    computed = fret.open(path)
+    xr.testing.assert_equal(computed.dataset.load(), coated.dataset)
+    assert computed.scene == coated.scene
+    assert computed.dataset.attrs["Conventions"] == "CF-1.11"
+    assert computed.summary() == coated.summary()
+    assert computed.at(-1).stress([0.0], y=0.0).von_mises.max() > 0
+    computed.dataset.close()
 
 
 def test_a_result_is_saved_as_what_its_name_says(coated: fret.Result, tmp_path: Path) -> None:
@@ -118,15 +118,15 @@ def test_a_map_that_is_too_small_is_refused_with_the_grid_that_fits(*, flat: boo
 
     with pytest.raises(fret.errors.InvalidSceneError, match="as large as the grid") as refused:
         scene(grid)
-    told = re.search(r"Grid\.\w+\(.*?\)(?= at most)", str(refused.value))
-    assert told is not None
-    largest = eval(told[0], {"Grid": fret.Grid})
+    match = re.search(r"Grid\.\w+\(.*?\)(?= at most)", str(refused.value))
+    assert match is not None
+    largest = eval(match[0], {"Grid": fret.Grid})
     assert scene(largest).grid == largest
     assert (largest.dx, largest.nx) == (pytest.approx(grid.dx, rel=1e-5), 42)
     if not flat:
         assert largest.ny == 38
-        said = str(refused.value).partition("in a scene file ")[2].split(" and ")
+        message = str(refused.value).partition("in a scene file ")[2].split(" and ")
         text = scene(largest).to_toml()
-        table = "[grid]\n" + "\n".join(said)
+        table = "[grid]\n" + "\n".join(message)
         again = re.sub(r"\[grid\]\n(?:[^\[\n].*\n)*", table + "\n", text)
         assert fret.Scene.from_toml(again).grid.nx == largest.nx

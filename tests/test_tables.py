@@ -90,8 +90,8 @@ def test_loops_in_the_forms_of_loggers(tmp_path: Path, form: str) -> None:
 @pytest.mark.parametrize("form", REFUSED)
 def test_what_is_no_number_is_refused_in_its_line(tmp_path: Path, form: str) -> None:
     file = tmp_path / "loop.csv"
-    content, told = REFUSED[form]
+    content, text = REFUSED[form]
     file.write_bytes(content)
-    with pytest.raises((ValueError, OSError), match=told) as refused:
+    with pytest.raises((ValueError, OSError), match=text) as refused:
         fret.fit.read_loops(file)
     assert "loop.csv" in str(refused.value)

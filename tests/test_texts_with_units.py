@@ -38,11 +38,11 @@ def test_every_number_takes_a_text_with_its_unit_or_says_what_to_write(
     for name, call in public.public():
         if name in public.LEFT_OUT or name.startswith(LEFT_OUT):
             continue
-        found = public.good(name, call)
-        if found is None:
+        computed = public.good(name, call)
+        if computed is None:
             continue
-        for key, value in found[0].items():
-            if type(value) is not float or not accepted(public, call, found[0]):
+        for key, value in computed[0].items():
+            if type(value) is not float or not accepted(public, call, computed[0]):
                 continue
             measured = _core.measured_by(f"{name}.{key}")
             if measured and " at " in measured[1]:
@@ -50,17 +50,17 @@ def test_every_number_takes_a_text_with_its_unit_or_says_what_to_write(
                 continue
             unit = measured[1] if measured and measured[1] else "um"
             try:
-                public.invoked(call, found[0] | {key: f"{value!r} {unit}"})
+                public.invoked(call, computed[0] | {key: f"{value!r} {unit}"})
                 taken += 1
                 if unit == "um" and (measured is None or not measured[1]):
                     wrong.append(f"{name}({key}): a length is taken")
             except Exception as error:
-                told = f"{error} {getattr(error, '__notes__', '')}"
+                text = f"{error} {getattr(error, '__notes__', '')}"
                 refused += 1
-                if "write " not in told and "must be" not in told:
-                    wrong.append(f"{name}({key}): {type(error).__name__}: {told:.200}")
-                if "write " not in told and measured and measured[1]:
-                    wrong.append(f"{name}({key}): {type(error).__name__}: {told:.200}")
+                if "write " not in text and "must be" not in text:
+                    wrong.append(f"{name}({key}): {type(error).__name__}: {text:.200}")
+                if "write " not in text and measured and measured[1]:
+                    wrong.append(f"{name}({key}): {type(error).__name__}: {text:.200}")
     record_property("taken", taken)
     record_property("refused", refused)
     assert not wrong, "\n".join(wrong)
@@ -107,13 +107,13 @@ PURE = {"mu", "nu", "beta", "eps_x"}
 
 def test_a_load_of_a_closed_form_is_one_of_its_contact(public: Any) -> None:
     """All numbers of the closed forms: N/m of a line, N of others, each in another unit."""
-    asked = []
+    requests = []
     for name, call in public.public():
-        found = public.good(name, call) if name.startswith("reference.") else None
-        if found is None or not accepted(public, call, found[0]):
+        computed = public.good(name, call) if name.startswith("reference.") else None
+        if computed is None or not accepted(public, call, computed[0]):
             continue
         line = "line" in name.lower()
-        for key, value in found[0].items():
+        for key, value in computed[0].items():
             if type(value) is not float or key in PURE or takes_array(call, key):
                 continue
             unit, power, wrong = "um", -6, "2 N"
@@ -125,19 +125,19 @@ def test_a_load_of_a_closed_form_is_one_of_its_contact(public: Any) -> None:
                 unit, power = "N mm", -3
             # In decimals, as a reader writes it: 6e-5 m are 60 um.
             number = Decimal(repr(value)).scaleb(-power)
-            right = public.invoked(call, found[0])
-            said = public.invoked(call, found[0] | {key: f"{number} {unit}"})
-            assert numbers_in(said) == pytest.approx(numbers_in(right), rel=1e-12), (name, key)
-            with pytest.raises(ValueError, match="must be a number in") as told:
-                public.invoked(call, found[0] | {key: wrong})
+            right = public.invoked(call, computed[0])
+            options = public.invoked(call, computed[0] | {key: f"{number} {unit}"})
+            assert numbers_in(options) == pytest.approx(numbers_in(right), rel=1e-12), (name, key)
+            with pytest.raises(ValueError, match="must be a number in") as refused:
+                public.invoked(call, computed[0] | {key: wrong})
             if key in {"W", "T", "T_m"}:
-                assert f"must be a number in {'N/m' if line else 'N'}, a text" in str(told.value)
-            asked.append(f"{name}({key})")
-    assert {"reference.line_contact(W)", "reference.hertz(W)"} <= set(asked)
+                assert f"must be a number in {'N/m' if line else 'N'}, a text" in str(refused.value)
+            requests.append(f"{name}({key})")
+    assert {"reference.line_contact(W)", "reference.hertz(W)"} <= set(requests)
     assert {"reference.LineContact.q(T)", "reference.CattaneoMindlin.loop_energy(T_m)"} <= set(
-        asked
+        requests
     )
-    assert len(asked) > 20, asked
+    assert len(requests) > 20, requests
 
 
 def takes_array(call: Any, key: str) -> bool:

@@ -102,8 +102,8 @@ def test_numbers_do_not_depend_on_how_a_scene_is_turned(seed: int) -> None:
     scene, angle = drawn(random), float(random.uniform(0.0, np.pi / 2))
     right = scene.numbers()
     turned = scene.turned(angle)
-    for other in (turned, turned.mirrored()):
-        for name, found in other.numbers().items():
+    for alternative in (turned, turned.mirrored()):
+        for name, computed in alternative.numbers().items():
             least = SHUT if name == "dK" else 0.0
             about = (name, scene, np.degrees(angle))
-            assert found == pytest.approx(right[name], rel=0.01, abs=least), about
+            assert computed == pytest.approx(right[name], rel=0.01, abs=least), about

@@ -44,9 +44,9 @@ NUMBER = r"\(?-?[\d.]+(?:e-?\d+)?(?: \+- [\d.]+)?\)?(?:e-?\d+)?"
 
 def read(text: str) -> tuple[float, float]:
     """A printed number and half a unit of its last digit, such as 0.371 or (2.07 +- 0.01)e7."""
-    found = re.fullmatch(r"\(?(-?[\d.]+)(?: \+- [\d.]+\)?)?(?:e(-?\d+))?", text.strip())
-    assert found, text
-    digits, power = found[1], 10.0 ** int(found[2] or 0)
+    matches = re.fullmatch(r"\(?(-?[\d.]+)(?: \+- [\d.]+\)?)?(?:e(-?\d+))?", text.strip())
+    assert matches, text
+    digits, power = matches[1], 10.0 ** int(matches[2] or 0)
     decimals = len(digits.partition(".")[2])
     # Zeros at the end of a whole number may be rounded ones: four digits are printed at least.
     last = 10.0**-decimals if decimals else 10.0 ** max(len(digits.lstrip("-")) - 4, 0)
@@ -115,12 +115,12 @@ def of_cycle(text: str, truth: dict[str, Any]) -> Iterator[tuple[str, str]]:
     """Name in the store and printed number, of every number of the lines about one cycle."""
     cycle = truth["cycles"][0]
     body = text.partition(":")[2].replace("\n", ",")
-    for part in filter(None, (of.strip() for of in body.split(","))):
+    for part in filter(None, (item.strip() for item in body.split(","))):
         numbers = re.findall(NUMBER, part)
         if not numbers:
             continue
         assert len(numbers) == 1, part
-        name, _, unit = (of.strip() for of in part.partition(numbers[0]))
+        name, _, unit = (item.strip() for item in part.partition(numbers[0]))
         if "dissipated" in unit:
             name, unit = "dissipated", unit.split()[0]
         name = name.replace(" ", "_")
@@ -197,9 +197,11 @@ def test_numbers_of_cycles(result: fret.Result, pages: tuple[str, dict[str, Any]
     assert len(shared) >= 6
     for name in shared:
         right = truth["cycles"][0][name]
-        found = float(loops[name])
+        computed = float(loops[name])
         # JSON has no NaN.
-        assert np.isnan(found) if right is None else found == pytest.approx(right, rel=1e-9), name
+        assert (
+            np.isnan(computed) if right is None else computed == pytest.approx(right, rel=1e-9)
+        ), name
 
 
 def test_numbers_of_a_run_of_wear(scene: fret.Scene, result: fret.Result) -> None:

@@ -76,12 +76,12 @@ SLIPS: dict[str, tuple[Callable[[], Any], str]] = {
 
 @pytest.mark.parametrize("slip", SLIPS)
 def test_a_number_in_another_unit_is_doubted(slip: str) -> None:
-    call, told = SLIPS[slip]
+    call, message = SLIPS[slip]
     with warnings.catch_warnings(record=True) as doubts:
         warnings.simplefilter("always")
         call()
-    said = [str(doubt.message) for doubt in doubts if doubt.category is SceneWarning]
-    assert any(re.search(told, one) for one in said), said
+    text = [str(doubt.message) for doubt in doubts if doubt.category is SceneWarning]
+    assert any(re.search(message, element) for element in text), text
 
 
 def test_numbers_of_a_scene_in_another_unit_are_doubted() -> None:
@@ -92,14 +92,14 @@ def test_numbers_of_a_scene_in_another_unit_are_doubted() -> None:
     coat = fret.Coating(steel, thickness=1e-4, bond=fret.Bond(normal=1.0))
 
     def doubts(**changed: Any) -> str:
-        of: dict[str, Any] = {
+        item: dict[str, Any] = {
             "body1": fret.Body(steel, shape=fret.Sphere(R=0.01)),
             "body2": fret.Body(steel),
             "friction": 0.3,
             "grid": grid,
             "path": path,
         }
-        return "\n".join(fret.Scene(**of | changed).doubts())
+        return "\n".join(fret.Scene(**item | changed).doubts())
 
     assert doubts() == ""
     assert "body2.plastic.s_y = 300 Pa" in doubts(body2=fret.Body(soft))
@@ -147,13 +147,13 @@ def test_units_of_columns_are_asked_for(
 def test_lives_name_the_units_of_what_was_set(tmp_path: Path) -> None:
     table = tmp_path / "lives.csv"
     thickness = "body2.coatings.0.thickness"
-    for head, told in (
+    for head, pattern in (
         (f"cycles;{thickness}", "must have a unit of length"),
         (f"cycles;{thickness} [N]", "must have a unit of length"),
         ("cycles;path.*.W [um]", "must have a unit of force"),
     ):
         table.write_text(f"{head}\n1e5;3\n2e5;4\n")
-        with pytest.raises(ValueError, match=told):
+        with pytest.raises(ValueError, match=pattern):
             fret.fit.read_lives(table, wear={})
     table.write_text(f"cycles;{thickness} [um];mu\n1e5;3;0.3\n")
     assert fret.fit.read_lives(table, wear={}).settings == [

@@ -11,7 +11,7 @@ DRAWN = re.compile(r"\b(set_\w*label|set_title|[xyz]?label|title|suptitle)(\(|=|
 
 
 def test_figures_have_one_spelling_of_the_micrometre() -> None:
-    asked, wrong = 0, []
+    count, wrong = 0, []
     for folder in (
         "python/pyfret/plot",
         "python/pyfret/what_if",
@@ -21,8 +21,8 @@ def test_figures_have_one_spelling_of_the_micrometre() -> None:
     ):
         for file in sorted((ROOT / folder).rglob("*.py")):
             for drawn in DRAWN.finditer(file.read_text(encoding="utf-8")):
-                asked += 1
+                count += 1
                 if re.search(r"\bum\b|\\mu ?\\?,?\s*\\?m(athrm)?\b|\u03bcm", drawn[0]):
                     wrong.append(f"{file.relative_to(ROOT)}: {drawn[0]}")
-    assert asked > 100
+    assert count > 100
     assert wrong == []

@@ -86,8 +86,8 @@ def test_a_worn_sphere_has_known_numbers(
     amplitude: float, c: float, approach: float, p: float, b: float, deepest: float, volume: float
 ) -> None:
     worn = WornSphere(amplitude)
-    found = (worn.c, worn.approach, worn.p(np.zeros(1))[0], worn.b, worn.deepest, worn.volume)
-    assert found == pytest.approx((c, approach, p, b, deepest, volume), abs=6e-7)
+    computed = (worn.c, worn.approach, worn.p(np.zeros(1))[0], worn.b, worn.deepest, worn.volume)
+    assert computed == pytest.approx((c, approach, p, b, deepest, volume), abs=6e-7)
 
 
 @pytest.mark.parametrize("amplitude", [0.3, 0.7])
@@ -106,5 +106,7 @@ def test_the_pressure_of_a_worn_contact_carries_the_whole_force(
 
 def test_a_worn_cylinder_has_the_area_of_its_integral() -> None:
     worn = WornCylinder(0.5)
-    rest = worn.b**2 - worn.c**2
-    assert worn.volume == pytest.approx(np.sqrt(rest) * (worn.b**2 - 1 - rest / 3), rel=1e-6)
+    remainder = worn.b**2 - worn.c**2
+    assert worn.volume == pytest.approx(
+        np.sqrt(remainder) * (worn.b**2 - 1 - remainder / 3), rel=1e-6
+    )

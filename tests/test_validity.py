@@ -45,9 +45,9 @@ def test_conformal_contacts_are_refused_or_doubted_by_the_body(
     scene = pressed(shape(0.010), shape(-0.0102), 0.002, STEEL, line=line)
     with pytest.warns(SceneWarning, match=r"a/R = 0\.20.*conformal contact with body2"):
         result = fret.solve(scene, progress=False)
-    told = [doubt for doubt in result.doubts if "a/R = 0.2" in doubt]
-    assert len(told) == 1, result.doubts
-    assert told[0] in result.summary()
+    pattern = [doubt for doubt in result.doubts if "a/R = 0.2" in doubt]
+    assert len(pattern) == 1, result.doubts
+    assert pattern[0] in result.summary()
 
 
 def test_doubts_of_the_scene_and_of_the_run_stay_in_the_result_and_its_report(
@@ -55,9 +55,9 @@ def test_doubts_of_the_scene_and_of_the_run_stay_in_the_result_and_its_report(
 ) -> None:
     scene = pressed(fret.Sphere(0.010), fret.Sphere(-0.0102), 0.002, PLASTIC, line=False)
     path = scene.path.force(sigma_B=150.0, increments=1)
-    with pytest.warns(SceneWarning) as said:
+    with pytest.warns(SceneWarning) as text:
         result = fret.solve(scene, path, progress=False)
-    messages = [str(one.message) for one in said]
+    messages = [str(item.message) for item in text]
     assert any("sigma_B = 150 Pa is less" in doubt for doubt in result.doubts), result.doubts
     assert sum("sigma_B = 150 Pa is less" in message for message in messages) == 1
     summary = result.summary()
@@ -80,14 +80,14 @@ def test_an_elastic_pressure_above_a_hundredth_of_the_softest_modulus_is_doubted
     hard = fret.Coating(fret.Elastic(E=450e9, nu=0.25), thickness=2e-6)
     W = float(scene.path.branches[-1].W)
     for factor, doubted in ((0.5, False), (4.0, True)):
-        more = scene.replace(
+        extra = scene.replace(
             body1=fret.Body(STEEL, shape=fret.Sphere(0.002)),
             body2=fret.Body(STEEL, coatings=hard),
             path=fret.LoadPath.start().normal(factor * W, increments=1),
         )
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            result = fret.solve(more, progress=False)
+            result = fret.solve(extra, progress=False)
         p_max = float(result.at(-1).p_max)
         assert (p_max > 2.1e9) == doubted, p_max
         assert any("E/100" in doubt for doubt in result.doubts) == doubted, result.doubts

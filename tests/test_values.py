@@ -170,7 +170,7 @@ def of_a_run() -> list[Any]:
         W * np.array([0.3, 0.6, 1.0]), [6.1e-6, 9.6e-6, 1.33e-5]
     )
     of_path = scene.replace(path=path)
-    found = fret.fit.fit(of_path, curve, unknown={"body2.E": (1e11, 4e11)})
+    fitted = fret.fit.fit(of_path, curve, unknown={"body2.E": (1e11, 4e11)})
     return [
         result,
         result.at(-1),
@@ -187,7 +187,7 @@ def of_a_run() -> list[Any]:
         factors.least(),
         worn,
         study,
-        found,
+        fitted,
         Check("what", "source", ours=1.0, truth=1.0, scale=1.0, last=0.0),
     ]
 
@@ -201,8 +201,8 @@ def check(value: Any) -> None:
         # A march ends with the process: what is pickled and copied is the increment.
         value = fret.Snapshot(value.dataset)
     whole = pickle.loads(pickle.dumps(value))
-    for other in (whole, copy.copy(value), copy.deepcopy(value)):
-        assert other == value, type(value)
+    for alternative in (whole, copy.copy(value), copy.deepcopy(value)):
+        assert alternative == value, type(value)
         assert value != object()
 
 
@@ -222,8 +222,8 @@ def test_what_a_run_gives_is_shown_pickled_copied_compared(of_a_run: list[Any]) 
 
 
 def test_every_public_class_has_its_value_here(of_a_run: list[Any]) -> None:
-    here = {kind for value in (*VALUES, *of_a_run) for kind in type(value).__mro__}
-    assert {kind.__name__ for kind in classes() if kind not in here} == set()
+    local = {kind for value in (*VALUES, *of_a_run) for kind in type(value).__mro__}
+    assert {kind.__name__ for kind in classes() if kind not in local} == set()
 
 
 def test_notebooks_show_tables(of_a_run: list[Any]) -> None:
@@ -266,11 +266,11 @@ def test_a_run_is_the_same_in_memory_and_in_a_store(tmp_path: Any) -> None:
     scene = sphere_on_flat(ratio=2.0, n=16)
     path = fret.LoadPath.start().normal(W, increments=3).tangential(100.0, increments=3)
     for save in ("branches", "all", [2, 5]):
-        here = fret.solve(scene, path, save=save, progress=False).dataset  # type: ignore[arg-type]
-        place = tmp_path / f"{save}.zarr"
-        there = fret.solve(scene, path, save=save, out=place, progress=False).dataset  # type: ignore[arg-type]
-        xr.testing.assert_identical(here, there.load())
-        assert {n: v.dtype for n, v in here.variables.items()} == {
+        in_process = fret.solve(scene, path, save=save, progress=False).dataset  # type: ignore[arg-type]
+        position = tmp_path / f"{save}.zarr"
+        there = fret.solve(scene, path, save=save, out=position, progress=False).dataset  # type: ignore[arg-type]
+        xr.testing.assert_identical(in_process, there.load())
+        assert {n: v.dtype for n, v in in_process.variables.items()} == {
             n: v.dtype for n, v in there.variables.items()
         }
 

@@ -47,8 +47,8 @@ def worn(law: object, **options: object) -> fret.wear.WearResult:
 
 def test_a_law_of_ones_own_that_says_the_same_wears_the_same() -> None:
     built_in = worn(fret.wear.Archard(2e-14))
-    own = worn(lambda pressed_way, way, dissipated, worn, cycles: 2e-14 * pressed_way)
-    assert np.allclose(built_in.worn2, own.worn2, rtol=1e-9, atol=0)
+    own_values = worn(lambda pressed_way, way, dissipated, worn, cycles: 2e-14 * pressed_way)
+    assert np.allclose(built_in.worn2, own_values.worn2, rtol=1e-9, atol=0)
     energy = worn(lambda pressed_way, way, dissipated, worn, cycles: 2e-14 / 0.9 * dissipated)
     assert np.allclose(built_in.worn2, energy.worn2, rtol=1e-9, atol=0)
 
@@ -129,12 +129,12 @@ def test_debris_that_stays_makes_scars_narrow_and_deep() -> None:
 def test_lives_are_told_at_their_cycle() -> None:
     d = worn(fret.wear.Archard(2e-13), jumps=40)
     depth, volume = 0.4 * float(d.depth2[-1]), 0.6 * float(d.volume2[-1])
-    for told, name, value in (
+    for pattern, name, value in (
         (d.cycles_to(depth=depth), "depth2", depth),
         (d.cycles_to(volume=volume), "volume2", volume),
     ):
         curve = np.interp(value, np.r_[0, d.dataset[name]], np.r_[0, d.dataset.cycles])
-        assert np.isclose(told, curve, rtol=2e-3)
+        assert np.isclose(pattern, curve, rtol=2e-3)
     few = worn(fret.wear.Archard(2e-13), jumps=10)
     assert np.isclose(few.cycles_to(depth=depth), d.cycles_to(depth=depth), rtol=0.03)
     beyond, end = d.cycles_to(depth=1.0), float(d.cycles[-1])
@@ -291,10 +291,10 @@ def test_a_scene_file_is_worn_as_it_says(tmp_path: Path) -> None:
     file.write_text(FILE)
     law = fret.wear.Archard(2e-14)
     wear = fret.wear.Wear(2000, body2=law, first_branch=2, cycling="sliding")
-    here = fret.wear.solve(line(), wear, progress=False)
+    in_process = fret.wear.solve(line(), wear, progress=False)
     there = fret.wear.solve(file, progress=False)
-    assert there.dataset.wear == here.dataset.wear
-    assert np.allclose(here.worn2, there.worn2, rtol=1e-9, atol=0)
+    assert there.dataset.wear == in_process.dataset.wear
+    assert np.allclose(in_process.worn2, there.worn2, rtol=1e-9, atol=0)
     twice = fret.wear.solve(file, cycles=4000, progress=False)
     assert float(twice.cycles[-1]) == 4000
 
@@ -326,11 +326,11 @@ def test_the_rig_of_a_run_of_wear_is_in_its_scene_and_on_its_page(
     fret.solve(run.scene, progress=False).report(tmp_path / "page.html", wear=run)
     text = (tmp_path / "page.html").read_text(encoding="utf-8")
     numbers = next(
-        json.loads(found)
-        for found in (
-            gzip.decompress(base64.b64decode(of)) for of in re.findall(r"H4sI[\w+/=]*", text)
+        json.loads(matches)
+        for matches in (
+            gzip.decompress(base64.b64decode(item)) for item in re.findall(r"H4sI[\w+/=]*", text)
         )
-        if found.startswith(b"{")
+        if matches.startswith(b"{")
     )
     # The loops that the page draws of wear are those of the result and of its figure.
     axes = fret.plot.wear_loops(run)
@@ -339,9 +339,9 @@ def test_the_rig_of_a_run_of_wear_is_in_its_scene_and_on_its_page(
         assert np.allclose(drawn.get_ydata(), loop["y"], rtol=1e-4, atol=1e-6)
     # The loop of the contact on the same page has the rig as well: as long and as high.
     for key, name in (("x", "loop_delta_x"), ("y", "loop_T_x")):
-        found = np.ptp(np.array(numbers["loop"][key], dtype=float))
+        computed = np.ptp(np.array(numbers["loop"][key], dtype=float))
         scale = 1e6 if key == "x" else 1.0
-        assert np.isclose(found, scale * np.ptp(run.dataset[name][0].values), rtol=0.01)
+        assert np.isclose(computed, scale * np.ptp(run.dataset[name][0].values), rtol=0.01)
 
 
 def test_a_store_with_the_rig_in_its_table_of_wear_still_has_it() -> None:
@@ -379,8 +379,8 @@ def test_a_coating_that_is_worn_through_has_its_cycles() -> None:
         at = int(np.searchsorted(ends, event["cycles"] * (1.0 - 1e-12)))
         part = float(run.dataset.depth_error[at])
         assert event["cycles_error"] == pytest.approx(part * event["cycles"])
-        told = with_error(event["cycles"], event["cycles_error"])
-        assert f"{event['kind']} after {told} cycles" in run.summary()
+        arguments = with_error(event["cycles"], event["cycles_error"])
+        assert f"{event['kind']} after {arguments} cycles" in run.summary()
 
 
 def test_the_loop_of_a_run_of_wear_is_that_of_its_scene_but_for_wear() -> None:
@@ -394,18 +394,18 @@ def test_the_loop_of_a_run_of_wear_is_that_of_its_scene_but_for_wear() -> None:
         grid=fret.Grid.centred(width=2.8 * a, n=24),
         path=fret.LoadPath.start().normal(W, increments=2).cycles(2, delta_x=to, increments=6),
     )
-    own = float(fret.solve(scene, progress=False).loops().dissipated[-1])
-    found, told = {}, {}
+    own_values = float(fret.solve(scene, progress=False).loops().dissipated[-1])
+    computed, text = {}, {}
     for cycling in ("march", "sliding"):
         law = {"body2": fret.wear.Archard(1e-18), "cycling": cycling}
         run = fret.wear.solve(scene, cycles=1.0, jumps=1, progress=False, **law)
-        found[cycling], told[cycling] = float(run.dissipated_per_cycle[-1]), run.summary()
-    assert found["march"] == pytest.approx(own, rel=1e-4)
-    assert found["sliding"] == pytest.approx(4.0 * mu * W * to, rel=1e-9)
-    assert found["sliding"] > 1.05 * own
-    assert "in the last cycle, on the worn surfaces" in told["march"]
-    assert "elastic shift" not in told["march"]
-    assert "without the elastic shift of the contact" in told["sliding"]
+        computed[cycling], text[cycling] = float(run.dissipated_per_cycle[-1]), run.summary()
+    assert computed["march"] == pytest.approx(own_values, rel=1e-4)
+    assert computed["sliding"] == pytest.approx(4.0 * mu * W * to, rel=1e-9)
+    assert computed["sliding"] > 1.05 * own_values
+    assert "in the last cycle, on the worn surfaces" in text["march"]
+    assert "elastic shift" not in text["march"]
+    assert "without the elastic shift of the contact" in text["sliding"]
 
 
 def test_the_command_tells_cycles_of_an_event_with_their_error(tmp_path: Path) -> None:
@@ -422,7 +422,7 @@ def test_the_command_tells_cycles_of_an_event_with_their_error(tmp_path: Path) -
     assert ran.returncode == 0, ran.stderr
     events = fret.open(out).events
     assert events
-    assert [of["cycles_error"] for of in json.loads(ran.stdout)["events"]] == pytest.approx(
+    assert [item["cycles_error"] for item in json.loads(ran.stdout)["events"]] == pytest.approx(
         [event["cycles_error"] for event in events]
     )
     for event in events:
@@ -443,9 +443,9 @@ def test_loops_of_wear_are_those_of_the_run(cycling: str) -> None:
     worn, run = result.loops(), fret.solve(scene, progress=False).loops()
     # Sliding leaves out the elastic shift of the contact, a part of the stroke.
     part = 1e-6 if cycling == "march" else 0.1
-    for name, of in worn.data_vars.items():
-        assert of.attrs == run[name].attrs
-        assert float(of[-1]) == pytest.approx(float(run[name][-1]), rel=part), name
+    for name, entry in worn.data_vars.items():
+        assert entry.attrs == run[name].attrs
+        assert float(entry[-1]) == pytest.approx(float(run[name][-1]), rel=part), name
     d = result.dataset
     assert float(worn.dissipated[-1]) == pytest.approx(float(d.dissipated_per_cycle[-1]))
     assert worn.block_cycles.equals(d.block_cycles)

@@ -33,27 +33,27 @@ def public(monkeypatch: pytest.MonkeyPatch) -> Any:
 def objects(public: Any) -> dict[str, Any]:
     """Objects of the package, of every kind that a user holds."""
     life = public.LIFE
-    found = {
-        name: of
-        for name, of in vars(public).items()
-        if type(of).__module__.partition(".")[0] == "pyfret" or isinstance(of, xr.Dataset)
+    computed = {
+        name: entry
+        for name, entry in vars(public).items()
+        if type(entry).__module__.partition(".")[0] == "pyfret" or isinstance(entry, xr.Dataset)
     }
     extra = {"worst": life.worst, "range": life.range, "over": life.over_distance([1e-5])}
-    return found | extra | {"errors": life.worst.errors, "text": "findley", "list": [1.0, 2.0]}
+    return computed | extra | {"errors": life.worst.errors, "text": "findley", "list": [1.0, 2.0]}
 
 
 def test_a_misspelt_attribute_of_every_object_is_refused_with_the_nearest(public: Any) -> None:
-    asked = 0
-    for of in objects(public).values():
-        own = type(of).__module__.partition(".")[0] == "pyfret"
-        if not own or not hasattr(type(of), "__getattr__"):
+    count = 0
+    for item in objects(public).values():
+        in_layer = type(item).__module__.partition(".")[0] == "pyfret"
+        if not in_layer or not hasattr(type(item), "__getattr__"):
             continue
-        names = [one for one in dir(of) if not one.startswith("_") and len(one) > 3]
+        names = [item for item in dir(item) if not item.startswith("_") and len(item) > 3]
         for name in names[:3]:
-            asked += 1
+            count += 1
             with pytest.raises(AttributeError, match=rf"has no '{name}_'.*\b{name}\b"):
-                getattr(of, name + "_")
-    assert asked > 35
+                getattr(item, name + "_")
+    assert count > 35
 
 
 def test_a_property_that_fails_says_why_by_itself() -> None:
@@ -81,53 +81,53 @@ def test_closed_forms_print_their_numbers_with_units() -> None:
     made["CoatedIndentation"] = fret.reference.coated_indentation(
         R=0.01, indenter=STEEL, coating=fret.Coating(STEEL, thickness=1e-5), substrate=STEEL, W=10.0
     )
-    for name, of in made.items():
-        lines = str(of).splitlines()
+    for name, item in made.items():
+        lines = str(item).splitlines()
         assert lines[0] == f"{name}:"
-        for key, attribute in inspect.getmembers_static(type(of), inspect.isgetsetdescriptor):
+        for key, attribute in inspect.getmembers_static(type(item), inspect.isgetsetdescriptor):
             unit = re.search(r"\[(.+?)\]", attribute.__doc__ or "")
-            if key.startswith("_") or not isinstance(getattr(of, key), float):
+            if key.startswith("_") or not isinstance(getattr(item, key), float):
                 continue
             [line] = [line for line in lines if line.split()[0] == key]
             assert unit is None or unit[1][-1] in line, line
     assert "p0       310." in str(hertz) or "p0       31" in str(hertz)
     assert " MPa " in str(hertz)
-    for of in (hertz, made["HertzEllipse"], made["LineContact"]):
-        assert of.p_H == of.p0  # type: ignore[attr-defined]
+    for item in (hertz, made["HertzEllipse"], made["LineContact"]):
+        assert item.p_H == item.p0  # type: ignore[attr-defined]
 
 
 def test_a_figure_says_what_it_takes_instead_of_what_it_is_given(
     public: Any, record_property: Callable[[str, object], None]
 ) -> None:
     """All figures of all objects: drawn, or refused by the name of the parameter."""
-    asked, drawn, wrong = 0, 0, []
+    count, drawn, wrong = 0, 0, []
     for name in sorted(set(fret.plot.__all__) - set(LEFT_OUT)):
         draw = getattr(fret.plot, name)
-        given, _ = public.good(f"plot.{name}", draw)
+        arguments, _ = public.good(f"plot.{name}", draw)
         parameters = list(inspect.signature(draw).parameters.values())
         first = parameters[0].name
         needed = {
-            one.name: given[one.name]
-            for one in parameters[1:]
-            if one.default is one.empty and one.name in given and one.name != "ax"
+            item.name: arguments[item.name]
+            for item in parameters[1:]
+            if item.default is item.empty and item.name in arguments and item.name != "ax"
         }
-        if "ax" in [one.name for one in parameters if one.default is one.empty]:
+        if "ax" in [item.name for item in parameters if item.default is item.empty]:
             needed["ax"] = plt.figure().add_subplot()
-        for key, of in objects(public).items():
-            asked += 1
+        for key, entry in objects(public).items():
+            count += 1
             try:
-                draw(of, **needed)
+                draw(entry, **needed)
                 drawn += 1
             except (TypeError, ValueError) as refused:
                 # What lacks something says what, and what to give.
-                told = re.search(rf"^{first}\b|: give ", str(refused))
-                if not told:
+                match = re.search(rf"^{first}\b|: give ", str(refused))
+                if not match:
                     wrong.append(f"{name}({key}): {type(refused).__name__}: {refused}")
             except Exception as raised:
                 wrong.append(f"{name}({key}): {type(raised).__name__}: {raised}")
         plt.close("all")
-    record_property("calls", asked)
-    assert asked > 1000
+    record_property("calls", count)
+    assert count > 1000
     assert drawn > 50
     assert wrong == []
 

@@ -22,9 +22,9 @@ def bilinear(z: list[list[float]], spacing: float, x: np.ndarray, y: np.ndarray)
     values = np.asarray(z)
 
     def places(at: np.ndarray, n: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        place = np.clip(at / spacing + (n - 1) / 2, 0, n - 1)
-        low = np.floor(place).astype(int)
-        return low, np.minimum(low + 1, n - 1), place - low
+        position = np.clip(at / spacing + (n - 1) / 2, 0, n - 1)
+        low = np.floor(position).astype(int)
+        return low, np.minimum(low + 1, n - 1), position - low
 
     (i, k, s), (j, m, t) = places(x, values.shape[0]), places(y, values.shape[1])
     return (1 - s) * ((1 - t) * values[i, j] + t * values[i, m]) + s * (
@@ -36,34 +36,34 @@ def fall(shape: Any, x: np.ndarray, y: np.ndarray) -> np.ndarray | None:
     """How far a surface has fallen behind the contact plane [m]; None for a random one."""
     if shape == "flat":
         return np.zeros_like(x)
-    ((kind, of),) = (
+    ((kind, entry),) = (
         shape.items() if len(shape) == 1 else [("sum", [{k: v} for k, v in shape.items()])]
     )
     if kind == "sum":
-        parts = [fall(part, x, y) for part in of]
+        parts = [fall(part, x, y) for part in entry]
         return None if any(p is None for p in parts) else sum(parts)
-    angle = of.get("angle", 0.0)
+    angle = entry.get("angle", 0.0)
     along, across = (x * np.cos(angle) + y * np.sin(angle), y * np.cos(angle) - x * np.sin(angle))
     if kind == "sphere":
-        return (x**2 + y**2) / (2 * of["R"])
-    if kind == "cylinder" and "length" not in of:
-        return along**2 / (2 * of["R"])
+        return (x**2 + y**2) / (2 * entry["R"])
+    if kind == "cylinder" and "length" not in entry:
+        return along**2 / (2 * entry["R"])
     if kind == "ellipsoid":
-        return along**2 / (2 * of["R_x"]) + across**2 / (2 * of["R_y"])
+        return along**2 / (2 * entry["R_x"]) + across**2 / (2 * entry["R_y"])
     if kind == "cone":
-        return of["slope"] * np.hypot(x, y)
+        return entry["slope"] * np.hypot(x, y)
     if kind == "wedge":
-        return of["slope"] * np.abs(along)
+        return entry["slope"] * np.abs(along)
     if kind == "flat_punch":
-        return np.maximum(np.hypot(x, y) - of["radius"], 0.0) ** 2 / (2 * of["edge"])
+        return np.maximum(np.hypot(x, y) - entry["radius"], 0.0) ** 2 / (2 * entry["edge"])
     if kind == "crowned_roller":
-        beyond = np.maximum(np.abs(across) - of["length"] / 2, 0.0)
-        return along**2 / (2 * of["R"]) + beyond**2 / (2 * of["crown"])
+        beyond = np.maximum(np.abs(across) - entry["length"] / 2, 0.0)
+        return along**2 / (2 * entry["R"]) + beyond**2 / (2 * entry["crown"])
     if kind == "height_map":
-        return -bilinear(of["z"], of["spacing"], x, y)
+        return -bilinear(entry["z"], entry["spacing"], x, y)
     if kind == "waviness":
-        wave = 2 * np.pi * along / of["wavelength"] + of["phase"]
-        return of["amplitude"] * (1 - np.cos(wave))
+        wave = 2 * np.pi * along / entry["wavelength"] + entry["phase"]
+        return entry["amplitude"] * (1 - np.cos(wave))
     return None
 
 
@@ -106,9 +106,9 @@ class Audit:
         ends = []
         for branch in self.file["path"]:
             for load, motion in pairs.items():
-                for name, other in ((load, motion), (motion, load)):
+                for name, alternative in ((load, motion), (motion, load)):
                     if name in branch:
-                        now.pop(other, None)
+                        now.pop(alternative, None)
                         now[name] = branch[name]
             ends.append(dict(now))
         return ends
@@ -144,7 +144,7 @@ class Audit:
         number = lambda name: float(d[name])  # noqa: E731
         p, q_x, q_y = (d[k].values for k in ("p", "q_x", "q_y"))
         cell = self.scene.grid.cell_area
-        found: dict[str, float] = {}
+        computed: dict[str, float] = {}
         if not all(np.isfinite(f).all() for f in (p, q_x, q_y)):
             return {"not a number": np.inf}
         sums = {
@@ -161,32 +161,34 @@ class Audit:
         # Loads are looked at where the file says what they are: at the end of a branch.
         if self.ends_branch(increment):
             target = self.targets[int(number("branch_of_increment"))]
-            for name, wanted in target.items():
+            for name, expected in target.items():
                 if name in sums:
                     size = normal if name[0] in "WT" else normal * width
                     if size > 0:
-                        found[f"balance {name}"] = abs(sums[name] - wanted) / (room * size)
-                elif wanted != 0.0 or name == "delta_z":
-                    off = abs(number(name) - wanted)
-                    found[f"motion {name}"] = off / (1e-9 * max(abs(wanted), self.depth))
+                        computed[f"balance {name}"] = abs(sums[name] - expected) / (room * size)
+                elif expected != 0.0 or name == "delta_z":
+                    off = abs(number(name) - expected)
+                    computed[f"motion {name}"] = off / (1e-9 * max(abs(expected), self.depth))
         top = max(p.max(), 1e-300)
-        found["tension"] = -p.min() / (room * top)
+        computed["tension"] = -p.min() / (room * top)
         outside = p <= 0
         shear = np.hypot(q_x, q_y)
-        found["shear without pressure"] = shear[outside].max(initial=0.0) / (room * max(top, 1.0))
+        computed["shear without pressure"] = shear[outside].max(initial=0.0) / (
+            room * max(top, 1.0)
+        )
         bound = self.bound(p)
         if bound is not None:
             b_x, b_y = (np.maximum(b, 1e-12 * max(top, 1.0)) for b in bound)
             over = np.hypot(q_x / b_x, q_y / b_y)[~outside].max(initial=0.0) - 1
-            found["Coulomb"] = over / 1e-6
+            computed["Coulomb"] = over / 1e-6
         u_x, u_y, u_z = self.operator.displacement(p=p, q_x=q_x, q_y=q_y)
         if self.h_init is not None:
             motion = number("delta_z") + self.y * number("phi_x") - self.x * number("phi_y")
             h = self.h_init + u_z - motion
             size = max(self.depth, 1e-300)
             inside = np.sqrt((h[~outside] ** 2).mean()) if (~outside).any() else 0.0
-            found["gap inside"] = inside / (room * size)
-            found["overlap outside"] = -h[outside].min(initial=0.0) / (room * size)
+            computed["gap inside"] = inside / (room * size)
+            computed["overlap outside"] = -h[outside].min(initial=0.0) / (room * size)
         b_x, b_y = self.bulk((number("sigma_B"), number("sigma_B1")))
         u_x, u_y = u_x + b_x, u_y + b_y
         now = {
@@ -199,9 +201,9 @@ class Audit:
             "d": tuple(number(k) for k in ("delta_x", "delta_y", "phi_z")),
         }
         if self.before is not None and self.before["rolled"] == now["rolled"]:
-            found |= self.slip(self.before, now, bound)
+            computed |= self.slip(self.before, now, bound)
         self.before = now
-        return found
+        return computed
 
     def slip(
         self,
@@ -219,28 +221,28 @@ class Audit:
         ds_x = now["u"][0] - before["u"][0] - (dd[0] - self.y * dd[2])
         ds_y = now["u"][1] - before["u"][1] - (dd[1] + self.x * dd[2])
         ds = np.hypot(ds_x, ds_y)
-        both = (now["p"] > 0) & (before["p"] > 0)
-        stuck = both & ~rim(now["p"] > 0)
+        pair = (now["p"] > 0) & (before["p"] > 0)
+        stuck = pair & ~rim(now["p"] > 0)
         (q_x, q_y), mu = now["q"], 1.0
         if bound is not None:
             mu = max(float(self.file["friction"]["mu"]), 0.05)
             least = [np.maximum(self.least(b), 1e-300) for b in bound]
             bears = least[0] > 1e-3 * max(bound[0].max(initial=0.0), 1e-12 * now["p"].max())
-            stuck = both & bears & (np.hypot(q_x / least[0], q_y / least[1]) < 0.99)
+            stuck = pair & bears & (np.hypot(q_x / least[0], q_y / least[1]) < 0.99)
         room = ROOM * self.tolerance * mu * self.depth
-        found = {"slip in stick": ds[stuck].max(initial=0.0) / (10 * room)}
+        computed = {"slip in stick": ds[stuck].max(initial=0.0) / (10 * room)}
         if self.file["friction"]["mu"] != 0.0:
             # Each end of an increment may be off by the tolerance, in the root mean square.
-            told = np.sqrt((ds[both & now["stick"]] ** 2).sum())
+            arguments = np.sqrt((ds[pair & now["stick"]] ** 2).sum())
             roots = sum(np.sqrt((end["p"] > 0).sum()) for end in (before, now))
             # Displacements are reckoned anew: half as much again for their rounding.
-            found["slip in cells that are said to stick"] = told / (
+            computed["slip in cells that are said to stick"] = arguments / (
                 1.5 * max(roots, 1.0) * self.allowed_slip()
             )
-        forward = (q_x * ds_x + q_y * ds_y)[both & (ds > 100 * room)]
+        forward = (q_x * ds_x + q_y * ds_y)[pair & (ds > 100 * room)]
         if forward.size:
-            found["slip along the shear"] = (forward > 0).mean() / 0.05
-        return found
+            computed["slip along the shear"] = (forward > 0).mean() / 0.05
+        return computed
 
     def allowed_slip(self) -> float:
         """The tolerance of slip, root mean square over the contact [m]."""

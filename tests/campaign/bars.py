@@ -137,13 +137,14 @@ def main(first: int, count: int) -> None:
     by_name: dict[str, list[float]] = defaultdict(list)
     beyond: list[str] = []
     for seed in range(first, first + count):
-        found = list(ratios(seed))
-        for name, ratio, words in found:
+        computed = list(ratios(seed))
+        for name, ratio, words in computed:
             by_name[name].append(ratio)
             if ratio > MOST:
                 beyond.append(words)
         print(
-            f"{seed}: {len(found)} numbers, {sum(r > MOST for _, r, _ in found)} beyond", flush=True
+            f"{seed}: {len(computed)} numbers, {sum(r > MOST for _, r, _ in computed)} beyond",
+            flush=True,
         )
     print(*beyond, sep="\n")
     for name, of_name in by_name.items():

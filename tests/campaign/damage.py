@@ -97,9 +97,9 @@ def study(place: Path) -> None:
 
 def fit(place: Path) -> None:
     """A fit, saved again and again."""
-    found = a_fit()
+    fitted = a_fit()
     for _ in range(20):
-        found.save(place, overwrite=True)
+        fitted.save(place, overwrite=True)
 
 
 WRITES: dict[str, tuple[Callable[[Path], None], str]] = {
@@ -160,17 +160,17 @@ def killed(kind: str, count: int, folder: Path, rng: random.Random) -> str:
     begun = time.monotonic()
     child(lambda: write(good))
     length = time.monotonic() - begun
-    left = 0
+    remaining = 0
     for n in range(count):
-        place = folder / f"killed{n}{ending}"
-        child(lambda place=place: write(place), after=rng.uniform(0.02, 1.0) * length)
-        left += place.exists()
-        if place.exists():
-            child(lambda place=place: must_open(place))
-        child(lambda place=place: write(place))
-        child(lambda place=place: must_be(place, good))
-        shutil.rmtree(place, ignore_errors=True)
-    return f"{count} kills of a {kind}: {left} left one behind, all of it whole; all went on"
+        path = folder / f"killed{n}{ending}"
+        child(lambda place=path: write(place), after=rng.uniform(0.02, 1.0) * length)
+        remaining += path.exists()
+        if path.exists():
+            child(lambda place=path: must_open(place))
+        child(lambda place=path: write(place))
+        child(lambda place=path: must_be(place, good))
+        shutil.rmtree(path, ignore_errors=True)
+    return f"{count} kills of a {kind}: {remaining} left one behind, all of it whole; all went on"
 
 
 def must_open(place: Path) -> None:
@@ -190,8 +190,8 @@ def must_be(place: Path, good: Path) -> None:
 def child(work: Callable[[], Any], after: float | None = None) -> None:
     """Do something in a process of its own, which is killed after a time [s]."""
     sys.stdout.flush()
-    of = os.fork()
-    if of == 0:
+    item = os.fork()
+    if item == 0:
         try:
             work()
         except BaseException:
@@ -200,8 +200,8 @@ def child(work: Callable[[], Any], after: float | None = None) -> None:
         os._exit(0)
     if after is not None:
         time.sleep(after)
-        os.kill(of, signal.SIGKILL)
-    _, status = os.waitpid(of, 0)
+        os.kill(item, signal.SIGKILL)
+    _, status = os.waitpid(item, 0)
     if after is None and status:
         raise AssertionError(f"status {status}")
 
@@ -213,12 +213,12 @@ def main(damages: int, kills: int) -> None:
     with tempfile.TemporaryDirectory(prefix="damage-") as name:
         folder = Path(name)
         # Kills first: a process that has computed is not copied.
-        for many, of in ((killed, kills), (damaged, damages)):
+        for many, item in ((killed, kills), (damaged, damages)):
             for kind in WRITES:
-                place = folder / f"{many.__name__} {kind}"
-                place.mkdir()
-                print(many(kind, of, place, rng), flush=True)
-                shutil.rmtree(place)
+                path = folder / f"{many.__name__} {kind}"
+                path.mkdir()
+                print(many(kind, item, path, rng), flush=True)
+                shutil.rmtree(path)
 
 
 if __name__ == "__main__":

@@ -118,10 +118,10 @@ def friction(rng: random.Random, extent: float, slip: float) -> dict[str, object
         z = [[rng.choice(factors) for _ in range(n)] for _ in range(n)]
         made["map"] = {"spacing": 1.01 * extent / n, "z": z}
     if rng.random() < 0.2:
-        of = rng.choice(["slip", "increment", "dissipated"])
-        far = {"slip": slip, "increment": 5.0, "dissipated": 1e8 * slip}[of]
+        item = rng.choice(["slip", "increment", "dissipated"])
+        far = {"slip": slip, "increment": 5.0, "dissipated": 1e8 * slip}[item]
         end = rng.choice([0.0, 0.5, 2.0])
-        made["history"] = {"of": of, "table": [[0.0, 1.0], [far, end]]}
+        made["history"] = {"of": item, "table": [[0.0, 1.0], [far, end]]}
     return made
 
 
@@ -196,21 +196,21 @@ def draw(seed: int, *, bonds: bool = False) -> str:
     cells: object = n if rng.random() < 0.7 else [n, n + rng.choice([-3, 1, 4])]
     extent = power(rng, -4.0, -2.5)
     cell = extent / n
-    one, two = body(rng, extent, 0.25), body(rng, extent, 0.5)
+    first, two = body(rng, extent, 0.25), body(rng, extent, 0.5)
     if rng.random() < 0.3:
-        two = one | ({} if rng.random() < 0.5 else {"nu": one["nu"]})
+        two = first | ({} if rng.random() < 0.5 else {"nu": first["nu"]})
     if rng.random() < 0.05:
-        one = {"E": "rigid"}
+        first = {"E": "rigid"}
     below: object = "flat"
     if rng.random() < 0.15:
         far = R * power(rng, 0.5, 1.5)
         below = {"sphere": {"R": far}} if rng.random() < 0.5 else {"cylinder": {"R": far}}
     made = friction(rng, extent, 0.01 * extent)
-    stiff = [b["E"] for b in (one, two) if isinstance(b["E"], float)]
+    stiff = [b["E"] for b in (first, two) if isinstance(b["E"], float)]
     E_star = 1.0 / sum(1.0 / E for E in stiff)
     W = 4 / 3 * E_star * (half_width(rng) * extent) ** 3 / R
     if bonds:
-        give_way(seed, W, extent, one, *([two] if two is not one else []))
+        give_way(seed, W, extent, first, *([two] if two is not first else []))
     path, rolled = [], 0
     for branch in branches(rng, made, W, extent):
         assert isinstance(branch, dict)
@@ -221,7 +221,7 @@ def draw(seed: int, *, bonds: bool = False) -> str:
     lines = [
         "schema = 1",
         f'title = "campaign {seed}"',
-        f"body1 = {value({'shape': shape(rng, extent, cell), **one})}",
+        f"body1 = {value({'shape': shape(rng, extent, cell), **first})}",
         f"body2 = {value({'shape': below, **two})}",
         f"friction = {value(made)}",
         f"grid = {value({'n': cells, 'spacing': cell})}",

@@ -26,24 +26,24 @@ def conductor(rng: random.Random) -> fret.heat.Conductor:
 
 def warm(result: fret.Result, rng: random.Random) -> Any:
     """The temperature of the last cycle."""
-    found = result.temperature(
+    heat = result.temperature(
         conductor(rng), conductor(rng), frequency=10 ** rng.uniform(0.0, 3.0), harmonics=4
     )
-    return [found.largest.values, found.attrs["maximum"]]
+    return [heat.largest.values, heat.attrs["maximum"]]
 
 
 def cracked(result: fret.Result, rng: random.Random) -> Any:
     """Stress intensity of cracks, straight or with a kink, with friction of their faces."""
     lengths = 10 ** rng.uniform(-6.0, -4.5) * np.array([1.0, 2.0, 4.0])
     kink = (float(0.4 * lengths[0]), rng.uniform(-0.8, 0.8)) if rng.random() < 0.5 else None
-    found = result.crack(
+    computed = result.crack(
         0.0,
         lengths=lengths,
         angle=rng.uniform(-0.9, 0.9),
         kink=kink,
         friction=rng.choice([0.0, 0.3, 0.6, 0.9]),
     )
-    return [found.dataset.K_I.values, found.dataset.K_II.values]
+    return [computed.dataset.K_I.values, computed.dataset.K_II.values]
 
 
 def own_wear(pressed_way: Any, way: Any, dissipated: Any, worn: Any, cycles: Any) -> Any:
@@ -55,7 +55,7 @@ def own_wear(pressed_way: Any, way: Any, dissipated: Any, worn: Any, cycles: Any
 def worn(scene: fret.Scene, rng: random.Random) -> Any:
     """What a few cycles wear off, with debris that stays."""
     law: Any = rng.choice([own_wear, fret.wear.Archard(1e-15), fret.wear.DissipatedEnergy(1e-15)])
-    found = fret.wear.solve(
+    computed = fret.wear.solve(
         scene,
         cycles=10 ** rng.uniform(1.0, 4.0),
         body2=law,
@@ -64,7 +64,7 @@ def worn(scene: fret.Scene, rng: random.Random) -> Any:
         worn_through="go_on",
         progress=False,
     )
-    return [found.dataset.worn2.values]
+    return [computed.dataset.worn2.values]
 
 
 FOLLOWS: dict[str, Callable[[Any, random.Random], Any]] = {
@@ -76,10 +76,10 @@ FOLLOWS: dict[str, Callable[[Any, random.Random], Any]] = {
 
 def own_friction(scene: fret.Scene, rng: random.Random) -> fret.Scene:
     """The scene with a law of friction of its own, where it has one coefficient alone."""
-    of = scene.friction
-    if of.map or of.history or of.kinetic or of.mu_y or not 0.0 < of.mu < 10.0:
+    item = scene.friction
+    if item.map or item.history or item.kinetic or item.mu_y or not 0.0 < item.mu < 10.0:
         return scene
-    mu, fall = of.mu, rng.uniform(0.0, 0.5)
+    mu, fall = item.mu, rng.uniform(0.0, 0.5)
 
     def law(x: Any, y: Any, p: Any, slip: Any, dissipated: Any) -> Any:
         del x, y, slip, dissipated
@@ -106,11 +106,11 @@ def follows(scene: fret.Scene, seed: int) -> Iterator[tuple[str, str]]:
     for name, follow in FOLLOWS.items():
         try:
             # A result has no functions of its scene.
-            found = follow(scene if follow is worn else result, rng)
+            computed = follow(scene if follow is worn else result, rng)
         except REFUSED as error:
             yield name, told(error)
         else:
-            if not all(np.isfinite(values).all() for values in found):
+            if not all(np.isfinite(values).all() for values in computed):
                 raise ArithmeticError(f"{name}: not finite")
             yield name, ""
 

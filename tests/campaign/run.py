@@ -66,8 +66,10 @@ def work(first: int, last: int, stride: int, *, whole: bool) -> None:
     for seed in range(first, last, stride):
         print(json.dumps({"seed": seed}), flush=True)
         begun = time.process_time()
-        of = fate(seed, whole=whole)
-        print(json.dumps({"seed": seed, **of, "seconds": time.process_time() - begun}), flush=True)
+        item = fate(seed, whole=whole)
+        print(
+            json.dumps({"seed": seed, **item, "seconds": time.process_time() - begun}), flush=True
+        )
 
 
 @dataclass
@@ -80,7 +82,7 @@ class Worker:
     #: Its processor time when that began, and the time [s].
     begun: tuple[float, float]
     #: What it has told of a line that is not whole.
-    rest: bytes = b""
+    remainder: bytes = b""
 
     def spent(self) -> tuple[float, float]:
         """Processor time so far, and the time [s]."""
@@ -124,10 +126,10 @@ def campaign(
                 data = os.read(pipe.fileno(), 1 << 16)
                 *lines, worker.rest = (worker.rest + data).split(b"\n")
                 for line in lines:
-                    told = json.loads(line)
-                    worker.seed, worker.begun = int(told["seed"]), worker.spent()
-                    if "fate" in told:
-                        yield told
+                    answer = json.loads(line)
+                    worker.seed, worker.begun = int(answer["seed"]), worker.spent()
+                    if "fate" in answer:
+                        yield answer
                         worker.seed += stride
                 if data:
                     continue
@@ -149,25 +151,25 @@ RIGHT = ("solved", "off grid", "refused", "beyond friction")
 
 def told(outcomes: list[dict[str, object]]) -> tuple[list[str], bool]:
     """What became of all scenes, in lines; and whether all is right."""
-    fates = Counter(str(of["fate"]) for of in outcomes)
+    fates = Counter(str(item["fate"]) for item in outcomes)
     lines = [f"{n:6d} {fate}" for fate, n in fates.most_common()]
     followed = Counter(
         f"{name} {'refused' if why else 'found'}"
-        for of in outcomes
-        for name, why in dict(of.get("after") or {}).items()  # type: ignore[call-overload]
+        for item in outcomes
+        for name, why in dict(item.get("after") or {}).items()  # type: ignore[call-overload]
     )
-    lines += [f"{n:6d} {what}" for what, n in sorted(followed.items())]
-    wrong = [of for of in outcomes if of["fate"] not in RIGHT]
-    lines += [f"scene {of['seed']}: {of['fate']}: {of.get('why', '')}" for of in wrong]
-    for of in outcomes:
-        worst = of["worst"]
+    lines += [f"{n:6d} {label}" for label, n in sorted(followed.items())]
+    wrong = [item for item in outcomes if item["fate"] not in RIGHT]
+    lines += [f"scene {item['seed']}: {item['fate']}: {item.get('why', '')}" for item in wrong]
+    for item in outcomes:
+        worst = item["worst"]
         assert isinstance(worst, dict)
         off = {name: at for name, at in worst.items() if at[0] > 1}
         lines += [
-            f"scene {of['seed']}: {name} {by:.3g} times what is allowed, increment {number}"
+            f"scene {item['seed']}: {name} {by:.3g} times what is allowed, increment {number}"
             for name, (by, number) in off.items()
         ]
-        wrong += [of] if off else []
+        wrong += [item] if off else []
     return lines, not wrong
 
 

@@ -39,9 +39,9 @@ def cases() -> Iterator[tuple[str, Callable[..., Any], dict[str, Any]]]:
     for name, call, good in CALLS:
         yield f"{name}, as it should be", call, good
         for key, value in good.items():
-            for other in hostile(value):
-                text = " ".join(f"{other!r}".split())[:100]
-                yield f"{name}({key} = {text})", call, good | {key: other}
+            for alternative in hostile(value):
+                text = " ".join(f"{alternative!r}".split())[:100]
+                yield f"{name}({key} = {text})", call, good | {key: alternative}
 
 
 def flat(values: Any) -> Iterator[Any]:
@@ -58,7 +58,7 @@ def outcome(call: Callable[..., Any], arguments: dict[str, Any]) -> str:
     by_position = [arguments[key] for key in sorted(k for k in arguments if k.isdigit())]
     by_name = {key: value for key, value in arguments.items() if not key.isdigit()}
     try:
-        found = call(*by_position, **by_name)
+        computed = call(*by_position, **by_name)
     except (*ALLOWED, *OWN) as error:
         text = str(error)
         # A scene tells every mistake, each with its place on a line of its own.
@@ -81,10 +81,10 @@ def outcome(call: Callable[..., Any], arguments: dict[str, Any]) -> str:
         return f"BAD: RuntimeError: {error}"
     except BaseException as error:
         return f"BAD: {type(error).__name__}: {str(error)[:200]!r}"
-    given = list(flat([*by_position, *by_name.values()]))
-    if all(np.all(np.isfinite(v)) for v in given if np.asarray(v).dtype.kind == "f"):
+    given_values = list(flat([*by_position, *by_name.values()]))
+    if all(np.all(np.isfinite(v)) for v in given_values if np.asarray(v).dtype.kind == "f"):
         # A record says with NaN what was not asked.
-        for values in found if type(found) in (list, tuple) else [found]:
+        for values in computed if type(computed) in (list, tuple) else [computed]:
             numbers = isinstance(values, (float, np.ndarray)) and np.asarray(values).dtype.kind
             if numbers in ("f", "c") and np.any(np.isnan(values)):
                 return "BAD: finite numbers in, nan out"
@@ -98,18 +98,20 @@ def random_cases(count: int) -> Iterator[tuple[str, Callable[..., Any], dict[str
     """
     import public
 
-    known = [(name, call, public.good(name, call)) for name, call in public.public()]
-    known = [one for one in known if one[0] not in public.LEFT_OUT and one[2] is not None]
+    known_items = [(name, call, public.good(name, call)) for name, call in public.public()]
+    known_items = [
+        item for item in known_items if item[0] not in public.LEFT_OUT and item[2] is not None
+    ]
     for number in range(count):
         rng = random.Random(number)
-        name, call, (needed, free) = rng.choice(known)  # type: ignore[misc]
+        name, call, (needed, free) = rng.choice(known_items)  # type: ignore[misc]
         changed = rng.sample(free, min(len(free), rng.choice((1, 1, 1, 2, 3))))
-        other = {
+        alternative = {
             key: rng.choice(public.unlike(needed.get(key, public.GOOD.get(key)))) for key in changed
         }
-        said = ", ".join(f"{key} = {of!r}"[:100] for key, of in other.items())
-        text = " ".join(f"{name}({said})".split())
-        yield text, lambda call=call, **k: public.invoked(call, k), needed | other
+        options = ", ".join(f"{key} = {entry!r}"[:100] for key, entry in alternative.items())
+        text = " ".join(f"{name}({options})".split())
+        yield text, lambda call=call, **k: public.invoked(call, k), needed | alternative
 
 
 def no_numbers() -> Iterator[tuple[str, Callable[..., Any], dict[str, Any]]]:
@@ -117,28 +119,32 @@ def no_numbers() -> Iterator[tuple[str, Callable[..., Any], dict[str, Any]]]:
     import public
 
     for name, call in public.public():
-        found = public.good(name, call)
-        if name in public.LEFT_OUT or found is None:
+        computed = public.good(name, call)
+        if name in public.LEFT_OUT or computed is None:
             continue
-        for key in found[1]:
+        for key in computed[1]:
             if public.free_of(name, key):
                 continue
-            for other in public.never(found[0].get(key, public.GOOD.get(key))):
-                text = " ".join(f"{name}({key} = {other!r})".split())[:200]
-                yield text, lambda call=call, **k: public.invoked(call, k), found[0] | {key: other}
+            for alternative in public.never(computed[0].get(key, public.GOOD.get(key))):
+                text = " ".join(f"{name}({key} = {alternative!r})".split())[:200]
+                yield (
+                    text,
+                    lambda call=call, **k: public.invoked(call, k),
+                    computed[0] | {key: alternative},
+                )
 
 
 def main(start: int, more: str = "") -> None:
     """Makes the calls, with a line before and after each."""
     warnings.simplefilter("ignore")
-    found = no_numbers() if more == "never" else random_cases(int(more)) if more else cases()
+    computed = no_numbers() if more == "never" else random_cases(int(more)) if more else cases()
     import public
 
-    first = next(found)
+    first = next(computed)
     size = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
     limit = size + MEMORY if not more else MEMORY_OF_RANDOM
     resource.setrlimit(resource.RLIMIT_AS, (limit, resource.RLIM_INFINITY))
-    for number, (text, call, arguments) in enumerate(chain([first], found)):
+    for number, (text, call, arguments) in enumerate(chain([first], computed)):
         if number < start:
             continue
         print(f"{number}\t{text}", flush=True)

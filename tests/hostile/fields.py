@@ -31,10 +31,10 @@ def below(**loads: Any) -> _core.Subsurface:
 
 def enveloped(**changed: Any) -> object:
     """The envelope of one increment."""
-    of = {"p": FIELD, "q_x": FIELD, "q_y": FIELD, "stick": STICK, "sigma_B": 0.0}
+    options = {"p": FIELD, "q_x": FIELD, "q_y": FIELD, "stick": STICK, "sigma_B": 0.0}
     made = _core.Envelope(COATED, GRID, PATH, [0.0, 1e-5], [0, 0], of=["von_mises"], y=0.0)
     number, branch = changed.pop("increment", 1), changed.pop("branch", 0)
-    made.push(number, branch, **of | changed)
+    made.push(number, branch, **options | changed)
     return made.finish()
 
 

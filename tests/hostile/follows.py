@@ -25,8 +25,8 @@ def worn(**options: Any) -> object:
     """Two jumps of wear."""
     laws = {"k": 1e-14, "threshold": 0.0}
     law = fret.wear.Archard(**{key: options.pop(key, value) for key, value in laws.items()})
-    said = {"cycles": 10.0, "first_branch": 2, "jumps": 2} | options
-    return fret.wear.solve(scene(), path=CYCLE, body2=law, progress=False, **said)
+    text = {"cycles": 10.0, "first_branch": 2, "jumps": 2} | options
+    return fret.wear.solve(scene(), path=CYCLE, body2=law, progress=False, **text)
 
 
 def studied(values: Any, measure: Any = "p_max") -> object:

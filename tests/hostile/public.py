@@ -428,19 +428,19 @@ def public() -> Iterator[tuple[str, Callable[..., Any]]]:
 
     def of(module: Any, prefix: str) -> Iterator[tuple[str, Callable[..., Any]]]:
         for name in module.__all__:
-            found = getattr(module, name)
-            if inspect.ismodule(found) and id(found) not in seen:
-                seen.add(id(found))
-                yield from of(found, f"{prefix}{name}.")
-            elif inspect.isclass(found) and id(found) not in seen:
-                seen.add(id(found))
-                if issubclass(found, RESULTS):
+            attribute = getattr(module, name)
+            if inspect.ismodule(attribute) and id(attribute) not in seen:
+                seen.add(id(attribute))
+                yield from of(attribute, f"{prefix}{name}.")
+            elif inspect.isclass(attribute) and id(attribute) not in seen:
+                seen.add(id(attribute))
+                if issubclass(attribute, RESULTS):
                     continue
                 if name not in MADE:
-                    yield f"{prefix}{name}", found
-                yield from methods(found, f"{prefix}{name}.")
-            elif callable(found) and not inspect.isclass(found):
-                yield f"{prefix}{name}", found
+                    yield f"{prefix}{name}", attribute
+                yield from methods(attribute, f"{prefix}{name}.")
+            elif callable(attribute) and not inspect.isclass(attribute):
+                yield f"{prefix}{name}", attribute
 
     yield from of(fret, "")
 
@@ -466,19 +466,19 @@ def good(name: str, call: Callable[..., Any]) -> tuple[dict[str, Any], list[str]
         parameters = inspect.signature(call).parameters.values()
     except (TypeError, ValueError):
         return None
-    of = OF.get(name, {})
+    item = OF.get(name, {})
     needed, free = {}, []
-    for one in parameters:
-        if one.kind in (one.VAR_POSITIONAL, one.VAR_KEYWORD):
+    for element in parameters:
+        if element.kind in (element.VAR_POSITIONAL, element.VAR_KEYWORD):
             continue
-        if one.name in of:
-            needed[one.name] = of[one.name]
-        elif one.default is one.empty:
-            if one.name not in GOOD:
+        if element.name in item:
+            needed[element.name] = item[element.name]
+        elif element.default is element.empty:
+            if element.name not in GOOD:
                 return None
-            needed[one.name] = GOOD[one.name]
-        if one.name in needed or one.name in GOOD:
-            free.append(one.name)
+            needed[element.name] = GOOD[element.name]
+        if element.name in needed or element.name in GOOD:
+            free.append(element.name)
     return needed, free
 
 
@@ -486,8 +486,8 @@ def invoked(call: Callable[..., Any], arguments: dict[str, Any]) -> Any:
     """Call with arguments by name, those by position alone in their places."""
     parameters = inspect.signature(call).parameters
     places = [n for n, p in parameters.items() if p.kind is p.POSITIONAL_ONLY and n in arguments]
-    rest = {n: v for n, v in arguments.items() if n not in places}
-    return call(*(arguments[n] for n in places), **rest)
+    remainder = {n: v for n, v in arguments.items() if n not in places}
+    return call(*(arguments[n] for n in places), **remainder)
 
 
 def never(value: Any) -> list[Any]:
@@ -503,13 +503,13 @@ def never(value: Any) -> list[Any]:
 
 def unlike(value: Any) -> list[Any]:
     """Hostile values in the place of `value`: those of its type, and some of other types."""
-    found = [*hostile(value), *never(value), None, object(), {}, [], "", Liar([1.0]), b"x"]
+    computed = [*hostile(value), *never(value), None, object(), {}, [], "", Liar([1.0]), b"x"]
     if isinstance(value, np.ndarray) and value.ndim:
         axes = [f"a{n}" for n in range(value.ndim)]
-        found += [xr.DataArray(value, dims=axes), xr.DataArray(value.T, dims=axes[::-1])]
+        computed += [xr.DataArray(value, dims=axes), xr.DataArray(value.T, dims=axes[::-1])]
     if isinstance(value, (Path, str)):
-        found += [FOLDER, FOLDER / "nothing.csv", "\0", "a" * 5000]
-    return [*found, *FLOATS[:5], *INTS[-3:]]
+        computed += [FOLDER, FOLDER / "nothing.csv", "\0", "a" * 5000]
+    return [*computed, *FLOATS[:5], *INTS[-3:]]
 
 
 def free_of(name: str, key: str) -> bool:

@@ -59,8 +59,8 @@ def with_body(body: fret.Body) -> None:
 
 def _graded(**changed: Any) -> None:
     """The layers of a graded coating."""
-    of = {"E": fret.Profile.linear(top=1e9, bottom=2e9), "nu": fret.Profile.constant(0.3)}
-    coatings = fret.graded(**of | {"thickness": 1e-5, "layers": 4} | changed)
+    options = {"E": fret.Profile.linear(top=1e9, bottom=2e9), "nu": fret.Profile.constant(0.3)}
+    coatings = fret.graded(**options | {"thickness": 1e-5, "layers": 4} | changed)
     kernels.influence_coefficients(fret.Body(STEEL, coatings=coatings), GRID)
 
 

@@ -52,8 +52,8 @@ class Liar(list[Any]):
 
 def repeated(value: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
     """An array of a million million numbers that takes no memory."""
-    one = np.zeros((), value.dtype)
-    return np.broadcast_to(one, (1 << (40 // max(value.ndim, 1)),) * max(value.ndim, 1))
+    item = np.zeros((), value.dtype)
+    return np.broadcast_to(item, (1 << (40 // max(value.ndim, 1)),) * max(value.ndim, 1))
 
 
 def scene(**changed: Any) -> fret.Scene:
@@ -74,18 +74,18 @@ def objects_like(value: Any) -> list[Any]:
     if isinstance(value, fret.Elastic):
         every = [tried(lambda E=E: fret.Elastic(E=E, nu=0.3)) for E in FLOATS]
         every += [tried(lambda nu=nu: fret.Elastic(E=1e9, nu=nu)) for nu in (0.5 - 1e-16, NAN)]
-        return [*(found for some in every for found in some), fret.RIGID]
+        return [*(candidate for some in every for candidate in some), fret.RIGID]
     if isinstance(value, fret.Coating):
         layers = [lambda h=h: fret.Coating(STEEL, thickness=h) for h in [*FLOATS, 1e-200, 1e-12]]
         layers += [lambda m=m: fret.Coating(m, thickness=1e-5) for m in objects_like(STEEL)]
-        return [found for make in layers for found in tried(make)]
+        return [candidate for make in layers for candidate in tried(make)]
     if isinstance(value, fret.Body):
         coats = objects_like(COATED.coatings[0])
         bodies = [lambda m=m: fret.Body(m) for m in objects_like(STEEL)]
         bodies += [lambda c=c: fret.Body(STEEL, coatings=[c]) for c in coats]
         bodies += [lambda: fret.Body(fret.RIGID, coatings=COATED.coatings)]
         bodies += [lambda: fret.Body(STEEL, coatings=COATED.coatings * 50)]
-        return [found for make in bodies for found in tried(make)]
+        return [candidate for make in bodies for candidate in tried(make)]
     if isinstance(value, fret.Grid):
         n, d = (6, 5), (1e-5, 2e-5)
         grids = [lambda x=x: fret.Grid.from_spacing(n, (x, 1e-5)) for x in [*FLOATS, 1e-200]]
@@ -93,13 +93,13 @@ def objects_like(value: Any) -> list[Any]:
         grids += [lambda k=k: fret.Grid.from_spacing((k, 1), d) for k in INTS]
         grids += [lambda: fret.Grid.from_spacing((1 << 14, 1 << 14), d)]
         grids += [lambda: fret.Grid.strip(extent=1e-3, n=6)]
-        return [found for make in grids for found in tried(make)]
+        return [candidate for make in grids for candidate in tried(make)]
     if isinstance(value, fret.LoadPath):
         loads = [lambda v=v: PATH.normal(v, increments=1) for v in FLOATS]
         loads += [lambda v=v: PATH.torsion(v, increments=1) for v in FLOATS]
         loads += [lambda v=v: PATH.displace(phi_x=v, increments=1) for v in FLOATS]
         loads += [lambda: fret.LoadPath.start(), lambda: PATH.normal(1.0, increments=0)]
-        return [found for make in loads for found in tried(make)]
+        return [candidate for make in loads for candidate in tried(make)]
     return []
 
 
@@ -120,13 +120,13 @@ def hostile(value: Any) -> list[Any]:
         return [*others, torn, np.asfortranarray(value), value.astype(object), value.astype("i4")]
     if isinstance(value, tuple):
         parts = [
-            (*value[:i], other, *value[i + 1 :])
+            (*value[:i], alternative, *value[i + 1 :])
             for i, part in enumerate(value)
-            for other in hostile(part)
+            for alternative in hostile(part)
         ]
         return [*parts, (), value * 2]
     if isinstance(value, list):
-        parts = [[other] for part in value[:1] for other in hostile(part)]
+        parts = [[alternative] for part in value[:1] for alternative in hostile(part)]
         return [*parts, [], value * 300, Liar(value)]
     if isinstance(value, str):
         return ["", "x", "\0", "é" * 5000]
