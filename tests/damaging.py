@@ -1,4 +1,4 @@
-"""What happens to files: bits that flip, ends that are cut."""
+"""Damage to files: bits that flip, ends that are cut."""
 
 from __future__ import annotations
 

@@ -89,7 +89,7 @@ def test_every_public_function_checks_its_arguments(
 
 
 def constructor_of(cls: Any) -> Any:
-    """What takes the arguments of a class: ``__init__``, of a compiled one ``__new__``."""
+    """Return the constructor of a class: ``__init__``, of a compiled one ``__new__``."""
     if isinstance(cls.__init__, FunctionType):
         return cls.__init__
     return None if cls.__text_signature__ is None else cls.__new__
@@ -142,7 +142,7 @@ def test_a_wrong_keyword_is_refused_with_the_nearest(call: Callable[[], object],
 def test_an_unknown_keyword_is_refused_with_those_that_are_known(
     monkeypatch: pytest.MonkeyPatch, record_property: Callable[[str, object], None]
 ) -> None:
-    """By every function, method and constructor whose names of arguments are known."""
+    """Every function, method and constructor with known argument names does so."""
     monkeypatch.syspath_prepend(str(Path(__file__).with_name("hostile")))
     public = importlib.import_module("public")
     count = 0

@@ -141,7 +141,7 @@ FIELDS: dict[str, Callable[[Any], Any]] = {
 
 @pytest.mark.parametrize("take", FIELDS)
 def test_a_field_is_taken_by_its_coordinates(take: str) -> None:
-    """In any order; coordinates of another grid are refused."""
+    """The order is free; coordinates of another grid are refused."""
     right = np.asarray(FIELDS[take](FIELD.values))
     for same in (FIELD, FIELD.T, FIELD[::-1], FIELD.T[::-1], FIELD.drop_vars("x")):
         np.testing.assert_allclose(FIELDS[take](same), right, rtol=1e-12)

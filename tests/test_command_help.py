@@ -80,7 +80,7 @@ def quantities() -> Iterator[tuple[str, argparse.Action]]:
 
 
 def test_every_option_that_is_a_quantity_may_have_a_unit() -> None:
-    """Of the commands in Python: lengths, stresses, angles, one or several."""
+    """The commands in Python take lengths, stresses and angles, one or several."""
     checked = set()
     for name, action in quantities():
         checked.add((name, action.dest))
@@ -200,7 +200,7 @@ def test_lengths_with_units_are_those_in_metres(
 
 
 def test_values_of_keys_of_a_scene_may_have_a_unit() -> None:
-    """Those of --between, --over and --unknown, by the key."""
+    """The options --between, --over and --unknown take the unit of the key."""
     assert number("path.1.T_x", "20 kN") == 2e4
     assert number("rig.stiffness", " 5 N/um") == pytest.approx(5e6)
     assert number("body2.coatings.0.E", "3e11") == 3e11

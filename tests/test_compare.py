@@ -58,7 +58,7 @@ def bodies() -> dict[str, Candidate]:
 
 @pytest.mark.parametrize("mu", [0.2, None])
 def test_a_candidate_that_would_slide_is_named(mu: float | None) -> None:
-    """With its friction, and what to do; without friction of its own, by its name."""
+    """The message has its friction and a remedy, or its name without friction of its own."""
     scene, path = contact()
     if mu is None:
         scene = scene.replace(friction=0.2)
@@ -118,7 +118,7 @@ def test_numbers_are_those_of_single_runs(compared: tuple[fret.study.Comparison,
 
 
 def test_a_margin_says_what_the_stress_is_and_what_is_doubted() -> None:
-    """Of every candidate, for a criterion with lives and for one with a limit."""
+    """Every candidate has them, for a criterion with lives and for one with a limit."""
     scene, path = contact(n=12)
     known_values = fatigue.Materials()
     material = {

@@ -45,7 +45,7 @@ def rig() -> fret.Result:
 
 @pytest.fixture(scope="module")
 def pulled(rig: fret.Result) -> fret.Result:
-    """The same with a bulk stress in phase, from nothing to 200 MPa."""
+    """Solve the same with a bulk stress in phase, from 0 to 200 MPa."""
     path = fret.LoadPath.start().normal(2e5, increments=2)
     for T, bulk in ((3e4, 200e6), (-3e4, 0.0), (3e4, 200e6)):
         path = path.force(T_x=T, sigma_B=bulk, increments=6)

@@ -56,7 +56,7 @@ def numbers(of: fracture.Cracks) -> dict[str, NDArray[np.float64]]:
 
 @pytest.mark.solves
 def test_each_error_is_that_of_its_number(cracks: fracture.Cracks) -> None:
-    """On three times as many cells no number moves more than its error, which is no larger."""
+    """No number moves by more than its error on three times as many cells."""
     fine = pad(144).crack(cracks.dataset.attrs["x"], lengths=LENGTHS)
     errors = {
         "K_max": cracks.error,

@@ -64,7 +64,7 @@ def ids(document: Path) -> str:
 
 
 def code_spans(document: Path) -> list[str]:
-    """What stands between backticks, blocks of code aside."""
+    """Return the texts between backticks, without blocks of code."""
     prose = re.sub(r"```.*?```", "", text(document), flags=re.DOTALL)
     return re.findall(r"`([^`\n]+)`", prose)
 
@@ -147,7 +147,7 @@ COMMANDS = (
 
 @functools.cache
 def help_of(command: str) -> str:
-    """What a command says of itself."""
+    """Return the help of a command."""
     environment = {**os.environ, "FRET_PYTHON": sys.executable}
     return subprocess.run(
         [FRET, command, "--help"], capture_output=True, text=True, check=True, env=environment

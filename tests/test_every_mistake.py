@@ -136,7 +136,7 @@ def test_quantities_have_units() -> None:
 
 
 def test_a_material_has_its_name() -> None:
-    """In a file and by `set`, in bodies and coatings, by the finder of `fret.material`."""
+    """Names work in a file and by `set`, in bodies and coatings, as in `fret.material`."""
     table, film = fret.fatigue.Materials(), "body2.coatings.0"
     for name in ("titanium_6Al4V", "Ti-6Al-4V", "steel", "TiN"):
         scene = fret.Scene.from_toml(GOOD, set=[f"{film}.material={name}"])

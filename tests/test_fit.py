@@ -277,7 +277,7 @@ class ClosedForm:
 
     @staticmethod
     def solve(scene: fret.Scene, path: fret.LoadPath, **_: object) -> SimpleNamespace:
-        """What :func:`pyfret.solve` gives of a loop."""
+        """Return the loop in the form of :func:`pyfret.solve`."""
         rig = path.rig_stiffness
         assert rig is not None
         reach = max(float(branch.delta_x or 0.0) for branch in path.branches)

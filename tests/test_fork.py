@@ -43,7 +43,7 @@ def in_a_copy(work: Callable[[], bool]) -> int:
 
 
 def test_a_copy_solves_as_well() -> None:
-    """The same numbers, in a copy and in a copy of the copy."""
+    """A copy and a copy of the copy give the same numbers."""
     scene = sphere_on_flat(ratio=2.0, n=16)
     in_process = fret.solve(scene, PATH, progress=False).dataset
 
@@ -80,7 +80,7 @@ def test_a_copy_of_a_process_at_work_is_refused_at_once() -> None:
 
 
 def test_multiprocessing_by_fork() -> None:
-    """As its users write it, in a process of its own."""
+    """Run the code of users in a separate process."""
     script = """
 import multiprocessing, warnings
 import pyfret as fret

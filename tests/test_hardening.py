@@ -46,7 +46,7 @@ def test_a_law_is_a_value_and_stands_in_scene_files(law: fret.Plastic) -> None:
 
 
 def test_units_are_texts() -> None:
-    """The same law with units."""
+    """Units give the same law."""
     texts = fret.Plastic(
         s_y="900 MPa",
         voce_Q="0.2 GPa",
@@ -107,7 +107,7 @@ def test_more_than_the_hardness_is_refused_with_its_load(law: fret.Plastic) -> N
 
 @pytest.mark.solves
 def test_more_hardening_yields_less() -> None:
-    """The same load and slope at the start: what saturates yields more than what does not."""
+    """A law that saturates yields more than a linear one of the same initial slope."""
     path = fret.LoadPath.start().normal(150.0, increments=3).normal(2.0, increments=1)
     strain = {}
     laws = {

@@ -76,7 +76,7 @@ def test_a_fast_cycle_hardly_swings(sliding: fret.Result) -> None:
 
 @pytest.mark.parametrize("harmonics", [8, 16, 32, 64])
 def test_heat_that_stops_at_once_does_not_overshoot(sliding: fret.Result, harmonics: int) -> None:
-    """At a constant rate the heat of gross slip is even, and ends at the reversal."""
+    """Heat of gross slip at a constant rate is even, and ends at the reversal."""
     a, K = sliding.a_H, STEEL.conductivity
     slowest = 1e-4 * K / STEEL.heat_capacity / a**2
     heat = sliding.temperature(
@@ -115,7 +115,7 @@ def test_surfaces_agree_where_they_touch(coated: fret.Result) -> None:
 
 
 def test_time_within_a_branch(sliding: fret.Result) -> None:
-    """As half a sine the middle of the stroke is fast: it is hotter than at a constant rate."""
+    """A sine heats the middle of the stroke more than a constant rate."""
     slow = [
         sliding.temperature(STEEL, STEEL, frequency=1e-6, wave=wave).attrs["maximum"]
         for wave in ("sine", "linear")

@@ -25,7 +25,7 @@ def spent(pid: int) -> float:
 
 
 def batch(start: int, *which: str, refused: bool = False) -> tuple[list[str], int | None]:
-    """What the calls from `start` on did wrong, and the number of the one that was the last.
+    """Return the wrong calls from `start` on, and the number of the last call.
 
     `which` are the other calls of ``tests/hostile``; with `refused` an answer is wrong.
     """
@@ -66,7 +66,7 @@ def batch(start: int, *which: str, refused: bool = False) -> tuple[list[str], in
 
 
 def wrong_of(*which: str, refused: bool = False) -> list[str]:
-    """What all calls did wrong, each in a process that lives on after it."""
+    """Return the wrong calls of all, in processes that survive them."""
     wrong: list[str] = []
     start: int | None = 0
     while start is not None:
@@ -77,7 +77,7 @@ def wrong_of(*which: str, refused: bool = False) -> list[str]:
 
 @pytest.mark.timeout(600)
 def test_hostile_values_are_answered_or_refused() -> None:
-    """In a process of its own, under a limit of memory; none may end it or keep it for long."""
+    """No call ends its process or takes long, under a limit of memory."""
     wrong = wrong_of()
     assert not wrong, "\n".join(wrong)
 

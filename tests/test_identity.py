@@ -1,4 +1,4 @@
-"""What a study is told from another by: values, names, code."""
+"""Identity of a study: values, names, code."""
 
 from __future__ import annotations
 
@@ -122,7 +122,7 @@ def test_what_cannot_be_told_needs_a_version() -> None:
 
 
 def test_a_store_of_other_code_is_refused(tmp_path: Path) -> None:
-    """Of a measure, and of the function that makes the scenes."""
+    """Code of a measure and of the function of scenes counts."""
     path = tmp_path / "s.zarr"
     values = {"mu": [0.3]}
     solved(values, functools.partial(scaled, by=1.0), out=path)
@@ -149,7 +149,7 @@ def test_a_store_of_other_code_is_refused(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name", ["status", "reason", "nx", "seconds", "mu", "a/b", ".x", ""])
 def test_names_that_the_study_needs_are_no_measures(name: str) -> None:
-    """As the name of a function, and of what it gives."""
+    """Names of functions and of their numbers are refused."""
 
     def measure(result: Any) -> Any:
         return {name: 1.0}
@@ -189,7 +189,7 @@ def test_a_table_names_what_it_leaves_out() -> None:
 
 
 def test_a_study_in_memory_is_that_of_a_store(tmp_path: Path) -> None:
-    """The same variables, values, types and attributes."""
+    """Variables, values, types and attributes are the same."""
 
     def profile(result: Any) -> xr.DataArray:
         return result.at(-1).p.isel(y=4)  # type: ignore[no-any-return]

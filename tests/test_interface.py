@@ -103,7 +103,7 @@ def test_buckling_is_that_of_a_clamped_plate_by_finite_differences() -> None:
         return s / plane - D * bending / b**2 / (plane * h)
 
     def energy(b: float) -> float:
-        """Of the buckled strip less that of the flat one, per length of it [J/m]."""
+        """Return the energy of the buckled strip minus the flat one, per length [J/m]."""
         m = stretch(b)
         of_area = plane * h * ((s / plane - m) ** 2 - (s / plane) ** 2) / 2 + D * bending / b**2 * m
         return 2 * b * of_area

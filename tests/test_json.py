@@ -14,7 +14,7 @@ import pytest
 import pyfret as fret
 from conftest import ROOT, sphere_on_flat
 from pyfret._cli import commands, parser
-from pyfret._cli.say import written
+from pyfret._cli.printing import as_printed
 
 CLI = Path(parser.__file__).parent
 FRET = ROOT / "target" / "release" / "fret"
@@ -36,7 +36,7 @@ def test_one_writer_serves_all_commands() -> None:
         for node in ast.walk(ast.parse(file.read_text(encoding="utf-8")))
         if isinstance(node, ast.Attribute) and node.attr in ("dumps", "dump")
     }
-    assert writers == {"say.py"}
+    assert writers == {"printing.py"}
     takes = [file for file in CLI.glob("*.py") if '"--json"' in file.read_text(encoding="utf-8")]
     for file in takes:
         text = file.read_text(encoding="utf-8")
@@ -46,7 +46,7 @@ def test_one_writer_serves_all_commands() -> None:
 def test_a_number_that_is_not_finite_is_null_with_its_reason() -> None:
     surface = read(
         json.dumps(
-            written(
+            as_printed(
                 {
                     "life": math.inf,
                     "error": math.nan,

@@ -144,7 +144,7 @@ def answers(text: str) -> list[Any]:
 
 
 def without_reason(value: Any, at: str = "") -> list[str]:
-    """Where a null stands without a reason beside it."""
+    """List the nulls without a reason."""
     if isinstance(value, list):
         return [w for n, item in enumerate(value) for w in without_reason(item, f"{at}[{n}]")]
     if not isinstance(value, dict):

@@ -170,7 +170,7 @@ def test_the_search_for_numbers_that_nobody_reads() -> None:
 
 
 def test_places_are_zero_where_they_are_zero_to_rounding(every: dict[str, Any]) -> None:
-    """Of a contact about the middle of its grid, whatever looks for the largest value."""
+    """Every search for a largest value rounds places of a centred contact."""
     run = every["Result"]
     size = max(run.scene.grid.nx * run.scene.grid.dx, run.scene.grid.ny * run.scene.grid.dy)
     life = [run.life("7075", name).worst for name in ("crossland", "findley")]

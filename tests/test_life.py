@@ -32,7 +32,7 @@ def cycled() -> fret.Result:
 
 @pytest.fixture(scope="module")
 def few() -> fret.Result:
-    """The same on fewer cells, with fewer increments."""
+    """Solve the same on fewer cells, with fewer increments."""
     path = fret.LoadPath.start().normal(LOAD, increments=2)
     path = path.tangential([T_MAX, -T_MAX, T_MAX], increments=4)
     return fret.solve(sphere_on_flat(ratio=2.0, n=16), path, save="all", progress=False)

@@ -76,7 +76,7 @@ def few_cells() -> fret.Result:
 def test_the_range_of_a_point_holds_the_scatter_of_the_material(
     few_cells: fret.Result, name: CriterionName
 ) -> None:
-    """Of every criterion: the margin at a point is told with the scatter that a mean has."""
+    """Every criterion has the same scatter at a point and for a mean."""
     table = fatigue.Materials()["7075"].numbers()
     names = [number for number, _, _ in table]
     extra = [
@@ -159,7 +159,7 @@ def test_no_life_is_told_beyond_the_tests_of_curves(life: fatigue.Life) -> None:
 
 
 def test_a_wide_range_names_what_makes_it_wide() -> None:
-    """Of a steel the threshold is an estimate, and its curve is flat."""
+    """A steel has an estimated threshold, and a flat curve."""
     steel = fatigue.Materials()["4340"]
     body = fret.material("4340")
     scene = fret.Scene(
@@ -320,7 +320,7 @@ FITTED = [("s_D", 443e6, "fitted to plain fretting"), ("t_D", 297e6, "fitted to 
 
 @pytest.mark.solves
 def test_published_thresholds_lie_in_their_ranges() -> None:
-    """At a measured threshold the range of the safety factor holds 1, in eight of ten tests."""
+    """Each range at a measured threshold of the safety factor contains 1, in eight of ten tests."""
     steel = fatigue.Material("35NCD16", FITTED)
     inside = []
     for row in experiments.table("icf13_952_thresholds"):
@@ -348,7 +348,7 @@ def test_a_threshold_has_the_range_of_its_margin() -> None:
 
 
 def test_a_stress_of_a_criterion_has_its_unit(life: fatigue.Life) -> None:
-    """Of Smith, Watson and Topper's value as well, the product of a stress and a strain."""
+    """The value of Smith, Watson and Topper, a stress times a strain, is one of them."""
     assert life.worst.units == "Pa"
     assert " MPa, x = " in repr(life.worst)
     assert " MPa</td>" in life._repr_html_()

@@ -149,7 +149,7 @@ def write_x3p(file: Path, heights: np.ndarray, spacing: float) -> None:
 
 
 def write_sdf(file: Path, heights: np.ndarray, spacing: float) -> None:
-    """The same in the format of ISO 25178-71, as text."""
+    """Write the map in the format of ISO 25178-71, as text."""
     nx, ny = heights.shape
     head = {
         "ManufacID": "fret",

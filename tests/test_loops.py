@@ -130,7 +130,7 @@ def sliding_ratio(T: float, limit: float) -> float:
 
 
 def test_numbers_of_a_cycle_have_the_errors_of_its_branches() -> None:
-    """Of Mindlin's loops four in five are within 1.5 errors, and all within 2."""
+    """Four in five of Mindlin's loops are within 1.5 errors, all within 2."""
     hertz = fret.reference.hertz(R=R, bodies=(STEEL, STEEL), W=W)
     right = fret.reference.CattaneoMindlin(hertz, bodies=(STEEL, STEEL), mu=MU)
     ratios = []

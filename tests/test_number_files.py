@@ -56,7 +56,7 @@ def test_tables_of_every_style(
 def test_points_in_any_order(
     tmp_path: Path, columns: tuple[int, ...], parting: str, point: str, titles: str
 ) -> None:
-    """Of any order of lines and columns; micrometres by title or argument."""
+    """Lines and columns have any order; micrometres come by title or argument."""
     order = RNG.permutation(HEIGHTS.size)
     rows: list[Any] = [[1e6 * p[c] for c in columns] for p in points(order)]
     if titles == "titles":

@@ -1,4 +1,4 @@
-"""What holds in every cell and increment, whatever the bodies are."""
+"""Conditions that hold in every cell and increment, for all bodies."""
 
 from __future__ import annotations
 

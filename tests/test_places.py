@@ -1,4 +1,4 @@
-"""Where a contact is looked at does not depend on how the scene is turned."""
+"""Results do not depend on the rotation of the scene."""
 
 from __future__ import annotations
 

@@ -132,7 +132,7 @@ def test_a_run_that_was_stopped_goes_on_to_the_same_plastic_strain(tmp_path: Pat
 
 
 def test_the_stress_below_is_that_which_is_there() -> None:
-    """At the points of the volume grid it is the stress of the plastic state."""
+    """The points of the volume grid have the stress of the plastic state."""
     result = fret.solve(indentation(), progress=False)
     loaded = result.at(3)
     plastic = loaded.plastic.dataset
@@ -405,7 +405,7 @@ def test_what_is_not_computed_of_bodies_that_yield_is_refused_by_name() -> None:
 
 @pytest.mark.filterwarnings("ignore::pyfret.errors.SceneWarning")
 def test_large_strains_are_doubted_and_end_a_run(tmp_path: Path) -> None:
-    """From 6 % on there is a doubt, at 15 % the run ends with what it has; it ends there again."""
+    """A strain of 6 % is doubted, 15 % ends the run, also when it is resumed."""
     soft = fret.Elastic(E=210e9, nu=0.3, plastic=fret.Plastic(s_y=1e9, hardening=2e10))
     path = fret.LoadPath.start()
     for W in (2e6, 6e6, 1e7):

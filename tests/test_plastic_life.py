@@ -106,7 +106,7 @@ def test_the_strain_is_that_of_plane_strain(*, upper: bool) -> None:
 
 
 def test_the_strain_is_that_of_the_points_of_the_volume_grid() -> None:
-    """On its planes and in its cells the strain is the one that is kept there."""
+    """The strain on its planes and in its cells is the stored one."""
     for upper in (False, True):
         result, number = alternating(upper=upper), 1 if upper else 2
         state = result.at(-1)

@@ -67,5 +67,5 @@ def test_every_ball_that_frets(name: str) -> None:
 @pytest.mark.solves
 @pytest.mark.parametrize("name", [_marked(name) for name in rows("line")])
 def test_every_cylinder_that_frets(name: str) -> None:
-    """As on few cells, 128 of them."""
+    """Compare on 128 cells."""
     within(drawn(rows("line")[name], n=128))

@@ -247,7 +247,7 @@ def test_the_command_writes_the_page(result: fret.Result, tmp_path: Path) -> Non
 
 
 def test_every_store_has_its_page(worn: fret.wear.WearResult, tmp_path: Path) -> None:
-    """By the command, of wear and of what `save` wrote; options of a run are refused."""
+    """The command takes wear and saved results; options of a run are refused."""
     store, page = tmp_path / "worn.zarr", tmp_path / "worn.html"
     worn.save(store)
     assert commands.main(["report", str(store), "-o", str(page)]) == 0
@@ -256,7 +256,7 @@ def test_every_store_has_its_page(worn: fret.wear.WearResult, tmp_path: Path) ->
 
 
 def test_the_page_of_a_study_takes_the_options_of_its_figure(tmp_path: Path) -> None:
-    """Of three parameters the third is chosen, as for the map."""
+    """A study of three parameters shows two; the third is chosen, as for the map."""
     places = {key: [1.0, 2.0, 3.0] for key in "abc"}
     total = xr.DataArray(np.arange(27.0).reshape(3, 3, 3), places, name="total")
     status = xr.full_like(total, 1, dtype=np.int8).rename("status")

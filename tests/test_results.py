@@ -168,7 +168,7 @@ def test_fields_of_a_march_are_those_of_its_last_increment() -> None:
 
 
 def test_no_file_is_unpickled() -> None:
-    """What is read cannot run; a study and a fit exchange objects, with processes of their user.
+    """Data that are read cannot run; a study and a fit exchange objects with processes.
 
     A pool of threads exchanges none.
     """

@@ -64,7 +64,7 @@ def test_a_life_says_over_which_distance_it_is_averaged(public: Any) -> None:
 
 
 def test_tables_have_units_in_their_head(public: Any, tmp_path: Path) -> None:
-    """Of every result; each column is what the dataset has."""
+    """Every result has one; each column equals the dataset."""
     results = {
         "life": (public.LIFE, "life [cycles]"),
         "over": (public.LIFE.over_distance(), "L [m]"),

@@ -1,4 +1,4 @@
-"""What a scene may be, and what is said of one that has no meaning."""
+"""Valid scenes, and the messages for scenes without a meaning."""
 
 from __future__ import annotations
 

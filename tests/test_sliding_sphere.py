@@ -105,7 +105,7 @@ def test_first_yield_of_the_run_is_that_of_the_closed_form(
 def test_a_sphere_that_slides_to_and_fro_shakes_down_up_to_k_over_mu(
     sliding: tuple[float, fret.Result],
 ) -> None:
-    """At the centre of the contact s_xz goes from -mu p_0 to mu p_0, and nothing else changes."""
+    """The centre of the contact has s_xz from -mu p_0 to mu p_0, and nothing else changes."""
     mu, result = sliding
     shear = [below(1.0, z) - below(0.0, z) for z in DEPTHS]
     assert max(float(root_J2(s).max()) for s in shear) == pytest.approx(1.0, rel=1e-9)

@@ -176,7 +176,7 @@ def test_a_scene_is_checked_along_a_path_that_comes_later() -> None:
 
 
 def few_cells(cells: float) -> fret.Scene:
-    """So many cells across the Hertz radius."""
+    """Make a scene with `n` cells across the Hertz radius."""
     scene = sphere_on_flat()
     a = fret.reference.hertz(R=R, bodies=(STEEL, STEEL), W=W).a
     return scene.replace(grid=fret.Grid.centred(width=32 * a / cells, n=32))

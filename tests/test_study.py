@@ -54,7 +54,7 @@ def whole() -> fret.study.Study:
 
 
 def test_sensitivity_is_the_part_of_the_variance() -> None:
-    """Of a sum of a and b^2 without interaction the parts are those of the terms and make 1."""
+    """The shares of a + b^2, which has no interaction, belong to the terms and add up to 1."""
     a, b = np.array([0.0, 1.0, 2.0]), np.array([-1.0, 0.5, 3.0, 4.0])
     sums = xr.DataArray(10.0 + a[:, None] + b[None, :] ** 2, {"a": a, "b": b}, name="sum")
     product = xr.DataArray(a[:, None] * (b - b.mean())[None, :], {"a": a, "b": b}, name="product")
@@ -163,7 +163,7 @@ def test_an_interrupted_study_goes_on(whole: fret.study.Study, tmp_path: Path) -
 
 
 def test_points_have_the_increments_of_the_middle_one_in_any_order(tmp_path: Path) -> None:
-    """Where increments are chosen, a point depends on its scene and on the middle one alone."""
+    """A point with chosen increments depends on its scene and on the middle one alone."""
     coated = sphere_on_flat(ratio=2.0, n=32)
     path = fret.LoadPath.start().normal(W).tangential(T_x=[150.0, -150.0])
     scene = coated.replace(path=path, title="chosen")

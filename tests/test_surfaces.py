@@ -102,7 +102,7 @@ def test_a_result_is_saved_as_what_its_name_says(coated: fret.Result, tmp_path: 
 
 @pytest.mark.parametrize("flat", [False, True], ids=["rectangle", "strip"])
 def test_a_map_that_is_too_small_is_refused_with_the_grid_that_fits(*, flat: bool) -> None:
-    """What the refusal says is code, and makes a scene."""
+    """The code in the refusal makes a scene."""
     steel = fret.Elastic(E=210e9, nu=0.3)
     spacing = (1e-6, 1.0 if flat else 3e-6)
     shape = fret.SurfaceMap(np.zeros((67, 1 if flat else 20)), spacing=spacing)

@@ -34,7 +34,7 @@ class Drawn:
     shear_angle: float
 
     def turned(self, by: float) -> Drawn:
-        """The same turned about z."""
+        """Return the same scene turned about z."""
         return replace(self, shape_angle=self.shape_angle + by, shear_angle=self.shear_angle + by)
 
     def mirrored(self) -> Drawn:

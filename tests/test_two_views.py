@@ -143,7 +143,7 @@ def result(scene: fret.Scene) -> fret.Result:
 
 @pytest.fixture(scope="module")
 def pages(scene: fret.Scene, tmp_path_factory: Any) -> tuple[str, dict[str, Any]]:
-    """What the command prints for people and for programs."""
+    """Return the output of the command for people and for programs."""
     folder: Path = tmp_path_factory.mktemp("views")
     (folder / "scene.toml").write_text(scene.to_toml(), encoding="utf-8")
 

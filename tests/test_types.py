@@ -102,7 +102,7 @@ def test_parameters_whose_quantity_is_known_are_typed_so(monkeypatch: pytest.Mon
 @pytest.mark.solves
 @pytest.mark.filterwarnings("ignore")
 def test_compiled_parameters_that_take_a_unit_are_typed_so(monkeypatch: pytest.MonkeyPatch) -> None:
-    """By what they do with a text, against the stub; those that refuse one are numbers."""
+    """Compare their treatment of a text with the stub; a number refuses a text."""
     public = public_calls(monkeypatch)
     asked, wrong = 0, []
     for name, call in public.public():

@@ -431,7 +431,7 @@ def test_the_command_tells_cycles_of_an_event_with_their_error(tmp_path: Path) -
 
 @pytest.mark.parametrize("cycling", ["sliding", "march"])
 def test_loops_of_wear_are_those_of_the_run(cycling: str) -> None:
-    """Of a run that hardly wears: the numbers of the contact itself, by the same names."""
+    """A run that hardly wears has the numbers of the contact itself, by the same names."""
     path = fret.LoadPath.start().normal(18.5e3, increments=1)
     for to in (20e-6, -20e-6, 20e-6):
         path = path.displace(delta_x=to, increments=40)

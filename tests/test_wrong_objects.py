@@ -133,7 +133,7 @@ def test_a_figure_says_what_it_takes_instead_of_what_it_is_given(
 
 
 def test_numbers_of_a_criterion_come_from_a_material() -> None:
-    """Of every criterion and every material, by one manner: as its assessment has them."""
+    """Every criterion and material gives the numbers of its assessment."""
     fatigue, made = fret.fatigue, 0
     for name in fatigue.CRITERIA:
         for key, material in fatigue.Materials().items():
@@ -153,7 +153,7 @@ def test_numbers_of_a_criterion_come_from_a_material() -> None:
 
 
 def test_a_life_beyond_the_tests_is_told_as_one_everywhere(public: Any) -> None:
-    """In the worst point, in the fields, in the range, in the text and in the view."""
+    """It is capped in the worst point, the fields, the range, the text and the view."""
     life = public.LIFE
     assert life.worst.margin == life.best == float("inf")
     assert life.worst.range[1] == life.high == float("inf")

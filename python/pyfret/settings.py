@@ -79,7 +79,7 @@ class FrequencyDomain(Replaceable):
 
 @part(kw_only=True)
 class Skip(Replaceable):
-    """What may be left out when the scene does not need it; the answer stays as it is.
+    """Parts of the solution that are skipped if the scene does not need them, with the same result.
 
     Parameters
     ----------

@@ -98,7 +98,7 @@ class Audit:
         self.tolerance = 1e-6
 
     def _targets(self) -> list[dict[str, float]]:
-        """What the file asks for at the end of each branch: loads, or motions in their place."""
+        """Return the targets at the end of each branch: loads, or motions in their place."""
         pairs = {"W": "delta_z", "T_x": "delta_x", "T_y": "delta_y", "M_x": "phi_x",
                  "M_y": "phi_y", "M_z": "phi_z"}  # fmt: skip
         now: dict[str, float] = {"W": 0.0, "T_x": 0.0, "T_y": 0.0, "phi_x": 0.0, "phi_y": 0.0,
@@ -129,7 +129,7 @@ class Audit:
         ) * factor * p
 
     def bulk(self, sigma: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
-        """What the bulk stresses of the bodies add to u = u(2) - u(1) [m]."""
+        """Return the part of the bulk stresses in u = u(2) - u(1) [m]."""
         u_x, u_y = np.zeros_like(self.x), np.zeros_like(self.x)
         for sign, stress, name in ((1, sigma[0], "body2"), (-1, sigma[1], "body1")):
             body = self.file[name]
@@ -211,7 +211,7 @@ class Audit:
         now: dict[str, Any],
         bound: tuple[np.ndarray, np.ndarray] | None,
     ) -> dict[str, float]:
-        """What cells in contact have slipped from one increment to the next.
+        """Compute the slip of cells in contact from one increment to the next.
 
         Where one was solved in pieces, what stuck in the last of them may have slipped before.
         """

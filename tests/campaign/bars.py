@@ -86,7 +86,7 @@ def drawn(seed: int, n: int) -> tuple[fret.Scene, fatigue.Material]:
 
 
 def numbers(scene: fret.Scene, material: fatigue.Material) -> Iterator[Number]:
-    """What a user reads of a scene."""
+    """Yield the numbers that a user reads of a scene."""
     result = fret.solve(scene, progress=False, save="all", error=True)
     bars = result.error_bars().sel(part="total")
     for branch, row in result.branches().groupby("branch"):
@@ -117,7 +117,7 @@ def numbers(scene: fret.Scene, material: fatigue.Material) -> Iterator[Number]:
 
 
 def ratios(seed: int) -> Iterator[tuple[str, float, str]]:
-    """Of the numbers of a scene: what it is, true error over error bar, and both in words."""
+    """Yield name, true error over error bar, and both as text, for each number of a scene."""
     coarse, fine = ({n[0]: n for n in numbers(*drawn(seed, c))} for c in (CELLS, FINER * CELLS))
     for name, value, bar in coarse.values():
         if name not in fine or not math.isfinite(value) or not bar > 0.0:

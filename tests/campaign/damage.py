@@ -123,7 +123,7 @@ def same(one: xr.Dataset, other: xr.Dataset) -> bool:
 
 
 def damaged(kind: str, count: int, folder: Path, rng: random.Random) -> str:
-    """What `count` damages of a store did wrong, or how many were refused."""
+    """Damage a store `count` times; return the wrong answers, or the number of refusals."""
     write, ending = WRITES[kind]
     good, bad = folder / f"good{ending}", folder / f"bad{ending}"
     write(good)
@@ -154,7 +154,7 @@ def damaged(kind: str, count: int, folder: Path, rng: random.Random) -> str:
 
 
 def killed(kind: str, count: int, folder: Path, rng: random.Random) -> str:
-    """What became of places of which the writing process was killed `count` times."""
+    """Kill the writing process `count` times; return the state of the stores."""
     write, ending = WRITES[kind]
     good = folder / f"whole{ending}"
     begun = time.monotonic()

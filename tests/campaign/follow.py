@@ -1,4 +1,4 @@
-"""What follows from a contact of the campaign: heat, cracks, wear with debris, an own law.
+"""Evaluations of a contact of the campaign: heat, cracks, wear with debris, an own law.
 
 Everything is computed for every result; a number is finite, or the call is refused for a reason.
 """
@@ -53,7 +53,7 @@ def own_wear(pressed_way: Any, way: Any, dissipated: Any, worn: Any, cycles: Any
 
 
 def worn(scene: fret.Scene, rng: random.Random) -> Any:
-    """What a few cycles wear off, with debris that stays."""
+    """Solve the wear of a few cycles, with debris that stays."""
     law: Any = rng.choice([own_wear, fret.wear.Archard(1e-15), fret.wear.DissipatedEnergy(1e-15)])
     computed = fret.wear.solve(
         scene,
@@ -89,7 +89,7 @@ def own_friction(scene: fret.Scene, rng: random.Random) -> fret.Scene:
 
 
 def follows(scene: fret.Scene, seed: int) -> Iterator[tuple[str, str]]:
-    """What became of everything that follows: its name, and why it was refused, or nothing."""
+    """Yield the name of each evaluation, with the reason if it was refused."""
     rng = random.Random(f"follows {seed}")
     if rng.random() < 0.3:
         scene = own_friction(scene, rng)

@@ -27,7 +27,7 @@ LIMIT = 60.0
 
 
 def fate(seed: int, *, whole: bool = False) -> dict[str, object]:
-    """What becomes of the scene of a seed, and of all that follows from it."""
+    """Solve the scene of a seed and evaluate it; return the outcome."""
     from audit import Audit
     from draw import draw
     from follow import follows
@@ -105,7 +105,7 @@ class Worker:
 def campaign(
     first: int, count: int, limit: float = LIMIT, *, whole: bool = False
 ) -> Iterator[dict[str, object]]:
-    """What becomes of `count` scenes, as they end; two processes at a time."""
+    """Yield the outcomes of `count` scenes as they end, from two processes."""
     stride, last = 2, first + count
     environment = os.environ | {"RAYON_NUM_THREADS": "1"}
     starts = [first + k for k in range(stride)]
@@ -150,7 +150,7 @@ RIGHT = ("solved", "off grid", "refused", "beyond friction")
 
 
 def told(outcomes: list[dict[str, object]]) -> tuple[list[str], bool]:
-    """What became of all scenes, in lines; and whether all is right."""
+    """Summarise the outcomes in lines; return them and whether all are right."""
     fates = Counter(str(item["fate"]) for item in outcomes)
     lines = [f"{n:6d} {fate}" for fate, n in fates.most_common()]
     followed = Counter(

@@ -54,7 +54,7 @@ def flat(values: Any) -> Iterator[Any]:
 
 
 def outcome(call: Callable[..., Any], arguments: dict[str, Any]) -> str:
-    """What a call does, in a word."""
+    """Classify the behaviour of a call in a word."""
     by_position = [arguments[key] for key in sorted(k for k in arguments if k.isdigit())]
     by_name = {key: value for key, value in arguments.items() if not key.isdigit()}
     try:

@@ -62,7 +62,7 @@ def scene(**changed: Any) -> fret.Scene:
 
 
 def tried(make: Callable[[], Any]) -> list[Any]:
-    """What `make` gives, if it gives anything."""
+    """Return the value of `make` in a list, empty if it raises."""
     try:
         return [make()]
     except (*ALLOWED, *OWN):

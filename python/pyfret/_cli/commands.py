@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 from pyfret import verification
 from pyfret._cli import compare, crack, explore, export, fit, info, threshold
 from pyfret._cli.parser import Parser, added
-from pyfret._cli.say import say, say_json
+from pyfret._cli.printing import print_json, print_text
 from pyfret._cli.values import FIGURES, ending
 from pyfret._core import __version__
 from pyfret._util.numbers import told as told_of
@@ -101,7 +101,7 @@ def study(options: argparse.Namespace) -> int:
             mapped=options.map is not None,
         )
     except KeyboardInterrupt:
-        say("fret: stopped; the same command goes on", file=sys.stderr)
+        print_text("fret: stopped; the same command goes on", file=sys.stderr)
         return ENDED_EARLY
     finally:
         if client is not None:
@@ -117,9 +117,9 @@ def study(options: argparse.Namespace) -> int:
             **({} if options.map else {"map_why": "not asked for"}),
         )
     else:
-        say(f"{store}: {study!r}")
+        print_text(f"{store}: {study!r}")
         for values, reason in failed:
-            say(f"{', '.join(f'{k} = {told_of(v)}' for k, v in values.items())}: {reason}")
+            print_text(f"{', '.join(f'{k} = {told_of(v)}' for k, v in values.items())}: {reason}")
     if options.map:
         import matplotlib.pyplot as plt
 
@@ -147,7 +147,7 @@ def report(options: argparse.Namespace) -> int:
     if options.json:
         tell(page=str(page), bytes=size)
     else:
-        say(f"{page}: {size / 1e6:.1f} MB")
+        print_text(f"{page}: {size / 1e6:.1f} MB")
     return DONE
 
 
@@ -168,7 +168,7 @@ def verify(options: argparse.Namespace) -> int:
         ]
         tell(passed=checked.passed, checks=checks)
     else:
-        say(checked)
+        print_text(checked)
     return DONE if checked.passed else ENDED_EARLY
 
 
@@ -178,13 +178,13 @@ def cite(options: argparse.Namespace) -> int:
     if options.json:
         tell(version=__version__, sources=[source._asdict() for source in sources(result)])
     else:
-        say(told(result))
+        print_text(told(result))
     return DONE
 
 
 def tell(**answer: object) -> None:
     """Print what came out as one JSON object."""
-    say_json(answer, indent=2)
+    print_json(answer, indent=2)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -202,7 +202,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return DONE
     except OSError as error:
         leave_output()
-        say(f"fret: standard output: {error.strerror}", file=sys.stderr)
+        print_text(f"fret: standard output: {error.strerror}", file=sys.stderr)
         return UNWRITTEN
     return code
 
@@ -263,19 +263,19 @@ def run(arguments: Sequence[str] | None) -> int:
         raise
     except OSError as error:
         prefix = f"{error.filename}: " if error.filename else ""
-        say(f"fret: {prefix}{error.strerror or error}", file=sys.stderr)
+        print_text(f"fret: {prefix}{error.strerror or error}", file=sys.stderr)
         return UNWRITTEN if error.errno in FULL else BAD_INPUT
     except (ValueError, KeyError, ImportError) as error:
-        say(f"fret: {' '.join(str(error).split())}", file=sys.stderr)
+        print_text(f"fret: {' '.join(str(error).split())}", file=sys.stderr)
         return BAD_INPUT
     except (RuntimeError, MemoryError) as error:
-        say(f"fret: {' '.join(str(error).split()) or 'no memory'}", file=sys.stderr)
+        print_text(f"fret: {' '.join(str(error).split()) or 'no memory'}", file=sys.stderr)
         return ENDED_EARLY
     except KeyboardInterrupt:
-        say("fret: stopped", file=sys.stderr)
+        print_text("fret: stopped", file=sys.stderr)
         return ENDED_EARLY
 
 
 def say_warning(message: Warning | str, *_: object, **__: object) -> None:
     """Print a warning as the binary prints its own: without a line of Python."""
-    say(f"fret: warning: {message}", file=sys.stderr)
+    print_text(f"fret: warning: {message}", file=sys.stderr)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from pyfret._cli.parser import added
-from pyfret._cli.say import say, say_json
+from pyfret._cli.printing import print_json, print_text
 from pyfret._cli.values import FIGURES, ending
 from pyfret.study.compare_file import run_compare_file
 
@@ -59,9 +59,9 @@ def run(options: argparse.Namespace) -> int:
             )
         }
         answer = {"store": str(store), "numbers": numbers, "missing": comparison.missing}
-        say_json({**answer, "failed": comparison.failed}, indent=2)
+        print_json({**answer, "failed": comparison.failed}, indent=2)
     else:
-        say(comparison.summary())
+        print_text(comparison.summary())
     if options.figure:
         comparison.plot().savefig(options.figure)
     if options.report:

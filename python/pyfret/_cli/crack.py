@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from pyfret import fatigue
 from pyfret._cli.parser import added
-from pyfret._cli.say import say, say_json
+from pyfret._cli.printing import print_json, print_text
 from pyfret._cli.values import DEGREES, FIGURES, Value, Values, ending, takes
 from pyfret._core import with_error
 from pyfret._util import files
@@ -116,9 +116,9 @@ def run(options: argparse.Namespace) -> int:
             rows[-1] |= _cycles(cracks.life(threshold, growth, start=options.start))
     for row in rows:
         if options.json:
-            say_json(row)
+            print_json(row)
         else:
-            say(_line(row))
+            print_text(_line(row))
     if options.out and Path(options.out).suffix in FIELDS:
         files.write(cracks.dataset, options.out, otherwise="")
     elif options.out and threshold is not None:

@@ -10,7 +10,7 @@ import numpy as np
 
 from pyfret import export
 from pyfret._cli.parser import added
-from pyfret._cli.say import say, say_json
+from pyfret._cli.printing import print_json, print_text
 from pyfret._cli.values import Value
 from pyfret.result import open_result as open_result
 
@@ -79,9 +79,9 @@ def run(options: argparse.Namespace) -> int:
     )
     if options.json:
         about = {"file": options.out, "body": options.body, "unit": options.unit}
-        say_json(about | {"bytes": Path(options.out).stat().st_size}, indent=2)
+        print_json(about | {"bytes": Path(options.out).stat().st_size}, indent=2)
     else:
-        say(options.out)
+        print_text(options.out)
     return 0
 
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from pyfret import fit
 from pyfret._cli.parser import added
-from pyfret._cli.say import say, say_json
+from pyfret._cli.printing import print_json, print_text
 from pyfret._cli.values import FIGURES, ending, number, pair, setting
 from pyfret.study.design import with_values
 
@@ -82,9 +82,9 @@ def run(options: argparse.Namespace) -> int:
         }
         if fitted.posterior is not None:
             answer["posterior"] = {key: fitted.posterior.interval(key) for key in fitted.known}
-        say_json(answer)
+        print_json(answer)
     else:
-        say(fitted.summary())
+        print_text(fitted.summary())
     if options.out:
         import matplotlib.pyplot as plt
 

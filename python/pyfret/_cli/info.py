@@ -6,7 +6,7 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from pyfret._cli.parser import added
-from pyfret._cli.say import say_json
+from pyfret._cli.printing import print_json
 from pyfret._util.text import shown
 from pyfret.file_info import describe_file
 
@@ -29,7 +29,7 @@ def run(options: argparse.Namespace) -> int:
     """Describe a file."""
     info = describe_file(options.file)
     if options.json:
-        say_json(asdict(info), indent=2)
+        print_json(asdict(info), indent=2)
     else:
         for line in str(info).splitlines():
             print(shown(line))

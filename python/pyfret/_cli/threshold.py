@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from pyfret import fatigue
 from pyfret._cli.parser import added
-from pyfret._cli.say import say, say_json
+from pyfret._cli.printing import print_json, print_text
 from pyfret._cli.values import Value, number, pair, setting, takes
 from pyfret._core import measured_by
 from pyfret._util.numbers import told
@@ -114,7 +114,7 @@ def run(options: argparse.Namespace) -> int:
     }
     for row in rows:
         if options.json:
-            say_json(row | {"unit": units[searched]} | ({"estimate": note} if note else {}))
+            print_json(row | {"unit": units[searched]} | ({"estimate": note} if note else {}))
         else:
             row_units = units | dict.fromkeys(
                 ("threshold", "error", "low", "high"), units[searched]
@@ -123,5 +123,5 @@ def run(options: argparse.Namespace) -> int:
                 f"{name} = {told(value)} {row_units.get(name, '')}" for name, value in row.items()
             )
             text = ", ".join(part.rstrip() for part in told_of)
-            say(f"{text}; estimate: {note}" if note else text)
+            print_text(f"{text}; estimate: {note}" if note else text)
     return 0

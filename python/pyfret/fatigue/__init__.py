@@ -1,4 +1,4 @@
-"""From stress to decision: crack initiation, first yield and shakedown of stress histories.
+"""Assessment of stress histories: crack initiation, first yield and shakedown.
 
 Histories are arrays of shape (time, ..., 6), Voigt order xx, yy, zz, xy, xz, yz, tension positive,
 in Pa. No contact is needed; ``docs/fatigue.md`` has the equations and their sources. ::

@@ -75,10 +75,10 @@ class Materials(Mapping[str, Material]):
 
     def __getitem__(self, name: str) -> Material:
         """Give a material by its name, or by another one that it is known by: ``"Ti6Al4V"``."""
-        found = find_material(name, self._materials)
-        if found is None:
+        material = find_material(name, self._materials)
+        if material is None:
             raise KeyError(list_materials(name, self._materials))
-        return found
+        return material
 
     def __iter__(self) -> Iterator[str]:
         """Go through the names."""

@@ -86,7 +86,7 @@ class OverDistance(Saveable, Labelled, Figured):
 
     @property
     def notes(self) -> list[str]:
-        """What to know of the shortest and of the longest distance."""
+        """Notes on the shortest and the longest distance."""
         return str(self.dataset.attrs.get("notes", "")).splitlines()
 
     def rows(self) -> list[list[str]]:

@@ -124,16 +124,18 @@ class LoadFactors(Labelled, Figured):
     def __getstate__(self) -> dict[str, object]:
         """Return the state to pickle: the least factors, without the sections."""
         for layer in self.layers:
-            for of in get_args(Factor):
+            for limit in get_args(Factor):
                 # A layer without a number is refused when it is asked for.
                 with suppress(ValueError):
-                    self.least_of(layer, of)
+                    self.least_of(layer, limit)
         return {**self.__dict__, "_sections": []}
 
     def __repr__(self) -> str:
         """Give the least factor of every limit."""
-        least = {of: self.least(of) for of in get_args(Factor)}
-        texts = (f"{of} {with_error(factor.value, factor.error)}" for of, factor in least.items())
+        least = {limit: self.least(limit) for limit in get_args(Factor)}
+        texts = (
+            f"{limit} {with_error(factor.value, factor.error)}" for limit, factor in least.items()
+        )
         return f"LoadFactors({', '.join(texts)})"
 
 

@@ -378,7 +378,7 @@ class Life(Saveable, Labelled, Figured):
         parts = self._parts
         if self.dataset.value.ndim > 2 and not parts:
             across = str(self.dataset.value.dims[2])
-            parts = [self.section(place) for place in self.dataset[across].values.tolist()]
+            parts = [self.section(position) for position in self.dataset[across].values.tolist()]
         return {**self.__dict__, "_sections": [], "_parts": parts, "_history": None}
 
     def _repr_html_(self) -> str:
@@ -387,11 +387,17 @@ class Life(Saveable, Labelled, Figured):
         rows, coatings = [], len(self.dataset.attrs["interfaces"])
         for layer in self.layers:
             w = self.worst_of(layer)
-            place = (f"{1e6 * at:.4g}" for at in (w.x, w.y, w.z))
+            coordinates = (f"{1e6 * at:.4g}" for at in (w.x, w.y, w.z))
             value = format_value(w.value, w.error, w.units)
             point = w.format_margin()
             rows.append(
-                [layer_name(layer, coatings), repr(self.range_of(layer)), point, value, *place]
+                [
+                    layer_name(layer, coatings),
+                    repr(self.range_of(layer)),
+                    point,
+                    value,
+                    *coordinates,
+                ]
             )
         title = name.replace("_", " ")
         heading = [

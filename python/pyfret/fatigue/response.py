@@ -64,7 +64,7 @@ class CyclicResponse(NamedTuple):
             return f"{self.kind}: {work}"
         at = ""
         if self.where is not None:
-            x, y, z = (um(of) for of in (self.where.x, self.where.y, self.where.z))
+            x, y, z = (um(coordinate) for coordinate in (self.where.x, self.where.y, self.where.z))
             at = f" at x = {x}, y = {y}, z = {z} of body {self.where.body_number}"
         return (
             f"{self.kind}: {work}, strain {in_words(100 * self.strain, 3)} % per cycle, "
@@ -109,7 +109,7 @@ def cyclic_response(result: Run) -> CyclicResponse:
     ]
     per_cycle = [(branch >= first) & (branch <= last) for first, last in cycles]
     work = tuple(float(d.plastic_work.values[in_cycle].sum()) for in_cycle in per_cycle)
-    friction = tuple(float(d.dissipated.values[own].sum()) for own in per_cycle)
+    friction = tuple(float(d.dissipated.values[in_cycle].sum()) for in_cycle in per_cycle)
     total = float(d.plastic_work.values.sum())
     if total == 0.0 and float(d.largest_plastic_strain.max()) == 0.0:
         return CyclicResponse("elastic", 0, work, friction, 0.0, 0.0, None, reached)
@@ -149,10 +149,10 @@ def strain_growth(result: Run, cycle: tuple[int, int]) -> tuple[float, float, Ex
     strain, net, where = 0.0, 0.0, None
     state, start_state = result.at(end), result.at(start)
     for body_number in (n for n in (1, 2) if state.body(n).yields):
-        growth, net_growth, place = strain_growth_of_body(start_state, state, body_number)
+        growth, net_growth, growth_point = strain_growth_of_body(start_state, state, body_number)
         net = max(net, net_growth)
         if growth > strain:
-            strain, where = growth, place
+            strain, where = growth, growth_point
     return strain, net, where
 
 

@@ -122,8 +122,8 @@ class Section:
         if self.azimuth is not None:
             return [self]
         return [
-            self.moved_to(place)
-            for place in np.atleast_1d(plain(self.places, self.cross_axis)).tolist()
+            self.moved_to(position)
+            for position in np.atleast_1d(plain(self.places, self.cross_axis)).tolist()
         ]
 
 

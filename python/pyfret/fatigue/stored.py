@@ -76,8 +76,11 @@ def life_from_dataset(dataset: xr.Dataset) -> dict[str, Any]:
             ],
             "_notes": [str(note) for note in state["notes"]],
             "_worst": {int(n): worst_from_fields(w) for n, w in state["worst"].items()},
-            "_order": {int(n): float(of) for n, of in state["order"].items()},
-            "_ranges": {int(n): range_from_fields(of) for n, of in state["ranges"].items()},
+            "_order": {int(n): float(order) for n, order in state["order"].items()},
+            "_ranges": {
+                int(n): range_from_fields(range_fields)
+                for n, range_fields in state["ranges"].items()
+            },
         }
     except (LookupError, TypeError, ValueError) as error:
         raise StoreError(f"is no life: {' '.join(str(error).split())}") from error

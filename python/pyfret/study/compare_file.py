@@ -161,7 +161,9 @@ def check_table(table: Any, keys: tuple[str, ...], where: str) -> dict[str, Any]
 def to_inline_toml(value: Any) -> str:
     """Write a value on one line of TOML."""
     if isinstance(value, dict):
-        return "{" + ", ".join(f"{key} = {to_inline_toml(of)}" for key, of in value.items()) + "}"
+        return (
+            "{" + ", ".join(f"{key} = {to_inline_toml(item)}" for key, item in value.items()) + "}"
+        )
     if isinstance(value, list):
         return "[" + ", ".join(map(to_inline_toml, value)) + "]"
     return to_toml_value(value)

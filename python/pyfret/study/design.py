@@ -244,15 +244,15 @@ class Design:
 
         Quantities become numbers in SI where the names are `keys` of a scene file.
         """
-        given = {key: to_list(values, key) for key, values in parameters.items()}
+        lists = {key: to_list(values, key) for key, values in parameters.items()}
         numbers = {
             key: [in_si(key, value) if keys else value for value in values]
-            for key, values in given.items()
+            for key, values in lists.items()
         }
         for key, values in numbers.items():
             doubt_numbers("", **{SHORT.get(key, key): values})
         return Design(
-            numbers, combine, {k: values for k, values in given.items() if values != numbers[k]}
+            numbers, combine, {k: values for k, values in lists.items() if values != numbers[k]}
         )
 
     @property
@@ -275,10 +275,10 @@ class Design:
     ) -> dict[str, Any]:
         """Values of the parameters at the n-th point, in SI or from `other_lists`."""
         lists = self.parameters if other_lists is None else other_lists
-        place = self.place(n) if self.combine == "grid" else self.place(n) * len(self.parameters)
+        indices = self.place(n) if self.combine == "grid" else self.place(n) * len(self.parameters)
         return {
             key: list_of_values[i]
-            for (key, list_of_values), i in zip(lists.items(), place, strict=True)
+            for (key, list_of_values), i in zip(lists.items(), indices, strict=True)
         }
 
     def coords(self) -> dict[str, xr.Variable]:
@@ -325,10 +325,12 @@ class Design:
 
     def files(self, scene: Path, text: str) -> dict[str, int]:
         """Return checksums of the files named in a scene file and in parameter values."""
-        named = {v for values in self.parameters.values() for v in values if isinstance(v, str)}
-        named |= set(iter_texts(tomllib.loads(text)))
+        file_names = {
+            v for values in self.parameters.values() for v in values if isinstance(v, str)
+        }
+        file_names |= set(iter_texts(tomllib.loads(text)))
         checksums = {}
-        for name in sorted(named):
+        for name in sorted(file_names):
             path = scene.parent / name
             if name and path.is_file():
                 checksums[name] = zlib.crc32(path.read_bytes())

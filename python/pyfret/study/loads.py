@@ -1,4 +1,4 @@
-"""The same contact under many loads: running conditions, crack risk, frictional energy."""
+"""Studies of a contact under many loads: running conditions, crack risk, frictional energy."""
 
 from __future__ import annotations
 

@@ -255,8 +255,8 @@ class Cracking:
         """Judge the body in the plane of the shear."""
         life = result.life(self.materials, self.criterion, body_number=self.body_number)
         least, margin = life.least_margin(), life.margin
-        place = "at the worst point" if least.L is None else f"of the mean over {um(least.L)}"
-        unit, meaning = margin.attrs["units"], f"{margin.attrs['long_name']} {place}"
+        location = "at the worst point" if least.L is None else f"of the mean over {um(least.L)}"
+        unit, meaning = margin.attrs["units"], f"{margin.attrs['long_name']} {location}"
         answer = Answer(least.best, least.low, least.high)
         depth = estimate(life.worst.z, "m", "depth of the worst point")
         numbers = answer.arrays(str(margin.name), unit, meaning, without=SCATTER_OF_MATERIAL)

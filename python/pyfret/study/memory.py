@@ -33,14 +33,14 @@ class Columns:
     def write(self, n: int, outcome: Outcome) -> None:
         """Keep the outcome of the n-th point."""
         outcome = reject_misfits(outcome, self.design, self.shapes)
-        place = self.design.place(n)
+        index = self.design.place(n)
         sizes = self.design.sizes
         for name, variable in outcome.measures.items():
             if name not in self.shapes:
                 empty = np.full((*sizes.values(), *variable.shape), np.nan)
                 self.whole[name] = ((*sizes, *variable.dims), empty, variable.attrs)
                 self.shapes[name] = {str(dim): size for dim, size in variable.sizes.items()}
-            self.whole[name].values[place] = variable.values
+            self.whole[name].values[index] = variable.values
         point_values: dict[str, Any] = {
             "nx": outcome.nx,
             "ny": outcome.ny,
@@ -49,7 +49,7 @@ class Columns:
         if outcome.status == FAILED:
             point_values["reason"] = outcome.reason[:REASON]
         for name, value in {**point_values, "status": outcome.status}.items():
-            self.whole[name].values[place] = value
+            self.whole[name].values[index] = value
 
     def dataset(self) -> xr.Dataset:
         """Return the study."""

@@ -69,8 +69,8 @@ class Study(Saveable, Labelled, Figured):
         """List the failed points: their parameters, and the reason."""
         d = self.dataset
         points = []
-        for place in np.argwhere(d["status"].values == FAILED):
-            point = d.isel(dict(zip(d["status"].dims, place.tolist(), strict=True)))
+        for index in np.argwhere(d["status"].values == FAILED):
+            point = d.isel(dict(zip(d["status"].dims, index.tolist(), strict=True)))
             values = {name: point[name].item() for name in self.parameters}
             points.append((values, str(point["reason"].item())))
         return points

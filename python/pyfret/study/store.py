@@ -193,12 +193,12 @@ class Store:
         """Write variables of one point."""
         if not values:
             return
-        place = dict(zip(self.design.sizes, self.design.place(n), strict=True))
+        index = dict(zip(self.design.sizes, self.design.place(n), strict=True))
         point_dataset = xr.Dataset(
             {
                 name: (
-                    (*place, *variable.dims),
-                    variable.values.reshape((1,) * len(place) + variable.shape),
+                    (*index, *variable.dims),
+                    variable.values.reshape((1,) * len(index) + variable.shape),
                 )
                 for name, variable in values.items()
             }
@@ -208,7 +208,7 @@ class Store:
             mode="r+",
             zarr_format=2,
             consolidated=True,
-            region={dim: slice(i, i + 1) for dim, i in place.items()},
+            region={dim: slice(i, i + 1) for dim, i in index.items()},
         )
 
     def open_points(self, *, again: bool) -> list[int]:

@@ -42,10 +42,10 @@ def _depths(body: Body, z: ArrayLike | None, length: float) -> tuple[list[float]
     """Depths with their layers: those given, or those that the layers ask for."""
     if z is None:
         return _core.chosen_depths(body, a=length, deepest=2.0 * length)
-    given = np.atleast_1d(plain(z, "z"))
-    if given.size > MOST_DEPTHS:
-        raise ValueError(f"z has {given.size} depths: must be at most {MOST_DEPTHS}")
-    depths = given.tolist()
+    wanted_depths = np.atleast_1d(plain(z, "z"))
+    if wanted_depths.size > MOST_DEPTHS:
+        raise ValueError(f"z has {wanted_depths.size} depths: must be at most {MOST_DEPTHS}")
+    depths = wanted_depths.tolist()
     if not depths:
         raise ValueError("z is empty: give depths in m, or leave it out for those of the layers")
     return _core.depths(body, depths)
@@ -53,10 +53,10 @@ def _depths(body: Body, z: ArrayLike | None, length: float) -> tuple[list[float]
 
 def loaded_length(grid: Grid, *loads: ArrayLike | None) -> float:
     """Half the longer side of the box around the cells that are loaded [m], or of the grid."""
-    given = [plain(load, "a traction") != 0.0 for load in loads if load is not None]
-    if not any(load.any() for load in given):
+    loaded_cells = [plain(load, "a traction") != 0.0 for load in loads if load is not None]
+    if not any(load.any() for load in loaded_cells):
         return grid.nx * grid.dx / 2
-    loaded = np.logical_or.reduce(given)
+    loaded = np.logical_or.reduce(loaded_cells)
     along_x, along_y = (np.ptp(np.flatnonzero(loaded.any(axis=axis))) + 1 for axis in (1, 0))
     sides = (along_x * grid.dx, 0.0 if grid.plane_strain else along_y * grid.dy)
     return float(max(sides)) / 2

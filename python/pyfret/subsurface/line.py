@@ -109,15 +109,15 @@ def cut(d: xr.Dataset, grid: _core.Grid, line: Line) -> xr.Dataset:
         high = field[..., right, near] * (1 - v) + field[..., right, far] * v
         return low * (1 - u) + high * u
 
-    found = xr.Dataset(coords=coords)
+    fields = xr.Dataset(coords=coords)
     for name, field in d.data_vars.items():
         if field.dtype.kind == "f" and field.dims[-2:] == ("x", "y"):
-            found[name] = ((*field.dims[:-2], along), on_line(field.values), dict(field.attrs))
-    if line.azimuth is not None and "q_x" in found:
+            fields[name] = ((*field.dims[:-2], along), on_line(field.values), dict(field.attrs))
+    if line.azimuth is not None and "q_x" in fields:
         cos, sin = np.cos(line.azimuth), np.sin(line.azimuth)
-        found["q_s"] = (found.q_x * cos + found.q_y * sin).assign_attrs(units="Pa")
-        found["q_t"] = (found.q_y * cos - found.q_x * sin).assign_attrs(units="Pa")
-    return found
+        fields["q_s"] = (fields.q_x * cos + fields.q_y * sin).assign_attrs(units="Pa")
+        fields["q_t"] = (fields.q_y * cos - fields.q_x * sin).assign_attrs(units="Pa")
+    return fields
 
 
 def main_shear(cut: xr.Dataset) -> str:

@@ -192,15 +192,15 @@ def fix(law: Archard | DissipatedEnergy) -> None:
     if law.factor is None:
         return
     try:
-        variable, given = law.factor
+        variable, value = law.factor
     except (TypeError, ValueError):
         raise TypeError(
             f"factor = {law.factor!r:.60}: must be what it changes with and its table, as in "
             '("cycles", [(0.0, 1.0), (1e4, 0.5)])'
         ) from None
     name = f"factor over {variable}"
-    array = hasattr(given, "__array__")
-    table = plain(given if array else items(given, name), name)
+    array = hasattr(value, "__array__")
+    table = plain(value if array else items(value, name), name)
     if table.ndim != 2 or table.shape[1] != 2:
         raise ValueError(f"{name} has the shape {table.shape}: must be pairs")
     object.__setattr__(law, "factor", (variable, tuple(map(tuple, table.tolist()))))

@@ -11,20 +11,20 @@ from pyfret._util.text import shown
 if TYPE_CHECKING:
     from typing import TextIO
 
-__all__ = ["say", "say_json", "written"]
+__all__ = ["as_printed", "print_json", "print_text"]
 
 
-def say(text: object, *, file: TextIO | None = None) -> None:
+def print_text(text: object, *, file: TextIO | None = None) -> None:
     """Print a line, to the standard output unless another one is given."""
     print(shown(str(text)), file=file)
 
 
-def say_json(answer: object, *, indent: int | None = None) -> None:
+def print_json(answer: object, *, indent: int | None = None) -> None:
     """Print an answer for programs, as JSON that every reader takes."""
-    say(json.dumps(written(answer), indent=indent, allow_nan=False))
+    print_text(json.dumps(as_printed(answer), indent=indent, allow_nan=False))
 
 
-def written(answer: Any) -> Any:
+def as_printed(answer: Any) -> Any:
     """An answer whose numbers JSON has words for.
 
     A number that is missing or not finite is null, and ``NAME_why`` beside it is the reason. In a
@@ -33,9 +33,9 @@ def written(answer: Any) -> Any:
     if isinstance(answer, dict):
         reasons = {f"{name}_why": reason(value) for name, value in answer.items()}
         reasons_given = {name: why for name, why in reasons.items() if why is not None}
-        return reasons_given | {name: written(value) for name, value in answer.items()}
+        return reasons_given | {name: as_printed(value) for name, value in answer.items()}
     if isinstance(answer, list | tuple):
-        return [written(value) for value in answer]
+        return [as_printed(value) for value in answer]
     if hasattr(answer, "item"):
         answer = answer.item()
     return None if reason(answer) is not None else answer
