@@ -15,7 +15,7 @@ argument     :class:`ArgumentError`       what a function of ``fatigue``, ``wear
                                           ``reference`` was given
 ===========  ===========================  ==============================================
 
-Those of scenes and arguments are :class:`ValueError`, that of stores is :class:`OSError`.
+Errors of scenes and arguments are :class:`ValueError`, errors of stores :class:`OSError`.
 """
 
 from pyfret._core import (

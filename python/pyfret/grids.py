@@ -104,18 +104,18 @@ def for_contact(
         The loads.
     error : float
         Error that is wanted of the number that `of` names. Of the pressure it is the root mean
-        square over that of the pressure; radius and approach have a tenth of it.
+        square over the error of the pressure; radius and approach have a tenth of it.
     room : float
         Side of the grid over the length of the contact: 1.2 (default), 2 or more where wear or
         rolling makes the contact longer.
     start : float, optional
-        Side to begin with [m] (default: that of the Hertz contact, else a millimetre).
+        Side to begin with [m] (default: from the Hertz contact, else a millimetre).
     plane_strain : bool
         Whether it is a line contact: a strip one metre wide.
     wear : dict, optional
         What wears, as keywords of :func:`pyfret.wear.solve`: cycles and laws at least. The
         run is done on few cells, and the grid holds the scar at its end, strokes included.
-        `error` is then that of the contact at the end, and the first contact has eight cells
+        `error` then belongs to the contact at the end, and the first contact has eight cells
         in its radius.
     mu : float or Friction, optional
         Coefficient of friction, which decides where wear slips: to be given with `wear`, and
@@ -468,7 +468,7 @@ def _refined(
         return max(cells) > MOST or math.prod(cells[:axes]) > max_cells
 
     if too_many([2 * cells for cells in n]):
-        # No finer grid is tried: a coarser one tells what the cells do.
+        # No finer grid is tried: a coarser one gives the error of the cells.
         n = [max(FEWEST // 2, 2 * math.ceil(cells / 4)) for cells in n]
     before, change, last, grown = None, math.inf, math.inf, 0
     while True:

@@ -65,7 +65,7 @@ class Conductor:
     def from_material(cls, material: Material | str) -> Conductor:
         """Give what a material has as ``conductivity``, ``density`` and ``specific_heat``.
 
-        A ValueError says which of them is missing.
+        A ValueError names the missing one.
         """
         table_material = as_material(material)
         conductivity = table_material.number("conductivity")

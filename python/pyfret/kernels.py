@@ -1,7 +1,7 @@
 """The response of a body to tractions and eigenstrains, for people who build their own models.
 
 Columns of every response are the tractions q_x, q_y, p on the body. Tension is positive in
-stresses. Displacements are those of the surface of body 2, z pointing into it.
+stresses. Displacements belong to the surface of body 2, z pointing into it.
 """
 
 from __future__ import annotations

@@ -40,9 +40,9 @@ def material(
         Key of the material, such as ``"TiN"``, ``"steel_42CrMo4"``, or another name of it, such as
         ``"steel"``, ``"316L"``, ``"Ti6Al4V"``, ``"7075"``, ``"Al2O3"``.
     file : path, optional
-        A table of your own (TOML), over that of the package.
+        A table of your own (TOML), which takes precedence over the package's table.
     nu : float, optional
-        Poisson's ratio in place of that of the table.
+        Poisson's ratio in place of the value in the table.
     plastic : bool
         Whether it yields at the yield stress of the table, without hardening (default False).
 

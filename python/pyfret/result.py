@@ -39,7 +39,7 @@ class Result(Run, Shows):
     Its ``dataset`` has scalars over ``increment`` and fields over (``saved``, ``x``, ``y``) for the
     increments whose fields were kept. Its ``attrs`` hold the scene, the version, ``a_H``, ``p_H``
     and ``mu``. Every variable carries ``units`` and ``long_name``. Its scalars are attributes as
-    well, e.g. ``result.T_x``; fields are those of an increment, e.g. ``result.at(-1).p``.
+    well, e.g. ``result.T_x``; fields belong to an increment, e.g. ``result.at(-1).p``.
     """
 
     life = fatigue.life
@@ -111,9 +111,9 @@ class Result(Run, Shows):
         """Extremes of stress over the increments whose fields were kept, on a section or on planes.
 
         Use :func:`pyfret.subsurface.envelope` with :func:`pyfret.march` for all increments of a
-        path without keeping their fields; parameters and result are those of that function. Without
-        depths and place the section stands along the shear of these increments, through the centre
-        of the largest contact.
+        path without keeping their fields; it has the parameters and the result of that function.
+        Without depths and place the section stands along the shear of these increments, through the
+        centre of the largest contact.
         """
         saved = self.dataset.saved_increment.values
         if z is None and x is None and y is None and azimuth is None:
@@ -142,7 +142,7 @@ class Result(Run, Shows):
         Parameters
         ----------
         path : path
-            Where to write; its ending says in which format.
+            The place to write to; its ending selects the format.
         overwrite : bool
             Whether what pyfret saved there is replaced (default: the place must be free).
 
@@ -178,7 +178,7 @@ class Result(Run, Shows):
     ) -> None:
         """Write an increment for another program: :func:`pyfret.export.write`.
 
-        `at` says which, as in :meth:`at`; by default the last whose fields were kept.
+        `at` selects it, as in :meth:`at`; by default the last whose fields were kept.
         """
         export(
             self.at(at),

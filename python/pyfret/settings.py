@@ -129,7 +129,7 @@ class Settings(Replaceable):
         the largest shear of the path (L2, default 5e-3).
     path_grid : "auto", "same" or int
         Cells along x of the grid for increments that are solved for the path alone, a half or a
-        quarter of those of the grid. Their fields are not kept, they end no branch, and normal
+        quarter of the grid's cells. Their fields are not kept, they end no branch, and normal
         force and tilting moments are constant. ``"same"``: the grid itself. ``"auto"`` (default):
         chosen with the increments, such that ``path_tolerance`` holds; ``"same"`` where these are
         given. The error that a number leaves is in ``path_error``, in the bars and in the doubts of

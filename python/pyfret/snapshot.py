@@ -68,7 +68,7 @@ class Snapshot(State, Shows):
     def plastic(self) -> PlasticState:
         """The plastic strain of the body that yields, the stress there and the imprint.
 
-        Of the lower body if both yield; ``state.plastic(body_number=1)`` is that of the upper one.
+        Of the lower body if both yield; ``state.plastic(body_number=1)`` belongs to the upper one.
 
         Raises
         ------

@@ -46,12 +46,12 @@ def solve(
     scene : Scene or path
         What is in contact, or its scene file.
     path : LoadPath, optional
-        Load history (default: that of the scene).
+        Load history (default: the scene's own).
     rig_stiffness : float, optional
         Stiffness of a spring along x in series with the contact, through which shifts are given
-        and read [N/m] (default: that of the path, or none).
+        and read [N/m] (default: the path's own, or none).
     save : "branches", "all" or sequence of int, optional
-        Increments that keep their fields, counted from 1 (default: as the scene says, which is the
+        Increments that keep their fields, counted from 1 (default: as in the scene, which is the
         last of each branch unless it was set).
     out : path, optional
         Result store to write while the run goes on; it must not exist. An interrupted run leaves
@@ -125,7 +125,7 @@ def resume(
 ) -> Result:
     """Go on with a run that was interrupted, crashed or killed, to the end of its load path.
 
-    The result is that of the run without the interruption, bit by bit. A run that is done is
+    The result equals the uninterrupted run, bit by bit. A run that is done is
     opened as it is.
 
     Parameters
@@ -175,7 +175,7 @@ def march(
     scene : Scene or path
         What is in contact, or its scene file.
     path : LoadPath, optional
-        Load history (default: that of the scene).
+        Load history (default: the scene's own).
 
     Yields
     ------

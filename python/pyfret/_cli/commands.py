@@ -18,8 +18,8 @@ from pyfret._cli.parser import Parser, added
 from pyfret._cli.printing import print_json, print_text
 from pyfret._cli.values import FIGURES, ending
 from pyfret._core import __version__
-from pyfret._util.numbers import told as told_of
-from pyfret.citation import cite as told
+from pyfret._util.numbers import format_number
+from pyfret.citation import cite as citation_text
 from pyfret.citation import sources
 from pyfret.opening import open as open_any
 from pyfret.result import Result, open_result
@@ -30,10 +30,10 @@ if TYPE_CHECKING:
     import argparse
     from collections.abc import Sequence
 
-#: Exit codes, those of ``fret``: done; ended early or with failures; bad input; output that
+#: Exit codes, the same as ``fret``: done; ended early or with failures; bad input; output that
 #: could not be written.
 DONE, ENDED_EARLY, BAD_INPUT, UNWRITTEN = 0, 1, 2, 3
-#: What the system says when no more can be written.
+#: Error codes of the system when no more can be written.
 FULL = frozenset((errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS, errno.EIO))
 
 
@@ -79,9 +79,9 @@ def parser() -> argparse.ArgumentParser:
     for command in (study, report, verify, cite):
         command.add_argument("--json", action="store_true", help="print one JSON object")
     for command in commands.choices.values():
-        tells = "--json" in command._option_string_actions
-        says = "print nothing" + ("; with --json the JSON alone" if tells else "")
-        command.add_argument("-q", "--quiet", action="store_true", help=says)
+        has_json = "--json" in command._option_string_actions
+        help_text = "print nothing" + ("; with --json the JSON alone" if has_json else "")
+        command.add_argument("-q", "--quiet", action="store_true", help=help_text)
     return top
 
 
@@ -108,7 +108,7 @@ def study(options: argparse.Namespace) -> int:
             client.close()
     failed = study.failed()
     if options.json:
-        tell(
+        print_answer(
             store=str(store),
             points=study.count(),
             measures=study.measures,
@@ -119,7 +119,9 @@ def study(options: argparse.Namespace) -> int:
     else:
         print_text(f"{store}: {study!r}")
         for values, reason in failed:
-            print_text(f"{', '.join(f'{k} = {told_of(v)}' for k, v in values.items())}: {reason}")
+            print_text(
+                f"{', '.join(f'{k} = {format_number(v)}' for k, v in values.items())}: {reason}"
+            )
     if options.map:
         import matplotlib.pyplot as plt
 
@@ -145,7 +147,7 @@ def report(options: argparse.Namespace) -> int:
         result.report(page, wear=worn, crack=cracks, threshold=threshold)
     size = page.stat().st_size
     if options.json:
-        tell(page=str(page), bytes=size)
+        print_answer(page=str(page), bytes=size)
     else:
         print_text(f"{page}: {size / 1e6:.1f} MB")
     return DONE
@@ -166,7 +168,7 @@ def verify(options: argparse.Namespace) -> int:
             }
             for check in checked.checks
         ]
-        tell(passed=checked.passed, checks=checks)
+        print_answer(passed=checked.passed, checks=checks)
     else:
         print_text(checked)
     return DONE if checked.passed else ENDED_EARLY
@@ -176,13 +178,13 @@ def cite(options: argparse.Namespace) -> int:
     """Say what to cite."""
     result = open_result(options.store) if options.store else None
     if options.json:
-        tell(version=__version__, sources=[source._asdict() for source in sources(result)])
+        print_answer(version=__version__, sources=[source._asdict() for source in sources(result)])
     else:
-        print_text(told(result))
+        print_text(citation_text(result))
     return DONE
 
 
-def tell(**answer: object) -> None:
+def print_answer(**answer: object) -> None:
     """Print what came out as one JSON object."""
     print_json(answer, indent=2)
 

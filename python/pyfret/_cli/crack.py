@@ -56,7 +56,7 @@ def add_options(commands: argparse._SubParsersAction[Any]) -> None:
 
 
 def add_crack(crack: argparse.ArgumentParser) -> None:
-    """Add the options that say which crack, and which threshold."""
+    """Add the options of the crack and the threshold."""
     length, angle = Value("length"), Value("angle", DEGREES)
     takes(crack, "--x", length, "place of the mouth (default: the worse rim of the contact)")
     takes(crack, "--angle", angle, "from the inward normal towards +x", default=0.0)
@@ -97,7 +97,7 @@ def add_crack(crack: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Take the stress of a result to the tips of cracks and say what came out."""
+    """Take the stress of a result to the tips of cracks and print the arrest."""
     threshold = threshold_of(options)
     if options.paris is not None and threshold is None:
         raise ValueError("--paris: needs a threshold, --dK-th or --material")

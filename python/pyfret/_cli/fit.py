@@ -57,7 +57,7 @@ def add_options(commands: argparse._SubParsersAction[Any]) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Fit, and say what came out."""
+    """Fit, and print the result."""
     unknown = dict(range_of(text) for text in options.unknown)
     units = dict(pair(text, "--unit") for text in options.unit)
     settings = dict(setting(text) for text in options.set)

@@ -67,7 +67,7 @@ class Parser(argparse.ArgumentParser):
         self.exit(2, text)
 
     def _print_message(self, message: str, file: Any = None) -> None:
-        # Without a standard error, as under pythonw, nobody is told.
+        # Without a standard error, as under pythonw, nothing is printed.
         stream = file or sys.stderr
         if message and stream is not None:
             stream.write(message)

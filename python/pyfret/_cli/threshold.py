@@ -9,7 +9,7 @@ from pyfret._cli.parser import added
 from pyfret._cli.printing import print_json, print_text
 from pyfret._cli.values import Value, number, pair, setting, takes
 from pyfret._core import measured_by
-from pyfret._util.numbers import told
+from pyfret._util.numbers import format_number
 from pyfret.study.design import with_values
 from pyfret.study.thresholds import Averaged, ThresholdLoad, threshold
 
@@ -61,7 +61,7 @@ def add_options(commands: argparse._SubParsersAction[Any]) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Find the threshold, or the curve, and say it."""
+    """Find the threshold, or the curve, and print it."""
     material = fatigue.Materials(options.materials)[options.material]
     measure = Averaged(material, options.criterion, options.distance, options.method)
 
@@ -120,7 +120,8 @@ def run(options: argparse.Namespace) -> int:
                 ("threshold", "error", "low", "high"), units[searched]
             )
             told_of = (
-                f"{name} = {told(value)} {row_units.get(name, '')}" for name, value in row.items()
+                f"{name} = {format_number(value)} {row_units.get(name, '')}"
+                for name, value in row.items()
             )
             text = ", ".join(part.rstrip() for part in told_of)
             print_text(f"{text}; estimate: {note}" if note else text)

@@ -48,7 +48,7 @@ class Value:
     """What makes an option a number, by the key of its quantity: the type of its argument."""
 
     key: str
-    #: Unit of a number alone (default: that of SI).
+    #: Unit of a number alone (default: the SI unit).
     own: str = ""
 
     @property
@@ -73,7 +73,7 @@ class Value:
 class Values:
     """What makes an option several numbers, commas between them.
 
-    One value is that of all, several are those of the places.
+    One value holds for all places, several for one place each.
     """
 
     def __init__(self, *each: Value) -> None:
@@ -97,7 +97,7 @@ class Values:
 def takes(
     command: argparse.ArgumentParser, name: str, of: Value | Values, help: str, **more: Any
 ) -> None:
-    """Add an option that is a quantity; its help says the unit, and that it may have another."""
+    """Add an option that is a quantity; its help names the unit, and allows another one."""
     command.add_argument(name, type=of, help=f"{help} [{of.unit}, or with a unit]", **more)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Protocol
 
-__all__ = ["in_letters", "in_words", "layer_name", "length", "place", "told", "um"]
+__all__ = ["format_number", "in_letters", "in_words", "layer_name", "length", "place", "um"]
 
 #: Units of lengths, the largest first [m].
 LENGTHS = ((1.0, "m"), (1e-3, "mm"), (1e-6, "µm"), (1e-9, "nm"))
@@ -28,7 +28,7 @@ def in_words(value: float, digits: int = 4) -> str:
     return text.rstrip("0").rstrip(".") if "." in text else text
 
 
-def told(value: object) -> str:
+def format_number(value: object) -> str:
     """A number in a few digits, anything else as it is.
 
     Examples

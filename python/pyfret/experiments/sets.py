@@ -183,7 +183,7 @@ def fouvry2007(
 def fouvry2017(test: str, *, debris_kept: float = KEPT) -> Experiment:
     """Ti-6Al-4V cylinder on flat, gross slip of 75 um: a row of S. Fouvry and others' appendix A.
 
-    The coefficient of friction is that of the row's energy, E = 4 mu W slip N; both bodies share
+    The coefficient of friction follows from the row's energy, E = 4 mu W slip N; both bodies share
     its V/E equally.
 
     Parameters

@@ -79,7 +79,7 @@ class Frame:
         return np.asarray(away @ self.axes.T / self.per_metre)
 
     def vector(self, vectors: ArrayLike) -> NDArray[np.float64]:
-        """Vectors along the contact's axes, shape (..., 3), along those of the model."""
+        """Rotate vectors, shape (..., 3), from the contact's axes to the model's axes."""
         return np.asarray(plain(vectors, "vectors") @ self.axes)
 
     def contact_stress(self, stress: ArrayLike) -> NDArray[np.float64]:
@@ -88,6 +88,6 @@ class Frame:
         return np.asarray(turned / self.per_pascal)
 
     def stress(self, stress: ArrayLike) -> NDArray[np.float64]:
-        """Stresses along the contact's axes, shape (..., 3, 3) [Pa], along those of the model."""
+        """Rotate stresses, shape (..., 3, 3) [Pa], from the contact's axes to the model's axes."""
         turned = self.axes.T @ plain(stress, "stress") @ self.axes
         return np.asarray(turned * self.per_pascal)

@@ -106,7 +106,7 @@ def _backbone(
 def _masing(delta: NDArray[np.float64], T: NDArray[np.float64]) -> NDArray[np.float64]:
     """Energy of the loops at the half ranges delta [J].
 
-    The integral is that of the parabolas through three rows each, so that it is of third order.
+    The integral uses parabolas through three rows each, so that it is of third order.
     """
     area = np.zeros_like(delta)
     for k in range(1, delta.size):
@@ -119,7 +119,7 @@ def _masing(delta: NDArray[np.float64], T: NDArray[np.float64]) -> NDArray[np.fl
 
 
 def _masing_error(result: Run, direction: Literal["x", "y", "torsion"], table: xr.Dataset) -> float:
-    """Masing's energy beside that of the last closed loop."""
+    """Return the relative error of Masing's energy in the last closed loop."""
     loops = result.loops(direction=direction)
     if loops.sizes["cycle"] == 0:
         return float("nan")

@@ -2,7 +2,7 @@
 
 Nodes and elements of a file without parts, or of parts that instances place: each instance moves
 the coordinates of its part, then turns them (Abaqus, Input Syntax Rules, ``*INSTANCE``). Keywords
-that move, copy, generate or turn nodes in other ways are refused; all others say nothing of a mesh.
+that move, copy, generate or turn nodes in other ways are refused; all others do not affect a mesh.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ REFUSED = {
     "SUBSTRUCTURE PATH": "the model is in another file",
     "CSYS": "the nodes that follow may be in other axes",
 }
-#: Options that a block may have, and what they say of it.
+#: Options that a block may have, and their meanings.
 OPTIONS = {"NODE": {"NSET", "SYSTEM"}, "ELEMENT": {"TYPE", "ELSET"}}
 #: Beginnings of the types of elements with a volume, of those that are faces, and of the others,
 #: which carry no pressure on a face: plane, axisymmetric, bars, springs, masses, connectors.

@@ -59,7 +59,7 @@ def nodal_forces(
     frame: Frame | None = None,
     body_number: int = 2,
 ) -> NDArray[np.float64]:
-    """Forces on nodes, the work of which on the faces is that of the tractions.
+    """Forces on nodes that do the same work on the faces as the tractions.
 
     Each cell lies in a face. The shape functions N_i of this face share the cell's force among its
     nodes: F_i = sum over the cells of t A N_i. Sums of forces and moments are those of the contact,
@@ -131,7 +131,7 @@ def loads(
 ) -> NDArray[np.float64]:
     """Write the forces on the nodes of a mesh as ``*CLOAD`` for CalculiX and Abaqus.
 
-    The faces are those of the mesh in the plane of the contact, z = 0 of `frame`. A step takes the
+    The faces of the mesh lie in the plane of the contact, z = 0 of `frame`. A step takes the
     file by ``*INCLUDE``.
 
     Parameters

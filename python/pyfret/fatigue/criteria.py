@@ -56,7 +56,7 @@ CRITERIA: tuple[CriterionName, ...] = get_args(CriterionName)
 
 
 class Materials(Mapping[str, Material]):
-    """The materials that come with the package and, over them, those of a TOML file.
+    """The materials that come with the package and, with precedence, the materials of a TOML file.
 
     Parameters
     ----------

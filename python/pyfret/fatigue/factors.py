@@ -170,7 +170,7 @@ def load_factors(
         Solved with ``save="all"``, or with the increments of the cycle.
     s_y : float, Material, or sequence of them or None
         Yield stress [Pa] of all layers, or one for each from the surface down, the substrate's
-        last; layers of ``None`` are not judged. A material alone is that of the substrate.
+        last; layers of ``None`` are not judged. A material alone belongs to the substrate.
     z : array, optional
         Depths [m] (default: chosen by layer, both sides of every interface).
     **section

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 __all__ = ["CyclicResponse", "cyclic_response"]
 
 Kind: TypeAlias = Literal["elastic", "shakes down", "settles", "alternates", "ratchets"]
-#: Plastic work of a cycle over that of the one before, below which a run has not settled.
+#: Plastic work of a cycle over the work of the previous cycle, below which a run has not settled.
 SETTLES = 0.8
 
 

@@ -1,4 +1,4 @@
-"""Identification: what a measurement says of mu, a rig, a coating, wear.
+"""Identification of friction, rig, coating and wear from measurements.
 
 ``data`` holds measured loops, indentation curves, scars and lives. ``models`` solves what they
 should have been. ``search`` finds the unknowns, and ``outcome`` holds them with their confidence.

@@ -51,8 +51,8 @@ __all__ = [
 
 Data: TypeAlias = "Loops | Indentation | Scar | Lives"
 
-#: Part of a branch at its end whose slope is that of sliding, and the largest slope there, over
-#: that of the flank, of a loop that slides: at 0.9 mu W a ball in partial slip has 0.46.
+#: Part of a branch at its end with the slope of sliding, and the largest slope there, over
+#: the slope of the flank, for a loop that slides: at 0.9 mu W a ball in partial slip has 0.46.
 END, SLIDING = 0.25, 0.3
 
 
@@ -69,9 +69,9 @@ class Loops(HoldsArrays):
     cycle : array of int
         Number of the cycle of a point, from 0.
     W : float, optional
-        Normal force [N]; None: that of the scene.
+        Normal force [N]; None: from the scene.
     noise : float, optional
-        Standard deviation of the force [N]; None: that of the residuals of the fit.
+        Standard deviation of the force [N]; None: from the residuals of the fit.
     drift : (float, float)
         How much shift [m] and force [N] of the middle of a cycle move from the first to the last.
     tilt : bool, optional
@@ -329,9 +329,9 @@ def read_loops(
         Group of channels, structure or sheet, where several have such columns. Channels of
         different clocks are resampled to the slower one, and the rule is printed.
     W : float, optional
-        Normal force [N] (default: that of the scene).
+        Normal force [N] (default: from the scene).
     noise : float, optional
-        Standard deviation of the force [N] (default: that of the residuals of the fit).
+        Standard deviation of the force [N] (default: from the residuals of the fit).
     tilt : bool, optional
         Whether a spring parallel to the contact, such as a guide or a seal, is an unknown: its
         force is its stiffness times the shift (default: if the loops slide; in partial slip a rig

@@ -27,7 +27,7 @@ T = TypeVar("T")
 Predicted: TypeAlias = "Callable[[NDArray[np.float64], float], NDArray[np.float64]]"
 Curve: TypeAlias = "Callable[[NDArray[np.float64]], NDArray[np.float64]]"
 
-#: Increments of a way of the loop and of an indentation, where the scene's path says nothing else.
+#: Increments of a way of the loop and of an indentation, unless the scene's path has others.
 WAY, INDENTATION = 24, 16
 #: What of the measurement of loops may be unknown.
 SHIFT, FORCE = "offset of the shift [m]", "offset of the force [N]"
@@ -311,7 +311,7 @@ def normal_force(scene: Scene) -> float:
 
 
 def split(settings: Mapping[str, float]) -> tuple[dict[str, float], dict[str, float]]:
-    """Values by the keys of a scene, and those of its wear."""
+    """Split values into keys of a scene and keys of its wear."""
     of_wear = {key: v for key, v in settings.items() if key.startswith("wear.")}
     return {key: v for key, v in settings.items() if key not in of_wear}, of_wear
 

@@ -28,11 +28,11 @@ if TYPE_CHECKING:
 
 __all__ = ["FitResult", "Known"]
 
-#: Correlation from which two unknowns count as not told apart.
+#: Correlation from which two unknowns count as indistinguishable.
 ALIKE = 0.97
 #: Factor between the ends of an interval from which an unknown counts as not resolved.
 UNRESOLVED = 4.0
-#: Error of the model of the posterior over the noise from which it is told.
+#: Error of the model of the posterior over the noise from which it is reported.
 ROUGH = 0.3
 
 
@@ -60,7 +60,7 @@ class Known:
 
 @dataclass(frozen=True, eq=False)
 class FitResult(Saveable, HoldsArrays):
-    """The unknowns of a scene as data tell them.
+    """The unknowns of a scene, determined from data.
 
     Attributes
     ----------
@@ -181,7 +181,7 @@ class FitResult(Saveable, HoldsArrays):
             )
         if self.posterior is not None and self.posterior.error > ROUGH:
             sentences.append(
-                "the posterior is that of a quadratic model of the contact, which errs by "
+                "the posterior uses a quadratic model of the contact with an error of "
                 f"{self.posterior.error:.2g} of the noise: the confidence by profiles is better"
             )
         if not self.converged:
@@ -212,7 +212,7 @@ class FitResult(Saveable, HoldsArrays):
         return sentences
 
     def summary(self) -> str:
-        """Values, confidence, offsets, and what cannot be told, as text."""
+        """Return values, confidence, offsets and doubts as text."""
         width = max(map(len, self.known))
         lines = [
             f"{'unknown':{width}}  {'value':>11}  95 % confidence          of noise, of solver"

@@ -4,7 +4,7 @@ A sampler asks for ten thousands of solutions. Close to the best values the pred
 quadratic in the unknowns. With L L^T the covariance of the linear model, a polynomial of second
 order in z is fitted to y(u + L z). Its points are solves at |z| = 2, side by side. Three further
 solves check it. The prior is flat in what is searched: the logarithm of positive ranges. Where the
-noise is not told, it is unknown as well, with the prior 1/sigma integrated out.
+noise is not given, it is unknown as well, with the prior 1/sigma integrated out.
 """
 
 from __future__ import annotations
@@ -117,7 +117,7 @@ def sampled(
     emcee = needed("emcee", "fit")
     n, dice = len(best), np.random.default_rng(seed)
     values, ways = np.linalg.eigh(covariance)
-    # An unknown that the data do not tell is free over all of its range.
+    # An unknown that the data do not determine is free over all of its range.
     root = ways * np.minimum(np.sqrt(np.maximum(values, 0.0)), 0.25)
 
     def to_u(z: NDArray[np.float64]) -> NDArray[np.float64]:

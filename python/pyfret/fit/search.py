@@ -6,7 +6,7 @@ error of a prediction by the solver's tolerance. At the end the scene is solved 
 twice as wide, and once with half of the increments (of the jumps, where it wears). To first order
 both move the unknowns; this is the solver's part of the confidence.
 
-The confidence of an unknown is that of the linear model where it is narrow. Where it is wide the
+The confidence of an unknown follows from the linear model where it is narrow. Where it is wide the
 model is not linear over it, and each end is moved outwards. It ends where the sum of squares, least
 over all other unknowns, has risen by what noise explains (a profile). This takes one or two solves
 an end.
@@ -43,13 +43,13 @@ __all__ = ["fit"]
 #: Steps of the search, each a solve and one more for each unknown.
 MOST = 13
 #: Half-width of a confidence, of ln of an unknown or of its range, beyond which its profile is
-#: computed, and the most that its ends are farther than those of the linear model.
+#: computed, and the largest ratio of its ends to the ends of the linear model.
 WIDE, FARTHER = 0.15, 3.0
 #: Threads that solve contacts side by side where nothing is said.
 THREADS = 2
 #: Errors of what a record leaves unsure that its part of a confidence of 95 % has.
 SURE = 2.0
-#: Noise of data that tell none, over their range, to weigh sets of data against one another.
+#: Noise of data without a given one, over their range, to weigh sets of data.
 NOISE = 0.02
 
 
@@ -68,7 +68,7 @@ def fit(
     Parameters
     ----------
     scene : Scene or path
-        The contact with all that is known; its path says the normal force of loops.
+        The contact with all known values; its path has the normal force of loops.
     data : Loops, Indentation, Scar, Lives, or list of these
         What was measured.
     unknown : mapping of str to (low, high) or (low, start, high)
@@ -89,7 +89,7 @@ def fit(
     Returns
     -------
     FitResult
-        Values, their 95 % confidence, what cannot be told apart; :meth:`FitResult.summary`.
+        Values, their 95 % confidence, doubts; :meth:`FitResult.summary`.
 
     Raises
     ------
@@ -111,7 +111,7 @@ def fit(
     sets: list[Data] = list(data) if isinstance(data, Sequence) else [data]
     search = Search(scene, [model_of(item) for item in sets], ranges(unknown), executor)
     with warnings.catch_warnings():
-        # Scenes on the way may be odd; that of the end is told of by who solves it.
+        # Warnings are silenced during the search; the caller checks the final scene.
         warnings.simplefilter("ignore")
         minimum = optimize.least_squares(
             search.residual,
@@ -349,7 +349,7 @@ class Search:
         """Distances down and up at which the root of the sum of squares has risen enough.
 
         The other unknowns follow to first order, which overestimates the rise: no distance is
-        shorter than that of the linear model. ``known``: the Jacobian, and the root of the rise
+        shorter than in the linear model. ``known``: the Jacobian, and the root of the rise
         asked for.
         """
         jacobian, rise_wanted = known

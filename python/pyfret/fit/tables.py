@@ -152,7 +152,7 @@ def number_or_fault(row: list[str], column: int, line: int, faults: dict[int, st
 
 
 def check_units(place: str, heads: list[str], said: dict[str, str], units: dict[str, str]) -> None:
-    """Refuse units of columns that are not there, or of which the file says another one."""
+    """Refuse units of columns that are not there, or differ from the file."""
     for name, unit in units.items():
         matching = [head for head in heads if name in (head, split_unit(head)[0])]
         if not matching:
@@ -222,7 +222,7 @@ def cells(line: str, separator: str | None) -> list[str]:
 
 
 def named(head: str, units: dict[str, str]) -> tuple[str, str]:
-    """The name and the unit of a column, that of `units` where it is there."""
+    """Return the name and the unit of a column; `units` takes precedence."""
     if head in units:
         return head, units[head]
     name, unit = split_unit(head)

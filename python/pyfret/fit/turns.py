@@ -13,7 +13,8 @@ __all__ = ["find_turns", "remove_drift", "turns_between"]
 
 #: Part of the range of the shift that a turn has to go back to count as one.
 TURN = 0.3
-#: Points on each side of a turn whose parabolas meet there: least, most, over those of a branch.
+#: Points on each side of a turn whose parabolas meet there: least, most, over the points of a
+#: branch.
 BESIDE, MOST_BESIDE, OF_BRANCH = 4, 12, 0.1
 #: Part of the direction from the outermost point to a turn that is its error.
 OF_WAY = 0.25

@@ -27,7 +27,7 @@ UNDECIDED = "not decided within the error of K"
 
 
 def estimate_notes(*estimates: str | None, has_range: bool) -> list[str]:
-    """Notes on the numbers that are estimates: ranges are those of the error of K alone."""
+    """Return notes on estimated numbers: ranges cover the error of K alone."""
     beyond = " (the ranges leave out the scatter of estimates)" if has_range else ""
     return [f"estimate: {note}{beyond}" for note in dict.fromkeys(estimates) if note]
 
@@ -54,7 +54,8 @@ class CrackArrest:
     computed : (float, float)
         The shortest and the longest length at which K is known [m].
     margin_error, at_start_error : float
-        Errors of the margin and of `at_start` by that of K; None where K came without an error.
+        Errors of the margin and of `at_start` by the error of K; None where K came without an
+        error.
     lengths : (float, float), optional
         Where it stops with the range of K less and more its error [m]. These are the shortest and
         the longest length, infinite where it grows through all lengths. None where K came without

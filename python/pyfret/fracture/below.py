@@ -67,7 +67,7 @@ def crack(
     ----------
     result : Result
         Solved with ``save="all"``, or with the increments of the cycle; the fields in the plane of
-        the crack are taken as those of plane strain.
+        the crack are taken for plane strain.
     x : float, optional
         Place of the mouth along the plane of the crack [m] (default: that rim of the contact,
         where the largest contact of the cycle ends in this plane, below which the range of K is
@@ -81,8 +81,8 @@ def crack(
         Length [m] after which cracks go on at another angle [rad]; by default they are straight.
     azimuth : float, optional
         Angle of the plane of the crack about the z axis from the x axis [rad], 0 in plane strain
-        (default: that of the shear; where the contact is not round, or sheared in several
-        directions, that of the largest range of K in steps of 30 degrees from it).
+        (default: the direction of the shear; where the contact is not round, or sheared in several
+        directions, the one of the largest range of K in steps of 30 degrees from it).
     aspect : float, optional
         Depth over half-length of a semi-elliptic crack, above 0 and up to 1. K is then an estimate
         for its deepest point, the plane value times :func:`ellipse_factor`. The error has 5 % more
@@ -95,7 +95,7 @@ def crack(
     Returns
     -------
     Cracks
-        K over (increment, length). K is that of the homogeneous half-plane. Its ``error`` has the
+        K over (increment, length). K holds for the homogeneous half-plane. Its ``error`` has the
         part of the quadrature and that of the tractions within the cells (their difference from
         constant ones). Where layers differ, it has the change of K of published cracks in films.
 
@@ -278,7 +278,7 @@ class Cycle:
     def place(
         self, x: float | None, azimuth: float | None, angle: float, friction: float
     ) -> tuple[float, float]:
-        """Mouth [m] and plane [rad]: those given, or those of the largest range of short cracks."""
+        """Mouth [m] and plane [rad]: the given ones, or the largest range of short cracks."""
         if x is not None and azimuth is not None:
             return float(x), float(azimuth)
         if azimuth is not None:

@@ -82,7 +82,7 @@ def film_intensity(
 ) -> float:
     """Give K_I of a crack normal to the surface that ends in the film [Pa m^0.5].
 
-    The stress is uniform, and the constants are those of the film and of the other material. The
+    The stress is uniform, and the constants belong to the film and the other material. The
     homogeneous body has 1.12 stress sqrt(pi depth). A film on a softer material has more, one on a
     stiffer material less.
 

@@ -48,7 +48,7 @@ class FailureOrder(NamedTuple):
     interface: float
     #: Smallest range of K over its threshold of a crack that has come through the coatings.
     substrate: float
-    #: Error of `substrate` by that of K; the other two are estimates.
+    #: Error of `substrate` by the error of K; the other two are estimates.
     substrate_error: float | None = None
     #: What becomes of the crack in the substrate, by its length; None without a threshold.
     arrest: CrackArrest | None = None
@@ -127,7 +127,7 @@ def first_to_fail(
     x : float, optional
         Its mouth [m] (default: the rim of the contact below which the range of K is larger).
     lengths : array, optional
-        Lengths of the crack [m] (default: those of :func:`crack`).
+        Lengths of the crack [m] (default: as in :func:`crack`).
     body_number, cycle
         As in :func:`pyfret.fatigue.life`.
 

@@ -62,7 +62,7 @@ class Threshold:
     table : sequence of (float, float), optional
         Instead of it the threshold over R relative to that at R = 0, rows of (R, ratio).
     estimate : str, optional
-        Which of its numbers are estimates, in words: whatever rests on the threshold says so.
+        Names of its estimated numbers; all results from the threshold repeat them.
     growth : Paris, optional
         Law of growth of the same material, which :meth:`Cracks.life` takes where none is given.
 
@@ -278,7 +278,7 @@ class Cracks(Saveable, Labelled, Figured):
 
     @quantities
     def scaled(self, factor: float) -> Cracks:
-        """Give the same with every K times a factor, such as that of :func:`ellipse_factor`."""
+        """Give the same with every K times a factor, for example :func:`ellipse_factor`."""
         return Cracks(
             xr.Dataset(
                 {
@@ -333,7 +333,7 @@ class Cracks(Saveable, Labelled, Figured):
     ) -> CrackArrest:
         """Say whether a crack of the length `start` [m] (default: the shortest) grows and stops.
 
-        The threshold is one, or that of a material or of its name.
+        The threshold may be a material or its name.
 
         With the errors of K its verdict, length and margin have theirs: the crack is followed again
         with K_max less and more its error.

@@ -84,7 +84,7 @@ def over_cycle(
         body_number=where.body_number,
         cycle=where.cycle,
     )
-    # Both sides carry the same traction; that of the upper layer stands for it.
+    # Both sides carry the same traction; the traction of the upper layer is used.
     of_upper = stress.values[:, ::2]
     peel = np.maximum(of_upper[..., 2], 0.0)
     shear = of_upper[..., 4:6]

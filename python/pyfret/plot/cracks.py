@@ -50,7 +50,7 @@ def intensity(cracks: Cracks, *, ax: Axes | None = None) -> Axes:
 def intensity_history(cracks: Cracks, length: Length, *, ax: Axes | None = None) -> Axes:
     """K_I and K_II over the kept increments of the cycle, with their error bars.
 
-    Thin lines are those of faces that may pass through each other.
+    Thin lines: faces may pass through each other.
 
     Parameters
     ----------

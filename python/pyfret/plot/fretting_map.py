@@ -96,7 +96,7 @@ def onset(table: xr.Dataset, raster: Raster, scale: float) -> NDArray[np.float64
 
 
 def conditions(table: xr.Dataset, raster: Raster, scale: float) -> NDArray[np.float64]:
-    """Running conditions on the raster: gross slip above its onset, those of samples below it."""
+    """Running conditions on the raster: gross slip above its onset, samples below it."""
     status = table.status.values
     codes = raster.nearest(status).astype(float)
     limit = onset(table, raster, scale)
@@ -218,7 +218,7 @@ def arrest_map(table: xr.Dataset, *, ax: Axes | None = None) -> Axes:
 def running_map(table: xr.Dataset, *, ax: Axes | None = None) -> Axes:
     r"""Running conditions over W and the amplitude of T or of the shift, from the sweep.
 
-    Coloured by the energy ratio, which tells gross slip (0.2 and more) from partial slip. Over
+    Coloured by the energy ratio, which separates gross slip (0.2 and more) from partial slip. Over
     shifts a line parts them; over forces it is grey where there is no static solution, above the
     dashed line :math:`T = \mu W`. With `arrest` in the sweep dotted lines are
     the lengths at which cracks stop, and a thick one begins where none does.

@@ -36,7 +36,7 @@ def _degrees(found: xr.Dataset) -> str:
 def temperature(found: xr.Dataset, *, units: Units = "auto", ax: Axes | None = None) -> Axes:
     """Mean and largest temperature of a cycle along x, through the hottest place, of both bodies.
 
-    Where the bodies touch their mean temperatures are the same, and those of every instant.
+    Where the bodies touch their mean and instantaneous temperatures are the same.
 
     Parameters
     ----------

@@ -223,7 +223,7 @@ def _filled(
     levels: int,
     limit: float | None,
 ) -> ContourSet | None:
-    """The filled contours of every layer and, bold, those of the limit."""
+    """Draw the filled contours of every layer and, bold, the contour of the limit."""
     if levels < 1:
         raise ValueError(f"levels = {levels}: must be 1 or more")
     field, layers = shown.values, shown.layer.values
@@ -270,7 +270,7 @@ def _mark(
     *,
     lives: bool = False,
 ) -> None:
-    """A cross at the worst point; the legend says it, and what is grey."""
+    """Draw a cross at the worst point; the legend explains it, and the grey area."""
     length = scales(shown.attrs, units).length.value
     mark(ax, (place[0] / length, place[1] / length), text)
     handles: list[Artist] = list(ax.get_legend_handles_labels()[0])
@@ -303,7 +303,7 @@ def critical_plane_rose(
 ) -> Axes:
     """Draw the stresses on the planes through one point whose normal lies in the x-z plane.
 
-    The angle is that of the normal from x towards z, downwards as in a section. Curves are the
+    The angle goes from x to the normal, towards z, downwards as in a section. Curves are the
     largest tension and half of the range of the shear within the x-z plane. A bar is the normal of
     the critical plane. For sections at y = 0 of contacts that are symmetric there, that is all
     shear there is on these planes.
@@ -311,11 +311,11 @@ def critical_plane_rose(
     Parameters
     ----------
     stress : array of shape (time, 6), or Life
-        Stress history of the point [Pa]; of a life that of its worst point.
+        Stress history of the point [Pa]; for a life of its worst point.
     criterion : Criterion, optional
-        One that has a critical plane (default: that of the life).
+        One that has a critical plane (default: the life's own).
     plastic_strain : array of the shape of the stress, optional
-        Plastic strain at the same instants (default: that of the life).
+        Plastic strain at the same instants (default: the life's own).
     """
     life_or_stress = stress
     stress, own_criterion = history_of(stress)
@@ -401,7 +401,8 @@ def haigh_diagram(
 
     A cross marks the worst point of every layer. With a material, the limit of uniaxial stress.
     Where there is ``s_u``, it goes from ``s_D`` fully reversed to ``s_u`` without amplitude
-    (Goodman 1899). Else it is that of Dang Van's criterion, s_D - (1 - s_D/(2 t_D)) times the mean.
+    (Goodman 1899). Else it follows from Dang Van's criterion, s_D - (1 - s_D/(2 t_D)) times the
+    mean.
 
     The limit is meant for planes of the largest normal stress, such as those of
     ``"smith_watson_topper"``. Planes of shear have less normal stress at the same danger.

@@ -125,7 +125,7 @@ def tau(result: Run) -> float:
 
 
 def stick_areas(results: Mapping[float, Run]) -> Figure:
-    """Figure 11: the stick area of every ratio, and beside it how far it is from that of 1."""
+    """Figure 11: the stick area of every ratio, and its difference to the ratio 1."""
     if 1.0 not in results or len(results) == 1:
         return compare(stick_ratio, results, loc="lower center", ncols=4, columnspacing=1.2)
     figure, (whole, apart) = plt.subplots(1, 2, figsize=(7.6, 3.4))

@@ -79,7 +79,7 @@ def parameter_label(key: str, *, per_metre: bool = False) -> tuple[str, float]:
     if over is not None:
         whole, _, last = whole.rpartition(".")
     owner = place_in_words(whole)
-    # A name without a point is that of the user's own function, whatever its unit is.
+    # A name without a point belongs to the user's own function, whatever its unit is.
     if last not in MEANINGS or owner is None or not (whole or last == "mu"):
         return literal(key), 1.0
     words, unit, size = MEANINGS[last]

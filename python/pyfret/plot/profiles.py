@@ -116,7 +116,7 @@ def shear_profiles(result: Run, *, units: Units = "auto", ax: Axes | None = None
     """Shear traction along its direction for every increment whose fields were kept.
 
     On the line through the centre of the largest contact, along the shear of all increments.
-    Of more than twelve load states a scale of colours tells the time, not a legend.
+    More than twelve load states have a scale of colours for the time, no legend.
 
     A load state that was visited before is drawn as markers in the colour of its first visit.
     Markers on a line show that the cycle has settled.

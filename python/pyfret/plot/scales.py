@@ -42,7 +42,7 @@ class Scales:
 
     @property
     def dimensionless(self) -> bool:
-        """Whether the yardsticks are those of the Hertz contact."""
+        """Whether the yardsticks come from the Hertz contact."""
         return not self.length.is_unit
 
 

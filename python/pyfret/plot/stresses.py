@@ -65,7 +65,7 @@ def _scales(attrs: Mapping[Any, Any], units: Units, a_H: float | None, p_H: floa
 
 
 def _mark(ax: Axes, largest: Extremum, line: Line, by: Scales, *, marker: str = "x") -> None:
-    """Mark a value at its place along the section and its depth, and say it in the legend."""
+    """Mark a value at its place along the section and its depth, with an entry in the legend."""
     at = (line.place(largest.x, largest.y) / by.length.value, largest.z / by.length.value)
     where = "largest" if marker == "x" else "on the surface"
     text = in_words(largest.value / by.stress.value)

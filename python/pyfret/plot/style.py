@@ -176,7 +176,7 @@ def add_colour_bar(ax: Axes, image: Any, label: str, *, extend: str = "neither")
 
 
 def mark(ax: Axes, at: tuple[float, float], text: str, *, marker: str = "x") -> None:
-    """Mark a place of a section and say what it is in a legend inside the axes."""
+    """Mark a place of a section with a legend inside the axes."""
     ax.plot(
         *at,
         marker,

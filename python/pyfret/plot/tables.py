@@ -13,7 +13,7 @@ __all__ = ["must_hold"]
 
 
 def must_hold(table: xr.Dataset, parameter: str, names: Iterable[str], made: str) -> None:
-    """Refuse a table without variables that a figure draws, and say what makes one that has them.
+    """Refuse a table without variables that a figure draws, and name the function that makes one.
 
     Raises
     ------

@@ -84,7 +84,7 @@ def depth_map(
 def wear_history(result: WearResult, *, ax: Axes | None = None) -> Axes:
     """Deepest worn depth of each body that wears over cycles, with the coatings' thickness, um.
 
-    Coatings that are worn through, or told to be thin, are marked at their cycle.
+    Coatings that are worn through, or reported as thin, are marked at their cycle.
     """
     ax = axes(ax)
     d = result.dataset
@@ -118,7 +118,7 @@ def wear_history(result: WearResult, *, ax: Axes | None = None) -> Axes:
 def wear_loops(result: WearResult, *, ax: Axes | None = None) -> Axes:
     """Friction loops at the first and at the last block of cycles, along x or y.
 
-    The axis is that of the largest force.
+    The axis has the largest force.
     """
     ax = axes(ax)
     d, direction = result.dataset, result.direction

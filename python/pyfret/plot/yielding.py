@@ -41,7 +41,7 @@ def plastic_zone(
 ) -> Axes:
     """Equivalent plastic strain of a body that yields on the section along the shear.
 
-    The section goes through the centre of the contact, as that of :meth:`Snapshot.stress`; depth
+    The section goes through the centre of the contact, as in :meth:`Snapshot.stress`; depth
     is downwards.
 
     Parameters

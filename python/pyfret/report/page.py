@@ -37,7 +37,7 @@ __all__ = ["report"]
 
 #: Folder of the looks of the page.
 HERE = Path(__file__).parent
-#: What is said of the numbers of a run on a page that has those of its wear, too.
+#: Note on the numbers of a run on a page with its wear.
 SURFACES = (
     "<p>The numbers of the run are those of the surfaces before wear. The energy of a cycle and "
     "the loops in the section on wear are those {of}.</p>"
@@ -82,7 +82,7 @@ def report(
         If the package plotly is missing: ``pip install "fretting[report]"``.
     ValueError
         The ending of the file is another, or a threshold is given without a crack. The wear or the
-        crack is that of other bodies, or does not say of which.
+        crack belongs to other bodies, or has no bodies.
     """
     target = Path(path)
     if target.suffix not in (".html", ".htm"):

@@ -16,7 +16,7 @@ __all__ = ["OfRun"]
 
 
 class OfRun(Labelled):
-    """A dataset whose attributes say which run it belongs to."""
+    """A dataset whose attributes identify its run."""
 
     def __init__(self, dataset: xr.Dataset, scene: Scene | None = None) -> None:
         super().__init__(dataset)
@@ -63,7 +63,7 @@ class OfRun(Labelled):
     def doubts(self) -> list[str]:
         """Numbers of the scene and of the run that are hardly meant or known, one sentence each.
 
-        First those of the scene (:meth:`Scene.doubts`), then those that the solution shows.
+        Doubts of the scene (:meth:`Scene.doubts`) come first, then doubts of the solution.
         Examples are few cells across the contact, a contact that is wide for a body, a pressure
         above the yield stress of metals.
         """

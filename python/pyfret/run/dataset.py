@@ -26,7 +26,7 @@ COORDINATES = frozenset(
 def dataset(variables: Mapping[str, Variable], attributes: str) -> xr.Dataset:
     """Make a dataset of variables (dimensions, values, attributes) and of attributes as JSON."""
     attrs = json.loads(attributes)
-    # Of a store, where it says what are coordinates.
+    # A store lists its coordinates.
     attrs.pop("coordinates", None)
     return xr.Dataset(
         {k: variable for k, variable in variables.items() if k not in COORDINATES},

@@ -44,7 +44,7 @@ class Run(OfRun):
     Its ``dataset`` has scalars over ``increment`` and fields over (``saved``, ``x``, ``y``) for the
     increments whose fields were kept. Its ``attrs`` hold the scene, the version, ``a_H``, ``p_H``
     and ``mu``. Every variable carries ``units`` and ``long_name``. Its scalars are attributes as
-    well, e.g. ``result.T_x``; fields are those of an increment, e.g. ``result.at(-1).p``.
+    well, e.g. ``result.T_x``; fields belong to an increment, e.g. ``result.at(-1).p``.
     """
 
     def __getattr__(self, name: str) -> xr.DataArray:
@@ -74,7 +74,7 @@ class Run(OfRun):
 
     @property
     def status(self) -> str:
-        """``"done"``, ``"running"``, or the sentence that says why the run stopped."""
+        """``"done"``, ``"running"``, or the reason why the run stopped."""
         return str(self.dataset.attrs["status"])
 
     @property
@@ -180,10 +180,10 @@ class Run(OfRun):
         Parts are ``total`` and its contributions. ``cells`` comes from runs on two coarser grids
         and, up to 256 x 256 cells, on a finer one. ``path`` comes from a run with fewer increments,
         ``solver`` from the tolerance. ``p`` and ``q`` are the tractions as fields: L2 norms over
-        the largest of the path. ``stress`` is that of the stress in the bodies, over the stress.
-        ``residual_stress`` is that of bodies that yield at a point, over its largest below the
-        middle of the grid. A largest strain at the border of slip or at the rim of a coating does
-        not converge. The runs are those of ``solve(..., error=True)`` and ``fret run --error``.
+        the largest of the path. ``stress`` is the error of the stress in the bodies, over the
+        stress. ``residual_stress`` belongs to bodies that yield, at a point, over its largest below
+        the middle of the grid. A largest strain at the border of slip or at the rim of a coating
+        does not converge. The runs come from ``solve(..., error=True)`` and ``fret run --error``.
         """
         bars = self.dataset.attrs.get("error_bars")
         if not bars:

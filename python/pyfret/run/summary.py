@@ -122,7 +122,7 @@ def summary(result: Run) -> str:
 
     Lengths are over a_H and pressures over p_H where there is a Hertz contact, else in um and
     MPa. Of a line contact a is half its width, and forces and energies are per metre. Errors that
-    the run has told stand behind ``+-``.
+    of the run stand behind ``+-``.
     """
     table = columns(result, result.branches())
     widths = [max(len(cell) for cell in column) for column in table]

@@ -41,7 +41,7 @@ ENDS = {
     "largest_plastic_strain": "largest plastic strain",
     "path_error": "error of q",
 }
-#: Units that people read numbers in, with their factors, by those of the numbers.
+#: Units that people read numbers in, with their factors, by SI unit.
 SHOWN_IN = {
     "m": (1e6, "µm"),
     "rad": (1e6, "µrad"),

@@ -68,7 +68,7 @@ def read_surface(
         Distance of the points along x and y [m], where the file does not state it, or states one
         that no instrument has.
     unit : str, optional
-        Unit of plain numbers, such as "um" (default: that of the file). It holds for a list of
+        Unit of plain numbers, such as "um" (default: the file's own). It holds for a list of
         points, x and y too, and for an instrument's heights and lengths without a unit.
     channel : str or int, optional
         Which of several channels of heights. In the file of an instrument: its name, or its index

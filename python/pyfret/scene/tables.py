@@ -37,7 +37,7 @@ GIVEN = {
     "sigma_B1": ("&sigma;<sub>B1</sub>", "MPa"),
     "rolled": ("rolled", ""),
 }
-#: What units are of those of the numbers.
+#: Factors of the printed units, by SI unit.
 FACTORS = {"MPa": 1e6}
 
 

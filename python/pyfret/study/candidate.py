@@ -47,7 +47,7 @@ class Candidate:
 
     #: The body, with its coatings.
     body: Body
-    #: Coefficient of friction (default: that of the scene).
+    #: Coefficient of friction (default: the scene's own).
     mu: FrictionCoefficient | None = None
     #: Material of the substrate, or of every layer, for lives.
     materials: Materials | None = None

@@ -72,7 +72,7 @@ def compare(
     scene : Scene or path
         The contact; the body `body_number` is exchanged.
     path : LoadPath, optional
-        Load history (default: that of the scene). Most questions need a closed cycle.
+        Load history (default: the scene's own). Most questions need a closed cycle.
     questions : sequence of str, optional
         Some of ``"tension"``, ``"yield"``, ``"adhesion"``, ``"life"``, ``"wear"``, ``"energy"`` and
         ``"temperature"`` (default: all). Questions that no body can answer are left out.

@@ -146,7 +146,7 @@ class Comparison(Labelled, Figured):
     def preference(self, of: str) -> Preference:
         """Return the best candidates by a number, and the worse ones beyond the errors.
 
-        A candidate is worse where its range does not overlap with that of the best one.
+        A candidate is worse where its range does not overlap with the range of the best one.
 
         Raises
         ------

@@ -53,6 +53,6 @@ def check_key(key: str, keys: tuple[str, ...], where: str) -> None:
         raise ValueError(f"{where}: unknown key `{key}`: the nearest valid key is `{nearest}`")
 
 
-def store_path(file: Path, says: dict[str, Any], out: Any) -> Path:
+def store_path(file: Path, document: dict[str, Any], out: Any) -> Path:
     """Return the path of the store: `out`, the one in the file, or a default by file name."""
-    return Path(out) if out is not None else file.parent / says.get("out", f"{file.stem}.zarr")
+    return Path(out) if out is not None else file.parent / document.get("out", f"{file.stem}.zarr")

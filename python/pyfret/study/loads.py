@@ -11,7 +11,7 @@ from pyfret._core import LoadPath, Scene
 from pyfret._util.arrays import number, plain
 from pyfret._util.bounds import SIDES
 from pyfret._util.lazy import xr
-from pyfret._util.numbers import in_words, told
+from pyfret._util.numbers import format_number, in_words
 from pyfret.quantities import BulkStresses, Force, Forces, Numbers, quantities
 from pyfret.study.loop import run
 
@@ -160,7 +160,8 @@ def running_conditions(
     for point, reason in study.failed():
         if not reason.startswith(Slides.__name__):
             raise RuntimeError(
-                f"W = {told(point['W'])}, {driven} = {told(point[AMPLITUDE])}: {reason}"
+                f"W = {format_number(point['W'])}, {driven} = "
+                f"{format_number(point[AMPLITUDE])}: {reason}"
             )
     table = rename_to_map(study.dataset, scene, driven)
     if (limit := sliding_limit(scene, normal, driven, increments, executor)) is not None:

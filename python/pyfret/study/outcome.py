@@ -13,7 +13,7 @@ from pyfret._util.csv_table import unit_of
 from pyfret._util.figures import Figured
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
-from pyfret._util.numbers import told
+from pyfret._util.numbers import format_number
 from pyfret._util.per_metre import PER_METRE, of_line_contacts
 from pyfret._util.text import html, shown
 from pyfret.quantities import quantities
@@ -80,7 +80,7 @@ class Study(Saveable, Labelled, Figured):
 
         Measures that are fields are left out, with a warning that names them; the ``dataset`` has
         them. ``study.to_dataframe().to_csv("points.csv")`` writes a table, ``to_excel`` and
-        ``groupby`` are those of pandas.
+        ``groupby`` come from pandas.
         """
         d = self.dataset
         dims = set(d["status"].dims)
@@ -177,7 +177,9 @@ class Study(Saveable, Labelled, Figured):
             if excluded := self.dataset[name].attrs.get("without"):
                 lines.append(f"{name}: its range is without {excluded}")
         for values, why in self.failed():
-            position = ", ".join(f"{name} = {told(value)}" for name, value in values.items())
+            position = ", ".join(
+                f"{name} = {format_number(value)}" for name, value in values.items()
+            )
             lines.append(f"failed at {position}: {' '.join(why.split())}")
         return shown("\n".join(lines))
 

@@ -1,6 +1,6 @@
 """Thresholds: the load at which a criterion, a life or a yield factor reaches a value.
 
-A margin is nearly a power of the load. Its logarithm over that of the load is nearly straight, so
+A margin is nearly a power of the load. In logarithms it is nearly a straight line over the load, so
 that few solves bracket the threshold.
 """
 

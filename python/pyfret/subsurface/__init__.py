@@ -1,6 +1,6 @@
 """Stress and displacement below the surface of a body.
 
-Depth z is counted into the body, components are those of the axes of ``docs/conventions.md``, and
+Depth z is counted into the body, components use the axes of ``docs/conventions.md``, and
 tension is positive. Every depth on an interface appears twice, with the layer above it first.
 Most people start from :meth:`pyfret.Snapshot.stress`; the functions here take any tractions.
 """

@@ -71,7 +71,7 @@ def line_below(
     y: float | None,
     azimuth: float | None,
 ) -> tuple[Line, bool]:
-    """The section asked for, or that of the contact where none is; and whether it is that one.
+    """Return the section, and whether it is the default one of the contact.
 
     That one lies along the shear, through the centre of the contact.
     """

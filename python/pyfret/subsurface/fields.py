@@ -166,7 +166,7 @@ def stress(
     sigma_B : float
         Bulk stress along x of its substrate [Pa]; coatings are stretched with it.
     rim : bool
-        Whether the tractions are those of a contact (default: no). They then vary within the cells
+        Whether the tractions belong to a contact (default: no). They then vary within the cells
         and vanish at the rim like a root. This changes the stress near the surface, beside the rim
         and the stick zone.
     stick : array of shape (nx, ny), optional
@@ -283,7 +283,7 @@ def write_volume(
     Parameters
     ----------
     body, grid, z, p, q_x, q_y, body_number, sigma_B, residual, rim, stick
-        As in :func:`stress`. On an interface the value is that of the upper layer.
+        As in :func:`stress`. On an interface it is the value of the upper layer.
     out : path
         A ``.vti`` file (VTK image data for ParaView and PyVista; depths evenly spaced) or a Zarr
         folder. It must not exist.

@@ -117,7 +117,7 @@ def plastic_points(state: State, body_number: int) -> xarray.Dataset:
 class PlasticState:
     """The plastic state of a body after an increment, on the planes and cells of its volume grid.
 
-    Planes are those of the Gauss points: two in each element in depth. Tension is positive, z
+    Planes go through the Gauss points: two in each element in depth. Tension is positive, z
     points into the body, components are in the axes of the scene. Called itself, it gives the state
     of the other body: ``state.plastic(body_number=1)``.
 

@@ -81,5 +81,5 @@ def thermal_stress(
 
 
 def _expansion(alpha: ThermalExpansion | Material) -> float:
-    """A coefficient of thermal expansion, or that of a material [1/K]."""
+    """Return a coefficient of thermal expansion, given or of a material [1/K]."""
     return alpha.number("alpha_T") if isinstance(alpha, Material) else as_number(alpha)

@@ -103,7 +103,7 @@ class Stress(Labelled, Figured):
         samples, at the rim of the contact and at the border of its stick zone. It goes on between
         the samples. Where the samples of a layer still rise at the ends of the section, it is made
         up to 16 times as long. A maximum at the surface or at an interface stays there.
-        ``interface_shear`` and ``interface_peel`` are those of the interfaces.
+        ``interface_shear`` and ``interface_peel`` belong to the interfaces.
 
         Parameters
         ----------
@@ -128,7 +128,7 @@ class Stress(Labelled, Figured):
         if layer is not None and layer not in layers:
             raise ValueError(f"layer = {layer}: must be one of {sorted(set(layers))}")
         if self._below is None:
-            raise ValueError("the largest value is that of a section as stress(...) gives it")
+            raise ValueError("maximum() needs the full section; call `stress(...)` first")
         extremum, rises = self._below.maximum(
             of,
             self.measure(of).values,

@@ -28,7 +28,7 @@ __all__ = ["Unloaded"]
 class Unloaded:
     """The bodies of an increment with the contact taken apart.
 
-    The plastic strain is that of the increment. Taking off the tractions changes the stress
+    The plastic strain belongs to the increment. Taking off the tractions changes the stress
     elastically. Where that would yield in reverse, a :class:`SceneWarning` is given. The load path
     then needs a branch that takes the load off.
 
@@ -70,7 +70,7 @@ class Unloaded:
         body_number: int = 2,
         residual: Sequence[Any] | None = None,
     ) -> Stress:
-        """Residual stress of a body; parameters are those of :meth:`Snapshot.stress`.
+        """Residual stress of a body; parameters as in :meth:`Snapshot.stress`.
 
         Where no place is given, the section along x through the middle of the grid.
         """

@@ -98,7 +98,7 @@ class WearResult(Saveable, Labelled, Figured):
     def along(self) -> xr.Dataset:
         """Fields of the blocks on the line along the shear, through the centre of the last contact.
 
-        The direction is that of the largest force in the last friction loop.
+        The line has the direction of the largest force in the last friction loop.
 
         Returns
         -------
@@ -133,7 +133,7 @@ class WearResult(Saveable, Labelled, Figured):
         ``beyond``. Infinite where nothing wears.
 
         Within a jump the depth and the volume follow the parabola through its ends and its middle,
-        so the error is that of the depths (``depth_error``).
+        so it has the error of the depths (``depth_error``).
 
         Parameters
         ----------
@@ -185,7 +185,7 @@ class WearResult(Saveable, Labelled, Figured):
 
         The error of the depths and the scatter of the wear coefficient make the range; their
         logarithms are independent and add as squares. Where the run ended before, ``best`` and
-        ``high`` are NaN, and ``low`` is that of the last cycle.
+        ``high`` are NaN, and ``low`` is the last cycle.
 
         Parameters
         ----------
@@ -266,9 +266,9 @@ class WearResult(Saveable, Labelled, Figured):
                 f"{event['kind']} after {cycles} cycles: body {event['body']}, coating "
                 f"{event['coating'] + 1}, at x = {um(event['x'])}, y = {um(event['y'])}"
             )
-        says = self.table
+        document = self.table
         for body in (1, 2):
-            laws = says.get(f"body{body}", {}).get("laws", [])
+            laws = document.get(f"body{body}", {}).get("laws", [])
             lines += [f"law of body {body}: {written(law)}" for law in laws]
         lines += [f"doubted: {doubt}" for doubt in self.doubts]
         return shown("\n".join(lines))

@@ -50,9 +50,9 @@ def solve(
     wear : Wear, optional
         What wears, over how many cycles, and how.
     path : LoadPath, optional
-        Load history (default: that of the scene): a part that leads in, then one cycle.
+        Load history (default: the scene's own): a part that leads in, then one cycle.
     start : WearResult, optional
-        Worn surfaces to begin on, those of its last block, as after another stroke; cycles, energy
+        Worn surfaces to begin on, from its last block, as after another stroke; cycles, energy
         and volumes count on. The grid must be the same.
     out : path, optional
         Result store to write while the run goes on; it must not exist. :func:`resume` goes on
@@ -62,7 +62,7 @@ def solve(
     progress : bool
         Whether to draw a progress bar on a terminal or in a notebook.
     **settings
-        Settings by the names of :class:`Wear`, alone or in place of those of `wear`.
+        Settings by the names of :class:`Wear`, alone or in place of fields of `wear`.
 
     Raises
     ------

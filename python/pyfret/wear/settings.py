@@ -107,7 +107,7 @@ class Wear(Replaceable):
         ``dissipated`` (energy per area, J/m^2) and ``worn`` (depth so far, m). It also takes the
         number ``cycles`` so far.
     share1, share2 : float, optional
-        Part of what its law says that a body loses (default 1).
+        Share of the depth of its law that a body loses (default 1).
     debris_kept : float
         Part of what both bodies lose that stays in the contact, 0 to 1: the gap grows by the rest.
         Debris lies where it was made and is as stiff as the body that it was.
@@ -121,7 +121,7 @@ class Wear(Replaceable):
     frequency : float, optional
         Cycles per second [Hz], for coefficients that are functions of the power density.
     rig_stiffness : float, optional
-        Stiffness of a spring through which the shifts are given [N/m] (default: that of the path).
+        Stiffness of a spring through which the shifts are given [N/m] (default: the path's own).
     tolerance : float, optional
         Error that a jump may leave of the worn depth (default 0.01); jumps are as long as that
         lets.

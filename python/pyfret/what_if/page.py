@@ -90,7 +90,7 @@ def explore(
     scene : Scene or path
         The contact to begin with.
     path : LoadPath, optional
-        Load history (default: that of the scene).
+        Load history (default: the scene's own).
     port : int
         Port of this machine (default: a free one).
 
