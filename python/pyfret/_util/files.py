@@ -7,8 +7,10 @@ compares. Files that xarray wrote have none and are read as they are.
 from __future__ import annotations
 
 import errno
+import glob
 import json
 import os
+import platform
 import shutil
 import zlib
 from contextlib import contextmanager
@@ -120,6 +122,7 @@ def write(
     with `otherwise`.
     """
     place = Path(path)
+    restore(place)
     if place.exists() and not (overwrite and replaceable(place)):
         raise FileExistsError(
             f"{place}: is there already"
@@ -159,23 +162,86 @@ def gzip() -> dict[str, Any]:
 
 @contextmanager
 def beside(place: Path) -> Iterator[Path]:
-    """Give a name beside `place`; what is there at the end takes its place, or goes on failure."""
-    unfinished = place.with_name(f".{place.name}.{os.getpid()}.unfinished{place.suffix}")
+    """Give a name beside `place`; what is there at the end takes its place, or goes on failure.
+
+    A process that is ended between two moves leaves the new folder, and the old one under another
+    name: :func:`restore` puts the new one in place. The next writing clears leftovers.
+    """
+    restore(place)
+    clear_leftovers(place)
+    unfinished, old = (leftover(place, kind) for kind in (UNFINISHED, OLD))
     try:
         yield unfinished
         if place.is_dir():
             # A folder with files takes no other one in its place.
-            old = place.with_name(f".{place.name}.{os.getpid()}.old")
             place.replace(old)
             unfinished.replace(place)
-            shutil.rmtree(old, ignore_errors=True)
+            remove(old)
         else:
             unfinished.replace(place)
     finally:
-        if unfinished.is_dir():
-            shutil.rmtree(unfinished, ignore_errors=True)
-        else:
-            unfinished.unlink(missing_ok=True)
+        remove(unfinished)
+
+
+#: Kinds of leftovers: a result that is being written, and one that a new result replaces.
+UNFINISHED, OLD = "unfinished", "old"
+
+
+def leftover(place: Path, kind: str, process: str | None = None) -> Path:
+    """Return the name beside `place` that a process, by default this one, writes to."""
+    process = process or f"{platform.node()}-{os.getpid()}"
+    return place.with_name(f".{place.name}.{process}.{kind}{place.suffix}")
+
+
+def leftovers(place: Path, kind: str) -> dict[str, Path]:
+    """Return what processes of this machine that have ended left beside `place`, by process."""
+    begin, end = f".{place.name}.", f".{kind}{place.suffix}"
+    ended = {}
+    for path in place.parent.glob(f"{glob.escape(begin)}*{glob.escape(end)}"):
+        process = path.name[len(begin) : -len(end)]
+        host, _, pid = process.rpartition("-")
+        if host == platform.node() and pid.isdecimal() and not is_running(int(pid)):
+            ended[process] = path
+    return ended
+
+
+def is_running(pid: int) -> bool:
+    """Check whether a process runs on this machine; where that cannot be asked it may."""
+    if os.name != "posix":
+        return True
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    except OSError:
+        return True
+    return True
+
+
+def restore(place: Path) -> None:
+    """Put a result in its place if a process was ended between moving the old and the new one."""
+    if place.exists():
+        return
+    for process, old in leftovers(place, OLD).items():
+        # The old one is moved when the new one is complete.
+        new = leftover(place, UNFINISHED, process)
+        (new if new.exists() else old).replace(place)
+        return
+
+
+def clear_leftovers(place: Path) -> None:
+    """Remove what processes that have ended left beside `place`."""
+    for kind in (UNFINISHED, OLD):
+        for path in leftovers(place, kind).values():
+            remove(path)
+
+
+def remove(path: Path) -> None:
+    """Remove a file or a folder, if it is there."""
+    if path.is_dir():
+        shutil.rmtree(path, ignore_errors=True)
+    else:
+        path.unlink(missing_ok=True)
 
 
 def reserve(path: Path, size: int) -> None:
@@ -227,6 +293,7 @@ def opened(path: str | os.PathLike[str]) -> xr.Dataset:
 def checked(path: str | os.PathLike[str]) -> None:
     """Refuse, before anything is read of it, what is neither a file nor a folder of ours."""
     place = Path(path)
+    restore(place)
     if not place.exists():
         raise StoreError(shown(f"{os.fspath(path)}: no such file or folder"))
     if place.is_dir():

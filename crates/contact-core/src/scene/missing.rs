@@ -29,6 +29,8 @@ impl Missing {
 
 /// Largest part of the points that may be filled.
 const MOST_FILLED: f64 = 0.1;
+/// Part of the points that a crop leaves at least.
+const LEAST_LEFT: f64 = 0.5;
 /// Largest depth of a filled point within its hole, in points.
 const DEEPEST: usize = 5;
 
@@ -48,7 +50,7 @@ pub(super) fn treat_holes(
     let share = 100.0 * holes as f64 / total as f64;
     match missing {
         Missing::Refuse => Err(describe_holes(&values, holes)),
-        Missing::Crop => Ok((crop_edges(&values), 0)),
+        Missing::Crop => check_crop(&values, crop_edges(&values)).map(|values| (values, 0)),
         Missing::Fill if holes as f64 > MOST_FILLED * total as f64 => Err(format!(
             "{holes} of {total} points ({share:.1} %) have no number, too many to fill: a tenth of them at most"
         )),
@@ -78,6 +80,18 @@ fn describe_holes(values: &Array2<f64>, holes: usize) -> String {
         i + 1,
         j + 1
     )
+}
+
+/// Refuses a crop that leaves less than [`LEAST_LEFT`] of the points.
+fn check_crop(values: &Array2<f64>, crop: Array2<f64>) -> Result<Array2<f64>, String> {
+    if crop.len() as f64 >= LEAST_LEFT * values.len() as f64 {
+        return Ok(crop);
+    }
+    let ((nx, ny), (left_x, left_y)) = (values.dim(), crop.dim());
+    Err(format!(
+        "missing = \"crop\" would leave {left_x} x {left_y} of {nx} x {ny} points, less than half. \
+         missing = \"fill\" takes the mean of the neighbours"
+    ))
 }
 
 /// Takes the line at the edge with the largest part of holes off, until there is none.
@@ -185,6 +199,20 @@ mod tests {
             z.dim() == (5, 4) && z[(0, 0)] == 1.0 && z[(4, 3)] == 11.0 && filled == 0,
             "{z}"
         );
+    }
+
+    #[test]
+    fn a_crop_to_a_line_is_refused() {
+        let mut plane = Array2::ones((40, 40));
+        for n in 0..40 {
+            plane[(n, (7 * n) % 40)] = f64::NAN;
+        }
+        let error = treat_holes(plane, Missing::Crop).expect_err("few points are left");
+        assert!(
+            error.contains("of 40 x 40 points, less than half"),
+            "{error}"
+        );
+        assert!(error.contains("\"fill\""), "{error}");
     }
 
     #[test]

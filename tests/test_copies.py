@@ -1,0 +1,73 @@
+"""A copy can be opened whenever its writing is ended, and leftovers go with the next writing."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from pyfret._util import files
+
+pytestmark = [
+    pytest.mark.solves,
+    pytest.mark.skipif(os.name != "posix", reason="ends a process by a signal"),
+]
+
+#: Writes the number argv[2] to argv[1], and ends itself before move argv[3] of a file or folder.
+WRITE = """
+import os, sys
+import xarray as xr
+from pyfret._util import files
+count = 0
+def ending(move):
+    def moved(source, target, **options):
+        global count
+        names = {os.path.basename(os.fspath(path)) for path in (source, target)}
+        count += os.path.basename(sys.argv[1]) in names
+        if count == int(sys.argv[3]):
+            os.kill(os.getpid(), 9)
+        return move(source, target, **options)
+    return moved
+os.replace = ending(os.replace)
+files.write(xr.Dataset({"a": ("x", [float(sys.argv[2])])}), sys.argv[1], overwrite=True)
+"""
+
+
+def write(place: Path, number: float, ended_before: int = -1) -> int:
+    """Write a number in a process of its own; return its exit code."""
+    command = [sys.executable, "-c", WRITE, str(place), str(number), str(ended_before)]
+    return subprocess.run(command, check=False).returncode
+
+
+@pytest.mark.parametrize("name", ["copy.zarr", "copy.nc"])
+def test_a_copy_opens_wherever_its_writing_is_ended(name: str, tmp_path: Path) -> None:
+    place = tmp_path / name
+    assert write(place, 1.0) == 0
+    moves = 0
+    for move in range(1, 5):
+        code = write(place, 2.0, ended_before=move)
+        if code == 0:
+            break
+        assert code == -signal.SIGKILL
+        moves += 1
+        assert float(files.opened(place).a[0]) in (1.0, 2.0)
+        assert write(place, 1.0) == 0
+    assert moves == (2 if name.endswith(".zarr") else 1)
+    assert [path.name for path in tmp_path.iterdir()] == [name]
+
+
+def test_leftovers_of_running_processes_stay(tmp_path: Path) -> None:
+    place = tmp_path / "copy.nc"
+    running = files.leftover(place, files.UNFINISHED, f"{files.platform.node()}-{os.getppid()}")
+    elsewhere = files.leftover(place, files.UNFINISHED, "another-machine-1")
+    running.touch()
+    elsewhere.touch()
+    files.write(xr.Dataset({"a": ("x", np.ones(2))}), place)
+    assert running.exists()
+    assert elsewhere.exists()
