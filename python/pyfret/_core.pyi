@@ -41,7 +41,7 @@ Part of a worn depth that a jump which ends there may miss.
 
 LONGEST_LIFE: Final[float]
 """
-Longest life that is told [cycles]; a longer one is infinite.
+Longest finite life [cycles]; a longer one is infinite.
 """
 
 RATCHETS: Final[float]
@@ -62,7 +62,7 @@ path, below which bodies have shaken down.
 
 STRAIN_AT_A_RIM: Final[str]
 """
-What is to be known of a largest plastic strain at a rim.
+Note on a largest plastic strain at a rim.
 """
 
 TOO_FEW_INCREMENTS: Final[str]
@@ -176,7 +176,7 @@ class Body:
     def coatings(self, /) -> list[Coating]:
         """Layers from the surface down."""
     def replace(self, /, **changes: Any) -> Self:
-        """The same with some of its parts exchanged, named as in the constructor."""
+        """Return a copy with some of its parts exchanged, named as in the constructor."""
     @property
     def residual(self, /) -> float | list[list[float]] | None:
         """Residual stress of the substrate [Pa], or its table; None where it has none."""
@@ -242,7 +242,7 @@ class Bond:
     def of_layer(material: Elastic, *, thickness: Thickness) -> Bond:
         """The bond that a thin layer of a material makes: h (1 - 2 nu)/(2 G (1 - nu)) and h/G."""
     def replace(self, /, **changes: Any) -> Self:
-        """The same with some of its parts exchanged, named as in the constructor."""
+        """Return a copy with some of its parts exchanged, named as in the constructor."""
     @property
     def shear(self, /) -> float:
         """Slip per shear traction [m/Pa]."""
@@ -345,7 +345,7 @@ class Branch:
     def phi_z(self, /) -> float | None:
         """Rotation about z at its end [rad]; None where M_z is given."""
     def replace(self, /, **changes: Any) -> Self:
-        """The same with some of its parts exchanged, named as in the constructor."""
+        """Return a copy with some of its parts exchanged, named as in the constructor."""
     @property
     def rolled(self, /) -> float:
         """Way that the contact has rolled along x at its end [m]."""
@@ -478,7 +478,7 @@ class Coating:
     bond : Bond
         Bond to what is below it (default: perfect).
     residual : float or array_like, optional
-        Residual stress of the layer [Pa], as :class:`Body` takes that of its substrate.
+        Residual stress of the layer [Pa], as :class:`Body` takes the stress of its substrate.
     """
 
     def __eq__(self, value: object, /) -> bool: ...
@@ -503,7 +503,7 @@ class Coating:
     def material(self, /) -> Elastic:
         """Material of the layer."""
     def replace(self, /, **changes: Any) -> Self:
-        """The same with some of its parts exchanged, named as in the constructor."""
+        """Return a copy with some of its parts exchanged, named as in the constructor."""
     @property
     def residual(self, /) -> float | list[list[float]] | None:
         """Residual stress [Pa], or its table; None where it has none."""
@@ -532,7 +532,7 @@ class Cone:
     def __replace__(self, /, **changes: Any) -> Self: ...
     def __repr__(self, /) -> str: ...
     def replace(self, /, **changes: Any) -> Self:
-        """The same with some of its parts exchanged, named as in the constructor."""
+        """Return a copy with some of its parts exchanged, named as in the constructor."""
     @property
     def slope(self, /) -> float:
         """Tangent of the angle between flank and contact plane."""
@@ -676,7 +676,7 @@ class Crack:
     def points(self, /) -> NDArray[float64]:
         """Points at which the stress is wanted, tip to mouth: x and depth [m], (points, 2)."""
     def replace(self, /, **changes: Any) -> Self:
-        """The same with some of its parts exchanged, named as in the constructor."""
+        """Return a copy with some of its parts exchanged, named as in the constructor."""
     @property
     def x(self, /) -> float:
         """Place of the mouth [m]."""
@@ -801,7 +801,7 @@ class Criterion:
 
 @final
 class CriterionBelow:
-    """What a criterion found on a section."""
+    """Values of a criterion on a section."""
 
     @property
     def assessments(self, /) -> list[Assessment | None]:
@@ -813,7 +813,7 @@ class CriterionBelow:
         """Arrays over (depth, place), NaN where not judged."""
     @property
     def notes(self, /) -> list[str]:
-        """What a reader should know of the materials."""
+        """Notes on the materials."""
     def worst(self, /, layer: int, material: Material | None = None) -> dict[str, Any] | None:
         """
         The worst point of a layer, None where it is not judged.
@@ -863,7 +863,7 @@ class CrownedRoller:
     def length(self, /) -> float:
         """Length of the straight part [m], 0 for a crown all along."""
     def replace(self, /, **changes: Any) -> Self:
-        """The same with some of its parts exchanged, named as in the constructor."""
+        """Return a copy with some of its parts exchanged, named as in the constructor."""
 
 @final
 class CycleSection:
@@ -956,7 +956,7 @@ class Cylinder:
     def length(self, /) -> float:
         """Length along the axis [m]; infinite for one that leaves the grid."""
     def replace(self, /, **changes: Any) -> Self:
-        """The same with some of its parts exchanged, named as in the constructor."""
+        """Return a copy with some of its parts exchanged, named as in the constructor."""
 
 @final
 class EigenstrainOperator:
@@ -1105,7 +1105,7 @@ class Elastic:
     def plastic(self, /) -> Plastic | None:
         """How it yields; None where it stays elastic."""
     def replace(self, /, **changes: Any) -> Self:
-        """The same with some of its parts exchanged, named as in the constructor."""
+        """Return a copy with some of its parts exchanged, named as in the constructor."""
 
 @final
 class Ellipsoid:
@@ -1141,7 +1141,7 @@ class Ellipsoid:
     def angle(self, /) -> float:
         """Direction of the first one, from x towards y [rad]."""
     def replace(self, /, **changes: Any) -> Self:
-        """The same with some of its parts exchanged, named as in the constructor."""
+        """Return a copy with some of its parts exchanged, named as in the constructor."""
 
 @final
 class Envelope:
@@ -1197,7 +1197,7 @@ class Flat:
     def __replace__(self, /, **changes: Any) -> Self: ...
     def __repr__(self, /) -> str: ...
     def replace(self, /, **changes: Any) -> Self:
-        """The same with some of its parts exchanged, named as in the constructor."""
+        """Return a copy with some of its parts exchanged, named as in the constructor."""
 
 @final
 class FlatPunch:
@@ -1228,14 +1228,14 @@ class FlatPunch:
     def radius(self, /) -> float:
         """Radius of the flat [m]."""
     def replace(self, /, **changes: Any) -> Self:
-        """The same with some of its parts exchanged, named as in the constructor."""
+        """Return a copy with some of its parts exchanged, named as in the constructor."""
 
 @final
 class Friction:
     """
     Coulomb's law with a coefficient that depends on direction, place and history.
 
-    The coefficient of an increment is that of the history at its end, extrapolated from the last
+    The coefficient of an increment follows from the history at its end, extrapolated from the last
     increment.
 
     Parameters
@@ -1301,7 +1301,7 @@ class Friction:
     def mu_y(self, /) -> float | None:
         """Coefficient along y, if it is another."""
     def replace(self, /, **changes: Any) -> Self:
-        """The same with some of its parts exchanged, named as in the constructor."""
+        """Return a copy with some of its parts exchanged, named as in the constructor."""
     def words(self, /) -> list[tuple[str, float | None]]:
         """The law in words: names with their values, and facts without a value."""
 
@@ -1359,7 +1359,7 @@ class Grid:
     def plane_strain(self, /) -> bool:
         """Whether the cells are without end along y."""
     def replace(self, /, **changes: Any) -> Self:
-        """The same with some of its parts exchanged, named as in the constructor."""
+        """Return a copy with some of its parts exchanged, named as in the constructor."""
     @staticmethod
     def strip(*, extent: Length, n: int, width: Length = 1.0) -> Grid:
         """
@@ -1370,7 +1370,7 @@ class Grid:
         """
     def unit_of(self, /, unit: str) -> str:
         """
-        Unit of a number of a run on this grid, by that of a contact of two directions.
+        Unit of a number of a run on this grid, by its unit in three dimensions.
 
         On a strip one metre wide forces are in N/m, energies in J/m, areas in m^2/m.
         """
@@ -1584,12 +1584,12 @@ class HertzStress:
         Numbers, or arrays that are put together as numpy does.
         """
     def shear(self, /, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> list[NDArray[np.float64]]:
-        """The same under a shear traction that acts on the body along +x."""
+        """Stress under a shear traction that acts on the body along +x."""
 
 @final
 class History:
     """
-    What a cell has been through.
+    History of a cell.
 
     ``INCREMENT``: increments done, the same for all cells. ``SLIP``: length of the way that the
     cell has slipped [m]. ``DISSIPATED``: energy dissipated per area [J/m^2]. ``CYCLES``: cycles of
@@ -1661,7 +1661,7 @@ class LineContact:
         """
         Stress s_xx, s_zz, s_xz at (`x`, `z`) [m] in partial slip [Pa]; arrays are put together.
 
-        The shear is that of :meth:`q`, the stick zone around `middle`. A bulk stress adds to s_xx.
+        The shear is :meth:`q`, with the stick zone around `middle`. A bulk stress adds to s_xx.
         """
 
 @final
@@ -1886,10 +1886,10 @@ class LoadPath:
     def radial(self, /, W: Quantities, *, increments: int | Literal["auto"] = ...) -> LoadPath:
         """Visit the normal forces `W` [N] in turn, as `tangential` does: fretting mode II."""
     def replace(self, /, **changes: Any) -> Self:
-        """The same with some of its parts exchanged, named as in the constructor."""
+        """Return a copy with some of its parts exchanged, named as in the constructor."""
     def rig(self, /, stiffness: Stiffness | None) -> LoadPath:
         """
-        The same path through a rig of a stiffness K [N/m], a spring along x.
+        Return the path through a rig of a stiffness K [N/m], a spring along x.
 
         The spring is in series with the contact. ``delta_x`` is the shift of its far end, given or
         read. The contact's own shift is ``delta_x - T_x/K``. None takes the spring out. A text may
@@ -2011,7 +2011,7 @@ class March:
     def done(self, /) -> int:
         """Increments solved so far."""
     def doubts(self, /) -> list[str]:
-        """What the increments so far came to that is hardly meant, one sentence each."""
+        """Doubts of the increments so far, one sentence each."""
     @property
     def scene(self, /) -> Scene:
         """The scene that is being solved."""
@@ -2066,9 +2066,9 @@ class Material:
         Elsevier (2007). A ValueError names the number that is missing.
         """
     def doubts(self, /) -> list[str]:
-        """Numbers that look like those of another unit, in words."""
+        """Numbers that look like numbers in another unit, in words."""
     def estimate_of(self, /, names: Sequence[str]) -> str | None:
-        """Which numbers are estimates or from memory, in words; None where each has a source."""
+        """Numbers that are estimates or from memory, in words; None where each has a source."""
     def estimated(self, /, family: str) -> Material:
         """The material with the missing numbers that published rules can estimate."""
     def is_called(self, /, name: str) -> bool:
@@ -2082,7 +2082,7 @@ class Material:
         """Name, value and source of every number."""
     @property
     def title(self, /) -> str:
-        """What the material is."""
+        """Description of the material."""
 
 @final
 class Outline:
@@ -2103,7 +2103,7 @@ class Outline:
     ) -> Outline: ...
     def __repr__(self, /) -> str: ...
     def border(self, /, azimuth: Angle = 0.0) -> tuple[float, float]:
-        """Where a line through the centre leaves the contact, backwards and forwards [m]."""
+        """Ends of a line through the centre within the contact, backwards and forwards [m]."""
     @property
     def centre(self, /) -> tuple[float, float]:
         """Centre of the area, x and y [m]; 0 where it lies in the middle of the grid."""
@@ -2123,13 +2123,13 @@ class Outline:
         """
         The spots, the largest first: x, y [m], area [m^2], semi-axes [m] and azimuth [rad].
 
-        The semi-axes are those of the ellipse with the second moments of the spot, the larger one
+        The semi-axes belong to the ellipse with the second moments of the spot, the larger one
         first, in the direction of the azimuth.
         """
 
 @final
 class PerRange:
-    """As many increments as a change needs if the whole range takes this many."""
+    """Increments in proportion to a change, where the whole range takes this many."""
 
     def __eq__(self, value: object, /) -> bool: ...
     def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
@@ -2142,7 +2142,7 @@ class PerRange:
     def increments(self, /) -> int:
         """Increments over the whole range of the load or motion that needs most."""
     def replace(self, /, **changes: Any) -> Self:
-        """The same with some of its parts exchanged, named as in the constructor."""
+        """Return a copy with some of its parts exchanged, named as in the constructor."""
 
 @final
 class Plastic:
@@ -2214,7 +2214,7 @@ class Plastic:
     def kinematic(self, /) -> float:
         """Linear kinematic hardening [Pa]."""
     def replace(self, /, **changes: Any) -> Self:
-        """The same with some of its parts exchanged, named as in the constructor."""
+        """Return a copy with some of its parts exchanged, named as in the constructor."""
     @property
     def s_y(self, /) -> float:
         """Yield stress [Pa]."""
@@ -2328,7 +2328,7 @@ class Rough:
     def longest(self, /) -> float:
         """Longest wavelength of the self-affine range [m]."""
     def replace(self, /, **changes: Any) -> Self:
-        """The same with some of its parts exchanged, named as in the constructor."""
+        """Return a copy with some of its parts exchanged, named as in the constructor."""
     @property
     def rms(self, /) -> float:
         """Root-mean-square height [m]."""
@@ -2406,7 +2406,7 @@ class Scene:
         """
     def doubts(self, /, path: LoadPath | None = None) -> list[str]:
         """
-        What is allowed but hardly meant: numbers that look like another unit's, few cells.
+        Doubts: numbers that look like numbers in another unit, few cells.
 
         One sentence for each, with what was understood; :func:`pyfret.solve` and :meth:`check` warn
         of them.
@@ -2568,7 +2568,7 @@ class Sphere:
     def __replace__(self, /, **changes: Any) -> Self: ...
     def __repr__(self, /) -> str: ...
     def replace(self, /, **changes: Any) -> Self:
-        """The same with some of its parts exchanged, named as in the constructor."""
+        """Return a copy with some of its parts exchanged, named as in the constructor."""
 
 @final
 class Springs:
@@ -2678,7 +2678,7 @@ class Subsurface:
         self, /, *, x: float | None = None, y: float | None = None, azimuth: Angle | None = None
     ) -> list[tuple[float, float, str, bool]]:
         """
-        Where a line, or the lines of all cells, cross rims of contact and stick zone.
+        Crossings of a line, or of the lines of all cells, with rims of contact and stick zone.
 
         x, y, which of them, and whether the place is known within a cell.
         """
@@ -2724,7 +2724,7 @@ class Subsurface:
         """Stress (n, 6) [Pa] and displacement (n, 3) [m] at points x, y, z, layer."""
     @property
     def rim(self, /) -> bool:
-        """Whether the tractions are those of a contact."""
+        """Whether the tractions are tractions of a contact."""
     def section(
         self,
         /,
@@ -2802,7 +2802,7 @@ class Sum:
     ]:
         """The shapes."""
     def replace(self, /, **changes: Any) -> Self:
-        """The same with some of its parts exchanged, named as in the constructor."""
+        """Return a copy with some of its parts exchanged, named as in the constructor."""
 
 @final
 class SurfaceMap:
@@ -2888,7 +2888,7 @@ class SurfaceMap:
     def peak_to_valley(self, /) -> float:
         """Largest less smallest number: S_z of heights [m]."""
     def replace(self, /, **changes: Any) -> Self:
-        """The same with some of its parts exchanged, named as in the constructor."""
+        """Return a copy with some of its parts exchanged, named as in the constructor."""
     @property
     def rms(self, /) -> float:
         """Root of the mean square about the mean: S_q of heights [m]."""
@@ -2949,7 +2949,7 @@ class SurfaceOperator:
         """Cells on which tractions are constant."""
     @property
     def settings(self, /) -> Settings:
-        """Those of the kernels are used."""
+        """Only the settings of the kernels are used."""
 
 @final
 class Waviness:
@@ -2989,7 +2989,7 @@ class Waviness:
     def phase(self, /) -> float:
         """Phase at the origin [rad]."""
     def replace(self, /, **changes: Any) -> Self:
-        """The same with some of its parts exchanged, named as in the constructor."""
+        """Return a copy with some of its parts exchanged, named as in the constructor."""
     @property
     def wavelength(self, /) -> float:
         """Distance of the crests [m]."""
@@ -3020,7 +3020,7 @@ class Wedge:
     def angle(self, /) -> float:
         """Turn of the edge from y [rad]."""
     def replace(self, /, **changes: Any) -> Self:
-        """The same with some of its parts exchanged, named as in the constructor."""
+        """Return a copy with some of its parts exchanged, named as in the constructor."""
     @property
     def slope(self, /) -> float:
         """Tangent of the angle between flank and contact plane."""
@@ -3035,7 +3035,7 @@ class YieldBelow:
     def fields(self, /) -> dict[str, NDArray[np.float64]]:
         """Load factors over (depth, place), NaN where not judged."""
     def least(self, /, layer: int, factor: str) -> dict[str, Any] | None:
-        """Where a load factor of a layer is least; `score` is its inverse."""
+        """Place of the least load factor of a layer; `score` is its inverse."""
 
 def arrest(
     lengths: Sequence[float],
@@ -3045,7 +3045,7 @@ def arrest(
     start: float,
 ) -> tuple[Literal["dormant", "stops", "grows"], float | None, list[float], float, float, float]:
     """
-    What becomes of a crack.
+    Arrest or growth of a crack.
 
     Verdict, length where it stops, crossings, range of K over its threshold at the start, margin
     and its length.
@@ -3208,7 +3208,7 @@ def ellipse_factor(aspect: float) -> float:
     """
     Factor from the plane K to the deepest point of a semi-elliptic crack of the aspect a/c <= 1.
 
-    Newman and Raju's K under uniform tension over that of a straight front: an estimate, which
+    Newman and Raju's K under uniform tension over the K of a straight front: an estimate, which
     takes the stress as constant along the front. J. C. Newman, I. S. Raju, NASA TM 85793 (1984).
     """
 
@@ -3337,13 +3337,13 @@ def material_quantities() -> list[tuple[str, str, str]]:
     """Names, units and meanings of the numbers of materials."""
 
 def materials(file: str | PathLike[str] | None = None) -> list[Material]:
-    """The materials that come with the package, or those of a file."""
+    """The materials that come with the package, or the materials of a file."""
 
 def measure(name: str, stress: ArrayLike) -> NDArray[np.float64]:
     """Give what follows from stresses of shape (6, n), by its name."""
 
 def measured_by(key: str) -> tuple[str, str] | None:
-    """What the number of a key measures, and its unit in SI; none of a key that is unknown."""
+    """Kind of the number of a key, and its unit in SI; none of a key that is unknown."""
 
 def measures(unit: str, kind: str) -> bool:
     """Whether a unit measures a kind; a force per length is a force and a stiffness, too."""
@@ -3352,7 +3352,7 @@ def notes_on_materials(
     criterion: str, body: Body, materials: Sequence[Material | None]
 ) -> list[str]:
     """
-    What a reader should know of the materials of a body by a criterion, before a contact is solved.
+    Notes on the materials of a body for a criterion, before a contact is solved.
 
     Parameters
     ----------
@@ -3511,7 +3511,7 @@ def solve(
     """
     Run a scene into a new result store; use :func:`pyfret.solve`, which opens it.
 
-    Increments are chosen like those of the scene `like`.
+    Increments are chosen like the increments of the scene `like`.
 
     `on_increment` is called with the number of each increment solved and their number in all,
     which is known once they are chosen.
@@ -3582,7 +3582,7 @@ def threshold_at(
     """Threshold range of K at R = 0 [Pa m^0.5] at lengths [m], and El Haddad's a_0 [m]."""
 
 def unit_of(name: str) -> tuple[str, float] | None:
-    """What a unit measures, and its size in SI; none of a name that is no unit."""
+    """Kind of a unit, and its size in SI; none of a name that is no unit."""
 
 def units(kinds: str) -> str:
     """The names of the units that measure one of some kinds, such as ``"length, force"``."""

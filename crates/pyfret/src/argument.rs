@@ -5,10 +5,10 @@ use pyo3::PyErr;
 
 use crate::error::{self, ArgumentError, fails};
 
-/// What Python raises. Errors of the core become it with `?`.
+/// Python exception; errors of the core become it with `?`.
 pub(crate) struct Failed(PyErr);
 
-/// What a function gives, or why it failed.
+/// Answer of a function, or its exception.
 pub(crate) type Answer<T> = Result<T, Failed>;
 
 fails!(Failed: Error => to_python, error::Failed => PyErr::from);
@@ -19,7 +19,7 @@ impl From<Failed> for error::Failed {
     }
 }
 
-/// The Python exception that says the same as `error`.
+/// Python exception with the message of `error`.
 pub(crate) fn to_python(error: Error) -> PyErr {
     match error {
         Error::InvalidScene { .. } | Error::SceneFile { .. } | Error::Values { .. } => {

@@ -20,9 +20,9 @@ use pyo3::types::{PyBool, PyFloat, PyInt, PyList, PyString, PyTuple};
 /// An argument that is a number, or holds some; True and False are refused, wherever they stand.
 pub(crate) fn number<'py, T: FromPyObjectOwned<'py>>(value: &Bound<'py, PyAny>) -> PyResult<T> {
     refuse_truths(value)?;
-    let found: Result<T, _> = value.extract();
-    match found {
-        Ok(found) => Ok(found),
+    let extracted: Result<T, _> = value.extract();
+    match extracted {
+        Ok(extracted) => Ok(extracted),
         Err(error) => {
             refuse_texts(value)?;
             Err(error.into())
@@ -30,7 +30,7 @@ pub(crate) fn number<'py, T: FromPyObjectOwned<'py>>(value: &Bound<'py, PyAny>) 
     }
 }
 
-/// A text or a quantity of pint, where the unit of the number is not known: told as the number to
+/// A text or a quantity of pint, where the unit of the number is not known: refused with the number to
 /// write.
 fn refuse_texts(value: &Bound<'_, PyAny>) -> PyResult<()> {
     let Some(text) = crate::document::text_of(value)? else {
@@ -71,7 +71,7 @@ fn refuse_truths(value: &Bound<'_, PyAny>) -> PyResult<()> {
 /// memory.
 pub(crate) struct Array<'py, D: Dimension> {
     numbers: PyArrayLike<'py, f64, D, AllowTypeChange>,
-    /// Distances of the points along x and y that the labels say \[m\].
+    /// Distances of the points along x and y, from the labels \[m\].
     pitch: [Option<f64>; 2],
 }
 
@@ -106,7 +106,7 @@ impl Field<'_> {
         Ok(numbers.iter().copied().collect())
     }
 
-    /// Refuses labels that say other distances of the points than are given \[m\].
+    /// Refuses labels with other distances of the points than the given ones \[m\].
     pub(crate) fn must_have_pitch(
         &self,
         name: &str,
@@ -136,7 +136,7 @@ impl<'a, 'py, D: Dimension + 'py> FromPyObject<'a, 'py> for Array<'py, D> {
 }
 
 impl<'py, D: Dimension + 'py> Array<'py, D> {
-    /// The same where missing values, masked or NaN, are holes: NaN.
+    /// Reads an array whose missing values, masked or NaN, are holes: NaN.
     pub(crate) fn with_holes(value: &Bound<'py, PyAny>) -> PyResult<Self> {
         Self::through_the_door(value, true)
     }
@@ -208,7 +208,7 @@ pub(crate) fn must_fit(numbers: usize, bytes: f64) -> PyResult<()> {
     Ok(())
 }
 
-/// Values one after another. What an object says of its length is not trusted.
+/// Values one after another. The length of an object is not trusted.
 #[derive(Default)]
 pub(crate) struct List<T>(pub(crate) Vec<T>);
 

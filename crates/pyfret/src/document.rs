@@ -1,4 +1,4 @@
-//! Values of Python as those of a scene file.
+//! Values of Python as values of a scene file.
 
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyTypeError;
@@ -21,12 +21,12 @@ impl<'py> FromPyObject<'_, 'py> for Document {
 }
 
 fn table(dict: &Bound<'_, PyDict>) -> PyResult<Table> {
-    let each = dict.iter().map(|(name, value)| {
+    let entries = dict.iter().map(|(name, value)| {
         let name: String = name.extract()?;
         let value = self::value(&value).map_err(|error| named(&name, error, dict.py()))?;
         Ok((name, value))
     });
-    each.collect()
+    entries.collect()
 }
 
 /// An error of a value with the name that it has.

@@ -17,7 +17,7 @@ pub(crate) fn doubt(
     plausible::doubt_of(key, shown, value)
 }
 
-/// What the number of a key measures, and its unit in SI; none of a key that is unknown.
+/// Kind of the number of a key, and its unit in SI; none of a key that is unknown.
 #[pyfunction]
 pub(crate) fn measured_by(key: &str) -> Option<(&'static str, &'static str)> {
     let kind = plausible::of_key(key)?.kind;
@@ -48,7 +48,7 @@ pub(crate) fn measures(unit: &str, kind: &str) -> bool {
     unit::measures(unit, kind)
 }
 
-/// What a unit measures, and its size in SI; none of a name that is no unit.
+/// Kind of a unit, and its size in SI; none of a name that is no unit.
 #[pyfunction]
 pub(crate) fn unit_of(name: &str) -> Option<(&'static str, f64)> {
     unit::named(name).map(|(kind, size)| (kind.name(), size))

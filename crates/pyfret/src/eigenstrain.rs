@@ -68,13 +68,13 @@ made!(EigenstrainOperator by "EigenstrainOperator": body, grid, depth, height);
 
 impl EigenstrainOperator {
     /// Does `f` with the operator.
-    fn with<T>(&self, f: impl FnOnce(&mut Operator) -> T) -> T {
+    fn with_operator<T>(&self, f: impl FnOnce(&mut Operator) -> T) -> T {
         f(&mut self.inner.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
     /// A number of each plane.
     fn of_planes<T>(&self, f: impl Fn(&Operator, usize) -> T) -> Vec<T> {
-        self.with(|own| (0..own.mesh().planes()).map(|n| f(own, n)).collect())
+        self.with_operator(|own| (0..own.mesh().planes()).map(|n| f(own, n)).collect())
     }
 }
 
@@ -89,13 +89,13 @@ impl EigenstrainOperator {
         #[pyo3(from_py_with = Given::depth)] depth: f64,
         #[pyo3(from_py_with = number)] height: f64,
     ) -> Answer<Self> {
-        let of = &grid.0;
+        let core_grid = &grid.0;
         let cells = Cells {
-            nx: of.nx,
-            ny: of.ny,
-            dx: of.dx,
-            dy: of.dy,
-            plane_strain: of.plane_strain,
+            nx: core_grid.nx,
+            ny: core_grid.ny,
+            dx: core_grid.dx,
+            dy: core_grid.dy,
+            plane_strain: core_grid.plane_strain,
         };
         for (name, value) in [("depth", depth), ("height", height)] {
             if !(value > 0.0 && value.is_finite()) {
@@ -133,7 +133,7 @@ impl EigenstrainOperator {
     /// stress : array of shape (planes, 6, nx, ny)
     ///     [Pa]
     /// displacement : array of shape (3, nx, ny)
-    ///     u_x, u_y, u_z, with z into the body [m]. In plane strain that of tractions is relative
+    ///     u_x, u_y, u_z, with z into the body [m]. In plane strain the displacement by tractions is relative
     ///     to a point far away.
     #[pyo3(signature = (eigenstrain = None, *, p = None, q_x = None, q_y = None) -> "tuple[NDArray[np.float64], NDArray[np.float64]]")]
     fn apply<'py>(
@@ -145,7 +145,7 @@ impl EigenstrainOperator {
         q_y: Option<Field<'py>>,
     ) -> PyResult<StressAndDisplacement<'py>> {
         let (nx, ny) = (self.grid.0.nx, self.grid.0.ny);
-        let planes = self.with(|own| own.mesh().planes());
+        let planes = self.with_operator(|own| own.mesh().planes());
         let shape = (planes, COMPONENTS, nx, ny);
         let strain: Option<Vec<f64>> = match &eigenstrain {
             None => None,
@@ -167,7 +167,7 @@ impl EigenstrainOperator {
         let mut stress = vec![0.0; planes * COMPONENTS * nx * ny];
         let mut displacement = vec![0.0; 3 * nx * ny];
         interruptible(py, &Arc::default(), || {
-            self.with(|own| {
+            self.with_operator(|own| {
                 own.apply(
                     Sources {
                         eigenstrain: strain.as_deref(),

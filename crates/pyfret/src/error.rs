@@ -30,7 +30,7 @@ create_exception!(
     pyfret.errors,
     SolveError,
     PyRuntimeError,
-    "A scene that has a meaning could not be solved; the classes below it say why."
+    "A scene that has a meaning could not be solved; the classes below it are the reasons."
 );
 create_exception!(
     pyfret.errors,
@@ -57,10 +57,10 @@ create_exception!(
     "A file or a result store could not be read or written."
 );
 
-/// What Python raises. Errors of the core become it with `?`.
+/// Python exception; errors of the core become it with `?`.
 pub(crate) struct Failed(PyErr);
 
-/// What a function gives, or why it failed.
+/// Answer of a function, or its exception.
 pub(crate) type Answer<T> = Result<T, Failed>;
 
 /// Makes what Python raises of errors, each by its translation.
@@ -94,7 +94,7 @@ fails!(
     ::fracture::Error => |error| to_python(contact_assess::crack::refused(error)),
 );
 
-/// The Python exception that says the same as `error`.
+/// Python exception with the message of `error`.
 pub(crate) fn to_python(error: Error) -> PyErr {
     let text = shown(&error.to_string()).into_owned();
     match error {
@@ -130,7 +130,7 @@ pub(crate) fn to_python(error: Error) -> PyErr {
     }
 }
 
-/// The Python exception that says the same as an error of the criteria.
+/// Python exception with the message of an error of the criteria.
 pub(crate) fn of_criterion(error: fatigue::Error) -> PyErr {
     let text = shown(&error.to_string()).into_owned();
     match error {

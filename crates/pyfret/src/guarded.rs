@@ -14,17 +14,17 @@ pub(crate) fn guard(module: &Bound<'_, PyModule>) -> PyResult<()> {
 
 /// The constructors of the classes of the module, functions of the class and its arguments.
 ///
-/// Python reaches that of a class by ``__new__`` alone, and no more once that has another value.
+/// Python reaches a constructor by ``__new__`` alone, and no more once ``__new__`` has another value.
 fn constructors<'py>(module: &Bound<'py, PyModule>) -> PyResult<Bound<'py, PyDict>> {
-    let found = PyDict::new(module.py());
+    let makers = PyDict::new(module.py());
     for of in module.dict().values() {
         if let Ok(class) = of.cast_into::<PyType>()
             && let Some(make) = constructor(&class)?
         {
-            found.set_item(class, make)?;
+            makers.set_item(class, make)?;
         }
     }
-    Ok(found)
+    Ok(makers)
 }
 
 fn constructor<'py>(class: &Bound<'py, PyType>) -> PyResult<Option<Bound<'py, PyCFunction>>> {
@@ -35,24 +35,24 @@ fn constructor<'py>(class: &Bound<'py, PyType>) -> PyResult<Option<Bound<'py, Py
     let Some(new) = new else {
         return Ok(None);
     };
-    let own = class.clone().unbind();
+    let base = class.clone().unbind();
     let make = move |args: &Bound<'_, PyTuple>, named: Option<&Bound<'_, PyDict>>| {
         let py = args.py();
         let class = args.get_item(0)?.cast_into::<PyType>()?;
-        if !class.is_subclass(own.bind(py))? {
+        if !class.is_subclass(base.bind(py))? {
             let message = format!(
                 "{}: must be a class of {}",
                 class.name()?,
-                own.bind(py).name()?
+                base.bind(py).name()?
             );
             return Err(PyTypeError::new_err(message));
         }
-        let rest = args.get_slice(1, args.len());
-        let named = named.map_or(std::ptr::null_mut(), Bound::as_ptr);
-        // SAFETY: the function is that of a class that this one is, and takes a class, a tuple and a
+        let arguments = args.get_slice(1, args.len());
+        let keywords = named.map_or(std::ptr::null_mut(), Bound::as_ptr);
+        // SAFETY: the function is the constructor of a base class, and takes a class, a tuple and a
         // dict or nothing; it gives a new reference, or sets an error.
         let made = unsafe {
-            let made = new(class.as_type_ptr(), rest.as_ptr(), named);
+            let made = new(class.as_type_ptr(), arguments.as_ptr(), keywords);
             Bound::from_owned_ptr_or_err(py, made)
         };
         made.map(Bound::unbind)

@@ -42,7 +42,7 @@ pub(crate) fn cycle_temperature<'py>(
     #[pyo3(from_py_with = number)] harmonics: usize,
     jumps: bool,
 ) -> Answer<Bound<'py, PyDict>> {
-    let one = layers(&conductor1, &body1, "conductor1")?;
+    let layers1 = layers(&conductor1, &body1, "conductor1")?;
     let two = layers(&conductor2, &body2, "conductor2")?;
     let heat: Vec<Array2<f64>> = heat
         .as_array()
@@ -59,19 +59,19 @@ pub(crate) fn cycle_temperature<'py>(
     };
     let stop = Arc::<AtomicBool>::default();
     let bulk = [bulk.0, bulk.1];
-    let run = || core::temperature([&one, &two], bulk, &grid.0, &cycle, harmonics, &stop);
-    let found = interruptible(py, &stop, run)??;
-    let both = |of: &[Array2<f64>; 2]| -> Array3<f64> {
+    let run = || core::temperature([&layers1, &two], bulk, &grid.0, &cycle, harmonics, &stop);
+    let temperature = interruptible(py, &stop, run)??;
+    let stack = |of: &[Array2<f64>; 2]| -> Array3<f64> {
         let views: [ArrayView2<'_, f64>; 2] = [of[0].view(), of[1].view()];
         stack(Axis(0), &views).expect("both bodies are on one grid")
     };
     let result = PyDict::new(py);
-    result.set_item("mean", both(&found.mean).into_pyarray(py))?;
-    result.set_item("largest", both(&found.largest).into_pyarray(py))?;
-    result.set_item("heat", found.heat.into_pyarray(py))?;
-    result.set_item("flux", found.flux.into_pyarray(py))?;
-    result.set_item("instants", found.instants)?;
-    result.set_item("peaks", found.peaks)?;
-    result.set_item("error", found.error)?;
+    result.set_item("mean", stack(&temperature.mean).into_pyarray(py))?;
+    result.set_item("largest", stack(&temperature.largest).into_pyarray(py))?;
+    result.set_item("heat", temperature.heat.into_pyarray(py))?;
+    result.set_item("flux", temperature.flux.into_pyarray(py))?;
+    result.set_item("instants", temperature.instants)?;
+    result.set_item("peaks", temperature.peaks)?;
+    result.set_item("error", temperature.error)?;
     Ok(result)
 }

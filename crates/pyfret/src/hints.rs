@@ -10,7 +10,7 @@ use pyo3::{type_hint_identifier, type_hint_subscript, type_hint_union};
 
 use crate::prelude::*;
 
-/// What numpy makes an array of.
+/// Values that numpy makes an array of.
 pub(crate) const ARRAY_LIKE: PyStaticExpr = type_hint_identifier!("numpy.typing", "ArrayLike");
 /// An array of numbers.
 const ARRAY: PyStaticExpr = type_hint_subscript!(

@@ -112,8 +112,8 @@ impl Envelope {
         let stick = stick.as_array().as_standard_layout().into_owned();
         let stop = Arc::<AtomicBool>::default();
         stream.stop_on(stop.clone());
-        let left = eigenstress.map(|left| left.get().0.clone());
-        let push = || stream.push(moment, tractions, stick, left);
+        let eigenstress = eigenstress.map(|left| left.get().0.clone());
+        let push = || stream.push(moment, tractions, stick, eigenstress);
         interruptible(py, &stop, push)??;
         self.stream = Some(stream);
         Ok(())
@@ -136,21 +136,21 @@ impl Envelope {
                 ndarray::stack(Axis(0), &views).unwrap_or_default()
             };
             let row = |a: &Array2<f64>| a.row(m).to_owned();
-            let of = PyDict::new(py);
-            of.set_item("max", rows(&|k| row(&k.path.max)).into_pyarray(py))?;
-            of.set_item("min", rows(&|k| row(&k.path.min)).into_pyarray(py))?;
+            let extremes = PyDict::new(py);
+            extremes.set_item("max", rows(&|k| row(&k.path.max)).into_pyarray(py))?;
+            extremes.set_item("min", rows(&|k| row(&k.path.min)).into_pyarray(py))?;
             let when = rows(&|k| k.path.increment_of_max.row(m).mapv(|n| n as f64));
-            of.set_item("increment", when.into_pyarray(py))?;
-            let cycles = |of: &dyn Fn(&core::Extremes) -> Array2<f64>| -> Vec<_> {
+            extremes.set_item("increment", when.into_pyarray(py))?;
+            let cycles = |extremes: &dyn Fn(&core::Extremes) -> Array2<f64>| -> Vec<_> {
                 (0..self.cycles.len())
-                    .map(|c| rows(&|k| row(&of(&k.cycles[c]))).into_pyarray(py))
+                    .map(|c| rows(&|k| row(&extremes(&k.cycles[c]))).into_pyarray(py))
                     .collect()
             };
-            of.set_item("amplitude", cycles(&core::Extremes::amplitude))?;
-            of.set_item("mean", cycles(&core::Extremes::mean))?;
+            extremes.set_item("amplitude", cycles(&core::Extremes::amplitude))?;
+            extremes.set_item("mean", cycles(&core::Extremes::mean))?;
             if self.of_line {
-                let rows = largest.iter().filter_map(|(moment, of)| {
-                    let m = of[m]?;
+                let rows = largest.iter().filter_map(|(moment, extremes)| {
+                    let m = extremes[m]?;
                     let layer = m.depth.layer as f64;
                     Some([
                         moment.increment as f64,
@@ -162,9 +162,9 @@ impl Envelope {
                     ])
                 });
                 let rows = Array2::from(rows.collect::<Vec<_>>());
-                of.set_item("largest", rows.into_pyarray(py))?;
+                extremes.set_item("largest", rows.into_pyarray(py))?;
             }
-            result.set_item(name, of)?;
+            result.set_item(name, extremes)?;
         }
         Ok(result)
     }
@@ -217,24 +217,24 @@ pub(crate) fn loops(
     core::loops(&path.0, direction, &history)
         .iter()
         .map(|c| {
-            let of = PyDict::new(py);
-            of.set_item("first_branch", c.branches.0)?;
-            of.set_item("last_branch", c.branches.1)?;
+            let fields = PyDict::new(py);
+            fields.set_item("first_branch", c.branches.0)?;
+            fields.set_item("last_branch", c.branches.1)?;
             let of_cycle = c.errors(&errors);
-            of.set_item("dissipated", c.dissipated)?;
-            of.set_item("dissipated_error", of_cycle.dissipated)?;
-            of.set_item("T", c.T)?;
-            of.set_item("delta", c.delta)?;
-            of.set_item("stiffness", c.stiffness)?;
-            of.set_item("stiffness_error", c.stiffness_error)?;
-            of.set_item("secant_stiffness", c.secant_stiffness())?;
-            of.set_item("opening", c.known_opening())?;
-            of.set_item("energy_ratio", c.energy_ratio())?;
-            of.set_item("energy_ratio_error", of_cycle.energy_ratio)?;
-            of.set_item("sliding_ratio", c.sliding_ratio())?;
-            of.set_item("sliding_ratio_error", of_cycle.sliding_ratio)?;
-            of.set_item("status", c.status.code())?;
-            Ok(of)
+            fields.set_item("dissipated", c.dissipated)?;
+            fields.set_item("dissipated_error", of_cycle.dissipated)?;
+            fields.set_item("T", c.T)?;
+            fields.set_item("delta", c.delta)?;
+            fields.set_item("stiffness", c.stiffness)?;
+            fields.set_item("stiffness_error", c.stiffness_error)?;
+            fields.set_item("secant_stiffness", c.secant_stiffness())?;
+            fields.set_item("opening", c.known_opening())?;
+            fields.set_item("energy_ratio", c.energy_ratio())?;
+            fields.set_item("energy_ratio_error", of_cycle.energy_ratio)?;
+            fields.set_item("sliding_ratio", c.sliding_ratio())?;
+            fields.set_item("sliding_ratio_error", of_cycle.sliding_ratio)?;
+            fields.set_item("status", c.status.code())?;
+            Ok(fields)
         })
         .collect()
 }

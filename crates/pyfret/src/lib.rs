@@ -145,13 +145,13 @@ mod _core {
     /// Why a cycle has no stiffness, and what to do.
     #[pymodule_export]
     const TOO_FEW_INCREMENTS: &str = contact_subsurface::Cycle::TOO_FEW;
-    /// Longest life that is told [cycles]; a longer one is infinite.
+    /// Longest finite life [cycles]; a longer one is infinite.
     #[pymodule_export]
     const LONGEST_LIFE: f64 = fatigue::LONGEST;
     /// Part of a worn depth that a jump which ends there may miss.
     #[pymodule_export]
     const DEPTH_ROUNDING: f64 = contact_wear::DEPTH_ROUNDING;
-    /// What is to be known of a largest plastic strain at a rim.
+    /// Note on a largest plastic strain at a rim.
     #[pymodule_export]
     const STRAIN_AT_A_RIM: &str = contact_core::yielding::Rim::TOLD;
     /// Plastic work of a cycle over its friction work, or without friction over the plastic work of the

@@ -19,7 +19,7 @@ pub(crate) fn line(x: Option<f64>, y: Option<f64>, azimuth: Option<f64>) -> PyRe
     }
 }
 
-/// The same, or none where neither x nor y is given.
+/// Line through x and y, or none where neither is given.
 pub(crate) fn line_if_given(
     x: Option<f64>,
     y: Option<f64>,

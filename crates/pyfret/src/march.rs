@@ -66,7 +66,7 @@ impl March {
         Scene(self.inner().scene().clone())
     }
 
-    /// What the increments so far came to that is hardly meant, one sentence each.
+    /// Doubts of the increments so far, one sentence each.
     fn doubts(&mut self) -> Vec<String> {
         let reached = self.reached.clone();
         reached.all_doubts(self.inner().scene())

@@ -32,7 +32,7 @@ pub(crate) struct Elastic(pub(crate) core::Elastic, pub(crate) Option<core::Plas
 parts!(Elastic: E, nu, plastic);
 takes!(Elastic, "a material, such as Elastic(E=210e9, nu=0.3)");
 
-/// A material of a closed form: of a body, that of its substrate.
+/// A material of a closed form: of a body, its substrate.
 #[derive(Clone, Copy)]
 pub(crate) struct Material(pub(crate) core::Elastic);
 
@@ -51,14 +51,14 @@ impl<'py> FromPyObject<'_, 'py> for Material {
         if let Ok(material) = value.extract::<Elastic>() {
             return Ok(Self(material.0));
         }
-        let wanted =
+        let allowed =
             "a material, such as Elastic(E=210e9, nu=0.3), or a Body, whose substrate is taken";
         let substrate = value
             .getattr("substrate")
             .and_then(|of| of.extract::<Elastic>());
         substrate
             .map(|of| Self(of.0))
-            .map_err(|_| must_be(&value, wanted))
+            .map_err(|_| must_be(&value, allowed))
     }
 }
 
@@ -175,7 +175,7 @@ attributes!(Bond, self:
 /// bond : Bond
 ///     Bond to what is below it (default: perfect).
 /// residual : float or array_like, optional
-///     Residual stress of the layer [Pa], as :class:`Body` takes that of its substrate.
+///     Residual stress of the layer [Pa], as :class:`Body` takes the stress of its substrate.
 #[pyclass(frozen, eq, module = "pyfret")]
 #[derive(Clone, PartialEq)]
 pub(crate) struct Coating {

@@ -32,7 +32,7 @@ pub(crate) struct SurfaceOperator {
     /// Cells on which tractions are constant.
     #[pyo3(get)]
     grid: Grid,
-    /// Those of the kernels are used.
+    /// Only the settings of the kernels are used.
     #[pyo3(get)]
     settings: Settings,
     inner: Mutex<Box<dyn convolution::SurfaceOperator>>,
@@ -51,10 +51,10 @@ impl SurfaceOperator {
         grid: Grid,
         settings: Option<Settings>,
     ) -> Answer<Self> {
-        let given = settings.unwrap_or_default();
+        let settings_or_default = settings.unwrap_or_default();
         let bodies = (&body1.0, &body2.0);
         let operator = stoppable(py, |stop| {
-            convolution::operator_of_bodies(bodies, &grid.0, &given.0, stop)
+            convolution::operator_of_bodies(bodies, &grid.0, &settings_or_default.0, stop)
         })??;
         Ok(Self {
             shape: (grid.0.nx, grid.0.ny),
@@ -62,7 +62,7 @@ impl SurfaceOperator {
             body1,
             body2,
             grid,
-            settings: given,
+            settings: settings_or_default,
         })
     }
 

@@ -1,4 +1,4 @@
-//! Where the contact is that came out.
+//! Outline of a contact.
 
 use contact_core::convolution::Tractions;
 use contact_core::zones as core;
@@ -36,7 +36,7 @@ impl Outline {
 
     /// The spots, the largest first: x, y [m], area [m^2], semi-axes [m] and azimuth [rad].
     ///
-    /// The semi-axes are those of the ellipse with the second moments of the spot, the larger one
+    /// The semi-axes belong to the ellipse with the second moments of the spot, the larger one
     /// first, in the direction of the azimuth.
     #[getter]
     fn spots(&self) -> Vec<Spot> {
@@ -49,7 +49,7 @@ impl Outline {
             .collect()
     }
 
-    /// Where a line through the centre leaves the contact, backwards and forwards [m].
+    /// Ends of a line through the centre within the contact, backwards and forwards [m].
     #[pyo3(signature = (azimuth: "Angle" = 0.0))]
     fn border(&self, #[pyo3(from_py_with = Given::azimuth)] azimuth: f64) -> (f64, f64) {
         self.0.border(azimuth)

@@ -1,4 +1,4 @@
-//! What the parts of a scene can do as values: be pickled and copied, and be given with something
+//! Parts of a scene as values: they are pickled, copied, and given again with something
 //! exchanged. All follows from the arguments of the constructor and the attributes that hold them.
 
 use numpy::PyUntypedArray;
@@ -21,11 +21,11 @@ pub(crate) fn arguments<'py>(
 
 /// A hash of the parts: equal values have the same.
 pub(crate) fn hash(value: &Bound<'_, PyAny>, parts: &[(&str, &str)]) -> PyResult<isize> {
-    let mut all = vec![value.get_type().into_any()];
+    let mut hashes = vec![value.get_type().into_any()];
     for (_, attribute) in parts {
-        all.push(hashable(value.getattr(*attribute)?)?);
+        hashes.push(hashable(value.getattr(*attribute)?)?);
     }
-    PyTuple::new(value.py(), all)?.hash()
+    PyTuple::new(value.py(), hashes)?.hash()
 }
 
 /// Lists as tuples, arrays as their bytes.
@@ -44,7 +44,7 @@ fn hashable(value: Bound<'_, PyAny>) -> PyResult<Bound<'_, PyAny>> {
     Ok(value)
 }
 
-/// What `pickle` calls, and with what: [`crate::python::remake`] and its arguments.
+/// Call of `pickle`: [`crate::python::remake`] and its arguments.
 pub(crate) type Remade<'py> = (
     Bound<'py, PyAny>,
     (
@@ -89,12 +89,16 @@ pub(crate) fn equal(
 
 /// The class with its parts, as they are given to make it.
 pub(crate) fn shown(value: &Bound<'_, PyAny>, parts: &[(&str, &str)]) -> PyResult<String> {
-    let each = parts.iter().map(|(argument, attribute)| {
-        let of = value.getattr(*attribute)?.repr()?;
-        Ok(format!("{argument}={of}"))
+    let texts = parts.iter().map(|(argument, attribute)| {
+        let text = value.getattr(*attribute)?.repr()?;
+        Ok(format!("{argument}={text}"))
     });
-    let all: Vec<_> = each.collect::<PyResult<_>>()?;
-    Ok(format!("{}({})", value.get_type().name()?, all.join(", ")))
+    let texts: Vec<_> = texts.collect::<PyResult<_>>()?;
+    Ok(format!(
+        "{}({})",
+        value.get_type().name()?,
+        texts.join(", ")
+    ))
 }
 
 /// Pickling, copying, comparing and showing of a class whose values a function of the module makes,
@@ -159,7 +163,7 @@ pub(crate) fn replaced<'py>(
 }
 
 /// Pickling, copying and `copy.replace` of a class by the arguments of its constructor, each with the
-/// attribute that holds it where that has another name; and, but for `pickled`, a method `replace`.
+/// attribute that holds it where that has another name; and a method `replace`, except for `pickled`.
 macro_rules! parts {
     (pickled $class:ident: $($argument:ident $(= $attribute:ident)?),*) => {
         #[pyo3::pymethods]
@@ -200,7 +204,7 @@ macro_rules! parts {
 
         #[pyo3::pymethods]
         impl $class {
-            /// The same with some of its parts exchanged, named as in the constructor.
+            /// Return a copy with some of its parts exchanged, named as in the constructor.
             #[pyo3(signature = (**changes: "Any") -> "Self")]
             fn replace<'py>(
                 slf: &pyo3::Bound<'py, Self>,

@@ -66,14 +66,14 @@ fn of_back_stresses(
         values[0] = si(name, value)?;
         return Ok(values);
     }
-    let given = value.extract::<List<Bound<'_, PyAny>>>()?;
-    if given.len() > BACK_STRESSES {
+    let numbers = value.extract::<List<Bound<'_, PyAny>>>()?;
+    if numbers.len() > BACK_STRESSES {
         refuse!(
             "{name} = {} numbers: must be at most {BACK_STRESSES}",
-            given.len()
+            numbers.len()
         );
     }
-    for (into, one) in values.iter_mut().zip(given) {
+    for (into, one) in values.iter_mut().zip(numbers) {
         *into = si(name, &one)?;
     }
     Ok(values)

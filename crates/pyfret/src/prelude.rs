@@ -1,4 +1,4 @@
-//! What most files of the binding use.
+//! Names that most files of the binding use.
 
 pub(crate) use std::path::PathBuf;
 pub(crate) use std::sync::Arc;

@@ -16,7 +16,7 @@ pub(crate) fn si(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
 
 /// Takes an argument of a name.
 pub(crate) struct Given;
-/// The same of arguments that may be left out.
+/// Takes an argument of a name that may be left out.
 pub(crate) struct Optional;
 
 /// The key of a name: where the name alone has several meanings, with what stands before it.

@@ -12,7 +12,7 @@ use crate::quantity::si;
 #[derive(Clone, Default)]
 pub(crate) struct Profile(pub(crate) Core);
 
-/// Of every layer, where it is given.
+/// Residual stress of every layer, where it is given.
 pub(crate) type Profiles = Option<List<Profile>>;
 
 /// The residual stress of a body: what is given for each layer, or its own.
@@ -81,7 +81,7 @@ fn wrong() -> PyErr {
     )
 }
 
-/// As it is given: a number, or rows.
+/// Residual stress as a user writes it: a number, or rows.
 #[derive(IntoPyObject)]
 pub(crate) enum Shown {
     Uniform(f64),

@@ -18,12 +18,12 @@ use crate::scene::Scene;
 use crate::scene::friction_law::own_law;
 use crate::variables::Variables;
 
-/// Keeps the run, tells Python how far it is, and lets it stop the run.
+/// Keeps the run, reports its progress to Python, and lets Python stop the run.
 struct Watch<K> {
     keeper: K,
     on_increment: Option<Py<PyAny>>,
     stop: Arc<AtomicBool>,
-    /// What `on_increment` raised.
+    /// Exception of `on_increment`.
     raised: Option<PyErr>,
 }
 
@@ -33,9 +33,9 @@ impl<K: Observer> Observer for Watch<K> {
         let Some(call) = &self.on_increment else {
             return Ok(());
         };
-        let of = march.scene().path.increments();
-        let told = Python::attach(|py| call.call1(py, (increment.index, of)).map(drop));
-        told.map_err(|raised| {
+        let total = march.scene().path.increments();
+        let answer = Python::attach(|py| call.call1(py, (increment.index, total)).map(drop));
+        answer.map_err(|raised| {
             self.raised = Some(raised);
             Error::Interrupted {
                 increment: increment.index,
@@ -114,7 +114,7 @@ fn whole(
 
 /// Run a scene into a new result store; use :func:`pyfret.solve`, which opens it.
 ///
-/// Increments are chosen like those of the scene `like`.
+/// Increments are chosen like the increments of the scene `like`.
 ///
 /// `on_increment` is called with the number of each increment solved and their number in all,
 /// which is known once they are chosen.

@@ -23,7 +23,7 @@ pub(crate) struct States {
 
 impl States {
     /// The states; refused if they are on another grid.
-    pub(crate) fn on(&self, grid: &Cells) -> PyResult<&Moments> {
+    pub(crate) fn moments_on(&self, grid: &Cells) -> PyResult<&Moments> {
         if self.grid != *grid {
             refuse!("states: are on another grid");
         }
@@ -61,11 +61,14 @@ impl States {
                  grid, {shape:?}"
             );
         }
-        let own = |f: &Array<'_, Ix2>| f.as_array().as_standard_layout().into_owned();
+        let to_standard_layout =
+            |f: &Array<'_, Ix2>| f.as_array().as_standard_layout().into_owned();
         let cells =
             |f: &Mask<'_, Ix2>| -> Array2<bool> { f.as_array().as_standard_layout().into_owned() };
         let moments = Moments {
-            tractions: (0..count).map(|n| fields.map(|f| own(&f[n]))).collect(),
+            tractions: (0..count)
+                .map(|n| fields.map(|f| to_standard_layout(&f[n])))
+                .collect(),
             stick: stick.iter().map(cells).collect(),
             sigma_B: sigma_B.0,
             eigenstress: of_states(Some(eigenstress)),

@@ -1,4 +1,4 @@
-//! What follows from stresses: measures, principal values, maxima, rims.
+//! Quantities from stresses: measures, principal values, maxima, rims.
 
 use std::collections::HashMap;
 
@@ -15,12 +15,15 @@ use crate::prelude::*;
 type Matrix<'py> = Bound<'py, PyArray2<f64>>;
 
 pub(crate) fn measures(names: &[String]) -> PyResult<Vec<Measure>> {
-    let known = || -> Vec<_> { core::MEASURES.iter().map(|m| m.name).collect() };
+    let measures = || -> Vec<_> { core::MEASURES.iter().map(|m| m.name).collect() };
     names
         .iter()
         .map(|name| {
             core::measure_named(name).copied().ok_or_else(|| {
-                PyValueError::new_err(format!("{name:?}: must be one of {}", known().join(", ")))
+                PyValueError::new_err(format!(
+                    "{name:?}: must be one of {}",
+                    measures().join(", ")
+                ))
             })
         })
         .collect()
@@ -66,11 +69,11 @@ pub(crate) fn principal<'py>(
     let mut values = Array2::zeros((stress.len(), 3));
     let mut directions = Array3::zeros((stress.len(), 3, 3));
     for (n, s) in stress.iter().enumerate() {
-        let of = stress_tensor::principal(s);
+        let principal = stress_tensor::principal(s);
         for i in 0..3 {
-            values[(n, i)] = of.values[i];
+            values[(n, i)] = principal.values[i];
             for j in 0..3 {
-                directions[(n, i, j)] = of.directions[i][j];
+                directions[(n, i, j)] = principal.directions[i][j];
             }
         }
     }
@@ -99,6 +102,6 @@ pub(crate) fn largest_of_samples(
             (depths.len(), along.len())
         );
     }
-    let found = core::largest_of_samples(&samples, &depths, core::Line::AlongX(0.0), &along);
-    Ok(found.map(|m| (m.value, m.x, m.depth.z, m.depth.layer, m.error.total())))
+    let largest = core::largest_of_samples(&samples, &depths, core::Line::AlongX(0.0), &along);
+    Ok(largest.map(|m| (m.value, m.x, m.depth.z, m.depth.layer, m.error.total())))
 }

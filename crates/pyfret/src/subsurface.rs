@@ -49,12 +49,12 @@ pub(crate) fn section_of_states<'py>(
         side(body_number)?,
     );
     let residual = of_body(&body.0, residual)?;
-    let found = stoppable(py, |stop| {
+    let section = stoppable(py, |stop| {
         moments.with_states(Some(&residual), stop, |states| {
             core::Section::new(&body.0, side, grid, line, states)?.stress(&depths)
         })
     })??;
-    let views: Vec<_> = found.iter().map(|state| state.view()).collect();
+    let views: Vec<_> = section.iter().map(|state| state.view()).collect();
     let stacked = ndarray::stack(Axis(0), &views).unwrap_or_default();
     Ok(stacked.into_pyarray(py))
 }
@@ -71,7 +71,7 @@ pub(crate) struct Subsurface {
     residual: ResidualStress,
     eigenstress: Vec<Option<core::Eigenstress>>,
     fields: [Option<Vec<f64>>; 3],
-    /// Whether they are those of a contact, and the cells that stick.
+    /// Whether they are tractions of a contact, and the cells that stick.
     rim: bool,
     stick: Option<Vec<bool>>,
 }
@@ -115,7 +115,7 @@ impl Subsurface {
     }
 
     /// Does `work` under the state, which `stop` ends.
-    fn under<T>(
+    fn with_states<T>(
         &self,
         stop: &Arc<AtomicBool>,
         work: impl FnOnce(&scene::Body, &scene::Grid, core::States<'_>) -> T,
@@ -133,7 +133,7 @@ impl Subsurface {
     }
 
     fn slices(&self, stop: &Arc<AtomicBool>) -> Result<core::Slices, contact_core::Error> {
-        self.under(stop, |body, grid, states| {
+        self.with_states(stop, |body, grid, states| {
             core::Slices::new(body, self.side, grid, states)
         })
     }
@@ -193,8 +193,8 @@ impl Subsurface {
         displacement: bool,
     ) -> Answer<Bound<'py, PyArray3<f64>>> {
         let (depths, line) = (in_layers(&z, &layer)?, line(x, y, azimuth)?);
-        let mut found = stoppable(py, |stop| {
-            let section = self.under(stop, |body, grid, states| {
+        let mut values = stoppable(py, |stop| {
+            let section = self.with_states(stop, |body, grid, states| {
                 core::Section::new(body, self.side, grid, line, states)
             })?;
             if displacement {
@@ -203,7 +203,7 @@ impl Subsurface {
                 section.stress(&depths)
             }
         })??;
-        Ok(found.swap_remove(0).into_pyarray(py))
+        Ok(values.swap_remove(0).into_pyarray(py))
     }
 
     /// Stress [Pa] or displacement [m] on a plane, six or three arrays of shape (nx, ny).
@@ -215,7 +215,7 @@ impl Subsurface {
         #[pyo3(from_py_with = number)] layer: usize,
         displacement: bool,
     ) -> Answer<Vec<Bound<'py, PyArray2<f64>>>> {
-        let found = stoppable(py, |stop| {
+        let volumes = stoppable(py, |stop| {
             let slices = self.slices(stop)?;
             let depth = Depth { z, layer };
             Ok(if displacement {
@@ -224,7 +224,7 @@ impl Subsurface {
                 Vec::from(slices.stress(depth)?.swap_remove(0))
             })
         })??;
-        Ok(found.into_iter().map(|f| f.into_pyarray(py)).collect())
+        Ok(volumes.into_iter().map(|f| f.into_pyarray(py)).collect())
     }
 
     /// Stress (n, 6) [Pa] and displacement (n, 3) [m] at points x, y, z, layer.
@@ -239,13 +239,13 @@ impl Subsurface {
             .into_iter()
             .map(|(x, y, z, layer)| (x, y, Depth { z, layer }))
             .collect();
-        let both = stoppable(py, |stop| {
-            let points = self.under(stop, |body, grid, states| {
+        let answers = stoppable(py, |stop| {
+            let points = self.with_states(stop, |body, grid, states| {
                 core::Points::new(body, self.side, grid, states)
             })?;
             Ok((points.stress(&places)?, points.displacement(&places)?))
         })??;
-        let (stress, u) = both;
+        let (stress, u) = answers;
         let stress = Array2::from_shape_fn((places.len(), 6), |(n, c)| stress[0][n][c]);
         let u = Array2::from_shape_fn((places.len(), 3), |(n, c)| u[0][n][c]);
         Ok((stress.into_pyarray(py), u.into_pyarray(py)))
@@ -288,8 +288,8 @@ impl Subsurface {
         }
         let measure = core::measure_named(of)
             .ok_or_else(|| PyValueError::new_err(format!("{of:?}: is no measure of stress")))?;
-        let found = stoppable(py, |stop| {
-            self.under(stop, |body, grid, states| {
+        let extremum = stoppable(py, |stop| {
+            self.with_states(stop, |body, grid, states| {
                 let loads = core::Loads {
                     body,
                     side: self.side,
@@ -300,7 +300,7 @@ impl Subsurface {
                 core::largest_anywhere(loads, measure, (line, anywhere), samples, only)
             })
         })??;
-        let largest = found.largest.map(|m| {
+        let largest = extremum.largest.map(|m| {
             let m = error_bar.map_or(m, |stress| m.with_error_bars(stress));
             let at = m.at.map(zone_name);
             (
@@ -314,10 +314,10 @@ impl Subsurface {
                 errors(m.error),
             )
         });
-        Ok((largest, found.still_rises))
+        Ok((largest, extremum.still_rises))
     }
 
-    /// Where a line, or the lines of all cells, cross rims of contact and stick zone.
+    /// Crossings of a line, or of the lines of all cells, with rims of contact and stick zone.
     ///
     /// x, y, which of them, and whether the place is known within a cell.
     #[pyo3(signature = (*, x: "float | None" = None, y: "float | None" = None, azimuth: "Angle | None" = None))]
@@ -329,9 +329,9 @@ impl Subsurface {
     ) -> Answer<Vec<(f64, f64, &'static str, bool)>> {
         let along = line_if_given(x, y, azimuth)?;
         let stick = self.stick.as_deref();
-        let found = core::borders(&self.grid.0, &self.tractions(), stick, along);
+        let borders = core::borders(&self.grid.0, &self.tractions(), stick, along);
         let row = |b: core::Border| (b.x, b.y, zone_name(b.zone), b.within_cell);
-        Ok(found?.into_iter().map(row).collect())
+        Ok(borders?.into_iter().map(row).collect())
     }
 
     /// Write measures of stress, and displacements, to a .vti file or a Zarr folder.
@@ -372,6 +372,6 @@ impl Subsurface {
 }
 
 attributes!(Subsurface, self:
-    /// Whether the tractions are those of a contact.
+    /// Whether the tractions are tractions of a contact.
     rim: bool = self.rim;
 );

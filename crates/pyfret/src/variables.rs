@@ -45,7 +45,7 @@ impl<'py> Variables<'py> {
         self.0.set_item(name, (dims, values, attributes))
     }
 
-    /// Where the cells are.
+    /// Coordinates of the cells.
     pub(crate) fn cells(&self, grid: &Grid) -> PyResult<()> {
         for axis in AXES.iter().filter(|axis| axis.dim != "saved") {
             let places: Vec<f64> = if axis.name == "x" {
@@ -114,11 +114,11 @@ impl<'py> Variables<'py> {
             )?;
         }
         for axis in AXES.iter().filter(|axis| axis.dim == "saved") {
-            let of = |(index, t): &(usize, f64)| match axis.kind {
+            let coordinate = |(index, t): &(usize, f64)| match axis.kind {
                 Kind::Count => *index as f64,
                 _ => *t,
             };
-            let values: Vec<f64> = columns.saved.iter().map(of).collect();
+            let values: Vec<f64> = columns.saved.iter().map(coordinate).collect();
             let values = self.typed(axis.kind, Array1::from_vec(values).into_dyn());
             self.put(axis.name, &[axis.dim], values, (axis.units, axis.long_name))?;
         }
@@ -170,9 +170,9 @@ fn stacked<T: Element + Copy + Default>(
     kept: Vec<Array2<T>>,
     (nx, ny): (usize, usize),
 ) -> Bound<'_, PyAny> {
-    let mut all = Array3::from_elem((kept.len(), nx, ny), T::default());
-    for (mut here, values) in all.axis_iter_mut(Axis(0)).zip(kept) {
+    let mut fields = Array3::from_elem((kept.len(), nx, ny), T::default());
+    for (mut here, values) in fields.axis_iter_mut(Axis(0)).zip(kept) {
         here.assign(&values);
     }
-    all.into_pyarray(py).into_any()
+    fields.into_pyarray(py).into_any()
 }

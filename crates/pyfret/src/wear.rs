@@ -18,7 +18,7 @@ use crate::scene::Scene;
 use crate::scene::friction_law::own_law;
 use crate::variables::Variables;
 
-/// What a law of one's own has raised.
+/// Exception of a law of the user.
 type Raised = Arc<Mutex<Option<PyErr>>>;
 
 /// A callable on arrays, and where what it raises is kept.
@@ -33,25 +33,25 @@ impl Law for Own {
     ) -> Result<(), contact_core::Error> {
         let mut call = |py: Python<'_>| -> PyResult<()> {
             let array = |field: &[f64]| field.to_pyarray(py);
-            let given = (
+            let arguments = (
                 array(cycle.pressed_way),
                 array(cycle.way),
                 array(cycle.dissipated),
                 array(cycle.worn),
                 cycle.cycles,
             );
-            let found = self.0.bind(py).call1(given)?;
-            let found: Array<'_, Ix1> = found.extract()?;
-            let found = found.as_array();
-            if found.len() != depth.len() {
+            let answer = self.0.bind(py).call1(arguments)?;
+            let array: Array<'_, Ix1> = answer.extract()?;
+            let values = array.as_array();
+            if values.len() != depth.len() {
                 return Err(PyTypeError::new_err(format!(
                     "an array of {} depths, not {}",
                     depth.len(),
-                    found.len()
+                    values.len()
                 )));
             }
-            for (depth, found) in depth.iter_mut().zip(found) {
-                *depth = *found;
+            for (depth, values) in depth.iter_mut().zip(values) {
+                *depth = *values;
             }
             Ok(())
         };
@@ -68,9 +68,11 @@ impl Law for Own {
 
 /// The functions of both bodies.
 fn laws(given: &[Vec<Py<PyAny>>; 2], raised: &Raised, py: Python<'_>) -> [Vec<Arc<dyn Law>>; 2] {
-    let own =
+    let to_law =
         |law: &Py<PyAny>| -> Arc<dyn Law> { Arc::new(Own(law.clone_ref(py), raised.clone())) };
-    given.each_ref().map(|body| body.iter().map(own).collect())
+    given
+        .each_ref()
+        .map(|body| body.iter().map(to_law).collect())
 }
 
 /// Surfaces to begin on: cycles, energy dissipated, and the fields worn1, worn2, energy1, energy2, slid.
@@ -116,8 +118,9 @@ pub(crate) fn wear<'py>(
 ) -> PyResult<Option<InMemory<'py>>> {
     scene.0.check().map_err(scene_to_python)?;
     let raised = Raised::default();
-    let own = laws(&own, &raised, py);
-    let (scene, wear) = core::Wear::from_table(&scene.0, &wear.0, &own).map_err(to_python)?;
+    let python_laws = laws(&own, &raised, py);
+    let (scene, wear) =
+        core::Wear::from_table(&scene.0, &wear.0, &python_laws).map_err(to_python)?;
     let stop = Arc::<AtomicBool>::default();
     let start = start.map(|start| start.read());
     let run = || {
@@ -172,13 +175,13 @@ pub(crate) fn resume_wear(
 ) -> PyResult<()> {
     let raised = Raised::default();
     let friction = friction_law.map(own_law).transpose()?;
-    let own = laws(&own, &raised, py);
+    let python_laws = laws(&own, &raised, py);
     let stop = Arc::<AtomicBool>::default();
-    let found = interruptible(py, &stop, || {
-        take_up(&store, &own, friction.as_ref(), &stop)
+    let outcome = interruptible(py, &stop, || {
+        take_up(&store, &python_laws, friction.as_ref(), &stop)
     })?;
-    let found = found.map_err(to_python)?;
-    match found {
+    let outcome = outcome.map_err(to_python)?;
+    match outcome {
         None => Ok(()),
         Some((mut run, store)) => {
             let mut kept = Kept::Store(Box::new(store));
@@ -199,7 +202,7 @@ fn caused(py: Python<'_>, error: PyErr, raised: &Raised) -> PyErr {
     }
 }
 
-/// Where what a run gives is kept.
+/// Storage of the result of a run.
 enum Kept {
     Store(Box<WearStore>),
     Memory(WearColumns),
@@ -239,8 +242,8 @@ fn go(
         match step {
             Ok(None) => return kept.finish(run, "done").map_err(to_python),
             Ok(Some(Ok(cycles))) => {
-                if let Some(tell) = on_jump {
-                    tell.call1(py, (cycles,))?;
+                if let Some(report) = on_jump {
+                    report.call1(py, (cycles,))?;
                 }
             }
             Ok(Some(Err(error))) => {

@@ -36,13 +36,13 @@ impl Eigenstress {
         if [x.len(), y.len(), layer.len()] != [points; 3] {
             refuse!("x, y, layer: must be {points} each, as many as z");
         }
-        let mut found = Array2::zeros((points, COMPONENTS));
-        for (n, mut row) in found.outer_iter_mut().enumerate() {
+        let mut tensor = Array2::zeros((points, COMPONENTS));
+        for (n, mut row) in tensor.outer_iter_mut().enumerate() {
             let (z, layer) = (z[n], layer[n]);
             let strain = self.0.plastic_strain(x[n], y[n], Depth { z, layer });
             row.assign(&ArrayView1::from(&strain));
         }
-        Ok(found.into_pyarray(py))
+        Ok(tensor.into_pyarray(py))
     }
 }
 
@@ -52,12 +52,16 @@ pub(crate) fn yielded_columns() -> Vec<&'static str> {
     YIELDED.iter().map(|of| of.name).collect()
 }
 
-/// Of each of several states; None where nothing has yielded.
+/// Eigenstress of each state; None where nothing has yielded.
 pub(crate) fn of_states(
     given: Option<List<Option<Py<Eigenstress>>>>,
 ) -> Vec<Option<core::Eigenstress>> {
-    let of = |of: Option<Py<Eigenstress>>| of.map(|of| of.get().0.clone());
-    given.unwrap_or_default().into_iter().map(of).collect()
+    let to_stress = |of: Option<Py<Eigenstress>>| of.map(|of| of.get().0.clone());
+    given
+        .unwrap_or_default()
+        .into_iter()
+        .map(to_stress)
+        .collect()
 }
 
 /// A body of a scene that may yield, with its volume grid; use :meth:`Snapshot.plastic`.
@@ -91,14 +95,14 @@ fn read(rows: List<List<f64>>) -> PyResult<Yielded> {
 
 impl PlasticBody {
     /// Does `work` with the bodies that yield, on the volume grid of a state.
-    fn with<T: Send>(
+    fn with_bodies<T: Send>(
         &self,
         py: Python<'_>,
         yielded: &Yielded,
         work: impl FnOnce(&mut Yielding) -> T + Send,
     ) -> Answer<T> {
-        let found = py.detach(|| self.of.with(yielded, work))?;
-        Ok(found.ok_or_else(|| self.stays_elastic())?)
+        let answer = py.detach(|| self.of.with(yielded, work))?;
+        Ok(answer.ok_or_else(|| self.stays_elastic())?)
     }
 
     fn stays_elastic(&self) -> PyErr {
@@ -135,37 +139,38 @@ impl PlasticBody {
         let number = self.number;
         let yielded = read(rows)?;
         let of_mesh = |mesh: &Mesh| {
-            let of = |of: &dyn Fn(usize) -> f64| (0..mesh.planes()).map(of).collect::<Vec<f64>>();
+            let coordinates =
+                |of: &dyn Fn(usize) -> f64| (0..mesh.planes()).map(of).collect::<Vec<f64>>();
             (
-                of(&|n| mesh.depth(n)),
-                of(&|n| mesh.weight(n)),
+                coordinates(&|n| mesh.depth(n)),
+                coordinates(&|n| mesh.weight(n)),
                 (0..mesh.planes())
                     .map(|n| mesh.layer(n))
                     .collect::<Vec<_>>(),
                 mesh.cells,
             )
         };
-        let own = yielded.bodies.iter().filter(|state| state.body == number);
-        let points: Vec<u32> = own
+        let states = yielded.bodies.iter().filter(|state| state.body == number);
+        let points: Vec<u32> = states
             .flat_map(|state| &state.points)
             .map(|point| point.cell)
             .collect();
-        let found = self.with(py, &yielded, |yielding| {
+        let indices = self.with_bodies(py, &yielded, |yielding| {
             let cells = points.iter();
-            let place = cells.filter_map(|cell| yielding.volume().cell(*cell));
-            let place: Vec<usize> = place.collect();
-            yielding.mesh(number).map(|mesh| (of_mesh(mesh), place))
+            let cells = cells.filter_map(|cell| yielding.volume().cell(*cell));
+            let cells: Vec<usize> = cells.collect();
+            yielding.mesh(number).map(|mesh| (of_mesh(mesh), cells))
         })?;
-        let ((z, height, layer, cells), place) = found.ok_or_else(|| self.stays_elastic())?;
-        let found = PyDict::new(py);
-        found.set_item("z", PyArray1::from_vec(py, z))?;
-        found.set_item("height", PyArray1::from_vec(py, height))?;
-        found.set_item("layer", PyArray1::from_vec(py, layer))?;
-        found.set_item("x", PyArray1::from_vec(py, centres(cells.nx, cells.dx)))?;
-        found.set_item("y", PyArray1::from_vec(py, centres(cells.ny, cells.dy)))?;
-        found.set_item("area", cells.area())?;
-        found.set_item("place", PyArray1::from_vec(py, place))?;
-        Ok(found)
+        let ((z, height, layer, cells), place) = indices.ok_or_else(|| self.stays_elastic())?;
+        let table = PyDict::new(py);
+        table.set_item("z", PyArray1::from_vec(py, z))?;
+        table.set_item("height", PyArray1::from_vec(py, height))?;
+        table.set_item("layer", PyArray1::from_vec(py, layer))?;
+        table.set_item("x", PyArray1::from_vec(py, centres(cells.nx, cells.dx)))?;
+        table.set_item("y", PyArray1::from_vec(py, centres(cells.ny, cells.dy)))?;
+        table.set_item("area", cells.area())?;
+        table.set_item("place", PyArray1::from_vec(py, place))?;
+        Ok(table)
     }
 
     /// Equivalent plastic strain, plastic strain and stress over planes, components and cells.
@@ -187,15 +192,15 @@ impl PlasticBody {
             refuse!("p, q_x, q_y: must be of the shape of the grid, {shape:?}");
         }
         let body = self.number;
-        let found = self.with(py, &yielded, |yielding| {
+        let stresses = self.with_bodies(py, &yielded, |yielding| {
             let [p, q_x, q_y] = &tractions;
             let loaded = yielding.stress(&yielded, Some([p, q_x, q_y]), body);
-            let left = yielding.stress(&yielded, None, body);
+            let residual = yielding.stress(&yielded, None, body);
             let mesh = yielding.mesh(body);
             let shape = mesh.map(|mesh| (mesh.planes(), mesh.cells.nx, mesh.cells.ny));
-            (loaded, left, shape, yielding.points(&yielded, body))
+            (loaded, residual, shape, yielding.points(&yielded, body))
         })?;
-        let (Some(loaded), Some(left), Some((planes, nx, ny)), points) = found else {
+        let (Some(loaded), Some(left), Some((planes, nx, ny)), points) = stresses else {
             return Err(self.stays_elastic());
         };
         let mut equivalent = Array3::<f64>::zeros((planes, nx, ny));
@@ -211,12 +216,12 @@ impl PlasticBody {
             Array4::from_shape_vec((planes, COMPONENTS, nx, ny), values)
                 .unwrap_or_else(|_| Array4::zeros((planes, COMPONENTS, nx, ny)))
         };
-        let found = PyDict::new(py);
-        found.set_item("equivalent", equivalent.into_pyarray(py))?;
-        found.set_item("strain", strain.into_pyarray(py))?;
-        found.set_item("stress", stress(loaded).into_pyarray(py))?;
-        found.set_item("residual_stress", stress(left).into_pyarray(py))?;
-        Ok(found)
+        let table = PyDict::new(py);
+        table.set_item("equivalent", equivalent.into_pyarray(py))?;
+        table.set_item("strain", strain.into_pyarray(py))?;
+        table.set_item("stress", stress(loaded).into_pyarray(py))?;
+        table.set_item("residual_stress", stress(left).into_pyarray(py))?;
+        Ok(table)
     }
 
     /// Displacements that the surfaces have without tractions, on the grid of the contact [m].
@@ -226,29 +231,29 @@ impl PlasticBody {
     fn imprint<'py>(&self, py: Python<'py>, rows: List<List<f64>>) -> PyResult<Bound<'py, PyDict>> {
         let yielded = read(rows)?;
         let body = self.number;
-        let found = self.with(py, &yielded, |yielding| {
+        let answers = self.with_bodies(py, &yielded, |yielding| {
             let whole = yielding.completed(&yielded);
-            let both = yielding.residual_of(&whole);
-            let mut own = whole;
-            own.bodies.retain(|state| state.body == body);
-            (both, yielding.residual_of(&own).gap)
+            let residual = yielding.residual_of(&whole);
+            let mut body_state = whole;
+            body_state.bodies.retain(|state| state.body == body);
+            (residual, yielding.residual_of(&body_state).gap)
         })?;
-        let (both, depth) = found;
-        let found = PyDict::new(py);
+        let (both, depth) = answers;
+        let table = PyDict::new(py);
         let on_grid = |field: Array2<f64>| field.into_pyarray(py);
         let [u_x, u_y] = both.u;
-        found.set_item("imprint", on_grid(both.gap))?;
-        found.set_item("residual_x", on_grid(u_x))?;
-        found.set_item("residual_y", on_grid(u_y))?;
-        found.set_item("depth", on_grid(depth))?;
-        Ok(found)
+        table.set_item("imprint", on_grid(both.gap))?;
+        table.set_item("residual_x", on_grid(u_x))?;
+        table.set_item("residual_y", on_grid(u_y))?;
+        table.set_item("depth", on_grid(depth))?;
+        Ok(table)
     }
 
     /// Whether the stress without tractions yields nowhere.
     #[pyo3(signature = (rows: "Sequence[NDArray[np.float64]]"))]
     fn unloads_elastically(&self, py: Python<'_>, rows: List<List<f64>>) -> Answer<bool> {
         let yielded = read(rows)?;
-        self.with(py, &yielded, |yielding| {
+        self.with_bodies(py, &yielded, |yielding| {
             yielding.unloads_elastically(&yielded)
         })
     }
@@ -257,7 +262,7 @@ impl PlasticBody {
     #[pyo3(signature = (rows: "Sequence[NDArray[np.float64]]"))]
     fn eigenstress(&self, py: Python<'_>, rows: List<List<f64>>) -> Answer<Option<Eigenstress>> {
         let yielded = read(rows)?;
-        let found = py.detach(|| self.of.at(Some(&yielded)));
-        Ok(found?.map(Eigenstress))
+        let eigenstress = py.detach(|| self.of.at(Some(&yielded)));
+        Ok(eigenstress?.map(Eigenstress))
     }
 }

@@ -1,4 +1,4 @@
-//! What a criterion found on a section.
+//! Values of a criterion on a section.
 
 use contact_assess::{self as core, Averaging, ByCriterion, Distance, Judged, RangeOptions};
 use contact_core::Error;
@@ -12,7 +12,7 @@ use crate::fatigue::{AT_POINT, Assessment, Material};
 use crate::prelude::*;
 use crate::scene::Body;
 
-/// What a criterion found on a section.
+/// Values of a criterion on a section.
 #[pyclass(frozen, module = "pyfret.fatigue")]
 pub(crate) struct CriterionBelow {
     pub(super) below: Arc<Below>,
@@ -45,29 +45,29 @@ impl CriterionBelow {
         #[pyo3(from_py_with = number)] layer: usize,
         material: Option<Material>,
     ) -> Answer<Option<Bound<'py, PyDict>>> {
-        let worst = self.below.at(py, true, |site| {
+        let worst = self.below.with_site(py, true, |site| {
             core::worst(site, &self.judged, &self.of, layer)
         })?;
         let Some((worst, assessment)) = worst.zip(self.of.of(layer)) else {
             return Ok(None);
         };
-        let found = place(py, &worst)?;
+        let fields = place(py, &worst)?;
         let (value, error) = (worst.extreme.value, worst.extreme.error.sum());
         let range = assessment.margin_range(value, error);
-        found.set_item("margin", range.best)?;
-        found.set_item("range", (range.low, range.high))?;
+        fields.set_item("margin", range.best)?;
+        fields.set_item("range", (range.low, range.high))?;
         let material = material.as_ref().map(|material| &material.0);
         let (factor, _) = assessment.scatter(material, None)?;
         let whole = assessment.point_range(value, error, factor);
-        found.set_item("whole", (whole.low, whole.high))?;
-        found.set_item("order", assessment.uncapped_margin(value))?;
+        fields.set_item("whole", (whole.low, whole.high))?;
+        fields.set_item("order", assessment.uncapped_margin(value))?;
         if assessment.criterion.has_plane() {
             let normal = worst.found.normal;
-            found.set_item("normal", normal)?;
+            fields.set_item("normal", normal)?;
             let angle = core::inclination(normal, self.judged.line);
-            found.set_item("inclination", angle.to_degrees())?;
+            fields.set_item("inclination", angle.to_degrees())?;
         }
-        Ok(Some(found))
+        Ok(Some(fields))
     }
 }
 
@@ -80,7 +80,7 @@ attributes!(CriterionBelow, self:
         .iter()
         .map(|a| a.map(Assessment))
         .collect();
-    /// What a reader should know of the materials.
+    /// Notes on the materials.
     notes: Vec<String> = self.of.notes.clone();
 );
 
@@ -98,7 +98,7 @@ impl CriterionBelow {
         py: Python<'_>,
         distance: &Distance,
     ) -> argument::Answer<Result<Option<f64>, Error>> {
-        self.below.at(py, true, |site| {
+        self.below.with_site(py, true, |site| {
             match core::largest_mean(site, self.below.line, distance, &self.of) {
                 Err(stopped @ Error::Interrupted { .. }) => Err(stopped),
                 found => Ok(found.map(|found| found.map(|mean| mean.value))),
@@ -113,7 +113,7 @@ impl CriterionBelow {
         distance: &Distance,
         value: f64,
     ) -> argument::Answer<f64> {
-        self.below.at(py, true, |site| {
+        self.below.with_site(py, true, |site| {
             core::error_of_largest_mean(site, self.below.line, distance, &self.of, value)
         })
     }
@@ -161,17 +161,18 @@ pub(crate) fn range_of_life(
             length,
             layer,
         };
-        let mut most: Option<(f64, &CriterionBelow)> = None;
+        let mut highest: Option<(f64, &CriterionBelow)> = None;
         for section in sections.iter().map(Py::get) {
             match section.largest(py, &distance)? {
                 Ok(found) => {
-                    let larger = found.filter(|value| most.is_none_or(|(most, _)| *value > most));
-                    most = larger.map(|value| (value, section)).or(most);
+                    let larger =
+                        found.filter(|value| highest.is_none_or(|(highest, _)| *value > highest));
+                    highest = larger.map(|value| (value, section)).or(highest);
                 }
                 Err(refused) => return Ok(Err(refused)),
             }
         }
-        let Some((value, section)) = most else {
+        let Some((value, section)) = highest else {
             let allowed = "so short that the mean stays above the grid";
             return Ok(Err(Error::invalid("L", length, allowed)));
         };
@@ -183,7 +184,7 @@ pub(crate) fn range_of_life(
         Ok(Ok((value, error)))
     };
     let half_width = match sections.first().map(Py::get) {
-        Some(section) => section.below.at(py, true, |site| {
+        Some(section) => section.below.with_site(py, true, |site| {
             contact_subsurface::half_width(site.cycle, site.grid, section.below.line)
         })?,
         None => 0.0,
@@ -194,18 +195,18 @@ pub(crate) fn range_of_life(
         half_width,
     };
     let material = material.as_ref().map(|material| &material.0);
-    let found = core::range_of_life(&assessment, material, worst, &options, mean)?;
+    let range = core::range_of_life(&assessment, material, worst, &options, mean)?;
     Ok((
-        three(found.of.range),
-        three(found.of.stress),
-        found.of.material,
-        found.of.distance.map(three),
-        found.length,
-        found.notes,
+        three(range.of.range),
+        three(range.of.stress),
+        range.of.material,
+        range.of.distance.map(three),
+        range.length,
+        range.notes,
     ))
 }
 
-/// What a reader should know of the materials of a body by a criterion, before a contact is solved.
+/// Notes on the materials of a body for a criterion, before a contact is solved.
 ///
 /// Parameters
 /// ----------
@@ -218,15 +219,15 @@ pub(crate) fn notes_on_materials(
     body: &Body,
     materials: List<Option<Material>>,
 ) -> Answer<Vec<String>> {
-    let each: Vec<_> = materials.into_iter().map(|of| of.map(|of| of.0)).collect();
-    let of = ByCriterion::new(criterion, &body.0, &each, Search::default())?;
-    Ok(of.notes_on_materials(&each)?)
+    let layers: Vec<_> = materials.into_iter().map(|of| of.map(|of| of.0)).collect();
+    let judge = ByCriterion::new(criterion, &body.0, &layers, Search::default())?;
+    Ok(judge.notes_on_materials(&layers)?)
 }
 
-/// What is averaged over, by its name.
+/// Domain of an average, by its name.
 pub(super) fn averaging(method: &str) -> PyResult<Averaging> {
-    let named = Averaging::ALL.iter().find(|(name, _)| *name == method);
-    named.map(|(_, method)| *method).ok_or_else(|| {
+    let row = Averaging::ALL.iter().find(|(name, _)| *name == method);
+    row.map(|(_, method)| *method).ok_or_else(|| {
         let names = Averaging::ALL.map(|(name, _)| name).join(", ");
         PyValueError::new_err(format!("method = {method:?}: must be one of {names}"))
     })
@@ -240,26 +241,26 @@ pub(super) fn arrays<'py, 'a>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let places = rows.iter().flatten().map(Vec::len).next().unwrap_or(0);
     let at = |row: usize, place: usize| rows[row].as_ref().and_then(|row| row[place]);
-    let of = |f: fn(&PointResult) -> f64| {
+    let to_array = |f: fn(&PointResult) -> f64| {
         let values = Array2::from_shape_fn((rows.len(), places), |(row, place)| {
             at(row, place).map_or(f64::NAN, |found| f(&found))
         });
         values.into_pyarray(py)
     };
-    let found = PyDict::new(py);
+    let fields = PyDict::new(py);
     for (name, number) in AT_POINT {
-        found.set_item(name, of(number))?;
+        fields.set_item(name, to_array(number))?;
     }
     let margin = Array2::from_shape_fn((rows.len(), places), |(row, place)| {
         let judged = at(row, place).zip(assessment(row));
-        judged.map_or(f64::NAN, |(found, assessment)| {
-            assessment.margin(found.value)
+        judged.map_or(f64::NAN, |(fields, assessment)| {
+            assessment.margin(fields.value)
         })
     });
-    found.set_item("margin", margin.into_pyarray(py))?;
+    fields.set_item("margin", margin.into_pyarray(py))?;
     let normal = Array3::from_shape_fn((rows.len(), places, 3), |(row, place, d)| {
-        at(row, place).map_or(f64::NAN, |found| found.normal[d])
+        at(row, place).map_or(f64::NAN, |fields| fields.normal[d])
     });
-    found.set_item("normal", normal.into_pyarray(py))?;
-    Ok(found)
+    fields.set_item("normal", normal.into_pyarray(py))?;
+    Ok(fields)
 }

@@ -2,7 +2,7 @@
 
 mod below;
 mod criterion;
-mod given;
+mod python_cycle;
 mod yielding;
 
 use contact_assess::{self as core, ByCriterion, ByYield, Distance, Judged};
@@ -12,7 +12,7 @@ use numpy::PyArray2;
 use self::below::Below;
 pub(crate) use self::criterion::{CriterionBelow, notes_on_materials, range_of_life};
 use self::criterion::{arrays, averaging};
-use self::given::Given;
+use self::python_cycle::PythonCycle;
 pub(crate) use self::yielding::YieldBelow;
 use crate::argument::{Answer, to_python};
 use crate::depths::in_layers;
@@ -34,9 +34,9 @@ pub(crate) fn cycle_sections(
     moments: Py<PyAny>,
     #[pyo3(from_py_with = number)] count: usize,
 ) -> PyResult<Vec<LineName>> {
-    let given = Given::new(moments, count, &grid.0);
-    let lines = py.detach(|| contact_subsurface::main_sections(&given, &grid.0));
-    let lines = lines.map_err(|error| given.taken().unwrap_or_else(|| to_python(error)))?;
+    let cycle = PythonCycle::new(moments, count, &grid.0);
+    let lines = py.detach(|| contact_subsurface::main_sections(&cycle, &grid.0));
+    let lines = lines.map_err(|error| cycle.taken().unwrap_or_else(|| to_python(error)))?;
     Ok(lines.into_iter().map(name_of).collect())
 }
 
@@ -72,9 +72,9 @@ impl CycleSection {
             side: side(body_number)?,
             line: line(x, y, azimuth)?,
             residual: of_body(&body.0, residual)?,
-            given: Given::new(moments, count, &grid.0)
-                .yields(yielding)
-                .known_to(path_error),
+            cycle: PythonCycle::new(moments, count, &grid.0)
+                .with_plastic_work(yielding)
+                .with_path_error(path_error),
             body: body.0,
             grid: grid.0,
         };
@@ -85,7 +85,7 @@ impl CycleSection {
 
     /// A note on a cycle that does not end as it began, if its start was kept.
     fn note_on_cycle(&self, py: Python<'_>) -> Answer<Option<String>> {
-        self.below.at(py, true, |site| {
+        self.below.with_site(py, true, |site| {
             contact_subsurface::note_on_cycle(site.cycle)
         })
     }
@@ -102,17 +102,24 @@ impl CycleSection {
         #[pyo3(from_py_with = number)] tolerance: f64,
     ) -> Answer<Vec<CriterionBelow>> {
         let depths = in_layers(&z, &layer)?;
-        let named = |name: &String| criterion_of(&self.below, &materials, name, tolerance);
-        let of = criteria.iter().map(named).collect::<Answer<Vec<_>>>()?;
-        let judged = self.below.at(py, true, |site| {
-            core::judge(site, self.below.line, &depths, &of)
+        let to_criterion = |name: &String| criterion_of(&self.below, &materials, name, tolerance);
+        let criteria_of_layers = criteria
+            .iter()
+            .map(to_criterion)
+            .collect::<Answer<Vec<_>>>()?;
+        let judged = self.below.with_site(py, true, |site| {
+            core::judge(site, self.below.line, &depths, &criteria_of_layers)
         })?;
         let below = |(judged, of)| CriterionBelow {
             below: self.below.clone(),
             judged,
             of,
         };
-        Ok(judged.into_iter().zip(of).map(below).collect())
+        Ok(judged
+            .into_iter()
+            .zip(criteria_of_layers)
+            .map(below)
+            .collect())
     }
 
     /// Judge the section by yield stresses of the layers from the surface down [Pa].
@@ -125,18 +132,18 @@ impl CycleSection {
         s_y: List<Option<f64>>,
     ) -> Answer<YieldBelow> {
         let depths = in_layers(&z, &layer)?;
-        let of = ByYield {
+        let judge = ByYield {
             s_y: s_y.0,
             residual: self.below.residual.clone(),
             of: |found| found.von_mises,
         };
-        let judged = self.below.at(py, false, |site| {
-            core::judge(site, self.below.line, &depths, std::slice::from_ref(&of))
+        let judged = self.below.with_site(py, false, |site| {
+            core::judge(site, self.below.line, &depths, std::slice::from_ref(&judge))
         })?;
         Ok(YieldBelow {
             below: self.below.clone(),
             judged: only(judged)?,
-            of,
+            of: judge,
         })
     }
 
@@ -152,8 +159,8 @@ impl CycleSection {
         criterion: &str,
         #[pyo3(from_py_with = number)] tolerance: f64,
     ) -> Answer<Bound<'py, PyDict>> {
-        let of = criterion_of(&self.below, &materials, criterion, tolerance)?;
-        let Some(assessment) = of.of(layer).copied() else {
+        let judge = criterion_of(&self.below, &materials, criterion, tolerance)?;
+        let Some(assessment) = judge.of(layer).copied() else {
             refuse!("layer = {layer}: has no material");
         };
         let distance = Distance {
@@ -162,17 +169,17 @@ impl CycleSection {
             layer,
         };
         let line = self.below.line;
-        let (found, errors) = self.below.at(py, true, |site| {
-            let found = core::average(site, line, &distance, &of)?;
-            let errors = core::errors_of_means(site, line, &distance, &of, &found)?;
-            Ok((found, errors))
+        let (found, errors) = self.below.with_site(py, true, |site| {
+            let mean = core::average(site, line, &distance, &judge)?;
+            let errors = core::errors_of_means(site, line, &distance, &judge, &mean)?;
+            Ok((mean, errors))
         })?;
-        let found = arrays(py, &[Some(found)], |_| Some(&assessment))?;
-        found.set_item(
+        let fields = arrays(py, &[Some(found)], |_| Some(&assessment))?;
+        fields.set_item(
             "error",
             PyArray2::from_vec2(py, &[errors]).map_err(PyErr::from)?,
         )?;
-        Ok(found)
+        Ok(fields)
     }
 }
 
@@ -186,11 +193,11 @@ fn criterion_of(
         tolerance,
         ..Search::default()
     };
-    let given = materials
+    let layers = materials
         .iter()
         .map(|m| m.as_ref().map(|m| m.0.clone()))
         .collect();
-    let of_layers = core::materials_of_layers(&below.body, given)?;
+    let of_layers = core::materials_of_layers(&below.body, layers)?;
     Ok(ByCriterion::new(
         criterion,
         &below.body,

@@ -23,19 +23,19 @@ impl YieldBelow {
     #[pyo3(signature = () -> "dict[str, NDArray[np.float64]]")]
     fn fields<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let shape = (self.judged.found.len(), self.judged.along.len());
-        let found = PyDict::new(py);
+        let fields = PyDict::new(py);
         for (name, of) in FACTORS {
             let values = Array2::from_shape_fn(shape, |(row, place)| {
                 self.judged.found[row]
                     .as_ref()
                     .map_or(f64::NAN, |row| of(&row[place]))
             });
-            found.set_item(name, values.into_pyarray(py))?;
+            fields.set_item(name, values.into_pyarray(py))?;
         }
-        Ok(found)
+        Ok(fields)
     }
 
-    /// Where a load factor of a layer is least; `score` is its inverse.
+    /// Place of the least load factor of a layer; `score` is its inverse.
     #[pyo3(signature = (layer: "int", factor) -> "dict[str, Any] | None")]
     fn least<'py>(
         &self,
@@ -43,20 +43,20 @@ impl YieldBelow {
         #[pyo3(from_py_with = number)] layer: usize,
         factor: &str,
     ) -> PyResult<Option<Bound<'py, PyDict>>> {
-        let named = FACTORS.iter().find(|(name, _)| *name == factor);
-        let Some((_, factor)) = named else {
+        let row = FACTORS.iter().find(|(name, _)| *name == factor);
+        let Some((_, factor)) = row else {
             let names = FACTORS.map(|(name, _)| name).join(", ");
             refuse!("{factor:?}: must be one of {names}");
         };
-        let of = ByYield {
+        let judge = ByYield {
             of: *factor,
             ..self.of.clone()
         };
-        if !of.judges(layer) {
+        if !judge.judges(layer) {
             return Ok(None);
         }
-        let least = self.below.at(py, false, |site| {
-            core::worst(site, &self.judged, &of, layer)
+        let least = self.below.with_site(py, false, |site| {
+            core::worst(site, &self.judged, &judge, layer)
         })?;
         least.map(|least| place(py, &least)).transpose()
     }

@@ -81,13 +81,13 @@ impl Assessment {
     ) -> Answer<((f64, f64, f64), (f64, f64, f64), f64, Vec<String>)> {
         let material = material.as_ref().map(|material| &material.0);
         let (factor, note) = self.0.scatter(material, scatter)?;
-        let found = self
+        let number = self
             .0
             .life_range(self.0.margins(value, error), factor, None);
         let three = |of: core::Range| (of.low, of.best, of.high);
         Ok((
-            three(found.stress),
-            three(found.range),
+            three(number.stress),
+            three(number.range),
             factor,
             note.into_iter().collect(),
         ))
@@ -139,7 +139,7 @@ attributes!(Assessment, self:
 impl Material {
     /// The criterion of that name with the limit or life curve of the material.
     fn assessment(&self, criterion: &str) -> Answer<Assessment> {
-        let found = core::Assessment::from_name(criterion, &self.0)?;
-        Ok(Assessment(found))
+        let assessment = core::Assessment::from_name(criterion, &self.0)?;
+        Ok(Assessment(assessment))
     }
 }

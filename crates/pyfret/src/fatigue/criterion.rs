@@ -61,20 +61,20 @@ impl Criterion {
     #[new]
     #[pyo3(signature = (name, /, **numbers: "float | Material | str"))]
     fn new(name: &str, numbers: Option<&Bound<'_, PyDict>>) -> Answer<Self> {
-        let mut given: BTreeMap<String, f64> = BTreeMap::new();
+        let mut values: BTreeMap<String, f64> = BTreeMap::new();
         for (key, value) in numbers.into_iter().flatten() {
             let key: String = key.extract()?;
             if key == MATERIAL {
-                let of = Self::of(name, &value)?;
-                for (number, value) in of.0.numbers() {
-                    given.entry(number.to_owned()).or_insert(value);
+                let criterion = Self::from_material(name, &value)?;
+                for (number, value) in criterion.0.numbers() {
+                    values.entry(number.to_owned()).or_insert(value);
                 }
             } else {
-                given.insert(key, number(&value)?);
+                values.insert(key, number(&value)?);
             }
         }
-        let given: Vec<_> = given.iter().map(|(n, v)| (n.as_str(), *v)).collect();
-        let made = core::Criterion::new(name, &given)?;
+        let pairs: Vec<_> = values.iter().map(|(n, v)| (n.as_str(), *v)).collect();
+        let made = core::Criterion::new(name, &pairs)?;
         Ok(Self(made))
     }
 
@@ -93,13 +93,13 @@ impl Criterion {
     /// >>> Criterion.of("fatemi_socie", "7075") == Criterion.fatemi_socie(material="7075")
     /// True
     #[staticmethod]
-    #[pyo3(signature = (name, material: "Material | str"))]
-    fn of(name: &str, material: &Bound<'_, PyAny>) -> Answer<Self> {
+    #[pyo3(name = "of", signature = (name, material: "Material | str"))]
+    fn from_material(name: &str, material: &Bound<'_, PyAny>) -> Answer<Self> {
         let material = if material.is_instance_of::<PyString>() {
             let called: String = material.extract()?;
-            let all = core::materials();
-            core::find(&all, &called).cloned().ok_or_else(|| {
-                let names: Vec<_> = all.keys().map(String::as_str).collect();
+            let materials = core::materials();
+            core::find(&materials, &called).cloned().ok_or_else(|| {
+                let names: Vec<_> = materials.keys().map(String::as_str).collect();
                 let message = format!(
                     "material = {called:?}: must be a Material, or one of {}",
                     names.join(", ")
@@ -109,8 +109,8 @@ impl Criterion {
         } else {
             material.extract::<Material>().map_err(PyErr::from)?.0
         };
-        let found = core::Assessment::from_name(name, &material)?;
-        Ok(Self(found.criterion))
+        let assessment = core::Assessment::from_name(name, &material)?;
+        Ok(Self(assessment.criterion))
     }
 
     fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<((&str,), Bound<'py, PyDict>)> {

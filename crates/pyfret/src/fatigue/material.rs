@@ -65,7 +65,7 @@ impl Material {
         Ok(Self(core::estimated(&self.0, family)))
     }
 
-    /// Which numbers are estimates or from memory, in words; None where each has a source.
+    /// Numbers that are estimates or from memory, in words; None where each has a source.
     #[pyo3(signature = (names: "Sequence[str]"))]
     fn estimate_of(&self, names: List<String>) -> Option<String> {
         let names: Vec<&str> = names.0.iter().map(String::as_str).collect();
@@ -91,7 +91,7 @@ impl Material {
         Ok(self.0.number(name)?)
     }
 
-    /// Numbers that look like those of another unit, in words.
+    /// Numbers that look like numbers in another unit, in words.
     fn doubts(&self) -> Vec<String> {
         self.0.doubts()
     }
@@ -106,22 +106,22 @@ attributes!(Material, self:
     also: Vec<String> = self.0.also.clone();
     /// Key of the material in its table.
     name: &str = &self.0.name;
-    /// What the material is.
+    /// Description of the material.
     title: &str = &self.0.title;
 );
 
-/// The materials that come with the package, or those of a file.
+/// The materials that come with the package, or the materials of a file.
 #[pyfunction]
 #[pyo3(signature = (file = None))]
 pub(crate) fn materials(file: Option<PathBuf>) -> Answer<Vec<Material>> {
-    let found = match file {
+    let materials = match file {
         None => core::materials(),
         Some(file) => {
             let (text, name) = read_text(&file)?;
             core::read(&text, &name)?
         }
     };
-    Ok(found.into_values().map(Material).collect())
+    Ok(materials.into_values().map(Material).collect())
 }
 
 /// How a number of a material is known, by its source: "known", "estimate" or "recalled".

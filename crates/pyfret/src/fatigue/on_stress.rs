@@ -54,14 +54,14 @@ pub(crate) fn criterion_on<'py>(
     };
     let work = || core::evaluate(&criterion.0, &history, &search, &stop);
     let points = interruptible(py, &stop, work)??;
-    let found = PyDict::new(py);
+    let fields = PyDict::new(py);
     for (name, number) in AT_POINT {
         let values: Array1<f64> = points.iter().map(number).collect();
-        found.set_item(name, values.into_pyarray(py))?;
+        fields.set_item(name, values.into_pyarray(py))?;
     }
     let normal = Array2::from_shape_fn((points.len(), 3), |(n, d)| points[n].normal[d]);
-    found.set_item("normal", normal.into_pyarray(py))?;
-    Ok(found)
+    fields.set_item("normal", normal.into_pyarray(py))?;
+    Ok(fields)
 }
 
 /// Load factors of first yield and shakedown of stresses of shape (time, points, 6).
@@ -76,14 +76,14 @@ pub(crate) fn yielding_on<'py>(
     let (view, stop) = (stress.as_array(), Arc::default());
     let work = || core::yielding(&view, s_y, &constant, &stop);
     let points = interruptible(py, &stop, work)??;
-    let found = PyDict::new(py);
+    let factors = PyDict::new(py);
     for (name, factor) in FACTORS {
         let values: Array1<f64> = points.iter().map(factor).collect();
-        found.set_item(name, values.into_pyarray(py))?;
+        factors.set_item(name, values.into_pyarray(py))?;
     }
     let residual = Array2::from_shape_fn((points.len(), 6), |(n, c)| points[n].residual[c]);
-    found.set_item("residual", residual.into_pyarray(py))?;
-    Ok(found)
+    factors.set_item("residual", residual.into_pyarray(py))?;
+    Ok(factors)
 }
 
 /// The path of one point in Dang Van's plane.
@@ -98,8 +98,8 @@ pub(crate) fn dang_van_path<'py>(
     let stress = stress.as_array();
     if stress.ncols() != 6 {
         let allowed = "6 long: xx, yy, zz, xy, xz, yz";
-        let found = stress.ncols();
-        refuse!("last axis of stress = {found}: must be {allowed}");
+        let columns = stress.ncols();
+        refuse!("last axis of stress = {columns}: must be {allowed}");
     }
     let rows = stress.rows().into_iter();
     let stress: Vec<_> = rows.map(|s| std::array::from_fn(|c| s[c])).collect();

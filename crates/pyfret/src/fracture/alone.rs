@@ -4,7 +4,7 @@ use ::fracture as of_cracks;
 use contact_assess::crack as core;
 use ndarray::{Array1, Array2, Ix3};
 
-use super::told::{named, set_path};
+use super::names::{named, set_path};
 use crate::error::Answer;
 use crate::hints::Numbers;
 use crate::prelude::*;
@@ -77,8 +77,8 @@ impl Crack {
     #[getter]
     fn points<'py>(&self, py: Python<'py>) -> Numbers<'py> {
         let points = self.0.points();
-        let of = |(n, c): (usize, usize)| if c == 0 { points[n].x } else { points[n].z };
-        Array2::from_shape_fn((points.len(), 2), of)
+        let coordinate = |(n, c): (usize, usize)| if c == 0 { points[n].x } else { points[n].z };
+        Array2::from_shape_fn((points.len(), 2), coordinate)
             .into_pyarray(py)
             .into()
     }
@@ -176,23 +176,23 @@ impl Crack {
         };
         let at = |crack: &of_cracks::Crack| -> Answer<Vec<Vec<of_cracks::PlaneStress>>> {
             let points = Self(crack.clone()).points(py);
-            let found = stress.call1((points,))?;
-            Ok(history(found.extract()?, crack.points().len())?)
+            let values = stress.call1((points,))?;
+            Ok(history(values.extract()?, crack.points().len())?)
         };
-        let found = of_cracks::grow(self.0.path(), &growing, at)?;
-        let tips: Vec<_> = found.tips.iter().map(|tip| tip.at).collect();
-        let times = found.tips.first().map_or(0, |tip| tip.cycle.len());
+        let growth = of_cracks::grow(self.0.path(), &growing, at)?;
+        let tips: Vec<_> = growth.tips.iter().map(|tip| tip.at).collect();
+        let times = growth.tips.first().map_or(0, |tip| tip.cycle.len());
         let table = |f: &dyn Fn(&of_cracks::Intensity) -> f64| {
-            let of = |(n, l): (usize, usize)| f(&found.tips[l].cycle[n]);
-            Array2::from_shape_fn((times, found.tips.len()), of).into_pyarray(py)
+            let value = |(n, l): (usize, usize)| f(&growth.tips[l].cycle[n]);
+            Array2::from_shape_fn((times, growth.tips.len()), value).into_pyarray(py)
         };
         let result = PyDict::new(py);
         result.set_item("K_I", table(&|k| k.K_I))?;
         result.set_item("K_II", table(&|k| k.K_II))?;
         result.set_item("error", table(&|k| k.error))?;
         set_path(py, &result, &tips)?;
-        result.set_item("path_error", found.error)?;
-        result.set_item("end", named(found.end))?;
+        result.set_item("path_error", growth.error)?;
+        result.set_item("end", named(growth.end))?;
         Ok(result)
     }
 

@@ -5,14 +5,14 @@ use contact_assess::crack as core;
 use contact_subsurface as subsurface;
 use ndarray::Array2;
 
-use super::told::{named, set_path};
+use super::names::{named, set_path};
 use crate::error::Answer;
 use crate::prelude::*;
 use crate::residual_stress::{Profiles, of_body};
 use crate::scene::Body;
 use crate::states::States;
 
-/// What `f` finds below a contact in its states.
+/// Calls `f` below a contact in its states.
 fn below_contact<T: Send>(
     py: Python<'_>,
     (body, body_number): (&Body, u8),
@@ -27,10 +27,10 @@ fn below_contact<T: Send>(
         side: side(body_number)?,
         grid,
     };
-    let found = stoppable(py, |stop| {
+    let answer = stoppable(py, |stop| {
         moments.with_states(Some(&residual), stop, |states| f(&below, &states))
     })??;
-    Ok(found)
+    Ok(answer)
 }
 
 /// K over (state, length), as named arrays.
@@ -73,14 +73,14 @@ pub(crate) fn crack_of_states<'py>(
         lengths: lengths.0,
         friction,
     };
-    let found = below_contact(
+    let cracks = below_contact(
         py,
         (&body, body_number),
         &states,
         residual,
         |below, states| core::over_cycle(below, states, &cracks),
     )?;
-    tables(py, &found)
+    tables(py, &cracks)
 }
 
 /// A crack that grows below a contact; use :meth:`pyfret.Result.grow_crack`.
@@ -113,16 +113,16 @@ pub(crate) fn crack_growth_of_states<'py>(
             tolerance,
         },
     };
-    let found = below_contact(
+    let growth = below_contact(
         py,
         (&body, body_number),
         &states,
         residual,
         |below, states| core::grown(below, states, &growth),
     )?;
-    let result = tables(py, &found.over)?;
-    set_path(py, &result, &found.tips)?;
-    result.set_item("path_error", found.error)?;
-    result.set_item("end", named(found.end))?;
+    let result = tables(py, &growth.over)?;
+    set_path(py, &result, &growth.tips)?;
+    result.set_item("path_error", growth.error)?;
+    result.set_item("end", named(growth.end))?;
     Ok(result)
 }

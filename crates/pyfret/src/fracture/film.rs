@@ -8,7 +8,7 @@ use crate::prelude::*;
 
 /// Factor from the plane K to the deepest point of a semi-elliptic crack of the aspect a/c <= 1.
 ///
-/// Newman and Raju's K under uniform tension over that of a straight front: an estimate, which
+/// Newman and Raju's K under uniform tension over the K of a straight front: an estimate, which
 /// takes the stress as constant along the front. J. C. Newman, I. S. Raju, NASA TM 85793 (1984).
 #[pyfunction]
 #[pyo3(signature = (aspect: "float"))]

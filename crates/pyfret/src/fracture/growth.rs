@@ -42,8 +42,11 @@ pub(crate) fn threshold_at(
     #[pyo3(from_py_with = number)] threshold_: Numbers,
     lengths: List<f64>,
 ) -> PyResult<(Vec<f64>, f64)> {
-    let of = threshold(threshold_)?;
-    Ok((lengths.iter().map(|l| of.at(*l)).collect(), of.a_0()))
+    let threshold_law = threshold(threshold_)?;
+    Ok((
+        lengths.iter().map(|l| threshold_law.at(*l)).collect(),
+        threshold_law.a_0(),
+    ))
 }
 
 /// Equivalent range of K at R = 0 [Pa m^0.5] of extremes of K.
@@ -54,9 +57,9 @@ pub(crate) fn equivalent_range(
     K_max: List<f64>,
     K_min: List<f64>,
 ) -> PyResult<Vec<f64>> {
-    let of = threshold(threshold_)?;
+    let threshold_law = threshold(threshold_)?;
     let pairs = K_max.into_iter().zip(K_min);
-    let range = |(K_max, K_min)| of.equivalent(of_cracks::Extremes { K_max, K_min });
+    let range = |(K_max, K_min)| threshold_law.equivalent(of_cracks::Extremes { K_max, K_min });
     Ok(pairs.map(range).collect())
 }
 
@@ -64,7 +67,7 @@ pub(crate) fn equivalent_range(
 /// its length.
 type Arrested = (&'static str, Option<f64>, Vec<f64>, f64, f64, f64);
 
-/// What becomes of a crack.
+/// Arrest or growth of a crack.
 ///
 /// Verdict, length where it stops, crossings, range of K over its threshold at the start, margin
 /// and its length.
@@ -77,8 +80,8 @@ pub(crate) fn arrest(
     #[pyo3(from_py_with = number)] threshold_: Numbers,
     #[pyo3(from_py_with = number)] start: f64,
 ) -> Answer<Arrested> {
-    let found = curve(lengths, K_max, K_min)?.arrest(&threshold(threshold_)?, start)?;
-    let (verdict, length) = match found.verdict {
+    let arrest = curve(lengths, K_max, K_min)?.arrest(&threshold(threshold_)?, start)?;
+    let (verdict, length) = match arrest.verdict {
         of_cracks::Verdict::Dormant => ("dormant", Some(start)),
         of_cracks::Verdict::Stops(l) => ("stops", Some(l)),
         of_cracks::Verdict::Grows => ("grows", None),
@@ -86,10 +89,10 @@ pub(crate) fn arrest(
     Ok((
         verdict,
         length,
-        found.crossings,
-        found.at_start,
-        found.margin,
-        found.margin_at,
+        arrest.crossings,
+        arrest.at_start,
+        arrest.margin,
+        arrest.margin_at,
     ))
 }
 

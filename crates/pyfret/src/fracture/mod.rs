@@ -4,7 +4,7 @@ mod alone;
 mod below;
 mod film;
 mod growth;
-mod told;
+mod names;
 
 pub(crate) use alone::Crack;
 pub(crate) use below::{crack_growth_of_states, crack_of_states};

@@ -41,14 +41,14 @@ impl Hertz {
         #[pyo3(from_py_with = Given::p0)] p0: f64,
         #[pyo3(from_py_with = Given::delta_z)] delta_z: f64,
     ) -> Answer<Self> {
-        let all = [
+        let parts = [
             ("W", W),
             ("E_star", E_star),
             ("a", a),
             ("p0", p0),
             ("delta_z", delta_z),
         ];
-        for (key, value) in all {
+        for (key, value) in parts {
             positive(key, value)?;
         }
         Ok(Self(core::Hertz {

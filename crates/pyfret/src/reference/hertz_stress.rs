@@ -48,12 +48,15 @@ impl HertzStress {
         y: Numbers<'py>,
         z: Numbers<'py>,
     ) -> Answer<[Bound<'py, PyArrayDyn<f64>>; 6]> {
-        let of = |&x: &f64, &y: &f64, &z: &f64| self.0.pressure(x, y, z);
+        let pressure = |&x: &f64, &y: &f64, &z: &f64| self.0.pressure(x, y, z);
         let [x, y, z] = self.places(&x, &y, &z)?;
-        Ok(rows(py, &Zip::from(&x).and(&y).and(&z).map_collect(of)))
+        Ok(rows(
+            py,
+            &Zip::from(&x).and(&y).and(&z).map_collect(pressure),
+        ))
     }
 
-    /// The same under a shear traction that acts on the body along +x.
+    /// Stress under a shear traction that acts on the body along +x.
     #[pyo3(signature = (x, y, z) -> "list[NDArray[np.float64]]")]
     fn shear<'py>(
         &self,
@@ -62,9 +65,9 @@ impl HertzStress {
         y: Numbers<'py>,
         z: Numbers<'py>,
     ) -> Answer<[Bound<'py, PyArrayDyn<f64>>; 6]> {
-        let of = |&x: &f64, &y: &f64, &z: &f64| self.0.shear(x, y, z);
+        let shear = |&x: &f64, &y: &f64, &z: &f64| self.0.shear(x, y, z);
         let [x, y, z] = self.places(&x, &y, &z)?;
-        Ok(rows(py, &Zip::from(&x).and(&y).and(&z).map_collect(of)))
+        Ok(rows(py, &Zip::from(&x).and(&y).and(&z).map_collect(shear)))
     }
 }
 

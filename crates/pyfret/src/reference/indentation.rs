@@ -73,8 +73,12 @@ pub(crate) fn coupled_indentation(
     #[pyo3(from_py_with = number)] mu: f64,
 ) -> PyResult<CoupledIndentation> {
     check(beta, mu)?;
-    let found = core::coupled_indentation(beta, mu);
-    Ok(CoupledIndentation { found, beta, mu })
+    let solution = core::coupled_indentation(beta, mu);
+    Ok(CoupledIndentation {
+        found: solution,
+        beta,
+        mu,
+    })
 }
 
 /// Frictionless contact of a sphere with a body that has one coating.
@@ -128,15 +132,15 @@ pub(crate) fn coated_indentation(
     positive("R", R).and(positive("W", W))?;
     pair((indenter, Material(coating.layer.material)))?;
     pair((Material(coating.layer.material), substrate))?;
-    let given = coating.clone();
+    let film = coating.clone();
     let (indenter, coating, substrate) = (indenter.0, coating.layer, substrate.0);
     positive("coating.thickness", coating.thickness)?;
-    let found = core::coated_indentation(R, indenter, coating, substrate, W);
+    let solution = core::coated_indentation(R, indenter, coating, substrate, W);
     Ok(CoatedIndentation {
-        found: found?,
+        found: solution?,
         R,
         indenter: Elastic(indenter, None),
-        coating: given,
+        coating: film,
         substrate: Elastic(substrate, None),
         W,
     })

@@ -42,7 +42,7 @@ fn map<'py>(x: &Numbers<'py>, f: impl Fn(f64) -> f64) -> Values<'py> {
     x.as_array().mapv(f).to_pyarray(x.py()).into()
 }
 
-/// The same, each number checked first.
+/// Maps places, each number checked first.
 fn map_checked<'py>(
     x: &Numbers<'py>,
     check: impl Fn(f64) -> Result<f64, Error>,
@@ -74,16 +74,16 @@ fn together<const N: usize>(places: [(&str, &Numbers<'_>); N]) -> Answer<[ArrayD
     must_fit(shape.iter().product(), 8.0)?;
     let whole = |(name, of): (&str, &Numbers<'_>)| {
         let array = of.as_array();
-        let found = array.broadcast(IxDyn(&shape)).map(|whole| whole.to_owned());
-        found.ok_or_else(|| {
+        let broadcast = array.broadcast(IxDyn(&shape)).map(|whole| whole.to_owned());
+        broadcast.ok_or_else(|| {
             PyValueError::new_err(format!(
                 "{name} has the shape {:?}: must fit that of the other places, {shape:?}",
                 array.shape()
             ))
         })
     };
-    let each: Vec<_> = places.into_iter().map(whole).collect::<PyResult<_>>()?;
-    Ok(each.try_into().expect("one for each place"))
+    let arrays: Vec<_> = places.into_iter().map(whole).collect::<PyResult<_>>()?;
+    Ok(arrays.try_into().expect("one for each place"))
 }
 
 /// The components of a stress at places, an array for each.

@@ -98,7 +98,7 @@ impl LineContact {
 
     /// Stress s_xx, s_zz, s_xz at (`x`, `z`) [m] in partial slip [Pa]; arrays are put together.
     ///
-    /// The shear is that of :meth:`q`, the stick zone around `middle`. A bulk stress adds to s_xx.
+    /// The shear is :meth:`q`, with the stick zone around `middle`. A bulk stress adds to s_xx.
     #[pyo3(signature = (x, z, *, T: "LineForce", mu: "float", middle: "Length" = 0.0) -> "list[NDArray[np.float64]]")]
     fn stress<'py>(
         &self,
@@ -114,8 +114,9 @@ impl LineContact {
         checked(&z, |z| between("z", z, (0.0, far)))?;
         checked(&x, |x| between("x", x, (-far, far)))?;
         let [x, z] = together([("x", &x), ("z", &z)])?;
-        let of = |&x: &f64, &z: &f64| self.line.partial_slip_stress_shifted((x, z), middle, T, mu);
-        Ok(rows(py, &Zip::from(&x).and(&z).map_collect(of)))
+        let stress =
+            |&x: &f64, &z: &f64| self.line.partial_slip_stress_shifted((x, z), middle, T, mu);
+        Ok(rows(py, &Zip::from(&x).and(&z).map_collect(stress)))
     }
 }
 
@@ -138,7 +139,7 @@ impl LineContact {
         Ok(between("T", T, (-limit, limit)).map(drop)?)
     }
 
-    /// The same with a stick zone whose middle lies in the contact.
+    /// Checks that the middle of the stick zone lies in the contact.
     fn check_middle(&self, T: f64, mu: f64, middle: f64) -> Answer<()> {
         self.check(T, mu)?;
         between("middle", middle, (-self.line.a, self.line.a))?;

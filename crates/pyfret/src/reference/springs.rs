@@ -93,9 +93,9 @@ impl Springs {
         #[pyo3(from_py_with = number)] steps: usize,
     ) -> Answer<f64> {
         // Rounding is no reason to refuse the largest forces.
-        let most = |limit: f64| limit * (1.0 + 1e-9);
-        between("W", W, (0.0, most(self.largest.0.W)))?;
-        let limit = most(self.mu * W);
+        let limit_rounded = |limit: f64| limit * (1.0 + 1e-9);
+        between("W", W, (0.0, limit_rounded(self.largest.0.W)))?;
+        let limit = limit_rounded(self.mu * W);
         between("T", T, (-limit, limit))?;
         count("steps", steps, MOST_SPRINGS)?;
         let from = self.loads.last().map_or((0.0, 0.0), |(W, T, _)| (*W, *T));

@@ -120,8 +120,8 @@ impl Coatings {
 
     /// Residual stress of the layers, the substrate last; none where no layer has any.
     fn residual(&self, substrate: Option<Profile>) -> Vec<core::Profile> {
-        let own = substrate.unwrap_or_default().0;
-        let layers = self.0.iter().map(|c| c.residual.clone()).chain([own]);
+        let substrate = substrate.unwrap_or_default().0;
+        let layers = self.0.iter().map(|c| c.residual.clone()).chain([substrate]);
         let layers: Vec<_> = layers.collect();
         let none = layers.iter().all(|layer| layer.rows.is_empty());
         if none { Vec::new() } else { layers }

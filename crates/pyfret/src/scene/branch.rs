@@ -33,7 +33,7 @@ members!(
 /// t : float
 ///     Path time at its end.
 /// path_error : float, optional
-///     Estimated error that the increments leave in the shear, as known before a run; that of
+///     Estimated error that the increments leave in the shear, as known before a run; the error of
 ///     :meth:`Result.branches` contains what the run shows of it.
 #[pyclass(frozen, eq, from_py_object, module = "pyfret")]
 #[derive(Clone, Copy, PartialEq)]

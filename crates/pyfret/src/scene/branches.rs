@@ -82,11 +82,11 @@ pub(super) fn cycled(
     named: [(RigidMotion, Option<Prescribed>); 6],
     increments: Option<usize>,
 ) -> Answer<core::LoadPath> {
-    let named: Vec<_> = named
+    let branches: Vec<_> = named
         .into_iter()
         .filter_map(|(of, p)| Some((of, p?)))
         .collect();
-    let [(of, amplitude)] = named[..] else {
+    let [(of, amplitude)] = branches[..] else {
         refuse!(
             "cycles: give the amplitude of one load or motion, such as T_x=100.0 or delta_x=2e-6"
         );

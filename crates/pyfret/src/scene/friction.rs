@@ -11,7 +11,7 @@ use crate::parts::members;
 use crate::prelude::*;
 
 members!(
-    /// What a cell has been through.
+    /// History of a cell.
     ///
     /// ``INCREMENT``: increments done, the same for all cells. ``SLIP``: length of the way that the
     /// cell has slipped [m]. ``DISSIPATED``: energy dissipated per area [J/m^2]. ``CYCLES``: cycles of
@@ -22,7 +22,7 @@ members!(
 
 /// Coulomb's law with a coefficient that depends on direction, place and history.
 ///
-/// The coefficient of an increment is that of the history at its end, extrapolated from the last
+/// The coefficient of an increment follows from the history at its end, extrapolated from the last
 /// increment.
 ///
 /// Parameters
@@ -43,9 +43,9 @@ members!(
 ///     [J/m^2]. It gives the coefficient along x of each cell, finite and >= 0, as an array of the
 ///     same shape or one number. `mu` is about the size of it: the measure of tolerances, and the
 ///     coefficient of cells without pressure so far. An increment is solved again until the
-///     coefficient is that of pressure and history at its end. What the function raises is raised
+///     coefficient follows from pressure and history at its end. What the function raises is raised
 ///     as it is. No map, history or kinetic coefficient beside it; over cycles of wear slip and
-///     energy are those of all cycles so far. A store keeps that there is a law, not which:
+///     energy are sums over all cycles so far. A store keeps that there is a law, not which:
 ///     ``pyfret.resume(store, friction_law=...)``.
 #[pyclass(frozen, eq, from_py_object, module = "pyfret")]
 #[derive(Clone, PartialEq)]
@@ -140,9 +140,9 @@ impl<'py> FromPyObject<'_, 'py> for AnyFriction {
         } else if let Ok(mu) = number(&value) {
             mu
         } else {
-            let wanted = "a coefficient, such as 0.3, a law, such as Friction(0.3, kinetic=0.25) or Friction(0.3, law=function), or \"stick\" \
+            let allowed = "a coefficient, such as 0.3, a law, such as Friction(0.3, kinetic=0.25) or Friction(0.3, law=function), or \"stick\" \
                           for no slip";
-            return Err(must_be(&value, wanted));
+            return Err(must_be(&value, allowed));
         };
         let law = core::Friction::coulomb(mu);
         law.check(None).map_err(to_python)?;

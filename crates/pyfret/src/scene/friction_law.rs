@@ -19,26 +19,26 @@ impl core::FrictionLaw for Own {
         let call = |py: Python<'_>| -> PyResult<()> {
             let fields = [cells.x, cells.y, cells.p, cells.slip, cells.dissipated];
             let [x, y, p, slip, dissipated] = fields.map(|field| field.to_pyarray(py));
-            let found = self.0.bind(py).call1((x, y, p, slip, dissipated))?;
-            let found: Array<'_, IxDyn> = found.extract().map_err(|why: PyErr| {
+            let answer = self.0.bind(py).call1((x, y, p, slip, dissipated))?;
+            let array: Array<'_, IxDyn> = answer.extract().map_err(|why: PyErr| {
                 let why = why.value(py);
                 if why.is_instance_of::<PyValueError>() {
                     return InvalidSceneError::new_err(format!(
-                        "friction.law = {found}: must be a finite coefficient >= 0 in each cell: {why}"
+                        "friction.law = {answer}: must be a finite coefficient >= 0 in each cell: {why}"
                     ));
                 }
                 PyTypeError::new_err(format!(
-                    "friction law {}: gave {found}, must be an array of real numbers, a coefficient for each cell, \
+                    "friction law {}: gave {answer}, must be an array of real numbers, a coefficient for each cell, \
                      or one number: {why}",
                     self.0,
                 ))
             })?;
-            let found = found.as_array();
-            match (found.ndim(), found.len()) {
-                (0, _) => mu.fill(found.sum()),
+            let values = array.as_array();
+            match (values.ndim(), values.len()) {
+                (0, _) => mu.fill(values.sum()),
                 (1, n) if n == mu.len() => {
-                    for (mu, found) in mu.iter_mut().zip(found) {
-                        *mu = *found;
+                    for (mu, values) in mu.iter_mut().zip(values) {
+                        *mu = *values;
                     }
                 }
                 _ => {
@@ -46,7 +46,7 @@ impl core::FrictionLaw for Own {
                         "friction law {}: gave an array of shape {:?}, must be ({},), a coefficient for each \
                          cell, or one number",
                         self.0,
-                        found.shape(),
+                        values.shape(),
                         mu.len()
                     );
                 }
@@ -81,9 +81,9 @@ pub(crate) fn own_law(given: &Bound<'_, PyAny>) -> PyResult<core::UserFriction> 
 
 /// The function of a law, or the word for one that is elsewhere.
 pub(crate) fn function<'py>(py: Python<'py>, law: &core::UserFriction) -> Bound<'py, PyAny> {
-    let own = law.0.as_any().and_then(|law| law.downcast_ref::<Own>());
-    own.map_or_else(
+    let python_law = law.0.as_any().and_then(|law| law.downcast_ref::<Own>());
+    python_law.map_or_else(
         || pyo3::types::PyString::new(py, OWN).into_any(),
-        |own| own.0.bind(py).clone(),
+        |python_law| python_law.0.bind(py).clone(),
     )
 }

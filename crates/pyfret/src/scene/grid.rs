@@ -20,18 +20,18 @@ impl<'py> FromPyObject<'_, 'py> for Pitch {
             return Ok(Self((both, both)));
         }
         if has_unit(&value)? {
-            let both = Given::extent(&value)?;
-            return Ok(Self((both, both)));
+            let extent = Given::extent(&value)?;
+            return Ok(Self((extent, extent)));
         }
         if let Ok((x, y)) = value.extract::<(Bound<'_, PyAny>, Bound<'_, PyAny>)>()
             && (has_unit(&x)? || has_unit(&y)?)
         {
             return Ok(Self((Given::extent(&x)?, Given::extent(&y)?)));
         }
-        let wanted = "a length in m, or one along x and one along y, such as (2e-6, 2e-6)";
+        let allowed = "a length in m, or one along x and one along y, such as (2e-6, 2e-6)";
         number(&value)
             .map(Self)
-            .map_err(|_| must_be(&value, wanted))
+            .map_err(|_| must_be(&value, allowed))
     }
 }
 
@@ -47,10 +47,10 @@ impl<'py> FromPyObject<'_, 'py> for Cells {
         if let Ok(both) = number(&value) {
             return Ok(Self((both, both)));
         }
-        let wanted = "a whole number of cells, or one along x and one along y, such as (128, 128)";
+        let allowed = "a whole number of cells, or one along x and one along y, such as (128, 128)";
         number(&value)
             .map(Self)
-            .map_err(|_| must_be(&value, wanted))
+            .map_err(|_| must_be(&value, allowed))
     }
 }
 
@@ -141,7 +141,7 @@ impl Grid {
         Ok(Self(core::Grid::strip(extent, n.0, width)?))
     }
 
-    /// Unit of a number of a run on this grid, by that of a contact of two directions.
+    /// Unit of a number of a run on this grid, by its unit in three dimensions.
     ///
     /// On a strip one metre wide forces are in N/m, energies in J/m, areas in m^2/m.
     fn unit_of<'a>(&self, unit: &'a str) -> &'a str {

@@ -22,11 +22,11 @@ impl<'py> FromPyObject<'_, 'py> for Values {
         if let Ok(one) = number(&value) {
             return Ok(Self::One(one));
         }
-        let wanted = "a number, or several to visit in turn, such as [100.0, -100.0, 100.0]";
+        let allowed = "a number, or several to visit in turn, such as [100.0, -100.0, 100.0]";
         let several = value.extract::<List<f64>>().ok().filter(|v| !v.is_empty());
         several
             .map(|values| Self::Several(values.0))
-            .ok_or_else(|| must_be(&value, wanted))
+            .ok_or_else(|| must_be(&value, allowed))
     }
 }
 
@@ -67,8 +67,8 @@ fn visit(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Values> {
     if let Ok(several) = value.extract::<List<Bound<'_, PyAny>>>() {
         let units = several.iter().map(has_unit).collect::<PyResult<Vec<_>>>()?;
         if units.contains(&true) {
-            let each = several.iter().map(|one| si(name, one));
-            return each.collect::<PyResult<_>>().map(Values::Several);
+            let numbers = several.iter().map(|one| si(name, one));
+            return numbers.collect::<PyResult<_>>().map(Values::Several);
         }
     }
     value.extract()
@@ -86,15 +86,15 @@ impl<'py> FromPyObject<'_, 'py> for Names {
         if let Ok(one) = value.extract::<String>() {
             return Ok(Self(vec![one]));
         }
-        let wanted = "a name, or a list of names, such as \"delta_x\"";
+        let allowed = "a name, or a list of names, such as \"delta_x\"";
         let names = value.extract::<List<String>>();
         names
             .map(|names| Self(names.0))
-            .map_err(|_| must_be(&value, wanted))
+            .map_err(|_| must_be(&value, allowed))
     }
 }
 
-/// As many increments as a change needs if the whole range takes this many.
+/// Increments in proportion to a change, where the whole range takes this many.
 #[pyclass(frozen, eq, from_py_object, module = "pyfret")]
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) struct PerRange(pub(super) usize);
@@ -131,11 +131,11 @@ impl<'py> FromPyObject<'_, 'py> for Count {
         if value.extract::<&str>().is_ok_and(|word| word == "auto") {
             return Ok(Self(None));
         }
-        let wanted = "a whole number of increments >= 1, or \"auto\"";
-        let given = number(&value).ok().filter(|&n: &usize| n >= 1);
-        given
+        let allowed = "a whole number of increments >= 1, or \"auto\"";
+        let count = number(&value).ok().filter(|&n: &usize| n >= 1);
+        count
             .map(|n| Self(Some(n)))
-            .ok_or_else(|| must_be(&value, wanted))
+            .ok_or_else(|| must_be(&value, allowed))
     }
 }
 
@@ -158,10 +158,10 @@ impl<'py> FromPyObject<'_, 'py> for AnyIncrements {
         if value.extract::<&str>().is_ok_and(|word| word == "auto") {
             return Ok(Self::Chosen);
         }
-        let wanted = "a whole number of increments per branch, PerRange(40) or \"auto\"";
+        let allowed = "a whole number of increments per branch, PerRange(40) or \"auto\"";
         number(&value)
             .map(Self::Each)
-            .map_err(|_| must_be(&value, wanted))
+            .map_err(|_| must_be(&value, allowed))
     }
 }
 

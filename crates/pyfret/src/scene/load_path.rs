@@ -54,7 +54,7 @@ impl LoadPath {
         })
     }
 
-    /// The same path through a rig of a stiffness K [N/m], a spring along x.
+    /// Return the path through a rig of a stiffness K [N/m], a spring along x.
     ///
     /// The spring is in series with the contact. ``delta_x`` is the shift of its far end, given or
     /// read. The contact's own shift is ``delta_x - T_x/K``. None takes the spring out. A text may
@@ -267,7 +267,7 @@ impl LoadPath {
         #[pyo3(from_py_with = Optional::phi_z)] phi_z: Option<f64>,
         increments: Count,
     ) -> Answer<Self> {
-        let named = [
+        let motions = [
             (RigidMotion::DeltaX, T_x.map(Prescribed::Load)),
             (RigidMotion::DeltaY, T_y.map(Prescribed::Load)),
             (RigidMotion::PhiZ, M_z.map(Prescribed::Load)),
@@ -275,7 +275,7 @@ impl LoadPath {
             (RigidMotion::DeltaY, delta_y.map(Prescribed::Motion)),
             (RigidMotion::PhiZ, phi_z.map(Prescribed::Motion)),
         ];
-        cycled(&self.0, n, named, increments.0).and_then(checked)
+        cycled(&self.0, n, motions, increments.0).and_then(checked)
     }
 
     /// Stay at the loads and motions reached for some increments, one unit of path time.
@@ -311,12 +311,12 @@ impl LoadPath {
 
     pub(crate) fn __repr__(&self) -> String {
         let branches = &self.0.branches;
-        let given: usize = branches.iter().filter_map(|b| b.increments).sum();
+        let total: usize = branches.iter().filter_map(|b| b.increments).sum();
         let open = branches.iter().filter(|b| b.increments.is_none()).count();
-        let increments = match (given, open) {
-            (given, 0) => format!("{given} increments"),
+        let increments = match (total, open) {
+            (total, 0) => format!("{total} increments"),
             (0, _) => "increments to be chosen".to_owned(),
-            (given, open) => format!("{given} increments, those of {open} branches to be chosen"),
+            (total, open) => format!("{total} increments, those of {open} branches to be chosen"),
         };
         let rig = self.0.rig_stiffness.map_or("", |_| ", through a rig");
         format!("LoadPath({} branches, {increments}{rig})", branches.len())
@@ -326,7 +326,7 @@ impl LoadPath {
 attributes!(LoadPath, self, py:
     /// Path time at the end of every increment.
     t: Answer<Numbers<'py>> = column(&self.0, py, |point| point.t);
-    /// Normal force at the end of every increment [N]; NaN where only the solution can say.
+    /// Normal force at the end of every increment [N]; NaN where it follows from the solution.
     W: Answer<Numbers<'py>> = column(&self.0, py, |point| point.loads.W);
     /// Tangential force along x at the end of every increment [N].
     T_x: Answer<Numbers<'py>> = column(&self.0, py, |point| point.loads.T_x);

@@ -75,25 +75,25 @@ impl Profile {
 
     fn __repr__(slf: &Bound<'_, Self>) -> PyResult<String> {
         let (method, given) = slf.get().made_by(slf.py())?;
-        let each = given
+        let texts = given
             .iter()
             .map(|(name, of)| Ok(format!("{name}={}", of.repr()?)));
-        let all: Vec<_> = each.collect::<PyResult<_>>()?;
-        Ok(format!("Profile.{method}({})", all.join(", ")))
+        let texts: Vec<_> = texts.collect::<PyResult<_>>()?;
+        Ok(format!("Profile.{method}({})", texts.join(", ")))
     }
 }
 
 impl Profile {
     /// The method that makes it, and what that is given.
     fn made_by<'py>(&self, py: Python<'py>) -> PyResult<(&'static str, Bound<'py, PyDict>)> {
-        let given = PyDict::new(py);
+        let arguments = PyDict::new(py);
         let ends = |top: f64, bottom: f64| {
-            given.set_item("top", top)?;
-            given.set_item("bottom", bottom)
+            arguments.set_item("top", top)?;
+            arguments.set_item("bottom", bottom)
         };
         let method = match &self.0 {
             core::Profile::Constant(value) => {
-                given.set_item("value", value)?;
+                arguments.set_item("value", value)?;
                 "constant"
             }
             core::Profile::Linear { top, bottom } => {
@@ -106,7 +106,7 @@ impl Profile {
                 exponent,
             } => {
                 ends(*top, *bottom)?;
-                given.set_item("exponent", exponent)?;
+                arguments.set_item("exponent", exponent)?;
                 "power"
             }
             core::Profile::Exponential { top, bottom } => {
@@ -114,11 +114,11 @@ impl Profile {
                 "exponential"
             }
             core::Profile::Table(points) => {
-                given.set_item("points", points.clone())?;
+                arguments.set_item("points", points.clone())?;
                 "table"
             }
         };
-        Ok((method, given))
+        Ok((method, arguments))
     }
 }
 

@@ -38,7 +38,7 @@ takes!(
 
 impl Scene {
     /// The scene with another load history, if one is given.
-    fn along(&self, path: Option<LoadPath>) -> core::Scene {
+    fn with_path(&self, path: Option<LoadPath>) -> core::Scene {
         let mut scene = self.0.clone();
         if let Some(path) = path {
             scene.path = path.0;
@@ -187,7 +187,7 @@ impl Scene {
     /// Parameters
     /// ----------
     /// path : LoadPath, optional
-    ///     Load history (default: that of the scene).
+    ///     Load history (default: the path of the scene).
     ///
     /// Raises
     /// ------
@@ -197,10 +197,10 @@ impl Scene {
     /// Warns
     /// -----
     /// SceneWarning
-    ///     As :meth:`doubts` says.
+    ///     One for each sentence of :meth:`doubts`.
     #[pyo3(signature = (path = None))]
     fn check(&self, py: Python<'_>, path: Option<LoadPath>) -> Answer<()> {
-        let scene = self.along(path);
+        let scene = self.with_path(path);
         scene.check()?;
         scene.check_fit()?;
         let warn = from_python(py, "warn")?;
@@ -237,7 +237,7 @@ impl Scene {
         self.0.reference_length(&p.as_array().to_owned())
     }
 
-    /// What is allowed but hardly meant: numbers that look like another unit's, few cells.
+    /// Doubts: numbers that look like numbers in another unit, few cells.
     ///
     /// One sentence for each, with what was understood; :func:`pyfret.solve` and :meth:`check` warn
     /// of them.
@@ -245,10 +245,10 @@ impl Scene {
     /// Parameters
     /// ----------
     /// path : LoadPath, optional
-    ///     Load history (default: that of the scene).
+    ///     Load history (default: the path of the scene).
     #[pyo3(signature = (path = None))]
     fn doubts(&self, path: Option<LoadPath>) -> Vec<String> {
-        self.along(path).doubts()
+        self.with_path(path).doubts()
     }
 
     fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {

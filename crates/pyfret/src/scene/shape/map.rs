@@ -37,10 +37,10 @@ impl SurfaceMap {
     #[new]
     #[pyo3(signature = (values: "ArrayLike", *, spacing, missing: "Literal['refuse', 'crop', 'fill']" = "refuse"))]
     fn new(values: &Bound<'_, PyAny>, spacing: Pitch, missing: &str) -> Answer<Self> {
-        let wanted = "an array of numbers of shape (points along x, points along y)";
+        let allowed = "an array of numbers of shape (points along x, points along y)";
         let numbers = Field::with_holes(values).map_err(|error| {
             if error.is_instance_of::<PyTypeError>(values.py()) {
-                must_be(values, wanted)
+                must_be(values, allowed)
             } else {
                 InvalidSceneError::new_err(error.value(values.py()).to_string())
             }
@@ -48,7 +48,7 @@ impl SurfaceMap {
         numbers.must_have_pitch("values", "points of the map, spacing,", spacing.0)?;
         let numbers = numbers.as_array().to_owned();
         let map = core::SurfaceMap::new(numbers, spacing.0, word(missing)?);
-        said(values.py(), map?)
+        warn_of_filled(values.py(), map?)
     }
 
     /// Read numbers from a file: a ``.npy`` array, or text of instruments and spreadsheets.
@@ -63,9 +63,9 @@ impl SurfaceMap {
     /// path : path
     ///     The file.
     /// spacing : float or (float, float), optional
-    ///     Distance of the points along x and y [m], where the file does not say it.
+    ///     Distance of the points along x and y [m], where the file does not have it.
     /// unit : str, optional
-    ///     Unit of the numbers, such as "um"; by default that of the file, or metres. It holds for
+    ///     Unit of the numbers, such as "um"; by default the unit of the file, or metres. It holds for
     ///     x and y of a list of points, too.
     /// channel : str, optional
     ///     Of a list of points with several columns beside x and y, the title or the number
@@ -91,14 +91,14 @@ impl SurfaceMap {
         channel: Option<String>,
         missing: &str,
     ) -> Answer<Self> {
-        let told = core::FileOfNumbers {
+        let file = core::FileOfNumbers {
             spacing: spacing.map(|spacing| spacing.0),
             unit,
             channel,
             missing: word(missing)?,
         };
-        let map = py.detach(|| core::SurfaceMap::from_file(&path, &told));
-        said(py, map?)
+        let map = py.detach(|| core::SurfaceMap::from_file(&path, &file));
+        warn_of_filled(py, map?)
     }
 
     pub(super) fn __repr__(&self) -> String {
@@ -130,8 +130,8 @@ attributes!(SurfaceMap, self:
     peak_to_valley: f64 = self.0.peak_to_valley();
 );
 
-/// The map, with a warning that says how many of its numbers are filled.
-fn said(py: Python<'_>, map: core::SurfaceMap) -> Answer<SurfaceMap> {
+/// Returns the map, with a warning about the number of filled points.
+fn warn_of_filled(py: Python<'_>, map: core::SurfaceMap) -> Answer<SurfaceMap> {
     if map.filled > 0 {
         let (filled, all) = (map.filled, map.values.len());
         let share = 100.0 * filled as f64 / all as f64;
@@ -144,7 +144,7 @@ fn said(py: Python<'_>, map: core::SurfaceMap) -> Answer<SurfaceMap> {
     Ok(SurfaceMap(map))
 }
 
-/// What becomes of points without a number.
+/// Treatment of points without a number.
 fn word(missing: &str) -> Answer<core::Missing> {
     core::Missing::from_word(missing).ok_or_else(|| {
         let allowed = "\"refuse\", \"crop\" or \"fill\"";

@@ -19,7 +19,7 @@ pub(crate) struct Sum(Vec<core::Shape>);
 parts!(Sum: parts);
 
 impl Sum {
-    fn of(one: Shape, other: Shape) -> Self {
+    fn concat(one: Shape, other: Shape) -> Self {
         let parts = |shape| match core::Shape::from(shape) {
             core::Shape::Sum(parts) => parts,
             shape => vec![shape],
@@ -53,7 +53,7 @@ macro_rules! adds {
         $(#[pymethods]
         impl $class {
             fn __add__(&self, other: Shape) -> Sum {
-                Sum::of(Shape::$class(self.clone()), other)
+                Sum::concat(Shape::$class(self.clone()), other)
             }
         })*
     };

@@ -1,4 +1,4 @@
-//! What the core says of cracks, in the words of Python.
+//! Names of the ends of cracks, and their paths.
 
 use ::fracture as of_cracks;
 use ndarray::Array1;

@@ -10,23 +10,23 @@ use crate::prelude::*;
 use crate::states::States;
 
 /// The moments of a cycle that an object of Python gives.
-pub(super) struct Given {
+pub(super) struct PythonCycle {
     /// Called with the numbers of moments, or with none for the start of the cycle.
-    give: Py<PyAny>,
+    fetch: Py<PyAny>,
     count: usize,
     grid: Grid,
-    /// Plastic work of the cycle, and that beside which it is small [J].
+    /// Plastic work of the cycle, and the work beside which it is small [J].
     yielding: Option<(f64, f64)>,
     /// Error of the shear by the increments.
     path_error: Option<f64>,
-    /// What Python raised.
+    /// Exception of Python.
     raised: Mutex<Option<PyErr>>,
 }
 
-impl Given {
-    pub(super) fn new(give: Py<PyAny>, count: usize, grid: &Grid) -> Self {
+impl PythonCycle {
+    pub(super) fn new(fetch: Py<PyAny>, count: usize, grid: &Grid) -> Self {
         Self {
-            give,
+            fetch,
             count,
             grid: *grid,
             yielding: None,
@@ -35,23 +35,23 @@ impl Given {
         }
     }
 
-    /// With what yields in it.
-    pub(super) fn yields(self, yielding: Option<(f64, f64)>) -> Self {
+    /// Adds the plastic work.
+    pub(super) fn with_plastic_work(self, yielding: Option<(f64, f64)>) -> Self {
         Self { yielding, ..self }
     }
 
-    /// With the error of the shear by the increments.
-    pub(super) fn known_to(self, path_error: Option<f64>) -> Self {
+    /// Adds the error of the shear from the increments.
+    pub(super) fn with_path_error(self, path_error: Option<f64>) -> Self {
         Self { path_error, ..self }
     }
 
-    /// What Python raised, once.
-    pub(super) fn taken(&self) -> Option<PyErr> {
+    /// Takes the exception of Python, once.
+    pub(super) fn take_error(&self) -> Option<PyErr> {
         self.raised.lock().ok().and_then(|mut raised| raised.take())
     }
 
-    fn ask(&self, which: Option<&[usize]>) -> Result<Option<Moments>, Error> {
-        Python::attach(|py| self.asked(py, which)).map_err(|error| {
+    fn take_moments(&self, which: Option<&[usize]>) -> Result<Option<Moments>, Error> {
+        Python::attach(|py| self.fetch_moments(py, which)).map_err(|error| {
             if let Ok(mut raised) = self.raised.lock() {
                 *raised = Some(error);
             }
@@ -59,30 +59,30 @@ impl Given {
         })
     }
 
-    fn asked(&self, py: Python<'_>, which: Option<&[usize]>) -> PyResult<Option<Moments>> {
-        let given = self.give.call1(py, (which.map(<[usize]>::to_vec),))?;
-        if given.is_none(py) {
+    fn fetch_moments(&self, py: Python<'_>, which: Option<&[usize]>) -> PyResult<Option<Moments>> {
+        let states = self.fetch.call1(py, (which.map(<[usize]>::to_vec),))?;
+        if states.is_none(py) {
             return Ok(None);
         }
-        let states: PyRef<'_, States> = given.extract(py)?;
-        Ok(Some(states.on(&self.grid)?.clone()))
+        let states: PyRef<'_, States> = states.extract(py)?;
+        Ok(Some(states.moments_on(&self.grid)?.clone()))
     }
 }
 
-impl OverCycle for Given {
+impl OverCycle for PythonCycle {
     fn count(&self) -> usize {
         self.count
     }
 
     fn moments(&self, which: &[usize]) -> Result<Moments, Error> {
         let allowed = "the moments asked for";
-        self.ask(Some(which))?
+        self.take_moments(Some(which))?
             .filter(|moments| moments.sigma_B.len() == which.len())
             .ok_or_else(|| Error::invalid("fields of a cycle", "others", allowed))
     }
 
     fn start(&self) -> Result<Option<Moments>, Error> {
-        self.ask(None)
+        self.take_moments(None)
     }
 
     fn path_error(&self) -> Option<f64> {
@@ -90,7 +90,7 @@ impl OverCycle for Given {
     }
 
     fn yielding(&self) -> Result<Option<Yielding>, Error> {
-        let of = |(plastic, beside)| Yielding { plastic, beside };
-        Ok(self.yielding.map(of))
+        let to_yielding = |(plastic, beside)| Yielding { plastic, beside };
+        Ok(self.yielding.map(to_yielding))
     }
 }
