@@ -268,7 +268,7 @@ class Branch:
     t : float
         Path time at its end.
     path_error : float, optional
-        Estimated error that the increments leave in the shear, as known before a run; that of
+        Estimated error that the increments leave in the shear, as known before a run; the error of
         :meth:`Result.branches` contains what the run shows of it.
     """
 
@@ -1026,7 +1026,7 @@ class EigenstrainOperator:
         stress : array of shape (planes, 6, nx, ny)
             [Pa]
         displacement : array of shape (3, nx, ny)
-            u_x, u_y, u_z, with z into the body [m]. In plane strain that of tractions is relative
+            u_x, u_y, u_z, with z into the body [m]. In plane strain the displacement by tractions is relative
             to a point far away.
         """
     @property
@@ -1256,9 +1256,9 @@ class Friction:
         [J/m^2]. It gives the coefficient along x of each cell, finite and >= 0, as an array of the
         same shape or one number. `mu` is about the size of it: the measure of tolerances, and the
         coefficient of cells without pressure so far. An increment is solved again until the
-        coefficient is that of pressure and history at its end. What the function raises is raised
+        coefficient follows from pressure and history at its end. What the function raises is raised
         as it is. No map, history or kinetic coefficient beside it; over cycles of wear slip and
-        energy are those of all cycles so far. A store keeps that there is a law, not which:
+        energy are sums over all cycles so far. A store keeps that there is a law, not which:
         ``pyfret.resume(store, friction_law=...)``.
     """
 
@@ -1694,7 +1694,7 @@ class LoadPath:
         """Tangential force along y at the end of every increment [N]."""
     @property
     def W(self, /) -> NDArray[float64]:
-        """Normal force at the end of every increment [N]; NaN where only the solution can say."""
+        """Normal force at the end of every increment [N]; NaN where it follows from the solution."""
     def __bool__(self, /) -> bool: ...
     def __eq__(self, value: object, /) -> bool: ...
     def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
@@ -2392,7 +2392,7 @@ class Scene:
         Parameters
         ----------
         path : LoadPath, optional
-            Load history (default: that of the scene).
+            Load history (default: the path of the scene).
 
         Raises
         ------
@@ -2402,7 +2402,7 @@ class Scene:
         Warns
         -----
         SceneWarning
-            As :meth:`doubts` says.
+            One for each sentence of :meth:`doubts`.
         """
     def doubts(self, /, path: LoadPath | None = None) -> list[str]:
         """
@@ -2414,7 +2414,7 @@ class Scene:
         Parameters
         ----------
         path : LoadPath, optional
-            Load history (default: that of the scene).
+            Load history (default: the path of the scene).
         """
     @property
     def friction(self, /) -> Friction:
@@ -2865,9 +2865,9 @@ class SurfaceMap:
         path : path
             The file.
         spacing : float or (float, float), optional
-            Distance of the points along x and y [m], where the file does not say it.
+            Distance of the points along x and y [m], where the file does not have it.
         unit : str, optional
-            Unit of the numbers, such as "um"; by default that of the file, or metres. It holds for
+            Unit of the numbers, such as "um"; by default the unit of the file, or metres. It holds for
             x and y of a list of points, too.
         channel : str, optional
             Of a list of points with several columns beside x and y, the title or the number
@@ -3637,7 +3637,7 @@ class InvalidSceneError(ValueError):
     """A scene, or a scene file, has no meaning. The message has the place and what is allowed."""
 
 class SolveError(RuntimeError):
-    """A scene that has a meaning could not be solved; the classes below it say why."""
+    """A scene that has a meaning could not be solved; the classes below it are the reasons."""
 
 class StoreError(OSError):
     """A file or a result store could not be read or written."""

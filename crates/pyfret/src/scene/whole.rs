@@ -149,8 +149,7 @@ impl Scene {
     ) -> PyResult<Self> {
         let mut scene = match values {
             Some(values) => {
-                let design = py.import("pyfret.study.design")?;
-                let changed = design.call_method1("with_values", (self.clone(), values))?;
+                let changed = from_python(py, "with_values")?.call1((self.clone(), values))?;
                 changed.extract::<Self>()?.0
             }
             None => self.0.clone(),
