@@ -1026,8 +1026,8 @@ class EigenstrainOperator:
         stress : array of shape (planes, 6, nx, ny)
             [Pa]
         displacement : array of shape (3, nx, ny)
-            u_x, u_y, u_z, with z into the body [m]. In plane strain the displacement by tractions is relative
-            to a point far away.
+            u_x, u_y, u_z, with z into the body [m]. In plane strain displacements by
+            tractions are relative to a point far away.
         """
     @property
     def body(self, /) -> Body:
@@ -1694,7 +1694,7 @@ class LoadPath:
         """Tangential force along y at the end of every increment [N]."""
     @property
     def W(self, /) -> NDArray[float64]:
-        """Normal force at the end of every increment [N]; NaN where it follows from the solution."""
+        """Normal force at the end of every increment [N]; NaN where the solution gives it."""
     def __bool__(self, /) -> bool: ...
     def __eq__(self, value: object, /) -> bool: ...
     def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
@@ -2867,8 +2867,8 @@ class SurfaceMap:
         spacing : float or (float, float), optional
             Distance of the points along x and y [m], where the file does not have it.
         unit : str, optional
-            Unit of the numbers, such as "um"; by default the unit of the file, or metres. It holds for
-            x and y of a list of points, too.
+            Unit of the numbers, such as "um"; by default the unit of the file, or metres. It
+            holds for x and y of a list of points, too.
         channel : str, optional
             Of a list of points with several columns beside x and y, the title or the number
             (from 1) of the one that is meant.

@@ -133,8 +133,8 @@ impl EigenstrainOperator {
     /// stress : array of shape (planes, 6, nx, ny)
     ///     [Pa]
     /// displacement : array of shape (3, nx, ny)
-    ///     u_x, u_y, u_z, with z into the body [m]. In plane strain the displacement by tractions is relative
-    ///     to a point far away.
+    ///     u_x, u_y, u_z, with z into the body [m]. In plane strain displacements by
+    ///     tractions are relative to a point far away.
     #[pyo3(signature = (eigenstrain = None, *, p = None, q_x = None, q_y = None) -> "tuple[NDArray[np.float64], NDArray[np.float64]]")]
     fn apply<'py>(
         &self,

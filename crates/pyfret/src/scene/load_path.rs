@@ -326,7 +326,7 @@ impl LoadPath {
 attributes!(LoadPath, self, py:
     /// Path time at the end of every increment.
     t: Answer<Numbers<'py>> = column(&self.0, py, |point| point.t);
-    /// Normal force at the end of every increment [N]; NaN where it follows from the solution.
+    /// Normal force at the end of every increment [N]; NaN where the solution gives it.
     W: Answer<Numbers<'py>> = column(&self.0, py, |point| point.loads.W);
     /// Tangential force along x at the end of every increment [N].
     T_x: Answer<Numbers<'py>> = column(&self.0, py, |point| point.loads.T_x);

@@ -65,8 +65,8 @@ impl SurfaceMap {
     /// spacing : float or (float, float), optional
     ///     Distance of the points along x and y [m], where the file does not have it.
     /// unit : str, optional
-    ///     Unit of the numbers, such as "um"; by default the unit of the file, or metres. It holds for
-    ///     x and y of a list of points, too.
+    ///     Unit of the numbers, such as "um"; by default the unit of the file, or metres. It
+    ///     holds for x and y of a list of points, too.
     /// channel : str, optional
     ///     Of a list of points with several columns beside x and y, the title or the number
     ///     (from 1) of the one that is meant.
