@@ -127,7 +127,7 @@ class Ball:
         layer = self.layers[n]
         own_values = self.coefficients[:, 4 * n : 4 * n + 4]
         if n > 0 or z > 0.0:
-            return self._of(layer, own_values, z)
+            return self._tensor(layer, own_values, z)
         # At the surface: a half-space (Johnson (3.42)) and the rest, which decays by exp(-2 k h).
         alone = self._response([replace(layer, thickness=np.inf)])
         below = RADII**2 < 1.0
@@ -138,11 +138,11 @@ class Ball:
         mean = np.divide(within, RADII**2, out=np.full(p.size, 0.5 * self.c.sum()), where=RADII > 0)
         part = (1.0 - 2.0 * layer.nu) * mean
         half_space = np.array([part - p, -part - 2.0 * layer.nu * p, -p, 0.0 * p])
-        remainder = self._of(layer, own_values - alone, 0.0)
+        remainder = self._tensor(layer, own_values - alone, 0.0)
         remainder[2:] = 0.0
         return half_space + remainder
 
-    def _of(self, layer: Layer, own: np.ndarray, z: float) -> np.ndarray:
+    def _tensor(self, layer: Layer, own: np.ndarray, z: float) -> np.ndarray:
         mu = layer.E / (2.0 * (1.0 + layer.nu))
         lame = layer.E * layer.nu / ((1.0 + layer.nu) * (1.0 - 2.0 * layer.nu))
         U, _, s_zz, s_rz, volume = np.einsum("kin,kn->ik", layer.rows(self.k, z), own)

@@ -242,14 +242,14 @@ def test_what_cannot_be_written_is_refused_before_anything_is_solved(
 def test_every_command_tells_programs_what_came_out(
     store: Path, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
-    def told(*words: str) -> dict[str, object]:
+    def answer_of(*words: str) -> dict[str, object]:
         assert commands.main([*words, "--json", "--quiet"]) == 0
         answer = json.loads(capsys.readouterr().out)
         assert isinstance(answer, dict)
         return answer
 
     out = tmp_path / "tractions.csv"
-    assert told("export", str(store), "-o", str(out)) == {
+    assert answer_of("export", str(store), "-o", str(out)) == {
         "file": str(out),
         "body": 2,
         "unit": "m",
@@ -257,12 +257,12 @@ def test_every_command_tells_programs_what_came_out(
     }
     page = tmp_path / "page.html"
     crack = ["--crack", "--lengths", "1e-5,3e-5,6e-5,1e-4", "--dK-th", "3e6"]
-    assert told("report", str(store), "-o", str(page), *crack) == {
+    assert answer_of("report", str(store), "-o", str(page), *crack) == {
         "page": str(page),
         "bytes": page.stat().st_size,
     }
     assert "kitagawa" in page.read_text(encoding="utf-8")
-    sources = told("cite", str(store))["sources"]
+    sources = answer_of("cite", str(store))["sources"]
     assert "10.24874/ti.2020.42.01.13" in json.dumps(sources)
     study = tmp_path / "study.toml"
     scene = tmp_path / "scene.toml"
@@ -272,7 +272,7 @@ def test_every_command_tells_programs_what_came_out(
         '[parameters]\n"friction.mu" = [0.3, 0.4]\n',
         encoding="utf-8",
     )
-    assert told("study", str(study), "-o", str(tmp_path / "s.zarr"), "--workers", "1") == {
+    assert answer_of("study", str(study), "-o", str(tmp_path / "s.zarr"), "--workers", "1") == {
         "store": str(tmp_path / "s.zarr"),
         "points": {"open": 0, "done": 2, "failed": 0},
         "measures": ["stick_ratio"],

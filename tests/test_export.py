@@ -44,18 +44,18 @@ def plane(kind: str, n: int, half: float) -> tuple[np.ndarray, np.ndarray]:
     number = np.arange(x.size).reshape(x.shape)
     i, j = (v.ravel() for v in np.meshgrid(*[np.arange(0, 2 * n, 2)] * 2, indexing="ij"))
 
-    def at(*places: tuple[int, int]) -> np.ndarray:
+    def force_at(*places: tuple[int, int]) -> np.ndarray:
         return np.stack([number[i + k, j + m] for k, m in places], -1)
 
     corners = ((0, 0), (2, 0), (2, 2), (0, 2))
     if kind == "quad":
-        return nodes, at(*corners)
+        return nodes, force_at(*corners)
     if kind == "quad8":
-        return nodes, at(*corners, (1, 0), (2, 1), (1, 2), (0, 1))
+        return nodes, force_at(*corners, (1, 0), (2, 1), (1, 2), (0, 1))
     lower, upper = ((0, 0), (2, 0), (2, 2)), ((0, 0), (2, 2), (0, 2))
     if kind == "triangle6":
         lower, upper = (*lower, (1, 0), (2, 1), (1, 1)), (*upper, (1, 1), (1, 2), (0, 1))
-    return nodes, np.concatenate([at(*lower), at(*upper)])
+    return nodes, np.concatenate([force_at(*lower), force_at(*upper)])
 
 
 @pytest.mark.parametrize("kind", ["triangle", "triangle6", "quad", "quad8"])

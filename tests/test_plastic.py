@@ -367,7 +367,7 @@ def test_what_is_not_computed_of_bodies_that_yield_is_refused_by_name() -> None:
     rubbed = scene.replace(body1=ball, friction=0.3)
     pressed = fret.LoadPath.start().normal(50.0, increments=1)
 
-    def along(**columns: float) -> fret.Scene:
+    def along_path(**columns: float) -> fret.Scene:
         ends = {name: [value] for name, value in columns.items()}
         return rubbed.replace(path=pressed.waypoints(increments=2, **ends))
 
@@ -380,8 +380,11 @@ def test_what_is_not_computed_of_bodies_that_yield_is_refused_by_name() -> None:
             lambda: scene.replace(body1=ball.replace(substrate=rigid)),
             r"body1\.E.*leave plastic out",
         ),
-        (lambda: along(rolled=4 * rubbed.grid.dx), r"body2\.plastic.*path\.rolled.*left out where"),
-        (lambda: along(sigma_B=1e8), r"body2\.plastic.*left out with path\.sigma_B"),
+        (
+            lambda: along_path(rolled=4 * rubbed.grid.dx),
+            r"body2\.plastic.*path\.rolled.*left out where",
+        ),
+        (lambda: along_path(sigma_B=1e8), r"body2\.plastic.*left out with path\.sigma_B"),
         (
             lambda: scene.replace(body2=fret.Body(elastic, coatings=[soft])),
             r"body2\.coatings\[0\]\.bond.*left out in a body",

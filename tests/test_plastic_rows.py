@@ -9,7 +9,7 @@ from plastic_rows import Compared, drawn, fretted, indented, rows
 STATES = [(name, n) for name, row in rows("normal").items() for n in range(len(row["states"]))]
 
 
-def within(found: Compared) -> None:
+def assert_within(found: Compared) -> None:
     """Fail where a number is out of its bar."""
     assert not found.over(), f"{found}\n{found.over()}"
 
@@ -20,19 +20,19 @@ def within(found: Compared) -> None:
 )
 def test_an_indentation_on_few_cells(name: str, number: int) -> None:
     """Load, plastic strain and volume, imprint, residual stress."""
-    within(indented(rows("normal")[name], number, n=24))
+    assert_within(indented(rows("normal")[name], number, n=24))
 
 
 @pytest.mark.solves
 def test_a_load_that_is_given() -> None:
     """The approach of the row follows from its load."""
-    within(indented(rows("normal")["bare_hardening"], 0, n=24, given="load"))
+    assert_within(indented(rows("normal")["bare_hardening"], 0, n=24, given="load"))
 
 
 @pytest.mark.solves
 def test_a_cylinder_on_few_cells() -> None:
     """Pressure, works, loop, residual stress and imprint after three cycles."""
-    within(drawn(rows("line")["line_hard_coating"], n=64))
+    assert_within(drawn(rows("line")["line_hard_coating"], n=64))
 
 
 OUTSIDE = {
@@ -52,7 +52,7 @@ def _marked(*of: str | int) -> object:
 @pytest.mark.parametrize(("name", "number"), [_marked(*state) for state in STATES])
 def test_every_indentation(name: str, number: int) -> None:
     """Every state of every row, 48 x 48 cells."""
-    within(indented(rows("normal")[name], number, n=48, increments=16 if number == 0 else 8))
+    assert_within(indented(rows("normal")[name], number, n=48, increments=16 if number == 0 else 8))
 
 
 @pytest.mark.slow
@@ -60,7 +60,7 @@ def test_every_indentation(name: str, number: int) -> None:
 @pytest.mark.parametrize("name", [_marked(name) for name in rows("fretting")])
 def test_every_ball_that_frets(name: str) -> None:
     """Forces, pressure and works of every stroke."""
-    within(fretted(rows("fretting")[name], n=36))
+    assert_within(fretted(rows("fretting")[name], n=36))
 
 
 @pytest.mark.slow
@@ -68,4 +68,4 @@ def test_every_ball_that_frets(name: str) -> None:
 @pytest.mark.parametrize("name", [_marked(name) for name in rows("line")])
 def test_every_cylinder_that_frets(name: str) -> None:
     """Compare on 128 cells."""
-    within(drawn(rows("line")[name], n=128))
+    assert_within(drawn(rows("line")[name], n=128))

@@ -33,7 +33,7 @@ def scene(body: fret.Body, **changes: Any) -> fret.Scene:
     return fret.Scene(**arguments)
 
 
-def at(table: Any, depth: Any) -> Any:
+def value_at(table: Any, depth: Any) -> Any:
     """The stress of a table."""
     z, s = np.transpose(table)[:2]
     return np.interp(depth, z, s)
@@ -115,8 +115,8 @@ def test_every_stress_has_the_residual_stress_of_its_depth(pressed: fret.Result)
             now.stress(depths, residual=bare, **position),
         )
         for name, expected in (
-            ("s_xx", at(TABLE, depths)),
-            ("s_yy", at(TABLE, depths)),
+            ("s_xx", value_at(TABLE, depths)),
+            ("s_yy", value_at(TABLE, depths)),
             ("s_zz", 0),
         ):
             added = (
@@ -169,7 +169,7 @@ def test_crossland_by_hand(pressed: fret.Result) -> None:
     # On the axis the path of the deviator is a straight line, sqrt(J2) of half its length.
     ends = bare[:, 0] - bare[:, 2]
     amplitude = (ends.max() - ends.min()) / 2.0 / math.sqrt(3.0)
-    hydrostatic = (bare[:, :3].sum(axis=1) / 3.0).max() + 2.0 / 3.0 * at(TABLE, z)
+    hydrostatic = (bare[:, :3].sum(axis=1) / 3.0).max() + 2.0 / 3.0 * value_at(TABLE, z)
     fields = fatigue.evaluate_criterion(own_values, fatigue.Criterion.crossland(alpha=alpha))
     assert float(fields.value) == pytest.approx(amplitude + alpha * hydrostatic, rel=1e-6)
 
@@ -182,7 +182,7 @@ def test_load_factor_of_first_yield_by_hand(pressed: fret.Result) -> None:
     d = (bare.sel(component="s_xx") - bare.sel(component="s_zz")).values.reshape(-1, z.size)
     d = d[np.abs(d).max(axis=1).argmax()]
     # d > 0 below the contact: compression along z is larger.
-    s_R = at(TABLE, z)
+    s_R = value_at(TABLE, z)
     factors = np.where(d > 0, (s_y - s_R) / d, (-s_y - s_R) / d)
     computed = pressed.load_factors(s_y, z, y=0.0).dataset.von_mises
     on_axis = computed.isel(x=[15, 16]).mean("x").values
@@ -228,7 +228,7 @@ def test_a_body_that_yields_takes_its_own_residual_stress() -> None:
         now.stress(z, y=0.0, residual=[0.0])
     far = result.unloaded().stress(z, y=0.0)
     # Far from the contact nothing has yielded.
-    np.testing.assert_allclose(far.s_xx.isel(x=0), at(table, z), atol=15e6)
+    np.testing.assert_allclose(far.s_xx.isel(x=0), value_at(table, z), atol=15e6)
     on_axis = now.plastic.on_axis("stress")
     mises = on_axis.sel(component="xx") - on_axis.sel(component="zz")
     R_of_p = law.s_y + law.hardening * now.plastic.on_axis("equivalent")

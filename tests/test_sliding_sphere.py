@@ -31,7 +31,7 @@ HAMILTON = fret.reference.HertzStress(a=1.0, nu=NU)
 DEPTHS = np.linspace(0.0, 1.0, 41)
 
 
-def below(mu: float, z: float) -> NDArray[np.float64]:
+def stress_below(mu: float, z: float) -> NDArray[np.float64]:
     """Stresses over p_0 at the depth z a along y = 0, of shape (6, places)."""
     x = np.linspace(-4.0, 4.0, 801)
     return np.array(HAMILTON.pressure(x, 0.0, z)) + mu * np.array(HAMILTON.shear(x, 0.0, z))
@@ -73,7 +73,7 @@ def sliding(request: pytest.FixtureRequest) -> tuple[float, fret.Result]:
 def test_first_yield_is_below_until_mu_is_0_3_and_then_at_the_trailing_edge() -> None:
     """Hamilton and Goodman (1966): on the surface at x = -a two stresses alone act."""
     for mu, position in ((0.0, 0.475), (0.25, 0.45), (0.35, 0.0), (0.5, 0.0)):
-        largest = [float(root_J2(below(mu, z)).max()) for z in DEPTHS]
+        largest = [float(root_J2(stress_below(mu, z)).max()) for z in DEPTHS]
         assert DEPTHS[int(np.argmax(largest))] == pytest.approx(position, abs=0.026)
         s_xx = (1 - 2 * NU) / 3 + mu * np.pi * (4 + NU) / 8
         s_yy = -(1 - 2 * NU) / 3 + mu * 3 * np.pi * NU / 8
@@ -82,14 +82,14 @@ def test_first_yield_is_below_until_mu_is_0_3_and_then_at_the_trailing_edge() ->
         if position == 0.0:
             assert max(largest) == pytest.approx(edge, rel=1e-9)
     # K. L. Johnson, Contact Mechanics (1985): p_0 = 2.8 k without friction.
-    assert 1 / root_J2(below(0.0, 0.475)).max() == pytest.approx(2.8, rel=3e-3)
+    assert 1 / root_J2(stress_below(0.0, 0.475)).max() == pytest.approx(2.8, rel=3e-3)
 
 
 def test_first_yield_of_the_run_is_that_of_the_closed_form(
     sliding: tuple[float, fret.Result],
 ) -> None:
     mu, result = sliding
-    exact = 1 / max(float(root_J2(below(mu, z)).max()) for z in DEPTHS)
+    exact = 1 / max(float(root_J2(stress_below(mu, z)).max()) for z in DEPTHS)
     least = result.load_factors(S_Y).least("von_mises")
     computed = least.value * HERTZ.p0 / K
     if mu == 0.25:
@@ -107,7 +107,7 @@ def test_a_sphere_that_slides_to_and_fro_shakes_down_up_to_k_over_mu(
 ) -> None:
     """The centre of the contact has s_xz from -mu p_0 to mu p_0, and nothing else changes."""
     mu, result = sliding
-    shear = [below(1.0, z) - below(0.0, z) for z in DEPTHS]
+    shear = [stress_below(1.0, z) - stress_below(0.0, z) for z in DEPTHS]
     assert max(float(root_J2(s).max()) for s in shear) == pytest.approx(1.0, rel=1e-9)
     least = result.load_factors(S_Y).least("shakedown")
     assert least.value * HERTZ.p0 / K == pytest.approx(1 / mu, rel=1e-3)
@@ -118,7 +118,7 @@ def test_a_sphere_that_slides_to_and_fro_shakes_down_up_to_k_over_mu(
 
 def test_a_sphere_that_passes_again_and_again(sliding: tuple[float, fret.Result]) -> None:
     mu, result = sliding
-    exact = 1 / max(melan(below(mu, z)) for z in DEPTHS)
+    exact = 1 / max(melan(stress_below(mu, z)) for z in DEPTHS)
     stress = result.at(-1).stress(DEPTHS * HERTZ.a, y=0.0)
     passing = np.stack([stress.measure(c).values.T for c in fatigue.COMPONENTS], axis=-1)
     computed = fatigue.moving_load(passing, s_y=S_Y).min() * HERTZ.p0 / K
@@ -127,7 +127,7 @@ def test_a_sphere_that_passes_again_and_again(sliding: tuple[float, fret.Result]
 
 def test_a_rolling_sphere_shakes_down_up_to_4_7_k() -> None:
     """A. R. S. Ponter, A. D. Hearle, K. L. Johnson, J. Mech. Phys. Solids 33 (1985) 339-362."""
-    s = [below(0.0, z) for z in DEPTHS]
+    s = [stress_below(0.0, z) for z in DEPTHS]
     limits = [1 / melan(item) for item in s]
     assert min(limits) == pytest.approx(4.7, rel=1e-2)
     # No residual stress helps against s_xz, which decides: 0.214 p_0 at z = 0.35 a.

@@ -111,7 +111,7 @@ class Result(Run, Shows):
         """Extremes of stress over the increments whose fields were kept, on a section or on planes.
 
         Use :func:`pyfret.subsurface.envelope` with :func:`pyfret.march` for all increments of a
-        path without keeping their fields; it has the parameters and the result of that function.
+        path without keeping their fields; parameters and result are the same.
         Without depths and place the section stands along the shear of these increments, through the
         centre of the largest contact.
         """

@@ -100,7 +100,7 @@ def follows(scene: fret.Scene, seed: int) -> Iterator[tuple[str, str]]:
         scene = scene.replace(path=path)
         result = fret.solve(scene, save="all", progress=False)
     except REFUSED as error:
-        yield "cycle", told(error)
+        yield "cycle", reason(error)
         return
     yield "cycle", ""
     for name, follow in FOLLOWS.items():
@@ -108,14 +108,14 @@ def follows(scene: fret.Scene, seed: int) -> Iterator[tuple[str, str]]:
             # A result has no functions of its scene.
             computed = follow(scene if follow is worn else result, rng)
         except REFUSED as error:
-            yield name, told(error)
+            yield name, reason(error)
         else:
             if not all(np.isfinite(values).all() for values in computed):
                 raise ArithmeticError(f"{name}: not finite")
             yield name, ""
 
 
-def told(error: BaseException) -> str:
+def reason(error: BaseException) -> str:
     """The reason of a refusal."""
     text = " ".join(str(error).split())
     if not text:

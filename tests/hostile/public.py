@@ -426,12 +426,12 @@ def public() -> Iterator[tuple[str, Callable[..., Any]]]:
     """Every public callable and its name: functions, constructors and methods."""
     seen: set[int] = set()
 
-    def of(module: Any, prefix: str) -> Iterator[tuple[str, Callable[..., Any]]]:
+    def callables_of(module: Any, prefix: str) -> Iterator[tuple[str, Callable[..., Any]]]:
         for name in module.__all__:
             attribute = getattr(module, name)
             if inspect.ismodule(attribute) and id(attribute) not in seen:
                 seen.add(id(attribute))
-                yield from of(attribute, f"{prefix}{name}.")
+                yield from callables_of(attribute, f"{prefix}{name}.")
             elif inspect.isclass(attribute) and id(attribute) not in seen:
                 seen.add(id(attribute))
                 if issubclass(attribute, RESULTS):
@@ -442,7 +442,7 @@ def public() -> Iterator[tuple[str, Callable[..., Any]]]:
             elif callable(attribute) and not inspect.isclass(attribute):
                 yield f"{prefix}{name}", attribute
 
-    yield from of(fret, "")
+    yield from callables_of(fret, "")
 
 
 def methods(cls: type, prefix: str) -> Iterator[tuple[str, Callable[..., Any]]]:

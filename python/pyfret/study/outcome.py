@@ -103,10 +103,10 @@ class Study(Saveable, Labelled, Figured):
     def sensitivity(self, of: str | None = None) -> xr.DataArray:
         """Return the share of each parameter alone in the variance of a measure.
 
-        The variance of the mean over all other parameters, over the variance of all points, which
-        count alike: the first-order index of I. M. Sobol' (Math. Model. Comput. Exp. 1 (1993)
-        407-414) of the values studied. The remainder to 1 is interaction. Points without a value
-        are refused, since they would weigh on one side.
+        It is the variance of the mean over all other parameters, over the variance of all points.
+        All points count alike: the first-order index of I. M. Sobol' (Math. Model. Comput. Exp. 1
+        (1993) 407-414) of the values studied. The remainder to 1 is interaction. Points without a
+        value are refused, since they would weigh on one side.
 
         Parameters
         ----------
