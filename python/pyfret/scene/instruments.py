@@ -12,7 +12,7 @@ import numpy as np
 
 from pyfret._core import StoreError, unit_of
 from pyfret._util.numbers import length
-from pyfret.scene.reading import Reading, check_sizes
+from pyfret.scene.reading import Reading, check_sizes, remove_mean
 from pyfret.scene.standard_maps import profile
 
 if TYPE_CHECKING:
@@ -67,8 +67,9 @@ def read_by_surface_topography(
             surface = measured(reader, index, spacing, unit)
             if surface.dim != 2:
                 raise StoreError(profile(surface.nb_grid_pts[0]))
-            surface = surface.to_unit("m").detrend(detrend)
-            heights: Any = np.ma.asarray(surface.heights(), dtype=float)
+            surface = surface.to_unit("m")
+            trended = surface if detrend == "center" else surface.detrend(detrend)
+            heights: Any = trended.heights()
             x, y = surface.pixel_size
     except StoreError:
         raise
@@ -77,7 +78,12 @@ def read_by_surface_topography(
     if reader.format() == "gwy" and np.ma.is_masked(heights):
         count = int(np.ma.getmaskarray(heights).sum())
         reading.notes.append(f"{count} points under a mask of Gwyddion count as not measured")
-    reading.heights = heights.filled(np.nan)
+    masked = np.ma.is_masked(heights)
+    values = heights.filled(np.nan) if masked else np.ma.getdata(heights)
+    is_own = values.dtype == float and values.flags.owndata and values.flags.writeable
+    reading.heights = values if is_own else np.array(values, dtype=float)
+    if detrend == "center":
+        remove_mean(reading.heights)
     reading.spacing = (float(x), float(y))
     if spacing is not None and reader.channels[index].physical_sizes is not None:
         replace_spacing(reading, spacing)
