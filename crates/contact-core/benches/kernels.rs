@@ -27,7 +27,7 @@ fn body(layers: usize) -> Body {
         coatings: (0..layers).map(coating).collect(),
         bonds: Vec::new(),
         plastic: Vec::new(),
-        residual_text: Vec::new(),
+        residual: Vec::new(),
         shape: Shape::Flat,
     }
 }

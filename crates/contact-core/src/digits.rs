@@ -52,11 +52,11 @@ pub fn with_error(value: f64, error: Option<f64>) -> String {
             let scale = if PLAIN.contains(&size) { 0 } else { size };
             let unit = 10_f64.powi(scale);
             let decimals = (OF_ERRORS - 1 - power(error / unit)).clamp(0, 9) as usize;
-            let both = format!("{:.decimals$} +- {:.decimals$}", value / unit, error / unit);
+            let text = format!("{:.decimals$} +- {:.decimals$}", value / unit, error / unit);
             if scale == 0 {
-                both
+                text
             } else {
-                format!("({both})e{scale}")
+                format!("({text})e{scale}")
             }
         }
     }
@@ -111,7 +111,7 @@ pub fn with_range(value: f64, [low, high]: [f64; 2]) -> String {
     let plain = sizes
         .map(power)
         .all(|size| (*PLAIN.start()..=largest).contains(&size));
-    let told = |x: f64| {
+    let format_digits = |x: f64| {
         if plain || x == 0.0 || !x.is_finite() {
             digits(x, count)
         } else {
@@ -119,9 +119,14 @@ pub fn with_range(value: f64, [low, high]: [f64; 2]) -> String {
         }
     };
     if high.is_infinite() && value.is_finite() {
-        return format!("{} ({} or more)", told(value), told(low));
+        return format!("{} ({} or more)", format_digits(value), format_digits(low));
     }
-    format!("{} ({} to {})", told(value), told(low), told(high))
+    format!(
+        "{} ({} to {})",
+        format_digits(value),
+        format_digits(low),
+        format_digits(high)
+    )
 }
 
 /// A number of two digits, without zeros that would pass for digits.

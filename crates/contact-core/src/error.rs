@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::digits::short;
 
-/// What a law or a step of another crate raises: its own error, which reaches the caller as it is.
+/// Error of a law or of a step of another crate, which reaches the caller unchanged.
 pub type LawError = Arc<dyn std::error::Error + Send + Sync>;
 
 /// An error that was not made here; equal to itself alone.
@@ -31,17 +31,17 @@ pub enum Error {
     /// A value of the scene is out of its range.
     #[error("{key} = {value}: must be {allowed}")]
     InvalidScene {
-        /// Where the value stands, as in the scene file.
+        /// Key of the value, as in the scene file.
         key: String,
         /// The value found.
         value: String,
-        /// What is allowed.
+        /// Description of the allowed values.
         allowed: String,
     },
     /// A friction law of the user's own has raised an error.
     #[error("friction.law: {raised}")]
     FrictionLaw {
-        /// What it has raised.
+        /// The error of the law.
         raised: Raised,
     },
     /// A scene file does not follow the schema.
@@ -57,7 +57,7 @@ pub enum Error {
     /// Values that come from no file do not follow the schema.
     #[error("{message}")]
     Values {
-        /// Which key, what is wrong and what is allowed.
+        /// The key, its fault and the allowed values.
         message: String,
     },
     /// A scene file is wrong in several places, or doubtful beside one.
@@ -156,7 +156,7 @@ pub enum Error {
         load: &'static str,
         /// Its value \[N, N m\].
         value: f64,
-        /// What is missing.
+        /// The missing thing.
         why: &'static str,
         /// The motion that is free, by its name in the scene.
         motion: &'static str,
@@ -184,7 +184,7 @@ pub enum Error {
     NotConverged {
         /// Increment, from 1.
         increment: usize,
-        /// Which solver.
+        /// Name of the solver.
         solver: &'static str,
         /// Residual reached, in the unit of the tolerance.
         residual: f64,
@@ -208,7 +208,7 @@ pub enum Error {
     },
     /// The conversion of a response to heat missed its tolerance.
     #[error(
-        "the temperature coefficients have an estimated error of {estimate:.2e} of that of the loaded cell, \
+        "the temperature coefficients have an estimated error of {estimate:.2e} of the coefficient of the loaded cell, \
          more than {tolerance:.2e}"
     )]
     TemperatureInaccurate {
@@ -223,7 +223,7 @@ pub enum Error {
          {iterations} iterations"
     )]
     HeatNotShared {
-        /// Root mean square of the difference, over that of the temperature.
+        /// Root mean square of the difference, over the root mean square of the temperature.
         residual: f64,
         /// Residual asked for.
         tolerance: f64,
@@ -248,7 +248,7 @@ pub enum Error {
     File {
         /// The file or folder.
         path: String,
-        /// What the system says.
+        /// Message of the operating system.
         message: String,
     },
     /// There is less memory than a scene needs.
@@ -258,14 +258,14 @@ pub enum Error {
         needed / 1e6, available / 1e6
     )]
     TooLarge {
-        /// What it is needed for.
+        /// Purpose of the memory.
         what: &'static str,
         /// Bytes needed.
         needed: f64,
         /// Bytes that there are.
         available: f64,
     },
-    /// What a step of another crate within ours has raised, as it is: a fatigue criterion.
+    /// Error of a step of another crate within ours, unchanged: a fatigue criterion.
     #[error("{0}")]
     Other(Raised),
     /// The run was stopped from outside (Ctrl-C, an observer).
@@ -277,7 +277,7 @@ pub enum Error {
 }
 
 /// A line for each error, then for each doubt.
-fn told(errors: &[Error], doubts: &[String]) -> String {
+fn join_lines(errors: &[Error], doubts: &[String]) -> String {
     let doubts = doubts.iter().map(|doubt| format!("doubtful: {doubt}"));
     let lines: Vec<_> = errors.iter().map(Error::to_string).chain(doubts).collect();
     lines.join("\n")

@@ -17,8 +17,8 @@
 //! [`solvers`] -> [`march`] -> [`estimate`]. What follows from tractions stands in crates on this one:
 //! `contact-subsurface` (stress), `contact-assess` (criteria, cracks), `contact-wear`,
 //! `contact-heat` (temperature), `contact-store` (files), `contact-reference` (closed forms). The
-//! method is that of S. Spinu, Tribology in Industry 42 (2020) 131-145,
-//! doi:10.24874/ti.2020.42.01.13 ("the paper"); where we left it, the module says why.
+//! method is from S. Spinu, Tribology in Industry 42 (2020) 131-145,
+//! doi:10.24874/ti.2020.42.01.13 ("the paper"); where we left it, the module gives the reason.
 
 #![forbid(unsafe_code)]
 

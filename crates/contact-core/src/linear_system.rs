@@ -29,8 +29,8 @@ pub fn solve(matrix: &Array2<f64>, right: &Array2<f64>) -> Array2<f64> {
     let mut x = Array2::zeros((n, columns));
     for i in (0..n).rev() {
         for column in 0..columns {
-            let known: f64 = (i + 1..n).map(|j| rows[i][j] * x[[j, column]]).sum();
-            x[[i, column]] = (rows[i][n + column] - known) / rows[i][i];
+            let sum: f64 = (i + 1..n).map(|j| rows[i][j] * x[[j, column]]).sum();
+            x[[i, column]] = (rows[i][n + column] - sum) / rows[i][i];
         }
     }
     x
@@ -51,7 +51,7 @@ mod tests {
         });
         let right = Array2::from_shape_fn((7, 2), |(i, j)| (i + 5 * j) as f64);
         let x = solve(&matrix, &right);
-        let rest = (matrix.dot(&x) - right).mapv(f64::abs);
-        assert!(rest.iter().all(|r| *r < 1e-10), "{rest}");
+        let residual = (matrix.dot(&x) - right).mapv(f64::abs);
+        assert!(residual.iter().all(|r| *r < 1e-10), "{residual}");
     }
 }

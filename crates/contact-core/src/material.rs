@@ -7,7 +7,7 @@ use material_table::{Material, find, materials, nearest};
 
 use crate::error::Error;
 
-/// How many materials are told where a name is unknown.
+/// Number of materials listed in the message for an unknown name.
 const NEAREST: usize = 3;
 
 /// A homogeneous isotropic elastic material.
@@ -39,9 +39,9 @@ impl Elastic {
     ///
     /// There is no such material, or the table has no modulus or no Poisson's ratio of it.
     pub fn named(name: &str) -> Result<Self, Error> {
-        let found = in_table("material", name)?;
+        let row = in_table("material", name)?;
         let number = |key: &str| {
-            let number = found.number(key);
+            let number = row.number(key);
             number.map_err(|_| {
                 let allowed = format!("a material whose {key} is in the table: give {key}");
                 Error::invalid("material", name, allowed)
@@ -60,7 +60,7 @@ impl Elastic {
         self.E == f64::INFINITY
     }
 
-    /// Fails if a property is out of its range; `key` says where the material stands in the scene.
+    /// Fails if a property is out of its range; `key` is the key of the material in the scene.
     pub fn check(&self, key: &str) -> Result<(), Error> {
         if self.E.is_nan() || self.E <= 0.0 {
             return Err(Error::invalid(
@@ -80,7 +80,7 @@ impl Elastic {
     }
 }
 
-/// The row of a name in the table of materials; `key` says where the name stands.
+/// The row of a name in the table of materials; `key` is the key of the name.
 ///
 /// # Errors
 ///
@@ -114,7 +114,7 @@ impl Bond {
         shear: 0.0,
     };
 
-    /// That of a thin layer of a material of the thickness `h` \[m\].
+    /// Bond that replaces a thin layer of a material of the thickness `h` \[m\].
     pub fn of_layer(material: Elastic, h: f64) -> Self {
         let (G, nu) = (material.G(), material.nu);
         Self {
@@ -123,7 +123,7 @@ impl Bond {
         }
     }
 
-    /// Fails if a compliance is negative or not finite; `key` says where the bond stands.
+    /// Fails if a compliance is negative or not finite; `key` is the key of the bond.
     pub fn check(&self, key: &str) -> Result<(), Error> {
         for (name, value) in [("normal", self.normal), ("shear", self.shear)] {
             if !(value >= 0.0 && value.is_finite()) {
@@ -155,7 +155,7 @@ impl Coating {
         Ok(coating)
     }
 
-    /// Fails if the material or the thickness is out of its range; `key` says where it stands.
+    /// Fails if the material or the thickness is out of its range; `key` is the key of the coating.
     pub fn check(&self, key: &str) -> Result<(), Error> {
         self.material.check(key)?;
         if !(self.thickness > 0.0 && self.thickness.is_finite()) {

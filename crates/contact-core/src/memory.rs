@@ -32,7 +32,7 @@ fn system_memory() -> f64 {
     system.refresh_memory_specifics(MemoryRefreshKind::nothing().with_ram());
     let of_group = system.cgroup_limits().map_or(u64::MAX, |l| l.free_memory);
     match system.available_memory().min(of_group) {
-        // Systems that do not say report nothing.
+        // Some systems do not report it.
         0 => f64::INFINITY,
         bytes => bytes as f64,
     }

@@ -92,7 +92,7 @@ fn a_run_takes_no_more_memory_than_announced() {
     for (run, (announced, scene, bars, settings)) in scenes.into_iter().enumerate() {
         clear_cache();
         let mut writer = StoreWriter::create(folder.path().join(run.to_string()), false).unwrap();
-        let mut ends = BranchEnds::beside(&mut writer);
+        let mut ends = BranchEnds::new(&mut writer);
         let scene = choose_increments(&scene, &Arc::default()).unwrap();
         let increments = solve(&scene, &mut ends).unwrap();
         let tractions = ends.tractions;

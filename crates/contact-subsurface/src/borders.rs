@@ -67,7 +67,7 @@ pub(super) fn of(continued: &Continued, grid: &Grid, line: Option<Line>) -> Vec<
     let border = |Crossing {
                       place: [column, row],
                       stick,
-                      within_cell,
+                      is_within_cell: within_cell,
                   }: Crossing| Border {
         x: (column - (n.0 - 1) as f64 / 2.0) * d.0,
         y: (row - (n.1 - 1) as f64 / 2.0) * d.1,

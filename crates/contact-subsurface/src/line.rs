@@ -2,7 +2,7 @@
 
 use super::depth::{Depth, Point};
 use contact_core::scene::Grid;
-use contact_core::zones::{Outline, azimuth_of};
+use contact_core::zones::{Outline, principal_azimuth};
 
 /// A straight line on the surface, through the centres of cells or anywhere between.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,7 +49,7 @@ impl Line {
                 *sum += one;
             }
         }
-        let azimuth = azimuth_of(shear);
+        let azimuth = principal_azimuth(shear);
         let main = Self::through(largest.centre, azimuth.unwrap_or(0.0));
         if largest.is_flat() {
             return vec![main];

@@ -12,7 +12,7 @@ use std::ops::Range;
 use contact_core::convolution::Tractions;
 use contact_core::kernels::{DepthKernel, Stress};
 use contact_core::scene::{Body, Grid};
-use contact_core::zones::{Continued, Within};
+use contact_core::zones::{CellTractions, Continued};
 
 use super::divided::{Divided, Division, Fineness, Part, slopes};
 use super::loads::{Plane, snapped};
@@ -296,18 +296,18 @@ impl NearRim {
             if state.distance(cell) > FARTHEST {
                 let within = divided.slopes.iter().zip(slopes(cell));
                 within.for_each(|(response, q)| add(response, q));
-            } else if let Some(within) = state.within(cell) {
+            } else if let Some(within) = state.tractions_within(cell) {
                 for Part { at, response } in &divided.parts {
                     add(response, excess(&within, *at));
                 }
             }
         }
-        let own = state.within((i, j)).filter(|_| parts.on_surface);
+        let own = state.tractions_within((i, j)).filter(|_| parts.on_surface);
         for (row, (stress, more)) in stress.iter_mut().zip(more).enumerate() {
             let traction = OF_TRACTIONS.iter().find(|(of, _)| *of == row);
             match (traction.filter(|_| parts.on_surface), &own) {
                 (None, _) => *stress += more,
-                (Some((_, c)), Some(own)) => *stress = -own.at(parts.offset)[*c],
+                (Some((_, c)), Some(own)) => *stress = -own.evaluate(parts.offset)[*c],
                 (Some(_), _) => (),
             }
         }
@@ -315,7 +315,7 @@ impl NearRim {
 }
 
 /// Continued less constant tractions at an offset in a cell \[Pa\].
-fn excess(within: &Within, offset: (f64, f64)) -> [f64; 3] {
-    let q = within.at(offset);
+fn excess(within: &CellTractions, offset: (f64, f64)) -> [f64; 3] {
+    let q = within.evaluate(offset);
     std::array::from_fn(|c| q[c] - within.constant[c])
 }

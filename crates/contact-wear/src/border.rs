@@ -21,7 +21,7 @@
 //! p - w/beta of the cell.
 
 use contact_core::cells::Lattice;
-use contact_core::zones::{Level, SHRINKS, STICK, Stencil};
+use contact_core::zones::{Level, SHRINKING, STICK, Stencil};
 use serde::{Deserialize, Serialize};
 
 use super::loss::Worn;
@@ -71,7 +71,7 @@ impl Cut {
             inside[n] = false;
         }
         let cut = |zone: &[bool]| -> Vec<Self> {
-            let stencils = [Stencil::ROOT.of_inner_zone(), Stencil::LINEAR];
+            let stencils = [Stencil::ROOT.for_inner_zone(), Stencil::LINEAR];
             let edges = lattice.edges(zone, stencils, |_| (STICK, |n: usize| signs.short[n]));
             let outside = edges.into_iter().filter(|(n, _)| !zone[*n]);
             outside
@@ -118,7 +118,7 @@ impl Cut {
             let next = cell.min((2 * cell).saturating_sub(inner));
             cut.way = Some((signs.apart[cell.min(inner)] + signs.apart[next]) * mean);
         }
-        (level.law == SHRINKS && cut.share > 0.0 && cut.share < 1.0).then_some(cut)
+        (level.law == SHRINKING && cut.share > 0.0 && cut.share < 1.0).then_some(cut)
     }
 
     /// 1/beta \[Pa/m\], given C(0) - C(1) \[m/Pa\].

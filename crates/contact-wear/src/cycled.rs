@@ -1,6 +1,6 @@
 //! Sums over the increments of a cycle, in every cell.
 
-use contact_core::cells::{Lattice, size};
+use contact_core::cells::{Lattice, length};
 use contact_core::march::{Increment, State};
 use contact_core::solvers::Interface;
 use serde::{Deserialize, Serialize};
@@ -114,11 +114,11 @@ impl Sums {
         let moved = |c: usize| [0, 1].map(|k| now.u[k][c] - before.u[k][c]);
         for c in 0..self.shape {
             if let Some(mu) = self.mu {
-                let short = now.p[c] - size([now.q[0][c], now.q[1][c]]) / mu;
+                let short = now.p[c] - length([now.q[0][c], now.q[1][c]]) / mu;
                 self.short[c] = self.short[c].min(short);
             }
             let [here, next] = [c, (c + 1).min(self.shape - 1)].map(moved);
-            self.apart[c] += size([next[0] - here[0], next[1] - here[1]]);
+            self.apart[c] += length([next[0] - here[0], next[1] - here[1]]);
         }
     }
 

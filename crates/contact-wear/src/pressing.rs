@@ -13,7 +13,7 @@ use contact_core::plan::{KernelSet, Mirror, Plan};
 use contact_core::scene::{Grid, Scene};
 use contact_core::solvers::Response;
 use contact_core::solvers::inner::{
-    NormalInfo, NormalParams, NormalProblem, NormalWorkspace, normal,
+    NormalInfo, NormalParams, NormalProblem, NormalWorkspace, solve_normal,
 };
 
 use super::compliant::{Compliant, CompliantInverse, shortest_waves};
@@ -55,7 +55,7 @@ impl Pressing {
             length,
             x: mirror.fold(&grid.map(|x, _| x / length)),
             y: mirror.fold(&grid.map(|_, y| y / length)),
-            stretch: 1.0,
+            axis_ratio: 1.0,
         };
         let cells = arms.x.len();
         let tolerance = scene.tolerance() * scene.reference_approach();
@@ -167,7 +167,7 @@ impl Pressing {
             op: &mut op,
             inverse: Some(inverse),
             stop: Some(&self.stop),
-            most_work: Convolutions::MAX,
+            max_work: Convolutions::MAX,
             exact: true,
             squares: 0.0,
         };
@@ -181,7 +181,7 @@ impl Pressing {
             tolerance: times * self.params.tolerance,
             ..self.params
         };
-        let found = normal(
+        let found = solve_normal(
             &mut response,
             &problem,
             p,

@@ -83,7 +83,7 @@ pub(crate) const NO_HERTZ: &str = "no contact of Hertz";
 /// A run: its branches and its cycles, and the error bars of the branches where there are any.
 pub(crate) fn run(scene: &Scene, increments: &[Increment], bars: Option<&[ErrorBars]>) -> Value {
     let mut done = 0;
-    let reached = Reached::of(increments);
+    let reached = Reached::from_increments(increments);
     let errors = reached.shear_errors(scene);
     let branches = summarise(increments);
     let branches: Vec<Value> = branches

@@ -73,7 +73,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
     let (mut increments, mut tractions) = (Vec::new(), Vec::new());
     let held = options.error && manner.json;
     let stop = manner.watch(&scene, out, writer, Vec::new(), held, |watcher| {
-        let mut ends = BranchEnds::beside(watcher);
+        let mut ends = BranchEnds::new(watcher);
         increments = solve(&scene, &mut ends)?;
         tractions = ends.tractions;
         Ok(increments.clone())
@@ -146,7 +146,7 @@ impl Manner {
             }
         }
         if outcome.is_ok() {
-            for doubt in Reached::of(&increments).doubts(scene) {
+            for doubt in Reached::from_increments(&increments).doubts(scene) {
                 say(&format!("fret: warning: {doubt}"));
             }
         }

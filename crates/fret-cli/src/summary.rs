@@ -41,7 +41,7 @@ impl Measures {
 /// One line for a branch that has ended at path time `t`.
 pub(crate) fn line(scene: &Scene, branch: &BranchSummary, t: f64) -> String {
     let Measures { radius, pressure } = Measures::of(scene);
-    let loads = branch.told(scene).loads;
+    let loads = branch.without_insignificant_values(scene).loads;
     let held = loads.given.motions();
     let force = scene.grid.unit_of("N");
     let others = OTHERS.iter().fold(String::new(), |text, of| {
@@ -234,7 +234,7 @@ fn columns(scene: &Scene, increments: &[Increment], wide: bool) -> Vec<Column> {
     if scene.yields() && json::yield_ratio(increments) >= 1.0 {
         columns.extend(yield_columns(scene, increments));
     }
-    let errors = Reached::of(increments).shear_errors(scene);
+    let errors = Reached::from_increments(increments).shear_errors(scene);
     if errors.iter().any(Option::is_some) {
         columns.push(column("error\nof q", move |b, _| {
             let error = errors.get(b.branch).copied().flatten();
@@ -455,7 +455,10 @@ pub(crate) fn table(scene: &Scene, increments: &[Increment], wide: bool) -> Stri
     let mut done = 0;
     for branch in summarise(increments) {
         done += branch.increments;
-        let row = (&branch.told(scene), &increments[done - 1]);
+        let row = (
+            &branch.without_insignificant_values(scene),
+            &increments[done - 1],
+        );
         table.add_row(columns.iter().map(|(_, cell)| cell(&row)));
     }
     for column in table.column_iter_mut() {

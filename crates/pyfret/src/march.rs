@@ -141,7 +141,7 @@ pub(crate) fn continued_pressure<'py>(
     if p.dim() != shape {
         refuse!("p: must be of the grid's shape {shape:?}");
     }
-    Ok(contact_core::zones::continued_pressure(&p.to_owned(), &grid.0).into_pyarray(py))
+    Ok(contact_core::zones::continue_pressure_to_rim(&p.to_owned(), &grid.0).into_pyarray(py))
 }
 
 /// Units and meaning of every variable of a result, scalars and fields.

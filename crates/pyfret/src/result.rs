@@ -97,7 +97,7 @@ fn whole(
     watch: &mut dyn Observer,
 ) -> Result<Option<Bars>, Error> {
     let stop = watch.stop().unwrap_or_default();
-    let mut ends = BranchEnds::beside(watch);
+    let mut ends = BranchEnds::new(watch);
     let scene = &match like {
         Some(like) => choose_increments_like(&scene.0, &like.0, &stop)?,
         None => choose_increments(&scene.0, &stop)?,

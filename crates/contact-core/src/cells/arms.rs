@@ -13,7 +13,7 @@
 use super::{Fields, sums};
 use crate::scene::RigidMotion;
 
-/// Lever arms: where the cells are.
+/// Lever arms of the cells.
 #[derive(Clone, Debug, Default)]
 pub struct Arms {
     /// The length \[m\] that x and y are measured in, and that turns rotations into lengths.
@@ -25,35 +25,35 @@ pub struct Arms {
     /// Factor of motions and displacements along y, and divisor of forces and tractions along y:
     /// elliptic friction becomes circular. The modes in the plane are (1, 0), (0, 1) and (-y,
     /// stretch x).
-    pub stretch: f64,
+    pub axis_ratio: f64,
 }
 
 impl Arms {
     /// Factor of motion k of [`RigidMotion::ALL`], and divisor of its load, in the solvers.
-    pub(crate) fn unit(&self, k: usize) -> f64 {
+    pub(crate) fn motion_unit(&self, k: usize) -> f64 {
         match RigidMotion::ALL[k] {
             motion if motion.is_rotation() => self.length,
-            RigidMotion::DeltaY => self.stretch,
+            RigidMotion::DeltaY => self.axis_ratio,
             _ => 1.0,
         }
     }
 
-    /// How far cell n moves along y in a unit rotation.
-    pub(crate) fn turn_x(&self, n: usize) -> f64 {
-        self.stretch * self.x[n]
+    /// Displacement of cell n along y in a unit rotation.
+    pub(crate) fn turn_arm_x(&self, n: usize) -> f64 {
+        self.axis_ratio * self.x[n]
     }
 
     /// B m in the plane at cell n \[m\].
-    pub(crate) fn in_plane(&self, m: [f64; 3], n: usize) -> [f64; 2] {
+    pub(crate) fn displacement_in_plane(&self, m: [f64; 3], n: usize) -> [f64; 2] {
         if m[2] == 0.0 {
             return [m[0], m[1]];
         }
-        self.motion_at([self.x[n], self.y[n]], m)
+        self.displacement_at([self.x[n], self.y[n]], m)
     }
 
     /// B m in the plane of a cell at these arms \[m\].
-    pub(crate) fn motion_at(&self, [x, y]: [f64; 2], m: [f64; 3]) -> [f64; 2] {
-        [m[0] - y * m[2], m[1] + self.stretch * x * m[2]]
+    pub(crate) fn displacement_at(&self, [x, y]: [f64; 2], m: [f64; 3]) -> [f64; 2] {
+        [m[0] - y * m[2], m[1] + self.axis_ratio * x * m[2]]
     }
 
     /// x and y of the cells over the length, for sweeps.
@@ -62,7 +62,7 @@ impl Arms {
     }
 
     /// B m across the plane at cell n \[m\].
-    pub(crate) fn across(&self, m: [f64; 3], n: usize) -> f64 {
+    pub(crate) fn displacement_across(&self, m: [f64; 3], n: usize) -> f64 {
         if m[1] == 0.0 && m[2] == 0.0 {
             return m[0];
         }
@@ -70,12 +70,12 @@ impl Arms {
     }
 
     /// B^T q in the plane, of cell n.
-    pub(crate) fn sums_in_plane(&self, q: [f64; 2], n: usize) -> [f64; 3] {
-        [q[0], q[1], self.turn_x(n) * q[1] - self.y[n] * q[0]]
+    pub(crate) fn loads_in_plane(&self, q: [f64; 2], n: usize) -> [f64; 3] {
+        [q[0], q[1], self.turn_arm_x(n) * q[1] - self.y[n] * q[0]]
     }
 
     /// B^T p across the plane, of cell n.
-    pub(crate) fn sums_across(&self, p: f64, n: usize) -> [f64; 3] {
+    pub(crate) fn loads_across(&self, p: f64, n: usize) -> [f64; 3] {
         [p, self.y[n] * p, -self.x[n] * p]
     }
 
@@ -98,7 +98,7 @@ impl Arms {
         let fields = (fields, [&self.x[..], &self.y]);
         let [count, x, y, r2, a, b, moment] = sums(fields, |n, (cell, [x, y])| {
             let (w, [a, b]) = weighted(n, cell);
-            let (x, a, b) = (self.stretch * x, w * a, w * b);
+            let (x, a, b) = (self.axis_ratio * x, w * a, w * b);
             [w, w * x, w * y, w * (x * x + y * y), a, b, x * b - y * a]
         });
         let plane = [[count, 0.0, -y], [0.0, count, x], [-y, x, r2]];
@@ -125,23 +125,23 @@ impl Arms {
         self.solve_across(free, fields, weighted, None)
     }
 
-    /// The motion m within `free` for which the sums of the weights times B m are those asked for.
-    pub(crate) fn spread_across(
+    /// The motion m within `free` for which the sums of the weights times B m are those in `required`.
+    pub(crate) fn motion_for_sums(
         &self,
         free: [bool; 3],
         weights: &[f64],
-        asked: [f64; 3],
+        required: [f64; 3],
     ) -> [f64; 3] {
-        self.solve_across(free, [weights], |_, [weight]| (weight, 0.0), Some(asked))
+        self.solve_across(free, [weights], |_, [weight]| (weight, 0.0), Some(required))
     }
 
-    /// Normal equations of weights and values; `asked` stands for the sums of the values.
+    /// Solves the normal equations of weights and values; `required` replaces the sums of the values.
     fn solve_across<F: Fields>(
         &self,
         free: [bool; 3],
         fields: F,
         weighted: impl Fn(usize, F::Cell) -> (f64, f64) + Sync,
-        asked: Option<[f64; 3]>,
+        required: Option<[f64; 3]>,
     ) -> [f64; 3] {
         let fields = (fields, [&self.x[..], &self.y]);
         let [w, x, y, xx, xy, yy, v, vx, vy] = sums(fields, |n, (cell, [x, y])| {
@@ -150,18 +150,18 @@ impl Arms {
             [w, wx, wy, wx * x, wx * y, wy * y, v, v * x, v * y]
         });
         let matrix = [[w, y, -x], [y, yy, -xy], [-x, -xy, xx]];
-        product(&inverse(matrix, free), asked.unwrap_or([v, vy, -vx]))
+        product(&inverse(matrix, free), required.unwrap_or([v, vy, -vx]))
     }
 }
 
-/// The drive of three motions: given, or free under given loads.
+/// The drive of three motions: prescribed, or free under prescribed loads.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Drive {
     /// Whether each motion is free to balance its load.
     pub free: [bool; 3],
-    /// Sums of the traction that free motions balance \[Pa\]; zero where the motion is given.
+    /// Sums of the traction that free motions balance \[Pa\]; zero where the motion is prescribed.
     pub sums: [f64; 3],
-    /// Motions that are given \[m\]; zero where they are free.
+    /// Prescribed motions \[m\]; zero where they are free.
     pub given: [f64; 3],
 }
 
@@ -172,13 +172,13 @@ const PIVOT: f64 = 1e-13;
 /// determines, zero on the others.
 pub(crate) fn inverse<const N: usize>(matrix: [[f64; N]; N], free: [bool; N]) -> [[f64; N]; N] {
     let mut a = matrix;
-    let mut kept = [false; N];
+    let mut is_kept = [false; N];
     for k in 0..N {
         let pivot = a[k][k];
         if !free[k] || pivot <= PIVOT * matrix[k][k] {
             continue;
         }
-        kept[k] = true;
+        is_kept[k] = true;
         for j in 0..N {
             a[k][j] /= if j == k { pivot * pivot } else { pivot };
         }
@@ -192,7 +192,7 @@ pub(crate) fn inverse<const N: usize>(matrix: [[f64; N]; N], free: [bool; N]) ->
     }
     for k in 0..N {
         for l in 0..N {
-            if !(kept[k] && kept[l]) {
+            if !(is_kept[k] && is_kept[l]) {
                 a[k][l] = 0.0;
             }
         }
@@ -206,7 +206,7 @@ pub(crate) fn product<const N: usize>(matrix: &[[f64; N]; N], v: [f64; N]) -> [f
 }
 
 /// a + b
-pub(crate) fn add(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+pub(crate) fn add_vectors(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|k| a[k] + b[k])
 }
 
@@ -215,7 +215,7 @@ mod tests {
     use crate::cells::{Arms, inverse, product};
 
     #[test]
-    fn the_inverse_is_that_of_the_free_part() {
+    fn only_the_free_part_is_inverted() {
         let a = [[4.0, 1.0, 0.5], [1.0, 3.0, -0.2], [0.5, -0.2, 2.0]];
         let b = inverse(a, [true; 3]);
         for v in [[1.0, 2.0, 3.0], [-1.0, 0.5, 0.0]] {
@@ -226,7 +226,7 @@ mod tests {
         let det = 4.0 * 2.0 - 0.25;
         assert!((b[0][0] - 2.0 / det).abs() < 1e-15 && b[1].iter().all(|b| b.abs() <= 0.0));
         assert!((b[0][2] + 0.5 / det).abs() < 1e-15);
-        // Twice the same motion: one of them is left out.
+        // Twice the same motion: one of the two is left out.
         let b = inverse([[1.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0; 3]], [true; 3]);
         let sizes: Vec<f64> = b
             .iter()
@@ -239,19 +239,21 @@ mod tests {
     }
 
     #[test]
-    fn a_rigid_motion_is_found_again() {
+    fn a_rigid_motion_is_recovered() {
         let arms = Arms {
             length: 1.0,
             x: vec![0.0, 1.0, -1.0, 2.0],
             y: vec![0.5, 0.0, 1.0, -3.0],
-            stretch: 0.8,
+            axis_ratio: 0.8,
         };
         let m = [0.3, -0.2, 0.7];
-        let plane = arms.fit_in_plane([true; 3], [], |n, []| (1.0, arms.in_plane(m, n)));
-        let moved: Vec<f64> = (0..4).map(|n| arms.across(m, n)).collect();
-        let across = arms.fit_across([true; 3], [&moved[..]], |_, [v]| (1.0, v));
+        let plane = arms.fit_in_plane([true; 3], [], |n, []| {
+            (1.0, arms.displacement_in_plane(m, n))
+        });
+        let displacement: Vec<f64> = (0..4).map(|n| arms.displacement_across(m, n)).collect();
+        let fitted_across = arms.fit_across([true; 3], [&displacement[..]], |_, [v]| (1.0, v));
         for k in 0..3 {
-            assert!((plane[k] - m[k]).abs() < 1e-14 && (across[k] - m[k]).abs() < 1e-14);
+            assert!((plane[k] - m[k]).abs() < 1e-14 && (fitted_across[k] - m[k]).abs() < 1e-14);
         }
     }
 }

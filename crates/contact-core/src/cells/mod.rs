@@ -10,9 +10,9 @@ mod sweep;
 mod vector;
 
 pub use arms::{Arms, Drive};
-pub(crate) use arms::{add, inverse, product};
+pub(crate) use arms::{add_vectors, inverse, product};
 pub use lattice::Lattice;
 pub(crate) use packing::ContactCells;
-pub(crate) use sweep::{Fields, largest, set, sums, survey, sweep};
-pub use vector::size;
-pub(crate) use vector::{CHUNK, add_scaled, both, copy, copy_to, dot, set_cells, sum};
+pub(crate) use sweep::{Fields, largest, set_fields, sums, sums_and_maxima, sweep};
+pub use vector::length;
+pub(crate) use vector::{CHUNK, add_scaled, copy, copy_to, dot, run_both, set_cells, sum};

@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::{CHUNK, both};
+use super::{CHUNK, run_both};
 
 /// Cells that are tested together: mostly all of them lie in the contact, or none.
 const STRIDE: usize = 16;
@@ -27,15 +27,15 @@ impl ContactCells {
         let mut run = None;
         for first in (0..cells).step_by(STRIDE) {
             let stride = first..cells.min(first + STRIDE);
-            let found = stride.clone().filter(|&n| inside(n)).count();
-            if found == if run.is_some() { stride.len() } else { 0 } {
+            let inside_count = stride.clone().filter(|&n| inside(n)).count();
+            if inside_count == if run.is_some() { stride.len() } else { 0 } {
                 continue;
             }
             for n in stride {
                 match (inside(n), run) {
                     (true, None) => run = Some(n),
                     (false, Some(from)) => {
-                        self.end(from..n);
+                        self.push_run(from..n);
                         run = None;
                     }
                     _ => {}
@@ -43,11 +43,11 @@ impl ContactCells {
             }
         }
         if let Some(from) = run {
-            self.end(from..cells);
+            self.push_run(from..cells);
         }
     }
 
-    fn end(&mut self, run: Range<usize>) {
+    fn push_run(&mut self, run: Range<usize>) {
         self.count += run.len();
         self.runs.push(run);
     }
@@ -57,14 +57,14 @@ impl ContactCells {
         self.count
     }
 
-    /// Takes the values of the contact cells from a field.
+    /// Copies the values of the contact cells from a field.
     pub(crate) fn pack<T: Copy>(&self, field: &[T], packed: &mut [T]) {
         for (run, at) in self.runs() {
             packed[at..at + run.len()].copy_from_slice(&field[run]);
         }
     }
 
-    /// Puts values into the contact cells of a field; the others stay as they are.
+    /// Copies values into the contact cells of a field; the others keep their values.
     pub(crate) fn unpack<T: Copy>(&self, packed: &[T], field: &mut [T]) {
         for (run, at) in self.runs() {
             let length = run.len();
@@ -91,16 +91,16 @@ impl ContactCells {
     /// [`Self::pack`] for two fields.
     pub(crate) fn pack_pair(&self, fields: &[Vec<f64>; 2], packed: &mut [Vec<f64>; 2]) {
         let ([a, b], [to_a, to_b]) = (fields, packed);
-        both(self.count, || self.pack(a, to_a), || self.pack(b, to_b));
+        run_both(self.count, || self.pack(a, to_a), || self.pack(b, to_b));
     }
 
     /// [`Self::unpack`] for two fields.
     pub(crate) fn unpack_pair(&self, packed: &[Vec<f64>; 2], fields: &mut [Vec<f64>; 2]) {
         let ([a, b], [to_a, to_b]) = (packed, fields);
-        both(self.count, || self.unpack(a, to_a), || self.unpack(b, to_b));
+        run_both(self.count, || self.unpack(a, to_a), || self.unpack(b, to_b));
     }
 
-    /// Runs and where each begins in packed order.
+    /// Yields the runs and the position of each in packed order.
     fn runs(&self) -> impl Iterator<Item = (Range<usize>, usize)> {
         self.runs.iter().scan(0, |at, run| {
             let begin = *at;
@@ -123,11 +123,11 @@ mod tests {
         let mut packed = vec![0.0; cells.count()];
         cells.pack(&field, &mut packed);
         assert_eq!(packed, [0.0, 1.0, 5.0, 6.0, 7.0, 8.0, 19.0]);
-        let mut back = vec![-1.0; 20];
-        cells.unpack(&packed, &mut back);
+        let mut unpacked = vec![-1.0; 20];
+        cells.unpack(&packed, &mut unpacked);
         let expected: Vec<f64> = (0..20)
             .map(|n| if inside(n) { field[n] } else { -1.0 })
             .collect();
-        assert_eq!(back, expected);
+        assert_eq!(unpacked, expected);
     }
 }

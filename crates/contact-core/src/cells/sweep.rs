@@ -9,40 +9,46 @@ use std::ops::Range;
 
 use super::CHUNK;
 
-/// Cells that are worked out in one go, in registers; each has sums of its own.
+/// Cells that are processed together, in registers; each has separate sums.
 const BLOCK: usize = 8;
 
 /// Fields that are read.
 pub(crate) trait Fields: Copy + Sync {
     /// The values of one cell.
     type Cell;
-    /// Those of [`BLOCK`] cells.
+    /// The values of [`BLOCK`] cells.
     type Block;
     /// The last cells, filled up to a block.
     type Last;
     /// Fields of other cells.
     type Other<'b>: Fields<Cell = Self::Cell>;
 
-    /// Whether all have so many cells.
-    fn have(self, cells: usize) -> bool;
+    /// Whether all fields have this number of cells.
+    fn have_length(self, cells: usize) -> bool;
     /// The number of cells; none without a field.
     fn cells(self) -> usize;
-    /// Some of the cells.
-    fn part(self, cells: Range<usize>) -> Self;
+    /// A range of the cells.
+    fn slice(self, cells: Range<usize>) -> Self;
     /// The block that begins with cell n.
     fn block(self, n: usize) -> Option<Self::Block>;
     /// Cell i of a block.
-    fn of_block(block: &Self::Block, i: usize) -> Self::Cell;
-    /// The cells from n on, less than a block of them, the last one repeated.
-    fn last(self, n: usize) -> Self::Last;
-    /// These as fields of one block.
-    fn of_last(last: &Self::Last) -> Self::Other<'_>;
+    fn cell_of_block(block: &Self::Block, i: usize) -> Self::Cell;
+    /// The cells from n on, fewer than a block, the last one repeated.
+    fn last_cells(self, n: usize) -> Self::Last;
+    /// The last cells as fields of one block.
+    fn fields_of_last(last: &Self::Last) -> Self::Other<'_>;
 }
 
-/// The cells of a field from n on, less than a block of them, the last one repeated.
-fn last_of<T: Copy + Default>(field: &[T], n: usize) -> [T; BLOCK] {
-    let rest = &field[n..];
-    std::array::from_fn(|i| rest.get(i).or(rest.last()).copied().unwrap_or_default())
+/// The cells of a field from n on, fewer than a block, the last one repeated.
+fn last_cells_of<T: Copy + Default>(field: &[T], n: usize) -> [T; BLOCK] {
+    let remaining = &field[n..];
+    std::array::from_fn(|i| {
+        remaining
+            .get(i)
+            .or(remaining.last())
+            .copied()
+            .unwrap_or_default()
+    })
 }
 
 impl<'a, const R: usize> Fields for [&'a [f64]; R] {
@@ -51,7 +57,7 @@ impl<'a, const R: usize> Fields for [&'a [f64]; R] {
     type Last = [[f64; BLOCK]; R];
     type Other<'b> = [&'b [f64]; R];
 
-    fn have(self, cells: usize) -> bool {
+    fn have_length(self, cells: usize) -> bool {
         self.iter().all(|f| f.len() == cells)
     }
 
@@ -59,7 +65,7 @@ impl<'a, const R: usize> Fields for [&'a [f64]; R] {
         self.first().map_or(0, |f| f.len())
     }
 
-    fn part(self, cells: Range<usize>) -> Self {
+    fn slice(self, cells: Range<usize>) -> Self {
         self.map(|f| &f[cells.clone()])
     }
 
@@ -74,15 +80,15 @@ impl<'a, const R: usize> Fields for [&'a [f64]; R] {
     }
 
     #[inline]
-    fn of_block(block: &Self::Block, i: usize) -> Self::Cell {
+    fn cell_of_block(block: &Self::Block, i: usize) -> Self::Cell {
         block.map(|f| f[i])
     }
 
-    fn last(self, n: usize) -> Self::Last {
-        self.map(|f| last_of(f, n))
+    fn last_cells(self, n: usize) -> Self::Last {
+        self.map(|f| last_cells_of(f, n))
     }
 
-    fn of_last(last: &Self::Last) -> Self::Other<'_> {
+    fn fields_of_last(last: &Self::Last) -> Self::Other<'_> {
         last.each_ref().map(|f| &f[..])
     }
 }
@@ -94,7 +100,7 @@ impl<'a> Fields for &'a [bool] {
     type Last = [bool; BLOCK];
     type Other<'b> = &'b [bool];
 
-    fn have(self, cells: usize) -> bool {
+    fn have_length(self, cells: usize) -> bool {
         self.len() == cells
     }
 
@@ -102,7 +108,7 @@ impl<'a> Fields for &'a [bool] {
         self.len()
     }
 
-    fn part(self, cells: Range<usize>) -> Self {
+    fn slice(self, cells: Range<usize>) -> Self {
         &self[cells]
     }
 
@@ -112,15 +118,15 @@ impl<'a> Fields for &'a [bool] {
     }
 
     #[inline]
-    fn of_block(block: &Self::Block, i: usize) -> bool {
+    fn cell_of_block(block: &Self::Block, i: usize) -> bool {
         block[i]
     }
 
-    fn last(self, n: usize) -> Self::Last {
-        last_of(self, n)
+    fn last_cells(self, n: usize) -> Self::Last {
+        last_cells_of(self, n)
     }
 
-    fn of_last(last: &Self::Last) -> Self::Other<'_> {
+    fn fields_of_last(last: &Self::Last) -> Self::Other<'_> {
         last
     }
 }
@@ -131,16 +137,16 @@ impl<A: Fields, B: Fields> Fields for (A, B) {
     type Last = (A::Last, B::Last);
     type Other<'b> = (A::Other<'b>, B::Other<'b>);
 
-    fn have(self, cells: usize) -> bool {
-        self.0.have(cells) && self.1.have(cells)
+    fn have_length(self, cells: usize) -> bool {
+        self.0.have_length(cells) && self.1.have_length(cells)
     }
 
     fn cells(self) -> usize {
         self.0.cells().max(self.1.cells())
     }
 
-    fn part(self, cells: Range<usize>) -> Self {
-        (self.0.part(cells.clone()), self.1.part(cells))
+    fn slice(self, cells: Range<usize>) -> Self {
+        (self.0.slice(cells.clone()), self.1.slice(cells))
     }
 
     #[inline]
@@ -149,21 +155,21 @@ impl<A: Fields, B: Fields> Fields for (A, B) {
     }
 
     #[inline]
-    fn of_block(block: &Self::Block, i: usize) -> Self::Cell {
-        (A::of_block(&block.0, i), B::of_block(&block.1, i))
+    fn cell_of_block(block: &Self::Block, i: usize) -> Self::Cell {
+        (A::cell_of_block(&block.0, i), B::cell_of_block(&block.1, i))
     }
 
-    fn last(self, n: usize) -> Self::Last {
-        (self.0.last(n), self.1.last(n))
+    fn last_cells(self, n: usize) -> Self::Last {
+        (self.0.last_cells(n), self.1.last_cells(n))
     }
 
-    fn of_last((a, b): &Self::Last) -> Self::Other<'_> {
-        (A::of_last(a), B::of_last(b))
+    fn fields_of_last((a, b): &Self::Last) -> Self::Other<'_> {
+        (A::fields_of_last(a), B::fields_of_last(b))
     }
 }
 
 /// Sets every cell of the fields `to` to its `values(n, from, old)`, and returns the sums of K
-/// terms that these come with.
+/// terms that `values` returns as well.
 ///
 /// # Panics
 /// If the lengths differ.
@@ -173,7 +179,7 @@ pub(crate) fn sweep<F: Fields, const W: usize, const K: usize>(
     values: impl Fn(usize, F::Cell, [f64; W]) -> ([f64; W], [f64; K]) + Sync,
 ) -> [f64; K] {
     let cells = to.first().map_or(from.cells(), |to| to.len());
-    let (sums, []) = part(0..cells, from, to, &|n, from, old| {
+    let (sums, []) = sweep_part(0..cells, from, to, &|n, from, old| {
         let (new, terms) = values(n, from, old);
         (new, terms, [])
     });
@@ -184,7 +190,7 @@ pub(crate) fn sweep<F: Fields, const W: usize, const K: usize>(
 ///
 /// # Panics
 /// If the lengths differ.
-pub(crate) fn set<F: Fields, const W: usize>(
+pub(crate) fn set_fields<F: Fields, const W: usize>(
     from: F,
     to: [&mut [f64]; W],
     values: impl Fn(usize, F::Cell, [f64; W]) -> [f64; W] + Sync,
@@ -196,11 +202,11 @@ pub(crate) fn set<F: Fields, const W: usize>(
 ///
 /// # Panics
 /// If the lengths differ.
-pub(crate) fn survey<F: Fields, const K: usize, const M: usize>(
+pub(crate) fn sums_and_maxima<F: Fields, const K: usize, const M: usize>(
     from: F,
     terms: impl Fn(usize, F::Cell) -> ([f64; K], [f64; M]) + Sync,
 ) -> ([f64; K], [f64; M]) {
-    part(0..from.cells(), from, [], &|n, from, []| {
+    sweep_part(0..from.cells(), from, [], &|n, from, []| {
         let (terms, sizes) = terms(n, from);
         ([], terms, sizes)
     })
@@ -214,7 +220,7 @@ pub(crate) fn sums<F: Fields, const K: usize>(
     from: F,
     terms: impl Fn(usize, F::Cell) -> [f64; K] + Sync,
 ) -> [f64; K] {
-    let (sums, []) = survey(from, |n, cell| (terms(n, cell), []));
+    let (sums, []) = sums_and_maxima(from, |n, cell| (terms(n, cell), []));
     sums
 }
 
@@ -226,69 +232,73 @@ pub(crate) fn largest<F: Fields, const M: usize>(
     from: F,
     sizes: impl Fn(usize, F::Cell) -> [f64; M] + Sync,
 ) -> [f64; M] {
-    let ([], largest) = survey(from, |n, cell| ([], sizes(n, cell)));
+    let ([], largest) = sums_and_maxima(from, |n, cell| ([], sizes(n, cell)));
     largest
 }
 
-fn part<F: Fields, const W: usize, const K: usize, const M: usize>(
+fn sweep_part<F: Fields, const W: usize, const K: usize, const M: usize>(
     cells: Range<usize>,
     from: F,
     mut to: [&mut [f64]; W],
     values: &(impl Fn(usize, F::Cell, [f64; W]) -> ([f64; W], [f64; K], [f64; M]) + Sync),
 ) -> ([f64; K], [f64; M]) {
     let count = cells.len();
-    let fit = from.have(count) && to.iter().all(|to| to.len() == count);
-    assert!(fit, "the fields have one length");
+    let lengths_match = from.have_length(count) && to.iter().all(|to| to.len() == count);
+    assert!(lengths_match, "the fields have one length");
     if count > CHUNK {
         let middle = (count / 2).next_multiple_of(BLOCK);
         let to_first = to.each_mut().map(|to| {
-            let (first, rest) = std::mem::take(to).split_at_mut(middle);
-            *to = rest;
+            let (first, second) = std::mem::take(to).split_at_mut(middle);
+            *to = second;
             first
         });
-        let (first, rest) = (
+        let (first, second) = (
             cells.start..cells.start + middle,
             cells.start + middle..cells.end,
         );
-        let ((mut sums, mut largest), (more, larger)) = rayon::join(
-            || part(first, from.part(0..middle), to_first, values),
-            || part(rest, from.part(middle..count), to, values),
+        let ((mut sums, mut largest), (more_sums, larger)) = rayon::join(
+            || sweep_part(first, from.slice(0..middle), to_first, values),
+            || sweep_part(second, from.slice(middle..count), to, values),
         );
-        (0..K).for_each(|k| sums[k] += more[k]);
+        (0..K).for_each(|k| sums[k] += more_sums[k]);
         (0..M).for_each(|m| largest[m] = largest[m].max(larger[m]));
         return (sums, largest);
     }
-    let (whole, rest) = (count / BLOCK * BLOCK, count % BLOCK);
-    let (mut sums, mut largest) = blocks(
+    let (full, remainder) = (count / BLOCK * BLOCK, count % BLOCK);
+    let (mut sums, mut largest) = sweep_blocks(
         cells.clone(),
         from,
         to.each_mut().map(|to| &mut **to),
         values,
     );
-    if rest > 0 {
+    if remainder > 0 {
         // Filled up to a block, so that `values` is compiled at one place alone, into the loop over
         // several cells.
-        let last = from.last(whole);
-        let mut new = to.each_ref().map(|to| last_of(to, whole));
-        let here = cells.start + whole..cells.end;
-        let one = new.each_mut().map(|new| &mut new[..]);
-        let (more, larger) = blocks(here, F::of_last(&last), one, values);
-        for i in 0..rest {
-            (0..K).for_each(|k| sums[k][i] += more[k][i]);
+        let last = from.last_cells(full);
+        let mut new = to.each_ref().map(|to| last_cells_of(to, full));
+        let last_range = cells.start + full..cells.end;
+        let last_new = new.each_mut().map(|new| &mut new[..]);
+        let (more_sums, larger) =
+            sweep_blocks(last_range, F::fields_of_last(&last), last_new, values);
+        for i in 0..remainder {
+            (0..K).for_each(|k| sums[k][i] += more_sums[k][i]);
             (0..M).for_each(|m| largest[m][i] = largest[m][i].max(larger[m][i]));
         }
         for (to, new) in to.iter_mut().zip(&new) {
-            to[whole..].copy_from_slice(&new[..rest]);
+            to[full..].copy_from_slice(&new[..remainder]);
         }
     }
-    let of_block = |sizes: [f64; BLOCK]| sizes.into_iter().fold(0.0, f64::max);
-    (sums.map(|sums| sums.iter().sum()), largest.map(of_block))
+    let max_of_block = |sizes: [f64; BLOCK]| sizes.into_iter().fold(0.0, f64::max);
+    (
+        sums.map(|sums| sums.iter().sum()),
+        largest.map(max_of_block),
+    )
 }
 
-/// The whole blocks of some cells: sums and largest values, one of each for every place in a block.
-/// Behind the end of the cells the last one is meant.
+/// Sweeps the whole blocks of some cells: sums and largest values for every position in a block.
+/// Positions beyond the end of the cells repeat the last cell.
 #[inline(never)]
-fn blocks<F: Fields, const W: usize, const K: usize, const M: usize>(
+fn sweep_blocks<F: Fields, const W: usize, const K: usize, const M: usize>(
     cells: Range<usize>,
     from: F,
     to: [&mut [f64]; W],
@@ -307,7 +317,7 @@ fn blocks<F: Fields, const W: usize, const K: usize, const M: usize>(
         for i in 0..BLOCK {
             let old = std::array::from_fn(|w| to[w][i]);
             let n = (cells.start + b * BLOCK + i).min(cells.end - 1);
-            let (cell, summed, size) = values(n, F::of_block(&from, i), old);
+            let (cell, summed, size) = values(n, F::cell_of_block(&from, i), old);
             (0..W).for_each(|w| new[w][i] = cell[w]);
             (0..K).for_each(|k| sums[k][i] += summed[k]);
             (0..M).for_each(|m| largest[m][i] = largest[m][i].max(size[m]));
@@ -320,7 +330,7 @@ fn blocks<F: Fields, const W: usize, const K: usize, const M: usize>(
 #[cfg(test)]
 mod tests {
     use super::CHUNK;
-    use crate::cells::{survey, sweep};
+    use crate::cells::{sums_and_maxima, sweep};
 
     #[test]
     fn every_cell_is_swept_once() {
@@ -335,12 +345,12 @@ mod tests {
             });
             assert_eq!(sum as usize, cells * cells.saturating_sub(1) / 2);
             assert_eq!(odds as usize, cells / 2);
-            let twice: Vec<f64> = a.iter().map(|a| 2.0 * a).collect();
-            let more: Vec<f64> = a.iter().map(|a| a + 1.0).collect();
-            assert_eq!((b, c), (twice, more));
-            let ([], found) = survey([&a[..]], |_, [a]| ([], [a, -a - 1.0]));
-            let [largest, none] = found.map(|size| size as usize);
-            assert_eq!((largest, none), (cells.saturating_sub(1), 0));
+            let doubled: Vec<f64> = a.iter().map(|a| 2.0 * a).collect();
+            let incremented: Vec<f64> = a.iter().map(|a| a + 1.0).collect();
+            assert_eq!((b, c), (doubled, incremented));
+            let ([], maxima) = sums_and_maxima([&a[..]], |_, [a]| ([], [a, -a - 1.0]));
+            let [largest, zero] = maxima.map(|size| size as usize);
+            assert_eq!((largest, zero), (cells.saturating_sub(1), 0));
         }
     }
 }

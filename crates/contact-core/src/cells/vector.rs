@@ -12,9 +12,9 @@ const LANES: usize = 8;
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     if a.len() > CHUNK {
         let middle = a.len() / 2;
-        let ((a, a_rest), (b, b_rest)) = (a.split_at(middle), b.split_at(middle));
-        let (first, rest) = rayon::join(|| dot(a, b), || dot(a_rest, b_rest));
-        return first + rest;
+        let ((a, a_second), (b, b_second)) = (a.split_at(middle), b.split_at(middle));
+        let (first, second) = rayon::join(|| dot(a, b), || dot(a_second, b_second));
+        return first + second;
     }
     let (a, a_rest) = a.as_chunks::<LANES>();
     let (b, b_rest) = b.as_chunks::<LANES>();
@@ -24,8 +24,8 @@ pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
             sums[lane] += a[lane] * b[lane];
         }
     }
-    let rest: f64 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
-    sums.iter().sum::<f64>() + rest
+    let remainder: f64 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
+    sums.iter().sum::<f64>() + remainder
 }
 
 /// Sum of all.
@@ -41,7 +41,7 @@ pub(crate) fn sum(a: &[f64]) -> f64 {
 }
 
 /// Size of a vector.
-pub fn size(v: [f64; 2]) -> f64 {
+pub fn length(v: [f64; 2]) -> f64 {
     (v[0] * v[0] + v[1] * v[1]).sqrt()
 }
 
@@ -49,15 +49,15 @@ pub fn size(v: [f64; 2]) -> f64 {
 pub(crate) const CHUNK: usize = PARALLEL_FROM;
 
 /// Runs two functions, in parallel if there are enough `cells`.
-pub(crate) fn both<A: Send, B: Send>(
+pub(crate) fn run_both<A: Send, B: Send>(
     cells: usize,
-    one: impl FnOnce() -> A + Send,
-    other: impl FnOnce() -> B + Send,
+    first: impl FnOnce() -> A + Send,
+    second: impl FnOnce() -> B + Send,
 ) -> (A, B) {
     if cells > CHUNK {
-        rayon::join(one, other)
+        rayon::join(first, second)
     } else {
-        (one(), other())
+        (first(), second())
     }
 }
 

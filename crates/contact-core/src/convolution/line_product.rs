@@ -48,7 +48,7 @@ const KERNELS: [[(Group, usize, Unit); 3]; 3] = {
 /// A line per component: `period + 1` numbers, the last of which repeats the first.
 pub(crate) type Line<'a, T> = [&'a mut [Complex<T>]; 3];
 
-/// Replaces the spectra of the tractions that act by those of the displacements wanted, times
+/// Replaces the spectra of the tractions that act by the spectra of the displacements wanted, times
 /// two if `mirrored`.
 pub(crate) fn multiply<T: Precision>(
     mut line: Line<'_, T>,

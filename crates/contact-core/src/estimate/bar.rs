@@ -18,7 +18,7 @@ pub struct Bar {
 }
 
 impl Bar {
-    /// From parts of unknown sign.
+    /// Combines parts of unknown sign.
     pub(super) fn new(cells: f64, path: f64, solver: f64) -> Self {
         Self {
             total: cells.hypot(path).hypot(solver),
@@ -28,7 +28,7 @@ impl Bar {
         }
     }
 
-    /// From the signed error `off` of the cells and their random part `scatter`, and the signed
+    /// Combines the signed error `off` of the cells and their random part `scatter`, and the signed
     /// error `path` of the increments.
     pub(super) fn signed(off: f64, scatter: f64, path: f64, solver: f64) -> Self {
         let together = off.hypot(path).max((off + path).abs());

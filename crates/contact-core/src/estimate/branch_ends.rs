@@ -12,13 +12,13 @@ pub struct BranchEnds<'a> {
     watcher: &'a mut dyn Observer,
     /// The tractions of the branches that are done.
     pub tractions: Vec<Tractions>,
-    /// What had yielded there.
+    /// Plastic state there.
     pub(super) yielded: Vec<Option<Yielded>>,
 }
 
 impl<'a> BranchEnds<'a> {
-    /// Beside an observer.
-    pub fn beside(watcher: &'a mut dyn Observer) -> Self {
+    /// Passes all calls on to an observer.
+    pub fn new(watcher: &'a mut dyn Observer) -> Self {
         Self {
             watcher,
             tractions: Vec::new(),

@@ -62,8 +62,8 @@ const MOST_OF_BRANCH: usize = 1000;
 /// [`Error::Interrupted`] after increment 0.
 pub fn choose_increments(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene, Error> {
     if !scene.path.has_open_increments() {
-        let known = scene.path.branches.iter().all(|b| b.path_error.is_some());
-        return if scene.path_grid().is_some() && !known {
+        let has_estimates = scene.path.branches.iter().all(|b| b.path_error.is_some());
+        return if scene.path_grid().is_some() && !has_estimates {
             with_path_errors(scene, stop)
         } else {
             Ok(scene.clone())
@@ -155,7 +155,7 @@ pub(super) struct Choice {
 }
 
 impl Choice {
-    /// Of the branches of a scene that have none, starting from those of `path`.
+    /// Chooses the increments of the branches that have none, starting from the increments of `path`.
     pub(super) fn new(scene: &Scene, path: LoadPath) -> Self {
         let branches = scene.path.branches.iter();
         let open: Vec<bool> = branches.map(|b| b.increments.is_none()).collect();
@@ -281,12 +281,12 @@ fn refine(
     };
     *before = Some((count, error));
     let factor = excess.powf(1.0 / order).min(MOST_REFINEMENT);
-    let more = ((count as f64 * factor).ceil() as usize).next_multiple_of(2);
-    let more = more.min(MOST_OF_BRANCH.max(count));
-    branch.set_equal_increments(more);
-    let near = near || more == count;
+    let count_needed = ((count as f64 * factor).ceil() as usize).next_multiple_of(2);
+    let count_needed = count_needed.min(MOST_OF_BRANCH.max(count));
+    branch.set_equal_increments(count_needed);
+    let near = near || count_needed == count;
     if near {
-        branch.path_error = Some(error * (count as f64 / more as f64).powf(order));
+        branch.path_error = Some(error * (count as f64 / count_needed as f64).powf(order));
     }
     near
 }
@@ -306,7 +306,7 @@ fn begin(path: &mut LoadPath, friction: bool) {
     let steps: Vec<Loads> = (0..=last).map(|k| step(&path.branches, k)).collect();
     for (k, branch) in path.branches.iter_mut().enumerate() {
         if branch.increments.is_none() {
-            let goes_on = k > 0 && steps[k].along(&steps[k - 1]).is_some();
+            let goes_on = k > 0 && steps[k].projection_factor(&steps[k - 1]).is_some();
             if !touches {
                 branch.spacing = Spacing::EqualRadius;
             } else if friction && !goes_on && shears(&steps[k]) {

@@ -24,7 +24,7 @@ pub(super) const ORDER: [f64; NUMBERS] = {
     order[MOTIONS + RigidMotion::PhiZ.index()] = 2.0;
     order
 };
-/// Order m of the tractions, whose errors are those of the cells at the rim.
+/// Order m of the tractions, whose errors come from the cells at the rim.
 const FIELDS: f64 = 1.0;
 /// Fewest cells each way of a coarser grid.
 const FEWEST_CELLS_EACH_WAY: usize = 8;
@@ -49,22 +49,22 @@ pub(super) fn coarser_grids(
     stop: &Arc<AtomicBool>,
 ) -> Result<Vec<GridErrors>, Error> {
     let mut of_branches = vec![GridErrors::default(); fine.len()];
-    let mut left: Vec<Left> = Vec::new();
+    let mut remainders: Vec<Left> = Vec::new();
     for (k, part) in PARTS.into_iter().enumerate() {
         let coarser = coarser(scene, part)?;
         let mut plan = Plan::new(&coarser);
-        let most = plan.methods.volume_cells as f64;
-        plan.methods.volume_cells = (part * most).round() as usize;
+        let fine_cells = plan.methods.volume_cells as f64;
+        plan.methods.volume_cells = (part * fine_cells).round() as usize;
         let volume_cells = plan.methods.volume_cells;
         let mut nobody = ();
-        let mut ends = BranchEnds::beside(&mut nobody);
+        let mut ends = BranchEnds::new(&mut nobody);
         let march = March::planned(&coarser, plan, stop)?;
         let coarse = summarise(&march.run(Vec::new(), &mut ends)?);
         let ratio = ratio(&coarser.grid, &scene.grid);
         let grown = ends.yielded.iter().flatten().any(|state| state.grown);
         if let Some(mut bodies) = Yielding::on_cells(&coarser, volume_cells, grown)? {
             let states = ends.yielded.iter().flatten();
-            left.push(Left {
+            remainders.push(Left {
                 ratio,
                 below: states.map(|state| bodies.below_the_middle(state)).collect(),
             });
@@ -84,12 +84,12 @@ pub(super) fn coarser_grids(
             }
         }
     }
-    if let [finer, coarser] = &left[..] {
+    if let [finer, coarser] = &remainders[..] {
         let whole = coarser.ratio.powf(LEFT) - finer.ratio.powf(LEFT);
         let pairs = finer.below.iter().zip(&coarser.below);
         for (of_branch, (finer, coarser)) in of_branches.iter_mut().zip(pairs) {
-            // A larger error says no more than that nothing of it is known.
-            of_branch.residual = (apart(finer, coarser) / whole).min(1.0);
+            // A larger estimate only means that the error is unknown.
+            of_branch.residual = (relative_difference(finer, coarser) / whole).min(1.0);
         }
     }
     Ok(of_branches)
@@ -102,21 +102,21 @@ const LEFT: f64 = 1.5;
 struct Left {
     /// Cells of the grid over those of the scene.
     ratio: f64,
-    /// Of each branch the planes.
+    /// The planes of each branch.
     below: Vec<Vec<Below>>,
 }
 
 /// Largest difference of two residual stresses at the planes of the second, over its largest; linear
 /// between the planes of a layer of the first. Infinite where nothing of the second has yielded.
-fn apart(first: &[Below], second: &[Below]) -> f64 {
+fn relative_difference(first: &[Below], second: &[Below]) -> f64 {
     let (mut most, mut off) = (0.0_f64, 0.0_f64);
     for at in second {
-        let own: Vec<&Below> = first.iter().filter(|of| of.layer == at.layer).collect();
-        let below = own.partition_point(|of| of.depth < at.depth);
-        let above = below.checked_sub(1).and_then(|above| own.get(above));
+        let same_layer: Vec<&Below> = first.iter().filter(|of| of.layer == at.layer).collect();
+        let below = same_layer.partition_point(|of| of.depth < at.depth);
+        let above = below.checked_sub(1).and_then(|above| same_layer.get(above));
         for c in 0..3 {
             most = most.max(at.stress[c].abs());
-            if let Some((top, bottom)) = above.zip(own.get(below)) {
+            if let Some((top, bottom)) = above.zip(same_layer.get(below)) {
                 let part = (at.depth - top.depth) / (bottom.depth - top.depth);
                 let stress = top.stress[c] + part * (bottom.stress[c] - top.stress[c]);
                 off = off.max((stress - at.stress[c]).abs());
@@ -150,7 +150,7 @@ fn coarser(scene: &Scene, part: f64) -> Result<Scene, Error> {
             "grid.n",
             format!("[{}, {}]", grid.nx, grid.ny),
             format!(
-                "{} or more cells, so that a part of them tells the error",
+                "{} or more cells, so that a coarser grid shows the error",
                 2 * FEWEST_CELLS_EACH_WAY + 4
             ),
         ));
@@ -212,11 +212,11 @@ pub fn means(fine: &Array2<f64>, (nx, ny): (usize, usize)) -> Array2<f64> {
     let rows: Vec<_> = (0..ny).map(|j| covered(j, across_y, ny)).collect();
     let columns: Vec<_> = (0..nx).map(|i| covered(i, across_x, nx)).collect();
     Array2::from_shape_fn((nx, ny), |(i, j)| {
-        let of = |&(k, part): &(usize, f64)| -> f64 {
+        let mean_of_column = |&(k, part): &(usize, f64)| -> f64 {
             let row = rows[j].iter().map(|&(l, part)| part * fine[(k, l)]);
             part * row.sum::<f64>()
         };
-        columns[i].iter().map(of).sum()
+        columns[i].iter().map(mean_of_column).sum()
     })
 }
 

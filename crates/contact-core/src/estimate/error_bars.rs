@@ -15,9 +15,9 @@
 //!
 //! **Increments.** The change of every number from fewer increments, or to more (`path_error`).
 //!
-//! **Solver.** Its tolerance, and that of the additional runs.
+//! **Solver.** Its tolerance, and the tolerance of the additional runs.
 //!
-//! Errors of cells and increments of the same sign add up; those of opposite sign are not taken to
+//! Errors of cells and increments of the same sign add up; errors of opposite sign are not taken to
 //! cancel (`bar`).
 
 use std::sync::Arc;
@@ -66,62 +66,62 @@ const RING_ENERGY: f64 = 0.024;
 pub struct ErrorBars {
     /// Branch, from 0.
     pub branch: usize,
-    /// Of the contact radius, of a line contact of half its width \[m\].
+    /// Error of the contact radius, of a line contact of half its width \[m\].
     pub contact_radius: Bar,
-    /// Of the stick area over the contact area.
+    /// Error of the stick area over the contact area.
     pub stick_ratio: Bar,
-    /// Of the largest pressure \[Pa\].
+    /// Error of the largest pressure \[Pa\].
     pub p_max: Bar,
-    /// Of the approach \[m\]; this and the other motions and loads are zero where they are given.
+    /// Error of the approach \[m\]; this and the errors of other motions and loads are zero where these are prescribed.
     pub delta_z: Bar,
-    /// Of the tilt about x \[rad\].
+    /// Error of the tilt about x \[rad\].
     pub phi_x: Bar,
-    /// Of the tilt about y \[rad\].
+    /// Error of the tilt about y \[rad\].
     pub phi_y: Bar,
-    /// Of the shift along x \[m\].
+    /// Error of the shift along x \[m\].
     pub delta_x: Bar,
-    /// Of the shift along y \[m\].
+    /// Error of the shift along y \[m\].
     pub delta_y: Bar,
-    /// Of the rotation \[rad\].
+    /// Error of the rotation \[rad\].
     pub phi_z: Bar,
-    /// Of the normal force \[N\].
+    /// Error of the normal force \[N\].
     pub W: Bar,
-    /// Of the tilting moment about x \[N m\].
+    /// Error of the tilting moment about x \[N m\].
     pub M_x: Bar,
-    /// Of the tilting moment about y \[N m\].
+    /// Error of the tilting moment about y \[N m\].
     pub M_y: Bar,
-    /// Of the tangential force along x \[N\].
+    /// Error of the tangential force along x \[N\].
     pub T_x: Bar,
-    /// Of the tangential force along y \[N\].
+    /// Error of the tangential force along y \[N\].
     pub T_y: Bar,
-    /// Of the torsional moment \[N m\].
+    /// Error of the torsional moment \[N m\].
     pub M_z: Bar,
-    /// Of the energy dissipated in the branch \[J\].
+    /// Error of the energy dissipated in the branch \[J\].
     pub dissipated: Bar,
-    /// Of the pressure as a field: L2 norm, over the largest of the path.
+    /// Error of the pressure as a field: L2 norm, over the largest of the path.
     pub p: Bar,
-    /// Of the shear as a field: L2 norm, over the largest of the path.
+    /// Error of the shear as a field: L2 norm, over the largest of the path.
     pub q: Bar,
-    /// Of the plastic work in the branch \[J\]; this and the next three are zero where nothing yields.
+    /// Error of the plastic work in the branch \[J\]; this and the next three are zero where nothing yields.
     #[serde(default)]
     pub plastic_work: Bar,
-    /// Of the volume that has yielded \[m^3\].
+    /// Error of the volume that has yielded \[m^3\].
     #[serde(default)]
     pub plastic_volume: Bar,
-    /// Of the largest equivalent plastic strain, which at the border of slip and at the rim of a coating
+    /// Error of the largest equivalent plastic strain, which at the border of slip and at the rim of a coating
     /// does not converge.
     #[serde(default)]
     pub largest_plastic_strain: Bar,
-    /// Of the residual stress at a point, over the largest below the middle of the grid.
+    /// Error of the residual stress at a point, over the largest below the middle of the grid.
     #[serde(default)]
     pub residual_stress: Bar,
-    /// Of the stress in the bodies, over its size.
+    /// Error of the stress in the bodies, over its size.
     #[serde(default)]
     pub stress: Bar,
 }
 
 impl ErrorBars {
-    /// Of the motions, in the order of [`RigidMotion::ALL`](crate::scene::RigidMotion::ALL).
+    /// Errors of the motions, in the order of [`RigidMotion::ALL`](crate::scene::RigidMotion::ALL).
     pub fn motions(&self) -> [Bar; 6] {
         let Self {
             delta_z,
@@ -135,7 +135,7 @@ impl ErrorBars {
         [delta_z, phi_x, phi_y, delta_x, delta_y, phi_z]
     }
 
-    /// Of their loads.
+    /// Errors of their loads.
     pub fn loads(&self) -> [Bar; 6] {
         [self.W, self.M_x, self.M_y, self.T_x, self.T_y, self.M_z]
     }
@@ -180,7 +180,7 @@ const RETURNED: f64 = 1e-3;
 struct Differs {
     /// Cells of the finer grid each way over those of the grid.
     ratio: f64,
-    /// The numbers less those of the finer grid, each in its unit.
+    /// The numbers minus the numbers on the finer grid, each in its unit.
     off: [f64; NUMBERS],
     /// Tolerance of both runs.
     tolerance: f64,
@@ -218,11 +218,11 @@ fn bars(
                 solver,
             ),
             Some(finer) => {
-                // The error of the finer grid over that of the grid.
-                let left = finer.ratio.powf(-ORDER[n]);
-                let scatter = (left * of_grids.numbers[n]).hypot(least);
+                // The error of the finer grid over the error of the grid.
+                let remaining = finer.ratio.powf(-ORDER[n]);
+                let scatter = (remaining * of_grids.numbers[n]).hypot(least);
                 Bar::signed(
-                    finer.off[n] / (1.0 - left),
+                    finer.off[n] / (1.0 - remaining),
                     scatter,
                     path.numbers[n],
                     solver,
@@ -235,8 +235,8 @@ fn bars(
     let [W, M_x, M_y, T_x, T_y, M_z] = [0, 1, 2, 3, 4, 5].map(|k| bar(LOADS + k));
     let [plastic_work, plastic_volume, largest_plastic_strain] =
         [0, 1, 2].map(|k| bar(PLASTIC + k));
-    let known = [STICK_RATIO, P_MAX].map(|n| bar(n).cells);
-    let left = if fine.plastic_volume > 0.0 {
+    let cell_bars = [STICK_RATIO, P_MAX].map(|n| bar(n).cells);
+    let remaining = if fine.plastic_volume > 0.0 {
         Bar::new(of_grids.residual, path.residual, RETURNED)
     } else {
         Bar::default()
@@ -264,8 +264,8 @@ fn bars(
         plastic_work,
         plastic_volume,
         largest_plastic_strain,
-        residual_stress: left,
-        stress: of_stress(fine, known, path, tolerance),
+        residual_stress: remaining,
+        stress: of_stress(fine, cell_bars, path, tolerance),
     }
 }
 
@@ -313,7 +313,7 @@ fn solver_parts(scene: &Scene, fine: &BranchSummary, tolerance: f64) -> [f64; NU
 }
 
 /// Uncertainty of the stick ratio: the area of a ring of width [`BORDER`] or
-/// [`BORDER_UNDER_THIN`] along the border of the stick zone over that of the contact; where the
+/// [`BORDER_UNDER_THIN`] along the border of the stick zone over the one of the contact; where the
 /// slip ring is narrower than [`NARROWEST_RING`], of a ring of the missing width. In a line contact
 /// the ring is a strip on both sides.
 fn slip_ring(scene: &Scene, fine: &BranchSummary) -> f64 {

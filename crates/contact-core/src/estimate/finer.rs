@@ -26,7 +26,7 @@ const TOLERANCE: f64 = 1e-5;
 pub(crate) struct Finer {
     /// Cells of the finer grid each way over those of the grid.
     pub(crate) ratio: f64,
-    /// The numbers less those of the finer grid, each in its unit.
+    /// The numbers minus the numbers on the finer grid, each in its unit.
     pub(crate) off: Vec<[f64; NUMBERS]>,
     /// Tolerance of both runs.
     pub(crate) tolerance: f64,
@@ -67,7 +67,7 @@ impl Finer {
 }
 
 /// The scene in few increments on the finer grid of the error estimate, if there is one. Error bars
-/// need its memory besides that of the run.
+/// need its memory besides the memory of the run.
 pub fn finest(scene: &Scene) -> Option<Scene> {
     let grids = TIMES.map(|times| refined(&scene.grid, times));
     let grid = grids

@@ -31,20 +31,20 @@ pub fn first_yield(scene: &Scene) -> Result<Option<FirstYield>, Error> {
         (None, _) => (0.0, 1.0),
     };
     let mut W = largest;
-    let mut found = None;
+    let mut first_yield = None;
     for _ in 0..TRIALS {
         let trial = trial(scene, W, (W / largest).powf(size));
         let Some((ratio, place)) = worst(&trial)? else {
             return Ok(None);
         };
         let begins = W * ratio.powf(-1.0 / pressure);
-        found = Some(FirstYield { W: begins, ..place });
+        first_yield = Some(FirstYield { W: begins, ..place });
         if (ratio - 1.0).abs() < SETTLED {
             break;
         }
         W = begins;
     }
-    Ok(found)
+    Ok(first_yield)
 }
 
 /// The scene under a normal load alone, on a grid of another size.
@@ -86,11 +86,11 @@ fn worst(trial: &Scene) -> Result<Option<(f64, FirstYield)>, Error> {
     };
     increment?;
     let [p, q_x, q_y] = march.tractions();
-    let Some(mut yielding) = Yielding::of(trial, false)? else {
+    let Some(mut yielding) = Yielding::from_scene(trial, false)? else {
         return Ok(None);
     };
-    let place = yielding.nearest_to_yield([&p, &q_x, &q_y]);
-    Ok(place.map(|(ratio, body, layer, depth)| {
+    let point = yielding.nearest_to_yield([&p, &q_x, &q_y]);
+    Ok(point.map(|(ratio, body, layer, depth)| {
         let W = 0.0;
         (
             ratio,

@@ -1,8 +1,8 @@
-//! The increments of a scene from those of a neighbouring one.
+//! The increments of a scene from the increments of a neighbouring one.
 //!
 //! The increments n that were chosen for the neighbour are the first guess, and one comparison checks
 //! them: e is the change of the shear from n/4 to n/2 increments at the end of a branch, on a grid of
-//! few cells. The error E with n increments follows from that of the neighbour (0):
+//! few cells. The error E with n increments follows from the error of the neighbour (0):
 //!
 //! ```text
 //! E = E_0 e/e_0
@@ -26,7 +26,7 @@ use crate::scene::{LoadPath, Scene};
 /// Neighbours that are kept.
 const KEPT: usize = 16;
 
-/// What is known of scenes that others were compared with, the latest last.
+/// Data of scenes that others were compared with, the latest last.
 static KNOWN: Mutex<Vec<(Scene, Arc<Known>)>> = Mutex::new(Vec::new());
 
 /// The increments of a scene, and what a comparison of half of them gives.
@@ -52,30 +52,30 @@ impl Known {
         })
     }
 
-    /// Of a scene, computed once in a process.
-    fn of(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Arc<Self>, Error> {
+    /// Returns the data of a scene, computed once in a process.
+    fn get_or_compute(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Arc<Self>, Error> {
         let store = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
-        let found = |all: &[(Scene, Arc<Self>)]| {
-            let found = all.iter().find(|(of, _)| of == scene);
-            found.map(|(_, known)| known.clone())
+        let find_cached = |all: &[(Scene, Arc<Self>)]| {
+            let entry = all.iter().find(|(of, _)| of == scene);
+            entry.map(|(_, known)| known.clone())
         };
-        if let Some(known) = found(&store()) {
+        if let Some(known) = find_cached(&store()) {
             return Ok(known);
         }
-        let known = Arc::new(Self::new(scene, stop)?);
-        let mut all = store();
-        if all.len() == KEPT {
-            all.remove(0);
+        let computed = Arc::new(Self::new(scene, stop)?);
+        let mut cache = store();
+        if cache.len() == KEPT {
+            cache.remove(0);
         }
-        all.push((scene.clone(), known.clone()));
-        Ok(known)
+        cache.push((scene.clone(), computed.clone()));
+        Ok(computed)
     }
 }
 
-/// As [`choose_increments`], with those of a neighbouring scene as the first guess.
+/// Chooses as [`choose_increments`] does, with the increments of a neighbouring scene as the first guess.
 ///
 /// They are chosen anew where the branches of the two paths are of different kinds, a branch of one of
-/// them has its number, the bodies yield, or one comparison says that an error is more than twice the
+/// them has its number, the bodies yield, or an error in one comparison is more than twice the
 /// allowed one. Ends when `stop` is raised: [`Error::Interrupted`] after increment 0.
 pub fn choose_increments_like(
     scene: &Scene,
@@ -89,19 +89,19 @@ pub fn choose_increments_like(
     if neighbour.check().is_err() {
         return choose_increments(scene, stop);
     }
-    let known = match Known::of(&plain(neighbour), stop) {
+    let neighbour_data = match Known::get_or_compute(&plain(neighbour), stop) {
         Ok(known) => known,
         Err(error @ Error::Interrupted { .. }) => return Err(error),
-        // A neighbour that has no solution says nothing of the scene.
+        // A neighbour without a solution gives no estimate for the scene.
         Err(_) => return choose_increments(scene, stop),
     };
     let scene_alone = plain(scene);
-    let found = if plain(neighbour) == scene_alone {
-        Some(known.chosen.path.clone())
+    let path_if_found = if plain(neighbour) == scene_alone {
+        Some(neighbour_data.chosen.path.clone())
     } else {
-        checked(scene, &known, stop)?
+        checked(scene, &neighbour_data, stop)?
     };
-    let Some(path) = found else {
+    let Some(path) = path_if_found else {
         return choose_increments(scene, stop);
     };
     let mut chosen = begun(scene);

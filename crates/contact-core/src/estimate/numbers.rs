@@ -8,11 +8,11 @@ pub(crate) const CONTACT_RADIUS: usize = 0;
 pub(crate) const STICK_RATIO: usize = 1;
 pub(crate) const P_MAX: usize = 2;
 pub(crate) const DISSIPATED: usize = 3;
-/// Of the first motion and of the first load; the others follow in the order of
+/// Indices of the first motion and of the first load; the others follow in the order of
 /// [`RigidMotion::ALL`](crate::scene::RigidMotion::ALL).
 pub(crate) const MOTIONS: usize = 4;
 pub(crate) const LOADS: usize = MOTIONS + 6;
-/// Of bodies that yield: plastic work, volume that has yielded, largest plastic strain.
+/// Indices for bodies that yield: plastic work, volume that has yielded, largest plastic strain.
 pub(crate) const PLASTIC: usize = LOADS + 6;
 /// How many there are.
 pub(crate) const NUMBERS: usize = PLASTIC + 3;
@@ -37,10 +37,10 @@ pub(crate) fn numbers(branch: &BranchSummary) -> [f64; NUMBERS] {
 /// Whether the path gives a number of a branch, which then has no error: of each pair of motion and
 /// load one is given.
 pub(crate) fn is_given(branch: &BranchSummary, number: usize) -> bool {
-    let given = branch.loads.given.motions().map(|motion| motion.is_some());
+    let is_prescribed = branch.loads.given.motions().map(|motion| motion.is_some());
     match number.checked_sub(MOTIONS) {
-        Some(motion) if motion < 6 => given[motion],
-        Some(load) if load < 12 => !given[load - 6],
+        Some(motion) if motion < 6 => is_prescribed[motion],
+        Some(load) if load < 12 => !is_prescribed[load - 6],
         _ => false,
     }
 }

@@ -40,12 +40,12 @@ const TAKEN_OVER: f64 = 0.5;
 
 /// Chooses the path grid of a scene whose increments have just been chosen: the coarsest with which
 /// the errors of the increments and of the path grid, which are independent, stay within
-/// `path_tolerance` together. Adds its errors to those of the branches; those of a path grid that is
+/// `path_tolerance` together. Adds its errors to the errors of the branches; the errors of a path grid that is
 /// given, too.
 pub(super) fn choose_path_grid(scene: &mut Scene, stop: &Arc<AtomicBool>) -> Result<(), Error> {
     let (nx, shorter) = (scene.grid.nx, scene.grid.nx.min(scene.grid.ny));
-    let given = scene.settings.solver.path_grid;
-    let ratios: Vec<usize> = match given {
+    let setting = scene.settings.solver.path_grid;
+    let ratios: Vec<usize> = match setting {
         PathGrid::Same => return Ok(()),
         PathGrid::Cells(_) if scene.path_grid().is_none() => return Ok(()),
         PathGrid::Cells(cells) => vec![nx / cells],
@@ -68,7 +68,7 @@ pub(super) fn choose_path_grid(scene: &mut Scene, stop: &Arc<AtomicBool>) -> Res
     let branches = Repeats::of_ends(&scene.path.branches).last() + 1;
     let tried = ratios.iter().map(|ratio| shorter / ratio);
     let tried = tried.fold(TRIAL_CELLS, usize::min);
-    let errors = match (errors_of_trial(scene, tried, branches, stop), given) {
+    let errors = match (errors_of_trial(scene, tried, branches, stop), setting) {
         (Ok(errors), _) => errors,
         (Err(error @ Error::Interrupted { .. }), _) => return Err(error),
         (Err(error), PathGrid::Cells(cells)) => return Err(without_estimate(cells, &error)),
@@ -91,7 +91,7 @@ pub(super) fn choose_path_grid(scene: &mut Scene, stop: &Arc<AtomicBool>) -> Res
         let judged = branches.iter().skip(usize::from(remembered));
         let largest = judged.filter_map(|of| of.path_error);
         let allowed = largest.fold(of_grid, f64::max) <= scene.settings.solver.path_tolerance;
-        if allowed || given != PathGrid::Auto {
+        if allowed || setting != PathGrid::Auto {
             scene.settings.solver.path_grid = PathGrid::Cells(nx / ratio);
             scene.path.branches = branches;
             break;

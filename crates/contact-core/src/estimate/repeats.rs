@@ -32,7 +32,7 @@ impl Repeats {
         Self((0..branches).map(first).collect())
     }
 
-    /// Where every branch is one of its own.
+    /// Fallback where no branch repeats another.
     pub(super) fn none(path: &LoadPath) -> Self {
         Self((0..path.branches.len()).collect())
     }

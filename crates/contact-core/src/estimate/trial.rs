@@ -8,20 +8,20 @@ use crate::error::Error;
 use crate::march::March;
 use crate::scene::{Branch, Dependence, Grid, LoadPath, PathGrid, Scene, Spacing};
 
-/// Order of the error in the increments: 1.5, between that of cells entering one by one (1) and
-/// that of turning slip (2); 1 where friction falls once a cell has slipped, one increment late.
+/// Order of the error in the increments: 1.5, between the order of cells entering one by one (1) and
+/// the order of turning slip (2); 1 where friction falls once a cell has slipped, one increment late.
 const ORDER: f64 = 1.5;
 const LATE_ORDER: f64 = 1.0;
-/// The same of a contact that grows: a cell that comes to stick within an increment is taken to have
+/// Order for a contact that grows: a cell that comes to stick within an increment is taken to have
 /// stuck from its start, or from its entry.
 const GROWTH_ORDER: f64 = 1.0;
-/// The same near full sliding: the shift of unlike bodies at 0.999 mu W in 161 and 400 increments
+/// Factor near full sliding: the shift of unlike bodies at 0.999 mu W in 161 and 400 increments
 /// differs by 8 %.
 const SLIDING_ORDER: f64 = 1.0;
 /// Solver tolerance of these runs over the tolerance of the path: the errors of the increments add
 /// up.
 const SOLVER_SHARE: f64 = 1e-2;
-/// The same of runs of half of the increments, whose errors are three times as large.
+/// Factor for runs of half of the increments, whose errors are three times as large.
 const HALF_SHARE: f64 = 3e-2;
 /// A grid is not halved below CELLS cells.
 const CELLS: usize = 32 * 32;
@@ -40,7 +40,7 @@ const FEW: usize = 32;
 /// Contact cells that a grid must have.
 const CONTACT: usize = 300;
 
-/// The same scene twice, for few increments and for many.
+/// Runs of one scene twice, for few increments and for many.
 pub(crate) struct Trial {
     runs: TwoRuns,
     cells: (usize, usize),
@@ -56,7 +56,7 @@ pub(crate) struct Trial {
 }
 
 impl Trial {
-    /// On the coarsest grid of halvings on which the contact has at least [`CONTACT`] cells.
+    /// Sets up the runs on the coarsest grid of halvings on which the contact has at least [`CONTACT`] cells.
     pub(crate) fn new(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Self, Error> {
         Self::on_one_of(halvings(scene), scene, SOLVER_SHARE, stop)
     }
@@ -83,7 +83,7 @@ impl Trial {
         self.cells
     }
 
-    /// On the last of these grids on which the contact has enough cells, to this share of the
+    /// Sets up the runs on the last of these grids on which the contact has enough cells, to this share of the
     /// tolerance of the path.
     fn on_one_of(
         mut grids: Vec<Grid>,
@@ -108,7 +108,7 @@ impl Trial {
                 .branches
                 .iter_mut()
                 .for_each(|b| b.increments = Some(1));
-            if grids.is_empty() || most_contact(&once, stop)? >= CONTACT {
+            if grids.is_empty() || max_contact_cells(&once, stop)? >= CONTACT {
                 break;
             }
         }
@@ -140,13 +140,13 @@ impl Trial {
         varied: impl Fn(usize) -> bool,
     ) -> Result<Vec<PathError>, Error> {
         let with = |count: fn(usize) -> usize| {
-            let mut other = path.clone();
-            for (k, branch) in other.branches.iter_mut().enumerate() {
+            let mut changed_path = path.clone();
+            for (k, branch) in changed_path.branches.iter_mut().enumerate() {
                 if varied(k) {
                     branch.set_equal_increments(count(branch.equal_increments()));
                 }
             }
-            other
+            changed_path
         };
         let mut counts = (path.branches.iter().enumerate())
             .filter(|(k, _)| varied(*k))
@@ -200,20 +200,20 @@ impl Trial {
             return change.q;
         }
         let inherited = grown.min(change.q);
-        let own = (change.q.powi(2) - inherited.powi(2)).sqrt();
-        inherited.hypot(unseen * own)
+        let not_inherited = (change.q.powi(2) - inherited.powi(2)).sqrt();
+        inherited.hypot(unseen * not_inherited)
     }
 }
 
 /// The largest number of contact cells at the ends of the branches.
-fn most_contact(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<usize, Error> {
+fn max_contact_cells(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<usize, Error> {
     let cell_area = scene.grid.cell_area();
     let mut march = March::until(scene, stop)?;
-    let mut most = 0.0_f64;
+    let mut largest_area = 0.0_f64;
     while let Some(increment) = march.advance() {
-        most = most.max(of_trial(increment)?.contact_area);
+        largest_area = largest_area.max(of_trial(increment)?.contact_area);
     }
-    Ok((most / cell_area).round() as usize)
+    Ok((largest_area / cell_area).round() as usize)
 }
 
 /// The grid of a scene and the coarser ones that it can be halved to.

@@ -16,13 +16,13 @@ use crate::scene::{Branch, LoadPath, Scene};
 /// Error of the increments at the end of a branch.
 #[derive(Clone, Default)]
 pub(crate) struct PathError {
-    /// In the shear: L2 norm, over the largest of the path.
+    /// Error of the shear: L2 norm, over the largest of the path.
     pub(crate) q: f64,
-    /// In the pressure: L2 norm, over the largest of the path.
+    /// Error of the pressure: L2 norm, over the largest of the path.
     pub(crate) p: f64,
-    /// In the numbers of the branch, each in its unit: less those with many increments.
+    /// Numbers of the branch, each in its unit, minus the numbers with many increments.
     pub(crate) numbers: [f64; NUMBERS],
-    /// In the residual displacement of bodies that yield: L2 norm, over the largest of the path.
+    /// Error of the residual displacement of bodies that yield: L2 norm, over the largest of the path.
     pub(crate) residual: f64,
     /// The larger of the errors of the shift and of the dissipated energy, each over the largest of
     /// the path.
@@ -38,7 +38,7 @@ pub(crate) struct PathError {
 }
 
 /// Above SLIDING times the limit of friction shift and energy grow without bound while the shear
-/// hardly changes; their errors may be RUN_AWAY times that of the shear.
+/// hardly changes; their errors may be RUN_AWAY times the error of the shear.
 const SLIDING: f64 = 0.99;
 const RUN_AWAY: f64 = 3.0;
 
@@ -48,7 +48,7 @@ impl PathError {
         self.driven && self.reached > SLIDING * self.bearable
     }
 
-    /// The error by which increments are chosen: that of the shear, near full sliding also that of
+    /// The error by which increments are chosen: the one of the shear, near full sliding also the one of
     /// shift and energy.
     pub(crate) fn chosen_by(&self) -> f64 {
         if self.is_near_sliding() {
@@ -115,7 +115,7 @@ impl TwoRuns {
     pub(crate) fn share(&mut self, path: &LoadPath, branches: usize) -> Result<(), Error> {
         let mut first = path.clone();
         first.branches.truncate(branches);
-        let ends = self.few.along(&first)?.iter().cloned();
+        let ends = self.few.solve_path(&first)?.iter().cloned();
         self.many.ends = ends.map(End::on_the_grid_alone).collect();
         Ok(())
     }
@@ -126,7 +126,7 @@ impl TwoRuns {
         few: &LoadPath,
         many: &LoadPath,
     ) -> Result<Vec<PathError>, Error> {
-        let (few, many) = rayon::join(|| self.few.along(few), || self.many.along(many));
+        let (few, many) = rayon::join(|| self.few.solve_path(few), || self.many.solve_path(many));
         let (few, many) = (few?, many?);
         for end in many {
             let (p, q) = self.largest;
@@ -140,18 +140,21 @@ impl TwoRuns {
                 energy.max(end.summary.dissipated),
             );
         }
-        let left = |end: &End, from: Option<&End>| -> f64 {
-            let of = |end: &End| -> Vec<f64> {
+        let change_of_residual = |end: &End, from: Option<&End>| -> f64 {
+            let residual_displacement = |end: &End| -> Vec<f64> {
                 let bodies = end.state.yielded.iter().flat_map(|yielded| &yielded.bodies);
                 bodies.flat_map(|body| body.displacement.clone()).collect()
             };
-            let (own, other) = (of(end), from.map_or_else(Vec::new, of));
-            let other = other.into_iter().chain(std::iter::repeat(0.0));
-            let squares = own.iter().zip(other).map(|(a, b)| (a - b) * (a - b));
+            let (own, other) = (
+                residual_displacement(end),
+                from.map_or_else(Vec::new, residual_displacement),
+            );
+            let reference = other.into_iter().chain(std::iter::repeat(0.0));
+            let squares = own.iter().zip(reference).map(|(a, b)| (a - b) * (a - b));
             squares.sum::<f64>().sqrt()
         };
-        let most = many.iter().map(|end| left(end, None));
-        let most = most.fold(f64::MIN_POSITIVE, f64::max);
+        let largest = many.iter().map(|end| change_of_residual(end, None));
+        let largest = largest.fold(f64::MIN_POSITIVE, f64::max);
         let ((p, q), (shift, energy)) = (self.largest, self.moved);
         let pairs = few.iter().zip(many);
         Ok(pairs
@@ -159,16 +162,16 @@ impl TwoRuns {
                 let (f, m) = (numbers(&few.summary), numbers(&many.summary));
                 let off = |k: usize| norm(&(&few.tractions[k] - &many.tractions[k]));
                 let (one, other) = (few.summary.motion, many.summary.motion);
-                let given = many.summary.loads.given;
+                let prescribed = many.summary.loads.given;
                 let shifts = (one.delta_x - other.delta_x).hypot(one.delta_y - other.delta_y);
                 let energies = (few.summary.dissipated - many.summary.dissipated).abs();
                 PathError {
                     motion: (shifts / shift).max(energies / energy),
                     q: off(1).hypot(off(2)) / q,
                     p: off(0) / p,
-                    residual: left(many, Some(few)) / most,
+                    residual: change_of_residual(many, Some(few)) / largest,
                     numbers: std::array::from_fn(|n| f[n] - m[n]),
-                    driven: given.delta_x.is_none() && given.delta_y.is_none(),
+                    driven: prescribed.delta_x.is_none() && prescribed.delta_y.is_none(),
                     reached: many.q() / q,
                     bearable: self.mu * many.p() / q,
                     ring: (1.0 - many.summary.stick_ratio.sqrt()) * many.summary.contact_radius,
@@ -214,10 +217,10 @@ impl Run {
     }
 
     /// Solves the path; returns the ends of its branches.
-    fn along(&mut self, path: &LoadPath) -> Result<&[End], Error> {
-        let known = self.ends.iter().zip(&path.branches);
-        let known = known.take_while(|(end, branch)| end.branch == unjudged(branch));
-        self.ends.truncate(known.count());
+    fn solve_path(&mut self, path: &LoadPath) -> Result<&[End], Error> {
+        let kept_ends = self.ends.iter().zip(&path.branches);
+        let kept_ends = kept_ends.take_while(|(end, branch)| end.branch == unjudged(branch));
+        self.ends.truncate(kept_ends.count());
         let state = self.ends.last().map(|end| end.state.clone());
         self.march.go_along(path, state);
         let mut increments = Vec::new();

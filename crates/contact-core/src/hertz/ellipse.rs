@@ -60,7 +60,7 @@ pub fn hertz_ellipse(R_x: f64, R_y: f64, E_star: f64, W: f64) -> HertzEllipse {
 impl HertzEllipse {
     /// Pressure at (x, y) \[Pa\], p0 sqrt(1 - x^2/a_x^2 - y^2/a_y^2).
     pub fn p(&self, x: f64, y: f64) -> f64 {
-        let rest = 1.0 - (x / self.a_x).powi(2) - (y / self.a_y).powi(2);
-        self.p0 * rest.max(0.0).sqrt()
+        let height = 1.0 - (x / self.a_x).powi(2) - (y / self.a_y).powi(2);
+        self.p0 * height.max(0.0).sqrt()
     }
 }

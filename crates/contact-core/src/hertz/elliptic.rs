@@ -28,9 +28,9 @@ pub fn elliptic_integrals(k_prime: f64) -> EllipticIntegrals {
     let (mut ratio, mut weight, mut sum) = (1.0, 0.5, 0.5);
     while (a - g).abs() > 4.0 * f64::EPSILON * a {
         let c2 = ratio * k2;
-        let next = f64::midpoint(a, g);
+        let mean = f64::midpoint(a, g);
         g = (a * g).sqrt();
-        a = next;
+        a = mean;
         ratio *= c2 / (16.0 * a * a);
         weight *= 2.0;
         sum += weight * ratio;

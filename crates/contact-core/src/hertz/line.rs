@@ -81,7 +81,7 @@ impl LineContact {
         self.partial_slip_stress_shifted(at, 0.0, T, mu)
     }
 
-    /// The same with the stick zone's middle at `e` \[m\], as in [`Self::q_shifted`]. A bulk stress
+    /// Shear with the stick zone's middle at `e` \[m\], as in [`Self::q_shifted`]. A bulk stress
     /// adds to s_xx.
     pub fn partial_slip_stress_shifted(
         &self,

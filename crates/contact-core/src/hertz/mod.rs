@@ -1,5 +1,5 @@
 //! Hertz: pressed bodies without friction, the yardstick of every contact and the first guess of its
-//! size. The other closed forms are those of the crate `contact-reference`.
+//! size. The other closed forms are in the crate `contact-reference`.
 
 mod ellipse;
 mod elliptic;

@@ -137,7 +137,7 @@ fn one_minus_round_trip(x: f64) -> Matrix2 {
 /// The response of the material below a plane.
 #[derive(Clone, Copy, Debug)]
 struct ResponseBelow {
-    /// In-plane response.
+    /// Response in the plane.
     y: Matrix2,
     /// The same minus the response of the half-space of the uppermost material.
     y_remainder: Matrix2,
@@ -160,7 +160,7 @@ pub(crate) struct LayerWaves {
     pub(crate) r: Matrix2,
     /// (1 + R)^-1: downward traction at the top over the traction there.
     pub(crate) down: Matrix2,
-    /// The same four out-of-plane.
+    /// Ratios r0, s, r and down of the out-of-plane problem.
     pub(crate) r0_t: f64,
     pub(crate) s_t: f64,
     pub(crate) r_t: f64,

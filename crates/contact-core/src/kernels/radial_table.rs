@@ -1,7 +1,7 @@
 //! Radial functions tabulated by their Hankel integrals.
 //!
 //! g_n(r) = 1/(2 pi) integral of A_n(k) J_m(k r) dk, with an amplitude A_n that decays like
-//! exp(-k zeta). Then g_n(r)/r^m is analytic in s = r^2 but for s <= -zeta^2, so that Chebyshev
+//! exp(-k zeta). Then g_n(r)/r^m is analytic in s = r^2 except for s <= -zeta^2, so that Chebyshev
 //! polynomials in s on panels that grow with s converge like 9.9^-n.
 //!
 //! The integral. Where k r is large the integrand oscillates, and A_n(k) is multiplied by the
@@ -62,7 +62,7 @@ pub struct RadialTable<const N: usize> {
 struct Rule(Vec<(f64, f64)>);
 
 impl Rule {
-    /// From 0 to `high`, with the panels doubling from `low` to the longest.
+    /// Builds the rule from 0 to `high`, with the panels doubling from `low` to the longest.
     fn new(low: f64, high: f64, nodes: usize) -> Self {
         let mut points = Vec::new();
         let mut panel = |from: f64, to: f64| {

@@ -13,7 +13,7 @@
 //! - Tractions: linear interpolation between cells in contact, in the cells of the fine contact,
 //!   which does not change at constant normal force; the pressure is scaled to the change of its
 //!   sum.
-//! - Slip zone: that of the coarse grid, with the shear on the bound, q := mu p q_coarse/|q_coarse|.
+//! - Slip zone: the one of the coarse grid, with the shear on the bound, q := mu p q_coarse/|q_coarse|.
 //! - Slip, its length and dissipated energy: linear interpolation, without cells out of contact.
 //!
 //! The increment that follows solves for the tractions. Only the displacements of sticking cells and
@@ -24,7 +24,7 @@ use rayon::prelude::*;
 use super::domain::embedded_state;
 use super::problem::Problem;
 use super::state::{Along, State};
-use crate::cells::size;
+use crate::cells::length;
 use crate::plan::{Mirror, Parity};
 use crate::scene::Grid;
 use crate::solvers::Interface;
@@ -47,7 +47,7 @@ pub(super) fn carried(problem: &Problem, state: &State, along: &Along, ratio: us
 }
 
 /// The state in a window of the fine grid of bodies that the coarse grid alone has pressed together,
-/// but for the last slip: pressure p^2 interpolated, shear between cells in contact.
+/// except for the last slip: pressure p^2 interpolated, shear between cells in contact.
 pub(super) fn pressed(
     problem: &Problem,
     window: (usize, usize),
@@ -72,7 +72,7 @@ pub(super) fn pressed(
     change.displacements_and_sums(&mut pressed);
     let pressure = |p: &[f64]| -> Vec<f64> {
         let squares: Vec<f64> = p.iter().map(|p| p * p).collect();
-        let on_fine = change.linear.of(&squares, Parity::Even);
+        let on_fine = change.linear.interpolate(&squares, Parity::Even);
         let roots: Vec<f64> = on_fine.iter().map(|p| p.sqrt()).collect();
         let factor = (ratio * ratio) as f64 * total(p) / total(&roots).max(f64::MIN_POSITIVE);
         roots.iter().map(|p| factor * p).collect()
@@ -81,8 +81,8 @@ pub(super) fn pressed(
     pressed.p_before = pressure(&now.p_before);
     let none = &then.interface.q;
     for (c, half) in HALVES.into_iter().enumerate() {
-        pressed.interface.q[c] = change.of(&now.interface.q[c], &none[c], half);
-        pressed.q_before[c] = change.of(&now.q_before[c], &none[c], half);
+        pressed.interface.q[c] = change.interpolate_change(&now.interface.q[c], &none[c], half);
+        pressed.q_before[c] = change.interpolate_change(&now.q_before[c], &none[c], half);
     }
     let mark = |of: &[bool]| -> Vec<bool> {
         let part = change.masked(|n| is(of[n]), Parity::Even);
@@ -103,12 +103,12 @@ struct Change<'a> {
     linear: Interpolation,
     /// 1 where the coarse cells are in contact, else 0.
     contact: Vec<f64>,
-    /// The same interpolated to the fine cells.
+    /// The tractions interpolated to the fine cells.
     within: Vec<f64>,
 }
 
 impl<'a> Change<'a> {
-    /// Between two states in the same window, from the kept cells of the coarse window to those of
+    /// Interpolation between two states in the same window, from the kept cells of the coarse window to those of
     /// the fine one.
     fn new(
         now: &'a State,
@@ -126,7 +126,7 @@ impl<'a> Change<'a> {
         Self {
             now,
             then,
-            within: linear.of(&contact, Parity::Even),
+            within: linear.interpolate(&contact, Parity::Even),
             cubic,
             linear,
             contact,
@@ -138,7 +138,7 @@ impl<'a> Change<'a> {
         let field: Vec<f64> = (self.contact.iter().enumerate())
             .map(|(n, contact)| if *contact > 0.0 { of(n) } else { 0.0 })
             .collect();
-        let mut on_fine = self.linear.of(&field, half);
+        let mut on_fine = self.linear.interpolate(&field, half);
         for (value, within) in on_fine.iter_mut().zip(&self.within) {
             *value = if *within > 0.0 { *value / within } else { 0.0 };
         }
@@ -146,7 +146,7 @@ impl<'a> Change<'a> {
     }
 
     /// The change of a field from one to another, interpolated between cells in contact.
-    fn of(&self, to: &[f64], from: &[f64], half: Parity) -> Vec<f64> {
+    fn interpolate_change(&self, to: &[f64], from: &[f64], half: Parity) -> Vec<f64> {
         self.masked(|n| to[n] - from[n], half)
     }
 
@@ -154,22 +154,26 @@ impl<'a> Change<'a> {
         let (now, then) = (self.now, self.then);
         let (i, j) = (&now.interface, &then.interface);
         for c in 0..2 {
-            let u = self.cubic.of(&difference(&i.u[c], &j.u[c]), HALVES[c]);
+            let u = self
+                .cubic
+                .interpolate(&difference(&i.u[c], &j.u[c]), HALVES[c]);
             add(&mut carried.interface.u[c], &u);
-            let slip = self.of(&now.total_slip[c], &then.total_slip[c], HALVES[c]);
+            let slip = self.interpolate_change(&now.total_slip[c], &then.total_slip[c], HALVES[c]);
             add(&mut carried.total_slip[c], &slip);
         }
-        let u_z = self.cubic.of(&difference(&i.u_z, &j.u_z), Parity::Even);
+        let u_z = self
+            .cubic
+            .interpolate(&difference(&i.u_z, &j.u_z), Parity::Even);
         add(&mut carried.interface.u_z, &u_z);
-        let length = self.of(&now.slip_length, &then.slip_length, Parity::Even);
+        let length = self.interpolate_change(&now.slip_length, &then.slip_length, Parity::Even);
         add(&mut carried.slip_length, &length);
-        let dissipated = self.of(&now.dissipated, &then.dissipated, Parity::Even);
+        let dissipated = self.interpolate_change(&now.dissipated, &then.dissipated, Parity::Even);
         add(&mut carried.dissipated, &dissipated);
     }
 
     fn pressure(&self, carried: &mut State) {
         let (i, j) = (&self.now.interface, &self.then.interface);
-        let change = self.of(&i.p, &j.p, Parity::Even);
+        let change = self.interpolate_change(&i.p, &j.p, Parity::Even);
         let p = &mut carried.interface.p;
         let sum = total(p) * total(&i.p) / total(&j.p);
         for (p, change) in p.iter_mut().zip(&change).filter(|(p, _)| **p > 0.0) {
@@ -181,22 +185,22 @@ impl<'a> Change<'a> {
                 *p *= factor;
             }
         }
-        let last = self.of(&i.p, &self.now.p_before, Parity::Even);
+        let last = self.interpolate_change(&i.p, &self.now.p_before, Parity::Even);
         let before = p.iter().zip(&last);
         carried.p_before = before
             .map(|(p, last)| if *p > 0.0 { (p - last).max(0.0) } else { 0.0 })
             .collect();
     }
 
-    /// With the friction coefficient of a fine cell.
+    /// Applies the friction coefficient of a fine cell.
     fn shear(&self, carried: &mut State, mu: impl Fn(usize) -> f64, ratio: usize) {
         let (now, then) = (self.now, self.then);
         let (i, j) = (&now.interface, &then.interface);
         let slipping = self.masked(|n| is(i.slips[n]), Parity::Even);
         let at_limit = self.masked(|n| is(now.at_limit[n]), Parity::Even);
         let direction = [0, 1].map(|c| self.masked(|n| i.q[c][n], HALVES[c]));
-        let change = [0, 1].map(|c| self.of(&i.q[c], &j.q[c], HALVES[c]));
-        let last = [0, 1].map(|c| self.of(&i.q[c], &now.q_before[c], HALVES[c]));
+        let change = [0, 1].map(|c| self.interpolate_change(&i.q[c], &j.q[c], HALVES[c]));
+        let last = [0, 1].map(|c| self.interpolate_change(&i.q[c], &now.q_before[c], HALVES[c]));
         let Interface { p, q, slips, .. } = &mut carried.interface;
         let sums = [0, 1].map(|c| {
             let [now, then] = [i, j].map(|of| total(&of.q[c]));
@@ -209,18 +213,18 @@ impl<'a> Change<'a> {
             }
             let along = [direction[0][n], direction[1][n]];
             let bound = mu(n) * p[n];
-            let onto_bound = slips[n] && size(along) > 0.0 && bound.is_finite();
+            let onto_bound = slips[n] && length(along) > 0.0 && bound.is_finite();
             for c in 0..2 {
                 let q = &mut q[c][n];
                 *q = if onto_bound {
-                    bound * along[c] / size(along)
+                    bound * along[c] / length(along)
                 } else {
                     *q + change[c][n]
                 };
                 carried.q_before[c][n] = *q - last[c][n];
             }
         }
-        // The sum of the shear is that of the loads: sticking cells share the difference.
+        // The sum of the shear balances the loads: sticking cells share the difference.
         let sticking: Vec<usize> = (0..p.len()).filter(|&n| p[n] > 0.0 && !slips[n]).collect();
         for (q, sum) in q.iter_mut().zip(sums) {
             let share = (sum - total(q)) / sticking.len().max(1) as f64;
@@ -323,7 +327,7 @@ struct Interpolation {
 }
 
 impl Interpolation {
-    fn of(&self, field: &[f64], half: Parity) -> Vec<f64> {
+    fn interpolate(&self, field: &[f64], half: Parity) -> Vec<f64> {
         let along_rows = |column: &[f64]| -> Vec<f64> {
             let value = |part: &Part| {
                 let sign = if part.image { half.sign() } else { 1.0 };

@@ -5,11 +5,11 @@ use super::lifted::lifted;
 use super::setup::{Failure, Setup};
 use super::transmitted::transmitted;
 use super::{Increment, Residuals, Status, off_grid};
-use crate::cells::{size, sums, survey};
+use crate::cells::{length, sums, sums_and_maxima};
 use crate::error::Error;
 use crate::scene::{LoadPoint, Loads, PrescribedMotions, RigidMotion};
 use crate::solvers::intermediate::AlternationInfo;
-use crate::solvers::no_slip::{NoSlipTerms, not_opposite, slip};
+use crate::solvers::no_slip::{NoSlipTerms, slip, unopposed_part};
 use crate::solvers::{Interface, friction_bound};
 
 /// Relative difference of sums in different order.
@@ -71,22 +71,29 @@ pub(super) fn residuals(
     let heights = [&now.u_z[..], &setup.geometry.h_init];
     let fields = ((tractions, moved), (heights, &now.slips[..]));
     let square = |v: [f64; 2]| v[0] * v[0] + v[1] * v[1];
-    let (sums, largest) = survey(fields, |n, ((tractions, moved), ([u_z, h], slips))| {
+    let (sums, largest) = sums_and_maxima(fields, |n, ((tractions, moved), ([u_z, h], slips))| {
         let ([p, q_x, q_y, mu], [u_x, u_y, x_0, y_0]) = (tractions, moved);
-        let gap = u_z + h - arms.across(info.approach, n);
+        let gap = u_z + h - arms.displacement_across(info.approach, n);
         let bound = friction_bound(mu, p);
-        let (stretched, excess) = (size([q_x, arms.stretch * q_y]), size([q_x, q_y]) - bound);
+        let (stretched, excess) = (
+            length([q_x, arms.axis_ratio * q_y]),
+            length([q_x, q_y]) - bound,
+        );
         if p <= 0.0 {
             return ([0.0; 7], [p, stretched, excess, -gap]);
         }
         let largest = [p, stretched, excess, 0.0];
         let q = [q_x, q_y];
-        let slip = slip([u_x, u_y], [x_0, y_0], arms.in_plane(info.shift, n));
+        let slip = slip(
+            [u_x, u_y],
+            [x_0, y_0],
+            arms.displacement_in_plane(info.shift, n),
+        );
         if !slips {
             let squares = [1.0, 0.0, gap * gap, square(slip), 0.0, 0.0, square(q)];
             return (squares, largest);
         }
-        let off = not_opposite(slip, q);
+        let off = unopposed_part(slip, q);
         let (off, slip) = (square(off), square(slip));
         ([1.0, 1.0, gap * gap, 0.0, off, slip, square(q)], largest)
     });
@@ -141,7 +148,7 @@ fn missing_loads(setup: &Setup<'_>, now: &Interface) -> f64 {
         .filter(|&k| motions[k].is_none() && carried[k] != prescribed[k])
         .fold(0.0, |worst, k| {
             let bears = if k < 3 { pressed } else { friction };
-            let scale = bears * setup.geometry.arms.unit(k);
+            let scale = bears * setup.geometry.arms.motion_unit(k);
             ((carried[k] - prescribed[k]) / scale).abs().max(worst)
         })
 }

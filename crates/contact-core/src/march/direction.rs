@@ -30,7 +30,7 @@ impl Loads {
     /// The factor f of the projection f `other` of this change on the other one, if both are of the
     /// same kind and the path turns by 60 degrees at most: a straight branch, or chords of a smooth
     /// curve.
-    pub(crate) fn along(&self, other: &Self) -> Option<f64> {
+    pub(crate) fn projection_factor(&self, other: &Self) -> Option<f64> {
         let (a, b) = (self.given.motions(), other.given.motions());
         if (0..6).any(|k| a[k].is_some() != b[k].is_some()) {
             return None;
@@ -83,7 +83,7 @@ mod tests {
     fn a_path_goes_on_up_to_a_turn_of_60_degrees() {
         let turned = |degrees: f64| {
             let (sin, cos) = degrees.to_radians().sin_cos();
-            step(0.0, 2.0 * cos, 2.0 * sin).along(&step(0.0, 4.0, 0.0))
+            step(0.0, 2.0 * cos, 2.0 * sin).projection_factor(&step(0.0, 4.0, 0.0))
         };
         for degrees in [0.0_f64, 1.0, 30.0, 59.0] {
             let factor = turned(degrees).expect("a path that goes on");
@@ -93,9 +93,13 @@ mod tests {
         // A load against another unit: each in its own measure.
         assert!(
             step(1e3, 1e-3, 0.0)
-                .along(&step(1e3, 1.1e-3, 0.0))
+                .projection_factor(&step(1e3, 1.1e-3, 0.0))
                 .is_some()
         );
-        assert!(step(1e3, -1e-3, 0.0).along(&step(1e3, 1e-3, 0.0)).is_none());
+        assert!(
+            step(1e3, -1e-3, 0.0)
+                .projection_factor(&step(1e3, 1e-3, 0.0))
+                .is_none()
+        );
     }
 }

@@ -21,7 +21,7 @@ pub struct Fields {
     pub q_x: Array2<f64>,
     /// Shear traction on body 2 along y \[Pa\].
     pub q_y: Array2<f64>,
-    /// Relative surface displacement u(2) - u(1) along x \[m\], that of the tractions.
+    /// Relative surface displacement u(2) - u(1) along x \[m\], under the tractions.
     pub u_x: Array2<f64>,
     /// Relative surface displacement along y \[m\].
     pub u_y: Array2<f64>,
@@ -39,7 +39,7 @@ pub struct Fields {
     pub contact: Array2<bool>,
     /// Contact cells that do not slip in this increment.
     pub stick: Array2<bool>,
-    /// Those of them whose shear is at the limit of friction; their slip is within the solver's
+    /// Contact cells whose shear is at the limit of friction; their slip is within the solver's
     /// tolerance.
     pub at_limit: Array2<bool>,
     /// Plastic strain of bodies that yield, with a grid of its own.

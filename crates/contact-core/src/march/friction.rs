@@ -63,7 +63,7 @@ pub(super) fn by_law(
 ) -> Result<(), Error> {
     let (geometry, state) = (setup.geometry, setup.state);
     let (mirror, arms) = (setup.problem.plan.mirror, &geometry.arms);
-    let place = |of: &[f64]| of.iter().map(|of| of * arms.length).collect::<Vec<_>>();
+    let in_metres = |of: &[f64]| of.iter().map(|of| of * arms.length).collect::<Vec<_>>();
     let grown = |field: &[f64], by: Option<&[f64]>| -> Vec<f64> {
         (0..mu.len())
             .map(|n| {
@@ -76,8 +76,8 @@ pub(super) fn by_law(
             .collect()
     };
     let cells = CellHistory {
-        x: &place(&arms.x),
-        y: &place(&arms.y),
+        x: &in_metres(&arms.x),
+        y: &in_metres(&arms.y),
         p: solved.map_or(&setup.last().p, |solved| solved.p),
         slip: &grown(&state.slip_length, solved.map(|solved| solved.slip)),
         dissipated: &grown(&state.dissipated, solved.map(|solved| solved.dissipated)),
@@ -85,7 +85,7 @@ pub(super) fn by_law(
     law.coefficients(&cells, setup.problem.scene.friction.mu, mu)
 }
 
-/// Extrapolated growth of the history of each cell: that of the last increment times the ratio of
+/// Extrapolated growth of the history of each cell: the growth in the last increment times the ratio of
 /// the steps, zero where the path turns.
 pub(super) fn expected(setup: &Setup<'_>) -> impl Fn(usize) -> f64 {
     let (ratio, mirror) = (setup.goes_on.unwrap_or(0.0), setup.problem.plan.mirror);

@@ -18,7 +18,7 @@ use super::problem::Problem;
 use crate::plan::Plan;
 use crate::scene::{LoadPoint, RigidMotion, Scene, Shape};
 
-/// Principal curvatures that differ by less than this part are those of a round contact.
+/// Principal curvatures that differ by less than this part belong to a round contact.
 const ROUND: f64 = 1e-9;
 
 /// Tolerance in the number of steps, so that the same scene in other units gets the same number.
@@ -36,17 +36,21 @@ pub(super) fn steps(problem: &Problem, state: &State, point: &LoadPoint) -> Vec<
     if !(plan.methods.entry && plan.friction && to > from) {
         return Vec::new();
     }
-    let most = plan.methods.growth_steps as f64;
+    let steps_to_largest = plan.methods.growth_steps as f64;
     // The steps are even in this power of the radius.
     let (power, steps) = if plan.coupling && are_paraboloids(&problem.scene) {
-        (0.5, most * (to.sqrt() - from.sqrt()))
+        (0.5, steps_to_largest * (to.sqrt() - from.sqrt()))
     } else if from == 0.0 && is_sheared(point) {
-        (1.0, 0.5 * most * to)
+        (1.0, 0.5 * steps_to_largest * to)
     } else {
         return Vec::new();
     };
-    let given = point.loads.given.delta_z.is_some();
-    let of_load = if given { APPROACH } else { FORCE };
+    let approach_is_prescribed = point.loads.given.delta_z.is_some();
+    let of_load = if approach_is_prescribed {
+        APPROACH
+    } else {
+        FORCE
+    };
     let steps = (steps - ROUNDING).ceil() as usize;
     let part = |k: usize| {
         let even = k as f64 / steps as f64;
@@ -91,8 +95,8 @@ pub(super) fn are_paraboloids(scene: &Scene) -> bool {
             Shape::Flat | Shape::Sphere { .. } | Shape::Ellipsoid { .. }
         )
     };
-    let both = smooth(&scene.body1.shape) && smooth(&scene.body2.shape);
-    both && !scene.grid.plane_strain && scene.hertz().is_some()
+    let both_smooth = smooth(&scene.body1.shape) && smooth(&scene.body2.shape);
+    both_smooth && !scene.grid.plane_strain && scene.hertz().is_some()
 }
 
 /// Whether the first branch of a path is an indentation whose stick zone remembers a function of the

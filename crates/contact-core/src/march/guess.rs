@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::first_pressure::first_pressure;
 use super::setup::Setup;
-use crate::cells::{CHUNK, copy, set, size, sweep};
+use crate::cells::{CHUNK, copy, length, set_fields, sweep};
 use crate::solvers::{Interface, friction_bound};
 
 /// Tractions and slip set to start from: the last increment's, extrapolated while the loads
@@ -21,7 +21,7 @@ pub(super) fn first_guess(setup: &Setup<'_>, extrapolates: bool) -> Interface {
     match setup.goes_on {
         Some(factor) if extrapolates && problem.plan.methods.extrapolation => {
             let from = [&state.interface.p[..], &state.p_before];
-            set(from, [&mut guess.p], |_, [p, before], [guess]| {
+            set_fields(from, [&mut guess.p], |_, [p, before], [guess]| {
                 [guess + factor * (p - before)]
             });
             extrapolate_shear(&mut guess, &state.q_before, setup.mu, factor);
@@ -38,7 +38,7 @@ pub(super) fn first_guess(setup: &Setup<'_>, extrapolates: bool) -> Interface {
         copy(&state.interface.p, &mut guess.p);
     } else if setup.drives.normal.free[0] {
         let factor = setup.drives.normal.sums[0] / sum;
-        set([], [&mut guess.p], |_, [], [p]| [p * factor]);
+        set_fields([], [&mut guess.p], |_, [], [p]| [p * factor]);
     }
     guess
 }
@@ -63,16 +63,17 @@ fn extrapolate_shear(guess: &mut Interface, q_before: &[Vec<f64>; 2], mu: &[f64]
             }
             let q = [q_x[i], q_y[i]];
             let change = [q[0] - q_before[0][n], q[1] - q_before[1][n]];
-            let moved = size(change);
+            let moved = length(change);
             let inside = bound * bound - q[0] * q[0] - q[1] * q[1];
             let mut part = factor;
             if !slips[i] && inside > 0.0 && inside.is_finite() && moved > 0.0 {
                 let along = (q[0] * change[0] + q[1] * change[1]) / moved;
-                let left = (along * along + inside).sqrt() - along;
-                let before = left + moved;
-                let square = left * left + factor * (left * left - before * before);
+                let step_to_bound = (along * along + inside).sqrt() - along;
+                let before = step_to_bound + moved;
+                let square = step_to_bound * step_to_bound
+                    + factor * (step_to_bound * step_to_bound - before * before);
                 slips[i] = square <= 0.0;
-                part = (left - square.max(0.0).sqrt()) / moved;
+                part = (step_to_bound - square.max(0.0).sqrt()) / moved;
             }
             q_x[i] += part * change[0];
             q_y[i] += part * change[1];

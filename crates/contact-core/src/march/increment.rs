@@ -31,7 +31,7 @@ pub(super) fn increment(
             rolls_off(problem, state, domain.shape(), roll.margin(), free_cells)
         },
     )?;
-    let given = Setup {
+    let first_setup = Setup {
         problem,
         geometry,
         kernel: &domain.kernels.pair.zz,
@@ -45,24 +45,24 @@ pub(super) fn increment(
         goes_on: state.going_on(point),
     };
     if let Some(law) = &problem.scene.friction.law {
-        friction::by_law(&given, law, None, &mut ws.mu_before)?;
+        friction::by_law(&first_setup, law, None, &mut ws.mu_before)?;
         ws.mu.clone_from(&ws.mu_before);
     } else {
         let mu = [&mut ws.mu[..], &mut ws.mu_before[..]];
-        friction::update(&given, friction::expected(&given), mu);
+        friction::update(&first_setup, friction::expected(&first_setup), mu);
     }
     let most_work = domain.most_work();
     let response = Response {
         inverse: domain.window.inverse.as_deref_mut().map(|of| of as _),
         stop: Some(&problem.stop),
-        most_work,
+        max_work: most_work,
         ..Response::plain(&mut *domain.window.op)
     };
-    let (now, info) = with_its_friction(&given, response, ws, extrapolates)?;
+    let (now, info) = with_its_friction(&first_setup, response, ws, extrapolates)?;
     let setup = Setup {
         mu: &ws.mu,
         mu_before: &ws.mu_before,
-        ..given
+        ..first_setup
     };
     let clear = check::admissible(&setup, domain, &now, &info)?;
     let (mut increment, stuck) = accounts::draw_up(&setup, &ws.no_slip, &now, &info);

@@ -70,7 +70,7 @@ pub struct March {
     domain: Domain,
     state: State,
     workspace: Workspace,
-    /// The same path on a coarser grid, if there is one.
+    /// March of the path on a coarser grid, if there is one.
     coarse: Option<Box<March>>,
     /// Bodies that yield, if there are any.
     yielding: Option<Box<Yields>>,
@@ -83,21 +83,21 @@ impl March {
         Self::until(scene, &Arc::default())
     }
 
-    /// As [`Self::new`] and [`Self::stop_on`]: the flag also ends the computation of the kernels,
+    /// Starts as [`Self::new`] and [`Self::stop_on`] do: the flag also ends the computation of the kernels,
     /// [`Error::Interrupted`] after increment 0.
     pub fn until(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Self, Error> {
         scene.check()?;
         Self::planned(scene, Plan::new(scene), stop)
     }
 
-    /// As [`Self::until`], of a scene that has been checked, with a plan that may differ from
+    /// Starts as [`Self::until`] does, with a scene that has been checked, with a plan that may differ from
     /// [`Plan::new`] in its methods.
     pub fn planned(scene: &Scene, plan: Plan, stop: &Arc<AtomicBool>) -> Result<Self, Error> {
         scene.path.check_increments_chosen()?;
         plan.check_memory(scene)?;
         let coarse = Self::on_path_grid(scene, &plan, stop)?;
         let domain = Domain::new(scene, &plan, stop)?;
-        let yielding = Yields::of(scene, &plan)?.map(Box::new);
+        let yielding = Yields::from_scene(scene, &plan)?.map(Box::new);
         let mut solved = scene.clone();
         solved.settings.solver.tolerance = Some(scene.tolerance());
         Ok(Self {
@@ -110,7 +110,7 @@ impl March {
             yielding,
             workspace: Workspace::new(domain.cells(), scene.friction.mu),
             problem: Problem {
-                largest: Largest::of(&scene.path),
+                largest: Largest::from_path(&scene.path),
                 approach: scene.reference_approach(),
                 cycles: 0.0,
                 share: 1.0,
@@ -129,7 +129,7 @@ impl March {
         Self::resume_until(scene, state, &Arc::default())
     }
 
-    /// As [`Self::resume`] and [`Self::stop_on`]; before the first increment the flag ends it as it
+    /// Resumes as [`Self::resume`] and [`Self::stop_on`] do; before the first increment the flag ends it as it
     /// ends [`Self::until`].
     pub fn resume_until(
         scene: &Scene,
@@ -162,7 +162,7 @@ impl March {
     }
 
     /// Ends the run when `flag` is raised, within the increment: [`Error::Interrupted`], and the
-    /// state is that of the last increment that was finished.
+    /// state belongs to the last increment that was finished.
     pub fn stop_on(&mut self, flag: Arc<AtomicBool>) {
         if let Some(coarse) = &mut self.coarse {
             coarse.stop_on(flag.clone());
@@ -173,7 +173,7 @@ impl March {
     /// Takes another path of the same loads, and a state on it; without one it begins anew.
     pub(crate) fn go_along(&mut self, path: &LoadPath, state: Option<State>) {
         self.problem.scene.path = path.clone();
-        self.problem.largest = Largest::of(path);
+        self.problem.largest = Largest::from_path(path);
         self.points = self.problem.plan.points(&self.problem.scene);
         if let Some(coarse) = &mut self.coarse {
             coarse.go_along(path, None);
@@ -225,7 +225,7 @@ impl March {
     /// Computes the next increment, in pieces if it does not converge; `None` at the end of the
     /// path.
     ///
-    /// After an error the state is that of the last increment that was solved.
+    /// After an error the state belongs to the last increment that was solved.
     pub fn advance(&mut self) -> Option<Result<Increment, Error>> {
         let point = self.next_point()?;
         Some(if self.yielding.is_some() {
@@ -259,15 +259,15 @@ impl March {
         self.domain
             .allow(Convolutions::from_convolutions(CONVOLUTIONS));
         // The state in the window that it was found in, once that has changed.
-        let mut found = None;
-        let mut ended = self.in_a_window(point, &mut found);
+        let mut result = None;
+        let mut ended = self.in_a_window(point, &mut result);
         match &mut ended {
             // Failed attempts count as work, too.
             Ok(increment) => {
                 increment.work.convolutions = (self.domain.work() - before).count();
             }
             Err(error) => {
-                if let Some(found) = found {
+                if let Some(found) = result {
                     self.state = found;
                 }
                 if let Error::NotConverged { why, .. } = error {

@@ -5,7 +5,7 @@ use super::setup::Setup;
 use crate::error::Error;
 use crate::solvers::Interface;
 
-/// Length of a sufficient grid over that of the expected contact.
+/// Length of a sufficient grid over the length of the expected contact.
 const CLEARANCE: f64 = 1.4;
 /// Factor by which a grid is to grow where the contact cannot be estimated.
 const GRID_GROWTH: f64 = 1.4;

@@ -6,7 +6,7 @@
 
 use super::domain::Geometry;
 use super::state::State;
-use crate::cells::{Arms, set};
+use crate::cells::{Arms, set_fields};
 use crate::plan::Mirror;
 use crate::yielding::Residual;
 
@@ -20,11 +20,11 @@ pub(crate) struct Offsets {
 }
 
 impl Offsets {
-    /// Of fields on the grid of the scene.
-    pub(super) fn of(residual: &Residual, arms: &Arms, mirror: Mirror) -> Self {
+    /// Folds fields on the grid of the scene.
+    pub(super) fn from_residual(residual: &Residual, arms: &Arms, mirror: Mirror) -> Self {
         let [x, y] = [&residual.u[0], &residual.u[1]].map(|u| mirror.fold(u));
         Self {
-            u: [x, y.iter().map(|y| y * arms.stretch).collect()],
+            u: [x, y.iter().map(|y| y * arms.axis_ratio).collect()],
             gap: mirror.fold(&residual.gap),
         }
     }
@@ -46,10 +46,10 @@ pub(super) fn replace(
         (&mut interface.u_z, &from.gap, &to.gap),
     ];
     for (u, from, to) in change {
-        set([&from[..], to], [u], |_, [from, to], [u]| [u - (to - from)]);
+        set_fields([&from[..], to], [u], |_, [from, to], [u]| [u - (to - from)]);
     }
     let gap = &mut geometry.h_init;
-    set([bare, &to.gap], [gap], |_, [bare, offset], _| {
+    set_fields([bare, &to.gap], [gap], |_, [bare, offset], _| {
         [bare + offset]
     });
 }

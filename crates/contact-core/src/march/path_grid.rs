@@ -36,7 +36,7 @@ use crate::error::Error;
 use crate::plan::Plan;
 use crate::scene::{LoadPoint, PathGrid, Scene};
 
-/// Tolerance of increments that start from a carried state, over that of the scene.
+/// Tolerance of increments that start from a carried state, over the tolerance of the scene.
 const CARRIED_SHARE: f64 = 0.25;
 /// Largest mu times the coupling of the bodies. The shear at the ends of branches of a rigid sphere on
 /// nu = 0 (128 cells, path on 64) is off by 8e-3, 1.2e-2, 0.10 and 0.69 at 0.3, 0.5, 0.7 and 1: a
@@ -73,13 +73,13 @@ impl March {
 
     /// Cells of the fine grid along the side of one of the path grid.
     fn ratio(&self) -> usize {
-        let of = self.coarse.as_ref();
-        of.map_or(1, |coarse| {
+        let coarse = self.coarse.as_ref();
+        coarse.map_or(1, |coarse| {
             self.problem.scene.grid.nx / coarse.problem.scene.grid.nx
         })
     }
 
-    /// The increment to a point: on the path grid, and on that of the scene where it is wanted.
+    /// The increment to a point: on the path grid, and on the grid of the scene where it is wanted.
     pub(super) fn on_both_grids(&mut self, point: &LoadPoint) -> Result<Increment, Error> {
         let remembers = self.remembers(point);
         let solves = self.is_wanted(point) || (self.presses_anew(point) && !remembers);
@@ -196,12 +196,12 @@ impl March {
             .loads
             .since(&self.state.loads, self.state.motion.motions());
         let (forces, motions) = (step.forces(), step.given.motions());
-        let known = self
+        let is_known = self
             .state
             .along
             .as_ref()
             .is_some_and(|along| along.rows.is_some());
-        !known || (0..3).any(|k| motions[k].unwrap_or(forces[k]) != 0.0)
+        !is_known || (0..3).any(|k| motions[k].unwrap_or(forces[k]) != 0.0)
     }
 
     /// The next increment on the path grid.
@@ -259,16 +259,16 @@ impl March {
         let rows = state.along.as_ref().and_then(|along| along.rows);
         let [fine, then] = rows.unwrap_or([*coarse; 2]);
         let moved = |of: fn(&Increment) -> f64| of(&fine) + (of(coarse) - of(&then));
-        let given = coarse.point.loads.given.motions();
+        let prescribed = coarse.point.loads.given.motions();
         let motion = |k: usize| {
-            given[k].unwrap_or_else(|| {
+            prescribed[k].unwrap_or_else(|| {
                 let [fine, now, then] = [&fine, coarse, &then].map(|i| i.motion.motions()[k]);
                 fine + (now - then)
             })
         };
         let force = |k: usize| {
             let [fine, now, then] = [&fine, coarse, &then].map(|i| i.point.loads.forces()[k]);
-            given[k].map_or(now, |_| fine + (now - then))
+            prescribed[k].map_or(now, |_| fine + (now - then))
         };
         let mut point = coarse.point;
         let forces = std::array::from_fn(force);

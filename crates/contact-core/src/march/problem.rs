@@ -40,7 +40,7 @@ pub(super) struct Largest {
 }
 
 impl Largest {
-    pub(super) fn of(path: &LoadPath) -> Self {
+    pub(super) fn from_path(path: &LoadPath) -> Self {
         Self {
             W: path.W_max(),
             delta_z: path.delta_z_max(),
@@ -66,7 +66,7 @@ impl Drives {
         let drive = |of: [usize; 3], from: [f64; 6]| {
             let mut drive = Drive::default();
             for (k, &load) in of.iter().enumerate() {
-                let unit = arms.unit(load);
+                let unit = arms.motion_unit(load);
                 match given[load] {
                     _ if problem.is_odd(load) => {}
                     Some(motion) => drive.given[k] = (motion - from[load]) * unit,
@@ -113,7 +113,7 @@ impl Problem {
         Ok(())
     }
 
-    /// Estimate of the approach at the loads of a point, from first touch \[m\]: that of a Hertz
+    /// Estimate of the approach at the loads of a point, from first touch \[m\]: the approach of a Hertz
     /// contact, scaled like the square of the expected contact radius for coatings.
     pub(super) fn approach_at(&self, point: &LoadPoint, touching: f64) -> f64 {
         let hertz = || {
@@ -125,8 +125,8 @@ impl Problem {
             let part = point.loads.W / self.largest.W;
             coated * self.approach * part.powf(2.0 / 3.0)
         };
-        let given = point.loads.given.delta_z;
-        given.map_or_else(hertz, |delta_z| delta_z - touching)
+        let prescribed_approach = point.loads.given.delta_z;
+        prescribed_approach.map_or_else(hertz, |delta_z| delta_z - touching)
     }
 
     /// Area that a kept cell stands for \[m^2\].

@@ -35,7 +35,7 @@ pub struct Reached {
 
 impl Reached {
     /// The largest values of these increments.
-    pub fn of(increments: &[Increment]) -> Self {
+    pub fn from_increments(increments: &[Increment]) -> Self {
         let mut reached = Self::default();
         for of in increments {
             reached.see(of);
@@ -84,9 +84,9 @@ impl Reached {
         if self.cells_per_radius == 0.0 {
             return scene.doubts();
         }
-        let mut all = scene.doubts_without_breadth();
-        all.extend(self.doubts(scene));
-        all
+        let mut doubts = scene.doubts_without_breadth();
+        doubts.extend(self.doubts(scene));
+        doubts
     }
 
     /// The estimated error of the shear at the end of every branch whose increments were chosen
@@ -98,7 +98,7 @@ impl Reached {
         estimated.collect()
     }
 
-    /// Warnings that need the results of a run, beyond those of [`Scene::doubts`]; one sentence
+    /// Warnings that need the results of a run, beyond [`Scene::doubts`]; one sentence
     /// each.
     pub fn doubts(&self, scene: &Scene) -> Vec<String> {
         let mut doubts = Vec::new();
@@ -131,7 +131,7 @@ impl Reached {
         }
         if self.plastic_strain > LARGE_PLASTIC_STRAIN {
             doubts.push(format!(
-                "the plastic strain comes to {:.0} %: the equations are those of small strains, below {:.0} %",
+                "the plastic strain comes to {:.0} %: the equations hold for small strains, below {:.0} %",
                 100.0 * self.plastic_strain,
                 100.0 * LARGE_PLASTIC_STRAIN
             ));

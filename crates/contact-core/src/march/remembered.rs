@@ -1,6 +1,6 @@
-//! What the stick zone of an indentation remembers, and its end on a finer grid.
+//! Memory of the stick zone of an indentation, and its end on a finer grid.
 //!
-//! A cell that sticks remembers one displacement, V: that of the moment it came to stick. Where
+//! A cell that sticks remembers one displacement, V: the one of the moment it came to stick. Where
 //! round smooth bodies come into contact V is radial and a smooth function of the radius, of bodies
 //! without coatings r^2 times a constant (self-similarity). It is fitted to the stick cells of the
 //! path grid,
@@ -24,7 +24,7 @@
 //! ```
 //!
 //! with b (r - c)^2 several times what V is ahead. Of the slip Coulomb's law takes the direction alone, so
-//! that b does not matter, and where cells beyond c stick they remember V but for b (r - c)^2.
+//! that b does not matter, and where cells beyond c stick they remember V except for b (r - c)^2.
 
 use std::f64::consts::PI;
 
@@ -33,7 +33,7 @@ use super::domain::embedded_state;
 use super::entry::LeastSquares;
 use super::growing::is_remembered;
 use super::{Increment, March, State};
-use crate::cells::size;
+use crate::cells::length;
 use crate::error::Error;
 use crate::plan::Mirror;
 use crate::scene::{Grid, LoadPoint, Scene};
@@ -43,14 +43,14 @@ use crate::scene::{Grid, LoadPoint, Scene};
 /// (second differences free).
 const PIECES: usize = 7;
 const TERMS: usize = PIECES + 3;
-/// Weight of the squared second differences of the a_k, over that of all stick cells: with 1e-7, 1e-5 and
+/// Weight of the squared second differences of the a_k, over the weight of all stick cells: with 1e-7, 1e-5 and
 /// 1e-3 that error is 3.1, 5.2 and 11.
 const STIFF: f64 = 1e-7;
 /// b (r - c)^2 over the largest distance of a cell of the path grid behind V.
 const BEHIND: f64 = 4.0;
 /// Smallest c over the contact radius.
 const LEAST_STICK: f64 = 0.5;
-/// Cells of the ring nearer to the border than this part of c say nothing of that distance.
+/// Cells of the ring nearer to the border than this part of c are not used for that distance.
 const BESIDE: f64 = 0.02;
 
 /// V, and the displacement behind the particles in the ring of slip.
@@ -66,19 +66,19 @@ struct Remembered {
 }
 
 impl Remembered {
-    /// Of the state after an increment.
-    fn of(scene: &Scene, mirror: Mirror, state: &State, row: &Increment) -> Self {
+    /// Reads the memory from the state after an increment.
+    fn from_state(scene: &Scene, mirror: Mirror, state: &State, row: &Increment) -> Self {
         let places = places(scene, mirror, state.window);
         let now = &state.interface;
         let stick = (row.stick_area / PI).sqrt().max(scene.grid.dx);
         let shift = [state.motion.delta_x, state.motion.delta_y];
         let contact = || (places.iter().enumerate()).filter(|(n, _)| now.p[*n] > 0.0);
-        let out = |f: [f64; 2], at: [f64; 2]| (f[0] * at[0] + f[1] * at[1]) / size(at);
+        let out = |f: [f64; 2], at: [f64; 2]| (f[0] * at[0] + f[1] * at[1]) / length(at);
         let moved = |n: usize, at| out([0, 1].map(|c| now.u[c][n] - shift[c]), at);
         let mut fit = LeastSquares::<TERMS, 1>::new();
         let mut cells = 1.0;
         for (n, at) in contact().filter(|(n, _)| !now.slips[*n]) {
-            fit.add(1.0, terms(size(*at) / stick), [moved(n, *at)]);
+            fit.add(1.0, terms(length(*at) / stick), [moved(n, *at)]);
             cells += 1.0;
         }
         for k in 1..TERMS - 1 {
@@ -93,28 +93,30 @@ impl Remembered {
                 .sum()
         };
         let of_ring = shear(&mut ring());
-        let all = if of_ring == 0.0 {
+        let total_shear = if of_ring == 0.0 {
             shear(&mut contact())
         } else {
             of_ring
         };
-        let mut found = Self {
+        let mut remembered = Self {
             law: fit.factors()[0],
             stick,
             behind: 0.0,
-            slips: -all.signum(),
+            slips: -total_shear.signum(),
         };
         let ahead = ring().filter_map(|(n, at)| {
-            let beyond = size(*at) / stick - 1.0;
-            let ahead = (found.at(1.0 + beyond) - moved(n, *at)) * found.slips;
+            let beyond = length(*at) / stick - 1.0;
+            let ahead =
+                (remembered.displacement_at(1.0 + beyond) - moved(n, *at)) * remembered.slips;
             (beyond > BESIDE).then(|| BEHIND * ahead / (beyond * beyond))
         });
-        found.behind = ahead.fold(found.at(1.0).abs(), f64::max) * found.slips;
-        found
+        remembered.behind =
+            ahead.fold(remembered.displacement_at(1.0).abs(), f64::max) * remembered.slips;
+        remembered
     }
 
     /// The radial displacement that means no slip at x = r/c \[m\].
-    fn at(&self, x: f64) -> f64 {
+    fn displacement_at(&self, x: f64) -> f64 {
         if x <= 1.0 {
             let terms = terms(x).into_iter().zip(self.law);
             return terms.map(|(term, a)| term * a).sum();
@@ -135,11 +137,11 @@ impl Remembered {
         let shift = [state.motion.delta_x, state.motion.delta_y];
         let now = &mut state.interface;
         for (n, at) in places.into_iter().enumerate() {
-            let r = size(at);
+            let r = length(at);
             now.slips[n] = now.p[n] > 0.0 && r > self.stick;
             for c in 0..2 {
                 let out = at[c] / r;
-                now.u[c][n] = out * self.at(r / self.stick) + shift[c];
+                now.u[c][n] = out * self.displacement_at(r / self.stick) + shift[c];
                 if now.slips[n] {
                     now.q[c][n] = -self.slips * out * scene.friction.mu * now.p[n];
                 }
@@ -158,7 +160,7 @@ fn terms(x: f64) -> [f64; TERMS] {
     })
 }
 
-/// Where the kept cells of a window are \[m\].
+/// Positions of the kept cells of a window \[m\].
 fn places(scene: &Scene, mirror: Mirror, (nx, ny): (usize, usize)) -> Vec<[f64; 2]> {
     let grid = Grid {
         nx,
@@ -170,7 +172,7 @@ fn places(scene: &Scene, mirror: Mirror, (nx, ny): (usize, usize)) -> Vec<[f64; 
 }
 
 /// Whether the stick zone is large enough to say where the particles of the ring come to stick: with
-/// c = 0.48 a the error is three times that of the increments.
+/// c = 0.48 a the error is three times the error of the increments.
 pub(super) fn remembers_enough(row: &Increment) -> bool {
     row.stick_ratio() > LEAST_STICK * LEAST_STICK
 }
@@ -183,7 +185,7 @@ impl March {
 
     /// Solves the end of an increment `row` that was solved on the grid of the scene `of`, cells
     /// `ratio` times as long, from what the stick zone remembers in the state `after` it. The sums
-    /// over the path and the energies are those of that grid.
+    /// over the path and the energies belong to that grid.
     pub(super) fn remember(
         &mut self,
         point: &LoadPoint,
@@ -191,7 +193,7 @@ impl March {
         ratio: usize,
     ) -> Result<Increment, Error> {
         let mirror = self.problem.plan.mirror;
-        let law = Remembered::of(of, mirror, after, row);
+        let law = Remembered::from_state(of, mirror, after, row);
         let along = self.state.along.clone();
         self.domain.fit(&self.problem, &mut self.state, point)?;
         let sums = pressed(&self.problem, self.state.window, after, ratio);

@@ -22,7 +22,7 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// From the motions in the order of [`RigidMotion::ALL`](crate::scene::RigidMotion::ALL).
+    /// Builds from the motions in the order of [`RigidMotion::ALL`](crate::scene::RigidMotion::ALL).
     pub(super) fn from_motions(motions: [f64; 6]) -> Self {
         let [delta_z, phi_x, phi_y, delta_x, delta_y, phi_z] = motions;
         Self {
@@ -85,7 +85,7 @@ pub struct Energy {
     /// displacements of the contact, and of the drive of rolling bodies.
     pub work: f64,
     /// Change of the elastic energy: 1/2 sum of traction times displacement, and in bodies that yield
-    /// that of the residual stress, -1/2 int sigma : e_p dV without tractions.
+    /// the energy of the residual stress, -1/2 int sigma : e_p dV without tractions.
     pub elastic: f64,
     /// Energy dissipated by friction, sum of g_m |ds| dA with the mean bound g_m of the increment,
     /// since a cell slips at its bound; >= 0 up to the solver's tolerance.
@@ -163,7 +163,7 @@ impl std::ops::Add for Work {
     }
 }
 
-/// What has yielded.
+/// Plastic state.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Yield {
     /// Volume that has yielded so far \[m^3\].
@@ -203,7 +203,7 @@ pub struct Increment {
     /// Area of the stick zone \[m^2\]; cells at its border count with the part inside.
     pub stick_area: f64,
     /// Cells across the radius of the contact: the half width, the smaller semi-axis of an ellipse,
-    /// of many spots that of the one in the middle of their area; zero without a contact.
+    /// of many spots the one of the spot in the middle of their area; zero without a contact.
     pub cells_per_radius: f64,
     /// Radius of the circle of the contact's area, of a line contact half its width \[m\].
     pub contact_radius: f64,
@@ -220,12 +220,12 @@ pub struct Increment {
     ///
     /// [`shear_errors`]: super::shear_errors
     pub q_scatter: Option<f64>,
-    /// Cells along x of the grid that it was solved on; fewer than those of the scene's grid where
+    /// Cells along x of the grid that it was solved on; fewer than the scene's grid has where
     /// it was solved for the path alone (`solver.path_grid`).
     pub path_grid: usize,
     /// Energies of the increment.
     pub energy: Energy,
-    /// What has yielded; zeros where nothing has.
+    /// Plastic work, volume and strain; zeros where nothing has yielded.
     pub yielded: Yield,
     /// Residuals of the equations.
     pub residuals: Residuals,

@@ -5,7 +5,7 @@
 //! same. Half of the increment is an easier problem, since the last state is nearer to the
 //! solution. It is also a finer path, so that the result changes as with twice the increments. A
 //! contact that grows by much is solved in steps to begin with ([`growing`](super::growing)).
-//! [`Work::parts`](super::Work::parts) says in how many pieces an increment was solved. All tries
+//! [`Work::parts`](super::Work::parts) is the number of pieces in which an increment was solved. All tries
 //! together have a bound on their work; beyond it the increment fails, and [`why`] names the
 //! physical cause.
 
@@ -116,19 +116,19 @@ fn in_steps(
             ended = in_halves(problem, domain, state, ws, to, HALVINGS);
         }
         let step = ended.map_err(with_room_to_enter)?;
-        let all = whole.map_or(step, |before| before.followed_by(&step));
-        whole = Some(all);
-        Ok::<_, Failure>(all)
+        let combined = whole.map_or(step, |before| before.followed_by(&step));
+        whole = Some(combined);
+        Ok::<_, Failure>(combined)
     };
     for step in steps {
         take(state, step)?;
         state.increments -= 1;
     }
-    let mut all = take(state, point)?;
+    let mut increment = take(state, point)?;
     if state.work != 0.0 {
-        all.residuals.energy = all.energy.imbalance() / state.work;
+        increment.residuals.energy = increment.energy.imbalance() / state.work;
     }
-    Ok(all)
+    Ok(increment)
 }
 
 /// Adds to the contact of a too narrow window the cells that entering cells need around them.

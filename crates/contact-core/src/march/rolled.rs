@@ -2,7 +2,7 @@
 //!
 //! The grid goes with the contact. When the contact has rolled on by s along x, the material that
 //! is now at x was at x + s before, and with it its displacement, its shear and its history. Bulk
-//! stresses that change stretch the surface of body 2 by d(eps) more than that of body 1
+//! stresses that change stretch the surface of body 2 by d(eps) more than the surface of body 1
 //! (`scene::bulk_stress`). Both enter the slip, eq. (7), through the no-slip displacement: with u =
 //! u(2) - u(1), the last displacement of the same material less (d(eps_x) x, d(eps_y) y).
 //!
@@ -26,7 +26,7 @@ use crate::solvers::{Interface, Response};
 pub(super) struct Roll {
     /// Cells that the contact rolls on along x.
     pub(super) cells: isize,
-    /// Strain d(eps_x), d(eps_y) of body 2 less that of body 1.
+    /// Strain d(eps_x), d(eps_y) of body 2 minus the strain of body 1.
     strain: [f64; 2],
     /// d(phi_z) s/2 of a given rotation \[m\].
     turned: f64,
@@ -64,7 +64,7 @@ impl Roll {
         let (arms, length) = (&geometry.arms, geometry.arms.length);
         [
             self.strain[0] * length * arms.x[n],
-            (self.strain[1] * length * arms.y[n] - self.turned) * arms.stretch,
+            (self.strain[1] * length * arms.y[n] - self.turned) * arms.axis_ratio,
         ]
     }
 
@@ -143,8 +143,9 @@ impl Rolled {
         let field = |f: &[f64]| rolled(geometry, mirror, f, roll.cells);
         let earlier = |f: &Vec<f64>| rolled(geometry, mirror, f, 2 * roll.cells);
         let slips = |slip: &[bool]| -> Vec<bool> {
-            let of = |n| source(geometry, mirror, n, roll.cells).is_some_and(|n: usize| slip[n]);
-            (0..slip.len()).map(of).collect()
+            let slips_at_source =
+                |n| source(geometry, mirror, n, roll.cells).is_some_and(|n: usize| slip[n]);
+            (0..slip.len()).map(slips_at_source).collect()
         };
         let mut interface = state.interface.map(field, slips);
         if roll.cells != 0 {

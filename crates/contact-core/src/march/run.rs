@@ -48,7 +48,7 @@ impl March {
         }
         before.reserve(self.points().len().saturating_sub(before.len()));
         let outcome = (self.go_on(&mut before, observer))
-            .and_then(|()| Reached::of(&before).check(self.scene()));
+            .and_then(|()| Reached::from_increments(&before).check(self.scene()));
         let ended = observer.on_end(&self, outcome.as_ref().err());
         outcome.and(ended).map(|()| before)
     }
@@ -115,11 +115,11 @@ impl BranchSummary {
     /// given loads; forces under given shifts have `tolerance` mu W. The arm of rotations and
     /// moments is the radius of the contact.
     #[must_use]
-    pub fn told(mut self, scene: &Scene) -> Self {
+    pub fn without_insignificant_values(mut self, scene: &Scene) -> Self {
         let part = scene.tolerance() * scene.friction.mu.min(1.0);
         let (shift, force) = (part * self.motion.delta_z.abs(), part * self.loads.W);
         let (mut forces, given) = (self.loads.forces(), self.loads.given);
-        let mut told = |of: RigidMotion, motion: &mut f64| {
+        let mut clear_insignificant = |of: RigidMotion, motion: &mut f64| {
             let arm = if of.is_rotation() {
                 self.contact_radius
             } else {
@@ -132,9 +132,9 @@ impl BranchSummary {
                 *load = 0.0;
             }
         };
-        told(RigidMotion::DeltaX, &mut self.motion.delta_x);
-        told(RigidMotion::DeltaY, &mut self.motion.delta_y);
-        told(RigidMotion::PhiZ, &mut self.motion.phi_z);
+        clear_insignificant(RigidMotion::DeltaX, &mut self.motion.delta_x);
+        clear_insignificant(RigidMotion::DeltaY, &mut self.motion.delta_y);
+        clear_insignificant(RigidMotion::PhiZ, &mut self.motion.phi_z);
         self.loads = self.loads.with_forces(forces, given);
         self
     }

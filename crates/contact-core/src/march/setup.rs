@@ -8,9 +8,9 @@ use crate::error::Error;
 use crate::kernels::Quadrant;
 use crate::scene::LoadPoint;
 use crate::solvers::intermediate::{
-    AlternationInfo, AlternationWorkspace, IncrementProblem, alternation,
+    AlternationInfo, AlternationWorkspace, IncrementProblem, solve_increment,
 };
-use crate::solvers::no_slip::{Earlier, NoSlip, NoSlipTerms, Start};
+use crate::solvers::no_slip::{EarlierTractions, NoSlip, NoSlipTerms, Start};
 use crate::solvers::{Interface, Response};
 
 /// Why an increment failed.
@@ -74,7 +74,7 @@ pub(super) struct Setup<'a> {
     pub(super) mu_before: &'a [f64],
     pub(super) point: &'a LoadPoint,
     pub(super) drives: Drives,
-    /// Change of the loads over that of the last increment, if the path continues in its direction.
+    /// Change of the loads over the change of the last increment, if the path continues in its direction.
     pub(super) goes_on: Option<f64>,
 }
 
@@ -91,14 +91,14 @@ impl Setup<'_> {
             .map_or(&self.state.residual, |rolled| &rolled.residual)
     }
 
-    /// Tractions an increment earlier; `ratio` is the change of the loads over that of the last
+    /// Tractions an increment earlier; `ratio` is the change of the loads over the change of the last
     /// increment.
-    fn earlier(&self, ratio: f64) -> Earlier<'_> {
+    fn earlier(&self, ratio: f64) -> EarlierTractions<'_> {
         let (p, q) = match self.rolled {
             Some(rolled) => (&rolled.p_before, &rolled.q_before),
             None => (&self.state.p_before, &self.state.q_before),
         };
-        Earlier::new(p, q, ratio)
+        EarlierTractions::new(p, q, ratio)
     }
 
     /// The start of the slip increment; with the earlier tractions if the turn of the shear counts.
@@ -120,7 +120,7 @@ impl Setup<'_> {
     pub(super) fn stays(&self) -> bool {
         let (state, loads) = (self.state, &self.point.loads);
         let step = loads.since(&state.loads, state.motion.motions());
-        step.along(&step).is_none()
+        step.projection_factor(&step).is_none()
     }
 
     /// Fails once the flag is raised.
@@ -172,7 +172,7 @@ impl Solver<'_> {
         let params = setup.problem.params(wanted.share);
         let mut no_slip = NoSlip::new(setup.start(wanted.turns), self.no_slip, wanted.entry);
         let (response, ws) = (&mut self.response, &mut *self.workspace);
-        match alternation(response, &equations, &mut no_slip, &mut now, ws, &params) {
+        match solve_increment(response, &equations, &mut no_slip, &mut now, ws, &params) {
             Ok(info) => Ok((now, info)),
             Err(failed) => {
                 setup.unless_stopped()?;
@@ -207,7 +207,7 @@ impl Solver<'_> {
     }
 }
 
-/// Cells in contact, and those of them that slip.
+/// Contact cells, and slip cells.
 pub(super) fn count(now: &Interface) -> (usize, usize) {
     let contact = now.p.iter().filter(|&&p| p > 0.0).count();
     (contact, now.slips.iter().filter(|&&slips| slips).count())

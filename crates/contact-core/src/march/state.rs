@@ -119,23 +119,24 @@ impl State {
     /// Approach and tilts, as lengths \[m\].
     pub(super) fn approach(&self, arms: &Arms) -> [f64; 3] {
         let motions = self.motion.motions();
-        [0, 1, 2].map(|k| motions[k] * arms.unit(k))
+        [0, 1, 2].map(|k| motions[k] * arms.motion_unit(k))
     }
 
-    /// Change of the loads to a point over that of the last increment, if the path continues in its
+    /// Change of the loads to a point over the change of the last increment, if the path continues in its
     /// direction.
     pub(super) fn going_on(&self, point: &LoadPoint) -> Option<f64> {
         let step = point.loads.since(&self.loads, self.motion.motions());
-        step.along(&self.step).filter(|_| self.increments > 1)
+        step.projection_factor(&self.step)
+            .filter(|_| self.increments > 1)
     }
 }
 
 /// State of the coarse grid along the path.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Along {
-    /// At the last increment.
+    /// State at the last increment.
     pub(super) now: State,
-    /// At the last increment that the fine grid was solved in or carried to.
+    /// State at the last increment that the fine grid was solved in or carried to.
     pub(super) then: State,
     /// That increment on the fine grid and on the coarse one.
     pub(super) rows: Option<[Increment; 2]>,

@@ -203,18 +203,18 @@ fn a_raised_flag_lays_out_no_window() {
 /// at.
 #[test]
 fn cells_beyond_the_window_are_as_far_as_they_are_known_to_be() {
-    let more = ["grid.n=96", "grid.extent.a_H=5.0", "path.0.increments=8"];
-    let more = more
+    let overrides = ["grid.n=96", "grid.extent.a_H=5.0", "path.0.increments=8"];
+    let settings = overrides
         .into_iter()
         .chain(["path.1.increments=12", "path.2.increments=12"]);
-    let settings: Vec<String> = more.map(str::to_owned).collect();
+    let settings: Vec<String> = settings.map(str::to_owned).collect();
     let scene = Scene::from_toml_str(COATED, "coated", &settings).unwrap();
     let mut march = March::new(&scene).unwrap();
     let (mut increments, mut not_looked) = (0, 0);
     while let Some(increment) = march.advance() {
         increment.unwrap();
         assert_ne!(march.domain.shape(), (96, 96));
-        let known = std::mem::replace(&mut march.state.clear, 0.0);
+        let clearance = std::mem::replace(&mut march.state.clear, 0.0);
         let now = march.state.interface.clone();
         let info = AlternationInfo {
             approach: march.state.approach(&march.domain.window.geometry.arms),
@@ -223,10 +223,13 @@ fn cells_beyond_the_window_are_as_far_as_they_are_known_to_be() {
         // With nothing known there is a look.
         let seen = (march.domain).clear_beyond(&march.problem, &march.state, &now, &info);
         let seen = seen.unwrap().unwrap();
-        assert!(0.0 < known && known <= seen, "{known:e} {seen:e}");
-        not_looked += usize::from(known < seen);
+        assert!(
+            0.0 < clearance && clearance <= seen,
+            "{clearance:e} {seen:e}"
+        );
+        not_looked += usize::from(clearance < seen);
         increments += 1;
-        march.state.clear = known;
+        march.state.clear = clearance;
     }
     assert!(2 * not_looked > increments, "{not_looked} of {increments}");
 }
@@ -234,11 +237,11 @@ fn cells_beyond_the_window_are_as_far_as_they_are_known_to_be() {
 /// Displacements belong to the tractions in every increment: nothing adds up along the path.
 #[test]
 fn displacements_are_those_of_the_tractions() {
-    let more = ["grid.n=64", "solver.tolerance=1e-5", "path.0.increments=10"];
-    let more = more
+    let overrides = ["grid.n=64", "solver.tolerance=1e-5", "path.0.increments=10"];
+    let settings = overrides
         .into_iter()
         .chain(["path.1.increments=40", "path.2.increments=80"]);
-    let settings: Vec<String> = more.map(str::to_owned).collect();
+    let settings: Vec<String> = settings.map(str::to_owned).collect();
     let scene = Scene::from_toml_str(COATED, "coated", &settings).unwrap();
     let mut march = March::new(&scene).unwrap();
     // A tenth of the tolerance may be rounded, and in a pass a tenth of that of the slip is

@@ -11,8 +11,8 @@ pub(super) fn transmitted(setup: &Setup<'_>, point: &LoadPoint, now: &Interface)
     let (problem, arms) = (setup.problem, &setup.geometry.arms);
     let cell_area = problem.cell_area();
     let sums = [
-        sums([&now.p[..]], |n, [p]| arms.sums_across(p, n)),
-        sums([&now.q[0][..], &now.q[1]], |n, q| arms.sums_in_plane(q, n)),
+        sums([&now.p[..]], |n, [p]| arms.loads_across(p, n)),
+        sums([&now.q[0][..], &now.q[1]], |n, q| arms.loads_in_plane(q, n)),
     ];
     let (forces, given) = (point.loads.forces(), point.loads.given);
     let motions = given.motions();
@@ -20,7 +20,7 @@ pub(super) fn transmitted(setup: &Setup<'_>, point: &LoadPoint, now: &Interface)
         None => forces[k],
         // The mirrored half has the opposite sign.
         Some(_) if problem.is_odd(k) => 0.0,
-        Some(_) => sums[k / 3][k % 3] * cell_area * arms.unit(k),
+        Some(_) => sums[k / 3][k % 3] * cell_area * arms.motion_unit(k),
     });
     point.loads.with_forces(transmitted, given)
 }

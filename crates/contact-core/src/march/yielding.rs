@@ -11,7 +11,7 @@ use crate::scene::LoadPoint;
 use crate::solvers::Interface;
 use crate::yielding::{MOST_PASSES, Residual, Rim, Yielded, Yielding};
 
-/// Equivalent plastic strain at which a run ends: the equations are those of small strains.
+/// Equivalent plastic strain at which a run ends: the equations hold for small strains.
 const LARGEST_STRAIN: f64 = 0.15;
 /// Halvings of an increment before the run gives up.
 const HALVINGS: u32 = 4;
@@ -150,14 +150,14 @@ impl March {
             return self.advance_to(point);
         };
         yields.bodies.begin(before);
-        let from = Offsets::of(&yields.bodies.residual(), &arms, mirror);
+        let from = Offsets::from_residual(&yields.bodies.residual(), &arms, mirror);
         if let Some(factor) = start.going_on(point) {
             yields.bodies.guess(before, factor);
         }
         let mut convolutions = 0.0;
         for pass in 1..=MOST_PASSES {
             let Some(yields) = &self.yielding else { break };
-            let to = Offsets::of(&yields.bodies.residual(), &arms, mirror);
+            let to = Offsets::from_residual(&yields.bodies.residual(), &arms, mirror);
             self.state.clone_from(&start);
             let geometry = &mut self.domain.window.geometry;
             replace(&mut self.state, geometry, &yields.bare, [&from, &to]);
@@ -170,12 +170,12 @@ impl March {
             if yields.bodies.pass([&p, &q_x, &q_y]) {
                 let now = yields.bodies.commit(before);
                 if now.largest > LARGEST_STRAIN {
-                    let found = format!("a strain of {:.1} %", 100.0 * now.largest);
+                    let message = format!("a strain of {:.1} %", 100.0 * now.largest);
                     let allowed = format!(
                         "such that strains stay below {:.0} %: a smaller load, or more hardening",
                         100.0 * LARGEST_STRAIN
                     );
-                    return Err(Error::invalid("plastic", found, allowed));
+                    return Err(Error::invalid("plastic", message, allowed));
                 }
                 let stored = |interface: &Interface, yielded: &Yielded| {
                     of_tractions(&self.problem, interface) + yielded.locked

@@ -15,13 +15,13 @@ pub(super) struct Yields {
 }
 
 impl Yields {
-    /// Those of a scene; none where no body yields.
-    pub(super) fn of(scene: &Scene, plan: &Plan) -> Result<Option<Self>, Error> {
-        let most = plan.methods.volume_cells;
-        let bodies = Yielding::on_cells(scene, most, false)?;
+    /// Builds the yielding bodies of a scene; none where no body yields.
+    pub(super) fn from_scene(scene: &Scene, plan: &Plan) -> Result<Option<Self>, Error> {
+        let volume_cells = plan.methods.volume_cells;
+        let bodies = Yielding::on_cells(scene, volume_cells, false)?;
         Ok(bodies.map(|bodies| Self {
             bodies,
-            most,
+            most: volume_cells,
             bare: plan.mirror.fold(&scene.h_init()),
         }))
     }

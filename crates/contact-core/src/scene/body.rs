@@ -23,7 +23,7 @@ pub struct Body {
     /// Yield law of each layer, from the surface down, the substrate last; missing ones stay elastic.
     pub plastic: Vec<Option<Plastic>>,
     /// Residual stress of each layer, from the surface down, the substrate last; missing ones have none.
-    pub residual_text: Vec<Profile>,
+    pub residual: Vec<Profile>,
     /// Shape of the undeformed surface.
     pub shape: Shape,
 }
@@ -36,7 +36,7 @@ impl Body {
             coatings: Vec::new(),
             bonds: Vec::new(),
             plastic: Vec::new(),
-            residual_text: Vec::new(),
+            residual: Vec::new(),
             shape,
         }
     }
@@ -134,12 +134,12 @@ impl Body {
     /// Fails if a residual stress is not finite, or above the yield stress of its layer; `key` is the body's.
     pub fn check_residual(&self, key: &str) -> Result<(), Error> {
         let layers = self.coatings.len() + 1;
-        if self.residual_text.len() > layers {
+        if self.residual.len() > layers {
             let allowed = format!("{layers}, one for each layer, or fewer");
             let key = format!("{key}.residual");
-            return Err(Error::invalid(key, self.residual_text.len(), allowed));
+            return Err(Error::invalid(key, self.residual.len(), allowed));
         }
-        for (layer, profile) in self.residual_text.iter().enumerate() {
+        for (layer, profile) in self.residual.iter().enumerate() {
             let key = format!("{}.residual", self.layer_key(layer, key));
             profile.check(&key)?;
             let limit = self.plastic(layer).map_or(f64::INFINITY, |law| law.s_y);

@@ -180,7 +180,7 @@ impl Scene {
                 }
                 check(format!("{layer_key}.bond_normal"), body.bond(n).normal);
             }
-            for (layer, profile) in body.residual_text.iter().enumerate() {
+            for (layer, profile) in body.residual.iter().enumerate() {
                 let name = format!("{}.residual", body.layer_key(layer, key));
                 let stresses = profile.rows.iter().flat_map(|[_, xx, yy]| [*xx, *yy]);
                 let largest = stresses.fold(

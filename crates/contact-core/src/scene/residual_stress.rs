@@ -21,7 +21,7 @@ impl ResidualStress {
     pub fn from_body(body: &Body) -> Self {
         Self {
             tops: std::iter::once(0.0).chain(body.interfaces()).collect(),
-            layers: body.residual_text.clone(),
+            layers: body.residual.clone(),
         }
     }
 

@@ -6,11 +6,11 @@
     "the {solver} solver stopped at {residual:.2e} m (tolerance {tolerance:.2e} m) after {iterations} iterations"
 )]
 pub struct SolverError {
-    /// Which solver.
+    /// Name of the solver.
     pub solver: &'static str,
     /// Residual reached \[m\].
     pub residual: f64,
-    /// Residual asked for \[m\].
+    /// Requested residual \[m\].
     pub tolerance: f64,
     /// Iterations done.
     pub iterations: usize,

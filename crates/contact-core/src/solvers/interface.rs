@@ -21,7 +21,7 @@ pub struct Interface {
 }
 
 impl Interface {
-    /// Without tractions.
+    /// Returns fields of zero tractions and displacements.
     pub fn unloaded(cells: usize) -> Self {
         let field = || vec![0.0; cells];
         Self {
@@ -84,11 +84,11 @@ impl Interface {
     }
 }
 
-/// Shear, displacement and slip set, in and out.
+/// Shear, displacement and slip set, updated in place.
 pub struct Shear<'a> {
     /// q_x, q_y \[Pa\]; on entry a guess.
     pub q: [&'a mut [f64]; 2],
-    /// Total u_x, u_y \[m\], belonging to q on entry and on exit.
+    /// Total u_x, u_y \[m\], the response to q on entry and on exit.
     pub u: [&'a mut [f64]; 2],
     /// Contact cells that slip; on entry a guess.
     pub slips: &'a mut [bool],

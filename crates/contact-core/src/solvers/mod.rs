@@ -3,11 +3,11 @@
 //! - [`inner::normal`]: the pressure for known shear, eq. (5)-(6);
 //! - [`inner::tangential`]: the shear for known pressure, eq. (7)-(8);
 //! - [`intermediate::alternation`]: one after the other until neither changes the other;
-//! - [`no_slip`]: the displacement that means no slip, eq. (7).
+//! - [`no_slip`]: the displacement without slip, eq. (7).
 //!
-//! The solvers know no elasticity, only a [`SurfaceOperator`](crate::convolution::SurfaceOperator).
-//! Each takes Params and gives Info or an Error with numbers. Lengths are those of the scene; a
-//! tolerance is a length too, so that "how wrong" can be read off.
+//! The solvers use elasticity only through a [`SurfaceOperator`](crate::convolution::SurfaceOperator).
+//! Each takes Params and returns Info or an Error with numbers. Lengths are in metres of the scene; a
+//! tolerance is a length too, so that it can be compared with displacements.
 
 mod error;
 pub mod inner;

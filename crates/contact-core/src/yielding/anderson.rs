@@ -19,8 +19,8 @@ pub(super) struct Anderson {
 
 impl Anderson {
     /// The next x from the present one and its image: x + f - sum c_j (dx_j + df_j), with c the least
-    /// squares of f - sum c_j df_j. The first `fixed` unknowns are always there; those of points follow, of
-    /// each body so many as `counts` says. New points have not changed before.
+    /// squares of f - sum c_j df_j. The first `fixed` unknowns are always there; the unknowns of points follow, of
+    /// as many of each body as in `counts`. New points have not changed before.
     pub(super) fn mixed(
         &mut self,
         x: &[f64],
@@ -42,8 +42,8 @@ impl Anderson {
                 }
                 *v = wide;
             };
-            let all = self.differences.iter_mut().chain(&mut self.last);
-            all.flatten().for_each(widen);
+            let fields = self.differences.iter_mut().chain(&mut self.last);
+            fields.flatten().for_each(widen);
         }
         if let Some([x_last, f_last]) = self.last.take() {
             let difference = |now: &[f64], last: &[f64]| -> Vec<f64> {
@@ -56,14 +56,14 @@ impl Anderson {
             }
         }
         let weights = self.weights(&f);
-        let mut next: Vec<f64> = image.to_vec();
+        let mut mixed: Vec<f64> = image.to_vec();
         for ([dx, df], weight) in self.differences.iter().zip(weights) {
-            for ((next, dx), df) in next.iter_mut().zip(dx).zip(df) {
+            for ((next, dx), df) in mixed.iter_mut().zip(dx).zip(df) {
                 *next -= weight * (dx + df);
             }
         }
         self.last = Some([x.to_vec(), f]);
-        next
+        mixed
     }
 
     /// The least squares, by normal equations.
@@ -107,9 +107,9 @@ fn solve(matrix: &mut [Vec<f64>], right: &mut [f64]) {
         }
     }
     for row in (0..n).rev() {
-        let known: f64 = (row + 1..n)
+        let sum: f64 = (row + 1..n)
             .map(|column| matrix[row][column] * right[column])
             .sum();
-        right[row] = (right[row] - known) / matrix[row][row];
+        right[row] = (right[row] - sum) / matrix[row][row];
     }
 }

@@ -63,18 +63,18 @@ pub(crate) struct Below {
 }
 
 impl Yielding {
-    /// Of a scene whose bodies may yield, on the volume grid that is chosen or on the one that it grows to;
+    /// Builds the bodies of a scene that may yield, on the chosen volume grid or on the one that it grows to;
     /// `None` where none does.
-    pub fn of(scene: &Scene, grown: bool) -> Result<Option<Self>, Error> {
+    pub fn from_scene(scene: &Scene, grown: bool) -> Result<Option<Self>, Error> {
         Self::on_cells(scene, volume_cells(scene.grid.plane_strain), grown)
     }
 
-    /// As [`Self::of`], with at most so many cells along a side before the grid grows.
+    /// Builds as [`Self::from_scene`] does, with at most so many cells along a side before the grid grows.
     pub(crate) fn on_cells(scene: &Scene, most: usize, grown: bool) -> Result<Option<Self>, Error> {
         if !scene.yields() {
             return Ok(None);
         }
-        let volume = Volume::of(scene, most, grown);
+        let volume = Volume::choose(scene, most, grown);
         let bodies = [(1, &scene.body1), (2, &scene.body2)];
         let bodies = bodies.into_iter().filter(|(_, body)| body.yields());
         let bodies = bodies.map(|(number, body)| YieldingBody::new(number, body, &volume));
@@ -126,8 +126,8 @@ impl Yielding {
             let mut sum = vec![0.0; cells];
             for (number, displacement) in bodies.clone() {
                 let sign = if number == 1 { sign } else { 1.0 };
-                let of = &displacement[component * cells..(component + 1) * cells];
-                for (sum, u) in sum.iter_mut().zip(of) {
+                let component_field = &displacement[component * cells..(component + 1) * cells];
+                for (sum, u) in sum.iter_mut().zip(component_field) {
                     *sum += sign * u;
                 }
             }
@@ -241,12 +241,12 @@ impl Yielding {
         body: usize,
     ) -> Option<Vec<f64>> {
         let mut stress = self.stress_of_changes(state, tractions, body)?;
-        let own = self.bodies.iter().find(|b| b.number == body)?;
-        own.add_initial(&mut stress);
+        let yielding_body = self.bodies.iter().find(|b| b.number == body)?;
+        yielding_body.add_initial(&mut stress);
         Some(stress)
     }
 
-    /// The same without the residual stress before the first load.
+    /// Builds the bodies without the residual stress before the first load.
     pub fn stress_of_changes(
         &mut self,
         state: &Yielded,
@@ -255,16 +255,16 @@ impl Yielding {
     ) -> Option<Vec<f64>> {
         let tractions =
             tractions.map(|[p, q_x, q_y]| [q_x, q_y, p].map(|field| self.volume.to_volume(field)));
-        let own = self.bodies.iter_mut().find(|b| b.number == body)?;
+        let yielding_body = self.bodies.iter_mut().find(|b| b.number == body)?;
         let state = state.bodies.iter().find(|state| state.body == body);
-        Some(own.response(state, tractions.as_ref()).0)
+        Some(yielding_body.response(state, tractions.as_ref()).0)
     }
 
     /// The points of a body that have yielded in a state, with plane and cell of the volume grid; their strain
     /// in the axes of the scene.
     pub fn points(&self, state: &Yielded, body: usize) -> Vec<(usize, usize, PlasticPoint)> {
-        let own = state.bodies.iter().filter(|known| known.body == body);
-        let points = own.flat_map(|known| &known.points).filter_map(|point| {
+        let states = state.bodies.iter().filter(|known| known.body == body);
+        let points = states.flat_map(|known| &known.points).filter_map(|point| {
             let mut seen = *point;
             if body == 1 {
                 // z points into body 2.
@@ -284,12 +284,12 @@ impl Yielding {
         let near: Vec<usize> = (around(cells.nx).iter())
             .flat_map(|i| around(cells.ny).map(|j| i * cells.ny + j))
             .collect();
-        let mut found = Vec::new();
+        let mut planes = Vec::new();
         for body in &mut self.bodies {
             let of_body = state.bodies.iter().find(|known| known.body == body.number);
             let (stress, _) = body.response(of_body, None);
             let mesh = body.mesh();
-            found.extend((0..mesh.planes()).map(|plane| {
+            planes.extend((0..mesh.planes()).map(|plane| {
                 let mean = |c: usize| {
                     let field = &stress[(plane * eigenstrain::COMPONENTS + c) * cells.len()..];
                     near.iter().map(|cell| field[*cell]).sum::<f64>() / near.len() as f64
@@ -301,18 +301,18 @@ impl Yielding {
                 }
             }));
         }
-        found
+        planes
     }
 
     /// A state whose residual displacements are those of its plastic strain, of one that has the strain
     /// alone.
     pub fn completed(&mut self, state: &Yielded) -> Yielded {
         let bodies = self.bodies.iter_mut().map(|body| {
-            let known = state.bodies.iter().find(|known| known.body == body.number);
+            let state_of_body = state.bodies.iter().find(|known| known.body == body.number);
             PlasticState {
                 body: body.number,
-                points: known.map_or_else(Vec::new, |known| known.points.clone()),
-                displacement: body.response(known, None).1,
+                points: state_of_body.map_or_else(Vec::new, |known| known.points.clone()),
+                displacement: body.response(state_of_body, None).1,
                 growth: Vec::new(),
             }
         });
@@ -333,36 +333,36 @@ impl Yielding {
 
     /// Whether a state is one of the grid that has grown: a point lies beyond this one or at its border.
     pub fn outgrown_by(&self, state: &Yielded) -> bool {
-        let of = |known: &PlasticState| {
-            let own = self.bodies.iter().find(|body| body.number == known.body);
-            own.map_or(!known.points.is_empty(), |body| body.outgrown_by(known))
+        let is_outgrown = |known: &PlasticState| {
+            let yielding_body = self.bodies.iter().find(|body| body.number == known.body);
+            yielding_body.map_or(!known.points.is_empty(), |body| body.outgrown_by(known))
         };
-        state.bodies.iter().any(of)
+        state.bodies.iter().any(is_outgrown)
     }
 
     /// Fails where a state has points beyond the volume grid.
     pub fn check(&self, state: &Yielded) -> Result<(), Error> {
         for known in &state.bodies {
-            let own = self.bodies.iter().find(|body| body.number == known.body);
-            let beyond = match own {
-                Some(body) => body.beyond(known),
+            let yielding_body = self.bodies.iter().find(|body| body.number == known.body);
+            let beyond = match yielding_body {
+                Some(body) => body.first_point_beyond(known),
                 None => known.points.first(),
             };
             if let Some(point) = beyond {
-                let planes = own.map_or(0, |body| body.mesh().planes());
+                let planes = yielding_body.map_or(0, |body| body.mesh().planes());
                 let cells = self.volume.cells;
-                let found = format!("plane {}, cell {}", point.plane, point.cell);
+                let message = format!("plane {}, cell {}", point.plane, point.cell);
                 let allowed = format!(
-                    "within {planes} planes of {} x {} cells, those of the volume grid of its scene: solve it again",
+                    "within {planes} planes of {} x {} cells, the volume grid of its scene: solve it again",
                     cells.nx, cells.ny
                 );
-                return Err(Error::invalid("plastic strain", found, allowed));
+                return Err(Error::invalid("plastic strain", message, allowed));
             }
         }
         Ok(())
     }
 
-    /// Where the stress of von Mises under tractions is largest over the yield stress, before anything has
+    /// Point where the stress of von Mises under tractions is largest over the yield stress, before anything has
     /// yielded: that ratio, body, layer, depth \[m\].
     pub(crate) fn nearest_to_yield(
         &mut self,
@@ -376,7 +376,7 @@ impl Yielding {
 
     /// The mesh of a body that yields.
     pub fn mesh(&self, body: usize) -> Option<&eigenstrain::Mesh> {
-        let found = self.bodies.iter().find(|b| b.number == body);
-        found.map(YieldingBody::mesh)
+        let yielding_body = self.bodies.iter().find(|b| b.number == body);
+        yielding_body.map(YieldingBody::mesh)
     }
 }

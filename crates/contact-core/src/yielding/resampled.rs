@@ -24,7 +24,7 @@ pub(super) fn resampled(field: &[f64], (nx, ny): (usize, usize), ratio: [usize; 
     fine
 }
 
-/// As [`resampled`], of one line.
+/// Resamples one line as [`resampled`] does.
 fn line(values: &[f64], ratio: usize) -> Vec<f64> {
     let n = values.len();
     if ratio == 1 || n < 4 {

@@ -39,7 +39,7 @@ pub struct PlasticState {
 /// The plastic state after an increment.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Yielded {
-    /// Of the bodies that may yield.
+    /// States of the bodies that may yield.
     pub bodies: Vec<PlasticState>,
     /// Plastic work over the path \[J\].
     pub work: f64,
@@ -50,7 +50,7 @@ pub struct Yielded {
     pub volume: f64,
     /// Largest equivalent plastic strain of a point.
     pub largest: f64,
-    /// Where that point lies, if it is a place where strains do not converge.
+    /// Position of that point, if strains do not converge there.
     #[serde(default)]
     pub at_rim: Option<Rim>,
     /// Whether a point has yielded at the border of the volume grid.
@@ -71,7 +71,7 @@ pub enum Rim {
 }
 
 impl Rim {
-    /// What is to be known of a largest strain that lies there.
+    /// Remark on a largest strain that lies there.
     pub const TOLD: &str = "the largest plastic strain lies at the border of slip or at the rim of a coating, where it grows \
         with every refinement. Judge the works, the volume and the strain below";
 }

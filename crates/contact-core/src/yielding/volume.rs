@@ -1,4 +1,4 @@
-//! The volume grid: its cells, and the way between them and those of the contact.
+//! The volume grid: its cells, and the mapping between them and the cells of the contact.
 
 use eigenstrain::{Cells, Layer, Mesh};
 use ndarray::Array2;
@@ -35,7 +35,7 @@ const MARGIN: f64 = 0.25;
 /// Depth of a grown grid over that before.
 const DEEPER: f64 = 1.5;
 
-/// The cells of the volume grid: those of the contact, or squares of them. A grid that has grown has more of
+/// The cells of the volume grid: the cells of the contact, or squares of them. A grid that has grown has more of
 /// them beyond its sides, and planes below.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Volume {
@@ -62,7 +62,7 @@ impl Volume {
     /// Chosen for a scene: at most so many cells along a side, elements of a cell at
     /// the surface and at interfaces, growing to a twelfth of the radius of the elastic contact, one to two
     /// cells, down to where a point load of the largest force leaves 0.9 of the yield stress.
-    pub(super) fn of(scene: &Scene, most: usize, grown: bool) -> Self {
+    pub(super) fn choose(scene: &Scene, max_cells: usize, grown: bool) -> Self {
         let grid = scene.grid;
         let sides = if grid.plane_strain {
             [grid.nx, 0]
@@ -71,7 +71,7 @@ impl Volume {
         };
         let divides = |ratio: usize| sides.iter().all(|n| n.is_multiple_of(ratio));
         let mut ratio = 1;
-        while sides[0].max(sides[1]) / ratio > most && divides(2 * ratio) {
+        while sides[0].max(sides[1]) / ratio > max_cells && divides(2 * ratio) {
             ratio *= 2;
         }
         let length = ratio as f64;
@@ -95,7 +95,7 @@ impl Volume {
         } else {
             cells.dx.min(cells.dy)
         };
-        let coarser = volume_cells(grid.plane_strain) as f64 / most as f64;
+        let coarser = volume_cells(grid.plane_strain) as f64 / max_cells as f64;
         let height =
             (coarser * HEIGHT * length_of(scene)).clamp(HEIGHTS[0] * side, HEIGHTS[1] * side);
         Self {
@@ -159,8 +159,8 @@ impl Volume {
     /// The part below the contact of three fields of the volume, one after the other.
     pub(super) fn part_below_contact(&self, fields: &[f64], part: &mut [f64]) {
         let ([nx, ny], beyond) = self.below_contact();
-        let own = fields.chunks_exact(self.cells.len());
-        for (field, part) in own.zip(part.chunks_exact_mut(nx * ny)) {
+        let planes = fields.chunks_exact(self.cells.len());
+        for (field, part) in planes.zip(part.chunks_exact_mut(nx * ny)) {
             for (i, row) in part.chunks_exact_mut(ny).enumerate() {
                 let from = (i + beyond[0]) * self.cells.ny + beyond[1];
                 row.copy_from_slice(&field[from..from + ny]);
@@ -189,7 +189,7 @@ impl Volume {
         means
     }
 
-    /// A field on the cells of the volume below the contact at those of the contact.
+    /// Maps a field on the cells of the volume below the contact to the cells of the contact.
     pub(super) fn to_contact(&self, field: &[f64]) -> Array2<f64> {
         let ([nx, ny], _) = self.below_contact();
         let fine = resampled(field, (nx, ny), [self.ratio, self.ratio_along_y()]);
@@ -227,21 +227,18 @@ fn length_of(scene: &Scene) -> f64 {
     scene.hertz().map_or(0.25 * extent.0, |hertz| hertz.a)
 }
 
-/// Depth to which a body may yield \[m\]. Below a contact the stress of von Mises falls as that of a
+/// Depth to which a body may yield \[m\]. Below a contact the stress of von Mises falls as under a
 /// point load, 9/(4 pi) W/z^2 for incompressible bodies on the axis, or of a line load, about W/z over 2.
 fn depth(scene: &Scene, body: &Body) -> f64 {
     let length = length_of(scene);
     // What the residual stress leaves of the yield stress, a hundredth at least.
-    let left = |layer: usize| {
+    let remaining_yield_stress = |layer: usize| {
         let law = body.plastic(layer)?;
-        let before = body
-            .residual_text
-            .get(layer)
-            .map_or(0.0, Profile::von_mises);
+        let before = body.residual.get(layer).map_or(0.0, Profile::von_mises);
         Some((law.s_y - before).max(0.01 * law.s_y))
     };
     let weakest = (0..=body.coatings.len())
-        .filter_map(left)
+        .filter_map(remaining_yield_stress)
         .fold(f64::INFINITY, f64::min);
     let p_0 = scene.hertz().map_or(weakest, |hertz| hertz.p0);
     let far = if scene.grid.plane_strain {

@@ -17,7 +17,9 @@
 use ndarray::{Array2, Zip};
 use std::ops::Range;
 
-use super::neighbours::{Around, around, cut, distances, filled};
+use super::neighbours::{
+    Neighbourhood, cell_and_neighbours, chessboard_distances, cut_window, fill_from_neighbours,
+};
 use super::sampled_border::SampledBorder;
 use super::stick_zone::StickZone;
 use crate::convolution::Tractions;
@@ -25,12 +27,12 @@ use crate::scene::Grid;
 
 /// Cells up to this distance from a border, along or across, carry the load of the continued
 /// tractions; those farther off the load of the cell.
-const BESIDE: u8 = 3;
+const BORDER_WIDTH: u8 = 3;
 /// Assumed distance t of a border that cannot be extrapolated from the centre of the outermost cell
 /// \[cells\]: the integral of (1 - s/t)^(1/2) over 0..t is 2 t/3 = 1/2, the load of half a cell.
-const TAKEN: f64 = 0.75;
+const ASSUMED_DISTANCE: f64 = 0.75;
 /// Places in a cell at which the border on an oblique line is looked for.
-const LOOKS: f64 = 4.0;
+const SAMPLES_PER_CELL: f64 = 4.0;
 
 /// The tractions of a contact as fields over a window of its cells.
 #[derive(Clone, Debug)]
@@ -40,7 +42,7 @@ pub struct Continued {
     /// The tractions q_x, q_y, p constant in each cell \[Pa\].
     constant: [Array2<f64>; 3],
     /// Constant corrections of the interpolated tractions, far from borders \[Pa\].
-    lacking: [Array2<f64>; 3],
+    correction: [Array2<f64>; 3],
     /// p^2 \[Pa^2\], below zero in cells beside the contact.
     level: Array2<f64>,
     /// q/p, in cells beside the contact the mean of their neighbours' within.
@@ -48,17 +50,17 @@ pub struct Continued {
     /// m and e, NaN far from the slip cells, and (m p - q.e)^2 \[Pa^2\], negative in cells beside the
     /// stick zone.
     bound: Option<Bound<Array2<f64>>>,
-    varying: Array2<Varying>,
+    varying: Array2<Variation>,
     /// Cells whose level could not be extrapolated from inside.
-    taken: Array2<bool>,
+    is_assumed: Array2<bool>,
     /// Whether the tractions are constant in those cells.
-    steps: bool,
+    has_assumed_steps: bool,
     /// Distance from the nearest cell at a known or assumed border, in cells along or across, up
     /// to 255.
     distance: Array2<u8>,
 }
 
-/// Where a line of cells crosses the border of a zone.
+/// Point where a line of cells crosses the border of a zone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
     /// Column and row of the grid, in cells from the middle of the first.
@@ -66,12 +68,12 @@ pub struct Crossing {
     /// Whether the zone is the stick zone; else the contact.
     pub stick: bool,
     /// Whether the border is extrapolated to a place within the cell; else it is assumed.
-    pub within_cell: bool,
+    pub is_within_cell: bool,
 }
 
-/// Which tractions vary within a cell.
+/// The tractions that vary within a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Varying {
+enum Variation {
     Nothing,
     /// The pressure, and q/p.
     Both,
@@ -98,7 +100,7 @@ impl<T> Bound<T> {
 }
 
 impl Continued {
-    /// From the tractions on a grid, each of shape (nx, ny) \[Pa\], in a window of columns and
+    /// Continues the tractions on a grid, each of shape (nx, ny) \[Pa\], in a window of columns and
     /// rows. Without `stick` all cells at the rim are taken to slip. On a layer as thin as the
     /// cells (`thin`) the tractions stay constant where no border can be extrapolated.
     pub fn new(
@@ -115,50 +117,55 @@ impl Continued {
         let q = [tractions.q_x, tractions.q_y].map(field);
         let p = field(tractions.p);
         let mut rim = SampledBorder::of_contact(grid, &p);
-        let mut taken = Array2::from_elem(shape, false);
+        let mut is_assumed = Array2::from_elem(shape, false);
         for &cell in &rim.unknown {
-            taken[cell] = true;
+            is_assumed[cell] = true;
             if p[cell] <= 0.0 && !thin {
-                let pressed = || around(cell, shape).map(|at| p[at]).filter(|p| *p > 0.0);
-                let sum: f64 = pressed().map(|p| p * p).sum();
-                rim.level[cell] = (1.0 - 1.0 / TAKEN) * sum / pressed().count().max(1) as f64;
+                let pressures_around = || {
+                    cell_and_neighbours(cell, shape)
+                        .map(|at| p[at])
+                        .filter(|p| *p > 0.0)
+                };
+                let sum: f64 = pressures_around().map(|p| p * p).sum();
+                rim.level[cell] =
+                    (1.0 - 1.0 / ASSUMED_DISTANCE) * sum / pressures_around().count().max(1) as f64;
             }
         }
         let zone = stick.and_then(|stick| StickZone::new(grid, &p, &q, stick));
         let mut varying = Array2::from_shape_fn(shape, |cell| {
-            let presses = around(cell, shape).any(|at| rim.level[at] > 0.0);
-            let in_zone = zone.as_ref().is_some_and(|zone| zone.reaches(cell));
-            match (presses, in_zone) {
-                (true, true) => Varying::Shortfall,
-                (true, false) => Varying::Both,
-                _ => Varying::Nothing,
+            let touches_contact = cell_and_neighbours(cell, shape).any(|at| rim.level[at] > 0.0);
+            let in_zone = zone.as_ref().is_some_and(|zone| zone.covers(cell));
+            match (touches_contact, in_zone) {
+                (true, true) => Variation::Shortfall,
+                (true, false) => Variation::Both,
+                _ => Variation::Nothing,
             }
         });
         let constant = rim.unknown.iter().filter(|_| thin);
-        for at in constant.flat_map(|cell| around(*cell, shape)) {
-            varying[at] = Varying::Nothing;
+        for at in constant.flat_map(|cell| cell_and_neighbours(*cell, shape)) {
+            varying[at] = Variation::Nothing;
         }
         let zone_known = zone.iter().flat_map(|zone| &zone.border.known);
         let at_rim = (rim.known.iter()).chain(rim.unknown.iter().filter(|_| !thin));
-        let distance = distances(shape, at_rim.chain(zone_known));
+        let distance = chessboard_distances(shape, at_rim.chain(zone_known));
         let mut continued = Self {
             start: (window.0.start, window.1.start),
-            ratios: [0, 1].map(|c| cut(&ratio(&q[c], &p), window)),
-            constant: [&q[0], &q[1], &p].map(|field| cut(field, window)),
-            lacking: [(); 3].map(|()| Array2::zeros((window.0.len(), window.1.len()))),
-            level: cut(&rim.level, window),
+            ratios: [0, 1].map(|c| cut_window(&ratio(&q[c], &p), window)),
+            constant: [&q[0], &q[1], &p].map(|field| cut_window(field, window)),
+            correction: [(); 3].map(|()| Array2::zeros((window.0.len(), window.1.len()))),
+            level: cut_window(&rim.level, window),
             bound: zone.map(|zone| {
                 let whole = Bound {
                     m: zone.m,
                     e: zone.direction,
                     shortfall: zone.border.level,
                 };
-                whole.map(|field| cut(field, window))
+                whole.map(|field| cut_window(field, window))
             }),
-            varying: cut(&varying, window),
-            taken: cut(&taken, window),
-            steps: thin && !rim.unknown.is_empty(),
-            distance: cut(&distance, window),
+            varying: cut_window(&varying, window),
+            is_assumed: cut_window(&is_assumed, window),
+            has_assumed_steps: thin && !rim.unknown.is_empty(),
+            distance: cut_window(&distance, window),
         };
         continued.keep_loads();
         continued
@@ -167,14 +174,14 @@ impl Continued {
     /// The places where a line along x (`axis` 0) or y (1), at `at` rows or columns from the first,
     /// crosses the rim of the contact and the border of the stick zone.
     pub fn crossings(&self, axis: usize, at: f64) -> Vec<Crossing> {
-        let across = 1 - axis;
+        let other_axis = 1 - axis;
         let start = [self.start.0, self.start.1];
         let shape = [self.level.nrows(), self.level.ncols()];
-        let within = (at - start[across] as f64).clamp(0.0, (shape[across] - 1) as f64);
-        let (lower, part) = (within.floor() as usize, within.fract());
-        let upper = (lower + 1).min(shape[across] - 1);
+        let position = (at - start[other_axis] as f64).clamp(0.0, (shape[other_axis] - 1) as f64);
+        let (lower, part) = (position.floor() as usize, position.fract());
+        let upper = (lower + 1).min(shape[other_axis] - 1);
         let cell = |n: usize, row: usize| if axis == 0 { (n, row) } else { (row, n) };
-        let on_line = |field: &Array2<f64>, n: usize| {
+        let value_on_line = |field: &Array2<f64>, n: usize| {
             let [low, high] = [lower, upper].map(|row| field[cell(n, row)]);
             if part == 0.0 {
                 low
@@ -182,86 +189,96 @@ impl Continued {
                 low + part * (high - low)
             }
         };
-        let presses = |n: usize| on_line(&self.constant[2], n) > 0.0;
-        let taken = |n: usize| [lower, upper].iter().any(|row| self.taken[cell(n, *row)]);
+        let is_pressed = |n: usize| value_on_line(&self.constant[2], n) > 0.0;
+        let is_assumed_at = |n: usize| {
+            [lower, upper]
+                .iter()
+                .any(|row| self.is_assumed[cell(n, *row)])
+        };
         let zones = [
             Some(&self.level),
             self.bound.as_ref().map(|bound| &bound.shortfall),
         ];
-        let mut all = Vec::new();
+        let mut crossings = Vec::new();
         for (zone, level) in zones.into_iter().enumerate() {
             let Some(level) = level else { continue };
             for n in 1..shape[axis] {
-                let (a, b) = (on_line(level, n - 1), on_line(level, n));
+                let (a, b) = (value_on_line(level, n - 1), value_on_line(level, n));
                 // A stick zone that ends where the contact does has no border of its own.
                 let outside = if a > 0.0 { n } else { n - 1 };
-                if (a > 0.0) == (b > 0.0) || (zone == 1 && !presses(outside)) {
+                if (a > 0.0) == (b > 0.0) || (zone == 1 && !is_pressed(outside)) {
                     continue;
                 }
-                let within_cell = a.min(b) < 0.0 && !(zone == 0 && (taken(n - 1) || taken(n)));
+                let within_cell =
+                    a.min(b) < 0.0 && !(zone == 0 && (is_assumed_at(n - 1) || is_assumed_at(n)));
                 let step = if a.min(b) < 0.0 { a / (a - b) } else { 0.5 };
-                let along = (start[axis] + n - 1) as f64 + step;
-                let place = if axis == 0 { [along, at] } else { [at, along] };
-                all.push(Crossing {
+                let position_along = (start[axis] + n - 1) as f64 + step;
+                let place = if axis == 0 {
+                    [position_along, at]
+                } else {
+                    [at, position_along]
+                };
+                crossings.push(Crossing {
                     place,
                     stick: zone == 1,
-                    within_cell,
+                    is_within_cell: within_cell,
                 });
             }
         }
-        all
+        crossings
     }
 
-    /// The same for a line in any direction: from a place in steps of about a cell \[cells\],
+    /// Finds the crossings of a line in any direction: from a point in steps of about a cell \[cells\],
     /// between two numbers of steps.
     pub fn crossings_along(&self, from: [f64; 2], step: [f64; 2], ends: [f64; 2]) -> Vec<Crossing> {
-        let at = |n: f64| [from[0] + n * step[0], from[1] + n * step[1]];
+        let point_at = |n: f64| [from[0] + n * step[0], from[1] + n * step[1]];
         let zones = [
             Some(&self.level),
             self.bound.as_ref().map(|bound| &bound.shortfall),
         ];
-        let mut all = Vec::new();
+        let mut crossings = Vec::new();
         for (zone, level) in zones.into_iter().enumerate() {
             let Some(level) = level else { continue };
-            let value = |n: f64| self.between(level, at(n));
-            let count = ((ends[1] - ends[0]) * LOOKS).ceil().max(1.0) as usize;
-            let place = |k: usize| ends[0] + k as f64 / LOOKS;
-            let mut before = (place(0), value(place(0)));
-            for now in (1..=count).map(|k| (place(k), value(place(k)))) {
-                let ((m, a), (n, b)) = (before, now);
-                before = now;
+            let value_at = |n: f64| self.interpolate(level, point_at(n));
+            let count = ((ends[1] - ends[0]) * SAMPLES_PER_CELL).ceil().max(1.0) as usize;
+            let place = |k: usize| ends[0] + k as f64 / SAMPLES_PER_CELL;
+            let mut previous = (place(0), value_at(place(0)));
+            for now in (1..=count).map(|k| (place(k), value_at(place(k)))) {
+                let ((m, a), (n, b)) = (previous, now);
+                previous = now;
                 if (a > 0.0) == (b > 0.0) {
                     continue;
                 }
-                let outside = at(if a > 0.0 { n } else { m });
-                if zone == 1 && self.between(&self.constant[2], outside) <= 0.0 {
+                let outside = point_at(if a > 0.0 { n } else { m });
+                if zone == 1 && self.interpolate(&self.constant[2], outside) <= 0.0 {
                     continue;
                 }
-                let known = a.min(b) < 0.0;
-                let here = at(if known {
+                let is_extrapolated = a.min(b) < 0.0;
+                let crossing = point_at(if is_extrapolated {
                     m + (n - m) * a / (a - b)
                 } else {
                     0.5 * (m + n)
                 });
-                let cell = here.map(|v| v.round().max(0.0) as usize);
-                all.push(Crossing {
-                    place: here,
+                let cell = crossing.map(|v| v.round().max(0.0) as usize);
+                crossings.push(Crossing {
+                    place: crossing,
                     stick: zone == 1,
-                    within_cell: known && !(zone == 0 && self.rim_is_unknown((cell[0], cell[1]))),
+                    is_within_cell: is_extrapolated
+                        && !(zone == 0 && self.rim_is_unknown((cell[0], cell[1]))),
                 });
             }
         }
-        all
+        crossings
     }
 
     /// Whether a cell of the grid is pressed.
     pub fn presses(&self, cell: (usize, usize)) -> bool {
-        self.place(cell)
+        self.index_in_window(cell)
             .is_some_and(|at| self.constant[2][at] > 0.0)
     }
 
-    /// A field between the centres of the cells, bilinear.
-    fn between(&self, field: &Array2<f64>, [column, row]: [f64; 2]) -> f64 {
+    /// Interpolates a field bilinearly between the centres of the cells.
+    fn interpolate(&self, field: &Array2<f64>, [column, row]: [f64; 2]) -> f64 {
         let (columns, rows) = field.dim();
         let split = |v: f64, start: usize, n: usize| {
             let v = (v - start as f64).clamp(0.0, (n - 1) as f64);
@@ -273,12 +290,12 @@ impl Continued {
         };
         let (i, next, s) = split(column, self.start.0, columns);
         let (j, above, t) = split(row, self.start.1, rows);
-        let along = |j: usize| field[(i, j)] + s * (field[(next, j)] - field[(i, j)]);
-        along(j) + t * (along(above) - along(j))
+        let value_in_row = |j: usize| field[(i, j)] + s * (field[(next, j)] - field[(i, j)]);
+        value_in_row(j) + t * (value_in_row(above) - value_in_row(j))
     }
 
-    /// A cell of the grid in the window.
-    fn place(&self, cell: (usize, usize)) -> Option<(usize, usize)> {
+    /// Index of a cell of the grid in the window.
+    fn index_in_window(&self, cell: (usize, usize)) -> Option<(usize, usize)> {
         let (i, j) = (
             cell.0.checked_sub(self.start.0)?,
             cell.1.checked_sub(self.start.1)?,
@@ -287,40 +304,42 @@ impl Continued {
         (i < columns && j < rows).then_some((i, j))
     }
 
-    /// Distance of a cell from those beside a border, in cells along or across.
+    /// Distance of a cell from the cells at a border, in cells along or across.
     pub fn distance(&self, cell: (usize, usize)) -> u8 {
-        self.place(cell).map_or(u8::MAX, |at| self.distance[at])
+        self.index_in_window(cell)
+            .map_or(u8::MAX, |at| self.distance[at])
     }
 
     /// Whether the tractions have a spurious step at the edges of a cell or of one next to it.
     pub fn has_steps(&self, cell: (usize, usize)) -> bool {
-        if !self.steps {
+        if !self.has_assumed_steps {
             return false;
         }
-        let steps = |at: (usize, usize)| {
-            self.varying[at] == Varying::Nothing
-                && around(at, self.varying.dim()).any(|at| self.taken[at])
+        let is_step = |at: (usize, usize)| {
+            self.varying[at] == Variation::Nothing
+                && cell_and_neighbours(at, self.varying.dim()).any(|at| self.is_assumed[at])
         };
-        self.place(cell)
-            .is_some_and(|at| around(at, self.varying.dim()).any(steps))
+        self.index_in_window(cell)
+            .is_some_and(|at| cell_and_neighbours(at, self.varying.dim()).any(is_step))
     }
 
     /// Whether a cell or one next to it is at an assumed rim.
     pub fn rim_is_unknown(&self, cell: (usize, usize)) -> bool {
-        self.place(cell)
-            .is_some_and(|at| around(at, self.taken.dim()).any(|at| self.taken[at]))
+        self.index_in_window(cell).is_some_and(|at| {
+            cell_and_neighbours(at, self.is_assumed.dim()).any(|at| self.is_assumed[at])
+        })
     }
 
     /// Change of q_x, q_y, p over the length and over the width of a cell far from borders \[Pa\];
     /// none where they are constant.
     pub fn slopes(&self, cell: (usize, usize)) -> Option<[[f64; 3]; 2]> {
-        let (i, j) = self.place(cell)?;
-        if self.varying[(i, j)] == Varying::Nothing {
+        let (i, j) = self.index_in_window(cell)?;
+        if self.varying[(i, j)] == Variation::Nothing {
             return None;
         }
         let (columns, rows) = self.level.dim();
-        let beside = |n: usize, count: usize| (n.saturating_sub(1), (n + 1).min(count - 1));
-        let ((left, right), (below, above)) = (beside(i, columns), beside(j, rows));
+        let neighbours = |n: usize, count: usize| (n.saturating_sub(1), (n + 1).min(count - 1));
+        let ((left, right), (below, above)) = (neighbours(i, columns), neighbours(j, rows));
         let slope = |c: usize, low: (usize, usize), high: (usize, usize)| {
             let cells = (high.0 - low.0 + high.1 - low.1).max(1);
             (self.constant[c][high] - self.constant[c][low]) / cells as f64
@@ -332,21 +351,21 @@ impl Continued {
     }
 
     /// The tractions within a cell; none where they are constant.
-    pub fn within(&self, cell: (usize, usize)) -> Option<Within> {
-        let at = self.place(cell)?;
+    pub fn tractions_within(&self, cell: (usize, usize)) -> Option<CellTractions> {
+        let at = self.index_in_window(cell)?;
         let varying = self.varying[at];
-        if varying == Varying::Nothing {
+        if varying == Variation::Nothing {
             return None;
         }
-        let around = |field: &Array2<f64>| Around::new(field, at);
+        let neighbourhood = |field: &Array2<f64>| Neighbourhood::new(field, at);
         let bound = self.bound.as_ref();
-        let bound = bound.filter(|_| varying == Varying::Shortfall);
-        Some(Within {
+        let bound = bound.filter(|_| varying == Variation::Shortfall);
+        Some(CellTractions {
             constant: [0, 1, 2].map(|c| self.constant[c][at]),
-            lacking: [0, 1, 2].map(|c| self.lacking[c][at]),
-            level: around(&self.level),
-            ratios: self.ratios.each_ref().map(around),
-            bound: bound.map(|bound| bound.map(around)),
+            lacking: [0, 1, 2].map(|c| self.correction[c][at]),
+            level: neighbourhood(&self.level),
+            ratios: self.ratios.each_ref().map(neighbourhood),
+            bound: bound.map(|bound| bound.map(neighbourhood)),
         })
     }
 
@@ -355,64 +374,72 @@ impl Continued {
     fn keep_loads(&mut self) {
         let (columns, rows) = self.level.dim();
         let cells = (0..columns).flat_map(|i| (0..rows).map(move |j| (i, j)));
-        let far = |cell: &(usize, usize)| self.distance[*cell] > BESIDE;
+        let is_far = |cell: &(usize, usize)| self.distance[*cell] > BORDER_WIDTH;
         let mean = |cell: (usize, usize)| {
-            let within = self.within((cell.0 + self.start.0, cell.1 + self.start.1))?;
+            let tractions =
+                self.tractions_within((cell.0 + self.start.0, cell.1 + self.start.1))?;
             let quarters = [(-0.25, -0.25), (-0.25, 0.25), (0.25, -0.25), (0.25, 0.25)];
             let mut mean = [0.0; 3];
             for offset in quarters {
-                for (mean, q) in mean.iter_mut().zip(within.at(offset)) {
+                for (mean, q) in mean.iter_mut().zip(tractions.evaluate(offset)) {
                     *mean += q / quarters.len() as f64;
                 }
             }
             Some((cell, mean))
         };
-        let means: Vec<_> = cells.filter(far).filter_map(mean).collect();
+        let means: Vec<_> = cells.filter(is_far).filter_map(mean).collect();
         for (cell, mean) in means {
             for (c, mean) in mean.into_iter().enumerate() {
-                self.lacking[c][cell] = self.constant[c][cell] - mean;
+                self.correction[c][cell] = self.constant[c][cell] - mean;
             }
         }
     }
 }
 
 /// The tractions within a cell.
-pub struct Within {
+pub struct CellTractions {
     /// The constant tractions of the cell \[Pa\].
     pub constant: [f64; 3],
     lacking: [f64; 3],
-    level: Around,
-    ratios: [Around; 2],
-    bound: Option<Bound<Around>>,
+    level: Neighbourhood,
+    ratios: [Neighbourhood; 2],
+    bound: Option<Bound<Neighbourhood>>,
 }
 
-impl Within {
+impl CellTractions {
     /// q_x, q_y, p at an offset from the middle in cells \[Pa\].
-    pub fn at(&self, offset: (f64, f64)) -> [f64; 3] {
+    pub fn evaluate(&self, offset: (f64, f64)) -> [f64; 3] {
         let q = self.interpolated(offset);
         std::array::from_fn(|c| q[c] + self.lacking[c])
     }
 
     fn interpolated(&self, offset: (f64, f64)) -> [f64; 3] {
-        let p = self.level.at(offset).max(0.0).sqrt();
-        let [x, y] = self.ratios.each_ref().map(|ratio| ratio.at(offset));
+        let p = self.level.interpolate(offset).max(0.0).sqrt();
+        let [x, y] = self
+            .ratios
+            .each_ref()
+            .map(|ratio| ratio.interpolate(offset));
         let Some(Bound { m, e, shortfall }) = &self.bound else {
             return [p * x, p * y, p];
         };
-        let [e_x, e_y] = e.each_ref().map(|e| e.at(offset));
+        let [e_x, e_y] = e.each_ref().map(|e| e.interpolate(offset));
         let length = e_x.hypot(e_y).max(f64::MIN_POSITIVE);
         let (e_x, e_y) = (e_x / length, e_y / length);
-        // Along e the shear is known by its bound, across it by q/p.
-        let along = m.at(offset) * p - shortfall.at(offset).max(0.0).sqrt();
-        let across = p * (y * e_x - x * e_y);
-        [along * e_x - across * e_y, along * e_y + across * e_x, p]
+        // Along e the bound gives the shear, across it q/p.
+        let shear_along = m.interpolate(offset) * p - shortfall.interpolate(offset).max(0.0).sqrt();
+        let shear_across = p * (y * e_x - x * e_y);
+        [
+            shear_along * e_x - shear_across * e_y,
+            shear_along * e_y + shear_across * e_x,
+            p,
+        ]
     }
 }
 
-/// q/p, in cells beside the contact the mean of their neighbours' within.
+/// q/p; in cells beside the contact the mean over their neighbours inside.
 fn ratio(q: &Array2<f64>, p: &Array2<f64>) -> Array2<f64> {
-    let within = Zip::from(q)
+    let inside = Zip::from(q)
         .and(p)
         .map_collect(|q, p| (*p > 0.0).then(|| q / p));
-    filled(&within).mapv(|ratio| ratio.unwrap_or(0.0))
+    fill_from_neighbours(&inside).mapv(|ratio| ratio.unwrap_or(0.0))
 }

@@ -14,9 +14,9 @@ pub struct Edge {
 }
 
 impl Edge {
-    /// The border as that of the zone on its other side; `inside`: whether the cell is in that
+    /// The border seen from the zone on its other side; `inside`: whether the cell is in that
     /// zone.
-    pub(crate) fn other_side(self, inside: bool) -> Self {
+    pub(crate) fn complement(self, inside: bool) -> Self {
         let level = self.level.map(|level| Level {
             bias: -level.bias,
             middle: -level.middle,
@@ -27,7 +27,7 @@ impl Edge {
     }
 
     /// The part of the cell that belongs to the zone, 0 to 1; all or nothing without a level.
-    pub(crate) fn share(&self) -> f64 {
+    pub(crate) fn area_fraction(&self) -> f64 {
         match self.level {
             Some(level) => {
                 let slope = level.gradient[0].hypot(level.gradient[1]);
@@ -50,12 +50,12 @@ impl Lattice {
         stencils: [Stencil; K],
         laws: impl Fn(&mut Line) -> ([Power; K], V),
     ) -> Vec<(usize, Edge)> {
-        let edge = |n: usize| (n, self.edge(n, zone, stencils, &laws));
-        self.border(zone).into_iter().map(edge).collect()
+        let edge_of_cell = |n: usize| (n, self.edge_of_cell(n, zone, stencils, &laws));
+        self.border(zone).into_iter().map(edge_of_cell).collect()
     }
 
-    /// One of these cells.
-    pub(crate) fn edge<const K: usize, V: Fn(usize) -> f64>(
+    /// Extrapolates the level of one cell at the border.
+    pub(crate) fn edge_of_cell<const K: usize, V: Fn(usize) -> f64>(
         self,
         n: usize,
         zone: &[bool],
@@ -63,7 +63,7 @@ impl Lattice {
         laws: &impl Fn(&mut Line) -> ([Power; K], V),
     ) -> Edge {
         Edge {
-            level: self.level(n, zone, stencils, laws),
+            level: self.extrapolate_level(n, zone, stencils, laws),
             inside: zone[n],
         }
     }
@@ -72,16 +72,20 @@ impl Lattice {
 /// The part of the unit square about the origin where f + g . x > 0.
 fn half_plane(f: f64, g: [f64; 2]) -> f64 {
     let [small, large] = [g[0].abs().min(g[1].abs()), g[0].abs().max(g[1].abs())];
-    let beyond = 0.5 * (small + large) - f.abs();
+    let corner_excess = 0.5 * (small + large) - f.abs();
     // The part on the other side of the line from the origin.
-    let other = if beyond <= 0.0 {
+    let smaller_part = if corner_excess <= 0.0 {
         0.0
-    } else if beyond < small {
-        0.5 * beyond * beyond / (small * large)
+    } else if corner_excess < small {
+        0.5 * corner_excess * corner_excess / (small * large)
     } else {
         0.5 - f.abs() / large
     };
-    if f > 0.0 { 1.0 - other } else { other }
+    if f > 0.0 {
+        1.0 - smaller_part
+    } else {
+        smaller_part
+    }
 }
 
 #[cfg(test)]
@@ -105,22 +109,22 @@ mod tests {
     }
 
     /// Area over that of the true zone for a level sampled at the centres.
-    fn area(n: usize, (a, b): (f64, f64), mirror: Mirror) -> f64 {
+    fn area_ratio(n: usize, (a, b): (f64, f64), mirror: Mirror) -> f64 {
         let grid = Grid::centred(2.4, n).expect("a grid");
         let f = mirror.fold(&grid.map(|x, y| 1.0 - (x / a).powi(2) - (y / b).powi(2)));
         let zone: Vec<bool> = f.iter().map(|&f| f > 0.0).collect();
         let lattice = Lattice::new(&grid, mirror);
-        let whole = zone.iter().filter(|&&inside| inside).count() as f64;
+        let cells_inside = zone.iter().filter(|&&inside| inside).count() as f64;
         let edges = lattice.edges(&zone, [Stencil::ROOT], |_| ([Power::One], |n: usize| f[n]));
-        let partial: f64 = edges
+        let corrections: f64 = edges
             .iter()
             .map(|(n, edge)| {
                 // Sampled at the centres there is no bias.
                 let level = edge.level.map(|level| Level { bias: 0.0, ..level });
-                Edge { level, ..*edge }.share() - f64::from(u8::from(zone[*n]))
+                Edge { level, ..*edge }.area_fraction() - f64::from(u8::from(zone[*n]))
             })
             .sum();
-        (whole + partial) * grid.cell_area() * mirror.multiplicity()
+        (cells_inside + corrections) * grid.cell_area() * mirror.multiplicity()
             / (std::f64::consts::PI * a * b)
     }
 
@@ -138,7 +142,7 @@ mod tests {
                 } else {
                     part * part
                 };
-                let error = (area(n, axes, Mirror::None) - 1.0).abs();
+                let error = (area_ratio(n, axes, Mirror::None) - 1.0).abs();
                 assert!(error < allowed, "{n} {axes:?} {error:e}");
             }
         }
@@ -146,7 +150,7 @@ mod tests {
 
     #[test]
     fn half_the_grid_gives_the_same_area() {
-        let [whole, half] = [Mirror::None, Mirror::Y].map(|m| area(64, (1.0, 0.7), m));
+        let [whole, half] = [Mirror::None, Mirror::Y].map(|m| area_ratio(64, (1.0, 0.7), m));
         assert!((whole - half).abs() < 1e-12, "{whole} {half}");
     }
 }

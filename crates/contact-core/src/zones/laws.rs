@@ -12,7 +12,7 @@ pub enum Power {
 
 impl Power {
     /// The level of a value >= 0.
-    pub(crate) fn of(self, value: f64) -> f64 {
+    pub(crate) fn level_of(self, value: f64) -> f64 {
         let value = value.max(0.0);
         match self {
             Self::One => value,
@@ -25,5 +25,5 @@ impl Power {
 
 /// The laws of a stick zone's border, by the power of mu p - q . t that vanishes linearly.
 pub const STICK: [Power; 2] = [Power::Two, Power::TwoThirds];
-/// Index of the law of a zone that shrinks; the other is that of one that grows.
-pub const SHRINKS: usize = 0;
+/// Index of the law of a zone that shrinks; the other law belongs to a zone that grows.
+pub const SHRINKING: usize = 0;

@@ -3,11 +3,11 @@
 //! A level f is a power of a traction that vanishes linearly at the border. Tractions constant in
 //! the cells make errors of f next to the border: where f is the square of a root, the border
 //! computed from the outermost cell is off by up to 1/10 of a cell, from the second by 1/30, from
-//! those further in by less than 1/100. So f is extrapolated from the cells further in: along the
+//! cells further in by less than 1/100. So f is extrapolated from the cells further in: along the
 //! line of cells, out of eight directions, closest to the normal of the border, by the parabola
 //! through the next cells (`parabola`), or from the cells before the middle of the zone if f is no
 //! parabola. Where f bends within a few cells, as on a layer of that thickness or in a narrow slip
-//! ring, the outermost cells themselves tell the border (`discrete_root`). A linear law needs no
+//! ring, the outermost cells themselves give the border (`discrete_root`). A linear law needs no
 //! cells left out, and slip is extrapolated from the cells next to its border. The border is the
 //! straight line f = 0 within a cell.
 
@@ -18,9 +18,9 @@ use crate::cells::Lattice;
 /// Largest distance of the border from the edge between the outermost cell of the zone and its
 /// neighbour outside, in cells along the line: beyond it f is not such a level (a punch with a
 /// sharp edge).
-const FARTHEST: f64 = 1.5;
+const MAX_DISTANCE: f64 = 1.5;
 /// Most cells of a line that a level is extrapolated from, those left out included.
-const ALONG: usize = 7;
+const MAX_CELLS: usize = 7;
 /// A law is accepted at once if the second differences of its level sum to at most this part of its
 /// rise.
 const STRAIGHT: f64 = 0.1;
@@ -28,19 +28,19 @@ const STRAIGHT: f64 = 0.1;
 /// Largest difference of the level of a cell from the extrapolated one, over the change of the
 /// level per cell: beyond it the level is not smooth (a rough contact, a layer as thin as the
 /// cells).
-const OFF: f64 = 0.12;
+const MAX_DIFFERENCE: f64 = 0.12;
 
 /// Distance of two borders, one from the cells further in and one from the outermost, up to which
 /// the first is taken \[cells\]: the other is off by up to 0.08 where a smooth border runs askew.
-const APART: f64 = 0.1;
+const MAX_DISAGREEMENT: f64 = 0.1;
 
 /// The cells of a line from which a level is extrapolated.
 #[derive(Clone, Copy, Debug)]
 pub struct Stencil {
     /// Outermost cells that are left out.
     skipped: usize,
-    /// Most cells of a line, those included.
-    most: usize,
+    /// Largest number of cells of a line, including the skipped ones.
+    max_cells: usize,
     /// Whether only the cells before the middle of the zone are used if the level is no parabola.
     before_middle: bool,
     /// Distance by which the level of constant tractions vanishes outside the true border
@@ -49,58 +49,58 @@ pub struct Stencil {
     /// it: c/a of the coupled indentation (nu = 0.3, mu = 0.2, 40 increments) is off by 0.30, 0.025
     /// and 0.001 % on 64, 128 and 256 cells with it, by 0.45, 0.10 and 0.04 % without.
     bias: f64,
-    /// Whether the outermost cells are those at the border of a root.
+    /// Whether the outermost cells lie at the border of a root.
     at_border: bool,
 }
 
 impl Stencil {
-    /// For a root of the distance.
+    /// Stencil for a root of the distance.
     pub const ROOT: Self = Self {
         skipped: 2,
-        most: ALONG,
+        max_cells: MAX_CELLS,
         before_middle: false,
         bias: 0.010,
         at_border: true,
     };
-    /// For a linear law, or for a root where only the law is asked for.
+    /// Stencil for a linear law, or for a root where only the law is needed.
     pub const LINEAR: Self = Self {
         skipped: 0,
-        most: ALONG,
+        max_cells: MAX_CELLS,
         before_middle: false,
         bias: 0.0,
         at_border: false,
     };
-    /// For slip, which changes over the width of a slip ring: the cells next to its border.
+    /// Stencil for slip, which changes over the width of a slip ring: the cells next to its border.
     pub(crate) const SLIP: Self = Self {
         skipped: 0,
-        most: 3,
+        max_cells: 3,
         before_middle: false,
         bias: 0.024,
         at_border: false,
     };
 
-    /// The same for a level that may have a kink in the middle of the zone, like the shortfall of
+    /// Adapts to a level that may have a kink in the middle of the zone, like the shortfall of
     /// the shear in the middle of a contact under torsion (a cone).
-    pub(crate) const fn before_the_middle(self) -> Self {
+    pub(crate) const fn up_to_middle(self) -> Self {
         Self {
             before_middle: true,
             ..self
         }
     }
 
-    /// The same for a zone whose border lies beyond its outermost cells.
+    /// Adapts to a zone whose border lies beyond its outermost cells.
     #[must_use]
-    pub const fn of_inner_zone(self) -> Self {
+    pub const fn for_inner_zone(self) -> Self {
         Self {
             at_border: false,
             ..self
         }
     }
 
-    /// The levels of a line that are used, how many of them are left out, and the cell whose
+    /// Chooses the levels of a line that are used, the number of skipped ones, and the cell whose
     /// gradient gives the normal of the border.
     fn choose(self, levels: &[f64], half: usize) -> (&[f64], usize, usize) {
-        let levels = &levels[..levels.len().min(self.most)];
+        let levels = &levels[..levels.len().min(self.max_cells)];
         if !self.before_middle {
             return (levels, self.skipped, 2);
         }
@@ -115,7 +115,7 @@ impl Stencil {
             let rising = if rising < 2 { 0 } else { rising };
             return (&levels[..rising], 0, 1);
         }
-        if Parabola::holds(levels, self.skipped) {
+        if Parabola::is_parabola(levels, self.skipped) {
             return (levels, self.skipped, 2);
         }
         let levels = &levels[..levels.len().min(half)];
@@ -130,12 +130,12 @@ impl Stencil {
 pub struct Line {
     /// The last cell before the zone.
     pub(crate) outside: usize,
-    /// The first ones of the zone, outermost first, and how many there are.
-    cells: [usize; ALONG],
+    /// The first cells of the zone, outermost first, and their number.
+    cells: [usize; MAX_CELLS],
     count: usize,
     /// Direction into the zone.
     pub(crate) inwards: [f64; 2],
-    /// From cell to cell, in columns and rows.
+    /// Step from cell to cell, in columns and rows.
     step: [f64; 2],
     /// Steps from the cell at which the level is extrapolated to the outermost cell of the zone.
     first: f64,
@@ -144,26 +144,26 @@ pub struct Line {
 }
 
 impl Line {
-    /// Through a cell at the border of a zone; none where the border has no clear direction.
-    fn through(lattice: Lattice, n: usize, zone: &[bool]) -> Option<Self> {
-        let inwards = lattice.inwards(n, zone)?;
-        let (i, j) = lattice.place(n);
-        let at = |k: isize| lattice.kept(i + k * inwards[0], j + k * inwards[1]);
+    /// Finds the line through a cell at the border of a zone; none where the border has no clear direction.
+    fn through_border_cell(lattice: Lattice, n: usize, zone: &[bool]) -> Option<Self> {
+        let inwards = lattice.direction_into(n, zone)?;
+        let (i, j) = lattice.column_and_row(n);
+        let cell_at = |k: isize| lattice.stored_cell(i + k * inwards[0], j + k * inwards[1]);
         let in_zone = |m: &usize| zone[*m];
-        let first = (-1..=1).find(|&k| at(k).is_some_and(|m| zone[m]))?;
+        let first = (-1..=1).find(|&k| cell_at(k).is_some_and(|m| zone[m]))?;
         let step = inwards.map(|k| k as f64);
         // Up to the other side of the zone.
-        let cells = (first..).map_while(|k| at(k).filter(in_zone));
+        let cells = (first..).map_while(|k| cell_at(k).filter(in_zone));
         let mut line = Self {
-            outside: at(first - 1).filter(|m| !in_zone(m))?,
-            cells: [0; ALONG],
+            outside: cell_at(first - 1).filter(|m| !in_zone(m))?,
+            cells: [0; MAX_CELLS],
             count: 0,
             inwards: step.map(|k| k / step[0].hypot(step[1])),
             step,
             first: first as f64,
-            half: cells.clone().take(2 * ALONG).count().div_ceil(2),
+            half: cells.clone().take(2 * MAX_CELLS).count().div_ceil(2),
         };
-        for m in cells.take(ALONG) {
+        for m in cells.take(MAX_CELLS) {
             line.cells[line.count] = m;
             line.count += 1;
         }
@@ -176,9 +176,9 @@ impl Line {
     }
 
     /// Whether a parabola has its border near the outermost cell and grows inwards.
-    fn holds(&self, parabola: Parabola) -> bool {
+    fn fits(&self, parabola: Parabola) -> bool {
         let at = parabola.outermost;
-        (0.5 - parabola.inside()).abs() <= FARTHEST
+        (0.5 - parabola.distance_inside()).abs() <= MAX_DISTANCE
             && parabola.slope(at) > 0.0
             && parabola.slope(at - self.first) > 0.0
     }
@@ -200,25 +200,25 @@ impl Line {
         powers: &[Power; K],
         value: impl Fn(usize) -> f64,
         checked: usize,
-    ) -> (usize, [f64; ALONG]) {
-        let mut values = [0.0; ALONG];
+    ) -> (usize, [f64; MAX_CELLS]) {
+        let mut values = [0.0; MAX_CELLS];
         for (value_k, &m) in values.iter_mut().zip(self.cells()) {
             *value_k = value(m);
         }
-        let levels = |law: usize| values.map(|value| powers[law].of(value));
-        let bends = |levels: &[f64; ALONG]| bend(&levels[1..checked]);
-        let (mut law, mut along) = (0, levels(0));
-        for other in 1..K {
-            let straight = bends(&along);
-            if straight <= STRAIGHT {
+        let levels = |law: usize| values.map(|value| powers[law].level_of(value));
+        let curvature = |levels: &[f64; MAX_CELLS]| bend(&levels[1..checked]);
+        let (mut law, mut levels_of_law) = (0, levels(0));
+        for candidate in 1..K {
+            let bend_so_far = curvature(&levels_of_law);
+            if bend_so_far <= STRAIGHT {
                 break;
             }
-            let others = levels(other);
-            if bends(&others) < straight || straight.is_nan() {
-                (law, along) = (other, others);
+            let candidate_levels = levels(candidate);
+            if curvature(&candidate_levels) < bend_so_far || bend_so_far.is_nan() {
+                (law, levels_of_law) = (candidate, candidate_levels);
             }
         }
-        (law, along)
+        (law, levels_of_law)
     }
 }
 
@@ -227,7 +227,7 @@ impl Line {
 pub struct Level {
     /// The line that it is extrapolated along.
     pub line: Line,
-    /// The law, by its number among those of its zone.
+    /// Index of the law among the laws of its zone.
     pub law: usize,
     /// [`Stencil::bias`]
     pub(crate) bias: f64,
@@ -241,33 +241,33 @@ pub struct Level {
 
 impl Level {
     /// The columns and rows to the next cell of the line inwards, and the level there.
-    pub(crate) fn next(&self) -> ([f64; 2], f64) {
+    pub(crate) fn next_inwards(&self) -> ([f64; 2], f64) {
         let ([a, b], [of_x, of_y]) = (self.line.step, self.gradient);
         ([a, b], self.middle + a * of_x + b * of_y + self.bend)
     }
 
-    /// Whether it agrees with the own level of the cell.
-    pub(crate) fn agrees(&self, own: f64) -> bool {
+    /// Whether it agrees with the level `own` of the cell itself.
+    pub(crate) fn agrees_with(&self, own: f64) -> bool {
         agree(self.middle, self.gradient, own)
     }
 }
 
-/// Whether an extrapolated level agrees with the own level of a cell ([`OFF`]); negative values
+/// Whether an extrapolated level agrees with the level `own` of the cell itself ([`MAX_DIFFERENCE`]); negative values
 /// count as zero.
 pub(super) fn agree(middle: f64, gradient: [f64; 2], own: f64) -> bool {
-    (middle.max(0.0) - own).abs() <= OFF * gradient[0].hypot(gradient[1])
+    (middle.max(0.0) - own).abs() <= MAX_DIFFERENCE * gradient[0].hypot(gradient[1])
 }
 
 impl Lattice {
     /// The straightest level at the centre of a cell, extrapolated from inside.
-    pub(super) fn level<const K: usize, V: Fn(usize) -> f64>(
+    pub(super) fn extrapolate_level<const K: usize, V: Fn(usize) -> f64>(
         self,
         n: usize,
         zone: &[bool],
         stencils: [Stencil; K],
         laws: &impl Fn(&mut Line) -> ([Power; K], V),
     ) -> Option<Level> {
-        let mut line = Line::through(self, n, zone)?;
+        let mut line = Line::through_border_cell(self, n, zone)?;
         let (powers, value) = laws(&mut line);
         let checked = if stencils[0].before_middle {
             line.count.min(line.half)
@@ -275,32 +275,37 @@ impl Lattice {
             line.count
         };
         let (law, levels) = line.straightest(&powers, &value, checked);
-        let own = &levels[..line.count];
-        let (levels, skipped, sloping) = stencils[law].choose(own, line.half);
-        let far = Parabola::through(levels, skipped).filter(|far| line.holds(*far));
+        let sampled = &levels[..line.count];
+        let (levels, skipped, gradient_index) = stencils[law].choose(sampled, line.half);
+        let inner_fit = Parabola::fit(levels, skipped).filter(|far| line.fits(*far));
         let is_root = stencils[law].at_border && matches!(powers[law], Power::Two);
         let diagonal = line.step[0] != 0.0 && line.step[1] != 0.0;
-        let near = is_root.then(|| Parabola::of_discrete_root(own, diagonal));
-        let parabola = match (far, near.flatten().filter(|near| line.holds(*near))) {
+        let border_fit = is_root.then(|| Parabola::from_discrete_root(sampled, diagonal));
+        let parabola = match (
+            inner_fit,
+            border_fit.flatten().filter(|near| line.fits(*near)),
+        ) {
             (Some(far), Some(near))
-                if far.passes_through(own) || (far.inside() - near.inside()).abs() <= APART =>
+                if far.passes_through(sampled)
+                    || (far.distance_inside() - near.distance_inside()).abs()
+                        <= MAX_DISAGREEMENT =>
             {
                 far
             }
             (far, near) => near.or(far)?,
         };
         // The position of cell n on the parabola.
-        let here = parabola.outermost - line.first;
-        let slope = parabola.slope(here);
-        let sloping = line.cells().get(sloping);
+        let position = parabola.outermost - line.first;
+        let slope = parabola.slope(position);
+        let sloping = line.cells().get(gradient_index);
         let gradient = sloping.map_or([0.0; 2], |&m| {
-            self.gradient(m, zone, |m| powers[law].of(value(m)))
+            self.gradient(m, zone, |m| powers[law].level_of(value(m)))
         });
         // Gradient: direction of the central differences, slope of the parabola along the line.
         let d = line.step;
-        let along = gradient[0] * d[0] + gradient[1] * d[1];
-        let gradient = if along > 0.0 {
-            gradient.map(|g| g * slope / along)
+        let slope_along = gradient[0] * d[0] + gradient[1] * d[1];
+        let gradient = if slope_along > 0.0 {
+            gradient.map(|g| g * slope / slope_along)
         } else {
             d.map(|d_k| d_k * slope / (d[0] * d[0] + d[1] * d[1]))
         };
@@ -308,7 +313,7 @@ impl Lattice {
             line,
             law,
             bias: stencils[law].bias,
-            middle: parabola.at(here),
+            middle: parabola.evaluate(position),
             gradient,
             bend: parabola.bend(),
         })
@@ -317,14 +322,15 @@ impl Lattice {
     /// Central differences of the level from cell to cell; zero where a neighbour is not in the
     /// zone.
     fn gradient(self, n: usize, zone: &[bool], level: impl Fn(usize) -> f64) -> [f64; 2] {
-        let along = |d: [isize; 2]| {
-            let [next, last] = [d, [-d[0], -d[1]]].map(|d| self.beside(n, d).filter(|&m| zone[m]));
+        let difference_along = |d: [isize; 2]| {
+            let [next, last] =
+                [d, [-d[0], -d[1]]].map(|d| self.cell_at_offset(n, d).filter(|&m| zone[m]));
             Some(0.5 * (level(next?) - level(last?)))
         };
-        if self.flat {
-            return [along([1, 0]).unwrap_or(0.0), 0.0];
+        if self.is_single_row {
+            return [difference_along([1, 0]).unwrap_or(0.0), 0.0];
         }
-        match (along([1, 0]), along([0, 1])) {
+        match (difference_along([1, 0]), difference_along([0, 1])) {
             (Some(x), Some(y)) => [x, y],
             _ => [0.0; 2],
         }
@@ -333,7 +339,10 @@ impl Lattice {
 
 /// Sum of the second differences of a level along a line over its rise.
 fn bend(levels: &[f64]) -> f64 {
-    let near = &levels[..levels.len().min(4)];
-    let bends = near.windows(3).map(|y| (y[2] - 2.0 * y[1] + y[0]).abs());
-    bends.sum::<f64>() / (near.last().unwrap_or(&0.0) - near.first().unwrap_or(&0.0)).abs()
+    let first_levels = &levels[..levels.len().min(4)];
+    let bends = first_levels
+        .windows(3)
+        .map(|y| (y[2] - 2.0 * y[1] + y[0]).abs());
+    bends.sum::<f64>()
+        / (first_levels.last().unwrap_or(&0.0) - first_levels.first().unwrap_or(&0.0)).abs()
 }

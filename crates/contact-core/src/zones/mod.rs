@@ -14,13 +14,13 @@ mod sampled_border;
 mod spots;
 mod stick_zone;
 
-pub use continued::{Continued, Crossing, Within};
+pub use continued::{CellTractions, Continued, Crossing};
 pub(crate) use edge::Edge;
 pub(crate) use laws::Power;
-pub use laws::{SHRINKS, STICK};
+pub use laws::{SHRINKING, STICK};
 pub(crate) use level::Line;
 pub use level::{Level, Stencil};
-pub use outline::{Outline, azimuth_of};
-pub use rim_pressure::continued_pressure;
+pub use outline::{Outline, principal_azimuth};
+pub use rim_pressure::continue_pressure_to_rim;
 pub use spots::Spot;
 pub(crate) use spots::cells_per_radius;

@@ -4,7 +4,7 @@ use ndarray::{Array2, Axis};
 use std::ops::Range;
 
 /// The part of a field in a window of columns and rows.
-pub(super) fn cut<T: Clone>(
+pub(super) fn cut_window<T: Clone>(
     field: &Array2<T>,
     (columns, rows): &(Range<usize>, Range<usize>),
 ) -> Array2<T> {
@@ -13,39 +13,40 @@ pub(super) fn cut<T: Clone>(
 }
 
 /// A field in a cell and its neighbours.
-pub(super) struct Around([[f64; 3]; 3]);
+pub(super) struct Neighbourhood([[f64; 3]; 3]);
 
-impl Around {
+impl Neighbourhood {
     pub(super) fn new(field: &Array2<f64>, (i, j): (usize, usize)) -> Self {
         let (nx, ny) = field.dim();
-        let near = |n: usize, count: usize| [n.saturating_sub(1), n, (n + 1).min(count - 1)];
-        Self(near(i, nx).map(|i| near(j, ny).map(|j| field[(i, j)])))
+        let with_neighbours =
+            |n: usize, count: usize| [n.saturating_sub(1), n, (n + 1).min(count - 1)];
+        Self(with_neighbours(i, nx).map(|i| with_neighbours(j, ny).map(|j| field[(i, j)])))
     }
 
-    /// Bilinear between the middles, at an offset of at most half a cell.
-    pub(super) fn at(&self, (s, t): (f64, f64)) -> f64 {
+    /// Interpolates bilinearly between the middles, at an offset of at most half a cell.
+    pub(super) fn interpolate(&self, (s, t): (f64, f64)) -> f64 {
         let Self(field) = self;
         let (next, above) = (usize::from(s > 0.0) * 2, usize::from(t > 0.0) * 2);
         let (s, t) = (s.abs(), t.abs());
-        let along = |column: [f64; 3]| column[1] + t * (column[above] - column[1]);
-        let (here, there) = (along(field[1]), along(field[next]));
-        here + s * (there - here)
+        let value_in_column = |column: [f64; 3]| column[1] + t * (column[above] - column[1]);
+        let (this_column, next_column) = (value_in_column(field[1]), value_in_column(field[next]));
+        this_column + s * (next_column - this_column)
     }
 }
 
 /// Fills cells without a value with the mean of their neighbours that have one.
-pub(super) fn filled(known: &Array2<Option<f64>>) -> Array2<Option<f64>> {
+pub(super) fn fill_from_neighbours(known: &Array2<Option<f64>>) -> Array2<Option<f64>> {
     Array2::from_shape_fn(known.dim(), |cell| {
         known[cell].or_else(|| {
-            let there = || around(cell, known.dim()).filter_map(|at| known[at]);
-            let count = there().count();
-            (count > 0).then(|| there().sum::<f64>() / count as f64)
+            let neighbours = || cell_and_neighbours(cell, known.dim()).filter_map(|at| known[at]);
+            let count = neighbours().count();
+            (count > 0).then(|| neighbours().sum::<f64>() / count as f64)
         })
     })
 }
 
 /// Chessboard distances from the given cells, by two sweeps.
-pub(super) fn distances<'a>(
+pub(super) fn chessboard_distances<'a>(
     shape: (usize, usize),
     from: impl Iterator<Item = &'a (usize, usize)>,
 ) -> Array2<u8> {
@@ -55,7 +56,9 @@ pub(super) fn distances<'a>(
     }
     let mut sweep = |n: usize| {
         let cell = (n / shape.1, n % shape.1);
-        let nearest = around(cell, shape).map(|at| distance[at]).min();
+        let nearest = cell_and_neighbours(cell, shape)
+            .map(|at| distance[at])
+            .min();
         distance[cell] = distance[cell].min(nearest.unwrap_or(u8::MAX).saturating_add(1));
     };
     (0..shape.0 * shape.1).for_each(&mut sweep);
@@ -63,8 +66,8 @@ pub(super) fn distances<'a>(
     distance
 }
 
-/// A cell and its neighbours.
-pub(super) fn around(
+/// Yields a cell and its neighbours.
+pub(super) fn cell_and_neighbours(
     (i, j): (usize, usize),
     (nx, ny): (usize, usize),
 ) -> impl Iterator<Item = (usize, usize)> {

@@ -1,6 +1,6 @@
-//! Where the contact is that came out: its outline, its spots and the direction of its shear.
+//! The region of a solved contact: its outline, its spots and the direction of its shear.
 //!
-//! Everybody who looks for a place takes it from here: sections, cracks, rims, grids, figures.
+//! Sections, cracks, rims, grids and figures all take it from here.
 
 use super::continued::Continued;
 use super::spots::{Spot, spots};
@@ -9,12 +9,12 @@ use crate::convolution::Tractions;
 use crate::plan::Mirror;
 use crate::scene::Grid;
 
-/// Directions by which the extent of a contact is looked for.
+/// Number of directions in which the extent of a contact is measured.
 const DIRECTIONS: usize = 36;
 /// Cells from the middle of the grid within which a contact lies in the middle.
 const CENTRED: f64 = 0.25;
 /// Smaller over larger principal value of the shear from which on it has no direction.
-const ALL_WAYS: f64 = 0.9;
+const ISOTROPIC: f64 = 0.9;
 
 /// The outline of a contact.
 #[derive(Clone, Debug)]
@@ -32,7 +32,7 @@ pub struct Outline {
 }
 
 impl Outline {
-    /// Of the tractions on a grid, each of shape (nx, ny) \[Pa\]; `None` without a contact.
+    /// Finds the outline of a contact from tractions on a grid, each of shape (nx, ny) \[Pa\]; `None` without a contact.
     pub fn new(grid: &Grid, tractions: &Tractions<'_>) -> Option<Self> {
         let p = tractions.p?;
         let contact: Vec<bool> = p.iter().map(|p| *p > 0.0).collect();
@@ -41,14 +41,14 @@ impl Outline {
             return None;
         }
         let window = (0..grid.nx, 0..grid.ny);
-        let only = Tractions {
+        let pressure_alone = Tractions {
             p: Some(p),
             ..Tractions::default()
         };
-        let place = |n: usize| (grid.x(n / grid.ny), grid.y(n % grid.ny));
+        let centre_of_cell = |n: usize| (grid.x(n / grid.ny), grid.y(n % grid.ny));
         let cells: Vec<_> = (0..contact.len())
             .filter(|n| contact[*n])
-            .map(place)
+            .map(centre_of_cell)
             .collect();
         let mean = |of: fn(&(f64, f64)) -> f64, cell: f64| {
             let mean = cells.iter().map(of).sum::<f64>() / cells.len() as f64;
@@ -67,17 +67,17 @@ impl Outline {
             },
         );
         let area = grid.dx * grid.dy;
-        let at = |field: Option<&[f64]>, n: usize| field.map_or(0.0, |q| q[n]);
+        let value_at = |field: Option<&[f64]>, n: usize| field.map_or(0.0, |q| q[n]);
         let mut shear = [0.0; 3];
         for n in 0..contact.len() {
-            let (x, y) = (at(tractions.q_x, n), at(tractions.q_y, n));
+            let (x, y) = (value_at(tractions.q_x, n), value_at(tractions.q_y, n));
             for (sum, product) in shear.iter_mut().zip([x * x, x * y, y * y]) {
                 *sum += product * area;
             }
         }
         Some(Self {
             grid: *grid,
-            continued: Continued::new(grid, &only, None, &window, false),
+            continued: Continued::new(grid, &pressure_alone, None, &window, false),
             cells,
             centre,
             spots,
@@ -85,7 +85,7 @@ impl Outline {
         })
     }
 
-    /// Whether it is that of a line contact.
+    /// Whether the outline belongs to a line contact.
     pub fn is_flat(&self) -> bool {
         self.grid.ny == 1
     }
@@ -95,15 +95,16 @@ impl Outline {
         let inside = |n: usize| self.continued.presses((n / self.grid.ny, n % self.grid.ny));
         let contact: Vec<bool> = (0..self.grid.cells()).map(inside).collect();
         let border = Lattice::new(&self.grid, Mirror::None).border(&contact);
-        let own = border.into_iter().filter(|n| contact[*n]);
-        own.map(|n| (self.grid.x(n / self.grid.ny), self.grid.y(n % self.grid.ny)))
+        let rim_cells = border.into_iter().filter(|n| contact[*n]);
+        rim_cells
+            .map(|n| (self.grid.x(n / self.grid.ny), self.grid.y(n % self.grid.ny)))
             .collect()
     }
 
-    /// Where the contact ends on the line through its centre in a direction, backwards and
+    /// Ends of the contact on the line through its centre in a direction, backwards and
     /// forwards, from the centre \[m\].
     ///
-    /// The line may pass beside all spots: then where the outermost cells end along it.
+    /// If the line misses all spots, the ends of the outermost cells along it are returned.
     pub fn border(&self, azimuth: f64) -> (f64, f64) {
         let (sin, cos) = azimuth.sin_cos();
         let half = 0.5
@@ -113,12 +114,13 @@ impl Outline {
                 } else {
                     sin.abs() * self.grid.dy
                 });
-        let along = |&(x, y): &(f64, f64)| (x - self.centre.0) * cos + (y - self.centre.1) * sin;
-        let cells = self.cells.iter().map(along);
+        let position_along =
+            |&(x, y): &(f64, f64)| (x - self.centre.0) * cos + (y - self.centre.1) * sin;
+        let cells = self.cells.iter().map(position_along);
         let outermost = cells.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), s| {
             (low.min(s - half), high.max(s + half))
         });
-        let (column, row) = self.in_cells(self.centre);
+        let (column, row) = self.to_cells(self.centre);
         let step = [
             cos / self.grid.dx,
             if self.grid.ny == 1 {
@@ -131,19 +133,23 @@ impl Outline {
         if size == 0.0 {
             return outermost;
         }
-        let way = (outermost.0.abs().max(outermost.1.abs()) * size + 2.0).ceil();
+        let steps = (outermost.0.abs().max(outermost.1.abs()) * size + 2.0).ceil();
         let unit = step.map(|s| s / size);
         let crossings = self
             .continued
-            .crossings_along([column, row], unit, [-way, way]);
+            .crossings_along([column, row], unit, [-steps, steps]);
         let places = crossings.iter().map(|crossing| {
-            let (x, y) = self.in_metres(crossing.place);
-            along(&(x, y))
+            let (x, y) = self.to_metres(crossing.place);
+            position_along(&(x, y))
         });
-        let found = places.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), s| {
+        let crossings_range = places.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), s| {
             (low.min(s), high.max(s))
         });
-        if found.0 < found.1 { found } else { outermost }
+        if crossings_range.0 < crossings_range.1 {
+            crossings_range
+        } else {
+            outermost
+        }
     }
 
     /// Half of the width in a direction \[m\].
@@ -162,19 +168,22 @@ impl Outline {
         let angle = |n: usize| n as f64 * std::f64::consts::PI / DIRECTIONS as f64;
         let widths: Vec<f64> = (0..DIRECTIONS).map(|n| self.half_width(angle(n))).collect();
         let by_width = |a: &&usize, b: &&usize| widths[**a].total_cmp(&widths[**b]);
-        let all: Vec<usize> = (0..DIRECTIONS).collect();
-        let [largest, smallest] = [all.iter().max_by(by_width), all.iter().min_by(by_width)]
-            .map(|n| n.copied().unwrap_or_default());
+        let directions: Vec<usize> = (0..DIRECTIONS).collect();
+        let [largest, smallest] = [
+            directions.iter().max_by(by_width),
+            directions.iter().min_by(by_width),
+        ]
+        .map(|n| n.copied().unwrap_or_default());
         (widths[largest], widths[smallest], angle(largest))
     }
 
-    /// Direction of the shear \[rad\], of the principal axis of [`Self::shear`]; `None` where it
-    /// has none, as that of a contact that is pressed alone.
+    /// Direction of the shear \[rad\], of the principal axis of [`Self::shear`]; `None` where the shear
+    /// has no direction, as under a normal load alone.
     pub fn shear_azimuth(&self) -> Option<f64> {
-        azimuth_of(self.shear)
+        principal_azimuth(self.shear)
     }
 
-    fn in_cells(&self, (x, y): (f64, f64)) -> (f64, f64) {
+    fn to_cells(&self, (x, y): (f64, f64)) -> (f64, f64) {
         let Grid { nx, ny, dx, dy, .. } = self.grid;
         (
             x / dx + (nx - 1) as f64 / 2.0,
@@ -182,7 +191,7 @@ impl Outline {
         )
     }
 
-    fn in_metres(&self, [column, row]: [f64; 2]) -> (f64, f64) {
+    fn to_metres(&self, [column, row]: [f64; 2]) -> (f64, f64) {
         let Grid { nx, ny, dx, dy, .. } = self.grid;
         (
             (column - (nx - 1) as f64 / 2.0) * dx,
@@ -193,10 +202,10 @@ impl Outline {
 
 /// Direction of the larger principal axis of second moments xx, xy, yy \[rad\], -pi/2 to pi/2;
 /// `None` where both are about the same.
-pub fn azimuth_of([xx, xy, yy]: [f64; 3]) -> Option<f64> {
+pub fn principal_azimuth([xx, xy, yy]: [f64; 3]) -> Option<f64> {
     let (mean, half) = (0.5 * (xx + yy), (0.5 * (xx - yy)).hypot(xy));
-    let has_one = mean > 0.0 && (mean - half) < ALL_WAYS * (mean + half);
-    has_one.then(|| 0.5 * xy.atan2(0.5 * (xx - yy)))
+    let has_direction = mean > 0.0 && (mean - half) < ISOTROPIC * (mean + half);
+    has_direction.then(|| 0.5 * xy.atan2(0.5 * (xx - yy)))
 }
 
 #[cfg(test)]
@@ -237,17 +246,17 @@ mod tests {
             assert!((outline.shear_azimuth().expect("a direction") - 0.785).abs() < 1e-3);
             for n in 0..12 {
                 let azimuth = 0.1 + 0.26 * f64::from(n);
-                let turned = azimuth - angle;
-                let right = 1.0 / (turned.cos() / a).hypot(turned.sin() / b);
+                let relative_azimuth = azimuth - angle;
+                let right = 1.0 / (relative_azimuth.cos() / a).hypot(relative_azimuth.sin() / b);
                 let (rear, front) = outline.border(azimuth);
                 let cell = grid.dx;
                 assert!((front - right).abs() < 0.3 * cell, "{front} {right}");
                 assert!((rear + right).abs() < 0.3 * cell, "{rear} {right}");
             }
-            let (most, least, direction) = outline.half_widths();
+            let (largest, smallest, direction) = outline.half_widths();
             assert!(
-                (most - a).abs() < 0.02 && (least - b).abs() < 0.02,
-                "{most} {least}"
+                (largest - a).abs() < 0.02 && (smallest - b).abs() < 0.02,
+                "{largest} {smallest}"
             );
             let off = (direction - angle).rem_euclid(std::f64::consts::PI);
             assert!(off.min(std::f64::consts::PI - off) < 0.09, "{direction}");
@@ -260,13 +269,13 @@ mod tests {
 
     #[test]
     fn shear_of_no_direction_has_none() {
-        assert_eq!(azimuth_of([1.0, 0.0, 1.0]), None);
-        assert_eq!(azimuth_of([0.0; 3]), None);
-        assert_eq!(azimuth_of([1.0, 0.0, 0.0]), Some(0.0));
+        assert_eq!(principal_azimuth([1.0, 0.0, 1.0]), None);
+        assert_eq!(principal_azimuth([0.0; 3]), None);
+        assert_eq!(principal_azimuth([1.0, 0.0, 0.0]), Some(0.0));
         let grid = Grid::from_spacing((4, 4), (1.0, 1.0)).expect("a grid");
-        let none = vec![0.0; 16];
+        let zeros = vec![0.0; 16];
         let tractions = Tractions {
-            p: Some(&none),
+            p: Some(&zeros),
             ..Tractions::default()
         };
         assert!(Outline::new(&grid, &tractions).is_none());

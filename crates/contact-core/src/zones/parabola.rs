@@ -19,7 +19,7 @@ pub(crate) struct Parabola {
 }
 
 impl Parabola {
-    /// From c_0, c_1, c_2 with some cells skipped.
+    /// Builds a parabola from c_0, c_1, c_2 with some cells skipped.
     pub(super) fn new(c: [f64; 3], skipped: usize) -> Self {
         Self {
             c,
@@ -27,30 +27,30 @@ impl Parabola {
         }
     }
 
-    /// From the levels of the outermost cell and the next ones, `skipped` left out: least squares
+    /// Fits a parabola to the levels of the outermost cell and the next ones, without the first `skipped`: least squares
     /// through five, the parabola through three, or the straight line through two, whichever the
     /// smooth part of the line allows.
-    pub(crate) fn through(levels: &[f64], skipped: usize) -> Option<Self> {
+    pub(crate) fn fit(levels: &[f64], skipped: usize) -> Option<Self> {
         // The last skipped cell is tested too: a kink right behind it shows there.
-        let before = usize::from(skipped > 0);
-        let (checked, used) = (levels.get(skipped - before..)?, levels.get(skipped..)?);
+        let extra = usize::from(skipped > 0);
+        let (checked, used) = (levels.get(skipped - extra..)?, levels.get(skipped..)?);
         let &[y_1, y_2, ..] = checked else {
             return None;
         };
-        let mut last = None;
+        let mut last_bend = None;
         let smooth = checked.windows(3).take_while(|y| {
             let bend = y[2] - 2.0 * y[1] + y[0];
-            let (before, most) = match last.replace(bend) {
+            let (bend_before, limit) = match last_bend.replace(bend) {
                 Some(before) => (before, BEND),
                 None => (0.0, FIRST_BEND),
             };
-            (bend - before).abs() <= most * (y_2 - y_1).abs()
+            (bend - bend_before).abs() <= limit * (y_2 - y_1).abs()
         });
         // Cells before the first kink; a small zone is curved, but like a parabola.
-        let cells = if Self::holds(levels, skipped) {
+        let cells = if Self::is_parabola(levels, skipped) {
             levels.len() - skipped
         } else {
-            smooth.count() + 2 - before
+            smooth.count() + 2 - extra
         };
         let c = match (cells, used) {
             // About the middle sample, with the orthogonal polynomials 1, s, s^2 - 2.
@@ -71,7 +71,7 @@ impl Parabola {
 
     /// Whether the cubic term through five cells is small at the border, about half a cell outside
     /// the outermost cell.
-    pub(crate) fn holds(levels: &[f64], skipped: usize) -> bool {
+    pub(crate) fn is_parabola(levels: &[f64], skipped: usize) -> bool {
         let Some(&[a, b, _, d, e, ..]) = levels.get(skipped..) else {
             return false;
         };
@@ -82,7 +82,7 @@ impl Parabola {
         cubic.abs() <= MOVED * (b - a)
     }
 
-    pub(crate) fn at(self, s: f64) -> f64 {
+    pub(crate) fn evaluate(self, s: f64) -> f64 {
         let [c_0, c_1, c_2] = self.c;
         c_0 + s * (c_1 + s * c_2)
     }
@@ -93,14 +93,14 @@ impl Parabola {
         let skipped = -self.outermost as usize;
         let rise = self.slope(self.outermost);
         let misses = |(k, level): (usize, &f64)| {
-            (self.at(self.outermost + k as f64) - level).abs() > SAMPLED * rise
+            (self.evaluate(self.outermost + k as f64) - level).abs() > SAMPLED * rise
         };
         skipped > 0 && !levels.iter().take(skipped).enumerate().any(misses)
     }
 
     /// Distance of the middle of the outermost cell from the border, inwards \[cells\].
-    pub(crate) fn inside(self) -> f64 {
-        self.at(self.outermost) / self.slope(self.outermost)
+    pub(crate) fn distance_inside(self) -> f64 {
+        self.evaluate(self.outermost) / self.slope(self.outermost)
     }
 
     /// Half of the second derivative.

@@ -8,14 +8,14 @@ use crate::cells::Lattice;
 use crate::plan::Mirror;
 use crate::scene::Grid;
 
-/// The pressure at the centres of the cells \[Pa\], shape (nx, ny), with that at the rim of the
+/// The pressure at the centres of the cells \[Pa\], shape (nx, ny), with the pressure at the rim of the
 /// contact extrapolated from inside.
 ///
 /// The solved pressure of cells at the rim differs by about a tenth from the pressure at their
 /// centres, since it balances the load; with the extrapolated values the error of p is of second
 /// instead of first order. Their sum equals the load only to first order: balances need the solved
 /// pressure.
-pub fn continued_pressure(p: &Array2<f64>, grid: &Grid) -> Array2<f64> {
+pub fn continue_pressure_to_rim(p: &Array2<f64>, grid: &Grid) -> Array2<f64> {
     let lattice = Lattice::new(grid, Mirror::None);
     let contact: Vec<bool> = p.iter().map(|&p| p > 0.0).collect();
     let mut continued: Vec<f64> = p.iter().copied().collect();

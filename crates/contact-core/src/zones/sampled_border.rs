@@ -5,13 +5,13 @@ use ndarray::Array2;
 use super::edge::Edge;
 use super::laws::Power;
 use super::level::{Stencil, agree};
-use super::neighbours::around;
+use super::neighbours::cell_and_neighbours;
 use crate::cells::Lattice;
 use crate::plan::Mirror;
 use crate::scene::Grid;
 
-/// Neighbours with an extrapolated level from which the level of a cell outside is averaged if its
-/// own cannot be extrapolated, at least.
+/// Smallest number of neighbours with an extrapolated level from which the level of a cell outside is averaged
+/// if it cannot be extrapolated itself.
 const FEWEST_NEIGHBOURS: usize = 4;
 
 /// A level sampled at the cells: positive inside a zone, negative outside.
@@ -33,7 +33,7 @@ impl SampledBorder {
         Self::new(&level, &edges)
     }
 
-    /// From the level `own` of the cells of a zone; at its border the extrapolated level.
+    /// Builds the border from the levels `own` of the cells of a zone; cells at the border get the extrapolated level.
     pub(super) fn new(own: &Array2<f64>, edges: &[(usize, Edge)]) -> Self {
         let planes = Planes::new(own, edges);
         let mut level = own.clone();
@@ -53,11 +53,11 @@ impl SampledBorder {
         // A cell of the zone whose centre lies outside makes the next one inwards the outermost: its
         // own level is wrong, too.
         for (n, edge) in edges {
-            let cell = planes.place(*n);
-            let Some(found) = edge.level.filter(|found| found.middle < 0.0) else {
+            let cell = planes.cell_of(*n);
+            let Some(level_at_edge) = edge.level.filter(|found| found.middle < 0.0) else {
                 continue;
             };
-            let ([columns, rows], next) = found.next();
+            let ([columns, rows], next) = level_at_edge.next_inwards();
             let inner = (
                 (cell.0 as f64 + columns) as usize,
                 (cell.1 as f64 + rows) as usize,
@@ -66,9 +66,9 @@ impl SampledBorder {
             if own[cell] > 0.0 && is_inner && planes.find(inner).is_none() {
                 let plane = Plane {
                     middle: next,
-                    slope: found.gradient,
+                    slope: level_at_edge.gradient,
                 };
-                if planes.agrees(inner, plane) {
+                if planes.agrees_with_own(inner, plane) {
                     level[inner] = next;
                 }
             }
@@ -84,7 +84,7 @@ impl SampledBorder {
 /// A level around a cell, linear.
 #[derive(Clone, Copy)]
 struct Plane {
-    /// In the middle of the cell.
+    /// Value in the middle of the cell.
     middle: f64,
     /// Its gradient per cell along x and y.
     slope: [f64; 2],
@@ -99,7 +99,7 @@ struct Planes<'a> {
 
 impl<'a> Planes<'a> {
     fn new(own: &'a Array2<f64>, edges: &'a [(usize, Edge)]) -> Self {
-        let mut all = Self {
+        let mut planes_without_check = Self {
             own,
             edges,
             planes: Vec::new(),
@@ -110,43 +110,45 @@ impl<'a> Planes<'a> {
                 middle: level.middle,
                 slope: level.gradient,
             };
-            all.agrees(all.place(*n), plane).then_some(plane)
+            planes_without_check
+                .agrees_with_own(planes_without_check.cell_of(*n), plane)
+                .then_some(plane)
         };
         let planes = edges.iter().map(plane).collect();
-        all.planes = planes;
-        all
+        planes_without_check.planes = planes;
+        planes_without_check
     }
 
-    fn place(&self, n: usize) -> (usize, usize) {
+    fn cell_of(&self, n: usize) -> (usize, usize) {
         let rows = self.own.ncols();
         (n / rows, n % rows)
     }
 
     /// The cells at the border.
     fn cells(&self) -> impl Iterator<Item = ((usize, usize), Option<Plane>)> {
-        let cells = self.edges.iter().map(|(n, _)| self.place(*n));
+        let cells = self.edges.iter().map(|(n, _)| self.cell_of(*n));
         cells.zip(self.planes.iter().copied())
     }
 
-    /// Where a cell is among them.
+    /// Index of a cell among the border cells.
     fn find(&self, (i, j): (usize, usize)) -> Option<usize> {
         let n = i * self.own.ncols() + j;
         self.edges.binary_search_by_key(&n, |(n, _)| *n).ok()
     }
 
     /// Whether a plane agrees with the own level of a cell.
-    fn agrees(&self, cell: (usize, usize), plane: Plane) -> bool {
+    fn agrees_with_own(&self, cell: (usize, usize), plane: Plane) -> bool {
         agree(plane.middle, plane.slope, self.own[cell])
     }
 
     /// The mean level of a cell by the planes of its neighbours, and their number.
     fn mean_around(&self, cell: (usize, usize)) -> (f64, usize) {
-        let levels: Vec<f64> = around(cell, self.own.dim())
+        let levels: Vec<f64> = cell_and_neighbours(cell, self.own.dim())
             .filter_map(|at| {
                 let plane = self.planes[self.find(at)?]?;
                 let offset = [cell.0 as f64 - at.0 as f64, cell.1 as f64 - at.1 as f64];
                 let middle = plane.middle + plane.slope[0] * offset[0] + plane.slope[1] * offset[1];
-                self.agrees(cell, Plane { middle, ..plane })
+                self.agrees_with_own(cell, Plane { middle, ..plane })
                     .then_some(middle)
             })
             .collect();

@@ -10,10 +10,10 @@ use crate::cells::Lattice;
 use crate::plan::Mirror;
 use crate::scene::Grid;
 
-/// Area of a spot over that of the ellipse of its moments, at least, for the ellipse to give its
+/// Smallest area of a spot over the area of the ellipse of its moments for which the ellipse gives its
 /// radius: a disc has 1, a rectangle 3/pi = 0.95, half a disc 0.96, a ring as wide as a third of
 /// its radius 0.52.
-const FILLS: f64 = 0.75;
+const ELLIPSE_FILL: f64 = 0.75;
 
 /// A spot of a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,9 +49,12 @@ pub(super) fn spots(grid: &Grid, contact: &[bool]) -> Vec<Spot> {
             azimuth: 0.5 * xy.atan2(0.5 * (xx - yy)),
         }
     };
-    let mut all: Vec<Spot> = sums(lattice, contact).into_iter().map(spot).collect();
-    all.sort_by(|a, b| b.area.total_cmp(&a.area));
-    all
+    let mut spots: Vec<Spot> = sums_of_spots(lattice, contact)
+        .into_iter()
+        .map(spot)
+        .collect();
+    spots.sort_by(|a, b| b.area.total_cmp(&a.area));
+    spots
 }
 
 /// A patch of cells in contact: its sums over the cells, and the faces to cells outside.
@@ -77,9 +80,9 @@ struct Run {
 /// Cells across the radius of a contact: the median of the radii of its spots, weighted by area;
 /// zero without a contact.
 pub(crate) fn cells_per_radius(lattice: Lattice, contact: &[bool]) -> f64 {
-    let mut spots: Vec<(f64, f64)> = sums(lattice, contact)
+    let mut spots: Vec<(f64, f64)> = sums_of_spots(lattice, contact)
         .into_iter()
-        .map(|spot| (spot.radius(lattice.flat), spot.cells))
+        .map(|spot| (spot.radius(lattice.is_single_row), spot.cells))
         .collect();
     spots.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
     let half = 0.5 * spots.iter().map(|(_, cells)| cells).sum::<f64>();
@@ -91,14 +94,14 @@ pub(crate) fn cells_per_radius(lattice: Lattice, contact: &[bool]) -> f64 {
     middle.map_or(0.0, |(radius, _)| *radius)
 }
 
-/// The spots of a contact, those of the half that is not kept included.
-fn sums(lattice: Lattice, contact: &[bool]) -> Vec<Sums> {
+/// Sums over the spots of a contact, including the spots of the half that is not kept.
+fn sums_of_spots(lattice: Lattice, contact: &[bool]) -> Vec<Sums> {
     let rows = lattice.rows();
     // For each run its spot, or an earlier run of the same spot (union-find).
-    let (mut of, mut all) = (Vec::new(), Vec::new());
-    let (mut last, mut here) = (Vec::<Run>::new(), Vec::<Run>::new());
+    let (mut parent, mut sums) = (Vec::new(), Vec::new());
+    let (mut previous_column, mut this_column) = (Vec::<Run>::new(), Vec::<Run>::new());
     for (i, column) in contact.chunks_exact(rows).enumerate() {
-        here.clear();
+        this_column.clear();
         let mut j = 0;
         for cells in column.chunk_by(|a, b| a == b) {
             let (from, to) = (j, j + cells.len());
@@ -106,43 +109,54 @@ fn sums(lattice: Lattice, contact: &[bool]) -> Vec<Sums> {
             if !cells[0] {
                 continue;
             }
-            let spot = all.len();
-            of.push(spot);
-            all.push(Sums::of_run(i, from, to, lattice.is_mirrored()));
-            here.push(Run { from, to, spot });
-            for before in last.iter().filter(|b| b.from <= to && from <= b.to) {
-                let shared = to.min(before.to).saturating_sub(from.max(before.from));
-                all[spot].faces -= 2.0 * shared as f64;
-                let (one, other) = (root(&mut of, before.spot), root(&mut of, spot));
-                of[one.max(other)] = one.min(other);
+            let spot = sums.len();
+            parent.push(spot);
+            sums.push(Sums::from_run(i, from, to, lattice.is_mirrored()));
+            this_column.push(Run { from, to, spot });
+            for neighbour in previous_column
+                .iter()
+                .filter(|b| b.from <= to && from <= b.to)
+            {
+                let shared = to
+                    .min(neighbour.to)
+                    .saturating_sub(from.max(neighbour.from));
+                sums[spot].faces -= 2.0 * shared as f64;
+                let (first, second) = (
+                    find_root(&mut parent, neighbour.spot),
+                    find_root(&mut parent, spot),
+                );
+                parent[first.max(second)] = first.min(second);
             }
         }
-        std::mem::swap(&mut last, &mut here);
+        std::mem::swap(&mut previous_column, &mut this_column);
     }
-    for run in (0..all.len()).rev() {
-        let (part, to) = (all[run], of[run]);
+    for run in (0..sums.len()).rev() {
+        let (run_sums, to) = (sums[run], parent[run]);
         if to != run {
-            all[to].add(&part);
+            sums[to].add(&run_sums);
         }
     }
-    let whole = all.into_iter().enumerate().filter(|(n, _)| of[*n] == *n);
-    whole
-        .flat_map(|(_, spot)| spot.with_image(lattice.is_mirrored()))
+    let roots = sums
+        .into_iter()
+        .enumerate()
+        .filter(|(n, _)| parent[*n] == *n);
+    roots
+        .flat_map(|(_, spot)| spot.add_image(lattice.is_mirrored()))
         .collect()
 }
 
-/// The first run of the spot of a run, with path compression.
-fn root(of: &mut [usize], mut run: usize) -> usize {
-    while of[run] != run {
-        of[run] = of[of[run]];
-        run = of[run];
+/// Finds the first run of the spot of a run, with path compression.
+fn find_root(parent: &mut [usize], mut run: usize) -> usize {
+    while parent[run] != run {
+        parent[run] = parent[parent[run]];
+        run = parent[run];
     }
     run
 }
 
 impl Sums {
-    /// The cells [from, to) of column i. Of a mirrored half the mirror is at row 0.
-    fn of_run(i: usize, from: usize, to: usize, mirrored: bool) -> Self {
+    /// Sums over the cells [from, to) of column i. Of a mirrored half the mirror is at row 0.
+    fn from_run(i: usize, from: usize, to: usize, mirrored: bool) -> Self {
         let (n, x) = ((to - from) as f64, i as f64);
         let y = 0.5 * (from + to) as f64;
         Self {
@@ -154,16 +168,16 @@ impl Sums {
         }
     }
 
-    fn add(&mut self, other: &Self) {
-        self.cells += other.cells;
-        self.faces += other.faces;
-        self.mirrored |= other.mirrored;
-        (self.first.iter_mut().zip(other.first)).for_each(|(sum, part)| *sum += part);
-        (self.second.iter_mut().zip(other.second)).for_each(|(sum, part)| *sum += part);
+    fn add(&mut self, addend: &Self) {
+        self.cells += addend.cells;
+        self.faces += addend.faces;
+        self.mirrored |= addend.mirrored;
+        (self.first.iter_mut().zip(addend.first)).for_each(|(sum, part)| *sum += part);
+        (self.second.iter_mut().zip(addend.second)).for_each(|(sum, part)| *sum += part);
     }
 
-    /// With its mirror image: one spot where they touch, or two.
-    fn with_image(self, mirrored: bool) -> impl Iterator<Item = Self> {
+    /// Adds the mirror image: one spot where both touch, or two.
+    fn add_image(self, mirrored: bool) -> impl Iterator<Item = Self> {
         let whole = Self {
             cells: 2.0 * self.cells,
             first: [2.0 * self.first[0], 0.0],
@@ -183,7 +197,7 @@ impl Sums {
         [xx - x * x + 1.0 / 12.0, xy - x * y, yy - y * y + 1.0 / 12.0]
     }
 
-    /// In cells.
+    /// Radius in cells.
     fn radius(&self, flat: bool) -> f64 {
         if flat {
             return 0.5 * self.cells;
@@ -192,7 +206,7 @@ impl Sums {
         let (mean, half) = (0.5 * (xx + yy), (0.5 * (xx - yy)).hypot(xy));
         let [small, large] = [mean - half, mean + half].map(|m| 2.0 * m.max(0.0).sqrt());
         let ellipse = std::f64::consts::PI * small * large;
-        if self.cells >= FILLS * ellipse {
+        if self.cells >= ELLIPSE_FILL * ellipse {
             return small;
         }
         // Averaged over the directions of a border, the faces of the cells are 4/pi times as long
@@ -209,8 +223,8 @@ mod tests {
     fn radius(n: usize, mirror: Mirror, inside: impl Fn(f64, f64) -> bool) -> f64 {
         let grid = Grid::from_spacing((n, n), (1.0, 1.0)).expect("a grid");
         let whole = grid.map(|x, y| f64::from(u8::from(inside(x, y))));
-        let kept: Vec<bool> = mirror.fold(&whole).iter().map(|f| *f > 0.0).collect();
-        cells_per_radius(Lattice::new(&grid, mirror), &kept)
+        let is_inside: Vec<bool> = mirror.fold(&whole).iter().map(|f| *f > 0.0).collect();
+        cells_per_radius(Lattice::new(&grid, mirror), &is_inside)
     }
 
     #[test]
@@ -244,11 +258,11 @@ mod tests {
     }
 
     #[test]
-    fn of_many_spots_the_one_in_the_middle_of_the_area_counts() {
+    fn the_median_spot_by_area_counts() {
         let spots = |mirror| {
             radius(64, mirror, |x, y| {
-                let near = |a: f64, b: f64, r: f64| (x - a).hypot(y.abs() - b) < r;
-                near(-20.0, 20.0, 6.0) || near(20.0, 20.0, 4.0) || near(0.0, 10.0, 2.0)
+                let is_near = |a: f64, b: f64, r: f64| (x - a).hypot(y.abs() - b) < r;
+                is_near(-20.0, 20.0, 6.0) || is_near(20.0, 20.0, 4.0) || is_near(0.0, 10.0, 2.0)
             })
         };
         let [whole, half] = [Mirror::None, Mirror::Y].map(spots);
@@ -263,9 +277,9 @@ mod tests {
     #[test]
     fn a_strip_has_its_half_width() {
         let grid = Grid::strip(64.0, 64, 1.0).expect("a strip");
-        let kept: Vec<bool> = (0..64).map(|i| (20..32).contains(&i)).collect();
+        let contact: Vec<bool> = (0..64).map(|i| (20..32).contains(&i)).collect();
         assert_eq!(
-            cells_per_radius(Lattice::new(&grid, Mirror::None), &kept),
+            cells_per_radius(Lattice::new(&grid, Mirror::None), &contact),
             6.0
         );
     }

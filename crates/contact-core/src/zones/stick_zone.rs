@@ -3,9 +3,9 @@
 
 use ndarray::{Array2, Zip};
 
-use super::laws::{SHRINKS, STICK};
+use super::laws::{SHRINKING, STICK};
 use super::level::Stencil;
-use super::neighbours::{around, distances};
+use super::neighbours::{cell_and_neighbours, chessboard_distances};
 use super::sampled_border::SampledBorder;
 use crate::cells::Lattice;
 use crate::plan::Mirror;
@@ -31,7 +31,7 @@ pub(super) struct StickZone {
 }
 
 impl StickZone {
-    /// None where all cells stick or all slip.
+    /// Finds the stick zone; none where all cells stick or all slip.
     pub(super) fn new(
         grid: &Grid,
         p: &Array2<f64>,
@@ -41,28 +41,28 @@ impl StickZone {
         let shape = p.dim();
         let sticks = |(i, j): (usize, usize)| stick[i * grid.ny + j];
         let size = Zip::from(&q[0]).and(&q[1]).map_collect(|x, y| x.hypot(*y));
-        let of_slipping = |f: &dyn Fn((usize, usize)) -> f64| {
+        let at_slip_cells = |f: &dyn Fn((usize, usize)) -> f64| {
             Array2::from_shape_fn(shape, |cell| {
                 (p[cell] > 0.0 && !sticks(cell)).then(|| f(cell))
             })
         };
-        let slipping = of_slipping(&|cell| size[cell] / p[cell]);
+        let slipping = at_slip_cells(&|cell| size[cell] / p[cell]);
         if !stick.contains(&true) || slipping.iter().all(Option::is_none) {
             return None;
         }
-        let m = extended(&slipping);
-        let along = |q: &Array2<f64>| {
-            extended(&of_slipping(&|cell| {
+        let m = extend(&slipping);
+        let direction_component = |q: &Array2<f64>| {
+            extend(&at_slip_cells(&|cell| {
                 q[cell] / size[cell].max(f64::MIN_POSITIVE)
             }))
         };
-        let [mut x, mut y] = q.each_ref().map(along);
+        let [mut x, mut y] = q.each_ref().map(direction_component);
         Zip::from(&mut x).and(&mut y).for_each(|x, y| {
             let length = x.hypot(*y).max(f64::MIN_POSITIVE);
             (*x, *y) = (*x / length, *y / length);
         });
         let direction = [x, y];
-        let short = |cell: (usize, usize)| {
+        let shortfall = |cell: (usize, usize)| {
             let along = q[0][cell] * direction[0][cell] + q[1][cell] * direction[1][cell];
             (m[cell] * p[cell] - along).max(0.0)
         };
@@ -70,21 +70,26 @@ impl StickZone {
             _ if !sticks(cell) => 0.0,
             // Far inside only the sign matters.
             m if m.is_nan() => p[cell].powi(2),
-            _ => short(cell).powi(2),
+            _ => shortfall(cell).powi(2),
         });
         // Where the zone grows the shortfall vanishes like d^(3/2), which constant tractions
         // represent.
         let mut edges =
             Lattice::new(grid, Mirror::None).edges(stick, [Stencil::ROOT, Stencil::LINEAR], |_| {
-                (STICK, |n: usize| short((n / grid.ny, n % grid.ny)))
+                (STICK, |n: usize| shortfall((n / grid.ny, n % grid.ny)))
             });
         edges.retain(|(n, _)| p[(n / grid.ny, n % grid.ny)] > 0.0);
         for (_, edge) in &mut edges {
-            edge.level = edge.level.filter(|level| level.law == SHRINKS);
+            edge.level = edge.level.filter(|level| level.law == SHRINKING);
         }
         let border = SampledBorder::new(&level, &edges);
-        let mut near = distances(shape, border.known.iter()).mapv(|d| usize::from(d) <= NEAR);
-        for cell in border.unknown.iter().flat_map(|cell| around(*cell, shape)) {
+        let mut near =
+            chessboard_distances(shape, border.known.iter()).mapv(|d| usize::from(d) <= NEAR);
+        for cell in border
+            .unknown
+            .iter()
+            .flat_map(|cell| cell_and_neighbours(*cell, shape))
+        {
             near[cell] = false;
         }
         Some(Self {
@@ -96,46 +101,46 @@ impl StickZone {
     }
 
     /// Whether the shear in a cell is computed from bound and shortfall.
-    pub(super) fn reaches(&self, cell: (usize, usize)) -> bool {
-        self.near[cell] && around(cell, self.m.dim()).all(|at| self.m[at].is_finite())
+    pub(super) fn covers(&self, cell: (usize, usize)) -> bool {
+        self.near[cell] && cell_and_neighbours(cell, self.m.dim()).all(|at| self.m[at].is_finite())
     }
 }
 
-/// A quantity known in some cells, extended to the next [`EXTENDED`] rings by the mean of their
+/// Extends a quantity known in some cells to the next [`EXTENDED`] rings by the mean of the
 /// neighbours; NaN beyond.
-fn extended(known: &Array2<Option<f64>>) -> Array2<f64> {
-    let mut all = known.mapv(|v| v.unwrap_or(f64::NAN));
-    let lacks = |all: &Array2<f64>, cell| all[cell].is_nan();
-    let shape = all.dim();
-    let at_border = |&(cell, v): &(_, &Option<f64>)| {
-        v.is_some() && around(cell, shape).any(|at| lacks(&all, at))
+fn extend(known: &Array2<Option<f64>>) -> Array2<f64> {
+    let mut extended = known.mapv(|v| v.unwrap_or(f64::NAN));
+    let is_missing = |all: &Array2<f64>, cell| all[cell].is_nan();
+    let shape = extended.dim();
+    let borders_missing = |&(cell, v): &(_, &Option<f64>)| {
+        v.is_some() && cell_and_neighbours(cell, shape).any(|at| is_missing(&extended, at))
     };
     let mut front: Vec<_> = known
         .indexed_iter()
-        .filter(at_border)
+        .filter(borders_missing)
         .map(|(cell, _)| cell)
         .collect();
     for _ in 0..EXTENDED {
-        let mut next: Vec<_> = front
+        let mut next_front: Vec<_> = front
             .iter()
-            .flat_map(|cell| around(*cell, shape))
-            .filter(|cell| lacks(&all, *cell))
+            .flat_map(|cell| cell_and_neighbours(*cell, shape))
+            .filter(|cell| is_missing(&extended, *cell))
             .collect();
-        next.sort_unstable();
-        next.dedup();
-        let mean = |cell: &(usize, usize)| {
-            let there = || {
-                around(*cell, shape)
-                    .map(|at| all[at])
+        next_front.sort_unstable();
+        next_front.dedup();
+        let mean_of_neighbours = |cell: &(usize, usize)| {
+            let neighbours = || {
+                cell_and_neighbours(*cell, shape)
+                    .map(|at| extended[at])
                     .filter(|v| !v.is_nan())
             };
-            there().sum::<f64>() / there().count() as f64
+            neighbours().sum::<f64>() / neighbours().count() as f64
         };
-        let means: Vec<f64> = next.iter().map(mean).collect();
-        for (cell, mean) in next.iter().zip(means) {
-            all[*cell] = mean;
+        let means: Vec<f64> = next_front.iter().map(mean_of_neighbours).collect();
+        for (cell, mean) in next_front.iter().zip(means) {
+            extended[*cell] = mean;
         }
-        front = next;
+        front = next_front;
     }
-    all
+    extended
 }

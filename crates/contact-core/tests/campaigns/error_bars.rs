@@ -173,11 +173,11 @@ fn ratios(seed: u64) -> Option<Ratios> {
     let text = drawn(seed);
     let (mut nobody, mut no_one) = ((), ());
     let (coarse, fine) = chosen(&text)?;
-    let mut ends = BranchEnds::beside(&mut nobody);
+    let mut ends = BranchEnds::new(&mut nobody);
     // A soft coating may spread the contact over the border.
     let increments = solve(&coarse, &mut ends).ok()?;
     let bars = error_bars(&coarse, &increments, &ends.tractions, &Arc::default()).ok()?;
-    let mut true_ends = BranchEnds::beside(&mut no_one);
+    let mut true_ends = BranchEnds::new(&mut no_one);
     let reference = solve(&fine, &mut true_ends).ok()?;
     let mut numbers = Vec::new();
     let (ours, truth) = (summarise(&increments), summarise(&reference));

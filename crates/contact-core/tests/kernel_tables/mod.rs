@@ -47,7 +47,7 @@ pub(crate) fn body(entry: &Value) -> Body {
         coatings: layers.iter().map(coating).collect(),
         bonds: Vec::new(),
         plastic: Vec::new(),
-        residual_text: Vec::new(),
+        residual: Vec::new(),
         shape: Shape::Flat,
     }
 }

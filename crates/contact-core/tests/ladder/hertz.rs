@@ -1,7 +1,7 @@
 //! Frictionless and homogeneous: Hertz, and its convergence with the grid.
 
 use contact_core::scene::LoadPath;
-use contact_core::zones::continued_pressure;
+use contact_core::zones::continue_pressure_to_rim;
 
 use crate::bench::{
     FIELD, RIM, SMOOTH, STEEL, W, cell, close, hertz_of, norm, run, sphere_on_flat,
@@ -31,7 +31,7 @@ fn radius_pressure_and_approach_converge_with_the_grid() {
             );
             close("p", error, 0.0, FIELD * d);
             errors.push(error);
-            let p = continued_pressure(&p, &scene.grid);
+            let p = continue_pressure_to_rim(&p, &scene.grid);
             continued.push(norm(&(&p - &truth)) / norm(&truth));
         });
     }

@@ -191,7 +191,7 @@ fn a_path_grid_that_is_given_has_its_error() {
             told > 0.7 * off,
             "{off:.1e} off, {told:.1e} told, {n}/{path} cells on {extent} a"
         );
-        let doubts = Reached::of(&rows).doubts(&known);
+        let doubts = Reached::from_increments(&rows).doubts(&known);
         let few = doubts
             .iter()
             .any(|doubt| doubt.starts_with(&format!("solver.path_grid = {path}")));

@@ -356,7 +356,7 @@ fn residual_compression_moves_first_yield_as_it_does_by_hand() {
             ..Loads::default()
         };
         let mut scene = indentation(0.01, law, grid, vec![Branch::new(to, 1, 1.0)]);
-        scene.body2.residual_text = residual;
+        scene.body2.residual = residual;
         scene
     };
     let begins = |residual: Vec<Profile>| {

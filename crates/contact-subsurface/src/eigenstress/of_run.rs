@@ -50,7 +50,7 @@ impl Eigenstresses {
         let mut held = self.yielding.lock().unwrap_or_else(PoisonError::into_inner);
         for (held, grown) in held.iter_mut().zip([false, true]) {
             if held.is_none() {
-                *held = Yielding::of(&self.scene, grown)?;
+                *held = Yielding::from_scene(&self.scene, grown)?;
             }
             let Some(bodies) = held else { return Ok(None) };
             if grown {

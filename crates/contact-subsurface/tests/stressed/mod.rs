@@ -33,7 +33,7 @@ pub(crate) fn coated(n: usize) -> Contact {
         }],
         bonds: Vec::new(),
         plastic: Vec::new(),
-        residual_text: Vec::new(),
+        residual: Vec::new(),
         shape: Shape::Flat,
     };
     let grid = Grid::centred(2.4 * A_H, n).expect("a grid");

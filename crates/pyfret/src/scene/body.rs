@@ -46,7 +46,7 @@ impl Body {
     ) -> Answer<Self> {
         let body = Self(core::Body {
             substrate: substrate.0,
-            residual_text: coatings.residual(residual),
+            residual: coatings.residual(residual),
             bonds: coatings.bonds(),
             plastic: coatings.plastic(substrate),
             coatings: coatings.0.into_iter().map(|c| c.layer).collect(),
@@ -101,7 +101,7 @@ attributes!(Body, self:
 impl Body {
     /// Residual stress of a layer.
     fn of_layer(&self, layer: usize) -> core::Profile {
-        self.0.residual_text.get(layer).cloned().unwrap_or_default()
+        self.0.residual.get(layer).cloned().unwrap_or_default()
     }
 }
 

@@ -29,13 +29,13 @@
 //! of the other cells vanishes.
 
 use super::energy::slip_of;
-use crate::cells::{Lattice, size};
+use crate::cells::{Lattice, length};
 use crate::march::setup::Setup;
 use crate::material::dundurs_beta;
 use crate::solvers::intermediate::AlternationInfo;
 use crate::solvers::no_slip::NoSlipTerms;
 use crate::solvers::{Interface, friction_bound};
-use crate::zones::{Edge, Level, Line, Power, SHRINKS, STICK, Stencil, cells_per_radius};
+use crate::zones::{Edge, Level, Line, Power, SHRINKING, STICK, Stencil, cells_per_radius};
 
 /// The rim of a slip ring on dissimilar bodies, n slip cells wide: for n > RING the pressure is
 /// extrapolated from the outermost max(n - 1, FEWEST_CELLS) cells of a line, that is from slip cells but
@@ -60,7 +60,7 @@ pub(super) struct Areas {
     pub(super) stick: f64,
     /// The cells that did not slip in the increment.
     pub(super) without_slip: f64,
-    /// Those of them that are at the limit of friction.
+    /// Contact cells at the limit of friction.
     pub(super) at_limit: Vec<bool>,
 }
 
@@ -72,8 +72,8 @@ pub(super) fn areas(
     info: &AlternationInfo,
 ) -> Areas {
     let slip = |n: usize| {
-        let rigid = setup.geometry.arms.in_plane(info.shift, n);
-        size(slip_of(no_slip, now, setup.last(), rigid, n).0)
+        let rigid = setup.geometry.arms.displacement_in_plane(info.shift, n);
+        length(slip_of(no_slip, now, setup.last(), rigid, n).0)
     };
     let cells = Cells::new(setup, now, slip);
     let partial = setup.problem.plan.methods.partial_cells;
@@ -115,7 +115,7 @@ pub(super) fn areas(
 /// The area of a zone whose border crosses the cells `edges`.
 fn area(zone: &[bool], edges: &[(usize, Edge)]) -> f64 {
     let whole = zone.iter().filter(|&&inside| inside).count() as f64;
-    let partial = |(n, edge): &(usize, Edge)| edge.share() - f64::from(u8::from(zone[*n]));
+    let partial = |(n, edge): &(usize, Edge)| edge.area_fraction() - f64::from(u8::from(zone[*n]));
     whole + edges.iter().map(partial).sum::<f64>()
 }
 
@@ -130,20 +130,20 @@ fn at_limit(
     let slips: Vec<f64> = (marked.iter().enumerate())
         .map(|(n, &marked)| if marked { slip(n) } else { 0.0 })
         .collect();
-    let most = slips.iter().copied().fold(0.0, f64::max);
+    let largest_slip = slips.iter().copied().fold(0.0, f64::max);
     let notable = setup
         .problem
         .params(1.0)
         .tangential
         .tolerance
-        .max(TELLS * most);
-    let tells: Vec<bool> = slips.iter().map(|&slip| slip > notable).collect();
+        .max(TELLS * largest_slip);
+    let slips_notably: Vec<bool> = slips.iter().map(|&slip| slip > notable).collect();
     // Cells without friction slip freely: they have no limit.
-    let hardly = |n: usize| marked[n] && !tells[n] && setup.mu[n] > 0.0;
+    let hardly = |n: usize| marked[n] && !slips_notably[n] && setup.mu[n] > 0.0;
     if !(0..marked.len()).any(hardly) {
         return vec![false; marked.len()];
     }
-    let abreast = (0..marked.len()).map(|n| hardly(n) && !lattice.is_beside(n, &tells));
+    let abreast = (0..marked.len()).map(|n| hardly(n) && !lattice.is_beside(n, &slips_notably));
     let abreast: Vec<bool> = abreast.collect();
     (0..marked.len())
         .map(|n| hardly(n) && lattice.is_beside(n, &abreast))
@@ -163,7 +163,7 @@ struct Cells<'a> {
 }
 
 impl<'a> Cells<'a> {
-    /// From the slip of each cell in the increment \[m\].
+    /// Computes areas from the slip of each cell in the increment \[m\].
     fn new(setup: &'a Setup<'_>, now: &'a Interface, slip: impl Fn(usize) -> f64) -> Self {
         let contact: Vec<bool> = now.p.iter().map(|&p| p > 0.0).collect();
         let lattice = Lattice::new(&setup.geometry.grid, setup.problem.plan.mirror);
@@ -180,7 +180,7 @@ impl<'a> Cells<'a> {
                 let bound = friction_bound(setup.mu[n], now.p[n]);
                 contact[n]
                     && !marked[n]
-                    && size([now.q[0][n], now.q[1][n]]) > (1.0 - REACHES) * bound
+                    && length([now.q[0][n], now.q[1][n]]) > (1.0 - REACHES) * bound
             };
             let beside = |n: usize| reaches(n) && lattice.is_beside(n, &at_limit);
             let others: Vec<usize> = (0..contact.len()).filter(|&n| beside(n)).collect();
@@ -232,7 +232,7 @@ impl<'a> Cells<'a> {
         for (n, edge) in &rim {
             off[*n] = edge.level.is_some_and(|level| {
                 let (powers, pressure) = laws(&mut level.line.clone());
-                !level.agrees(powers[level.law].of(pressure(*n)))
+                !level.agrees_with(powers[level.law].level_of(pressure(*n)))
             });
         }
         for (n, edge) in &mut rim {
@@ -250,14 +250,14 @@ impl<'a> Cells<'a> {
         slip: impl Fn(usize) -> f64,
     ) -> Vec<(usize, Edge)> {
         let now = self.now;
-        let stencils = [Stencil::ROOT, Stencil::LINEAR].map(Stencil::before_the_middle);
+        let stencils = [Stencil::ROOT, Stencil::LINEAR].map(Stencil::up_to_middle);
         let mut border = self.lattice.edges(&self.stick, stencils, |line| {
             let slipping = self.slipping_beside(line);
             (STICK, move |n| self.shortfall(now, n, slipping))
         });
         let beside_limit = |n: usize| self.lattice.is_beside(n, &self.at_limit);
         for (n, edge) in &mut border {
-            edge.level = edge.level.filter(|level| level.law == SHRINKS);
+            edge.level = edge.level.filter(|level| level.law == SHRINKING);
             let line = edge.level.map(|level| level.line);
             let shrinks = |line: Line| !self.grew(line.outermost(), self.slipping_beside(&line));
             if line.is_some_and(shrinks) && !beside_limit(*n) {
@@ -265,20 +265,20 @@ impl<'a> Cells<'a> {
             }
             edge.level = None;
             let laws = |_: &mut Line| ([Power::TwoThirds], &slip);
-            let by_slip = (self.lattice).edge(*n, &self.slips, [Stencil::SLIP], &laws);
+            let by_slip = (self.lattice).edge_of_cell(*n, &self.slips, [Stencil::SLIP], &laws);
             let grown = by_slip.level.is_some_and(|Level { line, .. }| {
                 self.stick[line.outside]
                     && (self.at_limit[line.outside] || self.grew(line.outside, line.outermost()))
             });
             if grown {
-                *edge = by_slip.other_side(self.stick[*n]);
+                *edge = by_slip.complement(self.stick[*n]);
             }
         }
         // Where no cell slips the zone ends at the rim, unless a level shows a ring narrower than a
         // cell.
         for (n, edge) in &mut border {
             if let Ok(at) = rim.binary_search_by_key(n, |(n, _)| *n)
-                && (edge.share() > rim[at].1.share()
+                && (edge.area_fraction() > rim[at].1.area_fraction()
                     || edge.level.is_none() && !self.lattice.is_beside(*n, &self.slips))
             {
                 *edge = rim[at].1;
@@ -299,7 +299,7 @@ impl<'a> Cells<'a> {
     /// mu p - q . t of cell n \[Pa\], t being the direction of the shear of the cell `slipping`.
     fn shortfall(&self, at: &Interface, n: usize, slipping: usize) -> f64 {
         let q = [self.now.q[0][slipping], self.now.q[1][slipping]];
-        let [x, y] = q.map(|q_k| q_k / size(q).max(f64::MIN_POSITIVE));
+        let [x, y] = q.map(|q_k| q_k / length(q).max(f64::MIN_POSITIVE));
         friction_bound(self.setup.mu[n], at.p[n]) - (at.q[0][n] * x + at.q[1][n] * y)
     }
 

@@ -24,7 +24,7 @@ pub(super) fn energies(
     let (cell_area, mirror) = (problem.cell_area(), problem.plan.mirror);
     let (last, arms) = (setup.last(), &geometry.arms);
     let (started, ended) = (setup.state.motion.motions(), motion.motions());
-    let approach = [0, 1, 2].map(|k| (ended[k] - started[k]) * arms.unit(k));
+    let approach = [0, 1, 2].map(|k| (ended[k] - started[k]) * arms.motion_unit(k));
     let sums = sums([&now.p[..], &last.p], |n, [p, p_before]| {
         if p <= 0.0 && p_before <= 0.0 {
             return [0.0; 6];
@@ -33,11 +33,11 @@ pub(super) fn energies(
         let du_z = now.u_z[n] - last.u_z[n];
         let stretch = roll.stretch_at(geometry, n);
         let wider = roll.gap_at(geometry, mirror, n);
-        let rigid = arms.in_plane(info.shift, n);
+        let rigid = arms.displacement_in_plane(info.shift, n);
         let (slip, entered) = slip_of(no_slip, now, last, rigid, n);
         let mut elastic = p * du_z;
         let (mut trapezoidal, mut of_bulk) = (0.0, 0.0);
-        let mut opening = -p * (du_z + wider - arms.across(approach, n));
+        let mut opening = -p * (du_z + wider - arms.displacement_across(approach, n));
         for c in 0..2 {
             let q = mean(now.q[c][n], last.q[c][n]);
             let du = now.u[c][n] - last.u[c][n];
@@ -104,7 +104,7 @@ pub(super) fn slip_of(
     let entered = if last.p[n] > 0.0 {
         [0.0; 2]
     } else {
-        no_slip.added(n)
+        no_slip.entry_or_turn(n)
     };
     let moved = slip(at(&now.u), at(&last.u), rigid);
     ([moved[0] - entered[0], moved[1] - entered[1]], entered)

@@ -1,7 +1,7 @@
 //! The state after an increment, with the history of the material in each cell.
 
 use super::energy::{dissipated, slip_of};
-use crate::cells::{set, size};
+use crate::cells::{length, set_fields};
 use crate::march::domain::Geometry;
 use crate::march::rolled::{Roll, Rolled};
 use crate::march::setup::Setup;
@@ -9,7 +9,7 @@ use crate::march::{Increment, State, Status};
 use crate::plan::Mirror;
 use crate::scene::History;
 use crate::solvers::Interface;
-use crate::solvers::no_slip::{NoSlipTerms, not_opposite, slip};
+use crate::solvers::no_slip::{NoSlipTerms, slip, unopposed_part};
 
 /// The cells that did not slip in an increment.
 pub(in crate::march) struct Stuck {
@@ -86,10 +86,10 @@ pub(in crate::march) fn growth(
         if now.p[n] <= 0.0 || !now.slips[n] {
             return 0.0;
         }
-        let (slip, _) = slip_of(no_slip, now, last, arms.in_plane(shift, n), n);
+        let (slip, _) = slip_of(no_slip, now, last, arms.displacement_in_plane(shift, n), n);
         match of {
             History::Increment | History::Cycles => 0.0,
-            History::Slip => size([slip[0], slip[1] / arms.stretch]),
+            History::Slip => length([slip[0], slip[1] / arms.axis_ratio]),
             History::Dissipated => {
                 dissipated([setup.mu[n], setup.mu_before[n]], now, last, slip, n)
             }
@@ -117,14 +117,18 @@ fn keep_residual(state: &mut State, status: Status, now: &Interface, closing: &C
     let tractions = [&now.p[..], &now.q[0], &now.q[1]];
     let moved = [&now.u[0][..], &now.u[1], x_0, y_0];
     let fields = ((tractions, moved), &now.slips[..]);
-    set(fields, [x, y], |n, ((tractions, moved), slips), _| {
+    set_fields(fields, [x, y], |n, ((tractions, moved), slips), _| {
         let ([p, q_x, q_y], [u_x, u_y, x_0, y_0]) = (tractions, moved);
         if !keeps || p <= 0.0 {
             return [0.0; 2];
         }
-        let slip = slip([u_x, u_y], [x_0, y_0], arms.in_plane(closing.shift, n));
+        let slip = slip(
+            [u_x, u_y],
+            [x_0, y_0],
+            arms.displacement_in_plane(closing.shift, n),
+        );
         if slips {
-            not_opposite(slip, [q_x, q_y])
+            unopposed_part(slip, [q_x, q_y])
         } else {
             slip
         }
@@ -144,18 +148,18 @@ fn add_slip(state: &mut State, last: &Interface, closing: &Closing<'_>) {
         &mut state.dissipated,
     ];
     let pressures = [&now.p[..], &before.p];
-    set(pressures, histories, |n, [p, p_before], old| {
+    set_fields(pressures, histories, |n, [p, p_before], old| {
         let [x, y, length, energy] = old;
         if p <= 0.0 && p_before <= 0.0 {
             return old;
         }
-        let rigid = arms.in_plane(closing.shift, n);
+        let rigid = arms.displacement_in_plane(closing.shift, n);
         let (slip, _) = slip_of(closing.no_slip, now, before, rigid, n);
         let energy = energy + dissipated([mu[n], mu_before[n]], now, before, slip, n);
         if !(p > 0.0 && now.slips[n]) {
             return [x, y, length, energy];
         }
-        let way = size([slip[0], slip[1] / arms.stretch]);
-        [x + slip[0], y + slip[1], length + way, energy]
+        let distance = length([slip[0], slip[1] / arms.axis_ratio]);
+        [x + slip[0], y + slip[1], length + distance, energy]
     });
 }

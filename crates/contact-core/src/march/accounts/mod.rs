@@ -11,7 +11,7 @@ pub(super) use self::scatter::SAMPLES;
 use super::setup::{Setup, count};
 use super::transmitted::transmitted;
 use super::{Increment, Motion, Status, Work, Yield, check};
-use crate::cells::both;
+use crate::cells::run_both;
 use crate::scene::LoadPoint;
 use crate::solvers::Interface;
 use crate::solvers::intermediate::AlternationInfo;
@@ -31,7 +31,7 @@ pub(super) fn draw_up(
         loads: transmitted(setup, setup.point, now),
         ..*setup.point
     };
-    let ((energy, (residuals, [p_max, q_max, q_rms])), zones) = both(
+    let ((energy, (residuals, [p_max, q_max, q_rms])), zones) = run_both(
         now.p.len(),
         || {
             let energy = energy::energies(setup, no_slip, &point, now, info, &motion);
@@ -93,22 +93,31 @@ pub(super) fn draw_up(
 
 /// Whether bodies slide whose cells all slip: under given forces only at the limit of friction.
 fn slides(setup: &Setup<'_>, info: &AlternationInfo) -> bool {
-    let given = setup.point.loads.given;
-    let turns = given.phi_z.is_some_and(|to| to != setup.state.motion.phi_z);
-    info.uses_all_friction() || given.delta_x.is_some() || given.delta_y.is_some() || turns
+    let prescribed = setup.point.loads.given;
+    let turns = prescribed
+        .phi_z
+        .is_some_and(|to| to != setup.state.motion.phi_z);
+    info.uses_all_friction()
+        || prescribed.delta_x.is_some()
+        || prescribed.delta_y.is_some()
+        || turns
 }
 
 /// The rigid motion at the end of the increment; given motions to the last bit.
 fn motion(setup: &Setup<'_>, info: &AlternationInfo) -> Motion {
     let (last, arms) = (&setup.state.motion, &setup.geometry.arms);
-    let given = &setup.point.loads.given;
+    let prescribed = &setup.point.loads.given;
     let (approach, shift) = (info.approach, info.shift);
     Motion {
-        delta_z: given.delta_z.unwrap_or(approach[0]),
-        phi_x: given.phi_x.unwrap_or(approach[1] / arms.unit(1)),
-        phi_y: given.phi_y.unwrap_or(approach[2] / arms.unit(2)),
-        delta_x: given.delta_x.unwrap_or(last.delta_x + shift[0]),
-        delta_y: (given.delta_y).unwrap_or(last.delta_y + shift[1] / arms.unit(4)),
-        phi_z: (given.phi_z).unwrap_or(last.phi_z + shift[2] / arms.unit(5)),
+        delta_z: prescribed.delta_z.unwrap_or(approach[0]),
+        phi_x: prescribed
+            .phi_x
+            .unwrap_or(approach[1] / arms.motion_unit(1)),
+        phi_y: prescribed
+            .phi_y
+            .unwrap_or(approach[2] / arms.motion_unit(2)),
+        delta_x: prescribed.delta_x.unwrap_or(last.delta_x + shift[0]),
+        delta_y: (prescribed.delta_y).unwrap_or(last.delta_y + shift[1] / arms.motion_unit(4)),
+        phi_z: (prescribed.phi_z).unwrap_or(last.phi_z + shift[2] / arms.motion_unit(5)),
     }
 }

@@ -42,7 +42,7 @@ pub(super) fn scatter(
     let first = if lattice.is_mirrored() { -rows } else { 0 };
     let stick = |n: usize| now.p[n] > 0.0 && !now.slips[n];
     let shear = |(i, j): (isize, isize)| {
-        let n = lattice.kept(i, j).filter(|&n| stick(n))?;
+        let n = lattice.stored_cell(i, j).filter(|&n| stick(n))?;
         let odd = if j < 0 { Parity::Odd.sign() } else { 1.0 };
         Some([now.q[0][n], odd * now.q[1][n]])
     };

@@ -27,13 +27,13 @@ impl Domain {
         if self.window.geometry.grid == scene.grid {
             return Ok(Some(0.0));
         }
-        let left = state.clear - self.closes_beyond(problem, state, now, info);
-        if left > 0.0 {
-            return Ok(Some(left));
+        let clearance = state.clear - self.closes_beyond(problem, state, now, info);
+        if clearance > 0.0 {
+            return Ok(Some(clearance));
         }
         let mirror = plan.mirror;
-        let mut known = (self.whole.lock()).unwrap_or_else(PoisonError::into_inner);
-        let grid = match &mut *known {
+        let mut whole_grid = (self.whole.lock()).unwrap_or_else(PoisonError::into_inner);
+        let grid = match &mut *whole_grid {
             Some(grid) => grid,
             none => none.insert(self.laid_out(problem, shape_of(&scene.grid), state.increments)?),
         };
@@ -61,7 +61,7 @@ impl Domain {
         let (h_init, arms) = (&grid.geometry.h_init, &grid.geometry.arms);
         let clear = (0..p.len())
             .filter(|&n| !inside[n])
-            .map(|n| h_init[n] + u_z[n] - arms.across(info.approach, n) + allowed)
+            .map(|n| h_init[n] + u_z[n] - arms.displacement_across(info.approach, n) + allowed)
             .fold(f64::INFINITY, f64::min);
         Ok((clear >= 0.0).then_some(clear))
     }

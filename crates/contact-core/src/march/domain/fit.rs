@@ -137,12 +137,12 @@ impl Domain {
     ) -> Result<Option<State>, Error> {
         if shape != self.shape() {
             let whole = (self.whole.get_mut()).unwrap_or_else(PoisonError::into_inner);
-            let known = whole.take_if(|whole| shape_of(&whole.geometry.grid) == shape);
-            let next = match known {
+            let kept_window = whole.take_if(|whole| shape_of(&whole.geometry.grid) == shape);
+            let new_window = match kept_window {
                 Some(window) => window,
                 None => self.laid_out(problem, shape, state.increments)?,
             };
-            let last = std::mem::replace(&mut self.window, next);
+            let last = std::mem::replace(&mut self.window, new_window);
             if last.geometry.grid == problem.scene.grid {
                 *(self.whole.get_mut()).unwrap_or_else(PoisonError::into_inner) = Some(last);
             } else {
@@ -208,7 +208,7 @@ fn growth(problem: &Problem, state: &State, point: &LoadPoint) -> [f64; 2] {
 }
 
 /// Cells along x and along y from the middle of a grid to the far side of the outermost that
-/// touches; the pressure is that of the kept rows.
+/// touches; the pressure belongs to the kept rows.
 pub(in crate::march) fn half_lengths(
     p: &[f64],
     rows: usize,

@@ -37,7 +37,7 @@ pub(super) const AROUND: usize = 7;
 
 /// The cells that are solved for, and the data on them.
 pub(super) struct Geometry {
-    /// The cells; those of the scene's grid where nothing is left out.
+    /// The cells; all of the scene's grid where nothing is left out.
     pub(super) grid: Grid,
     /// Gap between the undeformed surfaces on the kept cells \[m\].
     pub(super) h_init: Vec<f64>,
@@ -56,7 +56,7 @@ pub(super) struct Window {
 
 /// The coefficients that windows are cut from.
 pub(super) struct Kernels {
-    /// On the whole grid.
+    /// Builds the domain on the whole grid.
     pub(super) pair: InfluenceCoefficients,
     /// Norms of the kernels of u_z under q_x, q_y and p on the whole plane \[m/Pa\].
     norms: [f64; 3],
@@ -255,7 +255,7 @@ impl Geometry {
                 length,
                 x: fold(grid.map(|x, _| x / length)),
                 y: fold(grid.map(|_, y| y / length)),
-                stretch: scene.friction.axis_ratio(),
+                axis_ratio: scene.friction.axis_ratio(),
             },
             friction_map: map
                 .map_or_else(Vec::new, |map| fold(grid.map(|x, y| map.interpolate(x, y)))),
@@ -269,7 +269,8 @@ impl Geometry {
         let least = |least: f64, h: f64| least.min(h);
         if self.grid == scene.grid {
             let cells = self.h_init.iter().enumerate();
-            let tilted = |(n, h): (usize, &f64)| h - self.arms.across([0.0, of_x, of_y], n);
+            let tilted =
+                |(n, h): (usize, &f64)| h - self.arms.displacement_across([0.0, of_x, of_y], n);
             return cells.map(tilted).fold(f64::INFINITY, least);
         }
         let length = self.arms.length;

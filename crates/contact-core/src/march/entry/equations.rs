@@ -2,7 +2,7 @@
 
 use crate::march::setup::{Equations, Setup};
 
-/// Tolerances of increments in which cells enter, over that of others: on the old contact alone
+/// Tolerances of increments in which cells enter, over the tolerances of others: on the old contact alone
 /// (KEPT) and with the new cells (ENTERED). The residual slip of new cells that stick remains to
 /// the end.
 const KEPT_SHARE: f64 = 0.5;

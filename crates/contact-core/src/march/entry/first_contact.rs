@@ -35,12 +35,12 @@ pub(super) fn solve_first_contact(
     let mut round = 0;
     loop {
         round += 1;
-        let gap = |n: usize| h_init[n] - arms.across(tilt, n);
+        let gap = |n: usize| h_init[n] - arms.displacement_across(tilt, n);
         let lowest = (0..h_init.len()).map(gap).fold(f64::INFINITY, f64::min);
         let motion = [0, 1].map(|c| {
             let before_entry = |n: usize| {
                 let theta = ((gap(n) - lowest) / closed).clamp(0.0, 1.0);
-                -theta * arms.in_plane(assumed, n)[c]
+                -theta * arms.displacement_in_plane(assumed, n)[c]
             };
             (0..h_init.len()).map(before_entry).collect()
         });
@@ -55,7 +55,7 @@ pub(super) fn solve_first_contact(
             return Ok((now, info));
         }
         // Secant step along the last change of s.
-        let next = match last {
+        let new_value = match last {
             Some((before, misfit_before)) => {
                 let ds: [f64; 3] = std::array::from_fn(|k| assumed[k] - before[k]);
                 let df: [f64; 3] = std::array::from_fn(|k| misfit[k] - misfit_before[k]);
@@ -66,9 +66,9 @@ pub(super) fn solve_first_contact(
             None => info.shift,
         };
         last = Some((assumed, misfit));
-        assumed = next;
+        assumed = new_value;
         tilt = [0.0, info.approach[1], info.approach[2]];
-        let gap = |n: usize| h_init[n] - arms.across(tilt, n);
+        let gap = |n: usize| h_init[n] - arms.displacement_across(tilt, n);
         closed = info.approach[0] - (0..h_init.len()).map(gap).fold(f64::INFINITY, f64::min);
         guess = now;
     }

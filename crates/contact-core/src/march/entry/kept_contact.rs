@@ -25,14 +25,14 @@ pub(super) struct KeptContact {
 }
 
 impl KeptContact {
-    /// From a solution on the old contact.
+    /// Keeps a solution on the old contact.
     pub(super) fn new(setup: &Setup<'_>, kept: &Interface, info: &AlternationInfo) -> Self {
         let (geometry, mirror) = (setup.geometry, setup.problem.plan.mirror);
         let (last, arms) = (setup.last(), &geometry.arms);
         let approach = setup.state.approach(arms);
         let cells = 0..geometry.h_init.len();
         let gap = |u_z: &[f64], approach: [f64; 3], n: usize| {
-            u_z[n] + geometry.h_init[n] - arms.across(approach, n)
+            u_z[n] + geometry.h_init[n] - arms.displacement_across(approach, n)
         };
         let before = |n: usize| {
             let wider = setup.roll.gap_at(geometry, mirror, n);
@@ -40,7 +40,11 @@ impl KeptContact {
         };
         let motion = |n: usize| {
             let at = |u: &[Vec<f64>; 2]| [u[0][n], u[1][n]];
-            slip(at(&kept.u), at(&last.u), arms.in_plane(info.shift, n))
+            slip(
+                at(&kept.u),
+                at(&last.u),
+                arms.displacement_in_plane(info.shift, n),
+            )
         };
         Self {
             motion: [0, 1].map(|c| cells.clone().map(|n| motion(n)[c]).collect()),

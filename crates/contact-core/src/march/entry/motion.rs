@@ -36,21 +36,21 @@ impl KeptContact {
         let (near, mut far): (Vec<usize>, Vec<usize>) = entering
             .into_iter()
             .partition(|&n| self.ordered && views[n].is_some());
-        let mut known = vec![None; self.gap.len()];
+        let mut views_of_cells = vec![None; self.gap.len()];
         for (&n, by) in near.iter().zip(order::moved(self, &views, &near)) {
-            known[n] = Some(by);
+            views_of_cells[n] = Some(by);
         }
         far.sort_by(|&n, &m| self.gap[n].total_cmp(&self.gap[m]));
         for n in far {
-            known[n] = Some(self.moved_farther_off(n, &known));
+            views_of_cells[n] = Some(self.moved_farther_off(n, &views_of_cells));
         }
         let moved = |c: usize| {
-            let by = |n: usize| match known[n] {
+            let by = |n: usize| match views_of_cells[n] {
                 Some(by) => by[c],
                 None if outside(n) => self.motion[c][n],
                 None => 0.0,
             };
-            (0..known.len()).map(by).collect()
+            (0..views_of_cells.len()).map(by).collect()
         };
         [moved(0), moved(1)]
     }
@@ -61,7 +61,7 @@ impl KeptContact {
         let ratio = |n: usize| [0, 1].map(|c| self.motion[c][n] / self.closing[n]);
         let (own, gap) = (ratio(n), self.gap[n]);
         let (mut sum, mut weights) = ([0.0; 2], 0.0);
-        for near in self.cells.of(n, 1) {
+        for near in self.cells.neighbours_within(n, 1) {
             let (m, [x, y]) = (near.cell, near.off);
             let Some(by) = known[m].filter(|_| self.gap[m] < gap) else {
                 continue;
@@ -89,12 +89,12 @@ impl KeptContact {
     ) -> Vec<Option<View>> {
         let mut around = vec![false; self.gap.len()];
         for &n in entering {
-            for near in self.cells.of(n, order::FITTED) {
+            for near in self.cells.neighbours_within(n, order::FITTED) {
                 around[near.cell] = outside(near.cell) && self.closing[near.cell] > 0.0;
             }
         }
         let view = |n: usize| {
-            let view = || View::of(n, &self.cells, |m| !outside(m));
+            let view = || View::from_cell(n, &self.cells, |m| !outside(m));
             around[n].then(view).flatten()
         };
         let cells = 0..around.len();
@@ -121,22 +121,22 @@ mod tests {
         let n = 64;
         let rows = mirror.rows(n);
         let middle = (n as f64 - 1.0) / 2.0;
-        let place = |k: usize| {
+        let position = |k: usize| {
             let (i, j) = (k / rows, k % rows + n - rows);
             [i as f64 - middle, j as f64 - middle]
         };
-        let places: Vec<[f64; 2]> = (0..n * rows).map(place).collect();
+        let places: Vec<[f64; 2]> = (0..n * rows).map(position).collect();
         let beyond = |[x, y]: &[f64; 2]| (x.hypot(*y) - 20.0).max(0.0);
         let closing: Vec<f64> = places
             .iter()
             .map(|at| CLOSING * beyond(at).sqrt())
             .collect();
         let motion = |c: usize| {
-            let of = |at: &[f64; 2]| {
+            let motion_at = |at: &[f64; 2]| {
                 let d = beyond(at);
                 at[c] / at[0].hypot(at[1]) * CLOSING * d.sqrt() * ratio(d.sqrt())
             };
-            places.iter().map(of).collect()
+            places.iter().map(motion_at).collect()
         };
         let grid = Grid::centred(1.0, n).unwrap();
         let kernel = half_space(&grid);

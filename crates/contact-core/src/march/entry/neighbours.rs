@@ -1,7 +1,7 @@
 //! The cells around a cell of the kept rows, mirror images included.
 
 use crate::cells::Lattice;
-use crate::cells::size;
+use crate::cells::length;
 use crate::kernels::Quadrant;
 use crate::plan::Mirror;
 use crate::scene::Grid;
@@ -59,7 +59,7 @@ pub(super) struct Neighbour {
 }
 
 impl Neighbour {
-    /// The same pair seen from the other cell.
+    /// Returns the pair seen from the other cell.
     pub(super) fn back(&self) -> Self {
         let back = |[x, y]: [f64; 2]| [-x, -y * self.sign];
         Self {
@@ -69,9 +69,9 @@ impl Neighbour {
         }
     }
 
-    /// In lengths of a cell.
+    /// Distance in lengths of a cell.
     pub(super) fn distance(&self) -> f64 {
-        size(self.off)
+        length(self.off)
     }
 
     /// A weight that falls from 1 to 0 at the radius.
@@ -90,12 +90,12 @@ impl Neighbours {
         };
         let lattice = Lattice::new(grid, mirror);
         let square = (-reach..=reach).flat_map(|x| (-reach..=reach).map(move |y| (x, y)));
-        let way = |(columns, rows): (isize, isize)| {
+        let offset = |(columns, rows): (isize, isize)| {
             let off = [
                 columns as f64 * grid.dx / unit,
                 rows as f64 * grid.dy / unit,
             ];
-            let r = size(off).max(f64::MIN_POSITIVE);
+            let r = length(off).max(f64::MIN_POSITIVE);
             let quadrant = (columns.unsigned_abs(), rows.unsigned_abs());
             Way {
                 columns,
@@ -111,18 +111,25 @@ impl Neighbours {
                 response: kernel.get(quadrant).map_or(0.0, |c| c / kernel[(0, 0)]),
             }
         };
-        let mut ways: Vec<Way> = square.map(way).filter(|way| way.is_within(reach)).collect();
-        ways.sort_by_key(Way::square);
+        let mut offsets: Vec<Way> = square
+            .map(offset)
+            .filter(|way| way.is_within(reach))
+            .collect();
+        offsets.sort_by_key(Way::square);
         Self {
             lattice,
             flat: grid.plane_strain,
-            ways,
+            ways: offsets,
         }
     }
 
     /// Cell n and its neighbours within `reach` + 1/2 cells.
-    pub(super) fn of(&self, n: usize, reach: isize) -> impl Iterator<Item = Neighbour> {
-        let (i, j) = self.lattice.place(n);
+    pub(super) fn neighbours_within(
+        &self,
+        n: usize,
+        reach: isize,
+    ) -> impl Iterator<Item = Neighbour> {
+        let (i, j) = self.lattice.column_and_row(n);
         let clear = self.lattice.is_clear(n, reach);
         let within = self.ways.partition_point(|way| way.is_within(reach));
         self.ways[..within].iter().filter_map(move |way| {
@@ -130,7 +137,7 @@ impl Neighbours {
             let cell = if clear {
                 (n as isize + way.step) as usize
             } else {
-                self.lattice.kept(i + way.columns, row)?
+                self.lattice.stored_cell(i + way.columns, row)?
             };
             Some(Neighbour {
                 cell,

@@ -20,7 +20,7 @@
 //! fitted by least squares to the cells around (a further term, linear along the edge, is fitted
 //! and left out). Each entry brings the contact nearer to the cells beyond, which changes their
 //! m/c. A cell enters when its gap has closed; its motion before entry is the sum over the stages.
-//! The result is close to that of a path with one increment per entering cell. Where gap and motion
+//! The result is close to a path with one increment per entering cell. Where gap and motion
 //! are proportional, m/c = A everywhere and the motion is exact.
 
 use std::cmp::Reverse;
@@ -36,7 +36,7 @@ use crate::march::domain::AROUND;
 
 /// Radius within which cells count in the fit of m/c, in cells.
 pub(super) const FITTED: isize = AROUND as isize;
-/// Lower bound of a closing rate, over that of the old contact.
+/// Lower bound of a closing rate, over the rate of the old contact.
 const SLOWEST: f64 = 1e-3;
 
 /// Cells whose times of entry differ by less than this part of the increment enter together, as
@@ -226,29 +226,29 @@ fn hold_back(
     held_back: &mut Vec<(usize, Neighbour, f64)>,
 ) {
     for &k in together {
-        let next = &entering[k];
-        let root = next.view.root();
-        let own = contact.screened.own(root);
+        let cell = &entering[k];
+        let root = cell.view.root();
+        let self_response = contact.screened.own(root);
         let (first, mut with) = (held_back.len(), 0.0);
-        for near in contact.cells.of(next.cell, REACH) {
+        for near in contact.cells.neighbours_within(cell.cell, REACH) {
             let Some(k) = places[near.cell].filter(|&k| entering[k].stage != Stage::Inside) else {
                 continue;
             };
-            let other = &entering[k];
+            let neighbour = &entering[k];
             let response = match near.square {
-                0 => own,
-                _ => (contact.screened).between(&near, [other.view.root(), root]),
+                0 => self_response,
+                _ => (contact.screened).screened_response(&near, [neighbour.view.root(), root]),
             };
-            if other.stage == Stage::Enters {
-                with += response * other.closing;
+            if neighbour.stage == Stage::Enters {
+                with += response * neighbour.closing;
             } else {
                 held_back.push((k, near.back(), response));
             }
         }
         // Pressure lifts neighbours on a thin soft layer: their (negative) response counts for at
         // most half of the cell's own.
-        let closing = with.max(0.5 * own * next.closing);
-        let pressure = next.closing * next.closing / closing;
+        let closing = with.max(0.5 * self_response * cell.closing);
+        let pressure = cell.closing * cell.closing / closing;
         for (_, _, by) in &mut held_back[first..] {
             *by *= pressure;
         }
@@ -263,7 +263,7 @@ fn law(contact: &KeptContact, views: &[Option<View>], n: usize, view: &View) -> 
     // Of the motion and of e/s, both times the closing rate.
     let mut ratios = LeastSquares::<5, 4>::new();
     let (mut motion_e, mut e_e) = (0.0, 0.0);
-    for near in contact.cells.of(n, FITTED) {
+    for near in contact.cells.neighbours_within(n, FITTED) {
         let (m, [x, y]) = (near.cell, near.off);
         let Some(view) = &views[m] else { continue };
         let (s, way) = (view.root(), along[0] * x + along[1] * y);
@@ -279,10 +279,10 @@ fn law(contact: &KeptContact, views: &[Option<View>], n: usize, view: &View) -> 
     }
     let factors = ratios.factors();
     // E from the residuals of the motion and of e after the other terms (Frisch-Waugh).
-    let left = |x: usize, all: f64| {
+    let residual = |x: usize, all: f64| {
         all - ratios.fitted(&factors[x], 2) - ratios.fitted(&factors[x + 1], 3)
     };
-    let toward = left(0, motion_e) / left(2, e_e * (1.0 + RIDGE)).max(f64::MIN_POSITIVE);
+    let toward = residual(0, motion_e) / residual(2, e_e * (1.0 + RIDGE)).max(f64::MIN_POSITIVE);
     let ratio = |c: usize| [0, 1, 2, 3].map(|k| factors[c][k] - toward * factors[c + 2][k]);
     MotionRatio {
         ratio: [ratio(0), ratio(1)],
@@ -313,16 +313,16 @@ mod tests {
     fn cells_in_a_row_enter_one_after_another() {
         let grid = Grid::strip(1.0, STRIPS, 1.0).unwrap();
         let kernel = half_space(&grid);
-        let all = of_all(&grid, &kernel);
+        let response_matrix = of_all(&grid, &kernel);
         let cells = Neighbours::new(&grid, Mirror::None, REACH, &kernel);
         let rates = |contact: usize, cell: usize| {
-            let (held, others) = all.view().split_at(Axis(0), contact);
+            let (held, others) = response_matrix.view().split_at(Axis(0), contact);
             let (inside, _) = held.split_at(Axis(1), contact);
             let (to, _) = others.split_at(Axis(1), contact);
             let p = solve(&inside.to_owned(), &Array2::ones((contact, 1)));
             let lifted = to.dot(&p)[(cell - contact, 0)];
-            let s =
-                View::of(cell, &cells, |m| m < contact).map_or(f64::INFINITY, |view| view.root());
+            let s = View::from_cell(cell, &cells, |m| m < contact)
+                .map_or(f64::INFINITY, |view| view.root());
             [1.0 - lifted, (1.0 - lifted) * (0.2 + 0.05 / s - 0.01 * s)]
         };
         let gap = |k: usize| 0.02 * (k as f64 + 0.7).powf(1.5);
@@ -354,9 +354,9 @@ mod tests {
             screened: Screened::new(&grid, &kernel),
             ordered: true,
         };
-        let found = kept.motion_before_entry(|cell| cell >= CONTACT);
+        let motions = kept.motion_before_entry(|cell| cell >= CONTACT);
         for (k, [_, way]) in moved.iter().enumerate() {
-            let off = (found[0][CONTACT + k] - way).abs() / way;
+            let off = (motions[0][CONTACT + k] - way).abs() / way;
             assert!(off < 0.01, "{k}: off by {off:e} of the way");
         }
     }

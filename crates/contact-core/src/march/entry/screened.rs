@@ -7,7 +7,7 @@ use super::neighbours::Neighbour;
 use crate::kernels::Quadrant;
 use crate::scene::Grid;
 
-/// Lower bound of d: that of a cell surrounded by contact.
+/// Lower bound of d: its value for a cell surrounded by contact.
 const NEAREST: f64 = 0.35;
 /// Lower bound of S_nn/C_nn, for cells far longer than wide; for square ones S_nn/C_nn is 0.74 at
 /// `NEAREST`.
@@ -28,7 +28,7 @@ const LEAST: f64 = 0.5;
 pub(super) struct Screened {
     /// 1/(pi P)
     own: f64,
-    /// In plane strain C(r)/C(0) at r = 0, 1, 2, ...
+    /// Ratio C(r)/C(0) in plane strain at r = 0, 1, 2, ...
     along: Vec<f64>,
 }
 
@@ -54,23 +54,23 @@ impl Screened {
         let image = if self.along.is_empty() {
             self.own / d
         } else {
-            self.along(4.0 * d)
+            self.line_response(4.0 * d)
         };
         (1.0 - image).max(LEAST)
     }
 
     /// S_mn/C_nn of two cells with these d^(1/2).
-    pub(super) fn between(&self, near: &Neighbour, roots: [f64; 2]) -> f64 {
+    pub(super) fn screened_response(&self, near: &Neighbour, roots: [f64; 2]) -> f64 {
         let [m, n] = roots.map(|root| root.max(NEAREST.sqrt()));
         if self.along.is_empty() {
             near.response * FRAC_2_PI * (2.0 * m * n / near.distance()).atan()
         } else {
-            near.response - self.along((m + n).powi(2))
+            near.response - self.line_response((m + n).powi(2))
         }
     }
 
     /// C(r)/C(0) in plane strain, r >= 1; linear in the logarithm of r.
-    fn along(&self, r: f64) -> f64 {
+    fn line_response(&self, r: f64) -> f64 {
         let last = self.along.len() - 1;
         let k = (r as usize).clamp(1, last.max(1));
         let at = |k: usize| self.along[k.min(last)];
@@ -113,32 +113,37 @@ pub(super) mod tests {
     /// away.
     fn off_from_elimination(grid: &Grid, held: usize) -> f64 {
         let kernel = half_space(grid);
-        let all = of_all(grid, &kernel);
+        let response_matrix = of_all(grid, &kernel);
         let cells = Neighbours::new(grid, Mirror::None, REACH, &kernel);
         let screened = Screened::new(grid, &kernel);
-        let (of_held, rest) = all.view().split_at(Axis(0), held);
+        let (of_held, rest) = response_matrix.view().split_at(Axis(0), held);
         let (inside, to_others) = of_held.split_at(Axis(1), held);
         let (_, others) = rest.split_at(Axis(1), held);
         let forces = solve(&inside.to_owned(), &to_others.to_owned());
-        let left = &others - &to_others.t().dot(&forces);
-        let root = |n: usize| View::of(n, &cells, |m| m < held).map(|view| view.root());
+        let remaining = &others - &to_others.t().dot(&forces);
+        let root = |n: usize| View::from_cell(n, &cells, |m| m < held).map(|view| view.root());
         let mut worst: f64 = 0.0;
-        for n in held..all.nrows() {
+        for n in held..response_matrix.nrows() {
             // At the ends of the rows the edge ends.
             let inside = grid.ny == 1 || (8..grid.ny - 8).contains(&(n % grid.ny));
             let Some(at) = root(n).filter(|_| inside) else {
                 continue;
             };
-            for near in cells.of(n, 2).filter(|near| near.cell >= held) {
+            for near in cells
+                .neighbours_within(n, 2)
+                .filter(|near| near.cell >= held)
+            {
                 let Some(to) = root(near.cell) else { continue };
                 let response = if near.cell == n {
                     screened.own(at)
                 } else {
-                    screened.between(&near, [to, at])
+                    screened.screened_response(&near, [to, at])
                 };
-                let exact = left[(near.cell - held, n - held)];
-                worst =
-                    worst.max((all[(0, 0)] * response - exact).abs() / left[(n - held, n - held)]);
+                let exact = remaining[(near.cell - held, n - held)];
+                worst = worst.max(
+                    (response_matrix[(0, 0)] * response - exact).abs()
+                        / remaining[(n - held, n - held)],
+                );
             }
         }
         worst

@@ -3,15 +3,15 @@
 use std::f64::consts::PI;
 
 use super::neighbours::{Neighbour, Neighbours};
-use crate::cells::size;
+use crate::cells::length;
 
 /// Radius within which contact cells count, in columns and rows.
 pub(super) const REACH: isize = 8;
-/// No contact is near if S exceeds that of the half-plane beyond the radius by less than this part.
+/// No contact is near if S exceeds the one of the half-plane beyond the radius by less than this part.
 const ONSET: f64 = 0.03;
 /// S d^(1/4) of a half-plane at the distance d: 4 pi^(1/2) Gamma(5/8)/Gamma(9/8).
 const EDGE: f64 = 10.799_631_181_215_187;
-/// The same in plane strain.
+/// Limit in plane strain.
 const FLAT_EDGE: f64 = 4.0;
 
 /// Sums over the contact cells around a cell n outside:
@@ -35,18 +35,20 @@ pub(super) struct View {
 
 impl View {
     /// The view from cell n; none if no contact is near.
-    pub(super) fn of(
+    pub(super) fn from_cell(
         n: usize,
         cells: &Neighbours,
         contact: impl Fn(usize) -> bool,
     ) -> Option<Self> {
-        let beyond = beyond(cells.flat);
+        let beyond = half_plane_sum_beyond(cells.flat);
         let mut view = Self {
             sum: beyond,
             toward: [0.0; 2],
             flat: cells.flat,
         };
-        let seen = cells.of(n, REACH).filter(|near| contact(near.cell));
+        let seen = cells
+            .neighbours_within(n, REACH)
+            .filter(|near| contact(near.cell));
         seen.for_each(|near| view.add(&near));
         (view.sum > (1.0 + ONSET) * beyond).then_some(view)
     }
@@ -67,13 +69,13 @@ impl View {
 
     /// e; zero where the contact surrounds the cell evenly.
     pub(super) fn toward(&self) -> [f64; 2] {
-        let all = size(self.toward).max(f64::MIN_POSITIVE);
-        self.toward.map(|toward| toward / all)
+        let size = length(self.toward).max(f64::MIN_POSITIVE);
+        self.toward.map(|toward| toward / size)
     }
 }
 
 /// The S of the half-plane beyond the radius.
-fn beyond(flat: bool) -> f64 {
+fn half_plane_sum_beyond(flat: bool) -> f64 {
     let side = if flat { 1.0 } else { PI };
     side * 4.0 / (REACH as f64 + 0.5).powf(0.25)
 }

@@ -79,8 +79,8 @@ pub(super) fn scene(table: &Table, files: &Files<'_>) -> Result<Scene, Fault> {
     scene.body2.bonds = bonds(&bodies[1])?;
     scene.body1.plastic = plastic(&bodies[0])?;
     scene.body2.plastic = plastic(&bodies[1])?;
-    scene.body1.residual_text = residual(&bodies[0])?;
-    scene.body2.residual_text = residual(&bodies[1])?;
+    scene.body1.residual = residual(&bodies[0])?;
+    scene.body2.residual = residual(&bodies[1])?;
     scene.grid = grid(&root, a_H)?;
     Ok(scene)
 }

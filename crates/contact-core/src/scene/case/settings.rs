@@ -98,12 +98,12 @@ impl Settings {
 /// The sections of the settings, every key in full.
 pub(super) fn to_text(settings: &Settings) -> String {
     let mut settings = settings.clone();
-    let mut to_text = String::new();
-    write_section(&mut to_text, "kernel", KERNEL, &mut settings.kernel);
-    write_section(&mut to_text, "solver", SOLVER, &mut settings.solver);
-    write_section(&mut to_text, "skip", SKIP, &mut settings.skip);
-    write_section(&mut to_text, "output", OUTPUT, &mut settings.save);
-    to_text
+    let mut text = String::new();
+    write_section(&mut text, "kernel", KERNEL, &mut settings.kernel);
+    write_section(&mut text, "solver", SOLVER, &mut settings.solver);
+    write_section(&mut text, "skip", SKIP, &mut settings.skip);
+    write_section(&mut text, "output", OUTPUT, &mut settings.save);
+    text
 }
 
 /// Reads a section; keys that are missing stay as they are.

@@ -20,7 +20,7 @@ impl Scene {
             line(format_args!("\n[{name}]\n{}", substrate_text(body)));
             for (n, coating) in body.coatings.iter().enumerate() {
                 line(format_args!("\n[[{name}.coatings]]"));
-                line(format_args!("{}", material_text(coating.material)));
+                line(format_args!("{}", material(coating.material)));
                 line(format_args!("thickness = {:?}", coating.thickness));
                 let bond = body.bond(n);
                 if bond != Bond::PERFECT {
@@ -101,7 +101,7 @@ fn plastic_text(mut law: Plastic) -> String {
 
 /// Residual stress of a layer, if it has any.
 fn residual_text(body: &Body, layer: usize) -> Option<String> {
-    let Profile { rows } = body.residual_text.get(layer)?;
+    let Profile { rows } = body.residual.get(layer)?;
     match rows.as_slice() {
         [] => None,
         [[_, xx, yy]] if xx == yy => Some(format!("residual = {xx:?}")),
@@ -121,11 +121,11 @@ fn substrate_text(body: &Body) -> String {
     let residual = residual.map_or_else(String::new, |text| format!("\n{text}"));
     format!(
         "shape = {shape}\n{}{law}{residual}",
-        material_text(body.substrate)
+        material(body.substrate)
     )
 }
 
-fn material_text(material_text: Elastic) -> String {
+fn material(material_text: Elastic) -> String {
     let E = if material_text.is_rigid() {
         "\"rigid\"".to_owned()
     } else {

@@ -21,14 +21,14 @@ pub(crate) struct ContactShear {
 }
 
 impl ContactShear {
-    /// Takes everything from the grid.
+    /// Copies all fields of the contact cells from the grid.
     pub(crate) fn pack(
         &mut self,
         cells: &ContactCells,
         problem: &TangentialProblem<'_>,
         shear: &Shear<'_>,
     ) {
-        (self.arms.length, self.arms.stretch) = (problem.arms.length, problem.arms.stretch);
+        (self.arms.length, self.arms.axis_ratio) = (problem.arms.length, problem.arms.axis_ratio);
         let ([x, y], [q_x, q_y], [u_x, u_y]) = (&mut self.no_slip, &mut self.q, &mut self.u);
         cells.pack_all([
             (problem.bound, &mut self.bound),
@@ -46,7 +46,7 @@ impl ContactShear {
     }
 
     /// The problem and the shear in the solver's form.
-    pub(crate) fn parts(&mut self, drive: Drive) -> (TangentialProblem<'_>, Shear<'_>) {
+    pub(crate) fn problem_and_shear(&mut self, drive: Drive) -> (TangentialProblem<'_>, Shear<'_>) {
         let problem = TangentialProblem {
             bound: &self.bound,
             no_slip: [&self.no_slip[0], &self.no_slip[1]],
@@ -74,7 +74,7 @@ impl Shear<'_> {
         cells.pack(grid.slips, self.slips);
     }
 
-    /// Puts shear and slip set back; the displacements of the grid are kept up to date all along.
+    /// Copies shear and slip set back; the displacements of the grid are kept up to date all along.
     pub(crate) fn unpack(&self, cells: &ContactCells, grid: &mut Shear<'_>) {
         for c in 0..2 {
             cells.unpack(self.q[c], grid.q[c]);
@@ -88,14 +88,14 @@ const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// The shear before a step.
 #[derive(Debug, Default)]
-pub(crate) struct Before {
+pub(crate) struct ShearBefore {
     q: Pair,
     u: Pair,
 }
 
-impl Before {
+impl ShearBefore {
     /// Keeps the present shear.
-    pub(crate) fn keep(&mut self, shear: &Shear<'_>) {
+    pub(crate) fn save(&mut self, shear: &Shear<'_>) {
         let pairs = [(&mut self.q, &shear.q), (&mut self.u, &shear.u)];
         for (kept, now) in pairs {
             for c in 0..2 {
@@ -104,7 +104,7 @@ impl Before {
         }
     }
 
-    /// Goes back to it, displacements excepted.
+    /// Restores the saved shear, but not the displacements.
     pub(crate) fn restore(&self, shear: &mut Shear<'_>) {
         for c in 0..2 {
             copy(&self.q[c], shear.q[c]);
@@ -122,22 +122,22 @@ impl Before {
         shift: [f64; 3],
         tolerance: f64,
     ) -> bool {
-        let given = problem.drive.given;
+        let prescribed = problem.drive.given;
         let ([q_x, q_y], [u_x, u_y]) = (&shear.q, &shear.u);
         let [x, y] = problem.no_slip;
         let ([p_x, p_y], [v_x, v_y]) = (&self.q, &self.u);
         let (now, before) = ([&**q_x, q_y, u_x, u_y], [&p_x[..], p_y, v_x, v_y]);
         let fields = ((now, before), [x, y]);
         let [rise, moved, work] = sums(fields, |n, ((now, before), u_0)| {
-            let given = problem.arms.in_plane(given, n);
-            let shift = problem.arms.in_plane(shift, n);
+            let prescribed_here = problem.arms.displacement_in_plane(prescribed, n);
+            let shift = problem.arms.displacement_in_plane(shift, n);
             let (mut rise, mut moved, mut work) = (0.0, 0.0, 0.0);
             for c in 0..2 {
                 let change = now[c] - before[c];
                 let mean = 0.5 * (now[2 + c] + before[2 + c]) - u_0[c];
                 rise += change * (mean - shift[c]);
                 moved += change.abs();
-                work += (now[c] * (mean - given[c])).abs();
+                work += (now[c] * (mean - prescribed_here[c])).abs();
             }
             [rise, moved, work]
         });

@@ -6,15 +6,15 @@
 //! largest F . m / sum g |B m|.
 
 use super::TangentialProblem;
-use crate::cells::{add, inverse, product};
-use crate::cells::{size, sum};
+use crate::cells::{add_vectors, inverse, product};
+use crate::cells::{length, sum};
 
-/// The loads over the limit of friction, and the sliding motion that they drive.
+/// The loads over the limit of friction, and the direction of the sliding motion that they drive.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Sliding {
     /// Loads over the limit; infinite where nothing bears a load.
     pub(crate) used: f64,
-    /// Motion of the sliding that they drive, of any size.
+    /// Direction of the sliding motion, of any size.
     pub(crate) motion: [f64; 3],
 }
 
@@ -40,11 +40,11 @@ pub(crate) fn exceeds(used: f64) -> bool {
     used > 1.0 + BEYOND
 }
 
-/// Rounds that look for the motion under a force and a moment.
+/// Largest number of rounds in the search for the motion under a force and a moment.
 const MOST_ROUNDS: usize = 200;
 
-/// The part of the limit that the loads of the free motions use.
-pub(crate) fn sliding(problem: &TangentialProblem<'_>) -> Sliding {
+/// Computes the fraction of the limit that the loads of the free motions use.
+pub(crate) fn compute_sliding(problem: &TangentialProblem<'_>) -> Sliding {
     let drive = &problem.drive;
     let F = drive.sums;
     if F.iter().all(|&F| F == 0.0) || problem.bound.contains(&f64::INFINITY) {
@@ -67,33 +67,33 @@ pub(crate) fn sliding(problem: &TangentialProblem<'_>) -> Sliding {
     }
     // Fixed points of the weights g/|B m| climb to the largest ratio.
     let mut best = Sliding::default();
-    let mut m = turned_by(problem, |_| 1.0);
+    let mut m = damped_motion(problem, |_| 1.0);
     for _ in 0..MOST_ROUNDS {
         let used = dot(F, m) / friction_power(problem, m);
-        let settled = used <= best.used * (1.0 + 1e-14);
+        let has_converged = used <= best.used * (1.0 + 1e-14);
         if used > best.used {
             best = Sliding { used, motion: m };
         }
-        if settled {
+        if has_converged {
             break;
         }
-        let slowest = 1e-12 * size([m[0], m[1]]).max(m[2].abs());
-        m = turned_by(problem, |n| {
-            1.0 / size(problem.arms.in_plane(m, n)).max(slowest)
+        let slowest = 1e-12 * length([m[0], m[1]]).max(m[2].abs());
+        m = damped_motion(problem, |n| {
+            1.0 / length(problem.arms.displacement_in_plane(m, n)).max(slowest)
         });
     }
     best
 }
 
-/// The motion that the loads drive where each cell resists like a damper of g times `weight`.
-fn turned_by(problem: &TangentialProblem<'_>, weight: impl Fn(usize) -> f64) -> [f64; 3] {
+/// The motion driven by the loads where each cell resists like a damper of g times `weight`.
+fn damped_motion(problem: &TangentialProblem<'_>, weight: impl Fn(usize) -> f64) -> [f64; 3] {
     let mut gram = [[0.0; 3]; 3];
     for n in (0..problem.bound.len()).filter(|&n| problem.bound[n] > 0.0) {
         let w = problem.bound[n] * weight(n);
-        let (x, y) = (problem.arms.turn_x(n), problem.arms.y[n]);
+        let (x, y) = (problem.arms.turn_arm_x(n), problem.arms.y[n]);
         let rows = [[1.0, 0.0, -y], [0.0, 1.0, x], [-y, x, x * x + y * y]];
         for k in 0..3 {
-            gram[k] = add(gram[k], rows[k].map(|r| w * r));
+            gram[k] = add_vectors(gram[k], rows[k].map(|r| w * r));
         }
     }
     product(&inverse(gram, problem.drive.free), problem.drive.sums)
@@ -102,7 +102,7 @@ fn turned_by(problem: &TangentialProblem<'_>, weight: impl Fn(usize) -> f64) -> 
 /// sum of g |B m|
 fn friction_power(problem: &TangentialProblem<'_>, m: [f64; 3]) -> f64 {
     (0..problem.bound.len())
-        .map(|n| problem.bound[n] * size(problem.arms.in_plane(m, n)))
+        .map(|n| problem.bound[n] * length(problem.arms.displacement_in_plane(m, n)))
         .sum()
 }
 

@@ -11,11 +11,11 @@ mod shear_gradient;
 mod tangent;
 mod tangential;
 
-pub(super) use admissible::admissible;
-pub(super) use limit::{Sliding, exceeds, is_full, sliding};
-pub(crate) use normal::assess;
-pub use normal::{NormalInfo, NormalParams, NormalProblem, NormalWorkspace, normal};
+pub(super) use admissible::make_admissible;
+pub(super) use limit::{Sliding, compute_sliding, exceeds, is_full};
+pub(crate) use normal::assess_gap;
+pub use normal::{NormalInfo, NormalParams, NormalProblem, NormalWorkspace, solve_normal};
 pub(super) use shear::first_shift;
 pub use shear::{TangentialInfo, TangentialParams, TangentialProblem};
 pub(super) use shear_gradient::shear_gradient;
-pub use tangential::{TangentialWorkspace, newton_step, tangential};
+pub use tangential::{TangentialWorkspace, newton_step, solve_tangential};

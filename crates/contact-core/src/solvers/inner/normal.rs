@@ -14,9 +14,9 @@
 //! to each step, so that an iteration costs one convolution, and a second one only when cells
 //! leave.
 
-use crate::cells::{Arms, Drive, add};
+use crate::cells::{Arms, Drive, add_vectors};
 use crate::cells::{add_scaled, copy};
-use crate::cells::{largest, set, sums, survey, sweep};
+use crate::cells::{largest, set_fields, sums, sums_and_maxima, sweep};
 use crate::solvers::{Response, SolverError};
 
 /// Data: the gap, and the drive of approach and tilts.
@@ -24,9 +24,9 @@ use crate::solvers::{Response, SolverError};
 pub struct NormalProblem<'a> {
     /// Gap between the undeformed surfaces h_init \[m\].
     pub h_init: &'a [f64],
-    /// Where the cells are.
+    /// Positions of the cells.
     pub arms: &'a Arms,
-    /// Normal force and tilting moments, or the motions where these are given.
+    /// Normal force and tilting moments, or the motions where these are prescribed.
     pub drive: Drive,
 }
 
@@ -34,9 +34,9 @@ pub struct NormalProblem<'a> {
 #[derive(Clone, Copy, Debug)]
 pub struct NormalParams {
     /// Largest root-mean-square gap in the contact and deepest penetration outside with which a
-    /// guess is taken as it is \[m\].
+    /// guess is accepted as it is \[m\].
     pub enough: f64,
-    /// The same for the end of the iterations, once there are any \[m\].
+    /// Tolerance of gap and penetration for the end of the iterations, once there are any \[m\].
     pub tolerance: f64,
     /// Most iterations.
     pub max_iterations: usize,
@@ -75,7 +75,7 @@ pub struct NormalWorkspace {
 }
 
 impl NormalWorkspace {
-    /// For fields of `cells` cells.
+    /// Allocates buffers for fields of `cells` cells.
     pub fn new(cells: usize) -> Self {
         let field = || vec![0.0; cells];
         Self {
@@ -94,11 +94,11 @@ impl NormalWorkspace {
 /// a soft foundation) is badly approximated.
 const MOST_WITHOUT_GAIN: usize = 50;
 
-/// Solves for `p`, with `u_z` the total normal displacement, that under the shear included.
+/// Solves for `p`, with `u_z` the total normal displacement, including the one under the shear.
 ///
-/// On entry `p` is >= 0, not all zero where the approach is free, and `u_z` belongs to it; on exit
-/// too, and p has the sums asked for up to rounding.
-pub fn normal(
+/// On entry `p` is >= 0, not all zero where the approach is free, and `u_z` is its response; on exit
+/// too, and p has the prescribed sums up to rounding.
+pub fn solve_normal(
     response: &mut Response<'_>,
     problem: &NormalProblem<'_>,
     p: &mut [f64],
@@ -107,10 +107,12 @@ pub fn normal(
     params: &NormalParams,
 ) -> Result<NormalInfo, SolverError> {
     copy(p, &mut ws.response);
-    balance(problem, p);
-    let off = |p: f64, before: f64| (p - before).abs() - SUMMED * p;
-    let [moved] = largest([&*p, &ws.response], |_, [p, before]| [off(p, before)]);
-    if moved > 0.0 {
+    balance_pressure(problem, p);
+    let change_beyond_rounding = |p: f64, before: f64| (p - before).abs() - ROUNDING * p;
+    let [changed] = largest([&*p, &ws.response], |_, [p, before]| {
+        [change_beyond_rounding(p, before)]
+    });
+    if changed > 0.0 {
         add_response_of_change(response, p, u_z, ws);
     }
     let mut descent = Descent::new();
@@ -118,20 +120,20 @@ pub fn normal(
     loop {
         let info = NormalInfo {
             iterations,
-            ..assess(problem, p, u_z)
+            ..assess_gap(problem, p, u_z)
         };
         let misfit = info.misfit();
-        descent.watch(misfit);
+        descent.record_misfit(misfit);
         let tolerance = if iterations == 0 {
             params.enough
         } else {
             params.tolerance
         };
-        let solved = misfit <= tolerance;
-        if solved && is_balanced(problem, p) {
+        let is_solved = misfit <= tolerance;
+        if is_solved && is_balanced(problem, p) {
             return Ok(info);
         }
-        if iterations == params.max_iterations || response.stopped() {
+        if iterations == params.max_iterations || response.must_stop() {
             return Err(SolverError {
                 solver: "normal",
                 residual: misfit,
@@ -140,10 +142,10 @@ pub fn normal(
             });
         }
         iterations += 1;
-        if solved {
+        if is_solved {
             // The contact at the last balance was too small to carry the moments.
             copy(p, &mut ws.response);
-            balance(problem, p);
+            balance_pressure(problem, p);
             add_response_of_change(response, p, u_z, ws);
         } else {
             descent.step(response, problem, info.motion, p, u_z, ws);
@@ -157,7 +159,7 @@ struct Descent {
     best: f64,
     since_best: usize,
     preconditioned: bool,
-    /// r.z of the last direction; zero to begin anew.
+    /// r.z of the last direction; zero to start again.
     last_product: f64,
 }
 
@@ -172,7 +174,7 @@ impl Descent {
     }
 
     /// Drops the preconditioner where the misfit stalls.
-    fn watch(&mut self, misfit: f64) {
+    fn record_misfit(&mut self, misfit: f64) {
         if misfit < self.best {
             (self.best, self.since_best) = (misfit, 0);
         } else {
@@ -184,7 +186,7 @@ impl Descent {
         }
     }
 
-    /// A step to the least energy along the next direction; negative pressures are set to zero.
+    /// Steps to the least energy along the next direction; negative pressures are set to zero.
     fn step(
         &mut self,
         response: &mut Response<'_>,
@@ -194,8 +196,8 @@ impl Descent {
         u_z: &mut [f64],
         ws: &mut NormalWorkspace,
     ) {
-        let product = self.direct(response, problem, motion, p, u_z, ws);
-        let [slope, curvature, squares] = line(response, ws);
+        let product = self.choose_direction(response, problem, motion, p, u_z, ws);
+        let [slope, curvature, squares] = line_search_terms(response, ws);
         if !(slope > 0.0 && curvature > 0.0) {
             ws.direction.fill(0.0);
             self.last_product = 0.0;
@@ -203,26 +205,26 @@ impl Descent {
         }
         self.last_product = product;
         let step = slope / curvature;
-        let [pulled] = largest([&*p, &ws.direction], |_, [p, d]| [-(p + step * d)]);
-        if pulled <= 0.0 {
-            response.changed(step * step * squares);
+        let [largest_tension] = largest([&*p, &ws.direction], |_, [p, d]| [-(p + step * d)]);
+        if largest_tension <= 0.0 {
+            response.count_change(step * step * squares);
             let changes = [&ws.direction[..], &ws.response];
-            set(changes, [p, u_z], |_, [d, u], [p, u_z]| {
+            set_fields(changes, [p, u_z], |_, [d, u], [p, u_z]| {
                 [p + step * d, u_z + step * u]
             });
         } else {
-            set(
+            set_fields(
                 [&ws.direction[..]],
                 [p, &mut ws.response],
                 |_, [d], [p, _]| [(p + step * d).max(0.0), p],
             );
-            balance(problem, p);
+            balance_pressure(problem, p);
             add_response_of_change(response, p, u_z, ws);
         }
     }
 
-    /// Next search direction on the contact and on the cells about to enter it; returns r.z.
-    fn direct(
+    /// Chooses the next search direction on the contact and on the cells about to enter it; returns r.z.
+    fn choose_direction(
         &self,
         response: &mut Response<'_>,
         problem: &NormalProblem<'_>,
@@ -242,48 +244,49 @@ impl Descent {
         let arms = problem.arms;
         std::mem::swap(residual, last_residual);
         let from = [p, u_z, problem.h_init];
-        set(from, [residual], |n, [p, u_z, h], _| {
-            let gap = u_z + h - arms.across(motion, n);
+        set_fields(from, [residual], |n, [p, u_z, h], _| {
+            let gap = u_z + h - arms.displacement_across(motion, n);
             [if p > 0.0 || gap < 0.0 { -gap } else { 0.0 }]
         });
         response.invert_normal(residual, z, self.preconditioned);
         let from = [p, residual, z];
-        let touches = |_: usize, [p, r, z]: [f64; 3]| (f64::from(u8::from(p > 0.0 || r > 0.0)), z);
-        let of_all = arms.fit_across(problem.drive.free, from, touches);
+        let weight_and_value =
+            |_: usize, [p, r, z]: [f64; 3]| (f64::from(u8::from(p > 0.0 || r > 0.0)), z);
+        let motion_of_all = arms.fit_across(problem.drive.free, from, weight_and_value);
         // A cell without pressure stays out if the direction would make its pressure negative.
-        set(from, [free], |n, [p, r, z], _| {
-            let changes = p > 0.0 || (r > 0.0 && z > arms.across(of_all, n));
+        set_fields(from, [free], |n, [p, r, z], _| {
+            let changes = p > 0.0 || (r > 0.0 && z > arms.displacement_across(motion_of_all, n));
             [f64::from(u8::from(changes))]
         });
         let weighted = |_: usize, [free, value]: [f64; 2]| (free, value);
         let fit = |field: &[f64]| arms.fit_across(problem.drive.free, [free, field], weighted);
-        let (of_free, drift) = (fit(z), fit(direction));
+        let (motion_of_free, drift) = (fit(z), fit(direction));
         let from = [&free[..], residual, last_residual];
-        let [product, fresh] = sweep(from, [z], |n, [free, now, last], [z]| {
-            let z = free * (z - arms.across(of_free, n));
+        let [product, numerator] = sweep(from, [z], |n, [free, now, last], [z]| {
+            let z = free * (z - arms.displacement_across(motion_of_free, n));
             ([z], [now * z, (now - last) * z])
         });
         let beta = if self.last_product > 0.0 {
-            (fresh / self.last_product).max(0.0)
+            (numerator / self.last_product).max(0.0)
         } else {
             0.0
         };
-        set([&free[..], z], [direction], |n, [free, z], [d]| {
-            [z + beta * free * (d - arms.across(drift, n))]
+        set_fields([&free[..], z], [direction], |n, [free, z], [d]| {
+            [z + beta * free * (d - arms.displacement_across(drift, n))]
         });
         product
     }
 }
 
-/// Rounding error of the sum of a pressure that has been scaled to its load, over the sum.
-const SUMMED: f64 = 1e-13;
+/// Rounding error of the sum of a scaled pressure, over the sum.
+const ROUNDING: f64 = 1e-13;
 
 /// Most rounds of weighting and cutting that scale the pressure to its loads.
 const MOST_SCALINGS: usize = 20;
 
-/// Scales p to the force asked for, or weights it with a rigid motion, p (1 + B m), to the force
+/// Scales p to the prescribed force, or weights it with a rigid motion, p (1 + B m), to the force
 /// and the moments.
-fn balance(problem: &NormalProblem<'_>, p: &mut [f64]) {
+fn balance_pressure(problem: &NormalProblem<'_>, p: &mut [f64]) {
     let Drive {
         free,
         sums: targets,
@@ -295,29 +298,29 @@ fn balance(problem: &NormalProblem<'_>, p: &mut [f64]) {
     if free[0] {
         let [sum] = sums([&*p], |_, [p]| [p]);
         let factor = targets[0] / sum;
-        set([], [p], |_, [], [p]| [p * factor]);
+        set_fields([], [p], |_, [], [p]| [p * factor]);
     }
     if free == [true, false, false] {
         return;
     }
-    let enough = 1e-14 * p.iter().sum::<f64>();
+    let tolerance = 1e-14 * p.iter().sum::<f64>();
     for _ in 0..MOST_SCALINGS {
-        let missing = missing(problem, p);
-        if missing.iter().all(|m| m.abs() <= enough) {
+        let missing_loads = missing_loads(problem, p);
+        if missing_loads.iter().all(|m| m.abs() <= tolerance) {
             return;
         }
-        let m = problem.arms.spread_across(free, p, missing);
+        let m = problem.arms.motion_for_sums(free, p, missing_loads);
         for n in 0..p.len() {
-            p[n] *= (1.0 + problem.arms.across(m, n)).max(0.0);
+            p[n] *= (1.0 + problem.arms.displacement_across(m, n)).max(0.0);
         }
     }
 }
 
-/// Given loads less the sums of the pressure; zero for motions that are given.
-fn missing(problem: &NormalProblem<'_>, p: &[f64]) -> [f64; 3] {
-    let now = sums([p], |n, [p]| problem.arms.sums_across(p, n));
+/// Prescribed loads minus the sums of the pressure; zero for prescribed motions.
+fn missing_loads(problem: &NormalProblem<'_>, p: &[f64]) -> [f64; 3] {
+    let sums = sums([p], |n, [p]| problem.arms.loads_across(p, n));
     let drive = problem.drive;
-    let missing = |k: usize| drive.sums[k] - now[k];
+    let missing = |k: usize| drive.sums[k] - sums[k];
     std::array::from_fn(|k| if drive.free[k] { missing(k) } else { 0.0 })
 }
 
@@ -329,8 +332,10 @@ fn is_balanced(problem: &NormalProblem<'_>, p: &[f64]) -> bool {
     if problem.drive.free[1..] == [false; 2] {
         return true;
     }
-    let enough = BALANCED * p.iter().sum::<f64>();
-    missing(problem, p).iter().all(|m| m.abs() <= enough)
+    let tolerance = BALANCED * p.iter().sum::<f64>();
+    missing_loads(problem, p)
+        .iter()
+        .all(|m| m.abs() <= tolerance)
 }
 
 /// Adds to `u_z` the response to the change of p from `ws.response`.
@@ -345,23 +350,26 @@ fn add_response_of_change(
         let change = p - before;
         ([change], [change * change])
     });
-    response.changed(squares);
-    response.normal(&ws.z, &mut ws.response);
+    response.count_change(squares);
+    response.respond_to_pressure(&ws.z, &mut ws.response);
     add_scaled(u_z, 1.0, &ws.response);
 }
 
 /// The rigid motion (least squares fit to h_init + u_z over the contact) and the residuals of the
 /// equations.
-pub(crate) fn assess(problem: &NormalProblem<'_>, p: &[f64], u_z: &[f64]) -> NormalInfo {
+pub(crate) fn assess_gap(problem: &NormalProblem<'_>, p: &[f64], u_z: &[f64]) -> NormalInfo {
     let Drive { free, given, .. } = problem.drive;
     let fields = [p, u_z, problem.h_init];
-    let fitted = |n: usize, [p, u_z, h]: [f64; 3]| {
+    let weight_and_gap = |n: usize, [p, u_z, h]: [f64; 3]| {
         let touches = f64::from(u8::from(p > 0.0));
-        (touches, u_z + h - problem.arms.across(given, n))
+        (
+            touches,
+            u_z + h - problem.arms.displacement_across(given, n),
+        )
     };
-    let motion = add(given, problem.arms.fit_across(free, fields, fitted));
-    let ([squares, contact], [penetration]) = survey(fields, |n, [p, u_z, h]| {
-        let gap = u_z + h - problem.arms.across(motion, n);
+    let motion = add_vectors(given, problem.arms.fit_across(free, fields, weight_and_gap));
+    let ([squares, contact], [penetration]) = sums_and_maxima(fields, |n, [p, u_z, h]| {
+        let gap = u_z + h - problem.arms.displacement_across(motion, n);
         if p > 0.0 {
             ([gap * gap, 1.0], [0.0])
         } else {
@@ -379,8 +387,8 @@ pub(crate) fn assess(problem: &NormalProblem<'_>, p: &[f64], u_z: &[f64]) -> Nor
 
 /// Slope and curvature of the energy along the direction, and the sum of its squares; its response
 /// goes to the workspace.
-fn line(response: &mut Response<'_>, ws: &mut NormalWorkspace) -> [f64; 3] {
-    response.normal(&ws.direction, &mut ws.response);
+fn line_search_terms(response: &mut Response<'_>, ws: &mut NormalWorkspace) -> [f64; 3] {
+    response.respond_to_pressure(&ws.direction, &mut ws.response);
     let fields = [&ws.residual[..], &ws.direction, &ws.response];
     sums(fields, |_, [r, d, u]| [r * d, d * u, d * d])
 }

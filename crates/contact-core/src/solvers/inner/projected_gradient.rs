@@ -1,19 +1,18 @@
 //! Accelerated projected gradients for the tangential problem: slow, but every step lowers the
 //! energy.
-//!
-//! The Newton method hands over here when a step would raise the energy, which happens when many
+//! The Newton method switches to this one when a step would raise the energy, which happens when many
 //! cells change between stick and slip at once. Y. Nesterov's acceleration with restart
 //! (B. O'Donoghue, E. Candes, Found. Comput. Math. 15 (2015) 715-732) on the convex set
 //! |q| <= g, B^T q = loads.
 
 use super::TangentialProblem;
-use super::admissible::{mark_circle, project};
-use crate::cells::add;
+use super::admissible::{mark_circle, project_to_admissible};
+use crate::cells::add_vectors;
 use crate::solvers::{Response, Shear};
 
 type Pair = [Vec<f64>; 2];
 
-/// Buffers of the projected gradients, of no size until they are needed.
+/// Buffers of the projected gradients, empty until they are needed.
 #[derive(Debug, Default)]
 pub(crate) struct ProjectedGradient {
     /// Point that the gradient is taken at, ahead of q, and its displacement.
@@ -24,7 +23,7 @@ pub(crate) struct ProjectedGradient {
 }
 
 impl ProjectedGradient {
-    fn make_room(&mut self, cells: usize) {
+    fn allocate(&mut self, cells: usize) {
         for pair in [
             &mut self.ahead,
             &mut self.u_ahead,
@@ -39,7 +38,7 @@ impl ProjectedGradient {
 
     /// Does `passes` iterations, one convolution each, and one more; sets the slip set to the cells
     /// on the circle and returns the rigid motion \[m\], the multiplier of the loads.
-    pub(crate) fn run(
+    pub(crate) fn iterate(
         &mut self,
         response: &mut Response<'_>,
         problem: &TangentialProblem<'_>,
@@ -57,10 +56,10 @@ impl ProjectedGradient {
             self.step(response, problem, shear, stiffness, &mut shift);
             // The sum of the change is zero only up to rounding, so that the shift is left out of
             // the energy.
-            let rigid = shift.map(|s| s / stiffness);
-            let [change_size, curvature, descent] = self.add_response(problem, shear, rigid);
-            response.changed(change_size);
-            if change_size == 0.0 || response.stopped() {
+            let rigid_motion = shift.map(|s| s / stiffness);
+            let [change_size, curvature, descent] = self.add_response(problem, shear, rigid_motion);
+            response.count_change(change_size);
+            if change_size == 0.0 || response.must_stop() {
                 break;
             }
             // The step must not exceed the inverse of the compliance along the change.
@@ -73,13 +72,13 @@ impl ProjectedGradient {
                 }
                 momentum = 1.0;
             }
-            let next = 0.5 * (1.0 + (1.0 + 4.0 * momentum * momentum).sqrt());
-            let beta = (momentum - 1.0) / next;
-            momentum = next;
-            self.look_ahead(shear, beta);
+            let next_momentum = 0.5 * (1.0 + (1.0 + 4.0 * momentum * momentum).sqrt());
+            let beta = (momentum - 1.0) / next_momentum;
+            momentum = next_momentum;
+            self.extrapolate(shear, beta);
         }
         mark_circle(problem, &shear.q, shear.slips);
-        add(problem.drive.given, shift.map(|s| -s / stiffness))
+        add_vectors(problem.drive.given, shift.map(|s| -s / stiffness))
     }
 
     /// A projected step along the gradient from the extrapolated point. On exit `ahead` holds the
@@ -96,18 +95,18 @@ impl ProjectedGradient {
             self.q_last[c].copy_from_slice(shear.q[c]);
             self.u_last[c].copy_from_slice(shear.u[c]);
             for n in 0..problem.bound.len() {
-                let slip = self.u_ahead[c][n] - no_slip(problem, c, n);
+                let slip = self.u_ahead[c][n] - displacement_without_slip(problem, c, n);
                 shear.q[c][n] = self.ahead[c][n] - stiffness * slip;
             }
         }
-        project(problem, &mut shear.q, shift);
+        project_to_admissible(problem, &mut shear.q, shift);
         for c in 0..2 {
             for n in 0..problem.bound.len() {
                 self.ahead[c][n] = shear.q[c][n] - self.q_last[c][n];
             }
         }
         let ([change_x, change_y], [u_x, u_y]) = (&self.ahead, &mut shear.u);
-        response.tangential([change_x, change_y], [u_x, u_y]);
+        response.respond_to_shear([change_x, change_y], [u_x, u_y]);
     }
 
     /// Adds the last displacements to the response in `shear.u`. Returns three sums over the cells:
@@ -125,8 +124,8 @@ impl ProjectedGradient {
                 let (change, response) = (self.ahead[c][n], shear.u[c][n]);
                 squares += change * change;
                 curvature += change * response;
-                let rigid = problem.arms.in_plane(rigid, n)[c];
-                let before = self.u_last[c][n] - no_slip(problem, c, n) + rigid;
+                let rigid = problem.arms.displacement_in_plane(rigid, n)[c];
+                let before = self.u_last[c][n] - displacement_without_slip(problem, c, n) + rigid;
                 descent += change * (before + 0.5 * response);
                 shear.u[c][n] = self.u_last[c][n] + response;
             }
@@ -135,7 +134,7 @@ impl ProjectedGradient {
     }
 
     /// Extrapolates the last change by `beta`: the point from which the next step starts.
-    fn look_ahead(&mut self, shear: &Shear<'_>, beta: f64) {
+    fn extrapolate(&mut self, shear: &Shear<'_>, beta: f64) {
         for c in 0..2 {
             for (n, (&q, &u)) in shear.q[c].iter().zip(&*shear.u[c]).enumerate() {
                 self.ahead[c][n] = q + beta * (q - self.q_last[c][n]);
@@ -151,21 +150,21 @@ impl ProjectedGradient {
         response: &mut Response<'_>,
         problem: &TangentialProblem<'_>,
     ) -> f64 {
-        self.make_room(problem.bound.len());
+        self.allocate(problem.bound.len());
         for (a, g) in self.ahead[0].iter_mut().zip(problem.bound) {
             *a = f64::from(u8::from(*g > 0.0));
         }
         self.ahead[1].fill(0.0);
         let [a_x, a_y] = &self.ahead;
         let [u_x, u_y] = &mut self.u_ahead;
-        response.tangential([a_x, a_y], [u_x, u_y]);
+        response.respond_to_shear([a_x, a_y], [u_x, u_y]);
         self.u_ahead[0]
             .iter()
             .fold(f64::MIN_POSITIVE, |m, u| m.max(*u))
     }
 }
 
-/// The displacement of a cell that means no slip, with the motions that are given \[m\].
-fn no_slip(problem: &TangentialProblem<'_>, c: usize, n: usize) -> f64 {
-    problem.no_slip[c][n] + problem.arms.in_plane(problem.drive.given, n)[c]
+/// The displacement of a cell without slip, with the prescribed motions \[m\].
+fn displacement_without_slip(problem: &TangentialProblem<'_>, c: usize, n: usize) -> f64 {
+    problem.no_slip[c][n] + problem.arms.displacement_in_plane(problem.drive.given, n)[c]
 }

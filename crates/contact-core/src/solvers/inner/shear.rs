@@ -1,6 +1,6 @@
 //! Data, unknowns and results of the tangential solvers.
 
-use crate::cells::{Arms, Drive, add};
+use crate::cells::{Arms, Drive, add_vectors};
 use crate::plan::TangentialMethod;
 use crate::solvers::Shear;
 use crate::solvers::no_slip::slip;
@@ -10,22 +10,22 @@ use crate::solvers::no_slip::slip;
 pub struct TangentialProblem<'a> {
     /// Largest shear g = mu p in each cell \[Pa\], zero outside the contact.
     pub bound: &'a [f64],
-    /// The displacement that means no slip, u_0 \[m\].
+    /// The displacement without slip, u_0 \[m\].
     pub no_slip: [&'a [f64]; 2],
-    /// Where the cells are.
+    /// Positions of the cells.
     pub arms: &'a Arms,
-    /// Forces and torsional moment, or the motions of this increment where these are given.
+    /// Forces and torsional moment, or the motions of this increment where these are prescribed.
     pub drive: Drive,
 }
 
 impl TangentialProblem<'_> {
     /// The slip of cell n with the rigid motion `shift` \[m\].
     pub(crate) fn slip(&self, u: &[&mut [f64]; 2], shift: [f64; 3], n: usize) -> [f64; 2] {
-        let at = |f: [&[f64]; 2]| [f[0][n], f[1][n]];
+        let at_cell = |f: [&[f64]; 2]| [f[0][n], f[1][n]];
         slip(
-            at([u[0], u[1]]),
-            at(self.no_slip),
-            self.arms.in_plane(shift, n),
+            at_cell([u[0], u[1]]),
+            at_cell(self.no_slip),
+            self.arms.displacement_in_plane(shift, n),
         )
     }
 }
@@ -33,7 +33,7 @@ impl TangentialProblem<'_> {
 /// Settings of the tangential solver.
 #[derive(Clone, Copy, Debug)]
 pub struct TangentialParams {
-    /// How the problem is solved.
+    /// Algorithm of the solution.
     pub method: TangentialMethod,
     /// Largest root-mean-square misfit of the slip conditions over the contact \[m\].
     pub tolerance: f64,
@@ -54,8 +54,8 @@ pub struct TangentialInfo {
     pub shift: [f64; 3],
     /// Root-mean-square misfit \[m\].
     pub misfit: f64,
-    /// Newton steps; of [`newton_step`](super::newton_step) 0 if the shear was the solution
-    /// already.
+    /// Newton steps; [`newton_step`](super::newton_step) returns 0 if the shear was already the
+    /// solution.
     pub iterations: usize,
     /// Conjugate-gradient passes, one convolution each.
     pub passes: usize,
@@ -66,17 +66,20 @@ pub(crate) fn first_shift(problem: &TangentialProblem<'_>, shear: &Shear<'_>) ->
     let cells = problem.bound.len();
     let sticks = |n: usize| problem.bound[n] > 0.0 && !shear.slips[n];
     let any_sticks = (0..cells).any(sticks);
-    let given = problem.drive.given;
+    let prescribed = problem.drive.given;
     let ([u_x, u_y], [x, y]) = (&shear.u, problem.no_slip);
     let [arm_x, arm_y] = problem.arms.fields();
     let fields = ([u_x, u_y, x, y, problem.bound, arm_x, arm_y], &*shear.slips);
-    let of_cell = |_, ([u_x, u_y, x, y, bound, arm_x, arm_y], slips): ([f64; 7], bool)| {
-        let counts = bound > 0.0 && !(slips && any_sticks);
-        let rigid = problem.arms.motion_at([arm_x, arm_y], given);
-        (f64::from(u8::from(counts)), slip([u_x, u_y], [x, y], rigid))
+    let weight_and_slip = |_, ([u_x, u_y, x, y, bound, arm_x, arm_y], slips): ([f64; 7], bool)| {
+        let is_fitted = bound > 0.0 && !(slips && any_sticks);
+        let rigid = problem.arms.displacement_at([arm_x, arm_y], prescribed);
+        (
+            f64::from(u8::from(is_fitted)),
+            slip([u_x, u_y], [x, y], rigid),
+        )
     };
     let fitted = problem
         .arms
-        .fit_in_plane(problem.drive.free, fields, of_cell);
-    add(given, fitted)
+        .fit_in_plane(problem.drive.free, fields, weight_and_slip);
+    add_vectors(prescribed, fitted)
 }

@@ -1,4 +1,4 @@
-//! The tangential problem as the paper solves it: conjugate gradients of the Polonsky-Keer type.
+//! The paper's solution of the tangential problem: conjugate gradients of the Polonsky-Keer type.
 //!
 //! The inner loop of figure 3, with the structure of the normal solver: a conjugate-gradient step
 //! on the cells taken to stick, while slip cells follow their slip, eq. (20); then cells beyond the
@@ -10,10 +10,10 @@
 use super::admissible;
 use super::projected_gradient::ProjectedGradient;
 use super::{TangentialInfo, TangentialParams, TangentialProblem, first_shift};
-use crate::cells::{add_scaled, dot, size};
+use crate::cells::{add_scaled, dot, length};
 use crate::solvers::{Response, Shear, SolverError};
 
-/// Buffers of the gradients, of no size until they are needed.
+/// Buffers of the gradients, empty until they are needed.
 #[derive(Debug, Default)]
 pub(crate) struct GradientBuffers {
     residual: [Vec<f64>; 2],
@@ -24,7 +24,7 @@ pub(crate) struct GradientBuffers {
 }
 
 impl GradientBuffers {
-    fn make_room(&mut self, cells: usize) {
+    fn allocate(&mut self, cells: usize) {
         for pair in [
             &mut self.residual,
             &mut self.direction,
@@ -57,29 +57,33 @@ pub(crate) fn shear_gradient(
     // Slip cells take the longest step that cannot overshoot: the inverse of the largest
     // eigenvalue.
     let slip_step = 1.0 / descent.largest_compliance(response, problem);
-    ws.make_room(cells);
+    ws.allocate(cells);
     let mut info = TangentialInfo::default();
     let mut last_product = 0.0;
-    let (mut least, mut stalled) = (f64::INFINITY, 0);
+    let (mut least_misfit, mut stalled) = (f64::INFINITY, 0);
     loop {
         if stalled < MOST_WITHOUT_GAIN {
             info.shift = first_shift(problem, shear);
         } else {
-            info.shift = descent.run(response, problem, shear, DESCENT);
+            info.shift = descent.iterate(response, problem, shear, DESCENT);
             info.passes += DESCENT;
-            (least, stalled, last_product) = (f64::INFINITY, 0, 0.0);
+            (least_misfit, stalled, last_product) = (f64::INFINITY, 0, 0.0);
         }
-        let (misfit, product) = misfit(problem, shear, info.shift);
-        info.misfit = misfit;
-        if misfit <= params.tolerance {
+        let (slip_misfit, product) = slip_misfit(problem, shear, info.shift);
+        info.misfit = slip_misfit;
+        if slip_misfit <= params.tolerance {
             return Ok(info);
         }
-        stalled = if misfit < least { 0 } else { stalled + 1 };
-        least = least.min(misfit);
-        if info.iterations == params.max_iterations || response.stopped() {
+        stalled = if slip_misfit < least_misfit {
+            0
+        } else {
+            stalled + 1
+        };
+        least_misfit = least_misfit.min(slip_misfit);
+        if info.iterations == params.max_iterations || response.must_stop() {
             return Err(SolverError {
                 solver: "tangential",
-                residual: misfit,
+                residual: slip_misfit,
                 tolerance: params.tolerance,
                 iterations: info.iterations,
             });
@@ -87,12 +91,12 @@ pub(crate) fn shear_gradient(
         info.iterations += 1;
         info.passes += 1;
 
-        ws.turn_direction(problem, shear, info.shift, last_product);
+        ws.update_direction(problem, shear, info.shift, last_product);
         last_product = product;
         let step = ws.step_along_direction(response);
-        ws.advance(problem, shear, info.shift, [slip_step, step]);
+        ws.take_step(problem, shear, info.shift, [slip_step, step]);
         let ([change_x, change_y], [r_x, r_y]) = (&ws.change, &mut ws.response);
-        response.tangential([change_x, change_y], [r_x, r_y]);
+        response.respond_to_shear([change_x, change_y], [r_x, r_y]);
         for c in 0..2 {
             add_scaled(shear.u[c], 1.0, &ws.response[c]);
         }
@@ -100,10 +104,10 @@ pub(crate) fn shear_gradient(
 }
 
 impl GradientBuffers {
-    /// Next search direction on the stick cells (Polak-Ribiere: the last one is forgotten as far as
-    /// the sets have changed); `last_product` is the sum of squares of the last residual, zero to
-    /// begin anew.
-    fn turn_direction(
+    /// Chooses the next search direction on the stick cells (Polak-Ribiere: a change of the sets reduces the weight
+    /// of the last one). `last_product` is the sum of squares of the last residual, zero to
+    /// start again.
+    fn update_direction(
         &mut self,
         problem: &TangentialProblem<'_>,
         shear: &Shear<'_>,
@@ -111,17 +115,17 @@ impl GradientBuffers {
         last_product: f64,
     ) {
         let sticks = |n: usize| problem.bound[n] > 0.0 && !shear.slips[n];
-        let mut fresh = 0.0;
+        let mut numerator = 0.0;
         for n in 0..problem.bound.len() {
             let slip = problem.slip(&shear.u, shift, n);
             for c in 0..2 {
                 let residual = if sticks(n) { -slip[c] } else { 0.0 };
-                fresh += residual * (residual - self.residual[c][n]);
+                numerator += residual * (residual - self.residual[c][n]);
                 self.residual[c][n] = residual;
             }
         }
         let beta = if last_product > 0.0 {
-            (fresh / last_product).max(0.0)
+            (numerator / last_product).max(0.0)
         } else {
             0.0
         };
@@ -133,11 +137,11 @@ impl GradientBuffers {
         }
     }
 
-    /// The length of the step to the least energy along the direction, in parts of it; zero where
+    /// Length of the step to the least energy along the direction, over the length of the direction; zero where
     /// there is none.
     fn step_along_direction(&mut self, response: &mut Response<'_>) -> f64 {
         let ([d_x, d_y], [r_x, r_y]) = (&self.direction, &mut self.response);
-        response.tangential([d_x, d_y], [r_x, r_y]);
+        response.respond_to_shear([d_x, d_y], [r_x, r_y]);
         let product =
             |of: &[Vec<f64>; 2]| -> f64 { (0..2).map(|c| dot(&self.direction[c], &of[c])).sum() };
         let (slope, curvature) = (product(&self.residual), product(&self.response));
@@ -148,9 +152,9 @@ impl GradientBuffers {
         }
     }
 
-    /// Steps of the slip cells against their slip and of the others along the direction; then the
-    /// shear is made admissible; `change` is its change \[Pa\].
-    fn advance(
+    /// Steps slip cells against their slip and the others along the direction; then makes the
+    /// shear admissible; `change` is its change \[Pa\].
+    fn take_step(
         &mut self,
         problem: &TangentialProblem<'_>,
         shear: &mut Shear<'_>,
@@ -169,10 +173,10 @@ impl GradientBuffers {
                 };
             }
             if g > 0.0 {
-                shear.slips[n] = size([shear.q[0][n], shear.q[1][n]]) > g;
+                shear.slips[n] = length([shear.q[0][n], shear.q[1][n]]) > g;
             }
         }
-        admissible(problem, shear, shift);
+        make_admissible(problem, shear, shift);
         for c in 0..2 {
             let terms = self.change[c].iter_mut().zip(shear.q[c].iter());
             for ((change, q), before) in terms.zip(&self.q_before[c]) {
@@ -184,7 +188,7 @@ impl GradientBuffers {
 
 /// Root-mean-square violation of the slip conditions \[m\]: the slip of stick cells; of slip cells
 /// the part across q, and along q where friction would push. Also the sum of squares on stick.
-fn misfit(problem: &TangentialProblem<'_>, shear: &Shear<'_>, shift: [f64; 3]) -> (f64, f64) {
+fn slip_misfit(problem: &TangentialProblem<'_>, shear: &Shear<'_>, shift: [f64; 3]) -> (f64, f64) {
     let (mut stick, mut slipping, mut count) = (0.0, 0.0, 0);
     for n in 0..problem.bound.len() {
         let g = problem.bound[n];

@@ -25,9 +25,9 @@ pub(super) struct Tangent {
     pub(super) inverse_sum: [[f64; 3]; 3],
 }
 
-/// The same of one cell.
+/// The tangent space of one cell.
 #[derive(Clone, Copy)]
-pub(super) struct Admitted {
+pub(super) struct CellTangent {
     pub(super) across: [f64; 2],
     pub(super) arm: [f64; 2],
     pub(super) weight: f64,
@@ -56,19 +56,19 @@ impl Tangent {
         [t_x, t_y, a_x, a_y, &self.weight]
     }
 
-    /// v = Pi `value(v, from)` in each cell, and the sum of v times the second result of `value`.
-    /// Returned before it is the motion m to be subtracted, for which the sums of `sums(v)` vanish.
+    /// Sets v = Pi `value(v, from)` in each cell. Returns the motion m to be subtracted, for which the sums of `sums(v)` vanish,
+    /// and the sum of v times the second result of `value`.
     pub(super) fn project<const N: usize>(
         &self,
         v: &mut Pair,
-        sums: impl Fn(Admitted, [f64; 2]) -> [f64; 3] + Sync,
+        sums: impl Fn(CellTangent, [f64; 2]) -> [f64; 3] + Sync,
         from: [&[f64]; N],
         value: impl Fn([f64; 2], [f64; N]) -> ([f64; 2], [f64; 2]) + Sync,
     ) -> ([f64; 3], f64) {
         let [v_x, v_y] = v;
         let from = (self.fields(), from);
         let [x, y, turn, along] = sweep(from, [v_x, v_y], |_, (of_cell, from), v| {
-            let cell = Admitted::of(of_cell);
+            let cell = CellTangent::from_fields(of_cell);
             let (v, with) = value(v, from);
             let v = cell.project(v);
             let [x, y, turn] = sums(cell, v);
@@ -78,8 +78,8 @@ impl Tangent {
     }
 }
 
-impl Admitted {
-    pub(super) fn of([t_x, t_y, a_x, a_y, weight]: [f64; 5]) -> Self {
+impl CellTangent {
+    pub(super) fn from_fields([t_x, t_y, a_x, a_y, weight]: [f64; 5]) -> Self {
         Self {
             across: [t_x, t_y],
             arm: [a_x, a_y],
@@ -97,7 +97,7 @@ impl Admitted {
     }
 
     /// B^T v
-    pub(super) fn motion_of(self, [a, b]: [f64; 2]) -> [f64; 3] {
+    pub(super) fn sums(self, [a, b]: [f64; 2]) -> [f64; 3] {
         let [x, y] = self.arm;
         [a, b, x * b - y * a]
     }
@@ -105,19 +105,27 @@ impl Admitted {
     /// Its part of B^T w Pi B: xx, xy, yy, xr, yr, rr.
     pub(super) fn gram(self) -> [f64; 6] {
         let [x, y] = self.arm;
-        let (of_x, of_y) = (self.project([1.0, 0.0]), self.project([0.0, 1.0]));
-        let turn = self.project([-y, x]);
-        let of_turn = x * turn[1] - y * turn[0];
-        [of_x[0], of_x[1], of_y[1], turn[0], turn[1], of_turn].map(|of| self.weight * of)
+        let (x_projected, y_projected) = (self.project([1.0, 0.0]), self.project([0.0, 1.0]));
+        let rotation = self.project([-y, x]);
+        let rotation_sum = x * rotation[1] - y * rotation[0];
+        [
+            x_projected[0],
+            x_projected[1],
+            y_projected[1],
+            rotation[0],
+            rotation[1],
+            rotation_sum,
+        ]
+        .map(|of| self.weight * of)
     }
 
     /// B^T w v
-    pub(super) fn weighted_motion_of(self, v: [f64; 2]) -> [f64; 3] {
-        self.motion_of(v).map(|m| self.weight * m)
+    pub(super) fn weighted_sums(self, v: [f64; 2]) -> [f64; 3] {
+        self.sums(v).map(|m| self.weight * m)
     }
 
     /// v - Pi B m
-    pub(super) fn without(self, m: [f64; 3], v: [f64; 2]) -> [f64; 2] {
+    pub(super) fn subtract_motion(self, m: [f64; 3], v: [f64; 2]) -> [f64; 2] {
         let [x, y] = self.arm;
         let rigid = self.project([m[0] - y * m[2], m[1] + x * m[2]]);
         [v[0] - rigid[0], v[1] - rigid[1]]

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! with w = C_tz p - u_0: convex, its multiplier is the rigid motion d(delta), its gradient the
-//! slip ds = u - u_0 - d(delta). A motion that is given enters w, and its force has
+//! slip ds = u - u_0 - d(delta). A prescribed motion enters w, and its force has
 //! no constraint. Eq. (7)-(8) and (20) of the paper are its optimality conditions.
 //!
 //! A semi-smooth Newton method: on stick cells both components are free; on slip cells q = g e only
@@ -22,13 +22,13 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::admissible::admissible;
-use super::contact_shear::{Before, ContactShear};
+use super::admissible::make_admissible;
+use super::contact_shear::{ContactShear, ShearBefore};
 use super::newton_system::NewtonSystem;
 use super::projected_gradient::ProjectedGradient;
 use super::shear::{TangentialInfo, TangentialParams, TangentialProblem, first_shift};
 use super::shear_gradient::GradientBuffers;
-use crate::cells::{ContactCells, set_cells, size, sweep};
+use crate::cells::{ContactCells, length, set_cells, sweep};
 use crate::solvers::{Response, Shear, SolverError};
 
 /// Buffers of the tangential solver.
@@ -36,19 +36,19 @@ use crate::solvers::{Response, Shear, SolverError};
 pub struct TangentialWorkspace {
     cells: ContactCells,
     contact: ContactShear,
-    before: Before,
+    before: ShearBefore,
     system: NewtonSystem,
     pub(crate) descent: ProjectedGradient,
     pub(crate) gradient: GradientBuffers,
 }
 
 impl TangentialWorkspace {
-    /// For fields of `cells` cells.
+    /// Allocates buffers for fields of `cells` cells.
     pub fn new(cells: usize) -> Self {
         Self {
             cells: ContactCells::default(),
             contact: ContactShear::default(),
-            before: Before::default(),
+            before: ShearBefore::default(),
             system: NewtonSystem::new(cells),
             descent: ProjectedGradient::default(),
             gradient: GradientBuffers::default(),
@@ -73,7 +73,7 @@ const CYCLE: usize = 10;
 const STALLED: usize = 100;
 
 /// Solves for the shear. On entry it must be admissible: within the bound and balanced.
-pub fn tangential(
+pub fn solve_tangential(
     response: &mut Response<'_>,
     problem: &TangentialProblem<'_>,
     shear: &mut Shear<'_>,
@@ -90,36 +90,40 @@ pub fn tangential(
     } = ws;
     let mut newton = Newton::new(response, problem, shear, (cells, contact, system), params);
     newton.system.set_turning(newton.cells, None);
-    let (mut least, mut stalled) = (f64::INFINITY, 0);
-    while !newton.holds() {
+    let (mut least_misfit, mut stalled) = (f64::INFINITY, 0);
+    while !newton.conditions_hold() {
         let misfit = newton.info.misfit;
-        stalled = if misfit < least { 0 } else { stalled + 1 };
-        least = least.min(misfit);
+        stalled = if misfit < least_misfit {
+            0
+        } else {
+            stalled + 1
+        };
+        least_misfit = least_misfit.min(misfit);
         let ended = stalled == STALLED || newton.info.iterations == params.max_iterations;
-        if ended || response.stopped() {
+        if ended || response.must_stop() {
             return Err(newton.failure());
         }
-        before.keep(&newton.now);
-        newton.step(response);
+        before.save(&newton.shear);
+        newton.take_newton_step(response);
         let cycles = stalled > 0 && stalled.is_multiple_of(CYCLE);
         if cycles
             || before.is_lower(
-                &newton.inside,
-                &newton.now,
+                &newton.problem,
+                &newton.shear,
                 newton.info.shift,
-                newton.settled,
+                newton.negligible_misfit,
             )
         {
-            before.restore(&mut newton.now);
-            newton.now.unpack(newton.cells, shear);
-            newton.info.shift = descent.run(response, problem, shear, DESCENT);
+            before.restore(&mut newton.shear);
+            newton.shear.unpack(newton.cells, shear);
+            newton.info.shift = descent.iterate(response, problem, shear, DESCENT);
             newton.info.passes += DESCENT;
-            newton.now.pack(newton.cells, shear);
+            newton.shear.pack(newton.cells, shear);
         } else {
-            newton.system.follow_on_grid(shear);
+            newton.system.add_to_displacements(shear);
         }
     }
-    newton.now.unpack(newton.cells, shear);
+    newton.shear.unpack(newton.cells, shear);
     Ok(newton.info)
 }
 
@@ -137,26 +141,26 @@ pub fn newton_step(
     let workspace = (&mut ws.cells, &mut ws.contact, &mut ws.system);
     let mut newton = Newton::new(response, problem, shear, workspace, params);
     newton.system.set_turning(newton.cells, Some(turning));
-    if !newton.holds() {
-        newton.step(response);
-        newton.system.follow_on_grid(shear);
+    if !newton.conditions_hold() {
+        newton.take_newton_step(response);
+        newton.system.add_to_displacements(shear);
     }
-    newton.now.unpack(newton.cells, shear);
+    newton.shear.unpack(newton.cells, shear);
     newton.info
 }
 
 /// The iteration on the contact cells, packed.
 struct Newton<'a> {
     cells: &'a ContactCells,
-    inside: TangentialProblem<'a>,
-    now: Shear<'a>,
+    problem: TangentialProblem<'a>,
+    shear: Shear<'a>,
     system: &'a mut NewtonSystem,
     info: TangentialInfo,
     params: &'a TangentialParams,
     c_xx: f64,
-    settled: f64,
-    /// Root of the number of contact cells: norms over it are root mean squares.
-    root: f64,
+    negligible_misfit: f64,
+    /// Square root of the number of contact cells: norms divided by it are root mean squares.
+    root_of_count: f64,
 }
 
 impl<'a> Newton<'a> {
@@ -173,20 +177,20 @@ impl<'a> Newton<'a> {
     ) -> Self {
         cells.find(problem.bound.len(), |n| problem.bound[n] > 0.0);
         contact.pack(cells, problem, shear);
-        let (inside, now) = contact.parts(problem.drive);
+        let (inside, now) = contact.problem_and_shear(problem.drive);
         system.set_contact(&inside);
         Self {
             info: TangentialInfo {
                 shift: first_shift(&inside, &now),
                 ..TangentialInfo::default()
             },
-            inside,
-            now,
+            problem: inside,
+            shear: now,
             system,
             params,
             c_xx: response.op.self_coefficients().0,
-            settled: NEGLIGIBLE_CHANGE * params.tolerance,
-            root: (cells.count() as f64).sqrt(),
+            negligible_misfit: NEGLIGIBLE_CHANGE * params.tolerance,
+            root_of_count: (cells.count() as f64).sqrt(),
             cells,
         }
     }
@@ -194,17 +198,22 @@ impl<'a> Newton<'a> {
     /// Releases slip cells that should stick and linearises; returns whether the conditions hold.
     /// If the fitted shift differs from the one that slip cells were tested with, they are tested
     /// again.
-    fn holds(&mut self) -> bool {
+    fn conditions_hold(&mut self) -> bool {
         for _ in 0..self.params.max_iterations {
-            let released = release(&self.inside, &mut self.now, self.info.shift, self.settled);
+            let released = release_slip_cells(
+                &self.problem,
+                &mut self.shear,
+                self.info.shift,
+                self.negligible_misfit,
+            );
             let fitted =
-                (self.system).linearise(&self.inside, &self.now, self.info.shift, self.c_xx);
-            self.info.misfit = self.system.residual_norm() / self.root;
+                (self.system).linearise(&self.problem, &self.shear, self.info.shift, self.c_xx);
+            self.info.misfit = self.system.residual_norm() / self.root_of_count;
             if released || self.info.misfit > self.params.tolerance {
                 return false;
             }
-            let ahead = |k: usize| (fitted[k] - self.info.shift[k]).abs();
-            if (0..3).all(|k| ahead(k) <= self.settled) {
+            let change = |k: usize| (fitted[k] - self.info.shift[k]).abs();
+            if (0..3).all(|k| change(k) <= self.negligible_misfit) {
                 return true;
             }
             self.info.shift = fitted;
@@ -213,27 +222,30 @@ impl<'a> Newton<'a> {
     }
 
     /// Solves the linear system, adds its solution, and returns slip cells to their circles.
-    fn step(&mut self, response: &mut Response<'_>) {
+    fn take_newton_step(&mut self, response: &mut Response<'_>) {
         let params = self.params;
         self.info.iterations += 1;
         let target = (params.forcing * self.info.misfit).max(AIM * params.tolerance);
-        let target = target * self.root;
+        let target = target * self.root_of_count;
         self.info.passes += (self.system).solve(response, self.cells, target, params.max_passes);
-        response.changed(self.system.squares());
-        self.info.shift = (self.system).take(self.cells, &self.inside, &mut self.now);
-        mark_slip(&self.inside, &mut self.now, self.info.shift);
+        response.count_change(self.system.sum_of_squares());
+        self.info.shift = (self.system).add_solution(self.cells, &self.problem, &mut self.shear);
+        mark_slip(&self.problem, &mut self.shear, self.info.shift);
         let Self {
-            system, now, cells, ..
+            system,
+            shear: now,
+            cells,
+            ..
         } = self;
-        admissible(&self.inside, now, self.info.shift);
+        make_admissible(&self.problem, now, self.info.shift);
         let ([x, y], [q_x, q_y]) = (&mut system.change, &now.q);
         let [squares] = sweep([&**q_x, q_y], [&mut x[..], y], |_, q, before| {
             let change = [q[0] - before[0], q[1] - before[1]];
             (change, [change[0] * change[0] + change[1] * change[1]])
         });
         if squares.sqrt() > params.negligible / self.c_xx {
-            response.changed(squares);
-            system.respond(response, cells, now);
+            response.count_change(squares);
+            system.add_response_of_change(response, cells, now);
         }
     }
 
@@ -247,21 +259,21 @@ impl<'a> Newton<'a> {
     }
 }
 
-/// Stick cells beyond the bound start to slip; slip cells whose slip goes along q stick.
+/// Marks slip: stick cells beyond the bound start to slip; slip cells whose slip has the direction of q stick.
 fn mark_slip(problem: &TangentialProblem<'_>, shear: &mut Shear<'_>, shift: [f64; 3]) {
     let Shear { q, u, slips, .. } = shear;
     set_cells(slips, |n, slips| {
         let q = [q[0][n], q[1][n]];
         if slips {
-            power(q, problem.slip(u, shift, n)) <= 0.0
+            friction_power_of_cell(q, problem.slip(u, shift, n)) <= 0.0
         } else {
-            size(q) > problem.bound[n]
+            length(q) > problem.bound[n]
         }
     });
 }
 
-/// Releases slip cells that move along their shear by more than `tolerance` \[m\]; whether any did.
-fn release(
+/// Releases slip cells that move along their shear by more than `tolerance` \[m\]; returns whether any did.
+fn release_slip_cells(
     problem: &TangentialProblem<'_>,
     shear: &mut Shear<'_>,
     shift: [f64; 3],
@@ -270,8 +282,9 @@ fn release(
     let Shear { q, u, slips, .. } = shear;
     let released = AtomicBool::new(false);
     set_cells(slips, |n, slips| {
-        let along = |slip| power([q[0][n], q[1][n]], slip) > tolerance * problem.bound[n];
-        if slips && along(problem.slip(u, shift, n)) {
+        let moves_along =
+            |slip| friction_power_of_cell([q[0][n], q[1][n]], slip) > tolerance * problem.bound[n];
+        if slips && moves_along(problem.slip(u, shift, n)) {
             released.store(true, Ordering::Relaxed);
             return false;
         }
@@ -281,6 +294,6 @@ fn release(
 }
 
 /// q . ds, negative where friction dissipates \[Pa m\].
-pub(super) fn power(q: [f64; 2], slip: [f64; 2]) -> f64 {
+pub(super) fn friction_power_of_cell(q: [f64; 2], slip: [f64; 2]) -> f64 {
     q[0] * slip[0] + q[1] * slip[1]
 }

@@ -8,16 +8,16 @@
 //! (1982) 400-408).
 
 use super::known_pressure::{
-    bring_within_bound, follow_pressure, incipient_shift, let_new_cells_slip,
-    shear_for_known_pressure,
+    bring_within_bound, incipient_shift, let_new_cells_slip, solve_shear,
+    update_tangential_displacement,
 };
 use super::problem::{AlternationInfo, AlternationParams, AlternationWorkspace, IncrementProblem};
-use crate::solvers::inner::{NormalProblem, Sliding, assess, normal};
+use crate::solvers::inner::{NormalProblem, Sliding, assess_gap, solve_normal};
 use crate::solvers::no_slip::NoSlip;
 use crate::solvers::{Interface, Response, SolverError};
 
-/// Pressure and shear in turn, from a guess of the tractions in `now` to the solution.
-pub(super) fn alternate(
+/// Solves pressure and shear in turn, from a guess of the tractions in `now` to the solution.
+pub(super) fn alternate_pressure_and_shear(
     response: &mut Response<'_>,
     problem: &IncrementProblem<'_>,
     no_slip: &mut NoSlip<'_>,
@@ -34,39 +34,39 @@ pub(super) fn alternate(
         sliding = bring_within_bound(problem, no_slip, now, ws, [0.0; 3]);
     }
     now.evaluate(response, friction);
-    ws.begin(params);
+    ws.begin_solution(params);
     let mut residual = if coupled {
-        assess(&gap, &now.p, &now.u_z).misfit()
+        assess_gap(&gap, &now.p, &now.u_z).misfit()
     } else {
         0.0
     };
     loop {
         info.alternations += 1;
-        let (inner, last) = params.inner(residual);
+        let (inner, last) = params.params_of_pass(residual);
 
         // Pressure for known shear.
-        ws.keep(now);
+        ws.save_tractions(now);
         let (p, u_z) = (&mut now.p, &mut now.u_z);
-        let found = normal(response, &gap, p, u_z, &mut ws.normal, &inner.normal)?;
-        info.normal_iterations += found.iterations;
-        info.approach = found.motion;
+        let solution = solve_normal(response, &gap, p, u_z, &mut ws.normal, &inner.normal)?;
+        info.normal_iterations += solution.iterations;
+        info.approach = solution.motion;
         if !friction {
             return Ok(info);
         }
 
         // Shear for known pressure: the bound moves with the pressure.
-        if found.iterations > 0 {
-            sliding = take_pressure(response, problem, no_slip, now, ws, (params, &info));
+        if solution.iterations > 0 {
+            sliding = update_bound_and_shear(response, problem, no_slip, now, ws, (params, &info));
         }
         info.friction_used = sliding.used;
         if info.exceeds_friction() {
             return Ok(info);
         }
         if sliding.is_full() {
-            no_slip.straighten();
+            no_slip.clear_turn();
             info.shift = incipient_shift(problem, no_slip, sliding.motion, now, ws);
         } else {
-            shear_for_known_pressure(response, problem, no_slip, now, ws, &inner, &mut info)?;
+            solve_shear(response, problem, no_slip, now, ws, &inner, &mut info)?;
         }
         if !coupled {
             return Ok(info);
@@ -78,7 +78,7 @@ pub(super) fn alternate(
             return Ok(info);
         }
         if info.alternations >= params.max_alternations {
-            return Err(not_converged(residual, &info, params));
+            return Err(error_without_convergence(residual, &info, params));
         }
         ws.anderson.extrapolate(&now.p, &mut now.u_z);
     }
@@ -86,7 +86,7 @@ pub(super) fn alternate(
 
 /// Updates bound, shear and u_t for the pressure of the normal solver; returns the loads over the
 /// limit of friction.
-fn take_pressure(
+fn update_bound_and_shear(
     response: &mut Response<'_>,
     problem: &IncrementProblem<'_>,
     no_slip: &NoSlip<'_>,
@@ -95,18 +95,18 @@ fn take_pressure(
     (params, info): (&AlternationParams, &AlternationInfo),
 ) -> Sliding {
     let coupled = response.op.is_coupled();
-    (ws.lifted).find(info.alternations, problem.mu, &ws.p_before, now);
+    (ws.lifted).add_lifted(info.alternations, problem.mu, &ws.p_before, now);
     if params.new_cells_slip && (info.alternations > 1 || !problem.enters) {
         let (c_xx, _) = response.op.self_coefficients();
         let_new_cells_slip(problem, no_slip, now, ws, (info, c_xx));
     }
     let sliding = bring_within_bound(problem, no_slip, now, ws, info.shift);
-    follow_pressure(response, now, ws, coupled);
+    update_tangential_displacement(response, now, ws, coupled);
     sliding
 }
 
 /// Adds the response to the change of shear to u_z. Returns the residual of the gap \[m\]; 0 if the
-/// shear has not changed, since the gap is then that of the normal solver.
+/// shear has not changed, since the gap is then the one of the normal solver.
 fn gap_after_shear(
     response: &mut Response<'_>,
     problem: &NormalProblem<'_>,
@@ -114,23 +114,27 @@ fn gap_after_shear(
     ws: &mut AlternationWorkspace,
     info: &mut AlternationInfo,
 ) -> f64 {
-    let change = ws.change_of_shear(now);
+    let change = ws.compute_change_of_shear(now);
     if !change && !ws.anderson.accelerates() {
         return 0.0;
     }
     if change {
         let [x, y] = &ws.change;
-        response.normal_under_shear([x, y], &mut ws.response[0]);
+        response.respond_normally_to_shear([x, y], &mut ws.response[0]);
     } else {
         ws.response[0].fill(0.0);
     }
     ws.anderson.close_pass(&ws.response[0], &mut now.u_z);
-    let check = assess(problem, &now.p, &now.u_z);
+    let check = assess_gap(problem, &now.p, &now.u_z);
     info.approach = check.motion;
     check.misfit()
 }
 
-fn not_converged(residual: f64, info: &AlternationInfo, params: &AlternationParams) -> SolverError {
+fn error_without_convergence(
+    residual: f64,
+    info: &AlternationInfo,
+    params: &AlternationParams,
+) -> SolverError {
     SolverError {
         solver: "coupled",
         residual,

@@ -12,19 +12,19 @@
 
 use std::collections::VecDeque;
 
-use crate::cells::{set, sums};
+use crate::cells::{set_fields, sums};
 
 /// Passes that are combined.
 const DEPTH: usize = 8;
-/// A pass is slow if the misfit after it is more than SLOW times that before.
+/// A pass is slow if the misfit after it is more than SLOW times the misfit before it.
 const SLOW: f64 = 0.5;
 /// Slow passes before the acceleration begins.
 const SLOW_PASSES: usize = 2;
 /// Accelerated passes in a row, none with a misfit below [`SLOW`] times the least, after which the
 /// damping is halved.
 const TRIALS: usize = 12;
-/// Least damping.
-const LEAST: f64 = 1.0 / 16.0;
+/// Smallest damping.
+const MIN_DAMPING: f64 = 1.0 / 16.0;
 /// Regularisation of the least squares, relative to the mean square.
 const RIDGE: f64 = 1e-12;
 
@@ -46,7 +46,7 @@ pub(crate) struct Anderson {
     /// Damping: factor of the misfit that is added to s, 1 to [`LEAST`].
     damping: f64,
     /// Least misfit that was below [`SLOW`] times the one before, and passes since.
-    least: f64,
+    least_misfit: f64,
     since_least: usize,
 }
 
@@ -62,7 +62,7 @@ impl Anderson {
             slow_passes: 0,
             enabled: true,
             damping: 1.0,
-            least: f64::INFINITY,
+            least_misfit: f64::INFINITY,
             since_least: 0,
         }
     }
@@ -70,12 +70,12 @@ impl Anderson {
     /// Restarts in plain alternation; stays there unless `enabled`.
     pub(crate) fn restart(&mut self, enabled: bool) {
         self.enabled = enabled;
-        set([], [&mut self.ahead], |_, [], _| [0.0]);
+        set_fields([], [&mut self.ahead], |_, [], _| [0.0]);
         self.changes.clear();
         self.size = f64::INFINITY;
         self.slow_passes = 0;
         self.damping = 1.0;
-        self.least = f64::INFINITY;
+        self.least_misfit = f64::INFINITY;
         self.since_least = 0;
     }
 
@@ -84,8 +84,8 @@ impl Anderson {
         self.enabled && self.slow_passes >= SLOW_PASSES
     }
 
-    /// After a pass in which u_z under the shear changed by `change`: corrects `u_z` from the
-    /// assumed s to that of the tractions.
+    /// Corrects `u_z` from the assumed s to the s of the tractions, after a pass in which u_z under the
+    /// shear changed by `change`.
     pub(crate) fn close_pass(&mut self, change: &[f64], u_z: &mut [f64]) {
         let cells = u_z.len();
         if self.accelerates() {
@@ -100,14 +100,14 @@ impl Anderson {
         if let Some([of_misfit, of_s]) = self.changes.back_mut() {
             let (ahead, last, step) = (&self.ahead, &self.misfit, &self.step);
             let from = [change, ahead, last, step];
-            set(
+            set_fields(
                 from,
                 [of_misfit, of_s],
                 |_, [change, ahead, last, step], _| [change - ahead - last, step],
             );
         }
         let to = [&mut self.misfit[..], u_z, &mut self.ahead];
-        set([change], to, |_, [change], [_, u_z, ahead]| {
+        set_fields([change], to, |_, [change], [_, u_z, ahead]| {
             let misfit = change - ahead;
             [misfit, u_z + misfit, 0.0]
         });
@@ -115,47 +115,47 @@ impl Anderson {
 
     /// Adds the next s - G to `u_z`; the misfit is weighed on the contact, p > 0.
     pub(crate) fn extrapolate(&mut self, p: &[f64], u_z: &mut [f64]) {
-        let on_contact = |a: &[f64], b: &[f64]| -> f64 {
+        let dot_on_contact = |a: &[f64], b: &[f64]| -> f64 {
             let inside = |p: f64, product: f64| if p > 0.0 { product } else { 0.0 };
             let [sum] = sums([p, a, b], |_, [p, a, b]| [inside(p, a * b)]);
             sum
         };
-        let size = on_contact(&self.misfit, &self.misfit).sqrt();
+        let size = dot_on_contact(&self.misfit, &self.misfit).sqrt();
         if !self.accelerates() {
             self.slow_passes += usize::from(size > SLOW * self.size);
         }
         self.size = size;
         self.since_least += 1;
-        if size < SLOW * self.least {
-            (self.least, self.since_least) = (size, 0);
+        if size < SLOW * self.least_misfit {
+            (self.least_misfit, self.since_least) = (size, 0);
         } else if self.accelerates() && self.since_least >= TRIALS {
-            self.damping = (0.5 * self.damping).max(LEAST);
+            self.damping = (0.5 * self.damping).max(MIN_DAMPING);
             self.since_least = 0;
             self.changes.clear();
         }
         let damping = self.damping;
         let misfit = &self.misfit;
-        set([&misfit[..]], [&mut self.step], |_, [misfit], _| {
+        set_fields([&misfit[..]], [&mut self.step], |_, [misfit], _| {
             [damping * misfit]
         });
         let count = self.changes.len();
         let mut gram = [[0.0; DEPTH]; DEPTH];
-        let mut right = [0.0; DEPTH];
+        let mut right_hand_side = [0.0; DEPTH];
         for (i, [of_misfit, _]) in self.changes.iter().enumerate() {
-            right[i] = on_contact(of_misfit, &self.misfit);
-            for (j, [other, _]) in self.changes.iter().enumerate().take(i + 1) {
-                gram[i][j] = on_contact(of_misfit, other);
+            right_hand_side[i] = dot_on_contact(of_misfit, &self.misfit);
+            for (j, [other_change, _]) in self.changes.iter().enumerate().take(i + 1) {
+                gram[i][j] = dot_on_contact(of_misfit, other_change);
             }
         }
-        let weights = least_squares(gram, right, count);
+        let weights = least_squares(gram, right_hand_side, count);
         for (weight, [of_misfit, of_s]) in weights.iter().zip(&self.changes) {
             let from = [&of_s[..], of_misfit];
-            set(from, [&mut self.step], |_, [s, misfit], [step]| {
+            set_fields(from, [&mut self.step], |_, [s, misfit], [step]| {
                 [step - weight * (s + damping * misfit)]
             });
         }
         let from = [&self.step[..], misfit];
-        set(
+        set_fields(
             from,
             [&mut self.ahead, u_z],
             |_, [step, misfit], [_, u_z]| {
@@ -170,28 +170,30 @@ impl Anderson {
 /// regularised; `gram` is given by its lower half.
 fn least_squares(
     mut gram: [[f64; DEPTH]; DEPTH],
-    mut right: [f64; DEPTH],
+    mut right_hand_side: [f64; DEPTH],
     count: usize,
 ) -> [f64; DEPTH] {
     let trace: f64 = (0..count).map(|i| gram[i][i]).sum();
     for i in 0..count {
         gram[i][i] += RIDGE * trace;
         for j in 0..=i {
-            let known: f64 = (0..j).map(|k| gram[i][k] * gram[j][k]).sum();
+            let sum: f64 = (0..j).map(|k| gram[i][k] * gram[j][k]).sum();
             gram[i][j] = if i == j {
-                (gram[i][i] - known).max(f64::MIN_POSITIVE).sqrt()
+                (gram[i][i] - sum).max(f64::MIN_POSITIVE).sqrt()
             } else {
-                (gram[i][j] - known) / gram[j][j]
+                (gram[i][j] - sum) / gram[j][j]
             };
         }
     }
     for i in 0..count {
-        let known: f64 = (0..i).map(|k| gram[i][k] * right[k]).sum();
-        right[i] = (right[i] - known) / gram[i][i];
+        let sum: f64 = (0..i).map(|k| gram[i][k] * right_hand_side[k]).sum();
+        right_hand_side[i] = (right_hand_side[i] - sum) / gram[i][i];
     }
     for i in (0..count).rev() {
-        let known: f64 = (i + 1..count).map(|k| gram[k][i] * right[k]).sum();
-        right[i] = (right[i] - known) / gram[i][i];
+        let sum: f64 = (i + 1..count)
+            .map(|k| gram[k][i] * right_hand_side[k])
+            .sum();
+        right_hand_side[i] = (right_hand_side[i] - sum) / gram[i][i];
     }
-    right
+    right_hand_side
 }

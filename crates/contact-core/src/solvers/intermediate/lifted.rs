@@ -8,32 +8,38 @@
 
 use crate::solvers::Interface;
 
-/// First pass in which a cell that leaves the contact counts as lifted: the passes before find the
+/// First pass in which a cell that leaves the contact counts as lifted: the passes before only determine the
 /// contact.
 const FIRST_LIFTING_PASS: usize = 3;
 
-/// The numbers of such cells.
+/// Indices of these cells.
 #[derive(Debug, Default)]
 pub(super) struct Lifted(Vec<usize>);
 
 impl Lifted {
-    /// Forgets all lifted cells.
+    /// Removes all lifted cells.
     pub(super) fn clear(&mut self) {
         self.0.clear();
     }
 
     /// Adds the cells that the normal solver has taken out of the contact in a pass (from 1), with
     /// p = `p_before` before it.
-    pub(super) fn find(&mut self, pass: usize, mu: &[f64], p_before: &[f64], now: &Interface) {
+    pub(super) fn add_lifted(
+        &mut self,
+        pass: usize,
+        mu: &[f64],
+        p_before: &[f64],
+        now: &Interface,
+    ) {
         if pass < FIRST_LIFTING_PASS {
             return;
         }
-        let left = |&n: &usize| mu[n].is_infinite() && p_before[n] > 0.0 && now.p[n] <= 0.0;
-        self.0.extend((0..mu.len()).filter(left));
+        let is_lifted = |&n: &usize| mu[n].is_infinite() && p_before[n] > 0.0 && now.p[n] <= 0.0;
+        self.0.extend((0..mu.len()).filter(is_lifted));
     }
 
     /// Sets the bound of lifted cells to zero.
-    pub(super) fn limit(&self, bound: &mut [f64]) {
+    pub(super) fn clear_bound(&self, bound: &mut [f64]) {
         for &n in &self.0 {
             bound[n] = 0.0;
         }

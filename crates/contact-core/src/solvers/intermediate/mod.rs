@@ -7,5 +7,5 @@ mod lifted;
 mod precision;
 mod problem;
 
-pub use precision::alternation;
+pub use precision::solve_increment;
 pub use problem::{AlternationInfo, AlternationParams, AlternationWorkspace, IncrementProblem};

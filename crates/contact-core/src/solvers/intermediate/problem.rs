@@ -2,7 +2,7 @@
 
 use super::anderson::Anderson;
 use super::lifted::Lifted;
-use crate::cells::{Arms, Drive, copy, set};
+use crate::cells::{Arms, Drive, copy, set_fields};
 use crate::solvers::Interface;
 use crate::solvers::inner::{
     NormalParams, NormalProblem, NormalWorkspace, TangentialParams, TangentialProblem,
@@ -19,7 +19,7 @@ pub struct IncrementProblem<'a> {
     pub friction: bool,
     /// Friction coefficient of each cell.
     pub mu: &'a [f64],
-    /// Where the cells are.
+    /// Positions of the cells.
     pub arms: &'a Arms,
     /// Whether cells may enter because the contact grows or rolls, or are kept out (a solution on
     /// the old contact).
@@ -39,7 +39,7 @@ impl<'a> IncrementProblem<'a> {
         }
     }
 
-    /// The tangential problem under a friction bound \[Pa\], with the displacement that means no
+    /// The tangential problem under a friction bound \[Pa\], with the displacement without
     /// slip \[m\].
     pub(super) fn tangential_problem<'b>(
         &'b self,
@@ -67,7 +67,7 @@ pub struct AlternationParams {
     pub tangential: TangentialParams,
     /// Most passes.
     pub max_alternations: usize,
-    /// Tolerance of the inner loops over the gap after the last pass, where that exceeds their own;
+    /// Tolerance of the inner loops over the gap after the last pass, where it exceeds their own tolerance;
     /// 0 solves to their own tolerance in each pass \[1\].
     pub forcing: f64,
     /// Whether cells that the normal solver brings into contact slip at once where friction cannot
@@ -80,15 +80,15 @@ pub struct AlternationParams {
 impl AlternationParams {
     /// The settings with the inner tolerances of a pass that begins with this `residual` of the gap
     /// \[m\], and whether these are the final ones.
-    pub(super) fn inner(&self, residual: f64) -> (Self, bool) {
-        let looser = self.forcing * residual / self.tolerance;
-        if !(looser > 1.0) {
+    pub(super) fn params_of_pass(&self, residual: f64) -> (Self, bool) {
+        let factor = self.forcing * residual / self.tolerance;
+        if !(factor > 1.0) {
             return (*self, true);
         }
         let mut inner = *self;
-        inner.normal.enough *= looser;
-        inner.normal.tolerance *= looser;
-        inner.tangential.tolerance *= looser;
+        inner.normal.enough *= factor;
+        inner.normal.tolerance *= factor;
+        inner.tangential.tolerance *= factor;
         (inner, false)
     }
 }
@@ -122,11 +122,11 @@ impl AlternationInfo {
         is_full(self.friction_used)
     }
 
-    /// Adds the work of another solution that this one took.
-    pub(crate) fn add_work(&mut self, other: &Self) {
-        self.alternations += other.alternations;
-        self.normal_iterations += other.normal_iterations;
-        self.tangential_iterations += other.tangential_iterations;
+    /// Adds the work of another solution for the same increment.
+    pub(crate) fn add_work(&mut self, addend: &Self) {
+        self.alternations += addend.alternations;
+        self.normal_iterations += addend.normal_iterations;
+        self.tangential_iterations += addend.tangential_iterations;
     }
 }
 
@@ -151,7 +151,7 @@ pub struct AlternationWorkspace {
 }
 
 impl AlternationWorkspace {
-    /// For fields of `cells` cells.
+    /// Allocates buffers for fields of `cells` cells.
     pub fn new(cells: usize) -> Self {
         let field = || vec![0.0; cells];
         let pair = || [field(), field()];
@@ -169,30 +169,30 @@ impl AlternationWorkspace {
         }
     }
 
-    /// Begins another increment, which may take several solutions.
+    /// Begins a new increment, which may take several solutions.
     pub(crate) fn begin_increment(&mut self) {
         self.lifted.clear();
     }
 
     /// Begins a solution.
-    pub(super) fn begin(&mut self, params: &AlternationParams) {
+    pub(super) fn begin_solution(&mut self, params: &AlternationParams) {
         self.anderson.restart(params.anderson);
         self.unsettled = 0;
     }
 
-    /// Keeps the tractions before a pass.
-    pub(super) fn keep(&mut self, now: &Interface) {
+    /// Saves the tractions before a pass.
+    pub(super) fn save_tractions(&mut self, now: &Interface) {
         copy(&now.p, &mut self.p_before);
         for (q, before) in now.q.iter().zip(&mut self.q_before) {
             copy(q, before);
         }
     }
 
-    /// The change of the shear since `q_before`; whether there is one.
-    pub(super) fn change_of_shear(&mut self, now: &Interface) -> bool {
+    /// Computes the change of the shear since `q_before`; returns whether there is one.
+    pub(super) fn compute_change_of_shear(&mut self, now: &Interface) -> bool {
         let ([x, y], before) = (&mut self.change, &self.q_before);
         let from = [&now.q[0][..], &now.q[1], &before[0], &before[1]];
-        set(from, [x, y], |_, [q_x, q_y, x, y], _| [q_x - x, q_y - y]);
+        set_fields(from, [x, y], |_, [q_x, q_y, x, y], _| [q_x - x, q_y - y]);
         self.change.iter().flatten().any(|&change| change != 0.0)
     }
 }

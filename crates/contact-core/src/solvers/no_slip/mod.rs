@@ -1,4 +1,4 @@
-//! The displacement that means no slip, eq. (7): the noun of the slip increment.
+//! The displacement without slip, eq. (7): the reference of the slip increment.
 //!
 //! ```text
 //! ds = u - u_0 - B d(delta),     u_0 = u_start - r + m + t
@@ -8,10 +8,10 @@
 //!
 //! - u_start: the displacement of the material of the cell at the start of the increment, rolled
 //!   and stretched with it;
-//! - r, the residual slip: what the last increment left of slip that should be zero (all of it in
+//! - r, the residual slip: slip of the last increment that should be zero (all of it in
 //!   stick cells, in slip cells the part that does not oppose the shear), within the tolerance.
-//!   Taken off here it does not add up along the path (defect correction);
-//! - m, the entry motion of cells outside the last contact: how far they move freely before they
+//!   It is subtracted here, so that it does not add up along the path (defect correction);
+//! - m, the entry motion of cells outside the last contact: their free motion before they
 //!   touch;
 //! - t, the turn of cells in the last contact: eq. (8) makes the slip opposite to the shear at the
 //!   end of the increment, but the shear rotated while the cell slipped.
@@ -23,11 +23,11 @@ mod turn;
 
 use rayon::prelude::*;
 
-pub use self::slip::{not_opposite, slip};
-pub use self::turn::Earlier;
-use self::turn::turn;
+pub use self::slip::{slip, unopposed_part};
+pub use self::turn::EarlierTractions;
+use self::turn::turn_of_cell;
 use super::Interface;
-use crate::cells::{Arms, CHUNK, set, size};
+use crate::cells::{Arms, CHUNK, length, set_fields};
 
 /// The fields of u_0, allocated once for all increments.
 #[derive(Debug)]
@@ -41,7 +41,7 @@ pub struct NoSlipTerms {
 }
 
 impl NoSlipTerms {
-    /// For fields of `cells` cells.
+    /// Allocates the fields for `cells` cells.
     pub fn new(cells: usize) -> Self {
         let pair = || [vec![0.0; cells], vec![0.0; cells]];
         Self {
@@ -52,7 +52,7 @@ impl NoSlipTerms {
     }
 
     /// m or t in cell n \[m\].
-    pub fn added(&self, n: usize) -> [f64; 2] {
+    pub fn entry_or_turn(&self, n: usize) -> [f64; 2] {
         [self.added[0][n], self.added[1][n]]
     }
 
@@ -69,22 +69,22 @@ pub struct Start<'a> {
     pub interface: &'a Interface,
     /// r: the residual slip of the last increment \[m\].
     pub residual: &'a [Vec<f64>; 2],
-    /// Where the cells are.
+    /// Positions of the cells.
     pub arms: &'a Arms,
     /// The tractions an increment earlier, where t is computed.
-    pub earlier: Option<Earlier<'a>>,
+    pub earlier: Option<EarlierTractions<'a>>,
     /// Elastic displacement at which the bodies slide, about mu times the approach \[m\].
     pub elastic_slip: f64,
 }
 
-/// The displacement that means no slip in an increment.
+/// The displacement without slip in an increment.
 pub struct NoSlip<'a> {
     start: Start<'a>,
     terms: &'a mut NoSlipTerms,
 }
 
 impl<'a> NoSlip<'a> {
-    /// With t = 0 and the entry motion m of cells outside the contact \[m\], zero if not given.
+    /// Starts with t = 0 and the entry motion m of cells outside the contact \[m\], zero by default.
     pub fn new(
         start: Start<'a>,
         terms: &'a mut NoSlipTerms,
@@ -92,13 +92,13 @@ impl<'a> NoSlip<'a> {
     ) -> Self {
         let [x, y] = &mut terms.added;
         match entry {
-            Some([to_x, to_y]) => set([&to_x[..], to_y], [x, y], |_, to, _| to),
-            None => set([], [x, y], |_, [], _| [0.0; 2]),
+            Some([to_x, to_y]) => set_fields([&to_x[..], to_y], [x, y], |_, to, _| to),
+            None => set_fields([], [x, y], |_, [], _| [0.0; 2]),
         }
         let (u, r) = (&start.interface.u, start.residual);
         let from = [&u[0][..], &u[1], &r[0], &r[1], x, y];
         let [x, y] = &mut terms.sum;
-        set(from, [x, y], |_, [u_x, u_y, r_x, r_y, x, y], _| {
+        set_fields(from, [x, y], |_, [u_x, u_y, r_x, r_y, x, y], _| {
             [u_x - r_x + x, u_y - r_y + y]
         });
         Self { start, terms }
@@ -115,19 +115,19 @@ impl<'a> NoSlip<'a> {
     }
 
     /// Whether t is computed at all.
-    pub fn turns(&self) -> bool {
+    pub fn has_turn(&self) -> bool {
         self.start.earlier.is_some()
     }
 
-    /// t += `part` (t_new - t), with t_new of the shear `now` and the `shift` d(delta) \[m\].
-    /// Returns false, with t = 0, where no cell sticks: the bodies then slide along the given
+    /// Updates t += `relaxation` (t_new - t), with t_new of the shear `now` and the `shift` d(delta) \[m\].
+    /// Returns false, with t = 0, where no cell sticks: the bodies then slide along the prescribed
     /// motion, and the shear has its direction at the end.
-    pub fn follow(&mut self, now: &Interface, shift: [f64; 3], part: f64) -> bool {
+    pub fn update_turn(&mut self, now: &Interface, shift: [f64; 3], relaxation: f64) -> bool {
         let Some(earlier) = self.start.earlier else {
             return false;
         };
         if !(0..now.p.len()).any(|n| now.p[n] > 0.0 && !now.slips[n]) {
-            self.straighten();
+            self.clear_turn();
             return false;
         }
         let Start {
@@ -137,18 +137,23 @@ impl<'a> NoSlip<'a> {
             elastic_slip,
             ..
         } = self.start;
-        let turned = |n: usize| -> ([f64; 2], f64) {
+        let turn_and_derivative = |n: usize| -> ([f64; 2], f64) {
             if !(now.p[n] > 0.0 && now.slips[n]) {
                 return ([0.0; 2], 0.0);
             }
-            let at = |u: &[Vec<f64>; 2]| [u[0][n], u[1][n]];
-            let slip = size(slip(at(&now.u), at(&last.u), arms.in_plane(shift, n)));
+            let at_cell = |u: &[Vec<f64>; 2]| [u[0][n], u[1][n]];
+            let slip = length(slip(
+                at_cell(&now.u),
+                at_cell(&last.u),
+                arms.displacement_in_plane(shift, n),
+            ));
             // The turn fades out for slips between half of and all of the elastic displacement: the
             // bodies slide then.
-            let slides = (2.0 - 2.0 * slip / elastic_slip).clamp(0.0, 1.0);
-            turn(last, &earlier, now, slip, n).map_or(([0.0; 2], 0.0), |(across, follows)| {
-                (across.map(|t| slides * t), part * slides * follows)
-            })
+            let fade = (2.0 - 2.0 * slip / elastic_slip).clamp(0.0, 1.0);
+            turn_of_cell(last, &earlier, now, slip, n)
+                .map_or(([0.0; 2], 0.0), |(across, follows)| {
+                    (across.map(|t| fade * t), relaxation * fade * follows)
+                })
         };
         let NoSlipTerms {
             sum: [u_x, u_y],
@@ -169,11 +174,11 @@ impl<'a> NoSlip<'a> {
                     turning[i] = 0.0;
                     continue;
                 }
-                let (to, follows) = turned(n);
+                let (target, follows) = turn_and_derivative(n);
                 // A cell that sticks has t = 0 at once, without relaxation.
-                let part = if now.slips[n] { part } else { 1.0 };
-                x[i] += part * (to[0] - x[i]);
-                y[i] += part * (to[1] - y[i]);
+                let part = if now.slips[n] { relaxation } else { 1.0 };
+                x[i] += part * (target[0] - x[i]);
+                y[i] += part * (target[1] - y[i]);
                 u_x[i] = last.u[0][n] - residual[0][n] + x[i];
                 u_y[i] = last.u[1][n] - residual[1][n] + y[i];
                 turning[i] = follows;
@@ -184,7 +189,7 @@ impl<'a> NoSlip<'a> {
 
     /// Sets t = 0, where the iteration for it does not converge: the slip is opposite to the final
     /// shear.
-    pub fn straighten(&mut self) {
+    pub fn clear_turn(&mut self) {
         if self.start.earlier.is_none() {
             return;
         }
@@ -196,7 +201,7 @@ impl<'a> NoSlip<'a> {
         } = &mut *self.terms;
         let from = [&last.p[..], &last.u[0], &last.u[1], &r[0], &r[1]];
         let to = [&mut u_x[..], u_y, x, y, turning];
-        set(from, to, |_, [p, x, y, r_x, r_y], old| {
+        set_fields(from, to, |_, [p, x, y, r_x, r_y], old| {
             if p > 0.0 {
                 [x - r_x, y - r_y, 0.0, 0.0, 0.0]
             } else {

@@ -1,21 +1,21 @@
-//! The slip of a cell, eq. (7), and how far it is from opposing the shear, eq. (20).
+//! The slip of a cell, eq. (7), and its part that does not oppose the shear, eq. (20).
 
-use crate::cells::size;
+use crate::cells::length;
 
-/// The slip increment of a cell \[m\], eq. (7), of the displacement u, with the displacement that
-/// means no slip u_0 and the rigid motion B d(delta).
+/// The slip increment of a cell \[m\], eq. (7), from the displacement u, the displacement without
+/// slip u_0 and the rigid motion B d(delta).
 pub fn slip(u: [f64; 2], u_0: [f64; 2], rigid: [f64; 2]) -> [f64; 2] {
     [u[0] - u_0[0] - rigid[0], u[1] - u_0[1] - rigid[1]]
 }
 
 /// The part of a slip that does not oppose the shear `q` \[m\]; zero where q = 0, since without
 /// friction any slip is admissible.
-pub fn not_opposite(slip: [f64; 2], q: [f64; 2]) -> [f64; 2] {
-    let size = size(q);
-    if size == 0.0 {
+pub fn unopposed_part(slip: [f64; 2], q: [f64; 2]) -> [f64; 2] {
+    let size = length(q);
+    if length == 0.0 {
         return [0.0; 2];
     }
-    let e = q.map(|q| q / size);
+    let e = q.map(|q| q / length);
     let along = (slip[0] * e[0] + slip[1] * e[1]).min(0.0);
     [slip[0] - along * e[0], slip[1] - along * e[1]]
 }

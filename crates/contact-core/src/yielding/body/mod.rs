@@ -39,7 +39,7 @@ pub(super) struct YieldingBody {
     /// Residual displacement of the present x below the contact, and its image.
     pub(super) displacement: Vec<f64>,
     pub(super) next_displacement: Vec<f64>,
-    /// That image on all cells.
+    /// The image on all cells.
     next_everywhere: Vec<f64>,
     stress: Vec<f64>,
     /// Tractions of the last pass, with z into the body \[Pa\].
@@ -101,8 +101,8 @@ impl YieldingBody {
         self.mesh().cells.len()
     }
 
-    /// Where a component of a point stands in the fields.
-    fn at(&self, point: usize, component: usize) -> usize {
+    /// Index of a component of a point in the fields.
+    fn index_of_component(&self, point: usize, component: usize) -> usize {
         let cells = self.cells();
         (point / cells * COMPONENTS + component) * cells + point % cells
     }
@@ -114,7 +114,10 @@ impl YieldingBody {
     }
 
     /// The first point of a state that lies beyond the grid.
-    pub(super) fn beyond<'a>(&self, state: &'a PlasticState) -> Option<&'a PlasticPoint> {
+    pub(super) fn first_point_beyond<'a>(
+        &self,
+        state: &'a PlasticState,
+    ) -> Option<&'a PlasticPoint> {
         let mut points = state.points.iter();
         points.find(|known| self.point(known).is_none())
     }
@@ -125,12 +128,12 @@ impl YieldingBody {
         points.any(|known| self.point(known).is_none_or(|point| self.at_border(point)))
     }
 
-    /// From the state at the start of an increment.
+    /// Starts from the state at the start of an increment.
     pub(super) fn begin(&mut self, state: Option<&PlasticState>) {
         for (point, ..) in std::mem::take(&mut self.active) {
             self.slot[point] = NONE;
             for c in 0..COMPONENTS {
-                let at = self.at(point, c);
+                let at = self.index_of_component(point, c);
                 self.strain[at] = 0.0;
             }
         }
@@ -154,7 +157,7 @@ impl YieldingBody {
             };
             self.active.push((point, start, start.unchanged()));
             for c in 0..COMPONENTS {
-                let at = self.at(point, c);
+                let at = self.index_of_component(point, c);
                 self.strain[at] = known.strain[c];
             }
         }
@@ -230,7 +233,7 @@ impl YieldingBody {
         let signed = tractions.map(|tractions| self.facing(tractions));
         let mut stress = vec![0.0; self.operator.len()];
         let mut everywhere = vec![0.0; self.next_everywhere.len()];
-        let wanted = vec![true; self.may_yield.len()];
+        let is_computed = vec![true; self.may_yield.len()];
         let tractions = signed.as_ref().map(|[x, y, z]| [&x[..], &y[..], &z[..]]);
         self.operator.apply(
             Sources {
@@ -239,7 +242,7 @@ impl YieldingBody {
             },
             Answer {
                 stress: &mut stress,
-                wanted: &wanted,
+                wanted: &is_computed,
                 displacement: &mut everywhere,
                 of_tractions: false,
             },

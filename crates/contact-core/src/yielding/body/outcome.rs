@@ -1,4 +1,4 @@
-//! What an increment has come to: works, volume, largest strain, distance from yield.
+//! Results of an increment: works, volume, largest strain, distance from yield.
 
 use eigenstrain::COMPONENTS;
 use plasticity::{Point, Returned, Tensor, contraction, deviator};
@@ -28,7 +28,7 @@ impl YieldingBody {
         let cells = self.cells();
         let of_point = |(point, ..): &(usize, Point, Returned)| {
             let [stress, strain]: [Tensor; 2] = [&self.stress, &self.strain]
-                .map(|field| std::array::from_fn(|c| field[self.at(*point, c)]));
+                .map(|field| std::array::from_fn(|c| field[self.index_of_component(*point, c)]));
             let [xx, yy] = self.initial[point / cells];
             let initial = xx * strain[0] + yy * strain[1];
             self.mesh().weight(point / cells) * (contraction(&stress, &strain) + 2.0 * initial)
@@ -93,11 +93,11 @@ impl YieldingBody {
         let cells = self.cells();
         let of_plane = |plane: usize| {
             let (law, _) = self.laws[plane].as_ref()?;
-            let of = &self.stress[plane * COMPONENTS * cells..][..COMPONENTS * cells];
+            let plane_stress = &self.stress[plane * COMPONENTS * cells..][..COMPONENTS * cells];
             let [xx, yy] = self.initial[plane];
             let constant = deviator(&[xx, yy, 0.0, 0.0, 0.0, 0.0]);
             let reached = (0..cells).map(|cell| {
-                let s: Tensor = std::array::from_fn(|c| of[c * cells + cell]);
+                let s: Tensor = std::array::from_fn(|c| plane_stress[c * cells + cell]);
                 part_of_yield(&deviator(&s), &constant, law.s_y)
             });
             Some((reached.fold(0.0, f64::max), plane))

@@ -18,15 +18,15 @@ impl YieldingBody {
     pub(in crate::yielding) fn pass(&mut self, tractions: &[Vec<f64>; 3]) -> bool {
         self.tractions = self.facing(tractions);
         self.respond();
-        let found = self.returned();
-        let reached = found.iter().map(|(_, most)| *most);
+        let returned = self.returned();
+        let reached = returned.iter().map(|(_, most)| *most);
         self.reached = reached.fold(0.0, f64::max).sqrt();
         if !std::mem::replace(&mut self.passed, true) {
-            for (wanted, (points, most)) in self.wanted.iter_mut().zip(&found) {
+            for (wanted, (points, most)) in self.wanted.iter_mut().zip(&returned) {
                 *wanted = !points.is_empty() || *most > NEAR * NEAR;
             }
         }
-        self.off = self.take(found);
+        self.off = self.take(returned);
         let largest = self
             .next_displacement
             .iter()
@@ -45,17 +45,17 @@ impl YieldingBody {
         let others: Vec<bool> = (self.may_yield.iter().zip(&self.computed))
             .map(|(may, computed)| *may && !computed)
             .collect();
-        let wanted = std::mem::replace(&mut self.wanted, others);
+        let is_wanted = std::mem::replace(&mut self.wanted, others);
         self.respond();
-        let found = self.returned();
-        self.wanted = wanted;
-        for (wanted, (points, _)) in self.wanted.iter_mut().zip(&found) {
+        let returned = self.returned();
+        self.wanted = is_wanted;
+        for (wanted, (points, _)) in self.wanted.iter_mut().zip(&returned) {
             *wanted |= !points.is_empty();
         }
-        self.take(found) > TOLERANCE
+        self.take(returned) > TOLERANCE
     }
 
-    /// What yields of each plane that is computed, and its largest stress over the yield stress, squared.
+    /// Points that yield on each plane that is computed, and its largest stress over the yield stress, squared.
     fn returned(&self) -> Vec<(Vec<(usize, Returned)>, f64)> {
         let cells = self.cells();
         let (laws, stress, strain, slot, active) = (
@@ -76,7 +76,7 @@ impl YieldingBody {
                 &strain[plane * block..][..block],
             );
             let slots = &slot[plane * cells..][..cells];
-            let mut found = Vec::new();
+            let mut yielded = Vec::new();
             let (limit, mut most) = (law.s_y * (1.0 + YIELDS), 0.0_f64);
             for cell in 0..cells {
                 let mut s: Tensor = std::array::from_fn(|c| stress[c * cells + cell]);
@@ -87,7 +87,7 @@ impl YieldingBody {
                     let square = 1.5 * contraction(&s_dev, &s_dev);
                     most = most.max(square);
                     if square > limit * limit {
-                        found.push((plane * cells + cell, Point::default().at(law, *mu, &s)));
+                        yielded.push((plane * cells + cell, Point::default().at(law, *mu, &s)));
                     }
                     continue;
                 }
@@ -99,9 +99,9 @@ impl YieldingBody {
                 if returned.flow != [0.0; COMPONENTS] {
                     most = most.max(law.s_y * law.s_y);
                 }
-                found.push((plane * cells + cell, returned));
+                yielded.push((plane * cells + cell, returned));
             }
-            (found, most / (law.s_y * law.s_y))
+            (yielded, most / (law.s_y * law.s_y))
         };
         (0..laws.len()).into_par_iter().map(of_plane).collect()
     }
@@ -117,8 +117,9 @@ impl YieldingBody {
             }
             let slot = self.slot[point] as usize;
             self.active[slot].2 = returned;
-            let change: Tensor =
-                std::array::from_fn(|c| returned.strain[c] - self.strain[self.at(point, c)]);
+            let change: Tensor = std::array::from_fn(|c| {
+                returned.strain[c] - self.strain[self.index_of_component(point, c)]
+            });
             if let Some((law, mu)) = &self.laws[point / cells] {
                 off = off.max(equivalent_stress(&change) * 2.0 * mu / law.s_y);
             }

@@ -22,7 +22,7 @@ impl YieldingBody {
                 continue;
             };
             for (c, growth) in known.growth.iter().enumerate() {
-                let at = self.at(point, c);
+                let at = self.index_of_component(point, c);
                 self.strain[at] += factor * growth;
             }
         }
@@ -36,11 +36,12 @@ impl YieldingBody {
     /// Growth of the strain in the increment, of x.
     pub(in crate::yielding) fn grown(&self) -> impl Iterator<Item = f64> {
         self.active.iter().flat_map(|(point, start, _)| {
-            (0..COMPONENTS).map(|c| self.strain[self.at(*point, c)] - start.strain[c])
+            (0..COMPONENTS)
+                .map(|c| self.strain[self.index_of_component(*point, c)] - start.strain[c])
         })
     }
 
-    /// The same of its image.
+    /// The unknowns of its image.
     pub(in crate::yielding) fn next_grown(&self) -> impl Iterator<Item = f64> {
         let grown = |(_, start, end): &(usize, Point, Returned)| -> [f64; COMPONENTS] {
             std::array::from_fn(|c| end.strain[c] - start.strain[c])
@@ -82,7 +83,7 @@ impl YieldingBody {
         for (slot, grown) in x[from..from + n].chunks_exact(COMPONENTS).enumerate() {
             let (point, start, _) = self.active[slot];
             for c in 0..COMPONENTS {
-                let at = self.at(point, c);
+                let at = self.index_of_component(point, c);
                 self.strain[at] = start.strain[c] + grown[c];
             }
         }

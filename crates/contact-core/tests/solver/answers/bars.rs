@@ -15,7 +15,7 @@ const COVERS: f64 = 1.5;
 fn with_bars(scene: &Scene) -> (Vec<BranchSummary>, Vec<ErrorBars>) {
     let scene = choose_increments(scene, &Arc::default()).expect("increments");
     let mut nobody = ();
-    let mut ends = BranchEnds::beside(&mut nobody);
+    let mut ends = BranchEnds::new(&mut nobody);
     let increments = solve(&scene, &mut ends).expect("a solution");
     let bars = error_bars(&scene, &increments, &ends.tractions, &Arc::default());
     (summarise(&increments), bars.expect("bars"))

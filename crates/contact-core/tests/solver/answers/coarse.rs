@@ -40,7 +40,7 @@ fn a_contact_of_less_than_two_cells_is_refused_before_it_is_solved_and_after() {
 fn a_contact_of_less_than_eight_cells_is_doubted() {
     for (cells, doubted) in [(3.0, true), (7.0, true), (9.0, false)] {
         let scene = of_cells(cells);
-        let reached = Reached::of(&run(&scene));
+        let reached = Reached::from_increments(&run(&scene));
         assert!(
             (reached.cells_per_radius - cells).abs() < 0.1 * cells + 0.2,
             "{cells}: {reached:?}"
@@ -64,7 +64,11 @@ fn what_is_smallest_where_the_contact_is_largest_counts() {
     growing.path = LoadPath::start().normal(W, 40).normal(1e-4 * W, 2);
     let increments = run(&growing);
     assert!(increments[0].cells_per_radius < 4.0);
-    assert!(Reached::of(&increments).doubts(&growing).is_empty());
+    assert!(
+        Reached::from_increments(&increments)
+            .doubts(&growing)
+            .is_empty()
+    );
 
     let mut ellipse = of_cells(3.0);
     ellipse.body1.shape = Shape::Ellipsoid {

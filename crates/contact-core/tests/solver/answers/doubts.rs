@@ -129,7 +129,10 @@ fn a_pressure_above_a_hundredth_of_the_softest_modulus_is_told() {
     scene.body2.coatings.clear();
     scene.body2.plastic = vec![Some(Plastic::perfect(1e9))];
     assert!(of(&scene, 2.2e9).is_empty());
-    assert_eq!(Reached::of(&[] as &[Increment]).doubts(&scene), [""; 0]);
+    assert_eq!(
+        Reached::from_increments(&[] as &[Increment]).doubts(&scene),
+        [""; 0]
+    );
 }
 
 /// A contact in plane strain or not, of bodies with these radii along x and y (infinite for flat),

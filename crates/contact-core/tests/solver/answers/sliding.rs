@@ -23,7 +23,7 @@ fn bars_cover_shift_and_energy_near_full_sliding() {
         let chosen =
             choose_increments(&sheared(part, 32, None), &Arc::default()).expect("increments");
         let mut nobody = ();
-        let mut ends = BranchEnds::beside(&mut nobody);
+        let mut ends = BranchEnds::new(&mut nobody);
         let increments = solve(&chosen, &mut ends).expect("a solution");
         let last = increments[increments.len() - 1];
         let bars =

@@ -15,7 +15,7 @@ fn response(E: Profile, layers: usize) -> [f64; 4] {
         coatings: graded.coatings().unwrap(),
         bonds: Vec::new(),
         plastic: Vec::new(),
-        residual_text: Vec::new(),
+        residual: Vec::new(),
         shape: Shape::Flat,
     };
     let r = Stack::new(&body).response(2e5);

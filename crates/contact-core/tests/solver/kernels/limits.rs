@@ -15,7 +15,7 @@ fn body(layers: &[(f64, f64, f64)], substrate: Elastic) -> Body {
         coatings: layers.iter().map(coating).collect(),
         bonds: Vec::new(),
         plastic: Vec::new(),
-        residual_text: Vec::new(),
+        residual: Vec::new(),
         shape: Shape::Flat,
     }
 }

@@ -20,7 +20,7 @@ fn coated() -> Body {
         }],
         bonds: Vec::new(),
         plastic: Vec::new(),
-        residual_text: Vec::new(),
+        residual: Vec::new(),
         shape: Shape::Flat,
     }
 }
@@ -139,7 +139,7 @@ fn frequency_domain_is_the_convolution_with_its_own_coefficients() {
         }],
         bonds: Vec::new(),
         plastic: Vec::new(),
-        residual_text: Vec::new(),
+        residual: Vec::new(),
         shape: Shape::Flat,
     };
     for (n, lambda) in [((16, 24), 2), ((12, 10), 3), ((9, 14), 4)] {

@@ -90,7 +90,7 @@ fn a_layer_may_be_cut_in_two() {
             coatings,
             bonds: Vec::new(),
             plastic: Vec::new(),
-            residual_text: Vec::new(),
+            residual: Vec::new(),
             shape: Shape::Flat,
         };
         let mut cut = whole.clone();
