@@ -61,7 +61,7 @@ pub enum Error {
         message: String,
     },
     /// A scene file is wrong in several places, or doubtful beside one.
-    #[error("{}", told(errors, doubts))]
+    #[error("{}", join_lines(errors, doubts))]
     SceneFaults {
         /// Each of [`Self::SceneFile`] or [`Self::Setting`], in the order of the file.
         errors: Vec<Error>,

@@ -159,7 +159,7 @@ fn add_slip(state: &mut State, last: &Interface, closing: &Closing<'_>) {
         if !(p > 0.0 && now.slips[n]) {
             return [x, y, length, energy];
         }
-        let distance = length([slip[0], slip[1] / arms.axis_ratio]);
+        let distance = crate::cells::length([slip[0], slip[1] / arms.axis_ratio]);
         [x + slip[0], y + slip[1], length + distance, energy]
     });
 }

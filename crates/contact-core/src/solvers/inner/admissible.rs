@@ -208,7 +208,7 @@ fn shifted_shear(
 
 /// Factor that brings a traction of this size to the bound.
 fn cut_factor(size: f64, bound: f64) -> f64 {
-    if length > bound { bound / length } else { 1.0 }
+    if size > bound { bound / size } else { 1.0 }
 }
 
 fn norm(v: [f64; 3]) -> f64 {

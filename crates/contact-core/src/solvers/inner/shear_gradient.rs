@@ -7,7 +7,7 @@
 //! is compared with. Where its sets cycle, projected gradients, which lower the energy in every
 //! step, take over for some iterations.
 
-use super::admissible;
+use super::make_admissible;
 use super::projected_gradient::ProjectedGradient;
 use super::{TangentialInfo, TangentialParams, TangentialProblem, first_shift};
 use crate::cells::{add_scaled, dot, length};

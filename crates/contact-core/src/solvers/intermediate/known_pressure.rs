@@ -48,7 +48,7 @@ pub(super) fn bring_within_bound(
             let direction = problem.arms.displacement_in_plane(sliding.motion, n);
             let size = length(direction).max(f64::MIN_POSITIVE);
             for c in 0..2 {
-                now.q[c][n] = ws.bound[n] * direction[c] / length;
+                now.q[c][n] = ws.bound[n] * direction[c] / size;
             }
         }
     } else {

@@ -12,10 +12,10 @@ pub fn slip(u: [f64; 2], u_0: [f64; 2], rigid: [f64; 2]) -> [f64; 2] {
 /// friction any slip is admissible.
 pub fn unopposed_part(slip: [f64; 2], q: [f64; 2]) -> [f64; 2] {
     let size = length(q);
-    if length == 0.0 {
+    if size == 0.0 {
         return [0.0; 2];
     }
-    let e = q.map(|q| q / length);
+    let e = q.map(|q| q / size);
     let along = (slip[0] * e[0] + slip[1] * e[1]).min(0.0);
     [slip[0] - along * e[0], slip[1] - along * e[1]]
 }

@@ -190,6 +190,6 @@ fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
 /// The direction and the size of a vector.
 fn direction_and_size(a: [f64; 2]) -> ([f64; 2], f64) {
     let size = length(a);
-    let inverse_size = 1.0 / length.max(f64::MIN_POSITIVE);
-    ([a[0] * inverse_size, a[1] * inverse_size], length)
+    let inverse_size = 1.0 / size.max(f64::MIN_POSITIVE);
+    ([a[0] * inverse_size, a[1] * inverse_size], size)
 }
