@@ -589,6 +589,9 @@ class Crack:
     legs : list of (float, float)
         Length [m] and angle [rad] of each straight leg from the mouth on; angles are from the
         inward normal, positive towards +x.
+    interfaces : list of float
+        Depths at which the stress jumps or has a kink [m]. The points beside them are added to
+        :attr:`points`, and the quadrature is split there.
 
     Examples
     --------
@@ -603,7 +606,14 @@ class Crack:
     def __eq__(self, other: object, /) -> bool: ...
     def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
     def __hash__(self, /) -> int: ...
-    def __new__(cls, /, *, legs: Sequence[tuple[float, float]], x: float = 0.0) -> Crack: ...
+    def __new__(
+        cls,
+        /,
+        *,
+        legs: Sequence[tuple[float, float]],
+        x: float = 0.0,
+        interfaces: Sequence[float] = ...,
+    ) -> Crack: ...
     def __replace__(self, /, **changes: Any) -> Self: ...
     def __repr__(self, /) -> str: ...
     def grow(
@@ -666,6 +676,9 @@ class Crack:
             ``K_I``, ``K_II`` and their ``error`` [Pa m^0.5], ``open``, the share of the crack that
             is open, each over time.
         """
+    @property
+    def interfaces(self, /) -> list[float]:
+        """Depths at which the stress jumps [m]."""
     @property
     def legs(self, /) -> list[tuple[float, float]]:
         """Length [m] and angle [rad] of each leg."""

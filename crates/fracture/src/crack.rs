@@ -8,6 +8,7 @@ use ndarray::Array1;
 use super::Error;
 use super::closure::Contact;
 use super::influence::influence;
+use super::jumps::Jumps;
 use super::lu::Lu;
 use super::path::Path;
 use super::rule::{Rule, step};
@@ -49,7 +50,11 @@ pub struct Crack {
     path: Path,
     length: f64,
     pub(crate) system: Arc<System>,
+    jumps: Arc<Jumps>,
 }
+
+/// Tractions of the body without the crack for the rule, and for the rule of three times its step.
+pub(crate) type Loads = [Vec<Traction>; 2];
 
 /// K per traction: -K(f) A^-1, by the transposed system.
 fn weights(rule: &Rule, length: f64) -> Result<[Array1<f64>; 2], Error> {
@@ -94,6 +99,7 @@ impl Crack {
             path,
             length,
             system: Arc::new(system),
+            jumps: Arc::default(),
         })
     }
 
@@ -107,7 +113,20 @@ impl Crack {
         self.length
     }
 
-    /// A crack of the same shape with its mouth at `mouth` \[m\] and the length `length` \[m\].
+    /// Names the depths at which the stress jumps or has a kink \[m\]: [`Crack::points`] are more, and
+    /// the quadrature is split there.
+    #[must_use]
+    pub fn with_interfaces(mut self, interfaces: &[f64]) -> Self {
+        let at: Vec<f64> = interfaces
+            .iter()
+            .flat_map(|z| self.path.crossings(*z))
+            .collect();
+        self.jumps = Arc::new(Jumps::new(&self.system.rule, &self.path, &at));
+        self
+    }
+
+    /// A crack of the same shape with its mouth at `mouth` \[m\] and the length `length` \[m\], in a
+    /// body without interfaces.
     pub fn similar(&self, mouth: f64, length: f64) -> Result<Self, Error> {
         let factor = length / self.length;
         let mut path = self.path.clone();
@@ -120,10 +139,12 @@ impl Crack {
             path,
             length,
             system: Arc::clone(&self.system),
+            jumps: Arc::default(),
         })
     }
 
-    /// Where the stress of the body without the crack is wanted, from the tip to the mouth.
+    /// Where the stress of the body without the crack is wanted, from the tip to the mouth; then the
+    /// points beside interfaces.
     pub fn points(&self) -> Vec<Point> {
         let at = |knot: &super::rule::Knot| Point {
             x: self.path.mouth + self.length * knot.at.re,
@@ -131,36 +152,42 @@ impl Crack {
             angle: knot.angle,
             s: self.length * knot.s,
         };
-        self.system.rule.points.iter().map(at).collect()
+        let rule = self.system.rule.points.iter().map(at);
+        rule.chain(self.jumps.points.iter().copied()).collect()
+    }
+
+    /// Number of points of the rule, the first ones of [`Crack::points`].
+    pub(crate) fn rule_points(&self) -> usize {
+        self.system.rule.points.len()
+    }
+
+    /// The tractions under the stress at [`Crack::points`].
+    pub(crate) fn loads(&self, stress: &[PlaneStress]) -> Result<Loads, Error> {
+        let tractions = tractions(&self.points(), stress)?;
+        let (rule, added) = tractions.split_at(self.rule_points());
+        Ok(self.jumps.loads(rule, added))
     }
 
     /// K under the stress at [`Crack::points`], with faces that may pass through each other: K_I <
     /// 0 says that they would. Linear in the stress.
     pub fn intensity(&self, stress: &[PlaneStress]) -> Result<Intensity, Error> {
-        Ok(self.linear(&tractions(&self.points(), stress)?))
+        Ok(self.linear(&self.loads(stress)?))
     }
 
     /// K under tractions at the points.
-    pub(crate) fn linear(&self, tractions: &[Traction]) -> Intensity {
-        let n = tractions.len();
+    pub(crate) fn linear(&self, loads: &Loads) -> Intensity {
         let root = self.length.sqrt();
-        let fine = |w: &Array1<f64>| -> f64 {
-            let sum = |(k, t): (usize, &Traction)| w[k] * t.normal + w[n + k] * t.shear;
-            root * tractions.iter().enumerate().map(sum).sum::<f64>()
+        let sum = |w: &Array1<f64>, load: &[Traction]| -> f64 {
+            let n = load.len();
+            let product = |(k, t): (usize, &Traction)| w[k] * t.normal + w[n + k] * t.shear;
+            root * load.iter().enumerate().map(product).sum::<f64>()
         };
-        let coarse = |w: &Array1<f64>| -> f64 {
-            let m = w.len() / 2;
-            let every = tractions.iter().skip(1).step_by(3).enumerate();
-            root * every
-                .map(|(k, t)| w[k] * t.normal + w[m + k] * t.shear)
-                .sum::<f64>()
-        };
-        let [K_I, K_II] = [0, 1].map(|i| fine(&self.system.weights[i]));
-        let [c_I, c_II] = [0, 1].map(|i| coarse(&self.system.coarse[i]));
+        let [K_I, K_II] = [0, 1].map(|i| sum(&self.system.weights[i], &loads[0]));
+        let [c_I, c_II] = [0, 1].map(|i| sum(&self.system.coarse[i], &loads[1]));
         // Error of the parts between the last point and the mouth, and between the points beside a
         // kink.
         let kinks = if self.path.legs.len() > 1 { 2e-6 } else { 0.0 };
-        let mouth = tractions.last().map_or(0.0, |t| t.normal.hypot(t.shear));
+        let mouth = loads[0].last().map_or(0.0, |t| t.normal.hypot(t.shear));
         let mouth = 4.0 * self.points_left_out() * mouth * (PI * self.length).sqrt();
         Intensity {
             K_I,

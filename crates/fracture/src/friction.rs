@@ -6,7 +6,7 @@ use super::Error;
 use super::closure::{Instant, Opening, Signed, State};
 use super::crack::{Crack, Intensity, k_of_density};
 use super::lu::largest;
-use super::stress::{PlaneStress, Traction, tractions};
+use super::stress::{PlaneStress, Traction};
 
 /// Most halvings of the change of the load between two instants before the search gives up.
 const MOST_HALVINGS: usize = 5;
@@ -47,7 +47,7 @@ impl Faces {
                 "0 to 2",
             ));
         }
-        let n = crack.points().len();
+        let n = crack.rule_points();
         Ok(Self {
             crack: crack.clone(),
             friction,
@@ -70,10 +70,9 @@ impl Faces {
     /// The faces under the stress at [`Crack::points`] of the next instant. Without friction the
     /// history does not matter.
     pub fn next(&self, stress: &[PlaneStress]) -> Result<Self, Error> {
-        let points = self.crack.points();
-        let tractions = tractions(&points, stress)?;
-        let linear = self.crack.linear(&tractions);
-        let part = |of: fn(&Traction) -> f64| tractions.iter().map(of);
+        let loads = self.crack.loads(stress)?;
+        let linear = self.crack.linear(&loads);
+        let part = |of: fn(&Traction) -> f64| loads[0].iter().map(of);
         let load: Array1<f64> = part(|t| t.normal).chain(part(|t| t.shear)).collect();
         let mut next = self.clone();
         next.passes = 0;

@@ -114,7 +114,8 @@ pub(crate) fn cycle(
 }
 
 /// Grows a crack from `start` in the direction that its cycle asks for. `stress` gives the stress
-/// of the body without the crack at a crack's points, one instant of the cycle after the other.
+/// of the body without the crack at a crack's points, one instant of the cycle after the other. It
+/// jumps at the depths `interfaces` \[m\].
 ///
 /// Pieces are curved so that at the end of each the crack has no reason to turn; their number is
 /// doubled until the tip moves less than the tolerance. A crack ends early where nothing opens it,
@@ -122,6 +123,7 @@ pub(crate) fn cycle(
 pub fn grow<E: From<Error>>(
     start: &Path,
     growing: &Growing,
+    interfaces: &[f64],
     mut stress: impl FnMut(&Crack) -> Result<Vec<Vec<PlaneStress>>, E>,
 ) -> Result<Grown, E> {
     start.check()?;
@@ -133,10 +135,19 @@ pub fn grow<E: From<Error>>(
         return Err(Error::invalid("tolerance", growing.tolerance, "above 0 and below 1").into());
     }
     let mut pieces = 4;
-    let mut coarse = in_pieces(start, growing, pieces, &mut stress)?;
+    let mut at_tip = |path: &Path| -> Result<Tip, E> {
+        let crack = Crack::with_step(path.clone(), step(path).max(COARSE))?;
+        let crack = crack.with_interfaces(interfaces);
+        let stress = stress(&crack)?;
+        Ok(Tip {
+            at: path.tip(),
+            cycle: cycle(&crack, growing.friction, &stress)?,
+        })
+    };
+    let mut coarse = in_pieces(start, growing, pieces, &mut at_tip)?;
     loop {
         pieces *= 2;
-        let mut fine = in_pieces(start, growing, pieces, &mut stress)?;
+        let mut fine = in_pieces(start, growing, pieces, &mut at_tip)?;
         let (a, b) = (coarse.path.tip(), fine.path.tip());
         fine.error = (a.x - b.x).hypot(a.z - b.z);
         let grown = fine.path.length() - start.length();
@@ -154,16 +165,8 @@ fn in_pieces<E: From<Error>>(
     start: &Path,
     growing: &Growing,
     pieces: usize,
-    stress: &mut impl FnMut(&Crack) -> Result<Vec<Vec<PlaneStress>>, E>,
+    at_tip: &mut impl FnMut(&Path) -> Result<Tip, E>,
 ) -> Result<Grown, E> {
-    let mut at_tip = |path: &Path| -> Result<Tip, E> {
-        let crack = Crack::with_step(path.clone(), step(path).max(COARSE))?;
-        let stress = stress(&crack)?;
-        Ok(Tip {
-            at: path.tip(),
-            cycle: cycle(&crack, growing.friction, &stress)?,
-        })
-    };
     let first = at_tip(start)?;
     let mut grown = Grown {
         path: start.clone(),

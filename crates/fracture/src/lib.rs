@@ -36,6 +36,7 @@ mod film;
 mod friction;
 mod grow;
 mod influence;
+mod jumps;
 mod life;
 mod lu;
 mod path;

@@ -13,6 +13,22 @@ pub(crate) const FLATTEST: f64 = 80.0 * FRAC_PI_2 / 90.0;
 /// Most legs of a path.
 const MOST_LEGS: usize = 40;
 
+/// Parts of a piece, at whose ends a depth is compared to find the crossings of the piece.
+const SUBDIVISIONS: u32 = 16;
+
+/// Returns the place at which a condition that holds at `low` ceases to hold, to rounding.
+fn bisect(holds: impl Fn(f64) -> bool, (mut low, mut high): (f64, f64)) -> f64 {
+    while high - low > 1e-14 * high {
+        let middle = f64::midpoint(low, high);
+        if holds(middle) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    high
+}
+
 /// A part of a crack without a kink.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Leg {
@@ -163,6 +179,25 @@ impl Path {
             Some(*sum)
         };
         pieces.scan(0.0, sum).collect()
+    }
+
+    /// Lengths from the mouth at which it crosses the depth `z` \[m\], ascending.
+    pub fn crossings(&self, z: f64) -> Vec<f64> {
+        let below = |s: f64| self.at(s).z > z;
+        let mut crossings = Vec::new();
+        let mut from = 0.0;
+        for to in self.ends() {
+            let length = |n: u32| from + (to - from) * f64::from(n) / f64::from(SUBDIVISIONS);
+            for n in 0..SUBDIVISIONS {
+                let (low, high) = (length(n), length(n + 1));
+                let begins = below(low);
+                if begins != below(high) {
+                    crossings.push(bisect(|s| below(s) == begins, (low, high)));
+                }
+            }
+            from = to;
+        }
+        crossings
     }
 
     /// The tip.

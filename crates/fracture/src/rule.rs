@@ -45,6 +45,25 @@ pub(crate) struct Rule {
     pub(crate) points: Vec<Knot>,
     /// Length of the leg at the tip over that of the crack.
     pub(crate) tip_leg: f64,
+    /// The legs from the tip to the mouth.
+    pub(crate) stretches: Vec<Stretch>,
+    /// Step of t.
+    pub(crate) step: f64,
+}
+
+/// The part of a rule on one leg: the point `first` + k lies at t = `start` + (k + 1/2) step.
+#[derive(Clone, Debug)]
+pub(crate) struct Stretch {
+    /// Index of its first point, and their number.
+    pub(crate) first: usize,
+    pub(crate) count: usize,
+    /// First value of t.
+    pub(crate) start: f64,
+    /// Begin and length over the length of the crack.
+    pub(crate) from: f64,
+    pub(crate) length: f64,
+    /// Whether the crack ends with it.
+    pub(crate) tip: bool,
 }
 
 /// Step of t that resolves a path: kernels and stresses are analytic in a strip whose half-width is
@@ -60,6 +79,7 @@ impl Rule {
     pub(crate) fn new(path: &Path, step: f64) -> Self {
         let length = path.length();
         let (mut dislocations, mut points) = (Vec::new(), Vec::new());
+        let mut stretches = Vec::new();
         let mut starts = Vec::with_capacity(path.legs.len());
         let (mut from, mut corner) = (0.0, Complex64::default());
         for leg in &path.legs {
@@ -74,6 +94,14 @@ impl Rule {
             // A multiple of three, so that every third makes a rule, too.
             let count = 3 * ((far + near) / (3.0 * step)).ceil() as usize;
             let start = -near;
+            stretches.push(Stretch {
+                first: points.len(),
+                count,
+                start,
+                from: from / length,
+                length: leg.length() / length,
+                tip,
+            });
             for j in 0..count {
                 let half = if tip && j == 0 { 0.5 } else { 1.0 };
                 let knot = |t: f64, weight: f64| {
@@ -95,6 +123,8 @@ impl Rule {
             dislocations,
             points,
             tip_leg: path.legs.last().map_or(0.0, Leg::length) / length,
+            stretches,
+            step,
         }
     }
 
@@ -108,6 +138,8 @@ impl Rule {
             dislocations: self.dislocations.iter().step_by(3).map(tripled).collect(),
             points: self.points.iter().skip(1).step_by(3).map(tripled).collect(),
             tip_leg: self.tip_leg,
+            stretches: Vec::new(),
+            step: 3.0 * self.step,
         }
     }
 }
@@ -120,4 +152,20 @@ fn place(length: f64, t: f64, tip: bool) -> (f64, f64) {
     }
     let e = t.exp();
     (length / (1.0 + e), length * e / (1.0 + e).powi(2))
+}
+
+/// Distance from the begin of a leg at t, which is even at the tip.
+pub(crate) fn distance(stretch: &Stretch, t: f64) -> f64 {
+    place(stretch.length, t, stretch.tip).0
+}
+
+/// The variable t after the length `s` of a crack of unit length; `None` outside of the leg's points.
+pub(crate) fn variable(stretch: &Stretch, s: f64) -> Option<f64> {
+    let ratio = stretch.length / (s - stretch.from);
+    let t = if stretch.tip {
+        2.0 * ratio.sqrt().acosh()
+    } else {
+        (ratio - 1.0).ln()
+    };
+    (t.is_finite() && t != 0.0 && t.abs() < TO_KINK).then_some(t)
 }

@@ -62,4 +62,18 @@ impl ResidualStress {
         };
         profile.stress_at(z - self.tops.get(layer).copied().unwrap_or(0.0))
     }
+
+    /// Depths below the surface of the body at which a table of a layer has a row \[m\]: the stress has
+    /// a kink there.
+    pub fn kinks(&self) -> Vec<f64> {
+        let mut kinks = Vec::new();
+        for (n, profile) in self.layers.iter().enumerate() {
+            let top = self.tops.get(n).copied().unwrap_or(0.0);
+            let bottom = self.tops.get(n + 1).copied().unwrap_or(f64::INFINITY);
+            let rows = profile.rows.iter().filter(|_| profile.rows.len() > 1);
+            let depths = rows.map(|row| top + row[0]);
+            kinks.extend(depths.filter(|z| top < *z && *z < bottom));
+        }
+        kinks
+    }
 }

@@ -284,7 +284,7 @@ fn an_inclined_crack_under_tension_turns_normal_to_it() {
         let points = crack.points().len();
         Ok(vec![vec![[1e8, 0.0, 0.0]; points], vec![[0.0; 3]; points]])
     };
-    let grown = grow(&start, &growing, tension).unwrap();
+    let grown = grow(&start, &growing, &[], tension).unwrap();
     let tip = grown.path.tip();
     assert!(tip.angle.abs() < 0.03, "{}", tip.angle);
     assert!(grown.error < 1e-2 * 9e-4);
@@ -321,7 +321,7 @@ fn the_path_settles_with_its_tolerance() {
                 tolerance,
                 ..Growing::default()
             };
-            grow(&start, &growing, tension).unwrap()
+            grow(&start, &growing, &[], tension).unwrap()
         };
         let (coarse, fine) = (to(2e-2), to(2e-3));
         assert!(fine.error < 2e-3 * 1e-4, "{direction:?} {}", fine.error);
@@ -363,7 +363,7 @@ fn a_crack_grows_below_a_fretting_contact() {
             friction,
             ..growing
         };
-        let grown = grow(&Path::straight(-1.0, 0.06, angle), &growing, cycle).unwrap();
+        let grown = grow(&Path::straight(-1.0, 0.06, angle), &growing, &[], cycle).unwrap();
         let length = grown.path.length();
         assert_eq!(grown.end == End::Reached, (length - 0.2).abs() < 1e-9);
         assert!(grown.tips.len() > 4, "{angle} {friction}");

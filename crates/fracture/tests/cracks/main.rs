@@ -6,5 +6,6 @@
 mod closure;
 mod film;
 mod growth;
+mod jumps;
 mod linear;
 mod truth;

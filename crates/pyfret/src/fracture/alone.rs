@@ -38,6 +38,9 @@ fn history(stress: Array<'_, Ix3>, points: usize) -> PyResult<Vec<Vec<of_cracks:
 /// legs : list of (float, float)
 ///     Length [m] and angle [rad] of each straight leg from the mouth on; angles are from the
 ///     inward normal, positive towards +x.
+/// interfaces : list of float
+///     Depths at which the stress jumps or has a kink [m]. The points beside them are added to
+///     :attr:`points`, and the quadrature is split there.
 ///
 /// Examples
 /// --------
@@ -49,9 +52,9 @@ fn history(stress: Array<'_, Ix3>, points: usize) -> PyResult<Vec<Vec<of_cracks:
 /// 1.1215
 #[pyclass(frozen, module = "pyfret.fracture")]
 #[derive(Clone)]
-pub(crate) struct Crack(of_cracks::Crack);
+pub(crate) struct Crack(of_cracks::Crack, Vec<f64>);
 
-parts!(Crack: legs, x);
+parts!(Crack: legs, x, interfaces);
 
 #[pymethods]
 impl Crack {
@@ -60,10 +63,21 @@ impl Crack {
     }
 
     #[new]
-    #[pyo3(signature = (*, legs: "Sequence[tuple[float, float]]", x: "float" = 0.0))]
-    fn new(legs: List<(f64, f64)>, #[pyo3(from_py_with = number)] x: f64) -> Answer<Self> {
+    #[pyo3(signature = (*, legs: "Sequence[tuple[float, float]]", x: "float" = 0.0, interfaces: "Sequence[float]" = List(Vec::new())))]
+    fn new(
+        legs: List<(f64, f64)>,
+        #[pyo3(from_py_with = number)] x: f64,
+        interfaces: List<f64>,
+    ) -> Answer<Self> {
         let path = of_cracks::Path::kinked(x, &legs);
-        Ok(Self(of_cracks::Crack::new(path)?))
+        let crack = of_cracks::Crack::new(path)?.with_interfaces(&interfaces);
+        Ok(Self(crack, interfaces.0))
+    }
+
+    /// Depths at which the stress jumps [m].
+    #[getter]
+    fn interfaces(&self) -> Vec<f64> {
+        self.1.clone()
     }
 
     /// Length [m] and angle [rad] of each leg.
@@ -175,11 +189,11 @@ impl Crack {
             tolerance,
         };
         let at = |crack: &of_cracks::Crack| -> Answer<Vec<Vec<of_cracks::PlaneStress>>> {
-            let points = Self(crack.clone()).points(py);
+            let points = Self(crack.clone(), Vec::new()).points(py);
             let values = stress.call1((points,))?;
             Ok(history(values.extract()?, crack.points().len())?)
         };
-        let growth = of_cracks::grow(self.0.path(), &growing, at)?;
+        let growth = of_cracks::grow(self.0.path(), &growing, &self.1, at)?;
         let tips: Vec<_> = growth.tips.iter().map(|tip| tip.at).collect();
         let times = growth.tips.first().map_or(0, |tip| tip.cycle.len());
         let table = |f: &dyn Fn(&of_cracks::Intensity) -> f64| {
@@ -197,7 +211,16 @@ impl Crack {
     }
 
     fn __repr__(&self) -> String {
-        format!("Crack(legs={:?}, x={:?})", self.legs(), self.x())
+        let interfaces = if self.1.is_empty() {
+            String::new()
+        } else {
+            format!(", interfaces={:?}", self.1)
+        };
+        format!(
+            "Crack(legs={:?}, x={:?}{interfaces})",
+            self.legs(),
+            self.x()
+        )
     }
 }
 
