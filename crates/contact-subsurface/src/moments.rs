@@ -67,6 +67,25 @@ pub trait OverCycle: Sync {
 }
 
 impl Moments {
+    /// Copies states on a grid.
+    pub fn from_states(states: &States<'_>, grid: &Grid) -> Self {
+        let shape = (grid.nx, grid.ny);
+        let field = |values: Option<&[f64]>| {
+            Array2::from_shape_fn(shape, |(i, j)| values.map_or(0.0, |v| v[i * grid.ny + j]))
+        };
+        let mask = |stick: &&[bool]| Array2::from_shape_fn(shape, |(i, j)| stick[i * grid.ny + j]);
+        Self {
+            tractions: states
+                .tractions
+                .iter()
+                .map(|of| [of.q_x, of.q_y, of.p].map(field))
+                .collect(),
+            stick: states.stick.unwrap_or_default().iter().map(mask).collect(),
+            sigma_B: states.sigma_B.to_vec(),
+            eigenstress: states.eigenstress.to_vec(),
+        }
+    }
+
     /// The states of the body that they are, with a residual stress in place of that of the body.
     pub fn with_states<T>(
         &self,

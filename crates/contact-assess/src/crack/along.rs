@@ -1,8 +1,8 @@
 //! The stress of the body without the crack along the lines of cracks.
 //!
 //! It is sampled at distances that grow with that from the mouth; between them it is interpolated
-//! over the logarithm of the distance, part by part: a part lies in one layer and between two ends
-//! of pieces of the crack, so that the stress is smooth on it. No place is asked for twice.
+//! over the logarithm of the distance, part by part: a part lies in one layer, between two rows of its
+//! residual stress and between two ends of pieces of the crack, so that the stress is smooth on it. No place is asked for twice.
 
 use std::collections::HashMap;
 
@@ -15,21 +15,25 @@ use fracture::{Path, PlaneStress, Point};
 const STEP: f64 = 0.15;
 /// Samples that an interpolation takes.
 const SAMPLES: usize = 6;
-/// Parts of a piece in which it is looked for an interface.
-const LOOKS: u32 = 16;
+
+/// Cells of the tractions: those of the grid, then twice as large ones, paired in two ways.
+pub(super) const GRIDS: usize = 3;
 
 /// The stress below a contact where cracks run.
 pub(super) struct Along<'a> {
     pub(super) body: &'a Body,
     pub(super) side: Side,
-    /// Under the states of the cycle.
-    pub(super) points: Points,
+    /// Under the states of the cycle, and under their tractions on cells twice as large, with the middle
+    /// of the grid of each \[m\].
+    pub(super) points: [(Points, (f64, f64)); GRIDS],
     /// Angle of the plane of the cracks about the axis of depth from that of x \[rad\].
     pub(super) azimuth: f64,
+    /// Depths at which the stress jumps or has a kink: interfaces and rows of residual stress \[m\].
+    pub(super) breaks: Vec<f64>,
     /// Nearest sample to the mouth \[m\].
     pub(super) nearest: f64,
-    /// By x, z and layer: both stresses of each state.
-    pub(super) known: HashMap<(u64, u64, usize), Vec<[PlaneStress; 2]>>,
+    /// By x, z and layer: the stresses of each state.
+    pub(super) known: HashMap<(u64, u64, usize), Vec<[PlaneStress; GRIDS]>>,
 }
 
 /// Samples along a crack.
@@ -42,15 +46,8 @@ struct Part {
     /// Distances from the mouth \[m\], evenly spaced in their logarithm.
     s: Vec<f64>,
     layer: usize,
-    /// By distance: both stresses of each state.
-    stress: Vec<Vec<[PlaneStress; 2]>>,
-}
-
-/// Which stress: with the tractions that vary within the cells, or those constant in each.
-#[derive(Clone, Copy)]
-pub(super) enum Which {
-    Continued = 0,
-    Constant = 1,
+    /// By distance: the stresses of each state.
+    stress: Vec<Vec<[PlaneStress; GRIDS]>>,
 }
 
 impl Along<'_> {
@@ -79,7 +76,11 @@ impl Along<'_> {
             (r * cos, r * sin, Depth { z: *z, layer })
         };
         let places: Vec<_> = unknown.iter().map(place).collect();
-        let both = self.points.stress_and_constant(&places)?;
+        let mut stresses = Vec::with_capacity(GRIDS);
+        for (points, (X, Y)) in &self.points {
+            let shifted = |&(x, y, depth): &(f64, f64, Depth)| (x - X, y - Y, depth);
+            stresses.push(points.stress(&places.iter().map(shifted).collect::<Vec<_>>())?);
+        }
         let sign = if self.side == Side::Body1 { -1.0 } else { 1.0 };
         // In body 1 in the frame of x and its own depth.
         let plane = |s: &[f64; 6]| {
@@ -87,8 +88,9 @@ impl Along<'_> {
             [along, s[2], sign * (cos * s[4] + sin * s[5])]
         };
         for (n, (key, _)) in unknown.iter().enumerate() {
-            let of_state = |(a, b): (&Vec<[f64; 6]>, &Vec<[f64; 6]>)| [plane(&a[n]), plane(&b[n])];
-            let states = both[0].iter().zip(&both[1]).map(of_state);
+            let of_state =
+                |state: usize| std::array::from_fn(|grid| plane(&stresses[grid][state][n]));
+            let states = (0..stresses[0].len()).map(of_state);
             self.known.insert(*key, states.collect());
         }
         for (part, keys) in parts.iter_mut().zip(keys) {
@@ -113,15 +115,8 @@ impl Along<'_> {
     /// The parts of a path.
     fn parts(&self, path: &Path) -> Vec<Part> {
         let bottoms = self.body.interfaces();
-        let mut ends = Vec::new();
-        let mut from = 0.0;
-        for to in path.ends() {
-            for z in &bottoms {
-                ends.extend(crossings(path, (from, to), *z));
-            }
-            ends.push(to);
-            from = to;
-        }
+        let mut ends = path.ends();
+        ends.extend(self.breaks.iter().flat_map(|z| path.crossings(*z)));
         ends.sort_unstable_by(f64::total_cmp);
         let mut parts = Vec::new();
         let mut start = self.nearest;
@@ -143,27 +138,6 @@ impl Along<'_> {
     }
 }
 
-/// Lengths between two at which a path crosses a depth \[m\].
-fn crossings(path: &Path, (from, to): (f64, f64), z: f64) -> Vec<f64> {
-    let below = |s: f64| path.at(s).z > z;
-    let at = |n: u32| from + (to - from) * f64::from(n) / f64::from(LOOKS);
-    let crossed = (0..LOOKS).filter(|n| below(at(*n)) != below(at(n + 1)));
-    let place = |n: u32| {
-        let (mut low, mut high) = (at(n), at(n + 1));
-        let begins = below(low);
-        while high - low > 1e-14 * high {
-            let middle = f64::midpoint(low, high);
-            if below(middle) == begins {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        high
-    };
-    crossed.map(place).collect()
-}
-
 impl Line {
     /// How many states there are.
     pub(super) fn states(&self) -> usize {
@@ -171,13 +145,14 @@ impl Line {
         first.map_or(0, Vec::len)
     }
 
-    /// The stress of a state at points of the crack: constant from the first sample to the mouth.
-    pub(super) fn stress(&self, which: Which, state: usize, points: &[Point]) -> Vec<PlaneStress> {
+    /// The stress of a state at points of the crack, by tractions on the cells of one of [`GRIDS`]:
+    /// constant from the first sample to the mouth.
+    pub(super) fn stress(&self, grid: usize, state: usize, points: &[Point]) -> Vec<PlaneStress> {
         let last = self.parts.len() - 1;
         let at = |point: &Point| {
             let holds = |part: &Part| point.s <= part.s[part.s.len() - 1];
             let part = &self.parts[self.parts.iter().position(holds).unwrap_or(last)];
-            part.interpolated(which, state, point.s)
+            part.interpolated(grid, state, point.s)
         };
         points.iter().map(at).collect()
     }
@@ -185,7 +160,7 @@ impl Line {
 
 impl Part {
     /// Lagrange's polynomial in ln(s) through the nearest samples.
-    fn interpolated(&self, which: Which, state: usize, at: f64) -> PlaneStress {
+    fn interpolated(&self, grid: usize, state: usize, at: f64) -> PlaneStress {
         let last = self.s.len() - 1;
         let ratio = (self.s[last] / self.s[0]).ln() / last as f64;
         let u = ((at / self.s[0]).ln() / ratio).clamp(0.0, last as f64);
@@ -198,7 +173,7 @@ impl Part {
             let weight: f64 = others
                 .map(|j| (u - j as f64) / (k as f64 - j as f64))
                 .product();
-            let stress = self.stress[k][state][which as usize];
+            let stress = self.stress[k][state][grid];
             for (sum, value) in sum.iter_mut().zip(stress) {
                 *sum += weight * value;
             }

@@ -5,7 +5,7 @@ use contact_subsurface::States;
 use fracture::{Crack, Direction, End, Growing, Path, PlaneStress, Point, grow};
 use rayon::prelude::*;
 
-use super::along::{Line, Which};
+use super::along::Line;
 use super::intensity::{Below, NEAREST, OverCycle, QUADRATURE, on_line, refused};
 
 /// How a crack grows.
@@ -65,14 +65,17 @@ pub fn grown(below: &Below<'_>, states: &States<'_>, growth: &Growth) -> Result<
     let stress = |crack: &Crack| -> Result<Vec<Vec<PlaneStress>>, Refused> {
         let line: Line = along.on(crack.path())?;
         let points = crack.points();
-        let of_state = |state| line.stress(Which::Continued, state, &points);
+        let of_state = |state| line.stress(0, state, &points);
         Ok((0..line.states()).map(of_state).collect())
     };
     let first = Path::straight(growth.x, start, growth.angle);
-    let found = grow(&first, &growth.growing, stress).map_err(|Refused(error)| error)?;
+    let interfaces = below.breaks(states);
+    let found =
+        grow(&first, &growth.growing, &interfaces, stress).map_err(|Refused(error)| error)?;
     let line = along.on(&found.path)?;
     let of = |tip: &fracture::Tip| {
         let crack = Crack::with_step(found.path.up_to(tip.at.s), QUADRATURE).map_err(refused)?;
+        let crack = crack.with_interfaces(&interfaces);
         on_line(below.body, &line, &crack, growth.growing.friction)
     };
     let over = found

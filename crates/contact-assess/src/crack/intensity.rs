@@ -4,11 +4,11 @@
 use std::collections::HashMap;
 
 use contact_core::Error;
-use contact_core::scene::{Body, Grid};
-use contact_subsurface::{Points, Side, States};
+use contact_core::scene::{Body, Grid, ResidualStress};
+use contact_subsurface::{Moments, Points, Side, States, TwiceAsLarge};
 use fracture::{Crack, Faces, Intensity};
 
-use super::along::{Along, Line, Which};
+use super::along::{Along, GRIDS, Line};
 
 /// The shortest distance from the mouth at which the stress is sampled, over the shortest crack.
 pub(super) const NEAREST: f64 = 1e-3;
@@ -35,8 +35,9 @@ pub fn refused(error: fracture::Error) -> Error {
 /// A crack of one length over the states.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OverCycle {
-    /// K with faces that touch, in each state; the error has the quadrature's part, that of the
-    /// tractions within the cells and that of layers of other materials.
+    /// K with faces that touch, in each state. The error has the part of the quadrature and that of
+    /// layers of other materials. The part of the cells is the change of K by tractions on cells twice
+    /// as large, the larger change of two pairings: one of them may vanish by chance.
     pub faces: Vec<Intensity>,
     /// K with faces that may pass through each other.
     pub linear: Vec<Intensity>,
@@ -56,6 +57,32 @@ pub struct Below<'a> {
 }
 
 impl<'a> Below<'a> {
+    /// Depths at which the stress jumps or has a kink: interfaces, and rows of residual stress \[m\].
+    pub(super) fn breaks(&self, states: &States<'_>) -> Vec<f64> {
+        let residual = states
+            .residual
+            .map_or_else(|| ResidualStress::of(self.body), Clone::clone);
+        [self.body.interfaces(), residual.kinks()].concat()
+    }
+
+    /// Points under states, and under their tractions on cells twice as large: with the middle of each
+    /// grid \[m\].
+    fn points(&self, states: &States<'_>) -> Result<[(Points, (f64, f64)); GRIDS], Error> {
+        let on = |grid: &Grid, states: States<'_>| Points::new(self.body, self.side, grid, states);
+        let moments = Moments::from_states(states, self.grid);
+        let coarser = |cells: &TwiceAsLarge| {
+            let paired = moments.on_coarser(cells);
+            let points = paired.with_states(states.residual, &states.stop, |paired| {
+                let stick = states.stick.and(paired.stick);
+                on(&cells.grid, States { stick, ..paired })
+            })?;
+            Ok::<_, Error>((points, cells.middle))
+        };
+        let [first, second] = TwiceAsLarge::both(self.grid);
+        let same = (on(self.grid, states.clone())?, (0.0, 0.0));
+        Ok([same, coarser(&first)?, coarser(&second)?])
+    }
+
     /// The stress where cracks run, in the plane at an azimuth.
     pub(super) fn along(
         &self,
@@ -73,8 +100,9 @@ impl<'a> Below<'a> {
         Ok(Along {
             body: self.body,
             side: self.side,
-            points: Points::new(self.body, self.side, self.grid, states.clone())?,
+            points: self.points(states)?,
             azimuth,
+            breaks: self.breaks(states),
             nearest,
             known: HashMap::new(),
         })
@@ -97,12 +125,15 @@ pub(super) fn on_line(
         open: Vec::new(),
     };
     for state in 0..line.states() {
-        let stress = line.stress(Which::Continued, state, &points);
+        let stress = line.stress(0, state, &points);
         let mut linear = crack.intensity(&stress).map_err(refused)?;
-        // Constant tractions: the difference estimates the error of the tractions within the cells.
-        let other = line.stress(Which::Constant, state, &points);
-        let other = crack.intensity(&other).map_err(refused)?;
-        linear.error += (linear.K_I - other.K_I).hypot(linear.K_II - other.K_II);
+        let mut cells = 0.0_f64;
+        for grid in 1..GRIDS {
+            let paired = line.stress(grid, state, &points);
+            let paired = crack.intensity(&paired).map_err(refused)?;
+            cells = cells.max((linear.K_I - paired.K_I).hypot(linear.K_II - paired.K_II));
+        }
+        linear.error += cells;
         linear.error += (layers + SAMPLES) * linear.K_I.hypot(linear.K_II);
         faces = faces.next(&stress).map_err(refused)?;
         let mut k = faces.intensity;

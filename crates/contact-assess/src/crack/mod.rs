@@ -78,6 +78,7 @@ pub fn over_cycle(
     let line = below
         .along(states, cracks.azimuth, NEAREST * shortest)?
         .on(&path)?;
+    let breaks = below.breaks(states);
     let of = |length: &f64| {
         let part = path.up_to(*length);
         let crack = if part.legs.len() > 1 {
@@ -85,7 +86,7 @@ pub fn over_cycle(
         } else {
             unit.similar(cracks.x, *length)
         };
-        let crack = crack.map_err(refused)?;
+        let crack = crack.map_err(refused)?.with_interfaces(&breaks);
         on_line(below.body, &line, &crack, cracks.friction)
     };
     cracks.lengths.par_iter().map(of).collect()
