@@ -42,6 +42,8 @@ SHORTEST, LONGEST, LENGTHS = 0.01, 2.0, 24
 BEYOND = 1.5
 #: Relative error of Newman and Raju's fit.
 FIT = 0.05
+#: Error of the place of a rim [cells].
+RIM = 0.1
 
 UNITS = {"units": "Pa m^0.5"}
 
@@ -69,9 +71,8 @@ def crack(
         Solved with ``save="all"``, or with the increments of the cycle; the fields in the plane of
         the crack are taken for plane strain.
     x : float, optional
-        Place of the mouth along the plane of the crack [m] (default: that rim of the contact,
-        where the largest contact of the cycle ends in this plane, below which the range of K is
-        larger).
+        Place of the mouth along the plane of the crack [m]. By default it is the outermost place
+        of the contact in the cycle, on the side with the larger range of K.
     lengths : array, optional
         Lengths of the crack [m] (default: 24 from 0.01 to 2 times half the width of the contact; of
         a coated body from 1.5 times the thickness of its coatings where that is longer).
@@ -95,9 +96,10 @@ def crack(
     Returns
     -------
     Cracks
-        K over (increment, length). K holds for the homogeneous half-plane. Its ``error`` has the
-        part of the quadrature and that of the tractions within the cells (their difference from
-        constant ones). Where layers differ, it has the change of K of published cracks in films.
+        K over (increment, length), for the homogeneous half-plane. Its ``error`` has the part of
+        the quadrature and the change of K by tractions on cells twice as large. Where the mouth is
+        not given, it has the change of K by the error of the rim. Where layers differ, it has the
+        change of K of published cracks in films.
 
     Raises
     ------
@@ -106,13 +108,26 @@ def crack(
     """
     cycle_of = Cycle(result, cycle, body_number, residual)
     angle = as_number(angle)
+    at_rim = x is None
     x, azimuth = cycle_of.place(x, as_number(azimuth), angle, friction)
     if lengths is None:
         lengths = cycle_of.lengths
     lengths = np.sort(np.atleast_1d(plain(lengths, "lengths")))
-    intensity = cycle_of.intensity(
-        x=x, lengths=lengths.tolist(), angle=angle, kink=kink, azimuth=azimuth, friction=friction
-    )
+
+    def from_mouth(x: float) -> dict[str, Any]:
+        return cycle_of.intensity(
+            x=x,
+            lengths=lengths.tolist(),
+            angle=angle,
+            kink=kink,
+            azimuth=azimuth,
+            friction=friction,
+        )
+
+    intensity = from_mouth(x)
+    if at_rim:
+        by_rim = cycle_of.error_of_rim(intensity, x, azimuth, from_mouth)
+        intensity["error"] = intensity["error"] + by_rim
     sin, cos = np.sin(angle), np.cos(angle)
     tips = {"x": x + lengths * sin, "z": lengths * cos}
     if kink is not None:
@@ -226,6 +241,35 @@ class Cycle:
             raise ValueError("no increment of the cycle has contact: give the place x of the crack")
         return max(outlines, key=lambda outline: sum(spot[2] for spot in outline.spots))
 
+    def outermost(self, azimuth: float) -> tuple[float, float]:
+        """The outermost places in a plane that the contact reaches in the cycle [m]."""
+        sin, cos = np.sin(azimuth), np.cos(azimuth)
+        outlines = [now.outline for now in self.states if now.outline is not None]
+        if not outlines:
+            raise ValueError("no increment of the cycle has contact: give the place x of the crack")
+        middles = [float(cos * line.centre[0] + sin * line.centre[1]) for line in outlines]
+        ends = [line.border(azimuth) for line in outlines]
+        low = min(middle + end[0] for middle, end in zip(middles, ends, strict=True))
+        return low, max(middle + end[1] for middle, end in zip(middles, ends, strict=True))
+
+    def error_of_rim(
+        self,
+        found: dict[str, Any],
+        x: float,
+        azimuth: float,
+        from_mouth: Callable[[float], dict[str, Any]],
+    ) -> NDArray[np.float64]:
+        """The part of the error of K that the place of the rim makes, over (increment, length)."""
+        grid = self.result.scene.grid
+        dy = 0.0 if grid.plane_strain else grid.dy
+        off = RIM * float(np.hypot(np.cos(azimuth) * grid.dx, np.sin(azimuth) * dy))
+        changes = []
+        for mouth in (x - off, x + off):
+            beside = from_mouth(mouth)
+            by_mode = [beside[name] - found[name] for name in ("K_I_linear", "K_II_linear")]
+            changes.append(np.hypot(*by_mode))
+        return np.asarray(np.maximum(*changes))
+
     @property
     def half_width(self) -> float:
         """Half the largest width of the contact along the shear [m]."""
@@ -290,10 +334,8 @@ class Cycle:
         lengths = (self.half_width * np.array([0.05, 0.1, 0.2, 0.4])).tolist()
         rims = []
         if x is None:
-            X, Y = self.largest.centre
             for phi in planes:
-                middle = float(np.cos(phi) * X + np.sin(phi) * Y)
-                rims += [(middle + end, phi) for end in self.largest.border(phi)]
+                rims += [(end, phi) for end in self.outermost(phi)]
         places = rims if x is None else [(float(x), phi) for phi in planes]
 
         def range_at(place: tuple[float, float]) -> float:
