@@ -25,7 +25,7 @@ def test_borders_are_known_to_their_error(n: int, part: float, sigma_B: float) -
     path = fret.LoadPath.start().normal(W).force(T_x=part * MU * W, sigma_B=sigma_B)
     state = fret.solve(scene, path, progress=False).at(-1)
     stick, contact = state.stick_zone(), state.contact_zone()
-    assert stick.error == contact.error == pytest.approx(scene.grid.dx / 4)
+    assert contact.error == pytest.approx(fret.subsurface.zones.WITHIN * scene.grid.dx)
     middle = line.stick_middle(eps_x=sigma_B * (1 - STEEL.nu**2) / STEEL.E, mu=MU)
     half_width = line.stick_half_width(T=part * MU * W, mu=MU)
     assert abs(stick.half_width - half_width) < stick.error

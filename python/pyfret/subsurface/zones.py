@@ -15,6 +15,14 @@ if TYPE_CHECKING:
 
 __all__ = ["Zone", "zone"]
 
+#: Error of a border from the tractions beside it, and of a border between a cell of the zone and
+#: the next cell [cells]. The scan has 60 random line contacts on 64 against 256 cells, bare and
+#: coated, of like and unlike bodies: 119 of 120 ends are at most 1.5 errors off.
+WITHIN, BETWEEN = 0.25, 0.75
+#: Farthest that a border lies from the edge between a cell of the zone and the next cell [cells].
+#: Extrapolated tractions that end farther in or out contradict the states of the cells.
+FARTHEST = 0.75
+
 
 class Zone(NamedTuple):
     """A zone along x: its borders, known within the cells [m]; NaN where there is none."""
@@ -23,8 +31,8 @@ class Zone(NamedTuple):
     right: float
     #: How many borders lie between these two: 0 for one zone without holes.
     inside: int
-    #: Error of a border, of the middle and of the half width [m], an estimate: a quarter of a cell.
-    #: Of line contacts on 48 to 100 cells the borders are 0.05 of a cell off at most.
+    #: Error of a border, of the middle and of the half width [m], an estimate that counts the cells
+    #: alone: the larger error of both borders (:data:`WITHIN`, :data:`BETWEEN`).
     error: float | None = None
 
     def __repr__(self) -> str:
@@ -62,14 +70,27 @@ def zone(state: State, of: Literal["contact", "stick"], y: float = 0.0) -> Zone:
     stick = d["stick"].values.astype(bool)
     below = _core.Subsurface(state.body(2), grid, p=p, q_x=q_x, q_y=q_y, rim=True, stick=stick)
     name = "stick border" if of == "stick" else "rim"
-    border_places = sorted(x for x, _, kind, _ in below.borders(y=y) if kind == name)
+    borders = below.borders(y=y)
+    places = sorted((x, within) for x, _, kind, within in borders if kind == name)
     cells = d.x.values[row]
     half = grid.dx / 2
-    if len(border_places) < 2:
+    if len(places) < 2:
         # A zone that ends at the rim has no border of its own there.
         low, high = cells[0] - grid.dx, cells[-1] + grid.dx
-        rims = {x for x, _, kind, _ in below.borders(y=y) if kind == "rim" and low <= x <= high}
-        border_places = sorted({*border_places, *rims})
-    x_left = border_places[0] if border_places else float(cells[0] - half)
-    right = border_places[-1] if len(border_places) > 1 else float(cells[-1] + half)
-    return Zone(float(x_left), float(right), max(len(border_places) - 2, 0), grid.dx / 4)
+        rims = {(x, k) for x, _, kind, k in borders if kind == "rim" and low <= x <= high}
+        places = sorted({*places, *rims})
+    ends = [
+        _border(places[:1], cells[0] - half, grid.dx),
+        _border(places[-1:] if len(places) > 1 else [], cells[-1] + half, grid.dx),
+    ]
+    (x_left, _), (x_right, _) = ends
+    return Zone(x_left, x_right, max(len(places) - 2, 0), max(error for _, error in ends))
+
+
+def _border(places: list[tuple[float, bool]], edge: float, cell: float) -> tuple[float, float]:
+    """Return the place of a border and its error [m], where the last cell of the zone ends at `edge`."""
+    if not places:
+        return float(edge), BETWEEN * cell
+    ((x, within),) = places
+    nearest = float(np.clip(x, edge - FARTHEST * cell, edge + FARTHEST * cell))
+    return nearest, (WITHIN if within and nearest == x else BETWEEN) * cell
