@@ -8,7 +8,7 @@ use super::catalogue::FieldView;
 pub(super) type Scalar = (&'static str, &'static str, &'static str, fn(&Jump) -> f64);
 
 /// Every scalar over `jump`.
-pub(super) const SCALARS: [Scalar; 21] = [
+pub(super) const SCALARS: [Scalar; 23] = [
     ("cycles", "1", "cycles at the end of the jump", |j| j.cycles),
     ("length", "1", "cycles that the jump is long", |j| j.length),
     ("volume1", "m^3", "volume that body 1 has lost", |j| {
@@ -87,9 +87,18 @@ pub(super) const SCALARS: [Scalar; 21] = [
     (
         "depth_error",
         "1",
-        "bound of the error that the jumps leave of the deepest depth, over it",
+        "error of the deepest depth by jumps and cells, over it",
         |j| j.depth_error,
     ),
+    (
+        "volume_error",
+        "1",
+        "error of the volume by jumps and cells, over it",
+        |j| j.volume_error,
+    ),
+    ("slip_cells", "1", "cells across the zone that slips", |j| {
+        j.slip_cells
+    }),
     ("retries", "1", "times that the jump was tried anew", |j| {
         j.retries as f64
     }),

@@ -38,6 +38,13 @@ pub struct Jump {
     pub contact_area: f64,
     /// Area that sticks all through the cycle over that of the contact.
     pub stick_ratio: f64,
-    /// Estimated error of the deepest depth so far, over it.
+    /// Estimated error of the deepest depth so far, over it: by the jumps, by the place of the border
+    /// of the stick zone, and by the cells across the slip zone.
     pub depth_error: f64,
+    /// Estimated error of the volume so far, over it, with the same parts.
+    #[serde(default)]
+    pub volume_error: f64,
+    /// Cells across the zone that slips at the end.
+    #[serde(default)]
+    pub slip_cells: f64,
 }

@@ -35,6 +35,7 @@ mod settings;
 mod settled;
 mod shift;
 mod sliding;
+mod slip_zone;
 mod state;
 mod stroke;
 mod table;

@@ -16,6 +16,7 @@ use super::model::Model;
 use super::on_grid;
 use super::passage::Passage;
 use super::settings::{Jumps, Wear, WornThrough};
+use super::slip_zone;
 use super::state::WearState;
 use super::variable::Of;
 use super::worn_start::WornStart;
@@ -364,8 +365,13 @@ impl WearRun {
         state.ended = ends;
         let seen = state.seen(&self.model, self.wear.debris_kept);
         let by_border = state.lost_by_slip(&seen) * by_border;
+        let of_jumps = seen.depth_error + state.over_deepest(by_border);
+        let [of_depth, of_volume] = slip_zone::errors(seen.slip_cells, seen.stick_ratio);
+        let worn = state.over_deepest(1.0) > 0.0;
+        let of_cells = |part: f64| if worn { of_jumps.hypot(part) } else { of_jumps };
         let jump = Jump {
-            depth_error: seen.depth_error + state.over_deepest(by_border),
+            depth_error: of_cells(of_depth),
+            volume_error: of_cells(of_volume),
             length: n,
             error: tried.error,
             pressure_error: tried.pressure_error,

@@ -7,6 +7,7 @@ use super::jump::Jump;
 use super::loss::Worn;
 use super::model::{Model, ModelState};
 use super::settings::Wear;
+use super::slip_zone;
 
 /// The state on which the next jump depends.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -94,6 +95,8 @@ impl WearState {
             contact_area: touches * area,
             stick_ratio: seen.stick_ratio,
             depth_error: self.over_deepest(moved),
+            volume_error: 0.0,
+            slip_cells: slip_zone::cells(&model.pressing().grid, touches * area, seen.stick_ratio),
         }
     }
 

@@ -183,7 +183,7 @@ class WornDepth(wear.Wear):
     Gives ``worn_volume1``, ``worn_volume2`` [m^3], ``worn_depth1``, ``worn_depth2`` [m], and, where
     a body is coated, ``coating_life1``, ``coating_life2`` [cycles], NaN for one that outlives the
     run. Each has its range, such as ``worn_depth1_low`` and ``worn_depth1_high``, from
-    ``depth_error``, the error of the depths over the depths. The lives come from
+    ``depth_error`` and ``volume_error``, the relative errors. The lives come from
     :meth:`pyfret.wear.WearResult.range_of_cycles` with ``scatter=1``: the scatter of the wear
     coefficient is no part of a comparison. ``range_of_cycles()`` adds a factor of 3 for it.
 
@@ -203,8 +203,8 @@ class WornDepth(wear.Wear):
         run = wear.solve(result.scene, wear.Wear(**settings), progress=False)
         worn = run.dataset
         numbers: dict[str, xr.DataArray] = {}
-        part = float(worn["depth_error"][-1])
         for quantity, unit in (("volume", "m^3"), ("depth", "m")):
+            part = float(worn[f"{quantity}_error"][-1])
             for body in (1, 2):
                 value = float(worn[f"{quantity}{body}"][-1])
                 answer = Answer.from_error(value, part * value)

@@ -88,7 +88,7 @@ def zone(state: State, of: Literal["contact", "stick"], y: float = 0.0) -> Zone:
 
 
 def _border(places: list[tuple[float, bool]], edge: float, cell: float) -> tuple[float, float]:
-    """Return the place of a border and its error [m], where the last cell of the zone ends at `edge`."""
+    """Return the place of a border and its error [m]; the last cell of the zone ends at `edge`."""
     if not places:
         return float(edge), BETWEEN * cell
     ((x, within),) = places

@@ -36,6 +36,8 @@ __all__ = ["WearResult"]
 
 #: Highest over lowest coefficient of wear, 10 to 90 % of the tests: a stated default.
 SCATTER = 3.0
+#: Cells across the slip zone below which depth and volume are doubted: 5 and 10 % of error.
+FEWEST_SLIP_CELLS = 4
 
 
 class WearResult(Saveable, Labelled, Figured):
@@ -43,10 +45,10 @@ class WearResult(Saveable, Labelled, Figured):
 
     ``dataset`` has three groups of variables. The scalars lie over ``jump`` (coordinate
     ``cycles``): ``volume1``, ``volume2``, ``depth1``, ``depth2``, ``debris``, ``dissipated``,
-    ``p_max``, ``stick_ratio``, ``depth_error``, ... The fields lie over ``block``, ``x``, ``y``
-    (coordinate ``block_cycles``): ``worn1``, ``worn2``, ``energy1``, ``energy2``, ``slid``, ``p``,
-    ``stick``. The friction loops ``loop_delta_x``, ``loop_T_x``, ... lie over ``block``,
-    ``corner``.
+    ``p_max``, ``stick_ratio``, ``depth_error``, ``volume_error``, ... The fields lie over
+    ``block``, ``x``, ``y`` (coordinate ``block_cycles``): ``worn1``, ``worn2``, ``energy1``,
+    ``energy2``, ``slid``, ``p``, ``stick``. The friction loops
+    ``loop_delta_x``, ``loop_T_x``, ... lie over ``block``, ``corner``.
     """
 
     table_axes = ("jump",)
@@ -132,8 +134,8 @@ class WearResult(Saveable, Labelled, Figured):
         NaN if the run ended before, printed as "more than N cycles (the run ended there)". N is
         ``beyond``. Infinite where nothing wears.
 
-        Within a jump the depth and the volume follow the parabola through its ends and its middle,
-        so it has the error of the depths (``depth_error``).
+        Within a jump the depth and the volume follow the parabola through its ends and its middle.
+        The error is ``depth_error``, or ``volume_error`` for a volume.
 
         Parameters
         ----------
@@ -197,10 +199,17 @@ class WearResult(Saveable, Labelled, Figured):
         """
         if not scatter >= 1.0:
             raise ValueError(f"scatter = {scatter}: must be 1 or more, the highest over the lowest")
-        best, error = self.cycles_to(**to), float(self.dataset["depth_error"][-1])
+        best = self.cycles_to(**to)
+        error = self.error_of("volume" if to.get("volume") is not None else "depth")
         part = math.exp(math.hypot(0.5 * math.log(scatter), math.log1p(error)))
         cycles = best if best.beyond is None else best.beyond
         return RangeOfCycles(cycles / part, float(best), best * part)
+
+    def error_of(self, quantity: Literal["depth", "volume"]) -> float:
+        """Give the relative error of the deepest depth or of the volume at the end."""
+        name = f"{quantity}_error"
+        # Stores without an error of the volume have that of the depth.
+        return float(self.dataset[name if name in self.dataset else "depth_error"][-1])
 
     @property
     def gap(self) -> xr.DataArray:
@@ -238,16 +247,15 @@ class WearResult(Saveable, Labelled, Figured):
         ]
         for body in (1, 2):
             if last[f"volume{body}"] > 0:
-                part = last["depth_error"]
                 depth, lost = 1e6 * last[f"depth{body}"], last[f"volume{body}"]
                 lines.append(
-                    f"body {body}: {with_error(depth, part * depth)} um deep, "
-                    f"{with_error(lost, part * lost)} {volume}"
+                    f"body {body}: {with_error(depth, last['depth_error'] * depth)} um deep, "
+                    f"{with_error(lost, self.error_of('volume') * lost)} {volume}"
                 )
         if self.debris_kept:
             lines.append(
                 f"debris: {self.debris_kept:g} of it stays in the contact, "
-                f"{with_error(last['debris'], last['depth_error'] * last['debris'])} {volume}"
+                f"{with_error(last['debris'], self.error_of('volume') * last['debris'])} {volume}"
             )
         lines.append(
             f"energy: {with_error(last['dissipated'])} {energy}, "
@@ -285,8 +293,17 @@ class WearResult(Saveable, Labelled, Figured):
 
     @property
     def doubts(self) -> list[str]:
-        """Numbers of the scene and of the wear that are hardly meant, one sentence each."""
-        return str(self.dataset.attrs.get("doubts", "")).splitlines()
+        """Doubts about the scene, the wear and the grid, one sentence each."""
+        doubts = str(self.dataset.attrs.get("doubts", "")).splitlines()
+        cells = float(self.dataset["slip_cells"][-1]) if "slip_cells" in self.dataset else math.inf
+        if float(self.dataset["stick_ratio"][-1]) > 0.0 and cells < FEWEST_SLIP_CELLS:
+            finer = math.ceil(FEWEST_SLIP_CELLS / max(cells, 0.5) * self.scene.grid.nx)
+            doubts.append(
+                f"the slip zone is {cells:.1f} cells wide: the deepest depth is known to "
+                f"{self.error_of('depth'):.0%}, the volume to {self.error_of('volume'):.0%}; "
+                f"grid.n = {finer} has {FEWEST_SLIP_CELLS} cells across it"
+            )
+        return doubts
 
     @property
     def events(self) -> list[dict[str, Any]]:
