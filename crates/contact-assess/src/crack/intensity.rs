@@ -61,7 +61,7 @@ impl<'a> Below<'a> {
     pub(super) fn breaks(&self, states: &States<'_>) -> Vec<f64> {
         let residual = states
             .residual
-            .map_or_else(|| ResidualStress::of(self.body), Clone::clone);
+            .map_or_else(|| ResidualStress::from_body(self.body), Clone::clone);
         [self.body.interfaces(), residual.kinks()].concat()
     }
 
