@@ -19,13 +19,16 @@ const SAMPLES: usize = 6;
 /// Cells of the tractions: those of the grid, then twice as large ones, paired in two ways.
 pub(super) const GRIDS: usize = 3;
 
+/// Points under tractions on a grid, and the middle of that grid \[m\].
+pub(super) type PointsOnGrid = (Points, (f64, f64));
+
 /// The stress below a contact where cracks run.
 pub(super) struct Along<'a> {
     pub(super) body: &'a Body,
     pub(super) side: Side,
     /// Under the states of the cycle, and under their tractions on cells twice as large, with the middle
     /// of the grid of each \[m\].
-    pub(super) points: [(Points, (f64, f64)); GRIDS],
+    pub(super) points: [PointsOnGrid; GRIDS],
     /// Angle of the plane of the cracks about the axis of depth from that of x \[rad\].
     pub(super) azimuth: f64,
     /// Depths at which the stress jumps or has a kink: interfaces and rows of residual stress \[m\].

@@ -8,7 +8,7 @@ use contact_core::scene::{Body, Grid, ResidualStress};
 use contact_subsurface::{Moments, Points, Side, States, TwiceAsLarge};
 use fracture::{Crack, Faces, Intensity};
 
-use super::along::{Along, GRIDS, Line};
+use super::along::{Along, GRIDS, Line, PointsOnGrid};
 
 /// The shortest distance from the mouth at which the stress is sampled, over the shortest crack.
 pub(super) const NEAREST: f64 = 1e-3;
@@ -67,7 +67,7 @@ impl<'a> Below<'a> {
 
     /// Points under states, and under their tractions on cells twice as large: with the middle of each
     /// grid \[m\].
-    fn points(&self, states: &States<'_>) -> Result<[(Points, (f64, f64)); GRIDS], Error> {
+    fn points(&self, states: &States<'_>) -> Result<[PointsOnGrid; GRIDS], Error> {
         let on = |grid: &Grid, states: States<'_>| Points::new(self.body, self.side, grid, states);
         let moments = Moments::from_states(states, self.grid);
         let coarser = |cells: &TwiceAsLarge| {
