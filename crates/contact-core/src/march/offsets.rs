@@ -1,7 +1,7 @@
 //! Offsets: displacements that the surfaces have without tractions, in the gap and in the plane.
 //!
 //! An increment begins with a new set of them. The gap grows by theirs, and the slip, eq. (7), counts
-//! their change as it counts that of the elastic displacement: the displacement of the material at the
+//! their change like the change of the elastic displacement: the displacement of the material at the
 //! start of the increment is lowered by the change.
 
 use super::domain::Geometry;

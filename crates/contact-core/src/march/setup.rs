@@ -32,7 +32,7 @@ impl From<Error> for Failure {
 pub(super) struct Workspace {
     /// Friction coefficient of the kept cells at the end of the increment.
     pub(super) mu: Vec<f64>,
-    /// The same at its start.
+    /// Value at its start.
     pub(super) mu_before: Vec<f64>,
     pub(super) no_slip: NoSlipTerms,
     pub(super) alternation: AlternationWorkspace,
@@ -70,7 +70,7 @@ pub(super) struct Setup<'a> {
     pub(super) rolled: Option<&'a Rolled>,
     /// Friction coefficient of the kept cells at the end of the increment.
     pub(super) mu: &'a [f64],
-    /// The same at its start.
+    /// Value at its start.
     pub(super) mu_before: &'a [f64],
     pub(super) point: &'a LoadPoint,
     pub(super) drives: Drives,

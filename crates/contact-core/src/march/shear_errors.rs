@@ -19,7 +19,7 @@ use crate::scene::Scene;
 /// path. Its `path_error` (0 if it has none) and, where smooth bodies came into contact on
 /// 32 cells across the radius or more, the scatter of the shear, as independent errors.
 ///
-/// `increments`: those of a run, of which the ends of branches are enough.
+/// `increments` belong to a run; the ends of branches are enough.
 pub fn shear_errors(scene: &Scene, increments: &[Increment]) -> Vec<f64> {
     let branches = scene.path.branches.iter();
     let mut errors: Vec<f64> = branches.map(|b| b.path_error.unwrap_or(0.0)).collect();

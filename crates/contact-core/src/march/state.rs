@@ -138,7 +138,7 @@ pub(crate) struct Along {
     pub(super) now: State,
     /// State at the last increment that the fine grid was solved in or carried to.
     pub(super) then: State,
-    /// That increment on the fine grid and on the coarse one.
+    /// The increment on the fine grid and on the coarse one.
     pub(super) rows: Option<[Increment; 2]>,
 }
 

@@ -136,7 +136,7 @@ impl March {
         if let Some(increment) = self.elastically(point)? {
             return Ok(increment);
         }
-        // Offsets stand on the whole grid, and are those of the end of an increment.
+        // Offsets cover the whole grid, at the end of an increment.
         self.domain
             .widen(&self.problem, &mut self.state, point, None)?;
         self.grow_in(1);

@@ -6,7 +6,7 @@ use crate::yielding::volume_cells;
 /// Algorithm of the tangential problem.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TangentialMethod {
-    /// Semi-smooth Newton steps, [`tangential`](crate::solvers::inner::tangential()).
+    /// Semi-smooth Newton steps, [`solve_tangential`](crate::solvers::inner::solve_tangential).
     Newton,
     /// Conjugate gradients of the Polonsky-Keer type, as in the paper.
     Gradient,

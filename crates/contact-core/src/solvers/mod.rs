@@ -1,8 +1,8 @@
 //! Stage 4: ONE INCREMENT, the inner and the intermediate loop (figures 2 and 3 of the paper).
 //!
-//! - [`inner::normal`]: the pressure for known shear, eq. (5)-(6);
-//! - [`inner::tangential`]: the shear for known pressure, eq. (7)-(8);
-//! - [`intermediate::alternation`]: one after the other until neither changes the other;
+//! - [`inner::solve_normal`]: the pressure for known shear, eq. (5)-(6);
+//! - [`inner::solve_tangential`]: the shear for known pressure, eq. (7)-(8);
+//! - [`intermediate::solve_increment`]: one after the other until neither changes the other;
 //! - [`no_slip`]: the displacement without slip, eq. (7).
 //!
 //! The solvers use elasticity only through a [`SurfaceOperator`](crate::convolution::SurfaceOperator).

@@ -3,7 +3,7 @@
 //! The inner loop of figure 3, with the structure of the normal solver: a conjugate-gradient step
 //! on the cells taken to stick, while slip cells follow their slip, eq. (20); then cells beyond the
 //! bound are cut to it and slip, those that fall inside stick, the stick cells share the missing
-//! force. No preconditioner, no Newton steps: the baseline that [`tangential`](super::tangential())
+//! force. No preconditioner, no Newton steps: the baseline that [`solve_tangential`](super::solve_tangential)
 //! is compared with. Where its sets cycle, projected gradients, which lower the energy in every
 //! step, take over for some iterations.
 

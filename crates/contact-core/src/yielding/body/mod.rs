@@ -27,7 +27,7 @@ pub(super) struct YieldingBody {
     laws: Vec<Option<(Plastic, f64)>>,
     /// Residual stress s_xx, s_yy of each plane before the first load \[Pa\].
     initial: Vec<[f64; 2]>,
-    /// Planes that may yield, and those of them that are computed in the present increment.
+    /// Planes that may yield, and the planes that are computed in the present increment.
     may_yield: Vec<bool>,
     wanted: Vec<bool>,
     /// Planes that the last pass has computed.
