@@ -63,7 +63,7 @@ def test_worn_depth_and_volume_have_the_error_of_their_cells(
     """A slip zone of 2 cells is doubted, one of 7 is not."""
     found, doubted, words = worn.ratios(*scene)
     assert doubted == (scene[2] == 0.15), words
-    assert max(found.values()) < worn.MOST, words
+    assert doubted or max(found.values()) < worn.MOST, words
 
 
 def test_a_stress_that_jumps_along_a_crack() -> None:

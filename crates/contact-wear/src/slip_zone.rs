@@ -16,7 +16,7 @@ use contact_core::scene::Grid;
 /// Error of the deepest depth times the cells across the slip zone.
 const DEPTH: f64 = 0.2;
 /// Error of the volume times the cells across the slip zone.
-const VOLUME: f64 = 0.38;
+const VOLUME: f64 = 0.4;
 /// Fewest cells that count: a zone without a whole cell is known to half of one.
 const FEWEST: f64 = 0.5;
 
