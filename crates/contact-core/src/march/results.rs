@@ -54,12 +54,12 @@ pub enum Status {
     /// No cell transmits pressure.
     #[default]
     NoContact,
-    /// The stick zone is the whole contact: its stick ratio is 1.
+    /// No contact cell slips, as the field `stick` has it: the stick ratio is 1.
     FullStick,
-    /// The stick zone is a part of the contact, or none that slides.
+    /// A part of the contact cells slips, or all of them below the limit of friction.
     PartialSlip,
-    /// Every contact cell slips: friction carries its limit. Under given forces the shift is that
-    /// of incipient sliding.
+    /// Every contact cell slips: friction carries its limit, the stick ratio is 0. Under given forces
+    /// the shift is that of incipient sliding.
     GrossSlip,
 }
 

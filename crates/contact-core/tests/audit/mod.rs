@@ -10,6 +10,7 @@ mod response;
 mod rolled;
 mod sector;
 mod slip;
+mod status;
 
 use std::fmt::{Debug, Formatter, Result};
 
@@ -40,6 +41,7 @@ enum Law {
     Energy,
     Monotone,
     Report,
+    Status,
 }
 
 /// How far each law is off over what the tolerance allows: above 1 is a violation.
@@ -48,7 +50,7 @@ pub(crate) struct Violations(pub(crate) [f64; Self::NAMES.len()]);
 
 impl Violations {
     /// In the order of [`Law`].
-    pub(crate) const NAMES: [&'static str; 11] = [
+    pub(crate) const NAMES: [&'static str; 12] = [
         "finite numbers",
         "displacements of the tractions",
         "force balance",
@@ -60,6 +62,7 @@ impl Violations {
         "energy identity",
         "monotone contact",
         "residuals as reported",
+        "status and stick area beside the cells",
     ];
 
     /// Whether all laws hold.
@@ -150,6 +153,7 @@ impl Audit {
         }
         self.check_response(&now.fields, &mut found);
         self.check_contact(&now, increment, &mut found);
+        self.check_status(&now, increment, &mut found);
         let rolled = self.rolls(&now);
         if rolled == 0 {
             self.check_monotone(&now, &mut found);

@@ -30,6 +30,7 @@
 
 use super::energy::slip_of;
 use crate::cells::{Lattice, length};
+use crate::march::Status;
 use crate::march::setup::Setup;
 use crate::material::dundurs_beta;
 use crate::solvers::intermediate::AlternationInfo;
@@ -51,8 +52,13 @@ const STEEPEST: f64 = 0.4;
 /// the border of a stick zone: this moves the border by TELLS^(2/3) = 1 % of the width of the ring.
 const TELLS: f64 = 1e-3;
 
-/// Areas, in kept cells.
+/// State of the interface, and areas in kept cells.
+///
+/// The status follows from the cells that count as slipping, as the field `stick` does: none is full
+/// stick, all of a contact that slides is gross slip. The stick area lies strictly between zero and
+/// the contact in partial slip alone.
 pub(super) struct Areas {
+    pub(super) status: Status,
     pub(super) contact: f64,
     /// Cells across the radius of the contact.
     pub(super) cells_per_radius: f64,
@@ -64,7 +70,7 @@ pub(super) struct Areas {
     pub(super) at_limit: Vec<bool>,
 }
 
-/// The areas at the end of a solved increment.
+/// The status and the areas at the end of a solved increment.
 pub(super) fn areas(
     setup: &Setup<'_>,
     no_slip: &NoSlipTerms,
@@ -75,41 +81,55 @@ pub(super) fn areas(
         let rigid = setup.geometry.arms.displacement_in_plane(info.shift, n);
         length(slip_of(no_slip, now, setup.last(), rigid, n).0)
     };
-    let cells = Cells::new(setup, now, slip);
+    let cells = Cells::new(setup, now, info, slip);
     let partial = setup.problem.plan.methods.partial_cells;
     let rim = if partial { cells.rim() } else { Vec::new() };
     let contact = area(&cells.contact, &rim);
-    let cells_per_radius = cells_per_radius(cells.lattice, &cells.contact);
-    if !now.slips.contains(&true) {
-        return Areas {
-            contact,
-            cells_per_radius,
-            stick: contact,
-            without_slip: contact,
-            at_limit: cells.at_limit,
-        };
-    }
-    // With mu = infinity no cell is near its bound: whole cells count.
-    let border = if partial && setup.problem.scene.friction.mu.is_finite() {
-        cells.stick_border(&rim, slip)
-    } else {
-        Vec::new()
-    };
-    let without_slip = area(&cells.stick, &border);
-    let before = setup.state.without_slip / setup.problem.cell_area();
-    let grows = setup.goes_on.is_some() && before > 0.0 && without_slip > before;
-    Areas {
+    let whole = Areas {
+        status: cells.status(setup, info),
         contact,
-        cells_per_radius,
-        stick: if grows {
-            let (radius, last) = (without_slip.sqrt(), before.sqrt());
-            (radius + 0.5 * (radius - last)).powi(2)
-        } else {
-            without_slip
-        },
+        cells_per_radius: cells_per_radius(cells.lattice, &cells.contact),
+        stick: contact,
+        without_slip: contact,
+        at_limit: Vec::new(),
+    };
+    let (without_slip, stick) = match whole.status {
+        Status::NoContact | Status::FullStick => (contact, contact),
+        Status::GrossSlip => (0.0, 0.0),
+        Status::PartialSlip => {
+            // With mu = infinity no cell is near its bound: whole cells count.
+            let border = if partial && setup.problem.scene.friction.mu.is_finite() {
+                cells.stick_border(&rim, slip)
+            } else {
+                Vec::new()
+            };
+            let without_slip = area(&cells.stick, &border);
+            let before = setup.state.without_slip / setup.problem.cell_area();
+            let grows = setup.goes_on.is_some() && before > 0.0 && without_slip > before;
+            let stick = if grows {
+                let (radius, last) = (without_slip.sqrt(), before.sqrt());
+                (radius + 0.5 * (radius - last)).powi(2)
+            } else {
+                without_slip
+            };
+            [without_slip, stick]
+                .map(|area| cells.within(contact, area))
+                .into()
+        }
+    };
+    Areas {
+        stick,
         without_slip,
         at_limit: cells.at_limit,
+        ..whole
     }
+}
+
+/// Whether bodies slide whose cells all slip: under given forces only at the limit of friction.
+fn slides(setup: &Setup<'_>, info: &AlternationInfo) -> bool {
+    let given = setup.point.loads.given;
+    let turns = given.phi_z.is_some_and(|to| to != setup.state.motion.phi_z);
+    info.uses_all_friction() || given.delta_x.is_some() || given.delta_y.is_some() || turns
 }
 
 /// The area of a zone whose border crosses the cells `edges`.
@@ -164,13 +184,23 @@ struct Cells<'a> {
 
 impl<'a> Cells<'a> {
     /// Computes areas from the slip of each cell in the increment \[m\].
-    fn new(setup: &'a Setup<'_>, now: &'a Interface, slip: impl Fn(usize) -> f64) -> Self {
+    fn new(
+        setup: &'a Setup<'_>,
+        now: &'a Interface,
+        info: &AlternationInfo,
+        slip: impl Fn(usize) -> f64,
+    ) -> Self {
         let contact: Vec<bool> = now.p.iter().map(|&p| p > 0.0).collect();
         let lattice = Lattice::new(&setup.geometry.grid, setup.problem.plan.mirror);
         let marked: Vec<bool> = (contact.iter().zip(&now.slips))
             .map(|(&c, &s)| c && s)
             .collect();
-        let mut at_limit = at_limit(setup, lattice, &marked, slip);
+        // Where the loads use all friction, the cells slip though the shift is that of incipient sliding.
+        let mut at_limit = if marked == contact && info.uses_all_friction() {
+            vec![false; marked.len()]
+        } else {
+            at_limit(setup, lattice, &marked, slip)
+        };
         let slips: Vec<bool> = (marked.iter().zip(&at_limit))
             .map(|(&s, &l)| s && !l)
             .collect();
@@ -199,6 +229,31 @@ impl<'a> Cells<'a> {
             at_limit,
             contact,
         }
+    }
+
+    /// State of the interface, from the cells that slip.
+    fn status(&self, setup: &Setup<'_>, info: &AlternationInfo) -> Status {
+        if !self.contact.contains(&true) {
+            Status::NoContact
+        } else if !self.slips.contains(&true) {
+            Status::FullStick
+        } else if !self.stick.contains(&true) && slides(setup, info) {
+            // Below the limit of friction the bodies do not slide, even if every cell slips.
+            Status::GrossSlip
+        } else {
+            Status::PartialSlip
+        }
+    }
+
+    /// The area of a stick zone in partial slip, by its border within the cells. A border beyond the
+    /// contact contradicts the cells that slip, and a zone without area those that stick: there
+    /// whole cells count.
+    fn within(&self, contact: f64, area: f64) -> f64 {
+        if self.stick.contains(&true) && area > 0.0 && area < contact {
+            return area;
+        }
+        let count = |zone: &[bool]| zone.iter().filter(|&&inside| inside).count() as f64;
+        contact * count(&self.stick) / count(&self.contact)
     }
 
     /// The rim of the contact.

@@ -8,9 +8,9 @@ mod scatter;
 pub(super) use self::energy::of_tractions;
 pub(super) use self::history::{Closing, Stuck, close, growth};
 pub(super) use self::scatter::SAMPLES;
-use super::setup::{Setup, count};
+use super::setup::Setup;
 use super::transmitted::transmitted;
-use super::{Increment, Motion, Status, Work, Yield, check};
+use super::{Increment, Motion, Work, Yield, check};
 use crate::cells::run_both;
 use crate::scene::LoadPoint;
 use crate::solvers::Interface;
@@ -39,24 +39,13 @@ pub(super) fn draw_up(
         },
         || areas::areas(setup, no_slip, now, info),
     );
-    let (contact, slipping) = count(now);
-    let stick_area = (zones.stick * cell_area).min(zones.contact * cell_area);
-    let all_stick = zones.stick >= zones.contact;
     let increment = Increment {
         index: state.increments + 1,
         point,
         motion,
-        status: match (contact, slipping) {
-            (0, _) => Status::NoContact,
-            (_, 0) => Status::FullStick,
-            // Below the limit of friction the bodies do not slide, even if every cell slips.
-            (contact, slipping) if contact == slipping && slides(setup, info) => Status::GrossSlip,
-            // Cells at the limit of friction that did not slip belong to the stick zone (`areas`).
-            _ if all_stick => Status::FullStick,
-            _ => Status::PartialSlip,
-        },
+        status: zones.status,
         contact_area: zones.contact * cell_area,
-        stick_area,
+        stick_area: zones.stick * cell_area,
         cells_per_radius: zones.cells_per_radius,
         contact_radius: setup
             .problem
@@ -89,18 +78,6 @@ pub(super) fn draw_up(
         at_limit: zones.at_limit,
     };
     (increment, stuck)
-}
-
-/// Whether bodies slide whose cells all slip: under given forces only at the limit of friction.
-fn slides(setup: &Setup<'_>, info: &AlternationInfo) -> bool {
-    let prescribed = setup.point.loads.given;
-    let turns = prescribed
-        .phi_z
-        .is_some_and(|to| to != setup.state.motion.phi_z);
-    info.uses_all_friction()
-        || prescribed.delta_x.is_some()
-        || prescribed.delta_y.is_some()
-        || turns
 }
 
 /// The rigid motion at the end of the increment; given motions to the last bit.
