@@ -31,11 +31,18 @@ impl<'a> Document<'a> {
         };
         let places = DeTable::parse(text).map_err(|e| broken(&e))?;
         let mut root: Table = toml::from_str(text).map_err(|e| broken(&e))?;
-        for setting in settings {
-            apply(&mut root, setting).map_err(|message| Error::Setting {
-                setting: one_line(setting),
-                message: one_line(&message),
-            })?;
+        for withdraws in [true, false] {
+            for setting in settings {
+                let applied = if withdraws {
+                    withdraw_old_material(&mut root, setting, settings)
+                } else {
+                    apply(&mut root, setting)
+                };
+                applied.map_err(|message| Error::Setting {
+                    setting: one_line(setting),
+                    message: one_line(&message),
+                })?;
+            }
         }
         Ok(Self {
             text,
@@ -133,6 +140,88 @@ pub(super) fn apply(root: &mut Table, setting: &str) -> Result<(), String> {
         .split_once('=')
         .ok_or("a setting must be of the form key=value")?;
     set_every(root, &steps(key), &parse_value(value.trim())?)
+}
+
+/// The key of a material, and the numbers beside it that belong to the material. A number stands in
+/// place of the number of the table of materials, so that a new material needs the old numbers out.
+const MATERIAL: &str = "material";
+const NUMBERS_OF_MATERIAL: [&str; 2] = ["E", "nu"];
+const YIELDING: &str = "plastic";
+
+/// Removes the numbers of the old material where a setting names another one. The other settings are
+/// applied afterwards, so that a modulus set in the same call stays.
+///
+/// # Errors
+///
+/// The old material yields, and no setting has the yield stress of the new one.
+fn withdraw_old_material(
+    root: &mut Table,
+    setting: &str,
+    settings: &[String],
+) -> Result<(), String> {
+    let key = |setting: &'_ str| {
+        setting
+            .split_once('=')
+            .map_or("", |(key, _)| key)
+            .to_owned()
+    };
+    let named = key(setting);
+    let path = steps(&named);
+    let Some((&MATERIAL, body)) = path.split_last() else {
+        return Ok(());
+    };
+    let matches = |a: &str, b: &str| a == b || a == EVERY || b == EVERY;
+    let yields_anew = settings.iter().any(|other| {
+        let other = key(other);
+        let other = steps(&other);
+        other.get(body.len()) == Some(&YIELDING)
+            && other.iter().zip(body).all(|(a, b)| matches(a, b))
+    });
+    let mut stays = None;
+    for_tables(root, body, &mut |table| {
+        for number in NUMBERS_OF_MATERIAL {
+            table.remove(number);
+        }
+        if yields_anew {
+            table.remove(YIELDING);
+        } else if let Some(law) = table.get(YIELDING) {
+            stays = Some(law.to_string());
+        }
+    });
+    match stays {
+        Some(law) => Err(format!(
+            "the old material yields by plastic = {law}: set {}.plastic.s_y of the new one as well",
+            body.join(".")
+        )),
+        None => Ok(()),
+    }
+}
+
+/// Calls a function for the tables at a key, or for those of every element of the list before a star;
+/// for none where the key leads to no table.
+fn for_tables(table: &mut Table, path: &[&str], change: &mut impl FnMut(&mut Table)) {
+    fn descend(value: &mut Value, path: &[&str], change: &mut impl FnMut(&mut Table)) {
+        match (value, path) {
+            (Value::Table(table), path) => for_tables(table, path, change),
+            (Value::Array(array), [step, rest @ ..]) => {
+                let index = step.parse::<usize>();
+                for (n, item) in array.iter_mut().enumerate() {
+                    if *step == EVERY || index.as_ref() == Ok(&n) {
+                        descend(item, rest, change);
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+    match path {
+        [] => change(table),
+        [step, rest @ ..] => {
+            if let Some(value) = table.get_mut(*step) {
+                descend(value, rest, change);
+            }
+        }
+    }
 }
 
 /// Sets the value at a key, or at every element of the list before a star.

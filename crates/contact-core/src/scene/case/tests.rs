@@ -128,6 +128,55 @@ fn settings_change_the_scene() {
     assert_eq!(scene.title, "plain");
 }
 
+/// A scene whose bodies and layers have the numbers of their materials written out.
+#[test]
+fn a_material_that_is_set_replaces_the_numbers_of_the_old_one() {
+    let titanium = Elastic::named("Ti-6Al-4V").unwrap();
+    let parts: [(&str, fn(&Scene) -> Elastic); 3] = [
+        ("body1", |s| s.body1.substrate),
+        ("body2", |s| s.body2.substrate),
+        ("body2.coatings.0", |s| s.body2.coatings[0].material),
+    ];
+    for (key, material) in parts {
+        let named = format!("{key}.material=\"Ti-6Al-4V\"");
+        assert_eq!(material(&set(&[&named]).unwrap()), titanium, "{key}");
+        // What is set in the same call stays, whatever the order.
+        let modulus = format!("{key}.E=1e11");
+        for settings in [[&named, &modulus], [&modulus, &named]] {
+            let scene = set(&settings.map(String::as_str)).unwrap();
+            let right = Elastic {
+                E: 1e11,
+                nu: titanium.nu,
+            };
+            assert_eq!(material(&scene), right, "{key}");
+        }
+        let yields = GOOD
+            .replace(
+                "E = 210e9\nnu = 0.3\n",
+                "E = 210e9\nnu = 0.3\nplastic.s_y = 1e9\nplastic.hardening = 5e9\n",
+            )
+            .replace("thickness = {", "plastic.s_y = 2e9\nthickness = {");
+        let read = |settings: &[String]| Scene::from_toml_str(&yields, FILE, settings);
+        let text = complaint(read(&[named.clone()]));
+        assert!(text.contains(&format!("set {key}.plastic.s_y")), "{text}");
+        let scene = read(&[named.clone(), format!("{key}.plastic.s_y=9e8")]).unwrap();
+        let plastic = scene
+            .body1
+            .plastic
+            .iter()
+            .chain(&scene.body2.plastic)
+            .flatten();
+        assert!(
+            plastic
+                .clone()
+                .any(|law| law.s_y == 9e8 && law.hardening == 0.0),
+            "{key}"
+        );
+    }
+    let every = set(&["body2.coatings.*.material=\"Ti-6Al-4V\""]).unwrap();
+    assert_eq!(every.body2.coatings[0].material, titanium);
+}
+
 #[test]
 fn a_setting_may_change_the_measure() {
     let scene_by_stress = with_settings(&["body2.coatings.0.E.p_H=100"]).unwrap();
