@@ -30,13 +30,14 @@ mod yields;
 pub use crate::material::{Bond, Coating, Elastic, dundurs_beta};
 pub use body::{Body, check_plastic_law};
 pub use case::{Fault, Section, convert_to_si, quantity, read_scene_and, read_text};
+pub use doubts::CELLS_PER_FILM;
 pub use files::{Reach, read as read_file};
 pub use friction::Dependence;
 pub use friction::{Friction, FrictionHistory, History};
 pub use friction_law::missing_law_error;
 pub use friction_law::{CellHistory, FrictionLaw, UserFriction};
 pub use grid::Grid;
-pub use load_path::{Branch, Increments, LoadPath, LoadPoint, Spacing};
+pub use load_path::{Branch, ForceUnits, Increments, LoadPath, LoadPoint, Spacing};
 pub use loads::{Loads, PrescribedMotions};
 pub use missing::Missing;
 pub use motion::{Prescribed, RigidMotion};
@@ -137,6 +138,7 @@ impl Scene {
         }
         self.path.check_for_friction(&self.friction)?;
         self.path.check_on(&self.grid)?;
+        self.path.units.check(&self.grid)?;
         if self.grid.plane_strain && self.settings.kernel.method != KernelMethod::Hankel {
             return Err(Error::invalid(
                 "kernel.method",

@@ -2,6 +2,7 @@
 
 use contact_core::scene::{self as core, Prescribed, RigidMotion};
 
+use super::forces::{Force, values_and_units};
 use super::increments::Count;
 use crate::parts::members;
 use crate::prelude::*;
@@ -36,8 +37,14 @@ members!(
 ///     Estimated error that the increments leave in the shear, as known before a run; the error of
 ///     :meth:`Result.branches` contains what the run shows of it.
 #[pyclass(frozen, eq, from_py_object, module = "pyfret")]
-#[derive(Clone, Copy, PartialEq)]
-pub(crate) struct Branch(pub(super) core::Branch);
+#[derive(Clone, PartialEq)]
+pub(crate) struct Branch(pub(super) core::Branch, pub(super) core::ForceUnits);
+
+impl From<core::Branch> for Branch {
+    fn from(branch: core::Branch) -> Self {
+        Self(branch, core::ForceUnits::default())
+    }
+}
 
 parts!(
     Branch: W, M_x, M_y, T_x, T_y, M_z, delta_z, phi_x, phi_y, delta_x, delta_y, phi_z, sigma_B,
@@ -72,11 +79,11 @@ impl Branch {
         path_error: "float | None" = None,
     ))]
     fn new(
-        #[pyo3(from_py_with = Optional::W)] W: Option<f64>,
+        #[pyo3(from_py_with = Force::W)] W: Option<Force>,
         #[pyo3(from_py_with = Optional::M_x)] M_x: Option<f64>,
         #[pyo3(from_py_with = Optional::M_y)] M_y: Option<f64>,
-        #[pyo3(from_py_with = Optional::T_x)] T_x: Option<f64>,
-        #[pyo3(from_py_with = Optional::T_y)] T_y: Option<f64>,
+        #[pyo3(from_py_with = Force::T_x)] T_x: Option<Force>,
+        #[pyo3(from_py_with = Force::T_y)] T_y: Option<Force>,
         #[pyo3(from_py_with = Optional::M_z)] M_z: Option<f64>,
         #[pyo3(from_py_with = Optional::delta_z)] delta_z: Option<f64>,
         #[pyo3(from_py_with = Optional::phi_x)] phi_x: Option<f64>,
@@ -92,6 +99,7 @@ impl Branch {
         #[pyo3(from_py_with = Given::t)] t: f64,
         #[pyo3(from_py_with = number)] path_error: Option<f64>,
     ) -> Self {
+        let ([W, T_x, T_y], units) = values_and_units([W, T_x, T_y]);
         let mut to = core::Loads {
             sigma_B,
             sigma_B1,
@@ -109,11 +117,12 @@ impl Branch {
                 to.prescribe(of, prescribed);
             }
         }
-        Self(core::Branch {
+        let branch = core::Branch {
             spacing: spacing.into(),
             path_error,
             ..core::Branch::new(to, increments.and_then(|count| count.0), t)
-        })
+        };
+        Self(branch, units)
     }
 
     fn __repr__(&self) -> String {

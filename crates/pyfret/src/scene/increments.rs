@@ -58,9 +58,9 @@ macro_rules! visited {
     };
 }
 
-visited!(W T_x M_z; delta_x delta_y delta_z phi_x phi_y phi_z);
+visited!(M_z; delta_x delta_y delta_z phi_x phi_y phi_z);
 
-fn visit(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Values> {
+pub(super) fn visit(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Values> {
     if has_unit(value)? {
         return si(name, value).map(Values::One);
     }

@@ -4,6 +4,7 @@ use contact_core::scene::{self as core, Prescribed, RigidMotion};
 
 use super::branch::{Branch, Spacing};
 use super::branches::{branch, column, cycled, moved, prescribe};
+use super::forces::{Force, Forces, values_and_units};
 use super::increments::{Count, Values, Visited};
 use crate::error::Answer;
 use crate::hints::Numbers;
@@ -39,6 +40,12 @@ pub(super) fn checked(path: core::LoadPath) -> Answer<LoadPath> {
     Ok(LoadPath(path))
 }
 
+/// The path with the units that its new forces were written in.
+fn written(mut path: core::LoadPath, units: core::ForceUnits) -> core::LoadPath {
+    path.units.add(units);
+    path
+}
+
 #[pymethods]
 impl LoadPath {
     #[new]
@@ -47,11 +54,15 @@ impl LoadPath {
         branches: List<Branch>,
         #[pyo3(from_py_with = Optional::rig_stiffness)] rig_stiffness: Option<f64>,
     ) -> Self {
-        let branches = branches.0.into_iter().map(|branch| branch.0).collect();
-        Self(core::LoadPath {
-            branches,
+        let mut path = core::LoadPath {
             rig_stiffness,
-        })
+            ..core::LoadPath::default()
+        };
+        for Branch(branch, units) in branches.0 {
+            path.branches.push(branch);
+            path.units.add(units);
+        }
+        Self(path)
     }
 
     /// Return the path through a rig of a stiffness K [N/m], a spring along x.
@@ -79,11 +90,12 @@ impl LoadPath {
     #[pyo3(signature = (W: "Quantities", *, increments = Count(None)))]
     fn normal(
         &self,
-        #[pyo3(from_py_with = Visited::W)] W: Values,
+        #[pyo3(from_py_with = Forces::W)] W: Forces,
         increments: Count,
     ) -> Answer<Self> {
-        let several = W.slice().iter();
-        checked(several.fold(self.0.clone(), |path, W| path.normal(*W, increments.0)))
+        let several = W.values.slice().iter();
+        let path = several.fold(self.0.clone(), |path, W| path.normal(*W, increments.0));
+        checked(written(path, W.units))
     }
 
     /// Visit the tangential forces `T_x` [N] in turn.
@@ -93,10 +105,11 @@ impl LoadPath {
     #[pyo3(signature = (T_x: "Quantities", *, increments = Count(None)))]
     fn tangential(
         &self,
-        #[pyo3(from_py_with = Visited::T_x)] T_x: Values,
+        #[pyo3(from_py_with = Forces::T_x)] T_x: Forces,
         increments: Count,
     ) -> Answer<Self> {
-        checked(self.0.clone().tangential(T_x.slice(), increments.0))
+        let path = self.0.clone().tangential(T_x.values.slice(), increments.0);
+        checked(written(path, T_x.units))
     }
 
     /// Visit the torsional moments `M_z` [N m] in turn, as `tangential` does the forces.
@@ -113,10 +126,11 @@ impl LoadPath {
     #[pyo3(signature = (W: "Quantities", *, increments = Count(None)))]
     fn radial(
         &self,
-        #[pyo3(from_py_with = Visited::W)] W: Values,
+        #[pyo3(from_py_with = Forces::W)] W: Forces,
         increments: Count,
     ) -> Answer<Self> {
-        checked(self.0.clone().radial(W.slice(), increments.0))
+        let path = self.0.clone().radial(W.values.slice(), increments.0);
+        checked(written(path, W.units))
     }
 
     /// Turn the tangential force around an ellipse of semi-axes `T_x`, `T_y` [N].
@@ -127,17 +141,17 @@ impl LoadPath {
     #[pyo3(signature = (*, T_x: "Force", T_y: "Force", turns: "int" = 1, increments = Count(None)))]
     fn ellipse(
         &self,
-        #[pyo3(from_py_with = Given::T_x)] T_x: f64,
-        #[pyo3(from_py_with = Given::T_y)] T_y: f64,
+        #[pyo3(from_py_with = Force::T_x)] T_x: Option<Force>,
+        #[pyo3(from_py_with = Force::T_y)] T_y: Option<Force>,
         #[pyo3(from_py_with = number)] turns: usize,
         increments: Count,
     ) -> Answer<Self> {
+        let ([Some(T_x), Some(T_y)], units) = values_and_units([T_x, T_y]) else {
+            refuse!("ellipse: give both semi-axes, such as T_x=20.0, T_y=10.0");
+        };
         core::LoadPath::check_turns(turns, increments.0)?;
-        Ok(Self(self.0.clone().ellipse(
-            (T_x, T_y),
-            turns,
-            increments.0,
-        )))
+        let path = self.0.clone().ellipse((T_x, T_y), turns, increments.0);
+        Ok(Self(written(path, units)))
     }
 
     /// Go to the given loads on a straight line; what is not named stays as it was.
@@ -165,9 +179,9 @@ impl LoadPath {
     #[pyo3(signature = (*, W: "Force | None" = None, T_x: "Force | None" = None, T_y: "Force | None" = None, M_x: "Moment | None" = None, M_y: "Moment | None" = None, M_z: "Moment | None" = None, sigma_B: "BulkStress | None" = None, sigma_B1: "BulkStress | None" = None, rolled: "Length | None" = None, increments = Count(None), spacing = Spacing::Uniform, t: "Time | None" = None))]
     fn force(
         &self,
-        #[pyo3(from_py_with = Optional::W)] W: Option<f64>,
-        #[pyo3(from_py_with = Optional::T_x)] T_x: Option<f64>,
-        #[pyo3(from_py_with = Optional::T_y)] T_y: Option<f64>,
+        #[pyo3(from_py_with = Force::W)] W: Option<Force>,
+        #[pyo3(from_py_with = Force::T_x)] T_x: Option<Force>,
+        #[pyo3(from_py_with = Force::T_y)] T_y: Option<Force>,
         #[pyo3(from_py_with = Optional::M_x)] M_x: Option<f64>,
         #[pyo3(from_py_with = Optional::M_y)] M_y: Option<f64>,
         #[pyo3(from_py_with = Optional::M_z)] M_z: Option<f64>,
@@ -178,6 +192,7 @@ impl LoadPath {
         spacing: Spacing,
         #[pyo3(from_py_with = Optional::t)] t: Option<f64>,
     ) -> Answer<Self> {
+        let ([W, T_x, T_y], units) = values_and_units([W, T_x, T_y]);
         let loads = [W, M_x, M_y, T_x, T_y, M_z].map(|load| load.map(Prescribed::Load));
         let change = |to: &mut core::Loads| {
             prescribe(to, loads);
@@ -185,7 +200,8 @@ impl LoadPath {
             to.sigma_B1 = sigma_B1.unwrap_or(to.sigma_B1);
             to.rolled = rolled.unwrap_or(to.rolled);
         };
-        checked(branch(&self.0, increments.0, spacing, t, change))
+        let path = branch(&self.0, increments.0, spacing, t, change);
+        checked(written(path, units))
     }
 
     /// Go to the given rigid motions of body 1 on a straight line, or visit several in turn.
@@ -259,14 +275,15 @@ impl LoadPath {
     fn cycles(
         &self,
         #[pyo3(from_py_with = number)] n: usize,
-        #[pyo3(from_py_with = Optional::T_x)] T_x: Option<f64>,
-        #[pyo3(from_py_with = Optional::T_y)] T_y: Option<f64>,
+        #[pyo3(from_py_with = Force::T_x)] T_x: Option<Force>,
+        #[pyo3(from_py_with = Force::T_y)] T_y: Option<Force>,
         #[pyo3(from_py_with = Optional::M_z)] M_z: Option<f64>,
         #[pyo3(from_py_with = Optional::delta_x)] delta_x: Option<f64>,
         #[pyo3(from_py_with = Optional::delta_y)] delta_y: Option<f64>,
         #[pyo3(from_py_with = Optional::phi_z)] phi_z: Option<f64>,
         increments: Count,
     ) -> Answer<Self> {
+        let ([T_x, T_y], units) = values_and_units([T_x, T_y]);
         let motions = [
             (RigidMotion::DeltaX, T_x.map(Prescribed::Load)),
             (RigidMotion::DeltaY, T_y.map(Prescribed::Load)),
@@ -275,7 +292,8 @@ impl LoadPath {
             (RigidMotion::DeltaY, delta_y.map(Prescribed::Motion)),
             (RigidMotion::PhiZ, phi_z.map(Prescribed::Motion)),
         ];
-        cycled(&self.0, n, motions, increments.0).and_then(checked)
+        let path = cycled(&self.0, n, motions, increments.0)?;
+        checked(written(path, units))
     }
 
     /// Stay at the loads and motions reached for some increments, one unit of path time.
@@ -346,5 +364,5 @@ attributes!(LoadPath, self:
     /// Stiffness of the rig along x [N/m]; None: the bodies themselves are moved.
     rig_stiffness: Option<f64> = self.0.rig_stiffness;
     /// The branches in their order.
-    branches: Vec<Branch> = self.0.branches.iter().copied().map(Branch).collect();
+    branches: Vec<Branch> = self.0.branches.iter().copied().map(Branch::from).collect();
 );

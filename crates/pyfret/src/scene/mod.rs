@@ -3,6 +3,7 @@
 mod body;
 mod branch;
 mod branches;
+mod forces;
 mod friction;
 pub(crate) mod friction_law;
 mod grid;

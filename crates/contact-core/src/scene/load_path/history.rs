@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use super::LoadPath;
 use super::waypoints::{Column, Increments, driven_motion};
+use super::{ForceUnits, LoadPath};
 use crate::error::Error;
 use crate::scene::Prescribed;
 use crate::scene::files;
@@ -16,6 +16,8 @@ pub(in crate::scene) struct History {
     pub(super) names: Vec<String>,
     /// The numbers, row by row.
     pub(super) rows: Vec<f64>,
+    /// The units of the columns of forces.
+    pub(super) units: ForceUnits,
 }
 
 impl History {
@@ -33,9 +35,16 @@ impl History {
             ));
         }
         let mut scales = Vec::with_capacity(names.len());
+        let mut force_units = ForceUnits::default();
         for (n, name) in names.iter().enumerate() {
             let column = Column::from_name(name).map_err(|e| e.to_string())?;
-            scales.push(si_scale(name, column, units[n].as_deref())?);
+            let unit = units[n].as_deref();
+            scales.push(si_scale(name, column, unit)?);
+            if let (Column::Prescribed(motion, Prescribed::Load(_)), Some(word)) = (column, unit)
+                && !motion.is_rotation()
+            {
+                force_units.add(ForceUnits::from_text(&format!("{name} [{word}]")));
+            }
         }
         if let Some(hole) = table.numbers.iter().position(|value| value.is_nan()) {
             let (row, column) = (hole / table.columns, hole % table.columns);
@@ -52,7 +61,11 @@ impl History {
                 .zip(&scales)
                 .for_each(|(value, scale)| *value *= scale);
         }
-        Ok(Self { names, rows })
+        Ok(Self {
+            names,
+            rows,
+            units: force_units,
+        })
     }
 
     /// Returns the columns that drive: of a motion and its load the one that `drive` names.
@@ -111,9 +124,12 @@ impl LoadPath {
         let rows: Vec<Vec<f64>> = rows
             .map(|row| driving.iter().map(|n| row[*n]).collect())
             .collect();
-        Self::start()
-            .waypoints(&names, &rows, increments)
-            .map_err(|e| failed(e.to_string()))
+        let path = Self::start().waypoints(&names, &rows, increments);
+        let path = path.map_err(|e| failed(e.to_string()))?;
+        Ok(Self {
+            units: history.units.clone(),
+            ..path
+        })
     }
 }
 

@@ -4,9 +4,11 @@ mod build;
 mod check;
 mod history;
 mod point;
+mod units;
 mod waypoints;
 
 pub use point::LoadPoint;
+pub use units::ForceUnits;
 pub use waypoints::Increments;
 
 use super::{Loads, RigidMotion};
@@ -125,6 +127,8 @@ pub struct LoadPath {
     /// delta_x is prescribed or read \[N/m\]; `None`: the bodies themselves are moved. With the end of the
     /// spring at u the shift of the contact is u - T_x/K.
     pub rig_stiffness: Option<f64>,
+    /// The units in which forces were written, if as texts.
+    pub units: ForceUnits,
 }
 
 impl LoadPath {
