@@ -85,12 +85,12 @@ pub fn read(text: &str, file: &str) -> Result<BTreeMap<String, Material>, Error>
 }
 
 /// The material of a name: of its own, or another one, whatever the case and the marks between its
-/// letters and digits.
+/// letters and digits. In a chemical formula the case counts: TiN is titanium nitride, tin a metal.
 pub fn find<'a>(materials: &'a BTreeMap<String, Material>, name: &str) -> Option<&'a Material> {
     let wanted = plain(name);
     let is_it = |of: &&Material| {
         let mut names = std::iter::once(&of.name).chain(&of.also);
-        names.any(|of| plain(of) == wanted)
+        names.any(|of| plain(of) == wanted && (!is_formula(of) || letters(of) == letters(name)))
     };
     materials
         .get(name)
@@ -113,10 +113,46 @@ pub fn nearest(materials: &BTreeMap<String, Material>, name: &str, most: usize) 
     names.map(|(_, name)| name.clone()).collect()
 }
 
+/// Letters and digits alone.
+fn letters(text: &str) -> String {
+    text.chars().filter(char::is_ascii_alphanumeric).collect()
+}
+
 /// Letters and digits alone, in lower case.
 fn plain(text: &str) -> String {
-    let letters = text.chars().filter(char::is_ascii_alphanumeric);
-    letters.map(|c| c.to_ascii_lowercase()).collect()
+    letters(text).to_ascii_lowercase()
+}
+
+/// Symbols of the chemical elements to 92, uranium.
+const ELEMENTS: [&str; 92] = [
+    "H", "He", "Li", "Be", "B", "C", "N", "O", "F", "Ne", "Na", "Mg", "Al", "Si", "P", "S", "Cl",
+    "Ar", "K", "Ca", "Sc", "Ti", "V", "Cr", "Mn", "Fe", "Co", "Ni", "Cu", "Zn", "Ga", "Ge", "As",
+    "Se", "Br", "Kr", "Rb", "Sr", "Y", "Zr", "Nb", "Mo", "Tc", "Ru", "Rh", "Pd", "Ag", "Cd", "In",
+    "Sn", "Sb", "Te", "I", "Xe", "Cs", "Ba", "La", "Ce", "Pr", "Nd", "Pm", "Sm", "Eu", "Gd", "Tb",
+    "Dy", "Ho", "Er", "Tm", "Yb", "Lu", "Hf", "Ta", "W", "Re", "Os", "Ir", "Pt", "Au", "Hg", "Tl",
+    "Pb", "Bi", "Po", "At", "Rn", "Fr", "Ra", "Ac", "Th", "Pa", "U",
+];
+
+/// Whether a name is a chemical formula of letters alone, such as TiN: symbols of elements, with letters
+/// of both cases. A number in it leaves no other word to take it for.
+fn is_formula(name: &str) -> bool {
+    let has = |is: fn(&char) -> bool| name.chars().any(|c| is(&c));
+    let of_symbols = |name: &str| {
+        let mut symbols = name;
+        while !symbols.is_empty() {
+            let symbol = |n: &usize| {
+                symbols
+                    .get(..*n)
+                    .is_some_and(|start| ELEMENTS.contains(&start))
+            };
+            let Some(length) = [2, 1].into_iter().find(symbol) else {
+                return false;
+            };
+            symbols = &symbols[length..];
+        }
+        true
+    };
+    has(char::is_ascii_lowercase) && has(char::is_ascii_uppercase) && of_symbols(name)
 }
 
 fn sourced(
@@ -134,4 +170,40 @@ fn sourced(
     let source = table.get("source").and_then(Value::as_str).ok_or(FORM)?;
     let source = sources.get(source).map_or(source, String::as_str);
     Sourced::new(value, source.to_owned(), quantity)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{find, is_formula, materials, nearest};
+
+    /// Every name of the table in lower and upper case: a formula is found in its case alone, and its
+    /// right spelling is the nearest name; other names are found in any.
+    #[test]
+    fn case_counts_in_formulas_alone() {
+        let table = materials();
+        for (key, material) in &table {
+            for name in std::iter::once(key).chain(&material.also) {
+                assert_eq!(find(&table, name).map(|of| &of.name), Some(key), "{name}");
+                for other in [name.to_ascii_lowercase(), name.to_ascii_uppercase()] {
+                    if is_formula(name) && other != *name {
+                        assert_eq!(find(&table, &other), None, "{other}");
+                        assert_eq!(nearest(&table, &other, 1), [key.as_str()], "{other}");
+                    } else {
+                        assert_eq!(
+                            find(&table, &other).map(|of| &of.name),
+                            Some(key),
+                            "{other}"
+                        );
+                    }
+                }
+            }
+        }
+        let formulas = ["TiN", "CrN", "AlN", "SiC", "Al"];
+        assert!(formulas.into_iter().all(is_formula));
+        let others = [
+            "DLC", "steel", "Steel", "Inconel", "WC", "tin", "Ti6Al4V", "C45",
+        ];
+        assert!(!others.into_iter().any(is_formula));
+        assert!(find(&table, "tin").is_none() && find(&table, "TiN").is_some());
+    }
 }
