@@ -125,3 +125,63 @@ def test_more_hardening_yields_less() -> None:
     assert strain["perfect"] > strain["voce"] > strain["linear"]
     # One stroke: isotropic and kinematic hardening of one curve are alike where flow hardly turns.
     np.testing.assert_allclose(strain["voce"], strain["chaboche"], rtol=0.05)
+
+
+#: Numbers of a body in units that are hardly Pa and m: law of yielding, residual stress.
+ODD: dict[str, dict[str, object]] = {
+    "chaboche_C in GPa": {"chaboche_C": [60, 4], "chaboche_gamma": [400, 20]},
+    "chaboche_C in MPa": {"chaboche_C": [260e3], "chaboche_gamma": [400]},
+    "voce_Q in MPa": {"voce_Q": 60, "voce_b": 8},
+    "hardening in MPa": {"hardening": 500e3},
+    "kinematic in GPa": {"kinematic": 20},
+    "kinematic stiffer than elastic": {"kinematic": 1e12},
+    "voce_Q beyond strength": {"voce_Q": 60e9, "voce_b": 8},
+    "s_y beyond strength": {"s_y": 90e9},
+    "s_y in MPa": {"s_y": 900},
+}
+
+
+@pytest.mark.parametrize("name", ODD)
+def test_a_hardening_law_in_other_units_is_doubted(name: str) -> None:
+    law = fret.Plastic(**{"s_y": 1e9, "hardening": 5e9, **ODD[name]})
+    steel = fret.Elastic(E=210e9, nu=0.3)
+    body = fret.Body(steel.replace(plastic=law))
+    assert any(".plastic." in doubt for doubt in doubts_of(body)), name
+    usual = fret.Plastic(
+        s_y=300e6,
+        hardening=2e9,
+        voce_Q=50e6,
+        voce_b=8,
+        kinematic=1e9,
+        chaboche_C=[60e9],
+        chaboche_gamma=[400],
+    )
+    assert doubts_of(fret.Body(steel.replace(plastic=usual))) == []
+
+
+@pytest.mark.parametrize(
+    ("rows", "is_odd"),
+    [
+        ([[0, -600e6], [50, -750e6], [200, 0]], True),
+        ([[0, -600e6], [0.05, -750e6], [0.2, 0]], True),
+        ([[0, -600], [5e-5, -750], [2e-4, 0]], True),
+        (-2e12, True),
+        ([[0, -600e6], [5e-5, -750e6], [2e-4, 0]], False),
+        (-600e6, False),
+    ],
+)
+def test_residual_stress_in_other_units_is_doubted(rows: object, *, is_odd: bool) -> None:
+    body = fret.Body(fret.Elastic(E=210e9, nu=0.3), residual=rows)
+    assert any("residual" in doubt for doubt in doubts_of(body)) == is_odd
+
+
+def doubts_of(body: fret.Body) -> list[str]:
+    """Return the doubts of a body under a rigid ball."""
+    scene = fret.Scene(
+        body1=fret.Body(fret.RIGID, shape=fret.Sphere(R=0.01)),
+        body2=body,
+        mu=0.0,
+        grid=fret.Grid.centred(3.6e-4, n=40),
+        path=fret.LoadPath.start().normal(20.0, increments=2),
+    )
+    return scene.doubts()

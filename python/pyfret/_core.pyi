@@ -39,6 +39,7 @@ DEPTH_ROUNDING: Final[float]
 Part of a worn depth that a jump which ends there may miss.
 """
 
+CELLS_PER_FILM: Final[float]
 LONGEST_LIFE: Final[float]
 """
 Longest finite life [cycles]; a longer one is infinite.
@@ -3668,6 +3669,7 @@ class SlidingError(SolveError):
     """Loads that friction cannot carry, that nothing carries, or that lift a stuck contact."""
 
 __all__ = [
+    "CELLS_PER_FILM",
     "DEPTH_ROUNDING",
     "LONGEST_LIFE",
     "RATCHETS",

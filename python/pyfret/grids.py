@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 import numpy as np
 
 from pyfret._core import (
+    CELLS_PER_FILM,
     Cylinder,
     Ellipsoid,
     Flat,
@@ -519,7 +520,7 @@ def _doubt_films(body1: Body, body2: Body, cells: list[float]) -> None:
             warn(
                 f"the outermost coating of body {number} is {thickness / min(cells):.2g} of a cell "
                 "thick. Stresses in it are averages over a cell. For these, use cells of "
-                f"{thickness:.2e} m",
+                f"{thickness / CELLS_PER_FILM:.2e} m, {CELLS_PER_FILM:g} in its thickness",
             )
 
 

@@ -224,6 +224,22 @@ pub const QUANTITIES: &[Quantity] = &[
         STRESSES,
     ),
     of(
+        "depth of a residual stress",
+        Kind::Length,
+        &["residual.depth"],
+        (0.0, 5e-3),
+        "deep for the second point of a process",
+        "depths are in m: 50 um is 5e-5",
+    ),
+    of(
+        "deepest residual stress",
+        Kind::Length,
+        &["residual.deepest"],
+        (0.0, 0.1),
+        "deeper than any process",
+        "depths are in m: 50 um is 5e-5",
+    ),
+    of(
         "material stress",
         Kind::Stress,
         &[

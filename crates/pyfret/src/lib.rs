@@ -148,6 +148,9 @@ mod _core {
     /// Longest finite life [cycles]; a longer one is infinite.
     #[pymodule_export]
     const LONGEST_LIFE: f64 = fatigue::LONGEST;
+    /// Cells in the thickness of a layer from which its own stress is known.
+    #[pymodule_export]
+    const CELLS_PER_FILM: f64 = contact_core::scene::CELLS_PER_FILM;
     /// Part of a worn depth that a jump which ends there may miss.
     #[pymodule_export]
     const DEPTH_ROUNDING: f64 = contact_wear::DEPTH_ROUNDING;

@@ -30,7 +30,7 @@ def find_material(name: str, materials: Mapping[str, Material]) -> Material | No
 def list_materials(name: str, materials: Mapping[str, Material]) -> str:
     """Describe the names of materials where one is unknown, the nearest first."""
     names = {n: m for m in materials.values() for n in (m.name, *m.also)}
-    other_case = {n: m for n, m in all_names.items() if n.lower() == name.lower()}
+    other_case = {n: m for n, m in names.items() if n.lower() == name.lower()}
     if other_case:
         titles = ", ".join(f"{n!r} is {m.title!r}" for n, m in other_case.items())
         return f"no material {name!r}: in a formula the case counts, {titles}"

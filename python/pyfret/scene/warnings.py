@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from pyfret._core import CELLS_PER_FILM
 from pyfret._util.scene_warnings import warn
 
 if TYPE_CHECKING:
@@ -33,5 +34,6 @@ def doubt_layers(interfaces: list[float], grid: Grid) -> None:
         warn(
             f"the first interface is {interfaces[0]:.3g} m below the surface, "
             f"{interfaces[0] / cell:.2f} cells. The stress in the layer may be wrong near the edge "
-            f"of the contact. For it, use cells of {interfaces[0]:.2e} m",
+            f"of the contact. For it, use cells of "
+            f"{interfaces[0] / CELLS_PER_FILM:.2e} m, {CELLS_PER_FILM:g} in its thickness",
         )

@@ -3,6 +3,8 @@
 //! Everything is compared with something else of the scene, never with what is usual, so that a
 //! scene in units of its own is a scene like any other.
 
+use plasticity::{NUMBERS, Plastic};
+use plausible::unit::Kind;
 use plausible::{UNITS, doubt_of, quantity};
 
 use super::shape::Shape;
@@ -16,6 +18,14 @@ pub(crate) const LARGE_STRAIN: f64 = 0.1;
 /// that are hardly in metres then: of a grid, of a radius \[m\].
 const GEL: f64 = 2e6;
 const LONG: [f64; 2] = [0.05, 0.5];
+/// Growth of the yield stress per strain, over E, below which a law hardly hardens and above which it
+/// is stiffer than the elastic body: of metals it is 1e-4 to 1.
+const HARDENS: [f64; 2] = [1e-5, 2.0];
+/// Yield stress, its growth, and residual stress over E beyond which no solid holds: the theoretical
+/// strength is E/10.
+const STRONGEST: f64 = 0.2;
+/// Cells in the thickness of a layer from which its own stress is known.
+pub const CELLS_PER_FILM: f64 = 2.0;
 /// Thickness over contact radius above which the substrate of a coating hardly matters.
 const THICK: f64 = 1000.0;
 /// Root-mean-square slope of a measured surface above which its heights are probably not in metres.
@@ -173,12 +183,10 @@ impl Scene {
                 stiffest = stiffest.max(if E.is_finite() { E } else { 0.0 });
                 let mut check = |name: String, value| doubts.extend(doubt_of(&name, &name, value));
                 check(format!("{layer_key}.E"), E);
-                if let Some(law) = body.plastic(n) {
-                    check(format!("{layer_key}.plastic.s_y"), law.s_y);
-                    check(format!("{layer_key}.plastic.hardening"), law.hardening);
-                    check(format!("{layer_key}.plastic.kinematic"), law.kinematic);
-                }
                 check(format!("{layer_key}.bond_normal"), body.bond(n).normal);
+                if let Some(law) = body.plastic(n) {
+                    doubts.extend(doubts_of_yielding(&format!("{layer_key}.plastic"), law, E));
+                }
             }
             for (layer, profile) in body.residual.iter().enumerate() {
                 let name = format!("{}.residual", body.layer_key(layer, key));
@@ -188,6 +196,26 @@ impl Scene {
                     |extreme: f64, s| if s.abs() > extreme.abs() { s } else { extreme },
                 );
                 doubts.extend(doubt_of(&name, &name, largest));
+                let E = body
+                    .coatings
+                    .get(layer)
+                    .map_or(body.substrate, |c| c.material)
+                    .E;
+                if largest.abs() > STRONGEST * E {
+                    doubts.push(format!(
+                        "{name} = {largest:.3e} Pa is {:.1} times E: no solid holds that; {UNITS}",
+                        largest.abs() / E
+                    ));
+                }
+                let depths = || profile.rows.iter().map(|[z, ..]| *z).filter(|z| *z > 0.0);
+                let second = depths().fold(f64::INFINITY, f64::min);
+                let of_depths = doubt_of("residual.depth", &format!("{name}[..][0]"), second);
+                let deepest = depths().fold(0.0, f64::max);
+                doubts.extend(
+                    of_depths.or_else(|| {
+                        doubt_of("residual.deepest", &format!("{name}[..][0]"), deepest)
+                    }),
+                );
             }
             for R in radii_of_curvature(&body.shape) {
                 radius = radius.max(R);
@@ -232,8 +260,9 @@ impl Scene {
             format!(
                 "{key}.coatings[0].thickness = {thickness:.3e} m is {:.2} of a cell. Loads, contact size and energy are \
                  right. Tractions and stresses in the layer are averages over a cell. For these, use cells of \
-                 {thickness:.2e} m",
-                thickness / cell
+                 {:.2e} m, {CELLS_PER_FILM} in its thickness",
+                thickness / cell,
+                thickness / CELLS_PER_FILM
             )
         })
     }
@@ -292,6 +321,35 @@ impl Scene {
         }
         doubts
     }
+}
+
+/// Stresses of a law of yielding that are hardly in Pa, alone or beside E \[Pa\].
+fn doubts_of_yielding(key: &str, mut law: Plastic, E: f64) -> Vec<String> {
+    let mut doubts = Vec::new();
+    for number in &NUMBERS {
+        let key = format!("{key}.{}", number.name);
+        let is_stress = plausible::of_key(&key).is_some_and(|of| of.kind == Kind::Stress);
+        // The moduli of hardening are growths per strain, the others stresses.
+        let per_strain = matches!(number.name, "hardening" | "kinematic" | "chaboche_C");
+        let values = (number.of)(&mut law).iter();
+        let doubt = |value: &f64| {
+            let ratio = value / E;
+            let about_E = |what: &str| {
+                Some(format!(
+                    "{key} = {value:.3e} Pa is {ratio:.1e} of E: {what}; {UNITS}"
+                ))
+            };
+            doubt_of(&key, &key, *value).or_else(|| match per_strain {
+                true if ratio < HARDENS[0] => about_E("it hardly hardens"),
+                true if ratio > HARDENS[1] => about_E("it is stiffer than the elastic body"),
+                false if ratio > STRONGEST => about_E("no solid is as strong"),
+                _ => None,
+            })
+        };
+        let values = values.filter(|value| is_stress && **value != 0.0);
+        doubts.extend(values.filter_map(doubt));
+    }
+    doubts
 }
 
 /// The body as if it were of its softest material.
