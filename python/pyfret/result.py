@@ -117,7 +117,7 @@ class Result(Run, Shows):
         """
         saved = self.dataset.saved_increment.values
         if z is None and x is None and y is None and azimuth is None:
-            x, y, azimuth = lines_of(self, saved, body_number)[0]
+            x, y, azimuth = lines_of(self, saved, body_number, residual)[0]
         kept = (self.at(int(n)) for n in saved)
         return fields.envelope(
             self.scene,

@@ -105,8 +105,12 @@ pub fn largest_anywhere(
     }
     if free {
         let own = states.tractions.first().copied().unwrap_or_default();
-        let centre = Outline::new(grid, &own).map_or((0.0, 0.0), |outline| outline.centre);
-        let middle = line.at(line.along(centre.0, centre.1));
+        let outline = Outline::new(grid, &own);
+        // Without tractions, as of a residual stress, the section across passes the highest sample.
+        let middle = outline.map_or_else(
+            || line.at(highest_place(line, grid, samples)),
+            |outline| line.at(line.along(outline.centre.0, outline.centre.1)),
+        );
         let across = Line::through(middle, line.azimuth() + RIGHT_ANGLE);
         let section = Section::new(body, side, grid, across, states.clone())?;
         for n in 0..layers.len() {
@@ -209,6 +213,13 @@ pub fn largest_anywhere(
         largest,
         still_rises,
     })
+}
+
+/// The place of the largest sample of a section \[m\].
+fn highest_place(line: Line, grid: &Grid, samples: &ArrayView2<'_, f64>) -> f64 {
+    let numbers = samples.indexed_iter().filter(|(_, value)| !value.is_nan());
+    let highest = numbers.max_by(|a, b| a.1.total_cmp(b.1));
+    highest.map_or(0.0, |((_, n), _)| line.places(grid)[n])
 }
 
 const RIGHT_ANGLE: f64 = std::f64::consts::FRAC_PI_2;

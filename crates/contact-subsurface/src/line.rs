@@ -29,16 +29,19 @@ const ALIGNED: f64 = 1e-3;
 /// value of a shear along one line, at most: then what is largest lies in the plane of the shear.
 const ROUND: f64 = 0.8;
 const ONE_WAY: f64 = 0.1;
-/// Sine of the angle to the x axis of a shear that a bulk stress along x does not turn.
-const WITH_BULK: f64 = 0.05;
+/// Sine of the angle between a shear and a stress beside the contact that does not turn it.
+const IN_LINE: f64 = 0.05;
 
 impl Line {
-    /// The sections in which a contact is looked at, from its outlines over a cycle, or from one:
-    /// through the centre of the largest, along the shear of all of them; along x where that has no
-    /// direction. A second one stands across the first, unless what is largest lies in the plane of
-    /// the shear: a round contact, sheared to and fro along one line, which a bulk stress along x
-    /// (`stretched`) follows.
-    pub fn of_outlines(outlines: &[&Outline], stretched: bool) -> Vec<Self> {
+    /// The sections in which a contact is looked at, from its outlines over a cycle, or from one.
+    ///
+    /// The first passes through the centre of the largest outline, along the shear of all of them, or
+    /// along x where the shear has no direction. `beside` are the directions of bulk and residual
+    /// stress \[rad\]. One section is enough for a round contact that is sheared to and fro along one
+    /// line, with all other stress along that line: the largest stress lies in the plane of the shear.
+    /// A second section stands across the first. Two more stand between them where a stress beside the
+    /// contact has another direction than the shear: the worst plane then lies between the two.
+    pub fn of_outlines(outlines: &[&Outline], beside: &[f64]) -> Vec<Self> {
         let area = |o: &&&Outline| o.spots.iter().map(|spot| spot.area).sum::<f64>();
         let Some(largest) = outlines.iter().max_by(|a, b| area(a).total_cmp(&area(b))) else {
             return vec![Self::AlongX(0.0)];
@@ -58,12 +61,17 @@ impl Line {
         let [xx, xy, yy] = shear;
         let (mean, half) = (0.5 * (xx + yy), (0.5 * (xx - yy)).hypot(xy));
         let one_way = azimuth.is_none() || mean - half <= ONE_WAY * (mean + half);
-        let with_bulk = !stretched || main.direction()[1].abs() < WITH_BULK;
-        if b >= ROUND * a && one_way && with_bulk {
+        let in_line = |direction: &f64| (direction - main.azimuth()).sin().abs() < IN_LINE;
+        let in_line = beside.iter().all(in_line);
+        if b >= ROUND * a && one_way && in_line {
             return vec![main];
         }
-        let across = main.azimuth() + std::f64::consts::FRAC_PI_2;
-        vec![main, Self::through(largest.centre, across)]
+        let turns: &[f64] = if in_line { &[0.5] } else { &[0.5, 0.25, 0.75] };
+        let turned = turns.iter().map(|turn| {
+            let azimuth = main.azimuth() + turn * std::f64::consts::PI;
+            Self::through(largest.centre, azimuth)
+        });
+        std::iter::once(main).chain(turned).collect()
     }
 
     /// Through a point in a direction; along x or along y where the direction is that of an axis.

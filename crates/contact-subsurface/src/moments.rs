@@ -159,11 +159,20 @@ pub fn growth(cycle: &dyn OverCycle) -> Result<Growth, Error> {
 }
 
 /// The sections in which a body is looked at over a cycle, where none is asked for:
-/// [`Line::of_outlines`] of the outlines of its moments.
-pub fn main_sections(cycle: &dyn OverCycle, grid: &Grid) -> Result<Vec<Line>, Error> {
+/// [`Line::of_outlines`] of the outlines of its moments, with the directions of the bulk stress along
+/// x and of the residual stress.
+pub fn main_sections(
+    cycle: &dyn OverCycle,
+    grid: &Grid,
+    residual: &ResidualStress,
+) -> Result<Vec<Line>, Error> {
     let (outlines, stretched) = outlines(cycle, grid)?;
     let all: Vec<&Outline> = outlines.iter().collect();
-    Ok(Line::of_outlines(&all, stretched))
+    let mut beside = residual.directions();
+    if stretched {
+        beside.push(0.0);
+    }
+    Ok(Line::of_outlines(&all, &beside))
 }
 
 /// Half of the largest width of a contact over a cycle in the direction of a line \[m\]; 0 without a

@@ -299,7 +299,7 @@ impl Task {
     fn main_section(&self) -> Line {
         let outline = Outline::new(&self.scene.grid, &self.loads.tractions());
         let outlines: Vec<&Outline> = outline.iter().collect();
-        let lines = Line::of_outlines(&outlines, false);
+        let lines = Line::of_outlines(&outlines, &[]);
         lines.first().copied().unwrap_or(Line::AlongX(0.0))
     }
 

@@ -41,16 +41,15 @@ def section_body(result: Run, section: Section) -> Body:
 
 
 def sections_of_cycle(result: Run, section: Section) -> list[Section]:
-    """Return the section, or default sections where it has no place.
+    """Return the section, or the default sections of the cycle where it has no place.
 
-    The first default section stands along the shear of the cycle, the second across it. A round
-    contact that is sheared along one line needs no second: its largest stress lies in the plane of
-    the shear.
+    The first default section stands along the shear: :func:`lines_of`.
     """
     if section.is_placed:
         return [section]
     kept = cycle_increments(result, section.cycle)
-    return [section.moved_below(line) for line in lines_of(result, kept, section.body_number)]
+    lines = lines_of(result, kept, section.body_number, section.residual)
+    return [section.moved_below(line) for line in lines]
 
 
 def cycle_section(result: Run, section: Section) -> _core.CycleSection:

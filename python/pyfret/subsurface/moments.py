@@ -13,7 +13,7 @@ from pyfret.subsurface.plastic import eigenstress
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
     from pyfret.run import Run, State
 
@@ -72,12 +72,26 @@ def moments_of(
     return moments
 
 
-def lines_of(result: Run, kept: NDArray[np.int64], body_number: int) -> list[Line]:
+def lines_of(
+    result: Run,
+    kept: NDArray[np.int64],
+    body_number: int,
+    residual: Sequence[ArrayLike] | None = None,
+) -> list[Line]:
     """Give the lines below which some kept increments are looked at, the first along their shear.
 
-    A second line stands across the first. A round contact that is sheared along one line needs no
-    second: its largest stress lies in the plane of the shear.
+    The lines pass through the centre of the largest contact. A second one stands across the first,
+    and two more between them where bulk or residual stress has another direction than the shear. A
+    round contact needs the first alone if all stress acts along one line.
     """
     moments = moments_of(result, kept, body_number, with_left=False)
-    lines = _core.cycle_sections(result.scene.grid, moments, len(kept))
+    scene = result.scene
+    body = scene.body1 if body_number == 1 else scene.body2
+    lines = _core.cycle_sections(
+        body,
+        scene.grid,
+        moments,
+        len(kept),
+        residual=None if residual is None else list(residual),
+    )
     return [Line(*line) for line in lines]

@@ -10,8 +10,9 @@ import numpy as np
 from pyfret._core import SurfaceMap
 from pyfret._util.scene_warnings import warn as doubt
 from pyfret.subsurface import fields
-from pyfret.subsurface.line import Line, line_through_point
-from pyfret.subsurface.plastic import body_of, columns_of, eigenstress
+from pyfret.subsurface.contact import line_below
+from pyfret.subsurface.line import Line
+from pyfret.subsurface.plastic import body_of, columns_of, eigenstress, plastic_points
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -72,7 +73,9 @@ class Unloaded:
     ) -> Stress:
         """Residual stress of a body; parameters as in :meth:`Snapshot.stress`.
 
-        Where no place is given, the section along x through the middle of the grid.
+        Where nothing is given, the section along the shear, through the centre of the contact.
+        Without a contact it passes the centre of the points that have yielded. Its ``maximum``
+        searches the whole body.
         """
         state = self._state
         body, grid = state.body(body_number), state.scene.grid
@@ -81,16 +84,26 @@ class Unloaded:
         below = fields.subsurface(
             body, grid, none, body_number, 0.0, residual, left=eigenstress_of_body
         )
-        line = Line(x, y)
-        if azimuth is not None:
-            line = line_through_point(x or 0.0, y or 0.0, azimuth)
+        line, chosen = line_below(state, z, x, y, azimuth)
+        if chosen and state.outline is None:
+            line = Line(None, self._centre(body_number)[1])
         length = state.length
         sampled = fields.sampled_stress(
             below, body, grid, z, line, length if length > 0 else fields.loaded_length(grid)
         )
-        return sampled.assign_attrs(
-            {k: v for k, v in state.dataset.attrs.items() if k in ("a_H", "p_H")}
-        )
+        yardsticks = {k: v for k, v in state.dataset.attrs.items() if k in ("a_H", "p_H")}
+        return sampled.assign_attrs(yardsticks | {"anywhere": int(chosen)})
+
+    def _centre(self, body_number: int) -> tuple[float, float]:
+        """Return the mean place of the points that have yielded, weighted with their plastic strain [m]."""
+        if not self._state.body(body_number).yields:
+            return 0.0, 0.0
+        points = plastic_points(self._state, body_number)
+        weights = points.equivalent.values
+        if not weights.sum() > 0.0:
+            return 0.0, 0.0
+        x, y = (float(np.average(points[name].values, weights=weights)) for name in "xy")
+        return x, y
 
     def _depth(self, body_number: int) -> NDArray[np.float64]:
         """How deep the surface of a body lies without load [m], shape (nx, ny)."""

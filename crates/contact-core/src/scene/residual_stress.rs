@@ -55,6 +55,20 @@ impl ResidualStress {
         })
     }
 
+    /// Angles to the x axis of the larger of s_xx and s_yy \[rad\], each once: 0 and pi/2 where depths
+    /// or layers differ, none where s_xx = s_yy everywhere.
+    pub fn directions(&self) -> Vec<f64> {
+        let rows = || self.layers.iter().flat_map(|layer| &layer.rows);
+        let mut directions = Vec::new();
+        if rows().any(|[_, xx, yy]| xx > yy) {
+            directions.push(0.0);
+        }
+        if rows().any(|[_, xx, yy]| yy > xx) {
+            directions.push(std::f64::consts::FRAC_PI_2);
+        }
+        directions
+    }
+
     /// s_xx and s_yy of a layer at a depth below the surface of the body \[Pa\].
     pub fn stress_at(&self, layer: usize, z: f64) -> [f64; 2] {
         let Some(profile) = self.layers.get(layer) else {

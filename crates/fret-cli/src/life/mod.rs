@@ -69,7 +69,7 @@ fn judged(options: &Options) -> Result<Vec<String>, Error> {
     let lines = match (options.along_x, options.along_y) {
         (_, Some(x)) => vec![Line::AlongY(x)],
         (Some(y), None) => vec![Line::AlongX(y)],
-        (None, None) => main_sections(&cycle, &scene.grid)?,
+        (None, None) => main_sections(&cycle, &scene.grid, &residual)?,
     };
     let mut notes = of[0].notes.clone();
     notes.extend(note_on_cycle(&cycle)?);

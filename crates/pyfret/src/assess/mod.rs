@@ -24,18 +24,23 @@ use crate::scene::{Body, Grid};
 
 /// x, y and azimuth of the sections in which a cycle of a contact is looked at by default.
 ///
-/// The first along the shear; a second across it, where the contact or its shear has no axis of its
-/// own there. `moments` and `count` are those of :class:`CycleSection`.
+/// The first along the shear; more across it, where the contact or its shear has no axis of its own
+/// there, or bulk and residual stress have another direction. `moments` and `count` as in
+/// :class:`CycleSection`.
 #[pyfunction]
-#[pyo3(signature = (grid, moments: "Callable[[list[int] | None], States | None]", count: "int"))]
+#[pyo3(signature = (body, grid, moments: "Callable[[list[int] | None], States | None]", count: "int", *, residual = None))]
 pub(crate) fn cycle_sections(
     py: Python<'_>,
+    body: Body,
     grid: Grid,
     moments: Py<PyAny>,
     #[pyo3(from_py_with = number)] count: usize,
+    residual: Profiles,
 ) -> PyResult<Vec<LineName>> {
     let cycle = PythonCycle::new(moments, count, &grid.0);
-    let lines = py.detach(|| contact_subsurface::main_sections(&cycle, &grid.0));
+    let residual = of_body(&body.0, residual)?;
+    let lines =
+        py.detach(|| contact_subsurface::main_sections(&cycle, &grid.0, &residual));
     let lines = lines.map_err(|error| cycle.take_error().unwrap_or_else(|| to_python(error)))?;
     Ok(lines.into_iter().map(name_of).collect())
 }
