@@ -222,3 +222,89 @@ def test_a_worst_point_beyond_the_grid_under_a_bulk_stress() -> None:
         values.append((worst.value, worst.error))
     (coarse, error), (fine, _) = values
     assert abs(coarse - fine) < 1.5 * error + 0.002 * fine
+
+
+def result_at_offset(cells: int, *, residual: object = None) -> fret.Result:
+    """A ball whose top lies some cells off the middle along y, sheared along x."""
+    ti = fret.Elastic(E=117e9, nu=0.31)
+    a = fret.reference.hertz(R=5e-3, bodies=(ti, ti), W=30.0).a
+    n = 36
+    dx = 4.6 * a / n
+    at = (np.arange(n + 4) - (n + 3) / 2) * dx
+    x, y = np.meshgrid(at, at - cells * dx, indexing="ij")
+    top = fret.SurfaceMap(-(x**2 + y**2) / 1e-2, spacing=(dx, dx))
+    path = fret.LoadPath.start().normal(30.0, increments=1)
+    for sign in (1.0, -1.0, 1.0):
+        path = path.force(T_x=sign * 9.0, increments=4)
+    options = {} if residual is None else {"residual": residual}
+    scene = fret.Scene(
+        body1=fret.Body(ti, shape=top),
+        body2=fret.Body(ti, **options),
+        mu=0.5,
+        grid=fret.Grid.centred(n * dx, n=n),
+        path=path,
+    )
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return fret.solve(scene, save="all", progress=False)
+
+
+@pytest.mark.solves
+def test_a_crack_lies_in_the_plane_of_the_contact() -> None:
+    middle, moved = result_at_offset(0), result_at_offset(7)
+    threshold = fret.fracture.Threshold(dK_th=3e6, dS_0=500e6)
+    right, shifted = middle.crack(), moved.crack()
+    cell = moved.scene.grid.dy
+    assert shifted.dataset.attrs["offset"] == pytest.approx(7 * cell, abs=0.3 * cell)
+    assert shifted.K_max == pytest.approx(right.K_max, rel=0.02, abs=1e4)
+    assert shifted.arrest(threshold).verdict == right.arrest(threshold).verdict
+    right, shifted = (run.grow_crack(start=5e-6, end=3e-5) for run in (middle, moved))
+    assert shifted.K_max == pytest.approx(right.K_max, rel=0.02, abs=1e4)
+    # The plane through the axis of depth is one that may be given.
+    away = moved.crack(offset=0.0, azimuth=0.0)
+    assert away.K_max.max() < 0.6 * moved.crack().K_max.max()
+
+
+@pytest.mark.solves
+def test_residual_stress_across_the_shear_is_looked_at() -> None:
+    """No point of the surface is worse than the worst point and its error."""
+    result = result_at_offset(0, residual=[[0.0, -300e6, 500e6], [1e-3, -300e6, 500e6]])
+    material = fatigue.Materials()["titanium_6Al4V"]
+    half = result.at(-1).outline.half_width(0.0)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        stress = [fatigue.history(result, z=[0.0], x=x * half) for x in np.linspace(-1.1, 1.1, 5)]
+        for name in ("findley", "smith_watson_topper"):
+            worst = result.life(material, name).worst
+            values = [fatigue.assess(line, material, name).value.max() for line in stress]
+            assert max(map(float, values)) <= worst.value + 1.5 * worst.error, name
+
+
+@pytest.mark.solves
+def test_unloaded_stress_is_that_of_the_whole_body() -> None:
+    """Every measure of a ball that was sheared along x and along y, and unloaded."""
+    from pyfret.subsurface.tensor import COMPONENTS, LABELS
+
+    hard, soft = STEEL, STEEL.replace(plastic=fret.Plastic(s_y=800e6, hardening=10e9))
+    residual = []
+    for axis in ("T_x", "T_y"):
+        path = fret.LoadPath.start().normal(120.0, increments=2)
+        for sign in (1, -1, 0):
+            path = path.force(**{axis: sign * 40.0}, increments=2)
+        scene = fret.Scene(
+            body1=fret.Body(hard, shape=fret.Sphere(R=10e-3)),
+            body2=fret.Body(soft),
+            mu=0.5,
+            grid=fret.Grid.centred(5e-4, n=24),
+            path=path.normal(1.0, increments=2),
+        )
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            below = fret.solve(scene, save="branches", progress=False).unloaded().stress()
+        residual.append(below)
+    x, y = residual
+    for name in LABELS:
+        if name in COMPONENTS or name.startswith("interface"):
+            continue
+        right, turned = x.maximum(name), y.maximum(name)
+        assert turned.value == pytest.approx(right.value, rel=0.03), name

@@ -75,6 +75,13 @@ def add_crack(crack: argparse.ArgumentParser) -> None:
         "lengths to the last",
     )
     takes(crack, "--azimuth", angle, "of its plane about z (default: of the largest range)")
+    takes(
+        crack,
+        "--offset",
+        length,
+        "of its plane from the z axis, to the left of its direction (default: through the centre "
+        "of the largest contact)",
+    )
     crack.add_argument(
         "--aspect", type=float, help="depth over half-length of a semi-ellipse: an estimate"
     )
@@ -134,6 +141,7 @@ def cracks_of(result: Result, options: argparse.Namespace) -> Cracks:
     common: dict[str, Any] = {
         "angle": math.radians(options.angle),
         "azimuth": azimuth,
+        "offset": options.offset,
         "friction": options.friction,
         "body_number": options.body,
         "cycle": options.cycle,

@@ -57,6 +57,7 @@ def crack(
     angle: Angle = 0.0,
     kink: tuple[float, float] | None = None,
     azimuth: Angle | None = None,
+    offset: Length | None = None,
     aspect: float | None = None,
     friction: FrictionCoefficient = 0.0,
     body_number: int = 2,
@@ -83,7 +84,11 @@ def crack(
     azimuth : float, optional
         Angle of the plane of the crack about the z axis from the x axis [rad], 0 in plane strain
         (default: the direction of the shear; where the contact is not round, or sheared in several
-        directions, the one of the largest range of K in steps of 30 degrees from it).
+        directions, or bulk or residual stress have another direction, the angle of the largest
+        range of K in steps of 30 degrees from it).
+    offset : float, optional
+        Distance of that plane from the z axis, to the left of its direction [m]; the y of a plane
+        along x (default: through the centre of the largest contact of the cycle).
     aspect : float, optional
         Depth over half-length of a semi-elliptic crack, above 0 and up to 1. K is then an estimate
         for its deepest point, the plane value times :func:`ellipse_factor`. The error has 5 % more
@@ -109,7 +114,8 @@ def crack(
     cycle_of = Cycle(result, cycle, body_number, residual)
     angle = as_number(angle)
     at_rim = x is None
-    x, azimuth = cycle_of.place(x, as_number(azimuth), angle, friction)
+    plane = as_number(azimuth), as_number(offset)
+    x, azimuth, offset = cycle_of.place(x, plane, angle, friction)
     if lengths is None:
         lengths = cycle_of.lengths
     lengths = np.sort(np.atleast_1d(plain(lengths, "lengths")))
@@ -121,6 +127,7 @@ def crack(
             angle=angle,
             kink=kink,
             azimuth=azimuth,
+            offset=offset,
             friction=friction,
         )
 
@@ -134,7 +141,7 @@ def crack(
         first, turned = np.minimum(lengths, kink[0]), np.maximum(lengths - kink[0], 0.0)
         tips["x"] = x + first * sin + turned * np.sin(kink[1])
         tips["z"] = first * cos + turned * np.cos(kink[1])
-    about = {"x": x, "angle": angle, "azimuth": azimuth, "friction": friction}
+    about = {"x": x, "angle": angle, "azimuth": azimuth, "offset": offset, "friction": friction}
     cracks = labelled(intensity, cycle_of, lengths, tips, about)
     if aspect is None:
         return cracks
@@ -154,6 +161,7 @@ def grow(
     end: Length | None = None,
     angle: Angle = 0.0,
     azimuth: Angle | None = None,
+    offset: Length | None = None,
     direction: Literal["tangential_stress", "opening_intensity"] = "tangential_stress",
     tolerance: float = 1e-2,
     friction: FrictionCoefficient = 0.0,
@@ -168,7 +176,7 @@ def grow(
 
     Parameters
     ----------
-    result, x, azimuth, friction, body_number, cycle, residual
+    result, x, azimuth, offset, friction, body_number, cycle, residual
         As in :func:`crack`.
     start, end : float, optional
         Lengths of the first crack, which is straight, and of the last [m] (default: 0.02 times half
@@ -198,7 +206,8 @@ def grow(
     """
     cycle_of = Cycle(result, cycle, body_number, residual)
     angle = as_number(angle)
-    x, azimuth = cycle_of.place(x, as_number(azimuth), angle, friction)
+    plane = as_number(azimuth), as_number(offset)
+    x, azimuth, offset = cycle_of.place(x, plane, angle, friction)
     growth = cycle_of.growth(
         x=x,
         start=cycle_of.shortest(0.02) if start is None else as_number(start),
@@ -207,9 +216,11 @@ def grow(
         tolerance=tolerance,
         angle=angle,
         azimuth=azimuth,
+        offset=offset,
         friction=friction,
     )
-    about: dict[str, Any] = {"x": x, "angle": angle, "azimuth": azimuth, "friction": friction}
+    about: dict[str, Any] = {"x": x, "angle": angle, "azimuth": azimuth, "offset": offset}
+    about["friction"] = friction
     about |= {"direction": direction, "path_error": growth["path_error"], "end": growth["end"]}
     return labelled(growth, cycle_of, growth["length"], growth, about)
 
@@ -291,7 +302,7 @@ class Cycle:
     @cached_property
     def lines(self) -> list[Line]:
         """The sections of the cycle by default, the first along the shear."""
-        section = Section(cycle=self.cycle, body_number=self.body_number)
+        section = Section(cycle=self.cycle, body_number=self.body_number, residual=self.residual)
         return [
             section_of_cycle.line for section_of_cycle in sections_of_cycle(self.result, section)
         ]
@@ -319,32 +330,55 @@ class Cycle:
         """K of a crack that grows."""
         return self.call_core(_core.crack_growth_of_states, crack)
 
-    def place(
-        self, x: float | None, azimuth: float | None, angle: float, friction: float
-    ) -> tuple[float, float]:
-        """Mouth [m] and plane [rad]: the given ones, or the largest range of short cracks."""
-        if x is not None and azimuth is not None:
-            return float(x), float(azimuth)
-        if azimuth is not None:
-            planes = [float(azimuth)]
-        elif len(self.lines) == 1:
-            planes = [self.lines[0].angle]
-        else:
-            planes = (self.lines[0].angle + np.radians(np.arange(0.0, 180.0, 30.0))).tolist()
-        lengths = (self.half_width * np.array([0.05, 0.1, 0.2, 0.4])).tolist()
-        rims = []
-        if x is None:
-            for phi in planes:
-                rims += [(end, phi) for end in self.outermost(phi)]
-        places = rims if x is None else [(float(x), phi) for phi in planes]
+    def offset_of_centre(self, azimuth: float) -> float:
+        """Distance of the plane through the centre of the contact from the z axis [m]."""
+        if all(now.outline is None for now in self.states):
+            return 0.0
+        X, Y = self.largest.centre
+        return float(Y * np.cos(azimuth) - X * np.sin(azimuth))
 
-        def range_at(place: tuple[float, float]) -> float:
+    def place(
+        self,
+        x: float | None,
+        plane: tuple[float | None, float | None],
+        angle: float,
+        friction: float,
+    ) -> tuple[float, float, float]:
+        """Mouth [m], angle [rad] and offset [m] of the plane.
+
+        Without them, the largest range of K of short cracks decides.
+        """
+        azimuth, offset = plane
+        if azimuth is not None:
+            angles = [float(azimuth)]
+        elif len(self.lines) == 1:
+            angles = [self.lines[0].angle]
+        else:
+            angles = (self.lines[0].angle + np.radians(np.arange(0.0, 180.0, 30.0))).tolist()
+        places = []
+        for phi in angles:
+            away = self.offset_of_centre(phi) if offset is None else float(offset)
+            if x is not None:
+                places.append((float(x), phi, away))
+                continue
+            places += [(end, phi, away) for end in self.outermost(phi)]
+        if len(places) == 1:
+            return places[0]
+        lengths = (self.half_width * np.array([0.05, 0.1, 0.2, 0.4])).tolist()
+
+        def range_at(place: tuple[float, float, float]) -> float:
+            x, azimuth, offset = place
             K = self.intensity(
-                x=place[0], azimuth=place[1], lengths=lengths, angle=angle, friction=friction
+                x=x,
+                azimuth=azimuth,
+                offset=offset,
+                lengths=lengths,
+                angle=angle,
+                friction=friction,
             )["K_I"]
             return float((K.max(axis=0) - K.min(axis=0)).max())
 
-        return max(places, key=range_at) if len(places) > 1 else places[0]
+        return max(places, key=range_at)
 
 
 def labelled(

@@ -102,7 +102,10 @@ def first_to_fail(
     body_number: int = 2,
     cycle: int | None = -1,
 ) -> FailureOrder:
-    """Compare what a closed cycle does to film, interface and substrate in the plane of the shear.
+    """Compare what a closed cycle does to film, interface and substrate.
+
+    All three are looked for in the section along the shear. Other sections are added where the
+    contact, bulk or residual stress have another direction.
 
     All three are proportional to the stress, so that without residual stress the largest goes first
     as loads grow.
@@ -113,7 +116,7 @@ def first_to_fail(
         Of a coated body, solved with ``save="all"``, or with the increments of the cycle.
     toughness : float, optional
         Energy release rate at which a crack channels through the outermost coating [J/m^2]. Its
-        stress is the largest of the cycle along that plane, residual stress included. It is looked
+        stress is the largest of the cycle along these, residual stress included. It is looked
         for at the top and the bottom of the coating and at the depths of a table of its residual
         stress. The result is on the safe side where the stress varies through the thickness.
     peel_strength, shear_strength : float, optional
@@ -155,29 +158,24 @@ def first_to_fail(
         rows = table if isinstance(table, list) else []
         inside = [row[0] for row in rows if 0.0 < row[0] < coating.thickness]
         where = Section(body_number=body_number, cycle=cycle, residual=residual)
-        line = sections_of_cycle(result, where)[0].line
-        stress = history(
-            result,
-            [0.0, *inside, coating.thickness],
-            **line.named(),
-            body_number=body_number,
-            cycle=cycle,
-            residual=residual,
-        )
-        of_film = stress.isel(depth=stress.layer.values == 0)
-        xx, yy, xy = (of_film.sel(component=name, drop=True) for name in ("s_xx", "s_yy", "s_xy"))
-        cos, sin = np.cos(line.angle), np.sin(line.angle)
-        largest = float((cos**2 * xx + 2.0 * cos * sin * xy + sin**2 * yy).max())
+        depths = [0.0, *inside, coating.thickness]
+        tensions = [tension_along(result, section, depths) for section in sections_of_cycle(result, where)]
+        largest = max(tensions)
         film = math.sqrt(channel_release(coating, below, largest) / toughness)
     if peel_strength is not None or shear_strength is not None:
-        on_interface = over_cycle(
-            result,
-            peel_strength=peel_strength,
-            shear_strength=shear_strength,
-            body_number=body_number,
-            cycle=cycle,
-        )
-        interface = math.sqrt(float(on_interface.criterion.max()))
+        where = Section(body_number=body_number, cycle=cycle, residual=residual)
+        criteria = [
+            over_cycle(
+                result,
+                peel_strength=peel_strength,
+                shear_strength=shear_strength,
+                body_number=body_number,
+                cycle=cycle,
+                **section.line.named(),
+            ).criterion
+            for section in sections_of_cycle(result, where)
+        ]
+        interface = math.sqrt(max(float(criterion.max()) for criterion in criteria))
     if threshold is not None:
         at = None if lengths is None else [as_number(length) for length in lengths]
         cracks = crack(
@@ -186,3 +184,20 @@ def first_to_fail(
         arrest = cracks.arrest(threshold)
         substrate, error = arrest.margin, arrest.margin_error
     return FailureOrder(film, interface, substrate, error, arrest)
+
+
+def tension_along(result: Run, section: Section, depths: list[float]) -> float:
+    """The largest stress of the film along a section over its cycle [Pa]."""
+    line = section.line
+    stress = history(
+        result,
+        depths,
+        **line.named(),
+        body_number=section.body_number,
+        cycle=section.cycle,
+        residual=section.residual,
+    )
+    of_film = stress.isel(depth=stress.layer.values == 0)
+    xx, yy, xy = (of_film.sel(component=name, drop=True) for name in ("s_xx", "s_yy", "s_xy"))
+    cos, sin = np.cos(line.angle), np.sin(line.angle)
+    return float((cos**2 * xx + 2.0 * cos * sin * xy + sin**2 * yy).max())

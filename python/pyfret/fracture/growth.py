@@ -194,15 +194,22 @@ class Cracks(Saveable, Labelled, Figured):
 
     @property
     def line(self) -> Line:
-        """The line on the surface in whose plane the cracks lie: through the axis of depth."""
-        return line_through_point(0.0, 0.0, float(self.dataset.attrs.get("azimuth", 0.0)))
+        """The line on the surface in whose plane the cracks lie, its origin nearest to the axis."""
+        azimuth = float(self.dataset.attrs.get("azimuth", 0.0))
+        return line_through_point(*self._coordinates(0.0), azimuth)
+
+    def _coordinates(self, away: Any) -> tuple[Any, Any]:
+        """X and y of distances along the plane of the cracks [m]."""
+        azimuth, offset = (
+            float(self.dataset.attrs.get(name, 0.0)) for name in ("azimuth", "offset")
+        )
+        cos, sin = np.cos(azimuth), np.sin(azimuth)
+        return away * cos - offset * sin, away * sin + offset * cos
 
     @quantities
     def places(self, x: Numbers) -> NDArray[np.float64]:
         """Places on :attr:`line` of distances `x` from the axis in the plane of the cracks [m]."""
-        azimuth = float(self.dataset.attrs.get("azimuth", 0.0))
-        away = np.asarray(x, float)
-        return np.asarray(self.line.place(away * np.cos(azimuth), away * np.sin(azimuth)))
+        return np.asarray(self.line.place(*self._coordinates(np.asarray(x, float))))
 
     @property
     def lengths(self) -> NDArray[np.float64]:

@@ -31,6 +31,8 @@ pub(super) struct Along<'a> {
     pub(super) points: [PointsOnGrid; GRIDS],
     /// Angle of the plane of the cracks about the axis of depth from that of x \[rad\].
     pub(super) azimuth: f64,
+    /// Distance of that plane from the axis of depth, to the left of its direction \[m\].
+    pub(super) offset: f64,
     /// Depths at which the stress jumps or has a kink: interfaces and rows of residual stress \[m\].
     pub(super) breaks: Vec<f64>,
     /// Nearest sample to the mouth \[m\].
@@ -76,7 +78,8 @@ impl Along<'_> {
         let (sin, cos) = self.azimuth.sin_cos();
         let place = |((r, _, layer), z): &&((u64, u64, usize), f64)| {
             let (r, layer) = (f64::from_bits(*r), *layer);
-            (r * cos, r * sin, Depth { z: *z, layer })
+            let (x, y) = (r * cos - self.offset * sin, r * sin + self.offset * cos);
+            (x, y, Depth { z: *z, layer })
         };
         let places: Vec<_> = unknown.iter().map(place).collect();
         let mut stresses = Vec::with_capacity(GRIDS);

@@ -17,6 +17,8 @@ pub struct Growth {
     pub angle: f64,
     /// Angle of the plane of the crack, about the axis of depth from that of x \[rad\].
     pub azimuth: f64,
+    /// Distance of that plane from the axis of depth, to the left of its direction \[m\].
+    pub offset: f64,
     /// Length of the first crack \[m\].
     pub start: f64,
     /// What decides the direction, the length to grow to, the friction of the faces, the tolerance.
@@ -61,7 +63,7 @@ pub fn grown(below: &Below<'_>, states: &States<'_>, growth: &Growth) -> Result<
             "above 0 m",
         ));
     }
-    let mut along = below.along(states, growth.azimuth, NEAREST * start)?;
+    let mut along = below.along(states, (growth.azimuth, growth.offset), NEAREST * start)?;
     let stress = |crack: &Crack| -> Result<Vec<Vec<PlaneStress>>, Refused> {
         let line: Line = along.on(crack.path())?;
         let points = crack.points();

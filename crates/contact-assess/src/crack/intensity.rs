@@ -83,11 +83,11 @@ impl<'a> Below<'a> {
         Ok([same, coarser(&first)?, coarser(&second)?])
     }
 
-    /// The stress where cracks run, in the plane at an azimuth.
+    /// The stress where cracks run, in the plane at an azimuth and a distance from the axis of depth.
     pub(super) fn along(
         &self,
         states: &States<'_>,
-        azimuth: f64,
+        (azimuth, offset): (f64, f64),
         nearest: f64,
     ) -> Result<Along<'a>, Error> {
         if self.grid.plane_strain && azimuth != 0.0 {
@@ -97,11 +97,15 @@ impl<'a> Below<'a> {
         if !azimuth.is_finite() {
             return Err(Error::invalid("azimuth", azimuth, "a finite angle in rad"));
         }
+        if !offset.is_finite() {
+            return Err(Error::invalid("offset", offset, "a finite distance in m"));
+        }
         Ok(Along {
             body: self.body,
             side: self.side,
             points: self.points(states)?,
             azimuth,
+            offset,
             breaks: self.breaks(states),
             nearest,
             known: HashMap::new(),

@@ -28,6 +28,8 @@ pub struct Cracks {
     /// Angle of the plane of the cracks about the axis of depth from that of x \[rad\] (default 0);
     /// x is the distance from the axis along it.
     pub azimuth: f64,
+    /// Distance of that plane from the axis of depth, to the left of its direction \[m\] (default 0).
+    pub offset: f64,
     /// Lengths \[m\], ascending.
     pub lengths: Vec<f64>,
     /// Coefficient of friction between the faces (default 0).
@@ -76,7 +78,7 @@ pub fn over_cycle(
     let unit = Path::straight(cracks.x, longest, cracks.angle);
     let unit = Crack::with_step(unit, QUADRATURE).map_err(refused)?;
     let line = below
-        .along(states, cracks.azimuth, NEAREST * shortest)?
+        .along(states, (cracks.azimuth, cracks.offset), NEAREST * shortest)?
         .on(&path)?;
     let breaks = below.breaks(states);
     let of = |length: &f64| {

@@ -51,7 +51,7 @@ fn tables<'py>(py: Python<'py>, found: &[core::OverCycle]) -> PyResult<Bound<'py
 
 /// K of cracks below a contact in several of its states; use :meth:`pyfret.Result.crack`.
 #[pyfunction]
-#[pyo3(signature = (body, states, *, residual = None, x: "float", lengths: "Sequence[float]", angle: "Angle" = 0.0, kink: "tuple[float, float] | None" = None, azimuth: "Angle" = 0.0, friction: "float" = 0.0, body_number: "int" = 2) -> "dict[str, NDArray[np.float64]]")]
+#[pyo3(signature = (body, states, *, residual = None, x: "float", lengths: "Sequence[float]", angle: "Angle" = 0.0, kink: "tuple[float, float] | None" = None, azimuth: "Angle" = 0.0, offset: "float" = 0.0, friction: "float" = 0.0, body_number: "int" = 2) -> "dict[str, NDArray[np.float64]]")]
 pub(crate) fn crack_of_states<'py>(
     py: Python<'py>,
     body: Body,
@@ -62,6 +62,7 @@ pub(crate) fn crack_of_states<'py>(
     #[pyo3(from_py_with = Given::angle)] angle: f64,
     #[pyo3(from_py_with = number)] kink: Option<(f64, f64)>,
     #[pyo3(from_py_with = Given::azimuth)] azimuth: f64,
+    #[pyo3(from_py_with = number)] offset: f64,
     #[pyo3(from_py_with = number)] friction: f64,
     #[pyo3(from_py_with = number)] body_number: u8,
 ) -> PyResult<Bound<'py, PyDict>> {
@@ -70,6 +71,7 @@ pub(crate) fn crack_of_states<'py>(
         angle,
         kink,
         azimuth,
+        offset,
         lengths: lengths.0,
         friction,
     };
@@ -85,7 +87,7 @@ pub(crate) fn crack_of_states<'py>(
 
 /// A crack that grows below a contact; use :meth:`pyfret.Result.grow_crack`.
 #[pyfunction]
-#[pyo3(signature = (body, states, *, residual = None, x: "float", start: "float", end: "float", direction, tolerance: "float", angle: "Angle" = 0.0, azimuth: "Angle" = 0.0, friction: "float" = 0.0, body_number: "int" = 2) -> "dict[str, Any]")]
+#[pyo3(signature = (body, states, *, residual = None, x: "float", start: "float", end: "float", direction, tolerance: "float", angle: "Angle" = 0.0, azimuth: "Angle" = 0.0, offset: "float" = 0.0, friction: "float" = 0.0, body_number: "int" = 2) -> "dict[str, Any]")]
 pub(crate) fn crack_growth_of_states<'py>(
     py: Python<'py>,
     body: Body,
@@ -98,6 +100,7 @@ pub(crate) fn crack_growth_of_states<'py>(
     #[pyo3(from_py_with = number)] tolerance: f64,
     #[pyo3(from_py_with = Given::angle)] angle: f64,
     #[pyo3(from_py_with = Given::azimuth)] azimuth: f64,
+    #[pyo3(from_py_with = number)] offset: f64,
     #[pyo3(from_py_with = number)] friction: f64,
     #[pyo3(from_py_with = number)] body_number: u8,
 ) -> Answer<Bound<'py, PyDict>> {
@@ -105,6 +108,7 @@ pub(crate) fn crack_growth_of_states<'py>(
         x,
         angle,
         azimuth,
+        offset,
         start,
         growing: of_cracks::Growing {
             direction: core::direction_named(direction)?,
