@@ -77,6 +77,7 @@ pub(crate) fn wear(options: &Options) -> Result<(), Failure> {
     let read = Wear::from_file(&options.scene.scene, &options.scene.settings, reach);
     let (scene, wear) = read.map_err(Failure::BadInput)?;
     say_each(&wear.doubts());
+    say_each(wear.doubt_of_grid(&scene).as_slice());
     let out = &options.out.path;
     if options.resume {
         return resume(out, Some((&scene, &wear)), options.shown());

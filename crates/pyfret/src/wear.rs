@@ -121,6 +121,10 @@ pub(crate) fn wear<'py>(
     let python_laws = laws(&own, &raised, py);
     let (scene, wear) =
         core::Wear::from_table(&scene.0, &wear.0, &python_laws).map_err(to_python)?;
+    if let Some(doubt) = wear.doubt_of_grid(&scene) {
+        let warn = from_python(py, "warn")?;
+        warn.call1((doubt,))?;
+    }
     let stop = Arc::<AtomicBool>::default();
     let start = start.map(|start| start.read());
     let run = || {

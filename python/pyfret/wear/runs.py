@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from os import fspath
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from pyfret import _core
-from pyfret._core import Scene, StoreError
+from pyfret._core import OffGridError, Scene, StoreError
 from pyfret._util import files
 from pyfret._util.progress import Progress
 from pyfret.quantities import quantities
@@ -95,6 +96,34 @@ def solve(
     if out is None:
         raise RuntimeError("a run without a store is in memory")
     return open_run(out)
+
+
+def solve_until_refused(
+    scene: Scene, out: str | os.PathLike[str], **settings: Any
+) -> tuple[WearResult, str | None]:
+    """Wear the surfaces until all cycles are done, or the contact leaves the grid.
+
+    Parameters
+    ----------
+    scene, out, **settings
+        As in :func:`solve`; `out` keeps what a run that ends early has reached.
+
+    Returns
+    -------
+    WearResult, str or None
+        The run to its last jump, and why it ended early.
+
+    Raises
+    ------
+    OffGridError
+        The contact leaves the grid before the first jump is done.
+    """
+    try:
+        return solve(scene, out=out, progress=False, **settings), None
+    except OffGridError as error:
+        if not Path(out).exists():
+            raise
+        return open_run(out), " ".join(str(error).split())
 
 
 def surfaces(start: WearResult) -> tuple[float, float, list[NDArray[np.float64]]]:
