@@ -56,8 +56,9 @@ def material(
     Warns
     -----
     SceneWarning
-        The table has no Poisson's ratio of the material, as of most coatings: 0.25 is taken; or its
-        modulus is from memory, without a source.
+        The table has no Poisson's ratio of the material, as of most coatings: 0.25 is taken. Or its
+        modulus is from memory, without a source. With ``plastic`` the same holds for its yield
+        stress.
 
     Examples
     --------
@@ -82,6 +83,12 @@ def material(
             raise ValueError(
                 f"{name}: the table has no yield stress of it; give your own, "
                 "Elastic(E=..., nu=..., plastic=Plastic(s_y=...))"
+            )
+        if known_as(sources["s_y"]) == "recalled":
+            warn(
+                f"{chosen.name} ({chosen.title}): its yield stress of "
+                f"{chosen.number('s_y') / 1e6:g} MPa is from memory ({sources['s_y']}); give your "
+                "own, Elastic(E=..., nu=..., plastic=Plastic(s_y=...))",
             )
         law = Plastic(s_y=chosen.number("s_y"))
     nu = chosen.number("nu") if nu is None else nu

@@ -97,7 +97,10 @@ impl Material {
     }
 
     fn __repr__(&self) -> String {
-        format!("Material({:?}, {:?})", self.0.name, self.0.title)
+        let s_y = self.0.numbers.get("s_y").map_or_else(String::new, |of| {
+            format!(", s_y = {:.4} MPa, {:?}", 1e-6 * of.value, of.source)
+        });
+        format!("Material({:?}, {:?}{s_y})", self.0.name, self.0.title)
     }
 }
 
