@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pyfret._core import StoreError, read_bytes, shown
+from pyfret._util.extras import needed
 from pyfret._util.lazy import xr
 from pyfret._util.stores import check_store
 
@@ -140,9 +141,22 @@ def write(
             encoding = {name: gzip() for name in dataset.variables}
             dataset.to_zarr(unfinished, zarr_format=2, consolidated=True, encoding=encoding)
         else:
+            need_netcdf()
             attrs = {k: flat(v) for k, v in dataset.attrs.items()}
             reserve(unfinished, dataset.nbytes)
             dataset.assign_attrs(attrs).to_netcdf(unfinished)
+
+
+def need_netcdf() -> None:
+    """Fail with the name of the extra where no library for NetCDF-4 files is installed.
+
+    h5netcdf installs without the library that reads and writes its files.
+    """
+    try:
+        needed("netCDF4", "netcdf")
+    except ModuleNotFoundError:
+        for module in ("h5py", "h5netcdf"):
+            needed(module, "netcdf")
 
 
 def replaceable(place: Path) -> bool:
@@ -260,6 +274,7 @@ def reserve(path: Path, size: int) -> None:
 def read(path: str | os.PathLike[str]) -> xr.Dataset:
     """The dataset of a Zarr store or of a NetCDF file (``.nc``) that :func:`write` wrote."""
     if Path(path).suffix == ".nc":
+        need_netcdf()
         size = len(read_bytes(path))
         dataset = xr.open_dataset(path)
         kinds = {
@@ -285,6 +300,8 @@ def opened(path: str | os.PathLike[str]) -> xr.Dataset:
     checked(path)
     try:
         return read(path)
+    except ModuleNotFoundError:
+        raise
     except Exception as error:
         message = " ".join(str(error).split())
         raise StoreError(f"{os.fspath(path)}: {type(error).__name__}: {message}") from error
