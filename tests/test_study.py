@@ -85,7 +85,7 @@ def test_a_map_says_where_a_point_that_is_done_has_no_value(second: float) -> No
 
 
 def test_a_point_is_the_solution_of_its_scene(whole: fret.study.Study) -> None:
-    assert whole.count() == {"open": 0, "done": 6, "failed": 0}
+    assert whole.count() == {"open": 0, "done": 6, "failed": 0, "partly": 0}
     point = whole.dataset.isel({"body2.coatings.0.E": 1, "mu": 2})
     coat = fret.Coating(fret.Elastic(E=4e11, nu=0.3), thickness=SCENE.body2.coatings[0].thickness)
     scene = SCENE.replace(friction=0.4, body2=SCENE.body2.replace(coatings=[coat]))
@@ -154,7 +154,7 @@ def test_an_interrupted_study_goes_on(whole: fret.study.Study, tmp_path: Path) -
     with pytest.raises(KeyboardInterrupt):
         run(out=tmp_path / "s.zarr", on_point=stop)
     half = fret.open(tmp_path / "s.zarr")
-    assert half.count() == {"open": 4, "done": 2, "failed": 0}
+    assert half.count() == {"open": 4, "done": 2, "failed": 0, "partly": 0}
     assert "4 open, 2 done" in repr(half)
     progress: list[tuple[int, int]] = []
     study = run(out=tmp_path / "s.zarr", on_point=lambda *n: progress.append(n))

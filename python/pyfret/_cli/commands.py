@@ -106,19 +106,20 @@ def study(options: argparse.Namespace) -> int:
     finally:
         if client is not None:
             client.close()
-    failed = study.failed()
+    failed, unanswered = study.failed(), study.unanswered()
     if options.json:
         print_answer(
             store=str(store),
             points=study.count(),
             measures=study.measures,
             failed=[{**values, "reason": reason} for values, reason in failed],
+            unanswered=[{**values, "reason": reason} for values, reason in unanswered],
             map=options.map,
             **({} if options.map else {"map_why": "not asked for"}),
         )
     else:
         print_text(f"{store}: {study!r}")
-        for values, reason in failed:
+        for values, reason in [*failed, *unanswered]:
             print_text(
                 f"{', '.join(f'{k} = {format_number(v)}' for k, v in values.items())}: {reason}"
             )

@@ -58,7 +58,12 @@ def run(options: argparse.Namespace) -> int:
                 (name, comparison.preference(name)) for name in comparison.numbers
             )
         }
-        answer = {"store": str(store), "numbers": numbers, "missing": comparison.missing}
+        answer = {
+            "store": str(store),
+            "numbers": numbers,
+            "missing": comparison.missing,
+            "unanswered": comparison.unanswered,
+        }
         print_json({**answer, "failed": comparison.failed}, indent=2)
     else:
         print_text(comparison.summary())

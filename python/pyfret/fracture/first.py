@@ -159,8 +159,8 @@ def first_to_fail(
         inside = [row[0] for row in rows if 0.0 < row[0] < coating.thickness]
         where = Section(body_number=body_number, cycle=cycle, residual=residual)
         depths = [0.0, *inside, coating.thickness]
-        tensions = [tension_along(result, section, depths) for section in sections_of_cycle(result, where)]
-        largest = max(tensions)
+        sections = sections_of_cycle(result, where)
+        largest = max(tension_along(result, section, depths) for section in sections)
         film = math.sqrt(channel_release(coating, below, largest) / toughness)
     if peel_strength is not None or shear_strength is not None:
         where = Section(body_number=body_number, cycle=cycle, residual=residual)

@@ -36,7 +36,7 @@ COLOURS = "YlGnBu"
 #: Letters in a line of a label, so that it fits beside a map.
 WIDTH = 44
 #: Status of a point that is done, and colour of points that are and have no value.
-DONE, NO_VALUE = 1, "0.9"
+SOLVED, NO_VALUE = (1, 3), "0.9"
 
 
 class Tabulated(Protocol):
@@ -136,7 +136,7 @@ def study_map(
         )
     if "point" not in values.dims:
         crosses(ax, d["status"], words)
-    if values.ndim == 2 and bool((values.isnull() & (d["status"] == DONE)).any()):
+    if values.ndim == 2 and bool((values.isnull() & d["status"].isin(SOLVED)).any()):
         # A life that is longer than the run, a crack that never starts.
         ax.set_facecolor(NO_VALUE)
         handles = [*ax.get_legend_handles_labels()[0], Patch(color=NO_VALUE, label="no value")]

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, fields
 from typing import TYPE_CHECKING, Any, Literal
 
 from pyfret._core import Material
@@ -67,6 +67,8 @@ class Candidate:
     wear: WearLaw | list[WearLaw | None] | None = None
     #: Conductors of heat, one for all layers or one for each.
     conductor: Conductors | None = None
+    #: Rows of your own in the table, such as ``{"cost [EUR]": 3.2}``: numbers or texts.
+    rows: Mapping[str, float | str] = field(default_factory=dict)
 
     @property
     def layers(self) -> int:

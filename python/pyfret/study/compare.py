@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import warnings
 import zlib
 from collections.abc import Mapping, Sequence
@@ -18,7 +19,7 @@ from pyfret.solution import read
 from pyfret.study.candidate import Candidate, Duty, to_candidate
 from pyfret.study.comparison import Comparison
 from pyfret.study.loop import run
-from pyfret.study.questions import QUESTIONS, Answers
+from pyfret.study.questions import NUMBERS, PLACES, QUESTIONS, Answers
 
 if TYPE_CHECKING:
     import os
@@ -128,6 +129,7 @@ def compare(
         other_conductor=other_conductor,
     )
     candidates = {name: to_candidate(body) for name, body in bodies.items()}
+    rows = own_rows(candidates)
     whole = read(scene).replace(path=path)
     answers = Answers(candidates, duty, question_names)
     variants = Variants(whole, answers)
@@ -163,7 +165,29 @@ def compare(
         title=whole.title,
         coatings=[len(body.body.coatings) for body in candidates.values()],
         doubts=doubts,
+        rows=rows,
     )
+
+
+def own_rows(candidates: Mapping[str, Candidate]) -> dict[str, list[float | str]]:
+    """The rows that the candidates bring along; NaN or an empty text where one has none."""
+    for label, of in candidates.items():
+        if not isinstance(of.rows, Mapping):
+            raise TypeError(
+                f'candidate {label}: rows = {of.rows!r}: must be a table, {{"cost": 3.2}}'
+            )
+    names = dict.fromkeys(name for of in candidates.values() for name in of.rows)
+    for name in names:
+        if name in NUMBERS or name in PLACES or name in ("coatings", "candidate"):
+            raise ValueError(f"rows: {name!r} is a number of the comparison; give another name")
+    rows: dict[str, list[float | str]] = {}
+    for name in names:
+        values = [of.rows.get(name) for of in candidates.values()]
+        text = any(isinstance(value, str) for value in values)
+        none: float | str = "" if text else math.nan
+        made = [none if value is None else str(value) if text else float(value) for value in values]
+        rows[name] = made
+    return rows
 
 
 @dataclass(frozen=True)

@@ -25,7 +25,7 @@ __all__ = ["run_compare_file"]
 #: Keys of the file and of a candidate. GIVEN and PLAIN are handed on as they are.
 GIVEN = ("questions", "body_number", "criterion", "cycles", "cycling", "frequency")
 KEYS = ("scene", "candidates", "out", "materials", "other_wear", "other_conductor", *GIVEN)
-PLAIN = ("mu", "residual", "toughness", "peel_strength", "shear_strength")
+PLAIN = ("mu", "residual", "toughness", "peel_strength", "shear_strength", "rows")
 CANDIDATE = ("coatings", "E", "nu", "material", "s_y", "threshold", "wear", "conductor", *PLAIN)
 #: Keys of a law of wear, of a conductor and of a threshold, with the classes of the laws.
 LAWS: dict[str, Any] = {"k": Archard, "alpha": DissipatedEnergy}

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from pyfret._core import LONGEST_LIFE, with_error
+from pyfret._core import LONGEST_LIFE, rough, with_error
 from pyfret._util import files
 from pyfret._util.csv_table import write_csv
 from pyfret._util.figures import Figured
@@ -19,7 +19,7 @@ from pyfret._util.lazy import xr
 from pyfret._util.numbers import in_words, length
 from pyfret.fatigue.ranges import Range
 from pyfret.scene.tables import table
-from pyfret.study.point import FAILED
+from pyfret.study.point import FAILED, PARTLY
 from pyfret.study.questions import NUMBERS, Number
 
 if TYPE_CHECKING:
@@ -63,6 +63,8 @@ class Comparison(Labelled, Figured):
         have are NaN.
     missing : mapping of str to str
         Missing data, by candidate and question.
+    unanswered : mapping of str to str
+        Why a question has no answer, by candidate and question.
     failed : mapping of str to str
         Candidates without a solution, with the reason.
     study : Study
@@ -77,9 +79,11 @@ class Comparison(Labelled, Figured):
         missing: Mapping[str, str],
         failed: Mapping[str, str],
         study: Study | None = None,
+        unanswered: Mapping[str, str] | None = None,
     ) -> None:
         super().__init__(dataset)
         self.missing, self.failed, self.study = dict(missing), dict(failed), study
+        self.unanswered = dict(unanswered or {})
 
     @classmethod
     def from_study(
@@ -90,11 +94,12 @@ class Comparison(Labelled, Figured):
         title: str,
         coatings: Sequence[int],
         doubts: Mapping[str, Sequence[str]],
+        rows: Mapping[str, Sequence[float | str]] | None = None,
     ) -> Comparison:
         """Make the table from a study of the candidates on two grids.
 
-        `coatings` and `doubts` are the number of coatings and the doubts of each candidate. A
-            RuntimeError is raised if no candidate was solved.
+        `coatings` and `doubts` are the number of coatings and the doubts of each candidate. `rows`
+            are brought along by the candidates. A RuntimeError is raised if none was solved.
         """
         results = study.dataset
         names = [str(name) for name in results["candidate"].values]
@@ -119,6 +124,15 @@ class Comparison(Labelled, Figured):
         for name in places:
             if bool(np.isfinite(fine[name]).any()):
                 dataset[name] = ("candidate", fine[name].values, fine[name].attrs)
+        for label, own_values in (rows or {}).items():
+            kind = object if isinstance(own_values[0], str) else float
+            values = np.asarray(list(own_values), dtype=kind)
+            dataset[label] = ("candidate", values, {"own_row": 1, "long_name": label})
+        unanswered: dict[str, str] = {}
+        for n in np.flatnonzero(fine["status"].values == PARTLY).tolist():
+            for line in str(fine["reason"].values[n]).splitlines():
+                question, _, why = line.partition(": ")
+                unanswered[f"{strip_quotes(names[n])}, {question}"] = why
         doubt_lines = [
             f"{name}: {doubt}"
             for name, doubts_of_candidate in doubts.items()
@@ -126,7 +140,7 @@ class Comparison(Labelled, Figured):
         ]
         if doubt_lines:
             dataset.attrs["doubts"] = "\n".join(doubt_lines)
-        return cls(dataset, missing, failed, study)
+        return cls(dataset, missing, failed, study, unanswered)
 
     @property
     def candidates(self) -> list[str]:
@@ -178,6 +192,9 @@ class Comparison(Labelled, Figured):
             if f"{name}_L" in self.dataset:
                 means = [describe_averaging(float(L)) for L in self.dataset[f"{name}_L"].values]
                 lines.append(["  from the stress", "", *means, ""])
+        for name, values in self.dataset.data_vars.items():
+            if values.attrs.get("own_row"):
+                lines.append([str(name), "", *map(format_own_cell, values.values.tolist()), ""])
         return lines
 
     def row(self, name: str) -> list[str]:
@@ -223,6 +240,7 @@ class Comparison(Labelled, Figured):
             f"no answer for {name}: missing is {missing_data}"
             for name, missing_data in self.missing.items()
         ]
+        lines += [f"no answer for {name}: {why}" for name, why in self.unanswered.items()]
         lines += [f"{name} failed: {reason}" for name, reason in self.failed.items()]
         doubts = str(self.dataset.attrs.get("doubts", ""))
         return lines + [f"doubted: {doubt}" for doubt in doubts.splitlines()]
@@ -331,6 +349,11 @@ def range_on_two_grids(study: xr.Dataset, name: str, about: Number) -> dict[str,
         if about.logarithmic:
             # The range is symmetric as a factor; a life without end counts as one beyond the tests.
             fine, coarse = (np.where(np.isinf(v), LONGEST_LIFE, v) for v in (value, coarse_value))
+            if about.ends_with_run:
+                # Of a run that ended before, the last cycle is known.
+                coarse_low = study[f"{name}_low"].isel(coarser=1).values.astype(float)
+                fine = np.where(np.isinf(value), low, value)
+                coarse = np.where(np.isinf(coarse_value), np.fmax(coarse_low, fine), coarse_value)
             factor = np.nan_to_num(np.maximum(fine / coarse, coarse / fine), nan=1.0)
             # Where both are without a number, the cells do not limit them.
             lower = np.where(np.isinf(value) & np.isinf(coarse_value), np.inf, fine / factor)
@@ -348,10 +371,19 @@ def table_unit(about: Number, unit: str) -> tuple[float, str]:
     return (1e-3, "mJ/m") if unit == "J/m" else (1e-6, "uJ")
 
 
+def format_own_cell(value: float | str) -> str:
+    """Format a value of a row that the candidates bring along."""
+    if isinstance(value, str):
+        return value or "-"
+    return "-" if math.isnan(value) else in_words(value, DIGITS)
+
+
 def format_cell(about: Number, value: float, low: float, high: float) -> str:
     """Format a number with its range."""
     if math.isnan(value):
         return "-"
+    if math.isinf(value) and about.ends_with_run and math.isfinite(low):
+        return f"more than {rough(low)} (the run ended there)"
     if about.logarithmic and math.isfinite(low):
         return repr(Range(low, value, high))
     if math.isinf(value):

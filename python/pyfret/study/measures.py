@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from pyfret import fracture, wear
+from pyfret._core import TOO_FEW_INCREMENTS
 from pyfret._util.bounds import split
 from pyfret._util.lazy import xr
 from pyfret._util.numbers import um
@@ -19,6 +20,7 @@ from pyfret.quantities import (
     CrackLength,
     FrictionCoefficient,
     InSI,
+    Length,
     ResidualStresses,
     Strength,
     Toughness,
@@ -42,6 +44,7 @@ __all__ = [
     "Cracking",
     "FirstToFail",
     "Measure",
+    "Reasoned",
     "WornDepth",
     "evaluate_measures",
 ]
@@ -83,14 +86,21 @@ def largest_sample(below: Stress, name: str) -> float:
 
 
 def stress_measure(name: str) -> Callable[[Result], Answer]:
-    """Make a measure: the largest stress in body 2, over the increments with fields."""
+    """Make a measure: the largest stress over the increments with fields.
+
+    Interfaces belong to both bodies, all other stresses to body 2.
+    """
 
     def measure(result: Result) -> Answer:
-        layered = bool(result.scene.body2.coatings)
-        if name.startswith("interface") and not layered:
-            return NO_ANSWER
+        bodies = ((1, result.scene.body1), (2, result.scene.body2))
+        if not name.startswith("interface"):
+            return in_body(result, 2)
+        answers = [in_body(result, number) for number, body in bodies if body.coatings]
+        return max(answers, key=lambda answer: answer.value, default=NO_ANSWER)
+
+    def in_body(result: Result, body_number: int) -> Answer:
         states = (result.at(int(n)) for n in result.dataset.saved_increment.values)
-        sections = [state.stress() for state in states if bool(state.contact.any())]
+        sections = [s.stress(body_number=body_number) for s in states if bool(s.contact.any())]
         if not sections:
             return NO_ANSWER
         tops = [largest_sample(section, name) for section in sections]
@@ -160,9 +170,27 @@ MEASURES: dict[str, tuple[str, str, Callable[[Result], float | Answer]]] = {
             f"largest {LABELS[name][1].removeprefix('largest ')} in body 2",
             stress_measure(name),
         )
-        for name in ("von_mises", "tresca", "s_1", "interface_shear", "interface_peel")
+        for name in ("von_mises", "tresca", "s_1")
+    },
+    **{
+        name: (
+            "Pa",
+            f"largest {LABELS[name][1].removeprefix('largest ')} of both bodies",
+            stress_measure(name),
+        )
+        for name in ("interface_shear", "interface_peel")
     },
 }
+#: Measures of the last closed cycle.
+OF_CYCLE = (
+    "loop_energy",
+    "energy_ratio",
+    "sliding_ratio",
+    "stiffness",
+    "T",
+    "delta",
+    "regime",
+)
 
 
 #: Largest stresses that may be compression; the others are sizes.
@@ -276,7 +304,7 @@ class Arrest:
     ----------
     threshold : pyfret.fracture.Threshold
         Threshold of the material.
-    x, lengths, angle, azimuth, aspect, friction, body_number, residual
+    x, lengths, angle, azimuth, offset, aspect, friction, body_number, residual
         The crack, as in :func:`pyfret.fracture.crack`.
     """
 
@@ -285,6 +313,7 @@ class Arrest:
     lengths: Sequence[CrackLength] | None = None
     angle: InSI[Angle] = by_default(0.0)
     azimuth: InSI[Angle | None] = by_default(None)
+    offset: InSI[Length | None] = by_default(None)
     aspect: float | None = None
     friction: FrictionCoefficient = 0.0
     body_number: int = 2
@@ -420,34 +449,98 @@ def check_measures(measure: Measure | Sequence[Measure]) -> list[Measure]:
     return measures
 
 
-def evaluate_measures(result: Result, measures: Sequence[Measure]) -> dict[str, xr.Variable]:
-    """Evaluate all measures of a result by name; a ValueError if two of them give one name.
+class Reasoned(dict[str, "xr.DataArray"]):
+    """The numbers of a measure, and why some of them are missing."""
 
-    Second and further measures of one class of this package have their number behind the name.
+    def __init__(self, numbers: Mapping[str, xr.DataArray], reasons: Sequence[str]) -> None:
+        super().__init__(numbers)
+        self.reasons = list(reasons)
+
+
+def reason_without_number(result: Result, name: str) -> str:
+    """Explain why a measure of :data:`MEASURES` has no number."""
+    d = result.dataset
+    if name in OF_CYCLE:
+        loops = result.loops(direction=next(iter(directions(result)), "x"))
+        if not loops.sizes["cycle"]:
+            return "the path has no closed cycle, whose last branch ends where an earlier one ended"
+        if name == "stiffness":
+            return TOO_FEW_INCREMENTS
+        return "the last closed cycle has no such number: it has no slip or no motion"
+    if name.startswith("interface") and not any(
+        body.coatings for body in (result.scene.body1, result.scene.body2)
+    ):
+        return "neither body has a coating"
+    if not any(bool(result.at(int(n)).contact.any()) for n in d.saved_increment.values):
+        return "no increment that kept its fields has contact"
+    return "the result has no such number"
+
+
+def evaluate_measures(
+    result: Result, measures: Sequence[Measure]
+) -> tuple[dict[str, xr.Variable], list[str]]:
+    """Evaluate all measures of a result: numbers by name, and the reasons of missing ones.
+
+    A measure that raises an error leaves the others as they are. Second and further measures of one
+    class of this package have their number behind the name.
+
+    Raises
+    ------
+    ValueError
+        Two measures give one name.
+    Exception
+        No measure has a number: the error of the first.
     """
-    values: dict[str, xr.Variable] = {}
+    numbers: dict[str, xr.Variable] = {}
+    reasons: list[str] = []
+    errors: list[Exception] = []
     for measure, suffix in zip(measures, suffixes(measures), strict=True):
-        if isinstance(measure, str):
-            units, meaning, function = MEASURES[measure]
-            units, answer = result.scene.grid.unit_of(units), function(result)
-            if isinstance(answer, Answer):
-                arrays = answer.arrays(measure, units, meaning)
-            else:
-                arrays = {measure: estimate(answer, units, meaning)}
-                if measure in CODES:
-                    del arrays[measure].attrs["accuracy"]
-            arrays_by_name = {name: array.variable for name, array in arrays.items()}
-        else:
-            arrays_by_name = to_variables(measure(result), function_name(measure))
-            if is_of_pyfret(measure) and (words := describe_differences(measure, measures)):
-                for variable in arrays_by_name.values():
-                    variable.attrs["long_name"] = f"{variable.attrs.get('long_name', '')} ({words})"
-        for name, value in arrays_by_name.items():
-            base, side = split(name, arrays_by_name)
-            if f"{base}{suffix}{side}" in values:
+        try:
+            arrays, why = evaluate_measure(result, measure, measures)
+        except Exception as error:
+            errors.append(error)
+            text = " ".join(str(error).split())
+            reasons.append(f"{measure_names([measure])[0]}{suffix}: {type(error).__name__}: {text}")
+            continue
+        reasons += why
+        for name, value in arrays.items():
+            base, side = split(name, arrays)
+            if f"{base}{suffix}{side}" in numbers:
                 raise ValueError(f"two measures give {name}: give each a name of its own")
-            values[f"{base}{suffix}{side}"] = value
-    return values
+            numbers[f"{base}{suffix}{side}"] = value
+    if errors and not numbers:
+        raise errors[0]
+    return numbers, reasons
+
+
+def evaluate_measure(
+    result: Result, measure: Measure, measures: Sequence[Measure]
+) -> tuple[dict[str, xr.Variable], list[str]]:
+    """Evaluate one of the measures: its numbers, and the reasons of missing ones."""
+    if isinstance(measure, str):
+        units, meaning, compute = MEASURES[measure]
+        units, value = result.scene.grid.unit_of(units), compute(result)
+        if isinstance(value, Answer):
+            arrays = value.arrays(measure, units, meaning)
+        else:
+            arrays = {measure: estimate(value, units, meaning)}
+            if measure in CODES:
+                del arrays[measure].attrs["accuracy"]
+        missing = math.isnan(value.value if isinstance(value, Answer) else value)
+        reasons = [f"{measure}: {reason_without_number(result, measure)}"] if missing else []
+        return {name: array.variable for name, array in arrays.items()}, reasons
+    whole = measure(result)
+    numbers = to_variables(whole, function_name(measure))
+    if is_of_pyfret(measure):
+        if words := describe_differences(measure, measures):
+            for number in numbers.values():
+                number.attrs["long_name"] = f"{number.attrs.get('long_name', '')} ({words})"
+        return numbers, list(getattr(whole, "reasons", []))
+    reasons = list(getattr(whole, "reasons", []))
+    if not isinstance(whole, Reasoned):
+        lost = [name for name, v in numbers.items() if v.size and bool(np.isnan(v.values).all())]
+        reasons += [f"{name}: {function_name(measure)} gave NaN" for name in lost]
+    return numbers, reasons
 
 
 def to_variables(value: Any, name: str) -> dict[str, xr.Variable]:

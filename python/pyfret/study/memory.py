@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pyfret._util.lazy import xr
-from pyfret.study.point import FAILED
+from pyfret.study.point import FAILED, PARTLY
 from pyfret.study.store import POINT_VARIABLES, REASON, Store, empty_dataset, reject_misfits
 
 if TYPE_CHECKING:
@@ -46,7 +46,7 @@ class Columns:
             "ny": outcome.ny,
             "seconds": outcome.seconds,
         }
-        if outcome.status == FAILED:
+        if outcome.status in (FAILED, PARTLY):
             point_values["reason"] = outcome.reason[:REASON]
         for name, value in {**point_values, "status": outcome.status}.items():
             self.whole[name].values[index] = value

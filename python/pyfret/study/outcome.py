@@ -19,7 +19,7 @@ from pyfret._util.text import html, shown
 from pyfret.quantities import quantities
 from pyfret.saveable import Saveable
 from pyfret.scene.tables import table
-from pyfret.study.point import DONE, FAILED, OPEN
+from pyfret.study.point import DONE, FAILED, OPEN, PARTLY
 from pyfret.study.store import POINT_VARIABLES, read_study
 
 if TYPE_CHECKING:
@@ -42,7 +42,8 @@ class Study(Saveable, Labelled, Figured):
         Over the parameters, or over ``point`` where they change together: the measures, NaN where a
         point has none. The error of a measure gives its range, such as ``von_mises_low`` and
         ``von_mises_high``. A measure of pyfret without an error has the attribute ``accuracy``:
-        "estimate". Each point also has ``status`` (0 open, 1 done, 2 failed), ``reason``,
+        "estimate". Each point also has ``status`` (0 open, 1 done, 2 failed, 3 partly: a
+        measure has no number), ``reason``,
         ``nx`` and ``ny``, its cells, and ``seconds``, its processor time.
     """
 
@@ -60,16 +61,27 @@ class Study(Saveable, Labelled, Figured):
         return [name for name in names if not is_bound(name, names)]
 
     def count(self) -> dict[str, int]:
-        """Count the open, done and failed points."""
+        """Count the open, done and failed points, and those done in part."""
         status = self.dataset["status"].values
-        codes = {"open": OPEN, "done": DONE, "failed": FAILED}
+        codes = {"open": OPEN, "done": DONE, "failed": FAILED, "partly": PARTLY}
         return {name: int(np.count_nonzero(status == code)) for name, code in codes.items()}
 
     def failed(self) -> list[tuple[dict[str, Any], str]]:
         """List the failed points: their parameters, and the reason."""
+        return self._points(FAILED)
+
+    def unanswered(self) -> list[tuple[dict[str, Any], str]]:
+        """List the solved points where measures have no number: parameters, and the reason.
+
+        A measure without a number has a line, ``"stiffness: the path has no closed cycle"``.
+        """
+        return self._points(PARTLY)
+
+    def _points(self, status: int) -> list[tuple[dict[str, Any], str]]:
+        """List the points of a status: their parameters, and the reason."""
         d = self.dataset
         points = []
-        for index in np.argwhere(d["status"].values == FAILED):
+        for index in np.argwhere(d["status"].values == status):
             point = d.isel(dict(zip(d["status"].dims, index.tolist(), strict=True)))
             values = {name: point[name].item() for name in self.parameters}
             points.append((values, str(point["reason"].item())))
@@ -133,7 +145,7 @@ class Study(Saveable, Labelled, Figured):
                 "point of a grid of parameters; samples are for packages such as SALib"
             )
         if (lost := int(values.isnull().sum())) > 0:
-            failed = int((self.dataset["status"] != DONE).sum())
+            failed = int(self.dataset["status"].isin([OPEN, FAILED]).sum())
             where = "study.failed() lists them"
             if failed < lost:
                 where = (

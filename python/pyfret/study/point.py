@@ -20,11 +20,11 @@ if TYPE_CHECKING:
 
     from pyfret.study.measures import Measure
 
-__all__ = ["DONE", "FAILED", "OPEN", "Outcome", "solve_point"]
+__all__ = ["DONE", "FAILED", "OPEN", "PARTLY", "Outcome", "solve_point"]
 
-#: Codes of the status of a point, and their meanings.
-OPEN, DONE, FAILED = 0, 1, 2
-MEANINGS = "open done failed"
+#: Codes of the status of a point, and their meanings: "partly" where a measure has no number.
+OPEN, DONE, FAILED, PARTLY = 0, 1, 2, 3
+MEANINGS = "open done failed partly"
 #: Growth factor of a grid that is too small, and the largest number of growths: 7.5 times in all.
 GROWTH, GROWTHS = 1.4, 6
 
@@ -98,9 +98,10 @@ def solve_point(
                     if not (grow and growths_left):
                         raise
                     scene = scene.replace(grid=enlarge_grid(scene.grid))
-            values = evaluate_measures(result, measures)
+            values, reasons = evaluate_measures(result, measures)
     except (Exception, SystemExit) as error:
         return failure(error)
     seconds = time.process_time() - started
-    doubts = " ".join(result.doubts)
-    return Outcome(DONE, doubts, values, seconds, scene.grid.nx, scene.grid.ny)
+    status = PARTLY if reasons else DONE
+    reason = "\n".join(reasons) if reasons else " ".join(result.doubts)
+    return Outcome(status, reason, values, seconds, scene.grid.nx, scene.grid.ny)

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
@@ -13,14 +15,18 @@ from pyfret import fracture
 from pyfret._core import Scene, notes_on_materials
 from pyfret._util.bounds import SIDES
 from pyfret._util.lazy import xr
+from pyfret._util.numbers import in_words, length
 from pyfret.fatigue.cycles import cycle_increments
 from pyfret.run.summary import directions
 from pyfret.study.answer import Answer
-from pyfret.wear.runs import solve
+from pyfret.study.measures import Reasoned
+from pyfret.wear.runs import solve_until_refused
 
 if TYPE_CHECKING:
     from pyfret.result import Result
     from pyfret.study.candidate import Candidate, Duty
+    from pyfret.wear.cycles import Cycles
+    from pyfret.wear.result import WearResult
 
 __all__ = ["NUMBERS", "QUESTIONS", "Answers", "Number", "Question"]
 
@@ -42,6 +48,8 @@ class Number:
     logarithmic: bool = field(default=False, kw_only=True)
     #: Text for an infinite value.
     endless: str = field(default="no limit", kw_only=True)
+    #: Whether an infinite value means that the run ended before, at the lower end of the range.
+    ends_with_run: bool = field(default=False, kw_only=True)
 
 
 #: Common settings of lives.
@@ -64,15 +72,18 @@ NUMBERS: dict[str, Number] = {
         "cycles",
         1.0,
         "larger",
-        **{**LIFE, "endless": "outlives the run"},
+        **{**LIFE, "endless": "outlives the run", "ends_with_run": True},
     ),
     "worn_depth": Number("worn depth", "m", "um", 1e-6, "smaller"),
     "energy": Number("energy dissipated in a cycle", "", "uJ", 1e-6, "smaller"),
     "temperature": Number("largest rise of temperature", "K", "K", 1.0, "smaller"),
 }
 
-#: The answer to a question: numbers by name, and places that belong to them.
-Answered: TypeAlias = "tuple[dict[str, Answer], dict[str, float]]"
+#: The answer to a question: numbers by name, places that belong to them, and, where the answer is
+#: not whole, the reason.
+Answered: TypeAlias = (
+    "tuple[dict[str, Answer], dict[str, float]] | tuple[dict[str, Answer], dict[str, float], str]"
+)
 
 
 def no_notes(candidate: Candidate, duty: Duty) -> list[str]:
@@ -230,32 +241,54 @@ def missing_materials(candidate: Candidate, duty: Duty, scene: Scene) -> str:
 
 
 def wear(result: Result, candidate: Candidate, duty: Duty) -> Answered:
-    """Compute the cycles until the outermost coating is worn through, and the final depth."""
+    """Compute the cycles until the outermost coating is worn through, and the final depth.
+
+    A run that leaves the grid gives what it reached: the coating lasts that many cycles or more.
+    """
     assert duty.cycles is not None
     body1, body2 = duty.pair(candidate.wear, duty.other_wear)
-    run = solve(
-        result.scene,
-        cycles=duty.cycles,
-        cycling=duty.cycling,
-        body1=body1,
-        body2=body2,
-        worn_through="go_on" if candidate.layers == 1 or layered(candidate.wear) else "stop",
-        progress=False,
-    )
-    depth_error = float(run.depth_error[-1])
-    depth = float(run.dataset[f"depth{duty.body_number}"][-1])
-    numbers = {"worn_depth": Answer.from_error(depth, depth_error * depth)}
-    if candidate.layers > 1:
-        cycles = run.cycles_to(part_of_coating=1.0, body_number=duty.body_number)
-        lower_bound = cycles if cycles.beyond is None else cycles.beyond
-        best = math.inf if math.isnan(cycles) else float(cycles)
-        numbers["wear_through"] = Answer(
-            best, lower_bound / (1.0 + depth_error), best * (1.0 + depth_error)
+    with TemporaryDirectory() as folder:
+        run, ended = solve_until_refused(
+            result.scene,
+            Path(folder) / "wear.zarr",
+            cycles=duty.cycles,
+            cycling=duty.cycling,
+            body1=body1,
+            body2=body2,
+            worn_through="go_on" if candidate.layers == 1 or layered(candidate.wear) else "stop",
         )
-        if float(run.cycles[-1]) < duty.cycles:
-            # The run ends where the coating does.
-            del numbers["worn_depth"]
-    return numbers, {}
+        part = float(run.depth_error[-1])
+        depth = float(run.dataset[f"depth{duty.body_number}"][-1])
+        reached = float(run.cycles[-1])
+        numbers: dict[str, Answer] = {}
+        if candidate.layers > 1:
+            numbers["wear_through"] = worn_through(run, part, duty.body_number)
+    if reached >= duty.cycles:
+        numbers["worn_depth"] = Answer.from_error(depth, part * depth)
+    if ended is None:
+        return numbers, {}
+    lost = (
+        f"the run ended after {in_words(reached, 3)} of {in_words(duty.cycles, 3)} cycles, at a "
+        f"worn depth of {length(depth)}: {ended}"
+    )
+    return numbers, {}, lost
+
+
+def worn_through(run: WearResult, part: float, body_number: int) -> Answer:
+    """Cycles to the end of the outermost coating; infinite where the run ended before.
+
+    `part` is the error of the depths over the depths. The ends of the range are the cycles at which
+    the depth with and without this error reaches the thickness.
+    """
+
+    def cycles_to(share: float) -> Cycles:
+        return run.cycles_to(part_of_coating=share, body_number=body_number)
+
+    best, first = cycles_to(1.0), cycles_to(1.0 / (1.0 + part))
+    low = first if first.beyond is None else first.beyond
+    if math.isnan(best):
+        return Answer(math.inf, float(low), math.inf)
+    return Answer(float(best), min(float(low), float(best)), float(best) * (1.0 + part))
 
 
 def layered(law: object) -> bool:
@@ -307,6 +340,10 @@ QUESTIONS: dict[str, Question] = {
 }
 
 
+#: Questions of which a part may be missing by what is known of a candidate.
+MAY_LACK = ("adhesion",)
+
+
 @dataclass(frozen=True)
 class Answers:
     """A measure of a study: the answers of the candidate that the title of the scene names."""
@@ -315,14 +352,25 @@ class Answers:
     duty: Duty
     questions: tuple[str, ...]
 
-    def __call__(self, result: Result) -> dict[str, xr.DataArray]:
-        """Ask all questions that the candidate can answer."""
+    def __call__(self, result: Result) -> Reasoned:
+        """Ask all questions that the candidate can answer; one without an answer has a reason."""
         candidate = self.candidates[result.scene.title]
         table: dict[str, float] = {}
+        reasons: list[str] = []
         for name in self.questions:
             if QUESTIONS[name].missing(candidate, self.duty, result.scene):
                 continue
-            numbers, places = QUESTIONS[name].ask(result, candidate, self.duty)
+            try:
+                numbers, places, *lost = QUESTIONS[name].ask(result, candidate, self.duty)
+            except Exception as error:
+                reasons.append(f"{name}: {' '.join(str(error).split())}")
+                continue
+            reasons += [f"{name}: {why}" for why in lost]
+            reasons += [
+                f"{name}: the result has no {NUMBERS[number].title}"
+                for number, answer in numbers.items()
+                if math.isnan(answer.value) and name not in MAY_LACK
+            ]
             for number, answer in numbers.items():
                 table |= {f"{number}{side}": value for side, value in answer.sides()}
             table |= places
@@ -336,7 +384,7 @@ class Answers:
         for name, (unit, meaning) in PLACES.items():
             attrs = {"units": unit, "long_name": meaning}
             arrays[name] = xr.DataArray(table.get(name, math.nan), attrs=attrs)
-        return arrays
+        return Reasoned(arrays, reasons)
 
     def needs_fields(self) -> bool:
         """Check whether the fields of all increments are needed."""

@@ -24,7 +24,7 @@ from pyfret._util.stores import check_store
 from pyfret.study.design import TOGETHER
 from pyfret.study.ledger import FILE, Ledger, attributes, checksum
 from pyfret.study.measures import measure_names
-from pyfret.study.point import FAILED, MEANINGS, OPEN, Outcome
+from pyfret.study.point import FAILED, MEANINGS, OPEN, PARTLY, Outcome
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -39,13 +39,18 @@ SCHEMA = 2
 #: Attempts to read a store while it is written.
 ATTEMPTS = 20
 #: Characters of a reason that are kept.
-REASON = 240
+REASON = 800
 #: Variables of every study beside its measures: type, value of an open point, unit, meaning.
 POINT_VARIABLES: dict[str, tuple[str, Any, str, str]] = {
     "nx": ("int32", 0, "1", "cells along x that the point took"),
     "ny": ("int32", 0, "1", "cells along y that the point took"),
     "seconds": ("float64", np.nan, "s", "processor time of the point"),
-    "reason": (f"<U{REASON}", "", "1", "why the point failed, or what is to be doubted of it"),
+    "reason": (
+        f"<U{REASON}",
+        "",
+        "1",
+        "why the point failed, or its measures have no number",
+    ),
     "status": ("int8", OPEN, "1", "what became of the point"),
 }
 
@@ -168,7 +173,7 @@ class Store:
             "seconds": outcome.seconds,
         }
         values = {name: xr.Variable((), value) for name, value in numbers.items()}
-        if outcome.status == FAILED:
+        if outcome.status in (FAILED, PARTLY):
             values["reason"] = xr.Variable((), np.array(outcome.reason, f"<U{REASON}"))
         written = {**values, **outcome.measures}
         self.write_region(n, written)
@@ -212,8 +217,8 @@ class Store:
         )
 
     def open_points(self, *, again: bool) -> list[int]:
-        """Return the points to solve: open ones, and with `again` the failed ones."""
-        statuses = (OPEN, FAILED) if again else (OPEN,)
+        """Return the points to solve: open ones, and with `again` failed and partly done ones."""
+        statuses = (OPEN, FAILED, PARTLY) if again else (OPEN,)
         status_of = {n: status for n, (status, _) in self.ledger.points.items()}
         return [n for n in range(len(self.design)) if status_of.get(n, OPEN) in statuses]
 

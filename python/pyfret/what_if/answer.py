@@ -85,8 +85,6 @@ def answer(
     doubts = result.doubts
     names = layer_names(len(scene.body2.coatings))
     unit = scene.grid.unit_of("J")
-    loops = result.loops()
-    energy = float(loops.dissipated[-1]) if loops.sizes["cycle"] else None
     mises = with_error(1e-6 * largest.value, 1e-6 * largest.error)
     numbers = {
         "largest von Mises stress": f"{mises} MPa in the {names[largest.layer]}",
@@ -94,9 +92,7 @@ def answer(
         "stick ratio": NO_FRICTION
         if frictionless(scene)
         else f"{float(result.stick_ratio[-1]):.3f}",
-        "energy of the last cycle": "no closed cycle"
-        if energy is None
-        else f"{1e6 * energy:.4g} µ{unit}",
+        "energy of the last cycle": energy_of_last_cycle(result, unit),
     }
     increments_of_branches = np.bincount(result.dataset.branch_of_increment.values)
     taken = [int(n) for n in increments_of_branches if n]
@@ -107,6 +103,17 @@ def answer(
         counts if counts is not None else taken,
         figure(result, below, largest),
     )
+
+
+def energy_of_last_cycle(result: Result, unit: str) -> str:
+    """The energy that the last cycle dissipates, or why there is none."""
+    try:
+        loops = result.loops(direction=next(iter(directions(result)), "x"))
+    except ValueError as error:
+        return f"no answer: {error}"
+    if not loops.sizes["cycle"]:
+        return "no closed cycle"
+    return f"{1e6 * float(loops.dissipated[-1]):.4g} µ{unit}"
 
 
 def figure(result: Result, below: Any, most: Any) -> Any:
