@@ -176,6 +176,7 @@ class Audit:
         computed["shear without pressure"] = shear[outside].max(initial=0.0) / (
             room * max(top, 1.0)
         )
+        computed["status beside the field"] = self.contradiction(d)
         bound = self.bound(p)
         if bound is not None:
             b_x, b_y = (np.maximum(b, 1e-12 * max(top, 1.0)) for b in bound)
@@ -204,6 +205,23 @@ class Audit:
             computed |= self.slip(self.before, now, bound)
         self.before = now
         return computed
+
+    def contradiction(self, d: Any) -> float:
+        """Infinite where status, stick ratio and the field ``stick`` disagree, else 0.
+
+        An increment on a coarser grid has carried fields, and is left out.
+        """
+        if int(d.path_grid) != self.scene.grid.nx:
+            return 0.0
+        contact, stick = int(d.contact.sum()), int(d.stick.sum())
+        ratio, status = float(d.stick_ratio), int(d.status)
+        agrees = {
+            0: contact == 0,
+            1: contact > 0 and stick == contact and ratio == 1.0,
+            2: 0.0 < ratio < 1.0 and 0 < stick < contact if stick else ratio == 0.0,
+            3: contact > 0 and stick == 0 and ratio == 0.0,
+        }
+        return 0.0 if agrees[status] else np.inf
 
     def slip(
         self,

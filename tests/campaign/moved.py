@@ -1,0 +1,285 @@
+"""Contacts that are moved, turned, mirrored, exchanged and rescaled: every public number stays.
+
+``python tests/campaign/moved.py 0 40`` goes through the scenes of these seeds. Numbers are kept on
+the result itself: columns and fields of its dataset, loops, every measure of stress, every
+criterion of fatigue. ``tests/test_moved.py`` has one scene in every run.
+"""
+
+from __future__ import annotations
+
+import random
+import sys
+import warnings
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+import pyfret as fret
+from pyfret import fatigue
+from pyfret.subsurface.tensor import COMPONENTS
+from pyfret.subsurface.tensor import LABELS as ALL_LABELS
+
+#: Measures of stress that do not depend on the axes.
+LABELS = [name for name in ALL_LABELS if name not in COMPONENTS]
+RADIUS, N, ROOM = 5e-3, 28, 8
+#: Difference of two numbers that is within their cells, over the number.
+ALLOWED = 5e-3
+#: Numbers of a run that are no answers: counts, work, residuals, time.
+WORK = ("residual", "convolutions", "iterations", "alternations", "parts", "seconds", "increment")
+STEEL = fatigue.Materials()["steel_42CrMo4"]
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """A ball on a flat whose body 2 has all that a body can have, and how it is turned."""
+
+    E: tuple[float, float]
+    coating: tuple[float, float] | None
+    s_y: float | None
+    residual: tuple[float, float] | None
+    bulk: float
+    mu: float
+    part: float
+    #: Angle of the shear [rad], place of the contact in cells, scale of all lengths.
+    angle: float = 0.0
+    offset: tuple[int, int] = (0, 0)
+    scale: float = 1.0
+    exchanged: bool = False
+    mirrored: bool = False
+
+    def scene(self) -> fret.Scene:
+        """The contact."""
+        ball, flat = (fret.Elastic(E=E, nu=0.3) for E in self.E)
+        W = 30.0
+        a = fret.reference.hertz(R=RADIUS, bodies=(ball, flat), W=W).a
+        cell = self.scale * 2.8 * a / N
+        n = N + ROOM
+        at = (np.arange(n) - (n - 1) / 2) * cell
+        X, Y = (cells * cell for cells in self.offset)
+        x, y = np.meshgrid(at - X, at - Y, indexing="ij")
+        round_ = fret.SurfaceMap(-(x**2 + y**2) / (2 * self.scale * RADIUS), spacing=(cell, cell))
+        below = (
+            flat
+            if self.s_y is None
+            else flat.replace(plastic=fret.Plastic(self.s_y, hardening=0.1 * self.E[1]))
+        )
+        options: dict[str, Any] = {}
+        if self.residual is not None:
+            s_xx, s_yy = self.residual
+            options["residual"] = [[0.0, s_xx, s_yy], [1.0, s_xx, s_yy]]
+            if self.coating is not None:
+                options["coatings"] = []
+        coatings = []
+        if self.coating is not None:
+            E, part = self.coating
+            coatings.append(
+                fret.Coating(fret.Elastic(E=E, nu=0.25), thickness=self.scale * part * a)
+            )
+        upper = fret.Body(ball, shape=round_)
+        lower = fret.Body(below, **{**options, "coatings": coatings})
+        force = self.scale**2 * W
+        T = self.part * self.mu * force
+        sign = -1.0 if self.exchanged else 1.0
+        x_of, y_of = sign * T * np.cos(self.angle), sign * T * np.sin(self.angle)
+        if self.mirrored:
+            y_of = -y_of
+        bulk = {"sigma_B1" if self.exchanged else "sigma_B": self.bulk} if self.bulk else {}
+        none = dict.fromkeys(bulk, 0.0)
+        path = fret.LoadPath.start().normal(force, increments=2)
+        for n_of, phase in enumerate((1.0, -1.0, 1.0)):
+            loads = {name: value * (n_of != 1) for name, value in bulk.items()}
+            path = path.force(T_x=phase * x_of, T_y=phase * y_of, increments=4, **(loads or none))
+        bodies = (lower, upper) if self.exchanged else (upper, lower)
+        return fret.Scene(
+            body1=bodies[0],
+            body2=bodies[1],
+            mu=self.mu,
+            grid=fret.Grid.centred(n * cell, n=n),
+            path=path,
+        )
+
+    @property
+    def body_number(self) -> int:
+        """The body that lies flat."""
+        return 1 if self.exchanged else 2
+
+    def others(self) -> Iterator[tuple[str, Drawn]]:
+        """Yield the contact moved, turned, mirrored, exchanged and rescaled."""
+        yield "beside the middle", replace(self, offset=(2, 3))
+        yield "mirrored", replace(self, mirrored=True, offset=(0, -3))
+        yield "bodies exchanged", replace(self, exchanged=True)
+        yield "three times as large", replace(self, scale=3.0)
+        if not self.bulk:
+            swapped = None if self.residual is None else self.residual[::-1]
+            yield (
+                "turned by 90 degrees",
+                replace(self, angle=self.angle + np.pi / 2, residual=swapped),
+            )
+        if not self.bulk and self.residual is None:
+            yield "turned by 37 degrees", replace(self, angle=self.angle + np.radians(37.0))
+
+
+def draw(seed: int) -> Drawn:
+    """The contact of a seed."""
+    rng = random.Random(f"moved {seed}")
+    kind = rng.choice(["bare", "coated", "yields", "residual", "bulk"])
+    E = 110e9 * 2 ** rng.uniform(0, 1)
+    return Drawn(
+        E=(E, E if rng.random() < 0.5 else 110e9 * 2 ** rng.uniform(0, 1)),
+        coating=(E * 2 ** rng.uniform(-1, 1), rng.uniform(0.2, 0.6)) if kind == "coated" else None,
+        s_y=rng.uniform(400e6, 800e6) if kind == "yields" else None,
+        residual=(-200e6, rng.choice([-200e6, 300e6])) if kind == "residual" else None,
+        bulk=rng.uniform(50e6, 150e6) if kind == "bulk" else 0.0,
+        mu=rng.uniform(0.3, 0.6),
+        part=rng.uniform(0.4, 0.8),
+        angle=rng.choice([0.0, np.pi / 2]) if kind not in ("bulk",) else 0.0,
+    )
+
+
+#: Powers of the scale of lengths in the units of a number.
+POWERS = {
+    "m": 1,
+    "m^2": 2,
+    "m^3": 3,
+    "N": 2,
+    "J": 3,
+    "N m": 3,
+    "N/m": 1,
+    "Pa m^0.5": 0.5,
+    "J/m^2": 1,
+}
+
+
+def numbers(
+    drawn: Drawn, criteria: Sequence[str] = tuple(fatigue.CRITERIA)
+) -> dict[str, tuple[float, float]]:
+    """Return every public number of the contact with its error, rescaled to scale 1."""
+    kept: dict[str, tuple[float, float, str]] = {}
+    result = fret.solve(drawn.scene(), save="all", progress=False)
+    last, number = result.at(-1), drawn.body_number
+    d = result.dataset
+
+    def keep(name: str, value: Any, unit: str, error: Any = 0.0) -> None:
+        kept[name] = (float(value), abs(float(error or 0.0)), unit)
+
+    scalars = {str(k): v for k, v in d.data_vars.items() if v.ndim == 1 and v.dtype.kind in "fi"}
+    pairs = {k[:-2] for k in scalars if k.endswith("_x") and f"{k[:-2]}_y" in scalars}
+    for name, values in scalars.items():
+        if values.dims != d.p_max.dims or any(word in name for word in WORK):
+            continue
+        unit = str(values.attrs.get("units", "1"))
+        if name[:-2] in pairs and name[-2:] in ("_x", "_y"):
+            size = np.hypot(*(scalars[f"{name[:-2]}_{k}"].values[-1] for k in "xy"))
+            keep(f"|{name[:-2]}|", size, unit)
+        elif name not in ("sigma_B", "sigma_B1", "M_z", "phi_z", "t", "branch"):
+            keep(name, values.values[-1], unit)
+    fields = {str(k): v for k, v in last.dataset.data_vars.items() if v.dims == ("x", "y")}
+    for name, values in fields.items():
+        unit, samples = str(values.attrs.get("units", "1")), values.values.astype(float)
+        if name.endswith(("_x", "_y")):
+            samples = np.hypot(*(fields[f"{name[:-2]}_{k}"].values for k in "xy"))
+            name = f"|{name[:-2]}|"
+        if (
+            samples[last.contact.values].size
+            and unit != "1"
+            and not name.startswith("|u")
+            and name != "u_z"
+        ):
+            keep(f"mean of {name} in the contact", samples[last.contact.values].mean(), unit)
+    direction = "y" if abs(np.sin(drawn.angle)) > 0.9 else "x"
+    if min(abs(np.sin(drawn.angle)), abs(np.cos(drawn.angle))) < 1e-6:
+        loops = result.loops(direction=direction)
+        for name, values in loops.data_vars.items():
+            if values.dtype.kind == "f":
+                keep(f"loop: {name}", values.values[-1], str(values.attrs.get("units", "1")))
+    below = last.stress(body_number=number)
+    for measure in LABELS:
+        if measure.startswith("interface") and drawn.coating is None:
+            continue
+        top = below.maximum(measure)
+        keep(f"largest {measure}", top.value, "Pa", top.error)
+        keep(f"depth of largest {measure}", top.z, "m", 0.1 * top.z + drawn.scale * 3e-6)
+    substrate = [None, STEEL] if drawn.coating is not None else STEEL
+    for criterion in criteria:
+        _try(lambda c=criterion: _life(result, substrate, c, number), f"life by {criterion}", keep)
+    if drawn.s_y is None:
+        least = result.load_factors(
+            [None, 900e6] if drawn.coating is not None else 900e6, body_number=number
+        ).least("von_mises")
+        keep("load factor", least.factor, "1", least.error)
+    else:
+        unloaded = result.unloaded()
+        keep("imprint", unloaded.depth(number), "m")
+        for measure in ("von_mises", "s_1"):
+            top = unloaded.stress(body_number=number).maximum(measure)
+            keep(f"residual {measure}", top.value, "Pa", top.error)
+    cracks = result.crack(body_number=number)
+    keep("largest dK", cracks.dK().max(), "Pa m^0.5", cracks.dK_error()[int(cracks.dK().argmax())])
+    half = cracks.dataset.attrs["half_width"]
+    grown = result.grow_crack(body_number=number, start=0.1 * half, end=0.5 * half)
+    keep("largest dK of a grown crack", grown.dK().max(), "Pa m^0.5", grown.dK_error()[-1])
+    scaled = {}
+    for name, (value, error, unit) in kept.items():
+        by = drawn.scale ** POWERS.get(unit, 0)
+        scaled[name] = (value / by, error / by)
+    return scaled
+
+
+def _life(result: fret.Result, material: Any, criterion: str, number: int) -> tuple[float, float]:
+    worst = result.life(material, criterion, body_number=number).worst
+    return worst.value, worst.error
+
+
+def _try(ask: Callable[[], tuple[float, float]], name: str, keep: Callable[..., None]) -> None:
+    """Keep an answer; one that is refused is refused for the moved contact as well."""
+    try:
+        value, error = ask()
+    except ValueError:
+        value, error = np.nan, 0.0
+    keep(name, value, "1", error)
+
+
+def compared(
+    drawn: Drawn, ways: Sequence[str] | None = None, **options: Any
+) -> Iterator[tuple[str, str, float, float, float]]:
+    """Every number of the moved contacts: how moved, name, right one, kept one, and tolerance."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        right = numbers(drawn, **options)
+        largest = max(
+            abs(value) for name, (value, _) in right.items() if name.startswith("largest")
+        )
+        for how, moved_scene in drawn.others():
+            if ways is not None and how not in ways:
+                continue
+            moved = numbers(moved_scene, **options)
+            for name, (value, error) in right.items():
+                there, error_there = moved.get(name, (np.nan, 0.0))
+                if np.isnan(value) and np.isnan(there):
+                    continue
+                floor = 1e-4 * largest if name.startswith(("largest", "residual")) else 1e-12
+                allowed = max(ALLOWED * abs(value), error + error_there, floor)
+                yield how, name, value, there, allowed
+
+
+def main() -> int:
+    """Go through the scenes of some seeds and print what differs."""
+    first, last = map(int, sys.argv[1:3])
+    count = wrong = 0
+    for seed in range(first, last):
+        for how, name, value, there, allowed in compared(draw(seed)):
+            count += 1
+            if not abs(there - value) <= allowed:
+                wrong += 1
+                print(
+                    f"{seed}: {how}: {name} = {there:.5g}, right {value:.5g} +- {allowed:.2g}",
+                    flush=True,
+                )
+        print(f"{seed}: {count - wrong} of {count} numbers agree", flush=True)
+    return int(wrong > 0.01 * count)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
