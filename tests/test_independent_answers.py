@@ -26,7 +26,7 @@ def scene(*, upper: object = (), lower: object = (), cycles: int = 1) -> fret.Sc
         body1=fret.Body(STEEL, shape=fret.Sphere(R=5e-3), coatings=upper),
         body2=fret.Body(STEEL, coatings=lower),
         mu=0.5,
-        grid=fret.Grid.centred(2.6 * A, n=20),
+        grid=fret.Grid.centred(extent=2.6 * A, n=20),
         path=path,
     )
 

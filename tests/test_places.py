@@ -241,7 +241,7 @@ def result_at_offset(cells: int, *, residual: object = None) -> fret.Result:
         body1=fret.Body(ti, shape=top),
         body2=fret.Body(ti, **options),
         mu=0.5,
-        grid=fret.Grid.centred(n * dx, n=n),
+        grid=fret.Grid.centred(extent=n * dx, n=n),
         path=path,
     )
     with warnings.catch_warnings():
@@ -295,7 +295,7 @@ def test_unloaded_stress_is_that_of_the_whole_body() -> None:
             body1=fret.Body(hard, shape=fret.Sphere(R=10e-3)),
             body2=fret.Body(soft),
             mu=0.5,
-            grid=fret.Grid.centred(5e-4, n=24),
+            grid=fret.Grid.centred(extent=5e-4, n=24),
             path=path.normal(1.0, increments=2),
         )
         with warnings.catch_warnings():

@@ -96,7 +96,7 @@ class Drawn:
             body1=bodies[0],
             body2=bodies[1],
             mu=self.mu,
-            grid=fret.Grid.centred(n * cell, n=n),
+            grid=fret.Grid.centred(extent=n * cell, n=n),
             path=path,
         )
 

@@ -14,6 +14,7 @@ use crate::argument::to_python;
 use crate::document::Document;
 use crate::error::to_python as scene_to_python;
 use crate::prelude::*;
+use crate::python::from_python;
 use crate::scene::Scene;
 use crate::scene::friction_law::own_law;
 use crate::variables::Variables;

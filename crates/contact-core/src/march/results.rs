@@ -59,7 +59,7 @@ pub enum Status {
     /// A part of the contact cells slips, or all of them below the limit of friction.
     PartialSlip,
     /// Every contact cell slips: friction carries its limit, the stick ratio is 0. Under given forces
-    /// the shift is that of incipient sliding.
+    /// sliding is incipient.
     GrossSlip,
 }
 

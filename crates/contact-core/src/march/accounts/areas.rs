@@ -113,7 +113,7 @@ pub(super) fn areas(
                 without_slip
             };
             [without_slip, stick]
-                .map(|area| cells.within(contact, area))
+                .map(|area| cells.clamp_stick_area(contact, area))
                 .into()
         }
     };
@@ -127,9 +127,11 @@ pub(super) fn areas(
 
 /// Whether bodies slide whose cells all slip: under given forces only at the limit of friction.
 fn slides(setup: &Setup<'_>, info: &AlternationInfo) -> bool {
-    let given = setup.point.loads.given;
-    let turns = given.phi_z.is_some_and(|to| to != setup.state.motion.phi_z);
-    info.uses_all_friction() || given.delta_x.is_some() || given.delta_y.is_some() || turns
+    let motions = setup.point.loads.given;
+    let turns = motions
+        .phi_z
+        .is_some_and(|to| to != setup.state.motion.phi_z);
+    info.uses_all_friction() || motions.delta_x.is_some() || motions.delta_y.is_some() || turns
 }
 
 /// The area of a zone whose border crosses the cells `edges`.
@@ -195,7 +197,7 @@ impl<'a> Cells<'a> {
         let marked: Vec<bool> = (contact.iter().zip(&now.slips))
             .map(|(&c, &s)| c && s)
             .collect();
-        // Where the loads use all friction, the cells slip though the shift is that of incipient sliding.
+        // Where the loads use all friction, the cells slip though sliding is incipient.
         let mut at_limit = if marked == contact && info.uses_all_friction() {
             vec![false; marked.len()]
         } else {
@@ -248,7 +250,7 @@ impl<'a> Cells<'a> {
     /// The area of a stick zone in partial slip, by its border within the cells. A border beyond the
     /// contact contradicts the cells that slip, and a zone without area those that stick: there
     /// whole cells count.
-    fn within(&self, contact: f64, area: f64) -> f64 {
+    fn clamp_stick_area(&self, contact: f64, area: f64) -> f64 {
         if self.stick.contains(&true) && area > 0.0 && area < contact {
             return area;
         }

@@ -165,17 +165,17 @@ fn withdraw_old_material(
             .map_or("", |(key, _)| key)
             .to_owned()
     };
-    let named = key(setting);
-    let path = steps(&named);
+    let material = key(setting);
+    let path = steps(&material);
     let Some((&MATERIAL, body)) = path.split_last() else {
         return Ok(());
     };
     let matches = |a: &str, b: &str| a == b || a == EVERY || b == EVERY;
     let yields_anew = settings.iter().any(|other| {
-        let other = key(other);
-        let other = steps(&other);
-        other.get(body.len()) == Some(&YIELDING)
-            && other.iter().zip(body).all(|(a, b)| matches(a, b))
+        let key = key(other);
+        let steps = steps(&key);
+        steps.get(body.len()) == Some(&YIELDING)
+            && steps.iter().zip(body).all(|(a, b)| matches(a, b))
     });
     let mut stays = None;
     for_tables(root, body, &mut |table| {
@@ -197,17 +197,17 @@ fn withdraw_old_material(
     }
 }
 
-/// Calls a function for the tables at a key, or for those of every element of the list before a star;
-/// for none where the key leads to no table.
+/// Calls a function for the tables at a key, or of every element of the list before a star; for none
+/// where the key leads to no table.
 fn for_tables(table: &mut Table, path: &[&str], change: &mut impl FnMut(&mut Table)) {
     fn descend(value: &mut Value, path: &[&str], change: &mut impl FnMut(&mut Table)) {
         match (value, path) {
             (Value::Table(table), path) => for_tables(table, path, change),
-            (Value::Array(array), [step, rest @ ..]) => {
+            (Value::Array(array), [step, steps @ ..]) => {
                 let index = step.parse::<usize>();
                 for (n, item) in array.iter_mut().enumerate() {
                     if *step == EVERY || index.as_ref() == Ok(&n) {
-                        descend(item, rest, change);
+                        descend(item, steps, change);
                     }
                 }
             }
@@ -216,9 +216,9 @@ fn for_tables(table: &mut Table, path: &[&str], change: &mut impl FnMut(&mut Tab
     }
     match path {
         [] => change(table),
-        [step, rest @ ..] => {
+        [step, steps @ ..] => {
             if let Some(value) = table.get_mut(*step) {
-                descend(value, rest, change);
+                descend(value, steps, change);
             }
         }
     }

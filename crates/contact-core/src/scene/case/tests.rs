@@ -132,17 +132,18 @@ fn settings_change_the_scene() {
 #[test]
 fn a_material_that_is_set_replaces_the_numbers_of_the_old_one() {
     let titanium = Elastic::named("Ti-6Al-4V").unwrap();
-    let parts: [(&str, fn(&Scene) -> Elastic); 3] = [
-        ("body1", |s| s.body1.substrate),
-        ("body2", |s| s.body2.substrate),
-        ("body2.coatings.0", |s| s.body2.coatings[0].material),
-    ];
-    for (key, material) in parts {
-        let named = format!("{key}.material=\"Ti-6Al-4V\"");
-        assert_eq!(material(&set(&[&named]).unwrap()), titanium, "{key}");
+    let material_of = |key: &str, scene: &Scene| match key {
+        "body1" => scene.body1.substrate,
+        "body2" => scene.body2.substrate,
+        _ => scene.body2.coatings[0].material,
+    };
+    for key in ["body1", "body2", "body2.coatings.0"] {
+        let material = |scene: &Scene| material_of(key, scene);
+        let setting = format!("{key}.material=\"Ti-6Al-4V\"");
+        assert_eq!(material(&set(&[&setting]).unwrap()), titanium, "{key}");
         // What is set in the same call stays, whatever the order.
         let modulus = format!("{key}.E=1e11");
-        for settings in [[&named, &modulus], [&modulus, &named]] {
+        for settings in [[&setting, &modulus], [&modulus, &setting]] {
             let scene = set(&settings.map(String::as_str)).unwrap();
             let right = Elastic {
                 E: 1e11,
@@ -157,9 +158,9 @@ fn a_material_that_is_set_replaces_the_numbers_of_the_old_one() {
             )
             .replace("thickness = {", "plastic.s_y = 2e9\nthickness = {");
         let read = |settings: &[String]| Scene::from_toml_str(&yields, FILE, settings);
-        let text = complaint(read(&[named.clone()]));
+        let text = complaint(read(std::slice::from_ref(&setting)));
         assert!(text.contains(&format!("set {key}.plastic.s_y")), "{text}");
-        let scene = read(&[named.clone(), format!("{key}.plastic.s_y=9e8")]).unwrap();
+        let scene = read(&[setting.clone(), format!("{key}.plastic.s_y=9e8")]).unwrap();
         let plastic = scene
             .body1
             .plastic
