@@ -192,9 +192,9 @@ class Comparison(Labelled, Figured):
             if f"{name}_L" in self.dataset:
                 means = [describe_averaging(float(L)) for L in self.dataset[f"{name}_L"].values]
                 lines.append(["  from the stress", "", *means, ""])
-        for name, values in self.dataset.data_vars.items():
+        for label, values in self.dataset.data_vars.items():
             if values.attrs.get("own_row"):
-                lines.append([str(name), "", *map(format_own_cell, values.values.tolist()), ""])
+                lines.append([str(label), "", *map(format_own_cell, values.values.tolist()), ""])
         return lines
 
     def row(self, name: str) -> list[str]:
