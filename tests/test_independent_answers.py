@@ -10,7 +10,7 @@ import pytest
 
 import pyfret as fret
 from pyfret.study import MEASURES, Candidate
-from pyfret.study.measures import measured
+from pyfret.study.measures import evaluate_measures
 
 STEEL = fret.Elastic(E=210e9, nu=0.3)
 W = 20.0
@@ -37,7 +37,7 @@ def test_every_measure_has_a_number_or_a_reason(cycles: int) -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         result = fret.solve(scene(cycles=cycles), save="all", progress=False)
-        numbers, reasons = measured(result, list(MEASURES))
+        numbers, reasons = evaluate_measures(result, list(MEASURES))
     without = {reason.partition(":")[0] for reason in reasons}
     for name in MEASURES:
         assert name in numbers, name
@@ -68,7 +68,7 @@ def test_interfaces_of_both_bodies_are_measured() -> None:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             result = fret.solve(scene(**bodies), save="all", progress=False)
-            answers.append(measured(result, ["interface_shear", "interface_peel"])[0])
+            answers.append(evaluate_measures(result, ["interface_shear", "interface_peel"])[0])
     upper, lower = answers
     for name in ("interface_shear", "interface_peel"):
         assert float(upper[name]) == pytest.approx(float(lower[name]), rel=0.02), name
@@ -128,11 +128,11 @@ def test_the_grid_of_a_scar_is_estimated_before_the_run() -> None:
     path = fret.LoadPath.start().normal(W, increments=2).cycles(1, delta_x=4e-6, increments=8)
     worn = {"cycling": "sliding", "body2": fret.wear.Archard(k=3e-13)}
     with (
-        pytest.warns(fret.SceneWarning, match=r"V = k W s N") as doubts,
-        pytest.raises(fret.OffGridError),
+        pytest.warns(fret.errors.SceneWarning, match=r"V = k W s N") as doubts,
+        pytest.raises(fret.errors.OffGridError),
     ):
         fret.wear.solve(scene().replace(path=path), cycles=1e6, progress=False, **worn)
     assert "use a grid of" in str(doubts[0].message)
     with warnings.catch_warnings():
-        warnings.simplefilter("error", fret.SceneWarning)
+        warnings.simplefilter("error", fret.errors.SceneWarning)
         fret.wear.solve(scene().replace(path=path), cycles=10, progress=False, **worn)

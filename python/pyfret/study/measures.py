@@ -501,6 +501,10 @@ def evaluate_measures(
             errors.append(error)
             text = " ".join(str(error).split())
             reasons.append(f"{measure_names([measure])[0]}{suffix}: {type(error).__name__}: {text}")
+            if isinstance(measure, str):
+                units, meaning, _ = MEASURES[measure]
+                units = result.scene.grid.unit_of(units)
+                numbers[measure] = estimate(math.nan, units, meaning).variable
             continue
         reasons += why
         for name, value in arrays.items():
@@ -508,7 +512,7 @@ def evaluate_measures(
             if f"{base}{suffix}{side}" in numbers:
                 raise ValueError(f"two measures give {name}: give each a name of its own")
             numbers[f"{base}{suffix}{side}"] = value
-    if errors and not numbers:
+    if errors and len(errors) == len(measures):
         raise errors[0]
     return numbers, reasons
 
