@@ -180,8 +180,8 @@ def doubts_of(body: fret.Body) -> list[str]:
     scene = fret.Scene(
         body1=fret.Body(fret.RIGID, shape=fret.Sphere(R=0.01)),
         body2=body,
-        mu=0.0,
-        grid=fret.Grid.centred(extent=3.6e-4, n=40),
+        friction=0.0,
+        grid=fret.Grid.centred(width=3.6e-4, n=40),
         path=fret.LoadPath.start().normal(20.0, increments=2),
     )
     return scene.doubts()

@@ -25,8 +25,8 @@ def scene(*, upper: object = (), lower: object = (), cycles: int = 1) -> fret.Sc
     return fret.Scene(
         body1=fret.Body(STEEL, shape=fret.Sphere(R=5e-3), coatings=upper),
         body2=fret.Body(STEEL, coatings=lower),
-        mu=0.5,
-        grid=fret.Grid.centred(extent=2.6 * A, n=20),
+        friction=0.5,
+        grid=fret.Grid.centred(width=2.6 * A, n=20),
         path=path,
     )
 
@@ -53,7 +53,11 @@ def test_a_measure_that_raises_leaves_the_others() -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         answers = fret.study.run(
-            scene(cycles=0), {"mu": [0.5]}, measure=["p_max", broken], executor=1, progress=False
+            scene(cycles=0),
+            {"friction.mu": [0.5]},
+            measure=["p_max", broken],
+            executor=1,
+            progress=False,
         )
     assert float(answers.dataset.p_max[0]) > 1e8
     assert answers.count() == {"open": 0, "done": 0, "failed": 0, "partly": 1}

@@ -240,8 +240,8 @@ def result_at_offset(cells: int, *, residual: object = None) -> fret.Result:
     scene = fret.Scene(
         body1=fret.Body(ti, shape=top),
         body2=fret.Body(ti, **options),
-        mu=0.5,
-        grid=fret.Grid.centred(extent=n * dx, n=n),
+        friction=0.5,
+        grid=fret.Grid.centred(width=n * dx, n=n),
         path=path,
     )
     with warnings.catch_warnings():
@@ -294,8 +294,8 @@ def test_unloaded_stress_is_that_of_the_whole_body() -> None:
         scene = fret.Scene(
             body1=fret.Body(hard, shape=fret.Sphere(R=10e-3)),
             body2=fret.Body(soft),
-            mu=0.5,
-            grid=fret.Grid.centred(extent=5e-4, n=24),
+            friction=0.5,
+            grid=fret.Grid.centred(width=5e-4, n=24),
             path=path.normal(1.0, increments=2),
         )
         with warnings.catch_warnings():

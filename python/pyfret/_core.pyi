@@ -39,10 +39,14 @@ DEPTH_ROUNDING: Final[float]
 Part of a worn depth that a jump which ends there may miss.
 """
 
-CELLS_PER_FILM: Final[float]
 LONGEST_LIFE: Final[float]
 """
 Longest finite life [cycles]; a longer one is infinite.
+"""
+
+CELLS_PER_FILM: Final[float]
+"""
+Cells in the thickness of a layer from which its own stress is known.
 """
 
 RATCHETS: Final[float]
@@ -3114,6 +3118,7 @@ def crack_growth_of_states(
     tolerance: float,
     angle: Angle = 0.0,
     azimuth: Angle = 0.0,
+    offset: float = 0.0,
     friction: float = 0.0,
     body_number: int = 2,
 ) -> dict[str, Any]:
@@ -3144,6 +3149,7 @@ def crack_of_states(
     angle: Angle = 0.0,
     kink: tuple[float, float] | None = None,
     azimuth: Angle = 0.0,
+    offset: float = 0.0,
     friction: float = 0.0,
     body_number: int = 2,
 ) -> dict[str, NDArray[np.float64]]:
@@ -3166,13 +3172,19 @@ def criterion_on(
     """
 
 def cycle_sections(
-    grid: Grid, moments: Callable[[list[int] | None], States | None], count: int
+    body: Body,
+    grid: Grid,
+    moments: Callable[[list[int] | None], States | None],
+    count: int,
+    *,
+    residual: Sequence[ArrayLike] | None = None,
 ) -> list[tuple[float | None, float | None, float | None]]:
     """
     x, y and azimuth of the sections in which a cycle of a contact is looked at by default.
 
-    The first along the shear; a second across it, where the contact or its shear has no axis of its
-    own there. `moments` and `count` are those of :class:`CycleSection`.
+    The first along the shear; more across it, where the contact or its shear has no axis of its own
+    there, or bulk and residual stress have another direction. `moments` and `count` as in
+    :class:`CycleSection`.
     """
 
 def cycle_temperature(

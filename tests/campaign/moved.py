@@ -95,8 +95,8 @@ class Drawn:
         return fret.Scene(
             body1=bodies[0],
             body2=bodies[1],
-            mu=self.mu,
-            grid=fret.Grid.centred(extent=n * cell, n=n),
+            friction=self.mu,
+            grid=fret.Grid.centred(width=n * cell, n=n),
             path=path,
         )
 

@@ -95,7 +95,7 @@ class Unloaded:
         return sampled.assign_attrs(yardsticks | {"anywhere": int(chosen)})
 
     def _centre(self, body_number: int) -> tuple[float, float]:
-        """Return the mean place of the points that have yielded, weighted with their plastic strain [m]."""
+        """Return the mean place of yielded points, weighted by plastic strain [m]."""
         if not self._state.body(body_number).yields:
             return 0.0, 0.0
         points = plastic_points(self._state, body_number)
