@@ -276,7 +276,7 @@ def test_residual_stress_across_the_shear_is_looked_at() -> None:
         stress = [fatigue.history(result, z=[0.0], x=x * half) for x in np.linspace(-1.1, 1.1, 5)]
         for name in ("findley", "smith_watson_topper"):
             worst = result.life(material, name).worst
-            values = [fatigue.assess(line, material, name).value.max() for line in stress]
+            values = [fatigue.evaluate_margin(line, material, name).value.max() for line in stress]
             assert max(map(float, values)) <= worst.value + 1.5 * worst.error, name
 
 
