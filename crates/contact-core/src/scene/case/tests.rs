@@ -140,11 +140,15 @@ fn a_material_that_is_set_replaces_the_numbers_of_the_old_one() {
     for key in ["body1", "body2", "body2.coatings.0"] {
         let material = |scene: &Scene| material_of(key, scene);
         let setting = format!("{key}.material=\"Ti-6Al-4V\"");
-        assert_eq!(material(&set(&[&setting]).unwrap()), titanium, "{key}");
+        assert_eq!(
+            material(&with_settings(&[&setting]).unwrap()),
+            titanium,
+            "{key}"
+        );
         // What is set in the same call stays, whatever the order.
         let modulus = format!("{key}.E=1e11");
         for settings in [[&setting, &modulus], [&modulus, &setting]] {
-            let scene = set(&settings.map(String::as_str)).unwrap();
+            let scene = with_settings(&settings.map(String::as_str)).unwrap();
             let right = Elastic {
                 E: 1e11,
                 nu: titanium.nu,
@@ -158,7 +162,7 @@ fn a_material_that_is_set_replaces_the_numbers_of_the_old_one() {
             )
             .replace("thickness = {", "plastic.s_y = 2e9\nthickness = {");
         let read = |settings: &[String]| Scene::from_toml_str(&yields, FILE, settings);
-        let text = complaint(read(std::slice::from_ref(&setting)));
+        let text = error_text(read(std::slice::from_ref(&setting)));
         assert!(text.contains(&format!("set {key}.plastic.s_y")), "{text}");
         let scene = read(&[setting.clone(), format!("{key}.plastic.s_y=9e8")]).unwrap();
         let plastic = scene
@@ -174,7 +178,7 @@ fn a_material_that_is_set_replaces_the_numbers_of_the_old_one() {
             "{key}"
         );
     }
-    let every = set(&["body2.coatings.*.material=\"Ti-6Al-4V\""]).unwrap();
+    let every = with_settings(&["body2.coatings.*.material=\"Ti-6Al-4V\""]).unwrap();
     assert_eq!(every.body2.coatings[0].material, titanium);
 }
 
