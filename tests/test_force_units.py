@@ -33,7 +33,7 @@ PATHS: dict[tuple[str, str], Callable[[str], fret.LoadPath]] = {
 
 def scene(*, line: bool) -> fret.Scene:
     shape: Any = fret.Cylinder(R=0.01) if line else fret.Sphere(R=0.01)
-    grid = fret.Grid.strip(extent=1e-3, n=64) if line else fret.Grid.centred(width=6e-4, n=24)
+    grid = fret.Grid.strip(extent=1e-5, n=64) if line else fret.Grid.centred(width=6e-4, n=24)
     return fret.Scene(
         body1=fret.Body(STEEL, shape=shape), body2=fret.Body(STEEL), friction=0.5, grid=grid
     )

@@ -214,7 +214,10 @@ class Parameter:
             raise ValueError(f"{name} = nan: must be a number")
         if kind == "several" and isinstance(value, Sequence | np.ndarray):
             found = value if isinstance(value, np.ndarray) else items(value, name)
-            numbers([item for item in found if item is not None], name)
+            # Of a material the number is taken, of a layer without one nothing.
+            plain = [item for item in found if item is not None and not self.is_material(item)]
+            if plain:
+                numbers(plain, name)
         if kind != "text" and isinstance(value, str | bytes):
             raise TypeError(f"{name} = {value!r:.60}: must be a number, not a text")
         single = np.ndim(value) == 0
@@ -224,6 +227,10 @@ class Parameter:
             single and (hasattr(value, "__float__") or hasattr(value, "__index__"))
         ):
             raise TypeError(f"{name} = {' '.join(repr(value).split()):.60}: must be a number")
+
+    def is_material(self, value: Any) -> bool:
+        """Whether a value is a material in the place of its number."""
+        return self.material and isinstance(value, _core.Material)
 
     def check_object(self, value: Any) -> None:
         """Refuse an object of another class, with how one of the right class is made.
