@@ -39,8 +39,7 @@ pub(crate) fn cycle_sections(
 ) -> PyResult<Vec<LineName>> {
     let cycle = PythonCycle::new(moments, count, &grid.0);
     let residual = of_body(&body.0, residual)?;
-    let lines =
-        py.detach(|| contact_subsurface::main_sections(&cycle, &grid.0, &residual));
+    let lines = py.detach(|| contact_subsurface::main_sections(&cycle, &grid.0, &residual));
     let lines = lines.map_err(|error| cycle.take_error().unwrap_or_else(|| to_python(error)))?;
     Ok(lines.into_iter().map(name_of).collect())
 }
