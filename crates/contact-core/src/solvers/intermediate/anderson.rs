@@ -43,7 +43,7 @@ pub(crate) struct Anderson {
     size: f64,
     slow_passes: usize,
     enabled: bool,
-    /// Damping: factor of the misfit that is added to s, 1 to [`LEAST`].
+    /// Damping: factor of the misfit that is added to s, 1 to [`MIN_DAMPING`].
     damping: f64,
     /// Least misfit that was below [`SLOW`] times the one before, and passes since.
     least_misfit: f64,

@@ -51,7 +51,7 @@ const SLIPPED: f64 = 0.9;
 const FADE: [f64; 2] = [0.5, 0.7];
 /// Test that the extrapolated onset of slip lies within the increment: with d_0 = |q_0 - g e_1| at
 /// the start and d = |q - g e_1| at the onset, the turn counts fully for d <= d_0, not at all for
-/// d >= (1 + FARTHER) d_0, and linearly between.
+/// d >= (1 + ONSET_TOLERANCE) d_0, and linearly between.
 const ONSET_TOLERANCE: f64 = 0.1;
 
 /// The tractions an increment earlier.
@@ -120,7 +120,7 @@ pub(super) fn turn_of_cell(
 
 /// A cell that starts to slip: the direction e at which its shear, extrapolated from `before`
 /// through `last`, meets the bound \[Pa\], the weight w, and a factor 0 to 1 by which the turn
-/// counts ([`FARTHER`]).
+/// counts ([`ONSET_TOLERANCE`]).
 fn mean_at_onset(
     before: [f64; 2],
     last: [f64; 2],
