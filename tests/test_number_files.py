@@ -265,7 +265,7 @@ path = { file = "h.txt", increments = 1, drive = "T_x" }
         tmp_path / "z.txt", unit="um"
     )
     (tmp_path / "s.toml").write_text(text.replace(', drive = "T_x"', ""))
-    with pytest.raises(fret.errors.InvalidSceneError, match="say which drives"):
+    with pytest.raises(fret.errors.InvalidSceneError, match="choose the one that drives"):
         fret.Scene.from_file(tmp_path / "s.toml")
 
 
