@@ -3182,8 +3182,8 @@ def cycle_sections(
     """
     x, y and azimuth of the sections in which a cycle of a contact is looked at by default.
 
-    The first stands along the shear. Others follow where the contact or its shear has no axis of its
-    own there, or where bulk and residual stress have another direction. `moments` and `count` as in
+    The first stands along the shear. Others follow where the contact or its shear has no axis
+    there, or where bulk and residual stress have another direction. `moments` and `count` as in
     :class:`CycleSection`.
     """
 
