@@ -11,7 +11,7 @@ use super::history::History;
 use super::judged::Judge;
 use super::site::Site;
 
-/// Depths of the quadrature over lines and discs; its error is far below that of the stress.
+/// Depths of the quadrature over lines and discs. Its error is far below the error of the stress.
 const NODES: usize = 16;
 /// Discs of the quadrature over a ball.
 const DISCS: usize = 8;
@@ -39,7 +39,7 @@ impl Averaging {
         ("volume", Self::Volume),
     ];
 
-    /// Its depth over L.
+    /// Depth of the region, as a multiple of L.
     fn reach(self) -> f64 {
         match self {
             Self::Point => 0.5,
@@ -64,16 +64,16 @@ pub struct Distance {
     pub layer: usize,
 }
 
-/// The judgement of the mean stress below every place of a line; `None` at places nearer to the
+/// Judges the mean stress below every place of a line. The result is `None` at places nearer to the
 /// border of the grid than the region reaches.
-pub fn average<J: Judge>(
+pub fn judge_means<J: Judge>(
     site: &Site<'_>,
     line: Line,
     distance: &Distance,
     judge: &J,
-) -> Result<Vec<Option<J::Found>>, Error> {
+) -> Result<Vec<Option<J::Judgement>>, Error> {
     judge.accepts(site.cycle)?;
-    let top = checked(site, distance)?;
+    let top = layer_top(site, distance)?;
     let Distance {
         method,
         length,
@@ -115,15 +115,15 @@ pub fn average<J: Judge>(
     // The depth of a mean: the middle of its region.
     let z = vec![top + 0.5 * length; inside.len()];
     let judged = judge.judge(layer, &z, &mean.select(&inside).view(), &site.stop)?;
-    let mut found = vec![None; along.len()];
+    let mut judgements = vec![None; along.len()];
     for (n, one) in inside.into_iter().zip(judged) {
-        found[n] = Some(one);
+        judgements[n] = Some(one);
     }
-    Ok(found)
+    Ok(judgements)
 }
 
-/// The top of the layer \[m\]; fails if the distance does not lie in it.
-fn checked(site: &Site<'_>, distance: &Distance) -> Result<f64, Error> {
+/// Returns the top of the layer \[m\]; fails if the distance does not lie in it.
+fn layer_top(site: &Site<'_>, distance: &Distance) -> Result<f64, Error> {
     let Distance {
         method,
         length,
@@ -190,14 +190,14 @@ fn add_mean(
         .collect();
     let along = line.places(site.grid);
     let strain = mean.plastic.is_some();
-    site.on_line((line, &depths), strain, |first, histories| {
+    site.for_each_depth((line, &depths), strain, |first, histories| {
         for (k, history) in histories.iter().enumerate() {
             let (x, weight) = nodes[first + k];
             let weight = share * weight;
-            for (mean, of) in mean.parts_mut().into_iter().zip(history.parts()) {
+            for (mean, of) in mean.fields_mut().into_iter().zip(history.fields()) {
                 if method.is_disc() {
                     let half = (length * length - (x * below).powi(2)).max(0.0).sqrt();
-                    mean.scaled_add(weight, &over_width(of, &along, half));
+                    mean.scaled_add(weight, &average_over_width(of, &along, half));
                 } else {
                     mean.scaled_add(weight, of);
                 }
@@ -207,18 +207,19 @@ fn add_mean(
     })
 }
 
-/// Means over x - half ... x + half of a history linear between its places; NaN beyond them.
-fn over_width(history: &Array3<f64>, x: &[f64], half: f64) -> Array3<f64> {
+/// Averages over x - half ... x + half a history that is linear between its places; NaN beyond
+/// them.
+fn average_over_width(history: &Array3<f64>, x: &[f64], half: f64) -> Array3<f64> {
     let n = x.len();
-    let mut found = Array3::from_elem(history.dim(), f64::NAN);
+    let mut means = Array3::from_elem(history.dim(), f64::NAN);
     if n < 2 {
-        return found;
+        return means;
     }
     let d = x[1] - x[0];
     let inside: Vec<usize> = (0..n)
         .filter(|i| x[*i] - half >= x[0] - 1e-9 * d && x[*i] + half <= x[n - 1] + 1e-9 * d)
         .collect();
-    for (t, mut found) in found.outer_iter_mut().enumerate() {
+    for (t, mut means) in means.outer_iter_mut().enumerate() {
         let now = history.index_axis(Axis(0), t);
         for c in 0..6 {
             // The integral from the first place to each.
@@ -226,20 +227,20 @@ fn over_width(history: &Array3<f64>, x: &[f64], half: f64) -> Array3<f64> {
             for i in 1..n {
                 whole[i] = whole[i - 1] + d * f64::midpoint(now[(i - 1, c)], now[(i, c)]);
             }
-            let up_to = |at: f64| {
-                let i = (((at - x[0]) / d).max(0.0) as usize).min(n - 2);
-                let s = (at - x[i]) / d;
+            let integral_to = |upper: f64| {
+                let i = (((upper - x[0]) / d).max(0.0) as usize).min(n - 2);
+                let s = (upper - x[i]) / d;
                 let (low, high) = (now[(i, c)], now[(i + 1, c)]);
                 whole[i] + d * s * (low + s / 2.0 * (high - low))
             };
             for &i in &inside {
-                found[(i, c)] = if half > 0.0 {
-                    (up_to(x[i] + half) - up_to(x[i] - half)) / (2.0 * half)
+                means[(i, c)] = if half > 0.0 {
+                    (integral_to(x[i] + half) - integral_to(x[i] - half)) / (2.0 * half)
                 } else {
                     now[(i, c)]
                 };
             }
         }
     }
-    found
+    means
 }

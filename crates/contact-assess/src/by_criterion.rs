@@ -1,4 +1,4 @@
-//! A fatigue criterion as a judge of layers.
+//! A fatigue criterion applied to layers.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -6,29 +6,30 @@ use std::sync::atomic::AtomicBool;
 use contact_core::Error;
 use contact_core::error::Raised;
 use contact_core::scene::Body;
-use contact_subsurface::{Line, OverCycle, growth};
+use contact_subsurface::{CycleSource, Line, plastic_growth};
 use fatigue::{Assessment, Criterion, History, Material, PointResult, Search, evaluate};
 
 use super::judged::Judge;
 
-/// Relative difference of an elastic constant of a material from that of the scene above which a
+/// Relative difference between the elastic constants of the material and of the scene above which a
 /// note is added.
 const NOTABLE_DIFFERENCE: f64 = 0.05;
 
 /// A criterion with the numbers of the material of every layer.
 #[derive(Clone, Debug)]
-pub struct ByCriterion {
-    /// Of every layer from the surface down, the substrate's last; none where it is not judged.
+pub struct CriterionJudge {
+    /// Assessment of every layer from the surface down, the substrate last; `None` for a layer that
+    /// is not judged.
     pub assessments: Vec<Option<Assessment>>,
     /// Settings of the search for the critical plane.
     pub search: Search,
-    /// Notes for the reader: materials whose elastic constants differ from those of the scene.
+    /// Notes for the reader: materials whose elastic constants differ from the scene.
     pub notes: Vec<String>,
 }
 
-impl ByCriterion {
-    /// The criterion of a name for the materials of the layers of a body. Elastic strains follow from the
-    /// stress by the E and nu of the scene.
+impl CriterionJudge {
+    /// Looks up a criterion for the materials of the layers of a body. Elastic strains follow from
+    /// the stress by the E and nu of the scene.
     pub fn new(
         name: &str,
         body: &Body,
@@ -44,31 +45,31 @@ impl ByCriterion {
             };
             let coating = body.coatings.get(layer);
             let elastic = coating.map_or(body.substrate, |coating| coating.material);
-            let mut of = Assessment::from_name(name, material).map_err(of_criteria)?;
+            let mut assessment = Assessment::from_name(name, material).map_err(from_fatigue)?;
             for (number, value, digits) in [("E", elastic.E, 1e-9), ("nu", elastic.nu, 1.0)] {
-                let enters = of.criterion.number(number).is_some();
-                let own = material.number(number).unwrap_or(value);
+                let enters = assessment.criterion.number(number).is_some();
+                let own_value = material.number(number).unwrap_or(value);
                 // Another E is another material; another nu matters where the criterion has it.
                 if (enters || number == "E")
-                    && (own - value).abs() > NOTABLE_DIFFERENCE * value.abs()
+                    && (own_value - value).abs() > NOTABLE_DIFFERENCE * value.abs()
                 {
                     let unit = if number == "E" { " GPa" } else { "" };
                     notes.push(format!(
-                        "{}: the scene has {number} = {:.4}{unit}, `{}` has {:.4}{unit}. Stresses and strains are \
-                         those of the scene, strengths those of `{}`",
+                        "{}: the scene has {number} = {:.4}{unit}, `{}` has {:.4}{unit}. Stresses and strains use \
+                         the numbers of the scene, strengths the numbers of `{}`",
                         body.layer_name(layer),
                         digits * value,
                         material.name,
-                        digits * own,
+                        digits * own_value,
                         material.name,
                     ));
                 }
                 if enters {
-                    let changed = of.criterion.with_number(number, value);
-                    of.criterion = changed.map_err(of_criteria)?;
+                    let changed = assessment.criterion.with_number(number, value);
+                    assessment.criterion = changed.map_err(from_fatigue)?;
                 }
             }
-            assessments.push(Some(of));
+            assessments.push(Some(assessment));
         }
         Ok(Self {
             assessments,
@@ -77,29 +78,31 @@ impl ByCriterion {
         })
     }
 
-    /// [`Self::notes`], and those on the numbers of the materials that are from no source.
+    /// [`Self::notes`], and notes on numbers of the materials without a source.
     pub fn notes_on_materials(&self, materials: &[Option<Material>]) -> Result<Vec<String>, Error> {
         let mut notes = self.notes.clone();
-        for (of, material) in self.assessments.iter().zip(materials) {
-            if let Some(of) = of {
-                let (_, note) = of.scatter(material.as_ref(), None).map_err(of_criteria)?;
+        for (assessment, material) in self.assessments.iter().zip(materials) {
+            if let Some(assessment) = assessment {
+                let (_, note) = assessment
+                    .scatter(material.as_ref(), None)
+                    .map_err(from_fatigue)?;
                 notes.extend(note);
             }
         }
         Ok(notes)
     }
 
-    /// The assessment of a layer that is judged.
-    pub fn of(&self, layer: usize) -> Option<&Assessment> {
+    /// The assessment of a layer, if it is judged.
+    pub fn assessment(&self, layer: usize) -> Option<&Assessment> {
         self.assessments.get(layer).and_then(Option::as_ref)
     }
 }
 
-impl Judge for ByCriterion {
-    type Found = PointResult;
+impl Judge for CriterionJudge {
+    type Judgement = PointResult;
 
     fn judges(&self, layer: usize) -> bool {
-        self.of(layer).is_some()
+        self.assessment(layer).is_some()
     }
 
     fn judge(
@@ -109,35 +112,44 @@ impl Judge for ByCriterion {
         history: &History<'_>,
         stop: &AtomicBool,
     ) -> Result<Vec<PointResult>, Error> {
-        let Some(of) = self.of(layer) else {
+        let Some(assessment) = self.assessment(layer) else {
             return Ok(Vec::new());
         };
-        evaluate(&of.criterion, history, &self.search, stop).map_err(of_criteria)
+        evaluate(&assessment.criterion, history, &self.search, stop).map_err(from_fatigue)
     }
 
     fn takes_strain(&self) -> bool {
-        let mut criteria = self.assessments.iter().flatten().map(|of| &of.criterion);
+        let mut criteria = self
+            .assessments
+            .iter()
+            .flatten()
+            .map(|assessment| &assessment.criterion);
         criteria.any(Criterion::takes_strain)
     }
 
-    /// The lives of criteria of strain are those of closed loops of stress and strain.
-    fn accepts(&self, cycle: &dyn OverCycle) -> Result<(), Error> {
-        let mut criteria = self.assessments.iter().flatten().map(|of| &of.criterion);
+    /// Rejects a cycle with growing plastic strain for criteria of strain: their lives hold for
+    /// closed loops.
+    fn accepts(&self, cycle: &dyn CycleSource) -> Result<(), Error> {
+        let mut criteria = self
+            .assessments
+            .iter()
+            .flatten()
+            .map(|yielding| &yielding.criterion);
         let Some(strained) = criteria.find(|criterion| criterion.takes_strain()) else {
             return Ok(());
         };
-        if !cycle.yielding()?.is_some_and(|of| of.grows()) {
+        if !cycle.yielding()?.is_some_and(|yielding| yielding.grows()) {
             return Ok(());
         }
-        let of = growth(cycle)?;
-        if !of.ratchets() {
+        let yielding = plastic_growth(cycle)?;
+        if !yielding.ratchets() {
             return Ok(());
         }
         let allowed = format!(
             "a criterion of stress such as dang_van, or a later cycle whose strain closes: go on for more cycles. \
              This one ratchets. It adds up a plastic strain of {:.2e} and keeps {:.2e}, and lives of strain are \
-             those of closed loops",
-            of.added, of.net
+             for closed loops",
+            yielding.added, yielding.net
         );
         Err(Error::invalid("criterion", strained.name(), allowed))
     }
@@ -147,38 +159,37 @@ impl Judge for ByCriterion {
     }
 }
 
-/// The core's error of one of the criteria.
-pub fn of_criteria(error: fatigue::Error) -> Error {
+/// Converts an error of the crate fatigue.
+pub fn from_fatigue(error: fatigue::Error) -> Error {
     match error {
         fatigue::Error::Stopped => Error::Interrupted { increment: 0 },
         error => Error::Other(Raised(Arc::new(error))),
     }
 }
 
-/// The material of every layer: those given from the surface down, or one, which is the
-/// substrate's.
-pub fn materials_of_layers(
+/// The material of every layer, given from the surface down. A single material is the substrate's.
+pub fn layer_materials(
     body: &Body,
     given: Vec<Option<Material>>,
 ) -> Result<Vec<Option<Material>>, Error> {
     let layers = body.coatings.len() + 1;
-    let mut each = given;
-    if each.len() == 1 {
+    let mut materials = given;
+    if materials.len() == 1 {
         let mut coatings = vec![None; layers - 1];
-        coatings.append(&mut each);
-        each = coatings;
+        coatings.append(&mut materials);
+        materials = coatings;
     }
-    if each.len() != layers {
+    if materials.len() != layers {
         let allowed = format!(
             "one, the substrate's, or one for each of the {layers} layers from the surface down"
         );
-        return Err(Error::invalid("materials", each.len(), allowed));
+        return Err(Error::invalid("materials", materials.len(), allowed));
     }
-    if each.iter().all(Option::is_none) {
+    if materials.iter().all(Option::is_none) {
         let allowed = "at least one that is a material: nothing is judged";
         return Err(Error::invalid("materials", "none", allowed));
     }
-    Ok(each)
+    Ok(materials)
 }
 
 /// Angle from the surface normal, into the body, to the trace of a plane of this normal in a

@@ -1,4 +1,4 @@
-//! First yield and shakedown as a judge of layers.
+//! First yield and shakedown applied to layers.
 
 use std::sync::atomic::AtomicBool;
 
@@ -7,23 +7,23 @@ use contact_core::scene::ResidualStress;
 use fatigue::{History, Yield, yielding};
 use ndarray::Axis;
 
-use super::by_criterion::of_criteria;
+use super::by_criterion::from_fatigue;
 use super::judged::Judge;
 
-/// Load factors for the yield stress of every layer. The stress judged is that of the loads alone.
+/// Load factors for the yield stress of every layer. The stress is caused by the loads alone.
 #[derive(Clone, Debug)]
-pub struct ByYield {
-    /// Yield stress of every layer from the surface down, the substrate's last \[Pa\]; none where
-    /// it is not judged.
+pub struct YieldJudge {
+    /// Yield stress of every layer from the surface down, the substrate last \[Pa\]; `None` for a
+    /// layer that is not judged.
     pub s_y: Vec<Option<f64>>,
     /// Residual stress of the layers, which does not grow with the load.
     pub residual: ResidualStress,
     /// The factor by which points are ranked.
-    pub of: fn(&Yield) -> f64,
+    pub factor: fn(&Yield) -> f64,
 }
 
-impl Judge for ByYield {
-    type Found = Yield;
+impl Judge for YieldJudge {
+    type Judgement = Yield;
 
     fn judges(&self, layer: usize) -> bool {
         self.s_y.get(layer).is_some_and(Option::is_some)
@@ -41,19 +41,20 @@ impl Judge for ByYield {
         };
         let residual = z.iter().map(|z| self.residual.stress_at(layer, *z));
         let residual: Vec<[f64; 2]> = residual.collect();
-        // Points of one residual stress together, as those of a depth are.
-        let mut found = Vec::with_capacity(residual.len());
+        // Points with one residual stress together, for example the points at one depth.
+        let mut factors = Vec::with_capacity(residual.len());
         for same in residual.chunk_by(|a, b| a == b) {
             let [xx, yy] = same[0];
-            let some = found.len()..found.len() + same.len();
-            let here = history.stress.slice_axis(Axis(1), some.into());
+            let some = factors.len()..factors.len() + same.len();
+            let history_of_points = history.stress.slice_axis(Axis(1), some.into());
             let constant = [xx, yy, 0.0, 0.0, 0.0, 0.0];
-            found.extend(yielding(&here, s_y, &constant, stop).map_err(of_criteria)?);
+            factors
+                .extend(yielding(&history_of_points, s_y, &constant, stop).map_err(from_fatigue)?);
         }
-        Ok(found)
+        Ok(factors)
     }
 
     fn score(&self, found: &Yield) -> f64 {
-        1.0 / (self.of)(found)
+        1.0 / (self.factor)(found)
     }
 }

@@ -3,7 +3,7 @@
 use std::sync::atomic::AtomicBool;
 
 use contact_core::Error;
-use contact_subsurface::{Depth, Line, OverCycle};
+use contact_subsurface::{CycleSource, Depth, Line};
 use fatigue::History;
 use rayon::prelude::*;
 
@@ -12,7 +12,7 @@ use super::site::Site;
 /// A rule that judges the stress history of points.
 pub trait Judge: Sync {
     /// The judgement of a point.
-    type Found: Copy + Send + Sync;
+    type Judgement: Copy + Send + Sync;
     /// Whether it judges a layer, from the surface down.
     fn judges(&self, layer: usize) -> bool;
     /// The judgements of histories of shape (moments, points, 6) in a layer that it judges, at the depths `z`
@@ -23,17 +23,17 @@ pub trait Judge: Sync {
         z: &[f64],
         history: &History<'_>,
         stop: &AtomicBool,
-    ) -> Result<Vec<Self::Found>, Error>;
+    ) -> Result<Vec<Self::Judgement>, Error>;
     /// Whether it takes the plastic strain; without it the history has the stress alone.
     fn takes_strain(&self) -> bool {
         false
     }
     /// Fails for a cycle that it cannot judge.
-    fn accepts(&self, _: &dyn OverCycle) -> Result<(), Error> {
+    fn accepts(&self, _: &dyn CycleSource) -> Result<(), Error> {
         Ok(())
     }
     /// The severity of a judgement: the larger the worse.
-    fn score(&self, found: &Self::Found) -> f64;
+    fn score(&self, found: &Self::Judgement) -> f64;
 }
 
 /// The judgements on a section.
@@ -46,7 +46,7 @@ pub struct Judged<F> {
     /// Depths.
     pub depths: Vec<Depth>,
     /// The judgements at each depth along the line; `None` in layers that are not judged.
-    pub found: Vec<Option<Vec<F>>>,
+    pub judgements: Vec<Option<Vec<F>>>,
 }
 
 /// Applies judges to the section below a line, all to the same stress.
@@ -55,18 +55,19 @@ pub fn judge<J: Judge>(
     line: Line,
     depths: &[Depth],
     judges: &[J],
-) -> Result<Vec<Judged<J::Found>>, Error> {
+) -> Result<Vec<Judged<J::Judgement>>, Error> {
     for judge in judges {
         judge.accepts(site.cycle)?;
     }
     let along = line.places(site.grid);
-    let wanted: Vec<usize> = (0..depths.len())
+    let judged_depths: Vec<usize> = (0..depths.len())
         .filter(|n| judges.iter().any(|judge| judge.judges(depths[*n].layer)))
         .collect();
-    let some: Vec<Depth> = wanted.iter().map(|n| depths[*n]).collect();
-    let mut found: Vec<Vec<Option<Vec<J::Found>>>> = vec![vec![None; depths.len()]; judges.len()];
+    let some: Vec<Depth> = judged_depths.iter().map(|n| depths[*n]).collect();
+    let mut judgements: Vec<Vec<Option<Vec<J::Judgement>>>> =
+        vec![vec![None; depths.len()]; judges.len()];
     let strain = judges.iter().any(Judge::takes_strain);
-    site.on_line((line, &some), strain, |first, histories| {
+    site.for_each_depth((line, &some), strain, |first, histories| {
         let of_depth = |(k, history): (usize, &super::history::History)| {
             let Depth { z, layer } = some[first + k];
             let z = vec![z; along.len()];
@@ -81,23 +82,23 @@ pub fn judge<J: Judge>(
                 .map(of_judge)
                 .collect::<Result<Vec<_>, Error>>()
         };
-        let here: Vec<_> = histories
+        let fatigue_histories: Vec<_> = histories
             .par_iter()
             .enumerate()
             .map(of_depth)
             .collect::<Result<_, Error>>()?;
-        for (k, of_judges) in here.into_iter().enumerate() {
-            for (found, of_judge) in found.iter_mut().zip(of_judges) {
-                found[wanted[first + k]] = of_judge;
+        for (k, of_judges) in fatigue_histories.into_iter().enumerate() {
+            for (judgements, of_judge) in judgements.iter_mut().zip(of_judges) {
+                judgements[judged_depths[first + k]] = of_judge;
             }
         }
         Ok(())
     })?;
-    let judged = |found| Judged {
+    let judged = |judgements| Judged {
         line,
         along: along.clone(),
         depths: depths.to_vec(),
-        found,
+        judgements,
     };
-    Ok(found.into_iter().map(judged).collect())
+    Ok(judgements.into_iter().map(judged).collect())
 }

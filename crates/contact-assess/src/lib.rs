@@ -1,9 +1,9 @@
 //! Stage 7: FROM STRESS TO DECISION: does it crack, yield or shake down, over a closed cycle of a
 //! contact.
 //!
-//! A [`Judge`] judges the stress history of a point: [`ByCriterion`] by a fatigue criterion,
-//! [`ByYield`] by load factors of first yield and shakedown. [`judge`] applies it to a section, a
-//! few depths at a time, so that memory is bounded for any number of increments ([`OverCycle`](contact_subsurface::OverCycle)
+//! A [`Judge`] judges the stress history of a point: [`CriterionJudge`] by a fatigue criterion,
+//! [`YieldJudge`] by load factors of first yield and shakedown. [`judge`] applies it to a section, a
+//! few depths at a time, so that memory is bounded for any number of increments ([`CycleSource`](contact_subsurface::CycleSource)
 //! gives them, from a store or from arrays); [`worst`] finds the worst point of a layer, between
 //! the samples and on the rim of the contact, by judging the stress there; [`average`] judges means
 //! over a critical distance of the material, and [`range_of_life`] gives the low, best and high
@@ -24,11 +24,11 @@ mod range;
 mod site;
 mod worst;
 
-pub use average::{Averaging, Distance, average};
-pub use by_criterion::{ByCriterion, inclination, materials_of_layers, of_criteria};
-pub use by_yield::ByYield;
+pub use average::{Averaging, Distance, judge_means};
+pub use by_criterion::{CriterionJudge, from_fatigue, inclination, layer_materials};
+pub use by_yield::YieldJudge;
 pub use judged::{Judge, Judged, judge};
 pub use mean::{LargestMean, error_of_largest_mean, errors_of_means, largest_mean};
-pub use range::{RangeOfLife, RangeOptions, range_of_life};
+pub use range::{MarginRange, RangeOptions, margin_range};
 pub use site::Site;
-pub use worst::{Worst, worst};
+pub use worst::{WorstPoint, find_worst_point};

@@ -2,19 +2,19 @@
 //! the increments of the path.
 
 use contact_core::Error;
-use contact_subsurface::{Line, Moments, OverCycle, TwiceAsLarge, Yielding};
+use contact_subsurface::{CycleSource, DoubledCells, Line, Moments, Yielding};
 use fatigue::PointResult;
 
-use super::average::{Distance, average};
-use super::by_criterion::ByCriterion;
+use super::average::{Distance, judge_means};
+use super::by_criterion::CriterionJudge;
 use super::site::Site;
-use super::worst::OF_COARSE;
+use super::worst::COARSE_FACTOR;
 
 /// The largest mean over a critical distance along a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LargestMean {
     /// The judgement at the place of the largest sample.
-    pub found: PointResult,
+    pub result: PointResult,
     /// The largest value, between samples.
     pub value: f64,
     /// Its place on the line \[m\].
@@ -26,56 +26,56 @@ pub fn largest_mean(
     site: &Site<'_>,
     line: Line,
     distance: &Distance,
-    of: &ByCriterion,
+    judge: &CriterionJudge,
 ) -> Result<Option<LargestMean>, Error> {
-    let means = average(site, line, distance, of)?;
-    Ok(largest(&means, &line.places(site.grid)))
+    let means = judge_means(site, line, distance, judge)?;
+    Ok(largest_at_vertex(&means, &line.places(site.grid)))
 }
 
-/// The error of the largest mean along a line: the change of that value on cells twice as large, of the
-/// larger of two pairings, and the error of the path. NaN if the region fits nowhere on the larger cells.
+/// The error of the largest mean along a line: its change on cells twice as large, the larger one
+/// of two pairings, and the error of the path. NaN if the region fits nowhere on the larger cells.
 pub fn error_of_largest_mean(
     site: &Site<'_>,
     line: Line,
     distance: &Distance,
-    of: &ByCriterion,
+    judge: &CriterionJudge,
     value: f64,
 ) -> Result<f64, Error> {
     let mut change = 0.0;
-    for (means, places) in on_coarser(site, line, distance, of)? {
-        let coarse = largest(&means, &places).map_or(f64::NAN, |mean| mean.value);
-        change = larger(change, (value - coarse).abs());
+    for (means, places) in means_on_coarser(site, line, distance, judge)? {
+        let coarse = largest_at_vertex(&means, &places).map_or(f64::NAN, |mean| mean.value);
+        change = larger_or_nan(change, (value - coarse).abs());
     }
-    Ok(OF_COARSE * change + of_path(site, value))
+    Ok(COARSE_FACTOR * change + path_error_of(site, value))
 }
 
-/// The errors of the `means` along a line, as [`error_of_largest_mean`] at each of its places, between
-/// which the means on larger cells are linear; NaN where there is no mean on one of them.
+/// The errors of the `means` along a line, as [`error_of_largest_mean`] at each place. Between
+/// places the means on larger cells are linear. NaN where there is no mean on one of them.
 pub fn errors_of_means(
     site: &Site<'_>,
     line: Line,
     distance: &Distance,
-    of: &ByCriterion,
+    judge: &CriterionJudge,
     means: &[Option<PointResult>],
 ) -> Result<Vec<f64>, Error> {
     let along = line.places(site.grid);
     let mut changes = vec![0.0; along.len()];
-    for (coarse, places) in on_coarser(site, line, distance, of)? {
+    for (coarse, places) in means_on_coarser(site, line, distance, judge)? {
         for ((change, mean), place) in changes.iter_mut().zip(means).zip(&along) {
             let value = mean.map_or(f64::NAN, |mean| mean.value);
-            let off = value - between(&coarse, &places, *place).unwrap_or(f64::NAN);
-            *change = larger(*change, off.abs());
+            let off = value - interpolate(&coarse, &places, *place).unwrap_or(f64::NAN);
+            *change = larger_or_nan(*change, off.abs());
         }
     }
     let values = means
         .iter()
         .map(|mean| mean.map_or(f64::NAN, |mean| mean.value));
-    let error = |(change, value): (f64, f64)| OF_COARSE * change + of_path(site, value);
+    let error = |(change, value): (f64, f64)| COARSE_FACTOR * change + path_error_of(site, value);
     Ok(changes.into_iter().zip(values).map(error).collect())
 }
 
 /// The larger of two; NaN if one is.
-fn larger(a: f64, b: f64) -> f64 {
+fn larger_or_nan(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() {
         f64::NAN
     } else {
@@ -83,8 +83,8 @@ fn larger(a: f64, b: f64) -> f64 {
     }
 }
 
-/// The error of a value by the increments of the path; 0 where they were given.
-fn of_path(site: &Site<'_>, value: f64) -> f64 {
+/// The error of a value by the increments of the path; 0 if the increments were given.
+fn path_error_of(site: &Site<'_>, value: f64) -> f64 {
     site.cycle.path_error().unwrap_or(0.0) * value.abs()
 }
 
@@ -92,50 +92,54 @@ fn of_path(site: &Site<'_>, value: f64) -> f64 {
 type Means = (Vec<Option<PointResult>>, Vec<f64>);
 
 /// The means on cells twice as large, paired in both ways.
-fn on_coarser(
+fn means_on_coarser(
     site: &Site<'_>,
     line: Line,
     distance: &Distance,
-    of: &ByCriterion,
+    judge: &CriterionJudge,
 ) -> Result<Vec<Means>, Error> {
-    let pairings = TwiceAsLarge::both(site.grid);
-    let means = |cells: &TwiceAsLarge| {
+    let pairings = DoubledCells::new_pair(site.grid);
+    let means = |cells: &DoubledCells| {
         let coarser = Site {
             grid: &cells.grid,
-            cycle: &OnCoarser {
+            cycle: &CoarserCycle {
                 cycle: site.cycle,
                 cells,
             },
             stop: site.stop.clone(),
             ..*site
         };
-        let (there, more) = line.seen_from(cells.middle);
-        let places = there.places(&cells.grid).iter().map(|s| s + more).collect();
-        Ok((average(&coarser, there, distance, of)?, places))
+        let (coarser_line, shift) = line.with_origin(cells.middle);
+        let places = coarser_line
+            .places(&cells.grid)
+            .iter()
+            .map(|s| s + shift)
+            .collect();
+        Ok((
+            judge_means(&coarser, coarser_line, distance, judge)?,
+            places,
+        ))
     };
     pairings.iter().map(means).collect()
 }
 
 /// A cycle on cells twice as large.
-struct OnCoarser<'a> {
-    cycle: &'a dyn OverCycle,
-    cells: &'a TwiceAsLarge,
+struct CoarserCycle<'a> {
+    cycle: &'a dyn CycleSource,
+    cells: &'a DoubledCells,
 }
 
-impl OverCycle for OnCoarser<'_> {
+impl CycleSource for CoarserCycle<'_> {
     fn count(&self) -> usize {
         self.cycle.count()
     }
 
     fn moments(&self, which: &[usize]) -> Result<Moments, Error> {
-        Ok(self.cycle.moments(which)?.on_coarser(self.cells))
+        Ok(self.cycle.moments(which)?.coarsened(self.cells))
     }
 
     fn start(&self) -> Result<Option<Moments>, Error> {
-        Ok(self
-            .cycle
-            .start()?
-            .map(|start| start.on_coarser(self.cells)))
+        Ok(self.cycle.start()?.map(|start| start.coarsened(self.cells)))
     }
 
     fn yielding(&self) -> Result<Option<Yielding>, Error> {
@@ -143,8 +147,8 @@ impl OverCycle for OnCoarser<'_> {
     }
 }
 
-/// The value between two samples; `None` beyond the samples or beside one without a value.
-fn between(means: &[Option<PointResult>], places: &[f64], at: f64) -> Option<f64> {
+/// Interpolates linearly between samples; `None` beyond the samples or beside one without a value.
+fn interpolate(means: &[Option<PointResult>], places: &[f64], at: f64) -> Option<f64> {
     let n = places
         .partition_point(|place| *place < at)
         .clamp(1, places.len().checked_sub(1)?);
@@ -154,8 +158,9 @@ fn between(means: &[Option<PointResult>], places: &[f64], at: f64) -> Option<f64
     Some((1.0 - part) * low? + part * high?)
 }
 
-/// The largest of some means, at the vertex of the parabola through it and the two beside it.
-fn largest(means: &[Option<PointResult>], along: &[f64]) -> Option<LargestMean> {
+/// The largest mean, at the vertex of the parabola through the largest sample and the two beside
+/// it.
+fn largest_at_vertex(means: &[Option<PointResult>], along: &[f64]) -> Option<LargestMean> {
     let value = |n: usize| means[n].map(|found| found.value);
     let judged = (0..means.len()).filter(|n| value(*n).is_some_and(|value| !value.is_nan()));
     let n = judged.max_by(|a, b| {
@@ -175,14 +180,14 @@ fn largest(means: &[Option<PointResult>], along: &[f64]) -> Option<LargestMean> 
         None => (found.value, place),
     };
     Some(LargestMean {
-        found,
+        result: found,
         value,
         place,
     })
 }
 
-/// The vertex of the parabola through three samples of which the middle one is the largest: its
-/// height above that one, and its place in steps from it.
+/// Vertex of the parabola through three samples, the middle one being the largest: its height above
+/// that sample, and its distance from it in steps.
 fn vertex([left, middle, right]: [f64; 3]) -> (f64, f64) {
     let (slope, bend) = (0.5 * (right - left), left - 2.0 * middle + right);
     if bend < 0.0 {

@@ -2,11 +2,11 @@
 //!
 //! Starting points are the local maxima of the samples (hills), the places where the rim of the
 //! contact and the border of the stick zone cross the line, and places beyond the samples. From the
-//! worst of these the search ascends ([`Climb`]). Every value is that of a history at a point; none
+//! worst of these the search ascends ([`Climb`]). Every value belongs to a history at a point. None
 //! is extrapolated, and none is below the worst sample.
 
 use contact_core::Error;
-use contact_subsurface::{Errors, Extreme};
+use contact_subsurface::{Errors, Extremum};
 
 use super::climb::Climb;
 use super::judged::{Judge, Judged};
@@ -19,24 +19,25 @@ const STEP: f64 = 0.5;
 
 /// Error of a score over the largest change to cells twice as large: in line rigs on 40 to 128 cells
 /// across 2.6 a it is 1.1 at most.
-pub(super) const OF_COARSE: f64 = 1.25;
+pub(super) const COARSE_FACTOR: f64 = 1.25;
 
 /// The worst point of a layer.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Worst<F> {
+pub struct WorstPoint<F> {
     /// The judgement there.
-    pub found: F,
+    pub judgement: F,
     /// Its score and place.
-    pub extreme: Extreme,
+    pub extremum: Extremum,
 }
 
-/// The worst point of a layer from the judgements on a section; `None` if the layer has no number.
-pub fn worst<J: Judge>(
+/// Finds the worst point of a layer from the judgements on a section; `None` if the layer has no
+/// number.
+pub fn find_worst_point<J: Judge>(
     site: &Site<'_>,
-    judged: &Judged<J::Found>,
+    judged: &Judged<J::Judgement>,
     judge: &J,
     layer: usize,
-) -> Result<Option<Worst<J::Found>>, Error> {
+) -> Result<Option<WorstPoint<J::Judgement>>, Error> {
     let climb = Climb {
         site,
         judge,
@@ -57,19 +58,20 @@ pub fn worst<J: Judge>(
     };
     let top = of_layer().fold(f64::INFINITY, f64::min);
     let deepest = of_layer().fold(0.0, f64::max);
-    let known = climb.borders()?;
-    let moments = climb.moments(highest.0)?;
-    let at = site.under(&moments)?;
+    let borders = climb.borders()?;
+    let moments = climb.representative_moments(highest.0)?;
+    let prepared = site.prepare(&moments)?;
     if layer == 0 && top <= 0.0 {
-        let beside = climb.beside(&known, judged);
-        let scores = climb.scores(&at, &beside)?;
-        starts.extend(beside.into_iter().zip(scores));
+        let places_beside = climb.worst_borders(&borders, judged);
+        let scores = climb.scores(&prepared, &places_beside)?;
+        starts.extend(places_beside.into_iter().zip(scores));
     }
     // Beside the contact a bulk stress may outweigh it, though the samples fall towards their ends.
-    let far = climb.far([top, highest.0[1]]);
-    let scores = climb.scores(&at, &far)?;
+    let places_beyond = climb.places_beyond([top, highest.0[1]]);
+    let scores = climb.scores(&prepared, &places_beyond)?;
     starts.extend(
-        far.into_iter()
+        places_beyond
+            .into_iter()
             .zip(scores)
             .filter(|(_, score)| !score.is_nan()),
     );
@@ -85,55 +87,55 @@ pub fn worst<J: Judge>(
         .fold(f64::INFINITY, f64::min);
     let half_cell = STEP * climb.cell();
     let steps = [half_cell, if gap.is_finite() { STEP * gap } else { 0.0 }];
-    let (place, left) = climb.climbed(&at, best, steps, [top, deepest])?;
+    let (place, drops) = climb.ascend(&prepared, best, steps, [top, deepest])?;
     let point = climb.point(place);
     let history = if whole {
-        at.history(&[point])?
+        prepared.history(&[point])?
     } else {
-        site.whole(&[point])?
+        site.full_history(&[point])?
     };
-    let Some(mut found) = climb.judged(&[point], &history)?.first().copied() else {
+    let Some(mut judgement) = climb.judge_points(&[point], &history)?.first().copied() else {
         return Ok(None);
     };
-    let (mut place, mut point, mut score) = (place, point, judge.score(&found));
+    let (mut place, mut point, mut score) = (place, point, judge.score(&judgement));
     // A sample is the stress of the whole section: the point may lie below it where rims within the
     // cells or steps of the tractions count.
     let missing = (highest.1 - score).max(0.0);
     if missing > 0.0
-        && let Some(sample) = climb.sample(judged, highest.0)
+        && let Some(sample) = climb.judgement_of_sample(judged, highest.0)
     {
         (place, point) = (highest.0, climb.point(highest.0));
-        (found, score) = (sample, highest.1);
+        (judgement, score) = (sample, highest.1);
     }
-    let border = climb.on_border(place, &known);
-    let change = climb.change_on_coarser_cells((place, score), border, &moments)?;
+    let border = climb.border_at(place, &borders);
+    let change = climb.coarser_change((place, score), border, &moments)?;
     // An assumed rim may be half a cell off.
-    let beside = if at.rim_is_unknown(point) {
+    let places_beside = if prepared.rim_is_unknown(point) {
         [-half_cell, half_cell]
             .map(|by| [place[0] + by, place[1]])
             .into()
     } else {
         Vec::new()
     };
-    let beside = climb.scores(&at, &beside)?.into_iter();
-    let unsure = beside.map(|beside| (score - beside).abs());
-    let beyond = climb.more_far_away(&at, place, score)?;
-    let along = unsure.fold(left[0].max(missing).max(beyond), f64::max);
-    let extreme = Extreme {
+    let places_beside = climb.scores(&prepared, &places_beside)?.into_iter();
+    let changes = places_beside.map(|places_beside| (score - places_beside).abs());
+    let beyond = climb.gain_far_away(&prepared, place, score)?;
+    let along = changes.fold(drops[0].max(missing).max(beyond), f64::max);
+    let extremum = Extremum {
         value: score,
         x: point.0,
         y: point.1,
         depth: point.2,
         at: border.map(|b| b.zone),
         error: Errors {
-            tractions: change.map(|change| OF_COARSE * change),
+            tractions: change.map(|change| COARSE_FACTOR * change),
             solution: site.cycle.path_error().map(|error| error * score.abs()),
-            ..Errors::along(judged.line, [along, 0.0, left[1]])
+            ..Errors::from_search(judged.line, [along, 0.0, drops[1]])
         },
     };
     let (length, width) = site.grid.extent();
-    Ok(Some(Worst {
-        found,
-        extreme: extreme.placed(length.max(width)),
+    Ok(Some(WorstPoint {
+        judgement,
+        extremum: extremum.snapped_to_zero(length.max(width)),
     }))
 }

@@ -2,7 +2,7 @@
 
 use contact_core::Error;
 use contact_core::scene::Branch;
-use contact_subsurface::{Eigenstresses, Moments, OverCycle, Side, Yielding, cycles};
+use contact_subsurface::{CycleSource, EigenstressSolver, Moments, Side, Yielding, cycles};
 
 use crate::Store;
 
@@ -18,7 +18,7 @@ pub struct StoredCycle<'a> {
     /// Increment of every index, from 1.
     increments: Vec<usize>,
     /// Of a body that yields.
-    eigenstresses: Option<Eigenstresses>,
+    eigenstresses: Option<EigenstressSolver>,
 }
 
 impl<'a> StoredCycle<'a> {
@@ -61,7 +61,7 @@ impl<'a> StoredCycle<'a> {
         let scene = store.scene();
         let yields = side.body(scene).yields();
         Ok(Self {
-            eigenstresses: yields.then(|| Eigenstresses::of(scene, side)),
+            eigenstresses: yields.then(|| EigenstressSolver::new(scene, side)),
             store,
             kept,
             before,
@@ -91,14 +91,14 @@ impl<'a> StoredCycle<'a> {
             moments.sigma_B.push(sigma_B);
             if let Some(of) = &self.eigenstresses {
                 let yielded = self.store.yielded(self.increments[place])?;
-                moments.eigenstress.push(of.at(yielded.as_ref())?);
+                moments.eigenstress.push(of.eigenstress(yielded.as_ref())?);
             }
         }
         Ok(moments)
     }
 }
 
-impl OverCycle for StoredCycle<'_> {
+impl CycleSource for StoredCycle<'_> {
     fn count(&self) -> usize {
         self.kept.len()
     }

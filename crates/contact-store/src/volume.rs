@@ -3,7 +3,7 @@
 use std::sync::{Mutex, PoisonError};
 
 use contact_core::Error;
-use contact_subsurface::{Depth, Extreme, Probe, Search, Slices, top_of_plane};
+use contact_subsurface::{Depth, Extremum, Probe, Search, Slices, top_of_plane};
 use ndarray::Array2;
 use rayon::prelude::*;
 
@@ -24,7 +24,7 @@ pub fn write_volume(
     probes: &[Probe],
     sinks: &[&dyn VolumeSink],
     search: Option<&Search>,
-) -> Result<Vec<Option<Extreme>>, Error> {
+) -> Result<Vec<Option<Extremum>>, Error> {
     let (depths, place) = merged(written, between);
     let grid = slices.grid();
     let x: Vec<f64> = (0..grid.nx).map(|i| grid.x(i)).collect();
@@ -54,7 +54,7 @@ pub fn write_volume(
         let Some(search) = search else {
             return Ok(None);
         };
-        search.in_volume(&probes[n], &tops, &first[n], &depths, None)
+        search.find_in_volume(&probes[n], &tops, &first[n], &depths, None)
     };
     (0..probes.len()).map(over_depths).collect()
 }

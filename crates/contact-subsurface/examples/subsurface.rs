@@ -42,7 +42,7 @@ fn main() {
             };
             let of: Vec<_> = names
                 .iter()
-                .map(|name| Probe::named(name, "probe").unwrap())
+                .map(|name| Probe::find(name, "probe").unwrap())
                 .collect();
             let slices = Slices::new(body, Side::Body2, grid, states).unwrap();
             let image = ImageData::create(file, grid, Side::Body2, &depths, &of).unwrap();

@@ -27,14 +27,14 @@ pub struct Border {
     pub y: f64,
     /// The zone that ends there.
     pub zone: Zone,
-    /// Whether it is extrapolated to a place within a cell from the tractions further in; else it
-    /// is assumed.
+    /// True if the border is extrapolated to a place within a cell from the tractions further in;
+    /// else it is assumed.
     pub within_cell: bool,
 }
 
-/// The places where a line crosses the rim of the contact and the border of the stick zone, from
-/// tractions, each of shape (nx, ny) \[Pa\]; without `stick` the rim alone. Without a line: the
-/// crossings with the lines through the centres of all rows and columns of cells.
+/// Finds the places where a line crosses the rim of the contact and the border of the stick zone.
+/// The tractions have the shape (nx, ny) \[Pa\]. Without `stick` only the rim is found. Without a
+/// line all rows and columns of cells are crossed.
 pub fn borders(
     grid: &Grid,
     tractions: &Tractions<'_>,
@@ -56,11 +56,11 @@ pub fn borders(
     }
     let window = (0..grid.nx, 0..grid.ny);
     let continued = Continued::new(grid, tractions, stick, &window, false);
-    Ok(of(&continued, grid, line))
+    Ok(find_borders(&continued, grid, line))
 }
 
-/// The same from continued tractions.
-pub(super) fn of(continued: &Continued, grid: &Grid, line: Option<Line>) -> Vec<Border> {
+/// Finds the borders from continued tractions.
+pub(super) fn find_borders(continued: &Continued, grid: &Grid, line: Option<Line>) -> Vec<Border> {
     let Plane { n, d, .. } = Plane::new(grid, false);
     let [to_column, to_row] =
         [(n.0, d.0), (n.1, d.1)].map(|(n, d)| move |v: f64| v / d + (n - 1) as f64 / 2.0);
@@ -79,7 +79,7 @@ pub(super) fn of(continued: &Continued, grid: &Grid, line: Option<Line>) -> Vec<
         Some(Line::AlongY(x)) => continued.crossings(1, to_column(x)),
         Some(line @ Line::Through { .. }) => {
             let cells = |s: f64| {
-                let (x, y) = line.at(s);
+                let (x, y) = line.place(s);
                 [to_column(x), to_row(y)]
             };
             let (from, to) = (cells(0.0), cells(line.step(grid)));

@@ -24,19 +24,20 @@ pub(super) struct Start {
     pub(super) layer: usize,
     /// First steps along x, y, z; 0 along directions that are not searched.
     pub(super) steps: [f64; 3],
-    /// The value there, where it is a sample.
+    /// The value at the start, if it is a sample.
     pub(super) known: Option<f64>,
 }
 
 /// Values at points.
 pub(super) type Values<'a> = dyn Fn(&[Point]) -> Result<Vec<f64>, Error> + 'a;
 
-pub(super) fn point([x, y, z]: [f64; 3], layer: usize) -> Point {
+/// Point at a place in a layer.
+pub(super) fn point_in_layer([x, y, z]: [f64; 3], layer: usize) -> Point {
     (x, y, Depth { z, layer })
 }
 
-/// Ascends from a start of a given value, between two depths of its layer. Returns place, value and
-/// the remaining error along each direction.
+/// Ascends from a start with the given value, between two depths of its layer. Returns place, value
+/// and the remaining error along each direction.
 pub(super) fn climb(
     values: &Values<'_>,
     start: &Start,
@@ -44,38 +45,42 @@ pub(super) fn climb(
     (highest, deepest): (f64, f64),
 ) -> Result<([f64; 3], f64, [f64; 3]), Error> {
     let (mut place, mut best, mut steps) = (start.place, value, start.steps);
-    let mut left = [0.0; 3];
+    let mut remaining = [0.0; 3];
     let (mut closer, mut farther) = (0, 0);
     while closer < MOST_ROUNDS && farther < OUTWARDS {
-        let beside = |axis: usize, sign: f64| {
+        let neighbours_along = |axis: usize, sign: f64| {
             let mut at = place;
             at[axis] += sign * steps[axis];
             at[2] = at[2].clamp(highest, deepest);
             at
         };
-        let sides = (0..3).flat_map(|axis| [-1.0, 1.0].map(|sign| (axis, beside(axis, sign))));
+        let sides =
+            (0..3).flat_map(|axis| [-1.0, 1.0].map(|sign| (axis, neighbours_along(axis, sign))));
         let sides: Vec<_> = sides
             .filter(|(axis, at)| at[*axis] != place[*axis])
             .collect();
         let points: Vec<Point> = sides
             .iter()
-            .map(|(_, at)| point(*at, start.layer))
+            .map(|(_, at)| point_in_layer(*at, start.layer))
             .collect();
-        let found = values(&points)?;
+        let new_values = values(&points)?;
         let mut top = place;
         for axis in 0..3 {
-            let of_axis = sides.iter().zip(&found).filter(|((a, _), _)| *a == axis);
+            let of_axis = sides
+                .iter()
+                .zip(&new_values)
+                .filter(|((a, _), _)| *a == axis);
             let of_axis: Vec<_> = of_axis
                 .map(|((_, at), v)| (at[axis] - place[axis], *v))
                 .collect();
             let (step, gain) = vertex(best, &of_axis);
             top[axis] += step;
-            left[axis] = gain;
+            remaining[axis] = gain;
         }
-        let mut tried: Vec<_> = sides.iter().map(|(_, at)| *at).zip(found).collect();
+        let mut tried: Vec<_> = sides.iter().map(|(_, at)| *at).zip(new_values).collect();
         if top != place {
-            let found = values(&[point(top, start.layer)])?;
-            tried.push((top, found[0]));
+            let new_values = values(&[point_in_layer(top, start.layer)])?;
+            tried.push((top, new_values[0]));
         }
         let before = best;
         let mut outwards = None;
@@ -96,11 +101,12 @@ pub(super) fn climb(
             steps = steps.map(|s| CLOSER * s);
         }
     }
-    Ok((place, best, left))
+    Ok((place, best, remaining))
 }
 
-/// The vertex of the parabola through a value and those at one or two distances from it, limited to
-/// these: its distance, and the drop of the parabola at a third of the distances from it.
+/// Finds the vertex of the parabola through a value and values at one or two distances from it. The
+/// vertex is limited to these distances. Returns its distance, and the drop of the parabola at a
+/// third of the distances from it.
 fn vertex(value: f64, sides: &[(f64, f64)]) -> (f64, f64) {
     let &[(low, v_low), (high, v_high)] = sides else {
         // At the border of a layer: the value itself is the top, unless the field rises away from

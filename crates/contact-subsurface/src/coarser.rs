@@ -1,34 +1,36 @@
-//! The tractions of a contact on cells twice as large, and what has yielded on points twice as far apart: the
-//! change of a value estimates the error of the cells.
+//! Stress and displacement on coarser cells: the change of a value estimates the error of the
+//! cells.
 //!
-//! Cells are paired in two ways, and the larger of both changes is the estimate. Beside a rim a value
-//! depends on where the rim lies in its cell, so that one change may vanish by chance.
+//! The tractions of a contact are averaged over cells twice as large, and the plastic strain over
+//! points twice as far apart. Cells are paired in two ways, and the larger of the two changes is
+//! the estimate. Beside a rim a value depends on where the rim lies in its cell, so that one change
+//! may vanish by chance.
 
 use contact_core::Error;
 use contact_core::convolution::Tractions;
 use contact_core::scene::{Body, Grid};
 use stress_tensor::StressTensor;
 
-use super::{Border, Depth, Eigenstress, Line, Point, Points, Side, States, TwiceAsLarge};
+use super::{Border, Depth, DoubledCells, Eigenstress, Line, Point, Points, Side, States};
 
 /// A body under the tractions of the first of some states on cells twice as large.
-pub(super) struct Coarser {
+pub(super) struct CoarserCells {
     points: Points,
     borders: Vec<Border>,
     /// The middle of its grid \[m\].
     middle: (f64, f64),
 }
 
-impl Coarser {
-    /// On cells paired in both ways.
-    pub(super) fn both(
+impl CoarserCells {
+    /// Sets up the cells paired in both ways.
+    pub(super) fn new_pair(
         body: &Body,
         side: Side,
         grid: &Grid,
         line: Option<Line>,
         states: &States<'_>,
     ) -> Result<[Self; 2], Error> {
-        let [first, second] = TwiceAsLarge::both(grid);
+        let [first, second] = DoubledCells::new_pair(grid);
         Ok([
             Self::new(body, side, &first, line, states)?,
             Self::new(body, side, &second, line, states)?,
@@ -38,14 +40,14 @@ impl Coarser {
     fn new(
         body: &Body,
         side: Side,
-        cells: &TwiceAsLarge,
+        cells: &DoubledCells,
         line: Option<Line>,
         states: &States<'_>,
     ) -> Result<Self, Error> {
         let middle = cells.middle;
-        let own = states.tractions.first().copied().unwrap_or_default();
+        let first_tractions = states.tractions.first().copied().unwrap_or_default();
         let mean = |field: Option<&[f64]>| field.map(|field| cells.mean(field));
-        let [p, q_x, q_y] = [own.p, own.q_x, own.q_y].map(mean);
+        let [p, q_x, q_y] = [first_tractions.p, first_tractions.q_x, first_tractions.q_y].map(mean);
         let tractions = [Tractions {
             p: p.as_deref(),
             q_x: q_x.as_deref(),
@@ -54,10 +56,10 @@ impl Coarser {
         let stick = states.stick.and_then(|stick| stick.first());
         let stick: Option<Vec<bool>> = stick.map(|stick| cells.any(stick));
         let stick: Vec<&[bool]> = stick.iter().map(Vec::as_slice).collect();
-        let line = line.map(|line| line.seen_from(middle).0);
+        let line = line.map(|line| line.with_origin(middle).0);
         let eigenstress = states.eigenstress.iter().take(1);
-        let seen = |left: &Option<Eigenstress>| left.as_ref().map(|left| left.on_coarser(cells));
-        let eigenstress: Vec<_> = eigenstress.map(seen).collect();
+        let coarsen = |left: &Option<Eigenstress>| left.as_ref().map(|left| left.coarsened(cells));
+        let eigenstress: Vec<_> = eigenstress.map(coarsen).collect();
         let states = States {
             tractions: &tractions,
             stick: states.stick.map(|_| &stick[..]),
@@ -72,37 +74,38 @@ impl Coarser {
         })
     }
 
-    /// A place in the coordinates of the coarser grid; a place beside a border is as far from the
-    /// nearest border there.
-    fn place(&self, x: f64, y: f64, border: Option<&Border>) -> (f64, f64) {
+    /// Converts a place to the coordinates of the coarser grid. A place beside a border keeps its
+    /// distance from the nearest border there.
+    fn convert_place(&self, x: f64, y: f64, border: Option<&Border>) -> (f64, f64) {
         let (x, y) = (x - self.middle.0, y - self.middle.1);
-        let Some(own) = border else {
+        let Some(fine_border) = border else {
             return (x, y);
         };
-        let (from_x, from_y) = (own.x - self.middle.0, own.y - self.middle.1);
-        let beside = self.points.borders_beside(from_x, from_y);
+        let (from_x, from_y) = (fine_border.x - self.middle.0, fine_border.y - self.middle.1);
+        let beside = self.points.borders_near(from_x, from_y);
         let same = self.borders.iter().chain(&beside);
-        let same = same.filter(|b| own.zone == b.zone);
+        let same = same.filter(|b| fine_border.zone == b.zone);
         let nearest = same.min_by(|a, b| {
-            let away = |b: &Border| (b.x - from_x).hypot(b.y - from_y);
-            away(a).total_cmp(&away(b))
+            let distance = |b: &Border| (b.x - from_x).hypot(b.y - from_y);
+            distance(a).total_cmp(&distance(b))
         });
         nearest.map_or((x, y), |b| (x + b.x - from_x, y + b.y - from_y))
     }
 
-    /// The stress at a place, as far from a border of a zone as on its own grid \[Pa\].
+    /// The stress at a place, at the same distance from a border of a zone as on the fine grid
+    /// \[Pa\].
     pub(super) fn stress(
         &self,
         (x, y, depth): Point,
         border: Option<&Border>,
     ) -> Result<StressTensor, Error> {
-        let (x, y) = self.place(x, y, border);
+        let (x, y) = self.convert_place(x, y, border);
         Ok(self.points.stress(&[(x, y, depth)])?[0][0])
     }
 
     /// The displacement at a place \[m\].
     pub(super) fn displacement(&self, x: f64, y: f64, depth: Depth) -> Result<[f64; 3], Error> {
-        let (x, y) = self.place(x, y, None);
+        let (x, y) = self.convert_place(x, y, None);
         Ok(self.points.displacement(&[(x, y, depth)])?[0][0])
     }
 }

@@ -16,7 +16,7 @@ pub struct Depth {
 /// A point: x, y \[m\] and the depth.
 pub type Point = (f64, f64, Depth);
 
-/// Which of the two bodies.
+/// One of the two bodies.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Side {
     /// The upper body: depth is counted upwards.
@@ -45,21 +45,21 @@ impl Side {
     }
 }
 
-/// The depths `z` \[m\] with their layers; on an interface both, the upper one first.
+/// Returns the depths `z` \[m\] with their layers; on an interface both, the upper one first.
 pub fn depths(body: &Body, z: &[f64]) -> Result<Vec<Depth>, Error> {
     body.check_alone()?;
     let stack = Stack::new(body);
-    let mut all = Vec::with_capacity(z.len());
+    let mut depths_and_layers = Vec::with_capacity(z.len());
     for &z in z {
         let upper = stack.locate_depth(z, None)?.layer;
         check_not_rigid(body, upper)?;
-        all.push(Depth { z, layer: upper });
-        let next = upper + 1;
-        if stack.locate_depth(z, Some(next)).is_ok() && check_not_rigid(body, next).is_ok() {
-            all.push(Depth { z, layer: next });
+        depths_and_layers.push(Depth { z, layer: upper });
+        let lower = upper + 1;
+        if stack.locate_depth(z, Some(lower)).is_ok() && check_not_rigid(body, lower).is_ok() {
+            depths_and_layers.push(Depth { z, layer: lower });
         }
     }
-    Ok(all)
+    Ok(depths_and_layers)
 }
 
 /// Distance of neighbouring chosen depths over their depth.
@@ -67,16 +67,16 @@ const STEP: f64 = 0.1;
 /// Depth below which the distance no longer falls, over the radius of the contact.
 const SHALLOW: f64 = 0.02;
 /// Fewest steps across a layer.
-const STEPS_OF_A_LAYER: f64 = 4.0;
+const MIN_LAYER_STEPS: f64 = 4.0;
 
-/// The default depths for stresses, with both sides of every interface: from the surface to the
-/// depth `deepest` \[m\] under a contact of the radius `a` \[m\]. `finer` times as many as the
+/// Default depths for stresses, with both sides of every interface: from the surface to the depth
+/// `deepest` \[m\] under a contact of the radius `a` \[m\]. There are `finer` times as many as by
 /// default, 1.
 ///
 /// The stress under tractions on the surface varies along z over lengths of the order of z:
 /// neighbours are a tenth of their depth apart, near the surface a five-hundredth of `a`; a layer
 /// has five depths at least, its borders included.
-pub fn chosen_depths(body: &Body, a: f64, deepest: f64, finer: f64) -> Result<Vec<Depth>, Error> {
+pub fn default_depths(body: &Body, a: f64, deepest: f64, finer: f64) -> Result<Vec<Depth>, Error> {
     if !(deepest > 0.0 && deepest.is_finite()) {
         return Err(Error::invalid("depth", deepest, "a positive length in m"));
     }
@@ -86,7 +86,7 @@ pub fn chosen_depths(body: &Body, a: f64, deepest: f64, finer: f64) -> Result<Ve
     for bottom in borders.chain([deepest]) {
         let top = z[z.len() - 1];
         let range = ((bottom + shallow) / (top + shallow)).ln();
-        let steps = (finer * (range / STEP).max(STEPS_OF_A_LAYER)).ceil();
+        let steps = (finer * (range / STEP).max(MIN_LAYER_STEPS)).ceil();
         // Even in the logarithm.
         let inside = (1..steps as usize).map(|i| {
             let at = (range * i as f64 / steps).exp() * (top + shallow) - shallow;
@@ -98,25 +98,23 @@ pub fn chosen_depths(body: &Body, a: f64, deepest: f64, finer: f64) -> Result<Ve
     depths(body, &z)
 }
 
-/// The depths that remain if every other one of each layer is left out, its first and last
-/// excepted.
-pub(super) fn every_other(depths: &[Depth]) -> Vec<bool> {
+/// Marks every other depth of each layer, and its first and last.
+pub(super) fn coarser_depths(depths: &[Depth]) -> Vec<bool> {
     let layers = depths.chunk_by(|a, b| a.layer == b.layer);
     let kept = layers.flat_map(|of| (0..of.len()).map(|n| n % 2 == 0 || n + 1 == of.len()));
     kept.collect()
 }
 
-/// The places in `depths` that lie on an interface: the same depth in two layers, one after the
-/// other.
-pub(super) fn on_interfaces(depths: &[Depth]) -> Vec<bool> {
+/// Marks the `depths` that lie on an interface: the same depth in two layers, one after the other.
+pub(super) fn interface_mask(depths: &[Depth]) -> Vec<bool> {
     let same = |a: usize, b: usize| {
         depths
             .get(a)
             .zip(depths.get(b))
             .is_some_and(|(a, b)| a.z == b.z && a.layer != b.layer)
     };
-    let one = |n: usize| same(n, n + 1) || (n > 0 && same(n - 1, n));
-    (0..depths.len()).map(one).collect()
+    let is_on_interface = |n: usize| same(n, n + 1) || (n > 0 && same(n - 1, n));
+    (0..depths.len()).map(is_on_interface).collect()
 }
 
 #[cfg(test)]
@@ -136,7 +134,7 @@ mod tests {
             ..Body::homogeneous(material, Shape::Flat)
         };
         let (a, deepest) = (8e-5, 1.6e-4);
-        let depths = chosen_depths(&body, a, deepest, 1.0).expect("depths");
+        let depths = default_depths(&body, a, deepest, 1.0).expect("depths");
         let of_layer = |n| depths.iter().filter(move |d| d.layer == n).map(|d| d.z);
         for layer in 0..4 {
             assert!(of_layer(layer).count() >= 5, "layer {layer}: {depths:?}");
@@ -147,10 +145,10 @@ mod tests {
         }
         assert!(depths[0].z == 0.0 && depths.last().is_some_and(|d| d.z == deepest));
         assert!(depths.windows(2).all(|d| d[0].z <= d[1].z) && depths.len() < 80);
-        assert_eq!(on_interfaces(&depths).iter().filter(|on| **on).count(), 6);
+        assert_eq!(interface_mask(&depths).iter().filter(|on| **on).count(), 6);
         // Interfaces below the deepest depth are left out.
-        let shallow = chosen_depths(&body, a, 1e-6, 1.0).expect("depths");
+        let shallow = default_depths(&body, a, 1e-6, 1.0).expect("depths");
         assert!(shallow.iter().all(|d| d.layer == 0));
-        assert!(chosen_depths(&body, a, 0.0, 1.0).is_err());
+        assert!(default_depths(&body, a, 0.0, 1.0).is_err());
     }
 }

@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use contact_core::kernels::{Cell, DepthKernel, Quantity, Stress};
 
 use super::Side;
-use super::loads::snapped;
+use super::loads::snap_to_half_cells;
 
 /// Division of the cells: a part is smaller than its distance from the sample over `grading`, or of
 /// the smallest size, 3^-`cuts` cells.
@@ -17,15 +17,15 @@ pub(super) struct Fineness {
 }
 
 impl Fineness {
-    /// For samples that share their parts; none lies on a border.
+    /// Fineness for samples that share their parts; none lies on a border.
     pub(super) fn shared(flat: bool) -> Self {
         let (grading, cuts) = if flat { (8.0, 5) } else { (2.0, 4) };
         Self { grading, cuts }
     }
 
-    /// For a point, which may lie on a border: the error of the root within the smallest part is at
-    /// most 2 (2 d_x/a 3^-10)^(1/2) p_H.
-    pub(super) fn of_a_point(flat: bool) -> Self {
+    /// Fineness for a point, which may lie on a border. The error of the root within the smallest
+    /// part is at most 2 (2 d_x/a 3^-10)^(1/2) p_H.
+    pub(super) fn single_point(flat: bool) -> Self {
         let (grading, cuts) = if flat { (8.0, 12) } else { (3.0, 10) };
         Self { grading, cuts }
     }
@@ -69,56 +69,63 @@ pub(super) struct Division<'a> {
     pub(super) side: Side,
     pub(super) d: (f64, f64),
     pub(super) flat: bool,
-    /// From the middle of the cell, in cells.
+    /// Offset from the middle of the cell, in cells.
     pub(super) sample: (f64, f64),
     /// Depth in cells.
     pub(super) z: f64,
     pub(super) fineness: Fineness,
-    pub(super) known: &'a RefCell<Known>,
+    pub(super) cache: &'a RefCell<ResponseCache>,
 }
 
 /// Responses by distance along and across and by size.
-pub(super) type Known = HashMap<[u64; 3], [[f64; 3]; 6]>;
+pub(super) type ResponseCache = HashMap<[u64; 3], [[f64; 3]; 6]>;
 
 impl Division<'_> {
-    /// Adds the nine thirds of a part, `times` being the number of divisions so far; a third that
-    /// is too large is divided again.
-    pub(super) fn thirds(&self, parts: &mut Vec<Part>, middle: (f64, f64), whole: f64, times: u32) {
+    /// Adds the nine thirds of a part; `times` is the number of divisions so far. A third that is
+    /// too large is divided again.
+    pub(super) fn add_thirds(
+        &self,
+        parts: &mut Vec<Part>,
+        middle: (f64, f64),
+        whole: f64,
+        times: u32,
+    ) {
         const THIRDS: [f64; 3] = [0.0, -1.0 / 3.0, 1.0 / 3.0];
         let size = whole / 3.0;
         for s in THIRDS {
             for t in &THIRDS[..if self.flat { 1 } else { 3 }] {
                 let middle = (middle.0 + s * whole, middle.1 + t * whole);
-                let from = |sample: f64, middle: f64| snapped((sample - middle) / size);
-                let x = from(self.sample.0, middle.0);
+                let offset =
+                    |sample: f64, middle: f64| snap_to_half_cells((sample - middle) / size);
+                let x = offset(self.sample.0, middle.0);
                 let y = if self.flat {
                     0.0
                 } else {
-                    from(self.sample.1, middle.1)
+                    offset(self.sample.1, middle.1)
                 };
                 let distance = x.abs().max(y.abs());
                 let Fineness { grading, cuts } = self.fineness;
                 if times < cuts && distance.max(self.z / size) < grading {
-                    self.thirds(parts, middle, size, times + 1);
+                    self.add_thirds(parts, middle, size, times + 1);
                     continue;
                 }
                 let holds = distance <= 0.5 && self.z < size;
                 parts.push(Part {
                     at: if holds { self.sample } else { middle },
-                    response: self.response(x, y, size),
+                    response: self.cached_response(x, y, size),
                 });
             }
         }
     }
 
     /// The stress under a part of a size at an offset in its own lengths; mirrored parts share it.
-    pub(super) fn response(&self, x: f64, y: f64, size: f64) -> [[f64; 3]; 6] {
-        let place = [x.abs(), y.abs()];
-        let key = [place[0], place[1], size].map(f64::to_bits);
-        let mut known = self.known.borrow_mut();
-        let response = known
+    pub(super) fn cached_response(&self, x: f64, y: f64, size: f64) -> [[f64; 3]; 6] {
+        let offset = [x.abs(), y.abs()];
+        let key = [offset[0], offset[1], size].map(f64::to_bits);
+        let mut cache = self.cache.borrow_mut();
+        let response = cache
             .entry(key)
-            .or_insert_with(|| self.computed(place[0], place[1], size));
+            .or_insert_with(|| self.compute_response(offset[0], offset[1], size));
         let mut mirrored = *response;
         for (row, response) in mirrored.iter_mut().enumerate() {
             for (column, v) in response.iter_mut().enumerate() {
@@ -131,7 +138,7 @@ impl Division<'_> {
         mirrored
     }
 
-    fn computed(&self, x: f64, y: f64, size: f64) -> [[f64; 3]; 6] {
+    fn compute_response(&self, x: f64, y: f64, size: f64) -> [[f64; 3]; 6] {
         let d_x = size * self.d.0;
         let d_y = if self.flat { self.d.1 } else { size * self.d.1 };
         let cell = Cell {

@@ -1,21 +1,22 @@
 //! Plastic strain and the residual stress that it leaves, between the points of their grid.
 //!
-//! Both stand at the Gauss points of the elements in depth and at the middles of the cells of the volume
-//! grid. Between them each is a product of cubic polynomials through the four nearest points along each
-//! axis, in depth through those of one layer alone. The surface carries nothing of the stress: there s_zz,
-//! s_xz and s_yz are zero. Beyond the grid the stress falls as that of a source far away, with the third
-//! power of the distance, in plane strain with the second; the strain is zero there.
+//! Both are known at the Gauss points of the elements in depth and at the middles of the cells of
+//! the volume grid. Between these points each is a product of cubic polynomials through the four
+//! nearest points along each axis. In depth the polynomials use the points of one layer. The
+//! surface carries none of the stress: s_zz, s_xz and s_yz are zero there. Beyond the grid the
+//! stress falls like the stress of a source far away, with the third power of the distance, in
+//! plane strain with the second. The strain is zero there.
 
-mod of_run;
+mod solver;
 
 use std::sync::Arc;
 
 use stress_tensor::StressTensor;
 
-pub use self::of_run::Eigenstresses;
+pub use self::solver::EigenstressSolver;
 
 use super::plastic_strain::PlasticStrain;
-use super::{Depth, Growth, TwiceAsLarge};
+use super::{Depth, DoubledCells, Growth};
 
 /// Points of a polynomial.
 const POINTS: usize = 4;
@@ -28,7 +29,7 @@ const CARRIED: [usize; 3] = [2, 4, 5];
 #[derive(Clone, Debug)]
 pub struct Eigenstress {
     field: Arc<Field>,
-    /// Where the origin of x, y lies in the scene \[m\].
+    /// The origin of x, y in the scene \[m\].
     origin: (f64, f64),
 }
 
@@ -45,14 +46,14 @@ struct Field {
     strain: PlasticStrain,
 }
 
-/// The points beside a place, with the weights of their polynomials.
-struct Beside {
+/// The points of the interpolation at a place, with the weights of their polynomials.
+struct Stencil {
     /// Planes of the layer, and depths of the first and the last \[m\].
     rows: Vec<usize>,
     ends: [f64; 2],
     in_depth: Weights,
     along: [Weights; 2],
-    /// Part that is left of the stress beside the grid and below it.
+    /// Decay of the stress beside the grid and below it, 1 within it.
     far: f64,
     deep: f64,
 }
@@ -61,9 +62,9 @@ struct Beside {
 type Weights = [(usize, f64); POINTS];
 
 impl Eigenstress {
-    /// The same with x, y counted from another point of the scene \[m\].
+    /// Returns the fields with x, y counted from another point of the scene \[m\].
     #[must_use]
-    pub fn seen_from(&self, (x, y): (f64, f64)) -> Self {
+    pub fn with_origin(&self, (x, y): (f64, f64)) -> Self {
         Self {
             field: self.field.clone(),
             origin: (self.origin.0 + x, self.origin.1 + y),
@@ -73,14 +74,14 @@ impl Eigenstress {
     /// The stress at x, y \[m\] and a depth \[Pa\]; zero in a layer that has no element.
     pub fn stress(&self, x: f64, y: f64, depth: Depth) -> StressTensor {
         let field = &*self.field;
-        let Some(beside) = field.beside([x + self.origin.0, y + self.origin.1], depth) else {
+        let Some(beside) = field.stencil([x + self.origin.0, y + self.origin.1], depth) else {
             return [0.0; COMPONENTS];
         };
-        let Beside { along, .. } = &beside;
+        let Stencil { along, .. } = &beside;
         let far = beside.far * beside.deep;
         let cells = field.n[0] * field.n[1];
         let mut sum = [0.0; COMPONENTS];
-        beside.each(|weight, plane, cell| {
+        beside.for_each_point(|weight, plane, cell| {
             let at = plane * COMPONENTS * cells + cell[0] * field.n[1] + cell[1];
             for (c, sum) in sum.iter_mut().enumerate() {
                 *sum += far * weight * f64::from(field.stress[at + c * cells]);
@@ -109,12 +110,12 @@ impl Eigenstress {
     pub fn plastic_strain(&self, x: f64, y: f64, depth: Depth) -> [f64; COMPONENTS] {
         let field = &*self.field;
         let mut sum = [0.0; COMPONENTS];
-        let beside = field.beside([x + self.origin.0, y + self.origin.1], depth);
+        let beside = field.stencil([x + self.origin.0, y + self.origin.1], depth);
         let Some(beside) = beside.filter(|beside| beside.far * beside.deep >= 1.0) else {
             return sum;
         };
-        beside.each(|weight, plane, [i, j]| {
-            let strain = field.strain.at(plane, i, j);
+        beside.for_each_point(|weight, plane, [i, j]| {
+            let strain = field.strain.strain(plane, i, j);
             for (sum, strain) in sum.iter_mut().zip(strain.into_iter().flatten()) {
                 *sum += weight * strain;
             }
@@ -122,60 +123,60 @@ impl Eigenstress {
         sum
     }
 
-    /// Means over pairs of planes of a layer and over cells paired as those of the contact are, with x, y
-    /// counted from the middle of these.
+    /// Averages over pairs of planes of a layer and over pairs of cells, paired like the cells of
+    /// the contact. x, y are counted from the middle of these.
     #[must_use]
-    pub fn on_coarser(&self, contact: &TwiceAsLarge) -> Self {
+    pub fn coarsened(&self, contact: &DoubledCells) -> Self {
         let field = &*self.field;
-        let cells = contact.of_cells(field.n, field.d);
-        let pair =
+        let cells = contact.for_cells(field.n, field.d);
+        let plane_values =
             |n: usize| &field.stress[n * field.n[0] * field.n[1]..][..field.n[0] * field.n[1]];
         let (mut planes, mut stress, mut of_plane) = (Vec::new(), Vec::new(), Vec::new());
-        let mut next = 0;
-        while let Some(&(z, layer)) = field.planes.get(next) {
+        let mut first = 0;
+        while let Some(&(z, layer)) = field.planes.get(first) {
             let second = field
                 .planes
-                .get(next + 1)
+                .get(first + 1)
                 .filter(|second| second.1 == layer);
-            let (below, last) = second.map_or((z, next), |second| (second.0, next + 1));
+            let (below, last) = second.map_or((z, first), |second| (second.0, first + 1));
             for c in 0..COMPONENTS {
-                let both = pair(next * COMPONENTS + c)
+                let pairs = plane_values(first * COMPONENTS + c)
                     .iter()
-                    .zip(pair(last * COMPONENTS + c));
-                let mean: Vec<f64> = both.map(|(a, b)| 0.5 * f64::from(a + b)).collect();
+                    .zip(plane_values(last * COMPONENTS + c));
+                let mean: Vec<f64> = pairs.map(|(a, b)| 0.5 * f64::from(a + b)).collect();
                 stress.extend(cells.mean(&mean).into_iter().map(|s| s as f32));
             }
-            of_plane.extend((next..=last).map(|_| planes.len()));
+            of_plane.extend((first..=last).map(|_| planes.len()));
             planes.push((f64::midpoint(z, below), layer));
-            next = last + 1;
+            first = last + 1;
         }
         let grid = cells.grid;
-        let moved = |own: f64, of_contact: f64, of_cells: f64| own + of_contact - of_cells;
+        let shifted = |origin: f64, of_contact: f64, of_cells: f64| origin + of_contact - of_cells;
         Self {
             field: Arc::new(Field {
                 n: [grid.nx, grid.ny],
                 d: [grid.dx, grid.dy],
                 plane_strain: field.plane_strain,
-                strain: field.strain.on_coarser(&cells, &of_plane),
+                strain: field.strain.coarsened(&cells, &of_plane),
                 planes,
                 stress,
             }),
             origin: (
-                moved(self.origin.0, contact.middle.0, cells.middle.0),
-                moved(self.origin.1, contact.middle.1, cells.middle.1),
+                shifted(self.origin.0, contact.middle.0, cells.middle.0),
+                shifted(self.origin.1, contact.middle.1, cells.middle.1),
             ),
         }
     }
 
-    /// What has been added to the plastic strain since a state before, where something had yielded.
+    /// Growth of the plastic strain since an earlier state, at the points that have yielded.
     pub fn growth_since(&self, before: Option<&Self>) -> Growth {
         Growth::between(before.map(|of| &of.field.strain), &self.field.strain)
     }
 }
 
-impl Beside {
+impl Stencil {
     /// Calls `f` with the weight, the plane and the cell of each point.
-    fn each(&self, mut f: impl FnMut(f64, usize, [usize; 2])) {
+    fn for_each_point(&self, mut f: impl FnMut(f64, usize, [usize; 2])) {
         let [along_x, along_y] = &self.along;
         for &(row, w_z) in &self.in_depth {
             for &(i, w_x) in along_x {
@@ -191,8 +192,9 @@ impl Beside {
 }
 
 impl Field {
-    /// The points beside a place of the scene; `None` in a layer that has no element.
-    fn beside(&self, [x, y]: [f64; 2], depth: Depth) -> Option<Beside> {
+    /// The points of the interpolation at a place of the scene; `None` in a layer that has no
+    /// element.
+    fn stencil(&self, [x, y]: [f64; 2], depth: Depth) -> Option<Stencil> {
         let rows = self.planes.iter().enumerate();
         let rows = rows.filter(|(_, (_, layer))| *layer == depth.layer);
         let (rows, z): (Vec<usize>, Vec<f64>) = rows.map(|(n, (z, _))| (n, *z)).unzip();
@@ -207,10 +209,10 @@ impl Field {
             1.0
         };
         let at = if is_last { depth.z.min(last) } else { depth.z };
-        let (along_x, far_x) = self.along(0, x);
-        let (along_y, far_y) = self.along(1, y);
-        Some(Beside {
-            in_depth: weights(&z, at),
+        let (along_x, far_x) = self.cells_along(0, x);
+        let (along_y, far_y) = self.cells_along(1, y);
+        Some(Stencil {
+            in_depth: lagrange_weights(&z, at),
             rows,
             ends,
             along: [along_x, along_y],
@@ -219,8 +221,9 @@ impl Field {
         })
     }
 
-    /// The cells beside a place along an axis, and the part that is left of the stress beyond the grid.
-    fn along(&self, axis: usize, place: f64) -> (Weights, f64) {
+    /// The cells beside a place along an axis with their weights, and the decay of the stress
+    /// beyond the grid.
+    fn cells_along(&self, axis: usize, place: f64) -> (Weights, f64) {
         let n = self.n[axis];
         if n == 1 {
             return ([(0, 1.0), (0, 0.0), (0, 0.0), (0, 0.0)], 1.0);
@@ -234,22 +237,23 @@ impl Field {
         };
         let at = (within + border) / self.d[axis];
         let middles: Vec<f64> = (0..n).map(|i| i as f64).collect();
-        (weights(&middles, at), far)
+        (lagrange_weights(&middles, at), far)
     }
 }
 
-/// Lagrange's polynomial through the points nearest to a place; the value of the place itself beyond them.
-fn weights(points: &[f64], at: f64) -> Weights {
+/// Weights of Lagrange's polynomial through the points nearest to a place; beyond them the weights
+/// of the nearest end.
+fn lagrange_weights(points: &[f64], at: f64) -> Weights {
     let count = points.len().min(POINTS);
     let above = points.partition_point(|p| *p < at);
     let first = above.saturating_sub(POINTS / 2).min(points.len() - count);
-    let mut found = [(first, 0.0); POINTS];
-    for (k, found) in found[..count].iter_mut().enumerate() {
+    let mut weights = [(first, 0.0); POINTS];
+    for (k, weights) in weights[..count].iter_mut().enumerate() {
         let others = (first..first + count).filter(|m| *m != first + k);
         let factor = |m: usize| (at - points[m]) / (points[first + k] - points[m]);
-        *found = (first + k, others.map(factor).product());
+        *weights = (first + k, others.map(factor).product());
     }
-    found
+    weights
 }
 
 #[cfg(test)]
@@ -267,7 +271,7 @@ mod tests {
 
     /// Stress and, in the substrate, strain of a function on cells and 8 planes; 1 Pa goes with a
     /// strain of 1e-3.
-    fn with(n: [usize; 2], f: fn(f64, f64, Depth, usize) -> f64) -> Eigenstress {
+    fn field_of(n: [usize; 2], f: fn(f64, f64, Depth, usize) -> f64) -> Eigenstress {
         let d = [2e-5, 2.5e-5];
         let depths = [0.1, 0.3, 0.6, 0.9, 1.1, 1.4, 1.9, 2.6].map(|z| z * 1e-4);
         let planes: Vec<_> = depths
@@ -298,7 +302,7 @@ mod tests {
                 plane_strain: false,
                 planes,
                 stress,
-                strain: PlasticStrain::of(&points, n),
+                strain: PlasticStrain::from_points(&points, n),
             }),
             origin: (0.0, 0.0),
         }
@@ -310,9 +314,9 @@ mod tests {
         let linear = |x: f64, y: f64, depth: Depth, c: usize| {
             1.0 + c as f64 + 1e4 * (x - 0.5 * y + 0.3 * depth.z)
         };
-        let fine = with([17, 16], linear);
+        let fine = field_of([17, 16], linear);
         let contact = Grid::from_spacing((34, 32), (1e-5, 1.25e-5)).expect("a grid");
-        for cells in TwiceAsLarge::both(&contact) {
+        for cells in DoubledCells::new_pair(&contact) {
             let coarse = fine.on_coarser(&cells);
             let (u, v) = cells.middle;
             for (x, y, z, layer) in [(1.3e-5, -2e-5, 5e-5, 0), (-1e-5, 1e-5, 1.7e-4, 1)] {
@@ -331,7 +335,7 @@ mod tests {
 
     #[test]
     fn cubic_stresses_are_exact_within_each_layer_and_the_surface_carries_nothing() {
-        let field = with([9, 8], cubic);
+        let field = field_of([9, 8], cubic);
         for (x, y, z, layer) in [
             (1.3e-5, -2e-5, 5e-5, 0),
             (-7e-5, 8e-5, 1e-4, 0),
@@ -339,7 +343,7 @@ mod tests {
             (0.0, 0.0, 2.5e-4, 1),
         ] {
             let depth = Depth { z, layer };
-            let found = field.stress(x, y, depth);
+            let interpolated = field.stress(x, y, depth);
             let moved = field
                 .seen_from((1e-5, 2e-5))
                 .stress(x - 1e-5, y - 2e-5, depth);
@@ -348,8 +352,8 @@ mod tests {
                 let exact = cubic(x, y, depth, c);
                 let grown = if layer == 1 { 1e-3 * exact } else { 0.0 };
                 assert!((strain[c] - grown).abs() < 1e-7, "{depth:?}");
-                assert!((found[c] - exact).abs() < 1e-4, "{depth:?}");
-                assert!((found[c] - moved[c]).abs() < 1e-9);
+                assert!((interpolated[c] - exact).abs() < 1e-4, "{depth:?}");
+                assert!((interpolated[c] - moved[c]).abs() < 1e-9);
             }
         }
         let top = field.stress(1e-5, 1e-5, Depth { z: 0.0, layer: 0 });

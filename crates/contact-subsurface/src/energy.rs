@@ -13,7 +13,7 @@ use crate::loop_point::{Direction, LoopPoint};
 use crate::reversal;
 
 /// Largest error with which a sliding ratio is given.
-const OF_SLIDING: f64 = 0.05;
+const MAX_SLIDING_ERROR: f64 = 0.05;
 
 /// Loads that agree to this share of the largest are the same.
 const SAME: f64 = 1e-9;
@@ -43,19 +43,19 @@ pub struct Cycle {
     pub status: Status,
 }
 
-/// Errors of a cycle where those of its branches are known.
+/// Errors of a cycle, from the errors of its branches.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CycleErrors {
-    /// Of the dissipated energy \[J\].
+    /// Error of the dissipated energy \[J\].
     pub dissipated: f64,
-    /// Of the energy ratio.
+    /// Error of the energy ratio.
     pub energy_ratio: f64,
-    /// Of the sliding ratio.
+    /// Error of the sliding ratio.
     pub sliding_ratio: f64,
 }
 
 impl Cycle {
-    /// Why a cycle has no stiffness, and what to do.
+    /// Explains why a cycle has no stiffness, and the remedy.
     pub const TOO_FEW: &str =
         "fewer than three increments of a branch are in partial slip, use more";
 
@@ -64,31 +64,31 @@ impl Cycle {
         ratio(self.dissipated, 4.0 * self.T * self.delta)
     }
 
-    /// [`Self::opening`]; NaN where the increments leave an error above 0.05 of half the range of the
+    /// [`Self::opening`]; NaN if the increments cause an error above 0.05 of half the range of the
     /// shift.
-    pub fn known_opening(&self) -> f64 {
-        if self.sliding_ratio_error() > OF_SLIDING {
+    pub fn checked_opening(&self) -> f64 {
+        if self.sliding_ratio_error() > MAX_SLIDING_ERROR {
             f64::NAN
         } else {
             self.opening
         }
     }
 
-    /// [`Self::known_opening`] over half the range of the shift; 0 where nothing moves.
+    /// [`Self::checked_opening`] over half the range of the shift; 0 where nothing moves.
     pub fn sliding_ratio(&self) -> f64 {
-        ratio(self.known_opening(), self.delta)
+        ratio(self.checked_opening(), self.delta)
     }
 
-    /// Bound of what the increments alone leave of error in the sliding ratio.
+    /// Bound of the error of the sliding ratio by the increments.
     pub fn sliding_ratio_error(&self) -> f64 {
         ratio(self.opening_error, self.delta)
     }
 
-    /// Errors of a cycle from those of the branches of the path: of their energy \[J\], of the force
-    /// \[N\] and of the shift \[m\] at their ends; NaN, but for the sliding ratio, where there are none.
-    /// Errors of energies have one cause and add up; half a range is off by the largest of the ends.
-    /// The opening is off by as much of itself as the energy, which is the area of the loop, besides
-    /// what the increments leave.
+    /// Errors of a cycle from the errors of the branches of the path: of their energy \[J\], of the
+    /// force \[N\] and of the shift \[m\] at their ends. Without branches they are NaN, except for
+    /// the sliding ratio. Errors of energies have one cause and add up. The error of half a range
+    /// is the largest error of the ends. The relative error of the opening is the relative error of
+    /// the energy, which is the area of the loop, plus the error by the increments.
     pub fn errors(&self, of_branches: &[[f64; 3]]) -> CycleErrors {
         if of_branches.is_empty() {
             return CycleErrors {
@@ -99,8 +99,8 @@ impl Cycle {
         }
         let (first, last) = self.branches;
         let of_cycle = of_branches.iter().skip(first).take(last + 1 - first);
-        let largest = |n: usize| of_cycle.clone().map(|of| of[n]).fold(0.0, f64::max);
-        let energy: f64 = of_cycle.clone().map(|of| of[0]).sum();
+        let largest = |n: usize| of_cycle.clone().map(|errors| errors[n]).fold(0.0, f64::max);
+        let energy: f64 = of_cycle.clone().map(|errors| errors[0]).sum();
         let of_energy = ratio(energy, self.dissipated);
         let [of_T, of_delta] = [ratio(largest(1), self.T), ratio(largest(2), self.delta)];
         let of_cells = ratio(self.opening, self.delta) * (of_energy + of_delta);
@@ -117,6 +117,7 @@ impl Cycle {
     }
 }
 
+/// Ratio of two numbers, 0 for 0/0.
 fn ratio(a: f64, b: f64) -> f64 {
     if b > 0.0 { a / b } else { 0.0 }
 }
@@ -160,30 +161,30 @@ pub fn cycles(path: &LoadPath) -> Vec<(usize, usize)> {
         });
         pulled_alike && driven_alike
     };
-    let mut found = Vec::new();
+    let mut cycles = Vec::new();
     let mut start = 0;
     while start < ends.len() {
         let back = (start + 2..ends.len()).find(|end| same(&ends[start], &ends[*end]));
         match back {
             // Branch n ends at the n + 1st of the turning points.
             Some(end) => {
-                found.push((start, end - 1));
+                cycles.push((start, end - 1));
                 start = end;
             }
             None => start += 1,
         }
     }
-    found
+    cycles
 }
 
 /// The loops of a motion in the cycles of a path that the history contains completely.
 pub fn loops(path: &LoadPath, direction: Direction, history: &[LoopPoint]) -> Vec<Cycle> {
-    let upto = |branch: usize| -> usize {
+    let points_to = |branch: usize| -> usize {
         let before = path.branches.iter().take(branch);
         before.map(Branch::count).sum()
     };
     let done = cycles(path).into_iter().filter_map(|(first, last)| {
-        let (start, end) = (upto(first), upto(last + 1));
+        let (start, end) = (points_to(first), points_to(last + 1));
         // With the turning point that the cycle starts from, unless that is the unloaded state.
         let curve = history.get(start.saturating_sub(1)..end)?;
         let part = history.get(start..end)?;
@@ -205,9 +206,9 @@ fn cycle(
         })
     };
     let (force, shift) = (range(|p| p.T), range(|p| p.delta));
-    let worst = |a: Status, b: Status| if b.code() > a.code() { b } else { a };
-    let [stiffness, stiffness_error] = reversal::stiffness(branches_of(curve), direction);
-    let [opening, opening_error] = opening(curve, f64::midpoint(force.0, force.1));
+    let worse = |a: Status, b: Status| if b.code() > a.code() { b } else { a };
+    let [stiffness, stiffness_error] = reversal::stiffness(split_branches(curve), direction);
+    let [opening, opening_error] = loop_opening(curve, f64::midpoint(force.0, force.1));
     Cycle {
         branches,
         dissipated: part.iter().map(|p| p.dissipated).sum(),
@@ -217,12 +218,12 @@ fn cycle(
         stiffness_error,
         opening,
         opening_error,
-        status: part.iter().map(|p| p.status).fold(Status::NoContact, worst),
+        status: part.iter().map(|p| p.status).fold(Status::NoContact, worse),
     }
 }
 
 /// The branches of a loop, each with the point that it starts from.
-fn branches_of(curve: &[LoopPoint]) -> impl Iterator<Item = &[LoopPoint]> {
+fn split_branches(curve: &[LoopPoint]) -> impl Iterator<Item = &[LoopPoint]> {
     let starts = (1..curve.len()).filter(|n| *n == 1 || curve[*n].branch != curve[n - 1].branch);
     starts.map(|first| {
         let of_branch = |p: &&LoopPoint| p.branch == curve[first].branch;
@@ -234,10 +235,10 @@ fn branches_of(curve: &[LoopPoint]) -> impl Iterator<Item = &[LoopPoint]> {
 /// Half the distance between the outermost shifts at which the force passes `middle`, and the bound
 /// of its error \[m\]. Between two increments of a branch the loop is convex: it lies between the
 /// chord and the extensions of the chords before and after.
-fn opening(curve: &[LoopPoint], middle: f64) -> [f64; 2] {
+fn loop_opening(curve: &[LoopPoint], middle: f64) -> [f64; 2] {
     let mut range = (f64::INFINITY, f64::NEG_INFINITY);
     let mut error = 0.0;
-    for branch in branches_of(curve) {
+    for branch in split_branches(curve) {
         for (n, pair) in branch.windows(2).enumerate() {
             let (from, to) = (pair[0], pair[1]);
             if (from.T - middle) * (to.T - middle) > 0.0 || from.T.to_bits() == to.T.to_bits() {

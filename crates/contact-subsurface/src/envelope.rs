@@ -34,7 +34,7 @@ pub struct DepthEnvelope {
 }
 
 impl Extremes {
-    fn nothing(shape: (usize, usize)) -> Self {
+    fn empty(shape: (usize, usize)) -> Self {
         Self {
             max: Array2::from_elem(shape, f64::NEG_INFINITY),
             min: Array2::from_elem(shape, f64::INFINITY),
@@ -42,7 +42,7 @@ impl Extremes {
         }
     }
 
-    fn take(&mut self, at: (usize, usize), value: f64, increment: usize) {
+    fn include(&mut self, at: (usize, usize), value: f64, increment: usize) {
         if value > self.max[at] {
             self.max[at] = value;
             self.increment_of_max[at] = increment;
@@ -62,13 +62,13 @@ impl Extremes {
 }
 
 impl Accumulate for Envelope {
-    type Kept = DepthEnvelope;
+    type Accumulator = DepthEnvelope;
 
     fn start(&self, _: Depth, places: usize) -> DepthEnvelope {
-        let nothing = || Extremes::nothing((self.measures.len(), places));
+        let empty = || Extremes::empty((self.measures.len(), places));
         DepthEnvelope {
-            path: nothing(),
-            cycles: self.cycles.iter().map(|_| nothing()).collect(),
+            path: empty(),
+            cycles: self.cycles.iter().map(|_| empty()).collect(),
         }
     }
 
@@ -81,10 +81,10 @@ impl Accumulate for Envelope {
             .map(|(_, extremes)| extremes)
             .collect();
         for (m, measure) in self.measures.iter().enumerate() {
-            for (i, &value) in measure.on(&stress.view()).iter().enumerate() {
-                kept.path.take((m, i), value, moment.increment);
+            for (i, &value) in measure.at_points(&stress.view()).iter().enumerate() {
+                kept.path.include((m, i), value, moment.increment);
                 for extremes in &mut of_cycles {
-                    extremes.take((m, i), value, moment.increment);
+                    extremes.include((m, i), value, moment.increment);
                 }
             }
         }

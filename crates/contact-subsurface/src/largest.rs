@@ -3,9 +3,9 @@
 use ndarray::{Array2, ArrayView2};
 use stress_tensor::StressTensor;
 
-use super::depth::{every_other, on_interfaces};
-use super::maximum::{hills, top_of_line};
-use super::{Accumulate, Border, Depth, Errors, Extreme, Line, Measure, Moment, Top};
+use super::depth::{coarser_depths, interface_mask};
+use super::maximum::{find_hills, top_of_line};
+use super::{Accumulate, Border, Depth, Errors, Extremum, Line, Measure, Moment, Top};
 
 /// Records the largest value of measures of stress below a line at every increment: value and place
 /// per depth, by a parabola between the samples, and on the surface at the rims and stick borders.
@@ -24,18 +24,18 @@ pub struct Largest {
 pub struct DepthTops {
     /// The depth.
     pub depth: Depth,
-    /// By moment.
+    /// Tops of each moment.
     pub tops: Vec<MomentTops>,
 }
 
-/// The tops of a moment, by measure.
+/// The tops of a moment, for each measure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MomentTops {
     /// The moment.
     pub moment: Moment,
     /// Between the samples.
     pub between: Vec<Option<Top<1>>>,
-    /// On the highest border.
+    /// Value and place on the highest border.
     pub on_border: Vec<Option<(f64, Border)>>,
 }
 
@@ -43,27 +43,27 @@ impl Largest {
     /// The largest values over all depths, by moment and measure, from the accumulators of the
     /// depths. Their errors: the difference between parabola and sample, and the change of the
     /// value if every other depth of each layer is left out.
-    pub fn over_depths(&self, kept: &[DepthTops]) -> Vec<(Moment, Vec<Option<Extreme>>)> {
+    pub fn over_depths(&self, kept: &[DepthTops]) -> Vec<(Moment, Vec<Option<Extremum>>)> {
         let Some(first) = kept.first() else {
             return Vec::new();
         };
         let moments = first.tops.iter().enumerate().map(|(n, of)| {
-            let of_measure = |m: usize| self.extreme(m, n, kept);
+            let extremum_of = |m: usize| self.extremum(m, n, kept);
             (
                 of.moment,
-                (0..self.measures.len()).map(of_measure).collect(),
+                (0..self.measures.len()).map(extremum_of).collect(),
             )
         });
         moments.collect()
     }
 
-    /// Of a measure at a moment.
-    fn extreme(&self, m: usize, n: usize, kept: &[DepthTops]) -> Option<Extreme> {
+    /// The largest value of a measure at a moment.
+    fn extremum(&self, m: usize, n: usize, kept: &[DepthTops]) -> Option<Extremum> {
         let depths: Vec<Depth> = kept.iter().map(|k| k.depth).collect();
-        let of_interfaces = self.measures[m].of_interfaces;
+        let of_interfaces = self.measures[m].on_interfaces;
         let tops: Vec<_> = kept.iter().map(|k| k.tops[n].between[m]).collect();
         let border = kept[0].tops[n].on_border[m].filter(|_| !of_interfaces);
-        let on_border = border.map(|(value, Border { x, y, zone, .. })| Extreme {
+        let on_border = border.map(|(value, Border { x, y, zone, .. })| Extremum {
             value,
             x,
             y,
@@ -71,9 +71,9 @@ impl Largest {
             at: Some(zone),
             error: Errors::default(),
         });
-        let between = between_samples(&tops, &depths, of_interfaces, self.line);
-        let largest = Extreme::largest(on_border.into_iter().chain(between));
-        largest.map(|largest| largest.placed(span(&self.along)))
+        let between = largest_between_samples(&tops, &depths, of_interfaces, self.line);
+        let largest = Extremum::largest(on_border.into_iter().chain(between));
+        largest.map(|largest| largest.snapped_to_zero(span(&self.along)))
     }
 }
 
@@ -85,14 +85,14 @@ pub fn largest_of_samples(
     depths: &[Depth],
     line: Line,
     along: &[f64],
-) -> Option<Extreme> {
+) -> Option<Extremum> {
     let lines = values.rows().into_iter();
     let tops: Vec<_> = lines.map(|line| top_of_line(&line, along)).collect();
-    let largest = between_samples(&tops, depths, false, line);
-    largest.map(|largest| largest.placed(span(along)))
+    let largest = largest_between_samples(&tops, depths, false, line);
+    largest.map(|largest| largest.snapped_to_zero(span(along)))
 }
 
-/// From the first place of a line to the last \[m\].
+/// Length from the first place of a line to the last \[m\].
 fn span(along: &[f64]) -> f64 {
     along
         .last()
@@ -100,40 +100,47 @@ fn span(along: &[f64]) -> f64 {
         .map_or(0.0, |(last, first)| last - first)
 }
 
-fn between_samples(
+/// Finds the largest value between the samples from the tops at the depths.
+fn largest_between_samples(
     tops: &[Option<Top<1>>],
     depths: &[Depth],
     of_interfaces: bool,
     line: Line,
-) -> Option<Extreme> {
+) -> Option<Extremum> {
     let highest = |present: &[bool]| {
         let kept = (0..depths.len()).filter(|k| present[*k]);
         let (tops, depths): (Vec<_>, Vec<Depth>) = kept.map(|k| (tops[k], depths[k])).unzip();
-        hills(&tops, &depths, !of_interfaces).into_iter().next()
+        find_hills(&tops, &depths, !of_interfaces)
+            .into_iter()
+            .next()
     };
-    let all = if of_interfaces {
-        on_interfaces(depths)
+    let used = if of_interfaces {
+        interface_mask(depths)
     } else {
         vec![true; depths.len()]
     };
-    let hill = highest(&all)?;
-    let coarser = highest(&every_other(depths)).filter(|_| !of_interfaces);
-    let left = coarser.map_or(0.0, |coarser| (hill.top.value - coarser.top.value).abs());
-    let added = hill.top.left.max((hill.top.value - hill.top.sampled).abs());
+    let hill = highest(&used)?;
+    let coarser = highest(&coarser_depths(depths)).filter(|_| !of_interfaces);
+    let change_of_depths =
+        coarser.map_or(0.0, |coarser| (hill.top.value - coarser.top.value).abs());
+    let added = hill
+        .top
+        .error
+        .max((hill.top.value - hill.top.sampled).abs());
     let [s] = hill.top.place;
-    let (x, y) = line.at(s);
-    Some(Extreme {
+    let (x, y) = line.place(s);
+    Some(Extremum {
         value: hill.top.value,
         x,
         y,
         depth: hill.depth,
         at: None,
-        error: Errors::along(line, [added, 0.0, left]),
+        error: Errors::from_search(line, [added, 0.0, change_of_depths]),
     })
 }
 
 impl Accumulate for Largest {
-    type Kept = DepthTops;
+    type Accumulator = DepthTops;
 
     fn start(&self, depth: Depth, _: usize) -> DepthTops {
         let tops = Vec::new();
@@ -142,7 +149,7 @@ impl Accumulate for Largest {
 
     fn add(&self, kept: &mut DepthTops, moment: Moment, stress: &Array2<f64>) {
         let measures = self.measures.iter();
-        let top = |m: &Measure| top_of_line(&m.on(&stress.view()).view(), &self.along);
+        let top = |m: &Measure| top_of_line(&m.at_points(&stress.view()).view(), &self.along);
         kept.tops.push(MomentTops {
             moment,
             between: measures.map(top).collect(),

@@ -41,7 +41,7 @@ impl Line {
     /// line, with all other stress along that line: the largest stress lies in the plane of the shear.
     /// A second section stands across the first. Two more stand between them where a stress beside the
     /// contact has another direction than the shear: the worst plane then lies between the two.
-    pub fn of_outlines(outlines: &[&Outline], beside: &[f64]) -> Vec<Self> {
+    pub fn for_outlines(outlines: &[&Outline], beside: &[f64]) -> Vec<Self> {
         let area = |o: &&&Outline| o.spots.iter().map(|spot| spot.area).sum::<f64>();
         let Some(largest) = outlines.iter().max_by(|a, b| area(a).total_cmp(&area(b))) else {
             return vec![Self::AlongX(0.0)];
@@ -74,7 +74,7 @@ impl Line {
         std::iter::once(main).chain(turned).collect()
     }
 
-    /// Through a point in a direction; along x or along y where the direction is that of an axis.
+    /// A line through a point in a direction; along x or along y if the direction is an axis.
     pub fn through((x, y): (f64, f64), azimuth: f64) -> Self {
         let (sin, cos) = azimuth.sin_cos();
         if sin.abs() < ALIGNED {
@@ -122,8 +122,8 @@ impl Line {
         }
     }
 
-    /// x, y of a place s along the line, and t beside it, to the left \[m\].
-    pub fn beside(self, s: f64, t: f64) -> (f64, f64) {
+    /// x, y at the distance s along the line and t to the left of it \[m\].
+    pub fn offset_place(self, s: f64, t: f64) -> (f64, f64) {
         let ((x, y), [cos, sin]) = (self.origin(), self.direction());
         match self {
             Self::AlongX(_) => (s, y + t),
@@ -132,19 +132,19 @@ impl Line {
         }
     }
 
-    /// x, y of a place s along the line \[m\].
-    pub fn at(self, s: f64) -> (f64, f64) {
-        self.beside(s, 0.0)
+    /// x, y at the distance s along the line \[m\].
+    pub fn place(self, s: f64) -> (f64, f64) {
+        self.offset_place(s, 0.0)
     }
 
     /// A point below a place of the line.
     pub fn point(self, s: f64, depth: Depth) -> Point {
-        let (x, y) = self.at(s);
+        let (x, y) = self.place(s);
         (x, y, depth)
     }
 
-    /// The place along the line that is nearest to x, y \[m\].
-    pub fn along(self, x: f64, y: f64) -> f64 {
+    /// The distance s of the place on the line that is nearest to x, y \[m\].
+    pub fn nearest_distance(self, x: f64, y: f64) -> f64 {
         match self {
             Self::AlongX(_) => x,
             Self::AlongY(_) => y,
@@ -159,7 +159,7 @@ impl Line {
     /// A parallel line at a distance t to the left \[m\].
     #[must_use]
     pub fn parallel(self, t: f64) -> Self {
-        let (x, y) = self.beside(self.along(self.origin().0, self.origin().1), t);
+        let (x, y) = self.offset_place(self.nearest_distance(self.origin().0, self.origin().1), t);
         match self {
             Self::AlongX(_) => Self::AlongX(y),
             Self::AlongY(_) => Self::AlongY(x),
@@ -167,9 +167,10 @@ impl Line {
         }
     }
 
-    /// The same line in coordinates with another origin, and what its places have more here \[m\].
+    /// The line in coordinates with another origin, and the difference of the distance s there and
+    /// here \[m\].
     #[must_use]
-    pub fn seen_from(self, (x_0, y_0): (f64, f64)) -> (Self, f64) {
+    pub fn with_origin(self, (x_0, y_0): (f64, f64)) -> (Self, f64) {
         match self {
             Self::AlongX(y) => (Self::AlongX(y - y_0), x_0),
             Self::AlongY(x) => (Self::AlongY(x - x_0), y_0),
@@ -180,7 +181,7 @@ impl Line {
         }
     }
 
-    /// Distance of samples on a grid \[m\]: of a line along an axis that of the cells.
+    /// Distance of samples on a grid \[m\]: the cell length for a line along an axis.
     pub fn step(self, grid: &Grid) -> f64 {
         match self {
             Self::AlongX(_) => grid.dx,
@@ -191,7 +192,7 @@ impl Line {
         }
     }
 
-    /// Places of the samples on a grid \[m\]: the cells of a line along an axis, else steps from
+    /// Distances of the samples on a grid \[m\]: the cells of a line along an axis, else steps from
     /// the given point to the borders of the grid.
     pub fn places(self, grid: &Grid) -> Vec<f64> {
         match self {
@@ -201,13 +202,16 @@ impl Line {
                 let (step, [cos, sin]) = (self.step(grid), self.direction());
                 let (half_x, half_y) = (grid.extent().0 / 2.0, grid.extent().1 / 2.0);
                 // The way to the border of the grid, forwards or backwards.
-                let way = |sign: f64| {
-                    let to = |v: f64, half: f64, part: f64| {
+                let steps_to_border = |sign: f64| {
+                    let distance_to = |v: f64, half: f64, part: f64| {
                         ((half - v * part.signum()) / part.abs()).max(0.0)
                     };
-                    (to(x, half_x, sign * cos).min(to(y, half_y, sign * sin)) / step) as isize
+                    (distance_to(x, half_x, sign * cos).min(distance_to(y, half_y, sign * sin))
+                        / step) as isize
                 };
-                (-way(-1.0)..=way(1.0)).map(|n| n as f64 * step).collect()
+                (-steps_to_border(-1.0)..=steps_to_border(1.0))
+                    .map(|n| n as f64 * step)
+                    .collect()
             }
         }
     }
@@ -238,8 +242,8 @@ mod tests {
             assert!(places.len() > 20);
             assert!((places[1] - places[0] - line.step(&grid)).abs() < 1e-12);
             for s in places {
-                let (x, y) = line.at(s);
-                assert!((line.along(x, y) - s).abs() < 1e-12);
+                let (x, y) = line.place(s);
+                assert!((line.nearest_distance(x, y) - s).abs() < 1e-12);
                 assert!(x.abs() <= 20.0 && y.abs() <= 22.5, "{x} {y}");
                 let (moved, more) = line.seen_from((0.4, -0.2));
                 let (u, v) = moved.at(s - more);

@@ -1,10 +1,10 @@
 //! Products of kernels with loads along a straight line, by one-dimensional transforms.
 //!
-//! Nothing is transformed across the line: for each distance between a row of loads and the line,
-//! the kernel is transformed along the line, multiplied with the transform of the loads, and the
-//! products are added up; one transform back gives the line. Rows at equal distances on both sides
-//! of the line share the kernel, whose parity across the line is known; where the loads are
-//! symmetric to the line, half of the entries are not needed at all.
+//! Nothing is transformed across the line. For each distance between a row of loads and the line,
+//! the kernel is transformed along the line and multiplied with the transform of the loads, and the
+//! products are added up. One transform back gives the line. Rows at equal distances on both sides
+//! of the line share the kernel, whose parity across the line is known. Where the loads are
+//! symmetric to the line, half of the entries are not needed.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -20,7 +20,7 @@ use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use rustfft::num_complex::Complex64;
 
 use super::Side;
-use super::loads::{Loads, Plane, Source, snapped};
+use super::loads::{Loads, Plane, Source, snap_to_half_cells};
 use super::parity::Buffers;
 
 /// The loads on one kind of source, transformed along a line.
@@ -39,22 +39,22 @@ pub(super) struct LineTransform {
 /// The rows of loads at one distance from the line.
 struct RowPair {
     distance: f64,
-    /// By component and by the kernel's parity across the line (even, odd): the spectra of all
-    /// states, or nothing where all vanish.
+    /// The spectra of all states, for each component and parity of the kernel across the line
+    /// (even, odd); empty where all vanish.
     spectra: [[Vec<Complex64>; 2]; 3],
 }
 
 impl LineTransform {
-    /// Of the rows of loads at their distances from the line at `at` \[m\].
+    /// Plans the transforms of all load rows for the line at `y` \[m\].
     pub(super) fn new(
         plane: &Plane,
         side: Side,
-        at: f64,
+        y: f64,
         states: &[Tractions<'_>],
         source: Source,
         stop: &AtomicBool,
     ) -> Result<Self, Error> {
-        let patch = plane.patch(states, source);
+        let patch = plane.loaded_patch(states, source);
         let loads: Vec<Loads> = states
             .iter()
             .map(|state| plane.loads(state, side, source, patch))
@@ -71,7 +71,7 @@ impl LineTransform {
         let mut by_distance: BTreeMap<u64, (f64, Vec<(usize, bool)>)> = BTreeMap::new();
         for j in 0..patch.rows {
             let row = (j as isize + patch.start.1) as f64;
-            let offset = snapped(at / plane.d.1 - (row - (plane.n.1 - 1) as f64 / 2.0));
+            let offset = snap_to_half_cells(y / plane.d.1 - (row - (plane.n.1 - 1) as f64 / 2.0));
             let key = (offset.abs() * 1e6).round() as u64;
             let (_, rows) = by_distance.entry(key).or_insert((offset.abs(), Vec::new()));
             rows.push((j, offset < 0.0));
@@ -135,7 +135,7 @@ impl LineTransform {
         let mut buffers = Buffers::new(&*self.forward);
         for pair in &self.pairs {
             unless(stop)?;
-            let (even, odd) = needed::<Q, N, R>(pair);
+            let (even, odd) = entries_with_loads::<Q, N, R>(pair);
             if even.is_empty() && odd.is_empty() {
                 continue;
             }
@@ -152,8 +152,12 @@ impl LineTransform {
             // imaginary part.
             for k in 0..even.len().max(odd.len()) {
                 let (even, odd) = (even.get(k).copied(), odd.get(k).copied());
-                let of = |entry| line(entry).iter().copied();
-                buffers.transform(&*self.forward, even.map(of), odd.map(of));
+                let entry_values = |entry| line(entry).iter().copied();
+                buffers.transform(
+                    &*self.forward,
+                    even.map(entry_values),
+                    odd.map(entry_values),
+                );
                 for (parity, entry) in [even, odd].into_iter().enumerate() {
                     let Some((row, column)) = entry else { continue };
                     let across = usize::from(Q::is_odd(row, column).1);
@@ -170,11 +174,11 @@ impl LineTransform {
                 }
             }
         }
-        Ok(self.back(&sums, (states, R, n)))
+        Ok(self.transform_back(&sums, (states, R, n)))
     }
 
     /// Transforms the sums back; a kernel odd along the line has the transform -i times its sum.
-    fn back(
+    fn transform_back(
         &self,
         sums: &[Vec<Complex64>; 2],
         (states, components, n): (usize, usize, usize),
@@ -214,7 +218,7 @@ impl LineTransform {
 type Entry = (usize, usize);
 
 /// The kernel's entries that meet loads, by their parity along the line.
-fn needed<Q: Quantity<N, R>, const N: usize, const R: usize>(
+fn entries_with_loads<Q: Quantity<N, R>, const N: usize, const R: usize>(
     pair: &RowPair,
 ) -> (Vec<Entry>, Vec<Entry>) {
     let entries = (0..R).flat_map(|row| (0..3).map(move |column| (row, column)));

@@ -32,7 +32,7 @@ impl Source {
     }
 
     /// The source to use at the depth z.
-    pub(super) fn at(z: f64, d: (f64, f64)) -> Self {
+    pub(super) fn for_depth(z: f64, d: (f64, f64)) -> Self {
         if z < DEEP * d.0.max(d.1) {
             Self::Cells
         } else {
@@ -64,7 +64,7 @@ impl Source {
 
 /// A distance in cells, rounded to a whole number of half cells if within rounding errors of it, so
 /// that a point on the border of a cell is recognised.
-pub(super) fn snapped(cells: f64) -> f64 {
+pub(super) fn snap_to_half_cells(cells: f64) -> f64 {
     let halves = (2.0 * cells).round() / 2.0;
     if (cells - halves).abs() < 1e-9 {
         halves
@@ -179,7 +179,7 @@ impl Plane {
         }
     }
 
-    /// Place of the cell in column i and row j in a field of shape (nx, ny).
+    /// Index of the cell in column i and row j in a field of shape (nx, ny).
     fn index(&self, i: usize, j: usize) -> usize {
         if self.exchanged {
             j * self.n.0 + i
@@ -190,7 +190,7 @@ impl Plane {
 
     /// The columns and rows that hold a load in any of the states; columns symmetric to the
     /// middle.
-    pub(super) fn patch(&self, states: &[Tractions<'_>], source: Source) -> Patch {
+    pub(super) fn loaded_patch(&self, states: &[Tractions<'_>], source: Source) -> Patch {
         let (columns, rows) = self.n;
         let (mut i0, mut i1, mut j0, mut j1) = (columns, 0, rows, 0);
         for state in states {
@@ -215,9 +215,9 @@ impl Plane {
         } else {
             0
         };
-        let grown = |start: usize| start as isize - grow as isize;
+        let widened = |start: usize| start as isize - grow as isize;
         Patch {
-            start: (grown(margin), grown(j0)),
+            start: (widened(margin), widened(j0)),
             columns: columns - 2 * margin + 2 * grow,
             rows: j1 - j0 + 2 * grow,
         }
@@ -250,7 +250,7 @@ impl Plane {
                 }
             }
             if source == Source::Points {
-                spread(&mut q, patch.columns);
+                share_with_neighbours(&mut q, patch.columns);
             }
             q
         });
@@ -266,7 +266,7 @@ impl Loads {
 }
 
 /// Shares each cell's load with its neighbours along both axes; the patch has cells for them.
-fn spread(q: &mut [f64], columns: usize) {
+fn share_with_neighbours(q: &mut [f64], columns: usize) {
     let rows = q.len() / columns;
     let mut line = vec![0.0; columns.max(rows)];
     let weighted = |line: &[f64], i: usize| -> f64 {

@@ -11,7 +11,7 @@ pub enum Direction {
     X,
     /// T_y and delta_y.
     Y,
-    /// M_z and phi_z: moments \[N m\] take the place of forces, rotations \[rad\] that of shifts.
+    /// M_z and phi_z: moments \[N m\] replace forces, rotations \[rad\] replace shifts.
     Torsion,
 }
 
@@ -32,7 +32,7 @@ pub struct LoopPoint {
 
 impl Direction {
     /// Errors of the dissipated energy \[J\] of a branch, and of force \[N\] and shift \[m\] at its
-    /// end, those of [`super::Cycle::errors`].
+    /// end, for [`super::Cycle::errors`].
     pub fn errors_of(self, bars: &ErrorBars) -> [f64; 3] {
         let (T, delta) = match self {
             Self::X => (bars.T_x, bars.delta_x),

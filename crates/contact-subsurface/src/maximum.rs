@@ -1,8 +1,8 @@
 //! Local maxima of sampled fields, from which a search for the largest value starts.
 //!
-//! One direction after the other: the top of a line is the vertex of the parabola through its
-//! largest sample and the two beside it. The tops of the lines of a plane are treated as samples
-//! again, and a hill is a depth whose top is higher than those of its neighbours.
+//! The search takes one direction after the other: the top of a line is the vertex of the parabola
+//! through its largest sample and the two beside it. The tops of the lines of a plane are treated
+//! as samples again. A hill is a depth whose top is higher than the tops of its neighbours.
 
 use ndarray::{Array2, ArrayView1};
 
@@ -25,10 +25,10 @@ pub struct Top<const D: usize> {
     pub sampled: f64,
     /// Error of the value: vertex of the parabola less the sample; at the end of the line the
     /// difference of the last two samples.
-    pub left: f64,
+    pub error: f64,
 }
 
-/// A depth whose top is higher than those of the depths beside it in its layer.
+/// A depth whose top is higher than the tops of the neighbouring depths in its layer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Hill<const D: usize> {
     /// The top of the parabolas through the tops of this depth and the two beside it.
@@ -50,22 +50,22 @@ pub fn top_of_line(values: &ArrayView1<'_, f64>, along: &[f64]) -> Option<Top<1>
             place: [place],
             sample: [i],
             sampled: value,
-            left: 0.0,
+            error: 0.0,
         })
         .collect();
-    let beside = |n: usize, m: usize| tops[n].sample[0].abs_diff(tops[m].sample[0]) == 1;
-    let n = largest(&tops)?;
-    let (at, top) = summit(&tops, n, |n| tops[n].place[0], &beside);
+    let are_neighbours = |n: usize, m: usize| tops[n].sample[0].abs_diff(tops[m].sample[0]) == 1;
+    let n = index_of_largest(&tops)?;
+    let (at, top) = summit(&tops, n, |n| tops[n].place[0], &are_neighbours);
     let at_end = n == 0 || n + 1 == tops.len();
-    let next = [n.checked_sub(1), Some(n + 1)];
-    let next = next.into_iter().flatten().find_map(|n| tops.get(n));
-    let left = match next.filter(|_| at_end) {
-        Some(next) => top.value - next.value,
+    let neighbour = [n.checked_sub(1), Some(n + 1)];
+    let neighbour = neighbour.into_iter().flatten().find_map(|n| tops.get(n));
+    let error = match neighbour.filter(|_| at_end) {
+        Some(neighbour) => top.value - neighbour.value,
         None => top.value - top.sampled,
     };
     Some(Top {
         place: [at],
-        left: left.abs(),
+        error: error.abs(),
         ..top
     })
 }
@@ -76,46 +76,49 @@ pub fn top_of_plane(values: &Array2<f64>, x: &[f64], y: &[f64]) -> Option<Top<2>
     let (samples, tops): (Vec<usize>, Vec<Top<1>>) = lines
         .filter_map(|(i, line)| Some((i, top_of_line(&line, y)?)))
         .unzip();
-    let beside = |n: usize, m: usize| samples[n].abs_diff(samples[m]) == 1;
-    let n = largest(&tops)?;
-    let (at, top) = summit(&tops, n, |n| x[samples[n]], &beside);
+    let are_neighbours = |n: usize, m: usize| samples[n].abs_diff(samples[m]) == 1;
+    let n = index_of_largest(&tops)?;
+    let (at, top) = summit(&tops, n, |n| x[samples[n]], &are_neighbours);
     Some(Top {
         value: top.value,
         place: [at, top.place[0]],
         sample: [samples[n], top.sample[0]],
         sampled: top.sampled,
-        left: top.left,
+        error: top.error,
     })
 }
 
 /// The hills over depths, from the tops at each, the highest first. Depths of different layers are
-/// not neighbours, so that kinks at interfaces remain. `smooth`: whether the field is interpolated
+/// not neighbours, so that kinks at interfaces remain. If `smooth`, the field is interpolated
 /// between depths.
-pub(super) fn hills<const D: usize>(
+pub(super) fn find_hills<const D: usize>(
     tops: &[Option<Top<D>>],
     depths: &[Depth],
     smooth: bool,
 ) -> Vec<Hill<D>> {
-    let (found, tops): (Vec<usize>, Vec<Top<D>>) = tops
+    let (indices, tops): (Vec<usize>, Vec<Top<D>>) = tops
         .iter()
         .enumerate()
         .filter_map(|(k, top)| Some((k, (*top)?)))
         .unzip();
-    let beside = |n: usize, m: usize| {
-        let (a, b) = (found[n], found[m]);
+    let are_neighbours = |n: usize, m: usize| {
+        let (a, b) = (indices[n], indices[m]);
         smooth && a.abs_diff(b) == 1 && depths[a].layer == depths[b].layer
     };
     let neighbours = |n: usize| {
         let others = [n.checked_sub(1), (n + 1 < tops.len()).then_some(n + 1)];
-        others.into_iter().flatten().filter(move |m| beside(n, *m))
+        others
+            .into_iter()
+            .flatten()
+            .filter(move |m| are_neighbours(n, *m))
     };
     let higher = |n: &usize| neighbours(*n).all(|m| tops[m].value <= tops[*n].value);
     let mut hills: Vec<Hill<D>> = (0..tops.len())
         .filter(higher)
         .map(|n| {
-            let z = |n: usize| depths[found[n]].z;
-            let (at, top) = summit(&tops, n, z, &beside);
-            let layer = depths[found[n]].layer;
+            let z = |n: usize| depths[indices[n]].z;
+            let (at, top) = summit(&tops, n, z, &are_neighbours);
+            let layer = depths[indices[n]].layer;
             Hill {
                 top,
                 depth: Depth { z: at, layer },
@@ -130,30 +133,30 @@ pub(super) fn hills<const D: usize>(
     hills
 }
 
-fn largest<const D: usize>(tops: &[Top<D>]) -> Option<usize> {
+fn index_of_largest<const D: usize>(tops: &[Top<D>]) -> Option<usize> {
     (0..tops.len()).max_by(|&a, &b| tops[a].value.total_cmp(&tops[b].value))
 }
 
 /// The vertex of the parabola through one of `tops` and its two neighbours, which are no higher:
-/// its place along `at` and its value; the sample itself if the neighbours are not on the same
-/// hill.
+/// its place along `place_of` and its value; the sample itself if the neighbours are not on the
+/// same hill.
 fn summit<const D: usize>(
     tops: &[Top<D>],
     n: usize,
-    at: impl Fn(usize) -> f64,
-    beside: &dyn Fn(usize, usize) -> bool,
+    place_of: impl Fn(usize) -> f64,
+    are_neighbours: &dyn Fn(usize, usize) -> bool,
 ) -> (f64, Top<D>) {
     let top = tops[n];
-    let stays = (at(n), top);
+    let stays = (place_of(n), top);
     let on_same_hill = |m: usize| {
         let cells = tops[m].sample.iter().zip(top.sample);
-        beside(n, m) && cells.into_iter().all(|(a, b)| a.abs_diff(b) <= SAME_HILL)
+        are_neighbours(n, m) && cells.into_iter().all(|(a, b)| a.abs_diff(b) <= SAME_HILL)
     };
     if n == 0 || n + 1 == tops.len() || !on_same_hill(n - 1) || !on_same_hill(n + 1) {
         return stays;
     }
     let (low, high) = (tops[n - 1], tops[n + 1]);
-    let (a, b) = (at(n) - at(n - 1), at(n + 1) - at(n));
+    let (a, b) = (place_of(n) - place_of(n - 1), place_of(n + 1) - place_of(n));
     // Newton's form of the parabola through three samples: value + slope s + half s^2, with the
     // slope at the middle one.
     let parabola = |low: f64, middle: f64, high: f64| {
@@ -166,18 +169,18 @@ fn summit<const D: usize>(
     if !(half < 0.0 && -a <= step && step <= b) {
         return stays;
     }
-    let place = std::array::from_fn(|d| {
+    let vertex = std::array::from_fn(|d| {
         let (slope, half) = parabola(low.place[d], top.place[d], high.place[d]);
         top.place[d] + step * (slope + step * half)
     });
     (
-        at(n) + step,
+        place_of(n) + step,
         Top {
             value: top.value + slope * step / 2.0,
-            place,
+            place: vertex,
             sample: top.sample,
             sampled: top.sampled,
-            left: top.left,
+            error: top.error,
         },
     )
 }

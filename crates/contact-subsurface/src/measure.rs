@@ -12,13 +12,13 @@ pub struct Measure {
     pub long_name: &'static str,
     /// Its value.
     pub value: fn(&StressTensor) -> f64,
-    /// Whether its largest value is searched on interfaces only.
-    pub of_interfaces: bool,
+    /// True if its largest value is searched on interfaces only.
+    pub on_interfaces: bool,
 }
 
 impl Measure {
-    /// Its values at points, from their stresses of shape (6, points) \[Pa\].
-    pub fn on(&self, stress: &ArrayView2<'_, f64>) -> Array1<f64> {
+    /// Values at points, from their stresses of shape (6, points) \[Pa\].
+    pub fn at_points(&self, stress: &ArrayView2<'_, f64>) -> Array1<f64> {
         let columns = stress.axis_iter(Axis(1));
         columns
             .map(|s| (self.value)(&std::array::from_fn(|c| s[c])))
@@ -35,13 +35,13 @@ const fn measure(
         name,
         long_name,
         value,
-        of_interfaces: false,
+        on_interfaces: false,
     }
 }
 
-const fn of_interfaces(measure: Measure) -> Measure {
+const fn on_interfaces(measure: Measure) -> Measure {
     Measure {
-        of_interfaces: true,
+        on_interfaces: true,
         ..measure
     }
 }
@@ -68,19 +68,19 @@ pub const MEASURES: &[Measure] = &[
         "hydrostatic stress, tension positive",
         hydrostatic,
     ),
-    of_interfaces(measure(
+    on_interfaces(measure(
         "interface_shear",
         "shear traction on planes z = const, size; largest on an interface",
         |s| s[4].hypot(s[5]),
     )),
-    of_interfaces(measure(
+    on_interfaces(measure(
         "interface_peel",
         "tension across planes z = const, 0 where they are pressed; largest on an interface",
         |s| s[2].max(0.0),
     )),
 ];
 
-/// The measure of a name.
-pub fn measure_named(name: &str) -> Option<&'static Measure> {
+/// Looks up a measure by its name.
+pub fn find_measure(name: &str) -> Option<&'static Measure> {
     MEASURES.iter().find(|m| m.name == name)
 }

@@ -9,10 +9,10 @@ use contact_core::scene::{Grid, ResidualStress};
 use contact_core::zones::Outline;
 use ndarray::Array2;
 
-use crate::{Eigenstress, Growth, Line, States, TwiceAsLarge};
+use crate::{DoubledCells, Eigenstress, Growth, Line, States};
 
-/// Moments of a cycle, about, by which its sections find their place.
-const PLACED_BY: usize = 16;
+/// Number of moments of a cycle from which its sections are chosen, about.
+const SECTION_MOMENTS: usize = 16;
 
 /// Tractions and bulk stress at several moments.
 #[derive(Clone, Debug, Default)]
@@ -31,7 +31,7 @@ pub struct Moments {
 /// below which bodies have shaken down.
 pub const SHAKEN: f64 = 1e-3;
 
-/// What yields in a cycle.
+/// Work of plastic strain in a cycle, and the work that it is compared with.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Yielding {
     /// Plastic work \[J\].
@@ -41,15 +41,15 @@ pub struct Yielding {
 }
 
 impl Yielding {
-    /// Whether plastic strain still grows.
+    /// Checks that plastic strain still grows.
     pub fn grows(&self) -> bool {
         self.plastic > SHAKEN * self.beside
     }
 }
 
 /// The moments of a cycle, read a few at a time.
-pub trait OverCycle: Sync {
-    /// How many there are.
+pub trait CycleSource: Sync {
+    /// Number of moments.
     fn count(&self) -> usize;
     /// The moments of these numbers, from 0.
     fn moments(&self, which: &[usize]) -> Result<Moments, Error>;
@@ -60,7 +60,7 @@ pub trait OverCycle: Sync {
     fn path_error(&self) -> Option<f64> {
         None
     }
-    /// What yields in the cycle; `None` of a body that stays elastic.
+    /// Plastic work of the cycle; `None` for a body that stays elastic.
     fn yielding(&self) -> Result<Option<Yielding>, Error> {
         Ok(None)
     }
@@ -86,7 +86,8 @@ impl Moments {
         }
     }
 
-    /// The states of the body that they are, with a residual stress in place of that of the body.
+    /// Calls `f` with the states of the body, with a residual stress that replaces that of the body
+    /// if given.
     pub fn with_states<T>(
         &self,
         residual: Option<&ResidualStress>,
@@ -117,9 +118,9 @@ impl Moments {
         })
     }
 
-    /// On cells twice as large, and what has yielded on points twice as far apart.
+    /// Averages on cells twice as large, and on points twice as far apart for plastic strain.
     #[must_use]
-    pub fn on_coarser(&self, cells: &TwiceAsLarge) -> Self {
+    pub fn coarsened(&self, cells: &DoubledCells) -> Self {
         let shape = (cells.grid.nx, cells.grid.ny);
         let mean = |field: &Array2<f64>| {
             let means = cells.mean(&field.iter().copied().collect::<Vec<_>>());
@@ -129,7 +130,11 @@ impl Moments {
             let marked = cells.any(&field.iter().copied().collect::<Vec<_>>());
             Array2::from_shape_fn(shape, |(i, j)| marked[i * shape.1 + j])
         };
-        let seen = |left: &Option<Eigenstress>| left.as_ref().map(|left| left.on_coarser(cells));
+        let coarsen = |eigenstress: &Option<Eigenstress>| {
+            eigenstress
+                .as_ref()
+                .map(|eigenstress| eigenstress.coarsened(cells))
+        };
         Self {
             tractions: self
                 .tractions
@@ -138,31 +143,31 @@ impl Moments {
                 .collect(),
             stick: self.stick.iter().map(any).collect(),
             sigma_B: self.sigma_B.clone(),
-            eigenstress: self.eigenstress.iter().map(seen).collect(),
+            eigenstress: self.eigenstress.iter().map(coarsen).collect(),
         }
     }
 }
 
-/// What a cycle adds to the plastic strain of the body, from the moment before it to its last; from its first
-/// moment on, where the one before was not stored.
-pub fn growth(cycle: &dyn OverCycle) -> Result<Growth, Error> {
+/// Growth of the plastic strain over a cycle, from the moment before it to its last. If the moment
+/// before was not stored, it is counted from the first moment.
+pub fn plastic_growth(cycle: &dyn CycleSource) -> Result<Growth, Error> {
     let last = cycle.moments(&[cycle.count() - 1])?;
     let before = match cycle.start()? {
         Some(before) => before,
         None => cycle.moments(&[0])?,
     };
-    let of = |moments: &Moments| moments.eigenstress.first().cloned().flatten();
-    let after = of(&last);
+    let first_eigenstress = |moments: &Moments| moments.eigenstress.first().cloned().flatten();
+    let after = first_eigenstress(&last);
     Ok(after.map_or_else(Growth::default, |after| {
-        after.growth_since(of(&before).as_ref())
+        after.growth_since(first_eigenstress(&before).as_ref())
     }))
 }
 
 /// The sections in which a body is looked at over a cycle, where none is asked for:
-/// [`Line::of_outlines`] of the outlines of its moments, with the directions of the bulk stress along
+/// [`Line::for_outlines`] of the outlines of its moments, with the directions of the bulk stress along
 /// x and of the residual stress.
 pub fn main_sections(
-    cycle: &dyn OverCycle,
+    cycle: &dyn CycleSource,
     grid: &Grid,
     residual: &ResidualStress,
 ) -> Result<Vec<Line>, Error> {
@@ -172,32 +177,32 @@ pub fn main_sections(
     if stretched {
         beside.push(0.0);
     }
-    Ok(Line::of_outlines(&all, &beside))
+    Ok(Line::for_outlines(&all, &beside))
 }
 
 /// Half of the largest width of a contact over a cycle in the direction of a line \[m\]; 0 without a
 /// contact.
-pub fn half_width(cycle: &dyn OverCycle, grid: &Grid, line: Line) -> Result<f64, Error> {
+pub fn half_width(cycle: &dyn CycleSource, grid: &Grid, line: Line) -> Result<f64, Error> {
     let (outlines, _) = outlines(cycle, grid)?;
     let widths = outlines.iter().map(|of| of.half_width(line.azimuth()));
     Ok(widths.fold(0.0, f64::max))
 }
 
 /// The outlines of a contact over a cycle, and whether a bulk stress acts.
-fn outlines(cycle: &dyn OverCycle, grid: &Grid) -> Result<(Vec<Outline>, bool), Error> {
+fn outlines(cycle: &dyn CycleSource, grid: &Grid) -> Result<(Vec<Outline>, bool), Error> {
     let which: Vec<usize> = (0..cycle.count())
-        .step_by((cycle.count() / PLACED_BY).max(1))
+        .step_by((cycle.count() / SECTION_MOMENTS).max(1))
         .collect();
     let (mut outlines, mut stretched) = (Vec::new(), false);
     for n in which {
         let now = cycle.moments(&[n])?;
         for ([q_x, q_y, p], sigma_B) in now.tractions.iter().zip(&now.sigma_B) {
-            let own = Tractions {
+            let tractions = Tractions {
                 q_x: q_x.as_slice(),
                 q_y: q_y.as_slice(),
                 p: p.as_slice(),
             };
-            if let Some(outline) = Outline::new(grid, &own) {
+            if let Some(outline) = Outline::new(grid, &tractions) {
                 outlines.push(outline);
                 stretched |= *sigma_B != 0.0;
             }
@@ -211,12 +216,12 @@ const UNSETTLED: f64 = 0.02;
 
 /// A note on a cycle whose tractions at the end differ from those at its start by more than
 /// 0.02 of the largest one. `None` if the increment before the cycle was not stored.
-pub fn note_on_cycle(cycle: &dyn OverCycle) -> Result<Option<String>, Error> {
-    let much = unsettled(cycle)?.filter(|much| *much > UNSETTLED);
+pub fn note_on_cycle(cycle: &dyn CycleSource) -> Result<Option<String>, Error> {
+    let much = traction_drift(cycle)?.filter(|much| *much > UNSETTLED);
     Ok(much.map(|much| {
         format!(
-            "the cycle does not end as it began: tractions differ by up to {:.0} % of the largest one. The number is \
-             that of this cycle; one more cycle of the path shows what later cycles change",
+            "the cycle does not end as it began: tractions differ by up to {:.0} % of the largest one. The number holds \
+             for this cycle; one more cycle of the path shows what later cycles change",
             100.0 * much
         )
     }))
@@ -224,7 +229,7 @@ pub fn note_on_cycle(cycle: &dyn OverCycle) -> Result<Option<String>, Error> {
 
 /// Difference of the tractions at the end and at the start of a cycle, over the largest of both:
 /// 0 for a steady cycle. `None` if the increment before the cycle was not stored.
-pub fn unsettled(cycle: &dyn OverCycle) -> Result<Option<f64>, Error> {
+pub fn traction_drift(cycle: &dyn CycleSource) -> Result<Option<f64>, Error> {
     let Some(start) = cycle.start()? else {
         return Ok(None);
     };

@@ -15,7 +15,7 @@ use contact_core::scene::{Body, Grid};
 use contact_core::zones::{CellTractions, Continued};
 
 use super::divided::{Divided, Division, Fineness, Part, slopes};
-use super::loads::{Plane, snapped};
+use super::loads::{Plane, snap_to_half_cells};
 use super::{Depth, Side};
 
 /// Deepest samples, in cells.
@@ -24,8 +24,8 @@ const DEEPEST: f64 = 6.0;
 /// not linear, and of samples below the surface at which the correction is computed. Near the
 /// surface it is computed everywhere: there the slope of the tractions counts.
 const FARTHEST: u8 = 3 + DIVIDED_CELLS as u8;
-/// Distance of a sample from the borders beyond which the slope around it stands for that of the
-/// cells which are not divided.
+/// Distance of a sample from the borders beyond which the slope at the sample is used for all cells
+/// that are not divided.
 const SMOOTH: u8 = 12;
 /// Depth in cells down to which the slope counts: variations of the period of a cell decay like
 /// exp(-2 pi z).
@@ -37,7 +37,7 @@ const CONTRAST: f64 = 2.0;
 /// Cells on each side of a sample that are divided.
 const DIVIDED_CELLS: usize = 3;
 /// Rows of s_zz, s_xz, s_yz with the traction whose negative they are on the surface.
-const OF_TRACTIONS: [(usize, usize); 3] = [(2, 2), (4, 0), (5, 1)];
+const TRACTION_ROWS: [(usize, usize); 3] = [(2, 2), (4, 0), (5, 1)];
 
 /// The tractions of the states around some cells.
 pub(super) struct NearRim {
@@ -50,11 +50,11 @@ pub(super) struct NearRim {
 pub(super) struct Parts {
     cells: Vec<Divided>,
     /// The stress at the sample under unit slopes of the tractions, along and across, in all cells
-    /// beyond.
+    /// outside the divided ones.
     beyond: [[[f64; 3]; 6]; 2],
-    /// From the middle of the sample's cell, in cells.
+    /// Offset from the middle of the sample's cell, in cells.
     offset: (f64, f64),
-    /// Whether the sample is on the surface, where s_zz, s_xz, s_yz are the tractions themselves.
+    /// True if the sample is on the surface, where s_zz, s_xz, s_yz are the tractions themselves.
     on_surface: bool,
 }
 
@@ -99,9 +99,9 @@ impl NearRim {
     pub(super) fn locate(grid: &Grid, x: f64, y: f64) -> ((usize, usize), (f64, f64)) {
         let Plane { n, d, .. } = Plane::new(grid, false);
         let along = |v: f64, n: usize, d: f64| {
-            let place = v / d + (n - 1) as f64 / 2.0;
-            let cell = place.round().clamp(0.0, (n - 1) as f64);
-            (cell as usize, snapped(place - cell))
+            let position = v / d + (n - 1) as f64 / 2.0;
+            let cell = position.round().clamp(0.0, (n - 1) as f64);
+            (cell as usize, snap_to_half_cells(position - cell))
         };
         let ((i, s), (j, t)) = (along(x, n.0, d.0), along(y, n.1, d.1));
         ((i, j), (s, t))
@@ -115,24 +115,29 @@ impl NearRim {
         depth: Depth,
         offset: (f64, f64),
     ) -> Option<Parts> {
-        self.cut(kernel, depth, offset, Fineness::shared(self.is_flat()))
+        self.divide(kernel, depth, offset, Fineness::shared(self.is_flat()))
     }
 
-    /// The same for one point, which may lie on a border.
-    pub(super) fn parts_of_a_point(
+    /// The parts around one point, which may lie on a border.
+    pub(super) fn parts_at_point(
         &self,
         kernel: &DepthKernel<Stress, 10, 6>,
         depth: Depth,
         offset: (f64, f64),
     ) -> Option<Parts> {
-        self.cut(kernel, depth, offset, Fineness::of_a_point(self.is_flat()))
+        self.divide(
+            kernel,
+            depth,
+            offset,
+            Fineness::single_point(self.is_flat()),
+        )
     }
 
     fn is_flat(&self) -> bool {
         self.plane.n.1 == 1
     }
 
-    fn cut(
+    fn divide(
         &self,
         kernel: &DepthKernel<Stress, 10, 6>,
         depth: Depth,
@@ -145,18 +150,19 @@ impl NearRim {
             return None;
         }
         let reach = DIVIDED_CELLS as f64;
-        let within = |f: f64, n: usize| {
-            let most = if n == 1 {
+        let clamp_cells = |f: f64, n: usize| {
+            let farthest = if n == 1 {
                 0
             } else {
                 DIVIDED_CELLS as isize + 1
             };
-            (-most..=most).filter(move |k| (*k as f64 - f).abs() <= reach + 0.5)
+            (-farthest..=farthest).filter(move |k| (*k as f64 - f).abs() <= reach + 0.5)
         };
-        let cells = within(offset.0, n.0).flat_map(|k| within(offset.1, n.1).map(move |l| (k, l)));
-        let known = RefCell::default();
-        let cut = |(k, l): (isize, isize)| {
-            let cut = Division {
+        let cells = clamp_cells(offset.0, n.0)
+            .flat_map(|k| clamp_cells(offset.1, n.1).map(move |l| (k, l)));
+        let cache = RefCell::default();
+        let divide_cell = |(k, l): (isize, isize)| {
+            let divide_cell = Division {
                 kernel,
                 side: self.side,
                 d,
@@ -164,19 +170,19 @@ impl NearRim {
                 sample: (offset.0 - k as f64, offset.1 - l as f64),
                 z,
                 fineness,
-                known: &known,
+                cache: &cache,
             };
             let mut parts = Vec::new();
-            cut.thirds(&mut parts, (0.0, 0.0), 1.0, 1);
+            divide_cell.add_thirds(&mut parts, (0.0, 0.0), 1.0, 1);
             Divided {
                 from: (k, l),
                 slopes: slopes(&parts),
                 parts,
             }
         };
-        let cells: Vec<Divided> = cells.map(cut).collect();
+        let cells: Vec<Divided> = cells.map(divide_cell).collect();
         Some(Parts {
-            beyond: self.beyond(kernel, &cells, offset, fineness, z),
+            beyond: self.response_beyond(kernel, &cells, offset, fineness, z),
             cells,
             offset,
             on_surface: depth.z <= 0.0,
@@ -192,9 +198,9 @@ impl NearRim {
     /// -g/12 sum_k K'(x - x_k) d^2 = -g/12 K(x - x_R) d,
     /// ```
     ///
-    /// the response to -g/12 on one cell in whose middle they begin; those to the left to that of
-    /// g/12. Rows without a divided cell add nothing.
-    fn beyond(
+    /// the response to -g/12 on one cell in whose middle they begin. The cells to the left sum up
+    /// to the response to g/12. Rows without a divided cell add nothing.
+    fn response_beyond(
         &self,
         kernel: &DepthKernel<Stress, 10, 6>,
         cells: &[Divided],
@@ -205,7 +211,7 @@ impl NearRim {
         const DIPOLE: f64 = 1.0 / 12.0;
         let mut beyond = [[[0.0; 3]; 6]; 2];
         let axes = if self.is_flat() { 1 } else { 2 };
-        let known = RefCell::default();
+        let cache = RefCell::default();
         for (axis, sum) in beyond.iter_mut().enumerate().take(axes) {
             let along = |d: &Divided| [d.from.0, d.from.1][axis];
             let ends = [cells.iter().map(along).min(), cells.iter().map(along).max()];
@@ -221,9 +227,9 @@ impl NearRim {
                         sample: (offset.0 - middle[0], offset.1 - middle[1]),
                         z,
                         fineness,
-                        known: &known,
+                        cache: &cache,
                     };
-                    let response = cut.response(cut.sample.0, cut.sample.1, 1.0);
+                    let response = cut.cached_response(cut.sample.0, cut.sample.1, 1.0);
                     for (sum, v) in sum.iter_mut().flatten().zip(response.iter().flatten()) {
                         *sum += sign * DIPOLE * v;
                     }
@@ -233,7 +239,7 @@ impl NearRim {
         beyond
     }
 
-    /// Whether the correction is computed at samples in a cell at a depth.
+    /// Checks that the correction is computed at samples in a cell at a depth.
     pub(super) fn is_near(&self, state: usize, depth: Depth, cell: (usize, usize)) -> bool {
         self.depth_in_cells(depth) < AT_SURFACE || self.states[state].distance(cell) <= FARTHEST
     }
@@ -243,8 +249,8 @@ impl NearRim {
         depth.z / if self.is_flat() { d.0 } else { d.0.max(d.1) }
     }
 
-    /// The place itself; next to a step of constant tractions, where the stress is infinite, the
-    /// middle of its cell.
+    /// Returns the place itself. Next to a step of constant tractions, where the stress is
+    /// infinite, it returns the middle of its cell.
     pub(super) fn away_from_steps(&self, grid: &Grid, x: f64, y: f64) -> (f64, f64) {
         let (cell, (s, t)) = Self::locate(grid, x, y);
         let Plane { d, .. } = self.plane;
@@ -255,11 +261,11 @@ impl NearRim {
         }
     }
 
-    /// Whether a place less than a cell deep lies beside an assumed rim in any state.
+    /// Checks that a place less than a cell deep lies beside an assumed rim in any state.
     pub(super) fn is_unknown(&self, grid: &Grid, depth: Depth, (x, y): (f64, f64)) -> bool {
         let (cell, _) = Self::locate(grid, x, y);
-        let unknown = |state: &Continued| state.rim_is_unknown(cell);
-        self.depth_in_cells(depth) < 1.0 && self.states.iter().any(unknown)
+        let is_unknown = |state: &Continued| state.rim_is_unknown(cell);
+        self.depth_in_cells(depth) < 1.0 && self.states.iter().any(is_unknown)
     }
 
     /// The tractions of a state.
@@ -268,7 +274,7 @@ impl NearRim {
     }
 
     /// Adds the correction to the stress of a state at a sample in a cell \[Pa\].
-    pub(super) fn add(
+    pub(super) fn add_correction(
         &self,
         parts: &Parts,
         state: usize,
@@ -276,9 +282,9 @@ impl NearRim {
         stress: &mut [f64; 6],
     ) {
         let state = &self.states[state];
-        let mut more = [0.0; 6];
+        let mut correction = [0.0; 6];
         let mut add = |response: &[[f64; 3]; 6], q: [f64; 3]| {
-            for (stress, row) in more.iter_mut().zip(response) {
+            for (stress, row) in correction.iter_mut().zip(response) {
                 *stress += row[0] * q[0] + row[1] * q[1] + row[2] * q[2];
             }
         };
@@ -302,19 +308,19 @@ impl NearRim {
                 }
             }
         }
-        let own = state.tractions_within((i, j)).filter(|_| parts.on_surface);
-        for (row, (stress, more)) in stress.iter_mut().zip(more).enumerate() {
-            let traction = OF_TRACTIONS.iter().find(|(of, _)| *of == row);
-            match (traction.filter(|_| parts.on_surface), &own) {
-                (None, _) => *stress += more,
-                (Some((_, c)), Some(own)) => *stress = -own.evaluate(parts.offset)[*c],
+        let own_cell = state.tractions_within((i, j)).filter(|_| parts.on_surface);
+        for (row, (stress, correction)) in stress.iter_mut().zip(correction).enumerate() {
+            let traction = TRACTION_ROWS.iter().find(|(of, _)| *of == row);
+            match (traction.filter(|_| parts.on_surface), &own_cell) {
+                (None, _) => *stress += correction,
+                (Some((_, c)), Some(own_cell)) => *stress = -own_cell.evaluate(parts.offset)[*c],
                 (Some(_), _) => (),
             }
         }
     }
 }
 
-/// Continued less constant tractions at an offset in a cell \[Pa\].
+/// Difference of continued and constant tractions at an offset in a cell \[Pa\].
 fn excess(within: &CellTractions, offset: (f64, f64)) -> [f64; 3] {
     let q = within.evaluate(offset);
     std::array::from_fn(|c| q[c] - within.constant[c])

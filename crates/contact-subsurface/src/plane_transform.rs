@@ -38,7 +38,7 @@ pub(super) struct PlaneTransform {
 }
 
 impl PlaneTransform {
-    /// Of the tractions of each state.
+    /// Transforms the tractions of each state.
     pub(super) fn new(
         plane: &Plane,
         side: Side,
@@ -46,7 +46,7 @@ impl PlaneTransform {
         source: Source,
         stop: &AtomicBool,
     ) -> Result<Self, Error> {
-        let patch = plane.patch(states, source);
+        let patch = plane.loaded_patch(states, source);
         // The patch lies symmetric to the middle along x, not so along y.
         let beyond = patch.start.1 + patch.rows as isize - 1;
         let offsets = (
@@ -75,7 +75,9 @@ impl PlaneTransform {
             .iter()
             .map(|state| {
                 let loads = plane.loads(state, side, source, patch);
-                let load = |c: usize| transform.load(|j| loads.row(c, j), patch, &*y_forward, stop);
+                let load = |c: usize| {
+                    transform.transform_loads(|j| loads.row(c, j), patch, &*y_forward, stop)
+                };
                 Ok([load(0)?, load(1)?, load(2)?])
             })
             .collect::<Result<_, Error>>()?;
@@ -87,7 +89,7 @@ impl PlaneTransform {
     }
 
     /// The transform of one component, (k_x, k_y).
-    fn load<'a>(
+    fn transform_loads<'a>(
         &self,
         row: impl Fn(usize) -> &'a [f64],
         patch: Patch,
@@ -98,7 +100,7 @@ impl PlaneTransform {
             return Ok(Vec::new());
         }
         let frequencies = self.frequencies();
-        let mut all = vec![Complex64::default(); frequencies * self.period.1];
+        let mut loads_spectrum = vec![Complex64::default(); frequencies * self.period.1];
         let mut real = vec![0.0; self.period.0];
         let mut spectrum = vec![Complex64::default(); frequencies];
         for j in 0..patch.rows {
@@ -109,15 +111,17 @@ impl PlaneTransform {
                 .process(&mut real, &mut spectrum)
                 .expect("buffers have the planned lengths");
             for (k, v) in spectrum.iter().enumerate() {
-                all[k * self.period.1 + j] = *v;
+                loads_spectrum[k * self.period.1 + j] = *v;
             }
         }
-        all.par_chunks_mut(self.period.1).try_for_each(|line| {
-            unless(stop)?;
-            y_forward.process(line);
-            Ok(())
-        })?;
-        Ok(all)
+        loads_spectrum
+            .par_chunks_mut(self.period.1)
+            .try_for_each(|line| {
+                unless(stop)?;
+                y_forward.process(line);
+                Ok(())
+            })?;
+        Ok(loads_spectrum)
     }
 
     /// The product with a kernel, on the grid, for each state.
@@ -154,7 +158,7 @@ impl PlaneTransform {
         let mut half = vec![vec![0.0; frequencies * ny]; 3 * R];
         let mut entries = vec![0.0; 3 * R * nx];
         let mut buffers = Buffers::new(&*self.x_forward);
-        let pairs = pairs::<R>(|row, column| Q::is_odd(row, column).0);
+        let pairs = pair_entries::<R>(|row, column| Q::is_odd(row, column).0);
         for j in 0..ny {
             unless(stop)?;
             let y = j as f64 * d.1;
@@ -164,8 +168,12 @@ impl PlaneTransform {
                 }
             });
             for pair in &pairs {
-                let of = |e: usize| entries[e * nx..][..nx].iter().copied();
-                buffers.transform(&*self.x_forward, pair[0].map(of), pair[1].map(of));
+                let entry_values = |e: usize| entries[e * nx..][..nx].iter().copied();
+                buffers.transform(
+                    &*self.x_forward,
+                    pair[0].map(entry_values),
+                    pair[1].map(entry_values),
+                );
                 for (k, v) in buffers.spectrum.iter().enumerate() {
                     if let Some(even) = pair[0] {
                         half[even][k * ny + j] = v.re;
@@ -190,7 +198,7 @@ impl PlaneTransform {
     ) -> Result<Vec<Vec<Complex64>>, Error> {
         let (frequencies, period) = (self.frequencies(), self.period.1);
         let ny = self.offsets.1;
-        let pairs = pairs::<R>(|row, column| Q::is_odd(row, column).1);
+        let pairs = pair_entries::<R>(|row, column| Q::is_odd(row, column).1);
         let mut lines = vec![vec![Complex64::default(); rows * frequencies]; states * R];
         let mut buffers = Buffers::new(&*self.y_real);
         let mut sums = vec![Complex64::default(); states * R * period];
@@ -199,8 +207,12 @@ impl PlaneTransform {
             unless(stop)?;
             sums.fill(Complex64::default());
             for pair in &pairs {
-                let of = |e: usize| half[e][k * ny..][..ny].iter().copied();
-                buffers.transform(&*self.y_real, pair[0].map(of), pair[1].map(of));
+                let entry_values = |e: usize| half[e][k * ny..][..ny].iter().copied();
+                buffers.transform(
+                    &*self.y_real,
+                    pair[0].map(entry_values),
+                    pair[1].map(entry_values),
+                );
                 for (odd_y, entry) in pair.iter().enumerate() {
                     let Some(entry) = *entry else { continue };
                     let (row, column) = (entry / 3, entry % 3);
@@ -260,24 +272,24 @@ fn multiply(
     n: usize,
 ) {
     let period = sum.len();
-    let turned = |v: Complex64, s: f64| match n {
+    let rotate = |v: Complex64, s: f64| match n {
         0 => v * s,
         1 => Complex64::new(v.im * s, -v.re * s),
         _ => v * -s,
     };
     let value = |k: usize| if odd { -spectrum[k].im } else { spectrum[k].re };
     let sign = if odd { -1.0 } else { 1.0 };
-    sum[0] += turned(load[0], value(0));
-    sum[period / 2] += turned(load[period / 2], value(period / 2));
+    sum[0] += rotate(load[0], value(0));
+    sum[period / 2] += rotate(load[period / 2], value(period / 2));
     for k in 1..period / 2 {
         let s = value(k);
-        sum[k] += turned(load[k], s);
-        sum[period - k] += turned(load[period - k], sign * s);
+        sum[k] += rotate(load[k], s);
+        sum[period - k] += rotate(load[period - k], sign * s);
     }
 }
 
 /// Entries (3 row + column) in pairs of an even and an odd one, which share a transform.
-fn pairs<const R: usize>(is_odd: impl Fn(usize, usize) -> bool) -> Vec<[Option<usize>; 2]> {
+fn pair_entries<const R: usize>(is_odd: impl Fn(usize, usize) -> bool) -> Vec<[Option<usize>; 2]> {
     let (odd, even): (Vec<usize>, Vec<usize>) =
         (0..3 * R).partition(|entry| is_odd(entry / 3, entry % 3));
     (0..even.len().max(odd.len()))

@@ -1,8 +1,8 @@
-//! The plastic strain of a state on the volume grid, and what a cycle adds to it.
+//! The plastic strain of a state on the volume grid, and its growth over a cycle.
 
 use contact_core::yielding::PlasticPoint;
 
-use super::TwiceAsLarge;
+use super::DoubledCells;
 
 /// Components of a tensor, and the equivalent strain behind them.
 const NUMBERS: usize = 7;
@@ -22,8 +22,9 @@ pub(super) struct PlasticStrain {
 }
 
 impl PlasticStrain {
-    /// Of points that have yielded, at least one: plane, cell, with the strain in the axes of the scene.
-    pub(super) fn of(points: &[(usize, usize, PlasticPoint)], cells: [usize; 2]) -> Self {
+    /// Collects points that have yielded, at least one: plane, cell, with the strain in the axes of
+    /// the scene.
+    pub(super) fn from_points(points: &[(usize, usize, PlasticPoint)], cells: [usize; 2]) -> Self {
         let points = points.iter().map(|(plane, cell, point)| {
             let strain = point.strain.map(|e| e as f32);
             let [xx, yy, zz, xy, xz, yz] = strain;
@@ -33,7 +34,7 @@ impl PlasticStrain {
         Self::sum(&points.collect::<Vec<_>>(), cells)
     }
 
-    /// The sum of the numbers at places.
+    /// Sums the numbers at equal places.
     fn sum(points: &[([usize; 3], [f32; NUMBERS])], cells: [usize; 2]) -> Self {
         let (mut first, mut last) = ([usize::MAX; 3], [0; 3]);
         for (at, _) in points {
@@ -43,30 +44,31 @@ impl PlasticStrain {
             }
         }
         let n = [0, 1, 2].map(|a| (last[a] + 1).saturating_sub(first[a]));
-        let mut found = Self {
+        let mut sums = Self {
             first,
             n,
             cells,
             values: vec![[0.0; NUMBERS]; n.iter().product()],
         };
         for (at, numbers) in points {
-            if let Some(n) = found.index(*at) {
-                let values = found.values[n].iter_mut().zip(numbers);
+            if let Some(n) = sums.index(*at) {
+                let values = sums.values[n].iter_mut().zip(numbers);
                 values.for_each(|(sum, own)| *sum += own);
             }
         }
-        found
+        sums
     }
 
-    /// Means over cells, and over the planes that become one of these numbers.
-    pub(super) fn on_coarser(&self, cells: &TwiceAsLarge, of_plane: &[usize]) -> Self {
-        let together = |plane: usize| of_plane.iter().filter(|of| **of == plane).count();
+    /// Averages over pairs of cells, and over the planes with equal numbers in `of_plane`.
+    pub(super) fn coarsened(&self, cells: &DoubledCells, of_plane: &[usize]) -> Self {
+        let planes_merged =
+            |plane: usize| of_plane.iter().filter(|merged| **merged == plane).count();
         let points = (0..self.values.len()).map(|n| {
-            let (rest, j) = (n / self.n[2], n % self.n[2] + self.first[2]);
-            let (plane, i) = (rest / self.n[1], rest % self.n[1] + self.first[1]);
+            let (row, j) = (n / self.n[2], n % self.n[2] + self.first[2]);
+            let (plane, i) = (row / self.n[1], row % self.n[1] + self.first[1]);
             let plane = of_plane[plane + self.first[0]];
             let cell = cells.cell_of([i, j]);
-            let part = (cells.part() / together(plane) as f64) as f32;
+            let part = (cells.fraction() / planes_merged(plane) as f64) as f32;
             let at = [plane, cell / cells.grid.ny, cell % cells.grid.ny];
             (at, self.values[n].map(|e| part * e))
         });
@@ -79,27 +81,27 @@ impl PlasticStrain {
         inside.then(|| (plane * self.n[1] + i) * self.n[2] + j)
     }
 
-    /// The strain in a cell of a plane; `None` where none is kept.
-    pub(super) fn at(&self, plane: usize, i: usize, j: usize) -> Option<[f64; 6]> {
-        let of = self.values[self.index([plane, i, j])?];
-        Some(std::array::from_fn(|c| f64::from(of[c])))
+    /// The strain in a cell of a plane; `None` outside the box.
+    pub(super) fn strain(&self, plane: usize, i: usize, j: usize) -> Option<[f64; 6]> {
+        let numbers = self.values[self.index([plane, i, j])?];
+        Some(std::array::from_fn(|c| f64::from(numbers[c])))
     }
 
-    /// Strain and equivalent strain at a plane and a cell counted from the middle of the grid, which a grid
-    /// that has grown keeps.
+    /// Strain and equivalent strain at a plane and a cell counted from the middle of the grid. The
+    /// middle stays when the grid grows.
     fn around_middle(&self, [plane, i, j]: [isize; 3]) -> [f64; NUMBERS] {
         let whole = |a: usize, at: isize| at + (self.cells[a] / 2) as isize;
         let at = [plane, whole(0, i), whole(1, j)];
         let at = at.map(|at| usize::try_from(at).unwrap_or(usize::MAX));
-        let own = self.index(at).map(|n| self.values[n]);
-        own.unwrap_or_default().map(f64::from)
+        let stored = self.index(at).map(|n| self.values[n]);
+        stored.unwrap_or_default().map(f64::from)
     }
 
-    /// Planes and cells of the box, counted so.
+    /// Planes and cells of the box, counted from the middle.
     fn places(&self) -> impl Iterator<Item = [isize; 3]> + '_ {
         (0..self.values.len()).map(|n| {
-            let (rest, j) = (n / self.n[2], n % self.n[2]);
-            let (plane, i) = (rest / self.n[1], rest % self.n[1]);
+            let (row, j) = (n / self.n[2], n % self.n[2]);
+            let (plane, i) = (row / self.n[1], row % self.n[1]);
             let along = |a: usize, at: usize| {
                 (at + self.first[a + 1]) as isize - (self.cells[a] / 2) as isize
             };
@@ -108,18 +110,18 @@ impl PlasticStrain {
     }
 }
 
-/// What a cycle adds to the plastic strain, each at the point where it is largest.
+/// Largest increase of the plastic strain over a cycle, each at the point where it is largest.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Growth {
-    /// Equivalent strain that it adds up.
+    /// Equivalent strain added up over the cycle.
     pub added: f64,
-    /// Equivalent strain of the change that it leaves.
+    /// Equivalent strain of the net change.
     pub net: f64,
 }
 
 impl Growth {
     pub(super) fn between(before: Option<&PlasticStrain>, after: &PlasticStrain) -> Self {
-        let mut found = Self::default();
+        let mut growth = Self::default();
         for place in after.places() {
             let (end, start) = (
                 after.around_middle(place),
@@ -127,15 +129,15 @@ impl Growth {
             );
             let change: [f64; NUMBERS] = std::array::from_fn(|c| end[c] - start[c]);
             let square = |c: std::ops::Range<usize>| change[c].iter().map(|e| e * e).sum::<f64>();
-            found.added = found.added.max(change[NUMBERS - 1]);
+            growth.added = growth.added.max(change[NUMBERS - 1]);
             // sqrt(2/3 e : e).
             let net = (2.0 / 3.0 * (square(0..3) + 2.0 * square(3..6))).sqrt();
-            found.net = found.net.max(net);
+            growth.net = growth.net.max(net);
         }
-        found
+        growth
     }
 
-    /// Whether the cycle keeps so much of the strain that it does not close.
+    /// Checks that the net change is so large that the cycle does not close.
     pub fn ratchets(&self) -> bool {
         self.added > 0.0 && self.net >= RATCHETS * self.added
     }
@@ -164,19 +166,19 @@ mod tests {
     /// A grid of 4 x 6 cells that has grown by one cell at each side, and a point that has yielded since.
     #[test]
     fn a_cycle_adds_the_same_on_a_grid_that_has_grown() {
-        let before = PlasticStrain::of(&[(3, 2 * 6 + 4, yielded(SHEAR, 0.02))], [4, 6]);
+        let before = PlasticStrain::from_points(&[(3, 2 * 6 + 4, yielded(SHEAR, 0.02))], [4, 6]);
         let moved = |shear: f64| SHEAR.map(|e| shear * e);
-        let of = |shear: f64, equivalent: f64| {
+        let point_with = |shear: f64, equivalent: f64| {
             let points = [
                 (3, 3 * 8 + 5, yielded(moved(shear), equivalent)),
                 (5, 3 * 8 + 1, yielded([0.0; 6], 1e-4)),
             ];
-            Growth::between(Some(&before), &PlasticStrain::of(&points, [6, 8]))
+            Growth::between(Some(&before), &PlasticStrain::from_points(&points, [6, 8]))
         };
-        let closed = of(1.0, 0.03);
+        let closed = point_with(1.0, 0.03);
         assert!((closed.added - 0.01).abs() < 1e-8 && closed.net == 0.0);
         assert!(!closed.ratchets());
-        let open = of(2.0, 0.023);
+        let open = point_with(2.0, 0.023);
         // sqrt(2/3 2 e_xz^2).
         assert!((open.net - 2.0 / 3f64.sqrt() * 3e-3).abs() < 1e-9);
         assert!(open.ratchets());

@@ -8,7 +8,7 @@ use contact_core::scene::{Body, Grid};
 use contact_core::stop::unless;
 use rayon::prelude::*;
 
-use super::loads::{Loads, Patch, Plane, Source, snapped};
+use super::loads::{Loads, Patch, Plane, Source, snap_to_half_cells};
 use super::near_rim::NearRim;
 use super::states::Loaded;
 use super::{Border, Depth, Line, Point, Side, States};
@@ -21,14 +21,14 @@ const FARTHEST: f64 = 1e6;
 pub struct Points {
     loaded: Loaded,
     plane: Plane,
-    /// By state, for loads on cells and for point loads, on the patch that holds the loads of all
+    /// Loads of each state, on cells and as point loads, on the patch that holds the loads of all
     /// states.
     loads: Vec<[Loads; 2]>,
     patches: [Patch; 2],
 }
 
 impl Points {
-    /// In the body `side` under each of the `states`.
+    /// Sets up the body `side` under each of the `states`.
     pub fn new<'a>(
         body: &Body,
         side: Side,
@@ -39,7 +39,7 @@ impl Points {
         let window = || Ok((0..grid.nx, 0..grid.ny));
         let loaded = Loaded::new(body, side, grid, &states, window)?;
         let plane = Plane::new(grid, false);
-        let patches = Source::ALL.map(|source| plane.patch(states.tractions, source));
+        let patches = Source::ALL.map(|source| plane.loaded_patch(states.tractions, source));
         let loads = states.tractions.iter().map(|state| {
             Source::ALL.map(|source| plane.loads(state, side, source, patches[source.index()]))
         });
@@ -59,22 +59,26 @@ impl Points {
     /// border of a cell: there it is the mean of both sides, and infinite terms are evaluated 1/(2
     /// pi) of a cell beside the border.
     pub fn stress(&self, points: &[Point]) -> Result<Vec<Vec<[f64; 6]>>, Error> {
-        self.stress_of(points, false)
+        self.stress_or_both(points, false)
     }
 
-    /// The stress of each state, and that which tractions constant in each cell would cause: the
-    /// difference is what the cells leave open of the tractions within them. Without
-    /// [`States::stick`] both are the same.
-    pub fn stress_and_constant(&self, points: &[Point]) -> Result<[Vec<Vec<[f64; 6]>>; 2], Error> {
-        let mut all = self.stress_of(points, true)?;
-        let constant = all.split_off(self.loads.len());
-        Ok([all, constant])
+    /// The stress of each state, and the stress of tractions that are constant in each cell. The
+    /// difference is the effect of the tractions within the cells. Without [`States::stick`] both
+    /// are the same.
+    pub fn stress_with_constant(&self, points: &[Point]) -> Result<[Vec<Vec<[f64; 6]>>; 2], Error> {
+        let mut stresses = self.stress_or_both(points, true)?;
+        let constant = stresses.split_off(self.loads.len());
+        Ok([stresses, constant])
     }
 
-    /// The stress of each state, then, if asked for, that of constant tractions.
-    fn stress_of(&self, points: &[Point], constant_too: bool) -> Result<Vec<Vec<[f64; 6]>>, Error> {
+    /// The stress of each state, then, if `constant_too`, the stress of constant tractions.
+    fn stress_or_both(
+        &self,
+        points: &[Point],
+        constant_too: bool,
+    ) -> Result<Vec<Vec<[f64; 6]>>, Error> {
         let states = self.loads.len();
-        let away = |&(x, y, depth): &Point| {
+        let away_from_steps = |&(x, y, depth): &Point| {
             let rim = self
                 .loaded
                 .rim
@@ -83,38 +87,39 @@ impl Points {
             let (x, y) = rim.map_or((x, y), |rim| rim.away_from_steps(&self.loaded.grid, x, y));
             (x, y, depth)
         };
-        let points: Vec<Point> = points.iter().map(away).collect();
+        let points: Vec<Point> = points.iter().map(away_from_steps).collect();
         let points = points.as_slice();
-        let mut all = self.gather(points, |kernel, depth, n, values: &mut Vec<[f64; 6]>| {
-            if constant_too {
-                values.extend_from_within(..);
-            }
-            let Some(rim) = &self.loaded.rim else { return };
-            let (cell, offset) = NearRim::locate(&self.loaded.grid, points[n].0, points[n].1);
-            let near = |(state, _): &(usize, _)| rim.is_near(*state, depth, cell);
-            let values = &mut values[..states];
-            let mut near = values.iter_mut().enumerate().filter(near).peekable();
-            let parts = near
-                .peek()
-                .and_then(|_| rim.parts_of_a_point(kernel, depth, offset));
-            let Some(parts) = parts else { return };
-            for (state, stress) in near {
-                rim.add(&parts, state, cell, stress);
-            }
-        })?;
-        for (state, stresses) in all.iter_mut().enumerate() {
+        let mut values_by_state =
+            self.gather(points, |kernel, depth, n, values: &mut Vec<[f64; 6]>| {
+                if constant_too {
+                    values.extend_from_within(..);
+                }
+                let Some(rim) = &self.loaded.rim else { return };
+                let (cell, offset) = NearRim::locate(&self.loaded.grid, points[n].0, points[n].1);
+                let near = |(state, _): &(usize, _)| rim.is_near(*state, depth, cell);
+                let values = &mut values[..states];
+                let mut near = values.iter_mut().enumerate().filter(near).peekable();
+                let parts = near
+                    .peek()
+                    .and_then(|_| rim.parts_at_point(kernel, depth, offset));
+                let Some(parts) = parts else { return };
+                for (state, stress) in near {
+                    rim.add_correction(&parts, state, cell, stress);
+                }
+            })?;
+        for (state, stresses) in values_by_state.iter_mut().enumerate() {
             for (stress, (x, y, depth)) in stresses.iter_mut().zip(points) {
                 let uniform = self.loaded.uniform(state % states, *depth);
                 for (s, uniform) in stress.iter_mut().zip(uniform) {
                     *s += uniform;
                 }
-                let left = self.loaded.left(state % states, (*x, *y), *depth);
-                for (s, left) in stress.iter_mut().zip(left.into_iter().flatten()) {
-                    *s += left;
+                let residual = self.loaded.eigenstress_at(state % states, (*x, *y), *depth);
+                for (s, residual) in stress.iter_mut().zip(residual.into_iter().flatten()) {
+                    *s += residual;
                 }
             }
         }
-        Ok(all)
+        Ok(values_by_state)
     }
 
     /// Displacement of each state at each point relative to infinity \[m\].
@@ -122,35 +127,35 @@ impl Points {
         self.gather(points, |_: &DepthKernel<Displacement, 5, 3>, _, _, _| {})
     }
 
-    /// Whether a point lies on the surface beside an assumed rim.
+    /// Checks that a point lies on the surface beside an assumed rim.
     pub fn rim_is_unknown(&self, (x, y, depth): Point) -> bool {
         let rim = self.loaded.rim.as_ref();
         rim.is_some_and(|rim| rim.is_unknown(&self.loaded.grid, depth, (x, y)))
     }
 
     /// The crossings of `line` with the rim of the contact and the border of the stick zone in a
-    /// state; without a line those of the lines through the middles of all rows and columns of
-    /// cells. Empty under constant tractions.
+    /// state. Without a line, all lines through the middles of rows and columns of cells are
+    /// crossed. Empty under constant tractions.
     pub fn borders(&self, state: usize, line: Option<Line>) -> Vec<Border> {
         let rim = self.loaded.rim.as_ref();
         let continued = rim.and_then(|rim| rim.continued(state));
         continued.map_or_else(Vec::new, |continued| {
-            super::borders::of(continued, &self.loaded.grid, line)
+            super::borders::find_borders(continued, &self.loaded.grid, line)
         })
     }
 
-    /// The same on the lines along x and along y through a place on the grid \[m\]: a place between
-    /// the middles of rows lies on the rim where it crosses them.
-    pub(super) fn borders_beside(&self, x: f64, y: f64) -> Vec<Border> {
+    /// Crossings on the lines along x and along y through a place on the grid \[m\]. A place
+    /// between the middles of rows lies on the rim where it crosses them.
+    pub(super) fn borders_near(&self, x: f64, y: f64) -> Vec<Border> {
         let (length, width) = self.loaded.grid.extent();
         if x.abs() > 0.5 * length || y.abs() > 0.5 * width {
             return Vec::new();
         }
-        let mut found = self.borders(0, Some(Line::AlongX(y)));
+        let mut borders = self.borders(0, Some(Line::AlongX(y)));
         if self.loaded.grid.ny > 1 {
-            found.extend(self.borders(0, Some(Line::AlongY(x))));
+            borders.extend(self.borders(0, Some(Line::AlongY(x))));
         }
-        found
+        borders
     }
 
     fn gather<Q: Quantity<N, R> + Sync, const N: usize, const R: usize>(
@@ -176,7 +181,7 @@ impl Points {
             .collect::<Vec<_>>()
             .into_par_iter()
             .map(|group| {
-                let values = self.at_depth(points, &group, &more)?;
+                let values = self.values_at_depth(points, &group, &more)?;
                 Ok((group, values))
             })
             .collect::<Result<_, Error>>()?;
@@ -184,20 +189,20 @@ impl Points {
             .iter()
             .find_map(|(_, values): &(_, Vec<Vec<_>>)| values.first());
         let states = of_first.map_or(self.loads.len(), Vec::len);
-        let mut all = vec![vec![[0.0; R]; points.len()]; states];
+        let mut by_state = vec![vec![[0.0; R]; points.len()]; states];
         for (group, values) in groups {
             for (n, of_states) in group.into_iter().zip(values) {
-                for (state, value) in all.iter_mut().zip(of_states) {
+                for (state, value) in by_state.iter_mut().zip(of_states) {
                     state[n] = value;
                 }
             }
         }
-        Ok(all)
+        Ok(by_state)
     }
 
     /// The values of every state at the points of a group, which share their depth; `more` is
     /// added.
-    fn at_depth<Q: Quantity<N, R> + Sync, const N: usize, const R: usize>(
+    fn values_at_depth<Q: Quantity<N, R> + Sync, const N: usize, const R: usize>(
         &self,
         points: &[Point],
         group: &[usize],
@@ -210,18 +215,18 @@ impl Points {
             .fold(0.0, f64::max);
         let reach = self.plane.reach() + farthest;
         let kernel: DepthKernel<Q, N, R> = self.loaded.kernel(depth, reach)?;
-        let source = Source::at(depth.z, self.plane.d);
-        let at = |n: &usize| {
+        let source = Source::for_depth(depth.z, self.plane.d);
+        let values_at = |n: &usize| {
             let (x, y, _) = points[*n];
-            let mut values = self.sums(&kernel, source, (x, y))?;
+            let mut values = self.sum_responses(&kernel, source, (x, y))?;
             more(&kernel, depth, *n, &mut values);
             Ok(values)
         };
-        group.par_iter().map(at).collect()
+        group.par_iter().map(values_at).collect()
     }
 
-    /// What the loads of each state cause at a place.
-    fn sums<Q: Quantity<N, R>, const N: usize, const R: usize>(
+    /// Sums the responses to the loads of each state at a place.
+    fn sum_responses<Q: Quantity<N, R>, const N: usize, const R: usize>(
         &self,
         kernel: &DepthKernel<Q, N, R>,
         source: Source,
@@ -230,11 +235,11 @@ impl Points {
         let Plane { n, d, .. } = self.plane;
         let patch = self.patches[source.index()];
         // From the middle of a cell, in cells.
-        let from = |v: f64, i: usize, start: isize, n: usize, d: f64| {
+        let offset = |v: f64, i: usize, start: isize, n: usize, d: f64| {
             let middle = (i as isize + start) as f64 - (n - 1) as f64 / 2.0;
-            snapped(v / d - middle)
+            snap_to_half_cells(v / d - middle)
         };
-        let from_x = from(x, 0, patch.start.0, n.0, d.0);
+        let from_x = offset(x, 0, patch.start.0, n.0, d.0);
         let mut sums = vec![[0.0; R]; self.loads.len()];
         for j in 0..patch.rows {
             unless(&self.loaded.stop)?;
@@ -242,7 +247,7 @@ impl Points {
             let rows: Vec<_> = rows
                 .map(|loads| [0, 1, 2].map(|component| loads.row(component, j)))
                 .collect();
-            let from_y = from(y, j, patch.start.1, n.1, d.1) * d.1;
+            let from_y = offset(y, j, patch.start.1, n.1, d.1) * d.1;
             let holds = |i: &usize| rows.iter().flatten().any(|row| row[*i] != 0.0);
             let offsets = (0..patch.columns)
                 .filter(holds)

@@ -47,17 +47,17 @@ impl Component {
 }
 
 impl Probe {
-    /// All, the stresses first.
+    /// All probes, the stresses first.
     pub fn all() -> impl Iterator<Item = Self> {
         let stresses = MEASURES.iter().copied().map(Self::Stress);
         stresses.chain(DISPLACEMENTS.iter().copied().map(Self::Displacement))
     }
 
-    /// That of a name; `key` is where the name stands, for the error.
-    pub fn named(name: &str, key: &str) -> Result<Self, Error> {
+    /// Looks up a probe by its name; `key` names the argument, for the error.
+    pub fn find(name: &str, key: &str) -> Result<Self, Error> {
         Self::all().find(|p| p.name() == name).ok_or_else(|| {
-            let known: Vec<_> = Self::all().map(|p| p.name()).collect();
-            Error::invalid(key, name, format!("one of {}", known.join(", ")))
+            let names: Vec<_> = Self::all().map(|p| p.name()).collect();
+            Error::invalid(key, name, format!("one of {}", names.join(", ")))
         })
     }
 
@@ -104,31 +104,31 @@ impl Slices {
         mut f: impl FnMut(usize, Array2<f64>) -> Result<(), Error>,
     ) -> Result<(), Error> {
         let stresses = || {
-            let of = |(n, p): (usize, &Probe)| match p {
+            let stress_probe = |(n, p): (usize, &Probe)| match p {
                 Probe::Stress(m) => Some((n, *m)),
                 Probe::Displacement(_) => None,
             };
-            probes.iter().enumerate().filter_map(of)
+            probes.iter().enumerate().filter_map(stress_probe)
         };
         if stresses().next().is_some() {
             let s = self.stress(depth)?.swap_remove(0);
             for (n, measure) in stresses() {
-                self.unless_stopped()?;
-                let at = |at| (measure.value)(&std::array::from_fn(|c| s[c][at]));
-                f(n, Array2::from_shape_fn(s[0].dim(), at))?;
+                self.check_stopped()?;
+                let value_at = |value_at| (measure.value)(&std::array::from_fn(|c| s[c][value_at]));
+                f(n, Array2::from_shape_fn(s[0].dim(), value_at))?;
             }
         }
         let displacements = || {
-            let of = |(n, p): (usize, &Probe)| match p {
+            let stress_probe = |(n, p): (usize, &Probe)| match p {
                 Probe::Stress(_) => None,
                 Probe::Displacement(c) => Some((n, c.axis)),
             };
-            probes.iter().enumerate().filter_map(of)
+            probes.iter().enumerate().filter_map(stress_probe)
         };
         if displacements().next().is_some() {
             let u = self.displacement(depth)?.swap_remove(0);
             for (n, axis) in displacements() {
-                self.unless_stopped()?;
+                self.check_stopped()?;
                 f(n, u[axis].clone())?;
             }
         }

@@ -1,6 +1,7 @@
 //! Stiffness of a loop right after its reversals.
 //!
-//! The stiffness K is that of the contact without slip. An increment gives a secant S, which is
+//! The stiffness K is the stiffness of the contact without slip. An increment gives a secant S,
+//! which is
 //! lower: after a change of the force by f the ring of reverse slip has grown. With x = f/F
 //!
 //! ```text
@@ -23,22 +24,22 @@ use contact_core::march::Status;
 
 use crate::loop_point::{Direction, LoopPoint};
 
-/// Changes of the force whose secants are fitted, over that of the whole branch: errors of the shift
-/// are amplified in smaller ones, and gross slip is near in larger ones. Three secants are fitted in
-/// any case.
+/// Changes of the force whose secants are fitted, over the change of the whole branch. In smaller
+/// ones errors of the shift are amplified; larger ones are near gross slip. Three secants are
+/// fitted in any case.
 const FITTED: (f64, f64) = (0.025, 0.6);
 const LEAST_FITTED: f64 = 3.2;
 const LEAST_SECANTS: usize = 3;
 /// Changes of the force of the second fit, over the largest of the first.
-const OF_NEAR: f64 = 0.7;
+const NEAR_FRACTION: f64 = 0.7;
 /// Relative error, for each power of the radius in K, by the rim of the contact and the border of the
 /// ring of slip, which move from cell to cell. Of 215 loops of a ball on 20 to 40 cells under a
 /// tangential force, bare and coated, 195 have a stiffness: 96 % lie within the error.
-const OF_CELLS: f64 = 0.01;
+const CELL_ERROR: f64 = 0.01;
 /// Largest relative error with which a stiffness is given, times the power of the radius in it.
-const OF_STIFFNESS: f64 = 0.02;
+const MAX_STIFFNESS_ERROR: f64 = 0.02;
 
-/// How the secants of a motion fall.
+/// Law by which the secants of a motion fall.
 #[derive(Clone, Copy)]
 struct Law {
     /// g(x) and its derivative.
@@ -48,14 +49,14 @@ struct Law {
 }
 
 impl Law {
-    fn of(direction: Direction) -> Self {
+    fn for_direction(direction: Direction) -> Self {
         match direction {
             Direction::X | Direction::Y => Self {
-                secant: of_force,
+                secant: force_secant,
                 power: 1.0,
             },
             Direction::Torsion => Self {
-                secant: of_couple,
+                secant: couple_secant,
                 power: 3.0,
             },
         }
@@ -68,16 +69,21 @@ pub(super) fn stiffness<'a>(
     branches: impl Iterator<Item = &'a [LoopPoint]>,
     direction: Direction,
 ) -> [f64; 2] {
-    let law = Law::of(direction);
-    let changes = |of: &&[LoopPoint]| of[1..].iter().any(|p| p.T.to_bits() != of[0].T.to_bits());
+    let law = Law::for_direction(direction);
+    let changes = |branch: &&[LoopPoint]| {
+        branch[1..]
+            .iter()
+            .any(|p| p.T.to_bits() != branch[0].T.to_bits())
+    };
     let moved = branches.filter(changes);
-    let known: Vec<Option<[f64; 2]>> = moved.map(|of| tangent(of, law)).collect();
-    let count = known.len() as f64;
-    let sums = (known.into_iter().flatten()).fold([0.0, 0.0, 0.0], |[n, k, e], [K, error]| {
+    let tangents: Vec<Option<[f64; 2]>> =
+        moved.map(|branch| initial_tangent(branch, law)).collect();
+    let count = tangents.len() as f64;
+    let sums = (tangents.into_iter().flatten()).fold([0.0, 0.0, 0.0], |[n, k, e], [K, error]| {
         [n + 1.0, k + K, e + error]
     });
-    let [found, K, error] = sums;
-    if count == 0.0 || found < count || !(error <= law.power * OF_STIFFNESS * K) {
+    let [with_stiffness, K, error] = sums;
+    if count == 0.0 || with_stiffness < count || !(error <= law.power * MAX_STIFFNESS_ERROR * K) {
         return [f64::NAN; 2];
     }
     [K / count, error / count]
@@ -85,14 +91,14 @@ pub(super) fn stiffness<'a>(
 
 /// The tangent of the loop where a branch begins, and its error \[N/m\]; none where too few
 /// increments are in partial slip.
-fn tangent(branch: &[LoopPoint], law: Law) -> Option<[f64; 2]> {
+fn initial_tangent(branch: &[LoopPoint], law: Law) -> Option<[f64; 2]> {
     let (start, points) = branch.split_first()?;
     let secant = |p: &LoopPoint| {
         let (rise, run) = ((p.T - start.T).abs(), (p.delta - start.delta).abs());
         (rise > 0.0 && run > 0.0).then(|| [rise, rise / run])
     };
     if let Some(stuck) = points.iter().rfind(|p| p.status == Status::FullStick) {
-        return secant(stuck).map(|[_, K]| [K, law.power * OF_CELLS * K]);
+        return secant(stuck).map(|[_, K]| [K, law.power * CELL_ERROR * K]);
     }
     let held = points.iter().take_while(|p| p.status != Status::GrossSlip);
     let secants: Vec<[f64; 2]> = held.filter_map(secant).collect();
@@ -107,14 +113,20 @@ fn tangent(branch: &[LoopPoint], law: Law) -> Option<[f64; 2]> {
         return None;
     }
     let largest = fitted.last()?[0];
-    let near = fitted.iter().filter(|s| s[0] <= OF_NEAR * largest).count();
-    let [K, scatter] = without_slip(&fitted, law);
-    let [of_near, _] = without_slip(&fitted[..near.max(2)], law);
-    Some([K, law.power * OF_CELLS * K + (K - of_near).abs() + scatter])
+    let near = fitted
+        .iter()
+        .filter(|s| s[0] <= NEAR_FRACTION * largest)
+        .count();
+    let [K, scatter] = fit_stiffness(&fitted, law);
+    let [of_near, _] = fit_stiffness(&fitted[..near.max(2)], law);
+    Some([
+        K,
+        law.power * CELL_ERROR * K + (K - of_near).abs() + scatter,
+    ])
 }
 
 /// g(x) of a tangential force and its derivative.
-fn of_force(x: f64) -> [f64; 2] {
+fn force_secant(x: f64) -> [f64; 2] {
     // Below, rounding costs more than the term of x^3.
     const SMALL: f64 = 1e-4;
     if x < SMALL {
@@ -123,37 +135,37 @@ fn of_force(x: f64) -> [f64; 2] {
             -1.0 / 6.0 - 5.0 * x / 54.0,
         ];
     }
-    let rest = (1.0 - x).cbrt();
-    let slipped = 1.0 - rest * rest;
+    let root = (1.0 - x).cbrt();
+    let slipped = 1.0 - root * root;
     let value = 2.0 / 3.0 * x / slipped;
-    [value, value * (1.0 / x - 2.0 / (3.0 * rest * slipped))]
+    [value, value * (1.0 / x - 2.0 / (3.0 * root * slipped))]
 }
 
 /// g(x) of a torsional couple and its derivative.
-fn of_couple(x: f64) -> [f64; 2] {
-    // Below, rounding costs more than the term of x^3; that of x^2 is 0.
+fn couple_secant(x: f64) -> [f64; 2] {
+    // Below, rounding costs more than the term of x^3; the term of x^2 is 0.
     const SMALL: f64 = 1e-4;
     if x < SMALL {
         return [1.0 - x / 2.0, -0.5];
     }
-    let rest = (1.0 - x).sqrt();
-    let turned = (1.0 - rest) * (3.0 - rest);
+    let root = (1.0 - x).sqrt();
+    let turned = (1.0 - root) * (3.0 - root);
     let value = x / turned;
-    [value, value * (1.0 / x - (2.0 / rest - 1.0) / turned)]
+    [value, value * (1.0 / x - (2.0 / root - 1.0) / turned)]
 }
 
 /// K of least squares through secants, each a change of the force and a stiffness, and its standard
-/// error; 0 of two secants.
-fn without_slip(secants: &[[f64; 2]], law: Law) -> [f64; 2] {
+/// error; the error is 0 for two secants.
+fn fit_stiffness(secants: &[[f64; 2]], law: Law) -> [f64; 2] {
     let largest = secants.iter().fold(0.0_f64, |m, s| m.max(s[0]));
     // K of least squares for an F of `largest`/c, and what the residuals and the slopes add up to.
     let fit = |c: f64| {
-        let at = |s: &[f64; 2]| {
+        let terms_at = |s: &[f64; 2]| {
             let [g, slope] = (law.secant)(c * s[0] / largest);
             [g, slope * s[0] / largest, s[1]]
         };
-        let points: Vec<[f64; 3]> = secants.iter().map(at).collect();
-        let sum = |of: &dyn Fn(&[f64; 3]) -> f64| points.iter().map(of).sum::<f64>();
+        let points: Vec<[f64; 3]> = secants.iter().map(terms_at).collect();
+        let sum = |term: &dyn Fn(&[f64; 3]) -> f64| points.iter().map(term).sum::<f64>();
         let K = sum(&|p| p[0] * p[2]) / sum(&|p| p[0] * p[0]);
         let squares = sum(&|p| (p[2] - K * p[0]).powi(2));
         // d(squares)/dc over 2 K, at the K that makes them least.
@@ -183,7 +195,7 @@ mod tests {
     #[test]
     fn the_stiffness_of_balls_is_found_and_its_scatter_told() {
         for direction in [Direction::X, Direction::Torsion] {
-            is_found(Law::of(direction));
+            is_found(Law::for_direction(direction));
         }
     }
 
@@ -192,18 +204,18 @@ mod tests {
             .map(|n| 0.1 * f64::from(n))
             .map(|f| [f, 3.0 * (law.secant)(f / 1.3)[0]])
             .collect();
-        let [found, error] = without_slip(&secants, law);
+        let [found, error] = fit_stiffness(&secants, law);
         assert!(
             (found - 3.0).abs() < 1e-9 && error < 1e-9,
             "{found} {error}"
         );
-        let [of_two, none] = without_slip(&secants[..2], law);
+        let [of_two, none] = fit_stiffness(&secants[..2], law);
         assert!((of_two - 3.0).abs() < 1e-6 && none == 0.0, "{of_two}");
         let mut wavy = secants;
         for (n, point) in wavy.iter_mut().enumerate() {
             point[1] += if n % 2 == 0 { 0.01 } else { -0.01 };
         }
-        let [found, error] = without_slip(&wavy, law);
+        let [found, error] = fit_stiffness(&wavy, law);
         assert!(
             (found - 3.0).abs() < 2.0 * error && error < 0.05,
             "{found} {error}"

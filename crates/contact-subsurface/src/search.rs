@@ -8,12 +8,12 @@ use contact_core::Error;
 use contact_core::scene::{Body, Grid};
 use ndarray::{Array2, ArrayView2, Axis};
 
-use super::climb::{Start, climb, point};
-use super::coarser::Coarser;
-use super::depth::on_interfaces;
-use super::maximum::{Hill, hills, top_of_line};
+use super::climb::{Start, climb, point_in_layer};
+use super::coarser::CoarserCells;
+use super::depth::interface_mask;
+use super::maximum::{Hill, find_hills, top_of_line};
 use super::{
-    Border, Depth, Errors, Extreme, Line, Point, Points, Probe, Section, Side, States, Top, Zone,
+    Border, Depth, Errors, Extremum, Line, Point, Points, Probe, Section, Side, States, Top, Zone,
 };
 
 /// Most hills and most places on borders that are evaluated.
@@ -28,20 +28,20 @@ const STEP_AT_BORDER: f64 = 0.25;
 /// A point is on a border if it is at most this many cells from it.
 const ON_BORDER: f64 = 0.1;
 /// A point this many cells from a border and nearer is as far from it on larger cells.
-const BESIDE: f64 = 1.0;
+const BESIDE_CELLS: f64 = 1.0;
 /// A layer at the surface thinner than so many cells has its rim law within a few of them: as many
 /// cells around a border the error of a value falls like the root of the cell, and is 1/(2^(1/2) -
 /// 1) times the change to cells twice as large.
 const RESOLVED: f64 = 4.0;
-const OF_ROOT: f64 = 1.0 + std::f64::consts::SQRT_2;
-/// At a rim that the tractions are continued to, the first term that they leave out is the distance
-/// from it to the power of 3/2: 1/(2^(3/2) - 1) times the change to cells twice as large.
-const OF_CONTINUED: f64 = 0.547;
+const ROOT_FACTOR: f64 = 1.0 + std::f64::consts::SQRT_2;
+/// Factor at a rim to which the tractions are continued: 1/(2^(3/2) - 1) times the change to cells
+/// twice as large. The first omitted term is the distance from the rim to the power of 3/2.
+const CONTINUED_FACTOR: f64 = 0.547;
 
 /// Looks for the largest values below a contact.
 pub struct Search {
     pub(super) points: Points,
-    coarser: [Coarser; 2],
+    coarser: [CoarserCells; 2],
     borders: Vec<Border>,
     /// The line whose directions the ascent takes, along, across.
     line: Option<Line>,
@@ -56,7 +56,7 @@ pub struct Search {
 }
 
 impl Search {
-    /// In the whole body, with the directions along `line` and across it.
+    /// Search in the whole body, with the directions along `line` and across it.
     pub(super) fn free(
         body: &Body,
         side: Side,
@@ -75,7 +75,7 @@ impl Search {
         })
     }
 
-    /// In the body `side` under the first of the states, below `line` or anywhere.
+    /// Search in the body `side` under the first of the states, below `line` or anywhere.
     pub fn new(
         body: &Body,
         side: Side,
@@ -89,7 +89,7 @@ impl Search {
             eigenstress: states.eigenstress.get(..1).unwrap_or_default(),
             ..states.clone()
         };
-        let coarser = Coarser::both(body, side, grid, line, &states)?;
+        let coarser = CoarserCells::new_pair(body, side, grid, line, &states)?;
         let points = Points::new(body, side, grid, states)?;
         let cell = if grid.ny == 1 {
             grid.dx
@@ -112,32 +112,32 @@ impl Search {
 
     /// The largest value on a section, from its samples of shape (depths, places) at the places
     /// `along` the line \[m\]; in one `layer` if given. `None` if all samples are NaN.
-    pub fn on_section(
+    pub fn find_on_section(
         &self,
         probe: &Probe,
         samples: &ArrayView2<'_, f64>,
         (depths, along): (&[Depth], &[f64]),
         layer: Option<usize>,
-    ) -> Result<Option<Extreme>, Error> {
+    ) -> Result<Option<Extremum>, Error> {
         let Some(line) = self.line else {
             return Ok(None);
         };
         let lines = samples.rows().into_iter();
         let tops: Vec<_> = lines.map(|line| top_of_line(&line, along)).collect();
-        let hills = hills_of(probe, &tops, (depths, &on_interfaces(depths)), layer);
+        let hills = select_hills(probe, &tops, (depths, &interface_mask(depths)), layer);
         let starts = hills
             .iter()
             .flat_map(|hill| self.starts(line, hill, along, false));
         let surface = samples.rows().into_iter().next();
         let near = |border: &Border| {
-            let s = line.along(border.x, border.y);
+            let s = line.nearest_distance(border.x, border.y);
             let nearest = (0..along.len())
                 .min_by(|&a, &b| (along[a] - s).abs().total_cmp(&(along[b] - s).abs()));
             nearest
                 .zip(surface.as_ref())
                 .map_or(f64::NAN, |(n, row)| row[n])
         };
-        self.climbed(probe, starts.collect(), depths, layer, &near)
+        self.ascend(probe, starts.collect(), depths, layer, &near)
     }
 
     /// The starting points on a hill of a section: the top of the parabolas and the sample; `free`
@@ -161,8 +161,8 @@ impl Search {
             0.0
         };
         let start = |s: f64, z: f64, known: Option<f64>| {
-            let (x, y) = line.at(s);
-            let [s, t] = self.in_frame(x, y);
+            let (x, y) = line.place(s);
+            let [s, t] = self.to_frame(x, y);
             Start {
                 place: [s, t, z],
                 layer: hill.depth.layer,
@@ -178,7 +178,7 @@ impl Search {
 
     /// A starting point at x, y \[m\] and a depth, with the distance to the next depth \[m\].
     pub(super) fn start_at(&self, [x, y]: [f64; 2], depth: Depth, step: f64) -> Start {
-        let [s, t] = self.in_frame(x, y);
+        let [s, t] = self.to_frame(x, y);
         let cell = STEP * self.d.0.max(self.d.1);
         Start {
             place: [s, t, depth.z],
@@ -188,34 +188,34 @@ impl Search {
         }
     }
 
-    /// Place along the line of the search and to the left of it \[m\]; without one x and y.
-    fn in_frame(&self, x: f64, y: f64) -> [f64; 2] {
+    /// Distances along the line of the search and to the left of it \[m\]; without a line x and y.
+    fn to_frame(&self, x: f64, y: f64) -> [f64; 2] {
         self.line.map_or([x, y], |line| {
-            let s = line.along(x, y);
-            let ((x_0, y_0), [cos, sin]) = (line.at(s), line.direction());
+            let s = line.nearest_distance(x, y);
+            let ((x_0, y_0), [cos, sin]) = (line.place(s), line.direction());
             [s, (y - y_0) * cos - (x - x_0) * sin]
         })
     }
 
-    /// The reverse.
-    fn in_space(&self, (s, t, depth): Point) -> Point {
-        let (x, y) = self.line.map_or((s, t), |line| line.beside(s, t));
+    /// Inverse of [`Self::to_frame`].
+    fn to_space(&self, (s, t, depth): Point) -> Point {
+        let (x, y) = self.line.map_or((s, t), |line| line.offset_place(s, t));
         (x, y, depth)
     }
 
     /// The largest value in a volume, from the tops of the planes at its depths and the samples on
     /// the first of them, shape (nx, ny); in one `layer` if given. `None` if all samples are NaN.
-    pub fn in_volume(
+    pub fn find_in_volume(
         &self,
         probe: &Probe,
         tops: &[Option<Top<2>>],
         surface: &Array2<f64>,
         depths: &[Depth],
         layer: Option<usize>,
-    ) -> Result<Option<Extreme>, Error> {
+    ) -> Result<Option<Extremum>, Error> {
         let (nx, ny) = surface.dim();
         let across = if self.flat { 0.0 } else { STEP * self.d.1 };
-        let both = |hill: &Hill<2>| {
+        let top_and_sample = |hill: &Hill<2>| {
             let Top {
                 place: [x, y],
                 sample: [i, j],
@@ -235,8 +235,8 @@ impl Search {
                 known,
             })
         };
-        let hills = hills_of(probe, tops, (depths, &on_interfaces(depths)), layer);
-        let starts = hills.iter().flat_map(both).collect();
+        let hills = select_hills(probe, tops, (depths, &interface_mask(depths)), layer);
+        let starts = hills.iter().flat_map(top_and_sample).collect();
         let cell = |v: f64, n: usize, d: f64| {
             (v / d + (n - 1) as f64 / 2.0)
                 .round()
@@ -244,25 +244,25 @@ impl Search {
         };
         let near =
             |border: &Border| surface[(cell(border.x, nx, self.d.0), cell(border.y, ny, self.d.1))];
-        self.climbed(probe, starts, depths, layer, &near)
+        self.ascend(probe, starts, depths, layer, &near)
     }
 
-    /// The result of the ascent from the highest of the starts and, if the surface is included, of
-    /// the borders; `near` gives the sample next to a border.
-    pub(super) fn climbed(
+    /// Ascends from the highest of the starts and, if the surface is included, of the borders.
+    /// `near` gives the sample next to a border.
+    pub(super) fn ascend(
         &self,
         probe: &Probe,
         mut starts: Vec<Start>,
         depths: &[Depth],
         layer: Option<usize>,
         near: &dyn Fn(&Border) -> f64,
-    ) -> Result<Option<Extreme>, Error> {
+    ) -> Result<Option<Extremum>, Error> {
         let at_surface = depths.first().is_some_and(|d| d.z <= 0.0 && d.layer == 0);
-        if at_surface && layer.is_none_or(|layer| layer == 0) && !lives_on_interfaces(probe) {
+        if at_surface && layer.is_none_or(|layer| layer == 0) && !is_on_interfaces(probe) {
             starts.extend(self.border_starts(depths, near));
         }
         let values = |points: &[Point]| -> Result<Vec<f64>, Error> {
-            let points: Vec<Point> = points.iter().map(|at| self.in_space(*at)).collect();
+            let points: Vec<Point> = points.iter().map(|place| self.to_space(*place)).collect();
             match probe {
                 Probe::Stress(m) => {
                     let stress = self.points.stress(&points)?.swap_remove(0);
@@ -275,14 +275,17 @@ impl Search {
             }
         };
         let unknown = starts.iter().filter(|s| s.known.is_none());
-        let points: Vec<Point> = unknown.map(|s| point(s.place, s.layer)).collect();
-        let mut found = values(&points)?.into_iter();
+        let points: Vec<Point> = unknown.map(|s| point_in_layer(s.place, s.layer)).collect();
+        let mut start_values = values(&points)?.into_iter();
         let Some((start, value)) = starts
             .iter()
             .map(|start| {
                 (
                     start,
-                    start.known.or_else(|| found.next()).unwrap_or(f64::NAN),
+                    start
+                        .known
+                        .or_else(|| start_values.next())
+                        .unwrap_or(f64::NAN),
                 )
             })
             .filter(|(_, value)| !value.is_nan())
@@ -300,58 +303,61 @@ impl Search {
             of_layer().fold(f64::INFINITY, f64::min),
             of_layer().fold(0.0, f64::max),
         );
-        let (place, value, left) = climb(&values, start, value, bounds)?;
-        let there = point(place, start.layer);
-        let at = self.in_space(there);
-        let border = self.border_within(at, ON_BORDER);
+        let (scene_point, value, remaining) = climb(&values, start, value, bounds)?;
+        let framed = point_in_layer(scene_point, start.layer);
+        let scene_point = self.to_space(framed);
+        let border = self.border_within(scene_point, ON_BORDER);
         // Beside a border the stress follows the distance from it.
-        let beside = self.border_within(at, BESIDE);
+        let beside = self.border_within(scene_point, BESIDE_CELLS);
         // Under the rim of a thin layer the samples of an interface follow the cells of the border.
-        let of_steps = lives_on_interfaces(probe) && self.thin && self.is_near_border(at);
-        let unsure = of_steps || self.points.rim_is_unknown(at);
-        let inwards = if unsure {
-            self.beside(there)
+        let follows_steps =
+            is_on_interfaces(probe) && self.thin && self.is_near_border(scene_point);
+        let uncertain = follows_steps || self.points.rim_is_unknown(scene_point);
+        let inwards = if uncertain {
+            self.points_beside(framed)
         } else {
             Vec::new()
         };
         let inwards = values(&inwards)?.into_iter();
-        let unsure = inwards.map(|beside| (value - beside).abs());
-        let unsure = unsure.fold(0.0, f64::max);
+        let uncertain = inwards.map(|beside| (value - beside).abs());
+        let uncertain = uncertain.fold(0.0, f64::max);
         let mut change = 0.0_f64;
         for coarser in &self.coarser {
             let coarse = match probe {
-                Probe::Stress(m) => (m.value)(&coarser.stress(at, beside.as_ref())?),
-                Probe::Displacement(c) => coarser.displacement(at.0, at.1, at.2)?[c.axis()],
+                Probe::Stress(m) => (m.value)(&coarser.stress(scene_point, beside.as_ref())?),
+                Probe::Displacement(c) => {
+                    coarser.displacement(scene_point.0, scene_point.1, scene_point.2)?[c.axis()]
+                }
             };
             change = change.max((value - coarse).abs());
         }
         let rim = border.is_some_and(|border| border.zone == Zone::Contact);
-        let part = if self.thin && self.is_near_border(at) {
-            OF_ROOT
-        } else if rim && !self.points.rim_is_unknown(at) {
-            OF_CONTINUED
+        let part = if self.thin && self.is_near_border(scene_point) {
+            ROOT_FACTOR
+        } else if rim && !self.points.rim_is_unknown(scene_point) {
+            CONTINUED_FACTOR
         } else {
             1.0
         };
-        let extreme = Extreme {
+        let extreme = Extremum {
             value,
-            x: at.0,
-            y: at.1,
-            depth: at.2,
+            x: scene_point.0,
+            y: scene_point.1,
+            depth: scene_point.2,
             at: border.map(|b| b.zone),
             error: Errors {
                 tractions: Some(part * change),
-                ..Errors::along(
+                ..Errors::from_search(
                     self.line.unwrap_or(Line::AlongX(0.0)),
-                    [left[0].max(unsure), left[1], left[2]],
+                    [remaining[0].max(uncertain), remaining[1], remaining[2]],
                 )
             },
         };
         let (length, width) = self.grid.extent();
-        Ok(Some(extreme.placed(length.max(width))))
+        Ok(Some(extreme.snapped_to_zero(length.max(width))))
     }
 
-    /// The borders beside which the samples are largest.
+    /// Starting points on the borders beside which the samples are largest.
     fn border_starts(&self, depths: &[Depth], near: &dyn Fn(&Border) -> f64) -> Vec<Start> {
         let mut by_sample: Vec<(f64, &Border)> = self
             .borders
@@ -373,7 +379,7 @@ impl Search {
             None => [self.d.0, if self.flat { 0.0 } else { self.d.1 }],
         };
         let start = |(_, border): &(f64, &Border)| {
-            let [s, t] = self.in_frame(border.x, border.y);
+            let [s, t] = self.to_frame(border.x, border.y);
             Start {
                 place: [s, t, 0.0],
                 layer: 0,
@@ -396,8 +402,8 @@ impl Search {
             .collect()
     }
 
-    /// The points half a cell to both sides: the value there bounds the effect of an uncertain rim.
-    fn beside(&self, (s, t, depth): Point) -> Vec<Point> {
+    /// The points half a cell to both sides. The values there bound the effect of an uncertain rim.
+    fn points_beside(&self, (s, t, depth): Point) -> Vec<Point> {
         let step = STEP * self.line.map_or(self.d.0, |line| line.step(&self.grid));
         [step, -step].map(|by| (s + by, t, depth)).into()
     }
@@ -422,34 +428,35 @@ impl Search {
             self.d.0.min(self.d.1)
         };
         let across = |v: f64| if self.flat { 0.0 } else { v / self.d.1 };
-        let away = |b: &Border| ((b.x - x) / self.d.0).hypot(across(b.y - y));
-        let beside = self.points.borders_beside(x, y);
-        let all = self.borders.iter().copied().chain(beside);
-        let by_distance = all.map(|b| (b, [away(&b), depth.z / cell]));
+        let distance = |b: &Border| ((b.x - x) / self.d.0).hypot(across(b.y - y));
+        let beside = self.points.borders_near(x, y);
+        let borders = self.borders.iter().copied().chain(beside);
+        let by_distance = borders.map(|b| (b, [distance(&b), depth.z / cell]));
         by_distance.min_by(|(_, a), (_, b)| a[0].total_cmp(&b[0]))
     }
 }
 
-fn lives_on_interfaces(probe: &Probe) -> bool {
-    matches!(probe, Probe::Stress(m) if m.of_interfaces)
+fn is_on_interfaces(probe: &Probe) -> bool {
+    matches!(probe, Probe::Stress(m) if m.on_interfaces)
 }
 
-/// The hills of a layer, or of all, that are evaluated, from the tops at the depths; which of them
-/// lie on an interface ([`on_interfaces`]) only all depths of the body show.
-pub(super) fn hills_of<const D: usize>(
+/// The hills of a layer, or of all, that are evaluated, from the tops at the depths. `on_interface`
+/// marks the depths on an interface ([`interface_mask`]), which needs all depths of the body.
+pub(super) fn select_hills<const D: usize>(
     probe: &Probe,
     tops: &[Option<Top<D>>],
-    (depths, on_one): (&[Depth], &[bool]),
+    (depths, on_interface): (&[Depth], &[bool]),
     layer: Option<usize>,
 ) -> Vec<Hill<D>> {
-    let of_interfaces = lives_on_interfaces(probe);
-    let asked = |k: usize| {
-        layer.is_none_or(|layer| depths[k].layer == layer) && (!of_interfaces || on_one[k])
+    let on_interfaces_only = is_on_interfaces(probe);
+    let is_searched = |k: usize| {
+        layer.is_none_or(|layer| depths[k].layer == layer)
+            && (!on_interfaces_only || on_interface[k])
     };
-    let asked_for = |(k, top): (usize, &Option<Top<D>>)| top.filter(|_| asked(k));
-    let tops: Vec<_> = tops.iter().enumerate().map(asked_for).collect();
+    let searched_top = |(k, top): (usize, &Option<Top<D>>)| top.filter(|_| is_searched(k));
+    let tops: Vec<_> = tops.iter().enumerate().map(searched_top).collect();
     // Interfaces are not samples of a continuous field: no interpolation between two of them.
-    let mut hills = hills(&tops, depths, !of_interfaces);
+    let mut hills = find_hills(&tops, depths, !on_interfaces_only);
     let highest = hills.first().map_or(0.0, |hill| hill.top.value);
     let spread = highest.abs() * (1.0 - LOWEST);
     hills.retain(|hill| hill.top.value >= highest - spread);
@@ -458,7 +465,7 @@ pub(super) fn hills_of<const D: usize>(
 }
 
 /// A probe on a section, shape (depths, places), and its largest value.
-pub type Probed = (Array2<f64>, Option<Extreme>);
+pub type Probed = (Array2<f64>, Option<Extremum>);
 
 impl Section {
     /// The probes under the first state, with the largest value of each by `search` below the same
@@ -478,7 +485,7 @@ impl Section {
         if probes.iter().any(|p| matches!(p, Probe::Displacement(_))) {
             u = self.displacement(depths)?.into_iter().next();
         }
-        let one = |probe: &Probe| {
+        let probe_values = |probe: &Probe| {
             let values = match probe {
                 Probe::Stress(m) => stress.as_ref().map(|stress| m.on_lines(stress)),
                 Probe::Displacement(c) => u
@@ -486,10 +493,11 @@ impl Section {
                     .map(|u| u.index_axis(Axis(0), c.axis()).to_owned()),
             };
             values.map(|values| {
-                let largest = search.on_section(probe, &values.view(), (depths, along), None)?;
+                let largest =
+                    search.find_on_section(probe, &values.view(), (depths, along), None)?;
                 Ok((values, largest))
             })
         };
-        probes.iter().filter_map(one).collect()
+        probes.iter().filter_map(probe_values).collect()
     }
 }

@@ -14,16 +14,16 @@ use super::{Depth, Line, Point, Points, Side, States};
 
 /// Stress and displacement below a line, at its places on the grid ([`Line::places`]).
 pub struct Section {
-    way: Way,
+    method: Method,
     states: usize,
     places: usize,
 }
 
-/// How the lines are computed.
-enum Way {
+/// Method of computation of the lines.
+enum Method {
     /// Along rows or columns of cells, by transforms.
     Rows(Box<Rows>),
-    /// In any direction, point by point: the points x, y \[m\].
+    /// Point by point, in any direction: the points x, y \[m\].
     Points(Box<Points>, Vec<(f64, f64)>),
 }
 
@@ -39,7 +39,7 @@ struct Rows {
 }
 
 impl Section {
-    /// Below `line` in the body `side` under each of the `states`.
+    /// Prepares lines below `line` in the body `side` under each of the `states`.
     pub fn new<'a>(
         body: &Body,
         side: Side,
@@ -49,21 +49,21 @@ impl Section {
     ) -> Result<Self, Error> {
         let states = states.into();
         let (count, places) = (states.tractions.len(), line.places(grid));
-        let way = match line {
+        let method = match line {
             Line::Through { .. } => {
-                let (x, y) = line.at(0.0);
-                within(grid, Line::AlongX(y))?;
-                within(grid, Line::AlongY(x))?;
+                let (x, y) = line.place(0.0);
+                check_above_grid(grid, Line::AlongX(y))?;
+                check_above_grid(grid, Line::AlongY(x))?;
                 let points = Points::new(body, side, grid, states)?;
-                Way::Points(
+                Method::Points(
                     Box::new(points),
-                    places.iter().map(|s| line.at(*s)).collect(),
+                    places.iter().map(|s| line.place(*s)).collect(),
                 )
             }
-            _ => Way::Rows(Box::new(Rows::new(body, side, grid, line, &states)?)),
+            _ => Method::Rows(Box::new(Rows::new(body, side, grid, line, &states)?)),
         };
         Ok(Self {
-            way,
+            method,
             states: count,
             places: places.len(),
         })
@@ -78,9 +78,11 @@ impl Section {
     /// Displacement of each state relative to infinity \[m\], shape (3, depths, cells along the
     /// line).
     pub fn displacement(&self, depths: &[Depth]) -> Result<Vec<Array3<f64>>, Error> {
-        self.gather::<3>(depths, |depth| match &self.way {
-            Way::Rows(rows) => rows.displacement_at(depth),
-            Way::Points(points, places) => points.displacement(&below(places, depth)).map(lines),
+        self.gather::<3>(depths, |depth| match &self.method {
+            Method::Rows(rows) => rows.displacement_at(depth),
+            Method::Points(points, places) => points
+                .displacement(&points_at_depth(places, depth))
+                .map(to_arrays),
         })
     }
 
@@ -118,28 +120,30 @@ impl Section {
 
     /// The stress of all states at one depth, each of shape (6, places along the line).
     fn stress_at(&self, depth: Depth) -> Result<Vec<Array2<f64>>, Error> {
-        match &self.way {
-            Way::Rows(rows) => rows.stress_at(depth),
-            Way::Points(points, places) => points.stress(&below(places, depth)).map(lines),
+        match &self.method {
+            Method::Rows(rows) => rows.stress_at(depth),
+            Method::Points(points, places) => points
+                .stress(&points_at_depth(places, depth))
+                .map(to_arrays),
         }
     }
 }
 
 /// Points at a depth.
-fn below(places: &[(f64, f64)], depth: Depth) -> Vec<Point> {
+fn points_at_depth(places: &[(f64, f64)], depth: Depth) -> Vec<Point> {
     places.iter().map(|&(x, y)| (x, y, depth)).collect()
 }
 
-/// What is known at points, by state, as arrays of shape (R, points).
-fn lines<const R: usize>(of_states: Vec<Vec<[f64; R]>>) -> Vec<Array2<f64>> {
+/// Converts values at points, by state, to arrays of shape (R, points).
+fn to_arrays<const R: usize>(of_states: Vec<Vec<[f64; R]>>) -> Vec<Array2<f64>> {
     let line =
         |values: Vec<[f64; R]>| Array2::from_shape_fn((R, values.len()), |(row, n)| values[n][row]);
     of_states.into_iter().map(line).collect()
 }
 
 /// Fails unless a line along an axis lies above the grid.
-fn within(grid: &Grid, line: Line) -> Result<(), Error> {
-    let (x, y) = line.at(0.0);
+fn check_above_grid(grid: &Grid, line: Line) -> Result<(), Error> {
+    let (x, y) = line.place(0.0);
     let (key, place, half) = match line {
         Line::AlongY(_) => ("x", x, grid.extent().0 / 2.0),
         _ => ("y", y, Plane::new(grid, false).half_width()),
@@ -159,8 +163,8 @@ impl Rows {
         line: Line,
         states: &States<'_>,
     ) -> Result<Self, Error> {
-        within(grid, line)?;
-        let (x, y) = line.at(0.0);
+        check_above_grid(grid, line)?;
+        let (x, y) = line.place(0.0);
         let ((i, j), _) = NearRim::locate(grid, x, y);
         let (window, place) = match line {
             Line::AlongY(_) => ((i..i + 1, 0..grid.ny), x),
@@ -174,7 +178,7 @@ impl Rows {
         let along = line.places(grid).into_iter();
         Ok(Self {
             loaded,
-            places: along.map(|s| line.at(s)).collect(),
+            places: along.map(|s| line.place(s)).collect(),
             line,
             plane,
             rows: [cells?, points?],
@@ -186,7 +190,7 @@ impl Rows {
         let kernel = self
             .loaded
             .kernel::<Displacement, 5, 3>(depth, self.plane.reach())?;
-        self.at(&kernel, depth)
+        self.lines_at(&kernel, depth)
     }
 
     /// The stress of all states at one depth, each of shape (6, cells along the line).
@@ -194,7 +198,7 @@ impl Rows {
         let kernel = self
             .loaded
             .kernel::<Stress, 10, 6>(depth, self.plane.reach())?;
-        let mut lines = self.at(&kernel, depth)?;
+        let mut lines = self.lines_at(&kernel, depth)?;
         self.add_rim(&kernel, depth, &mut lines);
         for (state, line) in lines.iter_mut().enumerate() {
             let uniform = self.loaded.uniform(state, depth);
@@ -202,10 +206,10 @@ impl Rows {
                 row += uniform;
             }
             for (at, mut stress) in self.places.iter().zip(line.columns_mut()) {
-                let Some(left) = self.loaded.left(state, *at, depth) else {
+                let Some(residual) = self.loaded.eigenstress_at(state, *at, depth) else {
                     break;
                 };
-                stress += &ArrayView1::from(&left);
+                stress += &ArrayView1::from(&residual);
             }
         }
         Ok(lines)
@@ -220,7 +224,7 @@ impl Rows {
     ) {
         let Some(rim) = &self.loaded.rim else { return };
         let grid = &self.loaded.grid;
-        let (x, y) = self.line.at(match self.line {
+        let (x, y) = self.line.place(match self.line {
             Line::AlongY(_) => grid.y(0),
             _ => grid.x(0),
         });
@@ -236,7 +240,7 @@ impl Rows {
                 };
                 if rim.is_near(state, depth, cell) {
                     let mut with_rim = std::array::from_fn(|c| stress[c]);
-                    rim.add(&parts, state, cell, &mut with_rim);
+                    rim.add_correction(&parts, state, cell, &mut with_rim);
                     stress.assign(&ArrayView1::from(&with_rim));
                 }
             }
@@ -244,19 +248,19 @@ impl Rows {
     }
 
     /// The lines of all states at one depth, each of shape (R, cells along the line).
-    fn at<Q: Quantity<N, R>, const N: usize, const R: usize>(
+    fn lines_at<Q: Quantity<N, R>, const N: usize, const R: usize>(
         &self,
         kernel: &DepthKernel<Q, N, R>,
         depth: Depth,
     ) -> Result<Vec<Array2<f64>>, Error> {
-        let source = Source::at(depth.z, self.plane.d);
+        let source = Source::for_depth(depth.z, self.plane.d);
         let rows = &self.rows[source.index()];
         let shape = (self.loaded.states, self.plane.n.0);
-        let own = rows.convolve(kernel, self.plane.d, shape, &self.loaded.stop)?;
+        let in_body_frame = rows.convolve(kernel, self.plane.d, shape, &self.loaded.stop)?;
         let exchanged = matches!(self.line, Line::AlongY(_));
-        let turn = |own: Array2<f64>| {
-            Array2::from_shape_fn(own.dim(), |(row, i)| {
-                let from = if exchanged {
+        let to_scene_axes = |in_body_frame: Array2<f64>| {
+            Array2::from_shape_fn(in_body_frame.dim(), |(row, i)| {
+                let row_of = if exchanged {
                     Q::transposed(row, 0).0
                 } else {
                     row
@@ -267,9 +271,9 @@ impl Rows {
                 } else {
                     1.0
                 };
-                sign * own[(from, i)]
+                sign * in_body_frame[(row_of, i)]
             })
         };
-        Ok(own.into_iter().map(turn).collect())
+        Ok(in_body_frame.into_iter().map(to_scene_axes).collect())
     }
 }

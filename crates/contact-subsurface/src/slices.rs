@@ -21,7 +21,7 @@ pub struct Slices {
 }
 
 impl Slices {
-    /// In the body `side` under each of the `states`.
+    /// Prepares planes in the body `side` under each of the `states`.
     pub fn new<'a>(
         body: &Body,
         side: Side,
@@ -47,7 +47,7 @@ impl Slices {
         let kernel = self
             .loaded
             .kernel::<Stress, 10, 6>(depth, self.plane.reach())?;
-        let mut planes = self.at(&kernel, depth)?;
+        let mut planes = self.planes_at(&kernel, depth)?;
         self.add_rim(&kernel, depth, &mut planes);
         for (state, planes) in planes.iter_mut().enumerate() {
             let uniform = self.loaded.uniform(state, depth);
@@ -56,15 +56,17 @@ impl Slices {
             }
             let grid = &self.loaded.grid;
             let cells = (0..grid.cells()).into_par_iter();
-            let left = |n: usize| {
+            let residual = |n: usize| {
                 let (i, j) = (n / grid.ny, n % grid.ny);
-                let left = self.loaded.left(state, (grid.x(i), grid.y(j)), depth)?;
-                Some(((i, j), left))
+                let residual = self
+                    .loaded
+                    .eigenstress_at(state, (grid.x(i), grid.y(j)), depth)?;
+                Some(((i, j), residual))
             };
-            let left: Vec<_> = cells.filter_map(left).collect();
-            for (cell, left) in left {
-                for (plane, left) in planes.iter_mut().zip(left) {
-                    plane[cell] += left;
+            let residual: Vec<_> = cells.filter_map(residual).collect();
+            for (cell, residual) in residual {
+                for (plane, residual) in planes.iter_mut().zip(residual) {
+                    plane[cell] += residual;
                 }
             }
         }
@@ -76,7 +78,7 @@ impl Slices {
         let kernel = self
             .loaded
             .kernel::<Displacement, 5, 3>(depth, self.plane.reach())?;
-        self.at(&kernel, depth)
+        self.planes_at(&kernel, depth)
     }
 
     /// Hands the stresses of all states at each depth, of shape (6, cells in row-major order), to
@@ -90,8 +92,8 @@ impl Slices {
         depths.par_iter().zip(kept).try_for_each(|(depth, kept)| {
             let flat = |planes: [Array2<f64>; 6]| {
                 let cells = planes[0].len();
-                let all = planes.into_iter().flatten().collect();
-                Array2::from_shape_vec((6, cells), all).expect("six planes of equal size")
+                let values = planes.into_iter().flatten().collect();
+                Array2::from_shape_vec((6, cells), values).expect("six planes of equal size")
             };
             let stresses: Vec<_> = self.stress(*depth)?.into_iter().map(flat).collect();
             f(kept, *depth, &stresses);
@@ -100,7 +102,7 @@ impl Slices {
     }
 
     /// Fails once it has been stopped.
-    pub(super) fn unless_stopped(&self) -> Result<(), Error> {
+    pub(super) fn check_stopped(&self) -> Result<(), Error> {
         unless(&self.loaded.stop)
     }
 
@@ -125,7 +127,7 @@ impl Slices {
                 let cell = (n / self.loaded.grid.ny, n % self.loaded.grid.ny);
                 rim.is_near(state, depth, cell).then(|| {
                     let mut stress = planes.each_ref().map(|plane| plane[cell]);
-                    rim.add(&parts, state, cell, &mut stress);
+                    rim.add_correction(&parts, state, cell, &mut stress);
                     (cell, stress)
                 })
             };
@@ -139,12 +141,12 @@ impl Slices {
         }
     }
 
-    fn at<Q: Quantity<N, R>, const N: usize, const R: usize>(
+    fn planes_at<Q: Quantity<N, R>, const N: usize, const R: usize>(
         &self,
         kernel: &DepthKernel<Q, N, R>,
         depth: Depth,
     ) -> Result<Vec<[Array2<f64>; R]>, Error> {
-        let source = Source::at(depth.z, self.plane.d);
+        let source = Source::for_depth(depth.z, self.plane.d);
         let transform = &self.transforms[source.index()];
         let mut fields =
             transform.convolve(kernel, self.plane, self.loaded.states, &self.loaded.stop)?;

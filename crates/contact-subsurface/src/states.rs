@@ -16,7 +16,7 @@ use super::uniform::Uniform;
 use super::{Depth, Eigenstress, Side};
 
 /// Tractions and uniform stresses of a body in one or several states of a contact. A slice or array
-/// of [`Tractions`] converts to states with all else at its default.
+/// of [`Tractions`] converts to states with defaults for everything else.
 #[derive(Clone, Debug, Default)]
 pub struct States<'a> {
     /// Tractions of each state \[Pa\], each field of shape (nx, ny) of the grid.
@@ -24,15 +24,16 @@ pub struct States<'a> {
     /// Bulk stress of the body in each state \[Pa\] (default: 0, also for states beyond the list).
     /// In each layer it enters with that layer's modulus.
     pub sigma_B: &'a [f64],
-    /// Residual stress of the layers in place of that of the body (default: that of the body).
+    /// Residual stress of the layers, which replaces the stress of the body (default: the stress of
+    /// the body).
     pub residual: Option<&'a ResidualStress>,
     /// Residual stress of the plastic strain of the body in each state; `None` where nothing has yielded.
-    /// A body that may yield asks for one in each state ([`super::Eigenstresses`]); another has none
+    /// A body that may yield asks for one in each state ([`super::EigenstressSolver`]); another has none
     /// (default: none).
     pub eigenstress: &'a [Option<Eigenstress>],
-    /// The cells that stick in each state. If given, the tractions are taken for those of contacts
-    /// (states beyond the list slip at their rim) and vary within the cells near the rim, the stick
-    /// zone and the surface (default: `None`, tractions constant in each cell).
+    /// The cells that stick in each state. If given, the tractions belong to contacts (states
+    /// beyond the list slip at their rim) and vary within the cells near the rim, the stick zone
+    /// and the surface (default: `None`, tractions constant in each cell).
     pub stick: Option<&'a [&'a [bool]]>,
     /// Once raised, ends the computation with [`Error::Interrupted`] (default: never).
     pub stop: Arc<AtomicBool>,
@@ -64,7 +65,7 @@ pub(super) struct Loaded {
     pub(super) body: Body,
     pub(super) side: Side,
     pub(super) grid: Grid,
-    /// How many states there are.
+    /// Number of states.
     pub(super) states: usize,
     /// The correction for tractions that vary within the cells, if any.
     pub(super) rim: Option<NearRim>,
@@ -74,7 +75,7 @@ pub(super) struct Loaded {
 }
 
 impl Loaded {
-    /// For samples in a window of columns and rows of the grid.
+    /// Prepares samples in a window of columns and rows of the grid.
     pub(super) fn new(
         body: &Body,
         side: Side,
@@ -112,9 +113,9 @@ impl Loaded {
     ) -> Result<DepthKernel<Q, N, R>, Error> {
         check_not_rigid(&self.body, depth.layer)?;
         unless(&self.stop)?;
-        let place = self.stack.locate_depth(depth.z, Some(depth.layer))?;
+        let position = self.stack.locate_depth(depth.z, Some(depth.layer))?;
         let (dx, dy) = (self.grid.dx, self.grid.dy);
-        DepthKernel::new(&self.stack, place, reach, (dx, dy))
+        DepthKernel::new(&self.stack, position, reach, (dx, dy))
     }
 
     /// s_xx and s_yy of a state at a depth that are the same all over the depth \[Pa\].
@@ -122,13 +123,14 @@ impl Loaded {
         self.uniform.stress(&self.body, state, depth)
     }
 
-    /// What plastic strain leaves in a state, at a place \[Pa\]; `None` where nothing has yielded.
-    pub(super) fn left(
+    /// The residual stress of plastic strain in a state, at a place \[Pa\]; `None` without plastic
+    /// strain.
+    pub(super) fn eigenstress_at(
         &self,
         state: usize,
         place: (f64, f64),
         depth: Depth,
     ) -> Option<StressTensor> {
-        self.uniform.left(state, place, depth)
+        self.uniform.eigenstress_at(state, place, depth)
     }
 }

@@ -15,13 +15,13 @@ use ndarray::Array2;
 use stress_tensor::StressTensor;
 
 use super::{
-    Border, Depth, Eigenstress, Eigenstresses, Line, Points, Section, Side, Slices, States,
+    Border, Depth, Eigenstress, EigenstressSolver, Line, Points, Section, Side, Slices, States,
 };
 
 /// Increments whose stresses below a line are computed together: the kernels of a depth cost about
 /// as much as the product with the tractions of ten increments.
 const BATCH: usize = 32;
-/// The same for whole planes, whose transforms fill the memory.
+/// Increments that are computed together for whole planes, whose transforms fill the memory.
 const BATCH_OF_PLANES: usize = 8;
 
 /// A moment of the load path.
@@ -37,7 +37,7 @@ pub struct Moment {
 
 impl Moment {
     /// The end of an increment, in the body `side`.
-    pub fn of(increment: &Increment, side: Side) -> Self {
+    pub fn at_end(increment: &Increment, side: Side) -> Self {
         let loads = &increment.point.loads;
         Self {
             increment: increment.index,
@@ -53,44 +53,44 @@ impl Moment {
 /// A quantity accumulated over the stresses of a path.
 pub trait Accumulate: Sync {
     /// The accumulator of one depth.
-    type Kept: Send;
+    type Accumulator: Send;
 
-    /// Before the first increment.
-    fn start(&self, depth: Depth, places: usize) -> Self::Kept;
+    /// Creates the accumulator before the first increment.
+    fn start(&self, depth: Depth, places: usize) -> Self::Accumulator;
 
     /// Takes the stress of a moment, shape (6, places) \[Pa\]; the places are those along the line,
     /// or the cells of the plane in row-major order. Depths are worked on in parallel, the moments
     /// of each in order.
-    fn add(&self, kept: &mut Self::Kept, moment: Moment, stress: &Array2<f64>);
+    fn add(&self, kept: &mut Self::Accumulator, moment: Moment, stress: &Array2<f64>);
 
     /// Takes the stress on the surface where the line of the moment last added crosses the rim of
-    /// the contact and the border of the stick zone (default: leaves it).
-    fn add_borders(&self, _kept: &mut Self::Kept, _borders: &[(Border, StressTensor)]) {}
+    /// the contact and the border of the stick zone (default: ignores it).
+    fn add_borders(&self, _kept: &mut Self::Accumulator, _borders: &[(Border, StressTensor)]) {}
 }
 
 impl<A: Accumulate, B: Accumulate> Accumulate for (A, B) {
-    type Kept = (A::Kept, B::Kept);
+    type Accumulator = (A::Accumulator, B::Accumulator);
 
-    fn start(&self, depth: Depth, places: usize) -> Self::Kept {
+    fn start(&self, depth: Depth, places: usize) -> Self::Accumulator {
         (self.0.start(depth, places), self.1.start(depth, places))
     }
 
-    fn add(&self, kept: &mut Self::Kept, moment: Moment, stress: &Array2<f64>) {
+    fn add(&self, kept: &mut Self::Accumulator, moment: Moment, stress: &Array2<f64>) {
         self.0.add(&mut kept.0, moment, stress);
         self.1.add(&mut kept.1, moment, stress);
     }
 
-    fn add_borders(&self, kept: &mut Self::Kept, borders: &[(Border, StressTensor)]) {
+    fn add_borders(&self, kept: &mut Self::Accumulator, borders: &[(Border, StressTensor)]) {
         self.0.add_borders(&mut kept.0, borders);
         self.1.add_borders(&mut kept.1, borders);
     }
 }
 
-/// A moment, its tractions q_x, q_y, p, the cells that stick and what plastic strain leaves.
-type Waiting = (Moment, [Array2<f64>; 3], Array2<bool>, Option<Eigenstress>);
+/// A moment, its tractions q_x, q_y, p, the cells that stick, and the stress of the plastic strain.
+type PendingMoment = (Moment, [Array2<f64>; 3], Array2<bool>, Option<Eigenstress>);
 
 /// The stresses below a line, or on whole planes, over a load path. As an [`Observer`] it takes
-/// every increment of a run; [`Self::push`] takes those of a store.
+/// every increment of a run; [`Self::push`] takes the increments of a store.
 pub struct Stream<A: Accumulate> {
     body: Body,
     side: Side,
@@ -99,13 +99,13 @@ pub struct Stream<A: Accumulate> {
     line: Option<Line>,
     depths: Vec<Depth>,
     accumulate: A,
-    kept: Vec<A::Kept>,
-    /// Whether the tractions are taken for those of contacts.
+    kept: Vec<A::Accumulator>,
+    /// True if the tractions belong to contacts.
     rim: bool,
     residual: ResidualStress,
-    waiting: Vec<Waiting>,
+    waiting: Vec<PendingMoment>,
     /// Set up with the first increment of a march.
-    eigenstresses: Option<Eigenstresses>,
+    eigenstresses: Option<EigenstressSolver>,
     stop: Arc<AtomicBool>,
 }
 
@@ -153,7 +153,7 @@ impl<A: Accumulate> Stream<A> {
         self.stop = flag;
     }
 
-    /// Takes the tractions for those of contacts: [`States::stick`] (default: constant in each
+    /// Treats the tractions as tractions of contacts: [`States::stick`] (default: constant in each
     /// cell).
     #[must_use]
     pub fn rim(mut self, rim: bool) -> Self {
@@ -161,7 +161,8 @@ impl<A: Accumulate> Stream<A> {
         self
     }
 
-    /// Takes the residual stress of every layer in place of that of the body: [`ResidualStress::from_profiles`].
+    /// Sets the residual stress of every layer, which replaces the stress of the body:
+    /// [`ResidualStress::from_profiles`].
     pub fn residual(mut self, residual: &[Profile]) -> Result<Self, Error> {
         self.residual = ResidualStress::from_profiles(&self.body, residual)?;
         Ok(self)
@@ -198,7 +199,7 @@ impl<A: Accumulate> Stream<A> {
     }
 
     /// The accumulator of each depth, with all that was pushed.
-    pub fn finish(mut self) -> Result<(Vec<Depth>, Vec<A::Kept>), Error> {
+    pub fn finish(mut self) -> Result<(Vec<Depth>, Vec<A::Accumulator>), Error> {
         self.flush()?;
         Ok((self.depths, self.kept))
     }
@@ -219,8 +220,8 @@ impl<A: Accumulate> Stream<A> {
         let sigma_B: Vec<f64> = self.waiting.iter().map(|(m, ..)| m.sigma_B).collect();
         let stick = self.waiting.iter().map(|(_, _, stick, _)| stick.as_slice());
         let stick: Vec<&[bool]> = stick.map(Option::unwrap_or_default).collect();
-        let left = self.waiting.iter().map(|(.., left)| left.clone());
-        let eigenstress: Vec<_> = left.collect();
+        let stresses = self.waiting.iter().map(|(.., stress)| stress.clone());
+        let eigenstress: Vec<_> = stresses.collect();
         let states = States {
             tractions: &tractions,
             sigma_B: &sigma_B,
@@ -233,11 +234,11 @@ impl<A: Accumulate> Stream<A> {
         let (depths, kept) = (&self.depths, &mut self.kept);
         let borders = match (self.line, depths.first()) {
             (Some(line), Some(first)) if self.rim && first.z <= 0.0 => {
-                on_borders(body, side, grid, line, &states)?
+                stress_on_borders(body, side, grid, line, &states)?
             }
             _ => Vec::new(),
         };
-        let add = |kept: &mut A::Kept, depth: Depth, stresses: &[Array2<f64>]| {
+        let add = |kept: &mut A::Accumulator, depth: Depth, stresses: &[Array2<f64>]| {
             for (n, ((moment, ..), stress)) in self.waiting.iter().zip(stresses).enumerate() {
                 self.accumulate.add(kept, *moment, stress);
                 if let Some(borders) = borders.get(n).filter(|_| depth.z <= 0.0) {
@@ -257,7 +258,7 @@ impl<A: Accumulate> Stream<A> {
 
 /// The stress of every state on the surface where the line crosses the rim of the contact and the
 /// border of its stick zone.
-fn on_borders(
+fn stress_on_borders(
     body: &Body,
     side: Side,
     grid: &Grid,
@@ -266,14 +267,14 @@ fn on_borders(
 ) -> Result<Vec<Vec<(Border, StressTensor)>>, Error> {
     let of_state = |(n, tractions): (usize, &Tractions<'_>)| {
         let stick = states.stick.and_then(|stick| stick.get(n));
-        let own = States {
+        let one_state = States {
             tractions: std::slice::from_ref(tractions),
             sigma_B: states.sigma_B.get(n..=n).unwrap_or_default(),
             eigenstress: states.eigenstress.get(n..=n).unwrap_or_default(),
             stick: Some(stick.map_or(&[], std::slice::from_ref)),
             ..states.clone()
         };
-        let points = Points::new(body, side, grid, own)?;
+        let points = Points::new(body, side, grid, one_state)?;
         let borders = points.borders(0, Some(line));
         let top = Depth { z: 0.0, layer: 0 };
         let places: Vec<_> = borders.iter().map(|b| (b.x, b.y, top)).collect();
@@ -286,13 +287,13 @@ fn on_borders(
 impl<A: Accumulate> Observer for Stream<A> {
     fn on_increment(&mut self, march: &March, increment: &Increment) -> Result<(), Error> {
         let fields = march.fields();
-        let moment = Moment::of(increment, self.side);
+        let moment = Moment::at_end(increment, self.side);
         let (side, scene) = (self.side, march.scene());
         let eigenstresses = self
             .eigenstresses
-            .get_or_insert_with(|| Eigenstresses::of(scene, side));
-        let left = eigenstresses.at(fields.yielded.as_deref())?;
+            .get_or_insert_with(|| EigenstressSolver::new(scene, side));
+        let eigenstress = eigenstresses.eigenstress(fields.yielded.as_deref())?;
         let tractions = [fields.q_x, fields.q_y, fields.p];
-        self.push(moment, tractions, fields.stick, left)
+        self.push(moment, tractions, fields.stick, eigenstress)
     }
 }

@@ -1,5 +1,5 @@
-//! Stress that a body has without the tractions: its bulk stress, the residual stress of its layers, and
-//! that of its plastic strain.
+//! Stress of a body without tractions: its bulk stress, the residual stress of its layers, and the
+//! residual stress of its plastic strain.
 
 use contact_core::Error;
 use contact_core::scene::{Body, Grid, ResidualStress};
@@ -12,15 +12,16 @@ use super::{Depth, Eigenstress};
 pub(super) struct Uniform {
     sigma_B: Vec<f64>,
     plane_strain: bool,
-    /// Of the layers, over depth.
+    /// Residual stress of the layers, over depth.
     residual: ResidualStress,
-    /// Of the plastic strain in each state.
+    /// Residual stress of the plastic strain in each state.
     eigenstress: Vec<Option<Eigenstress>>,
 }
 
 impl Uniform {
-    /// Bulk stress of each state and residual stress of the layers \[Pa\], by default that of the body, what
-    /// plastic strain leaves in each of `states`; fails where the body yields and this is not said.
+    /// Combines the bulk stress of each state, the residual stress of the layers \[Pa\] (default:
+    /// the stress of the body) and the stress of plastic strain in each of `states`. Fails if the
+    /// body yields and no stress of plastic strain is given.
     pub(super) fn new(
         (body, grid): (&Body, &Grid),
         sigma_B: &[f64],
@@ -51,14 +52,15 @@ impl Uniform {
         [along + xx, across + yy]
     }
 
-    /// What plastic strain leaves in a state, at a place \[Pa\]; `None` where nothing has yielded.
-    pub(super) fn left(
+    /// The residual stress of plastic strain in a state, at a place \[Pa\]; `None` without plastic
+    /// strain.
+    pub(super) fn eigenstress_at(
         &self,
         state: usize,
         (x, y): (f64, f64),
         depth: Depth,
     ) -> Option<StressTensor> {
-        let left = self.eigenstress.get(state)?.as_ref()?;
-        Some(left.stress(x, y, depth))
+        let eigenstress = self.eigenstress.get(state)?.as_ref()?;
+        Some(eigenstress.stress(x, y, depth))
     }
 }

@@ -1,7 +1,7 @@
 //! The largest stress of a measure, as a line.
 
 use contact_core::scene::{Body, Scene};
-use contact_subsurface::{Errors, Extreme, Probe, Zone};
+use contact_subsurface::{Errors, Extremum, Probe, Zone};
 use serde_json::json;
 
 use crate::json::{self, or_why};
@@ -33,9 +33,9 @@ pub(crate) struct Largest<'a> {
 impl Largest<'_> {
     /// The largest value of a probe with its error, and where it is; `axes` are those that were
     /// looked along.
-    pub(crate) fn line(&self, probe: &Probe, m: &Extreme, axes: &[&str]) -> String {
+    pub(crate) fn line(&self, probe: &Probe, m: &Extremum, axes: &[&str]) -> String {
         let m = self.error.map_or(*m, |stress| m.with_error_bars(stress));
-        let Extreme {
+        let Extremum {
             value,
             depth,
             error,

@@ -3,7 +3,7 @@
 use contact_core::Error;
 use contact_core::convolution::Tractions;
 use contact_store::Store;
-use contact_subsurface::{Eigenstress, Eigenstresses, Side};
+use contact_subsurface::{Eigenstress, EigenstressSolver, Side};
 use ndarray::Array2;
 
 /// The tractions of one increment.
@@ -63,7 +63,8 @@ impl Loads {
         let mut eigenstress = Vec::new();
         if side.body(store.scene()).yields() {
             let yielded = store.yielded(kept[place])?;
-            eigenstress.push(Eigenstresses::of(store.scene(), side).at(yielded.as_ref())?);
+            eigenstress
+                .push(EigenstressSolver::new(store.scene(), side).eigenstress(yielded.as_ref())?);
         }
         Ok(Self {
             eigenstress,

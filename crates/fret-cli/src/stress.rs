@@ -11,8 +11,8 @@ use contact_core::scene::{Body, Profile, ResidualStress, Scene};
 use contact_core::zones::Outline;
 use contact_store::{ImageData, Store, StressStore, VolumeSink, write_volume};
 use contact_subsurface::{
-    Depth, Line, Loads as Below, Probe, Search, Section, Side, Slices, States, chosen_depths,
-    depths, largest_anywhere,
+    Depth, Line, Loads as LoadedBody, Probe, Search, Section, Side, Slices, States, default_depths,
+    depths, find_body_maximum,
 };
 use ndarray::Axis;
 
@@ -211,13 +211,13 @@ impl Task {
         } else {
             &scene.body2
         };
-        let probes = options.of.iter().map(|name| Probe::named(name, "--of"));
+        let probes = options.of.iter().map(|name| Probe::find(name, "--of"));
         let probes = probes.collect::<Result<Vec<_>, _>>()?;
         check_interfaces(body, &probes)?;
         let loads = Loads::of(&store, options.increment, options.body, !options.no_bulk)?;
         let length = scene.reference_length(&loads.p);
         let deepest = options.depth.unwrap_or(2.0 * length);
-        let chosen = chosen_depths(body, length, deepest, 1.0)?;
+        let chosen = default_depths(body, length, deepest, 1.0)?;
         let evenly = |n: u16| {
             let steps = f64::from(n.max(2) - 1);
             let z = (0..n).map(|i| deepest * f64::from(i) / steps);
@@ -299,7 +299,7 @@ impl Task {
     fn main_section(&self) -> Line {
         let outline = Outline::new(&self.scene.grid, &self.loads.tractions());
         let outlines: Vec<&Outline> = outline.iter().collect();
-        let lines = Line::of_outlines(&outlines, &[]);
+        let lines = Line::for_outlines(&outlines, &[]);
         lines.first().copied().unwrap_or(Line::AlongX(0.0))
     }
 
@@ -336,7 +336,7 @@ impl Task {
                 Probe::Stress(measure) if anywhere => {
                     let samples = values.select(Axis(0), &of_chosen);
                     let samples = (&self.chosen[..], &samples.view());
-                    let found = largest_anywhere(
+                    let found = find_body_maximum(
                         self.below(&states),
                         measure,
                         (line, true),
@@ -359,8 +359,8 @@ impl Task {
     }
 
     /// The body under the loads.
-    fn below<'a>(&'a self, states: &'a States<'a>) -> Below<'a> {
-        Below {
+    fn below<'a>(&'a self, states: &'a States<'a>) -> LoadedBody<'a> {
+        LoadedBody {
             body: self.body(),
             side: self.side,
             grid: &self.scene.grid,
@@ -401,7 +401,7 @@ impl Task {
 
 /// Refuses a measure of interfaces in a body that has none.
 fn check_interfaces(body: &Body, probes: &[Probe]) -> Result<(), Error> {
-    let of_interfaces = |p: &&Probe| matches!(p, Probe::Stress(m) if m.of_interfaces);
+    let of_interfaces = |p: &&Probe| matches!(p, Probe::Stress(m) if m.on_interfaces);
     match probes.iter().find(of_interfaces) {
         Some(probe) if body.coatings.is_empty() => {
             let allowed = "another measure, or --body: this body has no coating and no interface";

@@ -27,7 +27,7 @@ pub(crate) fn chosen_depths(
     #[pyo3(from_py_with = number)] deepest: f64,
     #[pyo3(from_py_with = number)] finer: f64,
 ) -> Answer<(Vec<f64>, Vec<usize>)> {
-    let depths = core::chosen_depths(&body.0, a, deepest, finer)?;
+    let depths = core::default_depths(&body.0, a, deepest, finer)?;
     Ok(depths.iter().map(|d| (d.z, d.layer)).unzip())
 }
 

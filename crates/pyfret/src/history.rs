@@ -155,7 +155,7 @@ impl Envelope {
                     Some([
                         moment.increment as f64,
                         m.value,
-                        self.largest.line.along(m.x, m.y),
+                        self.largest.line.nearest_distance(m.x, m.y),
                         m.depth.z,
                         layer,
                         m.error.total(),
@@ -228,7 +228,7 @@ pub(crate) fn loops(
             fields.set_item("stiffness", c.stiffness)?;
             fields.set_item("stiffness_error", c.stiffness_error)?;
             fields.set_item("secant_stiffness", c.secant_stiffness())?;
-            fields.set_item("opening", c.known_opening())?;
+            fields.set_item("opening", c.checked_opening())?;
             fields.set_item("energy_ratio", c.energy_ratio())?;
             fields.set_item("energy_ratio_error", of_cycle.energy_ratio)?;
             fields.set_item("sliding_ratio", c.sliding_ratio())?;

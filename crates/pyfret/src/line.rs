@@ -64,6 +64,6 @@ pub(crate) fn line_places(
 ) -> PyResult<Places> {
     let line = line(x, y, azimuth)?;
     let places = line.places(&grid.0);
-    let at = places.iter().map(|s| line.at(*s)).collect();
+    let at = places.iter().map(|s| line.place(*s)).collect();
     Ok((places, at))
 }

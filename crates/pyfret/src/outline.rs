@@ -88,6 +88,6 @@ attributes!(Outline, self:
 /// own there.
 #[pyfunction]
 pub(crate) fn main_sections(outline: PyRef<'_, Outline>) -> Vec<LineName> {
-    let lines = Line::of_outlines(&[&outline.0], &[]);
+    let lines = Line::for_outlines(&[&outline.0], &[]);
     lines.into_iter().map(name_of).collect()
 }

@@ -19,7 +19,7 @@ pub(crate) fn measures(names: &[String]) -> PyResult<Vec<Measure>> {
     names
         .iter()
         .map(|name| {
-            core::measure_named(name).copied().ok_or_else(|| {
+            core::find_measure(name).copied().ok_or_else(|| {
                 PyValueError::new_err(format!(
                     "{name:?}: must be one of {}",
                     measures().join(", ")
@@ -81,7 +81,7 @@ pub(crate) fn principal<'py>(
 }
 
 /// Value, place along the line, depth, layer and error.
-type Found = (f64, f64, f64, usize, f64);
+type Judgement = (f64, f64, f64, usize, f64);
 
 /// Largest value of a field known at samples alone, shape (depths, places) along x or y.
 ///
@@ -93,7 +93,7 @@ pub(crate) fn largest_of_samples(
     z: List<f64>,
     layer: List<usize>,
     along: List<f64>,
-) -> PyResult<Option<Found>> {
+) -> PyResult<Option<Judgement>> {
     let (samples, depths) = (samples.as_array(), in_layers(&z, &layer)?);
     if samples.dim() != (depths.len(), along.len()) {
         refuse!(

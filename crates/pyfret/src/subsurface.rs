@@ -78,7 +78,7 @@ pub(crate) struct Subsurface {
 
 /// A largest value: itself, x, y, z, layer, the border that it lies on, its error and its errors by
 /// source.
-type Found = (f64, f64, f64, f64, usize, Option<&'static str>, f64, Errors);
+type Judgement = (f64, f64, f64, f64, usize, Option<&'static str>, f64, Errors);
 
 /// Errors by source: along x, y and z, of the tractions and of the solution.
 type Errors = (f64, f64, f64, f64, Option<f64>);
@@ -274,7 +274,7 @@ impl Subsurface {
         #[pyo3(from_py_with = number)] only: Option<usize>,
         anywhere: bool,
         #[pyo3(from_py_with = number)] error_bar: Option<f64>,
-    ) -> Answer<(Option<Found>, Vec<usize>)> {
+    ) -> Answer<(Option<Judgement>, Vec<usize>)> {
         let (depths, line) = (in_layers(&z, &layer)?, line(x, y, azimuth)?);
         let grid = &self.grid.0;
         let along = line.places(grid);
@@ -286,7 +286,7 @@ impl Subsurface {
                 (depths.len(), along.len())
             );
         }
-        let measure = core::measure_named(of)
+        let measure = core::find_measure(of)
             .ok_or_else(|| PyValueError::new_err(format!("{of:?}: is no measure of stress")))?;
         let extremum = stoppable(py, |stop| {
             self.with_states(stop, |body, grid, states| {
@@ -297,7 +297,7 @@ impl Subsurface {
                     states: &states,
                 };
                 let samples = (&depths[..], &samples.view());
-                core::largest_anywhere(loads, measure, (line, anywhere), samples, only)
+                core::find_body_maximum(loads, measure, (line, anywhere), samples, only)
             })
         })??;
         let largest = extremum.largest.map(|m| {
@@ -346,7 +346,7 @@ impl Subsurface {
         title: &str,
     ) -> Answer<()> {
         let depths = in_layers(&z, &layer)?;
-        let probes = of.iter().map(|name| core::Probe::named(name, "of"));
+        let probes = of.iter().map(|name| core::Probe::find(name, "of"));
         let probes: Vec<_> = probes.collect::<Result<_, _>>()?;
         let (grid, side, stop) = (&self.grid.0, self.side, Arc::default());
         let write = || {

@@ -4,7 +4,7 @@ use contact_core::scene::Grid;
 use contact_core::yielding::{Yielded, Yielding};
 use contact_store::{YIELDED, state_of};
 use contact_subsurface as core;
-use contact_subsurface::{Depth, Eigenstresses};
+use contact_subsurface::{Depth, EigenstressSolver};
 use eigenstrain::{COMPONENTS, Mesh};
 use ndarray::{Array2, Array3, Array4, ArrayView1};
 use numpy::{PyArray1, PyArray2};
@@ -71,7 +71,7 @@ pub(crate) fn of_states(
 pub(crate) struct PlasticBody {
     number: usize,
     grid: Grid,
-    of: Eigenstresses,
+    of: EigenstressSolver,
 }
 
 /// Centres of cells along a side \[m\].
@@ -101,7 +101,7 @@ impl PlasticBody {
         yielded: &Yielded,
         work: impl FnOnce(&mut Yielding) -> T + Send,
     ) -> Answer<T> {
-        let answer = py.detach(|| self.of.with(yielded, work))?;
+        let answer = py.detach(|| self.of.with_yielding(yielded, work))?;
         Ok(answer.ok_or_else(|| self.stays_elastic())?)
     }
 
@@ -122,7 +122,7 @@ impl PlasticBody {
         let made = Self {
             number: body_number.into(),
             grid: scene.0.grid,
-            of: Eigenstresses::of(&scene.0, side),
+            of: EigenstressSolver::new(&scene.0, side),
         };
         if side.body(&scene.0).yields() {
             Ok(made)
@@ -262,7 +262,7 @@ impl PlasticBody {
     #[pyo3(signature = (rows: "Sequence[NDArray[np.float64]]"))]
     fn eigenstress(&self, py: Python<'_>, rows: List<List<f64>>) -> Answer<Option<Eigenstress>> {
         let yielded = read(rows)?;
-        let eigenstress = py.detach(|| self.of.at(Some(&yielded)));
+        let eigenstress = py.detach(|| self.of.eigenstress(Some(&yielded)));
         Ok(eigenstress?.map(Eigenstress))
     }
 }

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 
 use contact_core::Error;
 use contact_core::scene::{Body, Grid, ResidualStress};
-use contact_subsurface::{Moments, Points, Side, States, TwiceAsLarge};
+use contact_subsurface::{DoubledCells, Moments, Points, Side, States};
 use fracture::{Crack, Faces, Intensity};
 
 use super::along::{Along, GRIDS, Line, PointsOnGrid};
@@ -70,7 +70,7 @@ impl<'a> Below<'a> {
     fn points(&self, states: &States<'_>) -> Result<[PointsOnGrid; GRIDS], Error> {
         let on = |grid: &Grid, states: States<'_>| Points::new(self.body, self.side, grid, states);
         let moments = Moments::from_states(states, self.grid);
-        let coarser = |cells: &TwiceAsLarge| {
+        let coarser = |cells: &DoubledCells| {
             let paired = moments.on_coarser(cells);
             let points = paired.with_states(states.residual, &states.stop, |paired| {
                 let stick = states.stick.and(paired.stick);
@@ -78,7 +78,7 @@ impl<'a> Below<'a> {
             })?;
             Ok::<_, Error>((points, cells.middle))
         };
-        let [first, second] = TwiceAsLarge::both(self.grid);
+        let [first, second] = DoubledCells::both(self.grid);
         let same = (on(self.grid, states.clone())?, (0.0, 0.0));
         Ok([same, coarser(&first)?, coarser(&second)?])
     }

@@ -6,16 +6,16 @@
 use std::sync::Arc;
 
 use contact_assess::{
-    Averaging, ByCriterion, ByYield, Distance, Judge, Judged, Site, average, inclination, judge,
-    materials_of_layers, worst,
+    Averaging, CriterionJudge, Distance, Judge, Judged, Site, YieldJudge, average, inclination,
+    judge, materials_of_layers, worst,
 };
 use contact_core::march::solve;
 use contact_core::scene::{
     Body, Coating, Elastic, Friction, Grid, LoadPath, Profile, ResidualStress, Scene, Settings,
     Shape,
 };
+use contact_subsurface::{CycleRecorder, CycleSource, note_on_cycle, unsettled};
 use contact_subsurface::{Line, Side, chosen_depths, cycles};
-use contact_subsurface::{OverCycle, Recorded, note_on_cycle, unsettled};
 use fatigue::{Material, PointResult, Search};
 
 const TITANIUM: Elastic = Elastic { E: 116e9, nu: 0.33 };
@@ -72,14 +72,18 @@ fn material(name: &str, E: f64) -> Material {
     Material::new(name, name, sourced).unwrap()
 }
 
-fn recorded(scene: &Scene) -> Recorded {
+fn recorded(scene: &Scene) -> CycleRecorder {
     let last = *cycles(&scene.path).last().unwrap();
-    let mut kept = Recorded::new(Side::Body2, last);
+    let mut kept = CycleRecorder::new(Side::Body2, last);
     solve(scene, &mut kept).unwrap();
     kept
 }
 
-fn site<'a>(scene: &'a Scene, cycle: &'a dyn OverCycle, residual: &'a ResidualStress) -> Site<'a> {
+fn site<'a>(
+    scene: &'a Scene,
+    cycle: &'a dyn CycleSource,
+    residual: &'a ResidualStress,
+) -> Site<'a> {
     Site {
         body: &scene.body2,
         side: Side::Body2,
@@ -90,12 +94,12 @@ fn site<'a>(scene: &'a Scene, cycle: &'a dyn OverCycle, residual: &'a ResidualSt
     }
 }
 
-fn swt(body: &Body, given: Vec<Option<Material>>) -> ByCriterion {
+fn swt(body: &Body, given: Vec<Option<Material>>) -> CriterionJudge {
     let materials = materials_of_layers(body, given).unwrap();
-    ByCriterion::new("smith_watson_topper", body, &materials, Search::default()).unwrap()
+    CriterionJudge::new("smith_watson_topper", body, &materials, Search::default()).unwrap()
 }
 
-fn section<J: Judge + Clone>(site: &Site<'_>, of: &J) -> Judged<J::Found> {
+fn section<J: Judge + Clone>(site: &Site<'_>, of: &J) -> Judged<J::Judgement> {
     let depths = chosen_depths(site.body, A, 2.0 * A, 1.0).unwrap();
     judge(site, BELOW, &depths, std::slice::from_ref(of))
         .unwrap()
@@ -207,7 +211,7 @@ fn below_a_coating() {
         note.contains(&format!("by up to {:.0} %", 100.0 * much)),
         "{note}"
     );
-    let yields = ByYield {
+    let yields = YieldJudge {
         s_y: vec![None, Some(9e8)],
         residual: ResidualStress::default(),
         of: |found| found.von_mises,

@@ -61,7 +61,7 @@ fn stressed(ratio: f64, (n, across): (usize, usize)) -> Stressed {
     let (body, grid) = (&scene.body2, &scene.grid);
     let search = Search::new(body, Side::Body2, grid, Some(line), &states).unwrap();
     let section = Section::new(body, Side::Body2, grid, line, states).unwrap();
-    let mises = [Probe::named("von_mises", "of").unwrap()];
+    let mises = [Probe::find("von_mises", "of").unwrap()];
     let largest = |depths: &[Depth]| {
         let found = section.probe(depths, &x, &mises, &search).unwrap();
         found[0].1.unwrap()

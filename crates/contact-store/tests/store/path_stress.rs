@@ -10,7 +10,7 @@ use contact_reference::{CattaneoMindlin, hertz};
 use contact_store::{ImageData, StressStore, VolumeSink, write_volume};
 use contact_subsurface::{
     Direction, Envelope, Largest, Line, LoopPoint, Probe, Search, Section, Side, Slices, States,
-    Stream, cycles, depths, largest_of_samples, loops, measure_named,
+    Stream, cycles, depths, find_measure, largest_of_samples, loops,
 };
 use ndarray::Array2;
 
@@ -99,7 +99,7 @@ fn envelope_is_that_of_all_increments() {
     let a = scene.hertz().unwrap().a;
     let z: Vec<f64> = (0..12).map(|i| 0.1 * a * f64::from(i)).collect();
     let depths = depths(&scene.body2, &z).unwrap();
-    let measures = ["von_mises", "s_xx"].map(|name| *measure_named(name).unwrap());
+    let measures = ["von_mises", "s_xx"].map(|name| *find_measure(name).unwrap());
     let envelope = Envelope {
         measures: measures.to_vec(),
         cycles: cycles(&scene.path),
@@ -180,7 +180,7 @@ fn planes_stream_as_lines_do_and_the_largest_values_are_known() {
     let a = scene.hertz().unwrap().a;
     let z: Vec<f64> = (0..40).map(|i| 0.03 * a * f64::from(i)).collect();
     let depths = depths(&scene.body2, &z).unwrap();
-    let measures = vec![*measure_named("von_mises").unwrap()];
+    let measures = vec![*find_measure("von_mises").unwrap()];
     let along: Vec<f64> = (0..24).map(|i| scene.grid.x(i)).collect();
     let row = 9;
     let line = Line::AlongX(scene.grid.y(row));
@@ -262,7 +262,7 @@ fn volumes_are_stored_and_drawn() {
     let z: Vec<f64> = (0..4).map(|i| 5e-6 * f64::from(i)).collect();
     let depths = depths(&body, &z).unwrap();
     let probes = ["von_mises", "u_z", "s_zz", "u_x"];
-    let probes = probes.map(|name| Probe::named(name, "of").unwrap());
+    let probes = probes.map(|name| Probe::find(name, "of").unwrap());
     let folder = std::env::temp_dir().join(format!("pyfret-volume-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
     for side in [Side::Body1, Side::Body2] {

@@ -115,7 +115,7 @@ fn on_plane(s: [f64; 6], [n_x, n_z]: [f64; 2]) -> [f64; 2] {
 type Extremes = Vec<Vec<[f64; 3]>>;
 
 impl Accumulate for Findley {
-    type Kept = Extremes;
+    type Accumulator = Extremes;
 
     fn start(&self, _: Depth, places: usize) -> Extremes {
         let nothing = [f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];

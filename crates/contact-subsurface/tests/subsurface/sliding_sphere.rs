@@ -4,7 +4,8 @@ use contact_core::convolution::Tractions;
 use contact_core::scene::{Body, Elastic, Grid, Shape};
 use contact_reference::HertzStress;
 use contact_subsurface::{
-    Depth, Extreme, Line, Points, Probe, Search, Section, Side, States, Zone, chosen_depths, depths,
+    Depth, Extremum, Line, Points, Probe, Search, Section, Side, States, Zone, chosen_depths,
+    depths,
 };
 use ndarray::Array3;
 
@@ -198,7 +199,7 @@ fn the_tension_at_the_trailing_edge_is_the_largest() {
 }
 
 /// The largest value of a measure below a sliding sphere on y = 0.
-fn largest(of: &str, n: usize, mu: f64) -> Extreme {
+fn largest(of: &str, n: usize, mu: f64) -> Extremum {
     let body = Body::homogeneous(Elastic::new(1.0, NU).unwrap(), Shape::Flat);
     let grid = Grid::centred(2.4, n).unwrap();
     let p = grid.map(|x, y| (1.0 - x * x - y * y).max(0.0).sqrt());
@@ -217,7 +218,7 @@ fn largest(of: &str, n: usize, mu: f64) -> Extreme {
     let search = Search::new(&body, Side::Body2, &grid, Some(line), &states).unwrap();
     let section = Section::new(&body, Side::Body2, &grid, line, states).unwrap();
     let x: Vec<f64> = (0..n).map(|i| grid.x(i)).collect();
-    let probe = Probe::named(of, "of").unwrap();
+    let probe = Probe::find(of, "of").unwrap();
     let found = section.probe(&depths, &x, &[probe], &search).unwrap();
     found[0].1.unwrap()
 }

@@ -4,13 +4,13 @@ mod options;
 mod rows;
 mod table;
 
-use contact_assess::{ByCriterion, Judged, Site, judge, materials_of_layers, of_criteria};
+use contact_assess::{CriterionJudge, Judged, Site, from_fatigue, judge, layer_materials};
 use contact_core::Error;
 use contact_core::scene::read_text;
 use contact_store::Store;
 use contact_store::StoredCycle;
-use contact_subsurface::{Line, Side, chosen_depths, depths};
-use contact_subsurface::{OverCycle, main_sections, note_on_cycle};
+use contact_subsurface::{CycleSource, main_sections, note_on_cycle};
+use contact_subsurface::{Line, Side, default_depths, depths};
 use fatigue::{Material, PointResult, Search, find, materials, read};
 use serde_json::json;
 
@@ -49,8 +49,8 @@ fn judged(options: &Options) -> Result<Vec<String>, Error> {
     for doubt in given.iter().flatten().flat_map(Material::doubts) {
         say(&format!("fret: warning: {doubt}"));
     }
-    let of_layers = materials_of_layers(body, given)?;
-    let named = |name: &String| ByCriterion::new(name, body, &of_layers, Search::default());
+    let of_layers = layer_materials(body, given)?;
+    let named = |name: &String| CriterionJudge::new(name, body, &of_layers, Search::default());
     let of: Vec<_> = options
         .criterion
         .iter()
@@ -76,7 +76,7 @@ fn judged(options: &Options) -> Result<Vec<String>, Error> {
     let last = cycle.moments(&[cycle.count() - 1])?;
     let length = scene.reference_length(&last.tractions[0][2]);
     let asked = if options.depths.is_empty() {
-        chosen_depths(body, length, 2.0 * length, 1.0)?
+        default_depths(body, length, 2.0 * length, 1.0)?
     } else {
         depths(body, &options.depths)?
     };
@@ -130,7 +130,7 @@ fn judged(options: &Options) -> Result<Vec<String>, Error> {
 fn write_table(
     judging: &Judging<'_>,
     points: &[Judged<PointResult>],
-    of: &[ByCriterion],
+    of: &[CriterionJudge],
 ) -> Result<(), Error> {
     let Some(out) = &judging.options.out else {
         return Ok(());
@@ -148,7 +148,7 @@ fn given_materials(options: &Options) -> Result<Vec<Option<Material>>, Error> {
     let mut names = options.material.clone();
     if let Some(file) = &options.materials {
         let (text, name) = read_text(file)?;
-        let own = read(&text, &name).map_err(|e| of_criteria(e.into()))?;
+        let own = read(&text, &name).map_err(|e| from_fatigue(e.into()))?;
         if names.is_empty() && own.len() == 1 {
             names = own.keys().cloned().collect();
         }

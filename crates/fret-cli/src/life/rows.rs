@@ -3,8 +3,9 @@
 use std::fmt::Write as _;
 
 use contact_assess::{
-    Averaging, ByCriterion, Distance, Judged, LargestMean, RangeOfLife, RangeOptions, Site, Worst,
-    average, error_of_largest_mean, inclination, largest_mean, range_of_life, worst,
+    Averaging, CriterionJudge, Distance, Judged, LargestMean, MarginRange, RangeOptions, Site,
+    WorstPoint, error_of_largest_mean, find_worst_point, inclination, judge_means, largest_mean,
+    margin_range,
 };
 use contact_core::Error;
 use contact_core::digits::{degrees, with_range};
@@ -36,10 +37,10 @@ pub(super) struct Row {
 struct Layer<'a> {
     /// What it is called.
     called: String,
-    worst: Worst<PointResult>,
+    worst: WorstPoint<PointResult>,
     line: Line,
     of: &'a Assessment,
-    range: RangeOfLife,
+    range: MarginRange,
 }
 
 /// What the layers of a body are judged by.
@@ -56,13 +57,13 @@ impl Judging<'_> {
     pub(super) fn points(
         &self,
         sections: &[&Judged<PointResult>],
-        of: &ByCriterion,
+        of: &CriterionJudge,
     ) -> Result<Vec<Row>, Error> {
         let mut all = Vec::new();
         for layer in 0..=self.body.coatings.len() {
             all.extend(self.layer(sections, of, layer)?);
         }
-        let margin = |layer: &Layer<'_>| layer.of.uncapped_margin(layer.worst.extreme.value);
+        let margin = |layer: &Layer<'_>| layer.of.uncapped_margin(layer.worst.extremum.value);
         let least =
             all.iter().map(margin).fold(
                 f64::INFINITY,
@@ -76,7 +77,7 @@ impl Judging<'_> {
     pub(super) fn mean(
         &self,
         sections: &[&Judged<PointResult>],
-        of: &ByCriterion,
+        of: &CriterionJudge,
         length: f64,
     ) -> Result<Row, Error> {
         let layer = self.averaged(of)?;
@@ -89,10 +90,10 @@ impl Judging<'_> {
     }
 
     /// The layer that the distance of the options lies in.
-    fn averaged(&self, of: &ByCriterion) -> Result<usize, Error> {
+    fn averaged(&self, of: &CriterionJudge) -> Result<usize, Error> {
         let outermost = of.assessments.iter().position(Option::is_some);
         let layer = self.options.layer.or(outermost).unwrap_or_default();
-        if of.of(layer).is_none() {
+        if of.assessment(layer).is_none() {
             let allowed = "a layer that has a material";
             return Err(Error::invalid("--layer", layer, allowed));
         }
@@ -102,11 +103,11 @@ impl Judging<'_> {
     /// The means over a distance along the first line, at the depth of the top of their layer.
     pub(super) fn means(
         &self,
-        of: &ByCriterion,
+        of: &CriterionJudge,
         length: f64,
     ) -> Result<Judged<PointResult>, Error> {
         let (layer, line) = (self.averaged(of)?, self.lines[0]);
-        let found = average(self.site, line, &self.distance(layer, length), of)?;
+        let found = judge_means(self.site, line, &self.distance(layer, length), of)?;
         let places = line.places(self.site.grid).into_iter().zip(found);
         let (along, found) = places.filter_map(|(s, found)| Some((s, found?))).unzip();
         let above = self.body.coatings.iter().take(layer);
@@ -115,7 +116,7 @@ impl Judging<'_> {
             line,
             along,
             depths: vec![Depth { z, layer }],
-            found: vec![Some(found)],
+            judgements: vec![Some(found)],
         })
     }
 
@@ -123,17 +124,17 @@ impl Judging<'_> {
     fn layer<'b>(
         &self,
         sections: &[&Judged<PointResult>],
-        of: &'b ByCriterion,
+        of: &'b CriterionJudge,
         layer: usize,
     ) -> Result<Option<Layer<'b>>, Error> {
-        let Some(assessment) = of.of(layer) else {
+        let Some(assessment) = of.assessment(layer) else {
             return Ok(None);
         };
-        let mut found: Option<(Worst<PointResult>, Line)> = None;
+        let mut found: Option<(WorstPoint<PointResult>, Line)> = None;
         for judged in sections {
-            let here = worst(self.site, judged, of, layer)?;
+            let here = find_worst_point(self.site, judged, of, layer)?;
             if let Some(worst) = here
-                && found.is_none_or(|(known, _)| worst.extreme.value > known.extreme.value)
+                && found.is_none_or(|(known, _)| worst.extremum.value > known.extremum.value)
             {
                 found = Some((worst, judged.line));
             }
@@ -146,7 +147,7 @@ impl Judging<'_> {
             length: self.options.distance,
             half_width: half_width(self.site.cycle, self.site.grid, self.lines[0])?,
         };
-        let at = (worst.extreme.value, worst.extreme.error.sum());
+        let at = (worst.extremum.value, worst.extremum.error.sum());
         let mean = |length: f64, with_error: bool| {
             let (mean, line) = match self.largest(of, layer, length) {
                 Ok(found) => found,
@@ -162,7 +163,7 @@ impl Judging<'_> {
             Ok(Ok((mean.value, error)))
         };
         let material = self.materials.get(layer).and_then(Option::as_ref);
-        let range = range_of_life(assessment, material, at, &options, mean)?;
+        let range = margin_range(assessment, material, at, &options, mean)?;
         Ok(Some(Layer {
             called: self.body.layer_name(layer),
             worst,
@@ -187,7 +188,7 @@ impl Judging<'_> {
     /// The largest mean over a distance along all lines.
     fn largest(
         &self,
-        of: &ByCriterion,
+        of: &CriterionJudge,
         layer: usize,
         length: f64,
     ) -> Result<(LargestMean, Line), Error> {
@@ -219,10 +220,10 @@ impl Layer<'_> {
 
     /// The range and the worst point.
     fn point(&self, decides: bool) -> Row {
-        let extreme = &self.worst.extreme;
+        let extreme = &self.worst.extremum;
         let (criterion, unit) = (self.of.criterion.name(), self.of.criterion.unit());
         let normal = self.of.criterion.has_plane();
-        let normal = normal.then_some(self.worst.found.normal);
+        let normal = normal.then_some(self.worst.judgement.normal);
         let angle = normal.map(|n| inclination(n, self.line).to_degrees());
         let at = extreme.at.map(|zone| match zone {
             Zone::Contact => "rim of the contact",
@@ -326,12 +327,12 @@ impl Layer<'_> {
 
     /// The range in words.
     fn told(&self) -> String {
-        format!("{}, 10 to 90 %", said(&self.range.of.range, self.of))
+        format!("{}, 10 to 90 %", said(&self.range.range.range, self.of))
     }
 
     /// The range as numbers.
     fn json(&self) -> Value {
-        let Range { low, best, high } = self.range.of.range;
+        let Range { low, best, high } = self.range.range.range;
         let three = |of: Range| [of.low, of.best, of.high].map(number);
         let no_range = if self.range.length.is_some() {
             GIVEN
@@ -339,10 +340,10 @@ impl Layer<'_> {
             NO_MEAN
         };
         json!({
-            "layer": self.worst.extreme.depth.layer, "criterion": self.of.criterion.name(),
+            "layer": self.worst.extremum.depth.layer, "criterion": self.of.criterion.name(),
             "unit": self.of.criterion.unit(), "low": self.margin(low), "best": self.margin(best), "high": self.margin(high),
-            "of_stress": three(self.range.of.stress), "of_material": self.range.of.material,
-            "of_distance": or_why(json!(self.range.of.distance.map(three)), no_range),
+            "of_stress": three(self.range.range.stress), "of_material": self.range.range.material,
+            "of_distance": or_why(json!(self.range.range.distance.map(three)), no_range),
             "L": or_why(json!(self.range.length), NO_MEAN),
         })
     }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use contact_assess::{ByCriterion, Judged};
+use contact_assess::{CriterionJudge, Judged};
 use contact_core::Error;
 use contact_subsurface::Line;
 use fatigue::{Assessment, PointResult};
@@ -31,7 +31,7 @@ pub(super) fn write(
     out: &Path,
     names: &[String],
     judged: &[Judged<PointResult>],
-    of: &[ByCriterion],
+    of: &[CriterionJudge],
 ) -> Result<(), Error> {
     let text = if let ([judged], [of]) = (judged, of) {
         let of_value = match unit(of) {
@@ -72,7 +72,7 @@ const LIFE: &str = "life [cycles]";
 const FACTOR: &str = "safety_factor";
 
 /// The column of the margin of a criterion.
-fn margin(of: &ByCriterion) -> &'static str {
+fn margin(of: &CriterionJudge) -> &'static str {
     let mut judged = of.assessments.iter().flatten();
     if judged.any(Assessment::gives_lives) {
         LIFE
@@ -82,7 +82,7 @@ fn margin(of: &ByCriterion) -> &'static str {
 }
 
 /// Unit of the value of a criterion.
-fn unit(of: &ByCriterion) -> &'static str {
+fn unit(of: &CriterionJudge) -> &'static str {
     let judged = of.assessments.iter().flatten().next();
     judged.map_or("1", |assessment| assessment.criterion.unit())
 }
@@ -102,18 +102,18 @@ fn head(line: &Line, values: &str) -> String {
 /// A line for each point, with what is told of its value and margin.
 fn rows(
     judged: &Judged<PointResult>,
-    of: &ByCriterion,
+    of: &CriterionJudge,
     values: impl Fn(&PointResult, f64) -> String,
 ) -> Vec<String> {
     let along_y = matches!(judged.line, Line::AlongY(_));
     let mut rows = Vec::new();
-    for (depth, found) in judged.depths.iter().zip(&judged.found) {
-        let (Some(found), Some(assessment)) = (found, of.of(depth.layer)) else {
+    for (depth, found) in judged.depths.iter().zip(&judged.judgements) {
+        let (Some(found), Some(assessment)) = (found, of.assessment(depth.layer)) else {
             continue;
         };
         for (s, f) in judged.along.iter().zip(found) {
             let [n_x, n_y, n_z] = f.normal;
-            let (x, y) = judged.line.at(*s);
+            let (x, y) = judged.line.place(*s);
             let (s, place) = if along_y { (y, x) } else { (x, y) };
             rows.push(format!(
                 "{s:e},{place:e},{:e},{},{},{n_x},{n_y},{n_z},{:e},{:e},{:e}",

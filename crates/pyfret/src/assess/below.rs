@@ -11,7 +11,7 @@ use crate::prelude::*;
 use crate::subsurface::{errors, zone_name};
 
 /// A section of a body over a cycle.
-pub(super) struct Below {
+pub(super) struct AssessedBody {
     pub(super) body: scene::Body,
     pub(super) grid: scene::Grid,
     pub(super) side: Side,
@@ -20,7 +20,7 @@ pub(super) struct Below {
     pub(super) cycle: PythonCycle,
 }
 
-impl Below {
+impl AssessedBody {
     /// Does `work` at the site while signals are heard; without residual stress if the judge has it.
     pub(super) fn with_site<T: Send>(
         &self,
@@ -47,17 +47,17 @@ impl Below {
 /// Place and errors of a worst point.
 pub(super) fn place<'py, F>(
     py: Python<'py>,
-    worst: &core::Worst<F>,
+    worst: &core::WorstPoint<F>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let fields = PyDict::new(py);
-    let (depth, error) = (worst.extreme.depth, worst.extreme.error);
-    fields.set_item("score", worst.extreme.value)?;
-    fields.set_item("x", worst.extreme.x)?;
-    fields.set_item("y", worst.extreme.y)?;
+    let (depth, error) = (worst.extremum.depth, worst.extremum.error);
+    fields.set_item("score", worst.extremum.value)?;
+    fields.set_item("x", worst.extremum.x)?;
+    fields.set_item("y", worst.extremum.y)?;
     fields.set_item("z", depth.z)?;
     fields.set_item("layer", depth.layer)?;
     fields.set_item("errors", errors(error))?;
-    fields.set_item("at", worst.extreme.at.map(zone_name))?;
+    fields.set_item("at", worst.extremum.at.map(zone_name))?;
     Ok(fields)
 }
 

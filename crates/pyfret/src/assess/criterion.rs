@@ -1,11 +1,11 @@
 //! Values of a criterion on a section.
 
-use contact_assess::{self as core, Averaging, ByCriterion, Distance, Judged, RangeOptions};
+use contact_assess::{self as core, Averaging, CriterionJudge, Distance, Judged, RangeOptions};
 use contact_core::Error;
 use fatigue::{PointResult, Range, Search};
 use ndarray::{Array2, Array3};
 
-use super::below::{Below, depths_of, place};
+use super::below::{AssessedBody, depths_of, place};
 use crate::argument;
 use crate::error::Answer;
 use crate::fatigue::{AT_POINT, Assessment, Material};
@@ -15,9 +15,9 @@ use crate::scene::Body;
 /// Values of a criterion on a section.
 #[pyclass(frozen, module = "pyfret.fatigue")]
 pub(crate) struct CriterionBelow {
-    pub(super) below: Arc<Below>,
+    pub(super) below: Arc<AssessedBody>,
     pub(super) judged: Judged<PointResult>,
-    pub(super) of: ByCriterion,
+    pub(super) of: CriterionJudge,
 }
 
 #[pymethods]
@@ -30,8 +30,10 @@ impl CriterionBelow {
             Some(found) => Some(found.iter().copied().map(Some).collect()),
             None => Some(vec![None; places]),
         };
-        let rows: Vec<_> = self.judged.found.iter().map(row).collect();
-        arrays(py, &rows, |row| self.of.of(self.judged.depths[row].layer))
+        let rows: Vec<_> = self.judged.judgements.iter().map(row).collect();
+        arrays(py, &rows, |row| {
+            self.of.assessment(self.judged.depths[row].layer)
+        })
     }
 
     /// The worst point of a layer, None where it is not judged.
@@ -46,13 +48,13 @@ impl CriterionBelow {
         material: Option<Material>,
     ) -> Answer<Option<Bound<'py, PyDict>>> {
         let worst = self.below.with_site(py, true, |site| {
-            core::worst(site, &self.judged, &self.of, layer)
+            core::find_worst_point(site, &self.judged, &self.of, layer)
         })?;
-        let Some((worst, assessment)) = worst.zip(self.of.of(layer)) else {
+        let Some((worst, assessment)) = worst.zip(self.of.assessment(layer)) else {
             return Ok(None);
         };
         let fields = place(py, &worst)?;
-        let (value, error) = (worst.extreme.value, worst.extreme.error.sum());
+        let (value, error) = (worst.extremum.value, worst.extremum.error.sum());
         let range = assessment.margin_range(value, error);
         fields.set_item("margin", range.best)?;
         fields.set_item("range", (range.low, range.high))?;
@@ -62,7 +64,7 @@ impl CriterionBelow {
         fields.set_item("whole", (whole.low, whole.high))?;
         fields.set_item("order", assessment.uncapped_margin(value))?;
         if assessment.criterion.has_plane() {
-            let normal = worst.found.normal;
+            let normal = worst.judgement.normal;
             fields.set_item("normal", normal)?;
             let angle = core::inclination(normal, self.judged.line);
             fields.set_item("inclination", angle.to_degrees())?;
@@ -151,7 +153,7 @@ pub(crate) fn range_of_life(
     let method = averaging(method)?;
     let judged = sections
         .first()
-        .and_then(|one| one.get().of.of(layer).copied());
+        .and_then(|one| one.get().of.assessment(layer).copied());
     let Some(assessment) = judged else {
         refuse!("layer = {layer}: has no material");
     };
@@ -195,12 +197,12 @@ pub(crate) fn range_of_life(
         half_width,
     };
     let material = material.as_ref().map(|material| &material.0);
-    let range = core::range_of_life(&assessment, material, worst, &options, mean)?;
+    let range = core::margin_range(&assessment, material, worst, &options, mean)?;
     Ok((
-        three(range.of.range),
-        three(range.of.stress),
-        range.of.material,
-        range.of.distance.map(three),
+        three(range.range.range),
+        three(range.range.stress),
+        range.range.material,
+        range.range.distance.map(three),
         range.length,
         range.notes,
     ))
@@ -220,7 +222,7 @@ pub(crate) fn notes_on_materials(
     materials: List<Option<Material>>,
 ) -> Answer<Vec<String>> {
     let layers: Vec<_> = materials.into_iter().map(|of| of.map(|of| of.0)).collect();
-    let judge = ByCriterion::new(criterion, &body.0, &layers, Search::default())?;
+    let judge = CriterionJudge::new(criterion, &body.0, &layers, Search::default())?;
     Ok(judge.notes_on_materials(&layers)?)
 }
 

@@ -5,11 +5,11 @@ mod criterion;
 mod python_cycle;
 mod yielding;
 
-use contact_assess::{self as core, ByCriterion, ByYield, Distance, Judged};
+use contact_assess::{self as core, CriterionJudge, Distance, Judged, YieldJudge};
 use fatigue::Search;
 use numpy::PyArray2;
 
-use self::below::Below;
+use self::below::AssessedBody;
 pub(crate) use self::criterion::{CriterionBelow, notes_on_materials, range_of_life};
 use self::criterion::{arrays, averaging};
 use self::python_cycle::PythonCycle;
@@ -52,7 +52,7 @@ pub(crate) fn cycle_sections(
 /// by the increments, over the largest shear.
 #[pyclass(frozen, module = "pyfret.fatigue")]
 pub(crate) struct CycleSection {
-    below: Arc<Below>,
+    below: Arc<AssessedBody>,
 }
 
 #[pymethods]
@@ -72,7 +72,7 @@ impl CycleSection {
         #[pyo3(from_py_with = number)] yielding: Option<(f64, f64)>,
         #[pyo3(from_py_with = number)] path_error: Option<f64>,
     ) -> PyResult<Self> {
-        let below = Below {
+        let below = AssessedBody {
             side: side(body_number)?,
             line: line(x, y, azimuth)?,
             residual: of_body(&body.0, residual)?,
@@ -136,10 +136,10 @@ impl CycleSection {
         s_y: List<Option<f64>>,
     ) -> Answer<YieldBelow> {
         let depths = in_layers(&z, &layer)?;
-        let judge = ByYield {
+        let judge = YieldJudge {
             s_y: s_y.0,
             residual: self.below.residual.clone(),
-            of: |found| found.von_mises,
+            factor: |found| found.von_mises,
         };
         let judged = self.below.with_site(py, false, |site| {
             core::judge(site, self.below.line, &depths, std::slice::from_ref(&judge))
@@ -164,7 +164,7 @@ impl CycleSection {
         #[pyo3(from_py_with = number)] tolerance: f64,
     ) -> Answer<Bound<'py, PyDict>> {
         let judge = criterion_of(&self.below, &materials, criterion, tolerance)?;
-        let Some(assessment) = judge.of(layer).copied() else {
+        let Some(assessment) = judge.assessment(layer).copied() else {
             refuse!("layer = {layer}: has no material");
         };
         let distance = Distance {
@@ -174,7 +174,7 @@ impl CycleSection {
         };
         let line = self.below.line;
         let (found, errors) = self.below.with_site(py, true, |site| {
-            let mean = core::average(site, line, &distance, &judge)?;
+            let mean = core::judge_means(site, line, &distance, &judge)?;
             let errors = core::errors_of_means(site, line, &distance, &judge, &mean)?;
             Ok((mean, errors))
         })?;
@@ -188,11 +188,11 @@ impl CycleSection {
 }
 
 fn criterion_of(
-    below: &Below,
+    below: &AssessedBody,
     materials: &[Option<Material>],
     criterion: &str,
     tolerance: f64,
-) -> Answer<ByCriterion> {
+) -> Answer<CriterionJudge> {
     let search = Search {
         tolerance,
         ..Search::default()
@@ -201,8 +201,8 @@ fn criterion_of(
         .iter()
         .map(|m| m.as_ref().map(|m| m.0.clone()))
         .collect();
-    let of_layers = core::materials_of_layers(&below.body, layers)?;
-    Ok(ByCriterion::new(
+    let of_layers = core::layer_materials(&below.body, layers)?;
+    Ok(CriterionJudge::new(
         criterion,
         &below.body,
         &of_layers,

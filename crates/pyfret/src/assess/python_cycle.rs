@@ -4,7 +4,7 @@ use std::sync::Mutex;
 
 use contact_core::Error;
 use contact_core::scene::Grid;
-use contact_subsurface::{Moments, OverCycle, Yielding};
+use contact_subsurface::{CycleSource, Moments, Yielding};
 
 use crate::prelude::*;
 use crate::states::States;
@@ -69,7 +69,7 @@ impl PythonCycle {
     }
 }
 
-impl OverCycle for PythonCycle {
+impl CycleSource for PythonCycle {
     fn count(&self) -> usize {
         self.count
     }

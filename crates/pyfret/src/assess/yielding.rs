@@ -1,20 +1,20 @@
 //! Load factors on a section.
 
-use contact_assess::{self as core, ByYield, Judge as _, Judged};
+use contact_assess::{self as core, Judge as _, Judged, YieldJudge};
 use fatigue::Yield;
 use ndarray::Array2;
 
 use crate::fatigue::FACTORS;
 use crate::prelude::*;
 
-use super::below::{Below, depths_of, place};
+use super::below::{AssessedBody, depths_of, place};
 
 /// Load factors on a section.
 #[pyclass(frozen, module = "pyfret.fatigue")]
 pub(crate) struct YieldBelow {
-    pub(super) below: Arc<Below>,
+    pub(super) below: Arc<AssessedBody>,
     pub(super) judged: Judged<Yield>,
-    pub(super) of: ByYield,
+    pub(super) of: YieldJudge,
 }
 
 #[pymethods]
@@ -22,11 +22,11 @@ impl YieldBelow {
     /// Load factors over (depth, place), NaN where not judged.
     #[pyo3(signature = () -> "dict[str, NDArray[np.float64]]")]
     fn fields<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let shape = (self.judged.found.len(), self.judged.along.len());
+        let shape = (self.judged.judgements.len(), self.judged.along.len());
         let fields = PyDict::new(py);
         for (name, of) in FACTORS {
             let values = Array2::from_shape_fn(shape, |(row, place)| {
-                self.judged.found[row]
+                self.judged.judgements[row]
                     .as_ref()
                     .map_or(f64::NAN, |row| of(&row[place]))
             });
@@ -48,15 +48,15 @@ impl YieldBelow {
             let names = FACTORS.map(|(name, _)| name).join(", ");
             refuse!("{factor:?}: must be one of {names}");
         };
-        let judge = ByYield {
-            of: *factor,
+        let judge = YieldJudge {
+            factor: *factor,
             ..self.of.clone()
         };
         if !judge.judges(layer) {
             return Ok(None);
         }
         let least = self.below.with_site(py, false, |site| {
-            core::worst(site, &self.judged, &judge, layer)
+            core::find_worst_point(site, &self.judged, &judge, layer)
         })?;
         least.map(|least| place(py, &least)).transpose()
     }

@@ -4,11 +4,11 @@
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use contact_assess::{ByCriterion, ByYield, Judge, Site, judge, worst};
+use contact_assess::{ByCriterion, ByYield, Judge, Site, find_worst_point, judge};
 use contact_core::Error;
 use contact_core::march::Fields;
 use contact_core::scene::{ResidualStress, Scene};
-use contact_subsurface::{Line, Side, chosen_depths};
+use contact_subsurface::{Line, Side, default_depths};
 use contact_subsurface::{Moments, OverCycle};
 use fatigue::{Material, Search};
 

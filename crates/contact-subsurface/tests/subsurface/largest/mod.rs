@@ -12,7 +12,7 @@ use contact_core::scene::{
 };
 use contact_reference::{HertzStress, LineContact, hertz, line_contact};
 use contact_subsurface::{
-    Extreme, Line, Measure, Points, Probe, Search, Section, Side, States, Zone, borders,
+    Extremum, Line, Measure, Points, Probe, Search, Section, Side, States, Zone, borders,
     chosen_depths, measure_named,
 };
 use serde_json::Value;
@@ -32,16 +32,21 @@ fn tractions(fields: &Fields) -> Tractions<'_> {
 
 /// The largest value on y = 0 in body 2, in a layer or in all, as the command line and Python give
 /// it.
-fn largest(scene: &Scene, fields: &Fields, of: &str, layer: Option<usize>) -> Extreme {
+fn largest(scene: &Scene, fields: &Fields, of: &str, layer: Option<usize>) -> Extremum {
     in_layer(scene, fields, of, (scene.hertz().unwrap().a, layer))
 }
 
 /// The same of a contact about as large as `a`.
-fn on_section(scene: &Scene, fields: &Fields, of: &str, a: f64) -> Extreme {
+fn on_section(scene: &Scene, fields: &Fields, of: &str, a: f64) -> Extremum {
     in_layer(scene, fields, of, (a, None))
 }
 
-fn in_layer(scene: &Scene, fields: &Fields, of: &str, (a, layer): (f64, Option<usize>)) -> Extreme {
+fn in_layer(
+    scene: &Scene,
+    fields: &Fields,
+    of: &str,
+    (a, layer): (f64, Option<usize>),
+) -> Extremum {
     let (body, grid) = (&scene.body2, &scene.grid);
     let states = [tractions(fields)];
     let stick = [fields.stick.as_slice().unwrap()];
@@ -54,7 +59,7 @@ fn in_layer(scene: &Scene, fields: &Fields, of: &str, (a, layer): (f64, Option<u
     let section = Section::new(body, Side::Body2, grid, line, states).unwrap();
     let depths = chosen_depths(body, a, 2.0 * a, 1.0).unwrap();
     let x: Vec<f64> = (0..grid.nx).map(|i| grid.x(i)).collect();
-    let probe = Probe::named(of, "of").unwrap();
+    let probe = Probe::find(of, "of").unwrap();
     let samples = measure_named(of)
         .unwrap()
         .on_lines(&section.stress(&depths).unwrap()[0]);

@@ -129,7 +129,7 @@ impl Drawn {
     }
 
     /// The largest values on grids of n and `finer` times as many cells, over the largest pressure.
-    fn both(&self, n: usize, finer: usize) -> Vec<(Extreme, f64)> {
+    fn both(&self, n: usize, finer: usize) -> Vec<(Extremum, f64)> {
         let mut longer = 1.0;
         let ends = loop {
             match self.ends(n, longer) {
@@ -147,7 +147,7 @@ impl Drawn {
             let m = on_section(scene, fields, of, self.extent / 2.3);
             let error = m.error.total() / p_max;
             let value = m.value / p_max;
-            (Extreme { value, ..m }, error)
+            (Extremum { value, ..m }, error)
         };
         MEASURES
             .iter()
@@ -175,7 +175,7 @@ struct Compared {
 fn compared(seed: u64, n: usize, finer: usize) -> Vec<Compared> {
     let drawn = draw(seed);
     let found = drawn.both(n, finer);
-    let pair = |(of, pair): (&&'static str, &[(Extreme, f64)])| {
+    let pair = |(of, pair): (&&'static str, &[(Extremum, f64)])| {
         let ((m, error), (truth, truth_error)) = (pair[0], pair[1]);
         let off = m.value - truth.value;
         println!(

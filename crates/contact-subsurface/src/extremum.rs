@@ -4,16 +4,16 @@ use contact_core::digits::place;
 
 use super::{Depth, Line, Zone};
 
-/// The largest value of a number below a contact and where it is: a value at a point.
+/// The largest value of a number below a contact, at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Extreme {
+pub struct Extremum {
     /// Value \[Pa or m\].
     pub value: f64,
     /// Place \[m\].
     pub x: f64,
     /// Place \[m\].
     pub y: f64,
-    /// Depth and layer; at an interface that of the side named.
+    /// Depth and layer; at an interface the layer on the side of the value.
     pub depth: Depth,
     /// The border on which it lies, if any. At the rim of the contact a value depends on the
     /// accuracy of the tractions there; a fatigue criterion should be averaged over a critical
@@ -26,25 +26,25 @@ pub struct Extreme {
 /// Error of a largest value by source, in the unit of the value.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Errors {
-    /// Of the search along x.
+    /// Error of the search along x.
     pub x: f64,
-    /// Of the search along y.
+    /// Error of the search along y.
     pub y: f64,
-    /// Of the search along depth.
+    /// Error of the search along depth.
     pub z: f64,
-    /// Of the tractions: change of the value under the tractions on cells twice as large; 2.4 times
-    /// that within four cells of a border on a layer thinner than these, 0.55 times on another rim
-    /// of a contact. `None` if not computed.
+    /// Error of the tractions: change of the value under the tractions on cells twice as large,
+    /// times a factor. The factor is 2.4 within four cells of a border on a layer thinner than
+    /// these, 0.55 on another rim of a contact, else 1. `None` if not computed.
     pub tractions: Option<f64>,
-    /// Of the solution: the error of the stress by that of its tractions
-    /// ([`Extreme::with_error_bars`]); `None` without error bars.
+    /// Error of the solution: the error of the stress by the error of its tractions
+    /// ([`Extremum::with_error_bars`]). `None` without error bars.
     pub solution: Option<f64>,
 }
 
 impl Errors {
-    /// Of a search along a line, across it and along depth: along the axis that the line is nearer
-    /// to.
-    pub fn along(line: Line, [along, across, z]: [f64; 3]) -> Self {
+    /// Errors of a search along a line, across it and along depth. The line counts as the nearer
+    /// axis.
+    pub fn from_search(line: Line, [along, across, z]: [f64; 3]) -> Self {
         let [cos, sin] = line.direction();
         let (x, y) = if cos.abs() >= sin.abs() {
             (along, across)
@@ -59,23 +59,23 @@ impl Errors {
         }
     }
 
-    /// Their sum: of a number that is no linear function of the stress, such as that of a fatigue
-    /// criterion, in which they may act together.
+    /// The sum of the errors, for a number that is no linear function of the stress. The errors of
+    /// a fatigue criterion may act together.
     pub fn sum(&self) -> f64 {
-        let known = [self.tractions, self.solution].into_iter().flatten();
-        self.x + self.y + self.z + known.sum::<f64>()
+        let optional = [self.tractions, self.solution].into_iter().flatten();
+        self.x + self.y + self.z + optional.sum::<f64>()
     }
 
-    /// All of them together: the root of the sum of their squares, since none causes another.
+    /// The root of the sum of the squares of the errors, since none causes another.
     pub fn total(&self) -> f64 {
-        let known = [self.tractions, self.solution].into_iter().flatten();
-        let parts = [self.x, self.y, self.z].into_iter().chain(known);
+        let optional = [self.tractions, self.solution].into_iter().flatten();
+        let parts = [self.x, self.y, self.z].into_iter().chain(optional);
         parts.map(|part| part * part).sum::<f64>().sqrt()
     }
 }
 
-impl Extreme {
-    /// With the error of the solution, from that of the stress over its size
+impl Extremum {
+    /// Adds the error of the solution, from the relative error of the stress
     /// ([`contact_core::estimate::ErrorBars::stress`]).
     #[must_use]
     pub fn with_error_bars(mut self, stress: f64) -> Self {
@@ -83,14 +83,14 @@ impl Extreme {
         self
     }
 
-    /// With a place on a grid of this size \[m\] that is zero where it is zero to rounding.
+    /// Sets coordinates to zero that are zero to rounding on a grid of this size \[m\].
     #[must_use]
-    pub fn placed(mut self, size: f64) -> Self {
+    pub fn snapped_to_zero(mut self, size: f64) -> Self {
         (self.x, self.y) = (place(self.x, size), place(self.y, size));
         self
     }
 
-    /// The larger of two.
+    /// The larger of the two.
     #[must_use]
     pub fn or_larger(self, other: Self) -> Self {
         if other.value > self.value {
@@ -101,8 +101,8 @@ impl Extreme {
     }
 
     /// The largest of several; `None` if all are NaN.
-    pub fn largest(of: impl IntoIterator<Item = Self>) -> Option<Self> {
-        let numbers = of.into_iter().filter(|e| !e.value.is_nan());
+    pub fn largest(values: impl IntoIterator<Item = Self>) -> Option<Self> {
+        let numbers = values.into_iter().filter(|e| !e.value.is_nan());
         numbers.reduce(Self::or_larger)
     }
 }

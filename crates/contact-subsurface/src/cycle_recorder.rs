@@ -3,22 +3,21 @@
 use contact_core::Error;
 use contact_core::march::{Increment, March, Observer};
 
-use crate::moments::{Moments, OverCycle};
-use crate::{Eigenstresses, Side};
+use crate::moments::{CycleSource, Moments};
+use crate::{EigenstressSolver, Side};
 
 /// Records the states of a body in the increments of some branches of a march.
-pub struct Recorded {
+pub struct CycleRecorder {
     side: Side,
     branches: (usize, usize),
     moments: Moments,
     start: Option<Moments>,
     /// Set up with the first increment.
-    eigenstresses: Option<Eigenstresses>,
+    eigenstresses: Option<EigenstressSolver>,
 }
 
-impl Recorded {
-    /// Of the first to the last of these branches, from 0, such as [`crate::cycles`] gives
-    /// them.
+impl CycleRecorder {
+    /// Recorder for the branches `first..=last`, zero-based ([`crate::cycles`]).
     pub fn new(side: Side, branches: (usize, usize)) -> Self {
         Self {
             side,
@@ -30,7 +29,7 @@ impl Recorded {
     }
 }
 
-impl Observer for Recorded {
+impl Observer for CycleRecorder {
     fn on_increment(&mut self, march: &March, increment: &Increment) -> Result<(), Error> {
         let (first, last) = self.branches;
         let branch = increment.point.branch;
@@ -41,10 +40,10 @@ impl Observer for Recorded {
         let (side, scene) = (self.side, march.scene());
         let eigenstresses = self
             .eigenstresses
-            .get_or_insert_with(|| Eigenstresses::of(scene, side));
+            .get_or_insert_with(|| EigenstressSolver::new(scene, side));
         let yields = side.body(scene).yields();
-        let left = yields.then(|| eigenstresses.at(fields.yielded.as_deref()));
-        let left = left.transpose()?;
+        let eigenstress = yields.then(|| eigenstresses.eigenstress(fields.yielded.as_deref()));
+        let eigenstress = eigenstress.transpose()?;
         let mut before = Moments::default();
         let moments = if branch < first {
             &mut before
@@ -53,7 +52,7 @@ impl Observer for Recorded {
         };
         moments.tractions.push([fields.q_x, fields.q_y, fields.p]);
         moments.stick.push(fields.stick);
-        moments.eigenstress.extend(left);
+        moments.eigenstress.extend(eigenstress);
         moments.sigma_B.push(match self.side {
             Side::Body1 => loads.sigma_B1,
             Side::Body2 => loads.sigma_B,
@@ -65,20 +64,23 @@ impl Observer for Recorded {
     }
 }
 
-impl OverCycle for Recorded {
+impl CycleSource for CycleRecorder {
     fn count(&self) -> usize {
         self.moments.tractions.len()
     }
 
     fn moments(&self, which: &[usize]) -> Result<Moments, Error> {
-        let of = &self.moments;
+        let moments = &self.moments;
         Ok(Moments {
-            tractions: which.iter().map(|n| of.tractions[*n].clone()).collect(),
-            stick: which.iter().map(|n| of.stick[*n].clone()).collect(),
-            sigma_B: which.iter().map(|n| of.sigma_B[*n]).collect(),
+            tractions: which
+                .iter()
+                .map(|n| moments.tractions[*n].clone())
+                .collect(),
+            stick: which.iter().map(|n| moments.stick[*n].clone()).collect(),
+            sigma_B: which.iter().map(|n| moments.sigma_B[*n]).collect(),
             eigenstress: which
                 .iter()
-                .filter_map(|n| of.eigenstress.get(*n).cloned())
+                .filter_map(|n| moments.eigenstress.get(*n).cloned())
                 .collect(),
         })
     }

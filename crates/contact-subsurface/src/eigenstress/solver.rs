@@ -10,18 +10,19 @@ use super::{Eigenstress, Field};
 use crate::Side;
 use crate::plastic_strain::PlasticStrain;
 
-/// Makes the residual stresses of a body from the plastic states of a run.
+/// Computes the residual stresses of a body from the plastic states of a run.
 #[derive(Debug)]
-pub struct Eigenstresses {
+pub struct EigenstressSolver {
     scene: Scene,
     side: Side,
-    /// On the volume grid before and after it has grown, each set up with the first state that needs it.
+    /// Solvers on the volume grid before and after it has grown, each set up with the first state
+    /// that needs it.
     yielding: Mutex<[Option<Yielding>; 2]>,
 }
 
-impl Eigenstresses {
-    /// Of a body of a scene.
-    pub fn of(scene: &Scene, side: Side) -> Self {
+impl EigenstressSolver {
+    /// Sets up a solver for a body of a scene.
+    pub fn new(scene: &Scene, side: Side) -> Self {
         Self {
             scene: scene.clone(),
             side,
@@ -37,12 +38,12 @@ impl Eigenstresses {
         }
     }
 
-    /// Does `work` with the bodies that yield, on the volume grid on which a state was solved; `None` where none
-    /// may yield.
+    /// Calls `work` with the bodies that yield, on the volume grid of a state; returns `None` if
+    /// none may yield.
     ///
     /// # Errors
     /// The state has points beyond both grids.
-    pub fn with<T>(
+    pub fn with_yielding<T>(
         &self,
         yielded: &Yielded,
         work: impl FnOnce(&mut Yielding) -> T,
@@ -63,18 +64,18 @@ impl Eigenstresses {
         Ok(None)
     }
 
-    /// The residual stress of a state; `None` where nothing of the body has yielded.
-    pub fn at(&self, yielded: Option<&Yielded>) -> Result<Option<Eigenstress>, Error> {
+    /// The residual stress of a state; `None` if no point of the body has yielded.
+    pub fn eigenstress(&self, yielded: Option<&Yielded>) -> Result<Option<Eigenstress>, Error> {
         let number = self.number();
         let has_yielded = |yielded: &&Yielded| {
-            let mut own = yielded.bodies.iter().filter(|body| body.body == number);
-            own.any(|body| !body.points.is_empty())
+            let mut states_of_body = yielded.bodies.iter().filter(|body| body.body == number);
+            states_of_body.any(|body| !body.points.is_empty())
         };
         let Some(yielded) = yielded.filter(has_yielded) else {
             return Ok(None);
         };
         let plane_strain = self.scene.grid.plane_strain;
-        let found = self.with(yielded, |yielding| {
+        let computed = self.with_yielding(yielded, |yielding| {
             let stress = yielding.stress_of_changes(yielded, None, number);
             let (Some(stress), Some(mesh)) = (stress, yielding.mesh(number)) else {
                 return None;
@@ -83,14 +84,14 @@ impl Eigenstresses {
             let (n, points) = ([cells.nx, cells.ny], yielding.points(yielded, number));
             Some(Field {
                 n,
-                strain: PlasticStrain::of(&points, n),
+                strain: PlasticStrain::from_points(&points, n),
                 d: [cells.dx, cells.dy],
                 plane_strain,
                 planes: planes.map(|n| (mesh.depth(n), mesh.layer(n))).collect(),
                 stress: stress.into_iter().map(|s| s as f32).collect(),
             })
         })?;
-        Ok(found.flatten().map(|field| Eigenstress {
+        Ok(computed.flatten().map(|field| Eigenstress {
             field: Arc::new(field),
             origin: (0.0, 0.0),
         }))

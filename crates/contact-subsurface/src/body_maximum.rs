@@ -1,18 +1,19 @@
 //! The largest value of a number in a whole body below a contact.
 //!
-//! Samples on a section through the contact, on the section across it, on the surface and on both
-//! sides of every interface give the starting points, and so does the rim of the contact; the
-//! ascent from the highest is free in all three directions. Where the samples of a layer still rise
-//! at their end, its section is made longer, and where the substrate's rise at the deepest of them,
-//! deeper: the tractions are known, so that the field is known beyond the grid.
+//! The ascent starts from samples on a section through the contact, on the section across it, on
+//! the surface and on both sides of every interface, and from the rim of the contact. The ascent
+//! from the highest sample is free in all three directions. If the samples of a layer still rise at
+//! their end, its section is made longer. If the samples of the substrate rise at the deepest of
+//! them, its section is made deeper. This is possible since the tractions are known, so the field
+//! is known beyond the grid.
 
 use ndarray::{Array1, Array2, ArrayView1, ArrayView2, Axis};
 
 use super::climb::Start;
-use super::depth::on_interfaces;
+use super::depth::interface_mask;
 use super::maximum::{top_of_line, top_of_plane};
-use super::search::{Search, hills_of};
-use super::{Border, Depth, Extreme, Line, Measure, Point, Probe, Section, Side, Slices, States};
+use super::search::{Search, select_hills};
+use super::{Border, Depth, Extremum, Line, Measure, Point, Probe, Section, Side, Slices, States};
 use contact_core::Error;
 use contact_core::scene::{Body, Grid};
 use contact_core::zones::Outline;
@@ -21,7 +22,8 @@ use contact_core::zones::Outline;
 /// the distances of successive samples from its end, the first a cell from it.
 const LONGER: f64 = 8.0;
 const RATIO: f64 = 1.8;
-/// Most depths of a layer at which its section is made longer: the ascent finds the others.
+/// Most depths of a layer at which its section is made longer: the ascent finds the maxima between
+/// them.
 const ROWS: usize = 4;
 /// How much deeper the substrate is sampled than the given depths, the ratio of successive depths,
 /// and the part of its highest sample that those at the deepest must reach.
@@ -30,12 +32,12 @@ const DOWN: f64 = 1.2;
 const HIGH: f64 = 0.8;
 /// Samples rise at the end of a line if they do so there above this part of the highest of the
 /// layer.
-const COUNTS: f64 = 0.05;
+const MIN_RISING_PART: f64 = 0.05;
 
 /// A largest value, and the layers whose samples still rise at the end of the longest section.
-pub struct Anywhere {
+pub struct BodyMaximum {
     /// The largest value; `None` if all samples are NaN.
-    pub largest: Option<Extreme>,
+    pub largest: Option<Extremum>,
     /// Layers from the surface down.
     pub still_rises: Vec<usize>,
 }
@@ -45,7 +47,7 @@ pub struct Anywhere {
 pub struct Loads<'a> {
     /// The body.
     pub body: &'a Body,
-    /// Which one it is.
+    /// The body, upper or lower.
     pub side: Side,
     /// The grid of the tractions.
     pub grid: &'a Grid,
@@ -57,27 +59,27 @@ pub struct Loads<'a> {
 const FLAT: f64 = 1e-3;
 
 /// Samples of a layer on a line.
-struct Sampled {
+struct LineSamples {
     line: Line,
     depths: Vec<Depth>,
     /// The depths on an interface.
-    on_one: Vec<bool>,
+    on_interface: Vec<bool>,
     along: Vec<f64>,
     values: Array2<f64>,
 }
 
-/// The largest value of a measure of stress, in one `layer` if given, in the whole body or, where
-/// `free` is false, below `line`.
+/// Finds the largest value of a measure of stress, in one `layer` if given. If `free`, the whole
+/// body is searched, else the section below `line`.
 ///
-/// `samples` are those at the `depths` of the line, of shape (depths, places).
+/// `samples` are the values at the `depths` of the line, of shape (depths, places).
 #[expect(clippy::too_many_lines, reason = "the search, step by step")]
-pub fn largest_anywhere(
+pub fn find_body_maximum(
     loads: Loads<'_>,
     measure: &Measure,
     (line, free): (Line, bool),
     (depths, samples): (&[Depth], &ArrayView2<'_, f64>),
     layer: Option<usize>,
-) -> Result<Anywhere, Error> {
+) -> Result<BodyMaximum, Error> {
     let Loads {
         body,
         side,
@@ -90,15 +92,15 @@ pub fn largest_anywhere(
     layers.dedup();
     layers.retain(|n| layer.is_none_or(|layer| layer == *n));
     let mut sampled = Vec::new();
-    let both = on_interfaces(depths);
+    let interface_mask = interface_mask(depths);
     for n in &layers {
         let rows: Vec<usize> = (0..depths.len())
             .filter(|k| depths[*k].layer == *n)
             .collect();
-        sampled.push(Sampled {
+        sampled.push(LineSamples {
             line,
             depths: rows.iter().map(|k| depths[*k]).collect(),
-            on_one: rows.iter().map(|k| both[*k]).collect(),
+            on_interface: rows.iter().map(|k| interface_mask[*k]).collect(),
             along: line.places(grid),
             values: samples.select(Axis(0), &rows),
         });
@@ -108,18 +110,18 @@ pub fn largest_anywhere(
         let outline = Outline::new(grid, &own);
         // Without tractions, as of a residual stress, the section across passes the highest sample.
         let middle = outline.map_or_else(
-            || line.at(highest_place(line, grid, samples)),
-            |outline| line.at(line.along(outline.centre.0, outline.centre.1)),
+            || line.place(highest_place(line, grid, samples)),
+            |outline| line.place(line.nearest_distance(outline.centre.0, outline.centre.1)),
         );
         let across = Line::through(middle, line.azimuth() + RIGHT_ANGLE);
         let section = Section::new(body, side, grid, across, states.clone())?;
         for n in 0..layers.len() {
-            let of = sampled[n].depths.clone();
-            let values = values_of(&section, measure, &of)?;
-            sampled.push(Sampled {
+            let layer_depths = sampled[n].depths.clone();
+            let values = sample_section(&section, measure, &layer_depths)?;
+            sampled.push(LineSamples {
                 line: across,
-                depths: of,
-                on_one: sampled[n].on_one.clone(),
+                depths: layer_depths,
+                on_interface: sampled[n].on_interface.clone(),
                 along: across.places(grid),
                 values,
             });
@@ -132,21 +134,21 @@ pub fn largest_anywhere(
     };
     let mut still_rises = Vec::new();
     let mut reached = depths.to_vec();
-    for one in &mut sampled {
-        let longer = one.made_longer(&search, grid, measure)?;
-        let substrate = one.depths[0].layer == body.coatings.len();
-        let deeper = substrate && one.made_deeper(&search, measure)?;
+    for sampled_line in &mut sampled {
+        let longer = sampled_line.extend_along(&search, grid, measure)?;
+        let substrate = sampled_line.depths[0].layer == body.coatings.len();
+        let deeper = substrate && sampled_line.extend_down(&search, measure)?;
         if longer || deeper {
-            still_rises.push(one.depths[0].layer);
+            still_rises.push(sampled_line.depths[0].layer);
         }
         let deepest = reached.last().map_or(0.0, |depth| depth.z);
-        reached.extend(one.depths.iter().filter(|depth| depth.z > deepest));
+        reached.extend(sampled_line.depths.iter().filter(|depth| depth.z > deepest));
     }
     still_rises.sort_unstable();
     still_rises.dedup();
     let mut starts: Vec<Start> = Vec::new();
-    for one in &sampled {
-        starts.extend(one.starts(&search, &probe, layer, free));
+    for sampled_line in &sampled {
+        starts.extend(sampled_line.starts(&search, &probe, layer, free));
     }
     let mut surface = None;
     if free {
@@ -155,18 +157,18 @@ pub fn largest_anywhere(
             Line::AlongX(0.0).places(grid),
             Line::AlongY(0.0).places(grid),
         );
-        for (depth, on_one) in depths.iter().zip(both) {
-            let asked = layer.is_none_or(|layer| layer == depth.layer);
-            if !asked || !(on_one || depth.z <= 0.0) || (measure.of_interfaces && !on_one) {
+        for (depth, on_one) in depths.iter().zip(interface_mask) {
+            let is_searched = layer.is_none_or(|layer| layer == depth.layer);
+            if !is_searched || !(on_one || depth.z <= 0.0) || (measure.on_interfaces && !on_one) {
                 continue;
             }
             let planes = slices.stress(*depth)?.swap_remove(0);
             let plane = Array2::from_shape_fn((grid.nx, grid.ny), |cell| {
-                (measure.value)(&planes.each_ref().map(|of| of[cell]))
+                (measure.value)(&planes.each_ref().map(|layer_depths| layer_depths[cell]))
             });
             starts.extend(top_of_plane(&plane, &x, &y).map(|top| {
                 // Off its interface a measure of interfaces has no meaning.
-                let step = if measure.of_interfaces {
+                let step = if measure.on_interfaces {
                     0.0
                 } else {
                     depth_step(depths, *depth)
@@ -181,8 +183,8 @@ pub fn largest_anywhere(
     let near = |border: &Border| {
         if let Some(plane) = &surface {
             let cell = |v: f64, n: usize, d: f64| {
-                let place = (v / d + (n - 1) as f64 / 2.0).round();
-                place.clamp(0.0, (n - 1) as f64) as usize
+                let index = (v / d + (n - 1) as f64 / 2.0).round();
+                index.clamp(0.0, (n - 1) as f64) as usize
             };
             return plane[(
                 cell(border.x, grid.nx, grid.dx),
@@ -190,26 +192,29 @@ pub fn largest_anywhere(
             )];
         }
         let along = line.places(grid);
-        let s = line.along(border.x, border.y);
+        let s = line.nearest_distance(border.x, border.y);
         let nearest =
             (0..along.len()).min_by(|&a, &b| (along[a] - s).abs().total_cmp(&(along[b] - s).abs()));
         nearest.map_or(f64::NAN, |n| samples[(0, n)])
     };
-    let mut largest = search.climbed(&probe, starts, &reached, layer, &near)?;
+    let mut largest = search.ascend(&probe, starts, &reached, layer, &near)?;
     if free {
         // A narrow ridge along the section is followed on it to its top.
         let search = Search::new(body, side, grid, Some(line), states)?;
         let mut starts: Vec<Start> = Vec::new();
-        for one in sampled.iter().filter(|one| one.line == line) {
-            starts.extend(one.starts(&search, &probe, layer, false));
+        for sampled_line in sampled
+            .iter()
+            .filter(|sampled_line| sampled_line.line == line)
+        {
+            starts.extend(sampled_line.starts(&search, &probe, layer, false));
         }
-        let on_line = search.climbed(&probe, starts, &reached, layer, &near)?;
+        let on_line = search.ascend(&probe, starts, &reached, layer, &near)?;
         largest = match (largest, on_line) {
             (Some(free), Some(on_line)) if on_line.value > free.value => Some(on_line),
             (free, on_line) => free.or(on_line),
         };
     }
-    Ok(Anywhere {
+    Ok(BodyMaximum {
         largest,
         still_rises,
     })
@@ -234,13 +239,17 @@ fn depth_step(depths: &[Depth], at: Depth) -> f64 {
     if nearest.is_finite() { nearest } else { 0.0 }
 }
 
-fn values_of(section: &Section, measure: &Measure, depths: &[Depth]) -> Result<Array2<f64>, Error> {
+fn sample_section(
+    section: &Section,
+    measure: &Measure,
+    depths: &[Depth],
+) -> Result<Array2<f64>, Error> {
     let stress = section.stress(depths)?.swap_remove(0);
     Ok(measure.on_lines(&stress))
 }
 
-impl Sampled {
-    /// Where the ascent starts on the hills of the samples.
+impl LineSamples {
+    /// Starting points of the ascent on the hills of the samples.
     fn starts(
         &self,
         search: &Search,
@@ -250,19 +259,19 @@ impl Sampled {
     ) -> Vec<Start> {
         let rows = self.values.rows().into_iter();
         let tops: Vec<_> = rows.map(|row| top_of_line(&row, &self.along)).collect();
-        let hills = hills_of(probe, &tops, (&self.depths, &self.on_one), layer);
-        let of_hill = |hill| search.starts(self.line, hill, &self.along, free);
-        hills.iter().flat_map(of_hill).collect()
+        let hills = select_hills(probe, &tops, (&self.depths, &self.on_interface), layer);
+        let starts_on_hill = |hill| search.starts(self.line, hill, &self.along, free);
+        hills.iter().flat_map(starts_on_hill).collect()
     }
 
-    /// Adds deeper and deeper samples while the highest stand at the deepest of them and rise by
-    /// more than [`FLAT`]; whether they still do.
-    fn made_deeper(&mut self, search: &Search, measure: &Measure) -> Result<bool, Error> {
-        let (Some(last), false) = (self.depths.last().copied(), measure.of_interfaces) else {
+    /// Adds deeper and deeper samples while the largest are at the deepest depth and rise by more
+    /// than [`FLAT`]. Returns true if they still rise at the limit.
+    fn extend_down(&mut self, search: &Search, measure: &Measure) -> Result<bool, Error> {
+        let (Some(last), false) = (self.depths.last().copied(), measure.on_interfaces) else {
             return Ok(false);
         };
         let limit = DEEPER * last.z;
-        let top_of = |values: &ArrayView1<'_, f64>| {
+        let largest_of = |values: &ArrayView1<'_, f64>| {
             let numbers = values.iter().filter(|v| !v.is_nan());
             numbers.copied().fold(0.0, f64::max)
         };
@@ -272,7 +281,7 @@ impl Sampled {
                 .values
                 .rows()
                 .into_iter()
-                .map(|row| top_of(&row))
+                .map(|row| largest_of(&row))
                 .collect();
             let [.., before, deepest] = tops[..] else {
                 return Ok(false);
@@ -296,12 +305,12 @@ impl Sampled {
                 .push_row(row.view())
                 .expect("a value for each place");
             self.depths.push(depth);
-            self.on_one.push(false);
+            self.on_interface.push(false);
         }
     }
 
     /// The depths at which the samples rise towards an end of the line, [`ROWS`] of them at most.
-    fn rising(&self) -> Vec<usize> {
+    fn rising_depths(&self) -> Vec<usize> {
         let numbers = self.values.iter().filter(|v| !v.is_nan());
         let top = numbers.copied().fold(0.0, f64::max);
         let rises = |row: &usize| {
@@ -311,23 +320,23 @@ impl Sampled {
             n > 2
                 && ends
                     .into_iter()
-                    .any(|(end, next)| row[end] > COUNTS * top && row[end] > row[next])
+                    .any(|(end, next)| row[end] > MIN_RISING_PART * top && row[end] > row[next])
         };
         let rows: Vec<usize> = (0..self.depths.len()).filter(rises).collect();
-        let most = ROWS.min(rows.len());
-        let even = |n: usize| rows[n * (rows.len() - 1) / (most - 1).max(1)];
-        (0..most).map(even).collect()
+        let count = ROWS.min(rows.len());
+        let evenly_spaced = |n: usize| rows[n * (rows.len() - 1) / (count - 1).max(1)];
+        (0..count).map(evenly_spaced).collect()
     }
 
-    /// Samples the depths at which they rise towards an end beyond it, ever farther apart; whether
-    /// some still rise there.
-    fn made_longer(
+    /// Extends the line beyond its ends at the depths at which the samples rise, with growing
+    /// steps. Returns true if some still rise at the new ends.
+    fn extend_along(
         &mut self,
         search: &Search,
         grid: &Grid,
         measure: &Measure,
     ) -> Result<bool, Error> {
-        let rising = self.rising();
+        let rising = self.rising_depths();
         let (Some(first), Some(last)) = (self.along.first(), self.along.last()) else {
             return Ok(false);
         };
@@ -336,16 +345,16 @@ impl Sampled {
         }
         let step = self.line.step(grid);
         let count = ((LONGER * (last - first) / step).ln() / RATIO.ln()).ceil() as i32;
-        let away: Vec<f64> = (0..=count).map(|k| step * RATIO.powi(k)).collect();
-        let before: Vec<f64> = away.iter().rev().map(|by| first - by).collect();
-        let after: Vec<f64> = away.iter().map(|by| last + by).collect();
+        let distances: Vec<f64> = (0..=count).map(|k| step * RATIO.powi(k)).collect();
+        let before: Vec<f64> = distances.iter().rev().map(|by| first - by).collect();
+        let after: Vec<f64> = distances.iter().map(|by| last + by).collect();
         let along = [before, std::mem::take(&mut self.along), after].concat();
-        let own = away.len()..along.len() - away.len();
+        let original = distances.len()..along.len() - distances.len();
         let mut values = Array2::from_elem((self.depths.len(), along.len()), f64::NAN);
         for ((row, n), value) in self.values.indexed_iter() {
-            values[(row, n + own.start)] = *value;
+            values[(row, n + original.start)] = *value;
         }
-        let places: Vec<usize> = (0..along.len()).filter(|n| !own.contains(n)).collect();
+        let places: Vec<usize> = (0..along.len()).filter(|n| !original.contains(n)).collect();
         let cells: Vec<(usize, usize)> = rising
             .iter()
             .flat_map(|row| places.iter().map(|n| (*row, *n)))
@@ -362,8 +371,8 @@ impl Sampled {
         Ok(self.is_largest_at_an_end())
     }
 
-    /// Whether the largest sample stands at an end of the line, and its neighbour is smaller by more
-    /// than [`FLAT`] of it: the stress far from a contact under bulk stress is even.
+    /// Checks that the largest sample is at an end of the line and its neighbour is smaller by more
+    /// than [`FLAT`] of it. The stress far from a contact under bulk stress is even.
     fn is_largest_at_an_end(&self) -> bool {
         let numbers = self.values.iter().filter(|v| !v.is_nan());
         let top = numbers.copied().fold(0.0, f64::max);
