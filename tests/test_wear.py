@@ -47,9 +47,17 @@ def worn(law: object, **options: object) -> fret.wear.WearResult:
 
 def test_a_law_of_ones_own_that_says_the_same_wears_the_same() -> None:
     built_in = worn(fret.wear.Archard(2e-14))
-    own_values = worn(lambda pressed_way, way, dissipated, worn, cycles: 2e-14 * pressed_way)
+    own_values = worn(
+        lambda pressure_times_slip, slip_distance, dissipated, worn, cycles: (
+            2e-14 * pressure_times_slip
+        )
+    )
     assert np.allclose(built_in.worn2, own_values.worn2, rtol=1e-9, atol=0)
-    energy = worn(lambda pressed_way, way, dissipated, worn, cycles: 2e-14 / 0.9 * dissipated)
+    energy = worn(
+        lambda pressure_times_slip, slip_distance, dissipated, worn, cycles: (
+            2e-14 / 0.9 * dissipated
+        )
+    )
     assert np.allclose(built_in.worn2, energy.worn2, rtol=1e-9, atol=0)
 
 
@@ -80,7 +88,7 @@ def test_bad_input_is_refused_by_name() -> None:
     with pytest.raises(fret.errors.ArgumentError, match=r"wear\.law"):
         worn(lambda *_: np.zeros(3))
     with pytest.raises(fret.errors.ArgumentError, match="nothing grows"):
-        worn(lambda pressed_way, *_: -pressed_way)
+        worn(lambda pressure_times_slip, *_: -pressure_times_slip)
     with pytest.raises(fret.errors.ArgumentError, match=r"wear\.tolerance = 3"):
         worn(fret.wear.Archard(1e-14), tolerance=3.0)
 
@@ -207,13 +215,15 @@ def test_what_is_left_open_is_chosen() -> None:
 
 
 def test_a_function_is_given_again_to_go_on(tmp_path: Path) -> None:
-    def law(pressed_way: Any, *_: Any) -> Any:
-        return 2e-14 * pressed_way
+    def law(pressure_times_slip: Any, *_: Any) -> Any:
+        return 2e-14 * pressure_times_slip
 
-    def fails(pressed_way: Any, way: Any, dissipated: Any, worn: Any, cycles: float) -> Any:
+    def fails(
+        pressure_times_slip: Any, slip_distance: Any, dissipated: Any, worn: Any, cycles: float
+    ) -> Any:
         if cycles > 500:
             raise RuntimeError("the laboratory is closed")
-        return law(pressed_way)
+        return law(pressure_times_slip)
 
     store = tmp_path / "wear.zarr"
     with pytest.raises(fret.errors.ArgumentError, match="the laboratory is closed"):

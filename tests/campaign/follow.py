@@ -46,10 +46,12 @@ def cracked(result: fret.Result, rng: random.Random) -> Any:
     return [computed.dataset.K_I.values, computed.dataset.K_II.values]
 
 
-def own_wear(pressed_way: Any, way: Any, dissipated: Any, worn: Any, cycles: Any) -> Any:
+def own_wear(
+    pressure_times_slip: Any, slip_distance: Any, dissipated: Any, worn: Any, cycles: Any
+) -> Any:
     """A law that falls with the depth and ends."""
-    del way, dissipated, cycles
-    return 1e-15 * pressed_way * np.clip(1.0 - worn / 1e-7, 0.0, 1.0)
+    del slip_distance, dissipated, cycles
+    return 1e-15 * pressure_times_slip * np.clip(1.0 - worn / 1e-7, 0.0, 1.0)
 
 
 def worn(scene: fret.Scene, rng: random.Random) -> Any:

@@ -50,7 +50,11 @@ CALLS: list[Call] = [
     ("dang_van_path", fatigue.dang_van_path, {"0": HISTORY[:, 0]}),
     ("rainflow", fatigue.rainflow, {"0": HISTORY[:, 0, 0]}),
     ("rainflow of a list", fatigue.rainflow, {"0": [0.0, 1.0, 0.0]}),
-    ("wear.solve", worn, {"cycles": 10.0, "k": 1e-14, "threshold": 0.0, "tell_from": 0.1}),
+    (
+        "wear.solve",
+        worn,
+        {"cycles": 10.0, "k": 1e-14, "threshold": 0.0, "event_depth_fraction": 0.1},
+    ),
     ("wear.solve, counts", worn, {"jumps": 2, "first_branch": 2}),
     ("study.run", studied, {"0": [0.2]}),
     ("Snapshot.stress", lambda z, **k: RESULT.at(-1).stress(z, **k), {"0": [1e-5], "y": 0.0}),

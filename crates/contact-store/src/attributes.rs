@@ -34,12 +34,12 @@ pub fn group_attributes(scene: &Scene, plan: &Plan) -> Map<String, Value> {
     attributes
 }
 
-/// Attributes that the end of a run sets, [`conclude`] and its error bars: a process may die when one
-/// of the two documents that hold them is written.
-pub(super) const CONCLUDED: [&str; 4] = ["status", "path_error", DOUBTS, "error_bars"];
+/// Attributes that the end of a run sets, [`conclude`] and its error bars. A process may die when
+/// one of the two documents that hold them is written.
+pub(super) const END_ATTRIBUTES: [&str; 4] = ["status", "path_error", DOUBTS, "error_bars"];
 
-/// Adds what is known at the end of a run: how it ended, the errors of its shear, what is to be
-/// doubted of it.
+/// Adds the results of the end of a run: its status, the errors of its shear, and the doubts about
+/// it.
 pub(super) fn conclude(
     attributes: &mut Map<String, Value>,
     scene: &Scene,

@@ -9,8 +9,8 @@
 //! ```
 //!
 //! A state is written beside the older of the two, brought to the disk and renamed: whenever the
-//! process dies, one whole state is left. Both files end in a CRC-32 of what stands before it; the
-//! increments are checked against the one in the state. The encoding is that of `postcard`.
+//! process dies, one whole state is left. Both files end in a CRC-32 of their preceding bytes. The
+//! increments are checked against the CRC-32 in the state. The encoding is `postcard`.
 
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, BufWriter, Write};
@@ -22,7 +22,7 @@ use serde::{Deserialize, Serialize};
 
 use super::folder::Folder;
 
-/// The first bytes of a state; the number is that of the layout.
+/// The first bytes of a state; the number is the version of the layout.
 const MAGIC: &[u8] = b"fret checkpoint 6\n";
 pub(super) const FOLDER: &str = "checkpoint";
 /// Names in that folder.
@@ -55,7 +55,7 @@ pub(super) struct Checkpoints {
     crc: crc32fast::Hasher,
     /// Increments that are not in the file yet.
     pending: Vec<u8>,
-    /// Which of the two states is to be replaced next.
+    /// Index of the state that is replaced next.
     older: usize,
 }
 
@@ -68,14 +68,14 @@ pub(super) struct Found {
 }
 
 impl Checkpoints {
-    /// For a new run of a scene.
+    /// Starts the checkpoints of a new run of a scene.
     pub(super) fn begin(folder: &Arc<Folder>, scene: &str) -> Result<Self, Error> {
         let failed = |e: io::Error| folder.error(&format!("{INCREMENTS}: {e}"));
         fs::create_dir_all(folder.root().join(FOLDER)).map_err(failed)?;
         Self::open(folder, scene, true)
     }
 
-    /// With the file of increments, which is made if it is to be a `new` one.
+    /// Opens the file of increments, and creates it if `new`.
     fn open(folder: &Arc<Folder>, scene: &str, new: bool) -> Result<Self, Error> {
         let failed = |e: io::Error| folder.error(&format!("{INCREMENTS}: {e}"));
         let increments = OpenOptions::new()
@@ -97,13 +97,13 @@ impl Checkpoints {
         })
     }
 
-    /// After the store was moved to its place.
+    /// Follows the store to its final place.
     pub(super) fn moved_to(self, folder: &Arc<Folder>) -> Self {
         let folder = folder.clone();
         Self { folder, ..self }
     }
 
-    /// The newest checkpoint of a run of the scene that is whole.
+    /// Finds the newest whole checkpoint of a run of the scene.
     pub(super) fn find(folder: &Arc<Folder>, scene: &str) -> Result<Found, Error> {
         let mut checkpoints = Self::open(folder, scene, false)?;
         let log = checkpoints.read(INCREMENTS)?.unwrap_or_default();
@@ -122,7 +122,7 @@ impl Checkpoints {
             if !damaged.is_empty() {
                 return Err(folder.error(&damaged.join("; ")));
             }
-            checkpoints.cut(0)?;
+            checkpoints.truncate(0)?;
             return Ok(Found {
                 checkpoints,
                 state: None,
@@ -131,7 +131,7 @@ impl Checkpoints {
         };
         checkpoints.older = 1 - which;
         checkpoints.crc.update(&log[..head.length as usize]);
-        checkpoints.cut(head.length)?;
+        checkpoints.truncate(head.length)?;
         Ok(Found {
             checkpoints,
             state: Some(state),
@@ -139,7 +139,7 @@ impl Checkpoints {
         })
     }
 
-    /// Adds an increment to those of the next checkpoint.
+    /// Adds an increment to the next checkpoint.
     pub(super) fn push(&mut self, increment: &Increment) -> Result<(), Error> {
         let pending = std::mem::take(&mut self.pending);
         self.pending = postcard::to_extend(increment, pending)
@@ -182,22 +182,22 @@ impl Checkpoints {
             .map_err(|e| folder.error(&format!("{FOLDER}: {e}")))
     }
 
-    /// Removes the checkpoints of a store that is done, which a process that died at its very end
-    /// has left, where that is allowed.
+    /// Removes the checkpoints of a finished store, if that is allowed. A process that died at its
+    /// very end may have left them.
     pub(super) fn clear(folder: &Folder) {
         if !Self::in_use(folder) {
             let _ = fs::remove_dir_all(folder.root().join(FOLDER));
         }
     }
 
-    /// Whether a process is writing the store.
+    /// Checks that a process is writing the store.
     pub(super) fn in_use(folder: &Folder) -> bool {
         File::open(folder.root().join(INCREMENTS))
             .is_ok_and(|file| matches!(file.try_lock(), Err(TryLockError::WouldBlock)))
     }
 
-    /// Cuts the file `increments` to the increments of the state.
-    fn cut(&mut self, length: u64) -> Result<(), Error> {
+    /// Truncates the file `increments` to the increments of the state.
+    fn truncate(&mut self, length: u64) -> Result<(), Error> {
         self.length = length;
         self.increments
             .set_len(length)
@@ -213,8 +213,8 @@ impl Checkpoints {
 
 /// Magic, head, state, CRC-32.
 fn encode(head: &Head, state: &State, file: &File) -> io::Result<()> {
-    let mut to = Summed {
-        to: BufWriter::new(file),
+    let mut to = ChecksumWriter {
+        output: BufWriter::new(file),
         crc: crc32fast::Hasher::new(),
         failure: None,
     };
@@ -224,15 +224,15 @@ fn encode(head: &Head, state: &State, file: &File) -> io::Result<()> {
         return Err(to.failure.unwrap_or_else(|| io::Error::other(error)));
     }
     let crc = to.crc.finalize();
-    to.to.write_all(&crc.to_le_bytes())?;
-    to.to.flush()
+    to.output.write_all(&crc.to_le_bytes())?;
+    to.output.flush()
 }
 
-/// What is wrong with a checkpoint of before, and what to do.
+/// Reason and remedy for a checkpoint of another layout.
 pub(super) const OTHER_LAYOUT: &str = "is of another layout than this version writes: what has been \
     solved can be read, but to go on, run the scene anew";
 
-/// The state and the increments that belong to it, or what is wrong with them.
+/// Returns the state and its increments, or the reason why they are not valid.
 fn decode(bytes: &[u8], scene: u32, log: &[u8]) -> Result<(Head, State, Vec<Increment>), String> {
     let damaged = || "is damaged".to_owned();
     let (content, crc) = bytes.split_last_chunk::<CRC>().ok_or_else(damaged)?;
@@ -251,7 +251,8 @@ fn decode(bytes: &[u8], scene: u32, log: &[u8]) -> Result<(Head, State, Vec<Incr
     if head.scene != scene {
         return Err("belongs to another scene".into());
     }
-    let (state, rest): (State, _) = postcard::take_from_bytes(content).map_err(|_| damaged())?;
+    let (state, remainder): (State, _) =
+        postcard::take_from_bytes(content).map_err(|_| damaged())?;
     let log = usize::try_from(head.length).ok().and_then(|n| log.get(..n));
     let log = log.filter(|log| crc32fast::hash(log) == head.crc);
     let mut log = log.ok_or_else(|| format!("does not fit {INCREMENTS}, which is damaged"))?;
@@ -262,22 +263,22 @@ fn decode(bytes: &[u8], scene: u32, log: &[u8]) -> Result<(Head, State, Vec<Incr
         increments.push(increment);
     }
     let in_order = increments.iter().map(|i| i.index).eq(1..=state.increments);
-    if !rest.is_empty() || !in_order {
+    if !remainder.is_empty() || !in_order {
         return Err(damaged());
     }
     Ok((head, state, increments))
 }
 
 /// Writes, updates the checksum of the written bytes, and keeps the error of the system.
-struct Summed<W> {
-    to: W,
+struct ChecksumWriter<W> {
+    output: W,
     crc: crc32fast::Hasher,
     failure: Option<io::Error>,
 }
 
-impl<W: Write> Write for Summed<W> {
+impl<W: Write> Write for ChecksumWriter<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        match self.to.write(bytes) {
+        match self.output.write(bytes) {
             Ok(written) => {
                 self.crc.update(&bytes[..written]);
                 Ok(written)
@@ -291,6 +292,6 @@ impl<W: Write> Write for Summed<W> {
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        self.to.flush()
+        self.output.flush()
     }
 }

@@ -14,7 +14,7 @@ pub(super) const SCALAR_CHUNK: usize = 1024;
 /// Points in a chunk of a column over points.
 pub(super) const POINT_CHUNK: usize = 1 << 15;
 
-/// A variable of one dimension whose values come one by one.
+/// A variable of one dimension with a growing number of values.
 pub(super) struct Column {
     variable: Variable,
     /// Values in a chunk.
@@ -60,7 +60,7 @@ impl Column {
         self
     }
 
-    /// Stores what came since the last flush; the metadata is left to the caller.
+    /// Stores the values since the last flush; the caller writes the metadata.
     pub(super) fn flush(&mut self, folder: &Arc<Folder>) -> Result<(), Error> {
         self.variable.set_length(self.length);
         let chunk = self.chunk;
@@ -74,7 +74,7 @@ impl Column {
         Ok(())
     }
 
-    /// The values, of a column that is not flushed.
+    /// The values of a column that is not flushed.
     pub(super) fn values(&self) -> &[f64] {
         &self.tail
     }
@@ -83,8 +83,8 @@ impl Column {
         &self.variable
     }
 
-    /// The checksums of a column of these values, of chunks of so many.
-    pub(super) fn checksums_of(kind: Kind, values: &[f64], chunk: usize) -> Vec<u32> {
+    /// The checksums of a column with these values, for chunks of `chunk` values.
+    pub(super) fn checksums_of_chunks(kind: Kind, values: &[f64], chunk: usize) -> Vec<u32> {
         let chunks = values.chunks(chunk);
         chunks.map(|chunk| kind.checksum(chunk)).collect()
     }

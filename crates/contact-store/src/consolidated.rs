@@ -1,16 +1,16 @@
 //! The consolidated metadata of a store, `.zmetadata`: replacing it makes all new files valid at
 //! once.
 //!
-//! Beside the metadata documents of Zarr, which every Zarr library reads, it holds what tells a
-//! whole store from a damaged one:
+//! Beside the metadata documents of Zarr, which every Zarr library reads, it holds checksums, which
+//! separate a whole store from a damaged one:
 //!
 //! ```text
 //! checksums   per array the CRC-32 of the values of each chunk, in their order, little endian
 //! crc32       the CRC-32 of the file up to there
 //! ```
 //!
-//! Values are summed up, not files, and of the last chunk of a column those that count: a column
-//! that grows while it is read, or after a kill, stays the one that the metadata speak of.
+//! The checksums cover values, not files. In the last chunk of a column they cover the values that
+//! count. So a column that grows while it is read, or after a kill, still matches its metadata.
 
 use std::collections::BTreeMap;
 
@@ -18,7 +18,7 @@ use serde_json::{Map, Value, json};
 
 /// Name of the file.
 pub(super) const FILE: &str = ".zmetadata";
-/// How the file ends, the checksum in the middle.
+/// End of the file, with the checksum in the middle.
 const TAIL: (&str, &str) = (",\n  \"crc32\": \"", "\"\n}");
 /// Letters of a checksum.
 const LETTERS: usize = 8;
@@ -46,12 +46,12 @@ impl Consolidated {
             .iter()
             .map(|(name, sums)| (name.clone(), words(sums)))
             .collect();
-        let all = json!({
+        let contents = json!({
             "zarr_consolidated_format": 1,
             "metadata": self.documents,
             "checksums": checksums,
         });
-        let mut text = format!("{all:#}");
+        let mut text = format!("{contents:#}");
         // The bracket that closes the object comes after the checksum.
         text.truncate(text.len() - "\n}".len());
         let crc = crc32fast::hash(text.as_bytes());
@@ -90,16 +90,16 @@ impl Consolidated {
     }
 }
 
-/// Whether the bytes end in the checksum of what stands before it.
+/// Checks that the bytes end in the checksum of the preceding ones.
 fn is_whole(bytes: &[u8]) -> bool {
     let (before, after) = (TAIL.0.as_bytes(), TAIL.1.as_bytes());
-    let Some(rest) = bytes.strip_suffix(after) else {
+    let Some(content) = bytes.strip_suffix(after) else {
         return false;
     };
-    let Some((rest, crc)) = rest.split_last_chunk::<LETTERS>() else {
+    let Some((content, crc)) = content.split_last_chunk::<LETTERS>() else {
         return false;
     };
-    let Some(content) = rest.strip_suffix(before) else {
+    let Some(content) = content.strip_suffix(before) else {
         return false;
     };
     format!("{:08x}", crc32fast::hash(content)).as_bytes() == crc

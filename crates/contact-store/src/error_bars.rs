@@ -16,29 +16,29 @@ use super::schema::DOUBTS;
 /// Adds the error bars of its branches to a store whose run is done.
 pub fn write_error_bars(path: impl AsRef<Path>, bars: &[ErrorBars]) -> Result<(), Error> {
     let grid = Store::open(path.as_ref())?.scene().grid;
-    change(path.as_ref(), |attributes| {
-        attributes["error_bars"] = told(bars, &grid);
+    change_attributes(path.as_ref(), |attributes| {
+        attributes["error_bars"] = to_attributes(bars, &grid);
     })
 }
 
-/// The error bars of a run on a grid, by the names of its variables.
-pub(super) fn told(bars: &[ErrorBars], grid: &Grid) -> Value {
-    let mut told = json!(bars);
+/// Converts the error bars of a run on a grid to attributes, by the names of its variables.
+pub(super) fn to_attributes(bars: &[ErrorBars], grid: &Grid) -> Value {
+    let mut attributes = json!(bars);
     if grid.plane_strain {
-        for bar in told.as_array_mut().into_iter().flatten() {
+        for bar in attributes.as_array_mut().into_iter().flatten() {
             let half = bar
                 .as_object_mut()
                 .and_then(|bar| bar.remove("contact_radius"));
             bar[HALF_WIDTH.0] = half.into();
         }
     }
-    told
+    attributes
 }
 
-/// Says in a store whose run is done why it has no error bars, and returns that.
+/// Writes into a finished store why it has no error bars, and returns that sentence.
 pub fn write_no_error_bars(path: impl AsRef<Path>, why: &Error) -> Result<String, Error> {
     let mut doubt = String::new();
-    change(path.as_ref(), |attributes| {
+    change_attributes(path.as_ref(), |attributes| {
         if let Some(attributes) = attributes.as_object_mut() {
             doubt = doubt_bars(attributes, why);
         }
@@ -46,17 +46,19 @@ pub fn write_no_error_bars(path: impl AsRef<Path>, why: &Error) -> Result<String
     Ok(doubt)
 }
 
-/// Puts among the doubts why there are no error bars, and returns that.
+/// Adds to the doubts why there are no error bars, and returns that sentence.
 pub(super) fn doubt_bars(attributes: &mut Map<String, Value>, why: &Error) -> String {
-    let doubt = format!("no error bars: another grid or path that tells the errors failed: {why}");
-    let others = attributes.get(DOUBTS).and_then(Value::as_str);
-    let all = others.map_or(doubt.clone(), |others| format!("{others}\n{doubt}"));
-    attributes.insert(DOUBTS.into(), json!(all));
+    let doubt = format!(
+        "no error bars: the run on another grid or path, which estimates the errors, failed: {why}"
+    );
+    let earlier = attributes.get(DOUBTS).and_then(Value::as_str);
+    let doubts = earlier.map_or(doubt.clone(), |earlier| format!("{earlier}\n{doubt}"));
+    attributes.insert(DOUBTS.into(), json!(doubts));
     doubt
 }
 
 /// Changes the attributes of a store whose run is done.
-fn change(path: &Path, change: impl FnOnce(&mut Value)) -> Result<(), Error> {
+fn change_attributes(path: &Path, change: impl FnOnce(&mut Value)) -> Result<(), Error> {
     let store = Store::open(path)?;
     let folder = Folder::new(path);
     let mut metadata = store.consolidated().clone();

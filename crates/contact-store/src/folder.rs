@@ -13,9 +13,9 @@ use zarrs::storage::{
     StorageError, StoreKey, StorePrefix, WritableStorageTraits, store_set_partial_many,
 };
 
-/// Where a file or a folder is before or after it is in its place: beside it, under a name that no
+/// Path beside a file or a folder, used before or after it is in its place. The name is one that no
 /// Zarr library looks at.
-pub(super) fn beside(path: &Path, why: &str) -> PathBuf {
+pub(super) fn hidden_sibling(path: &Path, why: &str) -> PathBuf {
     let mut name = OsString::from(".");
     name.push(path.file_name().unwrap_or_default());
     name.push(".");
@@ -24,7 +24,7 @@ pub(super) fn beside(path: &Path, why: &str) -> PathBuf {
 }
 
 fn unfinished(path: &Path) -> PathBuf {
-    beside(path, "unfinished")
+    hidden_sibling(path, "unfinished")
 }
 
 /// The folder of a store.
@@ -37,11 +37,11 @@ pub(super) struct Folder {
 
 impl Folder {
     pub(super) fn new(root: &Path) -> Arc<Self> {
-        Self::on_its_way(root, root.to_owned())
+        Self::with_final_place(root, root.to_owned())
     }
 
-    /// A folder that is at `root` and will be at `place`.
-    pub(super) fn on_its_way(place: &Path, root: PathBuf) -> Arc<Self> {
+    /// A folder that is at `root` and will be moved to `place`.
+    pub(super) fn with_final_place(place: &Path, root: PathBuf) -> Arc<Self> {
         Arc::new(Self {
             root,
             name: place.to_owned(),
@@ -58,21 +58,21 @@ impl Folder {
         let path = self.root.join(key);
         let unfinished = unfinished(&path);
         let written = fs::write(&unfinished, bytes).or_else(|_| {
-            // The folder may be missing; anything else fails again, and says why.
+            // The folder may be missing; any other cause fails again, with its reason.
             fs::create_dir_all(path.parent().unwrap_or(&self.root))?;
             fs::write(&unfinished, bytes)
         });
-        finish(&unfinished, &path, written)
+        rename_or_remove(&unfinished, &path, written)
     }
 
-    /// Writes a text in the same way; the error names the file.
+    /// Writes a text as [`Self::write`]; the error names the file.
     pub(super) fn put(&self, key: &str, text: &str) -> Result<(), Error> {
         let written = self.write(key, text.as_bytes());
         written.map_err(|e| self.error(&format!("{key}: {e}")))
     }
 
-    /// The same for a file of a folder that exists, written by `content`; it is on the disk before
-    /// this returns, so that a power failure leaves the old file or the new one too.
+    /// Writes a file of an existing folder by `content`, as [`Self::write`]. The file is on the
+    /// disk before this returns, so that a power failure leaves either the old file or the new one.
     pub(super) fn write_durably(
         &self,
         key: &str,
@@ -84,7 +84,7 @@ impl Folder {
             content(&file)?;
             file.sync_all()
         });
-        finish(&unfinished, &path, written)?;
+        rename_or_remove(&unfinished, &path, written)?;
         if cfg!(unix) {
             File::open(path.parent().unwrap_or(&self.root))?.sync_all()?;
         }
@@ -114,8 +114,8 @@ impl Folder {
     }
 }
 
-/// Puts a file in its place; one that could not be written whole is removed.
-fn finish(unfinished: &Path, path: &Path, written: io::Result<()>) -> io::Result<()> {
+/// Renames a file to its final name; a file that is not complete is removed.
+fn rename_or_remove(unfinished: &Path, path: &Path, written: io::Result<()>) -> io::Result<()> {
     let renamed = written.and_then(|()| fs::rename(unfinished, path));
     if renamed.is_err() {
         // There may be nothing to remove, and nothing more to be done if that fails.

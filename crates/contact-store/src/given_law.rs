@@ -1,9 +1,9 @@
-//! The friction law of a run that is gone on with: no store can hold it.
+//! The friction law of the user, which a store cannot hold.
 
 use contact_core::Error;
 use contact_core::scene::{Scene, UserFriction, missing_law_error};
 
-/// The scene of a store with the friction law that is given for it.
+/// Returns the scene of a store with the friction law that is given for it.
 pub(super) fn with_law(scene: &Scene, law: Option<&UserFriction>) -> Result<Scene, Error> {
     let mut scene = scene.clone();
     match (&scene.friction.law, law) {

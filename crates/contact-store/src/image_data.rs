@@ -14,7 +14,7 @@ use contact_core::scene::Grid;
 use contact_subsurface::{Depth, Probe, Side};
 use ndarray::Array2;
 
-use super::folder::beside;
+use super::folder::hidden_sibling;
 use super::volume::VolumeSink;
 
 /// Share of the spacing by which depths may be uneven.
@@ -55,7 +55,7 @@ impl ImageData {
         };
         let shape = (grid.nx, grid.ny, depths.len());
         let header = header(grid, (first, spacing), shape, probes);
-        let unfinished = beside(path, "unfinished");
+        let unfinished = hidden_sibling(path, "unfinished");
         let begin = || {
             let mut file = File::create(&unfinished)?;
             file.write_all(header.as_bytes())?;

@@ -8,8 +8,8 @@ use ndarray::Array2;
 use serde_json::{Map, Value};
 
 use super::attributes::{conclude, group_attributes};
-use super::catalogue::{FIELDS, FieldView, SCALARS, YIELDED, rows_of};
-use super::error_bars::{doubt_bars, told};
+use super::catalogue::{FIELDS, FieldView, SCALARS, YIELDED, to_rows};
+use super::error_bars::{doubt_bars, to_attributes};
 
 /// The fields of one name of all increments that keep theirs, each of shape (nx, ny).
 #[derive(Clone, Debug)]
@@ -38,12 +38,12 @@ pub struct Columns {
 }
 
 impl Columns {
-    /// Adds the error bars of the branches, or why there are none.
+    /// Adds the error bars of the branches, or the reason why there are none.
     pub fn set_error_bars(&mut self, bars: &Result<Vec<ErrorBars>, Error>, grid: &Grid) {
         match bars {
             Ok(bars) => drop(
                 self.attributes
-                    .insert("error_bars".into(), told(bars, grid)),
+                    .insert("error_bars".into(), to_attributes(bars, grid)),
             ),
             Err(why) => drop(doubt_bars(&mut self.attributes, why)),
         }
@@ -58,7 +58,7 @@ impl Columns {
         self.saved.push((index, t));
         if let Some(yielded) = &fields.yielded {
             self.points.resize(YIELDED.len(), Vec::new());
-            let rows = rows_of(index, yielded);
+            let rows = to_rows(index, yielded);
             for (column, rows) in self.points.iter_mut().zip(rows) {
                 column.extend(rows);
             }

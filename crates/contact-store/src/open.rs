@@ -1,4 +1,4 @@
-//! A store that has been begun: the scalars of its increments, its saved fields, its metadata.
+//! A store during the run: the scalars of its increments, its saved fields, its metadata.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -12,23 +12,23 @@ use serde_json::{Map, Value, json};
 
 use super::attributes::group_attributes;
 use super::catalogue::{
-    AXES, FIELDS, FieldView, Kind, POINTS, SCALARS, STATUS_MEANINGS, YIELDED, rows_of,
+    AXES, FIELDS, FieldView, Kind, POINTS, SCALARS, STATUS_MEANINGS, YIELDED, to_rows,
 };
 use super::checkpoint::Checkpoints;
 use super::consolidated::{Checksums, Consolidated, FILE};
 use super::folder::Folder;
-use super::place::Unfinished;
+use super::place::PendingFolder;
 use super::{column::Column, variable::Variable};
 
 /// Largest part of the time that goes to checkpoints.
-const SHARE: f64 = 0.03;
+const MAX_TIME_SHARE: f64 = 0.03;
 /// Assumed cost of a checkpoint before one has been timed.
 const FIRST_COST: Duration = Duration::from_millis(30);
 
 /// Variables that readers take for coordinates.
 const COORDINATES: &str = "t branch_of_increment saved_increment saved_t";
 
-/// A store that has been begun.
+/// A store during the run.
 pub(super) struct Open {
     pub(super) folder: Arc<Folder>,
     pub(super) attributes: Map<String, Value>,
@@ -40,7 +40,7 @@ pub(super) struct Open {
     /// Over the points that have yielded, as in [`YIELDED`]; none where no body may.
     points: Vec<Column>,
     last: Option<(usize, LoadPoint)>,
-    /// The most that the increments came to.
+    /// The largest errors over the increments.
     pub(super) reached: Reached,
     saved: usize,
     pub(super) saved_increment: usize,
@@ -61,7 +61,7 @@ impl Open {
     pub(super) fn new(folder: Arc<Folder>, scene: &Scene, plan: &Plan) -> Self {
         let grid = &scene.grid;
         let scalars = SCALARS.iter().map(|s| {
-            let s = s.on(grid);
+            let s = s.for_grid(grid);
             let codes = [
                 ("flag_values", json!([0, 1, 2, 3])),
                 ("flag_meanings", json!(STATUS_MEANINGS)),
@@ -115,16 +115,16 @@ impl Open {
         }
     }
 
-    /// Begins the store: lays out the group, without a variable, and the place of the checkpoints,
-    /// and puts it in its place, that of an old one if this is to be replaced.
+    /// Begins the store. Lays out the group, without a variable, and the place of the checkpoints,
+    /// and moves it to its place. If `replace`, it replaces an old store.
     pub(super) fn begin(&mut self, replace: bool) -> Result<(), Error> {
-        let unfinished = Unfinished::begin(self.folder.root())?;
-        let place = std::mem::replace(&mut self.folder, unfinished.folder().clone());
+        let unfinished = PendingFolder::begin(self.folder.root())?;
+        let final_folder = std::mem::replace(&mut self.folder, unfinished.folder().clone());
         self.write_metadata(Consolidated {
             documents: self.group_documents(),
             checksums: Checksums::new(),
         })?;
-        self.folder = place;
+        self.folder = final_folder;
         let scene = self.attributes["scene"].as_str().unwrap_or_default();
         let checkpoints = Checkpoints::begin(unfinished.folder(), scene)?;
         unfinished.finish(replace)?;
@@ -132,10 +132,10 @@ impl Open {
         Ok(())
     }
 
-    /// Takes up what a run has left: its increments, of which those that `keeps` says keep their
-    /// fields, a store on the disk that holds `on_disk` of them or more, with these checksums, and the
-    /// points that have yielded in the increments that keep their fields.
-    pub(super) fn take_up(
+    /// Restores the state from an interrupted run: its increments, the store on the disk with
+    /// `on_disk` of them or more and these checksums, and the points that have yielded. `keeps`
+    /// selects the increments that keep their fields.
+    pub(super) fn restore(
         &mut self,
         checkpoints: Checkpoints,
         increments: &[Increment],
@@ -151,8 +151,9 @@ impl Open {
         if let Some(of) = points.first() {
             for (column, values) in self.points.iter_mut().zip(points) {
                 let rows = of.iter().zip(values);
-                let own = rows.filter(|(increment, _)| kept.contains(&(**increment as usize)));
-                own.for_each(|(_, value)| column.push(*value));
+                let rows_kept =
+                    rows.filter(|(increment, _)| kept.contains(&(**increment as usize)));
+                rows_kept.for_each(|(_, value)| column.push(*value));
             }
         }
         self.checkpoints = Some(checkpoints);
@@ -189,10 +190,12 @@ impl Open {
     pub(super) fn is_due(&self, interval: Duration, ends_branch: bool) -> bool {
         let elapsed = self.last_checkpoint.elapsed();
         interval.is_zero()
-            || ((ends_branch || elapsed >= interval) && elapsed.mul_f64(SHARE) >= self.cost)
+            || ((ends_branch || elapsed >= interval)
+                && elapsed.mul_f64(MAX_TIME_SHARE) >= self.cost)
     }
 
-    /// Brings the store up to date, then the checkpoint, which so never is ahead of it.
+    /// Brings the store up to date, then writes the checkpoint, so that it is never ahead of the
+    /// store.
     pub(super) fn checkpoint(&mut self, state: &State) -> Result<(), Error> {
         let begun = Instant::now();
         self.flush()?;
@@ -223,7 +226,7 @@ impl Open {
                 }
             })?;
         if let Some(yielded) = &fields.yielded {
-            for (column, rows) in self.points.iter_mut().zip(rows_of(index, yielded)) {
+            for (column, rows) in self.points.iter_mut().zip(to_rows(index, yielded)) {
                 for value in rows {
                     column.push(value);
                 }

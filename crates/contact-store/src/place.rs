@@ -8,7 +8,7 @@
 //! With a store to be replaced the steps are: NAME becomes `.NAME.replaced`, `.NAME.unfinished`
 //! becomes NAME, `.NAME.replaced` goes. Whenever the process dies, NAME is nothing, the old store
 //! or the new one; between the first two steps, where it is nothing, whoever writes there next or
-//! resumes puts the old store back ([`mend`]). What else is left goes when the same place is
+//! resumes puts the old store back ([`restore_moved_store`]). What else is left goes when the same place is
 //! written again.
 
 use std::ffi::OsStr;
@@ -22,7 +22,7 @@ use contact_subsurface::Probe;
 
 use super::catalogue::{FIELDS, HALF_WIDTH, SCALARS};
 use super::checkpoint::{self, Checkpoints};
-use super::folder::{Folder, beside};
+use super::folder::{Folder, hidden_sibling};
 use super::reader::Store;
 use super::{wear_catalogue, wear_checkpoint};
 
@@ -31,9 +31,9 @@ const ARRAY: [&str; 2] = [".zarray", ".zattrs"];
 /// Coordinates of the stores of a run and of the stress below it.
 const COORDINATES: [&str; 6] = ["x", "y", "saved_increment", "saved_t", "z", "layer"];
 
-/// A folder on its way to its place; one that does not get there is removed.
+/// A folder that is written beside its place; it is removed unless it is moved there.
 #[derive(Debug)]
-pub(super) struct Unfinished {
+pub(super) struct PendingFolder {
     folder: Arc<Folder>,
     place: PathBuf,
     /// The folder, locked: a place has one writer.
@@ -41,15 +41,15 @@ pub(super) struct Unfinished {
     in_place: bool,
 }
 
-impl Unfinished {
+impl PendingFolder {
     /// An empty folder beside its place; remains of a killed process are removed.
     pub(super) fn begin(place: &Path) -> Result<Self, Error> {
-        let folder = Folder::on_its_way(place, beside(place, "unfinished"));
+        let folder = Folder::with_final_place(place, hidden_sibling(place, "unfinished"));
         if place.file_name().is_none() {
             return Err(folder.error(&"is no name for a store"));
         }
         clear(&folder, folder.root())?;
-        let replaced = beside(place, "replaced");
+        let replaced = hidden_sibling(place, "replaced");
         if place.exists() || !is_store(&replaced) {
             clear(&folder, &replaced)?;
         }
@@ -58,7 +58,7 @@ impl Unfinished {
             File::open(folder.root())
         };
         let lock = begin().map_err(|e| folder.error(&e))?;
-        is_free(&lock, &folder)?;
+        lock_folder(&lock, &folder)?;
         Ok(Self {
             folder,
             place: place.to_owned(),
@@ -67,22 +67,25 @@ impl Unfinished {
         })
     }
 
-    /// Where to write meanwhile; errors name the place.
+    /// Folder for the time of writing; errors name the place.
     pub(super) fn folder(&self) -> &Arc<Folder> {
         &self.folder
     }
 
-    /// Puts the folder in its place, where there must be nothing, or a store that nobody writes if
-    /// it is to be replaced.
+    /// Moves the folder to its place. There must be nothing, or, if `replace`, a store that no
+    /// process writes.
     pub(super) fn finish(mut self, replace: bool) -> Result<Arc<Folder>, Error> {
         let failed = |e: io::Error| {
             self.folder
                 .error(&format!("cannot be put in its place: {e}"))
         };
-        let (place, replaced) = (Folder::new(&self.place), beside(&self.place, "replaced"));
+        let (place, replaced) = (
+            Folder::new(&self.place),
+            hidden_sibling(&self.place, "replaced"),
+        );
         let old = replace && self.place.exists();
         if old {
-            has_nothing_else(&self.place)?;
+            check_only_store(&self.place)?;
             if Checkpoints::in_use(&place) {
                 return Err(place.error(&"is being written by another process"));
             }
@@ -106,7 +109,7 @@ impl Unfinished {
     }
 }
 
-impl Drop for Unfinished {
+impl Drop for PendingFolder {
     fn drop(&mut self) {
         if !self.in_place {
             // Nothing can be done if it stays.
@@ -115,10 +118,10 @@ impl Drop for Unfinished {
     }
 }
 
-/// The place that a path leads to: links are followed, so that what is laid out beside a place and
-/// put there is on its file system, and so that a link stays one.
-pub(super) fn place(path: &Path) -> Result<PathBuf, Error> {
-    // A slash at the end says nothing.
+/// Follows links to the place that a path leads to. So the pending folder is on the same file
+/// system, and a link stays a link.
+pub(super) fn resolve_place(path: &Path) -> Result<PathBuf, Error> {
+    // A slash at the end has no meaning.
     let path: PathBuf = path.components().collect();
     let is_link = fs::symlink_metadata(&path).is_ok_and(|about| about.is_symlink());
     if !is_link {
@@ -130,18 +133,20 @@ pub(super) fn place(path: &Path) -> Result<PathBuf, Error> {
     })
 }
 
-/// Fails if there is anything in a store that is no part of one.
-pub(super) fn has_nothing_else(store: &Path) -> Result<(), Error> {
+/// Fails if a store contains anything that is no part of a store.
+pub(super) fn check_only_store(store: &Path) -> Result<(), Error> {
     let folder = Folder::new(store);
-    let found = foreign(store, is_of_a_store).map_err(|e| folder.error(&e))?;
-    let Some(name) = found else { return Ok(()) };
+    let foreign_entry = find_foreign(store, is_store_entry).map_err(|e| folder.error(&e))?;
+    let Some(name) = foreign_entry else {
+        return Ok(());
+    };
     let name = name.display();
     let message = format!("{name} in it is no part of a store: move it elsewhere before");
     Err(folder.error(&message))
 }
 
-/// The first entry of a folder, or of one in it, that does not belong there.
-fn foreign(path: &Path, belongs: impl Fn(&OsStr) -> bool) -> io::Result<Option<PathBuf>> {
+/// Finds the first entry of a folder, or of one in it, that does not belong there.
+fn find_foreign(path: &Path, belongs: impl Fn(&OsStr) -> bool) -> io::Result<Option<PathBuf>> {
     for entry in fs::read_dir(path)? {
         let entry = entry?;
         let name = entry.file_name();
@@ -149,7 +154,7 @@ fn foreign(path: &Path, belongs: impl Fn(&OsStr) -> bool) -> io::Result<Option<P
             return Ok(Some(name.into()));
         }
         if entry.file_type()?.is_dir() {
-            let inner = foreign(&entry.path(), is_of_an_array)?;
+            let inner = find_foreign(&entry.path(), is_array_entry)?;
             if let Some(inner) = inner {
                 return Ok(Some(Path::new(&name).join(inner)));
             }
@@ -158,39 +163,40 @@ fn foreign(path: &Path, belongs: impl Fn(&OsStr) -> bool) -> io::Result<Option<P
     Ok(None)
 }
 
-/// Whether an array of a store, or its checkpoint, has an entry of that name: metadata, chunks.
-fn is_of_an_array(name: &OsStr) -> bool {
+/// Checks that an array of a store, or its checkpoint, may have an entry of that name: metadata,
+/// chunks.
+fn is_array_entry(name: &OsStr) -> bool {
     let Some(name) = name.to_str() else {
         return false;
     };
     let is_chunk = !name.is_empty() && name.chars().all(|c| c.is_ascii_digit() || c == '.');
-    is_chunk || is_on_its_way(name) || ARRAY.contains(&name) || is_of_a_checkpoint(name)
+    is_chunk || is_unfinished_name(name) || ARRAY.contains(&name) || is_checkpoint_entry(name)
 }
 
-fn is_of_a_checkpoint(name: &str) -> bool {
+fn is_checkpoint_entry(name: &str) -> bool {
     checkpoint::FILES.contains(&name) || name == wear_checkpoint::FILE
 }
 
-fn is_on_its_way(name: &str) -> bool {
+fn is_unfinished_name(name: &str) -> bool {
     name.starts_with('.') && name.ends_with(".unfinished")
 }
 
-/// Whether there is a store, of a run, of wear or of the stress below: one on its way out loses its
-/// metadata first.
+/// Checks that there is a store, of a run, of wear or of the stress below. A store that is being
+/// removed loses its metadata first.
 pub(super) fn is_store(path: &Path) -> bool {
     Store::open(path).is_ok() || path.join(".zmetadata").is_file()
 }
 
-/// Puts a store back that a killed process had moved aside to replace it, but did not.
-pub(super) fn mend(place: &Path) {
-    let replaced = beside(place, "replaced");
+/// Restores a store that a killed process had moved aside to replace it.
+pub(super) fn restore_moved_store(place: &Path) {
+    let replaced = hidden_sibling(place, "replaced");
     if !place.exists() && is_store(&replaced) {
         // If that fails, the place is as it was found.
         let _ = fs::rename(replaced, place);
     }
 }
 
-/// Removes the remains of a killed process at `path`, if they are such.
+/// Removes the remains of a killed process at `path`.
 fn clear(folder: &Folder, path: &Path) -> Result<(), Error> {
     if fs::symlink_metadata(path).is_err() {
         return Ok(());
@@ -203,23 +209,23 @@ fn clear(folder: &Folder, path: &Path) -> Result<(), Error> {
     };
     let names = fs::read_dir(path).map_err(|e| failed(&e))?;
     let names: Vec<_> = names.flatten().map(|entry| entry.file_name()).collect();
-    if let Some(name) = names.iter().find(|name| !is_of_a_store(name)) {
+    if let Some(name) = names.iter().find(|name| !is_store_entry(name)) {
         let name = name.display();
         return Err(failed(&format!("{name} in it is no part of a store")));
     }
-    is_free(&File::open(path).map_err(|e| failed(&e))?, folder)?;
+    lock_folder(&File::open(path).map_err(|e| failed(&e))?, folder)?;
     remove(path).map_err(|e| failed(&e))
 }
 
-/// Locks a folder; fails if another process has.
-pub(super) fn is_free(lock: &File, folder: &Folder) -> Result<(), Error> {
+/// Locks a folder; fails if another process has locked it.
+pub(super) fn lock_folder(lock: &File, folder: &Folder) -> Result<(), Error> {
     match lock.try_lock() {
         Err(TryLockError::WouldBlock) => Err(folder.error(&"is being written by another process")),
         _ => Ok(()),
     }
 }
 
-/// Removes a store, first that which makes it one.
+/// Removes a store, its metadata first.
 fn remove(path: &Path) -> io::Result<()> {
     match fs::remove_file(path.join(".zmetadata")) {
         Err(e) if e.kind() != io::ErrorKind::NotFound => return Err(e),
@@ -228,12 +234,12 @@ fn remove(path: &Path) -> io::Result<()> {
     fs::remove_dir_all(path)
 }
 
-/// Whether a store has an entry of that name, or one on its way to it.
-fn is_of_a_store(name: &OsStr) -> bool {
+/// Checks that a store may have an entry of that name, or a temporary one.
+fn is_store_entry(name: &OsStr) -> bool {
     let Some(name) = name.to_str() else {
         return false;
     };
-    is_on_its_way(name)
+    is_unfinished_name(name)
         || name == checkpoint::FOLDER
         || METADATA.contains(&name)
         || COORDINATES.contains(&name)
@@ -241,7 +247,7 @@ fn is_of_a_store(name: &OsStr) -> bool {
         || name == HALF_WIDTH.0
         || FIELDS.iter().any(|f| f.name == name)
         || Probe::all().any(|p| p.name() == name)
-        || wear_catalogue::holds(name)
+        || wear_catalogue::has_array(name)
 }
 
 #[cfg(test)]

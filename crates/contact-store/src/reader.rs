@@ -10,7 +10,7 @@ use ndarray::Array2;
 use serde_json::Value;
 use zarrs::array::ArraySubset;
 
-use super::catalogue::{OfPoint, YIELDED, state_of};
+use super::catalogue::{PointVariable, YIELDED, from_rows};
 use super::consolidated::{Consolidated, FILE};
 use super::folder::Folder;
 use super::stored::Stored;
@@ -29,23 +29,23 @@ pub struct Store {
 }
 
 impl Store {
-    /// Opens a store; fails if there is none, one of another layout, or one whose metadata are
-    /// damaged. What is read of it later is checked then; [`Self::verify`] checks all of it.
+    /// Opens a store. Fails if there is none, one of another layout, or one whose metadata are
+    /// damaged. Values are checked when they are read; [`Self::verify`] checks all of them.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
         let folder = Folder::new(path.as_ref());
         let consolidated = whole::consolidated(&folder)?;
-        Self::of(folder, consolidated)
+        Self::from_metadata(folder, consolidated)
     }
 
     /// Opens a store as [`Self::open`], or a copy without checksums that Python's `save` has
-    /// written, for whoever reads alone. What is read of a copy is not checked.
+    /// written, to read it alone. Values of a copy are not checked.
     pub fn open_to_read(path: impl AsRef<Path>) -> Result<Self, Error> {
         let folder = Folder::new(path.as_ref());
-        let (Found::Store(consolidated) | Found::Copy(consolidated)) = whole::found(&folder)?;
-        Self::of(folder, consolidated)
+        let (Found::Store(consolidated) | Found::Copy(consolidated)) = whole::read_folder(&folder)?;
+        Self::from_metadata(folder, consolidated)
     }
 
-    fn of(folder: Arc<Folder>, consolidated: Consolidated) -> Result<Self, Error> {
+    fn from_metadata(folder: Arc<Folder>, consolidated: Consolidated) -> Result<Self, Error> {
         let damaged = |e: &dyn std::fmt::Display| folder.error(&format!("{FILE} is damaged: {e}"));
         let attributes = consolidated.document(".zattrs");
         let scene = attributes["scene"]
@@ -76,8 +76,7 @@ impl Store {
         whole::verify(&self.folder, &self.consolidated)
     }
 
-    /// Opens a store and checks all of it; a store that is being written meanwhile is looked at
-    /// again.
+    /// Opens a store and checks all of it. If the store is being written meanwhile, it tries again.
     pub fn open_whole(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
         let mut store = Self::open(path)?;
@@ -112,7 +111,7 @@ impl Store {
         &self.scene
     }
 
-    /// `running`, `done` or the sentence that says why the run stopped.
+    /// `running`, `done` or the reason why the run stopped.
     pub fn status(&self) -> &str {
         self.consolidated.document(".zattrs")["status"]
             .as_str()
@@ -139,7 +138,7 @@ impl Store {
         if shape.len() != 1 || shape[0] > longest {
             return Err(failed(&format!("is of shape {shape:?}, no column")));
         }
-        stored.numbers(&stored.all()).map_err(|e| failed(&e))
+        stored.numbers(&stored.whole()).map_err(|e| failed(&e))
     }
 
     /// A field of the `saved`-th increment whose fields are saved, from 0; a mask is 0 and 1.
@@ -160,17 +159,17 @@ impl Store {
             return Ok(Vec::new());
         }
         let longest = self.saved.saturating_mul(MOST_POINTS) as u64;
-        let column = |of: &OfPoint| {
+        let column = |variable: &PointVariable| {
             let failed =
-                |e: &dyn std::fmt::Display| self.folder.error(&format!("{}: {e}", of.name));
-            let stored = self.array(of.name)?;
+                |e: &dyn std::fmt::Display| self.folder.error(&format!("{}: {e}", variable.name));
+            let stored = self.array(variable.name)?;
             let shape = stored.shape();
             if shape.len() != 1 || shape[0] > longest {
                 return Err(failed(&format!(
                     "is of shape {shape:?}, no column of points"
                 )));
             }
-            stored.numbers(&stored.all()).map_err(|e| failed(&e))
+            stored.numbers(&stored.whole()).map_err(|e| failed(&e))
         };
         let points: Vec<Vec<f64>> = YIELDED.iter().map(column).collect::<Result<_, _>>()?;
         if points.iter().any(|column| column.len() != points[0].len()) {
@@ -180,26 +179,28 @@ impl Store {
         Ok(points)
     }
 
-    /// The plastic state of the increment `increment`, from 1; empty where nothing has yielded, `None` of
-    /// a run whose bodies stay elastic.
+    /// The plastic state of the increment `increment`, from 1. Empty if nothing has yielded, `None`
+    /// if the bodies of the run stay elastic.
     pub fn yielded(&self, increment: usize) -> Result<Option<Yielded>, Error> {
         if !self.scene.yields() {
             return Ok(None);
         }
         let mut points = self.points()?;
-        if let Some(of) = points.first() {
-            let own = of.iter().map(|n| *n as usize == increment);
-            let own: Vec<bool> = own.collect();
+        if let Some(increments_of_points) = points.first() {
+            let is_wanted = increments_of_points
+                .iter()
+                .map(|n| *n as usize == increment);
+            let is_wanted: Vec<bool> = is_wanted.collect();
             for column in &mut points {
-                let mut mine = own.iter();
+                let mut mine = is_wanted.iter();
                 column.retain(|_| mine.next().copied().unwrap_or(false));
             }
         }
-        Ok(Some(state_of(&points)))
+        Ok(Some(from_rows(&points)))
     }
 
-    /// The error bar of the stress below the branch of an increment, from 1, over the stress; `None`
-    /// where the run has none. Stores of before have those of pressure and shear as fields.
+    /// The relative error bar of the stress below the branch of an increment, from 1; `None` if the
+    /// run has none. Stores of older versions have error bars of pressure and shear as fields.
     pub fn stress_error(&self, increment: usize) -> Result<Option<f64>, Error> {
         let bars = &self.attributes()["error_bars"];
         if bars.is_null() {

@@ -1,4 +1,4 @@
-//! Resuming a run that has ended early.
+//! Resuming an interrupted run.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -16,7 +16,7 @@ use super::consolidated::Consolidated;
 use super::folder::Folder;
 use super::given_law::with_law;
 use super::open::Open;
-use super::place::{mend, place};
+use super::place::{resolve_place, restore_moved_store};
 use super::reader::Store;
 use super::wear_store::WearStore;
 use super::writer::StoreWriter;
@@ -24,40 +24,40 @@ use super::writer::StoreWriter;
 /// The columns over the increments whose fields are kept.
 const SAVED: [(&str, Kind); 2] = [("saved_increment", Kind::Count), ("saved_t", Kind::Real)];
 
-/// A run taken up where its last checkpoint left it: `march.run(increments, &mut writer)`.
+/// A run that continues from its last checkpoint: `march.run(increments, &mut writer)`.
 pub struct Resumed {
     /// The load path after the last increment of the checkpoint.
     pub march: March,
-    /// Writes on in the store.
+    /// Continues the store.
     pub writer: StoreWriter,
-    /// The increments up to there.
+    /// The increments up to the checkpoint.
     pub increments: Vec<Increment>,
 }
 
-/// Takes up the run of a store; `None` if it is done.
+/// Resumes the run of a store; returns `None` if it is done.
 ///
-/// The result will be that of the run without the interruption, bit by bit. What the store holds
-/// stays there meanwhile; only fields that were saved because the run stopped are dropped. Fails
-/// if there is no store, if another process writes it, if a file of it is missing or damaged, or if
-/// its checkpoint is of another version, and ends when `stop` is raised, if there is one
-/// ([`Error::Interrupted`]); then nothing is changed.
+/// The result will be the result of an uninterrupted run, bit by bit. The content of the store
+/// stays there meanwhile. Fields that were saved because the run stopped are dropped. Fails if
+/// there is no store, if another process writes it, if a file of it is missing or damaged, or if
+/// its checkpoint is of another version. Ends when `stop` is raised, if there is one
+/// ([`Error::Interrupted`]). Nothing is changed then.
 pub fn resume(
     path: impl AsRef<Path>,
     stop: Option<&Arc<AtomicBool>>,
 ) -> Result<Option<Resumed>, Error> {
-    resume_by(path, None, stop)
+    resume_with_law(path, None, stop)
 }
 
-/// The same for a run by a friction law of the user's own, which no store can hold: it is given
-/// again. Fails if the run has such a law and none is given, or the other way about.
-pub fn resume_by(
+/// Resumes a run with a friction law of the user, which no store can hold, so it is given again.
+/// Fails if the run has such a law and none is given, or the reverse.
+pub fn resume_with_law(
     path: impl AsRef<Path>,
     law: Option<&UserFriction>,
     stop: Option<&Arc<AtomicBool>>,
 ) -> Result<Option<Resumed>, Error> {
     let stop = stop.cloned().unwrap_or_default();
-    let path = place(path.as_ref())?;
-    mend(&path);
+    let path = resolve_place(path.as_ref())?;
+    restore_moved_store(&path);
     if WearStore::is_at(&path) {
         let message = "holds a run of wear: `fret resume` or pyfret.wear.resume goes on with it";
         return Err(Folder::new(&path).error(&message));
@@ -90,23 +90,27 @@ pub fn resume_by(
     let kept = (1..=store.increments()).filter(|&index| keeps(index));
     let kept = kept.count().min(store.saved());
     let points = points_kept(&store, kept)?;
-    let metadata = begun_again(&store, kept, &points)?;
+    let metadata = metadata_for_resume(&store, kept, &points)?;
     let mut open = Open::new(store.folder().clone(), scene, march.plan());
     let on_disk = (store.increments(), &metadata.checksums);
-    open.take_up(checkpoints, &increments, on_disk, &points, |increment| {
+    open.restore(checkpoints, &increments, on_disk, &points, |increment| {
         keeps(increment.index)
     });
     open.write_metadata(metadata)?;
     Ok(Some(Resumed {
         march,
-        writer: StoreWriter::go_on(open),
+        writer: StoreWriter::resumed(open),
         increments,
     }))
 }
 
-/// The metadata of a store whose run is resumed: without the fields that were saved only because it
-/// had stopped.
-fn begun_again(store: &Store, kept: usize, points: &[Vec<f64>]) -> Result<Consolidated, Error> {
+/// The metadata of a store whose run is resumed, without the fields that were saved because it had
+/// stopped.
+fn metadata_for_resume(
+    store: &Store,
+    kept: usize,
+    points: &[Vec<f64>],
+) -> Result<Consolidated, Error> {
     let mut metadata = store.consolidated().clone();
     metadata.documents[".zattrs"]["status"] = json!("running");
     let of_saved = FIELDS.iter().map(|f| f.name);
@@ -118,14 +122,14 @@ fn begun_again(store: &Store, kept: usize, points: &[Vec<f64>]) -> Result<Consol
     for (name, kind) in SAVED {
         if store.saved() > 0 {
             let column = store.column(name)?;
-            let checksums = Column::checksums_of(kind, &column[..kept], SCALAR_CHUNK);
+            let checksums = Column::checksums_of_chunks(kind, &column[..kept], SCALAR_CHUNK);
             metadata.checksums.insert(name.to_owned(), checksums);
         }
     }
     for (of, values) in YIELDED.iter().zip(points) {
         if let Some(array) = metadata.documents.get_mut(&format!("{}/.zarray", of.name)) {
             array["shape"][0] = json!(values.len());
-            let checksums = Column::checksums_of(of.kind, values, POINT_CHUNK);
+            let checksums = Column::checksums_of_chunks(of.kind, values, POINT_CHUNK);
             metadata.checksums.insert(of.name.to_owned(), checksums);
         }
     }

@@ -14,14 +14,14 @@ use super::catalogue::Kind;
 use super::folder::Folder;
 use super::variable::open_array;
 
-/// Largest number of values in a chunk: that of a field of the largest grid.
+/// Largest number of values in a chunk: a field of the largest grid.
 const MOST_VALUES: u64 = 1 << 28;
 
 /// An array of a store being read, with the checksums of its chunks.
 pub(super) struct Stored<'a> {
     array: Array<Folder>,
     kind: Kind,
-    /// Of a copy there are none.
+    /// Checksums of the chunks; a copy has none.
     checksums: Option<&'a [u32]>,
 }
 
@@ -34,7 +34,7 @@ impl<'a> Stored<'a> {
     ) -> Result<Self, Error> {
         let failed = |message: &str| folder.error(&format!("{name}: {message}"));
         let array = open_array(folder, name, zarray.clone())?;
-        let kind = zarray["dtype"].as_str().and_then(Kind::named);
+        let kind = zarray["dtype"].as_str().and_then(Kind::from_dtype);
         let kind = kind.ok_or_else(|| failed("has numbers of an unknown type"))?;
         if array.shape().is_empty() {
             return Err(failed("has no dimension"));
@@ -50,8 +50,8 @@ impl<'a> Stored<'a> {
         self.array.shape()
     }
 
-    /// All of it.
-    pub(super) fn all(&self) -> ArraySubset {
+    /// The whole array.
+    pub(super) fn whole(&self) -> ArraySubset {
         self.array.subset_all()
     }
 
@@ -60,12 +60,14 @@ impl<'a> Stored<'a> {
         let chunks = self.array.chunks_in_array_subset(part);
         let chunks = chunks.map_err(|e| e.to_string())?;
         let chunks: Vec<_> = chunks.into_iter().flat_map(|c| c.indices()).collect();
-        chunks.par_iter().try_for_each(|chunk| self.check(chunk))
+        chunks
+            .par_iter()
+            .try_for_each(|chunk| self.check_chunk(chunk))
     }
 
-    /// Fails if a chunk is not there, if it would unfold to more than its values take, or if those
-    /// that count are not the ones that were written.
-    fn check(&self, chunk: &[u64]) -> Result<(), String> {
+    /// Fails if a chunk is missing, is larger than its values, or differs from the values that were
+    /// written.
+    fn check_chunk(&self, chunk: &[u64]) -> Result<(), String> {
         let Some(checksums) = self.checksums else {
             return Ok(());
         };
@@ -103,21 +105,21 @@ impl<'a> Stored<'a> {
         Ok(())
     }
 
-    /// The numbers of a part, of whatever kind.
+    /// The numbers of a part, converted to f64.
     pub(super) fn numbers(&self, part: &ArraySubset) -> Result<Vec<f64>, String> {
         self.verify(part)?;
         let array = &self.array;
         let f64s = match self.kind {
             Kind::Real => array.retrieve_array_subset(part),
-            Kind::Count => of::<i32>(array, part, f64::from),
-            Kind::Code => of::<i8>(array, part, f64::from),
-            Kind::Flag => of::<bool>(array, part, |yes| f64::from(u8::from(yes))),
+            Kind::Count => read_as_f64::<i32>(array, part, f64::from),
+            Kind::Code => read_as_f64::<i8>(array, part, f64::from),
+            Kind::Flag => read_as_f64::<bool>(array, part, |yes| f64::from(u8::from(yes))),
         };
         f64s.map_err(|e| e.to_string())
     }
 }
 
-/// Sums up the first bytes that it is given.
+/// Sums up the checksum of the first `counts` bytes.
 struct Sum {
     counts: u64,
     crc: crc32fast::Hasher,
@@ -136,7 +138,8 @@ impl Write for Sum {
     }
 }
 
-fn of<T: ElementOwned>(
+/// Reads a part of an array and converts its numbers.
+fn read_as_f64<T: ElementOwned>(
     array: &Array<Folder>,
     part: &ArraySubset,
     to_f64: impl Fn(T) -> f64,

@@ -17,15 +17,15 @@ pub struct StoredCycle<'a> {
     sigma_B: Vec<f64>,
     /// Increment of every index, from 1.
     increments: Vec<usize>,
-    /// Of a body that yields.
+    /// Solver of the residual stress, for a body that yields.
     eigenstresses: Option<EigenstressSolver>,
 }
 
 impl<'a> StoredCycle<'a> {
-    /// A closed cycle of the load path, from 0 or from the end if negative; without one all
-    /// increments that were kept. Fails where there is no such cycle, or fewer than two of its
+    /// Finds a closed cycle of the load path, from 0 or from the end if negative; without one all
+    /// increments that were kept. Fails if there is no such cycle, or if fewer than two of its
     /// increments were kept.
-    pub fn of(store: &'a Store, cycle: Option<i64>, side: Side) -> Result<Self, Error> {
+    pub fn new(store: &'a Store, cycle: Option<i64>, side: Side) -> Result<Self, Error> {
         let whole = |name: &str| -> Result<Vec<usize>, Error> {
             let column = store.column(name)?;
             Ok(column.into_iter().map(|v| v as usize).collect())
@@ -41,7 +41,7 @@ impl<'a> StoredCycle<'a> {
         let branch = |increment: usize| branches.get(increment.wrapping_sub(1)).copied();
         let (mut kept, mut before) = ((0..increments.len()).collect::<Vec<_>>(), None);
         if let Some(cycle) = cycle {
-            let (first, last) = named(store, &branches, cycle)?;
+            let (first, last) = find_cycle(store, &branches, cycle)?;
             let inside = |k: &usize| {
                 branch(increments[*k]).is_some_and(|branch| (first..=last).contains(&branch))
             };
@@ -51,9 +51,9 @@ impl<'a> StoredCycle<'a> {
             before = start.and_then(|start| increments.iter().position(|n| *n == start));
         }
         if kept.len() < 2 {
-            let of = if cycle.is_none() { "path" } else { "cycle" };
+            let selection = if cycle.is_none() { "path" } else { "cycle" };
             return Err(Error::invalid(
-                format!("kept increments of the {of}"),
+                format!("kept increments of the {selection}"),
                 kept.len(),
                 "at least 2: solve with save = \"all\" or more of them",
             ));
@@ -75,7 +75,7 @@ impl<'a> StoredCycle<'a> {
         self.kept.iter().map(|k| self.increments[*k]).collect()
     }
 
-    fn at(&self, places: &[usize]) -> Result<Moments, Error> {
+    fn moments_at(&self, places: &[usize]) -> Result<Moments, Error> {
         let mut moments = Moments::default();
         for &place in places {
             let field = |name: &str| self.store.field(name, place);
@@ -105,17 +105,19 @@ impl CycleSource for StoredCycle<'_> {
 
     fn moments(&self, which: &[usize]) -> Result<Moments, Error> {
         let places: Vec<_> = which.iter().map(|n| self.kept[*n]).collect();
-        self.at(&places)
+        self.moments_at(&places)
     }
 
     fn start(&self) -> Result<Option<Moments>, Error> {
-        self.before.map(|place| self.at(&[place])).transpose()
+        self.before
+            .map(|place| self.moments_at(&[place]))
+            .transpose()
     }
 
     fn path_error(&self) -> Option<f64> {
         let errors = self.store.attributes().get("path_error")?.as_array()?;
-        let known = errors.iter().filter_map(serde_json::Value::as_f64);
-        known.reduce(f64::max)
+        let numbers = errors.iter().filter_map(serde_json::Value::as_f64);
+        numbers.reduce(f64::max)
     }
 
     fn yielding(&self) -> Result<Option<Yielding>, Error> {
@@ -130,7 +132,11 @@ impl CycleSource for StoredCycle<'_> {
             self.store.column("dissipated")?,
         ];
         // Increments count from 1: those after the first that was kept.
-        let inside = |column: &[f64]| column.get(*first..*last).map_or(0.0, |of| of.iter().sum());
+        let inside = |column: &[f64]| {
+            column
+                .get(*first..*last)
+                .map_or(0.0, |part| part.iter().sum())
+        };
         let friction: f64 = inside(&rubbed);
         Ok(Some(Yielding {
             plastic: inside(&plastic),
@@ -143,25 +149,27 @@ impl CycleSource for StoredCycle<'_> {
     }
 }
 
-/// First and last branch of a cycle that the run has gone through to its end.
-fn named(store: &Store, branches: &[usize], cycle: i64) -> Result<(usize, usize), Error> {
+/// First and last branch of a cycle that the run has completed.
+fn find_cycle(store: &Store, branches: &[usize], cycle: i64) -> Result<(usize, usize), Error> {
     let path = &store.scene().path;
     let finished = |(_, last): &(usize, usize)| {
         let increments: usize = path.branches[..=*last].iter().map(Branch::count).sum();
         branches.len() >= increments
     };
-    let all: Vec<_> = cycles(path).into_iter().filter(finished).collect();
-    if all.is_empty() {
+    let finished_cycles: Vec<_> = cycles(path).into_iter().filter(finished).collect();
+    if finished_cycles.is_empty() {
         return Err(Error::invalid(
             "cycle",
             cycle,
             "a closed cycle of the load path, and it has none: end where a cycle began",
         ));
     }
-    let count = all.len() as i64;
+    let count = finished_cycles.len() as i64;
     let n = if cycle < 0 { count + cycle } else { cycle };
-    let found = usize::try_from(n).ok().and_then(|n| all.get(n).copied());
-    found.ok_or_else(|| {
+    let branches_of_cycle = usize::try_from(n)
+        .ok()
+        .and_then(|n| finished_cycles.get(n).copied());
+    branches_of_cycle.ok_or_else(|| {
         let allowed = format!("{} to {}, a cycle of the path", -count, count - 1);
         Error::invalid("cycle", cycle, allowed)
     })

@@ -13,14 +13,14 @@ use serde_json::{Map, Value, json};
 use super::catalogue::Kind;
 use super::consolidated::{Consolidated, FILE};
 use super::folder::Folder;
-use super::place::Unfinished;
+use super::place::PendingFolder;
 use super::schema::{CONVENTIONS, SCHEMA};
 use super::volume::VolumeSink;
 use super::{column::Column, variable::Variable};
 
-/// A group being written; it is in its place once [`Self::finish`] has been called.
+/// A group being written; [`Self::finish`] moves it to its place.
 pub struct StressStore {
-    unfinished: Unfinished,
+    unfinished: PendingFolder,
     attributes: Map<String, Value>,
     coordinates: Vec<Column>,
     variables: Vec<Variable>,
@@ -29,8 +29,8 @@ pub struct StressStore {
 }
 
 impl StressStore {
-    /// Begins the group at `path`, which must not exist, for `probes` at `depths` of a volume,
-    /// or below `line`. `title` says which contact it is.
+    /// Begins the group at `path`, which must not exist, for `probes` at `depths` of a volume, or
+    /// below `line`. `title` is the title of the contact.
     pub fn create(
         path: impl AsRef<Path>,
         title: &str,
@@ -44,7 +44,7 @@ impl StressStore {
         if path.exists() {
             return Err(Folder::new(path).error(&"exists: choose another path"));
         }
-        let unfinished = Unfinished::begin(path)?;
+        let unfinished = PendingFolder::begin(path)?;
         let mut shape = vec![depths.len() as u64];
         let mut dims = vec!["depth"];
         let mut coordinates = vec![
@@ -104,8 +104,8 @@ impl StressStore {
             Some(Line::AlongX(y)) => drop(attributes.insert("y".into(), json!(y))),
             Some(Line::AlongY(x)) => drop(attributes.insert("x".into(), json!(x))),
             Some(Line::Through { x, y, azimuth }) => {
-                let place = [("x", x), ("y", y), ("azimuth", azimuth)];
-                attributes.extend(place.map(|(name, v)| (name.into(), json!(v))));
+                let line_attributes = [("x", x), ("y", y), ("azimuth", azimuth)];
+                attributes.extend(line_attributes.map(|(name, v)| (name.into(), json!(v))));
             }
         }
         attributes.insert("coordinates".into(), json!("z layer"));
@@ -127,7 +127,7 @@ impl StressStore {
             .map(drop)
     }
 
-    /// Writes coordinates and metadata and puts the group in its place.
+    /// Writes coordinates and metadata and moves the group to its place.
     pub fn finish(mut self) -> Result<(), Error> {
         let mut documents = Map::new();
         documents.insert(".zgroup".into(), json!({ "zarr_format": 2 }));

@@ -36,23 +36,23 @@ impl Kind {
         }
     }
 
-    /// The kind of a data type.
-    pub(super) fn named(dtype: &str) -> Option<Self> {
+    /// Finds the kind of a data type.
+    pub(super) fn from_dtype(dtype: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|kind| kind.dtype() == dtype)
     }
 
-    /// Values as they stand in a chunk, little endian.
+    /// Encodes values as in a chunk, little endian.
     fn encode(self, values: &[f64]) -> Vec<u8> {
-        let each = values.iter();
+        let numbers = values.iter();
         match self {
-            Self::Real => each.flat_map(|v| v.to_le_bytes()).collect(),
-            Self::Count => each.flat_map(|v| (*v as i32).to_le_bytes()).collect(),
-            Self::Code => each.flat_map(|v| (*v as i8).to_le_bytes()).collect(),
-            Self::Flag => each.map(|v| u8::from(*v != 0.0)).collect(),
+            Self::Real => numbers.flat_map(|v| v.to_le_bytes()).collect(),
+            Self::Count => numbers.flat_map(|v| (*v as i32).to_le_bytes()).collect(),
+            Self::Code => numbers.flat_map(|v| (*v as i8).to_le_bytes()).collect(),
+            Self::Flag => numbers.map(|v| u8::from(*v != 0.0)).collect(),
         }
     }
 
-    /// The CRC-32 of values as they stand in a chunk.
+    /// The CRC-32 of values, encoded as in a chunk.
     pub(super) fn checksum(self, values: &[f64]) -> u32 {
         crc32fast::hash(&self.encode(values))
     }
@@ -128,7 +128,7 @@ impl Variable {
         &self.checksums
     }
 
-    /// Takes over the checksums of chunks that are stored already.
+    /// Sets the checksums of chunks that are stored already.
     pub(super) fn set_checksums(&mut self, checksums: &[u32]) {
         self.checksums = checksums.to_vec();
     }
@@ -202,9 +202,9 @@ impl Variable {
     }
 }
 
-/// Fails by its name at a codec, a filter or a type of numbers that no store of ours has: a codec is
-/// a program that a file asks for.
-fn is_ours(zarray: &Value) -> Result<(), String> {
+/// Fails for a codec, a filter or a type of numbers that no store of this program has. A codec is a
+/// program that a file asks for, so others are rejected by name.
+fn check_encoding(zarray: &Value) -> Result<(), String> {
     let compressor = &zarray["compressor"];
     if !compressor.is_null() && compressor["id"] != "gzip" {
         return Err(format!(
@@ -223,7 +223,7 @@ fn is_ours(zarray: &Value) -> Result<(), String> {
         ));
     }
     match zarray["dtype"].as_str() {
-        Some(kind) if Kind::named(kind).is_some() => Ok(()),
+        Some(kind) if Kind::from_dtype(kind).is_some() => Ok(()),
         _ => Err(format!(
             "has numbers of the type {}, which pyfret does not write",
             zarray["dtype"]
@@ -238,7 +238,7 @@ pub(super) fn open_array(
     zarray: Value,
 ) -> Result<Array<Folder>, Error> {
     let failed = |e: &dyn std::fmt::Display| folder.error(&format!("{name}: {e}"));
-    is_ours(&zarray).map_err(|e| failed(&e))?;
+    check_encoding(&zarray).map_err(|e| failed(&e))?;
     let metadata: ArrayMetadataV2 = serde_json::from_value(zarray).map_err(|e| failed(&e))?;
     Array::new_with_metadata(
         folder.clone(),

@@ -13,10 +13,10 @@ pub trait VolumeSink: Sync {
     fn put(&self, probe: usize, depth: usize, values: &Array2<f64>) -> Result<(), Error>;
 }
 
-/// Computes the probes under the first state of `slices` at every depth of `written`, hands them to
-/// the sinks and gives the largest value of each, if a `search` is there to look between the
-/// samples; for that alone the planes at the depths `between` are looked at too. Only as many
-/// planes are in memory as there are threads.
+/// Computes the probes under the first state of `slices` at every depth of `written` and hands them
+/// to the sinks. With a `search`, it returns the largest value of each probe between the samples;
+/// then the planes at the depths `between` are computed, too. The memory holds one plane for each
+/// thread.
 pub fn write_volume(
     slices: &Slices,
     written: &[Depth],
@@ -25,7 +25,7 @@ pub fn write_volume(
     sinks: &[&dyn VolumeSink],
     search: Option<&Search>,
 ) -> Result<Vec<Option<Extremum>>, Error> {
-    let (depths, place) = merged(written, between);
+    let (depths, place) = merge_depths(written, between);
     let grid = slices.grid();
     let x: Vec<f64> = (0..grid.nx).map(|i| grid.x(i)).collect();
     let y: Vec<f64> = (0..grid.ny).map(|j| grid.y(j)).collect();
@@ -59,14 +59,16 @@ pub fn write_volume(
     (0..probes.len()).map(over_depths).collect()
 }
 
-/// The depths of both lists in their order, each once, with the place in the first.
-fn merged(written: &[Depth], between: &[Depth]) -> (Vec<Depth>, Vec<Option<usize>>) {
-    let named = written
+/// Merges the depths of both lists in their order, each once, with the index in the first.
+fn merge_depths(written: &[Depth], between: &[Depth]) -> (Vec<Depth>, Vec<Option<usize>>) {
+    let written_depths = written
         .iter()
         .enumerate()
         .map(|(n, depth)| (*depth, Some(n)));
     let others = between.iter().filter(|depth| !written.contains(depth));
-    let mut all: Vec<_> = named.chain(others.map(|depth| (*depth, None))).collect();
-    all.sort_by(|(a, _), (b, _)| a.z.total_cmp(&b.z).then(a.layer.cmp(&b.layer)));
-    all.into_iter().unzip()
+    let mut merged: Vec<_> = written_depths
+        .chain(others.map(|depth| (*depth, None)))
+        .collect();
+    merged.sort_by(|(a, _), (b, _)| a.z.total_cmp(&b.z).then(a.layer.cmp(&b.layer)));
+    merged.into_iter().unzip()
 }

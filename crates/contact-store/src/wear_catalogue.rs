@@ -165,11 +165,11 @@ pub(super) const FRICTION_LOOP: [(&str, &str, &str); 4] = [
     ("loop_T_y", "N", "force along y in the friction loop"),
 ];
 
-/// Whether such a store has an array of that name, beside its coordinates x and y.
-pub(super) fn holds(name: &str) -> bool {
+/// Checks that a store of wear has an array of that name, beside its coordinates x and y.
+pub(super) fn has_array(name: &str) -> bool {
     let scalars = SCALARS.iter().map(|(name, ..)| *name);
     let fields = FIELDS.iter().map(|(name, ..)| *name);
     let friction_loop = FRICTION_LOOP.iter().map(|(name, ..)| *name);
-    let mut all = scalars.chain(fields).chain(friction_loop);
-    name == "block_cycles" || all.any(|other| other == name)
+    let mut names = scalars.chain(fields).chain(friction_loop);
+    name == "block_cycles" || names.any(|other| other == name)
 }

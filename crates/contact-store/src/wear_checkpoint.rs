@@ -11,10 +11,10 @@ use super::checkpoint::OTHER_LAYOUT;
 use super::consolidated::Checksums;
 use super::folder::Folder;
 
-/// Its name in the folder of a checkpoint.
+/// File name of the state in the folder of a checkpoint.
 pub(super) const FILE: &str = "wear";
 const CHECKPOINT: &str = "checkpoint/wear";
-/// The first bytes of a checkpoint; the number is that of the layout.
+/// The first bytes of a checkpoint; the number is the version of the layout.
 const MAGIC: &[u8] = b"fret wear checkpoint 2\n";
 
 /// The blocks that are kept.
@@ -45,17 +45,17 @@ pub(super) fn write_checkpoint(
         .map_err(|e| failed(&e))
 }
 
-/// Reads them, or says why it can't.
+/// Reads the state and the blocks, or returns the reason why they cannot be read.
 pub(super) fn read_checkpoint(folder: &Arc<Folder>) -> Result<(WearState, Kept), Error> {
     let damaged = |why: &str| folder.error(&format!("{CHECKPOINT} {why}"));
     let bytes = folder
         .read(CHECKPOINT)
         .map_err(|e| damaged(&e.to_string()))?;
     let bytes = bytes.ok_or_else(|| damaged("is missing"))?;
-    let rest = bytes
+    let content = bytes
         .strip_prefix(MAGIC)
         .ok_or_else(|| damaged(OTHER_LAYOUT))?;
-    let (crc, content) = rest
+    let (crc, content) = content
         .split_at_checked(4)
         .ok_or_else(|| damaged("is cut off"))?;
     if crc != crc32fast::hash(content).to_le_bytes() {

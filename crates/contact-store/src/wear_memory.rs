@@ -7,8 +7,8 @@ use super::catalogue::Kind;
 use super::variable::Variable;
 use super::wear_store::{attributes, columns, fields};
 
-/// A variable of a run: what a store would hold of it.
-pub struct InMemory {
+/// A variable of a run, as a store would hold it.
+pub struct StoredVariable {
     /// Its name.
     pub name: &'static str,
     /// Type of its numbers.
@@ -21,8 +21,8 @@ pub struct InMemory {
     pub values: Vec<f64>,
 }
 
-impl InMemory {
-    fn of(variable: &Variable, shape: Vec<usize>, values: Vec<f64>) -> Self {
+impl StoredVariable {
+    fn new(variable: &Variable, shape: Vec<usize>, values: Vec<f64>) -> Self {
         Self {
             name: variable.name(),
             kind: variable.kind(),
@@ -33,7 +33,7 @@ impl InMemory {
     }
 }
 
-/// Collects the blocks of a run of wear as it goes on.
+/// Collects the blocks of a run of wear while it runs.
 #[derive(Default)]
 pub struct WearColumns {
     cycles: Vec<f64>,
@@ -42,9 +42,9 @@ pub struct WearColumns {
 }
 
 impl WearColumns {
-    /// Keeps the block that the run has come to, where the run says so.
+    /// Keeps the current block of the run, if it is one to be kept.
     pub fn keep(&mut self, run: &mut WearRun) {
-        if !run.keeps() {
+        if !run.takes_block() {
             return;
         }
         let block = run.block();
@@ -57,16 +57,16 @@ impl WearColumns {
     }
 
     /// The variables of the run, and the attributes of a store that ended with `status`.
-    pub fn finish(self, run: &WearRun, status: &str) -> (Vec<InMemory>, Value) {
+    pub fn finish(self, run: &WearRun, status: &str) -> (Vec<StoredVariable>, Value) {
         let scalars = columns(run, &self.cycles);
         let scalars = scalars.iter().map(|column| {
             let values = column.values().to_vec();
-            InMemory::of(column.variable(), vec![values.len()], values)
+            StoredVariable::new(column.variable(), vec![values.len()], values)
         });
         let blocks = fields(run, &run.block(), self.cycles.len());
         let fields = blocks.iter().zip(self.fields);
-        let fields =
-            fields.map(|((variable, _), values)| InMemory::of(variable, variable.shape(), values));
+        let fields = fields
+            .map(|((variable, _), values)| StoredVariable::new(variable, variable.shape(), values));
         (scalars.chain(fields).collect(), attributes(run, status))
     }
 }

@@ -2,8 +2,9 @@
 //! loops of the blocks over `block`, `corner`.
 //!
 //! Beside the arrays lies the state after the last jump
-//! ([`wear_checkpoint`](super::wear_checkpoint)), from which [`resume_wear`](super::resume_wear) goes on. Fields of
-//! later blocks that a killed process has left are written again with the same bytes.
+//! ([`wear_checkpoint`](super::wear_checkpoint)), from which [`resume_wear`](super::resume_wear)
+//! continues. A killed process may have left fields of later blocks; they are written again with
+//! the same bytes.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -16,7 +17,7 @@ use serde_json::{Map, Value, json};
 use super::catalogue::{FieldView, Kind};
 use super::consolidated::{Consolidated, FILE};
 use super::folder::Folder;
-use super::place::{Unfinished, is_free, is_store, mend};
+use super::place::{PendingFolder, is_store, lock_folder, restore_moved_store};
 use super::schema::SCHEMA;
 use super::wear_catalogue::{FIELDS, FRICTION_LOOP, SCALARS, Scalar};
 use super::wear_checkpoint::{Kept, write_checkpoint};
@@ -38,23 +39,23 @@ impl WearStore {
     /// A new store at `path`; nothing is written before the first jump. Fails if there is something
     /// already, unless it is a store and may be overwritten.
     pub fn create(path: impl AsRef<Path>, overwrite: bool) -> Result<Self, Error> {
-        let place = path.as_ref().to_owned();
-        mend(&place);
-        if place.exists() && !(overwrite && is_store(&place)) {
+        let store_path = path.as_ref().to_owned();
+        restore_moved_store(&store_path);
+        if store_path.exists() && !(overwrite && is_store(&store_path)) {
             let message =
                 "exists: choose another path, or allow to overwrite a result store (--overwrite)";
-            return Err(Folder::new(&place).error(&message));
+            return Err(Folder::new(&store_path).error(&message));
         }
         Ok(Self {
-            place,
+            place: store_path,
             overwrite,
             folder: None,
             kept: Kept::default(),
         })
     }
 
-    /// Writes on in the store of a run that goes on, with what it has kept so far.
-    pub(super) fn go_on(folder: Arc<Folder>, lock: File, kept: Kept) -> Self {
+    /// Continues the store of a resumed run, with the blocks that it holds.
+    pub(super) fn resumed(folder: Arc<Folder>, lock: File, kept: Kept) -> Self {
         Self {
             place: folder.root().to_owned(),
             overwrite: false,
@@ -63,20 +64,20 @@ impl WearStore {
         }
     }
 
-    /// Whether there is a run of wear at `path`.
+    /// Checks that there is a run of wear at `path`.
     pub fn is_at(path: impl AsRef<Path>) -> bool {
         let text = Folder::new(path.as_ref()).read(".zattrs");
         let attributes = text.ok().flatten().map(|t| serde_json::from_slice(&t));
         attributes.is_some_and(|read: Result<Value, _>| read.is_ok_and(|a| a.get("wear").is_some()))
     }
 
-    /// Keeps a block where the run says so, every scalar, and the state.
+    /// Stores the current block, if it is one to be kept, every scalar, and the state.
     pub fn write(&mut self, run: &mut WearRun) -> Result<(), Error> {
-        let kept = run.keeps();
+        let kept = run.takes_block();
         let block = run.block();
         let begins = match &self.folder {
             Some(_) => None,
-            None => Some(Unfinished::begin(&self.place)?),
+            None => Some(PendingFolder::begin(&self.place)?),
         };
         let folder = match (&self.folder, &begins) {
             (Some((folder, _)), _) => folder.clone(),
@@ -101,13 +102,13 @@ impl WearStore {
         self.write_documents(&folder, run, &block, "running")?;
         if let Some(begins) = begins {
             let folder = begins.finish(self.overwrite)?;
-            let lock = locked(&folder)?;
+            let lock = lock_store(&folder)?;
             self.folder = Some((folder, lock));
         }
         Ok(())
     }
 
-    /// Says how the run ended; the checkpoint of one that is done goes.
+    /// Writes how the run ended, and removes the checkpoint of a finished run.
     pub fn finish(&self, run: &WearRun, status: &str) -> Result<(), Error> {
         let Some((folder, _)) = &self.folder else {
             return Ok(());
@@ -153,7 +154,7 @@ impl WearStore {
             checksums,
         };
         folder.put(FILE, &consolidated.encode())?;
-        // The status comes last: a store that says "done" is whole.
+        // The status comes last: a store with the status "done" is whole.
         write(ATTRIBUTES, consolidated.document(ATTRIBUTES))
     }
 }
@@ -161,18 +162,18 @@ impl WearStore {
 /// The scalars of the jumps, the places of the cells, the cycles of the blocks.
 pub(super) fn columns(run: &WearRun, cycles: &[f64]) -> Vec<Column> {
     let (jumps, grid) = (run.history(), &run.scene().grid);
-    let scalar = |(name, unit, what, of): &Scalar| {
+    let scalar = |(name, unit, meaning, value): &Scalar| {
         let kind = if matches!(*name, "retries" | "index") {
             Kind::Count
         } else {
             Kind::Real
         };
-        Column::new(name, kind, (grid.unit_of(unit), what), "jump", &[])
-            .extend(jumps.iter().map(of))
+        Column::new(name, kind, (grid.unit_of(unit), meaning), "jump", &[])
+            .extend(jumps.iter().map(value))
     };
     let mut columns: Vec<Column> = SCALARS.iter().map(scalar).collect();
-    let along = |name, what, n: usize, at: &dyn Fn(usize) -> f64| {
-        Column::new(name, Kind::Real, ("m", what), name, &[]).extend((0..n).map(at))
+    let along = |name, meaning, n: usize, at: &dyn Fn(usize) -> f64| {
+        Column::new(name, Kind::Real, ("m", meaning), name, &[]).extend((0..n).map(at))
     };
     columns.push(along("x", "position along x", grid.nx, &|i| grid.x(i)));
     columns.push(along("y", "position along y", grid.ny, &|j| grid.y(j)));
@@ -187,15 +188,15 @@ pub(super) fn columns(run: &WearRun, cycles: &[f64]) -> Vec<Column> {
     columns
 }
 
-/// The folder, locked; fails if another process writes it.
-pub(super) fn locked(folder: &Arc<Folder>) -> Result<File, Error> {
+/// Locks the folder; fails if another process writes it.
+pub(super) fn lock_store(folder: &Arc<Folder>) -> Result<File, Error> {
     let lock = File::open(folder.root()).map_err(|e| folder.error(&e))?;
-    is_free(&lock, folder)?;
+    lock_folder(&lock, folder)?;
     Ok(lock)
 }
 
-/// Removes the checkpoint of a run that is done, which a process that died at its very end has
-/// left. What cannot be removed is no reason to fail: the store is whole.
+/// Removes the checkpoint of a finished run, which a process that died at its very end has left. A
+/// failure is ignored, since the store is whole.
 pub(super) fn clear_checkpoint(folder: &Folder) {
     let _ = std::fs::remove_dir_all(folder.root().join("checkpoint"));
 }

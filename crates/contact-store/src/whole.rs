@@ -1,4 +1,4 @@
-//! Whether a store is whole: its consolidated metadata, and every file that they speak of.
+//! Checks that a store is whole: its consolidated metadata, and every file that they list.
 
 use std::sync::Arc;
 
@@ -6,16 +6,16 @@ use contact_core::Error;
 use rayon::prelude::*;
 use serde_json::Value;
 
-use super::attributes::CONCLUDED;
+use super::attributes::END_ATTRIBUTES;
 use super::consolidated::{Consolidated, FILE};
 use super::folder::Folder;
 use super::schema::SCHEMA;
 use super::stored::Stored;
 
-/// The consolidated metadata of a store; fails if there is none, one of another layout or damaged
-/// ones.
+/// Reads the consolidated metadata of a store. Fails if there are none, if they have another layout
+/// or if they are damaged.
 pub(super) fn consolidated(folder: &Folder) -> Result<Consolidated, Error> {
-    match found(folder)? {
+    match read_folder(folder)? {
         Found::Store(consolidated) => Ok(consolidated),
         Found::Copy(_) => Err(folder.error(
             &"is a copy without checksums, as `save` or xarray write one. It can be read, but a run cannot go on \
@@ -24,7 +24,7 @@ pub(super) fn consolidated(folder: &Folder) -> Result<Consolidated, Error> {
     }
 }
 
-/// What lies in a folder.
+/// The kind of store in a folder.
 pub(super) enum Found {
     /// A store with its checksums.
     Store(Consolidated),
@@ -32,8 +32,8 @@ pub(super) enum Found {
     Copy(Consolidated),
 }
 
-/// What lies in a folder; fails as [`consolidated`].
-pub(super) fn found(folder: &Folder) -> Result<Found, Error> {
+/// Reads the kind of store in a folder; fails as [`consolidated`].
+pub(super) fn read_folder(folder: &Folder) -> Result<Found, Error> {
     let text = folder
         .read(FILE)
         .map_err(|e| folder.error(&format!("{FILE}: {e}")))?
@@ -52,7 +52,7 @@ pub(super) fn found(folder: &Folder) -> Result<Found, Error> {
     }
 }
 
-/// Whether metadata hold any checksum, their own or those of the arrays.
+/// Checks that metadata hold any checksum, their own or the checksums of the arrays.
 fn text_has_sums(text: &[u8]) -> bool {
     let text = String::from_utf8_lossy(text);
     text.contains("\"checksums\"") || text.contains("\"crc32\"")
@@ -61,7 +61,7 @@ fn text_has_sums(text: &[u8]) -> bool {
 /// Fails if a file of the store is missing, or is not as it was written; the error names it.
 pub(super) fn verify(folder: &Arc<Folder>, consolidated: &Consolidated) -> Result<(), Error> {
     for key in [".zgroup", ".zattrs"] {
-        document(folder, consolidated, key)
+        check_document(folder, consolidated, key)
             .map_err(|e| folder.error(&format!("the file {key} {e}")))?;
     }
     let arrays = consolidated.documents.keys();
@@ -70,7 +70,7 @@ pub(super) fn verify(folder: &Arc<Folder>, consolidated: &Consolidated) -> Resul
         .collect();
     arrays.par_iter().try_for_each(|name| {
         let stored = array(folder, consolidated, name)?;
-        let verified = stored.verify(&stored.all());
+        let verified = stored.verify(&stored.whole());
         verified.map_err(|e| folder.error(&format!("{name}: {e}")))
     })
 }
@@ -95,21 +95,21 @@ pub(super) fn array<'a>(
     Stored::new(folder, name, zarray, checksums)
 }
 
-/// Fails if a document of the group is not the one that the consolidated metadata have, but for
-/// how the run ended: a process may have died between the two.
-fn document(folder: &Folder, consolidated: &Consolidated, key: &str) -> Result<(), String> {
+/// Fails if a document of the group differs from the consolidated metadata, except for how the run
+/// ended. A process may have died between the two.
+fn check_document(folder: &Folder, consolidated: &Consolidated, key: &str) -> Result<(), String> {
     let bytes = folder.read(key).map_err(|e| e.to_string())?;
     let bytes = bytes.ok_or("is missing")?;
     let read: Value = serde_json::from_slice(&bytes).map_err(|e| format!("is damaged: {e}"))?;
-    let what_stays = |document: &Value| {
+    let without_end = |document: &Value| {
         let mut document = document.clone();
         if let Value::Object(entries) = &mut document {
-            entries.retain(|key, _| !CONCLUDED.contains(&key.as_str()));
+            entries.retain(|key, _| !END_ATTRIBUTES.contains(&key.as_str()));
         }
         document
     };
-    if what_stays(&read) != what_stays(consolidated.document(key)) {
-        return Err(format!("is damaged: it is not that of {FILE}"));
+    if without_end(&read) != without_end(consolidated.document(key)) {
+        return Err(format!("is damaged: it differs from {FILE}"));
     }
     Ok(())
 }

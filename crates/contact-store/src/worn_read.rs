@@ -1,4 +1,4 @@
-//! The surfaces that a run of wear has left in its store.
+//! Reads the worn surfaces of a run of wear from its store.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -16,14 +16,14 @@ use super::wear_store::verify_wear;
 /// Largest number of values that a field may have.
 const MOST_VALUES: u64 = 1 << 28;
 
-/// Reads the last block of a run of wear: what another run may begin on. Fails if a file of the
+/// Reads the last block of a run of wear, on which another run may begin. Fails if a file of the
 /// store is missing or not as it was written.
 pub fn read_worn(path: impl AsRef<Path>) -> Result<WornStart, Error> {
     verify_wear(path.as_ref())?;
     let folder = Folder::new(path.as_ref());
-    let last = |name: &str| last(&folder, name);
+    let last_of = |name: &str| read_last(&folder, name);
     let field = |name: &str| -> Result<Array2<f64>, Error> {
-        let (shape, values) = last(name)?;
+        let (shape, values) = last_of(name)?;
         let [_, nx, ny] = shape[..] else {
             return Err(folder.error(&format!("{name}: is of shape {shape:?}, no field")));
         };
@@ -31,7 +31,7 @@ pub fn read_worn(path: impl AsRef<Path>) -> Result<WornStart, Error> {
             .map_err(|e| folder.error(&format!("{name}: {e}")))
     };
     let number = |name: &str| -> Result<f64, Error> {
-        let (_, values) = last(name)?;
+        let (_, values) = last_of(name)?;
         let value = values.last().copied();
         value.ok_or_else(|| folder.error(&format!("{name}: is empty")))
     };
@@ -46,7 +46,7 @@ pub fn read_worn(path: impl AsRef<Path>) -> Result<WornStart, Error> {
 
 /// The last entry along the first dimension of an array of real numbers, and the shape of the
 /// array.
-fn last(folder: &Arc<Folder>, name: &str) -> Result<(Vec<u64>, Vec<f64>), Error> {
+fn read_last(folder: &Arc<Folder>, name: &str) -> Result<(Vec<u64>, Vec<f64>), Error> {
     let failed = |e: &dyn std::fmt::Display| folder.error(&format!("{name}: {e}"));
     let key = format!("{name}/.zarray");
     let text = folder.read(&key).map_err(|e| failed(&e))?;

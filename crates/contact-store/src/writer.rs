@@ -1,4 +1,4 @@
-//! The store being written.
+//! Writes a store during the run.
 
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -11,7 +11,7 @@ use super::attributes::conclude;
 use super::checkpoint::Checkpoints;
 use super::folder::Folder;
 use super::open::Open;
-use super::place::{has_nothing_else, mend, place};
+use super::place::{check_only_store, resolve_place, restore_moved_store};
 use super::reader::Store;
 
 /// Time between two checkpoints: the run time that a crash may lose.
@@ -33,8 +33,8 @@ impl StoreWriter {
     /// increment is solved. Fails if there is something at `path` already, unless it is a store
     /// and nothing else, and may be overwritten. A link to a store is followed.
     pub fn create(path: impl AsRef<Path>, overwrite: bool) -> Result<Self, Error> {
-        let path = place(path.as_ref())?;
-        mend(&path);
+        let path = resolve_place(path.as_ref())?;
+        restore_moved_store(&path);
         let refuse = |message: &str| Err(Folder::new(&path).error(&message));
         if path.exists() {
             if let Err(reason) = Store::open(&path) {
@@ -49,7 +49,7 @@ impl StoreWriter {
                      (--overwrite)",
                 );
             }
-            has_nothing_else(&path)?;
+            check_only_store(&path)?;
         }
         Ok(Self {
             path,
@@ -59,8 +59,8 @@ impl StoreWriter {
         })
     }
 
-    /// A writer that continues the store of `open`.
-    pub(super) fn go_on(open: Open) -> Self {
+    /// Continues the store of `open`.
+    pub(super) fn resumed(open: Open) -> Self {
         Self {
             path: open.folder.root().to_owned(),
             overwrite: false,
@@ -71,22 +71,21 @@ impl StoreWriter {
 
     /// Brings the store and the checkpoint up to date whenever `interval` of run time has passed
     /// (default 5 s; zero: after every increment), at the ends of branches, and at the end of the
-    /// run. Branch ends are passed over while that would take more than 3 % of the time, and so
-    /// are intervals other than zero.
+    /// run. Ends of branches and intervals other than zero are skipped if they would take more than
+    /// 3 % of the time.
     #[must_use]
     pub fn with_interval(mut self, interval: Duration) -> Self {
         self.interval = interval;
         self
     }
 
-    /// Increments that the store on the disk holds, from which [`super::resume`] goes on; 0 if
+    /// Number of increments in the store on the disk, from which [`super::resume`] continues; 0 if
     /// there is none.
     pub fn kept(&self) -> usize {
         self.open.as_ref().map_or(0, |open| open.on_disk)
     }
 
-    /// Checkpoints that this writer has written, and the time that they took, what brings the
-    /// store up to date for each included.
+    /// Number of checkpoints of this writer and their total cost, store flush included.
     pub fn checkpoints(&self) -> (usize, Duration) {
         self.open
             .as_ref()
@@ -117,8 +116,8 @@ impl Observer for StoreWriter {
     }
 
     /// Keeps the fields of the last increment (unless the run was stopped on a grid of two million
-    /// cells or more), says how the run ended and what is to be doubted of it; a run that ended
-    /// early leaves a checkpoint to go on from.
+    /// cells or more), and writes how the run ended and its doubts. A run that ended early leaves a
+    /// checkpoint to resume from.
     fn on_end(&mut self, march: &March, failure: Option<&Error>) -> Result<(), Error> {
         let Some(open) = &mut self.open else {
             return Ok(());

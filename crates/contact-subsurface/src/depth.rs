@@ -119,7 +119,7 @@ pub(super) fn interface_mask(depths: &[Depth]) -> Vec<bool> {
 
 #[cfg(test)]
 mod tests {
-    use super::{chosen_depths, on_interfaces};
+    use super::{default_depths, interface_mask};
     use contact_core::scene::{Body, Coating, Elastic, Shape};
 
     #[test]

@@ -317,7 +317,7 @@ mod tests {
         let fine = field_of([17, 16], linear);
         let contact = Grid::from_spacing((34, 32), (1e-5, 1.25e-5)).expect("a grid");
         for cells in DoubledCells::new_pair(&contact) {
-            let coarse = fine.on_coarser(&cells);
+            let coarse = fine.coarsened(&cells);
             let (u, v) = cells.middle;
             for (x, y, z, layer) in [(1.3e-5, -2e-5, 5e-5, 0), (-1e-5, 1e-5, 1.7e-4, 1)] {
                 let depth = Depth { z, layer };
@@ -345,7 +345,7 @@ mod tests {
             let depth = Depth { z, layer };
             let interpolated = field.stress(x, y, depth);
             let moved = field
-                .seen_from((1e-5, 2e-5))
+                .with_origin((1e-5, 2e-5))
                 .stress(x - 1e-5, y - 2e-5, depth);
             let strain = field.plastic_strain(x, y, depth);
             for c in 0..COMPONENTS {

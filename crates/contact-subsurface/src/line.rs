@@ -245,10 +245,10 @@ mod tests {
                 let (x, y) = line.place(s);
                 assert!((line.nearest_distance(x, y) - s).abs() < 1e-12);
                 assert!(x.abs() <= 20.0 && y.abs() <= 22.5, "{x} {y}");
-                let (moved, more) = line.seen_from((0.4, -0.2));
-                let (u, v) = moved.at(s - more);
+                let (moved, more) = line.with_origin((0.4, -0.2));
+                let (u, v) = moved.place(s - more);
                 assert!((u + 0.4 - x).abs() < 1e-12 && (v - 0.2 - y).abs() < 1e-12);
-                let (u, v) = line.parallel(2.0).at(s);
+                let (u, v) = line.parallel(2.0).place(s);
                 assert!(((u - x).hypot(v - y) - 2.0).abs() < 1e-12);
             }
         }

@@ -195,7 +195,7 @@ mod tests {
     fn highest(field: &Array2<f64>, depths: &[Depth], along: &[f64]) -> Option<Hill<1>> {
         let lines = field.rows().into_iter();
         let tops: Vec<_> = lines.map(|line| top_of_line(&line, along)).collect();
-        hills(&tops, depths, true).into_iter().next()
+        find_hills(&tops, depths, true).into_iter().next()
     }
 
     #[test]
@@ -221,7 +221,7 @@ mod tests {
             let plane = Array2::from_shape_fn((6, 5), |(i, j)| f(X[i], y[j], z));
             top_of_plane(&plane, &X, &y)
         });
-        let m = hills(&tops, &Z.map(|z| Depth { z, layer: 0 }), true)[0];
+        let m = find_hills(&tops, &Z.map(|z| Depth { z, layer: 0 }), true)[0];
         assert!((m.top.value - 7.0).abs() < 1e-12, "{m:?}");
         for (ours, exact) in [
             (m.top.place[0], 0.2),

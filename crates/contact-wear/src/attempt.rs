@@ -10,16 +10,16 @@ pub(super) struct Attempt {
     pub(super) loss: Loss,
     /// Loss in its first half \[m\].
     pub(super) half: [Vec<f64>; 2],
-    /// Root mean square of what the extrapolation moves, over the worn depth.
+    /// Root mean square of the correction by extrapolation, over the worn depth.
     pub(super) error: f64,
-    /// The same of the pressure at the end.
+    /// Root mean square of the change of the pressure at the end, over the pressure.
     pub(super) pressure_error: f64,
-    /// What the halves wear less what the whole jump wears \[m\].
-    pub(super) moved: [Vec<f64>; 2],
+    /// Difference of the worn depths of the two halves and of the whole jump \[m\].
+    pub(super) correction: [Vec<f64>; 2],
 }
 
 impl Attempt {
-    /// A jump of n cycles with the pressure of its start, without an error.
+    /// Makes a jump of n cycles with the pressure of its start, without an error.
     pub(super) fn explicit(model: &mut Model, worn: &Worn, n: f64) -> Result<Self, Error> {
         let loss = model.jump(worn, n, false)?;
         let none = loss.depth.each_ref().map(|d| vec![0.0; d.len()]);
@@ -29,11 +29,11 @@ impl Attempt {
             loss,
             error: 0.0,
             pressure_error: 0.0,
-            moved: none,
+            correction: none,
         })
     }
 
-    /// A jump of n cycles with the pressure of its end, from the state that the model has at its
+    /// Makes a jump of n cycles with the pressure of its end, from the state of the model at its
     /// start.
     pub(super) fn implicit(
         model: &mut Model,
@@ -48,34 +48,34 @@ impl Attempt {
         let mut middle = worn.clone();
         middle.add(&first);
         let second = model.jump(&middle, 0.5 * n, true)?;
-        let pressure_error = distance(&pressure, &model.pressures());
+        let pressure_error = relative_difference(&pressure, &model.pressures());
         let one_half = first.depth.clone();
-        let halves = first.with(&second);
+        let halves = first.plus(&second);
         let moved: [Vec<f64>; 2] = [0, 1].map(|b| {
-            let both = halves.depth[b].iter().zip(&whole.depth[b]);
-            both.map(|(halves, whole)| halves - whole).collect()
+            let pairs = halves.depth[b].iter().zip(&whole.depth[b]);
+            pairs.map(|(halves, whole)| halves - whole).collect()
         });
         let (loss, error) = halves.extrapolated(&whole, worn);
-        // The second-order correction of a first half is half of that of the whole jump.
+        // The second-order correction of a first half is half of the correction of the whole jump.
         let half = [0, 1].map(|b| {
             let cells = one_half[b].iter().zip(&moved[b]).zip(&loss.depth[b]);
-            let to = |((half, moved), whole): ((&f64, &f64), &f64)| {
+            let corrected = |((half, moved), whole): ((&f64, &f64), &f64)| {
                 (half + 0.5 * moved).clamp(0.25 * whole, 0.75 * whole)
             };
-            cells.map(to).collect::<Vec<f64>>()
+            cells.map(corrected).collect::<Vec<f64>>()
         });
         Ok(Self {
             loss,
             half,
             error,
             pressure_error,
-            moved,
+            correction: moved,
         })
     }
 }
 
-/// Root mean square of the difference of two fields over that of the second.
-fn distance(a: &[f64], b: &[f64]) -> f64 {
+/// Root mean square of the difference of two fields, over the root mean square of the second.
+fn relative_difference(a: &[f64], b: &[f64]) -> f64 {
     let (mut differs, mut size) = (0.0, 0.0);
     for (a, b) in a.iter().zip(b) {
         differs += (a - b).powi(2);

@@ -12,18 +12,19 @@ use super::worn_start::WornStart;
 pub struct Block {
     /// Cycles done.
     pub cycles: f64,
-    /// Depth worn off body 1 \[m\], in its own coordinates: those of the grid at no shift.
+    /// Depth worn off body 1 \[m\], in its own coordinates: the coordinates of the grid at no
+    /// shift.
     pub worn1: Array2<f64>,
     /// Depth worn off body 2 \[m\].
     pub worn2: Array2<f64>,
     /// Energy per area dissipated at body 1 so far, in its own coordinates \[J/m^2\].
     pub energy1: Array2<f64>,
-    /// The same at body 2 \[J/m^2\].
+    /// Energy per area dissipated at body 2 so far, in its own coordinates \[J/m^2\].
     pub energy2: Array2<f64>,
-    /// Way slipped in contact so far \[m\].
+    /// Distance slipped in contact so far \[m\].
     pub slid: Array2<f64>,
     /// Pressure \[Pa\]: in a march the mean of the cycle, weighted with the energy dissipated in
-    /// each increment; in gross slip that in the middle of the stroke.
+    /// each increment; in gross slip the pressure in the middle of the stroke.
     pub p: Array2<f64>,
     /// Shift of body 1 against body 2 along x at which p acts and the two worn surfaces lie \[m\];
     /// zero in a march.
@@ -31,7 +32,7 @@ pub struct Block {
     /// Contact cells that slip nowhere in the cycle; none in gross slip.
     pub stick: Array2<bool>,
     /// Friction loop of one cycle: shift delta_x \[m\], force T_x \[N\], shift delta_y, force T_y,
-    /// at the ends of its increments. The shifts are those of the rig.
+    /// at the ends of its increments. The shifts belong to the rig.
     pub friction_loop: Vec<[f64; 4]>,
 }
 
@@ -58,7 +59,7 @@ impl WearRun {
                 .mirror
                 .unfold(field, grid.nx, grid.ny, Parity::Even)
         };
-        let seen = self.model.seen();
+        let seen = self.model.output();
         let stick = match seen.stick {
             Some(stick) => {
                 let ones: Vec<f64> = stick.iter().map(|s| f64::from(u8::from(*s))).collect();

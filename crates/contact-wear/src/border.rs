@@ -1,11 +1,11 @@
 //! The cell of a line contact that contains the border of the stick zone.
 //!
 //! The part phi of its width sticks, the rest slips and wears. After many cycles the pressure is
-//! that of a punch whose edge lies within the cell, with a square-root singularity. A row of whole
-//! cells represents such a punch if its outermost cell, of the pressure p, is recessed by beta p.
-//! With T the matrix of the responses of a half-line of cells to each other, the recess moves the
-//! edge by `beta/(1/t + beta)` cells from its place for beta = 0, t being the first diagonal entry
-//! of T^-1 (J. Sherman, W. J. Morrison, Ann. Math. Stat. 21 (1950) 124). So
+//! the pressure of a punch whose edge lies within the cell, with a square-root singularity. A row
+//! of whole cells represents such a punch if its outermost cell, of the pressure p, is recessed by
+//! beta p. Let T be the matrix of the responses of a half-line of cells to each other, and t the
+//! first diagonal entry of T^-1. The recess moves the edge by `beta/(1/t + beta)` cells from its
+//! place for beta = 0 (J. Sherman, W. J. Morrison, Ann. Math. Stat. 21 (1950) 124). So
 //!
 //! ```text
 //! beta = B (1 - phi)/phi,   B = 1/t = exp[1/(2 pi) int_-pi^pi ln K(w) dw],
@@ -17,8 +17,8 @@
 //! inside the outermost cell, 1/4 - 1/2 sum_m m r_m = 0.1747 cells from its outer border, r_m being
 //! the cosine coefficients of ln [2 |sin(w/2)| K(w) E*/(2 dx)].
 //!
-//! Before, at a depth w, the slipping part, which alone wears and dissipates, carries the pressure
-//! p - w/beta of the cell.
+//! Before the final state, at a depth w, the slipping part carries the pressure p - w/beta of the
+//! cell. It alone wears and dissipates.
 
 use contact_core::cells::Lattice;
 use contact_core::zones::{Level, SHRINKING, STICK, Stencil};
@@ -28,12 +28,12 @@ use super::loss::Worn;
 
 /// B over C(0) - C(1) = `3 ln 3/pi dx/E*`, the difference of the responses of a cell and its
 /// neighbour.
-pub(super) const STIFFENS: f64 = 1.643_621;
+pub(super) const BORDER_STIFFNESS: f64 = 1.643_621;
 /// Distance of the edge from the outer border of the outermost cell for beta = 0 \[cells\].
-const WITHIN: f64 = 0.174_65;
+const EDGE_OFFSET: f64 = 0.174_65;
 /// If the cells of a zone carry also the shear of a part f of the next cell, their level vanishes
 /// f + FURTHER f^2 cells outside (fitted to half-lines of cells, within 0.006 for f < 0.9).
-const FURTHER: f64 = 0.36;
+const EDGE_CURVATURE: f64 = 0.36;
 
 /// A cell that contains the border of the stick zone.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -43,19 +43,19 @@ pub(crate) struct Cut {
     inner: usize,
     /// Part that sticks, above 0 and below 1.
     share: f64,
-    /// Way slipped per cycle by the slipping part, times that part \[m\], if it is the smaller one:
-    /// the march then lets the whole cell stick or slip too little.
-    pub(crate) way: Option<f64>,
+    /// Slip per cycle of the slipping part, times that part \[m\], if it is the smaller one. The
+    /// march then makes the whole cell stick or slip too little.
+    pub(crate) slip: Option<f64>,
 }
 
 /// The fields from which the border is located.
-pub(crate) struct Signs<'a> {
+pub(crate) struct BorderFields<'a> {
     /// Cells that stick all through a cycle.
     pub(crate) stick: &'a [bool],
     /// Least p - |q|/mu over the cycle \[Pa\].
     pub(crate) short: &'a [f64],
-    /// Way of each cell relative to the next one in a cycle \[m\].
-    pub(crate) apart: &'a [f64],
+    /// Slip of each cell relative to the next one in a cycle \[m\].
+    pub(crate) relative_slip: &'a [f64],
     pub(crate) worn: &'a Worn,
     /// Part of the worn depth by which the gap grows.
     pub(crate) opens: f64,
@@ -65,71 +65,82 @@ pub(crate) struct Signs<'a> {
 
 impl Cut {
     /// The cut cells of a line contact.
-    pub(crate) fn cells(lattice: Lattice, signs: &Signs<'_>) -> Vec<Self> {
+    pub(crate) fn cells(lattice: Lattice, signs: &BorderFields<'_>) -> Vec<Self> {
         let mut inside = signs.stick.to_vec();
         for n in lattice.border(signs.stick) {
             inside[n] = false;
         }
-        let cut = |zone: &[bool]| -> Vec<Self> {
+        let cut_cells = |zone: &[bool]| -> Vec<Self> {
             let stencils = [Stencil::ROOT.for_inner_zone(), Stencil::LINEAR];
             let edges = lattice.edges(zone, stencils, |_| (STICK, |n: usize| signs.short[n]));
             let outside = edges.into_iter().filter(|(n, _)| !zone[*n]);
             outside
-                .filter_map(|(n, edge)| Self::at(n, &edge.level?, signs))
+                .filter_map(|(n, edge)| Self::from_level(n, &edge.level?, signs))
                 .collect()
         };
         // Outermost cells of the stick zone; where the border is not in one of these, the cells
         // outside them.
-        let mut cuts = cut(&inside);
-        let next = cut(signs.stick).into_iter();
-        let next: Vec<Self> = next
-            .filter(|cut| !cuts.iter().any(|other| other.cell == cut.inner))
+        let mut cuts = cut_cells(&inside);
+        let neighbours = cut_cells(signs.stick).into_iter();
+        let neighbours: Vec<Self> = neighbours
+            .filter(|cut_cells| !cuts.iter().any(|other| other.cell == cut_cells.inner))
             .collect();
-        cuts.extend(next);
+        cuts.extend(neighbours);
         cuts
     }
 
-    /// A cell next to a zone, from the level extrapolated to it; `None` if the border is not in it.
-    fn at(cell: usize, level: &Level, signs: &Signs<'_>) -> Option<Self> {
+    /// Finds the border in a cell next to a zone, from the level extrapolated to it; returns `None`
+    /// if the border is not in the cell.
+    fn from_level(cell: usize, level: &Level, signs: &BorderFields<'_>) -> Option<Self> {
         let inner = level.line.outermost();
         let mut cut = Self {
             cell,
             inner,
             share: 0.0,
-            way: None,
+            slip: None,
         };
         let sticks = signs.stick[cell];
         // Part of its shear that the neighbours carry: 1 if it slips; if it sticks, by its worn
         // depth.
         let lacks = if sticks {
-            let worn = cut.deeper(signs.worn, signs.opens) / (STIFFENS * signs.response);
+            let worn =
+                cut.gap_difference(signs.worn, signs.opens) / (BORDER_STIFFNESS * signs.response);
             worn / (worn + signs.short[cell].max(0.0)).max(f64::MIN_POSITIVE)
         } else {
             1.0
         };
         let shown = level.middle / level.gradient[0].abs() + 0.5;
-        let part = 2.0 * shown / (1.0 + (1.0 + 4.0 * FURTHER * lacks * shown.max(0.0)).sqrt());
-        cut.share = part + WITHIN;
+        let part =
+            2.0 * shown / (1.0 + (1.0 + 4.0 * EDGE_CURVATURE * lacks * shown.max(0.0)).sqrt());
+        cut.share = part + EDGE_OFFSET;
         if cut.share > 0.5 {
             // On worn surfaces the slip grows like a square root from the border to the centre of
             // the next cell.
             let slips = 1.0 - cut.share;
             let mean = slips * (slips / (slips + 0.5)).sqrt() / 1.5;
-            let next = cell.min((2 * cell).saturating_sub(inner));
-            cut.way = Some((signs.apart[cell.min(inner)] + signs.apart[next]) * mean);
+            let neighbour = cell.min((2 * cell).saturating_sub(inner));
+            cut.slip = Some(
+                (signs.relative_slip[cell.min(inner)] + signs.relative_slip[neighbour]) * mean,
+            );
         }
         (level.law == SHRINKING && cut.share > 0.0 && cut.share < 1.0).then_some(cut)
     }
 
     /// 1/beta \[Pa/m\], given C(0) - C(1) \[m/Pa\].
     pub(crate) fn stiffness(&self, response: f64) -> f64 {
-        self.share / (1.0 - self.share) / (STIFFENS * response)
+        self.share / (1.0 - self.share) / (BORDER_STIFFNESS * response)
     }
 
-    /// Growth of the gap at the cell less that at the cell inside \[m\]: the part `opens` of the
-    /// worn depths.
-    pub(crate) fn deeper(&self, worn: &Worn, opens: f64) -> f64 {
-        let deeper = |depth: &Vec<f64>| depth[self.cell] - depth[self.inner];
-        opens * worn.depth.iter().map(deeper).sum::<f64>().max(0.0)
+    /// Growth of the gap at the cell minus its growth at the cell inside \[m\]: the part `opens` of
+    /// the worn depths.
+    pub(crate) fn gap_difference(&self, worn: &Worn, opens: f64) -> f64 {
+        let depth_difference = |depth: &Vec<f64>| depth[self.cell] - depth[self.inner];
+        opens
+            * worn
+                .depth
+                .iter()
+                .map(depth_difference)
+                .sum::<f64>()
+                .max(0.0)
     }
 }

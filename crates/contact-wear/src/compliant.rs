@@ -56,8 +56,8 @@ impl SurfaceOperator for Compliant<'_> {
     }
 }
 
-/// The approximate inverse of C + D. With P that of C with the same D_0 added to every cell it is S
-/// P S,
+/// The approximate inverse of C + D. Let P be the approximate inverse of C with the same D_0 added
+/// to every cell. The result is S P S,
 ///
 /// ```text
 /// s_i^2 = (c + D_0)/(c + D_i),   1/(c + D_0) = mean of 1/(c + D_i) over the contact,
@@ -68,7 +68,7 @@ impl SurfaceOperator for Compliant<'_> {
 pub(crate) struct CompliantInverse {
     inverse: CirculantInverse,
     /// D_0 \[m/Pa\].
-    at: f64,
+    diagonal: f64,
     scale: Vec<f64>,
     scaled: Vec<f64>,
 }
@@ -77,9 +77,9 @@ pub(crate) struct CompliantInverse {
 const ALIKE: f64 = 0.2;
 
 impl CompliantInverse {
-    /// For the compliances of the cells and their contact, `touches` > 0; the one `before` if its
-    /// D_0 is near enough.
-    pub(crate) fn from(
+    /// Sets up the inverse for the compliances of the cells and their contact, `touches` > 0. It
+    /// reuses `before` if its D_0 is near enough.
+    pub(crate) fn new_or_reused(
         before: Option<Self>,
         kernel: &InfluenceCoefficients,
         mirror: Mirror,
@@ -89,20 +89,20 @@ impl CompliantInverse {
         let touching = touches.iter().zip(compliance).filter(|(p, _)| **p > 0.0);
         let (sum, count) = touching.fold((0.0, 0.0), |(s, n), (_, d)| (s + 1.0 / (c + d), n + 1.0));
         let at = if count > 0.0 { count / sum - c } else { 0.0 };
-        let mut found = match before {
-            Some(before) if (at - before.at).abs() <= ALIKE * before.at => before,
+        let mut inverse = match before {
+            Some(before) if (at - before.diagonal).abs() <= ALIKE * before.diagonal => before,
             _ => Self {
                 inverse: with_diagonal(kernel, mirror, at),
-                at,
+                diagonal: at,
                 scale: vec![0.0; compliance.len()],
                 scaled: vec![0.0; compliance.len()],
             },
         };
-        let top = c + found.at;
-        for (scale, d) in found.scale.iter_mut().zip(compliance) {
+        let top = c + inverse.diagonal;
+        for (scale, d) in inverse.scale.iter_mut().zip(compliance) {
             *scale = (top / (c + d)).sqrt();
         }
-        found
+        inverse
     }
 }
 
@@ -129,10 +129,14 @@ pub(crate) fn shortest_waves(kernel: &InfluenceCoefficients) -> f64 {
     zz[(0, 0)] - beside.copied().unwrap_or(0.0)
 }
 
-/// The circulant inverse of the kernel of u_z under p with D_0 added to every cell: to the self
+/// The circulant inverse of the kernel of u_z under p with D_0 added to every cell, to the self
 /// coefficient.
-fn with_diagonal(kernel: &InfluenceCoefficients, mirror: Mirror, at: f64) -> CirculantInverse {
+fn with_diagonal(
+    kernel: &InfluenceCoefficients,
+    mirror: Mirror,
+    diagonal: f64,
+) -> CirculantInverse {
     let mut with = kernel.clone();
-    with.zz[(0, 0)] += at;
+    with.zz[(0, 0)] += diagonal;
     CirculantInverse::new(&with, mirror, false)
 }

@@ -6,11 +6,11 @@
 //! dw/dN = r(w, e, N),   de/dN = D,
 //! ```
 //!
-//! r being the depth per cycle by the law of the bare layer, e the energy per area and D its growth per
-//! cycle. The cells are independent of one another. A smooth r is integrated by Simpson's rule along the
-//! slope at the start of a step. A step ends at the bottom of a layer and at the places of a table of the
-//! energy; where r bends elsewhere, as a law of the user's own that stops does, bisection locates the
-//! bend. A law that bends in N is integrated from bend to bend.
+//! r being the depth per cycle by the law of the bare layer, e the energy per area and D its growth
+//! per cycle. The cells are independent of one another. A smooth r is integrated by Simpson's rule
+//! along the slope at the start of a step. A step ends at the bottom of a layer and at the places
+//! of a table of the energy. Bisection locates other bends of r, for example of a law of the user
+//! that stops. A law that bends in N is integrated from bend to bend.
 //!
 //! The depth at another pressure follows from the last rate: with r proportional to the loading, w is a
 //! function of N times the loading, so that `dw/dP = n r_end/P`.
@@ -18,7 +18,7 @@
 use contact_core::Error;
 
 use super::law::{BodyWear, CellCycle};
-use super::variable::Of;
+use super::variable::FactorVariable;
 
 /// Difference of the rates at the start, in the middle and at the end of a step, over the largest of
 /// them, up to which the rate counts as smooth.
@@ -33,10 +33,10 @@ const STEPS: usize = 40;
 /// largest rate, from which a law bends.
 const HALVINGS: u32 = 14;
 const STRAIGHT: f64 = 1e-3;
-/// A step ends short of a bend by this part of itself, so that the law is that before the bend.
+/// A step ends short of a bend by this part of itself, so that the law before the bend holds.
 const SHORT: f64 = 1e-9;
 
-/// Coefficients of a body in a jump, `depth = n k pressed_way` \[1/Pa\].
+/// Coefficients of a body in a jump, `depth = n k pressure_times_slip` \[1/Pa\].
 pub(super) struct Coefficients {
     /// k of the depth of all cycles.
     pub(super) mean: Vec<f64>,
@@ -44,18 +44,24 @@ pub(super) struct Coefficients {
     pub(super) end: Vec<f64>,
 }
 
-/// The coefficients of a body in n cycles that begin at the state in `cycle`; `coatings` are the
-/// thicknesses of its layers \[m\].
+/// Computes the coefficients of a body in n cycles that begin at the state in `cycle`. `coatings`
+/// are the thicknesses of its layers \[m\].
 pub(super) fn coefficients(
     body: &BodyWear,
     cycle: &CellCycle<'_>,
     coatings: &[f64],
     n: f64,
 ) -> Result<Coefficients, Error> {
-    let per_way = |depth: &[f64], cycles: f64| -> Vec<f64> {
-        let cells = depth.iter().zip(cycle.pressed_way);
+    let per_loading = |depth: &[f64], cycles: f64| -> Vec<f64> {
+        let cells = depth.iter().zip(cycle.pressure_times_slip);
         cells
-            .map(|(d, way)| if *way > 0.0 { d / (cycles * way) } else { 0.0 })
+            .map(|(d, loading)| {
+                if *loading > 0.0 {
+                    d / (cycles * loading)
+                } else {
+                    0.0
+                }
+            })
             .collect()
     };
     let course = Course::new(body, cycle, coatings);
@@ -66,19 +72,19 @@ pub(super) fn coefficients(
     };
     let first = course.rate(&state, cycle.cycles)?;
     if body.is_steady() {
-        let k = per_way(&first, 1.0);
+        let k = per_loading(&first, 1.0);
         return Ok(Coefficients {
             end: k.clone(),
             mean: k,
         });
     }
     for (from, to) in course.straight_parts(&state, &first, [cycle.cycles, cycle.cycles + n])? {
-        course.go_on(&mut state, from, to)?;
+        course.advance(&mut state, from, to)?;
     }
     let last = course.rate(&state, cycle.cycles + n)?;
     // Where the rate stays the same, the sum of its steps differs from it by rounding.
-    let first = per_way(&first, 1.0);
-    let same = |(mean, first): (f64, f64)| {
+    let first = per_loading(&first, 1.0);
+    let use_first_if_equal = |(mean, first): (f64, f64)| {
         if (mean - first).abs() <= 1e-9 * first {
             first
         } else {
@@ -86,22 +92,22 @@ pub(super) fn coefficients(
         }
     };
     Ok(Coefficients {
-        mean: per_way(&state.lost, n)
+        mean: per_loading(&state.lost, n)
             .into_iter()
             .zip(first)
-            .map(same)
+            .map(use_first_if_equal)
             .collect(),
-        end: per_way(&last, 1.0),
+        end: per_loading(&last, 1.0),
     })
 }
 
-/// The state after a part of the way of each cell.
-type AtPart<'a> = dyn Fn(&dyn Fn(usize) -> f64) -> State + 'a;
+/// The state after a part of the step of each cell.
+type StateAtPart<'a> = dyn Fn(&dyn Fn(usize) -> f64) -> State + 'a;
 
 /// Depth and energy of every cell.
 #[derive(Clone)]
 struct State {
-    /// Depth since the jump began, which the depth in all does not hold to the last digits \[m\].
+    /// Depth since the jump began. The total depth does not hold it to the last digits \[m\].
     lost: Vec<f64>,
     /// \[m\]
     worn: Vec<f64>,
@@ -122,13 +128,13 @@ struct Course<'a> {
 impl<'a> Course<'a> {
     fn new(body: &'a BodyWear, cycle: &'a CellCycle<'a>, coatings: &'a [f64]) -> Self {
         let mut bottom = 0.0;
-        let below = |h: &f64| {
+        let depths_below = |h: &f64| {
             bottom += h;
             bottom
         };
         Self {
-            bottoms: coatings.iter().map(below).collect(),
-            energies: body.bends(Of::Energy),
+            bottoms: coatings.iter().map(depths_below).collect(),
+            energies: body.bends(FactorVariable::Energy),
             body,
             cycle,
             coatings,
@@ -178,28 +184,28 @@ impl<'a> Course<'a> {
         Ok(parts)
     }
 
-    /// Takes every cell from a number of cycles to another one. The law sees the cycles in the middle,
-    /// which is exact where it is straight in N.
-    fn go_on(&self, state: &mut State, from: f64, to: f64) -> Result<(), Error> {
+    /// Advances every cell from one number of cycles to another. The law is evaluated at the cycles
+    /// in the middle, which is exact where it is straight in N.
+    fn advance(&self, state: &mut State, from: f64, to: f64) -> Result<(), Error> {
         let middle = 0.5 * (from + to);
         let cells = state.worn.len();
-        let mut left = vec![to - from; cells];
+        let mut remaining = vec![to - from; cells];
         for step in 1..=STEPS {
             let first = self.rate(state, middle)?;
-            let ways: Vec<Way> = (0..cells)
-                .map(|c| self.way(state, c, first[c], left[c]))
+            let steps: Vec<CellStep> = (0..cells)
+                .map(|c| self.next_step(state, c, first[c], remaining[c]))
                 .collect();
-            let at = |part: &dyn Fn(usize) -> f64| State {
+            let state_at = |part: &dyn Fn(usize) -> f64| State {
                 lost: Vec::new(),
                 worn: (0..cells)
-                    .map(|c| ways[c].worn(state, c, part(c)))
+                    .map(|c| steps[c].worn(state, c, part(c)))
                     .collect(),
                 energy: (0..cells)
-                    .map(|c| ways[c].energy(state, c, part(c)))
+                    .map(|c| steps[c].energy(state, c, part(c)))
                     .collect(),
             };
-            let half = self.rate(&at(&|_| 0.5), middle)?;
-            let last = self.rate(&at(&|_| 1.0 - SHORT), middle)?;
+            let half = self.rate(&state_at(&|_| 0.5), middle)?;
+            let last = self.rate(&state_at(&|_| 1.0 - SHORT), middle)?;
             let smooth = |c: usize| {
                 let apart = (last[c] - first[c]).abs().max((half[c] - first[c]).abs());
                 apart <= SMOOTH * first[c].max(half[c]).max(last[c])
@@ -209,19 +215,19 @@ impl<'a> Course<'a> {
                 .map(|c| (first[c] + 4.0 * half[c] + last[c]) / 6.0)
                 .collect();
             let bent: Vec<usize> = (0..cells)
-                .filter(|&c| ways[c].cycles > 0.0 && !smooth(c))
+                .filter(|&c| steps[c].cycles > 0.0 && !smooth(c))
                 .collect();
             if !bent.is_empty() && step < STEPS {
-                let found = self.bend(&bent, &at, [&first, &half, &last], middle)?;
+                let bends = self.find_bends(&bent, &state_at, [&first, &half, &last], middle)?;
                 for c in bent {
-                    (end[c], mean[c]) = (Some(found[c].0), 0.5 * (first[c] + found[c].1));
+                    (end[c], mean[c]) = (Some(bends[c].0), 0.5 * (first[c] + bends[c].1));
                 }
             }
             for c in 0..cells {
                 let part = end[c].unwrap_or(1.0);
-                let passed = part * ways[c].cycles;
-                if part == 1.0 && ways[c].ends_at.is_some() && step < STEPS {
-                    let bottom = ways[c].ends_at.unwrap_or_default();
+                let passed = part * steps[c].cycles;
+                if part == 1.0 && steps[c].ends_at.is_some() && step < STEPS {
+                    let bottom = steps[c].ends_at.unwrap_or_default();
                     state.lost[c] += bottom - state.worn[c];
                     state.worn[c] = bottom;
                 } else {
@@ -229,68 +235,76 @@ impl<'a> Course<'a> {
                     state.worn[c] += mean[c] * passed;
                 }
                 state.energy[c] += self.cycle.dissipated[c] * passed;
-                left[c] = (left[c] - passed).max(0.0);
+                remaining[c] = (remaining[c] - passed).max(0.0);
             }
-            if left.iter().all(|left| *left <= SHORT * (to - from)) {
+            if remaining
+                .iter()
+                .all(|remaining| *remaining <= SHORT * (to - from))
+            {
                 break;
             }
         }
         Ok(())
     }
 
-    /// The next step of a cell with the rate `first` that has `left` cycles to go: to the end, to the
+    /// The next step of a cell with the rate `first` and `left` cycles to go: to the end, to the
     /// bottom of its layer or to the next place of a table.
-    fn way(&self, state: &State, c: usize, first: f64, left: f64) -> Way {
+    fn next_step(&self, state: &State, c: usize, first: f64, remaining: f64) -> CellStep {
         let grows = self.cycle.dissipated[c].max(0.0);
-        let mut way = Way {
+        let mut step = CellStep {
             first,
             grows,
-            cycles: left,
+            cycles: remaining,
             ends_at: None,
         };
         let energy = state.energy[c] * (1.0 + SHORT);
-        let next = self.energies.iter().find(|at| **at > energy);
-        if let Some(cycles) = next.map(|at| (at - state.energy[c]) / grows) {
-            way.cycles = way.cycles.min(cycles);
+        let next_energy = self
+            .energies
+            .iter()
+            .find(|energy_place| **energy_place > energy);
+        if let Some(cycles) =
+            next_energy.map(|energy_place| (energy_place - state.energy[c]) / grows)
+        {
+            step.cycles = step.cycles.min(cycles);
         }
         let bottom = self.bottoms.iter().find(|bottom| **bottom > state.worn[c]);
         if let Some(bottom) = bottom.filter(|_| first > 0.0) {
             let cycles = (bottom - state.worn[c]) / first;
-            if cycles <= way.cycles {
-                (way.cycles, way.ends_at) = (cycles, Some(*bottom));
+            if cycles <= step.cycles {
+                (step.cycles, step.ends_at) = (cycles, Some(*bottom));
             }
         }
-        way
+        step
     }
 
-    /// Where the rate of cells that are `bent` changes from that at the start to another one: the part of
-    /// the step just behind, and the rate just before.
-    fn bend(
+    /// Finds the bend in the rate of cells that are `bent`: the part of the step just behind it,
+    /// and the rate just before.
+    fn find_bends(
         &self,
         bent: &[usize],
-        at: &AtPart<'_>,
+        state_at: &StateAtPart<'_>,
         [first, half, last]: [&[f64]; 3],
         cycles: f64,
     ) -> Result<Vec<(f64, f64)>, Error> {
         let cells = first.len();
-        let at_end = |c: usize| (last[c] - first[c]).abs() >= (half[c] - first[c]).abs();
-        let other: Vec<f64> = (0..cells)
-            .map(|c| if at_end(c) { last[c] } else { half[c] })
+        let is_past_middle = |c: usize| (last[c] - first[c]).abs() >= (half[c] - first[c]).abs();
+        let new_rate: Vec<f64> = (0..cells)
+            .map(|c| if is_past_middle(c) { last[c] } else { half[c] })
             .collect();
         let mut low = vec![0.0; cells];
         let mut high: Vec<f64> = (0..cells)
-            .map(|c| if at_end(c) { 1.0 } else { 0.5 })
+            .map(|c| if is_past_middle(c) { 1.0 } else { 0.5 })
             .collect();
         let mut before = first.to_vec();
         for _ in 0..BISECTIONS {
             if bent.iter().all(|&c| high[c] - low[c] <= LOCATED * high[c]) {
                 break;
             }
-            let found = self.rate(&at(&|c| 0.5 * (low[c] + high[c])), cycles)?;
+            let rate = self.rate(&state_at(&|c| 0.5 * (low[c] + high[c])), cycles)?;
             for c in 0..cells {
                 let middle = 0.5 * (low[c] + high[c]);
-                if (found[c] - first[c]).abs() <= (found[c] - other[c]).abs() {
-                    (low[c], before[c]) = (middle, found[c]);
+                if (rate[c] - first[c]).abs() <= (rate[c] - new_rate[c]).abs() {
+                    (low[c], before[c]) = (middle, rate[c]);
                 } else {
                     high[c] = middle;
                 }
@@ -301,7 +315,7 @@ impl<'a> Course<'a> {
 }
 
 /// A step of a cell along the slope at its start.
-struct Way {
+struct CellStep {
     /// Depth per cycle \[m\].
     first: f64,
     /// Energy per area and cycle \[J/m^2\].
@@ -311,7 +325,7 @@ struct Way {
     ends_at: Option<f64>,
 }
 
-impl Way {
+impl CellStep {
     fn worn(&self, state: &State, c: usize, part: f64) -> f64 {
         state.worn[c] + part * self.cycles * self.first
     }
@@ -328,7 +342,7 @@ mod tests {
     use super::{Coefficients, coefficients};
     use contact_core::Error;
 
-    use crate::{Archard, BodyWear, CellCycle, Factor, Law, Of, Varying};
+    use crate::{Archard, BodyWear, CellCycle, Factor, FactorVariable, Law, Varying};
 
     /// Ways from a thousandth of what wears a film to a thousand times it.
     const WAYS: [f64; 7] = [1e-3, 0.1, 0.9, 1.1, 3.0, 50.0, 1e3];
@@ -337,8 +351,8 @@ mod tests {
     fn worn(body: &BodyWear, coatings: &[f64], n: f64) -> Vec<f64> {
         let none = [0.0; WAYS.len()];
         let cycle = CellCycle {
-            pressed_way: &WAYS.map(|way| way / n),
-            way: &WAYS,
+            pressure_times_slip: &WAYS.map(|way| way / n),
+            slip_distance: &WAYS,
             dissipated: &WAYS.map(|way| way / n),
             worn: &none,
             energy: &none,
@@ -365,7 +379,7 @@ mod tests {
     impl Law for Own {
         fn depth(&self, cycle: &CellCycle<'_>, depth: &mut [f64]) -> Result<(), Error> {
             for (n, depth) in depth.iter_mut().enumerate() {
-                *depth = cycle.pressed_way[n] * (self.0)(cycle.worn[n], cycle.cycles);
+                *depth = cycle.pressure_times_slip[n] * (self.0)(cycle.worn[n], cycle.cycles);
             }
             Ok(())
         }
@@ -373,13 +387,13 @@ mod tests {
 
     #[test]
     fn a_law_that_stops_at_a_depth_gives_that_depth() {
-        let film = BodyWear::of(Own(|worn, _| if worn < 1.0 { 1.0 } else { 0.0 }));
+        let film = BodyWear::with_law(Own(|worn, _| if worn < 1.0 { 1.0 } else { 0.0 }));
         near(&worn(&film, &[], 1000.0), |way| way.min(1.0), 2e-4);
     }
 
     #[test]
     fn a_law_that_stops_within_the_jump_gives_the_cycles_before() {
-        let until = BodyWear::of(Own(|_, cycles| if cycles < 400.0 { 1.0 } else { 0.0 }));
+        let until = BodyWear::with_law(Own(|_, cycles| if cycles < 400.0 { 1.0 } else { 0.0 }));
         near(&worn(&until, &[], 1000.0), |way| 0.3 * way, 1e-3);
     }
 
@@ -401,14 +415,14 @@ mod tests {
     #[test]
     fn a_narrow_table_of_the_energy_is_not_stepped_over() {
         let factor = Factor {
-            of: Of::Energy,
+            variable: FactorVariable::Energy,
             table: vec![(0.5, 0.0), (0.501, 100.0), (0.502, 0.0)],
         };
         let law: Arc<dyn Law> = Arc::new(Archard {
             k: 1.0,
             threshold: 0.0,
         });
-        let body = BodyWear::of(Varying { law, factor });
+        let body = BodyWear::with_law(Varying { law, factor });
         near(
             &worn(&body, &[], 1000.0),
             |way| if way > 0.5 { 0.1 } else { 0.0 },
@@ -418,7 +432,7 @@ mod tests {
 
     #[test]
     fn a_rate_that_falls_off_smoothly_is_integrated() {
-        let body = BodyWear::of(Own(|worn, _| (-worn).exp()));
+        let body = BodyWear::with_law(Own(|worn, _| (-worn).exp()));
         near(&worn(&body, &[], 1000.0), |way| (1.0 + way).ln(), 0.03);
     }
 }

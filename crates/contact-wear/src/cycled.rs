@@ -5,17 +5,17 @@ use contact_core::march::{Increment, State};
 use contact_core::solvers::Interface;
 use serde::{Deserialize, Serialize};
 
-use super::border::{Cut, Signs};
+use super::border::{BorderFields, Cut};
 use super::loss::Worn;
 use super::pressing::Pressing;
 
 /// The results of one cycle in every kept cell.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Cycled {
-    /// Pressed way `int p |ds|` \[Pa m\].
-    pub(crate) pressed_way: Vec<f64>,
-    /// Way slipped \[m\].
-    pub(crate) way: Vec<f64>,
+pub(crate) struct CycleResults {
+    /// Integral of the pressure over the slip, `int p |ds|` \[Pa m\].
+    pub(crate) pressure_times_slip: Vec<f64>,
+    /// Slip distance \[m\].
+    pub(crate) slip_distance: Vec<f64>,
     /// Energy dissipated per area \[J/m^2\].
     pub(crate) dissipated: Vec<f64>,
     /// Mean pressure \[Pa\].
@@ -27,7 +27,7 @@ pub(crate) struct Cycled {
     /// Shift delta_x \[m\], force T_x \[N\], shift delta_y, force T_y at the increments of the
     /// loop.
     pub(crate) corners: Vec<[f64; 4]>,
-    /// Area that sticks all through the cycle over that of the contact.
+    /// Ratio of the area that sticks all through the cycle and the area of the contact.
     pub(crate) stick_ratio: f64,
     /// Cells in contact that slip nowhere in the cycle.
     pub(crate) stick: Vec<bool>,
@@ -37,34 +37,34 @@ pub(crate) struct Cycled {
 
 /// Sums over the increments of a cycle.
 pub(crate) struct Sums {
-    cycled: Cycled,
+    cycled: CycleResults,
     /// Sum of u_z, weighted \[J m\].
     u_z: Vec<f64>,
     weight: f64,
     contact_area: f64,
     shape: usize,
-    /// The coefficient of friction where it is one.
+    /// The coefficient of friction, if it is constant.
     mu: Option<f64>,
     /// Least p - |q|/mu over the cycle \[Pa\].
     short: Vec<f64>,
-    /// Way of each cell relative to the next one \[m\].
-    apart: Vec<f64>,
+    /// Slip of each cell relative to the next one \[m\].
+    relative_slip: Vec<f64>,
     /// Cells that are out of contact at some increment.
-    parted: Vec<bool>,
+    leaves_contact: Vec<bool>,
 }
 
 impl Sums {
     pub(crate) fn new(cells: usize, mu: Option<f64>) -> Self {
         let field = || vec![0.0; cells];
         Self {
-            cycled: Cycled {
-                pressed_way: field(),
-                way: field(),
+            cycled: CycleResults {
+                pressure_times_slip: field(),
+                slip_distance: field(),
                 dissipated: field(),
                 p: field(),
                 u_q: field(),
                 stick: vec![true; cells],
-                ..Cycled::default()
+                ..CycleResults::default()
             },
             u_z: field(),
             weight: 0.0,
@@ -72,8 +72,8 @@ impl Sums {
             shape: cells,
             mu,
             short: vec![f64::INFINITY; cells],
-            apart: field(),
-            parted: vec![false; cells],
+            relative_slip: field(),
+            leaves_contact: vec![false; cells],
         }
     }
 
@@ -88,14 +88,14 @@ impl Sums {
         for c in 0..self.shape {
             let (p0, p1) = (before.interface.p[c], now.interface.p[c]);
             let p = 0.5 * (p0 + p1);
-            self.parted[c] |= p0 <= 0.0 || p1 <= 0.0;
-            let way = now.slip_length[c] - before.slip_length[c];
-            cycled.way[c] += way;
-            cycled.pressed_way[c] += p * way;
+            self.leaves_contact[c] |= p0 <= 0.0 || p1 <= 0.0;
+            let slip = now.slip_length[c] - before.slip_length[c];
+            cycled.slip_distance[c] += slip;
+            cycled.pressure_times_slip[c] += p * slip;
             cycled.dissipated[c] += now.dissipated[c] - before.dissipated[c];
             cycled.p[c] += weight * p;
             self.u_z[c] += weight * 0.5 * (before.interface.u_z[c] + now.interface.u_z[c]);
-            if way > 0.0 || now.interface.p[c] <= 0.0 {
+            if slip > 0.0 || now.interface.p[c] <= 0.0 {
                 cycled.stick[c] = false;
             }
         }
@@ -111,41 +111,44 @@ impl Sums {
 
     /// Updates the fields from which the border of the stick zone is located.
     fn add_to_border(&mut self, before: &Interface, now: &Interface) {
-        let moved = |c: usize| [0, 1].map(|k| now.u[k][c] - before.u[k][c]);
+        let displacement = |c: usize| [0, 1].map(|k| now.u[k][c] - before.u[k][c]);
         for c in 0..self.shape {
             if let Some(mu) = self.mu {
                 let short = now.p[c] - length([now.q[0][c], now.q[1][c]]) / mu;
                 self.short[c] = self.short[c].min(short);
             }
-            let [here, next] = [c, (c + 1).min(self.shape - 1)].map(moved);
-            self.apart[c] += length([next[0] - here[0], next[1] - here[1]]);
+            let [this, next_cell] = [c, (c + 1).min(self.shape - 1)].map(displacement);
+            self.relative_slip[c] += length([next_cell[0] - this[0], next_cell[1] - this[1]]);
         }
     }
 
-    /// The results of the cycle on surfaces worn so far, with this `gap` between them when
-    /// unloaded; it grows by the part `opens` of the worn depth.
-    pub(crate) fn cycled(
+    /// Finishes the results of the cycle on surfaces worn so far, with this `gap` between them when
+    /// unloaded. The gap grows by the part `opens` of the worn depth.
+    pub(crate) fn finish(
         self,
         pressing: &mut Pressing,
         coupled: bool,
         (worn, opens): (&Worn, f64),
         gap: &[f64],
-    ) -> Cycled {
+    ) -> CycleResults {
         let mut cycled = self.cycled;
         cycled.dissipated.iter_mut().for_each(|d| *d = d.max(0.0));
         if let Some(mu) = self.mu {
             // |q| = mu p in slip: int p |ds| follows from the dissipated energy, which the march
             // integrates more accurately.
-            let ways = cycled.pressed_way.iter_mut().zip(&cycled.dissipated);
-            ways.for_each(|(way, dissipated)| *way = dissipated / mu);
+            let loadings = cycled
+                .pressure_times_slip
+                .iter_mut()
+                .zip(&cycled.dissipated);
+            loadings.for_each(|(slip, dissipated)| *slip = dissipated / mu);
         }
         let weight = self.weight;
         cycled.p.iter_mut().for_each(|p| *p /= weight);
         if let Some(mu) = self.mu.filter(|_| pressing.grid.plane_strain) {
-            let signs = Signs {
+            let signs = BorderFields {
                 stick: &cycled.stick,
                 short: &self.short,
-                apart: &self.apart,
+                relative_slip: &self.relative_slip,
                 worn,
                 opens,
                 response: pressing.shortest_waves(),
@@ -153,15 +156,15 @@ impl Sums {
             cycled.cuts = Cut::cells(Lattice::new(&pressing.grid, pressing.mirror), &signs);
             for cut in &cycled.cuts {
                 let c = cut.cell;
-                let way = cut
-                    .way
-                    .unwrap_or(cycled.pressed_way[c] / cycled.p[c].max(f64::MIN_POSITIVE));
-                let borne = cut.stiffness(signs.response) * cut.deeper(worn, opens);
-                cycled.dissipated[c] = mu * way * (cycled.p[c] - borne).max(0.0);
+                let slip = cut
+                    .slip
+                    .unwrap_or(cycled.pressure_times_slip[c] / cycled.p[c].max(f64::MIN_POSITIVE));
+                let borne = cut.stiffness(signs.response) * cut.gap_difference(worn, opens);
+                cycled.dissipated[c] = mu * slip * (cycled.p[c] - borne).max(0.0);
             }
         }
         cycled.mean.iter_mut().for_each(|m| *m /= weight);
-        let touch = self.parted.iter().zip(&cycled.p);
+        let touch = self.leaves_contact.iter().zip(&cycled.p);
         let in_part = touch.clone().any(|(parted, p)| *parted && *p > 0.0);
         if coupled || in_part {
             let u_p = pressing.response(&cycled.p);

@@ -11,8 +11,8 @@ use super::settings::{Wear, thicknesses};
 /// Kind of an event of a coating.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum EventKind {
-    /// The worn depth reaches a stated part of the coatings' thickness; the elastic response, that
-    /// of the full thickness, begins to be inaccurate.
+    /// The worn depth reaches a stated part of the coatings' thickness. The elastic response of the
+    /// full thickness begins to be inaccurate.
     Thinned,
     /// A coating is worn through: the layer below is bare.
     WornThrough,
@@ -25,16 +25,17 @@ pub struct Event {
     pub kind: EventKind,
     /// Cycles at the event.
     pub cycles: f64,
-    /// Their error: the error of the deepest depth over it at the end of the jump, times the cycles.
+    /// Error of the cycles: the relative error of the deepest depth at the end of the jump, times
+    /// the cycles.
     #[serde(default)]
     pub cycles_error: f64,
     /// Body, 1 or 2.
     pub body: usize,
-    /// Coating, 0 the outermost; of `Thinned` the one that is bare.
+    /// Coating, 0 the outermost; for `Thinned` the bare one.
     pub coating: usize,
     /// Place on that body, on the axes of the grid \[m\].
     pub x: f64,
-    /// The same along y.
+    /// Place on that body along y \[m\].
     pub y: f64,
 }
 
@@ -42,16 +43,16 @@ pub struct Event {
 fn bottoms(scene: &Scene) -> [Vec<f64>; 2] {
     [&scene.body1, &scene.body2].map(|body| {
         let mut bottom = 0.0;
-        let below = |h: f64| {
+        let depths_below = |h: f64| {
             bottom += h;
             bottom
         };
-        thicknesses(body).into_iter().map(below).collect()
+        thicknesses(body).into_iter().map(depths_below).collect()
     })
 }
 
-/// Whether an event is in the list.
-fn known(events: &[Event], kind: EventKind, b: usize, coating: usize) -> bool {
+/// Checks that an event is in the list.
+fn contains(events: &[Event], kind: EventKind, b: usize, coating: usize) -> bool {
     events
         .iter()
         .any(|e| e.kind == kind && e.body == b + 1 && e.coating == coating)
@@ -62,10 +63,10 @@ pub(crate) fn crossing(scene: &Scene, past: &[Event], passage: &Passage<'_>) -> 
     let mut first: Option<f64> = None;
     for (b, bottoms) in bottoms(scene).into_iter().enumerate() {
         for (coating, bottom) in bottoms.into_iter().enumerate() {
-            if known(past, EventKind::WornThrough, b, coating) {
+            if contains(past, EventKind::WornThrough, b, coating) {
                 continue;
             }
-            if let Some((part, _)) = passage.first(b, bottom) {
+            if let Some((part, _)) = passage.first_reached(b, bottom) {
                 first = Some(first.map_or(part, |first| first.min(part)));
             }
         }
@@ -73,18 +74,18 @@ pub(crate) fn crossing(scene: &Scene, past: &[Event], passage: &Passage<'_>) -> 
     first
 }
 
-/// The depths that count as an event, of body b.
-fn told(scene: &Scene, wear: &Wear, b: usize) -> Vec<(EventKind, usize, f64)> {
+/// The depths that count as an event, for body b.
+fn event_depths(scene: &Scene, wear: &Wear, b: usize) -> Vec<(EventKind, usize, f64)> {
     let bottoms = &bottoms(scene)[b];
     let thinned = bottoms
         .last()
-        .map(|all| (EventKind::Thinned, 0, wear.tell_from * all));
+        .map(|all| (EventKind::Thinned, 0, wear.event_depth_fraction * all));
     let through = bottoms.iter().enumerate();
     let through = through.map(|(coating, bottom)| (EventKind::WornThrough, coating, *bottom));
     thinned.into_iter().chain(through).collect()
 }
 
-/// Where a cell lies on the grid \[m\].
+/// Place of a cell on the grid \[m\].
 fn place(scene: &Scene, cell: usize) -> (f64, f64) {
     let rows = Plan::new(scene).mirror.rows(scene.grid.ny);
     let (i, j) = (cell / rows, cell % rows + scene.grid.ny - rows);
@@ -101,11 +102,11 @@ pub(crate) fn events(
 ) -> Vec<Event> {
     let mut new = Vec::new();
     for b in 0..2 {
-        for (kind, coating, depth) in told(scene, wear, b) {
-            if known(past, kind, b, coating) {
+        for (kind, coating, depth) in event_depths(scene, wear, b) {
+            if contains(past, kind, b, coating) {
                 continue;
             }
-            if let Some((part, cell)) = passage.first(b, depth) {
+            if let Some((part, cell)) = passage.first_reached(b, depth) {
                 let cycles = passage.worn.cycles + part * n;
                 let (x, y) = place(scene, cell);
                 let body = b + 1;
@@ -125,8 +126,8 @@ pub(crate) fn events(
     new
 }
 
-/// An event with the error of its cycles. `part`: the error of the deepest depth over it. Depths grow in
-/// proportion to the cycles to first order, so that both have the same relative error.
+/// Adds the error of its cycles to an event. `part` is the relative error of the deepest depth.
+/// Depths grow in proportion to the cycles to first order, so both have the same relative error.
 pub(crate) fn with_error(event: Event, part: f64) -> Event {
     Event {
         cycles_error: part * event.cycles,
@@ -134,8 +135,8 @@ pub(crate) fn with_error(event: Event, part: f64) -> Event {
     }
 }
 
-/// The events of worn surfaces that a run starts from.
-pub(crate) fn passed(scene: &Scene, wear: &Wear, worn: &Worn) -> Vec<Event> {
+/// The events of worn surfaces from which a run starts.
+pub(crate) fn past_events(scene: &Scene, wear: &Wear, worn: &Worn) -> Vec<Event> {
     let none = worn.depth.each_ref().map(|d| vec![0.0; d.len()]);
     let passage = Passage {
         worn,

@@ -7,16 +7,16 @@ use serde::{Deserialize, Serialize};
 pub struct Jump {
     /// Jump, from 1.
     pub index: usize,
-    /// Cycles at its end, and how many it is long.
+    /// Cycles at its end.
     pub cycles: f64,
-    /// Cycles that it is long.
+    /// Length of the jump in cycles.
     pub length: f64,
-    /// Estimated error of the depth worn in the jump: root mean square over that of the depth so
-    /// far; zero for explicit jumps, which have no estimate.
+    /// Estimated error of the depth worn in the jump, relative to the depth so far (root mean
+    /// squares); zero for explicit jumps, which have no estimate.
     pub error: f64,
-    /// The same of the pressure.
+    /// Estimated relative error of the pressure.
     pub pressure_error: f64,
-    /// Times that it was tried anew.
+    /// Number of repetitions of the jump.
     pub retries: usize,
     /// Volume that body 1 and body 2 have lost so far \[m^3\].
     pub volume: [f64; 2],
@@ -36,7 +36,7 @@ pub struct Jump {
     pub p_max: f64,
     /// Area of the contact at the end \[m^2\].
     pub contact_area: f64,
-    /// Area that sticks all through the cycle over that of the contact.
+    /// Ratio of the area that sticks all through the cycle and the area of the contact.
     pub stick_ratio: f64,
     /// Estimated error of the deepest depth so far, over it: by the jumps, by the place of the border
     /// of the stick zone, and by the cells across the slip zone.

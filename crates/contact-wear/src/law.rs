@@ -6,16 +6,15 @@ use std::sync::Arc;
 use contact_core::Error;
 use plausible::doubt_of;
 
-use super::variable::Of;
+use super::variable::FactorVariable;
 
 /// Loading of each cell of a surface in one cycle, in the coordinates of its own body.
 #[derive(Clone, Copy, Debug)]
 pub struct CellCycle<'a> {
-    /// Integral of the pressure over the way slipped, `int p |ds|` \[Pa m\] = \[J/m^2\] per unit of
-    /// mu.
-    pub pressed_way: &'a [f64],
-    /// Way slipped in contact, `int |ds|` \[m\].
-    pub way: &'a [f64],
+    /// Integral of the pressure over the slip, `int p |ds|` \[Pa m\] = \[J/m^2\] per unit of mu.
+    pub pressure_times_slip: &'a [f64],
+    /// Slip distance in contact, `int |ds|` \[m\].
+    pub slip_distance: &'a [f64],
     /// Energy dissipated by friction per area, `-int q . ds` \[J/m^2\].
     pub dissipated: &'a [f64],
     /// Depth worn so far \[m\].
@@ -30,8 +29,8 @@ pub struct CellCycle<'a> {
 
 /// A law of wear. The user's own is any type with this trait.
 pub trait Law: Debug + Send + Sync {
-    /// Writes the depth \[m\], >= 0, that one cycle takes from each cell. Where nothing is pressed
-    /// or nothing slips (`pressed_way` = 0) it is ignored: nothing wears there.
+    /// Writes the depth \[m\], >= 0, that one cycle takes from each cell. It is ignored where
+    /// nothing is pressed or nothing slips (`pressure_times_slip` = 0), since nothing wears there.
     fn depth(&self, cycle: &CellCycle<'_>, depth: &mut [f64]) -> Result<(), Error>;
 
     /// Fails with the key, the value and what is allowed if a parameter is out of its range.
@@ -39,30 +38,30 @@ pub trait Law: Debug + Send + Sync {
         Ok(())
     }
 
-    /// Numbers that are allowed and hardly meant, one sentence each; `key` is the law's place.
+    /// Sentences on numbers that are allowed but unlikely; `key` names the law.
     fn doubts(&self, _key: &str) -> Vec<String> {
         Vec::new()
     }
 
-    /// Whether it needs a frequency.
+    /// Checks that it needs a frequency.
     fn needs_frequency(&self) -> bool {
         false
     }
 
-    /// Whether the depth depends on the loading of the cycle alone: not on depth, energy and cycles so
-    /// far. A law that is not steady is asked several times in a jump.
+    /// Checks that the depth depends on the loading of the cycle alone, not on depth, energy and
+    /// cycles so far. A law that is not steady is evaluated several times in a jump.
     fn is_steady(&self) -> bool {
         false
     }
 
-    /// Values of a variable at which the law bends, ascending: a jump ends where its cycles do, and a
-    /// cell is followed from one value of its energy to the next.
-    fn bends(&self, _of: Of) -> Vec<f64> {
+    /// Values of a variable at which the law bends, ascending. A jump ends at bends in the cycles,
+    /// and a cell is followed from one value of its energy to the next.
+    fn bends(&self, _of: FactorVariable) -> Vec<f64> {
         Vec::new()
     }
 
     /// The law as a table of a scene file; `None` if a file cannot represent it.
-    fn written(&self) -> Option<String> {
+    fn to_toml(&self) -> Option<String> {
         None
     }
 }
@@ -80,15 +79,15 @@ pub struct Archard {
 impl Law for Archard {
     fn depth(&self, cycle: &CellCycle<'_>, depth: &mut [f64]) -> Result<(), Error> {
         for (n, depth) in depth.iter_mut().enumerate() {
-            let counts = beyond(cycle.way[n], self.threshold);
-            *depth = self.k * counts * cycle.pressed_way[n];
+            let counts = above_threshold(cycle.slip_distance[n], self.threshold);
+            *depth = self.k * counts * cycle.pressure_times_slip[n];
         }
         Ok(())
     }
 
     fn check(&self, key: &str) -> Result<(), Error> {
-        not_negative(&format!("{key}.k"), self.k, "m^2/N")?;
-        not_negative(
+        check_not_negative(&format!("{key}.k"), self.k, "m^2/N")?;
+        check_not_negative(
             &format!("{key}.threshold"),
             self.threshold,
             "m of slip per cycle",
@@ -104,7 +103,7 @@ impl Law for Archard {
         k.into_iter().collect()
     }
 
-    fn written(&self) -> Option<String> {
+    fn to_toml(&self) -> Option<String> {
         Some(format!(
             "{{ k = {:?}, threshold = {:?} }}",
             self.k, self.threshold
@@ -127,14 +126,14 @@ impl Law for DissipatedEnergy {
     fn depth(&self, cycle: &CellCycle<'_>, depth: &mut [f64]) -> Result<(), Error> {
         for (n, depth) in depth.iter_mut().enumerate() {
             let energy = cycle.dissipated[n];
-            *depth = self.alpha * beyond(energy, self.threshold) * energy;
+            *depth = self.alpha * above_threshold(energy, self.threshold) * energy;
         }
         Ok(())
     }
 
     fn check(&self, key: &str) -> Result<(), Error> {
-        not_negative(&format!("{key}.alpha"), self.alpha, "m^3/J")?;
-        not_negative(
+        check_not_negative(&format!("{key}.alpha"), self.alpha, "m^3/J")?;
+        check_not_negative(
             &format!("{key}.threshold"),
             self.threshold,
             "J/m^2 per cycle",
@@ -151,7 +150,7 @@ impl Law for DissipatedEnergy {
         alpha.into_iter().collect()
     }
 
-    fn written(&self) -> Option<String> {
+    fn to_toml(&self) -> Option<String> {
         Some(format!(
             "{{ alpha = {:?}, threshold = {:?} }}",
             self.alpha, self.threshold
@@ -159,8 +158,8 @@ impl Law for DissipatedEnergy {
     }
 }
 
-/// The part of a quantity that lies beyond its threshold; all of it without one.
-fn beyond(value: f64, threshold: f64) -> f64 {
+/// The part of a quantity beyond its threshold; the whole quantity without one.
+fn above_threshold(value: f64, threshold: f64) -> f64 {
     if threshold > 0.0 {
         if value > threshold {
             1.0 - threshold / value
@@ -172,7 +171,7 @@ fn beyond(value: f64, threshold: f64) -> f64 {
     }
 }
 
-fn not_negative(key: &str, value: f64, unit: &str) -> Result<(), Error> {
+fn check_not_negative(key: &str, value: f64, unit: &str) -> Result<(), Error> {
     if value >= 0.0 && value.is_finite() {
         return Ok(());
     }
@@ -183,11 +182,11 @@ fn not_negative(key: &str, value: f64, unit: &str) -> Result<(), Error> {
     ))
 }
 
-/// How one body wears: a law for each of its layers.
+/// Wear of one body: a law for each of its layers.
 #[derive(Clone, Debug, Default)]
 pub struct BodyWear {
-    /// A law for each coating, the outermost first, then one for the substrate; a single one is
-    /// that of all layers; none: the body does not wear.
+    /// A law for each coating, the outermost first, then one for the substrate. A single law holds
+    /// for all layers. Without a law the body does not wear.
     pub laws: Vec<Arc<dyn Law>>,
     /// Factor of the depths of the laws for this body (default 1): how the wear of the pair is
     /// divided between its bodies.
@@ -195,23 +194,23 @@ pub struct BodyWear {
 }
 
 impl BodyWear {
-    /// A body of one law, whatever its layers.
-    pub fn of(law: impl Law + 'static) -> Self {
+    /// A body with one law for all its layers.
+    pub fn with_law(law: impl Law + 'static) -> Self {
         Self {
             laws: vec![Arc::new(law)],
             share: None,
         }
     }
 
-    /// The laws that no file can hold, the user's own.
-    pub fn own(&self) -> Vec<Arc<dyn Law>> {
-        let own = self.laws.iter().filter(|law| law.written().is_none());
-        own.cloned().collect()
+    /// The user's own laws, which no file can hold.
+    pub fn user_laws(&self) -> Vec<Arc<dyn Law>> {
+        let user_laws = self.laws.iter().filter(|law| law.to_toml().is_none());
+        user_laws.cloned().collect()
     }
 
-    /// Puts the user's own laws in their places, in turn.
-    pub(super) fn give(&mut self, own: &[Arc<dyn Law>]) {
-        let places = self.laws.iter_mut().filter(|law| law.written().is_none());
+    /// Replaces the placeholders by the user's own laws, in turn.
+    pub(super) fn set_user_laws(&mut self, own: &[Arc<dyn Law>]) {
+        let places = self.laws.iter_mut().filter(|law| law.to_toml().is_none());
         places.zip(own).for_each(|(law, own)| law.clone_from(own));
     }
 
@@ -221,7 +220,7 @@ impl BodyWear {
         self.laws.get(only).map(|law| &**law)
     }
 
-    pub(crate) fn wears(&self) -> bool {
+    pub(crate) fn has_wear(&self) -> bool {
         !self.laws.is_empty()
     }
 
@@ -251,15 +250,19 @@ impl BodyWear {
     }
 
     /// Values of a variable at which a law bends, ascending.
-    pub(super) fn bends(&self, of: Of) -> Vec<f64> {
-        let mut bends: Vec<f64> = self.laws.iter().flat_map(|law| law.bends(of)).collect();
+    pub(super) fn bends(&self, variable: FactorVariable) -> Vec<f64> {
+        let mut bends: Vec<f64> = self
+            .laws
+            .iter()
+            .flat_map(|law| law.bends(variable))
+            .collect();
         bends.sort_by(f64::total_cmp);
         bends.dedup();
         bends
     }
 
-    /// The depth that one cycle takes from each cell \[m\], by the law of the layer that is bare
-    /// there; `thickness` of the coatings \[m\].
+    /// The depth that one cycle takes from each cell \[m\], by the law of the bare layer;
+    /// `thickness` of the coatings \[m\].
     pub(super) fn depth(
         &self,
         cycle: &CellCycle<'_>,
@@ -276,7 +279,7 @@ impl BodyWear {
             }
             law.depth(cycle, &mut of_law)?;
             for n in (0..depth.len()).filter(|&n| bare(n)) {
-                if cycle.pressed_way[n] > 0.0 {
+                if cycle.pressure_times_slip[n] > 0.0 {
                     depth[n] = self.share.unwrap_or(1.0) * of_law[n];
                 }
             }
@@ -310,15 +313,15 @@ mod tests {
     use std::sync::Arc;
 
     #[test]
-    fn the_bare_layer_says_how_fast_a_cell_wears() {
+    fn the_bare_layer_decides_how_fast_a_cell_wears() {
         let archard = |k| Archard { k, threshold: 0.0 };
         let body = BodyWear {
             laws: vec![Arc::new(archard(1.0)), Arc::new(archard(5.0))],
             share: Some(0.5),
         };
         let cycle = CellCycle {
-            pressed_way: &[2.0, 2.0, 0.0],
-            way: &[1.0; 3],
+            pressure_times_slip: &[2.0, 2.0, 0.0],
+            slip_distance: &[1.0; 3],
             dissipated: &[0.2; 3],
             worn: &[0.5, 1.0, 3.0],
             energy: &[0.0; 3],
@@ -338,8 +341,8 @@ mod tests {
             threshold: 1.0,
         };
         let cycle = CellCycle {
-            pressed_way: &[1.0; 3],
-            way: &[1.0; 3],
+            pressure_times_slip: &[1.0; 3],
+            slip_distance: &[1.0; 3],
             dissipated: &[0.5, 1.0, 3.0],
             worn: &[0.0; 3],
             energy: &[0.0; 3],

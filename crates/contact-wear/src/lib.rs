@@ -1,14 +1,16 @@
 //! Wear of the surfaces over cycles. Stands above the march and runs marches.
 //!
-//! A cycle of the load path wears each cell of each body by a depth that a [`Law`] computes from
-//! the pressed way `int p |ds|`, the way slipped and the energy dissipated there. Thousands of
-//! cycles are done in jumps: a jump of n cycles wears n times the depth of one cycle at the
-//! pressure of its end. `n k s` is then a compliance in series with the half-space in every cell
-//! (`compliant`), and jumps of any length are stable. Two ways to solve a cycle ([`Cycling`]):
-//! increment by increment through the march (`marched`), or, in gross slip with any stroke, the
-//! normal problem alone at each place of the stroke, the worn surfaces read where they then lie
-//! (`sliding`). Each jump is made whole and in two halves, extrapolated to second order; the
-//! difference controls its length (`run`). Within a jump each cell follows its law through the bends of
+//! A cycle of the load path wears each cell of each body by a depth. A [`Law`] computes it from the
+//! integral of the pressure over the slip `int p |ds|`, the slip and the energy dissipated there.
+//! Thousands of cycles are done in jumps: a jump of n cycles wears n times the depth of one cycle
+//! at the pressure of its end. `n k s` is then a compliance in series with the half-space in every
+//! cell (`compliant`), and jumps of any length are stable. A cycle is solved in one of two manners
+//! ([`Cycling`]). The first goes increment by increment through the march (`marched`). The second
+//! solves, in gross slip with any stroke, the normal problem alone at each place of the stroke,
+//! with the worn surfaces in their shifted positions (`sliding`). Each jump is made whole and in
+//! two halves, extrapolated to second order; the difference controls its length (`run`). Within a
+//! jump each cell follows its law through the bends of tables, layers and laws that stop
+//! (`course`); a jump ends where a table of cycles bends.
 //! tables, layers and laws that stop (`course`); a jump ends where a table of cycles bends.
 
 #![forbid(unsafe_code)]
@@ -54,6 +56,6 @@ pub use run::WearRun;
 pub use scar::Scar;
 pub use settings::{Cycling, Jumps, Wear, WornThrough};
 pub use state::WearState;
-pub use variable::Of;
+pub use variable::FactorVariable;
 pub use varying::{Factor, Varying};
 pub use worn_start::WornStart;

@@ -11,12 +11,12 @@ pub(crate) struct Worn {
     pub(crate) depth: [Vec<f64>; 2],
     /// Energy per area dissipated at body 1 and body 2, each in its own coordinates \[J/m^2\].
     pub(crate) energy: [Vec<f64>; 2],
-    /// Way slipped in contact, in the cells of the grid \[m\].
+    /// Slip distance in contact, in the cells of the grid \[m\].
     pub(crate) slid: Vec<f64>,
 }
 
 impl Worn {
-    pub(crate) fn none(cells: usize) -> Self {
+    pub(crate) fn unworn(cells: usize) -> Self {
         let field = || vec![0.0; cells];
         Self {
             cycles: 0.0,
@@ -29,10 +29,10 @@ impl Worn {
     pub(crate) fn add(&mut self, loss: &Loss) {
         self.cycles += loss.cycles;
         for b in 0..2 {
-            sum(&mut self.depth[b], &loss.depth[b]);
-            sum(&mut self.energy[b], &loss.energy[b]);
+            add_to(&mut self.depth[b], &loss.depth[b]);
+            add_to(&mut self.energy[b], &loss.energy[b]);
         }
-        sum(&mut self.slid, &loss.slid);
+        add_to(&mut self.slid, &loss.slid);
     }
 
     pub(crate) fn deepest(&self) -> f64 {
@@ -56,24 +56,24 @@ pub(crate) struct Loss {
 }
 
 impl Loss {
-    /// Both together.
-    pub(crate) fn with(mut self, other: &Self) -> Self {
+    /// Adds the loss of another jump.
+    pub(crate) fn plus(mut self, other: &Self) -> Self {
         for b in 0..2 {
-            sum(&mut self.depth[b], &other.depth[b]);
-            sum(&mut self.energy[b], &other.energy[b]);
+            add_to(&mut self.depth[b], &other.depth[b]);
+            add_to(&mut self.energy[b], &other.energy[b]);
         }
-        sum(&mut self.slid, &other.slid);
+        add_to(&mut self.slid, &other.slid);
         self.cycles += other.cycles;
         self.dissipated += other.dissipated;
         self
     }
 
     /// Extrapolates two halves by one whole jump to second order, `2 halves - whole` (E. Hairer, S.
-    /// P. Norsett, G. Wanner, Solving Ordinary Differential Equations I (1993), II.4), and the
-    /// depth that this moves, root mean square over that of the `worn` depth at the end.
+    /// P. Norsett, G. Wanner, Solving Ordinary Differential Equations I (1993), II.4). Also returns
+    /// the correction of the depth, relative to the `worn` depth at the end (root mean squares).
     ///
     /// Depths do not decrease: a negative extrapolated loss is set to zero and the others are
-    /// scaled down, so that the volume is that of the extrapolation.
+    /// scaled down, so that the volume of the extrapolation is kept.
     pub(crate) fn extrapolated(mut self, whole: &Self, worn: &Worn) -> (Self, f64) {
         let (mut moved, mut size) = (0.0, 0.0);
         for b in 0..2 {
@@ -91,7 +91,7 @@ impl Loss {
     }
 }
 
-/// `2 halves - whole` where that is not negative, of the same sum.
+/// Computes `2 halves - whole`, not negative, with the same sum.
 fn extrapolate(halves: &mut [f64], whole: &[f64]) {
     let (mut exact, mut taken) = (0.0, 0.0);
     for (value, whole) in halves.iter_mut().zip(whole) {
@@ -110,7 +110,7 @@ fn extrapolate(halves: &mut [f64], whole: &[f64]) {
     }
 }
 
-fn sum(sum: &mut [f64], more: &[f64]) {
+fn add_to(sum: &mut [f64], more: &[f64]) {
     sum.iter_mut()
         .zip(more)
         .for_each(|(sum, more)| *sum += more);
@@ -136,7 +136,7 @@ mod tests {
             let (halves, whole) = (loss(3.0), loss(2.0));
             let sum = |f: &[f64]| f.iter().sum::<f64>();
             let exact = [0, 1].map(|b| 2.0 * sum(&halves.depth[b]) - sum(&whole.depth[b]));
-            let (found, error) = halves.extrapolated(&whole, &Worn::none(30));
+            let (found, error) = halves.extrapolated(&whole, &Worn::unworn(30));
             assert!(error > 0.0 && (found.dissipated - 4.0).abs() < 1e-15);
             for b in 0..2 {
                 assert!(found.depth[b].iter().all(|w| *w >= 0.0));

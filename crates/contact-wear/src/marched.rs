@@ -1,6 +1,6 @@
 //! Cycles of any load path, solved increment by increment.
 //!
-//! One cycle through [`March`] on given surfaces gives for every cell the pressed way
+//! One cycle through [`March`] on given surfaces gives for every cell the integral
 //! `P = int p |ds|`, the way slipped and the energy dissipated. A jump of n cycles is implicit in
 //! the pressure:
 //!
@@ -27,14 +27,14 @@ use contact_core::scene::{Branch, Dependence, Friction, FrictionHistory, PathGri
 use serde::{Deserialize, Serialize};
 
 use super::course::coefficients;
-use super::cycled::{Cycled, Sums};
+use super::cycled::{CycleResults, Sums};
 use super::law::CellCycle;
 use super::loss::{Loss, Worn};
-use super::outward::outward;
+use super::outward::extrapolate_outward;
 use super::pressing::Pressing;
 use super::rates::Rates;
 use super::settings::{Jumps, Wear, thicknesses};
-use super::within_cell::half_a_cell;
+use super::within_cell::half_cell_error;
 
 /// Change of the pressure between two corrections (root mean square, over the pressure) that ends
 /// them.
@@ -45,7 +45,7 @@ const AGREES: f64 = 0.02;
 const AGREES_IN_JUMP: f64 = 0.05;
 const AGREES_IN_ALL: f64 = 0.1;
 const USUAL: f64 = 0.01;
-/// Most corrections of a jump; one that has not converged by then is too long.
+/// Most corrections of a jump. A jump that has not converged by then is too long.
 const CORRECTIONS: usize = 8;
 
 /// The state on which the next jump depends.
@@ -53,7 +53,7 @@ const CORRECTIONS: usize = 8;
 pub(crate) struct MarchedState {
     /// The state of the march at the start of a cycle.
     start: State,
-    cycled: Cycled,
+    cycled: CycleResults,
 }
 
 /// Cycles through the march.
@@ -68,11 +68,11 @@ pub(crate) struct Marched {
     lead_in: usize,
     gives_approach: bool,
     /// The coefficient of friction, if uniform, before its dependence on cycles.
-    plain_mu: Option<f64>,
+    uniform_mu: Option<f64>,
     /// Its dependence on history.
     history: Option<FrictionHistory>,
-    /// Whether it depends on what a cell has been through, by a history or a law of the user's own.
-    remembers: bool,
+    /// True if friction depends on the past of a cell, by a history or a law of the user.
+    depends_on_past: bool,
     pub(crate) state: MarchedState,
     /// Mean pressure at the end of the last jump \[Pa\].
     pub(crate) p: Vec<f64>,
@@ -125,7 +125,7 @@ impl Marched {
         reached.check(&scene)?;
         let begins = || MarchedState {
             start: march.state().clone(),
-            cycled: Cycled::default(),
+            cycled: CycleResults::default(),
         };
         let state = state.unwrap_or_else(begins);
         let pressing = Pressing::new(&scene, &plan, stop)?;
@@ -133,9 +133,9 @@ impl Marched {
             h,
             coatings: [thicknesses(&scene.body1), thicknesses(&scene.body2)],
             gives_approach: scene.path.branches[first_branch].to.given.delta_z.is_some(),
-            plain_mu: plain(&scene.friction),
+            uniform_mu: uniform_mu(&scene.friction),
             history: scene.friction.history.clone(),
-            remembers: scene.friction.history.is_some() || scene.friction.law.is_some(),
+            depends_on_past: scene.friction.history.is_some() || scene.friction.law.is_some(),
             p: Vec::new(),
             state,
             wear: wear.clone(),
@@ -179,20 +179,21 @@ impl Marched {
             let in_jump = rates.in_jump(n, (worn, opens), &p, shortest_waves);
             let cells = self.h.len();
             let compliance: Vec<f64> = (0..cells)
-                .map(|c| opens * (rates.k[0][c] + rates.k[1][c]) * in_jump.way[c])
+                .map(|c| opens * (rates.k[0][c] + rates.k[1][c]) * in_jump.slip[c])
                 .collect();
             let gap = gap(&self.h, worn, opens);
-            let above = |c: usize| opens * (rates.above[0][c] + rates.above[1][c]) * in_jump.way[c];
+            let excess =
+                |c: usize| opens * (rates.excess[0][c] + rates.excess[1][c]) * in_jump.slip[c];
             let h: Vec<f64> = (0..cells)
-                .map(|c| gap[c] + rates.u_q[c] + above(c) - compliance[c] * in_jump.borne[c])
+                .map(|c| gap[c] + rates.u_q[c] + excess(c) - compliance[c] * in_jump.borne[c])
                 .collect();
             self.pressing
                 .solve(&h, &compliance, rates.drive, &mut p, 1.0)?;
             let loss = in_jump.loss(&rates, &p, area);
             if let Some((last_p, last_loss)) = &last {
-                let change = moved(last_loss, &loss);
-                let enough =
-                    (AGREES_IN_JUMP * size_of(&loss.depth)).max(may_leave * size_of(&worn.depth));
+                let change = change_norm(last_loss, &loss);
+                let enough = (AGREES_IN_JUMP * depth_norm(&loss.depth))
+                    .max(may_leave * depth_norm(&worn.depth));
                 if agree(last_p, &p) && change <= enough {
                     self.p = p;
                     return Ok(loss);
@@ -219,14 +220,14 @@ impl Marched {
     }
 
     /// The results of the last cycle.
-    pub(crate) fn cycled(&self) -> &Cycled {
+    pub(crate) fn cycled(&self) -> &CycleResults {
         &self.state.cycled
     }
 
-    /// Error of the worn depth by the place of the border of the stick zone within its cell, were
-    /// the contact worn until nothing changes \[m\].
+    /// Error of the worn depth by the place of the border of the stick zone within its cell, for
+    /// the limit of endless wear \[m\].
     pub(crate) fn border_error(&mut self, worn: &Worn) -> Result<f64, Error> {
-        let Cycled { stick, cuts, p, .. } = &self.state.cycled;
+        let CycleResults { stick, cuts, p, .. } = &self.state.cycled;
         let surfaces = (worn, self.wear.opens());
         // Of bare and like bodies the shortfall is a root at the border to the end.
         let coated = self.coatings.iter().any(|layers| !layers.is_empty());
@@ -235,20 +236,20 @@ impl Marched {
         } else {
             &cuts[..]
         };
-        half_a_cell(&mut self.pressing, stick, cuts, p, surfaces)
+        half_cell_error(&mut self.pressing, stick, cuts, p, surfaces)
     }
 
     /// The coefficient of friction after so many cycles, if uniform.
     fn mu(&self, cycles: f64) -> Option<f64> {
         let factor = self.history.as_ref().map_or(1.0, |h| h.factor(cycles));
-        self.plain_mu.map(|mu| mu * factor)
+        self.uniform_mu.map(|mu| mu * factor)
     }
 
     /// One cycle on worn surfaces, and the state of the march at its end.
-    fn cycle(&mut self, worn: &Worn) -> Result<(Cycled, State), Error> {
+    fn cycle(&mut self, worn: &Worn) -> Result<(CycleResults, State), Error> {
         let gap = gap(&self.h, worn, self.wear.opens());
         let mut start = self.state.start.clone();
-        if self.remembers {
+        if self.depends_on_past {
             // The history that friction depends on includes all cycles so far.
             start.slip_length.clone_from(&worn.slid);
             start.dissipated.clone_from(&worn.energy[0]);
@@ -269,7 +270,7 @@ impl Marched {
         let state = self.march.state().clone();
         let coupling = self.march.plan().coupling;
         Ok((
-            sums.cycled(
+            sums.finish(
                 &mut self.pressing,
                 coupling,
                 (worn, self.wear.opens()),
@@ -279,47 +280,55 @@ impl Marched {
         ))
     }
 
-    /// Rates of wear of every cell in n cycles from worn surfaces on; cells outside the contact have
-    /// those of their neighbours.
-    fn rates(&self, worn: &Worn, cycled: &Cycled, n: f64) -> Result<Rates, Error> {
+    /// Rates of wear of every cell in n cycles from worn surfaces on. Cells outside the contact get
+    /// the mean of their neighbours.
+    fn rates(&self, worn: &Worn, cycled: &CycleResults, n: f64) -> Result<Rates, Error> {
         let cells = self.h.len();
         let largest = cycled.p.iter().fold(0.0, |m: f64, p| m.max(*p));
-        let pressed = |c: usize| cycled.p[c] > 1e-6 * largest && cycled.pressed_way[c] >= 0.0;
+        let is_pressed =
+            |c: usize| cycled.p[c] > 1e-6 * largest && cycled.pressure_times_slip[c] >= 0.0;
         let rows = self.pressing.rows();
-        let mut sigma = outward(rows, cells, |c| {
-            pressed(c).then(|| cycled.pressed_way[c] / cycled.p[c])
+        let mut sigma = extrapolate_outward(rows, cells, |c| {
+            is_pressed(c).then(|| cycled.pressure_times_slip[c] / cycled.p[c])
         });
-        let mut mu = outward(rows, cells, |c| {
-            let slips = pressed(c) && cycled.pressed_way[c] > 0.0;
-            slips.then(|| cycled.dissipated[c] / cycled.pressed_way[c])
+        let mut mu = extrapolate_outward(rows, cells, |c| {
+            let slips = is_pressed(c) && cycled.pressure_times_slip[c] > 0.0;
+            slips.then(|| cycled.dissipated[c] / cycled.pressure_times_slip[c])
         });
-        let mut way = outward(rows, cells, |c| pressed(c).then(|| cycled.way[c]));
+        let mut slip_distance = extrapolate_outward(rows, cells, |c| {
+            is_pressed(c).then(|| cycled.slip_distance[c])
+        });
         for cut in &cycled.cuts {
             let c = cut.cell;
             mu[c] = self.mu(worn.cycles).unwrap_or(mu[c]);
-            if let Some(own) = cut.way {
-                (sigma[c], way[c]) = (own, own);
+            if let Some(own) = cut.slip {
+                (sigma[c], slip_distance[c]) = (own, own);
             }
         }
         let p: Vec<f64> = cycled.p.iter().map(|p| p.max(1e-6 * largest)).collect();
-        let pressed_way: Vec<f64> = sigma.iter().zip(&p).map(|(s, p)| s * p).collect();
-        let dissipated: Vec<f64> = (0..cells).map(|c| mu[c] * pressed_way[c]).collect();
+        let pressure_times_slip: Vec<f64> = sigma.iter().zip(&p).map(|(s, p)| s * p).collect();
+        let dissipated: Vec<f64> = (0..cells).map(|c| mu[c] * pressure_times_slip[c]).collect();
         let (mut k, mut above) = ([vec![], vec![]], [vec![], vec![]]);
         for b in 0..2 {
             let cycle = CellCycle {
-                pressed_way: &pressed_way,
-                way: &way,
+                pressure_times_slip: &pressure_times_slip,
+                slip_distance: &slip_distance,
                 dissipated: &dissipated,
                 worn: &worn.depth[b],
                 energy: &worn.energy[b],
                 cycles: worn.cycles,
                 frequency: self.wear.frequency.unwrap_or(f64::NAN),
             };
-            let found = coefficients(&self.wear.bodies[b], &cycle, &self.coatings[b], n)?;
+            let body_coefficients =
+                coefficients(&self.wear.bodies[b], &cycle, &self.coatings[b], n)?;
             // Cells outside the contact wear at the pressure of the jump's end alone.
-            let means = found.mean.iter().zip(&found.end).zip(&cycled.p);
+            let means = body_coefficients
+                .mean
+                .iter()
+                .zip(&body_coefficients.end)
+                .zip(&cycled.p);
             above[b] = means.map(|((mean, end), p)| (mean - end) * p).collect();
-            k[b] = found.end;
+            k[b] = body_coefficients.end;
         }
         let [W, approach] = cycled.mean;
         let drive = if self.gives_approach {
@@ -328,14 +337,14 @@ impl Marched {
                 ..Drive::default()
             }
         } else {
-            self.pressing.under(W)
+            self.pressing.drive(W)
         };
         Ok(Rates {
             k,
-            above,
+            excess: above,
             sigma,
             mu,
-            slips: way,
+            slips: slip_distance,
             u_q: cycled.u_q.clone(),
             cuts: cycled.cuts.clone(),
             drive,
@@ -344,7 +353,7 @@ impl Marched {
 }
 
 /// The coefficient of friction, if uniform apart from a dependence on cycles.
-fn plain(friction: &Friction) -> Option<f64> {
+fn uniform_mu(friction: &Friction) -> Option<f64> {
     friction
         .depends_only_on(&[Dependence::Cycles])
         .then_some(friction.mu)
@@ -352,14 +361,14 @@ fn plain(friction: &Friction) -> Option<f64> {
 
 /// Gap between worn surfaces: h plus the part `opens` of the worn depths \[m\].
 fn gap(h: &[f64], worn: &Worn, opens: f64) -> Vec<f64> {
-    let [one, two] = &worn.depth;
-    let cells = h.iter().zip(one.iter().zip(two));
+    let [depth1, depth2] = &worn.depth;
+    let cells = h.iter().zip(depth1.iter().zip(depth2));
     cells
-        .map(|(h, (one, two))| h + opens * one + opens * two)
+        .map(|(h, (depth1, depth2))| h + opens * depth1 + opens * depth2)
         .collect()
 }
 
-/// Whether two pressures agree within [`AGREES`].
+/// Checks that two pressures agree within [`AGREES`].
 fn agree(last: &[f64], now: &[f64]) -> bool {
     let (mut moved, mut size) = (0.0, 0.0);
     for (last, now) in last.iter().zip(now) {
@@ -370,14 +379,15 @@ fn agree(last: &[f64], now: &[f64]) -> bool {
 }
 
 /// Root mean square of the worn depths of both bodies, times a common factor.
-fn size_of(depth: &[Vec<f64>; 2]) -> f64 {
+fn depth_norm(depth: &[Vec<f64>; 2]) -> f64 {
     depth.iter().flatten().map(|w| w * w).sum::<f64>().sqrt()
 }
 
-/// The same of the change of the loss.
-fn moved(last: &Loss, now: &Loss) -> f64 {
-    let both = last.depth.iter().flatten().zip(now.depth.iter().flatten());
-    both.map(|(last, now)| (now - last).powi(2))
+/// Root mean square of the change of the loss, times the same factor.
+fn change_norm(last: &Loss, now: &Loss) -> f64 {
+    let pairs = last.depth.iter().flatten().zip(now.depth.iter().flatten());
+    pairs
+        .map(|(last, now)| (now - last).powi(2))
         .sum::<f64>()
         .sqrt()
 }

@@ -1,4 +1,4 @@
-//! The two ways to solve a cycle, behind one interface.
+//! The two methods to solve a cycle, behind one interface.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -14,7 +14,7 @@ use super::pressing::Pressing;
 use super::settings::{Cycling, Wear};
 use super::sliding::Sliding;
 
-/// How the contact of a cycle is solved.
+/// Method to solve the contact of a cycle.
 pub(crate) enum Model {
     Sliding(Box<Sliding>),
     Marched(Box<Marched>),
@@ -32,24 +32,24 @@ impl ModelState {
     fn sliding(self) -> Result<Vec<Vec<f64>>, Error> {
         match self {
             Self::Sliding(p) => Ok(p),
-            Self::Marched(_) => Err(Self::of_another_way()),
+            Self::Marched(_) => Err(Self::wrong_state()),
         }
     }
 
     fn marched(self) -> Result<MarchedState, Error> {
         match self {
-            Self::Sliding(_) => Err(Self::of_another_way()),
+            Self::Sliding(_) => Err(Self::wrong_state()),
             Self::Marched(state) => Ok(*state),
         }
     }
 
-    fn of_another_way() -> Error {
+    fn wrong_state() -> Error {
         Error::invalid("state", "of another way to cycle", "one of this run")
     }
 }
 
-/// The results of the last cycle.
-pub(crate) struct Seen<'a> {
+/// The results of the last cycle, for output.
+pub(crate) struct CycleOutput<'a> {
     /// Pressure in the middle of the stroke, or the mean one of the cycle \[Pa\].
     pub(crate) p: &'a [f64],
     /// Shift of the bodies at that pressure \[m\].
@@ -124,8 +124,8 @@ impl Model {
         }
     }
 
-    /// Error of the worn depth by the place of the border of the stick zone within its cell, were
-    /// the contact worn until nothing changes \[m\].
+    /// Error of the worn depth by the place of the border of the stick zone within its cell, for
+    /// the limit of endless wear \[m\].
     pub(crate) fn border_error(&mut self, worn: &Worn) -> Result<f64, Error> {
         match self {
             Self::Sliding(_) => Ok(0.0),
@@ -149,11 +149,11 @@ impl Model {
         }
     }
 
-    pub(crate) fn seen(&self) -> Seen<'_> {
+    pub(crate) fn output(&self) -> CycleOutput<'_> {
         match self {
             Self::Sliding(s) => {
                 let middle = s.middle();
-                Seen {
+                CycleOutput {
                     p: &s.p[middle],
                     shift: s.places[middle].shift,
                     stick: None,
@@ -169,7 +169,7 @@ impl Model {
             Self::Marched(m) => {
                 let cycled = m.cycled();
                 let area = m.pressing.cell_area();
-                Seen {
+                CycleOutput {
                     p: &cycled.p,
                     shift: 0.0,
                     stick: Some(&cycled.stick),

@@ -1,4 +1,4 @@
-//! Contacts of a stroke that reach beyond the grid, or beyond the stored worn depth of the body
+//! Check that the contact of a stroke stays on the grid, and on the stored worn depth of the body
 //! that slides over it.
 
 use contact_core::Error;
@@ -6,12 +6,12 @@ use contact_core::scene::Grid;
 
 use super::shift::Shift;
 
-/// Factor by which a grid is to grow where the contact cannot be estimated.
+/// Factor by which a grid should grow if the contact cannot be estimated.
 const GRID_GROWTH: f64 = 1.4;
 
-/// Fails if a cell with pressure p \[Pa\], or a depth that it wears, lies at the border of the grid,
-/// or if its place on a shifted body is off the grid; fields of `rows` cells per column, the last at
-/// the border.
+/// Fails if a cell with pressure p \[Pa\], or a depth that it wears, lies at the border of the
+/// grid, or if its place on a shifted body is off the grid. The fields have `rows` cells per
+/// column, the last at the border.
 pub(super) fn check(grid: &Grid, rows: usize, p: &[f64], shifts: &[Shift]) -> Result<(), Error> {
     let pressed = || (0..p.len()).filter(|&n| p[n] > 0.0);
     let columns = pressed().fold(None, |range: Option<(usize, usize)>, n| {
@@ -21,16 +21,16 @@ pub(super) fn check(grid: &Grid, rows: usize, p: &[f64], shifts: &[Shift]) -> Re
     let Some((low, high)) = columns else {
         return Ok(());
     };
-    let at_y = |n: usize| {
+    let is_at_y_border = |n: usize| {
         let j = n % rows;
         j + 1 == rows || (j == 0 && rows == grid.ny)
     };
-    let beyond = |shift: &Shift| {
+    let is_off_grid = |shift: &Shift| {
         let by = shift.cells();
         low as f64 + by < 0.0 || high as f64 + by > (grid.nx - 1) as f64
     };
-    let off_x = low == 0 || high + 1 == grid.nx || shifts.iter().any(beyond);
-    let off_y = !grid.plane_strain && pressed().any(at_y);
+    let off_x = low == 0 || high + 1 == grid.nx || shifts.iter().any(is_off_grid);
+    let off_y = !grid.plane_strain && pressed().any(is_at_y_border);
     if !off_x && !off_y {
         return Ok(());
     }

@@ -2,7 +2,8 @@
 
 use super::loss::Worn;
 
-/// A cell has reached a depth from this part of it below: a jump that ends there misses it by rounding.
+/// A cell has reached a depth from this relative distance below it. A jump that ends there misses
+/// the depth by rounding.
 pub const DEPTH_ROUNDING: f64 = 1e-9;
 
 /// The depth of every cell within a jump \[m\]: `w_0 + (4 m - e) s + (2 e - 4 m) s^2` at the part s
@@ -16,22 +17,22 @@ pub(crate) struct Passage<'a> {
 }
 
 impl Passage<'_> {
-    /// Where a body first reaches a depth \[m\] within the jump: the part of it that has passed,
-    /// and the cell.
-    pub(crate) fn first(&self, b: usize, depth: f64) -> Option<(f64, usize)> {
+    /// Finds when a body first reaches a depth \[m\] within the jump: the part of the jump that has
+    /// passed, and the cell.
+    pub(crate) fn first_reached(&self, b: usize, depth: f64) -> Option<(f64, usize)> {
         let cells = 0..self.whole[b].len();
         let reached = cells.filter_map(|c| {
             let (from, half, whole) = (self.worn.depth[b][c], self.half[b][c], self.whole[b][c]);
             let reaches = from + whole >= depth * (1.0 - DEPTH_ROUNDING);
-            reaches.then(|| (part(depth - from, half, whole), c))
+            reaches.then(|| (part_at_loss(depth - from, half, whole), c))
         });
         reached.min_by(|a, b| a.0.total_cmp(&b.0))
     }
 }
 
-/// The part of a jump at which the loss is `asked`, with the loss `half` in its first half and
+/// The part of a jump at which the loss is `target`, with the loss `half` in its first half and
 /// `whole` in all.
-fn part(target: f64, half: f64, whole: f64) -> f64 {
+fn part_at_loss(target: f64, half: f64, whole: f64) -> f64 {
     if !(target > 0.0 && whole > 0.0) {
         return 0.0;
     }
@@ -44,7 +45,7 @@ fn part(target: f64, half: f64, whole: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{Passage, part};
+    use super::{Passage, part_at_loss};
     use crate::loss::Worn;
 
     #[test]
@@ -53,12 +54,12 @@ mod tests {
             let at = |s: f64| a * s + b * s * s;
             for s in [0.1, 0.5, 0.9, 1.0] {
                 assert!(
-                    (part(at(s), at(0.5), at(1.0)) - s).abs() < 1e-7,
+                    (part_at_loss(at(s), at(0.5), at(1.0)) - s).abs() < 1e-7,
                     "{a} {b} {s}"
                 );
             }
         }
-        assert_eq!(part(0.0, 0.5, 1.0), 0.0);
+        assert_eq!(part_at_loss(0.0, 0.5, 1.0), 0.0);
     }
 
     #[test]
@@ -66,7 +67,7 @@ mod tests {
         let depth = 1.5e-6_f64;
         let worn = Worn {
             depth: [vec![0.0], vec![0.4e-6]],
-            ..Worn::none(1)
+            ..Worn::unworn(1)
         };
         let [none, short] = [vec![0.0], vec![depth.next_down() - 0.4e-6]];
         let half = [none.clone(), vec![0.5 * short[0]]];
@@ -76,8 +77,8 @@ mod tests {
             half: &half,
             whole: &whole,
         };
-        let (part, cell) = passage.first(1, depth).expect("reached");
+        let (part, cell) = passage.first_reached(1, depth).expect("reached");
         assert!(part > 1.0 - 1e-9 && cell == 0);
-        assert!(passage.first(1, 1.001 * depth).is_none());
+        assert!(passage.first_reached(1, 1.001 * depth).is_none());
     }
 }

@@ -108,18 +108,18 @@ impl Pressing {
         shortest_waves(&self.kernel)
     }
 
-    /// Cells that follow one another along y.
+    /// Number of cells along y.
     pub(crate) fn rows(&self) -> usize {
         self.mirror.rows(self.grid.ny)
     }
 
-    /// Area that a kept cell stands for \[m^2\].
+    /// Area that a kept cell represents \[m^2\].
     pub(crate) fn cell_area(&self) -> f64 {
         self.grid.cell_area() * self.mirror.multiplicity()
     }
 
     /// The drive of a normal force W \[N\], without tilting.
-    pub(crate) fn under(&self, W: f64) -> Drive {
+    pub(crate) fn drive(&self, W: f64) -> Drive {
         Drive {
             free: [true, false, false],
             sums: [W / self.cell_area(), 0.0, 0.0],
@@ -142,7 +142,7 @@ impl Pressing {
         p: &mut [f64],
         times: f64,
     ) -> Result<NormalInfo, Error> {
-        let inverse = CompliantInverse::from(
+        let inverse = CompliantInverse::new_or_reused(
             self.inverse.take(),
             &self.kernel,
             self.mirror,
@@ -181,7 +181,7 @@ impl Pressing {
             tolerance: times * self.params.tolerance,
             ..self.params
         };
-        let found = solve_normal(
+        let info = solve_normal(
             &mut response,
             &problem,
             p,
@@ -189,7 +189,7 @@ impl Pressing {
             &mut self.workspace,
             &params,
         );
-        found.map_err(|e| {
+        info.map_err(|e| {
             if response
                 .stop
                 .is_some_and(|s| s.load(std::sync::atomic::Ordering::Relaxed))

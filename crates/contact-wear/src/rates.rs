@@ -9,20 +9,20 @@ use super::loss::{Loss, Worn};
 pub(super) struct Rates {
     /// Coefficient of each body in the last cycle \[1/Pa\].
     pub(super) k: [Vec<f64>; 2],
-    /// What the mean coefficient of a jump is above that, times the pressure that both were found
-    /// at \[1\].
-    pub(super) above: [Vec<f64>; 2],
-    /// Pressed way over the mean pressure \[m\].
+    /// Difference of the mean coefficient of a jump and that coefficient, times the pressure at
+    /// which both were computed \[1\].
+    pub(super) excess: [Vec<f64>; 2],
+    /// Integral of the pressure over the slip, divided by the mean pressure \[m\].
     pub(super) sigma: Vec<f64>,
-    /// Energy dissipated over the pressed way \[1\].
+    /// Energy dissipated, divided by the integral of the pressure over the slip \[1\].
     pub(super) mu: Vec<f64>,
-    /// Way slipped in a cycle \[m\].
+    /// Slip distance in a cycle \[m\].
     pub(super) slips: Vec<f64>,
     /// Mean normal displacement under the shear \[m\].
     pub(super) u_q: Vec<f64>,
     /// Cells that the border of the stick zone cuts.
     pub(super) cuts: Vec<Cut>,
-    /// What the contact is pressed by.
+    /// Prescribed force or approach of the contact.
     pub(super) drive: Drive,
 }
 
@@ -36,28 +36,28 @@ impl Rates {
         p: &[f64],
         shortest_waves: f64,
     ) -> LossRate {
-        let mut way: Vec<f64> = self.sigma.iter().map(|sigma| n * sigma).collect();
-        let mut borne = vec![0.0; way.len()];
+        let mut slip: Vec<f64> = self.sigma.iter().map(|sigma| n * sigma).collect();
+        let mut borne = vec![0.0; slip.len()];
         for cut in &self.cuts {
             let c = cut.cell;
             let stiffness = cut.stiffness(shortest_waves);
-            borne[c] = stiffness * cut.deeper(worn, opens);
-            way[c] = if p[c] > borne[c] {
-                way[c] / (1.0 + stiffness * opens * (self.k[0][c] + self.k[1][c]) * way[c])
+            borne[c] = stiffness * cut.gap_difference(worn, opens);
+            slip[c] = if p[c] > borne[c] {
+                slip[c] / (1.0 + stiffness * opens * (self.k[0][c] + self.k[1][c]) * slip[c])
             } else {
                 0.0
             };
         }
-        LossRate { n, way, borne }
+        LossRate { n, slip, borne }
     }
 }
 
-/// Loss in a jump: way (k (p - borne) + above) of each body.
+/// Loss in a jump: slip (k (p - borne) + excess) for each body.
 pub(super) struct LossRate {
     /// Cycles.
     n: f64,
-    /// Way slipped in all its cycles \[m\].
-    pub(super) way: Vec<f64>,
+    /// Slip distance in all its cycles \[m\].
+    pub(super) slip: Vec<f64>,
     /// Pressure on the sticking part of a cut cell, which does not wear \[Pa\].
     pub(super) borne: Vec<f64>,
 }
@@ -65,17 +65,17 @@ pub(super) struct LossRate {
 impl LossRate {
     /// The loss under the pressure p at the end of the jump.
     pub(super) fn loss(&self, rates: &Rates, p: &[f64], cell_area: f64) -> Loss {
-        let way = |c: usize| self.way[c] * (p[c] - self.borne[c]).max(0.0);
+        let loading = |c: usize| self.slip[c] * (p[c] - self.borne[c]).max(0.0);
         let depth = [0, 1].map(|b| {
             let of_cell = |c: usize| {
-                let above = self.way[c] * rates.above[b][c];
-                (rates.k[b][c] * way(c) + above).max(0.0)
+                let excess = self.slip[c] * rates.excess[b][c];
+                (rates.k[b][c] * loading(c) + excess).max(0.0)
             };
             (0..p.len()).map(of_cell).collect()
         });
-        let energy: Vec<f64> = (0..p.len()).map(|c| rates.mu[c] * way(c)).collect();
+        let energy: Vec<f64> = (0..p.len()).map(|c| rates.mu[c] * loading(c)).collect();
         let dissipated: f64 = energy.iter().sum();
-        let slides = |c: usize| {
+        let slip_of = |c: usize| {
             if p[c] > 0.0 {
                 self.n * rates.slips[c]
             } else {
@@ -85,7 +85,7 @@ impl LossRate {
         Loss {
             cycles: self.n,
             depth,
-            slid: (0..p.len()).map(slides).collect(),
+            slid: (0..p.len()).map(slip_of).collect(),
             energy: [energy.clone(), energy],
             dissipated: dissipated * cell_area,
         }

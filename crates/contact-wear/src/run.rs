@@ -9,7 +9,7 @@ use contact_core::scene::{History, Scene};
 
 use super::attempt::Attempt;
 use super::events::EventKind;
-use super::events::{crossing, events, passed, with_error};
+use super::events::{crossing, events, past_events, with_error};
 use super::jump::Jump;
 use super::loss::Worn;
 use super::model::Model;
@@ -18,7 +18,7 @@ use super::passage::Passage;
 use super::settings::{Jumps, Wear, WornThrough};
 use super::slip_zone;
 use super::state::WearState;
-use super::variable::Of;
+use super::variable::FactorVariable;
 use super::worn_start::WornStart;
 
 /// The next length is CAUTIOUS (tol/error)^(1/2) times the last one, within SHORTER to LONGER.
@@ -46,13 +46,13 @@ pub struct WearRun {
 }
 
 impl WearRun {
-    /// Checks, chooses the open settings ([`Wear::settled`]), solves the lead-in and the first
+    /// Checks, chooses the open settings ([`Wear::complete`]), solves the lead-in and the first
     /// cycle; ends when `stop` is raised.
     pub fn new(scene: &Scene, wear: &Wear, stop: &Arc<AtomicBool>) -> Result<Self, Error> {
         Self::begin(scene, wear, None, stop)
     }
 
-    /// The same on worn surfaces, whose cycles are counted further.
+    /// Starts on worn surfaces; the count of their cycles continues.
     pub fn from_worn(
         scene: &Scene,
         wear: &Wear,
@@ -68,13 +68,13 @@ impl WearRun {
         start: Option<&WornStart>,
         stop: &Arc<AtomicBool>,
     ) -> Result<Self, Error> {
-        let (scene, wear) = wear.settled(scene, stop)?;
+        let (scene, wear) = wear.complete(scene, stop)?;
         let mirror = Plan::new(&scene).mirror;
         let worn = match start {
-            Some(start) => start.kept(&scene.grid, mirror)?,
-            None => Worn::none(mirror.fold(&scene.h_init()).len()),
+            Some(start) => start.to_worn(&scene.grid, mirror)?,
+            None => Worn::unworn(mirror.fold(&scene.h_init()).len()),
         };
-        let events = passed(&scene, &wear, &worn);
+        let events = past_events(&scene, &wear, &worn);
         let through = events.iter().any(|e| e.kind == EventKind::WornThrough);
         if through && wear.worn_through == WornThrough::Stop {
             let allowed = "\"go_on\" where a coating is worn through at the start";
@@ -93,7 +93,7 @@ impl WearRun {
             model,
             stop: stop.clone(),
         };
-        let before = run.state.seen(&run.model, 0.0);
+        let before = run.state.to_jump(&run.model, 0.0);
         run.state.lost_before = [before.depth, before.volume];
         run.state.next = run.first_jump()?;
         Ok(run)
@@ -107,7 +107,7 @@ impl WearRun {
         state: WearState,
         stop: &Arc<AtomicBool>,
     ) -> Result<Self, Error> {
-        let (scene, wear) = wear.settled(scene, stop)?;
+        let (scene, wear) = wear.complete(scene, stop)?;
         let model = Model::new(&scene, &wear, Some(state.model.clone()), &state.worn, stop)?;
         if state.worn.depth.iter().any(|d| d.len() != model.cells()) {
             return Err(Error::invalid(
@@ -132,44 +132,45 @@ impl WearRun {
 
     /// Cycles of a jump for a given number of jumps, else of the first jump.
     fn first_jump(&mut self) -> Result<f64, Error> {
-        let all = self.wear.cycles;
+        let cycles = self.wear.cycles;
         match self.wear.jumps {
-            Jumps::Number(n) | Jumps::Explicit(n) => Ok(all / n as f64),
+            Jumps::Number(n) | Jumps::Explicit(n) => Ok(cycles / n as f64),
             Jumps::Tolerance(_) => {
                 let rate = self.rate()?;
                 let first = if rate > 0.0 {
                     FIRST_JUMP * self.scene.reference_approach() / rate
                 } else {
-                    all
+                    cycles
                 };
-                Ok(first.clamp(SHORTEST * all, all))
+                Ok(first.clamp(SHORTEST * cycles, cycles))
             }
         }
     }
 
     /// Largest growth of the gap in one cycle by the wear of one body \[m\].
     fn rate(&mut self) -> Result<f64, Error> {
-        let one = self.model.jump(&self.state.worn, 1.0, false)?;
+        let loss = self.model.jump(&self.state.worn, 1.0, false)?;
         self.model.restore(&self.state.model);
-        let deepest = one.depth.iter().flatten().fold(0.0, |m: f64, w| m.max(*w));
+        let deepest = loss.depth.iter().flatten().fold(0.0, |m: f64, w| m.max(*w));
         Ok(self.wear.opens() * deepest)
     }
 
-    /// Does the next jump; `None` at the end. After an error the state is that of the last jump.
+    /// Does the next jump; returns `None` at the end. After an error the state is the state after
+    /// the last jump.
     pub fn advance(&mut self) -> Option<Result<Jump, Error>> {
-        let left = self.state.left(&self.wear);
-        if self.state.ended || left <= SHORTEST * self.wear.cycles {
+        let remaining = self.state.remaining(&self.wear);
+        if self.state.ended || remaining <= SHORTEST * self.wear.cycles {
             return None;
         }
-        let jump = self.jump(left);
+        let jump = self.jump(remaining);
         if jump.is_err() {
             self.model.restore(&self.state.model);
         }
-        Some(jump.map_err(|error| self.at_cycle(error)))
+        Some(jump.map_err(|error| self.explain_error(error)))
     }
 
-    /// Completes an error with the cycles done or the physical cause.
-    fn at_cycle(&mut self, error: Error) -> Error {
+    /// Adds the cycles done or the physical cause to an error.
+    fn explain_error(&mut self, error: Error) -> Error {
         match error {
             Error::NotConverged {
                 increment,
@@ -179,7 +180,7 @@ impl WearRun {
                 iterations,
                 why,
             } if why.is_empty() => Error::NotConverged {
-                why: self.why(),
+                why: self.explain_divergence(),
                 increment,
                 solver,
                 residual,
@@ -203,7 +204,7 @@ impl WearRun {
 
     /// The physical cause of jumps that do not converge, as the end of a sentence: large wear in
     /// one cycle.
-    fn why(&mut self) -> String {
+    fn explain_divergence(&mut self) -> String {
         let (rate, approach) = (self.rate().unwrap_or(0.0), self.scene.reference_approach());
         if rate < FIRST_JUMP * approach {
             return String::new();
@@ -224,22 +225,22 @@ impl WearRun {
             .wear
             .bodies
             .iter()
-            .flat_map(|body| body.bends(Of::Cycles));
+            .flat_map(|body| body.bends(FactorVariable::Cycles));
         let behind = now * (1.0 + SHORTEST) + SHORTEST * self.wear.cycles;
         let ahead = friction.chain(laws).filter(|at| *at > behind);
         ahead.fold(f64::INFINITY, f64::min) - now
     }
 
-    fn jump(&mut self, left: f64) -> Result<Jump, Error> {
-        let wanted = self.state.next;
-        let mut n = wanted.min(left);
+    fn jump(&mut self, remaining: f64) -> Result<Jump, Error> {
+        let length = self.state.next;
+        let mut n = length.min(remaining);
         // A negligible rest is included in this jump.
-        if left - n < 1e-6 * n {
-            n = left;
+        if remaining - n < 1e-6 * n {
+            n = remaining;
         }
         let to_bend = self.next_bend();
         n = n.min(to_bend);
-        let (mut for_error, mut for_event) = (wanted, None);
+        let (mut for_error, mut for_event) = (length, None);
         for retries in 0..TRIES {
             if self.stop.load(Ordering::Relaxed) {
                 return Err(Error::Interrupted {
@@ -247,9 +248,9 @@ impl WearRun {
                 });
             }
             self.model.restore(&self.state.model);
-            let tried = self.attempt(n).and_then(|tried| self.on_grid(tried));
+            let tried = self.attempt(n).and_then(|tried| self.check_on_grid(tried));
             let tried = match tried {
-                Err(Error::NotConverged { .. }) if self.may_be_cut(n) => {
+                Err(Error::NotConverged { .. }) if self.may_be_divided(n) => {
                     n *= SHORTER;
                     for_event = None;
                     continue;
@@ -266,7 +267,7 @@ impl WearRun {
                 }
                 for_error = n * factor.clamp(SHORTER, LONGER);
                 if n == to_bend {
-                    for_error = for_error.max(wanted);
+                    for_error = for_error.max(length);
                 }
             }
             let stops = self.wear.worn_through == WornThrough::Stop;
@@ -297,9 +298,9 @@ impl WearRun {
         })
     }
 
-    /// Fails if a jump wears cells at the border of the grid: the scar goes on beyond it, whatever the
-    /// pressure at the ends of the jump.
-    fn on_grid(&self, tried: Attempt) -> Result<Attempt, Error> {
+    /// Fails if a jump wears cells at the border of the grid. The scar then continues beyond it,
+    /// even if the pressure is zero there.
+    fn check_on_grid(&self, tried: Attempt) -> Result<Attempt, Error> {
         let rows = self.model.pressing().rows();
         for depth in &tried.loss.depth {
             on_grid::check(&self.scene.grid, rows, depth, &[])?;
@@ -307,13 +308,13 @@ impl WearRun {
         Ok(tried)
     }
 
-    /// Whether the run chooses the length of its jumps and may take less than n cycles.
+    /// Checks that the run chooses the length of its jumps and may take fewer than n cycles.
     fn may_be_shorter(&self, n: f64) -> bool {
         matches!(self.wear.jumps, Jumps::Tolerance(_)) && n > SHORTEST * self.wear.cycles
     }
 
-    /// Whether a jump of n cycles that does not converge may be divided.
-    fn may_be_cut(&self, n: f64) -> bool {
+    /// Checks that a jump of n cycles that does not converge may be divided.
+    fn may_be_divided(&self, n: f64) -> bool {
         !matches!(self.wear.jumps, Jumps::Explicit(_)) && n > SHORTEST * self.wear.cycles
     }
 
@@ -352,7 +353,7 @@ impl WearRun {
         let area = self.model.pressing().cell_area();
         let by_border = self.model.border_error(&worn)?;
         let state = &mut self.state;
-        for (sum, moved) in state.moved.iter_mut().zip(&tried.moved) {
+        for (sum, moved) in state.corrections.iter_mut().zip(&tried.correction) {
             sum.iter_mut()
                 .zip(moved)
                 .for_each(|(sum, moved)| *sum += moved);
@@ -363,7 +364,7 @@ impl WearRun {
         state.dissipated += tried.loss.dissipated;
         state.next = next;
         state.ended = ends;
-        let seen = state.seen(&self.model, self.wear.debris_kept);
+        let seen = state.to_jump(&self.model, self.wear.debris_kept);
         let by_border = state.lost_by_slip(&seen) * by_border;
         let of_jumps = seen.depth_error + state.over_deepest(by_border);
         let [of_depth, of_volume] = slip_zone::errors(seen.slip_cells, seen.stick_ratio);
@@ -394,10 +395,11 @@ impl WearRun {
         &self.state.history
     }
 
-    /// Whether the fields after the last jump are to be stored: where the cycles have grown, and at
-    /// the end. Records that they are.
-    pub fn keeps(&mut self) -> bool {
-        let ends = self.state.ended || self.state.left(&self.wear) <= SHORTEST * self.wear.cycles;
+    /// Checks that the fields after the last jump must be stored: when the cycles have grown, and
+    /// at the end. Records that they are stored.
+    pub fn takes_block(&mut self) -> bool {
+        let ends =
+            self.state.ended || self.state.remaining(&self.wear) <= SHORTEST * self.wear.cycles;
         let keeps = ends || self.state.has_grown(&self.wear);
         if keeps {
             self.state.kept_at = self.state.cycles;

@@ -73,11 +73,11 @@ impl Wear {
         } else {
             (hertz.W, PI * hertz.a * hertz.a)
         };
-        let (pressed_way, zero) = ([W / area * slip], [0.0]);
+        let (pressure_times_slip, zero) = ([W / area * slip], [0.0]);
         let cycle = CellCycle {
-            pressed_way: &pressed_way,
-            way: &[slip],
-            dissipated: &[mu * pressed_way[0]],
+            pressure_times_slip: &pressure_times_slip,
+            slip_distance: &[slip],
+            dissipated: &[mu * pressure_times_slip[0]],
             worn: &zero,
             energy: &zero,
             cycles: 0.0,

@@ -11,7 +11,7 @@ const ROUNDING: f64 = 1e-12;
 /// Most cycles of a run.
 const MOST_CYCLES: f64 = 1e15;
 
-/// How the contact of a cycle is solved.
+/// Method to solve the contact of a cycle.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Cycling {
     /// Increment by increment through the load path, with stick, partial slip and gross slip
@@ -25,11 +25,11 @@ pub enum Cycling {
     Sliding,
 }
 
-/// How long the jumps over cycles are.
+/// Lengths of the jumps over cycles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Jumps {
-    /// Implicit, as long as the error of one stays below this part of the worn depth, and a
-    /// twentieth of that of the pressure (root mean squares); of second order.
+    /// Implicit, of second order. The error of a jump stays below this part of the worn depth, and
+    /// the error of the pressure below twenty times that part (root mean squares).
     Tolerance(f64),
     /// Implicit, that many of equal length, and more where a table of cycles bends or one does not
     /// converge; of second order.
@@ -48,30 +48,30 @@ impl Default for Jumps {
 /// Action when a coating is worn through somewhere.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum WornThrough {
-    /// It ends there (default).
+    /// The run ends there (default).
     #[default]
     Stop,
-    /// It continues; where the next layer is bare it wears by that layer's law. The elastic
-    /// response stays that of the full coating.
+    /// The run continues; where the next layer is bare, it wears by the law of that layer. The
+    /// elastic response of the full coating is kept.
     GoOn,
 }
 
 /// Laws of wear, number of cycles, and method.
 #[derive(Clone, Debug)]
 pub struct Wear {
-    /// How body 1 and body 2 wear.
+    /// Wear of body 1 and body 2.
     pub bodies: [BodyWear; 2],
     /// Cycles, > 0.
     pub cycles: f64,
-    /// The first branch of the load path that belongs to the cycle, from 0 (default `None`: that of
-    /// its last closed cycle): what is before leads in and is run through once, the rest is the
-    /// cycle and ends where it begins.
+    /// The first branch of the load path that belongs to the cycle, from 0 (default `None`: the
+    /// start of its last closed cycle). The branches before it are run through once. The rest is
+    /// the cycle and ends where it begins.
     pub first_branch: Option<usize>,
     /// Cycles per second \[Hz\], for coefficients that are functions of a power (default none).
     pub frequency: Option<f64>,
-    /// How the contact of a cycle is solved.
+    /// Method to solve the contact of a cycle.
     pub cycling: Cycling,
-    /// How long the jumps are.
+    /// Lengths of the jumps.
     pub jumps: Jumps,
     /// Action when a coating is worn through.
     pub worn_through: WornThrough,
@@ -81,8 +81,8 @@ pub struct Wear {
     /// geometry of P. Arnaud, S. Baydoun, S. Fouvry, Tribol. Int. 161 (2021) 107077).
     pub debris_kept: f64,
     /// Worn depth over the thickness of the coatings from which the event `thinned` is reported
-    /// (default 0.1): the elastic response is that of constant thickness.
-    pub tell_from: f64,
+    /// (default 0.1). The elastic response does not change with the thickness.
+    pub event_depth_fraction: f64,
 }
 
 impl Wear {
@@ -97,11 +97,12 @@ impl Wear {
             jumps: Jumps::default(),
             worn_through: WornThrough::default(),
             debris_kept: 0.0,
-            tell_from: 0.1,
+            event_depth_fraction: 0.1,
         }
     }
 
-    /// Fails with the key, the value and what is allowed if this has no meaning for a scene.
+    /// Fails with the key, the value and the allowed values if the settings are not valid for a
+    /// scene.
     pub fn check(&self, scene: &Scene) -> Result<(), Error> {
         if !(1.0..=MOST_CYCLES).contains(&self.cycles) {
             let allowed = format!("1 to {MOST_CYCLES:e}");
@@ -115,7 +116,7 @@ impl Wear {
         for ((name, body), wear) in bodies.into_iter().zip(&self.bodies) {
             wear.check(&format!("wear.{name}"), body.coatings.len() + 1)?;
         }
-        if !self.bodies.iter().any(BodyWear::wears) {
+        if !self.bodies.iter().any(BodyWear::has_wear) {
             return Err(Error::invalid(
                 "wear",
                 "no law",
@@ -154,10 +155,10 @@ impl Wear {
                 "between 0 and 1",
             ));
         }
-        if !(self.tell_from > 0.0 && self.tell_from <= 1.0) {
+        if !(self.event_depth_fraction > 0.0 && self.event_depth_fraction <= 1.0) {
             return Err(Error::invalid(
-                "wear.tell_from",
-                self.tell_from,
+                "wear.event_depth_fraction",
+                self.event_depth_fraction,
                 "above 0, at most 1",
             ));
         }
@@ -170,14 +171,14 @@ impl Wear {
             return Err(Error::invalid("friction.history.of", "increment", allowed));
         }
         let first_branch = self.first_branch(scene)?;
-        Self::closed(scene, first_branch)?;
+        Self::check_closed(scene, first_branch)?;
         if self.cycling == Cycling::Sliding {
             stroke(scene, first_branch)?;
         }
         self.jumps.check()
     }
 
-    /// Numbers that are allowed and hardly meant, one sentence each.
+    /// Sentences on numbers that are allowed but unlikely.
     pub fn doubts(&self) -> Vec<String> {
         let bodies = ["wear.body1", "wear.body2"].into_iter().zip(&self.bodies);
         bodies
@@ -191,7 +192,7 @@ impl Wear {
     }
 
     /// Fails if the cycle that starts with a branch is not closed.
-    pub(super) fn closed(scene: &Scene, first_branch: usize) -> Result<(), Error> {
+    pub(super) fn check_closed(scene: &Scene, first_branch: usize) -> Result<(), Error> {
         let branches = &scene.path.branches;
         let (before, last) = (
             &branches[first_branch - 1].to,
@@ -214,8 +215,8 @@ impl Wear {
                     .map(contact_core::scene::RigidMotion::load_name)
             }[k];
             // Closed up to rounding.
-            let largest = |of: &dyn Fn(&Branch) -> f64| {
-                let sizes = branches.iter().map(|branch| of(branch).abs());
+            let largest = |value: &dyn Fn(&Branch) -> f64| {
+                let sizes = branches.iter().map(|branch| value(branch).abs());
                 ROUNDING * sizes.fold(0.0, f64::max)
             };
             let given_of = |branch: &Branch| branch.to.given.motions()[k].unwrap_or(0.0);

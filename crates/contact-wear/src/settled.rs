@@ -12,13 +12,13 @@ use super::settings::{Cycling, Wear};
 /// Most chosen places of a branch of a stroke, and their distance over the half-width of the first
 /// contact.
 const MOST_PLACES: usize = 12;
-const APART: f64 = 0.25;
+const PLACE_DISTANCE: f64 = 0.25;
 /// Fewest where the normal force changes within the branch.
-const UNDER_CHANGE: usize = 4;
+const MIN_PLACES_VARYING_FORCE: usize = 4;
 
 impl Wear {
-    /// The first branch of the cycle: the one that is given, or that of the last closed cycle of
-    /// the load path.
+    /// The first branch of the cycle: the given one, or the first branch of the last closed cycle
+    /// of the load path.
     pub fn first_branch(&self, scene: &Scene) -> Result<usize, Error> {
         if let Some(first) = self.first_branch {
             return Ok(first);
@@ -30,7 +30,7 @@ impl Wear {
         };
         let mut firsts = (1..branches.len()).rev();
         firsts
-            .find(|&first| moves(first) && Self::closed(scene, first).is_ok())
+            .find(|&first| moves(first) && Self::check_closed(scene, first).is_ok())
             .ok_or_else(|| {
                 let allowed = "a load path with a closed cycle: its last branch ends where an earlier one ended, as in \
                                [T, -T, T] of T_x";
@@ -38,10 +38,10 @@ impl Wear {
             })
     }
 
-    /// Scene and wear with the open settings chosen: the cycle, and increments for the branches
-    /// that have none, by [`choose_increments`] in a march, by stroke over contact width in gross
-    /// slip. Given settings stay.
-    pub fn settled(&self, scene: &Scene, stop: &Arc<AtomicBool>) -> Result<(Scene, Self), Error> {
+    /// Chooses the open settings of scene and wear: the cycle, and increments for the branches that
+    /// have none. They are chosen by [`choose_increments`] in a march, by stroke over contact width
+    /// in gross slip. Given settings stay.
+    pub fn complete(&self, scene: &Scene, stop: &Arc<AtomicBool>) -> Result<(Scene, Self), Error> {
         scene.check()?;
         let mut wear = self.clone();
         wear.first_branch = Some(self.first_branch(scene)?);
@@ -57,17 +57,17 @@ impl Wear {
     }
 }
 
-/// Places for each branch of a stroke, [`APART`] of the contact's half-width apart.
+/// Places for each branch of a stroke, [`PLACE_DISTANCE`] of the contact's half-width apart.
 fn choose_places(scene: &mut Scene) {
     let (extent, _) = scene.grid.extent();
-    let apart = APART * scene.hertz().map_or(0.25 * extent, |hertz| hertz.a);
+    let apart = PLACE_DISTANCE * scene.hertz().map_or(0.25 * extent, |hertz| hertz.a);
     let (mut at, mut W_before) = (0.0, 0.0);
     for branch in &mut scene.path.branches {
         let to = branch.to.given.delta_x.unwrap_or(at);
         let W = branch.to.W;
         let places = ((to - at).abs() / apart).ceil();
         let least = if W_before > 0.0 && (W - W_before).abs() > 1e-3 * W {
-            UNDER_CHANGE
+            MIN_PLACES_VARYING_FORCE
         } else {
             1
         };

@@ -29,18 +29,18 @@ impl Shift {
 
     /// Adds S times `field`, `factor` times, to `onto`; fields of `rows` cells per column.
     pub(crate) fn put(self, field: &[f64], factor: f64, rows: usize, onto: &mut [f64]) {
-        self.pairs(field.len(), rows, |n, m, part| {
+        self.for_each_entry(field.len(), rows, |n, m, part| {
             onto[m] += factor * part * field[n];
         });
     }
 
     /// Adds S^T times `field` to `onto`.
     pub(crate) fn read(self, field: &[f64], rows: usize, onto: &mut [f64]) {
-        self.pairs(field.len(), rows, |n, m, part| onto[n] += part * field[m]);
+        self.for_each_entry(field.len(), rows, |n, m, part| onto[n] += part * field[m]);
     }
 
     /// Calls `each(n, m, weight)` for the entries of S; entries beyond the grid are left out.
-    fn pairs(self, cells: usize, rows: usize, mut each: impl FnMut(usize, usize, f64)) {
+    fn for_each_entry(self, cells: usize, rows: usize, mut each: impl FnMut(usize, usize, f64)) {
         for (by, part) in [(self.whole, 1.0 - self.part), (self.whole + 1, self.part)] {
             if part == 0.0 {
                 continue;
@@ -60,7 +60,7 @@ mod tests {
     use super::Shift;
 
     #[test]
-    fn what_one_place_loses_is_put_on_two_cells_and_read_with_the_same_parts() {
+    fn a_loss_is_put_on_two_cells_and_read_with_the_same_weights() {
         let rows = 2;
         let mut rng = fastrand::Rng::with_seed(5);
         let mut field = || -> Vec<f64> { (0..40).map(|_| rng.f64()).collect() };
@@ -78,8 +78,8 @@ mod tests {
             assert!((product(&put, &b) - product(&a, &read)).abs() < 1e-13);
             // The middle of what is put moves by the shift.
             let middle = |f: &[f64]| {
-                let of = f.iter().enumerate().map(|(n, f)| (n / rows) as f64 * f);
-                of.sum::<f64>() / sum(f)
+                let moments = f.iter().enumerate().map(|(n, f)| (n / rows) as f64 * f);
+                moments.sum::<f64>() / sum(f)
             };
             assert!((middle(&put) - middle(&a) - cells).abs() < 1e-12);
         }

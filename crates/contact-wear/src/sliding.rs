@@ -1,6 +1,6 @@
 //! Gross slip: the implicit jump of a stroke.
 //!
-//! With d_i the places of the stroke, s_i the way slipped at each per cycle and p_i the pressure
+//! With d_i the places of the stroke, s_i the slip distance at each per cycle and p_i the pressure
 //! there, n cycles wear body b (k_b being the coefficient of its law in its own coordinates, S_bi
 //! the shift of the grid against it, [`shift`](super::shift)) by
 //!
@@ -41,13 +41,12 @@ use super::settings::{Wear, thicknesses};
 use super::shift::Shift;
 use super::stroke::{Corner, Place, stroke};
 
-/// Change of the pressures in a round (root mean square, over that of the pressures) that ends the
-/// rounds.
+/// Change of the pressures in a round that ends the rounds, over the pressures (root mean squares).
 const LEAST_CHANGE: f64 = 1e-3;
 /// Times the tolerance of the scene to which the pressures of a round are solved.
 const ROUGH: f64 = 10.0;
-/// Most corrections of a law that changes within a jump, and the change of the depth (root mean square,
-/// over that of the depth) that ends them.
+/// Most corrections of a law that changes within a jump, and the relative change of the depth (root
+/// mean squares) that ends them.
 const CORRECTIONS: usize = 8;
 const AGREES: f64 = 0.01;
 /// Difference of two rates, over the largest one, up to which they are the same.
@@ -76,7 +75,7 @@ pub(crate) struct Sliding {
 }
 
 impl Sliding {
-    /// On unworn surfaces, or with the pressures of a state.
+    /// Starts on unworn surfaces, or with the pressures of a state.
     pub(crate) fn new(
         scene: &Scene,
         wear: &Wear,
@@ -89,7 +88,7 @@ impl Sliding {
         plan.check_memory(scene)?;
         let pressing = Pressing::new(scene, &plan, stop)?;
         let on_body2 = scene.body1.shape == Shape::Flat;
-        let of = |place: &Place| {
+        let shifts_of = |place: &Place| {
             let cells = place.shift / scene.grid.dx;
             let still = Shift::new(0.0);
             if on_body2 {
@@ -108,7 +107,7 @@ impl Sliding {
             .collect();
         let goes_on = state.is_some();
         let mut sliding = Self {
-            shifts: places.iter().map(of).collect(),
+            shifts: places.iter().map(shifts_of).collect(),
             p: state.unwrap_or_else(|| vec![guess; places.len()]),
             places,
             corners,
@@ -148,26 +147,26 @@ impl Sliding {
         self.cycles = worn.cycles;
         let mut rates = self.rates(worn, n)?;
         if !implicit {
-            return Ok(self.loss(n, &rates, &self.summed(&self.p)));
+            return Ok(self.loss(n, &rates, &self.integrate(&self.p)));
         }
         self.pressing.begin();
         let mut last: Option<Loss> = None;
         for correction in 0..=CORRECTIONS {
-            self.rounds(worn, n, &rates)?;
-            let ways = self.summed(&self.p);
+            self.iterate(worn, n, &rates)?;
+            let ways = self.integrate(&self.p);
             let loss = self.loss(n, &rates, &ways);
-            let settled = |last: &Loss| {
+            let has_settled = |last: &Loss| {
                 let cells = loss.depth.iter().flatten().zip(last.depth.iter().flatten());
                 let (moved, size) = cells.fold((0.0, 0.0), |(moved, size), (now, last)| {
                     (moved + (now - last) * (now - last), size + now * now)
                 });
                 moved <= AGREES * AGREES * size
             };
-            if correction == CORRECTIONS || last.as_ref().is_some_and(settled) {
+            if correction == CORRECTIONS || last.as_ref().is_some_and(has_settled) {
                 return Ok(loss);
             }
             let corrected = self.rates(worn, n)?;
-            if corrected.are_those(&rates, &ways) {
+            if corrected.agree_with(&rates, &ways) {
                 return Ok(loss);
             }
             last = Some(loss);
@@ -177,32 +176,32 @@ impl Sliding {
     }
 
     /// The rounds over all places at given rates, accelerated.
-    fn rounds(&mut self, worn: &Worn, n: f64, rates: &Rates) -> Result<(), Error> {
+    fn iterate(&mut self, worn: &Worn, n: f64, rates: &Rates) -> Result<(), Error> {
         let mut momentum = 1.0_f64;
         let (mut around, mut last) = (self.p.clone(), self.p.clone());
-        let mut buffers = Buffers::of(self.h.len());
+        let mut buffers = Buffers::new(self.h.len());
         for _ in 0..MOST_ROUNDS {
             last.clone_from(&self.p);
-            self.round(worn, n, rates, &around, &mut buffers)?;
-            let (mut left, mut size, mut turned) = (0.0, 0.0, 0.0);
+            self.one_round(worn, n, rates, &around, &mut buffers)?;
+            let (mut change, mut size, mut turned) = (0.0, 0.0, 0.0);
             for i in 0..self.places.len() {
                 for (c, p) in self.p[i].iter().enumerate() {
                     let step = p - around[i][c];
-                    left += step * step;
+                    change += step * step;
                     size += p * p;
-                    turned -= self.places[i].way * step * (p - last[i][c]);
+                    turned -= self.places[i].slip * step * (p - last[i][c]);
                 }
             }
-            if left <= LEAST_CHANGE * LEAST_CHANGE * size || self.places.len() == 1 {
+            if change <= LEAST_CHANGE * LEAST_CHANGE * size || self.places.len() == 1 {
                 break;
             }
-            let next = 0.5 * (1.0 + (1.0 + 4.0 * momentum * momentum).sqrt());
+            let next_momentum = 0.5 * (1.0 + (1.0 + 4.0 * momentum * momentum).sqrt());
             let ahead = if turned > 0.0 {
                 0.0
             } else {
-                (momentum - 1.0) / next
+                (momentum - 1.0) / next_momentum
             };
-            momentum = if turned > 0.0 { 1.0 } else { next };
+            momentum = if turned > 0.0 { 1.0 } else { next_momentum };
             for (around, (now, last)) in around.iter_mut().zip(self.p.iter().zip(&last)) {
                 for (around, (now, last)) in around.iter_mut().zip(now.iter().zip(last)) {
                     *around = now + ahead * (now - last);
@@ -213,7 +212,7 @@ impl Sliding {
     }
 
     /// One round over the places: minimises the majorant of the energy at the pressures `around`.
-    fn round(
+    fn one_round(
         &mut self,
         worn: &Worn,
         n: f64,
@@ -221,14 +220,14 @@ impl Sliding {
         around: &[Vec<f64>],
         buffers: &mut Buffers,
     ) -> Result<(), Error> {
-        let (s, opens) = (self.way(), self.wear.opens());
+        let (s, opens) = (self.slip_distance(), self.wear.opens());
         let Buffers {
             ways,
             end,
             h,
             compliance,
         } = buffers;
-        self.sum(around, ways);
+        self.integrate_into(around, ways);
         for b in 0..2 {
             let cells = worn.depth[b].iter().zip(rates.depth(b, n, &ways[b]));
             for (end, (worn, lost)) in end.depth[b].iter_mut().zip(cells) {
@@ -251,15 +250,15 @@ impl Sliding {
 
     /// The place next to the middle of the stroke.
     pub(crate) fn middle(&self) -> usize {
-        let off = |i: &usize| self.places[*i].shift.abs();
+        let distance = |i: &usize| self.places[*i].shift.abs();
         (0..self.places.len())
-            .min_by(|a, b| off(a).total_cmp(&off(b)))
+            .min_by(|a, b| distance(a).total_cmp(&distance(b)))
             .unwrap_or(0)
     }
 
     /// Energy dissipated in a cycle with the present pressures \[J\].
     pub(crate) fn dissipated_per_cycle(&self) -> f64 {
-        let slid = |i: usize| self.places[i].way * self.p[i].iter().sum::<f64>();
+        let slid = |i: usize| self.places[i].slip * self.p[i].iter().sum::<f64>();
         let slid: f64 = (0..self.places.len()).map(slid).sum();
         self.mu() * slid * self.pressing.cell_area()
     }
@@ -274,7 +273,13 @@ impl Sliding {
         let depth = [0, 1].map(|b| rates.depth(b, n, &ways[b]).collect());
         let mu = self.mu();
         let energy = [0, 1].map(|b| ways[b].iter().map(|way| n * mu * way).collect::<Vec<f64>>());
-        let slides = |p: &f64| if *p > 0.0 { n * self.way() } else { 0.0 };
+        let slides = |p: &f64| {
+            if *p > 0.0 {
+                n * self.slip_distance()
+            } else {
+                0.0
+            }
+        };
         Loss {
             cycles: n,
             depth,
@@ -284,54 +289,54 @@ impl Sliding {
         }
     }
 
-    /// Way slipped in a cycle \[m\].
-    fn way(&self) -> f64 {
-        self.places.iter().map(|place| place.way).sum()
+    /// Slip distance in a cycle \[m\].
+    fn slip_distance(&self) -> f64 {
+        self.places.iter().map(|place| place.slip).sum()
     }
 
-    /// The integral of a field over the way slipped in a cycle, in the coordinates of each body.
-    fn summed(&self, field: &[Vec<f64>]) -> [Vec<f64>; 2] {
+    /// The integral of a field over the slip in a cycle, in the coordinates of each body.
+    fn integrate(&self, field: &[Vec<f64>]) -> [Vec<f64>; 2] {
         let mut sums = [vec![0.0; self.h.len()], vec![0.0; self.h.len()]];
-        self.sum(field, &mut sums);
+        self.integrate_into(field, &mut sums);
         sums
     }
 
-    /// The same into given buffers.
-    fn sum(&self, field: &[Vec<f64>], sums: &mut [Vec<f64>; 2]) {
+    /// Computes the integral of [`Self::integrate`] into given buffers.
+    fn integrate_into(&self, field: &[Vec<f64>], sums: &mut [Vec<f64>; 2]) {
         for sum in sums.iter_mut() {
             sum.fill(0.0);
         }
         for (i, place) in self.places.iter().enumerate() {
             for b in 0..2 {
-                self.shifts[i][b].put(&field[i], place.way, self.pressing.rows(), &mut sums[b]);
+                self.shifts[i][b].put(&field[i], place.slip, self.pressing.rows(), &mut sums[b]);
             }
         }
     }
 
     /// The rates of n cycles from worn surfaces on, at the present pressures.
     fn rates(&self, worn: &Worn, n: f64) -> Result<Rates, Error> {
-        let ways = self.summed(&self.p);
+        let ways = self.integrate(&self.p);
         let touches = |p: &f64| f64::from(u8::from(*p > 0.0));
         let touched: Vec<Vec<f64>> = self
             .p
             .iter()
             .map(|p| p.iter().map(touches).collect())
             .collect();
-        let (touched, s) = (self.summed(&touched), self.way());
+        let (touched, s) = (self.integrate(&touched), self.slip_distance());
         let (mut k, mut above) = ([vec![], vec![]], [vec![], vec![]]);
         for b in 0..2 {
             // Cells that come into contact within the jump need a coefficient, too: they get a
             // small pressed way.
             let least = 1e-9 * ways[b].iter().fold(0.0, |m: f64, w| m.max(*w));
-            let pressed: Vec<f64> = ways[b].iter().map(|w| w.max(least)).collect();
-            let way: Vec<f64> = touched[b]
+            let pressure_times_slip: Vec<f64> = ways[b].iter().map(|w| w.max(least)).collect();
+            let slip_distance: Vec<f64> = touched[b]
                 .iter()
                 .map(|w| if *w > 0.0 { *w } else { s })
                 .collect();
-            let dissipated: Vec<f64> = pressed.iter().map(|w| self.mu() * w).collect();
+            let dissipated: Vec<f64> = pressure_times_slip.iter().map(|w| self.mu() * w).collect();
             let cycle = CellCycle {
-                pressed_way: &pressed,
-                way: &way,
+                pressure_times_slip: &pressure_times_slip,
+                slip_distance: &slip_distance,
                 dissipated: &dissipated,
                 worn: &worn.depth[b],
                 energy: &worn.energy[b],
@@ -341,10 +346,12 @@ impl Sliding {
             let Coefficients { mean, end } =
                 coefficients(&self.wear.bodies[b], &cycle, &self.coatings[b], n)?;
             let means = mean.iter().zip(&end).zip(&ways[b]);
-            above[b] = means.map(|((mean, end), way)| (mean - end) * way).collect();
+            above[b] = means
+                .map(|((mean, end), slip_distance)| (mean - end) * slip_distance)
+                .collect();
             k[b] = end;
         }
-        Ok(Rates { k, above })
+        Ok(Rates { k, excess: above })
     }
 
     /// The sum of fields of both bodies, shifted to the grid at a place.
@@ -366,7 +373,7 @@ impl Sliding {
 
     /// Solves the pressure at a place to `times` the tolerance of the scene.
     fn press(&mut self, i: usize, h: &[f64], compliance: &[f64], times: f64) -> Result<(), Error> {
-        let drive = self.pressing.under(self.places[i].W);
+        let drive = self.pressing.drive(self.places[i].W);
         self.pressing
             .solve(h, compliance, drive, &mut self.p[i], times)?;
         Ok(())
@@ -377,14 +384,15 @@ impl Sliding {
 struct Rates {
     /// Coefficient in the last cycle \[1/Pa\].
     k: [Vec<f64>; 2],
-    /// What the mean depth of a cycle is above that of the last one \[m\].
-    above: [Vec<f64>; 2],
+    /// Difference of the mean depth of a cycle and the depth of the last cycle \[m\].
+    excess: [Vec<f64>; 2],
 }
 
 impl Rates {
-    /// Whether these are the same but for rounding; `ways` are the pressed ways of a cycle.
-    fn are_those(&self, other: &Self, ways: &[Vec<f64>; 2]) -> bool {
-        let largest = |of: &[f64]| of.iter().fold(0.0_f64, |size, a| size.max(a.abs()));
+    /// Checks that the rates agree with others to rounding; `ways` are the loadings `int p |ds|` of
+    /// a cycle.
+    fn agree_with(&self, other: &Self, ways: &[Vec<f64>; 2]) -> bool {
+        let largest = |values: &[f64]| values.iter().fold(0.0_f64, |size, a| size.max(a.abs()));
         let same = |one: &[f64], other: &[f64], size: f64| {
             let mut cells = one.iter().zip(other);
             cells.all(|(one, other)| (one - other).abs() <= ROUNDING * size)
@@ -392,20 +400,20 @@ impl Rates {
         (0..2).all(|b| {
             let k = largest(&self.k[b]);
             same(&self.k[b], &other.k[b], k)
-                && same(&self.above[b], &other.above[b], k * largest(&ways[b]))
+                && same(&self.excess[b], &other.excess[b], k * largest(&ways[b]))
         })
     }
 
     /// Depth of body b in n cycles of these pressed ways \[m\].
     fn depth(&self, b: usize, n: f64, ways: &[f64]) -> impl Iterator<Item = f64> {
-        let cells = self.k[b].iter().zip(&self.above[b]).zip(ways);
+        let cells = self.k[b].iter().zip(&self.excess[b]).zip(ways);
         cells.map(move |((k, above), way)| (n * (k * way + above)).max(0.0))
     }
 }
 
 /// Buffers of the rounds of a jump.
 struct Buffers {
-    /// Pressed ways of a cycle in the coordinates of each body \[Pa m\].
+    /// Integral of the pressure over the slip in a cycle, in the coordinates of each body \[Pa m\].
     ways: [Vec<f64>; 2],
     /// Worn depth at the end of the jump \[m\].
     end: Worn,
@@ -416,10 +424,10 @@ struct Buffers {
 }
 
 impl Buffers {
-    fn of(cells: usize) -> Self {
+    fn new(cells: usize) -> Self {
         Self {
             ways: [vec![0.0; cells], vec![0.0; cells]],
-            end: Worn::none(cells),
+            end: Worn::unworn(cells),
             h: vec![0.0; cells],
             compliance: vec![0.0; cells],
         }

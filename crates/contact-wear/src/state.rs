@@ -32,7 +32,7 @@ pub struct WearState {
     /// Length of the next jump in cycles.
     pub(crate) next: f64,
     /// Sum over all jumps of the corrections of the worn depth by extrapolation \[m\].
-    pub(crate) moved: [Vec<f64>; 2],
+    pub(crate) corrections: [Vec<f64>; 2],
     pub(crate) ended: bool,
 }
 
@@ -46,7 +46,7 @@ impl WearState {
             lost_before: [[0.0; 2]; 2],
             dissipated,
             events,
-            moved: worn.depth.each_ref().map(|d| vec![0.0; d.len()]),
+            corrections: worn.depth.each_ref().map(|d| vec![0.0; d.len()]),
             model,
             kept_at: worn.cycles,
             worn,
@@ -56,12 +56,13 @@ impl WearState {
         }
     }
 
-    /// Cycles of the run that are left.
-    pub(super) fn left(&self, wear: &Wear) -> f64 {
+    /// Cycles that remain.
+    pub(super) fn remaining(&self, wear: &Wear) -> f64 {
         self.began + wear.cycles - self.cycles
     }
 
-    /// Whether the cycles have grown by a fifth, or by a fiftieth of all, since fields were stored.
+    /// Checks that the cycles have grown by a fifth, or by a fiftieth of all, since fields were
+    /// stored.
     pub(super) fn has_grown(&self, wear: &Wear) -> bool {
         let [done, kept_at] = [self.cycles, self.kept_at].map(|cycles| cycles - self.began);
         done >= 1.2 * kept_at || done >= kept_at + wear.cycles / 50.0
@@ -69,12 +70,12 @@ impl WearState {
 
     /// The present values of a [`Jump`]; its errors, length and retries are zero. `kept`: part of
     /// the loss that is debris.
-    pub(super) fn seen(&self, model: &Model, kept: f64) -> Jump {
+    pub(super) fn to_jump(&self, model: &Model, kept: f64) -> Jump {
         let area = model.pressing().cell_area();
-        let seen = model.seen();
+        let seen = model.output();
         let touches = seen.p.iter().filter(|p| **p > 0.0).count() as f64;
         let largest = |field: &[f64]| field.iter().fold(0.0, |m: f64, w| m.max(*w));
-        let moved = self.moved.iter().flatten();
+        let moved = self.corrections.iter().flatten();
         let moved = moved.fold(0.0, |m: f64, e| m.max(e.abs()));
         let volume = [0, 1].map(|b| self.worn.depth[b].iter().sum::<f64>() * area);
         Jump {
@@ -106,13 +107,13 @@ impl WearState {
         if deepest > 0.0 { error / deepest } else { 0.0 }
     }
 
-    /// The part of its pressure that the slip zone has lost by wear: that of the largest energy of
-    /// a cycle which is no longer dissipated.
+    /// The part of its pressure that the slip zone has lost by wear: the part of the largest energy
+    /// of a cycle that is no longer dissipated.
     pub(super) fn lost_by_slip(&self, now: &Jump) -> f64 {
         let cycles = self.history.iter().map(|jump| jump.dissipated_per_cycle);
-        let most = cycles.fold(now.dissipated_per_cycle, f64::max);
-        if most > 0.0 {
-            1.0 - now.dissipated_per_cycle / most
+        let largest = cycles.fold(now.dissipated_per_cycle, f64::max);
+        if largest > 0.0 {
+            1.0 - now.dissipated_per_cycle / largest
         } else {
             0.0
         }

@@ -1,4 +1,4 @@
-//! The places of a stroke: shifts of the bodies and the way slipped at each.
+//! The places of a stroke: shifts of the bodies and the slip at each.
 
 use contact_core::Error;
 use contact_core::scene::{Dependence, Scene, Shape};
@@ -11,8 +11,8 @@ const SAME: f64 = 1e-9;
 pub(crate) struct Place {
     /// Shift of body 1 against body 2 along x \[m\].
     pub(crate) shift: f64,
-    /// Way slipped here per cycle \[m\].
-    pub(crate) way: f64,
+    /// Slip here per cycle \[m\].
+    pub(crate) slip: f64,
     /// Normal force \[N\].
     pub(crate) W: f64,
 }
@@ -23,9 +23,9 @@ pub(crate) type Corner = [f64; 3];
 /// The places of the cycle, which begins with the branch `first_branch`, and the corners of its
 /// loop.
 ///
-/// A rig of stiffness K \[N/m\] drives the contact through a spring (a Prandtl element): with u the
-/// shift of the rig and d that of the contact, each increment moves d by the least amount to
-/// `|u - d| <= mu W/K`.
+/// A rig of stiffness K \[N/m\] drives the contact through a spring (a Prandtl element). Let u be
+/// the shift of the rig and d the shift of the contact. Each increment moves d by the least amount
+/// to `|u - d| <= mu W/K`.
 pub(crate) fn stroke(
     scene: &Scene,
     first_branch: usize,
@@ -62,10 +62,10 @@ pub(crate) fn stroke(
             let (before, W_before) = (d, W);
             W = points[k].loads.W;
             d = play(d, u_of(k), W);
-            let way = (d - before).abs();
+            let slip = (d - before).abs();
             let slips = mu * W_before * (d - before).signum();
-            let turns = way > 0.0 && (force - slips).abs() > 1e-9 * mu * W_before;
-            if way > 0.0 {
+            let turns = slip > 0.0 && (force - slips).abs() > 1e-9 * mu * W_before;
+            if slip > 0.0 {
                 force = mu * W * (d - before).signum();
             } else if rig_stiffness.is_finite() {
                 force = rig_stiffness * (u_of(k) - d);
@@ -79,16 +79,16 @@ pub(crate) fn stroke(
             }
             corners.push([u_of(k), d, force]);
             let (shift, W) = (0.5 * (d + before), 0.5 * (W + W_before));
-            if way == 0.0 {
+            if slip == 0.0 {
                 continue;
             }
             let near = SAME * scene.grid.dx;
-            let known = places
+            let same_place = places
                 .iter_mut()
                 .find(|p| (p.shift - shift).abs() < near && (p.W - W).abs() <= 1e-12 * W);
-            match known {
-                Some(place) => place.way += way,
-                None => places.push(Place { shift, way, W }),
+            match same_place {
+                Some(place) => place.slip += slip,
+                None => places.push(Place { shift, slip, W }),
             }
         }
     }
@@ -106,8 +106,8 @@ fn check(scene: &Scene, first_branch: usize, rigid: bool) -> Result<(), Error> {
     let refuse =
         |key: String, value: String, allowed: &str| Err(Error::invalid(key, value, allowed));
     let friction = &scene.friction;
-    let known = [Dependence::Direction, Dependence::Cycles];
-    if !friction.depends_only_on(&known[..if rigid { 2 } else { 1 }]) {
+    let allowed_dependences = [Dependence::Direction, Dependence::Cycles];
+    if !friction.depends_only_on(&allowed_dependences[..if rigid { 2 } else { 1 }]) {
         let allowed = "one coefficient mu where wear.cycling = \"sliding\", or, without a spring of the rig, one with a \
                        history of cycles. wear.cycling = \"march\" takes all of them";
         let value = if friction.law.is_some() {
@@ -119,15 +119,11 @@ fn check(scene: &Scene, first_branch: usize, rigid: bool) -> Result<(), Error> {
     }
     if scene.body1.shape != Shape::Flat && scene.body2.shape != Shape::Flat {
         let allowed = "flat where wear.cycling = \"sliding\" and body 1 is not";
-        return refuse(
-            "body2.shape".into(),
-            "curved, as that of body 1".into(),
-            allowed,
-        );
+        return refuse("body2.shape".into(), "curved, as body 1 is".into(), allowed);
     }
     for (b, branch) in scene.path.branches.iter().enumerate() {
         let to = &branch.to;
-        let given = to.given.motions();
+        let prescribed = to.given.motions();
         let allowed = "W and the shift delta_x alone where wear.cycling = \"sliding\"";
         let others = [
             to.T_y,
@@ -138,11 +134,13 @@ fn check(scene: &Scene, first_branch: usize, rigid: bool) -> Result<(), Error> {
             to.sigma_B1,
             to.rolled,
         ];
-        let moves = [1, 2, 4, 5].iter().any(|&k| given[k].unwrap_or(0.0) != 0.0);
-        if given[0].is_some() || moves || others.iter().any(|f| *f != 0.0) {
+        let moves = [1, 2, 4, 5]
+            .iter()
+            .any(|&k| prescribed[k].unwrap_or(0.0) != 0.0);
+        if prescribed[0].is_some() || moves || others.iter().any(|f| *f != 0.0) {
             return refuse(format!("path[{b}]"), "other loads".into(), allowed);
         }
-        if b >= first_branch && given[3].is_none() {
+        if b >= first_branch && prescribed[3].is_none() {
             return refuse(format!("path[{b}].T_x"), to.T_x.to_string(), allowed);
         }
         if b + 1 >= first_branch && !(to.W > 0.0) {

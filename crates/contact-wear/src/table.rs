@@ -10,7 +10,7 @@ use toml::{Table, Value};
 
 use super::law::{Archard, BodyWear, CellCycle, DissipatedEnergy, Law};
 use super::settings::{Cycling, Jumps, Wear, WornThrough};
-use super::variable::Of;
+use super::variable::FactorVariable;
 use super::varying::{Factor, Varying};
 
 const KEYS: [&str; 13] = [
@@ -24,7 +24,7 @@ const KEYS: [&str; 13] = [
     "explicit_jumps",
     "worn_through",
     "debris_kept",
-    "tell_from",
+    "event_depth_fraction",
     "body1",
     "body2",
 ];
@@ -42,25 +42,26 @@ impl Wear {
         read(&text, &file, settings, reach)
     }
 
-    /// Reads and checks a scene and its table `[wear]`, if it has one: every mistake of both at once.
-    pub fn if_given(
+    /// Reads and checks a scene and its table `[wear]`, if it has one. All mistakes of both are
+    /// reported at once.
+    pub fn scene_and_wear(
         text: &str,
         file: &str,
         settings: &[String],
         reach: Reach,
     ) -> Result<(Scene, Option<Self>), Error> {
-        let both = |root: &Section<'_>, scene: &Scene| {
+        let check_both = |root: &Section<'_>, scene: &Scene| {
             let Some(section) = root.section("wear", &KEYS)? else {
                 return Ok(None);
             };
-            let (wear, rig) = (wear(&section)?, rig(&section)?);
+            let (wear, rig) = (wear(&section)?, rig_stiffness(&section)?);
             let mut scene = scene.clone();
             scene.path.rig_stiffness = rig.or(scene.path.rig_stiffness);
             wear.check(&scene)?;
             Ok(Some((wear, scene)))
         };
-        let (scene, found) = read_scene_and(text, file, settings, reach, both)?;
-        Ok(found.map_or((scene, None), |(wear, scene)| (scene, Some(wear))))
+        let (scene, wear) = read_scene_and(text, file, settings, reach, check_both)?;
+        Ok(wear.map_or((scene, None), |(wear, scene)| (scene, Some(wear))))
     }
 
     /// Reads and checks a scene with a table `[wear]`; `file` is its name in errors.
@@ -72,45 +73,45 @@ impl Wear {
         read(text, file, settings, Reach::Folder)
     }
 
-    /// Wear of a scene from a table `[wear]`, and the scene with its rig where the table has one.
-    /// Laws that are the user's own, `{ own = true }`, are taken in turn from `own` for each body.
+    /// Reads the wear of a scene from a table `[wear]`, and the scene with its rig if the table has
+    /// one. Laws of the user, `{ own = true }`, are taken in turn from `own` for each body.
     pub fn from_table(
         scene: &Scene,
         table: &Table,
         own: &[Vec<Arc<dyn Law>>; 2],
     ) -> Result<(Scene, Self), Error> {
         let root = Table::from_iter([("wear".to_owned(), Value::Table(table.clone()))]);
-        let both = || {
+        let read_both = || {
             let section = Section::root(&root, &["wear"])?.require_section("wear", &KEYS)?;
-            Ok((wear(&section)?, rig(&section)?))
+            Ok((wear(&section)?, rig_stiffness(&section)?))
         };
-        let (mut wear, rig) = both().map_err(Fault::into_error)?;
-        wear.take(own);
+        let (mut wear, rig) = read_both().map_err(Fault::into_error)?;
+        wear.set_laws(own);
         let mut scene = scene.clone();
         scene.path.rig_stiffness = rig.or(scene.path.rig_stiffness);
         Ok((scene, wear))
     }
 
-    /// Reads a scene and its wear back from a store, with the laws of the user's own for bodies
-    /// that have them.
+    /// Reads a scene and its wear from a store. The laws of the user are given for the bodies that
+    /// have them.
     pub fn from_store(
         text: &str,
         file: &str,
         own: &[Vec<Arc<dyn Law>>; 2],
     ) -> Result<(Scene, Self), Error> {
         let (scene, mut wear) = read_unchecked(text, file, &[], Reach::Folder)?;
-        wear.take(own);
+        wear.set_laws(own);
         wear.check(&scene)?;
         Ok((scene, wear))
     }
 
-    fn take(&mut self, own: &[Vec<Arc<dyn Law>>; 2]) {
+    fn set_laws(&mut self, own: &[Vec<Arc<dyn Law>>; 2]) {
         let bodies = self.bodies.iter_mut().zip(own);
-        bodies.for_each(|(body, own)| body.give(own));
+        bodies.for_each(|(body, own)| body.set_user_laws(own));
     }
 
-    /// The table `[wear]` in SI, every number in full. A law of the user's own, which a file cannot
-    /// represent, is written `{ own = true }`: to read the file, it has to be given again.
+    /// Writes the table `[wear]` in SI, every number in full. A law of the user, which a file
+    /// cannot represent, is written `{ own = true }`. It has to be given again to read the file.
     pub fn to_toml(&self) -> String {
         let mut text = format!("\n[wear]\ncycles = {:?}\n", self.cycles);
         if let Some(first) = self.first_branch {
@@ -130,8 +131,8 @@ impl Wear {
         // Writing to a text cannot fail.
         let _ = writeln!(
             text,
-            "cycling = \"{cycling}\"\nworn_through = \"{through}\"\ndebris_kept = {:?}\ntell_from = {:?}",
-            self.debris_kept, self.tell_from
+            "cycling = \"{cycling}\"\nworn_through = \"{through}\"\ndebris_kept = {:?}\nevent_depth_fraction = {:?}",
+            self.debris_kept, self.event_depth_fraction
         );
         let _ = match self.jumps {
             Jumps::Tolerance(tolerance) => writeln!(text, "tolerance = {tolerance:?}"),
@@ -142,11 +143,11 @@ impl Wear {
             if body.laws.is_empty() {
                 continue;
             }
-            let own = || "{ own = true }".to_owned();
+            let placeholder = || "{ own = true }".to_owned();
             let laws = body
                 .laws
                 .iter()
-                .map(|law| law.written().unwrap_or_else(own));
+                .map(|law| law.to_toml().unwrap_or_else(placeholder));
             let laws: Vec<String> = laws.collect();
             let _ = writeln!(text, "\n[wear.{name}]\nlaws = [{}]", laws.join(", "));
             if let Some(share) = body.share {
@@ -170,17 +171,17 @@ fn read_unchecked(
     settings: &[String],
     reach: Reach,
 ) -> Result<(Scene, Wear), Error> {
-    let both = |root: &Section<'_>, _: &Scene| {
+    let read_both = |root: &Section<'_>, _: &Scene| {
         let section = root.require_section("wear", &KEYS)?;
-        Ok((wear(&section)?, rig(&section)?))
+        Ok((wear(&section)?, rig_stiffness(&section)?))
     };
-    let (mut scene, (wear, rig)) = read_scene_and(text, file, settings, reach, both)?;
+    let (mut scene, (wear, rig)) = read_scene_and(text, file, settings, reach, read_both)?;
     scene.path.rig_stiffness = rig.or(scene.path.rig_stiffness);
     Ok((scene, wear))
 }
 
-/// The spring through which shifts are given, another place for `[rig]`.
-fn rig(wear: &Section<'_>) -> Result<Option<f64>, Fault> {
+/// Reads the spring of the rig, which may stand in `[wear]` instead of `[rig]`.
+fn rig_stiffness(wear: &Section<'_>) -> Result<Option<f64>, Fault> {
     let K = wear.number_if("rig_stiffness", &[])?;
     if let Some(K) = K.filter(|K| !(*K > 0.0)) {
         let key = wear.path("rig_stiffness");
@@ -193,17 +194,17 @@ fn wear(section: &Section<'_>) -> Result<Wear, Fault> {
     let bodies = [body(section, "body1")?, body(section, "body2")?];
     let cycles = section.number("cycles", "a number of cycles above 0", &[])?;
     let default = Wear::new(bodies, cycles);
-    let ways = ["tolerance", "jumps", "explicit_jumps"];
-    let mut given = ways.iter().filter(|key| section.get(key).is_some());
-    let jumps = match given.next() {
+    let jump_keys = ["tolerance", "jumps", "explicit_jumps"];
+    let mut keys_present = jump_keys.iter().filter(|key| section.get(key).is_some());
+    let jumps = match keys_present.next() {
         None => default.jumps,
         Some(&"tolerance") => Jumps::Tolerance(section.number("tolerance", "a number", &[])?),
         Some(&"jumps") => Jumps::Number(section.count("jumps", 1)?),
         Some(_) => Jumps::Explicit(section.count("explicit_jumps", 1)?),
     };
-    if let Some(other) = given.next() {
+    if let Some(other) = keys_present.next() {
         let key = section.path(other);
-        let message = format!("{key}: one of {} at most", ways.join(", "));
+        let message = format!("{key}: one of {} at most", jump_keys.join(", "));
         return Err(Fault::new(key, message));
     }
     Ok(Wear {
@@ -222,7 +223,11 @@ fn wear(section: &Section<'_>) -> Result<Wear, Fault> {
             &[("stop", WornThrough::Stop), ("go_on", WornThrough::GoOn)],
         )?,
         debris_kept: section.number_or("debris_kept", default.debris_kept, &[])?,
-        tell_from: section.number_or("tell_from", default.tell_from, &[])?,
+        event_depth_fraction: section.number_or(
+            "event_depth_fraction",
+            default.event_depth_fraction,
+            &[],
+        )?,
         ..default
     })
 }
@@ -252,7 +257,7 @@ fn body(wear: &Section<'_>, name: &str) -> Result<BodyWear, Fault> {
 
 fn law(section: &Section<'_>) -> Result<Arc<dyn Law>, Fault> {
     if section.get("own").is_some() {
-        return Ok(Arc::new(Missing));
+        return Ok(Arc::new(LawPlaceholder));
     }
     let threshold = section.number_or("threshold", 0.0, &[])?;
     let law: Arc<dyn Law> = match (
@@ -263,8 +268,8 @@ fn law(section: &Section<'_>) -> Result<Arc<dyn Law>, Fault> {
         (None, Some(alpha)) => Arc::new(DissipatedEnergy { alpha, threshold }),
         _ => {
             let key = section.path("k");
-            let what = "either k (Archard, m^2/N) or alpha (dissipated energy, m^3/J)";
-            return Err(Fault::new(&key, format!("{key}: give {what}")));
+            let choice = "either k (Archard, m^2/N) or alpha (dissipated energy, m^3/J)";
+            return Err(Fault::new(&key, format!("{key}: give {choice}")));
         }
     };
     Ok(match factor(section)? {
@@ -277,16 +282,16 @@ fn factor(law: &Section<'_>) -> Result<Option<Factor>, Fault> {
     let Some(section) = law.section("factor", &["of", "table"])? else {
         return Ok(None);
     };
-    let of = section.choice("of", &Of::ALL)?;
+    let variable = section.choice("of", &FactorVariable::ALL)?;
     let table = section.pairs("table", "a list of pairs [value, factor]")?;
-    Ok(Some(Factor { of, table }))
+    Ok(Some(Factor { variable, table }))
 }
 
-/// Placeholder of a law of the user's own in a file.
+/// Placeholder in a file for a law of the user.
 #[derive(Debug)]
-struct Missing;
+struct LawPlaceholder;
 
-impl Law for Missing {
+impl Law for LawPlaceholder {
     fn depth(&self, _: &CellCycle<'_>, _: &mut [f64]) -> Result<(), Error> {
         self.check("wear")
     }

@@ -1,20 +1,20 @@
-//! What a wear coefficient may be a function of.
+//! The variables on which a wear coefficient may depend.
 
 /// The variable of the factor of a wear coefficient.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Of {
+pub enum FactorVariable {
     /// Cycles done so far, the same for all cells.
     Cycles,
-    /// Mean pressure of a cell over the way that it slips \[Pa\].
+    /// Mean pressure of a cell over its slip \[Pa\].
     Pressure,
-    /// Energy dissipated per area and time: that of a cycle times the frequency \[W/m^2\].
+    /// Energy dissipated per area and time: the energy of a cycle times the frequency \[W/m^2\].
     PowerDensity,
     /// Energy dissipated per area so far \[J/m^2\].
     Energy,
 }
 
-impl Of {
-    /// All of them, with their names in scene files.
+impl FactorVariable {
+    /// All variables, with their names in scene files.
     pub const ALL: [(&'static str, Self); 4] = [
         ("cycles", Self::Cycles),
         ("pressure", Self::Pressure),

@@ -7,18 +7,18 @@ use contact_core::Error;
 use contact_core::scene::{FrictionHistory, History};
 
 use super::law::{CellCycle, Law};
-use super::variable::Of;
+use super::variable::FactorVariable;
 
 /// A factor of a wear coefficient, piecewise linear, level beyond its ends.
 ///
-/// A jump ends at the places of a table of cycles, and follows each cell from place to place of a table
-/// of the energy. Pressure and power density are those of the last cycle that was solved; the
-/// comparison with two halves shows their change. A factor that changes faster than in proportion to
-/// the pressure makes the pressure of long jumps oscillate.
+/// A jump ends at the places of a table of cycles, and follows each cell from place to place of a
+/// table of the energy. Pressure and power density are taken from the last solved cycle. The
+/// comparison with two halves shows their change. A factor that changes faster than in proportion
+/// to the pressure makes the pressure of long jumps oscillate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Factor {
     /// The variable.
-    pub of: Of,
+    pub variable: FactorVariable,
     /// Pairs of the variable, ascending, and the factor.
     pub table: Vec<(f64, f64)>,
 }
@@ -50,28 +50,28 @@ impl Factor {
         }
     }
 
-    /// The factor of every cell.
-    fn times(&self, cycle: &CellCycle<'_>, depth: &mut [f64]) {
+    /// Multiplies the depth of every cell by its factor.
+    fn multiply(&self, cycle: &CellCycle<'_>, depth: &mut [f64]) {
         let table = FrictionHistory {
             of: History::Cycles,
             table: self.table.clone(),
         };
         let everywhere = table.factor(cycle.cycles);
         for (n, depth) in depth.iter_mut().enumerate() {
-            *depth *= match self.of {
-                Of::Cycles => everywhere,
-                Of::Pressure if cycle.way[n] > 0.0 => {
-                    table.factor(cycle.pressed_way[n] / cycle.way[n])
+            *depth *= match self.variable {
+                FactorVariable::Cycles => everywhere,
+                FactorVariable::Pressure if cycle.slip_distance[n] > 0.0 => {
+                    table.factor(cycle.pressure_times_slip[n] / cycle.slip_distance[n])
                 }
-                Of::Pressure => table.factor(0.0),
-                Of::PowerDensity => table.factor(cycle.dissipated[n] * cycle.frequency),
-                Of::Energy => table.factor(cycle.energy[n]),
+                FactorVariable::Pressure => table.factor(0.0),
+                FactorVariable::PowerDensity => table.factor(cycle.dissipated[n] * cycle.frequency),
+                FactorVariable::Energy => table.factor(cycle.energy[n]),
             };
         }
     }
 
-    /// As a table of a scene file.
-    fn written(&self) -> String {
+    /// The factor as a table of a scene file.
+    fn to_toml(&self) -> String {
         let pairs: Vec<String> = self
             .table
             .iter()
@@ -79,7 +79,7 @@ impl Factor {
             .collect();
         format!(
             "{{ of = \"{}\", table = [{}] }}",
-            self.of.name(),
+            self.variable.name(),
             pairs.join(", ")
         )
     }
@@ -97,7 +97,7 @@ pub struct Varying {
 impl Law for Varying {
     fn depth(&self, cycle: &CellCycle<'_>, depth: &mut [f64]) -> Result<(), Error> {
         self.law.depth(cycle, depth)?;
-        self.factor.times(cycle, depth);
+        self.factor.multiply(cycle, depth);
         Ok(())
     }
 
@@ -106,10 +106,10 @@ impl Law for Varying {
         self.factor.check(key)
     }
 
-    fn written(&self) -> Option<String> {
-        let law = self.law.written()?;
+    fn to_toml(&self) -> Option<String> {
+        let law = self.law.to_toml()?;
         let keys = law.strip_suffix(" }")?;
-        Some(format!("{keys}, factor = {} }}", self.factor.written()))
+        Some(format!("{keys}, factor = {} }}", self.factor.to_toml()))
     }
 
     fn doubts(&self, key: &str) -> Vec<String> {
@@ -117,17 +117,20 @@ impl Law for Varying {
     }
 
     fn needs_frequency(&self) -> bool {
-        self.factor.of == Of::PowerDensity || self.law.needs_frequency()
+        self.factor.variable == FactorVariable::PowerDensity || self.law.needs_frequency()
     }
 
     fn is_steady(&self) -> bool {
-        let of_loading = matches!(self.factor.of, Of::Pressure | Of::PowerDensity);
+        let of_loading = matches!(
+            self.factor.variable,
+            FactorVariable::Pressure | FactorVariable::PowerDensity
+        );
         of_loading && self.law.is_steady()
     }
 
-    fn bends(&self, of: Of) -> Vec<f64> {
-        let mut bends = self.law.bends(of);
-        if self.factor.of == of {
+    fn bends(&self, variable: FactorVariable) -> Vec<f64> {
+        let mut bends = self.law.bends(variable);
+        if self.factor.variable == variable {
             bends.extend(self.factor.table.iter().map(|(at, _)| at));
         }
         bends
@@ -137,15 +140,15 @@ impl Law for Varying {
 #[cfg(test)]
 mod tests {
     use super::{Factor, Varying};
-    use crate::Of;
+    use crate::FactorVariable;
     use crate::{Archard, CellCycle, Law};
     use std::sync::Arc;
 
     #[test]
     fn the_coefficient_follows_its_table() {
         let cycle = CellCycle {
-            pressed_way: &[2.0, 4.0],
-            way: &[1.0, 1.0],
+            pressure_times_slip: &[2.0, 4.0],
+            slip_distance: &[1.0, 1.0],
             dissipated: &[1.0, 3.0],
             worn: &[0.0; 2],
             energy: &[10.0, 20.0],
@@ -153,10 +156,26 @@ mod tests {
             frequency: 10.0,
         };
         for (of, table, asked) in [
-            (Of::Cycles, vec![(0.0, 1.0), (10.0, 2.0)], [3.0, 6.0]),
-            (Of::Pressure, vec![(2.0, 1.0), (4.0, 0.5)], [2.0, 2.0]),
-            (Of::PowerDensity, vec![(10.0, 3.0), (20.0, 1.0)], [6.0, 4.0]),
-            (Of::Energy, vec![(0.0, 0.0), (20.0, 2.0)], [2.0, 8.0]),
+            (
+                FactorVariable::Cycles,
+                vec![(0.0, 1.0), (10.0, 2.0)],
+                [3.0, 6.0],
+            ),
+            (
+                FactorVariable::Pressure,
+                vec![(2.0, 1.0), (4.0, 0.5)],
+                [2.0, 2.0],
+            ),
+            (
+                FactorVariable::PowerDensity,
+                vec![(10.0, 3.0), (20.0, 1.0)],
+                [6.0, 4.0],
+            ),
+            (
+                FactorVariable::Energy,
+                vec![(0.0, 0.0), (20.0, 2.0)],
+                [2.0, 8.0],
+            ),
         ] {
             let law = Arc::new(Archard {
                 k: 1.0,
@@ -164,7 +183,10 @@ mod tests {
             });
             let law = Varying {
                 law,
-                factor: Factor { of, table },
+                factor: Factor {
+                    variable: of,
+                    table,
+                },
             };
             let mut depth = [0.0; 2];
             law.depth(&cycle, &mut depth).unwrap();
@@ -172,7 +194,7 @@ mod tests {
             assert!(law.check("wear.body1").is_ok());
         }
         let wrong = Factor {
-            of: Of::Cycles,
+            variable: FactorVariable::Cycles,
             table: vec![(1.0, 1.0), (1.0, 2.0)],
         };
         assert!(wrong.check("wear.body1").is_err());

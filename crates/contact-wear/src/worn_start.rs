@@ -19,17 +19,17 @@ pub struct WornStart {
     pub worn: [Array2<f64>; 2],
     /// Energy per area dissipated at body 1 and body 2 \[J/m^2\].
     pub energy: [Array2<f64>; 2],
-    /// Way slipped in contact \[m\].
+    /// Slip distance in contact \[m\].
     pub slid: Array2<f64>,
 }
 
 impl WornStart {
-    /// On the kept cells of a grid.
-    pub(super) fn kept(&self, grid: &Grid, mirror: Mirror) -> Result<Worn, Error> {
+    /// Restricts the surfaces to the kept cells of a grid.
+    pub(super) fn to_worn(&self, grid: &Grid, mirror: Mirror) -> Result<Worn, Error> {
         let field = |key: &str, field: &Array2<f64>| {
             let key = format!("wear.start.{key}");
             if field.dim() != (grid.nx, grid.ny) {
-                let allowed = format!("of shape {} x {}, that of the grid", grid.nx, grid.ny);
+                let allowed = format!("of shape {} x {}, as the grid", grid.nx, grid.ny);
                 return Err(Error::invalid(
                     key,
                     format!("of shape {:?}", field.dim()),
@@ -43,8 +43,8 @@ impl WornStart {
             let kept = mirror.fold(field);
             let whole = mirror.unfold(&kept, grid.nx, grid.ny, Parity::Even);
             let largest = field.iter().fold(0.0, |m: f64, v| m.max(*v));
-            let alike = |(a, b): (&f64, &f64)| (a - b).abs() <= 1e-6 * largest;
-            if !whole.iter().zip(field).all(alike) {
+            let is_alike = |(a, b): (&f64, &f64)| (a - b).abs() <= 1e-6 * largest;
+            if !whole.iter().zip(field).all(is_alike) {
                 let allowed = "alike on both sides of y = 0 as the scene is (skip.mirror = false solves both sides)";
                 return Err(Error::invalid(key, "unlike on both sides", allowed));
             }

@@ -12,9 +12,9 @@ use contact_wear::{Cycling, Wear};
 use serde_json::{Map, Value, json};
 
 use crate::failure::Failure;
-use crate::json::{NO_HERTZ, or_why, pretty};
+use crate::json::{NO_HERTZ, or_missing, pretty};
 use crate::printed::print;
-use crate::scene_options::{SceneOptions, say_each};
+use crate::scene_options::{SceneOptions, warn_of_doubts};
 use crate::units::{mega, um};
 use contact_core::digits::short;
 
@@ -36,18 +36,18 @@ pub(crate) fn check(options: &Options) -> Result<(), Failure> {
     let read = options.scene.read_whole();
     let read = read.and_then(|(scene, wear)| scene.check_fit().map(|()| (scene, wear)));
     if let (Err(error), true) = (&read, options.json) {
-        print(&pretty(refused(error)))?;
+        print(&pretty(errors_to_json(error)))?;
     }
     let (scene, wear) = read.map_err(Failure::BadInput)?;
     let mut doubts = scene.doubts();
     let sliding = wear.as_ref().filter(|of| of.cycling == Cycling::Sliding);
-    // The places of a stroke take the place of increments that are open.
-    let settled = sliding.and_then(|wear| wear.settled(&scene, &Arc::default()).ok());
+    // The places of a stroke replace open numbers of increments.
+    let settled = sliding.and_then(|wear| wear.complete(&scene, &Arc::default()).ok());
     let scene = settled.map_or(scene, |(settled, _)| settled);
     let plan = Plan::new(&scene);
-    let work = Work::of(&scene, plan.coupling && sliding.is_none());
+    let work = Work::estimate(&scene, plan.coupling && sliding.is_none());
     let mut lines = description(&scene, &plan, &work);
-    lines.extend(wear.as_ref().map(|wear| ("wear", worn(wear))));
+    lines.extend(wear.as_ref().map(|wear| ("wear", describe_wear(wear))));
     doubts.extend(wear.iter().flat_map(Wear::doubts));
     if options.json {
         print(&pretty(numbers(&scene, &plan, &work, &lines, &doubts)))?;
@@ -55,10 +55,10 @@ pub(crate) fn check(options: &Options) -> Result<(), Failure> {
         let lines = lines
             .iter()
             .map(|(subject, text)| format!("{subject:<14}{text}"));
-        let all: Vec<String> = std::iter::once(scene.title.clone()).chain(lines).collect();
-        print(&all.join("\n"))?;
+        let texts: Vec<String> = std::iter::once(scene.title.clone()).chain(lines).collect();
+        print(&texts.join("\n"))?;
     }
-    say_each(&doubts);
+    warn_of_doubts(&doubts);
     plan.check_memory(&scene).map_err(Failure::BadInput)?;
     match doubts.len() {
         0 => Ok(()),
@@ -67,13 +67,13 @@ pub(crate) fn check(options: &Options) -> Result<(), Failure> {
     }
 }
 
-/// The errors of a scene that has no meaning, and the doubts beside them.
-fn refused(error: &Error) -> Value {
+/// The errors of an invalid scene, and its doubts.
+fn errors_to_json(error: &Error) -> Value {
     let (errors, doubts) = match error {
         Error::SceneFaults { errors, doubts } => (&errors[..], &doubts[..]),
         error => (std::slice::from_ref(error), &[][..]),
     };
-    let each = errors.iter().map(|error| match error {
+    let objects = errors.iter().map(|error| match error {
         Error::SceneFile {
             file,
             line,
@@ -82,10 +82,10 @@ fn refused(error: &Error) -> Value {
         Error::Setting { setting, message } => json!({ "setting": setting, "message": message }),
         other => json!({ "message": other.to_string() }),
     });
-    json!({ "errors": each.collect::<Vec<_>>(), "doubts": doubts })
+    json!({ "errors": objects.collect::<Vec<_>>(), "doubts": doubts })
 }
 
-/// The numbers of a scene in SI units, and what is printed of it.
+/// The numbers of a scene in SI units, with the printed lines.
 fn numbers(
     scene: &Scene,
     plan: &Plan,
@@ -120,9 +120,9 @@ fn numbers(
             "memory.needed": "bytes",
             "memory.available": "bytes",
         },
-        "a_H": or_why(json!(hertz.map(|h| h.a)), NO_HERTZ),
-        "p_H": or_why(json!(hertz.map(|h| h.p0)), NO_HERTZ),
-        "cells_per_a_H": or_why(json!(hertz.map(|h| [h.a / grid.dx, h.a / grid.dy])), NO_HERTZ),
+        "a_H": or_missing(json!(hertz.map(|h| h.a)), NO_HERTZ),
+        "p_H": or_missing(json!(hertz.map(|h| h.p0)), NO_HERTZ),
+        "cells_per_a_H": or_missing(json!(hertz.map(|h| [h.a / grid.dx, h.a / grid.dy])), NO_HERTZ),
         "grid": {
             "n": [grid.nx, grid.ny],
             "extent": [length_x, length_y],
@@ -140,14 +140,14 @@ fn numbers(
     })
 }
 
-/// Subjects and their text.
+/// Pairs of a subject and its text.
 fn description(scene: &Scene, plan: &Plan, work: &Work) -> Vec<(&'static str, String)> {
     let grid = &scene.grid;
     let (length_x, length_y) = grid.extent();
     let mut lines = Vec::new();
     let mut line = |subject: &'static str, text: String| lines.push((subject, text));
-    line("body 1", body(&scene.body1, grid.dx.min(grid.dy)));
-    line("body 2", body(&scene.body2, grid.dx.min(grid.dy)));
+    line("body 1", describe_body(&scene.body1, grid.dx.min(grid.dy)));
+    line("body 2", describe_body(&scene.body2, grid.dx.min(grid.dy)));
     match scene.hertz() {
         None => line(
             "a_H, p_H",
@@ -191,15 +191,15 @@ fn description(scene: &Scene, plan: &Plan, work: &Work) -> Vec<(&'static str, St
         format!(
             "{} branches, {}, W up to {} {}",
             scene.path.branches.len(),
-            increments(scene),
+            describe_increments(scene),
             short(scene.path.W_max()),
             grid.unit_of("N")
         ),
     );
-    if let Some(text) = yielding(scene) {
+    if let Some(text) = describe_yielding(scene) {
         line("yielding", text);
     }
-    line("work", work.told(scene));
+    line("work", work.describe(scene));
     let (needed, available) = (plan.memory(scene), available_memory());
     line(
         "memory",
@@ -211,8 +211,8 @@ fn description(scene: &Scene, plan: &Plan, work: &Work) -> Vec<(&'static str, St
     lines
 }
 
-/// What wears in how many cycles.
-fn worn(wear: &Wear) -> String {
+/// Describes the wear: the bodies and the number of cycles.
+fn describe_wear(wear: &Wear) -> String {
     let bodies = wear.bodies.iter().enumerate();
     let worn: Vec<_> = bodies
         .filter(|(_, body)| !body.laws.is_empty())
@@ -229,32 +229,32 @@ fn worn(wear: &Wear) -> String {
     )
 }
 
-/// Where yielding begins; none where no body may yield.
-fn yielding(scene: &Scene) -> Option<String> {
+/// Load at which yielding begins; `None` if no body may yield.
+fn describe_yielding(scene: &Scene) -> Option<String> {
     if !scene.yields() {
         return None;
     }
-    let found = match first_yield(scene) {
-        Ok(found) => found?,
+    let description = match first_yield(scene) {
+        Ok(description) => description?,
         Err(error) => {
             return Some(format!(
                 "the load at which it begins was not found: {error}"
             ));
         }
     };
-    let body = [&scene.body1, &scene.body2][found.body - 1];
-    let layer = body.layer_name(found.layer);
+    let body = [&scene.body1, &scene.body2][description.body - 1];
+    let layer = body.layer_name(description.layer);
     Some(format!(
         "begins at about W = {:.3} {} without friction, in body {}, {layer}, {} deep",
-        found.W,
+        description.W,
         scene.grid.unit_of("N"),
-        found.body,
-        um(found.depth),
+        description.body,
+        um(description.depth),
     ))
 }
 
 /// The materials of a body from the surface down, its layers in metres and in cells.
-fn body(body: &Body, cell: f64) -> String {
+fn describe_body(body: &Body, cell: f64) -> String {
     let material = |m: &Elastic| {
         if m.is_rigid() {
             "rigid".to_owned()
@@ -279,9 +279,9 @@ fn body(body: &Body, cell: f64) -> String {
     layers.collect::<String>() + &material(&body.substrate)
 }
 
-/// The increments of the path, or the tolerance that they are chosen for.
-fn increments(scene: &Scene) -> String {
-    let given: usize = scene
+/// The increments of the path, or the tolerance of the path error.
+fn describe_increments(scene: &Scene) -> String {
+    let fixed: usize = scene
         .path
         .branches
         .iter()
@@ -289,60 +289,62 @@ fn increments(scene: &Scene) -> String {
         .sum();
     if scene.path.has_open_increments() {
         let tolerance = 100.0 * scene.settings.solver.path_tolerance;
-        let others = if given > 0 {
-            format!("{given} increments and as many")
+        let chosen = if fixed > 0 {
+            format!("{fixed} increments and as many")
         } else {
             "as many increments".to_owned()
         };
-        format!("{others} as a path error of {tolerance} % of the shear asks for")
+        format!("{chosen} as a path error of {tolerance} % of the shear asks for")
     } else {
-        format!("{given} increments")
+        format!("{fixed} increments")
     }
 }
 
-/// Increments of a branch where they are chosen, at least and at most as a rule.
-const CHOSEN: [usize; 2] = [12, 60];
-/// Convolutions of an increment, at least and at most as a rule: where pressure and shear act on
-/// one another, and where they do not.
+/// Increments of a branch that are chosen, usual minimum and maximum.
+const CHOSEN_INCREMENTS: [usize; 2] = [12, 60];
+/// Convolutions of an increment, usual minimum and maximum: for coupled pressure and shear, and for
+/// uncoupled ones.
 const COUPLED: [usize; 2] = [8, 60];
 const UNCOUPLED: [usize; 2] = [3, 12];
 
-/// The work of a solution, as a rule: at least and at most.
+/// Work of a solution: usual minimum and maximum.
 struct Work {
     increments: [usize; 2],
-    /// Of an increment.
-    each: [usize; 2],
+    /// Convolutions of an increment.
+    per_increment: [usize; 2],
     convolutions: [usize; 2],
 }
 
 impl Work {
-    /// `coupling`: whether pressure and shear are both solved, and act on one another.
-    fn of(scene: &Scene, coupling: bool) -> Self {
+    /// Estimates the work. `coupling`: pressure and shear are both solved, and depend on each
+    /// other.
+    fn estimate(scene: &Scene, coupling: bool) -> Self {
         let branches = &scene.path.branches;
-        let increments = CHOSEN.map(|chosen| {
+        let increments = CHOSEN_INCREMENTS.map(|chosen| {
             let counts = branches.iter().map(|b| b.increments.unwrap_or(chosen));
             counts.sum()
         });
-        let each @ [few, many] = if coupling { COUPLED } else { UNCOUPLED };
+        let per_increment @ [few, many] = if coupling { COUPLED } else { UNCOUPLED };
         Self {
             increments,
-            each,
+            per_increment,
             convolutions: [increments[0] * few, increments[1] * many],
         }
     }
 
-    /// It in words.
-    fn told(&self, scene: &Scene) -> String {
-        let ([least, most], [few, many]) = (self.increments, self.each);
+    /// The work in words.
+    fn describe(&self, scene: &Scene) -> String {
+        let ([least_increments, most_increments], [few, many]) =
+            (self.increments, self.per_increment);
         let increments = if scene.path.has_open_increments() {
-            format!("some {least} to {most} increments")
+            format!("some {least_increments} to {most_increments} increments")
         } else {
-            format!("{least} increments")
+            format!("{least_increments} increments")
         };
-        let [fewest, all] = self.convolutions;
+        let [fewest, most_convolutions] = self.convolutions;
         let (nx, ny) = (scene.grid.nx, scene.grid.ny);
         format!(
-            "{increments} of {few} to {many} convolutions each, {fewest} to {all} of {nx} x {ny} cells"
+            "{increments} of {few} to {many} convolutions each, {fewest} to {most_convolutions} of {nx} x {ny} cells"
         )
     }
 }

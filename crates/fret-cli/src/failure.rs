@@ -1,4 +1,4 @@
-//! How a command that failed ends.
+//! Failures of a command and their exit codes.
 
 use std::io::IsTerminal;
 
@@ -6,17 +6,17 @@ use clap::ColorChoice;
 use clap::builder::styling::AnsiColor;
 use contact_core::{Error, shown};
 
-use crate::terminal::{colours, say, say_coloured};
+use crate::terminal::{colours, print_coloured, print_message};
 
-/// How a command that failed ends.
+/// A failure of a command.
 pub(crate) enum Failure {
     /// The run ended early; its increments so far are kept.
     EndedEarly(Error),
-    /// The scene or the command line has no meaning.
+    /// The scene or the command line is not valid.
     BadInput(Error),
-    /// So many doubts about a scene, where none is allowed.
+    /// Number of doubts about a scene; none is allowed.
     Doubted(usize),
-    /// Ctrl-C, and nothing is kept.
+    /// Ctrl-C; nothing is kept.
     Stopped,
     /// The output could not be written.
     Unwritten(Error),
@@ -36,9 +36,9 @@ impl Failure {
         let red = AnsiColor::Red.on_default().bold();
         for line in error.lines() {
             if coloured {
-                say_coloured(&format!("{red}fret:{red:#} {}", shown(line)));
+                print_coloured(&format!("{red}fret:{red:#} {}", shown(line)));
             } else {
-                say(&format!("fret: {line}"));
+                print_message(&format!("fret: {line}"));
             }
         }
         code

@@ -8,80 +8,84 @@ use serde_json::{Map, Value, json};
 
 use crate::words::{frictionless, state, word};
 
-/// What the text begins with that stands in place of a missing number until it is written.
+/// First character of a text that replaces a missing number until it is written.
 const MARK: char = '\u{0}';
-/// Why a number is missing that nobody gave a reason for: one that is not finite, of a result.
+/// Reason for a missing number without a stated reason: a result that is not finite.
 const UNKNOWN: &str = "not known";
 
-/// A number for [`pretty`] and [`line`]: one that is not finite keeps why.
+/// A number for [`pretty`] and [`line`]; one that is not finite keeps its reason.
 pub(crate) fn number(x: f64) -> Value {
     match x {
         x if x.is_finite() => json!(x),
-        f64::INFINITY => absent("infinite"),
-        f64::NEG_INFINITY => absent("infinite, negative"),
-        _ => absent(UNKNOWN),
+        f64::INFINITY => missing("infinite"),
+        f64::NEG_INFINITY => missing("infinite, negative"),
+        _ => missing(UNKNOWN),
     }
 }
 
-/// A number that there is not, and why.
-pub(crate) fn absent(why: &str) -> Value {
+/// A missing number with its reason.
+pub(crate) fn missing(why: &str) -> Value {
     json!(format!("{MARK}{why}"))
 }
 
-/// A value, or why there is none.
-pub(crate) fn or_why(value: Value, why: &str) -> Value {
-    if value.is_null() { absent(why) } else { value }
+/// A value, or the reason why there is none.
+pub(crate) fn or_missing(value: Value, why: &str) -> Value {
+    if value.is_null() { missing(why) } else { value }
 }
 
-/// What a command prints for programs, over several lines.
+/// Output for programs over several lines.
 pub(crate) fn pretty(value: Value) -> String {
-    format!("{:#}", written(value))
+    format!("{:#}", replace_missing(value))
 }
 
-/// What a command prints for programs, in a line.
+/// Output for programs in one line.
 pub(crate) fn line(value: Value) -> String {
-    written(value).to_string()
+    replace_missing(value).to_string()
 }
 
-/// An answer whose numbers JSON has words for: one that is missing is null, and `NAME_why` beside
-/// it is the reason. In a list the reasons of all stand in a list.
-fn written(value: Value) -> Value {
+/// Replaces missing numbers by null, with the reason beside them as `NAME_why`. In a list the
+/// reasons stand in a list.
+fn replace_missing(value: Value) -> Value {
     match value {
-        Value::Object(of) => {
-            let mut found = Map::new();
-            for (name, value) in of {
-                let why = reason(&value);
-                found.insert(name.clone(), written(value));
+        Value::Object(entries) => {
+            let mut replaced = Map::new();
+            for (name, value) in entries {
+                let why = reason_if_missing(&value);
+                replaced.insert(name.clone(), replace_missing(value));
                 if let Some(why) = why {
-                    found.insert(format!("{name}_why"), why);
+                    replaced.insert(format!("{name}_why"), why);
                 }
             }
-            Value::Object(found)
+            Value::Object(replaced)
         }
-        Value::Array(of) => Value::Array(of.into_iter().map(written).collect()),
-        value if reason(&value).is_some() => Value::Null,
+        Value::Array(entries) => Value::Array(entries.into_iter().map(replace_missing).collect()),
+        value if reason_if_missing(&value).is_some() => Value::Null,
         value => value,
     }
 }
 
-/// Why a number, or one of a list, is none.
-fn reason(value: &Value) -> Option<Value> {
+/// Reason why a number, or a number of a list, is missing.
+fn reason_if_missing(value: &Value) -> Option<Value> {
     match value {
         Value::Null => Some(json!(UNKNOWN)),
         Value::String(text) => text.strip_prefix(MARK).map(|why| json!(why)),
-        Value::Array(of) => {
-            let each: Vec<_> = of.iter().map(reason).collect();
-            each.iter().any(Option::is_some).then(|| json!(each))
+        Value::Array(values) => {
+            let reasons: Vec<_> = values.iter().map(reason_if_missing).collect();
+            reasons.iter().any(Option::is_some).then(|| json!(reasons))
         }
         _ => None,
     }
 }
 
-/// Why a contact has neither a_H nor p_H.
+/// Reason why a contact has neither a_H nor p_H.
 pub(crate) const NO_HERTZ: &str = "no contact of Hertz";
 
-/// A run: its branches and its cycles, and the error bars of the branches where there are any.
-pub(crate) fn run(scene: &Scene, increments: &[Increment], bars: Option<&[ErrorBars]>) -> Value {
+/// A run: its branches and its cycles, and the error bars of the branches, if any.
+pub(crate) fn run_to_json(
+    scene: &Scene,
+    increments: &[Increment],
+    bars: Option<&[ErrorBars]>,
+) -> Value {
     let mut done = 0;
     let reached = Reached::from_increments(increments);
     let errors = reached.shear_errors(scene);
@@ -89,44 +93,44 @@ pub(crate) fn run(scene: &Scene, increments: &[Increment], bars: Option<&[ErrorB
     let branches: Vec<Value> = branches
         .iter()
         .map(|b| {
-            let own = &increments[done..done + b.increments];
+            let increments_of_branch = &increments[done..done + b.increments];
             done += b.increments;
-            branch(scene, b, own, errors[b.branch])
+            branch_to_json(scene, b, increments_of_branch, errors[b.branch])
         })
         .collect();
     let cycles: Vec<Value> = cycles(scene, increments)
         .iter()
-        .map(|(direction, c)| cycle(scene, *direction, c, bars))
+        .map(|(direction, c)| cycle_to_json(scene, *direction, c, bars))
         .collect();
     let hertz = scene.hertz();
     json!({
         "title": scene.title,
         "mu": number(scene.friction.mu),
-        "a_H": or_why(json!(hertz.map(|h| h.a)), NO_HERTZ),
-        "p_H": or_why(json!(hertz.map(|h| h.p0)), NO_HERTZ),
+        "a_H": or_missing(json!(hertz.map(|h| h.a)), NO_HERTZ),
+        "p_H": or_missing(json!(hertz.map(|h| h.p0)), NO_HERTZ),
         "increments": increments.len(),
         "units": units(scene),
         "branches": branches,
         "cycles": cycles,
-        "error_bars": or_why(json!(bars), "the run has none: `fret run --error` estimates them"),
+        "error_bars": or_missing(json!(bars), "the run has none: `fret run --error` estimates them"),
         "doubts": reached.all_doubts(scene),
     })
 }
 
 /// Units of forces, moments, energies and stiffnesses: of a line contact they are per metre.
 fn units(scene: &Scene) -> Value {
-    let of = |unit| scene.grid.unit_of(unit);
+    let unit_of = |unit| scene.grid.unit_of(unit);
     json!({
-        "force": of("N"),
-        "moment": of("N m"),
-        "energy": of("J"),
-        "stiffness": of("N/m"),
-        "torsional_stiffness": of("N m/rad"),
+        "force": unit_of("N"),
+        "moment": unit_of("N m"),
+        "energy": unit_of("J"),
+        "stiffness": unit_of("N/m"),
+        "torsional_stiffness": unit_of("N m/rad"),
     })
 }
 
 /// The variable of the store that is the size of the contact.
-fn length_of(scene: &Scene) -> &'static str {
+fn size_variable(scene: &Scene) -> &'static str {
     if scene.grid.plane_strain {
         "half_width"
     } else {
@@ -134,20 +138,25 @@ fn length_of(scene: &Scene) -> &'static str {
     }
 }
 
-fn branch(scene: &Scene, b: &BranchSummary, own: &[Increment], error: Option<f64>) -> Value {
-    let mut of = Map::new();
-    let last = &own[own.len() - 1];
-    let mut set = |key: &str, value: Value| of.insert(key.to_owned(), value);
+fn branch_to_json(
+    scene: &Scene,
+    b: &BranchSummary,
+    increments: &[Increment],
+    error: Option<f64>,
+) -> Value {
+    let mut object = Map::new();
+    let last = &increments[increments.len() - 1];
+    let mut set = |key: &str, value: Value| object.insert(key.to_owned(), value);
     set("branch", json!(b.branch));
     set("t", json!(last.point.t));
     let (loads, motions) = (b.loads.forces(), b.motion.motions());
-    for of in RigidMotion::ALL {
-        set(of.load_name(), json!(loads[of.index()]));
-        set(of.name(), json!(motions[of.index()]));
+    for motion in RigidMotion::ALL {
+        set(motion.load_name(), json!(loads[motion.index()]));
+        set(motion.name(), json!(motions[motion.index()]));
     }
-    set(length_of(scene), json!(b.contact_radius));
+    set(size_variable(scene), json!(b.contact_radius));
     let sticks = (!frictionless(scene)).then_some(b.stick_ratio);
-    set("stick_ratio", or_why(json!(sticks), "no friction"));
+    set("stick_ratio", or_missing(json!(sticks), "no friction"));
     set(
         "status",
         json!(state(frictionless(scene), last.status).replace(' ', "_")),
@@ -158,21 +167,26 @@ fn branch(scene: &Scene, b: &BranchSummary, own: &[Increment], error: Option<f64
         let Yield {
             volume, largest, ..
         } = last.yielded;
-        set("plastic_work", json!(plastic_work(own)));
+        set("plastic_work", json!(plastic_work(increments)));
         set("plastic_volume", json!(volume));
         set("largest_plastic_strain", json!(largest));
-        set("yield_ratio", json!(yield_ratio(own)));
+        set("yield_ratio", json!(yield_ratio(increments)));
     }
     set("increments", json!(b.increments));
     set("convolutions", json!(b.work.convolutions));
     set(
         "path_error",
-        or_why(json!(error), "the increments of the branch were given"),
+        or_missing(json!(error), "the increments of the branch were given"),
     );
-    Value::Object(of)
+    Value::Object(object)
 }
 
-fn cycle(scene: &Scene, direction: Direction, c: &Cycle, bars: Option<&[ErrorBars]>) -> Value {
+fn cycle_to_json(
+    scene: &Scene,
+    direction: Direction,
+    c: &Cycle,
+    bars: Option<&[ErrorBars]>,
+) -> Value {
     let errors = cycle_errors(direction, c, bars.unwrap_or_default());
     json!({
         "direction": word(direction),
@@ -192,27 +206,30 @@ fn cycle(scene: &Scene, direction: Direction, c: &Cycle, bars: Option<&[ErrorBar
     })
 }
 
-/// Errors of a cycle, from those of the branches where there are any.
+/// Errors of a cycle, from the errors of the branches, if any.
 pub(crate) fn cycle_errors(direction: Direction, c: &Cycle, bars: &[ErrorBars]) -> CycleErrors {
     let of_branches: Vec<[f64; 3]> = bars.iter().map(|bar| direction.errors_of(bar)).collect();
     c.errors(&of_branches)
 }
 
 /// Plastic work in increments \[J\].
-pub(crate) fn plastic_work(own: &[Increment]) -> f64 {
-    own.iter().map(|i| i.energy.plastic).sum()
+pub(crate) fn plastic_work(increments: &[Increment]) -> f64 {
+    increments.iter().map(|i| i.energy.plastic).sum()
 }
 
 /// Largest stress of von Mises in increments over the yield stress, 1 where a body yields.
-pub(crate) fn yield_ratio(own: &[Increment]) -> f64 {
-    own.iter().map(|i| i.yielded.reached).fold(0.0, f64::max)
+pub(crate) fn yield_ratio(increments: &[Increment]) -> f64 {
+    increments
+        .iter()
+        .map(|i| i.yielded.reached)
+        .fold(0.0, f64::max)
 }
 
 /// The cycles of the motions that the path drives.
 pub(crate) fn cycles(scene: &Scene, increments: &[Increment]) -> Vec<(Direction, Cycle)> {
-    let driven = |of: RigidMotion| {
+    let driven = |motion: RigidMotion| {
         let mut ends = scene.path.branches.iter().map(|b| &b.to);
-        ends.any(|to| to.prescribed(of).value() != 0.0)
+        ends.any(|to| to.prescribed(motion).value() != 0.0)
     };
     [
         (Direction::X, RigidMotion::DeltaX),
@@ -220,7 +237,7 @@ pub(crate) fn cycles(scene: &Scene, increments: &[Increment]) -> Vec<(Direction,
         (Direction::Torsion, RigidMotion::PhiZ),
     ]
     .into_iter()
-    .filter(|(_, of)| driven(*of))
+    .filter(|(_, motion)| driven(*motion))
     .flat_map(|(direction, _)| {
         let points: Vec<_> = increments
             .iter()

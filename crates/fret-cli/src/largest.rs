@@ -4,7 +4,7 @@ use contact_core::scene::{Body, Scene};
 use contact_subsurface::{Errors, Extremum, Probe, Zone};
 use serde_json::json;
 
-use crate::json::{self, or_why};
+use crate::json::{self, or_missing};
 use crate::units::{mega, um};
 use contact_core::digits::short;
 
@@ -31,8 +31,8 @@ pub(crate) struct Largest<'a> {
 }
 
 impl Largest<'_> {
-    /// The largest value of a probe with its error, and where it is; `axes` are those that were
-    /// looked along.
+    /// Describes the largest value of a probe with its error and its place; `axes` are the searched
+    /// axes.
     pub(crate) fn line(&self, probe: &Probe, m: &Extremum, axes: &[&str]) -> String {
         let m = self.error.map_or(*m, |stress| m.with_error_bars(stress));
         let Extremum {
@@ -59,32 +59,32 @@ impl Largest<'_> {
                 "value": value, "error": error.total(),
                 "errors": {
                     "x": x, "y": y, "z": z,
-                    "tractions": or_why(json!(tractions), "not computed"),
-                    "solution": or_why(json!(solution), "the run has no error bars"),
+                    "tractions": or_missing(json!(tractions), "not computed"),
+                    "solution": or_missing(json!(solution), "the run has no error bars"),
                 },
                 "x": m.x, "y": m.y, "z": depth.z, "layer": depth.layer,
-                "at": or_why(json!(on), "on no border"),
+                "at": or_missing(json!(on), "on no border"),
             }));
         }
         let places: Vec<_> = axes
             .iter()
             .map(|axis| format!("{axis} = {}", self.length(along(axis))))
             .collect();
-        let place = places.join(", ");
+        let coordinates = places.join(", ");
         let hertz = self
             .scene
             .hertz()
             .filter(|_| self.units == Units::Hertz && matches!(probe, Probe::Stress(_)));
-        let left = error.total();
+        let total_error = error.total();
         let value = hertz.map_or_else(
             || {
                 format!(
                     "{} +- {}",
                     mega(value, probe.unit()),
-                    mega(left, probe.unit())
+                    mega(total_error, probe.unit())
                 )
             },
-            |h| format!("{:.5} p_H +- {}", value / h.p0, short(left / h.p0)),
+            |h| format!("{:.5} p_H +- {}", value / h.p0, short(total_error / h.p0)),
         );
         let z = self.length(depth.z);
         let layer = if self.body.coatings.is_empty() {
@@ -95,7 +95,9 @@ impl Largest<'_> {
         let on = on.map_or_else(String::new, |on| format!(", at the {on}"));
         let name = probe.name();
         let increment = self.increment;
-        format!("increment {increment}: largest {name} {value} at {place}, z = {z}{layer}{on}")
+        format!(
+            "increment {increment}: largest {name} {value} at {coordinates}, z = {z}{layer}{on}"
+        )
     }
 
     fn length(&self, v: f64) -> String {

@@ -1,7 +1,7 @@
 //! `fret`: fretting contact of coated bodies from the command line.
 //!
-//! It reads a scene file, hands it to `contact_core` and shows what comes back; it computes
-//! nothing itself. The binary `fret` and the Python package, which brings the command along, call
+//! It reads a scene file, hands it to `contact_core` and prints the results; it computes nothing
+//! itself. The binary `fret` and the Python package, which contains the command, call
 //! [`run_command`].
 
 #![forbid(unsafe_code)]
@@ -39,7 +39,7 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use contact_core::Error;
 
 use crate::failure::Failure;
-use crate::printed::{print, written};
+use crate::printed::{check_written, print};
 use crate::terminal::colours;
 
 /// Fretting contact of elastic bodies, homogeneous or coated.
@@ -72,9 +72,9 @@ enum Command {
     /// Run through the load path of a scene and write a result store
     Run(run::Options),
     /// Go on with a run that ended early, through a load path or over cycles of wear; the result is
-    /// that of the uninterrupted run, bit by bit
+    /// the same as without the interruption, bit by bit
     Resume(resume::Options),
-    // What follows from a result.
+    // Commands on a result.
     /// Stress below the contact of a result: its largest values, and files of it
     Stress(stress::Options),
     /// Judge the stress below the contact of a result over a cycle by a fatigue criterion
@@ -110,7 +110,7 @@ enum Command {
     Cite(python::Options),
     /// Write the completions of a shell to the standard output
     Completions {
-        /// Which shell
+        /// Name of the shell
         shell: clap_complete::Shell,
     },
     /// Write the manual pages, one per command, into a folder
@@ -120,9 +120,9 @@ enum Command {
     },
 }
 
-/// Runs the command that the arguments name, the first of them the program's name, and gives the
-/// exit code: 0 done, 1 the run ended early, 2 bad scene or bad command line, 3 the output could
-/// not be written.
+/// Runs the command that the arguments name, the first of them being the program's name. Returns
+/// the exit code: 0 done, 1 the run ended early, 2 bad scene or bad command line, 3 the output
+/// could not be written.
 pub fn run_command(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let parsed = Cli::command()
         .color(colours())
@@ -130,8 +130,8 @@ pub fn run_command(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let cli = match parsed.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
         Err(error) => {
-            // Help and version come this way as well.
-            let printed = written(error.print().and_then(|()| std::io::stdout().flush()));
+            // Help and version arrive here, too.
+            let printed = check_written(error.print().and_then(|()| std::io::stdout().flush()));
             let code = u8::try_from(error.exit_code()).unwrap_or(2);
             return printed.map_or_else(|failure| failure.report(), |()| code);
         }
@@ -169,7 +169,7 @@ pub fn run_command(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     }
 }
 
-/// Ends as the command of the Python package does.
+/// Runs the command of the Python package and returns its exit code.
 fn in_python(command: &str, arguments: &[OsString]) -> u8 {
     python::run(command, arguments).unwrap_or_else(|failure| failure.report())
 }

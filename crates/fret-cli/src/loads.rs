@@ -22,9 +22,9 @@ pub(crate) struct Loads {
 }
 
 impl Loads {
-    /// Of the increment asked for, or of the last one kept, on a body 1 or 2, with its bulk stress
-    /// or without.
-    pub(crate) fn of(
+    /// Reads the given increment, or the last one kept, for body 1 or 2, with or without its bulk
+    /// stress.
+    pub(crate) fn read(
         store: &Store,
         increment: Option<usize>,
         body: u8,
@@ -35,26 +35,26 @@ impl Loads {
             .into_iter()
             .map(|v| v as usize)
             .collect();
-        let place = match increment {
+        let index = match increment {
             None => kept.len().checked_sub(1),
             Some(n) => kept.iter().position(|k| *k == n),
         };
-        let Some(place) = place else {
-            let found = increment.map_or("nothing".into(), |n| n.to_string());
+        let Some(index) = index else {
+            let requested = increment.map_or("nothing".into(), |n| n.to_string());
             return Err(Error::invalid(
                 "--increment",
-                found,
+                requested,
                 format!("one whose fields were kept: {kept:?}"),
             ));
         };
         let sigma_B = if bulk {
             let name = if body == 1 { "sigma_B1" } else { "sigma_B" };
             // Rows are increments from 1.
-            let row = kept[place].wrapping_sub(1);
+            let row = kept[index].wrapping_sub(1);
             let stress = store.column(name)?.get(row).copied();
             stress.ok_or_else(|| {
                 let allowed = "one of the increments of the store";
-                Error::invalid("saved_increment", kept[place], allowed)
+                Error::invalid("saved_increment", kept[index], allowed)
             })?
         } else {
             0.0
@@ -62,19 +62,19 @@ impl Loads {
         let side = if body == 1 { Side::Body1 } else { Side::Body2 };
         let mut eigenstress = Vec::new();
         if side.body(store.scene()).yields() {
-            let yielded = store.yielded(kept[place])?;
+            let yielded = store.yielded(kept[index])?;
             eigenstress
                 .push(EigenstressSolver::new(store.scene(), side).eigenstress(yielded.as_ref())?);
         }
         Ok(Self {
             eigenstress,
-            increment: kept[place],
+            increment: kept[index],
             sigma_B,
-            error: store.stress_error(kept[place])?,
-            q_x: store.field("q_x", place)?,
-            q_y: store.field("q_y", place)?,
-            p: store.field("p", place)?,
-            stick: store.field("stick", place)?.mapv(|v| v != 0.0),
+            error: store.stress_error(kept[index])?,
+            q_x: store.field("q_x", index)?,
+            q_y: store.field("q_y", index)?,
+            p: store.field("p", index)?,
+            stick: store.field("stick", index)?.mapv(|v| v != 0.0),
         })
     }
 

@@ -9,19 +9,19 @@ use contact_core::Error;
 
 use crate::failure::Failure;
 use crate::printed::print;
-use crate::terminal::say;
+use crate::terminal::print_message;
 
 /// Options of `fret new`.
 #[derive(Args)]
 pub(crate) struct Options {
-    /// Which scene
+    /// Name of the scene
     template: Template,
     /// File to write; it must not exist (default: the standard output)
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
 }
 
-/// The scenes to begin with.
+/// The scenes to start from.
 #[derive(Clone, Copy, ValueEnum)]
 #[value(rename_all = "snake_case")]
 enum Template {
@@ -71,7 +71,7 @@ pub(crate) fn new(options: &Options) -> Result<(), Failure> {
             message: e.to_string(),
         })
     })?;
-    say(&format!(
+    print_message(&format!(
         "fret: {} is written; fret check {0} explains it; fret schema -o {} lets editors complete it",
         out.display(),
         out.with_file_name(SCHEMA_FILE).display()

@@ -1,10 +1,10 @@
-//! Where a command writes its result.
+//! The place of the result of a command.
 
 use std::path::PathBuf;
 
 use clap::Args;
 
-/// Where a command writes its result.
+/// The place of the result of a command.
 #[derive(Args)]
 pub(crate) struct Out {
     /// Result store to write (a Zarr folder)

@@ -6,14 +6,15 @@ use contact_core::{Error, shown};
 
 use crate::failure::Failure;
 
-/// Writes to the standard output, what would act on the terminal as escapes. That nobody reads on is no failure, a full disk is one.
+/// Writes to the standard output; escapes of the terminal are shown as text. A closed pipe is no
+/// failure, a full disk is one.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
-    written(writeln!(out, "{}", shown(text)).and_then(|()| out.flush()))
+    check_written(writeln!(out, "{}", shown(text)).and_then(|()| out.flush()))
 }
 
 /// Outcome of writing to the standard output.
-pub(crate) fn written(result: io::Result<()>) -> Result<(), Failure> {
+pub(crate) fn check_written(result: io::Result<()>) -> Result<(), Failure> {
     match result {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
             Err(Failure::Unwritten(Error::File {

@@ -7,7 +7,7 @@ use contact_core::march::{Increment, summarise};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::summary;
-use crate::terminal::{draws, say};
+use crate::terminal::{can_draw, print_message};
 
 const TEMPLATE: &str = "{bar:20} {pos}/{len} increments, {elapsed} elapsed, {eta} left  {msg}";
 const TICK: Duration = Duration::from_millis(200);
@@ -15,10 +15,10 @@ const TICK: Duration = Duration::from_millis(200);
 /// The display on the standard error during the run.
 pub(crate) struct Progress {
     /// None if quiet.
-    shown: Option<Shown>,
+    shown: Option<Display>,
 }
 
-struct Shown {
+struct Display {
     bar: ProgressBar,
     scene: Scene,
     branch_began: Instant,
@@ -29,7 +29,7 @@ impl Progress {
         if quiet {
             return Self { shown: None };
         }
-        let bar = if draws() {
+        let bar = if can_draw() {
             ProgressBar::new(scene.path.increments() as u64)
         } else {
             ProgressBar::hidden()
@@ -39,7 +39,7 @@ impl Progress {
         }
         bar.set_message("influence coefficients");
         bar.enable_steady_tick(TICK);
-        let shown = Shown {
+        let shown = Display {
             bar,
             scene: scene.clone(),
             branch_began: Instant::now(),
@@ -47,7 +47,7 @@ impl Progress {
         Self { shown: Some(shown) }
     }
 
-    /// Moves on by the last of the increments so far.
+    /// Advances the display by the last of the increments so far.
     pub(crate) fn on_increment(&mut self, increments: &[Increment]) {
         let (Some(shown), Some(last)) = (&mut self.shown, increments.last()) else {
             return;
@@ -67,7 +67,7 @@ impl Progress {
             let line = summary::line(&shown.scene, &branch, last.point.t);
             shown
                 .bar
-                .suspend(|| say(&format!("{line}, {seconds:.1} s")));
+                .suspend(|| print_message(&format!("{line}, {seconds:.1} s")));
         }
     }
 

@@ -1,10 +1,10 @@
-//! Commands that the Python package does: `fret study` is `python -m pyfret study`, and so on.
+//! Commands of the Python package: `fret study` is `python -m pyfret study`, and so on.
 //!
-//! Studies take functions of the user and clusters of Dask, reports and figures libraries of
-//! Python: there is one implementation, and this hands the command line over to it. The interpreter
-//! looks for modules where it is installed, never in the folder in which the command is given: a
-//! `numpy.py` or a `sitecustomize.py` that lies there is not run. An empty part of `PYTHONPATH`, which
-//! a shell makes of `PYTHONPATH=$PYTHONPATH:folder`, means that folder, and is left out.
+//! Studies take functions of the user and clusters of Dask, reports and figures need libraries of
+//! Python. There is one implementation, and the command line is passed on to it. The interpreter
+//! looks for modules where it is installed, never in the current folder. A `numpy.py` or a
+//! `sitecustomize.py` that lies there is not run. An empty part of `PYTHONPATH`, which a shell
+//! makes of `PYTHONPATH=$PYTHONPATH:folder`, means that folder, and is left out.
 
 use std::ffi::{OsStr, OsString};
 use std::io;
@@ -34,7 +34,7 @@ Install it, or name the interpreter in FRET_PYTHON', file=sys.stderr)
 import runpy
 runpy.run_module('pyfret', run_name='__main__', alter_sys=True)";
 
-/// All that follows the name of the command.
+/// The arguments after the name of the command.
 #[derive(Args)]
 #[command(disable_help_flag = true)]
 pub(crate) struct Options {
@@ -43,8 +43,8 @@ pub(crate) struct Options {
     pub(crate) arguments: Vec<OsString>,
 }
 
-/// Hands a command over to Python and ends as it ends. On Unix the interpreter takes the place of
-/// this process, so that signals reach it.
+/// Passes a command on to Python and returns its exit code. On Unix the interpreter replaces this
+/// process, so that signals reach it.
 pub(crate) fn run(command: &str, arguments: &[OsString]) -> Result<u8, Failure> {
     let interpreter = interpreter();
     let mut python = Command::new(&interpreter);
@@ -55,7 +55,7 @@ pub(crate) fn run(command: &str, arguments: &[OsString]) -> Result<u8, Failure> 
         .envs(std::env::var_os(PATH).and_then(|path| Some((PATH, named_parts(&path)?))))
         .args(["-c", PROGRAM, command])
         .args(arguments);
-    ended_as(&mut python).map_err(|e| {
+    exit_code_of(&mut python).map_err(|e| {
         Failure::BadInput(Error::File {
             path: interpreter.display().to_string(),
             message: format!(
@@ -66,7 +66,7 @@ pub(crate) fn run(command: &str, arguments: &[OsString]) -> Result<u8, Failure> 
     })
 }
 
-/// The folders of a path that have a name, the current one left out; none if no other is left.
+/// The named folders of a path without the current one; `None` if no other is left.
 fn named_parts(path: &OsStr) -> Option<OsString> {
     let current = |part: &PathBuf| part.as_os_str().is_empty() || part == Path::new(".");
     let parts: Vec<PathBuf> = std::env::split_paths(path)
@@ -77,18 +77,19 @@ fn named_parts(path: &OsStr) -> Option<OsString> {
 }
 
 #[cfg(unix)]
-fn ended_as(python: &mut Command) -> io::Result<u8> {
+fn exit_code_of(python: &mut Command) -> io::Result<u8> {
     use std::os::unix::process::CommandExt;
     Err(python.exec())
 }
 
 #[cfg(not(unix))]
-fn ended_as(python: &mut Command) -> io::Result<u8> {
+fn exit_code_of(python: &mut Command) -> io::Result<u8> {
     let code = python.status()?.code();
     Ok(code.and_then(|code| u8::try_from(code).ok()).unwrap_or(1))
 }
 
-/// The interpreter named by the user, that in the folder of `fret`, or the first one on PATH.
+/// The interpreter named by the user, else the one in the folder of `fret`, else the first one on
+/// PATH.
 fn interpreter() -> PathBuf {
     if let Some(named) = std::env::var_os(INTERPRETER) {
         return named.into();

@@ -7,8 +7,8 @@ use contact_core::Error;
 use contact_store::{Resumed, WearStore, resume as take_up};
 
 use crate::failure::Failure;
-use crate::run::Manner;
-use crate::terminal::say;
+use crate::run::RunOptions;
+use crate::terminal::print_message;
 use crate::wear;
 
 /// Options of `fret resume`.
@@ -17,13 +17,13 @@ pub(crate) struct Options {
     /// Result store of the run that ended early
     store: PathBuf,
     #[command(flatten)]
-    manner: Manner,
+    manner: RunOptions,
 }
 
-/// Goes on with a run.
+/// Continues a run.
 pub(crate) fn resume(options: &Options) -> Result<(), Failure> {
     let manner = &options.manner;
-    manner.threads.settle();
+    manner.threads.set();
     if WearStore::is_at(&options.store) {
         if manner.json || manner.wide {
             let allowed = "for runs through a load path; this store is one of wear";
@@ -34,9 +34,9 @@ pub(crate) fn resume(options: &Options) -> Result<(), Failure> {
             )));
         }
         let shown = if manner.quiet {
-            wear::Shown::Nothing
+            wear::Display::Nothing
         } else {
-            wear::Shown::Table
+            wear::Display::Table
         };
         return wear::resume(&options.store, None, shown);
     }
@@ -46,7 +46,7 @@ pub(crate) fn resume(options: &Options) -> Result<(), Failure> {
         increments,
     }) = take_up(&options.store, None).map_err(Failure::BadInput)?
     else {
-        say(&format!("fret: {} is done", options.store.display()));
+        print_message(&format!("fret: {} is done", options.store.display()));
         return Ok(());
     };
     let scene = march.scene().clone();

@@ -15,8 +15,8 @@ use crate::failure::Failure;
 use crate::out::Out;
 use crate::printed::print;
 use crate::progress::Progress;
-use crate::scene_options::{SceneOptions, say_doubts};
-use crate::terminal::say;
+use crate::scene_options::{SceneOptions, warn_of_scene};
+use crate::terminal::print_message;
 use crate::threads::Threads;
 use crate::{json, summary};
 
@@ -32,12 +32,12 @@ pub(crate) struct Options {
     #[arg(long)]
     error: bool,
     #[command(flatten)]
-    manner: Manner,
+    manner: RunOptions,
 }
 
-/// How a run is done, whatever its scene.
+/// Options of a run, for any scene.
 #[derive(Args)]
-pub(crate) struct Manner {
+pub(crate) struct RunOptions {
     /// Bring the store and its checkpoint up to date every so many seconds of the run, and at the
     /// ends of branches: what a crash may lose
     #[arg(long, value_name = "SECONDS", default_value = "5", value_parser = seconds)]
@@ -65,10 +65,10 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
     let out = &options.out.path;
     let scene = options.scene.read().map_err(Failure::BadInput)?;
     scene.check_fit().map_err(Failure::BadInput)?;
-    say_doubts(&scene);
+    warn_of_scene(&scene);
     let manner = &options.manner;
-    manner.threads.settle();
-    let scene = choose_increments(&scene, &Arc::default()).map_err(ended)?;
+    manner.threads.set();
+    let scene = choose_increments(&scene, &Arc::default()).map_err(to_failure)?;
     let writer = StoreWriter::create(out, options.out.overwrite).map_err(Failure::BadInput)?;
     let (mut increments, mut tractions) = (Vec::new(), Vec::new());
     let held = options.error && manner.json;
@@ -81,30 +81,34 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
     if options.error {
         match error_bars(&scene, &increments, &tractions, &stop) {
             Ok(bars) => {
-                write_error_bars(out, &bars).map_err(ended)?;
+                write_error_bars(out, &bars).map_err(to_failure)?;
                 if manner.json {
-                    print(&json::pretty(json::run(&scene, &increments, Some(&bars))))?;
+                    print(&json::pretty(json::run_to_json(
+                        &scene,
+                        &increments,
+                        Some(&bars),
+                    )))?;
                 } else if !manner.quiet {
                     print(&summary::error_table(&scene, &increments, &bars))?;
                 }
             }
-            Err(stopped @ Error::Interrupted { .. }) => return Err(ended(stopped)),
+            Err(stopped @ Error::Interrupted { .. }) => return Err(to_failure(stopped)),
             Err(why) => {
-                let doubt = write_no_error_bars(out, &why).map_err(ended)?;
+                let doubt = write_no_error_bars(out, &why).map_err(to_failure)?;
                 if manner.json {
-                    print(&json::pretty(json::run(&scene, &increments, None)))?;
+                    print(&json::pretty(json::run_to_json(&scene, &increments, None)))?;
                 }
-                say(&format!("fret: warning: {doubt}"));
+                print_message(&format!("fret: warning: {doubt}"));
             }
         }
     }
     Ok(())
 }
 
-impl Manner {
-    /// Watches a run of the scene into the store `out` that has done `increments` already, and
-    /// says how it ended. Returns the flag that Ctrl-C raises. A summary that is `held` is printed
-    /// only where the run fails: error bars are added to it.
+impl RunOptions {
+    /// Runs a scene into the store `out`, which holds `increments` already, and prints how the run
+    /// ended. Returns the flag that Ctrl-C raises. If `held`, the summary is printed only if the
+    /// run fails, since error bars are added to it later.
     pub(crate) fn watch(
         &self,
         scene: &Scene,
@@ -136,37 +140,40 @@ impl Manner {
         let later = held && outcome.is_ok();
         if (!self.quiet || self.json) && !increments.is_empty() && !later {
             let text = if self.json {
-                json::pretty(json::run(scene, &increments, None))
+                json::pretty(json::run_to_json(scene, &increments, None))
             } else {
                 summary::table(scene, &increments, self.wide)
             };
             printed = print(&text);
             if !self.quiet {
-                say(&summary::time(begun.elapsed(), writer.checkpoints()));
+                print_message(&summary::describe_time(
+                    begun.elapsed(),
+                    writer.checkpoints(),
+                ));
             }
         }
         if outcome.is_ok() {
             for doubt in Reached::from_increments(&increments).doubts(scene) {
-                say(&format!("fret: warning: {doubt}"));
+                print_message(&format!("fret: warning: {doubt}"));
             }
         }
         let stop = outcome.map(|_| stop).map_err(|error| {
             let kept = writer.kept();
             if kept > 0 {
-                say(&format!(
+                print_message(&format!(
                     "fret: {kept} of {} increments are kept in {}; `fret resume` goes on from there",
                     scene.path.increments(),
                     out.display()
                 ));
             }
-            ended(error)
+            to_failure(error)
         })?;
         printed.map(|()| stop)
     }
 }
 
-/// The exit code of an error.
-fn ended(error: Error) -> Failure {
+/// Converts an error to a failure with its exit code.
+fn to_failure(error: Error) -> Failure {
     match error {
         Error::InvalidScene { .. }
         | Error::OffGrid { .. }
@@ -176,12 +183,12 @@ fn ended(error: Error) -> Failure {
     }
 }
 
-/// Hands every increment to the store and to the progress, and ends the run when asked to.
+/// Passes every increment to the store and to the progress, and stops the run on request.
 struct Watcher {
     writer: StoreWriter,
     progress: Progress,
     stop: Arc<AtomicBool>,
-    /// Whether there is an increment to keep.
+    /// True if an increment is kept.
     kept: Arc<AtomicBool>,
     increments: Vec<Increment>,
 }
@@ -209,23 +216,23 @@ impl Observer for Watcher {
     }
 }
 
-/// A flag that the first Ctrl-C raises; the second ends the process, and so does the first as long
-/// as nothing is kept: then nothing is written either.
+/// A flag that the first Ctrl-C raises; the second ends the process. While no increment is kept,
+/// the first one ends the process, and nothing is written.
 pub(crate) fn stop_on_interrupt(kept: &Arc<AtomicBool>) -> Arc<AtomicBool> {
     let stop = Arc::new(AtomicBool::new(false));
     let (flag, kept) = (stop.clone(), kept.clone());
     let handler = move || {
         if !kept.load(Ordering::Relaxed) {
-            say("fret: stopped before the first increment");
+            print_message("fret: stopped before the first increment");
             std::process::exit(1);
         }
         if flag.swap(true, Ordering::Relaxed) {
             std::process::exit(1);
         }
-        say("fret: stopping (Ctrl-C again: at once)");
+        print_message("fret: stopping (Ctrl-C again: at once)");
     };
     if let Err(error) = ctrlc::set_handler(handler) {
-        say(&format!("fret: Ctrl-C will end the run at once: {error}"));
+        print_message(&format!("fret: Ctrl-C will end the run at once: {error}"));
     }
     stop
 }

@@ -8,9 +8,9 @@ use contact_core::scene::{Reach, read_text};
 use contact_core::{Error, Scene};
 use contact_wear::Wear;
 
-use crate::terminal::say;
+use crate::terminal::print_message;
 
-/// Bytes of a scene that is read from the standard input, fewer than: heights may stand in it.
+/// Upper limit of the bytes of a scene from the standard input; it may contain heights.
 const LONGEST: u64 = 1 << 30;
 
 /// A scene file and the changes to it.
@@ -36,10 +36,10 @@ impl SceneOptions {
     /// The scene and its table `[wear]`, if it has one.
     pub(crate) fn read_whole(&self) -> Result<(Scene, Option<Wear>), Error> {
         let (text, name) = self.text()?;
-        Wear::if_given(&text, &name, &self.settings, self.reach())
+        Wear::scene_and_wear(&text, &name, &self.settings, self.reach())
     }
 
-    /// Which files the scene may name.
+    /// The files that the scene may name.
     pub(crate) fn reach(&self) -> Reach {
         if self.allow_outside {
             Reach::Anywhere
@@ -72,13 +72,13 @@ impl SceneOptions {
 }
 
 /// Warns of allowed but implausible values of a scene.
-pub(crate) fn say_doubts(scene: &Scene) {
-    say_each(&scene.doubts());
+pub(crate) fn warn_of_scene(scene: &Scene) {
+    warn_of_doubts(&scene.doubts());
 }
 
 /// Warns of doubts.
-pub(crate) fn say_each(doubts: &[String]) {
+pub(crate) fn warn_of_doubts(doubts: &[String]) {
     for doubt in doubts {
-        say(&format!("fret: warning: {doubt}"));
+        print_message(&format!("fret: warning: {doubt}"));
     }
 }

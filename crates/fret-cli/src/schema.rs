@@ -8,8 +8,8 @@ use contact_core::Error;
 use crate::failure::Failure;
 use crate::printed::print;
 
-/// The JSON Schema (draft 7) of the scene file: keys, units, ranges, defaults, one sentence each.
-/// A test compares its keys and defaults with those of the reader.
+/// The JSON Schema (draft 7) of the scene file: keys, units, ranges, defaults, one sentence each. A
+/// test compares its keys and defaults with the reader.
 const SCHEMA: &str = include_str!("scene.schema.json");
 
 /// Options of `fret schema`.

@@ -21,7 +21,7 @@ use crate::largest::{Largest, Units};
 use crate::loads::Loads;
 use crate::printed::print;
 use crate::quantity::{length, stress as stress_of};
-use crate::terminal::say;
+use crate::terminal::print_message;
 use crate::units::um;
 
 /// Options of `fret stress`.
@@ -83,7 +83,7 @@ pub(crate) struct Options {
     /// those that the layers ask for
     #[arg(long, value_name = "N or Z,Z,...", value_parser = Depths::read)]
     depths: Option<Depths>,
-    /// What to give, such as von_mises,s_xx,tresca,s_1,hydrostatic,u_z
+    /// Quantities to print or write, for example von_mises,s_xx,tresca,s_1,hydrostatic,u_z
     #[arg(
         long,
         value_name = "NAMES",
@@ -131,7 +131,7 @@ struct Task {
     depths: Vec<Depth>,
     /// The default depths of the layers; the largest values are searched here as well.
     chosen: Vec<Depth>,
-    /// Whether lines are for programs.
+    /// True if lines are for programs.
     json: bool,
     units: Units,
     probes: Vec<Probe>,
@@ -141,7 +141,7 @@ struct Task {
     stop: Arc<AtomicBool>,
 }
 
-/// Residual stress of a body: a stress given for each layer \[Pa\], or its own.
+/// Residual stress of a body: the stress given for each layer \[Pa\], else the stress of the body.
 pub(crate) fn given_residual(body: &Body, given: &[f64]) -> Result<ResidualStress, Error> {
     let layers: Vec<_> = given.iter().copied().map(Profile::uniform).collect();
     ResidualStress::from_profiles(body, &layers)
@@ -164,7 +164,7 @@ pub(crate) fn stress(options: &Options) -> Result<(), Failure> {
     print(&lines.join("\n"))
 }
 
-/// Refuses a file that is neither image data nor a Zarr folder, such as a figure.
+/// Rejects a file that is neither image data nor a Zarr folder, for example a figure.
 fn check_ending(options: &Options) -> Result<(), Error> {
     let Some(out) = &options.out else {
         return Ok(());
@@ -181,8 +181,8 @@ fn check_ending(options: &Options) -> Result<(), Error> {
     }
 }
 
-/// A flag that the first Ctrl-C raises; the second ends the process at once, and may leave what is
-/// unfinished behind.
+/// A flag that the first Ctrl-C raises; the second ends the process at once, and may leave
+/// unfinished files behind.
 pub(crate) fn stop_on_interrupt() -> Arc<AtomicBool> {
     let stop = Arc::new(AtomicBool::new(false));
     let flag = stop.clone();
@@ -192,7 +192,7 @@ pub(crate) fn stop_on_interrupt() -> Arc<AtomicBool> {
         }
     };
     if let Err(error) = ctrlc::set_handler(handler) {
-        say(&format!("fret: Ctrl-C will end this at once: {error}"));
+        print_message(&format!("fret: Ctrl-C will end this at once: {error}"));
     }
     stop
 }
@@ -214,7 +214,7 @@ impl Task {
         let probes = options.of.iter().map(|name| Probe::find(name, "--of"));
         let probes = probes.collect::<Result<Vec<_>, _>>()?;
         check_interfaces(body, &probes)?;
-        let loads = Loads::of(&store, options.increment, options.body, !options.no_bulk)?;
+        let loads = Loads::read(&store, options.increment, options.body, !options.no_bulk)?;
         let length = scene.reference_length(&loads.p);
         let deepest = options.depth.unwrap_or(2.0 * length);
         let chosen = default_depths(body, length, deepest, 1.0)?;
@@ -230,10 +230,10 @@ impl Task {
             None => chosen.clone(),
         };
         if options.volume {
-            // A volume has one value per place: that of the upper layer.
+            // A volume has one value per place: the value in the upper layer.
             written.dedup_by_key(|d| d.z.to_bits());
         }
-        say_thin(&scene, body);
+        warn_of_thin_layer(&scene, body);
         Ok(Self {
             residual: given_residual(body, &options.residual)?,
             probes,
@@ -283,7 +283,7 @@ impl Task {
         .map(Some)
     }
 
-    /// The increment's loads as those of a contact.
+    /// The loads of the increment as loads of a contact.
     fn states<'a>(&'a self, tractions: &'a [Tractions<'a>], stick: &'a [&'a [bool]]) -> States<'a> {
         States {
             tractions,
@@ -303,7 +303,8 @@ impl Task {
         lines.first().copied().unwrap_or(Line::AlongX(0.0))
     }
 
-    /// A section; the largest values are those below its line, or `anywhere` in the body.
+    /// Computes a section. The largest values are below its line, or in the whole body if
+    /// `anywhere`.
     fn section(&self, options: &Options, line: Line, anywhere: bool) -> Result<Vec<String>, Error> {
         let grid = &self.scene.grid;
         if is_image(options) {
@@ -316,19 +317,21 @@ impl Task {
         let search = Search::new(self.body(), self.side, grid, Some(line), &states)?;
         let section = Section::new(self.body(), self.side, grid, line, states.clone())?;
         let (axis, along) = (line.name(), line.places(grid));
-        let mut all: Vec<Depth> = self.chosen.clone();
-        all.extend(self.depths.iter().filter(|d| !self.chosen.contains(d)));
-        all.sort_by(|a, b| a.z.total_cmp(&b.z).then(a.layer.cmp(&b.layer)));
-        let rows: Vec<usize> = (0..all.len())
-            .filter(|n| self.depths.contains(&all[*n]))
+        let mut depths: Vec<Depth> = self.chosen.clone();
+        depths.extend(self.depths.iter().filter(|d| !self.chosen.contains(d)));
+        depths.sort_by(|a, b| a.z.total_cmp(&b.z).then(a.layer.cmp(&b.layer)));
+        let rows: Vec<usize> = (0..depths.len())
+            .filter(|n| self.depths.contains(&depths[*n]))
             .collect();
-        let of_chosen: Vec<usize> = (0..all.len())
-            .filter(|n| self.chosen.contains(&all[*n]))
+        let of_chosen: Vec<usize> = (0..depths.len())
+            .filter(|n| self.chosen.contains(&depths[*n]))
             .collect();
-        let found = section.probe(&all, &along, &self.probes, &search)?;
+        let values_and_largest = section.probe(&depths, &along, &self.probes, &search)?;
         let largest_of = self.largest();
         let mut lines = Vec::new();
-        for (n, (probe, (values, largest))) in self.probes.iter().zip(&found).enumerate() {
+        for (n, (probe, (values, largest))) in
+            self.probes.iter().zip(&values_and_largest).enumerate()
+        {
             if let Some(store) = &store {
                 store.put_section(n, &values.select(Axis(0), &rows))?;
             }
@@ -336,20 +339,24 @@ impl Task {
                 Probe::Stress(measure) if anywhere => {
                     let samples = values.select(Axis(0), &of_chosen);
                     let samples = (&self.chosen[..], &samples.view());
-                    let found = find_body_maximum(
-                        self.below(&states),
+                    let values_and_largest = find_body_maximum(
+                        self.loaded_body(&states),
                         measure,
                         (line, true),
                         samples,
                         None,
                     )?;
-                    say_rising(probe, self.body(), &found.still_rises);
+                    warn_of_rising_stress(probe, self.body(), &values_and_largest.still_rises);
                     let axes: &[&str] = if grid.plane_strain {
                         &["x"]
                     } else {
                         &["x", "y"]
                     };
-                    lines.extend(found.largest.map(|m| largest_of.line(probe, &m, axes)));
+                    lines.extend(
+                        values_and_largest
+                            .largest
+                            .map(|m| largest_of.line(probe, &m, axes)),
+                    );
                 }
                 _ => lines.extend(largest.map(|m| largest_of.line(probe, &m, &[axis]))),
             }
@@ -359,7 +366,7 @@ impl Task {
     }
 
     /// The body under the loads.
-    fn below<'a>(&'a self, states: &'a States<'a>) -> LoadedBody<'a> {
+    fn loaded_body<'a>(&'a self, states: &'a States<'a>) -> LoadedBody<'a> {
         LoadedBody {
             body: self.body(),
             side: self.side,
@@ -390,19 +397,19 @@ impl Task {
         image.map_or(Ok(()), ImageData::finish)?;
         store.map_or(Ok(()), StressStore::finish)?;
         let largest_of = self.largest();
-        let found = self.probes.iter().zip(&largest);
+        let probes_and_largest = self.probes.iter().zip(&largest);
         let line = |(probe, m): (&Probe, &Option<_>)| {
             let m = m.as_ref()?;
             Some(largest_of.line(probe, m, &["x", "y"]))
         };
-        Ok(found.filter_map(line).collect())
+        Ok(probes_and_largest.filter_map(line).collect())
     }
 }
 
-/// Refuses a measure of interfaces in a body that has none.
+/// Rejects a measure of interfaces for a body without interfaces.
 fn check_interfaces(body: &Body, probes: &[Probe]) -> Result<(), Error> {
-    let of_interfaces = |p: &&Probe| matches!(p, Probe::Stress(m) if m.on_interfaces);
-    match probes.iter().find(of_interfaces) {
+    let on_interfaces = |p: &&Probe| matches!(p, Probe::Stress(m) if m.on_interfaces);
+    match probes.iter().find(on_interfaces) {
         Some(probe) if body.coatings.is_empty() => {
             let allowed = "another measure, or --body: this body has no coating and no interface";
             Err(Error::invalid("--of", probe.name(), allowed))
@@ -411,18 +418,18 @@ fn check_interfaces(body: &Body, probes: &[Probe]) -> Result<(), Error> {
     }
 }
 
-/// Says if the first interface is nearer to the surface than a cell is long: the tractions are
+/// Warns if the first interface is nearer to the surface than a cell is long: the tractions are
 /// known per cell.
-fn say_thin(scene: &Scene, body: &Body) {
+fn warn_of_thin_layer(scene: &Scene, body: &Body) {
     let cell = if scene.grid.plane_strain {
         scene.grid.dx
     } else {
         scene.grid.dx.min(scene.grid.dy)
     };
     if let Some(first) = body.interfaces().first().filter(|first| **first < cell) {
-        say(&format!(
+        print_message(&format!(
             "fret: warning: the first interface is {} below the surface, {:.2} cells: the \
-             tractions are known per cell; a finer grid tells whether that matters",
+             tractions are known per cell; a finer grid shows whether that matters",
             um(*first),
             first / cell
         ));
@@ -435,9 +442,9 @@ fn is_image(options: &Options) -> bool {
 }
 
 /// Warns of layers whose stress still rises at the end of the longest section.
-fn say_rising(probe: &Probe, body: &Body, layers: &[usize]) {
+fn warn_of_rising_stress(probe: &Probe, body: &Body, layers: &[usize]) {
     for layer in layers {
-        say(&format!(
+        print_message(&format!(
             "fret: warning: {} in {} still rises 8 lengths of the grid away from it: a larger value may lie \
              beyond; use a longer grid",
             probe.name(),

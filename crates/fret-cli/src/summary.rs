@@ -17,14 +17,14 @@ use crate::words::{frictionless, state, word};
 /// Micrometres, or microjoules, per SI unit.
 const MICRO: f64 = 1e6;
 
-/// Unit of length and pressure of a column: Hertz's where there is a Hertz contact.
+/// Unit of length and pressure of a column: Hertz's for a Hertz contact.
 struct Measures {
     radius: (&'static str, f64),
     pressure: (&'static str, f64),
 }
 
 impl Measures {
-    fn of(scene: &Scene) -> Self {
+    fn for_scene(scene: &Scene) -> Self {
         scene.hertz().map_or(
             Self {
                 radius: ("um", 1.0 / MICRO),
@@ -40,13 +40,13 @@ impl Measures {
 
 /// One line for a branch that has ended at path time `t`.
 pub(crate) fn line(scene: &Scene, branch: &BranchSummary, t: f64) -> String {
-    let Measures { radius, pressure } = Measures::of(scene);
+    let Measures { radius, pressure } = Measures::for_scene(scene);
     let loads = branch.without_insignificant_values(scene).loads;
     let held = loads.given.motions();
     let force = scene.grid.unit_of("N");
-    let others = OTHERS.iter().fold(String::new(), |text, of| {
+    let others = SECONDARY_MOTIONS.iter().fold(String::new(), |text, of| {
         match (loads.forces()[of.index()], held[of.index()]) {
-            // What keeps the bodies from turning says little.
+            // The moments that keep the bodies from turning are of little interest.
             (0.0, _) | (_, Some(0.0)) => text,
             (load, _) => {
                 let unit = units(scene, *of).0;
@@ -62,7 +62,7 @@ pub(crate) fn line(scene: &Scene, branch: &BranchSummary, t: f64) -> String {
         short(t),
         short(loads.W),
         short(loads.T_x),
-        size(scene),
+        size_name(scene),
         branch.contact_radius / radius.1,
         radius.0,
         if frictionless(scene) {
@@ -76,7 +76,7 @@ pub(crate) fn line(scene: &Scene, branch: &BranchSummary, t: f64) -> String {
 }
 
 /// Motions that most paths leave at zero, and their loads.
-const OTHERS: [RigidMotion; 4] = [
+const SECONDARY_MOTIONS: [RigidMotion; 4] = [
     RigidMotion::DeltaY,
     RigidMotion::PhiX,
     RigidMotion::PhiY,
@@ -93,8 +93,8 @@ fn units(scene: &Scene, of: RigidMotion) -> (&'static str, &'static str) {
     (scene.grid.unit_of(load), motion)
 }
 
-/// What the size of the contact is called.
-fn size(scene: &Scene) -> &'static str {
+/// Name of the size of the contact.
+fn size_name(scene: &Scene) -> &'static str {
     if scene.grid.plane_strain {
         "half width"
     } else {
@@ -122,16 +122,17 @@ fn volume(scene: &Scene) -> (&'static str, f64) {
     }
 }
 
-/// Columns of bodies that yield, and the end of the table: how far they are from it if they never do.
+/// Columns of bodies that yield. If they never do, the distance from yielding stands below the
+/// table.
 fn yield_columns(scene: &Scene, increments: &[Increment]) -> Vec<Column> {
     let (joule, joules) = energy(scene);
     let (cube, per_cube) = volume(scene);
     let works: Vec<f64> = summarise(increments)
         .iter()
         .scan(0, |done, branch| {
-            let own = &increments[*done..*done + branch.increments];
+            let increments_of_branch = &increments[*done..*done + branch.increments];
             *done += branch.increments;
-            Some(json::plastic_work(own))
+            Some(json::plastic_work(increments_of_branch))
         })
         .collect();
     let first = increments.first().map_or(0, |i| i.point.branch);
@@ -149,13 +150,13 @@ fn yield_columns(scene: &Scene, increments: &[Increment]) -> Vec<Column> {
     ]
 }
 
-/// What is to be known of a largest strain that does not converge.
+/// Note on a largest strain that does not converge.
 fn strain_at_a_rim(increments: &[Increment]) -> Option<String> {
     let last = increments.last()?;
     (last.yielded.at_rim && last.yielded.largest > 0.0).then(|| Rim::TOLD.to_owned())
 }
 
-/// How far bodies that may yield are from it, where none has.
+/// Note on the distance from yielding of bodies that may yield, if none has.
 fn far_from_yield(scene: &Scene, increments: &[Increment]) -> Option<String> {
     let ratio = json::yield_ratio(increments);
     (scene.yields() && ratio < 1.0).then(|| {
@@ -180,7 +181,7 @@ fn column(
 }
 
 fn columns(scene: &Scene, increments: &[Increment], wide: bool) -> Vec<Column> {
-    let Measures { radius, pressure } = Measures::of(scene);
+    let Measures { radius, pressure } = Measures::for_scene(scene);
     let bare = frictionless(scene);
     let micro = |x: f64| short(x * MICRO);
     let (force, (joule, joules)) = (scene.grid.unit_of("N"), energy(scene));
@@ -195,7 +196,7 @@ fn columns(scene: &Scene, increments: &[Increment], wide: bool) -> Vec<Column> {
         column(format!("W\n[{force}]"), |b, _| short(b.loads.W)),
         column(format!("T_x\n[{force}]"), |b, _| short(b.loads.T_x)),
     ];
-    for of in driven(scene) {
+    for of in driven_motions(scene) {
         let title = format!("{}\n[{}]", of.load_name(), units(scene, of).0);
         let k = of.index();
         columns.push(column(title, move |b, _| short(b.loads.forces()[k])));
@@ -220,7 +221,7 @@ fn columns(scene: &Scene, increments: &[Increment], wide: bool) -> Vec<Column> {
         column("delta_z\n[um]", move |b, _| micro(b.motion.delta_z)),
         column("delta_x\n[um]", move |b, _| micro(b.motion.delta_x)),
     ]);
-    for of in driven(scene) {
+    for of in driven_motions(scene) {
         let title = format!("{}\n[{}]", of.name(), units(scene, of).1);
         let k = of.index();
         columns.push(column(title, move |b, _| micro(b.motion.motions()[k])));
@@ -262,9 +263,9 @@ fn work_columns() -> [Column; 4] {
     ]
 }
 
-/// Those of [`OTHERS`] that the path drives.
-fn driven(scene: &Scene) -> impl Iterator<Item = RigidMotion> {
-    OTHERS.into_iter().filter(|&of| {
+/// The motions of [`SECONDARY_MOTIONS`] that the path drives.
+fn driven_motions(scene: &Scene) -> impl Iterator<Item = RigidMotion> {
+    SECONDARY_MOTIONS.into_iter().filter(|&of| {
         let drives = |b: &Branch| b.to.prescribed(of).value() != 0.0;
         scene.path.branches.iter().any(drives)
     })
@@ -301,8 +302,8 @@ fn cycle_lines(scene: &Scene, increments: &[Increment]) -> Vec<String> {
     cycles.iter().enumerate().map(line).collect()
 }
 
-/// How long a run took, and what of that went to its checkpoints.
-pub(crate) fn time(run: Duration, (count, spent): (usize, Duration)) -> String {
+/// Time of a run, and the part of its checkpoints.
+pub(crate) fn describe_time(run: Duration, (count, spent): (usize, Duration)) -> String {
     let (run, spent) = (run.as_secs_f64(), spent.as_secs_f64());
     format!(
         "fret: {run:.2} s, of these {spent:.3} s ({:.1} %) for {count} checkpoints",
@@ -310,49 +311,56 @@ pub(crate) fn time(run: Duration, (count, spent): (usize, Duration)) -> String {
     )
 }
 
-/// Of a branch a number, its error and the unit.
-type OfBranch = Box<dyn Fn(&BranchSummary, &ErrorBars) -> (f64, Bar, f64)>;
+/// A number of a branch, its error and the unit.
+type BranchNumber = Box<dyn Fn(&BranchSummary, &ErrorBars) -> (f64, Bar, f64)>;
 
-/// Results of a run besides the headline numbers.
-struct Answer {
+/// A column of results besides the headline numbers.
+struct ErrorColumn {
     title: String,
-    of: OfBranch,
+    number: BranchNumber,
 }
 
-/// The loads of motions that the path gives, and the motions of loads that most paths leave out.
-fn answers(scene: &Scene) -> Vec<Answer> {
+/// Columns of the loads of given motions, and of the motions of loads that most paths leave out.
+fn secondary_columns(scene: &Scene) -> Vec<ErrorColumn> {
     let ends = || scene.path.branches.iter().map(|branch| &branch.to);
-    let given = |of: &RigidMotion| {
+    let is_given = |of: &RigidMotion| {
         ends().any(|to| to.given.motions()[of.index()].is_some_and(|motion| motion != 0.0))
     };
-    let loads = RigidMotion::ALL.into_iter().filter(given).map(|of| Answer {
-        title: format!("{}\n[{}]", of.load_name(), units(scene, of).0),
-        of: Box::new(move |branch, bar| {
-            (
-                branch.loads.forces()[of.index()],
-                bar.loads()[of.index()],
-                1.0,
-            )
-        }),
-    });
-    let loaded = |of: &RigidMotion| ends().any(|to| to.forces()[of.index()] != 0.0);
-    let motions = OTHERS.into_iter().filter(loaded).map(|of| Answer {
-        title: format!("{}\n[{}]", of.name(), units(scene, of).1),
-        of: Box::new(move |branch, bar| {
-            (
-                branch.motion.motions()[of.index()],
-                bar.motions()[of.index()],
-                MICRO,
-            )
-        }),
-    });
+    let loads = RigidMotion::ALL
+        .into_iter()
+        .filter(is_given)
+        .map(|of| ErrorColumn {
+            title: format!("{}\n[{}]", of.load_name(), units(scene, of).0),
+            number: Box::new(move |branch, bar| {
+                (
+                    branch.loads.forces()[of.index()],
+                    bar.loads()[of.index()],
+                    1.0,
+                )
+            }),
+        });
+    let is_loaded = |of: &RigidMotion| ends().any(|to| to.forces()[of.index()] != 0.0);
+    let motions = SECONDARY_MOTIONS
+        .into_iter()
+        .filter(is_loaded)
+        .map(|of| ErrorColumn {
+            title: format!("{}\n[{}]", of.name(), units(scene, of).1),
+            number: Box::new(move |branch, bar| {
+                (
+                    branch.motion.motions()[of.index()],
+                    bar.motions()[of.index()],
+                    MICRO,
+                )
+            }),
+        });
     loads.chain(motions).collect()
 }
 
-/// The headline numbers at the end of every branch with their errors and the sources of these.
+/// The headline numbers at the end of every branch, with their errors and the sources of the
+/// errors.
 pub(crate) fn error_table(scene: &Scene, increments: &[Increment], bars: &[ErrorBars]) -> String {
-    let Measures { radius, pressure } = Measures::of(scene);
-    let answers = answers(scene);
+    let Measures { radius, pressure } = Measures::for_scene(scene);
+    let answers = secondary_columns(scene);
     let (joule, joules) = energy(scene);
     let (cube, per_cube) = volume(scene);
     let yields = scene.yields() && json::yield_ratio(increments) >= 1.0;
@@ -362,14 +370,14 @@ pub(crate) fn error_table(scene: &Scene, increments: &[Increment], bars: &[Error
         "largest\nstrain [%]".to_owned(),
     ];
     let of_yielding = of_yielding.into_iter().filter(|_| yields);
-    let left = yields.then(|| "residual\nstress [%]".to_owned());
+    let residual_column = yields.then(|| "residual\nstress [%]".to_owned());
     let mut table = Table::new();
     table
         .load_style(presets::ASCII_BORDERS_ONLY_CONDENSED)
         .set_header(
             [
                 "branch".to_owned(),
-                format!("{}\n[{}]", size(scene), radius.0),
+                format!("{}\n[{}]", size_name(scene), radius.0),
                 "stick ratio".to_owned(),
                 format!("p_max\n[{}]", pressure.0),
                 "approach delta_z\n[um]".to_owned(),
@@ -380,7 +388,7 @@ pub(crate) fn error_table(scene: &Scene, increments: &[Increment], bars: &[Error
             .chain(of_yielding)
             .chain(answers.iter().map(|answer| answer.title.clone()))
             .chain(["p, field\n[%]".to_owned(), "q, field\n[%]".to_owned()])
-            .chain(left),
+            .chain(residual_column),
         );
     for (of, bar) in summarise(increments).iter().zip(bars) {
         let mut numbers = vec![
@@ -398,7 +406,7 @@ pub(crate) fn error_table(scene: &Scene, increments: &[Increment], bars: &[Error
                 (of.largest_plastic_strain, bar.largest_plastic_strain, 100.0),
             ]);
         }
-        numbers.extend(answers.iter().map(|answer| (answer.of)(of, bar)));
+        numbers.extend(answers.iter().map(|answer| (answer.number)(of, bar)));
         let mut fields = vec![bar.p, bar.q];
         fields.extend(yields.then_some(bar.residual_stress));
         let number = |&(value, bar, unit): &(f64, Bar, f64)| {

@@ -5,14 +5,14 @@ use std::io::{self, IsTerminal, Write};
 use clap::ColorChoice;
 use contact_core::shown;
 
-/// Writes a line to the standard error, what would act on the terminal as escapes; a failure is
+/// Writes a line to the standard error; escapes of the terminal are shown as text. A failure is
 /// ignored.
-pub(crate) fn say(line: &str) {
-    say_coloured(&shown(line));
+pub(crate) fn print_message(line: &str) {
+    print_coloured(&shown(line));
 }
 
-/// Writes a line that holds the codes of colours, which is of our own making.
-pub(crate) fn say_coloured(line: &str) {
+/// Writes a line with codes of colours, made by this program.
+pub(crate) fn print_coloured(line: &str) {
     let _ = writeln!(io::stderr(), "{line}");
 }
 
@@ -26,12 +26,12 @@ pub(crate) fn colours() -> ColorChoice {
     }
 }
 
-/// Whether standard error is a terminal that moves its cursor, on which a bar can be drawn.
-pub(crate) fn draws() -> bool {
+/// Checks that standard error is a terminal that moves its cursor, on which a bar can be drawn.
+pub(crate) fn can_draw() -> bool {
     io::stderr().is_terminal() && follows_codes()
 }
 
-/// Whether the terminal follows escape codes.
+/// Checks that the terminal follows escape codes.
 fn follows_codes() -> bool {
     cfg!(windows) || std::env::var_os("TERM").is_some_and(|term| !term.is_empty() && term != "dumb")
 }

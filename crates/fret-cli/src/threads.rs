@@ -1,8 +1,8 @@
-//! How many threads a command uses.
+//! The number of threads of a command.
 
 use clap::Args;
 
-/// How many threads a command uses.
+/// The number of threads of a command.
 #[derive(Args)]
 pub(crate) struct Threads {
     /// Number of threads (default: one per core); the result does not depend on it
@@ -11,9 +11,9 @@ pub(crate) struct Threads {
 }
 
 impl Threads {
-    /// Settles the number, before the first use of the pool. This thread is among them: to hand an
-    /// increment to another and wait for it takes longer than a small one is worked on.
-    pub(crate) fn settle(&self) {
+    /// Sets the number, before the first use of the pool. This thread is one of them: to hand an
+    /// increment to another thread and wait takes longer than the work on a small one.
+    pub(crate) fn set(&self) {
         // The pool has no other user in this process, so it cannot have been built before. Zero
         // means one thread per core.
         let _ = rayon::ThreadPoolBuilder::new()

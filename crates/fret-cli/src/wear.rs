@@ -19,8 +19,8 @@ use crate::json::pretty;
 use crate::out::Out;
 use crate::printed::print;
 use crate::run::stop_on_interrupt;
-use crate::scene_options::{SceneOptions, say_each};
-use crate::terminal::{draws, say};
+use crate::scene_options::{SceneOptions, warn_of_doubts};
+use crate::terminal::{can_draw, print_message};
 use crate::threads::Threads;
 use crate::units::um;
 
@@ -51,7 +51,7 @@ pub(crate) struct Options {
 
 /// Display of a run.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Shown {
+pub(crate) enum Display {
     /// A bar and a table.
     Table,
     /// A bar and JSON.
@@ -61,23 +61,23 @@ pub(crate) enum Shown {
 }
 
 impl Options {
-    fn shown(&self) -> Shown {
+    fn shown(&self) -> Display {
         match (self.json, self.quiet) {
-            (true, _) => Shown::Json,
-            (false, true) => Shown::Nothing,
-            (false, false) => Shown::Table,
+            (true, _) => Display::Json,
+            (false, true) => Display::Nothing,
+            (false, false) => Display::Table,
         }
     }
 }
 
 /// Wears the surfaces of a scene.
 pub(crate) fn wear(options: &Options) -> Result<(), Failure> {
-    options.threads.settle();
+    options.threads.set();
     let reach = options.scene.reach();
     let read = Wear::from_file(&options.scene.scene, &options.scene.settings, reach);
     let (scene, wear) = read.map_err(Failure::BadInput)?;
-    say_each(&wear.doubts());
-    say_each(wear.doubt_of_grid(&scene).as_slice());
+    warn_of_doubts(&wear.doubts());
+    warn_of_doubts(wear.doubt_of_grid(&scene).as_slice());
     let out = &options.out.path;
     if options.resume {
         return resume(out, Some((&scene, &wear)), options.shown());
@@ -92,33 +92,38 @@ pub(crate) fn wear(options: &Options) -> Result<(), Failure> {
         }
         None => WearRun::new(&scene, &wear, &stop),
     };
-    let run = run.map_err(ended)?;
+    let run = run.map_err(to_failure)?;
     to_end(run, store, out, &kept, options.shown())
 }
 
-/// Goes on with the run of a store, which is that of a scene and its wear where they are given.
-pub(crate) fn resume(out: &Path, of: Option<(&Scene, &Wear)>, shown: Shown) -> Result<(), Failure> {
+/// Continues the run of a store. If a scene and its wear are given, they must be those of the
+/// store.
+pub(crate) fn resume(
+    out: &Path,
+    expected: Option<(&Scene, &Wear)>,
+    shown: Display,
+) -> Result<(), Failure> {
     let kept = Arc::new(AtomicBool::new(true));
     let stop = stop_on_interrupt(&kept);
-    let found = resume_wear(out, of, &stop).map_err(Failure::BadInput)?;
-    if let Some((run, store)) = found {
+    let run_and_store = resume_wear(out, expected, &stop).map_err(Failure::BadInput)?;
+    if let Some((run, store)) = run_and_store {
         return to_end(run, store, out, &kept, shown);
     }
-    say(&format!("fret: {} is done", out.display()));
+    print_message(&format!("fret: {} is done", out.display()));
     Ok(())
 }
 
-/// Jump by jump into the store, with a bar and a summary; raises `kept` once there is something.
+/// Runs jump by jump into the store, with a bar and a summary; raises `kept` after the first jump.
 fn to_end(
     mut run: WearRun,
     mut store: WearStore,
     out: &Path,
     kept: &AtomicBool,
-    shown: Shown,
+    shown: Display,
 ) -> Result<(), Failure> {
     let begun = Instant::now();
-    let bar = bar(run.wear().cycles, shown == Shown::Nothing);
-    let mut told = run.state().events.len();
+    let bar = bar(run.wear().cycles, shown == Display::Nothing);
+    let mut reported = run.state().events.len();
     let mut step = || -> Option<Result<(), Error>> {
         let jump = match run.advance()? {
             Ok(jump) => jump,
@@ -127,10 +132,10 @@ fn to_end(
         let deepest = jump.depth[0].max(jump.depth[1]);
         bar.set_position(jump.cycles as u64);
         bar.set_message(format!("{:.3} um deep", 1e6 * deepest));
-        for event in &run.state().events[told..] {
-            bar.suspend(|| say(&told_of(event)));
+        for event in &run.state().events[reported..] {
+            bar.suspend(|| print_message(&describe_event(event)));
         }
-        told = run.state().events.len();
+        reported = run.state().events.len();
         let written = store.write(&mut run);
         kept.store(
             written.is_ok() || kept.load(Ordering::Relaxed),
@@ -148,24 +153,24 @@ fn to_end(
     bar.finish_and_clear();
     let jumps = run.history();
     if jumps.is_empty() {
-        return outcome.map_err(ended);
+        return outcome.map_err(to_failure);
     }
     let status = outcome
         .as_ref()
         .map_or_else(ToString::to_string, |()| "done".to_owned());
-    store.finish(&run, &status).map_err(ended)?;
+    store.finish(&run, &status).map_err(to_failure)?;
     let mut printed = Ok(());
-    if shown == Shown::Json {
-        let all = json!({ "jumps": jumps, "events": run.state().events, "status": status });
-        printed = print(&pretty(all));
+    if shown == Display::Json {
+        let document = json!({ "jumps": jumps, "events": run.state().events, "status": status });
+        printed = print(&pretty(document));
     }
-    if shown == Shown::Table {
+    if shown == Display::Table {
         printed = print(&table(jumps, &run.scene().grid));
         let seconds = begun.elapsed().as_secs_f64();
-        say(&format!("{} jumps in {seconds:.1} s", jumps.len()));
+        print_message(&format!("{} jumps in {seconds:.1} s", jumps.len()));
     }
     outcome.map_err(|error| {
-        say(&format!(
+        print_message(&format!(
             "fret: what is done is kept in {}; `fret resume` goes on from there",
             out.display()
         ));
@@ -175,7 +180,7 @@ fn to_end(
 }
 
 fn bar(cycles: f64, quiet: bool) -> ProgressBar {
-    let bar = if quiet || !draws() {
+    let bar = if quiet || !can_draw() {
         ProgressBar::hidden()
     } else {
         ProgressBar::new(cycles as u64)
@@ -186,8 +191,8 @@ fn bar(cycles: f64, quiet: bool) -> ProgressBar {
     }
 }
 
-/// The exit code of an error.
-fn ended(error: Error) -> Failure {
+/// Converts an error to a failure with its exit code.
+fn to_failure(error: Error) -> Failure {
     match error {
         Error::InvalidScene { .. } | Error::OffGrid { .. } | Error::TooLarge { .. } => {
             Failure::BadInput(error)
@@ -196,18 +201,18 @@ fn ended(error: Error) -> Failure {
     }
 }
 
-fn told_of(event: &Event) -> String {
+fn describe_event(event: &Event) -> String {
     let body = event.body;
     let cycles = with_error(event.cycles, Some(event.cycles_error));
-    let place = format!("at x = {}, y = {}", um(event.x), um(event.y));
+    let place_text = format!("at x = {}, y = {}", um(event.x), um(event.y));
     match event.kind {
         EventKind::Thinned => format!(
             "fret: after {cycles} cycles body {body} has lost a part of its coatings' thickness that \
-             counts {place}: their response is that of the whole thickness"
+             counts {place_text}: their response is that of the whole thickness"
         ),
         EventKind::WornThrough => format!(
-            "fret: after {cycles} cycles coating {} of body {body} is worn through {place}; the response \
-             stays that of the whole layer",
+            "fret: after {cycles} cycles coating {} of body {body} is worn through {place_text}; the response \
+             is still computed with the whole layer",
             event.coating + 1
         ),
     }

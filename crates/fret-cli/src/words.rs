@@ -1,10 +1,10 @@
-//! Words for states and directions.
+//! Names of states and directions for people.
 
 use contact_core::Scene;
 use contact_core::march::Status;
 use contact_subsurface::Direction;
 
-/// Whether a contact transmits no shear: it neither sticks nor slips, and has no stick ratio.
+/// Checks that a contact transmits no shear: it neither sticks nor slips, and has no stick ratio.
 pub(crate) fn frictionless(scene: &Scene) -> bool {
     scene.friction.mu == 0.0
 }

@@ -91,7 +91,7 @@ fails!(
     Error => to_python,
     fatigue::Error => of_criterion,
     material_table::Error => |error: material_table::Error| of_criterion(error.into()),
-    ::fracture::Error => |error| to_python(contact_assess::crack::from_fracture(error)),
+    ::fracture::Error => |error| to_python(contact_assess::crack::refused(error)),
 );
 
 /// Python exception with the message of `error`.

@@ -93,7 +93,7 @@ impl March {
                 self.reached.see(&increment);
                 let scalars = PyDict::new(py);
                 let grid = self.inner().scene().grid;
-                for scalar in SCALARS.iter().map(|scalar| scalar.on(&grid)) {
+                for scalar in SCALARS.iter().map(|scalar| scalar.for_grid(&grid)) {
                     let value = (scalar.value)(&increment);
                     match scalar.kind {
                         Kind::Real => scalars.set_item(scalar.name, value)?,

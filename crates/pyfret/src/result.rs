@@ -196,7 +196,7 @@ pub(crate) fn resume(
         writer,
         increments,
     }) = interruptible(py, &stop, || {
-        contact_store::resume_by(store, law.as_ref(), Some(&stop))
+        contact_store::resume_with_law(store, law.as_ref(), Some(&stop))
     })??
     else {
         return Ok(());

@@ -3,8 +3,8 @@
 use contact_core::march::{Fields, Increment};
 use contact_core::scene::Grid;
 use contact_store::{
-    AXES, Columns, FIELDS, FieldView, InMemory, KeptField, Kind, POINTS, SCALARS, STATUS_MEANINGS,
-    YIELDED, rows_of,
+    AXES, Columns, FIELDS, FieldView, KeptField, Kind, POINTS, SCALARS, STATUS_MEANINGS,
+    StoredVariable, YIELDED, to_rows,
 };
 use ndarray::{Array1, Array2, Array3, ArrayD, Axis, IxDyn};
 use numpy::{Element, PyArray1};
@@ -61,7 +61,7 @@ impl<'py> Variables<'py> {
 
     /// The numbers of one increment, without a dimension.
     pub(crate) fn increment(&self, increment: &Increment, grid: &Grid) -> PyResult<()> {
-        for scalar in SCALARS.iter().map(|scalar| scalar.on(grid)) {
+        for scalar in SCALARS.iter().map(|scalar| scalar.for_grid(grid)) {
             let value = ArrayD::from_elem(IxDyn(&[]), (scalar.value)(increment));
             let values = self.typed(scalar.kind, value);
             self.put(scalar.name, &[], values, (scalar.units, scalar.long_name))?;
@@ -82,7 +82,7 @@ impl<'py> Variables<'py> {
     pub(crate) fn fields(&self, increment: usize, fields: &Fields) -> PyResult<()> {
         let py = self.0.py();
         if let Some(yielded) = &fields.yielded {
-            self.points(rows_of(increment, yielded))?;
+            self.points(to_rows(increment, yielded))?;
         }
         for field in FIELDS {
             let values = match (field.values)(fields) {
@@ -103,7 +103,7 @@ impl<'py> Variables<'py> {
     pub(crate) fn columns(&self, columns: Columns, grid: &Grid) -> PyResult<()> {
         let py = self.0.py();
         self.points(columns.points)?;
-        let on_grid = SCALARS.iter().map(|scalar| scalar.on(grid));
+        let on_grid = SCALARS.iter().map(|scalar| scalar.for_grid(grid));
         for (scalar, values) in on_grid.zip(columns.scalars) {
             let values = self.typed(scalar.kind, Array1::from_vec(values).into_dyn());
             self.put(
@@ -138,7 +138,7 @@ impl<'py> Variables<'py> {
     }
 
     /// A variable of a run of wear.
-    pub(crate) fn in_memory(&self, of: InMemory) -> PyResult<()> {
+    pub(crate) fn in_memory(&self, of: StoredVariable) -> PyResult<()> {
         let words = |key: &str| of.attributes[key].as_str().unwrap_or_default();
         let dims = of.attributes["_ARRAY_DIMENSIONS"].as_array();
         let dims: Vec<&str> = dims

@@ -4,7 +4,9 @@ use std::sync::atomic::AtomicBool;
 use std::sync::{Mutex, PoisonError};
 
 use contact_core::scene::Reach;
-use contact_store::{WearColumns, WearStore, resume_wear_by as take_up, verify_wear as verify};
+use contact_store::{
+    WearColumns, WearStore, resume_wear_with_laws as take_up, verify_wear as verify,
+};
 use contact_wear::{self as core, Law, WearRun, WornStart};
 use ndarray::Ix1;
 use numpy::PyArrayLike2;
@@ -35,8 +37,8 @@ impl Law for Own {
         let mut call = |py: Python<'_>| -> PyResult<()> {
             let array = |field: &[f64]| field.to_pyarray(py);
             let arguments = (
-                array(cycle.pressed_way),
-                array(cycle.way),
+                array(cycle.pressure_times_slip),
+                array(cycle.slip_distance),
                 array(cycle.dissipated),
                 array(cycle.worn),
                 cycle.cycles,
@@ -57,7 +59,7 @@ impl Law for Own {
             Ok(())
         };
         let wrong = |e: PyErr| {
-            let allowed = "a function of (pressed_way, way, dissipated, worn, cycles) that gives the depth \
+            let allowed = "a function of (pressure_times_slip, slip_distance, dissipated, worn, cycles) that gives the depth \
                            of each cell";
             let error = contact_core::Error::invalid("wear.law", &e, allowed);
             *self.1.lock().unwrap_or_else(PoisonError::into_inner) = Some(e);
@@ -99,7 +101,7 @@ impl Start<'_> {
 }
 
 /// A run of wear in memory: its variables as xarray takes them, and its attributes as JSON.
-type InMemory<'py> = (Bound<'py, PyDict>, String);
+type StoredVariable<'py> = (Bound<'py, PyDict>, String);
 
 /// Runs a scene over many cycles, by the table `[wear]` of a scene file.
 ///
@@ -116,7 +118,7 @@ pub(crate) fn wear<'py>(
     overwrite: bool,
     start: Option<Start<'py>>,
     on_jump: Option<Py<PyAny>>,
-) -> PyResult<Option<InMemory<'py>>> {
+) -> PyResult<Option<StoredVariable<'py>>> {
     scene.0.check().map_err(scene_to_python)?;
     let raised = Raised::default();
     let python_laws = laws(&own, &raised, py);

@@ -2,7 +2,7 @@
 
 use contact_core::scene::Grid;
 use contact_core::yielding::{Yielded, Yielding};
-use contact_store::{YIELDED, state_of};
+use contact_store::{YIELDED, from_rows};
 use contact_subsurface as core;
 use contact_subsurface::{Depth, EigenstressSolver};
 use eigenstrain::{COMPONENTS, Mesh};
@@ -90,7 +90,7 @@ fn read(rows: List<List<f64>>) -> PyResult<Yielded> {
             YIELDED.len()
         );
     }
-    Ok(state_of(&rows))
+    Ok(from_rows(&rows))
 }
 
 impl PlasticBody {

@@ -103,7 +103,7 @@ class Wear(Replaceable):
         How a body wears: one law, or one for each coating from the outermost on and one for the
         substrate. None: the body or the layer does not wear. A callable takes arrays over the
         cells, of one cycle, and gives the depth that the cycle takes, m. The arrays are
-        ``pressed_way`` (integral of the pressure over the way slipped, Pa m), ``way`` (slipped, m),
+        ``pressure_times_slip`` (integral of the pressure over the slip, Pa m), ``slip_distance`` (m),
         ``dissipated`` (energy per area, J/m^2) and ``worn`` (depth so far, m). It also takes the
         number ``cycles`` so far.
     share1, share2 : float, optional
@@ -129,7 +129,7 @@ class Wear(Replaceable):
         That many jumps of equal length instead, implicit or explicit.
     worn_through : "stop" or "go_on"
         What happens when a coating is worn through.
-    tell_from : float
+    event_depth_fraction : float
         Part of the coatings' thickness from which a worn depth is an event.
     """
 
@@ -147,7 +147,7 @@ class Wear(Replaceable):
     jumps: int | None = None
     explicit_jumps: int | None = None
     worn_through: Literal["stop", "go_on"] = "stop"
-    tell_from: float = 0.1
+    event_depth_fraction: float = 0.1
 
     @classmethod
     def from_settings(cls, wear: Wear | None, settings: Mapping[str, Any]) -> Wear:

@@ -71,14 +71,14 @@ impl<'a> Below<'a> {
         let on = |grid: &Grid, states: States<'_>| Points::new(self.body, self.side, grid, states);
         let moments = Moments::from_states(states, self.grid);
         let coarser = |cells: &DoubledCells| {
-            let paired = moments.on_coarser(cells);
+            let paired = moments.coarsened(cells);
             let points = paired.with_states(states.residual, &states.stop, |paired| {
                 let stick = states.stick.and(paired.stick);
                 on(&cells.grid, States { stick, ..paired })
             })?;
             Ok::<_, Error>((points, cells.middle))
         };
-        let [first, second] = DoubledCells::both(self.grid);
+        let [first, second] = DoubledCells::new_pair(self.grid);
         let same = (on(self.grid, states.clone())?, (0.0, 0.0));
         Ok([same, coarser(&first)?, coarser(&second)?])
     }

@@ -6,16 +6,16 @@
 use std::sync::Arc;
 
 use contact_assess::{
-    Averaging, CriterionJudge, Distance, Judge, Judged, Site, YieldJudge, average, inclination,
-    judge, materials_of_layers, worst,
+    Averaging, CriterionJudge, Distance, Judge, Judged, Site, YieldJudge, find_worst_point,
+    inclination, judge, judge_means, layer_materials,
 };
 use contact_core::march::solve;
 use contact_core::scene::{
     Body, Coating, Elastic, Friction, Grid, LoadPath, Profile, ResidualStress, Scene, Settings,
     Shape,
 };
-use contact_subsurface::{CycleRecorder, CycleSource, note_on_cycle, unsettled};
-use contact_subsurface::{Line, Side, chosen_depths, cycles};
+use contact_subsurface::{CycleRecorder, CycleSource, note_on_cycle, traction_drift};
+use contact_subsurface::{Line, Side, cycles, default_depths};
 use fatigue::{Material, PointResult, Search};
 
 const TITANIUM: Elastic = Elastic { E: 116e9, nu: 0.33 };
@@ -95,12 +95,12 @@ fn site<'a>(
 }
 
 fn swt(body: &Body, given: Vec<Option<Material>>) -> CriterionJudge {
-    let materials = materials_of_layers(body, given).unwrap();
+    let materials = layer_materials(body, given).unwrap();
     CriterionJudge::new("smith_watson_topper", body, &materials, Search::default()).unwrap()
 }
 
 fn section<J: Judge + Clone>(site: &Site<'_>, of: &J) -> Judged<J::Judgement> {
-    let depths = chosen_depths(site.body, A, 2.0 * A, 1.0).unwrap();
+    let depths = default_depths(site.body, A, 2.0 * A, 1.0).unwrap();
     judge(site, BELOW, &depths, std::slice::from_ref(of))
         .unwrap()
         .remove(0)
@@ -117,33 +117,33 @@ fn worst_point_of_the_titanium_rig() {
         let site = site(&scene, &cycle, &none);
         let of = swt(&scene.body2, vec![Some(material("titanium", 116e9))]);
         let judged = section(&site, &of);
-        let worst = worst(&site, &judged, &of, 0).unwrap().unwrap();
+        let worst = find_worst_point(&site, &judged, &of, 0).unwrap().unwrap();
         assert!(
-            (worst.extreme.value / 3.348e6 - 1.0).abs() < 0.015,
+            (worst.extremum.value / 3.348e6 - 1.0).abs() < 0.015,
             "{n}: {worst:?}"
         );
         assert!(
-            (worst.extreme.value - 3.348e6).abs() < worst.extreme.error.sum().max(0.01 * 3.348e6),
+            (worst.extremum.value - 3.348e6).abs() < worst.extremum.error.sum().max(0.01 * 3.348e6),
             "{worst:?}"
         );
         assert!(
-            (worst.extreme.x.abs() / A - 1.0).abs() < 0.01 && worst.extreme.depth.z < 0.01 * A,
+            (worst.extremum.x.abs() / A - 1.0).abs() < 0.01 && worst.extremum.depth.z < 0.01 * A,
             "{worst:?}"
         );
-        let angle = inclination(worst.found.normal, BELOW).to_degrees();
+        let angle = inclination(worst.judgement.normal, BELOW).to_degrees();
         assert!(angle.abs() < 30.0, "{angle}");
         let mean = Distance {
             method: Averaging::Line,
             length: 20e-6,
             layer: 0,
         };
-        let means = average(&site, BELOW, &mean, &of).unwrap();
+        let means = judge_means(&site, BELOW, &mean, &of).unwrap();
         let most = means.iter().flatten().map(|f| f.value).fold(0.0, f64::max);
         assert!(
-            most < worst.extreme.value && most > 0.2 * worst.extreme.value,
+            most < worst.extremum.value && most > 0.2 * worst.extremum.value,
             "{most}"
         );
-        assert!(unsettled(&cycle).unwrap().unwrap() < 0.02);
+        assert!(traction_drift(&cycle).unwrap().unwrap() < 0.02);
     }
 }
 
@@ -171,13 +171,13 @@ fn below_a_coating() {
         judged
             .depths
             .iter()
-            .zip(&judged.found)
+            .zip(&judged.judgements)
             .all(|(d, f)| f.is_some() == (d.layer == 1))
     );
-    assert!(worst(&site, &judged, &of, 0).unwrap().is_none());
-    let point = worst(&site, &judged, &of, 1).unwrap().unwrap();
+    assert!(find_worst_point(&site, &judged, &of, 0).unwrap().is_none());
+    let point = find_worst_point(&site, &judged, &of, 1).unwrap().unwrap();
     assert!(
-        point.extreme.depth.layer == 1 && point.extreme.depth.z >= 20e-6,
+        point.extremum.depth.layer == 1 && point.extremum.depth.z >= 20e-6,
         "{point:?}"
     );
     let in_layer = |layer, length| Distance {
@@ -185,26 +185,26 @@ fn below_a_coating() {
         length,
         layer,
     };
-    let below = average(&site, BELOW, &in_layer(1, 20e-6), &of).unwrap();
+    let below = judge_means(&site, BELOW, &in_layer(1, 20e-6), &of).unwrap();
     let most = below
         .iter()
         .flatten()
         .map(|f: &PointResult| f.value)
         .fold(0.0, f64::max);
     assert!(
-        most > 0.1 * point.extreme.value && most < 1.001 * point.extreme.value,
+        most > 0.1 * point.extremum.value && most < 1.001 * point.extremum.value,
         "{most} {point:?}"
     );
-    let refused = average(&site, BELOW, &in_layer(0, 20e-6), &of)
+    let refused = judge_means(&site, BELOW, &in_layer(0, 20e-6), &of)
         .unwrap_err()
         .to_string();
     assert!(
         refused.contains("`layer` counts from 0; the substrate is 1"),
         "{refused}"
     );
-    assert!(materials_of_layers(&scene.body2, vec![None; 3]).is_err());
+    assert!(layer_materials(&scene.body2, vec![None; 3]).is_err());
     // Three branches end in the cycle that begins with the first shear.
-    let much = unsettled(&cycle).unwrap().unwrap();
+    let much = traction_drift(&cycle).unwrap().unwrap();
     assert!(much > 0.02, "{much}");
     let note = note_on_cycle(&cycle).unwrap().unwrap();
     assert!(
@@ -214,9 +214,13 @@ fn below_a_coating() {
     let yields = YieldJudge {
         s_y: vec![None, Some(9e8)],
         residual: ResidualStress::default(),
-        of: |found| found.von_mises,
+        factor: |found| found.von_mises,
     };
     let judged = section(&site, &yields);
-    let least = worst(&site, &judged, &yields, 1).unwrap().unwrap();
-    assert!(least.found.von_mises > 0.5 && least.found.shakedown >= least.found.von_mises);
+    let least = find_worst_point(&site, &judged, &yields, 1)
+        .unwrap()
+        .unwrap();
+    assert!(
+        least.judgement.von_mises > 0.5 && least.judgement.shakedown >= least.judgement.von_mises
+    );
 }

@@ -8,7 +8,7 @@
 use contact_core::convolution::Tractions;
 use contact_core::march::March;
 use contact_core::scene::{Scene, Spacing};
-use contact_subsurface::{Depth, Line, Probe, Search, Section, Side, States, chosen_depths};
+use contact_subsurface::{Depth, Line, Probe, Search, Section, Side, States, default_depths};
 
 /// The paper's scene with its increments placed better.
 fn scene(ratio: f64, n: usize) -> Scene {
@@ -66,7 +66,7 @@ fn stressed(ratio: f64, (n, across): (usize, usize)) -> Stressed {
         let found = section.probe(depths, &x, &mises, &search).unwrap();
         found[0].1.unwrap()
     };
-    let chosen = chosen_depths(body, hertz.a, 2.0 * hertz.a, 1.0).unwrap();
+    let chosen = default_depths(body, hertz.a, 2.0 * hertz.a, 1.0).unwrap();
     let deep = chosen.iter().position(|d| d.z > 0.05 * hertz.a).unwrap();
     let (on, below) = (largest(&chosen[..1]), largest(&chosen[deep..]));
     let z = below.depth.z / hertz.a;

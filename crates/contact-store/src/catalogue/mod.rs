@@ -1,4 +1,4 @@
-//! Every variable of the store: name, unit, meaning, and where its value stands in the results.
+//! Every variable of the store: name, unit, meaning, and its source in the results.
 
 mod fields;
 mod scalars;
@@ -6,13 +6,13 @@ mod yielded;
 
 pub use self::fields::FIELDS;
 pub use self::scalars::SCALARS;
-pub use self::yielded::{OfPoint, POINTS, YIELDED, rows_of, state_of};
+pub use self::yielded::{POINTS, PointVariable, YIELDED, from_rows, to_rows};
 
 use contact_core::march::{Fields, Increment};
 use contact_core::scene::Grid;
 use ndarray::Array2;
 
-/// How the numbers of a variable are stored.
+/// Storage type of the numbers of a variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Real number, 8 bytes.
@@ -32,9 +32,9 @@ pub struct Scalar {
     pub name: &'static str,
     /// Unit; `1` for a number without.
     pub units: &'static str,
-    /// What it is.
+    /// Meaning, for people.
     pub long_name: &'static str,
-    /// How it is stored.
+    /// Storage type.
     pub kind: Kind,
     /// Its value.
     pub value: fn(&Increment) -> f64,
@@ -44,10 +44,10 @@ pub struct Scalar {
 pub(super) const HALF_WIDTH: (&str, &str) = ("half_width", "half the width of the contact");
 
 impl Scalar {
-    /// As it stands in a run on a grid: that of a line contact has half its width in place of a
-    /// radius, and units per metre.
+    /// Adapts the variable to a grid. In a line contact half the width replaces the radius, and
+    /// units are per metre.
     #[must_use]
-    pub fn on(self, grid: &Grid) -> Self {
+    pub fn for_grid(self, grid: &Grid) -> Self {
         let (name, long_name) = match self.name {
             "contact_radius" if grid.plane_strain => HALF_WIDTH,
             name => (name, self.long_name),
@@ -68,9 +68,9 @@ pub struct Field {
     pub name: &'static str,
     /// Unit; `1` for a number without.
     pub units: &'static str,
-    /// What it is.
+    /// Meaning, for people.
     pub long_name: &'static str,
-    /// How it is stored.
+    /// Storage type.
     pub kind: Kind,
     /// Its values.
     pub values: fn(&Fields) -> FieldView<'_>,
@@ -85,7 +85,7 @@ pub enum FieldView<'a> {
     Mask(&'a Array2<bool>),
 }
 
-/// A coordinate that no increment gives.
+/// A coordinate that does not follow from an increment.
 #[derive(Clone, Copy, Debug)]
 pub struct Axis {
     /// Name.
@@ -94,9 +94,9 @@ pub struct Axis {
     pub dim: &'static str,
     /// Unit; `1` for a number without.
     pub units: &'static str,
-    /// What it is.
+    /// Meaning, for people.
     pub long_name: &'static str,
-    /// How it is stored.
+    /// Storage type.
     pub kind: Kind,
 }
 

@@ -33,8 +33,8 @@ const fn count(
     }
 }
 
-/// The variables over `increment`, of a contact of two directions; [`Scalar::on`] gives those of a
-/// run. The first three are coordinates.
+/// The variables over `increment`, for a contact of two directions; [`Scalar::for_grid`] adapts
+/// them to a run. The first three are coordinates.
 pub const SCALARS: &[Scalar] = &[
     count("increment", "increment, counted from 1", |i| i.index as f64),
     real("t", "1", "path time", |i| i.point.t),

@@ -4,19 +4,19 @@ use contact_core::yielding::{PlasticPoint, PlasticState, Yielded};
 
 use super::Kind;
 
-/// Dimension of the points, those of one increment after those of another.
+/// Dimension of the points, increment after increment.
 pub const POINTS: &str = "yielded";
 
 /// A number of every point.
 #[derive(Clone, Copy, Debug)]
-pub struct OfPoint {
+pub struct PointVariable {
     /// Name.
     pub name: &'static str,
     /// Unit; `1` for a number without.
     pub units: &'static str,
-    /// What it is.
+    /// Meaning, for people.
     pub long_name: &'static str,
-    /// How it is stored.
+    /// Storage type.
     pub kind: Kind,
     /// Its value at a point of an increment and a body.
     pub value: fn(usize, usize, &PlasticPoint) -> f64,
@@ -26,8 +26,8 @@ const fn count(
     name: &'static str,
     long_name: &'static str,
     value: fn(usize, usize, &PlasticPoint) -> f64,
-) -> OfPoint {
-    OfPoint {
+) -> PointVariable {
+    PointVariable {
         name,
         units: "1",
         long_name,
@@ -40,8 +40,8 @@ const fn strain(
     name: &'static str,
     long_name: &'static str,
     value: fn(usize, usize, &PlasticPoint) -> f64,
-) -> OfPoint {
-    OfPoint {
+) -> PointVariable {
+    PointVariable {
         name,
         units: "1",
         long_name,
@@ -54,15 +54,15 @@ const fn back_stress(
     name: &'static str,
     long_name: &'static str,
     value: fn(usize, usize, &PlasticPoint) -> f64,
-) -> OfPoint {
-    OfPoint {
+) -> PointVariable {
+    PointVariable {
         units: "Pa",
         ..strain(name, long_name, value)
     }
 }
 
 /// The variables over [`POINTS`] of a scene that may yield.
-pub const YIELDED: &[OfPoint] = &[
+pub const YIELDED: &[PointVariable] = &[
     count(
         "yielded_increment",
         "increment whose plastic strain is kept",
@@ -111,78 +111,78 @@ pub const YIELDED: &[OfPoint] = &[
     back_stress(
         "back_stress_xx",
         "back stress with recall xx",
-        |_, _, point| of_back(point, 0),
+        |_, _, point| back_stress_sum(point, 0),
     ),
     back_stress(
         "back_stress_yy",
         "back stress with recall yy",
-        |_, _, point| of_back(point, 1),
+        |_, _, point| back_stress_sum(point, 1),
     ),
     back_stress(
         "back_stress_zz",
         "back stress with recall zz",
-        |_, _, point| of_back(point, 2),
+        |_, _, point| back_stress_sum(point, 2),
     ),
     back_stress(
         "back_stress_xy",
         "back stress with recall xy",
-        |_, _, point| of_back(point, 3),
+        |_, _, point| back_stress_sum(point, 3),
     ),
     back_stress(
         "back_stress_xz",
         "back stress with recall xz, z into the body",
-        |_, _, point| of_back(point, 4),
+        |_, _, point| back_stress_sum(point, 4),
     ),
     back_stress(
         "back_stress_yz",
         "back stress with recall yz, z into the body",
-        |_, _, point| of_back(point, 5),
+        |_, _, point| back_stress_sum(point, 5),
     ),
 ];
 
 /// The sum of the back stresses with recall.
-fn of_back(point: &PlasticPoint, component: usize) -> f64 {
+fn back_stress_sum(point: &PlasticPoint, component: usize) -> f64 {
     point.back.iter().map(|back| back[component]).sum()
 }
 
-/// The rows of an increment: a column for each of [`YIELDED`].
-pub fn rows_of(increment: usize, yielded: &Yielded) -> Vec<Vec<f64>> {
-    let column = |of: &OfPoint| {
+/// Rows of an increment: a column for each of [`YIELDED`].
+pub fn to_rows(increment: usize, yielded: &Yielded) -> Vec<Vec<f64>> {
+    let column = |variable: &PointVariable| {
         let bodies = yielded.bodies.iter();
-        let of_body = |body: &PlasticState| {
+        let values_of_body = |body: &PlasticState| {
             let points = body.points.iter();
             points
-                .map(|point| (of.value)(increment, body.body, point))
+                .map(|point| (variable.value)(increment, body.body, point))
                 .collect::<Vec<_>>()
         };
-        bodies.flat_map(of_body).collect()
+        bodies.flat_map(values_of_body).collect()
     };
     YIELDED.iter().map(column).collect()
 }
 
-/// The plastic state of rows; the numbers of a point are those that [`rows_of`] has made of it. The sum of
-/// its back stresses stands in the first: the yield surface lies where it lay.
-pub fn state_of(rows: &[Vec<f64>]) -> Yielded {
+/// Restores the plastic state from rows that [`to_rows`] has made. The first back stress is the sum
+/// of the stored ones, so that the yield surface stays in place.
+pub fn from_rows(rows: &[Vec<f64>]) -> Yielded {
     let mut yielded = Yielded::default();
     let count = rows.first().map_or(0, Vec::len);
     if rows.len() != YIELDED.len() || rows.iter().any(|column| column.len() != count) {
         return yielded;
     }
     for n in 0..count {
-        let at = |column: usize| rows[column][n];
-        let number = at(1) as usize;
+        let value = |column: usize| rows[column][n];
+        let number = value(1) as usize;
         let point = PlasticPoint {
-            plane: at(2) as u32,
-            cell: at(3) as u32,
-            equivalent: at(4),
-            strain: std::array::from_fn(|c| at(5 + c)),
+            plane: value(2) as u32,
+            cell: value(3) as u32,
+            equivalent: value(4),
+            strain: std::array::from_fn(|c| value(5 + c)),
             flow: [0.0; 6],
-            back: [std::array::from_fn(|c| at(11 + c)), [0.0; 6], [0.0; 6]],
+            back: [std::array::from_fn(|c| value(11 + c)), [0.0; 6], [0.0; 6]],
             growth: [0.0; 6],
         };
         yielded.largest = yielded.largest.max(point.equivalent);
-        let known = yielded.bodies.iter_mut().find(|body| body.body == number);
-        match known {
+        let same_body = yielded.bodies.iter_mut().find(|body| body.body == number);
+        match same_body {
             Some(body) => body.points.push(point),
             None => yielded.bodies.push(PlasticState {
                 body: number,

@@ -1,4 +1,4 @@
-//! What is at a place whenever a process dies.
+//! Tests of the state of a place after a process has died.
 
 #![allow(clippy::unwrap_used)]
 
@@ -41,16 +41,16 @@ fn remove_all(place: &Path) {
 
 /// The names beside the place and its own.
 fn names(place: &Path) -> Vec<String> {
-    let found = fs::read_dir(place.parent().unwrap()).unwrap();
+    let entries = fs::read_dir(place.parent().unwrap()).unwrap();
     let name = |entry: io::Result<fs::DirEntry>| entry.unwrap().file_name();
-    let mut names: Vec<_> = found.map(|e| name(e).into_string().unwrap()).collect();
+    let mut names: Vec<_> = entries.map(|e| name(e).into_string().unwrap()).collect();
     names.sort();
     names
 }
 
 /// A folder in which a process died while it laid a store out.
 fn leave_unfinished(place: &Path, files: &[&str]) {
-    let folder = beside(place, "unfinished");
+    let folder = hidden_sibling(place, "unfinished");
     fs::create_dir_all(folder.join("checkpoint")).unwrap();
     for file in files {
         fs::write(folder.join(file), "").unwrap();
@@ -58,84 +58,84 @@ fn leave_unfinished(place: &Path, files: &[&str]) {
 }
 
 #[test]
-fn what_a_kill_leaves_is_cleared() {
-    let place = place("cleared");
+fn remains_of_a_killed_process_are_cleared() {
+    let store_path = place("cleared");
     for files in [&[][..], &["..zattrs.unfinished"], &[".zattrs", ".zgroup"]] {
-        leave_unfinished(&place, files);
-        run(&place, "new", true).unwrap();
-        assert_eq!(names(&place), ["run.zarr"]);
+        leave_unfinished(&store_path, files);
+        run(&store_path, "new", true).unwrap();
+        assert_eq!(names(&store_path), ["run.zarr"]);
     }
     // Killed while the old store was removed: its metadata go first.
-    let replaced = beside(&place, "replaced");
+    let replaced = hidden_sibling(&store_path, "replaced");
     fs::create_dir_all(replaced.join("p")).unwrap();
-    run(&place, "newer", true).unwrap();
+    run(&store_path, "newer", true).unwrap();
     assert_eq!(
-        (names(&place), title(&place)),
+        (names(&store_path), title(&store_path)),
         (vec!["run.zarr".into()], "newer".into())
     );
-    remove_all(&place);
+    remove_all(&store_path);
 }
 
 #[test]
 fn a_store_that_was_moved_aside_is_put_back() {
-    let place = place("aside");
-    run(&place, "old", false).unwrap();
-    fs::rename(&place, beside(&place, "replaced")).unwrap();
-    leave_unfinished(&place, &[".zattrs"]);
+    let store_path = place("aside");
+    run(&store_path, "old", false).unwrap();
+    fs::rename(&store_path, hidden_sibling(&store_path, "replaced")).unwrap();
+    leave_unfinished(&store_path, &[".zattrs"]);
     // Without the leave to replace it, it is there again and stays.
-    let refused = run(&place, "new", false).unwrap_err().to_string();
+    let refused = run(&store_path, "new", false).unwrap_err().to_string();
     assert!(refused.contains("--overwrite"), "{refused}");
-    assert_eq!(title(&place), "old");
-    fs::rename(&place, beside(&place, "replaced")).unwrap();
-    assert!(crate::resume(&place, None).unwrap().is_none());
-    assert_eq!(title(&place), "old");
-    fs::rename(&place, beside(&place, "replaced")).unwrap();
-    run(&place, "new", true).unwrap();
+    assert_eq!(title(&store_path), "old");
+    fs::rename(&store_path, hidden_sibling(&store_path, "replaced")).unwrap();
+    assert!(crate::resume(&store_path, None).unwrap().is_none());
+    assert_eq!(title(&store_path), "old");
+    fs::rename(&store_path, hidden_sibling(&store_path, "replaced")).unwrap();
+    run(&store_path, "new", true).unwrap();
     assert_eq!(
-        (names(&place), title(&place)),
+        (names(&store_path), title(&store_path)),
         (vec!["run.zarr".into()], "new".into())
     );
-    remove_all(&place);
+    remove_all(&store_path);
 }
 
 #[test]
-fn what_is_not_ours_is_left_alone() {
-    let place = place("theirs");
+fn foreign_files_are_left_alone() {
+    let store_path = place("theirs");
     for suffix in ["unfinished", "replaced"] {
-        let theirs = beside(&place, suffix);
+        let theirs = hidden_sibling(&store_path, suffix);
         fs::create_dir(&theirs).unwrap();
         fs::write(theirs.join("thesis.tex"), "").unwrap();
-        let refused = run(&place, "new", true).unwrap_err().to_string();
+        let refused = run(&store_path, "new", true).unwrap_err().to_string();
         assert!(refused.contains("thesis.tex in it is no part"), "{refused}");
-        assert!(theirs.join("thesis.tex").exists() && !place.exists());
+        assert!(theirs.join("thesis.tex").exists() && !store_path.exists());
         fs::remove_dir_all(theirs).unwrap();
     }
-    let another = Unfinished::begin(&place).unwrap();
-    let refused = run(&place, "new", true).unwrap_err().to_string();
+    let another = PendingFolder::begin(&store_path).unwrap();
+    let refused = run(&store_path, "new", true).unwrap_err().to_string();
     assert!(refused.contains("by another process"), "{refused}");
     drop(another);
-    run(&place, "new", true).unwrap();
-    assert_eq!(names(&place), ["run.zarr"]);
-    remove_all(&place);
+    run(&store_path, "new", true).unwrap();
+    assert_eq!(names(&store_path), ["run.zarr"]);
+    remove_all(&store_path);
 }
 
 #[test]
 fn a_store_with_something_else_in_it_is_not_replaced() {
-    let place = place("else");
-    run(&place, "old", false).unwrap();
+    let store_path = place("else");
+    run(&store_path, "old", false).unwrap();
     for theirs in ["thesis.tex", "p/notes.txt", "p/0.0.0.png"] {
-        fs::write(place.join(theirs), "").unwrap();
-        let refused = run(&place, "new", true).unwrap_err().to_string();
+        fs::write(store_path.join(theirs), "").unwrap();
+        let refused = run(&store_path, "new", true).unwrap_err().to_string();
         assert!(
             refused.contains(&format!("{theirs} in it is no part")),
             "{refused}"
         );
-        assert_eq!(title(&place), "old");
-        fs::remove_file(place.join(theirs)).unwrap();
+        assert_eq!(title(&store_path), "old");
+        fs::remove_file(store_path.join(theirs)).unwrap();
     }
-    run(&place, "new", true).unwrap();
-    assert_eq!(title(&place), "new");
-    remove_all(&place);
+    run(&store_path, "new", true).unwrap();
+    assert_eq!(title(&store_path), "new");
+    remove_all(&store_path);
 }
 
 #[cfg(unix)]
@@ -166,12 +166,12 @@ fn a_link_to_a_store_stays_one() {
 }
 
 #[test]
-fn what_came_to_the_place_meanwhile_stays() {
-    let place = place("meanwhile");
-    let unfinished = Unfinished::begin(&place).unwrap();
-    fs::create_dir(&place).unwrap();
+fn files_that_appear_meanwhile_stay() {
+    let store_path = place("meanwhile");
+    let unfinished = PendingFolder::begin(&store_path).unwrap();
+    fs::create_dir(&store_path).unwrap();
     let refused = unfinished.finish(false).unwrap_err().to_string();
     assert!(refused.contains("exists by now"), "{refused}");
-    assert_eq!(names(&place), ["run.zarr"]);
-    remove_all(&place);
+    assert_eq!(names(&store_path), ["run.zarr"]);
+    remove_all(&store_path);
 }

@@ -49,7 +49,7 @@ fn rims_and_stick_borders_are_known_within_a_fraction_of_a_cell() {
                         "{n} {line:?} {zone:?}: {off} cells"
                     );
                     if let Some(line) = line {
-                        let at = line.at(line.along(*x, *y));
+                        let at = line.place(line.nearest_distance(*x, *y));
                         assert!((at.0 - x).hypot(at.1 - y) < 1e-12);
                     }
                 }

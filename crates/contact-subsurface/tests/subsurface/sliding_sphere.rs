@@ -4,7 +4,7 @@ use contact_core::convolution::Tractions;
 use contact_core::scene::{Body, Elastic, Grid, Shape};
 use contact_reference::HertzStress;
 use contact_subsurface::{
-    Depth, Extremum, Line, Points, Probe, Search, Section, Side, States, Zone, chosen_depths,
+    Depth, Extremum, Line, Points, Probe, Search, Section, Side, States, Zone, default_depths,
     depths,
 };
 use ndarray::Array3;
@@ -213,7 +213,7 @@ fn largest(of: &str, n: usize, mu: f64) -> Extremum {
         stick: Some(&[]),
         ..States::from(&tractions)
     };
-    let depths = chosen_depths(&body, 1.0, 2.0, 1.0).unwrap();
+    let depths = default_depths(&body, 1.0, 2.0, 1.0).unwrap();
     let line = Line::AlongX(0.0);
     let search = Search::new(&body, Side::Body2, &grid, Some(line), &states).unwrap();
     let section = Section::new(&body, Side::Body2, &grid, line, states).unwrap();

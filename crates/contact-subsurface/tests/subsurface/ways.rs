@@ -122,7 +122,7 @@ fn all_ways_agree_with_the_direct_sum() {
         }
         for (line, stress) in lines.iter().zip(&lines_stress) {
             for i in [5] {
-                let at = line.at(line.places(&grid)[i]);
+                let at = line.place(line.places(&grid)[i]);
                 // On a border between cells the surface stress has no value.
                 if depth.z == 0.0 && matches!(line, Line::AlongX(0.0)) {
                     continue;

@@ -11,7 +11,7 @@ use ndarray::Array2;
 pub(crate) const STEEL: Elastic = Elastic { E: 200e9, nu: 0.3 };
 
 pub(crate) fn archard(k: f64) -> BodyWear {
-    BodyWear::of(Archard { k, threshold: 0.0 })
+    BodyWear::with_law(Archard { k, threshold: 0.0 })
 }
 
 /// Presses with W and slides to and fro by +-`stroke` in so many increments a way.

@@ -43,7 +43,11 @@ fn what_has_no_meaning_is_refused_by_name() {
             "wear.debris_kept = 1.5",
             "between 0 and 1",
         ),
-        ("wear.tell_from=0.0", "wear.tell_from = 0", "above 0"),
+        (
+            "wear.event_depth_fraction=0.0",
+            "wear.event_depth_fraction = 0",
+            "above 0",
+        ),
         ("wear.body1.k=-1.0", "wear.body1.k = -1", ">= 0"),
         (
             "wear.body1.share=1.5",

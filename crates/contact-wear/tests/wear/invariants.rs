@@ -15,7 +15,7 @@ fn audit(name: &str, scene: &Scene, wear: &Wear, per_energy: Option<[f64; 2]>) {
 #[test]
 fn worn_volume_is_alpha_times_the_energy_of_every_jump() {
     let energy = |alpha| {
-        BodyWear::of(DissipatedEnergy {
+        BodyWear::with_law(DissipatedEnergy {
             alpha,
             threshold: 0.0,
         })

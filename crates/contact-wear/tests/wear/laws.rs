@@ -22,7 +22,8 @@ struct RunningIn {
 impl Law for RunningIn {
     fn depth(&self, cycle: &CellCycle<'_>, depth: &mut [f64]) -> Result<(), Error> {
         for (n, depth) in depth.iter_mut().enumerate() {
-            *depth = self.k * cycle.pressed_way[n] * (1.0 + (-cycle.worn[n] / self.over).exp());
+            *depth =
+                self.k * cycle.pressure_times_slip[n] * (1.0 + (-cycle.worn[n] / self.over).exp());
         }
         Ok(())
     }
@@ -122,7 +123,7 @@ fn assert_near(found: f64, asked: f64, part: f64) {
 
 #[test]
 fn a_law_of_ones_own_wears_as_it_says() {
-    let own = |over| BodyWear::of(RunningIn { k: 1e-14, over });
+    let own = |over| BodyWear::with_law(RunningIn { k: 1e-14, over });
     let (W, stroke, cycles) = (18.5e3, 2e-6, 1e3);
     let fast = 2e-14 * W * 4.0 * stroke * cycles;
     // It never fades: twice Archard's k; it has faded at once: k.
@@ -148,7 +149,7 @@ fn shares_and_thresholds_take_their_parts() {
     // Every cell of the flat slips 4 strokes a cycle; what is beyond the threshold counts.
     let threshold = |part: f64| {
         let threshold = part * 4.0 * stroke;
-        lost(stroke, BodyWear::of(Archard { k, threshold }), |_| ())
+        lost(stroke, BodyWear::with_law(Archard { k, threshold }), |_| ())
     };
     assert_near(threshold(0.25), 0.75 * whole, 1e-7);
     assert!(threshold(1.01) == 0.0);
@@ -158,7 +159,7 @@ fn shares_and_thresholds_take_their_parts() {
         let alpha = k / 0.9;
         lost(
             stroke,
-            BodyWear::of(DissipatedEnergy { alpha, threshold }),
+            BodyWear::with_law(DissipatedEnergy { alpha, threshold }),
             |_| (),
         )
     };

@@ -8,10 +8,10 @@ use contact_core::scene::{
     CellHistory, Coating, Elastic, Friction, FrictionHistory, FrictionLaw, Grid, History, LawError,
     LoadPath, Scene, Shape,
 };
-use contact_store::{WearStore, read_worn, resume_wear, resume_wear_by};
+use contact_store::{WearStore, read_worn, resume_wear, resume_wear_with_laws};
 use contact_wear::{
-    Archard, BodyWear, CellCycle, Cycling, DissipatedEnergy, EventKind, Factor, Jumps, Law, Of,
-    Varying, Wear, WearRun, WornStart,
+    Archard, BodyWear, CellCycle, Cycling, DissipatedEnergy, EventKind, Factor, FactorVariable,
+    Jumps, Law, Varying, Wear, WearRun, WornStart,
 };
 
 use crate::audit::Audit;
@@ -32,11 +32,14 @@ fn partial_slip() -> Scene {
     scene(Shape::Sphere { R: 10e-3 }, grid, pulled(50.0, 20.0, 3), 0.6)
 }
 
-fn varying(law: impl Law + 'static, of: Of, table: &[(f64, f64)]) -> BodyWear {
+fn varying(law: impl Law + 'static, of: FactorVariable, table: &[(f64, f64)]) -> BodyWear {
     let table = table.to_vec();
-    BodyWear::of(Varying {
+    BodyWear::with_law(Varying {
         law: Arc::new(law),
-        factor: Factor { of, table },
+        factor: Factor {
+            variable: of,
+            table,
+        },
     })
 }
 
@@ -57,7 +60,7 @@ fn a_coefficient_follows_cycles_pressure_and_power() {
     let law = Archard { k, threshold: 0.0 };
     let per_cycle = k * W * 4.0 * STROKE;
     // From once to three times within 1000 cycles: twice on average.
-    let of_cycles = varying(law, Of::Cycles, &[(0.0, 1.0), (1000.0, 3.0)]);
+    let of_cycles = varying(law, FactorVariable::Cycles, &[(0.0, 1.0), (1000.0, 3.0)]);
     near(
         lost(of_cycles, None, 1000.0),
         2.0 * per_cycle * 1000.0,
@@ -71,7 +74,10 @@ fn a_coefficient_follows_cycles_pressure_and_power() {
         .map(|p| (p, p0 / p))
         .collect();
     let mut one = wear(
-        [BodyWear::default(), varying(law, Of::Pressure, &table)],
+        [
+            BodyWear::default(),
+            varying(law, FactorVariable::Pressure, &table),
+        ],
         1.0,
         Cycling::Sliding,
     );
@@ -132,7 +138,7 @@ fn an_event_is_told_at_its_cycle_however_long_the_jumps() {
     }];
     let told = |jumps: Jumps| {
         let mut wear = wear([BodyWear::default(), archard(1e-14)], 8e4, Cycling::Sliding);
-        (wear.jumps, wear.tell_from) = (jumps, 0.35);
+        (wear.jumps, wear.event_depth_fraction) = (jumps, 0.35);
         let (run, jumps) = run(&scene, &wear);
         let event = run.state().events[0];
         assert!(event.kind == EventKind::Thinned);
@@ -157,7 +163,7 @@ fn a_run_goes_on_from_worn_surfaces() {
         (partial_slip(), Cycling::March, 4e4),
     ] {
         let energy = || {
-            BodyWear::of(DissipatedEnergy {
+            BodyWear::with_law(DissipatedEnergy {
                 alpha: 2e-14,
                 threshold: 0.0,
             })
@@ -227,7 +233,7 @@ struct Own;
 
 impl Law for Own {
     fn depth(&self, cycle: &CellCycle<'_>, depth: &mut [f64]) -> Result<(), Error> {
-        for (depth, way) in depth.iter_mut().zip(cycle.pressed_way) {
+        for (depth, way) in depth.iter_mut().zip(cycle.pressure_times_slip) {
             *depth = 1e-14 * way;
         }
         Ok(())
@@ -275,17 +281,17 @@ fn runs_of_tables_and_of_functions_are_taken_up_to_the_same_bytes() {
         (
             sliding(),
             Cycling::Sliding,
-            [table(Of::PowerDensity), BodyWear::of(Own)],
+            [table(FactorVariable::PowerDensity), BodyWear::with_law(Own)],
         ),
         (
             sticks,
             Cycling::March,
-            [table(Of::Energy), table(Of::Cycles)],
+            [table(FactorVariable::Energy), table(FactorVariable::Cycles)],
         ),
         (
             softens,
             Cycling::March,
-            [table(Of::Energy), table(Of::Cycles)],
+            [table(FactorVariable::Energy), table(FactorVariable::Cycles)],
         ),
     ];
     for (scene, cycling, bodies) in cases {
@@ -308,18 +314,20 @@ fn runs_of_tables_and_of_functions_are_taken_up_to_the_same_bytes() {
         };
         write(&whole, 9);
         write(&broken, 2);
-        let own = bodies.map(|body| body.own());
+        let own = bodies.map(|body| body.user_laws());
         if scene == sliding() {
             let told = resume_wear(&broken, None, &stop).map(drop).unwrap_err();
             assert!(told.to_string().contains("given again"), "{told}");
         }
         let law = scene.friction.law.as_ref();
         if law.is_some() {
-            let told = resume_wear_by(&broken, &own, None, &stop).map(drop);
+            let told = resume_wear_with_laws(&broken, &own, None, &stop).map(drop);
             let told = told.unwrap_err().to_string();
             assert!(told.contains("given again"), "{told}");
         }
-        let (mut run, mut store) = resume_wear_by(&broken, &own, law, &stop).unwrap().unwrap();
+        let (mut run, mut store) = resume_wear_with_laws(&broken, &own, law, &stop)
+            .unwrap()
+            .unwrap();
         while let Some(jump) = run.advance() {
             jump.unwrap();
             store.write(&mut run).unwrap();
@@ -335,7 +343,7 @@ fn runs_of_tables_and_of_functions_are_taken_up_to_the_same_bytes() {
 fn debris_and_tables_balance_in_partial_slip() {
     let per = Some([2e-14, 3e-14]);
     let energy = |alpha| {
-        BodyWear::of(DissipatedEnergy {
+        BodyWear::with_law(DissipatedEnergy {
             alpha,
             threshold: 0.0,
         })

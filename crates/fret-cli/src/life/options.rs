@@ -14,7 +14,7 @@ pub(crate) struct Options {
     /// Result store of `fret run`, the increments of its cycle kept
     pub(super) store: PathBuf,
     /// Name of the material, or one for each layer from the surface down, with commas; 'none'
-    /// leaves a layer out. One alone is that of the substrate (default: the only one of
+    /// leaves a layer out. A single name is the substrate (default: the only one of
     /// --materials)
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub(super) material: Vec<String>,
@@ -45,7 +45,7 @@ pub(crate) struct Options {
     /// Depths [m, or with a unit] (default: as the layers ask)
     #[arg(long, value_name = "Z", value_delimiter = ',', value_parser = length)]
     pub(super) depths: Vec<f64>,
-    /// Which closed cycle of the load path, from 0; negative from the end
+    /// Closed cycle of the load path, from 0; negative from the end
     #[arg(long, default_value = "-1", allow_hyphen_values = true)]
     pub(super) cycle: i64,
     /// Residual stress of each layer from the surface down, the substrate's last [Pa, or with a unit], tension
@@ -63,8 +63,8 @@ pub(crate) struct Options {
     /// one, beside the value at the worst point)
     #[arg(long, value_name = "L", value_parser = length)]
     pub(super) distance: Option<f64>,
-    /// What is averaged over: the stress at the depth L/2, its mean down to 2 L, over the half disc
-    /// or the half ball of radius L
+    /// Region of the average: the point at the depth L/2, the line down to 2 L, the half disc or
+    /// the half ball of radius L
     #[arg(long, default_value = "line", requires = "distance",
           value_parser = Averaging::ALL.map(|(name, _)| name).to_vec())]
     pub(super) method: String,

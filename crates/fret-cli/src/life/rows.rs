@@ -15,10 +15,10 @@ use fatigue::{Assessment, LONGEST, Material, PointResult, Range};
 use serde_json::{Value, json};
 
 use super::options::Options;
-use crate::json::{absent, number, or_why};
+use crate::json::{missing, number, or_missing};
 use crate::units::{mega, um};
 
-/// Why there is no plane, no mean, and no range of one.
+/// Reasons why there is no plane, no mean, and no range of the distance.
 const NO_PLANE: &str = "the criterion has no plane";
 const NO_MEAN: &str = "no mean over a distance";
 const GIVEN: &str = "the distance was given";
@@ -29,22 +29,22 @@ pub(super) struct Row {
     pub(super) line: String,
     pub(super) json: Value,
     pub(super) notes: Vec<String>,
-    /// Whether the value is that at a point on the rim of the contact.
+    /// True if the value belongs to a point on the rim of the contact.
     pub(super) at_rim: bool,
 }
 
-/// A layer that is judged: its worst point of all sections, and its range.
+/// A layer with its worst point of all sections, and its range.
 struct Layer<'a> {
-    /// What it is called.
-    called: String,
+    /// Name of the layer.
+    name: String,
     worst: WorstPoint<PointResult>,
     line: Line,
     of: &'a Assessment,
     range: MarginRange,
 }
 
-/// What the layers of a body are judged by.
-pub(super) struct Judging<'a> {
+/// The body, its sections and materials, and the options.
+pub(super) struct LayerAssessor<'a> {
     pub(super) options: &'a Options,
     pub(super) site: &'a Site<'a>,
     pub(super) lines: &'a [Line],
@@ -52,94 +52,102 @@ pub(super) struct Judging<'a> {
     pub(super) materials: &'a [Option<Material>],
 }
 
-impl Judging<'_> {
-    /// A line for every layer that is judged, the one with the least margin marked.
-    pub(super) fn points(
+impl LayerAssessor<'_> {
+    /// Returns a line for every layer with a material; the one with the least margin is marked.
+    pub(super) fn rows_of_layers(
         &self,
         sections: &[&Judged<PointResult>],
-        of: &CriterionJudge,
+        judge: &CriterionJudge,
     ) -> Result<Vec<Row>, Error> {
-        let mut all = Vec::new();
+        let mut layers = Vec::new();
         for layer in 0..=self.body.coatings.len() {
-            all.extend(self.layer(sections, of, layer)?);
+            layers.extend(self.assess_layer(sections, judge, layer)?);
         }
         let margin = |layer: &Layer<'_>| layer.of.uncapped_margin(layer.worst.extremum.value);
-        let least =
-            all.iter().map(margin).fold(
+        let least = layers
+            .iter()
+            .map(margin)
+            .fold(
                 f64::INFINITY,
                 |least, margin| if margin < least { margin } else { least },
             );
-        let row = |layer: &Layer<'_>| layer.point(!(margin(layer) > least));
-        Ok(all.iter().map(row).collect())
+        let row = |layer: &Layer<'_>| layer.point_row(!(margin(layer) > least));
+        Ok(layers.iter().map(row).collect())
     }
 
-    /// The line of the mean over the distance of the options.
-    pub(super) fn mean(
+    /// Returns the line of the mean over the distance of the options.
+    pub(super) fn row_of_mean(
         &self,
         sections: &[&Judged<PointResult>],
-        of: &CriterionJudge,
+        judge: &CriterionJudge,
         length: f64,
     ) -> Result<Row, Error> {
-        let layer = self.averaged(of)?;
-        let (mean, line) = self.largest(of, layer, length)?;
-        let Some(found) = self.layer(sections, of, layer)? else {
+        let layer = self.averaged_layer(judge)?;
+        let (mean, line) = self.largest_mean_of_lines(judge, layer, length)?;
+        let Some(layer_found) = self.assess_layer(sections, judge, layer)? else {
             let allowed = "a layer that has a depth";
             return Err(Error::invalid("--layer", layer, allowed));
         };
-        Ok(found.mean(&mean, line, self.options, length))
+        Ok(layer_found.mean_row(&mean, line, self.options, length))
     }
 
     /// The layer that the distance of the options lies in.
-    fn averaged(&self, of: &CriterionJudge) -> Result<usize, Error> {
-        let outermost = of.assessments.iter().position(Option::is_some);
+    fn averaged_layer(&self, judge: &CriterionJudge) -> Result<usize, Error> {
+        let outermost = judge.assessments.iter().position(Option::is_some);
         let layer = self.options.layer.or(outermost).unwrap_or_default();
-        if of.assessment(layer).is_none() {
+        if judge.assessment(layer).is_none() {
             let allowed = "a layer that has a material";
             return Err(Error::invalid("--layer", layer, allowed));
         }
         Ok(layer)
     }
 
-    /// The means over a distance along the first line, at the depth of the top of their layer.
-    pub(super) fn means(
+    /// Computes the means over a distance along the first line, at the depth of the top of their
+    /// layer.
+    pub(super) fn means_along_line(
         &self,
-        of: &CriterionJudge,
+        judge: &CriterionJudge,
         length: f64,
     ) -> Result<Judged<PointResult>, Error> {
-        let (layer, line) = (self.averaged(of)?, self.lines[0]);
-        let found = judge_means(self.site, line, &self.distance(layer, length), of)?;
-        let places = line.places(self.site.grid).into_iter().zip(found);
-        let (along, found) = places.filter_map(|(s, found)| Some((s, found?))).unzip();
+        let (layer, line) = (self.averaged_layer(judge)?, self.lines[0]);
+        let means = judge_means(
+            self.site,
+            line,
+            &self.critical_distance(layer, length),
+            judge,
+        )?;
+        let places = line.places(self.site.grid).into_iter().zip(means);
+        let (along, means) = places.filter_map(|(s, means)| Some((s, means?))).unzip();
         let above = self.body.coatings.iter().take(layer);
         let z = above.map(|coating| coating.thickness).sum();
         Ok(Judged {
             line,
             along,
             depths: vec![Depth { z, layer }],
-            judgements: vec![Some(found)],
+            judgements: vec![Some(means)],
         })
     }
 
-    /// The worst point of a layer and its range; `None` if the layer is not judged.
-    fn layer<'b>(
+    /// Finds the worst point of a layer and its range; returns `None` if the layer is not assessed.
+    fn assess_layer<'b>(
         &self,
         sections: &[&Judged<PointResult>],
-        of: &'b CriterionJudge,
+        judge: &'b CriterionJudge,
         layer: usize,
     ) -> Result<Option<Layer<'b>>, Error> {
-        let Some(assessment) = of.assessment(layer) else {
+        let Some(assessment) = judge.assessment(layer) else {
             return Ok(None);
         };
-        let mut found: Option<(WorstPoint<PointResult>, Line)> = None;
+        let mut worst_so_far: Option<(WorstPoint<PointResult>, Line)> = None;
         for judged in sections {
-            let here = find_worst_point(self.site, judged, of, layer)?;
-            if let Some(worst) = here
-                && found.is_none_or(|(known, _)| worst.extremum.value > known.extremum.value)
+            let candidate = find_worst_point(self.site, judged, judge, layer)?;
+            if let Some(worst) = candidate
+                && worst_so_far.is_none_or(|(known, _)| worst.extremum.value > known.extremum.value)
             {
-                found = Some((worst, judged.line));
+                worst_so_far = Some((worst, judged.line));
             }
         }
-        let Some((worst, line)) = found else {
+        let Some((worst, line)) = worst_so_far else {
             return Ok(None);
         };
         let options = RangeOptions {
@@ -149,14 +157,14 @@ impl Judging<'_> {
         };
         let at = (worst.extremum.value, worst.extremum.error.sum());
         let mean = |length: f64, with_error: bool| {
-            let (mean, line) = match self.largest(of, layer, length) {
-                Ok(found) => found,
+            let (mean, line) = match self.largest_mean_of_lines(judge, layer, length) {
+                Ok(worst_so_far) => worst_so_far,
                 Err(stopped @ Error::Interrupted { .. }) => return Err(stopped),
                 Err(refused) => return Ok(Err(refused)),
             };
             let error = if with_error {
-                let distance = self.distance(layer, length);
-                error_of_largest_mean(self.site, line, &distance, of, mean.value)?
+                let distance = self.critical_distance(layer, length);
+                error_of_largest_mean(self.site, line, &distance, judge, mean.value)?
             } else {
                 0.0
             };
@@ -165,7 +173,7 @@ impl Judging<'_> {
         let material = self.materials.get(layer).and_then(Option::as_ref);
         let range = margin_range(assessment, material, at, &options, mean)?;
         Ok(Some(Layer {
-            called: self.body.layer_name(layer),
+            name: self.body.layer_name(layer),
             worst,
             line,
             of: assessment,
@@ -173,8 +181,8 @@ impl Judging<'_> {
         }))
     }
 
-    /// A distance in a layer, of the region that is asked for.
-    fn distance(&self, layer: usize, length: f64) -> Distance {
+    /// The critical distance in a layer, with the chosen region.
+    fn critical_distance(&self, layer: usize, length: f64) -> Distance {
         let named = Averaging::ALL
             .iter()
             .find(|(name, _)| *name == self.options.method);
@@ -186,23 +194,23 @@ impl Judging<'_> {
     }
 
     /// The largest mean over a distance along all lines.
-    fn largest(
+    fn largest_mean_of_lines(
         &self,
-        of: &CriterionJudge,
+        judge: &CriterionJudge,
         layer: usize,
         length: f64,
     ) -> Result<(LargestMean, Line), Error> {
-        let distance = self.distance(layer, length);
-        let mut most: Option<(LargestMean, Line)> = None;
+        let distance = self.critical_distance(layer, length);
+        let mut best: Option<(LargestMean, Line)> = None;
         for line in self.lines {
-            let found = largest_mean(self.site, *line, &distance, of)?;
-            if let Some(found) = found
-                && most.is_none_or(|(known, _)| found.value > known.value)
+            let candidate = largest_mean(self.site, *line, &distance, judge)?;
+            if let Some(candidate) = candidate
+                && best.is_none_or(|(known, _)| candidate.value > known.value)
             {
-                most = Some((found, *line));
+                best = Some((candidate, *line));
             }
         }
-        most.ok_or_else(|| {
+        best.ok_or_else(|| {
             let allowed = "so short that the mean stays above the grid";
             Error::invalid("--distance", length, allowed)
         })
@@ -210,7 +218,7 @@ impl Judging<'_> {
 }
 
 impl Layer<'_> {
-    fn name(&self) -> &'static str {
+    fn margin_name(&self) -> &'static str {
         if self.of.gives_lives() {
             "life"
         } else {
@@ -219,7 +227,7 @@ impl Layer<'_> {
     }
 
     /// The range and the worst point.
-    fn point(&self, decides: bool) -> Row {
+    fn point_row(&self, decides: bool) -> Row {
         let extreme = &self.worst.extremum;
         let (criterion, unit) = (self.of.criterion.name(), self.of.criterion.unit());
         let normal = self.of.criterion.has_plane();
@@ -231,33 +239,33 @@ impl Layer<'_> {
         });
         let error = extreme.error.sum();
         let point = self.range.point;
-        let mut json = self.json();
-        let own = json!({
-            self.name(): self.margin(point.best), "at_point": [self.margin(point.low), self.margin(point.high)],
+        let mut json = self.range_to_json();
+        let object = json!({
+            self.margin_name(): self.margin_to_json(point.best), "at_point": [self.margin_to_json(point.low), self.margin_to_json(point.high)],
             "value": number(extreme.value), "error": number(error), "error_x": number(extreme.error.x),
             "error_y": number(extreme.error.y), "error_z": number(extreme.error.z),
-            "error_tractions": or_why(json!(extreme.error.tractions.map(number)), "not computed"), "x": extreme.x, "y": extreme.y,
-            "z": extreme.depth.z, "at": or_why(json!(at), "on no border"), "normal": or_why(json!(normal), NO_PLANE),
-            "inclination": angle.map_or_else(|| absent(NO_PLANE), number),
+            "error_tractions": or_missing(json!(extreme.error.tractions.map(number)), "not computed"), "x": extreme.x, "y": extreme.y,
+            "z": extreme.depth.z, "at": or_missing(json!(at), "on no border"), "normal": or_missing(json!(normal), NO_PLANE),
+            "inclination": angle.map_or_else(|| missing(NO_PLANE), number),
             "decides": decides,
         });
-        merge(&mut json, own);
+        merge(&mut json, object);
         let least = if decides {
             ", the least of this body"
         } else {
             ""
         };
-        // One margin a line: that of the mean stands above that of the point.
+        // One margin in a line: the margin of the mean replaces the margin of the point.
         let over = self.range.length.map_or_else(
-            || format!("{}: {}{least} at a point", self.called, self.told()),
+            || format!("{}: {}{least} at a point", self.name, self.describe_range()),
             |length| {
                 format!(
                     "{}: {} of the mean over L = {}\n{}, worst point: {}, 10 to 90 %{least}",
-                    self.called,
-                    self.told(),
+                    self.name,
+                    self.describe_range(),
                     um(length),
-                    self.called,
-                    said(&point, self.of)
+                    self.name,
+                    describe_margin(&point, self.of)
                 )
             },
         );
@@ -270,8 +278,8 @@ impl Layer<'_> {
             um(extreme.depth.z)
         );
         if let Some(angle) = angle.filter(|angle| angle.is_finite()) {
-            let told = degrees(angle);
-            let _ = write!(line, ", plane {told} from the surface normal");
+            let angle_text = degrees(angle);
+            let _ = write!(line, ", plane {angle_text} from the surface normal");
         }
         if let Some(at) = at {
             let _ = write!(line, ", at the {at}");
@@ -285,19 +293,19 @@ impl Layer<'_> {
     }
 
     /// The range and the largest mean.
-    fn mean(&self, mean: &LargestMean, along: Line, options: &Options, length: f64) -> Row {
+    fn mean_row(&self, mean: &LargestMean, along: Line, options: &Options, length: f64) -> Row {
         let (criterion, unit) = (self.of.criterion.name(), self.of.criterion.unit());
         let axis = along.name();
-        let mut json = self.json();
-        let own = json!({
-            self.name(): self.margin(self.of.margin(mean.value)), "value": mean.value,
+        let mut json = self.range_to_json();
+        let object = json!({
+            self.margin_name(): self.margin_to_json(self.of.margin(mean.value)), "value": mean.value,
             "method": options.method, axis: mean.place,
         });
-        merge(&mut json, own);
+        merge(&mut json, object);
         let line = format!(
             "{}: {} of the mean over L = {} ({} method), limited by {criterion} = {} at {axis} = {}",
-            self.called,
-            self.told(),
+            self.name,
+            self.describe_range(),
             um(length),
             options.method,
             mega(mean.value, unit),
@@ -311,29 +319,32 @@ impl Layer<'_> {
         }
     }
 
-    /// A margin for programs: why one is infinite.
-    fn margin(&self, margin: f64) -> Value {
+    /// A margin for programs, with the reason why it is infinite.
+    fn margin_to_json(&self, margin: f64) -> Value {
         let why = match (self.of.gives_lives(), self.range.point.low.is_infinite()) {
             (false, _) => "infinite: the stress does no damage".to_owned(),
             (true, true) => "endless: the stress does no damage".to_owned(),
             (true, false) => format!("beyond {LONGEST:e} cycles, where the curve has no tests"),
         };
         if margin.is_infinite() {
-            absent(&why)
+            missing(&why)
         } else {
             number(margin)
         }
     }
 
     /// The range in words.
-    fn told(&self) -> String {
-        format!("{}, 10 to 90 %", said(&self.range.range.range, self.of))
+    fn describe_range(&self) -> String {
+        format!(
+            "{}, 10 to 90 %",
+            describe_margin(&self.range.range.range, self.of)
+        )
     }
 
     /// The range as numbers.
-    fn json(&self) -> Value {
+    fn range_to_json(&self) -> Value {
         let Range { low, best, high } = self.range.range.range;
-        let three = |of: Range| [of.low, of.best, of.high].map(number);
+        let three = |range: Range| [range.low, range.best, range.high].map(number);
         let no_range = if self.range.length.is_some() {
             GIVEN
         } else {
@@ -341,10 +352,10 @@ impl Layer<'_> {
         };
         json!({
             "layer": self.worst.extremum.depth.layer, "criterion": self.of.criterion.name(),
-            "unit": self.of.criterion.unit(), "low": self.margin(low), "best": self.margin(best), "high": self.margin(high),
+            "unit": self.of.criterion.unit(), "low": self.margin_to_json(low), "best": self.margin_to_json(best), "high": self.margin_to_json(high),
             "of_stress": three(self.range.range.stress), "of_material": self.range.range.material,
-            "of_distance": or_why(json!(self.range.range.distance.map(three)), no_range),
-            "L": or_why(json!(self.range.length), NO_MEAN),
+            "of_distance": or_missing(json!(self.range.range.distance.map(three)), no_range),
+            "L": or_missing(json!(self.range.length), NO_MEAN),
         })
     }
 }
@@ -357,12 +368,12 @@ fn merge(table: &mut Value, other: Value) {
 }
 
 /// A margin and its range in words.
-fn said(range: &Range, of: &Assessment) -> String {
+fn describe_margin(range: &Range, assessment: &Assessment) -> String {
     let Range { low, best, high } = *range;
-    let told = with_range(best, [low, high]);
-    match of.gives_lives() {
+    let text = with_range(best, [low, high]);
+    match assessment.gives_lives() {
         true if low.is_infinite() => "endless life".into(),
-        true => format!("life {told} cycles"),
-        false => format!("safety factor {told}"),
+        true => format!("life {text} cycles"),
+        false => format!("safety factor {text}"),
     }
 }

@@ -1,4 +1,4 @@
-//! The table of `fret life`: a line of each point.
+//! The table of `fret life`: a line for each point.
 
 use std::path::Path;
 
@@ -19,7 +19,7 @@ pub(super) fn check(options: &Options) -> Result<(), Error> {
             "--out",
             out.display(),
             "a table (.csv) of points; figures are drawn by pyfret.plot.criterion_map in Python, and the fields are \
-             those of result.life(..).dataset",
+             in result.life(..).dataset",
         ));
     }
     Ok(())
@@ -34,22 +34,22 @@ pub(super) fn write(
     of: &[CriterionJudge],
 ) -> Result<(), Error> {
     let text = if let ([judged], [of]) = (judged, of) {
-        let of_value = match unit(of) {
+        let of_value = match value_unit(of) {
             "1" => String::new(),
             unit => format!(" [{unit}]"),
         };
-        let values = format!("value{of_value},missed{of_value},{}", margin(of));
+        let values = format!("value{of_value},missed{of_value},{}", margin_column(of));
         let rows = rows(judged, of, |f, margin| {
             format!("{:e},{:e},{margin:e}", f.value, f.missed)
         });
-        format!("{}\n{}", head(&judged.line, &values), rows.join("\n"))
+        format!("{}\n{}", titles(&judged.line, &values), rows.join("\n"))
     } else {
         let mut lines = Vec::new();
         for (name, (judged, of)) in names.iter().zip(judged.iter().zip(of)) {
-            let (unit, lives) = (unit(of), margin(of) == LIFE);
+            let (unit, lives) = (value_unit(of), margin_column(of) == LIFE);
             if lines.is_empty() {
                 let values = format!("value,missed,unit,{LIFE},{FACTOR}");
-                lines.push(format!("criterion,{}", head(&judged.line, &values)));
+                lines.push(format!("criterion,{}", titles(&judged.line, &values)));
             }
             let rows = rows(judged, of, |f, margin| {
                 let (before, after) = if lives { ("", ",") } else { (",", "") };
@@ -72,7 +72,7 @@ const LIFE: &str = "life [cycles]";
 const FACTOR: &str = "safety_factor";
 
 /// The column of the margin of a criterion.
-fn margin(of: &CriterionJudge) -> &'static str {
+fn margin_column(of: &CriterionJudge) -> &'static str {
     let mut judged = of.assessments.iter().flatten();
     if judged.any(Assessment::gives_lives) {
         LIFE
@@ -82,13 +82,13 @@ fn margin(of: &CriterionJudge) -> &'static str {
 }
 
 /// Unit of the value of a criterion.
-fn unit(of: &CriterionJudge) -> &'static str {
+fn value_unit(of: &CriterionJudge) -> &'static str {
     let judged = of.assessments.iter().flatten().next();
     judged.map_or("1", |assessment| assessment.criterion.unit())
 }
 
-/// Titles of a table, those of the values between the place and the plane.
-fn head(line: &Line, values: &str) -> String {
+/// Titles of a table, with `values` between the place and the plane.
+fn titles(line: &Line, values: &str) -> String {
     let (axis, across) = if matches!(line, Line::AlongY(_)) {
         ("y", "x")
     } else {
@@ -99,7 +99,7 @@ fn head(line: &Line, values: &str) -> String {
     )
 }
 
-/// A line for each point, with what is told of its value and margin.
+/// Lines of the points, with value and margin by `values`.
 fn rows(
     judged: &Judged<PointResult>,
     of: &CriterionJudge,
@@ -107,11 +107,11 @@ fn rows(
 ) -> Vec<String> {
     let along_y = matches!(judged.line, Line::AlongY(_));
     let mut rows = Vec::new();
-    for (depth, found) in judged.depths.iter().zip(&judged.judgements) {
-        let (Some(found), Some(assessment)) = (found, of.assessment(depth.layer)) else {
+    for (depth, judgements) in judged.depths.iter().zip(&judged.judgements) {
+        let (Some(judgements), Some(assessment)) = (judgements, of.assessment(depth.layer)) else {
             continue;
         };
-        for (s, f) in judged.along.iter().zip(found) {
+        for (s, f) in judged.along.iter().zip(judgements) {
             let [n_x, n_y, n_z] = f.normal;
             let (x, y) = judged.line.place(*s);
             let (s, place) = if along_y { (y, x) } else { (x, y) };

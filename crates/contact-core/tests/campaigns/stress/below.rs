@@ -4,12 +4,12 @@
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use contact_assess::{ByCriterion, ByYield, Judge, Site, find_worst_point, judge};
+use contact_assess::{CriterionJudge, Judge, Site, YieldJudge, find_worst_point, judge};
 use contact_core::Error;
 use contact_core::march::Fields;
 use contact_core::scene::{ResidualStress, Scene};
+use contact_subsurface::{CycleSource, Moments};
 use contact_subsurface::{Line, Side, default_depths};
-use contact_subsurface::{Moments, OverCycle};
 use fatigue::{Material, Search};
 
 /// Every so many scenes are looked at below.
@@ -20,7 +20,7 @@ const ROUNDING: f64 = 1e-9;
 /// The state at the end of a run and its mirror image in shear, as a cycle.
 struct Reversed<'a>(&'a Fields);
 
-impl OverCycle for Reversed<'_> {
+impl CycleSource for Reversed<'_> {
     fn count(&self) -> usize {
         2
     }
@@ -67,10 +67,10 @@ pub(crate) fn judged(scene: &Scene, end: &Fields, stop: &Arc<AtomicBool>) -> Res
     let a = (area / std::f64::consts::PI).sqrt();
     let layers = body.coatings.len() + 1;
     let E = body.substrate.E;
-    let of_yield = ByYield {
+    let of_yield = YieldJudge {
         s_y: vec![Some(1e-2 * E); layers],
         residual: ResidualStress::default(),
-        of: |found| found.von_mises,
+        factor: |found| found.von_mises,
     };
     looked_at(&site, &of_yield, a)?;
     let strength = [("s_D", 1e-3 * E), ("t_D", 6e-4 * E)];
@@ -78,7 +78,7 @@ pub(crate) fn judged(scene: &Scene, end: &Fields, stop: &Arc<AtomicBool>) -> Res
     let material = Material::new("drawn", "drawn", strength).map_err(|e| e.to_string())?;
     let materials = vec![Some(material); layers];
     for name in ["findley", "crossland"] {
-        let of = ByCriterion::new(name, body, &materials, Search::default());
+        let of = CriterionJudge::new(name, body, &materials, Search::default());
         looked_at(&site, &of.map_err(|e| e.to_string())?, a)?;
     }
     Ok(())
@@ -86,12 +86,12 @@ pub(crate) fn judged(scene: &Scene, end: &Fields, stop: &Arc<AtomicBool>) -> Res
 
 fn looked_at<J: Judge>(site: &Site<'_>, of: &J, a: f64) -> Result<(), String> {
     let told = |error: Error| format!("below: {error}");
-    let depths = chosen_depths(site.body, a, 2.0 * a, 1.0).map_err(told)?;
+    let depths = default_depths(site.body, a, 2.0 * a, 1.0).map_err(told)?;
     let line = Line::AlongX(0.0);
     let judged = judge(site, line, &depths, std::slice::from_ref(of)).map_err(told)?;
     let judged = &judged[0];
     for layer in 0..=site.body.coatings.len() {
-        let here = judged.depths.iter().zip(&judged.found);
+        let here = judged.depths.iter().zip(&judged.judgements);
         let here = here.filter(|(depth, _)| depth.layer == layer);
         let scores: Vec<f64> = here
             .flat_map(|(_, found)| found.iter().flatten().map(|found| of.score(found)))
@@ -100,10 +100,10 @@ fn looked_at<J: Judge>(site: &Site<'_>, of: &J, a: f64) -> Result<(), String> {
             return Err(format!("below: a sample of layer {layer} is {score}"));
         }
         let sampled = scores.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let Some(worst) = worst(site, judged, of, layer).map_err(told)? else {
+        let Some(worst) = find_worst_point(site, judged, of, layer).map_err(told)? else {
             continue;
         };
-        let (value, error) = (worst.extreme.value, worst.extreme.error.sum());
+        let (value, error) = (worst.extremum.value, worst.extremum.error.sum());
         let below = value < sampled - ROUNDING * sampled.abs();
         if below || !value.is_finite() || !(error >= 0.0 && error.is_finite()) {
             return Err(format!(

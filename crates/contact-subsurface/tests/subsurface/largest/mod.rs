@@ -13,7 +13,7 @@ use contact_core::scene::{
 use contact_reference::{HertzStress, LineContact, hertz, line_contact};
 use contact_subsurface::{
     Extremum, Line, Measure, Points, Probe, Search, Section, Side, States, Zone, borders,
-    chosen_depths, measure_named,
+    default_depths, find_measure,
 };
 use serde_json::Value;
 
@@ -57,13 +57,13 @@ fn in_layer(
     let line = Line::AlongX(0.0);
     let search = Search::new(body, Side::Body2, grid, Some(line), &states).unwrap();
     let section = Section::new(body, Side::Body2, grid, line, states).unwrap();
-    let depths = chosen_depths(body, a, 2.0 * a, 1.0).unwrap();
+    let depths = default_depths(body, a, 2.0 * a, 1.0).unwrap();
     let x: Vec<f64> = (0..grid.nx).map(|i| grid.x(i)).collect();
     let probe = Probe::find(of, "of").unwrap();
-    let samples = measure_named(of)
+    let samples = find_measure(of)
         .unwrap()
         .on_lines(&section.stress(&depths).unwrap()[0]);
-    let found = search.on_section(&probe, &samples.view(), (&depths, &x), layer);
+    let found = search.find_on_section(&probe, &samples.view(), (&depths, &x), layer);
     found.unwrap().unwrap()
 }
 
@@ -273,7 +273,7 @@ fn a_bare_sphere_is_right_on_every_grid() {
             nu: STEEL.nu,
         };
         for of in ["von_mises", "s_1"] {
-            let measure: &Measure = measure_named(of).unwrap();
+            let measure: &Measure = find_measure(of).unwrap();
             let right = highest(|x, z| (measure.value)(&closed.sliding(1.0, mu, (x, 0.0, z))));
             for n in [32, 45, 64, 101, 128] {
                 let flat = Body::homogeneous(STEEL, Shape::Flat);
