@@ -103,7 +103,7 @@ class Wear(Replaceable):
         How a body wears: one law, or one for each coating from the outermost on and one for the
         substrate. None: the body or the layer does not wear. A callable takes arrays over the
         cells, of one cycle, and gives the depth that the cycle takes, m. The arrays are
-        ``pressure_times_slip`` (integral of the pressure over the slip, Pa m), ``slip_distance`` (m),
+        ``pressure_times_slip`` (pressure integrated over the slip, Pa m), ``slip_distance`` (m),
         ``dissipated`` (energy per area, J/m^2) and ``worn`` (depth so far, m). It also takes the
         number ``cycles`` so far.
     share1, share2 : float, optional
