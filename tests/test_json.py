@@ -40,7 +40,7 @@ def test_one_writer_serves_all_commands() -> None:
     takes = [file for file in CLI.glob("*.py") if '"--json"' in file.read_text(encoding="utf-8")]
     for file in takes:
         text = file.read_text(encoding="utf-8")
-        assert "say_json(" in text, file.name
+        assert "print_json(" in text, file.name
 
 
 def test_a_number_that_is_not_finite_is_null_with_its_reason() -> None:

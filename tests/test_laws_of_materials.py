@@ -86,7 +86,6 @@ def test_a_word_of_others_names_what_it_means() -> None:
         (SCENE.grid, "extent", "nx and dx"),
         (at, "real_area", "contact_area"),
         (at.stress(), "max", "maximum"),
-        (at.stick_zone(), "offset", "middle"),
     ):
         with pytest.raises(AttributeError, match=f"it is called {expected_name}"):
             getattr(element, name)

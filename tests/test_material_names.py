@@ -30,7 +30,8 @@ def takes_a_material() -> Iterator[tuple[str, Callable[..., Any], str]]:
             # What a program makes of results, such as a life, is no place for a name.
             made = isinstance(of, type) and not hasattr(of.__init__, "__wrapped__")
             calls = [(name, of)] if callable(of) and not made else []
-            calls += [(f"{name}.of", of.of)] if isinstance(of, type) and hasattr(of, "of") else []
+            if isinstance(of, type) and hasattr(of, "from_material"):
+                calls.append((f"{name}.from_material", of.from_material))
             for called, call in calls:
                 try:
                     parameters = inspect.signature(call).parameters

@@ -74,7 +74,7 @@ REFUSED: dict[str, tuple[bytes, str]] = {
     "no unit": (table("delta;T").encode(), "unit of length"),
     "units of one column": (table("delta [um];T").encode(), "unit of force"),
     "zeros": (table().encode() + b"\0\0", "is no text"),
-    "a packed file": (b"PK\x03\x04" + bytes(99), "is no text"),
+    "a packed file": (b"PK\x03\x04" + bytes(99), "is no whole archive"),
 }
 
 

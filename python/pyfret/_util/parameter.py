@@ -167,7 +167,7 @@ class Parameter:
         """Find a material by its name, and make what is meant of the material."""
         if self.laws and isinstance(value, str | _core.Material):
             material = read_material(value, self.name) if isinstance(value, str) else value
-            return self.laws[0].of(material)
+            return self.laws[0].from_material(material)
         if not self.material:
             return value
         if type(value) in (list, tuple):

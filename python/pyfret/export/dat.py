@@ -9,7 +9,7 @@ import numpy as np
 
 from pyfret._core import read_text
 from pyfret.export.components import read_order, to_matrices
-from pyfret.export.increments import Increment, choose_increment
+from pyfret.export.increments import StoredIncrement, choose_increment
 from pyfret.export.numbers import number, numbers
 
 if TYPE_CHECKING:
@@ -70,18 +70,18 @@ def read_printed(
         raise ValueError(f"{path}, line {first}: {error}") from error
 
 
-def list_prints(path: Path) -> list[Increment]:
+def list_prints(path: Path) -> list[StoredIncrement]:
     """List the increments of a file with the names of their sets."""
     return _index(read_text(path).splitlines(), path)
 
 
-def _index(lines: Sequence[str], path: Path) -> list[Increment]:
+def _index(lines: Sequence[str], path: Path) -> list[StoredIncrement]:
     """Find the increments and the first lines of their stresses, by set.
 
     Modes and vibrations have heads of their own. An increment ends where the time changes or a set
     comes again.
     """
-    increments: list[Increment] = []
+    increments: list[StoredIncrement] = []
     kind, mode, modes = "load", None, "mode"
     for n, line in enumerate(lines, 1):
         if BUCKLING in line:
@@ -90,10 +90,10 @@ def _index(lines: Sequence[str], path: Path) -> list[Increment]:
             modes = "mode"
         elif head := MODE.search(line):
             kind, mode = modes, int(head[1])
-            increments.append(Increment(kind, np.nan, mode=mode))
+            increments.append(StoredIncrement(kind, np.nan, mode=mode))
         elif AMPLITUDES.search(line):
             kind, mode = "vibration", None
-            increments.append(Increment(kind, np.nan))
+            increments.append(StoredIncrement(kind, np.nan))
         elif head := STRESSES.search(line):
             try:
                 time = number(head[3])
@@ -104,7 +104,7 @@ def _index(lines: Sequence[str], path: Path) -> list[Increment]:
                 last.value = time
             twice = last is not None and head[2] in last.blocks and last.kind != "vibration"
             if last is None or last.value != time or twice:
-                last = Increment("load", time)
+                last = StoredIncrement("load", time)
                 increments.append(last)
             last.blocks[head[2]] = (n, tuple(head[1].split(",")))
     return increments

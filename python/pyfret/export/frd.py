@@ -14,7 +14,7 @@ import numpy as np
 from pyfret._core import read_text
 from pyfret._util.scene_warnings import warn
 from pyfret.export.components import read_order, to_matrices, to_vectors
-from pyfret.export.increments import Increment, choose_increment
+from pyfret.export.increments import StoredIncrement, choose_increment
 from pyfret.export.numbers import number, numbers
 
 if TYPE_CHECKING:
@@ -78,17 +78,17 @@ def read_frd(
     return np.array([points[n] for n in common]), values
 
 
-def list_increments(path: Path) -> list[Increment]:
+def list_increments(path: Path) -> list[StoredIncrement]:
     """List the increments of a file with the names of their blocks."""
     return _index(read_text(path).splitlines(), path)[1]
 
 
-def _index(lines: Sequence[str], path: Path) -> tuple[Block | None, list[Increment], bool]:
+def _index(lines: Sequence[str], path: Path) -> tuple[Block | None, list[StoredIncrement], bool]:
     """Find the nodes, the increments with the places of their blocks, and the end of the run."""
     nodes: Block | None = None
-    increments: list[Increment] = []
+    increments: list[StoredIncrement] = []
     above: dict[str, list[str]] = {}
-    new, width = Increment("load", 0.0), 10
+    new, width = StoredIncrement("load", 0.0), 10
     for n, line in enumerate(lines):
         if line.startswith("    1P"):
             key, *words = line[6:].split() or [""]
@@ -110,7 +110,7 @@ def _index(lines: Sequence[str], path: Path) -> tuple[Block | None, list[Increme
     return nodes, increments, any(line.startswith(" 9999") for line in lines[-3:])
 
 
-def _increment(head: str, parameters: dict[str, list[str]], path: Path) -> Increment:
+def _increment(head: str, parameters: dict[str, list[str]], path: Path) -> StoredIncrement:
     """Read the increment of a block from its head and the parameters above it."""
     words = head[VALUE].split() or head[12:].split()
     try:
@@ -132,7 +132,9 @@ def _increment(head: str, parameters: dict[str, list[str]], path: Path) -> Incre
     elif kind == "buckling mode" and value == 0.0:
         # The state under the load of the step, before its modes.
         kind = "load"
-    return Increment(kind, value, number_of_step, count, int(mode) if mode.isdigit() else None)
+    return StoredIncrement(
+        kind, value, number_of_step, count, int(mode) if mode.isdigit() else None
+    )
 
 
 def _names(lines: Sequence[str], first: int, field: str) -> tuple[str, ...]:

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from pathlib import Path
 
-__all__ = ["FAILED", "Increment", "choose_increment", "mark_failure"]
+__all__ = ["FAILED", "StoredIncrement", "choose_increment", "mark_failure"]
 
 #: Blocks that CalculiX writes of an iteration that did not converge: displacements and residual
 #: forces, in a thermal step temperatures and fluxes (``storeresidual.f`` of ccx 2.20).
@@ -26,7 +26,7 @@ SAME_TIME = 2e-5
 
 
 @dataclass
-class Increment:
+class StoredIncrement:
     """An increment of a file of results."""
 
     #: "load", "mode", "buckling mode", or the words for what is refused.
@@ -50,7 +50,7 @@ class Increment:
             return f"{self.kind} {self.mode}"
         return f"{self.kind} {self.value:g}"
 
-    def is_same(self, second: Increment) -> bool:
+    def is_same(self, second: StoredIncrement) -> bool:
         """Check that a block of another increment belongs to this one."""
         return (self.value, self.step, self.number, self.mode) == (
             *(second.value, second.step, second.number, second.mode),
@@ -62,8 +62,8 @@ class Increment:
 
 
 def choose_increment(
-    increments: Sequence[Increment], block: str, step: int | str | None, path: Path
-) -> Increment:
+    increments: Sequence[StoredIncrement], block: str, step: int | str | None, path: Path
+) -> StoredIncrement:
     """Return the last increment under load with a field, or the one that `step` names.
 
     Refused are files whose last load has no such field, and iterations that did not converge.
@@ -95,13 +95,13 @@ def choose_increment(
     return last
 
 
-def is_bare(increment: Increment) -> bool:
+def is_bare(increment: StoredIncrement) -> bool:
     """Check that an increment holds what CalculiX writes of a failed iteration, and no more."""
     names = increment.blocks.keys()
     return names <= RESIDUAL and bool(names & {"FORC", "RFL"})
 
 
-def mark_failure(increments: Sequence[Increment], path: Path) -> list[Increment]:
+def mark_failure(increments: Sequence[StoredIncrement], path: Path) -> list[StoredIncrement]:
     """Return the increments, the last load marked if its iteration failed.
 
     The ``.sta`` file decides, if it is of the same run. Without it an iteration counts as failed
@@ -115,7 +115,7 @@ def mark_failure(increments: Sequence[Increment], path: Path) -> list[Increment]
     if end is not None and end[0] >= last.value * (1.0 - SAME_TIME):
         time, failed = end
         if failed and time > last.value * (1.0 + SAME_TIME):
-            marked.append(Increment(FAILED, time))
+            marked.append(StoredIncrement(FAILED, time))
         elif failed:
             marked[marked.index(last)] = replace(last, kind=FAILED)
         return marked
@@ -126,8 +126,8 @@ def mark_failure(increments: Sequence[Increment], path: Path) -> list[Increment]
 
 
 def _named_increment(
-    increments: Sequence[Increment], block: str, step: int | str, path: Path
-) -> Increment:
+    increments: Sequence[StoredIncrement], block: str, step: int | str, path: Path
+) -> StoredIncrement:
     """Return the increment of a label, or the last one of a step's number."""
     if isinstance(step, str):
         matching = [n for n in increments if step in (n.label, str(n))]
@@ -147,7 +147,7 @@ def _named_increment(
     return whole[-1]
 
 
-def _choices(increments: Sequence[Increment], block: str) -> str:
+def _choices(increments: Sequence[StoredIncrement], block: str) -> str:
     """Return the last increments that could be chosen, for a message."""
     labels = [repr(n.label) for n in increments if block in n.blocks and n.kind in READ]
     return "; step= chooses one of " + ", ".join(labels[-4:]) if labels else ""

@@ -16,7 +16,7 @@ from pyfret import _core
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["Columns", "kind_of", "size_of", "split_unit"]
+__all__ = ["RecordColumns", "kind_of", "size_of", "split_unit"]
 
 #: A unit of each kind that a column is asked for, as an example.
 USUAL = {"length": "um", "force": "N", "stress": "MPa", "stiffness": "N/um", "angle": "rad"}
@@ -49,7 +49,7 @@ def split_unit(head: str) -> tuple[str, str]:
     return match.group(1).strip(), unit
 
 
-class Columns(ABC):
+class RecordColumns(ABC):
     """Columns by their names, with the units that the file gives them.
 
     Attributes

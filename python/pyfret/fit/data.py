@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from pyfret.fit.columns import Columns
+    from pyfret.fit.columns import RecordColumns
 
 __all__ = [
     "Data",
@@ -283,7 +283,7 @@ class Measured(HoldsArrays):
 
 
 def read_pair(
-    columns: Columns, first: int, second: int
+    columns: RecordColumns, first: int, second: int
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Read two columns [SI], and print how they were aligned."""
     x, y = columns.numbers(first, second)

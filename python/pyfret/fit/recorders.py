@@ -10,7 +10,7 @@ import numpy as np
 
 from pyfret._core import read_bytes, shown
 from pyfret._util.extras import needed
-from pyfret.fit.columns import Columns
+from pyfret.fit.columns import RecordColumns
 from pyfret.fit.recordings import Channel, Recording
 from pyfret.fit.tables import read_table, table_from_rows
 
@@ -37,7 +37,7 @@ REFUSED = {
     "OpenDocument": "is a sheet of OpenDocument: save it as .xlsx or .csv",
     "archive": "is an archive and no workbook of Excel",
 }
-#: Columns of a matrix that count as channels.
+#: RecordColumns of a matrix that count as channels.
 MOST_COLUMNS = 64
 
 
@@ -47,7 +47,7 @@ def read_columns(
     *,
     skip: int = 0,
     group: str | None = None,
-) -> Columns:
+) -> RecordColumns:
     """Read the columns of a file by its content.
 
     ``group`` is the group of channels, the sheet of a workbook or the structure that has them.
@@ -265,14 +265,16 @@ def channels_of_mdf(path: Path) -> Iterator[Channel]:
                 )
 
 
-def read_sheet(path: Path, units: dict[str, str] | None, skip: int, group: str | None) -> Columns:
+def read_sheet(
+    path: Path, units: dict[str, str] | None, skip: int, group: str | None
+) -> RecordColumns:
     """Read the sheet of a workbook that has a table of numbers."""
     pandas = needed("pandas", "rigs")
     needed("openpyxl", "rigs")
     sheets = pandas.read_excel(path, sheet_name=None, header=None, engine="openpyxl")
     if group is not None and group not in sheets:
         raise ValueError(f"{path}: has no sheet {group!r}, but {', '.join(map(repr, sheets))}")
-    tables: dict[str, Columns] = {}
+    tables: dict[str, RecordColumns] = {}
     problems: list[str] = []
     for name, frame in sheets.items():
         if group not in (None, name):
@@ -289,7 +291,9 @@ def read_sheet(path: Path, units: dict[str, str] | None, skip: int, group: str |
     raise ValueError(problems[0] if problems else f"{path}: has no sheets")
 
 
-def _table_of_frame(place: str, frame: Any, units: dict[str, str] | None, skip: int) -> Columns:
+def _table_of_frame(
+    place: str, frame: Any, units: dict[str, str] | None, skip: int
+) -> RecordColumns:
     """Make a table of the cells of a sheet."""
     frame = frame.dropna(axis="columns", how="all")
     rows: list[tuple[int, list[str]]] = []

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pyfret.fit.columns import Columns, kind_of, split_unit
+from pyfret.fit.columns import RecordColumns, kind_of, split_unit
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -47,7 +47,7 @@ class Channel:
     is_fresh: bool = False
 
 
-class Recording(Columns):
+class Recording(RecordColumns):
     """Channels of a file as columns.
 
     ``units`` are those that the user gives beside the file.

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pyfret import _core
-from pyfret.fit.columns import Columns, kind_of, split_unit
+from pyfret.fit.columns import RecordColumns, kind_of, split_unit
 
 if TYPE_CHECKING:
     import os
@@ -30,7 +30,7 @@ NUMBER = re.compile(r"^[+-]?(\d+[.,]?\d*|[.,]\d+)([eE][+-]?\d+)?$", re.ASCII)
 NUMERIC = 0.5
 
 
-class Table(Columns):
+class Table(RecordColumns):
     """Columns of a text or a sheet, in blocks that empty lines separate."""
 
     def __init__(
