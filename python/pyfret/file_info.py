@@ -28,8 +28,8 @@ if TYPE_CHECKING:
     import os
     from collections.abc import Sequence
 
-    from pyfret.export.increments import Increment
-    from pyfret.fit.columns import Columns
+    from pyfret.export.increments import StoredIncrement
+    from pyfret.fit.columns import RecordColumns
 
 __all__ = ["FileInfo", "describe_file"]
 
@@ -105,7 +105,7 @@ def _store(path: Path) -> FileInfo:
     return FileInfo(str(path), "store of pyfret", "fret.open", lines)
 
 
-def _results(path: Path, kind: str, increments: Sequence[Increment], title: str) -> FileInfo:
+def _results(path: Path, kind: str, increments: Sequence[StoredIncrement], title: str) -> FileInfo:
     """Describe results of finite elements by their increments."""
     increments = mark_failure(increments, path)
     loads = [n for n in increments if n.kind in ("load", FAILED)]
@@ -190,7 +190,7 @@ def _columns(path: Path, kind: str, reason: Exception, refusal: Exception) -> Fi
     return FileInfo(str(path), kind, reader, _listed(columns), list(dict.fromkeys(doubts)))
 
 
-def _listed(columns: Columns) -> dict[str, str]:
+def _listed(columns: RecordColumns) -> dict[str, str]:
     """List columns with their units, samples and clocks."""
     lines = {}
     for n, (name, unit) in enumerate(zip(columns.names, columns.units, strict=True)):

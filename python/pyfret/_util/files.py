@@ -178,8 +178,8 @@ def gzip() -> dict[str, Any]:
 def beside(place: Path) -> Iterator[Path]:
     """Give a name beside `place`; what is there at the end takes its place, or goes on failure.
 
-    A process that is ended between two moves leaves the new folder, and the old one under another
-    name: :func:`restore` puts the new one in place. The next writing clears leftovers.
+    A process that is ended between two moves leaves the new folder and the old one, both under
+    other names. Then :func:`restore` puts the new one in place. The next writing clears leftovers.
     """
     restore(place)
     clear_leftovers(place)

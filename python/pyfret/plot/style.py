@@ -51,7 +51,7 @@ class ThemedFigure(Figure):
     """A figure that keeps the theme when it is shown or saved.
 
     Matplotlib reads fonts, colours by number and the options of file formats while it writes a
-    file, which is after the ``with`` block of :func:`style`.
+    file. By then the ``with`` block of :func:`style` has ended.
     """
 
     def draw(self, renderer: Any) -> None:
