@@ -4,9 +4,9 @@
 //! A [`Judge`] judges the stress history of a point: [`CriterionJudge`] by a fatigue criterion,
 //! [`YieldJudge`] by load factors of first yield and shakedown. [`judge`] applies it to a section, a
 //! few depths at a time, so that memory is bounded for any number of increments ([`CycleSource`](contact_subsurface::CycleSource)
-//! gives them, from a store or from arrays); [`worst`] finds the worst point of a layer, between
-//! the samples and on the rim of the contact, by judging the stress there; [`average`] judges means
-//! over a critical distance of the material, and [`range_of_life`] gives the low, best and high
+//! gives them, from a store or from arrays); [`find_worst_point`] finds the worst point of a layer, between
+//! the samples and on the rim of the contact, by judging the stress there; [`judge_means`] judges means
+//! over a critical distance of the material, and [`margin_range`] gives the low, best and high
 //! margin. [`crack`] gives the stress intensity of a crack under
 //! the stress below a contact.
 
