@@ -15,7 +15,7 @@ import pytest
 
 import pyfret as fret
 from conftest import ROOT, sphere_on_flat
-from pyfret._cli import commands, export, fit
+from pyfret._cli import NEEDS_PYTHON, commands, export, fit
 from pyfret._cli.values import Value, Values, number, setting
 from pyfret._core import unit_of, units
 
@@ -34,6 +34,11 @@ COMMANDS = (
     "verify",
     "cite",
 )
+
+
+def test_commands_of_python_do_not_go_back_to_the_compiled_one() -> None:
+    choices = commands.parser()._subparsers._group_actions[0].choices  # type: ignore[union-attr]
+    assert set(choices or ()) == NEEDS_PYTHON
 
 
 def help_of(*words: str, capsys: pytest.CaptureFixture[str]) -> str:

@@ -22,6 +22,7 @@ NEEDS_PYTHON = frozenset(
         "report",
         "verify",
         "cite",
+        "info",
     )
 )
 
