@@ -287,7 +287,7 @@ def sliding_limit(
         executor=executor,
         progress=False,
     )
-    return np.asarray(study.dataset["shift"].values / (1.0 - ALMOST ** (2.0 / 3.0)))
+    return np.asarray(study.dataset[final_shift.__name__].values / (1.0 - ALMOST ** (2.0 / 3.0)))
 
 
 @dataclass(frozen=True)
