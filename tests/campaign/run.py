@@ -124,7 +124,7 @@ def campaign(
             how = ""
             if select.select([pipe], [], [], 0)[0]:
                 data = os.read(pipe.fileno(), 1 << 16)
-                *lines, worker.rest = (worker.rest + data).split(b"\n")
+                *lines, worker.remainder = (worker.remainder + data).split(b"\n")
                 for line in lines:
                     answer = json.loads(line)
                     worker.seed, worker.begun = int(answer["seed"]), worker.spent()
