@@ -279,9 +279,10 @@ def test_every_command_tells_programs_what_came_out(
     )
     assert answer_of("study", str(study), "-o", str(tmp_path / "s.zarr"), "--workers", "1") == {
         "store": str(tmp_path / "s.zarr"),
-        "points": {"open": 0, "done": 2, "failed": 0},
+        "points": {"open": 0, "done": 2, "failed": 0, "partly": 0},
         "measures": ["stick_ratio"],
         "failed": [],
+        "unanswered": [],
         "map": None,
         "map_why": "not asked for",
     }

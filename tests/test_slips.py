@@ -77,7 +77,7 @@ def test_a_constructor_refuses_at_once(make: Callable[[], object], says: str) ->
         ),
         (
             lambda: fret.Scene(body1=BALL, body2=FLAT, friction="a", grid=GRID),
-            r"(?s)'a': must be a coeffic.*'mu'",
+            r"(?s)'a': must be a coeffic.*'friction'",
         ),
         (
             lambda: fret.Scene(body1=BALL, body2=FLAT, friction=0.3, grid=128),

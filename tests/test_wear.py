@@ -177,7 +177,10 @@ def test_a_run_goes_on_from_worn_surfaces(tmp_path: Path) -> None:
         with pytest.raises(FileExistsError, match=name):
             second.save(tmp_path / name)
     fret.solve(line(), progress=False).save(tmp_path / "run.zarr")
-    for name in ("run.zarr", "none.zarr", "none.nc"):
+    assert isinstance(fret.open(tmp_path / "run.zarr"), fret.Result)
+    with pytest.raises(TypeError, match="must be a run of wear"):
+        worn(law, start=fret.open(tmp_path / "run.zarr"))
+    for name in ("none.zarr", "none.nc"):
         with pytest.raises(fret.errors.StoreError, match=name):
             fret.open(tmp_path / name)
 
@@ -369,7 +372,7 @@ def test_a_coating_that_is_worn_through_has_its_cycles() -> None:
     coated = fret.Body(STEEL, coatings=fret.Coating(STEEL, thickness=2e-7))
     run = fret.wear.solve(
         line(64).replace(body2=coated),
-        cycles=1e5,
+        cycles=2e4,
         first_branch=2,
         cycling="sliding",
         body2=[fret.wear.Archard(1e-15), fret.wear.Archard(1e-14)],
