@@ -84,7 +84,7 @@ def test_each_error_is_that_of_its_number(cracks: fracture.Cracks) -> None:
 def test_the_rows_and_the_verdict_have_one_error(cracks: fracture.Cracks, start: float) -> None:
     arrest = cracks.arrest(THRESHOLD, start=start)
     n = int(np.searchsorted(LENGTHS, start))
-    limit = THRESHOLD.at(LENGTHS)[n]
+    limit = THRESHOLD.range_at(LENGTHS)[n]
     assert arrest.at_start == pytest.approx(cracks.dK(THRESHOLD)[n] / limit, rel=1e-9)
     assert arrest.at_start_error == pytest.approx(cracks.dK_error(THRESHOLD)[n] / limit, rel=1e-6)
 

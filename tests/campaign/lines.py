@@ -68,7 +68,7 @@ def drawn(seed: int, n: int) -> fret.Scene:
     return fret.Scene(
         body1=fret.Body(counter, shape=fret.Cylinder(R=R)),
         body2=fret.Body(flat, coatings=coatings),
-        mu=mu,
+        friction=mu,
         grid=fret.Grid.strip(extent=width, n=n),
         path=path,
     )

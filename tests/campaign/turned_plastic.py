@@ -38,7 +38,7 @@ def solve(seed: int, axis: str, n: int = 24) -> fret.Result:
     scene = fret.Scene(
         body1=fret.Body(ball, shape=fret.Sphere(R=R)),
         body2=fret.Body(flat),
-        mu=mu,
+        friction=mu,
         grid=fret.Grid.centred(extent=3.6 * a, n=n),
     )
     return fret.solve(scene, path, save="all", progress=False)

@@ -41,7 +41,11 @@ def wear(kind: str, n: int, part: float, cycles: float) -> fret.wear.WearResult:
     T = part * MU * W
     path = fret.LoadPath.start().normal(W, increments=2).tangential([T, -T, T])
     scene = fret.Scene(
-        body1=fret.Body(STEEL, shape=shape), body2=fret.Body(STEEL), mu=MU, grid=grid, path=path
+        body1=fret.Body(STEEL, shape=shape),
+        body2=fret.Body(STEEL),
+        friction=MU,
+        grid=grid,
+        path=path,
     )
     law = fret.wear.Archard(5e-14)
     return fret.wear.solve(

@@ -96,9 +96,12 @@ pub(super) const SCALARS: [Scalar; 23] = [
         "error of the volume by jumps and cells, over it",
         |j| j.volume_error,
     ),
-    ("slip_cells", "1", "cells across the zone that slips", |j| {
-        j.slip_cells
-    }),
+    (
+        "slip_cells",
+        "1",
+        "cells across the zone that slips, when it was widest",
+        |j| j.slip_cells,
+    ),
     ("retries", "1", "times that the jump was tried anew", |j| {
         j.retries as f64
     }),

@@ -44,7 +44,7 @@ pub struct Jump {
     /// Estimated error of the volume so far, over it, with the same parts.
     #[serde(default)]
     pub volume_error: f64,
-    /// Cells across the zone that slips at the end.
+    /// Cells across the zone that slips, at the end of the jump at which it was widest so far.
     #[serde(default)]
     pub slip_cells: f64,
 }

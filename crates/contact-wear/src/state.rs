@@ -97,7 +97,11 @@ impl WearState {
             stick_ratio: seen.stick_ratio,
             depth_error: self.over_deepest(moved),
             volume_error: 0.0,
-            slip_cells: slip_zone::cells(&model.pressing().grid, touches * area, seen.stick_ratio),
+            // Late in life little slips; what has worn slipped when the zone was widest.
+            slip_cells: self.history.iter().fold(
+                slip_zone::cells(&model.pressing().grid, touches * area, seen.stick_ratio),
+                |widest, jump| widest.max(jump.slip_cells),
+            ),
         }
     }
 
