@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pyfret._core import degrees, range_of_life
+from pyfret._util.arrays import items
 from pyfret._util.figures import Figured
 from pyfret._util.labelled import Labelled
 from pyfret._util.numbers import layer_name, length, place
@@ -213,11 +214,17 @@ class Life(Saveable, Labelled, Figured):
         the worst point where it has none. The scatter of the material and of its distance is no
         part of it, since they are the same for two contacts of one material.
         """
+        if not 0 <= layer < len(self._materials):
+            raise ValueError(f"layer = {layer}: must be one of {self.layers}")
         return self.range_of(layer, scatter=1.0, L=distance_of_material(self._materials[layer]))
 
+    @quantities
     def least_margin(self, layers: Sequence[int] | None = None) -> LifeRange:
         """Give the smallest margin of some layers (default: all that are judged)."""
-        margins = [self.margin_of(layer) for layer in (self.layers if layers is None else layers)]
+        chosen = self.layers if layers is None else items(layers, "layers")
+        if not chosen:
+            raise ValueError("layers = []: must name a layer")
+        margins = [self.margin_of(layer) for layer in chosen]
         least = min(margins, key=lambda margin: (margin.best, margin.low))
         return least._replace(
             low=min(margin.low for margin in margins), high=min(margin.high for margin in margins)

@@ -10,6 +10,7 @@ from matplotlib import colormaps
 from matplotlib.colors import ListedColormap
 from matplotlib.ticker import MaxNLocator
 
+from pyfret._util.arrays import plain
 from pyfret._util.depths import interfaces, thin
 from pyfret._util.numbers import in_words
 from pyfret.plot.depth_axis import draw_depth_axis
@@ -120,7 +121,9 @@ def contour_levels(
             high = max(-low, high)
             low = -high
         levels = MaxNLocator(levels).tick_values(low, high)
-    steps = np.asarray(levels)
+    steps = plain(levels, "levels")
+    if steps.ndim != 1 or steps.size == 0:
+        raise ValueError(f"levels = {levels!r:.60}: must be a number of contours, or their values")
     symmetric = bool(np.isclose(steps[0], -steps[-1], rtol=1e-9))
     return steps, SIGNED if signed and symmetric else COLOURS
 

@@ -205,8 +205,17 @@ class WearResult(Saveable, Labelled, Figured):
         cycles = best if best.beyond is None else best.beyond
         return RangeOfCycles(cycles / part, float(best), best * part)
 
+    @quantities
     def error_of(self, quantity: Literal["depth", "volume"]) -> float:
-        """Give the relative error of the deepest depth or of the volume at the end."""
+        """Give the relative error of the deepest depth or of the volume at the end.
+
+        Raises
+        ------
+        ValueError
+            The quantity is neither of the two.
+        """
+        if quantity not in ("depth", "volume"):
+            raise ValueError(f"quantity = {quantity!r:.60}: must be 'depth' or 'volume'")
         name = f"{quantity}_error"
         # Stores without an error of the volume have that of the depth.
         return float(self.dataset[name if name in self.dataset else "depth_error"][-1])

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pyfret import _core
-from pyfret._core import OffGridError, Scene, StoreError
+from pyfret._core import ArgumentError, OffGridError, Scene, StoreError
 from pyfret._util import files
 from pyfret._util.progress import Progress
 from pyfret.quantities import quantities
@@ -80,6 +80,12 @@ def solve(
     begins = None if start is None else surfaces(start)
     done = 0.0 if begins is None else begins[0]
     worn_scene = scene if path is None else scene.replace(path=path)
+    last_branch = len(worn_scene.path.branches) - 1
+    if wear.first_branch is not None and wear.first_branch > max(last_branch, 1):
+        raise ArgumentError(
+            f"wear.first_branch = {wear.first_branch}: must be 1 to {max(last_branch, 1)}: "
+            "a branch of the path after one that presses"
+        )
 
     with Progress(title=worn_scene.title or "wear", shown=progress) as bar:
         kept = _core.wear(
