@@ -3,12 +3,22 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, NoReturn
 
 from pyfret._core import degrees, with_error, with_range
+from pyfret._util.attributes import missing_attribute
 from pyfret._util.numbers import place as describe_place
 
 __all__ = ["Errors", "Extremum", "Place", "format_value"]
+
+#: Names of attributes by other words; messages on unknown attributes read it.
+ELSEWHERE = {
+    "L": "it is a value at a point; life.L is the distance that the range is averaged over",
+    "life": "it is the margin",
+    "safety_factor": "it is the margin",
+    "factor": "it is the value",
+    "at": "the border has the name `border`, the point `place`",
+}
 
 
 class Errors(NamedTuple):
@@ -105,6 +115,12 @@ class Extremum(NamedTuple):
             return ""
         return with_range(self.margin, *self.whole)
 
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> NoReturn:
+            """Refuse a name that it does not have, with where its number is."""
+            missing_attribute(self, name, ELSEWHERE)
+
     def __repr__(self) -> str:
         """Give value, error and place in a few digits, and the margin with its range."""
         value = format_value(self.value, self.error, self.units)
@@ -125,13 +141,3 @@ def format_value(value: float, error: float, units: str) -> str:
     if units == "Pa":
         return f"{with_error(1e-6 * value, 1e-6 * error)} MPa"
     return with_error(value, error) + ("" if units == "1" else f" {units}")
-
-
-#: Names of attributes by other words; messages on unknown attributes read it.
-Extremum._meant = {  # type: ignore[attr-defined]
-    "L": "it is a value at a point; life.L is the distance that the range is averaged over",
-    "life": "it is the margin",
-    "safety_factor": "it is the margin",
-    "factor": "it is the value",
-    "at": "the border has the name `border`, the point `place`",
-}
