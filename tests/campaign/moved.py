@@ -24,6 +24,8 @@ from pyfret.subsurface.tensor import LABELS as ALL_LABELS
 #: Measures of stress that do not depend on the axes.
 LABELS = [name for name in ALL_LABELS if name not in COMPONENTS]
 RADIUS, N, ROOM = 5e-3, 28, 8
+#: Normal force at scale 1 [N].
+LOAD = 30.0
 #: Difference of two numbers that is within their cells, over the number.
 ALLOWED = 5e-3
 #: Numbers of a run that are no answers: counts, work, residuals, time.
@@ -51,10 +53,8 @@ class Drawn:
 
     def scene(self) -> fret.Scene:
         """The contact."""
-        ball, flat = (fret.Elastic(E=E, nu=0.3) for E in self.E)
-        W = 30.0
-        a = fret.reference.hertz(R=RADIUS, bodies=(ball, flat), W=W).a
-        cell = self.scale * 2.8 * a / N
+        ball, flat = self.materials
+        a, cell = self.radius, self.cell
         n = N + ROOM
         at = (np.arange(n) - (n - 1) / 2) * cell
         X, Y = (cells * cell for cells in self.offset)
@@ -79,7 +79,7 @@ class Drawn:
             )
         upper = fret.Body(ball, shape=round_)
         lower = fret.Body(below, **{**options, "coatings": coatings})
-        force = self.scale**2 * W
+        force = self.scale**2 * LOAD
         T = self.part * self.mu * force
         sign = -1.0 if self.exchanged else 1.0
         x_of, y_of = sign * T * np.cos(self.angle), sign * T * np.sin(self.angle)
@@ -99,6 +99,22 @@ class Drawn:
             grid=fret.Grid.centred(width=n * cell, n=n),
             path=path,
         )
+
+    @property
+    def materials(self) -> tuple[fret.Elastic, fret.Elastic]:
+        """Ball and flat, both elastic."""
+        ball, flat = (fret.Elastic(E=E, nu=0.3) for E in self.E)
+        return ball, flat
+
+    @property
+    def radius(self) -> float:
+        """Radius of the contact of bare bodies at scale 1 [m]."""
+        return fret.reference.hertz(R=RADIUS, bodies=self.materials, W=LOAD).a
+
+    @property
+    def cell(self) -> float:
+        """Side of a cell [m]."""
+        return self.scale * 2.8 * self.radius / N
 
     @property
     def body_number(self) -> int:
@@ -161,6 +177,10 @@ def numbers(
     last, number = result.at(-1), drawn.body_number
     d = result.dataset
 
+    # The moment about the place of the contact: about the middle of the grid, that of W is in it.
+    X, Y = (cells * drawn.cell for cells in drawn.offset)
+    about_contact = {"M_x": d.M_x - d.W * Y, "M_y": d.M_y + d.W * X}
+
     def keep(name: str, value: Any, unit: str, error: Any = 0.0) -> None:
         kept[name] = (float(value), abs(float(error or 0.0)), unit)
 
@@ -171,7 +191,8 @@ def numbers(
             continue
         unit = str(values.attrs.get("units", "1"))
         if name[:-2] in pairs and name[-2:] in ("_x", "_y"):
-            size = np.hypot(*(scalars[f"{name[:-2]}_{k}"].values[-1] for k in "xy"))
+            parts = scalars | about_contact
+            size = np.hypot(*(parts[f"{name[:-2]}_{k}"].values[-1] for k in "xy"))
             keep(f"|{name[:-2]}|", size, unit)
         elif name not in ("sigma_B", "sigma_B1", "M_z", "phi_z", "t", "branch"):
             keep(name, values.values[-1], unit)
@@ -208,7 +229,7 @@ def numbers(
         least = result.load_factors(
             [None, 900e6] if drawn.coating is not None else 900e6, body_number=number
         ).least("von_mises")
-        keep("load factor", least.factor, "1", least.error)
+        keep("load factor", least.value, "1", least.error)
     else:
         unloaded = result.unloaded()
         keep("imprint", unloaded.depth(number), "m")
