@@ -162,16 +162,18 @@ def test_a_crack_is_in_the_section_with_its_numbers(result: fret.Result) -> None
     arrest = crack.arrest(threshold)
     assert arrest.verdict == "stops"
     assert arrest.length is not None
-    # The length with its range.
-    assert f"stops at {1e6 * arrest.length:.3g} (" in numbers["crack"]["says"]
+    assert arrest.lengths is not None
+    # The length with its range, in as many digits as the range allows.
+    length, low, high = (f"{1e6 * value:.2g}" for value in (arrest.length, *arrest.lengths))
+    assert f"stops at {length} ({low} to {high}) µm" in numbers["crack"]["says"]
     drawn = numbers["stress"]["crack"]
     # A normal crack: straight down from its mouth to where it stops, and on from there.
     mouth = 1e6 * crack.dataset.attrs["x"]
     assert drawn["grown"]["x"] == pytest.approx([mouth] * len(drawn["grown"]["x"]), rel=1e-3)
     assert drawn["rest"]["z"][0] == drawn["end"]["z"][0] == drawn["grown"]["z"][-1]
-    length = float(numbers["crack"]["length"]) * 1e-6
+    drawn_length = float(numbers["crack"]["length"]) * 1e-6
     nearest = crack.dataset.sel(length=arrest.length, method="nearest")
-    assert length == pytest.approx(float(nearest.length), rel=5e-3)
+    assert drawn_length == pytest.approx(float(nearest.length), rel=5e-3)
     np.testing.assert_allclose(numbers["crack"]["K_I"], 1e-6 * nearest.K_I, rtol=1e-3, atol=1e-9)
     diagram, truth = numbers["crack"]["kitagawa"], crack.kitagawa(threshold)
     np.testing.assert_allclose(diagram["limit"], 1e-6 * truth["limit"], rtol=1e-3)
