@@ -22,6 +22,7 @@ from pyfret.quantities import (
     WearCoefficient,
     by_default,
     part,
+    quantities,
 )
 from pyfret.scene.parts import Replaceable
 
@@ -150,6 +151,7 @@ class Wear(Replaceable):
     event_depth_fraction: float = 0.1
 
     @classmethod
+    @quantities
     def from_settings(cls, wear: Wear | None, settings: Mapping[str, Any]) -> Wear:
         """The settings of `wear` with some exchanged, or made of these alone.
 
@@ -158,6 +160,8 @@ class Wear(Replaceable):
         TypeError
             One of them is no setting of wear; the message offers the nearest name.
         """
+        if settings is None or not all(isinstance(name, str) for name in settings):
+            raise TypeError(f"settings = {settings!r:.60}: must be a mapping of names")
         refuse_unknown("Wear.from_settings", settings, [field.name for field in fields(cls)])
         if wear is not None:
             return wear.replace(**settings)
