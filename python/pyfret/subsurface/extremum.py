@@ -115,12 +115,6 @@ class Extremum(NamedTuple):
             return ""
         return with_range(self.margin, *self.whole)
 
-    if not TYPE_CHECKING:
-
-        def __getattr__(self, name: str) -> NoReturn:
-            """Refuse a name that it does not have, with where its number is."""
-            missing_attribute(self, name, ELSEWHERE)
-
     def __repr__(self) -> str:
         """Give value, error and place in a few digits, and the margin with its range."""
         value = format_value(self.value, self.error, self.units)
@@ -141,3 +135,13 @@ def format_value(value: float, error: float, units: str) -> str:
     if units == "Pa":
         return f"{with_error(1e-6 * value, 1e-6 * error)} MPa"
     return with_error(value, error) + ("" if units == "1" else f" {units}")
+
+
+def refuse_attribute(self: Extremum, name: str) -> NoReturn:
+    """Refuse a name that an extremum does not have, with where its number is."""
+    missing_attribute(self, name, ELSEWHERE)
+
+
+if not TYPE_CHECKING:
+    # A method within the class would let type checkers take any name.
+    Extremum.__getattr__ = refuse_attribute
