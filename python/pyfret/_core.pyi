@@ -34,6 +34,11 @@ from pyfret.quantities import (
 )
 from pyfret.settings import Settings
 
+CELLS_PER_FILM: Final[float]
+"""
+Cells in the thickness of a layer from which its own stress is known.
+"""
+
 DEPTH_ROUNDING: Final[float]
 """
 Part of a worn depth that a jump which ends there may miss.
@@ -42,11 +47,6 @@ Part of a worn depth that a jump which ends there may miss.
 LONGEST_LIFE: Final[float]
 """
 Longest finite life [cycles]; a longer one is infinite.
-"""
-
-CELLS_PER_FILM: Final[float]
-"""
-Cells in the thickness of a layer from which its own stress is known.
 """
 
 RATCHETS: Final[float]
@@ -1431,18 +1431,18 @@ class Grid:
             The loads.
         error : float
             Error that is wanted of the number that `of` names. Of the pressure it is the root mean
-            square over that of the pressure; radius and approach have a tenth of it.
+            square over the error of the pressure; radius and approach have a tenth of it.
         room : float
             Side of the grid over the length of the contact: 1.2 (default), 2 or more where wear or
             rolling makes the contact longer.
         start : float, optional
-            Side to begin with [m] (default: that of the Hertz contact, else a millimetre).
+            Side to begin with [m] (default: from the Hertz contact, else a millimetre).
         plane_strain : bool
             Whether it is a line contact: a strip one metre wide.
         wear : dict, optional
             What wears, as keywords of :func:`pyfret.wear.solve`: cycles and laws at least. The
             run is done on few cells, and the grid holds the scar at its end, strokes included.
-            `error` is then that of the contact at the end, and the first contact has eight cells
+            `error` then belongs to the contact at the end, and the first contact has eight cells
             in its radius.
         mu : float or Friction, optional
             Coefficient of friction, which decides where wear slips: to be given with `wear`, and

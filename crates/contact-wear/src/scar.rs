@@ -39,7 +39,7 @@ impl Wear {
     pub fn scar(&self, scene: &Scene) -> Option<Scar> {
         let hertz = scene.hertz()?;
         let first = self.first_branch(scene).ok()?;
-        let shifts = scene.path.branches[first - 1..].iter();
+        let shifts = scene.path.branches.get(first.checked_sub(1)?..)?.iter();
         let shifts: Vec<f64> = shifts
             .map(|branch| branch.to.given.delta_x)
             .collect::<Option<_>>()?;
