@@ -13,6 +13,7 @@ from matplotlib.colors import to_rgb
 from matplotlib.text import Text
 
 import pyfret as fret
+from pyfret._util.theme import CATEGORIES
 from pyfret.plot.histories import FEW
 from pyfret.plot.stresses import SIGNED, contour_levels, is_signed
 
@@ -78,7 +79,7 @@ def test_axes_of_the_user_get_colours_that_hold() -> None:
     _, ax = plt.subplots()
     fret.plot.stress_along_depth(coated().at(-1).stress(x=0.0, y=0.0), ax=ax)
     colours = {str(line.get_color())[:7] for line in ax.get_lines()}
-    assert {"#0072b2", "#d55e00"} <= colours
+    assert {c.lower() for c in CATEGORIES[:2]} <= colours
     plt.close("all")
 
 

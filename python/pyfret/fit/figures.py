@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pyfret.plot.style import STICK, axes, styled
+from pyfret._util.theme import STICK
+from pyfret.plot.style import axes, styled
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.patches import Patch
 
-from pyfret.plot.style import REFERENCE, SLIP, STICK, axes
+from pyfret._util.theme import REFERENCE, SLIP, STICK
+from pyfret.plot.style import axes
 from pyfret.subsurface.line import Line
 
 if TYPE_CHECKING:

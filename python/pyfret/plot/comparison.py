@@ -8,7 +8,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from pyfret._util.text import literal
-from pyfret.plot.style import MARK, REFERENCE, STICK, styled
+from pyfret._util.theme import MARK, REFERENCE, STICK
+from pyfret.plot.style import styled
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -8,6 +8,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from pyfret._util.numbers import in_letters
+from pyfret._util.theme import CRACK
 from pyfret.fracture.growth import Cracks, Threshold
 from pyfret.plot.cracks import crack_arrest, intensity_history, kitagawa
 from pyfret.plot.scales import scales
@@ -74,7 +75,7 @@ def crack_path(
         unreached = np.insert(s[s > end], 0, end)
         line = np.interp(unreached, s, x), np.interp(unreached, s, z)
         ax.plot(*line, color="k", linewidth=0.8, linestyle="dashed", zorder=4)
-        ax.plot(line[0][0], line[1][0], "o", color="#a50f15", markersize=4, zorder=5)
+        ax.plot(line[0][0], line[1][0], "o", color=CRACK, markersize=4, zorder=5)
         ax.annotate(
             in_letters(arrest.briefly()),
             (float(line[0][0]), float(line[1][0])),

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from matplotlib.lines import Line2D
 
+from pyfret._util.theme import DANGER, MIDDLE, NEUTRAL, SAFE
 from pyfret.fracture.first import PARTS
 from pyfret.plot.areas import Raster
 from pyfret.plot.parameters import parameter_label
@@ -21,8 +22,8 @@ if TYPE_CHECKING:
 __all__ = ["design_chart"]
 
 #: What fails first, by the codes of ``first``, each with its colour.
-FIRST = {0: ("nothing fails", "#ffffff"), 1: ("film", "#fdd0a2")}
-FIRST |= {2: ("interface", "#c7e9c0"), 3: ("substrate", "#9ecae1")}
+FIRST = {0: ("nothing fails", NEUTRAL), 1: ("film", DANGER)}
+FIRST |= {2: ("interface", MIDDLE), 3: ("substrate", SAFE)}
 #: Lines of the limits of film, interface and substrate.
 STYLES: tuple[Literal["solid", "dashed", "dotted"], ...] = ("solid", "dashed", "dotted")
 

@@ -10,6 +10,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
 from pyfret._util.bounds import known_to
+from pyfret._util.theme import CRACK, DANGER, MIDDLE, NEUTRAL, SAFE, STICK
 from pyfret.fracture.arrest import WORDS
 from pyfret.plot.areas import Raster
 from pyfret.plot.stresses import COLOURS
@@ -24,18 +25,18 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 #: Running conditions by the codes of ``status``, each with its colour.
-CONDITIONS = {0: ("no contact", "#ffffff"), 1: ("full stick", "#9ecae1")}
-CONDITIONS |= {2: ("partial slip", "#deebf7"), 3: ("gross slip", "#fdd0a2")}
+CONDITIONS = {0: ("no contact", NEUTRAL), 1: ("full stick", SAFE)}
+CONDITIONS |= {2: ("partial slip", MIDDLE), 3: ("gross slip", DANGER)}
 #: What becomes of a crack.
-FATES = {0: (WORDS["dormant"], "#ffffff"), 1: (WORDS["stops"], "#9ecae1")}
-FATES |= {2: (WORDS["grows"], "#fdd0a2")}
+FATES = {0: (WORDS["dormant"], NEUTRAL), 1: (WORDS["stops"], SAFE)}
+FATES |= {2: (WORDS["grows"], DANGER)}
 #: Axes of the map: factor and label.
 AXES = {"T": (1.0, r"$T$"), "delta": (1e6, r"$\delta$ [µm]")}
 #: Lives whose contours are drawn [cycles], and the levels of safety factors.
 SLIDES, PARTIAL = 3, 2
 LIVES = 10.0 ** np.arange(3, 10)
 FACTORS = np.array([0.3, 0.5, 1.0, 2.0, 4.0])
-CRACK, ENERGY, ARREST = "#a50f15", "0.35", "#08519c"
+ENERGY, ARREST = "0.35", STICK
 #: Variables of a map of running conditions, and what makes one.
 RUNNING = ("W", "status", "dissipated")
 RUNNING_MADE = "a map of running conditions, fret.study.running_conditions(scene, W=..., T=...)"

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from pyfret._util.theme import colour_map
 from pyfret.plot.scales import Units, scales
 from pyfret.plot.style import add_colour_bar, axes, styled
 from pyfret.plot.tables import must_hold
@@ -100,7 +101,7 @@ def temperature_map(
     half_x, half_y = (x[1] - x[0]) / 2, (y[1] - y[0]) / 2
     extent = (x[0] - half_x, x[-1] + half_x, y[0] - half_y, y[-1] + half_y)
     values = found[of].sel(body=body_number).values
-    look = {"cmap": "YlGnBu", "aspect": ax.get_aspect(), **image}
+    look = {"cmap": colour_map("warm"), "aspect": ax.get_aspect(), **image}
     drawn = ax.imshow(values.T, origin="lower", extent=extent, **look)
     hottest = found.attrs["maximum_x"] / length.value, found.attrs["maximum_y"] / length.value
     ax.plot(*hottest, marker="x", color="0.1", markersize=5)

@@ -15,20 +15,11 @@ from pyfret._util.arrays import histories
 from pyfret._util.depths import interfaces
 from pyfret._util.material_names import as_material
 from pyfret._util.numbers import layer_name
+from pyfret._util.theme import MARK, REFERENCE, STICK
 from pyfret.plot.depth_axis import draw_depth_axis
 from pyfret.plot.scales import scales
 from pyfret.plot.stresses import COLOURS, FLAT, section_size
-from pyfret.plot.style import (
-    MARK,
-    REFERENCE,
-    STICK,
-    add_colour_bar,
-    axes,
-    inside_legend,
-    mark,
-    note,
-    styled,
-)
+from pyfret.plot.style import add_colour_bar, axes, inside_legend, mark, note, styled
 from pyfret.quantities import Numbers
 from pyfret.subsurface.line import line_of
 

@@ -9,6 +9,7 @@ from matplotlib.colors import ListedColormap
 from matplotlib.patches import Circle
 
 from pyfret._core import Flat, Sphere
+from pyfret._util.theme import MARK, SLIP, STICK, colour_map
 from pyfret.plot.along import (
     field_along,
     legend_of_zones,
@@ -17,7 +18,7 @@ from pyfret.plot.along import (
     zones_along,
 )
 from pyfret.plot.scales import MICRO, Scale, Units, last_of, scales_of_snapshot
-from pyfret.plot.style import SLIP, STICK, add_colour_bar, axes, styled
+from pyfret.plot.style import add_colour_bar, axes, styled
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -109,7 +110,7 @@ def field_map(
     extent = frame(ax, snapshot, length)
     contact = snapshot.dataset.contact.values.astype(bool)
     shown = np.where(contact, values / scale.value, np.nan)
-    look = {"cmap": "YlGnBu", "aspect": ax.get_aspect(), **image}
+    look = {"cmap": colour_map("sequential"), "aspect": ax.get_aspect(), **image}
     if not np.any(values[contact]):
         # A scale for a field that is zero everywhere.
         look["vmax"] = look.get("vmax") or 1.0
@@ -194,7 +195,7 @@ def shear_streamlines(
 ) -> Axes:
     r"""Streamlines of the shear vectors on body 2 over their size :math:`|q|/(\mu p_H)`.
 
-    Blue line: edge of the stick zone; dashed: the Hertz circle of spheres. A line contact has no
+    Orange line: edge of the stick zone; dashed: the Hertz circle of spheres. A line contact has no
     streamlines: its shear is drawn along x, with the bounds of friction.
 
     Parameters
@@ -228,8 +229,8 @@ def shear_streamlines(
     stick = np.where(contact, d.stick.values, np.nan)
     has_both_zones = contact.any() and np.nanmin(stick) < np.nanmax(stick)
     if min(size.shape) > 1 and has_both_zones:
-        ax.contour(x, y, stick.T, levels=[0.5], colors=[STICK], linewidths=1.2)
-        ax.plot([], [], color=STICK, linewidth=1.2, label="edge of the stick zone")
+        ax.contour(x, y, stick.T, levels=[0.5], colors=[MARK], linewidths=1.4)
+        ax.plot([], [], color=MARK, linewidth=1.4, label="edge of the stick zone")
         ax.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), borderpad=0.1)
     ax.set_xlim(*limits[0])
     ax.set_ylim(*limits[1])

@@ -8,12 +8,13 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from pyfret._util.text import literal
+from pyfret._util.theme import REFERENCE
 from pyfret.plot.along import look_along
 from pyfret.plot.histories import driven, fretting_loop, load_path, stick_ratio
 from pyfret.plot.maps import pressure_map, shear_streamlines, slip_map, stick_slip
 from pyfret.plot.scales import Scales, Units, last_of, scales_of_snapshot
 from pyfret.plot.stresses import stress_map
-from pyfret.plot.style import REFERENCE, apart, note, styled
+from pyfret.plot.style import apart, note, styled
 from pyfret.run import Run, State
 from pyfret.subsurface.contact import stress_below
 from pyfret.subsurface.line import fields_on, main_line, main_shear

@@ -13,11 +13,12 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from pyfret._core import CattaneoMindlin
+from pyfret._util.theme import CATEGORIES, REFERENCE
 from pyfret.plot.histories import fretting_loop, load_path, stick_ratio
 from pyfret.plot.maps import label_scale, shear_streamlines
 from pyfret.plot.profiles import pressure_profile, shear_profile, shear_profiles
 from pyfret.plot.stresses import stress_maps
-from pyfret.plot.style import REFERENCE, style
+from pyfret.plot.style import style
 from pyfret.quantities import quantities
 
 if TYPE_CHECKING:
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
     from pyfret.run import Run, State
 
 #: Line of each ratio E1/E2 wherever several share the axes.
-RATIO_COLOURS = {0.5: "#0072B2", 1.0: "#000000", 2.0: "#D55E00", 4.0: "#009E73"}
+RATIO_COLOURS = dict(zip((0.5, 2.0, 4.0, 1.0), (*CATEGORIES[:3], CATEGORIES[-1]), strict=True))
 
 
 def name(ratio: float) -> str:

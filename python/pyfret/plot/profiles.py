@@ -6,14 +6,13 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib import colormaps
 from matplotlib.cm import ScalarMappable
-from matplotlib.colors import ListedColormap
 
+from pyfret._util.theme import REFERENCE, colour_map
 from pyfret.plot.along import look_along
 from pyfret.plot.histories import NAMES, driven
 from pyfret.plot.scales import Units, last_of, run_of, scales_of_snapshot
-from pyfret.plot.style import REFERENCE, axes, styled
+from pyfret.plot.style import axes, styled
 from pyfret.subsurface.line import fields_on, main_line, main_shear
 from pyfret.subsurface.moments import lines_of
 
@@ -129,13 +128,13 @@ def shear_profiles(result: Run, *, units: Units = "auto", ax: Axes | None = None
     tau = float(result.dataset.t[-1])
     visits = load_states(result)
     states = 1 + max(state for state, _ in visits)
-    colours = colormaps["viridis"](np.linspace(0.0, 0.88, states))
+    colours = colour_map("order")(np.linspace(0.0, 1.0, states))
     few = len(visits) <= NAMED
     times = result.dataset.saved_t.values
     for number, t, (state, visit) in zip(kept, times, visits, strict=True):
         line: dict[str, Any] = {"color": colours[state], "label": f"{round(float(t / tau), 3)}"}
         if not few:
-            line |= {"color": colormaps["viridis"](0.88 * t / tau), "linewidth": 0.7}
+            line |= {"color": colour_map("order")(t / tau), "linewidth": 0.7}
         elif visit > 0:
             n = result.dataset.sizes["x"]
             every = max(1, n // 28)
@@ -151,8 +150,7 @@ def shear_profiles(result: Run, *, units: Units = "auto", ax: Axes | None = None
         anchor = (1.0, 0.5)
         ax.legend(title=r"$t/\tau$", loc="center left", bbox_to_anchor=anchor, alignment="left")
     else:
-        shades = ListedColormap(colormaps["viridis"](np.linspace(0.0, 0.88, 256)))
-        bar = plt.colorbar(ScalarMappable(cmap=shades), ax=ax, pad=0.02)
+        bar = plt.colorbar(ScalarMappable(cmap=colour_map("order")), ax=ax, pad=0.02)
         bar.set_label(r"$t/\tau$")
         bar.outline.set_visible(False)
     return ax

@@ -6,13 +6,12 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib import colormaps
-from matplotlib.colors import ListedColormap
 from matplotlib.ticker import MaxNLocator
 
 from pyfret._util.arrays import plain
 from pyfret._util.depths import interfaces, thin
 from pyfret._util.numbers import in_words
+from pyfret._util.theme import colour_map
 from pyfret.plot.depth_axis import draw_depth_axis
 from pyfret.plot.scales import Scales, Units, scales
 from pyfret.plot.style import add_colour_bar, apart, axes, mark, styled
@@ -92,9 +91,9 @@ FLAT = 3.0
 #: Width of one of several sections side by side [inch]: three fill a page at the size of its text.
 PANEL = 2.9
 #: Light enough for black labels.
-COLOURS = ListedColormap(colormaps["YlGnBu"](np.linspace(0.0, 0.62, 256)))
+COLOURS = colour_map("sequential")
 #: Blue for negative and red for positive numbers, white at zero, light enough for black labels.
-SIGNED = ListedColormap(colormaps["RdBu_r"](np.linspace(0.12, 0.88, 256)))
+SIGNED = colour_map("diverging")
 #: Part of the largest size from which both signs of a field are shown.
 BOTH_SIGNS = 0.02
 
@@ -348,7 +347,7 @@ def stress_history(
     # A depth that stays is one colour, its last digits are none.
     middle, half = (float(z.max()) + float(z.min())) / 2, (float(z.max()) - float(z.min())) / 2
     half = max(half, 0.05 * middle)
-    points = ax.scatter(value.increment, value, c=z, s=9, cmap="viridis", zorder=2)
+    points = ax.scatter(value.increment, value, c=z, s=9, cmap=colour_map("order"), zorder=2)
     points.set_clim(middle - half, middle + half)
     if half == 0.0:
         # All on the surface: no depth is below zero.

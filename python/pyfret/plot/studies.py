@@ -14,9 +14,10 @@ from pyfret._util.bounds import bounds, known_to
 from pyfret._util.parameters import one_of, part
 from pyfret._util.per_metre import of_line_contacts
 from pyfret._util.text import literal
+from pyfret._util.theme import MARK, REFERENCE, colour_map
 from pyfret.plot.areas import geometric, logarithmic
 from pyfret.plot.parameters import parameter_label
-from pyfret.plot.style import REFERENCE, axes, styled
+from pyfret.plot.style import axes, styled
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -32,7 +33,7 @@ Words: TypeAlias = Mapping[str, tuple[str, float]]
 CONTOURED = 4
 #: Step of the contours over the scatter of the values, at least: closer ones are its islands.
 ABOVE_SCATTER = 5.0
-COLOURS = "YlGnBu"
+COLOURS = colour_map("sequential")
 #: Letters in a line of a label, so that it fits beside a map.
 WIDTH = 44
 #: Status of a point that is done, and colour of points that are and have no value.
@@ -265,9 +266,7 @@ def plane(
     drawn: Any
     if kind == "contour" or (kind == "auto" and fine and field.count() > 3):
         steps = MaxNLocator(levels).tick_values(float(field.min()), float(field.max()))
-        # The darkest colours are left out: numbers on them could not be read.
-        darkest = steps[-1] + 0.4 * (steps[-1] - steps[0])
-        drawn = ax.contourf(x, y, field, levels=steps, cmap=COLOURS, vmin=steps[0], vmax=darkest)
+        drawn = ax.contourf(x, y, field, levels=steps, cmap=COLOURS)
         lines = ax.contour(x, y, field, levels=steps, colors="0.25", linewidths=0.5)
         whole_labels(ax, ax.clabel(lines, fontsize=7, fmt="%g"))
     else:
@@ -337,5 +336,5 @@ def crosses(ax: Axes, status: xr.DataArray, words: Words) -> None:
         for k, c in enumerate(coordinates)
     ]
     y = places[1] if len(places) > 1 else np.full(len(lost), ax.get_ylim()[0])
-    ax.plot(places[0], y, "x", color="#D55E00", markersize=5, clip_on=False, label="failed")
+    ax.plot(places[0], y, "x", color=MARK, markersize=5, clip_on=False, label="failed")
     ax.legend(loc="upper right")

@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import wraps
 from importlib import import_module
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar, overload
 
 import matplotlib
@@ -18,26 +17,17 @@ from matplotlib.colors import is_color_like, to_hex
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from pyfret._util.theme import MARK, settings
 from pyfret.quantities import quantities
 
 #: Layouts after which labels keep their places to a hundredth of an inch, with the one of drawing.
 LAYOUTS = 3
-#: Colour of marks of largest values.
-MARK = "#D55E00"
-#: Colours with a meaning, of the Okabe-Ito palette.
-STICK = "#0072B2"
-SLIP = "#F2C9A9"
-REFERENCE = "#9A9A9A"
-
-
-#: The theme: fonts, sizes and colours of every figure.
-THEME = Path(__file__).with_name("pyfret.mplstyle")
 
 
 @contextmanager
 def style() -> Iterator[None]:
     """Set the theme inside the ``with`` block, whatever the settings of the user."""
-    with plt.style.context(THEME, after_reset=True):
+    with plt.style.context(settings(), after_reset=True):
         try:
             yield
         finally:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal
 
-import matplotlib.pyplot as plt
 import numpy as np
 
+from pyfret._util.theme import colour_map
 from pyfret.plot.style import add_colour_bar, axes, inside_legend, styled
 
 if TYPE_CHECKING:
@@ -47,7 +47,7 @@ def wear_profiles(
     chosen = sorted(
         {min(int(np.searchsorted(middle.max(axis=1), w)), last) for w in wanted_depths} | {last}
     )
-    colours = plt.get_cmap("viridis")(np.linspace(0.9, 0.0, len(chosen)))
+    colours = colour_map("order")(np.linspace(1.0, 0.0, len(chosen)))
     for block, colour in zip(chosen, colours, strict=True):
         cycles = f"{float(result.dataset.block_cycles[block]):,.0f}".replace(",", " ")
         ax.plot(position, 1e6 * middle[block], color=colour, label=cycles)
@@ -72,7 +72,12 @@ def depth_map(
     d = result.dataset
     depth = 1e6 * _depth(d, of)[block].T
     drawn = ax.pcolormesh(
-        1e3 * d.x, 1e3 * d.y, depth, cmap="YlGnBu", shading="nearest", rasterized=True
+        1e3 * d.x,
+        1e3 * d.y,
+        depth,
+        cmap=colour_map("sequential"),
+        shading="nearest",
+        rasterized=True,
     )
     add_colour_bar(ax, drawn, "worn depth [µm]")
     ax.set_xlabel("$x$ [mm]")
