@@ -33,6 +33,7 @@ COMMANDS = (
     "report",
     "verify",
     "cite",
+    "workbench",
 )
 
 

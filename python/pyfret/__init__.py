@@ -85,7 +85,7 @@ if TYPE_CHECKING:
     from pyfret.opening import open
     from pyfret.study.compare import compare
     from pyfret.verification import verify
-    from pyfret.what_if.page import explore
+    from pyfret.workbench.page import explore
 
 __all__ = [
     "RIGID",
@@ -160,7 +160,7 @@ _LATER: dict[str, Callable[[], Any]] = {
     "cite": lambda: import_module("pyfret.citation").cite,
     "compare": lambda: import_module("pyfret.study.compare").compare,
     "experiments": lambda: import_module("pyfret.experiments"),
-    "explore": lambda: import_module("pyfret.what_if.page").explore,
+    "explore": lambda: import_module("pyfret.workbench.page").explore,
     "export": lambda: import_module("pyfret.export"),
     "fit": lambda: import_module("pyfret.fit"),
     "open": lambda: import_module("pyfret.opening").open,

@@ -23,6 +23,7 @@ NEEDS_PYTHON = frozenset(
         "verify",
         "cite",
         "info",
+        "workbench",
     )
 )
 

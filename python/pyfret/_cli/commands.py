@@ -252,6 +252,7 @@ def run(arguments: Sequence[str] | None) -> int:
         "fit": fit.run,
         "threshold": threshold.run,
         "info": info.run,
+        "workbench": explore.run,
     }
     # What people read; JSON is for programs, and stays.
     quiet = options.quiet and not getattr(options, "json", False)

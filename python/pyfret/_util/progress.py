@@ -7,11 +7,12 @@ import os
 import sys
 import time
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from pyfret._core import shown
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from types import TracebackType
 
 #: Characters of the bar.
@@ -55,6 +56,10 @@ class Progress:
         Whether to draw at all; without a terminal or a notebook nothing is drawn in any case.
     """
 
+    #: Function that gets the counts of the outermost run, for a program that shows them.
+    observer: ClassVar[Callable[[int, int], None] | None] = None
+    _outermost: ClassVar[Progress | None] = None
+
     def __init__(self, *, title: str, shown: bool) -> None:
         self.title = title
         self.shown = shown and watched(sys.stderr)
@@ -65,12 +70,16 @@ class Progress:
 
     def __enter__(self) -> Progress:
         """Start counting time."""
+        if Progress._outermost is None:
+            Progress._outermost = self
         return self
 
     def update(self, done: int, total: int) -> None:
         """Say that `done` of `total` increments are solved."""
         self.done, self.total = done, total
         now = time.monotonic()
+        if Progress.observer is not None and Progress._outermost is self:
+            Progress.observer(done, total)
         if self.shown and (now - self.drawn > INTERVAL or done == total):
             self.drawn = now
             self.show(self.line(now - self.started))
@@ -110,6 +119,8 @@ class Progress:
         trace: TracebackType | None,
     ) -> None:
         """Take the bar off the screen: what it told is over."""
+        if Progress._outermost is self:
+            Progress._outermost = None
         if self.view is not None:
             self.view.update({"text/plain": ""}, raw=True)
         elif self.shown and self.drawn_letters:
