@@ -132,6 +132,7 @@ COMMANDS = (
         "study",
         "compare",
         "explore",
+        "workbench",
         "life",
         "crack",
         "export",

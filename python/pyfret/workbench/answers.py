@@ -6,7 +6,7 @@ import threading
 import warnings
 from collections import OrderedDict
 from dataclasses import asdict, dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import numpy as np
 
@@ -24,7 +24,9 @@ if TYPE_CHECKING:
     from pyfret.result import Result
     from pyfret.subsurface.tensor import Stress
 
-__all__ = ["Answer", "Number", "answer_in_full", "preview", "solve_in_full"]
+__all__ = ["Answer", "Number", "Recent", "answer_in_full", "preview", "solve_in_full"]
+
+T = TypeVar("T")
 
 #: A preview has the increments of the neighbouring scene over this, a least number in a branch.
 FEWER, LEAST = 3, 4
@@ -120,28 +122,30 @@ def preview(scene: Scene, names: dict[str, str], counts: list[int] | None) -> An
     return Answer(numbers, list(result.doubts), counts, result, below)
 
 
-class Results:
-    """The last results, by the text of their scenes: one is solved once for several tabs."""
+class Recent(Generic[T]):
+    """The last values, by keys of text: each is computed once for several tabs."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
-        self._kept: OrderedDict[str, Result] = OrderedDict()
+        self._kept: OrderedDict[str, T] = OrderedDict()
 
-    def fetch(self, key: str, compute: Callable[[], Result]) -> Result:
-        """Return the result with a key, computed where it is not kept."""
+    def fetch(self, key: str, compute: Callable[[], T]) -> T:
+        """Return the value with a key, computed where it is not kept."""
         with self._lock:
             if key in self._kept:
                 self._kept.move_to_end(key)
                 return self._kept[key]
-        result = compute()
+        value = compute()
         with self._lock:
-            self._kept[key] = result
+            self._kept[key] = value
             while len(self._kept) > KEPT:
                 self._kept.popitem(last=False)
-        return result
+        return value
 
 
-RESULTS = Results()
+#: Results by the text of their scenes, answers by the names of the materials as well.
+RESULTS: Recent[Result] = Recent()
+ANSWERS: Recent[Answer] = Recent()
 
 
 def solve_in_full(scene: Scene) -> Result:
@@ -156,6 +160,12 @@ def solve_in_full(scene: Scene) -> Result:
 
 def answer_in_full(scene: Scene, names: dict[str, str]) -> Answer:
     """Solve a scene in the chosen increments: numbers with errors, the largest stress of layers."""
+    key = f"{sorted(names.items())}\n{scene.to_toml()}"
+    return ANSWERS.fetch(key, lambda: make_answer(scene, names))
+
+
+def make_answer(scene: Scene, names: dict[str, str]) -> Answer:
+    """Make the numbers of the full run of a scene."""
     result = solve_in_full(scene)
     below = stress_below(result)
     numbers = scalars(result)

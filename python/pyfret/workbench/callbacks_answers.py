@@ -115,17 +115,20 @@ def connect_answers(app: Any, sessions: Sessions, jobs: Jobs) -> None:
         dash.Output("judged", "data"),
         dash.Input("solved", "data"),
         dash.Input("event", "data"),
+        dash.Input("tab", "data"),
         dash.State("session", "data"),
         dash.State("judged", "data"),
         prevent_initial_call=True,
     )
-    def judge(packed: Any, event: Any, session: Any, before: Any) -> list[Any]:
-        """Judge first yield and life."""
+    def judge(packed: Any, event: Any, tab: Any, session: Any, before: Any) -> list[Any]:
+        """Judge first yield and life, which take seconds, while the second tab is shown."""
         criterion = (before or {}).get("criterion", FIRST)
         if dash.ctx.triggered_id == "event":
             if event.get("event") != "criterion":
                 raise dash.exceptions.PreventUpdate
             criterion = str(event["value"])
+        elif tab != "answers" or (packed and (before or {}).get("scene") == packed):
+            raise dash.exceptions.PreventUpdate
         if not packed:
             return ["no answer: the contact has no solution", {"criterion": criterion}]
         scene, names = sessions.unpack(session, packed)

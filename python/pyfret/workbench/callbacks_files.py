@@ -38,8 +38,13 @@ def fit_form() -> Any:
             select("fit-body", "body with the scar", bodies, "2"),
             field("fit-cycles", "cycles of the scar", "1e5"),
             field("fit-predict", "predict the depth after so many cycles", "1e6"),
-            button("Fit", event="fit"),
-            button("Show the result", event="show", name="answers"),
+            h.Div(
+                [
+                    button("Fit", event="fit"),
+                    button("Show the result", event="show", name="answers"),
+                ],
+                className="buttons",
+            ),
         ]
     )
 

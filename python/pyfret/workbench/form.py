@@ -107,7 +107,7 @@ def render_layer(body: str, n: int, count: int, fields: list[Field], name: str) 
         buttons.insert(
             0, button("Move down", label=f"Move {at} down", event="move", part=body, n=str(n))
         )
-    head = h.Div([h.H4(f"Layer {n + 1}"), h.Div(buttons)], className="head")
+    head = h.Div([h.H3(f"Layer {n + 1}"), h.Div(buttons)], className="head")
     return h.Div([head, material_select(part, name), *map(render_field, fields)], className="layer")
 
 
@@ -134,7 +134,7 @@ def render_body(
             *map(render_field, groups[f"{body}.shape"]),
             *layers,
             add,
-            h.H4("Substrate"),
+            h.H3("Substrate"),
             material_select(body, names[body]),
             *map(render_field, groups[body]),
         ]

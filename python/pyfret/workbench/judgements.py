@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from pyfret._core import with_error
 from pyfret._util.scene_warnings import SceneWarning
-from pyfret.workbench.answers import REFUSALS, Number
+from pyfret.workbench.answers import REFUSALS, Number, Recent
 from pyfret.workbench.names import layer_labels, materials_of
 
 if TYPE_CHECKING:
@@ -19,11 +19,11 @@ __all__ = ["CRITERIA", "crack_verdict", "first_yield", "life_of"]
 
 #: Criteria that the page offers.
 CRITERIA = {
-    "smith_watson_topper": "Smith, Watson and Topper: cycles to initiation",
-    "fatemi_socie": "Fatemi and Socie: cycles to initiation",
-    "crossland": "Crossland: safety factor of endless life",
-    "dang_van": "Dang Van: safety factor of endless life",
-    "findley": "Findley: safety factor of endless life",
+    "smith_watson_topper": "Smith, Watson, Topper: cycles",
+    "fatemi_socie": "Fatemi, Socie: cycles",
+    "crossland": "Crossland: safety factor",
+    "dang_van": "Dang Van: safety factor",
+    "findley": "Findley: safety factor",
 }
 
 
@@ -32,8 +32,18 @@ def has(material: Material | None, *numbers: str) -> bool:
     return material is not None and set(numbers) <= {key for key, _, _ in material.numbers()}
 
 
+#: Yields by the scene and the names of its materials.
+YIELDS: Recent[Number] = Recent()
+
+
 def first_yield(result: Result, names: dict[str, str]) -> Number:
     """Return the factor of all loads at which the first layer yields, after von Mises."""
+    key = f"{sorted(names.items())}\n{result.dataset.attrs['scene']}"
+    return YIELDS.fetch(key, lambda: find_yield(result, names))
+
+
+def find_yield(result: Result, names: dict[str, str]) -> Number:
+    """Search the load factor of first yield."""
     name = "first yield, times the loads"
     scene = result.scene
     layers = [m if has(m, "s_y") else None for m in materials_of(scene, names)]

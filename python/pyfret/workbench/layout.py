@@ -138,7 +138,10 @@ def compare_panel() -> list[Any]:
     return [
         h.H2("Compare"),
         h.P("Pin the contact of the first tab, change it, and pin it again: up to four variants."),
-        h.Div([button("Pin this contact", event="pin"), button("Remove all pins", event="unpin")]),
+        h.Div(
+            [button("Pin this contact", event="pin"), button("Remove all pins", event="unpin")],
+            className="buttons",
+        ),
         h.Div(
             id="comparison",
             className="wide",
@@ -206,7 +209,7 @@ def page_layout(packed: Mapping[str, Any], first: str) -> Any:
         dcc.Store(id="dropped", storage_type="session", data=[]),
         *(
             dcc.Store(id=name)
-            for name in ("event", "done", "session", "solved", "previewed", "judged")
+            for name in ("event", "done", "session", "tab", "solved", "previewed", "judged")
         ),
         dcc.Store(id="counts"),
         dcc.Store(id="note"),

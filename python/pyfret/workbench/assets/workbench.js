@@ -98,6 +98,7 @@
     main.dataset.tab = name;
     for (const tab of document.querySelectorAll("[role=tab]")) tab.setAttribute("aria-selected", String(tab.dataset.tab === name));
     sessionStorage.setItem("workbench-tab", name);
+    set("tab", { data: name });
     window.dispatchEvent(new Event("resize"));
   }
   function dark() {
