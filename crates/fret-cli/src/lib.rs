@@ -91,6 +91,9 @@ enum Command {
     // Many runs.
     /// Open a page that answers while parameters are dragged (needs the Python package)
     Explore(python::Options),
+    /// Open the workbench in a browser: contact, answers, variants, measured files, reports (needs
+    /// the Python package)
+    Workbench(python::Options),
     /// Solve a scene for many values of its parameters (needs the Python package)
     Study(python::Options),
     /// Put bodies side by side in one scene, such as several coatings (needs the Python package)
@@ -152,6 +155,7 @@ pub fn run_command(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Wear(options) => wear::wear(&options),
         Command::Study(options) => return in_python("study", &options.arguments),
         Command::Explore(options) => return in_python("explore", &options.arguments),
+        Command::Workbench(options) => return in_python("workbench", &options.arguments),
         Command::Compare(options) => return in_python("compare", &options.arguments),
         Command::Life(options) => life::life(&options),
         Command::Export(options) => return in_python("export", &options.arguments),
