@@ -30,6 +30,7 @@ COMMANDS = (
     "fit",
     "threshold",
     "info",
+    "table",
     "report",
     "verify",
     "cite",

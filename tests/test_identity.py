@@ -185,7 +185,7 @@ def test_a_table_names_what_it_leaves_out() -> None:
     study = solved({"mu": [0.2, 0.4]}, ["p_max", profile])
     with pytest.warns(UserWarning, match=r"profile \(over x\)"):
         table = study.to_dataframe()
-    assert list(table.p_max.round()) == list(study.dataset.p_max.values.round())
+    assert list(table["p_max [Pa]"].round()) == list(study.dataset.p_max.values.round())
 
 
 def test_a_study_in_memory_is_that_of_a_store(tmp_path: Path) -> None:

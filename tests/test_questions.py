@@ -211,7 +211,7 @@ def test_materials_have_names() -> None:
     assert len(known_items) > 5
     for name in known_items:
         elastic = fret.material(name, nu=0.3)
-        assert 1e9 < elastic.E < 1.5e12
+        assert 1e8 < elastic.E < 1.5e12
         assert elastic.nu == 0.3
     assert fret.material("titanium_6Al4V").nu != 0.3
     with pytest.warns(fret.errors.SceneWarning, match="no Poisson's ratio"):
@@ -243,7 +243,7 @@ def test_a_study_is_a_table_of_points() -> None:
     assert list(table.columns)[:1] == ["mu"]
     assert "profile" not in table.columns
     assert len(table) == 2
-    assert (table["p_max"] > 0.9 * HERTZ.p0).all()
+    assert (table["p_max [Pa]"] > 0.9 * HERTZ.p0).all()
 
 
 def test_a_summary_tells_its_errors() -> None:

@@ -17,7 +17,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from pyfret import _core, quantities
+from pyfret import _core, contacts, quantities
 from pyfret.grids import for_contact
 
 ROOT = Path(__file__).parents[1]
@@ -30,6 +30,7 @@ from typing import Any, Literal
 from typing_extensions import Self
 from pyfret._util.types import FrictionFunction, Variable
 from pyfret.quantities import {NAMES}
+import os
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 """
@@ -65,6 +66,18 @@ def grids() -> str:
     doc = inspect.cleandoc(for_contact.__doc__ or "")
     head = f"    @staticmethod\n    def for_contact{inspect.signature(for_contact)}:\n"
     return head + quoted(doc, " " * 8)
+
+
+def scenes() -> str:
+    """The methods of the scene that Python gives."""
+    methods = ""
+    for name in contacts.__all__:
+        make = getattr(contacts, name)
+        if name != "offer":
+            doc = inspect.cleandoc(make.__doc__ or "")
+            head = str(inspect.signature(make)).replace("Part", "Body | Elastic | str")
+            methods += f"    @staticmethod\n    def {name}{head}:\n" + quoted(doc, " " * 8)
+    return methods
 
 
 def within(text: str, name: str, members: str) -> str:
@@ -109,7 +122,8 @@ def stub() -> str:
     text = re.sub(r"( *def )__add__(.*\n)", r"\1__add__\2\1__radd__\2", text)
     # What a class does not have is refused there.
     text = re.sub(r" *def __getattr__\(.*\n", "", text)
-    text = within(within(text, "Criterion", criteria()), "Grid", grids())
+    for owner, members in (("Criterion", criteria()), ("Grid", grids()), ("Scene", scenes())):
+        text = within(text, owner, members)
     return formatted(IMPORTS + text + exceptions() + exports())
 
 

@@ -61,7 +61,7 @@ from pyfret._core import (
     graded,
 )
 
-# Beside the list: parts of a load path that its methods make.
+# Beside the list: parts of a load path that its methods make, and the table of the materials.
 from pyfret._core import Branch as Branch
 from pyfret._core import PerRange as PerRange
 from pyfret._core import Spacing as Spacing
@@ -69,8 +69,10 @@ from pyfret._core import __version__ as __version__
 from pyfret._util.attributes import PUBLIC_MODULES
 from pyfret._util.figures import register_figures
 from pyfret._util.names import OTHER_NAMES, listing
+from pyfret.contacts import offer as offer_contacts
 from pyfret.grids import offer as offer_grids
-from pyfret.materials import material
+from pyfret.material_table import material
+from pyfret.material_table import materials as materials
 from pyfret.result import Result
 from pyfret.scene.surfaces import read_surface
 from pyfret.settings import Settings
@@ -137,6 +139,7 @@ __all__ = [
 __dir__ = listing(__all__)
 
 offer_grids()
+offer_contacts()
 PUBLIC_MODULES.update(
     {name: globals()[name] for name in __all__ if isinstance(globals().get(name), ModuleType)}
 )

@@ -1,3 +1,4 @@
+import os
 from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
 from typing import Any, Final, Literal, final
@@ -129,6 +130,8 @@ class Assessment:
 
         The range has the scatter of the material; `scatter` takes the place of its default.
         """
+    def mean_stress_note(self, /, material: Material | None = None) -> str | None:
+        """Note on a weight of the mean stress that is 0; None where mean stress counts."""
     def safety_factor(self, /, value: float) -> float:
         """Factor by which the history may grow until the limit, for values of the criterion."""
 
@@ -177,6 +180,8 @@ class Body:
     ) -> Body: ...
     def __replace__(self, /, **changes: Any) -> Self: ...
     def __repr__(self, /) -> str: ...
+    @property
+    def _curvature(self, /) -> list[float]: ...
     @property
     def coatings(self, /) -> list[Coating]:
         """Layers from the surface down."""
@@ -2051,6 +2056,8 @@ class Material:
         What the material is (default: its name).
     also : list of str
         Other names that it is found by.
+    kind : str
+        What it is: steel, metal, ceramic, coating or polymer (default: nothing).
 
     Examples
     --------
@@ -2059,7 +2066,9 @@ class Material:
     """
 
     def __eq__(self, value: object, /) -> bool: ...
-    def __getnewargs__(self, /) -> tuple[str, list[tuple[str, float, str]], str, list[str]]: ...
+    def __getnewargs__(
+        self, /
+    ) -> tuple[str, list[tuple[str, float, str]], str, list[str], str]: ...
     def __ne__(self, value: object, /) -> bool: ...
     def __new__(
         cls,
@@ -2068,6 +2077,7 @@ class Material:
         numbers: Sequence[tuple[str, float, str]],
         title: str | None = None,
         also: Sequence[str] = ...,
+        kind: str = "",
     ) -> Material: ...
     def __repr__(self, /) -> str: ...
     @property
@@ -2089,8 +2099,9 @@ class Material:
         """Numbers that are estimates or from memory, in words; None where each has a source."""
     def estimated(self, /, family: str) -> Material:
         """The material with the missing numbers that published rules can estimate."""
-    def is_called(self, /, name: str) -> bool:
-        """Whether the material has this name, whatever its case and the marks between letters."""
+    @property
+    def kind(self, /) -> str:
+        """What it is: steel, metal, ceramic, coating or polymer; empty where nothing is given."""
     @property
     def name(self, /) -> str:
         """Key of the material in its table."""
@@ -2541,6 +2552,178 @@ class Scene:
         """One line that names the scene."""
     def to_toml(self, /) -> str:
         """Write the text of a scene file, all numbers in SI units."""
+
+    @staticmethod
+    def ball_on_flat(
+        ball: Body | Elastic | str,
+        flat: Body | Elastic | str,
+        *,
+        R: Radius,
+        W: Quantity,
+        mu: FrictionCoefficient,
+        T: Quantity | None = None,
+        shift: Length | None = None,
+        cycles: int = 2,
+        wear: Mapping[str, Any] | None = None,
+        error: float = 0.02,
+        n: int | None = None,
+        quiet: bool = False,
+    ) -> Scene:
+        """Make the scene of a ball on a flat: bodies, path and a grid that fits them.
+
+        Parameters
+        ----------
+        ball, flat : Body, Elastic or str
+            The bodies: the name of a material of the table, a material, or a body with coatings.
+        R : float
+            Radius of the ball [m].
+        W : float
+            Normal force [N].
+        mu : float
+            Friction coefficient.
+        T, shift : float, optional
+            Amplitude of the tangential force [N], or of the shift of the bodies [m], along x
+            (default: the ball is pressed alone).
+        cycles : int
+            Cycles of the force or of the shift (default 2).
+        wear : dict, optional
+            What wears, as keywords of :func:`pyfret.wear.solve`: the grid holds the scar of all
+            cycles.
+        error : float
+            Error that is wanted of the pressure (default 2 %).
+        n : int, optional
+            Cells along the shorter side, in place of those that `error` and a film take.
+        quiet : bool
+            Whether the line about the grid is not printed (default False).
+
+        Returns
+        -------
+        Scene
+            For ``fret.solve(scene)``. An outermost coating has two cells in its thickness where
+            that takes at most 512 cells along a side, 4096 of a line contact. The printed line has
+            the cells of the grid, what they resolve and what they do not.
+
+        Examples
+        --------
+        >>> scene = Scene.ball_on_flat(
+        ...     "100Cr6", "Ti6Al4V", R=5e-3, W=10.0, mu=0.6, T=3.0
+        ... )  # doctest: +SKIP
+        >>> fret.solve(scene).summary()  # doctest: +SKIP
+        """
+    @staticmethod
+    def crossed_cylinders(
+        first: Body | Elastic | str,
+        second: Body | Elastic | str,
+        *,
+        R: Radius,
+        R2: Radius | None = None,
+        angle: Angle = 1.5707963267948966,
+        W: Quantity,
+        mu: FrictionCoefficient,
+        T: Quantity | None = None,
+        shift: Length | None = None,
+        cycles: int = 2,
+        wear: Mapping[str, Any] | None = None,
+        error: float = 0.02,
+        n: int | None = None,
+        quiet: bool = False,
+    ) -> Scene:
+        """Make the scene of two crossed cylinders, as of wires and of many rigs.
+
+        Parameters
+        ----------
+        first, second : Body, Elastic or str
+            The upper cylinder, whose axis is y, and the lower one.
+        R, R2 : float
+            Their radii [m] (default of the second: that of the first).
+        angle : float
+            Angle between the axes [rad], such as ``"90 deg"`` (default: a right angle).
+        W, mu, T, shift, cycles, wear, error, n, quiet
+            As in :func:`ball_on_flat`.
+        """
+    @staticmethod
+    def cylinder_on_flat(
+        cylinder: Body | Elastic | str,
+        flat: Body | Elastic | str,
+        *,
+        R: Radius,
+        W: Quantity,
+        mu: FrictionCoefficient,
+        T: Quantity | None = None,
+        shift: Length | None = None,
+        cycles: int = 2,
+        wear: Mapping[str, Any] | None = None,
+        error: float = 0.02,
+        n: int | None = None,
+        quiet: bool = False,
+    ) -> Scene:
+        """Make the scene of a long cylinder on a flat, a line contact in plane strain.
+
+        The axis of the cylinder is y. Forces are per metre of its length [N/m]: `W` and `T`.
+        The other parameters are those of :func:`ball_on_flat`.
+        """
+    @staticmethod
+    def flat_pad(
+        pad: Body | Elastic | str,
+        flat: Body | Elastic | str,
+        *,
+        width: Length,
+        edge: Radius,
+        W: Quantity,
+        mu: FrictionCoefficient,
+        T: Quantity | None = None,
+        shift: Length | None = None,
+        cycles: int = 2,
+        wear: Mapping[str, Any] | None = None,
+        error: float = 0.02,
+        n: int | None = None,
+        quiet: bool = False,
+    ) -> Scene:
+        """Make the scene of a flat pad with rounded edges on a flat: a line contact.
+
+        Parameters
+        ----------
+        pad, flat : Body, Elastic or str
+            As in :func:`ball_on_flat`.
+        width : float
+            Width of the flat of the pad [m], without its rounded edges.
+        edge : float
+            Radius of the edges [m].
+        W, T : float
+            Forces per metre [N/m].
+        mu, shift, cycles, wear, error, n, quiet
+            As in :func:`ball_on_flat`.
+        """
+    @staticmethod
+    def rough_on_flat(
+        rough: Body | Elastic | str,
+        flat: Body | Elastic | str,
+        *,
+        surface: SurfaceMap | Rough | str | os.PathLike[str],
+        R: Radius,
+        W: Quantity,
+        mu: FrictionCoefficient,
+        T: Quantity | None = None,
+        shift: Length | None = None,
+        cycles: int = 2,
+        wear: Mapping[str, Any] | None = None,
+        error: float = 0.05,
+        n: int | None = None,
+        quiet: bool = False,
+    ) -> Scene:
+        """Make the scene of a rough ball on a flat.
+
+        Parameters
+        ----------
+        rough, flat : Body, Elastic or str
+            The ball with the rough surface, and the flat.
+        surface : SurfaceMap, Rough or path
+            Measured heights, a random surface, or the file of an instrument.
+        R : float
+            Radius of the ball [m]: flats would touch over the whole grid.
+        W, mu, T, shift, cycles, wear, error, n, quiet
+            As in :func:`ball_on_flat`; `error` is 5 % by default.
+        """
 
 @final
 class Spacing:
@@ -3307,6 +3490,16 @@ def influence_coefficients(
         u_x, u_y, u_z under q_x, q_y, p at all offsets of the observed cell from the loaded one. The
         offset (0, 0) is in the middle.
     """
+
+def find_material(name: str, materials: Sequence[Material]) -> Material | None:
+    """
+    The material of a name among some: of its key, or of another name, whatever the case.
+
+    The case counts in a formula, and in a name that differs from one in its case alone.
+    """
+
+def nearest_materials(name: str, materials: Sequence[Material], most: int = 3) -> list[str]:
+    """Names of the materials nearest to an unknown name and of its kind, the nearest first."""
 
 def known_as(source: str) -> Literal["known", "estimate", "recalled"]:
     """How a number of a material is known, by its source: "known", "estimate" or "recalled"."""

@@ -10,11 +10,11 @@ from pyfret import _core, fatigue, fracture
 from pyfret import heat as heating
 from pyfret._core import StoreError
 from pyfret._util import files
-from pyfret._util.csv_table import write_csv
 from pyfret.export.write import write as export
 from pyfret.quantities import Angle, Lengths, Numbers, ResidualStresses, Unchecked, quantities
 from pyfret.report.page import report
 from pyfret.run import Run
+from pyfret.run.run import one_of
 from pyfret.run.summary import summary
 from pyfret.run.tables import run_html
 from pyfret.snapshot import Shows, Snapshot
@@ -53,7 +53,7 @@ class Result(Run, Shows):
     _repr_html_ = run_html
 
     @quantities
-    def at(self, which: Unchecked) -> Snapshot:
+    def at(self, which: Unchecked | None = None, *, t: Unchecked | None = None) -> Snapshot:
         """Give the contact at the end of one increment whose fields were kept.
 
         Parameters
@@ -61,13 +61,15 @@ class Result(Run, Shows):
         which : int or float
             An integer counts increments from 1; negative ones count the kept increments from the
             last. A float is a path time t.
+        t : float, optional
+            The path time instead: ``at(t=2)`` is ``at(2.0)``.
 
         Raises
         ------
         KeyError
             The fields of that increment were not kept; the message lists those that were.
         """
-        return Snapshot(*self._kept(which))
+        return Snapshot(*self._kept(one_of(which, t)))
 
     def unloaded(self, which: float = -1) -> Unloaded:
         """Take the contact apart: residual stress, and the imprint as a shape.
@@ -154,14 +156,6 @@ class Result(Run, Shows):
             The ending is another.
         """
         files.write(self.dataset, path, overwrite=overwrite)
-
-    @quantities
-    def to_csv(self, path: str | os.PathLike[str]) -> None:
-        """Write the numbers of every increment as a table (``.csv``), units in the head.
-
-        A file that is there is replaced. :meth:`export` writes tractions.
-        """
-        write_csv(self.dataset, path, ("increment",))
 
     @quantities
     def export(

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
 from pyfret._util import files
-from pyfret._util.csv_table import write_csv
+from pyfret._util.csv_table import Tabular
 from pyfret._util.text import html
 from pyfret.quantities import quantities
 
@@ -52,10 +52,10 @@ src="data:image/svg+xml;base64,{figure}"></p>
 """
 
 
-class Saveable:
+class Saveable(Tabular):
     """A result with a dataset, a summary and a figure, which can be saved."""
 
-    #: Axes of the table of :meth:`to_csv` (default: the axes of the first variable).
+    #: Axes of the rows of :meth:`to_dataframe` (default: the axes of the first variable).
     table_axes: ClassVar[tuple[str, ...] | None] = None
 
     def _as_saved(self: HasDataset) -> xr.Dataset:
@@ -85,14 +85,6 @@ class Saveable:
         if not {"wear", "kind"} & set(dataset.attrs):
             dataset = dataset.assign_attrs(kind=type(self).__name__)
         files.write(dataset, path, overwrite=overwrite)
-
-    @quantities
-    def to_csv(self: HasDataset, path: str | os.PathLike[str]) -> None:
-        """Write the numbers as a table (``.csv``): units in the head, a row for every point.
-
-        A file that is there is replaced.
-        """
-        write_csv(self.dataset, path, getattr(type(self), "table_axes", None))
 
     @quantities
     def report(self: HasDataset, path: str | os.PathLike[str], **options: Any) -> None:

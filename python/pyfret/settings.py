@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from enum import Enum
-from typing import Any, Literal
+from typing import Any, Literal, TypeVar
 
 from pyfret import _core
 from pyfret._util.arrays import items
@@ -14,6 +14,8 @@ from pyfret.scene.parts import Replaceable
 
 __all__ = ["FrequencyDomain", "Hankel", "InverseFft", "Preset", "Settings", "Skip"]
 __dir__ = listing(__all__)
+
+T = TypeVar("T")
 
 
 class Preset(Enum):
@@ -77,6 +79,28 @@ class FrequencyDomain(Replaceable):
         return {"frequency_domain": {"lambda": self.enlargement}}
 
 
+#: Conversions by the texts that a scene file has for them.
+KERNELS: dict[str, type[Hankel] | type[InverseFft] | type[FrequencyDomain]] = {
+    "hankel": Hankel,
+    "inverse_fft": InverseFft,
+    "frequency_domain": FrequencyDomain,
+}
+
+
+def chosen(name: str, text: str, choices: Mapping[str, T]) -> T:
+    """Return a choice by its text, whatever its case.
+
+    Raises
+    ------
+    ValueError
+        There is no such choice; the message has those that there are.
+    """
+    if text.lower() not in choices:
+        listed = ", ".join(f'"{choice}"' for choice in choices)
+        raise ValueError(f"{name} = {text!r:.60}: must be one of {listed}")
+    return choices[text.lower()]
+
+
 @part(kw_only=True)
 class Skip(Replaceable):
     """Parts of the solution that are skipped if the scene does not need them, with the same result.
@@ -114,7 +138,7 @@ class Settings(Replaceable):
 
     Parameters
     ----------
-    preset : Preset
+    preset : Preset, "fast" or "spinu2020"
         Which algorithms (default ``Preset.FAST``).
     tolerance : float, optional
         Relative tolerance of the solution. It holds for the gap error over the Hertz approach h and
@@ -141,8 +165,9 @@ class Settings(Replaceable):
         Most passes of the intermediate loop per increment (default 60).
     max_iterations : int
         Most iterations of an inner loop (default 1000).
-    kernel : Hankel, InverseFft or FrequencyDomain
-        Conversion of the frequency response of coated bodies (default ``Hankel()``).
+    kernel : Hankel, InverseFft, FrequencyDomain, or text
+        Conversion of the frequency response of coated bodies (default ``Hankel()``). The texts
+        ``"hankel"``, ``"inverse_fft"`` and ``"frequency_domain"`` mean these with their defaults.
     kernel_tolerance : float
         Largest error of the influence coefficients over C33(0, 0) (default 1e-10).
     skip : Skip
@@ -157,7 +182,7 @@ class Settings(Replaceable):
         A number is out of its range; the message names the key, the value and what is allowed.
     """
 
-    preset: Preset = Preset.FAST
+    preset: Preset | Literal["fast", "spinu2020"] = Preset.FAST
     tolerance: float | None = None
     cell_entry_correction: bool = True
     slip_rotation_correction: bool = True
@@ -165,13 +190,24 @@ class Settings(Replaceable):
     path_grid: Literal["auto", "same"] | int = "auto"
     max_alternations: int = 60
     max_iterations: int = 1000
-    kernel: Hankel | InverseFft | FrequencyDomain = Hankel()
+    kernel: (
+        Hankel | InverseFft | FrequencyDomain | Literal["hankel", "inverse_fft", "frequency_domain"]
+    ) = Hankel()
     kernel_tolerance: float = 1e-10
     skip: Skip = Skip()
     save: Literal["branches", "all"] | Sequence[int] = "branches"
 
     def __post_init__(self) -> None:
-        """Refuse what has no meaning."""
+        """Find choices by their texts, and refuse what has no meaning."""
+        if isinstance(self.preset, str):
+            presets = {preset.value: preset for preset in Preset}
+            object.__setattr__(self, "preset", chosen("preset", self.preset, presets))
+        elif not isinstance(self.preset, Preset):
+            raise TypeError(f"preset = {self.preset!r:.60}: must be a Preset, or its text")
+        if isinstance(self.kernel, str):
+            object.__setattr__(self, "kernel", chosen("kernel", self.kernel, KERNELS)())
+        elif not isinstance(self.kernel, tuple(KERNELS.values())):
+            raise TypeError(f"kernel = {self.kernel!r:.60}: must be a kernel, or its text")
         if not isinstance(self.save, str):
             object.__setattr__(self, "save", tuple(items(self.save, "save")))
         _core.check_settings(self)
@@ -184,7 +220,7 @@ class Settings(Replaceable):
             "tolerance": solver.pop("kernel_tolerance"),
         }
         skip, output = vars(solver.pop("skip")), {"save": solver.pop("save")}
-        solver["preset"] = self.preset.value
+        solver["preset"] = Preset(self.preset).value
         solver_values = {name: value for name, value in solver.items() if value is not None}
         return {"kernel": kernel, "solver": solver_values, "skip": skip, "output": output}
 

@@ -51,7 +51,7 @@ pub fn margin_range<E: From<Error>>(
     let (mut value, mut error) = worst;
     let part = if value > 0.0 { error / value } else { 0.0 };
     let material_length = material.and_then(|material| material.critical_distance().ok());
-    let mut notes = Vec::new();
+    let mut notes: Vec<_> = assessment.mean_stress_note(material).into_iter().collect();
     let (mut distance, mut length) = (None, options.length.or(material_length));
     if let Some(L) = length {
         // A distance that is given has no scatter; a distance of the material has.

@@ -78,7 +78,7 @@ pub use judge::{Judge, strain_life};
 pub use life::{Basquin, CoffinManson};
 pub use material_table::{
     Allowed, ESTIMATE, Family, Known, Material, QUANTITIES, Quantity, Sourced, estimated, find,
-    materials, read,
+    materials, nearest, read,
 };
 pub use point_result::PointResult;
 pub use range::{LifeRange, Range};

@@ -4,7 +4,7 @@
 //! The logarithms of the three parts are independent, so they add as squares. With the best value m
 //! and the ends m_i of part i, ln(m/low)^2 = sum_i ln(m/m_i)^2, and likewise for the high end.
 
-use material_table::{Known, Material};
+use material_table::{Allowed, Known, Material};
 
 use crate::assessment::{Assessment, LONGEST};
 use crate::error::Error;
@@ -15,6 +15,9 @@ const CURVE: [&str; 4] = ["s_f", "b", "e_f", "c"];
 const CRITERION_NUMBERS: [&str; 3] = ["k", "s_y", "S"];
 /// Names of the material's numbers for criteria with a limit.
 const LIMITS: [&str; 2] = ["s_D", "t_D"];
+/// Weight of the mean stress that counts as none.
+const NO_WEIGHT: f64 = 1e-9;
+
 /// A number and the range that it lies in.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Range {
@@ -155,6 +158,32 @@ impl Assessment {
             combined.range = combined.range.cap_at_longest();
         }
         combined
+    }
+
+    /// Note on a criterion whose weight of the mean stress is 0, as t_D = s_D/sqrt 3 makes the weight
+    /// of Crossland's criterion. A residual stress changes nothing then.
+    pub fn mean_stress_note(&self, material: Option<&Material>) -> Option<String> {
+        let parameters = self.criterion.definition().parameters.iter();
+        let numbers = self.criterion.numbers();
+        let weights = parameters
+            .zip(numbers)
+            .filter(|(p, _)| p.allowed == Allowed::Weight);
+        let weights: Vec<_> = weights.map(|(_, number)| number).collect();
+        if weights.is_empty() || weights.iter().any(|(_, weight)| *weight > NO_WEIGHT) {
+            return None;
+        }
+        let (name, criterion) = (weights[0].0, self.criterion.name());
+        let cause = material
+            .filter(|m| m.known(&["t_D"]) == Known::Estimate)
+            .map_or_else(String::new, |m| {
+                format!(", since t_D of {} is an estimate, s_D/sqrt 3", m.name)
+            });
+        Some(format!(
+            "{criterion} has the weight {name} = 0 of the mean stress{cause}: mean stress and residual stress \
+             (peening) do not change this number. Give a measured t_D, or use dang_van, whose weight is {:.2} with \
+             the same limits",
+            3.0f64.sqrt() - 1.5
+        ))
     }
 
     /// Highest over lowest margin by the scatter of a material, and a note if some of its numbers

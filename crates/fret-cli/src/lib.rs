@@ -88,6 +88,8 @@ enum Command {
     /// Write tractions, forces on a mesh or stress at points for another program (needs the Python
     /// package)
     Export(python::Options),
+    /// Print a result as a table, or write it as text or for Excel (needs the Python package)
+    Table(python::Options),
     // Many runs.
     /// Open a page that answers while parameters are dragged (needs the Python package)
     Explore(python::Options),
@@ -163,6 +165,7 @@ pub fn run_command(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Report(options) => return in_python("report", &options.arguments),
         Command::Fit(options) => return in_python("fit", &options.arguments),
         Command::Threshold(options) => return in_python("threshold", &options.arguments),
+        Command::Table(options) => return in_python("table", &options.arguments),
         Command::Info(options) => return in_python("info", &options.arguments),
         Command::Verify(options) => return in_python("verify", &options.arguments),
         Command::Cite(options) => return in_python("cite", &options.arguments),

@@ -89,6 +89,11 @@ pub const QUANTITIES: &[Quantity] = &[
     quantity("density", "kg/m^3", "density"),
     quantity("specific_heat", "J/(kg K)", "specific heat"),
     quantity("conductivity", "W/(m K)", "thermal conductivity"),
+    quantity(
+        "hardness",
+        "Pa",
+        "indentation hardness, force over area (1 HV is 9.807 MPa)",
+    ),
 ];
 
 /// A number and its source.
@@ -130,6 +135,8 @@ pub struct Material {
     pub name: String,
     /// Description.
     pub title: String,
+    /// Kind: steel, metal, ceramic, coating, polymer; empty where nothing is given.
+    pub kind: String,
     /// Other names that it is found by.
     pub also: Vec<String>,
     /// Its numbers by the names of [`QUANTITIES`].
@@ -146,6 +153,7 @@ impl Material {
         let mut material = Self {
             name: name.to_owned(),
             title: title.to_owned(),
+            kind: String::new(),
             also: Vec::new(),
             numbers: BTreeMap::new(),
         };
@@ -201,7 +209,7 @@ pub(crate) fn known(key: &str) -> Result<&'static Quantity, String> {
         .map_or("", |(_, name)| name);
     let names: Vec<_> = QUANTITIES.iter().map(|q| q.name).collect();
     Err(format!(
-        "unknown; nearest is {near}; there are title, also, family, {}",
+        "unknown; nearest is {near}; there are title, kind, also, family, {}",
         names.join(", ")
     ))
 }

@@ -41,6 +41,7 @@ pub fn read(text: &str, file: &str) -> Result<BTreeMap<String, Material>, Error>
         let mut material = Material {
             name: name.clone(),
             title: name.clone(),
+            kind: String::new(),
             also: Vec::new(),
             numbers: BTreeMap::new(),
         };
@@ -56,6 +57,12 @@ pub fn read(text: &str, file: &str) -> Result<BTreeMap<String, Material>, Error>
                 let title = entry.get_ref().as_str();
                 let title = title.ok_or_else(|| refused("must be a text".into()))?;
                 title.clone_into(&mut material.title);
+                continue;
+            }
+            if key == "kind" {
+                let kind = entry.get_ref().as_str();
+                let kind = kind.ok_or_else(|| refused("must be a text".into()))?;
+                kind.clone_into(&mut material.kind);
                 continue;
             }
             if key == "also" {
@@ -85,19 +92,24 @@ pub fn read(text: &str, file: &str) -> Result<BTreeMap<String, Material>, Error>
 }
 
 /// The material of a name: of its own, or another one, whatever the case and the marks between its
-/// letters and digits. In a chemical formula the case counts: TiN is titanium nitride, tin a metal.
+/// letters and digits. In a chemical formula the case counts, and in a name that differs from a formula
+/// in its case alone: TiN is titanium nitride, tin a metal, and TIN is refused.
 pub fn find<'a>(materials: &'a BTreeMap<String, Material>, name: &str) -> Option<&'a Material> {
     let wanted = plain(name);
-    let is_it = |of: &&Material| {
-        let mut names = std::iter::once(&of.name).chain(&of.also);
-        names.any(|of| plain(of) == wanted && (!is_formula(of) || letters(of) == letters(name)))
-    };
+    let names_of = |m: &'a Material| std::iter::once(&m.name).chain(&m.also).map(move |n| (n, m));
+    let every_name = materials.values().flat_map(names_of);
+    let alike: Vec<_> = every_name.filter(|(n, _)| plain(n) == wanted).collect();
+    let same_case = alike.iter().find(|(n, _)| letters(n) == letters(name));
+    let any_case = alike
+        .first()
+        .filter(|_| !alike.iter().any(|(n, _)| is_formula(n)));
     materials
         .get(name)
-        .or_else(|| materials.values().find(is_it))
+        .or_else(|| same_case.or(any_case).map(|(_, material)| *material))
 }
 
-/// The names that are nearest to one that is unknown, the nearest first.
+/// The names that are nearest to one that is unknown, of one kind, the nearest first: metals for the
+/// symbol of an element, ceramics and coatings for a compound, else the kind of the nearest name.
 pub fn nearest(materials: &BTreeMap<String, Material>, name: &str, most: usize) -> Vec<String> {
     let wanted = plain(name);
     let likeness = |of: &Material| {
@@ -105,12 +117,50 @@ pub fn nearest(materials: &BTreeMap<String, Material>, name: &str, most: usize) 
         let each = names.map(|name| strsim::jaro_winkler(&plain(name), &wanted));
         each.fold(0.0, f64::max)
     };
-    let mut found: Vec<_> = (materials.values())
-        .map(|of| (likeness(of), &of.name))
-        .collect();
+    let mut found: Vec<_> = (materials.values()).map(|of| (likeness(of), of)).collect();
     found.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let exact = found.first().is_some_and(|(likeness, _)| *likeness == 1.0);
+    let nearest_kind = found.first().map_or("", |(_, of)| of.kind.as_str());
+    let is_of_kind = |of: &Material| match name {
+        _ if exact => of.kind == nearest_kind,
+        name if ELEMENTS.contains(&name) => METALS.contains(&of.kind.as_str()),
+        name if is_compound(name) => COMPOUNDS.contains(&of.kind.as_str()),
+        _ => of.kind == nearest_kind,
+    };
+    if found.iter().any(|(_, of)| is_of_kind(of)) {
+        found.retain(|(_, of)| is_of_kind(of));
+    }
     let names = found.into_iter().take(most);
-    names.map(|(_, name)| name.clone()).collect()
+    names.map(|(_, of)| of.name.clone()).collect()
+}
+
+/// Kinds of elements, and of compounds.
+const METALS: [&str; 1] = ["metal"];
+const COMPOUNDS: [&str; 2] = ["ceramic", "coating"];
+
+/// Whether a name is the formula of a compound, numbers of atoms included: TiC, B4C, Al2O3.
+fn is_compound(name: &str) -> bool {
+    let symbols: String = name.chars().filter(char::is_ascii_alphabetic).collect();
+    let counted = name.len() > symbols.len() && name.chars().all(|c| c.is_ascii_alphanumeric());
+    let starts = name.starts_with(|c: char| c.is_ascii_uppercase());
+    (is_formula(&symbols) || counted && starts && of_symbols(&symbols)) && !ELEMENTS.contains(&name)
+}
+
+/// Whether a text is made of symbols of elements alone.
+fn of_symbols(name: &str) -> bool {
+    let mut symbols = name;
+    while !symbols.is_empty() {
+        let is_symbol = |n: &usize| {
+            symbols
+                .get(..*n)
+                .is_some_and(|start| ELEMENTS.contains(&start))
+        };
+        let Some(length) = [2, 1].into_iter().find(is_symbol) else {
+            return false;
+        };
+        symbols = &symbols[length..];
+    }
+    true
 }
 
 /// Letters and digits alone.
@@ -137,21 +187,6 @@ const ELEMENTS: [&str; 92] = [
 /// of both cases. A number in it leaves no other word to take it for.
 fn is_formula(name: &str) -> bool {
     let has = |is: fn(&char) -> bool| name.chars().any(|c| is(&c));
-    let of_symbols = |name: &str| {
-        let mut symbols = name;
-        while !symbols.is_empty() {
-            let symbol = |n: &usize| {
-                symbols
-                    .get(..*n)
-                    .is_some_and(|start| ELEMENTS.contains(&start))
-            };
-            let Some(length) = [2, 1].into_iter().find(symbol) else {
-                return false;
-            };
-            symbols = &symbols[length..];
-        }
-        true
-    };
     has(char::is_ascii_lowercase) && has(char::is_ascii_uppercase) && of_symbols(name)
 }
 
@@ -174,7 +209,8 @@ fn sourced(
 
 #[cfg(test)]
 mod tests {
-    use super::{find, is_formula, materials, nearest};
+    use super::{find, is_formula, materials, nearest, plain};
+    use crate::material::Material;
 
     /// Every name of the table in lower and upper case: a formula is found in its case alone, and its
     /// right spelling is the nearest name; other names are found in any.
@@ -185,9 +221,19 @@ mod tests {
             for name in std::iter::once(key).chain(&material.also) {
                 assert_eq!(find(&table, name).map(|of| &of.name), Some(key), "{name}");
                 for other in [name.to_ascii_lowercase(), name.to_ascii_uppercase()] {
-                    if is_formula(name) && other != *name {
-                        assert_eq!(find(&table, &other), None, "{other}");
-                        assert_eq!(nearest(&table, &other, 1), [key.as_str()], "{other}");
+                    let of_formula = |m: &Material| {
+                        let mut names = std::iter::once(&m.name).chain(&m.also);
+                        names.any(|n| is_formula(n) && plain(n) == plain(&other))
+                    };
+                    if table.values().any(of_formula) && other != *name {
+                        let exact = |m: &&Material| m.name == other || m.also.contains(&other);
+                        let right = table.values().find(exact).map(|of| &of.name);
+                        assert_eq!(find(&table, &other).map(|of| &of.name), right, "{other}");
+                        let near = nearest(&table, &other, 1).remove(0);
+                        assert!(
+                            of_formula(&table[&near]) || right.is_some(),
+                            "{other}: {near}"
+                        );
                     } else {
                         assert_eq!(
                             find(&table, &other).map(|of| &of.name),
@@ -204,6 +250,36 @@ mod tests {
             "DLC", "steel", "Steel", "Inconel", "WC", "tin", "Ti6Al4V", "C45",
         ];
         assert!(!others.into_iter().any(is_formula));
-        assert!(find(&table, "tin").is_none() && find(&table, "TiN").is_some());
+        let name = |text: &str| find(&table, text).map(|of| of.name.as_str());
+        assert_eq!((name("tin"), name("TiN")), (Some("tin_metal"), Some("TiN")));
+        assert_eq!((name("TIN"), name("Tin")), (None, None));
+    }
+
+    /// An unknown name is answered with names of its own kind.
+    #[test]
+    fn the_nearest_are_of_one_kind() {
+        let table = materials();
+        assert!(table.values().all(|of| !of.kind.is_empty()));
+        assert_eq!(find(&table, "Cr").unwrap().name, "chromium");
+        for (name, kinds) in [
+            ("Mo", &["metal"][..]),
+            ("Co", &["metal"]),
+            ("Zn", &["metal"]),
+            ("TiC", &["ceramic", "coating"]),
+            ("B4C", &["ceramic", "coating"]),
+            ("CrAlN", &["ceramic", "coating"]),
+            ("steel_4330", &["steel"]),
+            ("bras", &["metal"]),
+            ("zirkonia", &["ceramic"]),
+            ("PTFEE", &["polymer"]),
+        ] {
+            assert!(find(&table, name).is_none(), "{name}");
+            let near = nearest(&table, name, 3);
+            let is_right = |n: &String| kinds.contains(&table[n].kind.as_str());
+            assert!(
+                !near.is_empty() && near.iter().all(is_right),
+                "{name}: {near:?}"
+            );
+        }
     }
 }

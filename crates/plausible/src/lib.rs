@@ -409,7 +409,17 @@ impl Quantity {
         } else {
             format!("{value:e}")
         };
-        (!meant).then(|| format!("{key} = {value}{unit} is {}: {}", self.outside, self.usual))
+        (!meant).then(|| {
+            let degrees = match self.kind {
+                Kind::Angle => {
+                    let radians = size.to_radians();
+                    format!(". If {value} are degrees, write \"{value} deg\" or {radians:.6}")
+                }
+                _ => String::new(),
+            };
+            let (outside, usual) = (self.outside, self.usual);
+            format!("{key} = {value}{unit} is {outside}: {usual}{degrees}")
+        })
     }
 }
 
@@ -489,6 +499,7 @@ mod tests {
             ("thermal expansion", 9.4e-6, 9.4),
             ("compliance of a bond", 1e-12, 1.0),
             ("measured shift", 1e-5, 10.0),
+            ("angle", 0.785, 45.0),
         ] {
             assert_eq!(quantity(name).doubt("x", meant), None, "{name}");
             assert!(quantity(name).doubt("x", slip).is_some(), "{name}");

@@ -108,8 +108,8 @@ mod _core {
     use crate::depths::{chosen_depths, depths};
     #[pymodule_export]
     use crate::fatigue::{
-        Assessment, Criterion, Material, criteria, criterion_on, dang_van_path, known_as,
-        material_quantities, materials, yielding_on,
+        Assessment, Criterion, Material, criteria, criterion_on, dang_van_path, find_material,
+        known_as, material_quantities, materials, nearest_materials, yielding_on,
     };
     #[pymodule_export]
     use crate::fracture::{

@@ -32,9 +32,17 @@ pub(crate) struct Elastic(pub(crate) core::Elastic, pub(crate) Option<core::Plas
 parts!(Elastic: E, nu, plastic);
 takes!(Elastic, "a material, such as Elastic(E=210e9, nu=0.3)");
 
-/// A material of a closed form: of a body, its substrate.
+/// A material of a closed form: of a body, its substrate, and the curvature xx, xy, yy of its surface
+/// \[1/m\].
 #[derive(Clone, Copy)]
-pub(crate) struct Material(pub(crate) core::Elastic);
+pub(crate) struct Material(pub(crate) core::Elastic, pub(crate) [f64; 3]);
+
+impl Material {
+    /// A material whose body has no shape.
+    pub(crate) fn without_shape(material: core::Elastic) -> Self {
+        Self(material, [0.0; 3])
+    }
+}
 
 impl<'py> FromPyObject<'_, 'py> for Material {
     type Error = PyErr;
@@ -49,15 +57,15 @@ impl<'py> FromPyObject<'_, 'py> for Material {
 
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         if let Ok(material) = value.extract::<Elastic>() {
-            return Ok(Self(material.0));
+            return Ok(Self::without_shape(material.0));
         }
         let allowed =
             "a material, such as Elastic(E=210e9, nu=0.3), or a Body, whose substrate is taken";
-        let substrate = value
-            .getattr("substrate")
-            .and_then(|of| of.extract::<Elastic>());
+        let read = |name: &str| value.getattr(name);
+        let substrate = read("substrate").and_then(|of| of.extract::<Elastic>());
+        let curvature = read("_curvature").and_then(|of| of.extract());
         substrate
-            .map(|of| Self(of.0))
+            .and_then(|material| Ok(Self(material.0, curvature?)))
             .map_err(|_| must_be(&value, allowed))
     }
 }

@@ -221,12 +221,41 @@ pub(crate) use parts;
 macro_rules! members {
     ($(#[$doc:meta])* $class:ident: $($member:ident = $name:literal),*) => {
         $(#[$doc])*
-        #[pyo3::pyclass(frozen, eq, eq_int, hash, from_py_object, module = "pyfret")]
+        #[pyo3::pyclass(frozen, eq, eq_int, hash, module = "pyfret")]
         #[derive(Clone, Copy, PartialEq, Eq, Hash)]
         pub(crate) enum $class {$(
             #[pyo3(name = $name)]
             $member,
         )*}
+
+        // A member, or its name in any case.
+        impl<'py> pyo3::FromPyObject<'_, 'py> for $class {
+            type Error = pyo3::PyErr;
+
+            const INPUT_TYPE: pyo3::inspect::PyStaticExpr = {
+                use pyo3::type_hint_union;
+                type_hint_union!(<Self as pyo3::PyTypeInfo>::TYPE_HINT, $crate::hints::TEXT)
+            };
+
+            fn extract(value: pyo3::Borrowed<'_, 'py, pyo3::PyAny>) -> pyo3::PyResult<Self> {
+                if let Ok(member) = value.cast::<Self>() {
+                    return Ok(*member.get());
+                }
+                let names = [$($name),*].map(str::to_lowercase);
+                if let Ok(text) = value.extract::<String>() {
+                    let text = text.to_lowercase();
+                    $(if text == $name.to_lowercase() {
+                        return Ok(Self::$member);
+                    })*
+                    return Err(pyo3::exceptions::PyValueError::new_err(format!(
+                        "{text:?}: must be one of {}",
+                        names.map(|name| format!("{name:?}")).join(", ")
+                    )));
+                }
+                let allowed = format!("a {}, or one of {}", stringify!($class), names.join(", "));
+                Err($crate::error::must_be(&value, &allowed))
+            }
+        }
 
         impl From<$class> for contact_core::scene::$class {
             fn from(member: $class) -> Self {

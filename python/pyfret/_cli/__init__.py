@@ -24,6 +24,7 @@ NEEDS_PYTHON = frozenset(
         "cite",
         "info",
         "workbench",
+        "table",
     )
 )
 

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pyfret import verification
-from pyfret._cli import compare, crack, explore, export, fit, info, threshold
+from pyfret._cli import compare, crack, explore, export, fit, info, table, threshold
 from pyfret._cli.parser import Parser, added
 from pyfret._cli.printing import print_json, print_text
 from pyfret._cli.values import FIGURES, ending
@@ -65,6 +65,7 @@ def parser() -> argparse.ArgumentParser:
     fit.add_options(commands)
     threshold.add_options(commands)
     info.add_options(commands)
+    table.add_options(commands)
     report = added(commands, "report", "write a result as one page for a browser")
     report.add_argument("store", help="result of a run, of wear, of a study, or what save() wrote")
     report.add_argument("-o", "--out", help="page to write (default: NAME.html)")
@@ -253,6 +254,7 @@ def run(arguments: Sequence[str] | None) -> int:
         "threshold": threshold.run,
         "info": info.run,
         "workbench": explore.run,
+        "table": table.run,
     }
     # What people read; JSON is for programs, and stays.
     quiet = options.quiet and not getattr(options, "json", False)

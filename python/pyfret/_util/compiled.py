@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import functools
 import inspect
+import re
 from collections.abc import Callable, Sequence
 from types import BuiltinFunctionType, MethodDescriptorType
 from typing import TYPE_CHECKING, Any
@@ -90,13 +91,44 @@ def telling(call: Callable[..., Any], what: str) -> Callable[..., Any]:
     def told(*values: Any, **given: Any) -> Any:
         try:
             return call(*values, **given)
-        except TypeError:
-            refusal = refused(what, call, values, given)
+        except (*WRONG_CLASSES, TypeError, ValueError) as error:
+            refusal: Exception | None = None
+            if isinstance(error, TypeError):
+                refusal = refused(what, call, values, given)
+            refusal = refusal or with_argument(error)
             if refusal is None:
                 raise
         raise refusal
 
     return told
+
+
+#: Errors of values of a wrong class, and what they are raised as.
+WRONG_CLASSES = (OverflowError, RecursionError, AttributeError)
+#: The note of PyO3 on an argument.
+NOTE = re.compile(r"while processing '(\w+)'")
+#: Begin of a refusal that repeats the value.
+VALUE = re.compile(r"[\"'\d(\[{<+-]|inf\b|nan\b|True\b|False\b|None\b")
+
+
+def with_argument(error: Exception) -> Exception | None:
+    """Return a refusal of PyO3 with the name of its argument in the text, from the note.
+
+    Nothing where the error is none of an argument. An overflow is raised as a ValueError, a missing
+    attribute and too deep a list as a TypeError.
+    """
+    notes = [NOTE.fullmatch(note) for note in getattr(error, "__notes__", ())]
+    names = [note[1] for note in notes if note]
+    if not names:
+        return None
+    text = str(error)
+    for name in names:
+        if not re.match(rf"{name}\b", text):
+            text = f"{name} = {text}" if VALUE.match(text) else f"{name}: {text}"
+    kind = type(error)
+    if issubclass(kind, WRONG_CLASSES):
+        kind = ValueError if issubclass(kind, OverflowError) else TypeError
+    return kind(text).with_traceback(error.__traceback__)
 
 
 def refused(

@@ -2,24 +2,30 @@
 
 from __future__ import annotations
 
-import csv
+import os
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from pyfret import _core
 
 if TYPE_CHECKING:
-    import os
-    from collections.abc import Sequence
+    from collections.abc import Callable, Mapping, Sequence
+    from typing import TypeAlias
 
+    import pandas as pd
     import xarray as xr
 
-__all__ = ["head", "unit_of", "write_csv"]
+    #: What makes the datasets of the tables and the axes of their rows, by the names of the tables.
+    Tables: TypeAlias = dict[str, Callable[[], tuple[xr.Dataset, Sequence[str] | None]]]
+
+__all__ = ["Tabular", "data_frame", "head", "unit_of", "write_csv", "write_excel"]
 
 #: The dimension whose entries become columns.
 AXIS = "axis"
+#: Rows of a sheet of Excel, its head included, and characters of its name.
+ROWS_OF_SHEET, NAME_OF_SHEET = 1_048_576, 31
 
 
 def unit_of(name: str, of: xr.DataArray) -> str:
@@ -35,17 +41,13 @@ def head(name: str, of: xr.DataArray) -> str:
     return f"{name} [{unit}]" if unit else name
 
 
-def write_csv(
-    dataset: xr.Dataset, path: str | os.PathLike[str], rows: Sequence[str] | None = None
-) -> None:
-    """Write the variables over some axes, each with its unit, and the coordinates of the points.
+def columns_of(dataset: xr.Dataset, rows: Sequence[str] | None = None) -> dict[str, Any]:
+    """Return the columns of a table by their heads.
 
     Parameters
     ----------
     dataset : xarray.Dataset
         Variables with units.
-    path : path
-        Where to write; a file that is there is replaced.
     rows : sequence of str, optional
         The axes of the table (default: those of the first variable).
     """
@@ -67,7 +69,107 @@ def write_csv(
             whole = values.expand_dims(absent).transpose(*over).values
             sizes = [dataset.sizes[d] if d in values.dims else 1 for d in over]
             columns[head(part, values)] = np.broadcast_to(whole.reshape(sizes), shape).ravel()
-    with Path(path).open("w", encoding="utf-8", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(columns)
-        writer.writerows(zip(*columns.values(), strict=True))
+    return columns
+
+
+def data_frame(dataset: xr.Dataset, rows: Sequence[str] | None = None) -> pd.DataFrame:
+    """Return the variables over some axes as a table of pandas, units in the names of columns."""
+    import pandas as pd
+
+    return pd.DataFrame(columns_of(dataset, rows))
+
+
+def write_csv(
+    dataset: xr.Dataset, path: str | os.PathLike[str], rows: Sequence[str] | None = None
+) -> None:
+    """Write the variables over some axes, each with its unit, and the coordinates of the points.
+
+    A file that is there is replaced.
+    """
+    data_frame(dataset, rows).to_csv(path, index=False, lineterminator="\n", encoding="utf-8")
+
+
+def write_excel(frames: Mapping[str, pd.DataFrame], path: str | os.PathLike[str]) -> None:
+    """Write tables into a workbook of Excel, a sheet for each.
+
+    Raises
+    ------
+    ImportError
+        The package openpyxl is missing.
+    ValueError
+        The file does not end in ``.xlsx``, or a table has more rows than a sheet.
+    """
+    if Path(os.fspath(path)).suffix.lower() != ".xlsx":
+        raise ValueError(f"{os.fspath(path)}: must end in .xlsx")
+    for name, frame in frames.items():
+        if len(frame) >= ROWS_OF_SHEET:
+            raise ValueError(
+                f"the table {name} has {len(frame)} rows, and a sheet of Excel at most "
+                f"{ROWS_OF_SHEET - 1}: write it with to_csv"
+            )
+    try:
+        import openpyxl  # type: ignore[import-untyped]  # noqa: F401
+    except ModuleNotFoundError as absent:
+        message = 'Excel needs openpyxl: pip install "fretting[rigs]"'
+        raise ModuleNotFoundError(message, name="openpyxl") from absent
+    import pandas as pd
+
+    with pd.ExcelWriter(path, engine="openpyxl") as book:
+        for name, frame in frames.items():
+            frame.to_excel(book, sheet_name=name[:NAME_OF_SHEET], index=False)
+
+
+def check_path(path: Any) -> None:
+    """Refuse what is no path.
+
+    Raises
+    ------
+    TypeError
+        It is neither a text nor a path.
+    """
+    if not isinstance(path, str | os.PathLike):
+        raise TypeError(f"path = {path!r:.60}: must be a path, such as 'table.csv'")
+
+
+class Tabular:
+    """Something with tables: data frames, CSV and Excel, units in the names of columns."""
+
+    def _tables(self) -> Tables:
+        """Return what makes the tables, the main one first."""
+        axes = getattr(type(self), "table_axes", None)
+        return {"values": lambda: (self.dataset, axes)}  # type: ignore[attr-defined]
+
+    def _frame(self, of: str | None) -> pd.DataFrame:
+        tables = self._tables()
+        if of is not None and of not in tables:
+            raise ValueError(f"of = {of!r}: must be one of {', '.join(tables)}")
+        make = tables[of] if of is not None else next(iter(tables.values()))
+        return data_frame(*make())
+
+    def to_dataframe(self, of: str | None = None) -> pd.DataFrame:
+        """Return a table of pandas: a row for every point, units in the names of the columns.
+
+        Parameters
+        ----------
+        of : str, optional
+            The table (default: the main one). A run has ``"increments"``, ``"branches"``,
+            ``"loops"`` and ``"error_bars"``, wear has ``"jumps"`` and ``"loops"``.
+        """
+        return self._frame(of)
+
+    def to_csv(self, path: str | os.PathLike[str], *, of: str | None = None) -> None:
+        """Write :meth:`to_dataframe` as a table of text (``.csv``).
+
+        A file that is there is replaced.
+        """
+        check_path(path)
+        self._frame(of).to_csv(path, index=False, lineterminator="\n", encoding="utf-8")
+
+    def to_excel(self, path: str | os.PathLike[str], *, of: str | None = None) -> None:
+        """Write the tables into a workbook of Excel (``.xlsx``): a sheet for each, or `of` alone.
+
+        A file that is there is replaced. It needs openpyxl: ``pip install "fretting[rigs]"``.
+        """
+        check_path(path)
+        names = list(self._tables()) if of is None else [of]
+        write_excel({name: self._frame(name) for name in names}, path)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from pyfret._util.attributes import dataset_attribute, dataset_names
+from pyfret._util.csv_table import Tabular
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -12,7 +13,7 @@ if TYPE_CHECKING:
 __all__ = ["Labelled"]
 
 
-class Labelled:
+class Labelled(Tabular):
     """Something that a dataset holds; equal where names, values and attributes are.
 
     Variables of the dataset are attributes of it, and so are the attributes of the dataset.

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 from typing import TYPE_CHECKING, cast
 
 from pyfret import _core
@@ -11,6 +10,9 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from pyfret._core import Material
+
+#: Characters of an unknown name that are repeated.
+LONGEST = 60
 
 __all__ = ["as_material", "find_material", "list_materials", "read_material"]
 
@@ -24,7 +26,8 @@ def find_material(name: str, materials: Mapping[str, Material]) -> Material | No
     """Find the material with a name or a synonym: ``"Ti6Al4V"``."""
     if name in materials:
         return materials[name]
-    return next((m for m in materials.values() if m.is_called(name)), None)
+    match = _core.find_material(name, list(materials.values()))
+    return None if match is None else materials[match.name]
 
 
 def list_materials(name: str, materials: Mapping[str, Material]) -> str:
@@ -34,9 +37,9 @@ def list_materials(name: str, materials: Mapping[str, Material]) -> str:
     if other_case:
         titles = ", ".join(f"{n!r} is {m.title!r}" for n, m in other_case.items())
         return f"no material {name!r}: in a formula the case counts, {titles}"
-    near = difflib.get_close_matches(name, names, n=1, cutoff=0.6)
-    hint = f"; the nearest is {near[0]}" if near else ""
-    return f"no material {name!r}{hint}; there are {', '.join(materials)}"
+    near = _core.nearest_materials(name[:LONGEST], list(materials.values()))
+    hint = f"; the nearest of its kind are {', '.join(near)}" if near else ""
+    return f"no material {name[:LONGEST]!r}{hint}; there are {', '.join(materials)}"
 
 
 def read_material(name: str, parameter: str) -> Material:

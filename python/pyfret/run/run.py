@@ -16,9 +16,10 @@ from pyfret.run.loops import loops_of_cycles, state_in_words
 from pyfret.run.state import State
 
 if TYPE_CHECKING:
-    from pyfret._core import Scene
+    from pyfret._core import LoadPath, Scene
+    from pyfret._util.csv_table import Tables
 
-__all__ = ["Run"]
+__all__ = ["Run", "one_of"]
 
 #: Scalars of an increment that add up over a branch.
 SUMMED = frozenset(
@@ -36,6 +37,26 @@ SUMMED = frozenset(
         "parts",
     )
 )
+
+
+def one_of(which: float | None, t: float | None) -> float:
+    """Return an increment, or the path time of one as a float.
+
+    Raises
+    ------
+    TypeError
+        Both are given, or neither.
+    """
+    if (which is None) == (t is None):
+        raise TypeError(
+            "at() takes an increment, as at(-1), or a path time, as at(t=2.0): give one of them"
+        )
+    if t is None:
+        assert which is not None
+        return which
+    if isinstance(t, bool) or not isinstance(t, numbers.Real):
+        raise TypeError(f"t = {t!r:.60}: must be a path time, such as 2.0")
+    return float(t)
 
 
 class Run(OfRun):
@@ -76,6 +97,20 @@ class Run(OfRun):
     def status(self) -> str:
         """``"done"``, ``"running"``, or the reason why the run stopped."""
         return str(self.dataset.attrs["status"])
+
+    @property
+    def path(self) -> LoadPath:
+        """The load path, as it was solved."""
+        return self.scene.path
+
+    @property
+    def direction(self) -> Literal["x", "y", "torsion"]:
+        """The fretting motion: the axis of the larger range of shear, torsion without shear."""
+        d = self.dataset
+        ranges = {axis: float(np.ptp(d[f"T_{axis}"].values)) for axis in ("x", "y")}
+        if not any(ranges.values()) and np.ptp(d.M_z.values) > 0.0:
+            return "torsion"
+        return "y" if ranges["y"] > ranges["x"] else "x"
 
     @property
     def length(self) -> float:
@@ -123,7 +158,7 @@ class Run(OfRun):
             units=dissipated.attrs["units"], long_name="energy dissipated since the start"
         )
 
-    def at(self, which: float) -> State:
+    def at(self, which: float | None = None, *, t: float | None = None) -> State:
         """Give the contact at the end of one increment whose fields were kept.
 
         Parameters
@@ -131,13 +166,15 @@ class Run(OfRun):
         which : int or float
             An integer counts increments from 1; negative ones count the kept increments from the
             last. A float is a path time t.
+        t : float, optional
+            The path time instead: ``at(t=2)`` is ``at(2.0)``.
 
         Raises
         ------
         KeyError
             The fields of that increment were not kept; the message lists those that were.
         """
-        return State(*self._kept(which))
+        return State(*self._kept(one_of(which, t)))
 
     def _kept(self, which: float) -> tuple[xr.Dataset, Scene]:
         """The fields and scalars of an increment of :meth:`at`, and the scene."""
@@ -253,6 +290,28 @@ class Run(OfRun):
         """
         codes = self.loops(direction=direction).status.values
         return [state_in_words(code, self.scene) for code in codes]
+
+    def _tables(self) -> Tables:
+        """Return what makes the tables; of error bars only where the run has them."""
+        tables: Tables = {
+            "increments": lambda: (
+                self.dataset.assign(dissipated_energy=self.dissipated_energy),
+                ("increment",),
+            ),
+            "branches": lambda: (self.branches(), ("branch",)),
+            "loops": lambda: (self._summed_loops(), ("cycle",)),
+        }
+        if self.dataset.attrs.get("error_bars"):
+            tables["error_bars"] = lambda: (self.error_bars(), ("branch", "part"))
+        return tables
+
+    def _summed_loops(self) -> xr.Dataset:
+        """The loops along the motion, counted from 1, with the energy of all cycles so far."""
+        loops = self.loops(direction=self.direction)
+        total = loops.dissipated.cumsum("cycle")
+        about = {**loops.dissipated.attrs, "long_name": "energy dissipated in the cycles so far"}
+        summed = loops.assign(dissipated_sum=total.assign_attrs(about))
+        return summed.assign_coords(cycle=np.arange(1, loops.sizes["cycle"] + 1))
 
     def __repr__(self) -> str:
         """Give the title and the size of the result."""

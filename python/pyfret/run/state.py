@@ -28,6 +28,8 @@ class State(OfRun):
     Every variable of :attr:`dataset` is an attribute as well, e.g. ``snapshot.p``.
     """
 
+    table_axes = ("x", "y")
+
     # The variables of a result store, for editors and type checkers.
     x: xr.DataArray
     y: xr.DataArray

@@ -12,7 +12,6 @@ import numpy as np
 
 from pyfret._core import LONGEST_LIFE, rough, with_error
 from pyfret._util import files
-from pyfret._util.csv_table import write_csv
 from pyfret._util.figures import Figured
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
@@ -71,6 +70,7 @@ class Comparison(Labelled, Figured):
         The points of the comparison, on two grids.
     """
 
+    table_axes = ("candidate",)
     figure = "comparison"
 
     def __init__(
@@ -287,10 +287,6 @@ class Comparison(Labelled, Figured):
             Whether what pyfret saved there is replaced (default: the place must be free).
         """
         files.write(self.dataset, path, overwrite=overwrite)
-
-    def to_csv(self, path: str | os.PathLike[str]) -> None:
-        """Write the numbers as a table (``.csv``): units in the head, a row for every candidate."""
-        write_csv(self.dataset, path, ("candidate",))
 
     def report(self, path: str | os.PathLike[str]) -> None:
         """Write a page for a browser: the table and the figure."""

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.axes import Axes
 
+    from pyfret._util.csv_table import Tables
     from pyfret.plot.style import Drawn
 
 __all__ = ["Study", "open_study"]
@@ -87,14 +88,15 @@ class Study(Saveable, Labelled, Figured):
             points.append((values, str(point["reason"].item())))
         return points
 
-    def to_dataframe(self) -> pd.DataFrame:
+    def _frame(self, of: str | None) -> pd.DataFrame:
         """Give a row for every point: its parameters, its measures and its outcome.
 
         Measures that are fields are left out, with a warning that names them; the ``dataset`` has
-        them. ``study.to_dataframe().to_csv("points.csv")`` writes a table, ``to_excel`` and
-        ``groupby`` come from pandas.
+        them.
         """
         d = self.dataset
+        if of not in (None, "points"):
+            raise ValueError(f"of = {of!r}: must be points")
         dims = set(d["status"].dims)
         field_dims = {
             str(name): [str(dim) for dim in variable.dims if dim not in dims]
@@ -110,7 +112,22 @@ class Study(Saveable, Labelled, Figured):
                 stacklevel=2,
             )
         scalars = d[[name for name, dims in field_dims.items() if not dims]]
-        return scalars.to_dataframe().reset_index()
+        return scalars.to_dataframe().reset_index().rename(columns=self._heads(scalars))
+
+    def _heads(self, scalars: xr.Dataset) -> dict[str, str]:
+        """Return the heads of the columns: names with their units, per metre in line contacts."""
+        per_metre = of_line_contacts(self.dataset)
+        heads = {}
+        for name in scalars.variables:
+            unit = unit_of(str(name), scalars[name])
+            if per_metre and name in self.parameters:
+                unit = PER_METRE.get(unit, unit)
+            heads[str(name)] = f"{name} [{unit}]" if unit else str(name)
+        return heads
+
+    def _tables(self) -> Tables:
+        """Return the name of the only table."""
+        return {"points": lambda: (self.dataset, None)}
 
     def sensitivity(self, of: str | None = None) -> xr.DataArray:
         """Return the share of each parameter alone in the variance of a measure.

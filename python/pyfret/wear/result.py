@@ -31,6 +31,8 @@ if TYPE_CHECKING:
 
     import xarray as xr
 
+    from pyfret._util.csv_table import Tables
+
 
 __all__ = ["WearResult"]
 
@@ -53,6 +55,13 @@ class WearResult(Saveable, Labelled, Figured):
 
     table_axes = ("jump",)
     figure = "wear_profiles"
+
+    def _tables(self) -> Tables:
+        """Return what makes the tables: the jumps, and the friction loops of the blocks."""
+        return {
+            "jumps": lambda: (self.dataset, ("jump",)),
+            "loops": lambda: (self.loops(), ("block",)),
+        }
 
     @property
     def worn(self) -> xr.DataArray:

@@ -9,7 +9,7 @@ from pyfret import shapes
 from pyfret._core import Coating, Cylinder, Grid, LoadPath, Sphere
 from pyfret._util.scene_warnings import SceneWarning
 from pyfret.fatigue import Materials
-from pyfret.materials import material
+from pyfret.material_table import material
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -6,7 +6,7 @@ from functools import cache
 from typing import TYPE_CHECKING
 
 from pyfret.fatigue import Materials
-from pyfret.materials import NU
+from pyfret.material_table import NU
 from pyfret.workbench.edits import material_names
 
 if TYPE_CHECKING:

@@ -32,6 +32,8 @@ const THICK: f64 = 1000.0;
 const STEEP: f64 = 0.5;
 /// Cells between two points of a map from which on it is coarser than the grid.
 const COARSE_MAP: f64 = 2.0;
+/// Shift over the longer side of the grid beyond which its unit is another one.
+const FARTHEST: f64 = 200.0;
 /// Part of the Hertz radius that a contact reaches for certain.
 const CERTAIN: f64 = 0.97;
 
@@ -55,7 +57,31 @@ impl Scene {
                 }
             }
         }
+        self.check_shifts()?;
         self.check_breadth()
+    }
+
+    /// Fails at a shift that no contact of this size makes: metres that are meant as micrometres.
+    fn check_shifts(&self) -> Result<(), Error> {
+        let longest = FARTHEST * self.grid.longer_side();
+        for (i, branch) in self.path.branches.iter().enumerate() {
+            for motion in [
+                RigidMotion::DeltaX,
+                RigidMotion::DeltaY,
+                RigidMotion::DeltaZ,
+            ] {
+                if let Prescribed::Motion(shift) = branch.to.prescribed(motion)
+                    && shift.abs() > longest
+                {
+                    let allowed = format!(
+                        "at most {longest:.3e} m, {FARTHEST} times the side of the grid: {UNITS}"
+                    );
+                    let key = format!("path[{i}].{}", motion.name());
+                    return Err(Error::invalid(key, format!("{shift:e} m"), allowed));
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Fails if the contact is certain to leave the grid, even if each body were of its stiffest
@@ -221,6 +247,10 @@ impl Scene {
                 radius = radius.max(R);
                 doubts.extend(doubt_of("R", &format!("{key}.shape.R"), R));
             }
+            for (name, angle) in angles(&body.shape) {
+                let name = format!("{key}.shape.{name}");
+                doubts.extend(doubt_of(&name, &name, angle));
+            }
         }
         let (extent, _) = self.grid.extent();
         if (quantity("modulus").least..GEL).contains(&stiffest)
@@ -308,6 +338,12 @@ impl Scene {
                     ));
                 }
             }
+            for motion in [RigidMotion::PhiX, RigidMotion::PhiY, RigidMotion::PhiZ] {
+                if let Prescribed::Motion(angle) = branch.to.prescribed(motion) {
+                    let name = format!("path[{i}].{}", motion.name());
+                    doubts.extend(doubt_of(&name, &name, angle));
+                }
+            }
             for motion in [RigidMotion::DeltaX, RigidMotion::DeltaY] {
                 if let Prescribed::Motion(shift) = branch.to.prescribed(motion)
                     && shift.abs() > longer_side
@@ -370,6 +406,19 @@ fn radii_of_curvature(shape: &Shape) -> Vec<f64> {
         }
         Shape::Ellipsoid { R_x, R_y, .. } => vec![R_x.abs(), R_y.abs()],
         Shape::Sum(parts) => parts.iter().flat_map(radii_of_curvature).collect(),
+        _ => Vec::new(),
+    }
+}
+
+/// Angles of a shape by their names \[rad\].
+fn angles(shape: &Shape) -> Vec<(&'static str, f64)> {
+    match *shape {
+        Shape::Ellipsoid { angle, .. }
+        | Shape::Cylinder { angle, .. }
+        | Shape::CrownedRoller { angle, .. }
+        | Shape::Wedge { angle, .. } => vec![("angle", angle)],
+        Shape::Waviness { angle, phase, .. } => vec![("angle", angle), ("phase", phase)],
+        Shape::Sum(ref parts) => parts.iter().flat_map(angles).collect(),
         _ => Vec::new(),
     }
 }

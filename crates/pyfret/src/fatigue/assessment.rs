@@ -81,6 +81,7 @@ impl Assessment {
     ) -> Answer<((f64, f64, f64), (f64, f64, f64), f64, Vec<String>)> {
         let material = material.as_ref().map(|material| &material.0);
         let (factor, note) = self.0.scatter(material, scatter)?;
+        let blind = self.0.mean_stress_note(material);
         let number = self
             .0
             .life_range(self.0.margins(value, error), factor, None);
@@ -89,8 +90,14 @@ impl Assessment {
             three(number.stress),
             three(number.range),
             factor,
-            note.into_iter().collect(),
+            blind.into_iter().chain(note).collect(),
         ))
+    }
+
+    /// Note on a weight of the mean stress that is 0; None where mean stress counts.
+    #[pyo3(signature = (material = None))]
+    fn mean_stress_note(&self, material: Option<Material>) -> Option<String> {
+        self.0.mean_stress_note(material.as_ref().map(|of| &of.0))
     }
 
     /// Factor by which the history may grow until the limit, for values of the criterion.

@@ -1,7 +1,5 @@
 //! Materials and their numbers.
 
-use std::collections::BTreeMap;
-
 use contact_core::scene::read_text;
 use fatigue as core;
 
@@ -20,6 +18,8 @@ use crate::prelude::*;
 ///     What the material is (default: its name).
 /// also : list of str
 ///     Other names that it is found by.
+/// kind : str
+///     What it is: steel, metal, ceramic, coating or polymer (default: nothing).
 ///
 /// Examples
 /// --------
@@ -32,22 +32,38 @@ pub(crate) struct Material(pub(crate) core::Material);
 #[pymethods]
 impl Material {
     #[new]
-    #[pyo3(signature = (name, numbers: "Sequence[tuple[str, float, str]]", title = None, also: "Sequence[str]" = List::default()))]
+    #[pyo3(signature = (name, numbers: "Sequence[tuple[str, float, str]]", title = None, also: "Sequence[str]" = List::default(), kind = ""))]
     fn new(
         name: &str,
         numbers: List<(String, f64, String)>,
         title: Option<&str>,
         also: List<String>,
+        kind: &str,
     ) -> Answer<Self> {
         let made = core::Material::new(name, title.unwrap_or(name), numbers);
         let mut made = made?;
         made.also = also.0;
+        kind.clone_into(&mut made.kind);
         Ok(Self(made))
     }
 
     #[expect(clippy::type_complexity, reason = "the arguments of the constructor")]
-    fn __getnewargs__(&self) -> (&str, Vec<(&'static str, f64, String)>, &str, Vec<String>) {
-        (self.name(), self.numbers(), self.title(), self.also())
+    fn __getnewargs__(
+        &self,
+    ) -> (
+        &str,
+        Vec<(&'static str, f64, String)>,
+        &str,
+        Vec<String>,
+        &str,
+    ) {
+        (
+            self.name(),
+            self.numbers(),
+            self.title(),
+            self.also(),
+            self.kind(),
+        )
     }
 
     /// Critical distance L = (dK_th/(2 s_D))^2/pi [m].
@@ -70,12 +86,6 @@ impl Material {
     fn estimate_of(&self, names: List<String>) -> Option<String> {
         let names: Vec<&str> = names.0.iter().map(String::as_str).collect();
         self.0.estimate_of(&names)
-    }
-
-    /// Whether the material has this name, whatever its case and the marks between letters.
-    fn is_called(&self, name: &str) -> bool {
-        let alone = BTreeMap::from([(self.0.name.clone(), self.0.clone())]);
-        core::find(&alone, name).is_some()
     }
 
     /// Name, value and source of every number.
@@ -107,6 +117,8 @@ impl Material {
 attributes!(Material, self:
     /// Other names that it is found by.
     also: Vec<String> = self.0.also.clone();
+    /// Kind: steel, metal, ceramic, coating or polymer; empty where nothing is given.
+    kind: &str = &self.0.kind;
     /// Key of the material in its table.
     name: &str = &self.0.name;
     /// Description of the material.
@@ -125,6 +137,24 @@ pub(crate) fn materials(file: Option<PathBuf>) -> Answer<Vec<Material>> {
         }
     };
     Ok(materials.into_values().map(Material).collect())
+}
+
+/// The material of a name among some: of its key, or of another name, whatever the case.
+///
+/// The case counts in a formula, and in a name that differs from one in its case alone.
+#[pyfunction]
+#[pyo3(signature = (name, materials: "Sequence[Material]"))]
+pub(crate) fn find_material(name: &str, materials: List<Material>) -> Option<Material> {
+    let table = materials.into_iter().map(|of| (of.0.name.clone(), of.0));
+    core::find(&table.collect(), name).cloned().map(Material)
+}
+
+/// Names of the materials nearest to an unknown name and of its kind, the nearest first.
+#[pyfunction]
+#[pyo3(signature = (name, materials: "Sequence[Material]", most: "int" = 3))]
+pub(crate) fn nearest_materials(name: &str, materials: List<Material>, most: usize) -> Vec<String> {
+    let table = materials.into_iter().map(|of| (of.0.name.clone(), of.0));
+    core::nearest(&table.collect(), name, most)
 }
 
 /// How a number of a material is known, by its source: "known", "estimate" or "recalled".

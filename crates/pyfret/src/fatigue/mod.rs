@@ -7,5 +7,7 @@ mod on_stress;
 
 pub(crate) use assessment::Assessment;
 pub(crate) use criterion::{Criterion, add_criteria, criteria};
-pub(crate) use material::{Material, known_as, material_quantities, materials};
+pub(crate) use material::{
+    Material, find_material, known_as, material_quantities, materials, nearest_materials,
+};
 pub(crate) use on_stress::{AT_POINT, FACTORS, criterion_on, dang_van_path, yielding_on};

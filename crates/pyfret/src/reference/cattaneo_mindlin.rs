@@ -4,7 +4,7 @@ use contact_core::Error;
 use contact_reference as core;
 use contact_reference::domain::{between, positive};
 
-use super::{Hertz, Numbers, Values, map, map_checked, pair};
+use super::{Hertz, Numbers, Values, map, map_checked, pair_of};
 use crate::argument::Answer;
 use crate::material::{Elastic, Material};
 use crate::prelude::*;
@@ -43,7 +43,7 @@ impl CattaneoMindlin {
         bodies: (Material, Material),
         #[pyo3(from_py_with = number)] mu: f64,
     ) -> Answer<Self> {
-        let (body1, body2) = pair(bodies)?;
+        let (body1, body2) = pair_of(hertz.curved(), bodies)?;
         positive("mu", mu)?;
         Ok(Self {
             slip: core::CattaneoMindlin::new(hertz.0, body1, body2, mu),

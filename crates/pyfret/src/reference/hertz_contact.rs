@@ -3,7 +3,7 @@
 use contact_reference as core;
 use contact_reference::domain::{between, positive};
 
-use super::{Numbers, Values, map, pair};
+use super::{Curved, Numbers, Values, map, pair_of};
 use crate::argument::Answer;
 use crate::material::Material;
 use crate::prelude::*;
@@ -81,6 +81,13 @@ attributes!(Hertz, self:
     delta_z: f64 = self.0.delta_z;
 );
 
+impl Hertz {
+    /// The relative radius that the contact has, R = a^2/delta_z.
+    pub(super) fn curved(&self) -> Curved {
+        Curved::Sphere(self.0.a * self.0.a / self.0.delta_z)
+    }
+}
+
 /// Hertz contact of a sphere of relative radius `R` [m] under the force `W` [N].
 #[pyfunction]
 #[pyo3(signature = (*, R: "Radius", bodies, W: "PointForce"))]
@@ -89,8 +96,8 @@ pub(crate) fn hertz(
     bodies: (Material, Material),
     #[pyo3(from_py_with = Given::point_W)] W: f64,
 ) -> Answer<Hertz> {
-    let (body1, body2) = pair(bodies)?;
     positive("R", R).and(positive("W", W))?;
+    let (body1, body2) = pair_of(Curved::Sphere(R), bodies)?;
     Ok(Hertz(core::hertz(R, body1, body2, W)))
 }
 

@@ -3,7 +3,7 @@
 use contact_reference as core;
 use contact_reference::domain::{between, positive};
 
-use super::{Numbers, Values, map, pair};
+use super::{Curved, Numbers, Values, map, pair, pair_of};
 use crate::argument::Answer;
 use crate::material::{Coating, Elastic, Material};
 use crate::prelude::*;
@@ -130,8 +130,11 @@ pub(crate) fn coated_indentation(
     #[pyo3(from_py_with = Given::point_W)] W: f64,
 ) -> Answer<CoatedIndentation> {
     positive("R", R).and(positive("W", W))?;
-    pair((indenter, Material(coating.layer.material)))?;
-    pair((Material(coating.layer.material), substrate))?;
+    pair_of(Curved::Sphere(R), (indenter, substrate))?;
+    let film = Material::without_shape(coating.layer.material);
+    let bare = |body: Material| Material::without_shape(body.0);
+    pair((bare(indenter), film))?;
+    pair((film, bare(substrate)))?;
     let film = coating.clone();
     let (indenter, coating, substrate) = (indenter.0, coating.layer, substrate.0);
     positive("coating.thickness", coating.thickness)?;

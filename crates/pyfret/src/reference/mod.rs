@@ -94,6 +94,46 @@ fn rows<'py, const N: usize>(
     std::array::from_fn(|row| stress.mapv(|of| of[row]).to_pyarray(py))
 }
 
+/// Part of a radius by which the shapes of bodies may differ from it.
+const SAME_RADIUS: f64 = 1e-6;
+
+/// A relative radius as a closed form takes it: of spheres, or of parallel cylinders.
+#[derive(Clone, Copy)]
+enum Curved {
+    Sphere(f64),
+    Cylinder(f64),
+}
+
+/// The materials of a pair of a relative radius, checked. Bodies whose surfaces are curved otherwise are
+/// refused; a flat body and a material alone take any radius.
+fn pair_of(curved: Curved, bodies: (Material, Material)) -> Answer<(core::Elastic, core::Elastic)> {
+    let [xx, xy, yy]: [f64; 3] = std::array::from_fn(|i| bodies.0.1[i] + bodies.1.1[i]);
+    let (mean, half) = (0.5 * (xx + yy), (0.5 * (xx - yy)).hypot(xy));
+    let shapes = [mean + half, mean - half];
+    let (R, expected, form) = match curved {
+        Curved::Sphere(R) => (R, [1.0 / R, 1.0 / R], "spheres"),
+        Curved::Cylinder(R) => (R, [1.0 / R, 0.0], "parallel cylinders"),
+    };
+    let differs = |(shape, expected): (&f64, &f64)| (shape - expected).abs() * R > SAME_RADIUS;
+    if shapes.iter().any(|k| *k != 0.0) && shapes.iter().zip(&expected).any(differs) {
+        let radius = |k: f64| {
+            if k.abs() * R < SAME_RADIUS {
+                "infinite".into()
+            } else {
+                format!("{:.6e} m", 1.0 / k)
+            }
+        };
+        refuse!(
+            "R = {R:e} m: differs from the radius of the bodies. Their shapes have the relative radii {} and {}, and this form is \
+             of {form}. Give R of the shapes, or the materials alone (body.substrate). Other forms: hertz is of spheres, \
+             line_contact of cylinders with W in N/m, hertz_ellipse of two radii",
+            radius(shapes[0]),
+            radius(shapes[1])
+        );
+    }
+    pair(bodies)
+}
+
 /// The materials of a pair, checked.
 fn pair((body1, body2): (Material, Material)) -> Answer<(core::Elastic, core::Elastic)> {
     Ok(domain::pair((body1.0, body2.0))?)

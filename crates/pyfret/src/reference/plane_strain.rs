@@ -5,7 +5,7 @@ use contact_reference::domain::{between, positive};
 use ndarray::Zip;
 use numpy::PyArrayDyn;
 
-use super::{Numbers, Values, checked, map, pair, rows, together};
+use super::{Curved, Numbers, Values, checked, map, pair_of, rows, together};
 use crate::argument::Answer;
 use crate::material::{Elastic, Material};
 use crate::prelude::*;
@@ -38,8 +38,8 @@ pub(crate) fn line_contact(
     bodies: (Material, Material),
     #[pyo3(from_py_with = Given::line_W)] W: f64,
 ) -> Answer<LineContact> {
-    let (body1, body2) = pair(bodies)?;
     positive("R", R).and(positive("W", W))?;
+    let (body1, body2) = pair_of(Curved::Cylinder(R), bodies)?;
     let E_star = core::hertz(R, body1, body2, 1.0).E_star;
     Ok(LineContact {
         line: core::line_contact(R, E_star, W),

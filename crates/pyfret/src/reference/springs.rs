@@ -3,7 +3,7 @@
 use contact_reference as core;
 use contact_reference::domain::{between, count, positive};
 
-use super::{Hertz, pair};
+use super::{Curved, Hertz, pair_of};
 use crate::argument::Answer;
 use crate::material::{Elastic, Material};
 use crate::prelude::*;
@@ -66,8 +66,8 @@ impl Springs {
         #[pyo3(from_py_with = number)] n: usize,
         loads: List<(f64, f64, usize)>,
     ) -> Answer<Self> {
-        let (body1, body2) = pair(bodies)?;
         positive("R", R).and(positive("mu", mu))?;
+        let (body1, body2) = pair_of(Curved::Sphere(R), bodies)?;
         count("n", n, MOST_SPRINGS)?;
         let mut springs = Self {
             springs: core::Springs::new(largest.0, R, body1, body2, mu, n),

@@ -70,6 +70,12 @@ impl Body {
             .collect()
     }
 
+    /// Second derivatives xx, xy, yy of the parabola of the surface [1/m].
+    #[getter]
+    fn _curvature(&self) -> [f64; 3] {
+        self.0.shape.curvature()
+    }
+
     pub(crate) fn __repr__(&self) -> String {
         let mut parts = vec![self.substrate().__repr__()];
         if !self.0.coatings.is_empty() {

@@ -1,10 +1,10 @@
-"""Elastic materials by their names."""
+"""Materials by their names, and the table of all of them."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from pyfret._core import Elastic, Plastic
+from pyfret._core import Elastic, Plastic, material_quantities
 from pyfret._util.scene_warnings import warn
 from pyfret.fatigue import Materials
 from pyfret.fatigue.ranges import known_as
@@ -13,11 +13,64 @@ from pyfret.quantities import quantities
 if TYPE_CHECKING:
     import os
 
-__all__ = ["material"]
+    import pandas as pd
+
+__all__ = ["material", "materials"]
 
 #: Poisson's ratio of what none is known of: hard nitrides and carbon films have 0.2 to 0.3, which
 #: moves E/(1 - nu^2) by 3 % to either side.
 NU = 0.25
+
+
+#: How a number is known, in the words of the table.
+KNOWN = {"known": "measured", "estimate": "estimated", "recalled": "recalled"}
+
+
+@quantities
+def materials(file: str | os.PathLike[str] | None = None, *, sources: bool = False) -> pd.DataFrame:
+    """List the materials as a table of pandas, by the names that :func:`material` takes.
+
+    Parameters
+    ----------
+    file : path, optional
+        A table of your own (TOML), whose materials are listed as well.
+    sources : bool
+        Whether the table has a row for every number: its value, unit and source. The column
+        ``known`` is ``"measured"``, ``"estimated"`` by a published rule or ``"recalled"`` from
+        memory. Default False: a row for every material, units in the names of the columns.
+
+    Returns
+    -------
+    pandas.DataFrame
+        Indexed by the name; ``kind`` is steel, metal, ceramic, coating or polymer.
+
+    Examples
+    --------
+    >>> materials().loc["chromium", "E [Pa]"]
+    279000000000.0
+    """
+    import pandas as pd
+
+    table = Materials(file)
+    units = {name: unit for name, unit, _ in material_quantities()}
+    if sources:
+        rows = [
+            (entry.name, name, value, units[name], KNOWN[known_as(source)], source)
+            for entry in table.values()
+            for name, value, source in entry.numbers()
+        ]
+        heads = ["name", "quantity", "value", "unit", "known", "source"]
+        return pd.DataFrame(rows, columns=heads).set_index("name")
+    listed = []
+    for entry in table.values():
+        values = {name: value for name, value, _ in entry.numbers()}
+        numbers = {
+            f"{name} [{unit}]" if unit != "1" else name: values.get(name, float("nan"))
+            for name, unit in units.items()
+        }
+        about = {"title": entry.title, "kind": entry.kind, "also": ", ".join(entry.also)}
+        listed.append({"name": entry.name, **about, **numbers})
+    return pd.DataFrame(listed).set_index("name")
 
 
 @quantities
