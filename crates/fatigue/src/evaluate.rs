@@ -23,7 +23,7 @@ const CHUNK: usize = 64;
 
 /// Buffers of a worker besides the path.
 #[derive(Default)]
-struct Worker {
+pub(crate) struct Worker {
     buffers: Buffers,
     shear: ShearBuffers,
     sphere: Balls<5>,
@@ -100,7 +100,7 @@ pub(crate) fn map_points<W: Default, T: Send>(
 }
 
 /// Evaluates a criterion at one point.
-fn evaluate_point(
+pub(crate) fn evaluate_point(
     criterion: &Criterion,
     histories: &Histories,
     search: &Search,

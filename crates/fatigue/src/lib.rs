@@ -53,6 +53,7 @@ mod invariants;
 mod judge;
 mod lanes;
 mod life;
+mod miner;
 mod on_planes;
 mod path;
 mod plane_function;
@@ -63,6 +64,7 @@ mod range;
 mod refine;
 mod shakedown;
 mod shear_bound;
+mod spectrum;
 mod tangent;
 
 pub use assessment::{Assessment, LONGEST};
@@ -80,6 +82,8 @@ pub use material_table::{
     Allowed, ESTIMATE, Family, Known, Material, QUANTITIES, Quantity, Sourced, estimated, find,
     materials, nearest, read,
 };
+pub use miner::{BelowKnee, DamageCurve, PointDamage, sum_damage};
 pub use point_result::PointResult;
 pub use range::{LifeRange, Range};
 pub use shakedown::{Yield, yielding};
+pub use spectrum::{CycleDistribution, SpectralMoments};
