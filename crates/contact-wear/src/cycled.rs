@@ -77,11 +77,19 @@ impl Sums {
         }
     }
 
-    pub(crate) fn add(&mut self, before: &State, now: &State, increment: &Increment) {
+    /// Adds an increment, whose branch is passed `count` times in a cycle.
+    pub(crate) fn add(&mut self, before: &State, now: &State, increment: &Increment, count: f64) {
+        let (loads, motion) = (&increment.point.loads, &increment.motion);
+        let corner = [motion.delta_x, loads.T_x, motion.delta_y, loads.T_y];
+        self.cycled.corners.push(corner);
+        self.contact_area = increment.contact_area;
+        if count == 0.0 {
+            return;
+        }
         self.add_to_border(&before.interface, &now.interface);
         let cycled = &mut self.cycled;
         // A small weight without dissipation, so that the mean exists for a contact that sticks.
-        let weight = increment.energy.dissipated.max(0.0)
+        let weight = count * increment.energy.dissipated.max(0.0)
             + 1e-12 * increment.energy.elastic.abs()
             + f64::MIN_POSITIVE;
         self.weight += weight;
@@ -89,10 +97,10 @@ impl Sums {
             let (p0, p1) = (before.interface.p[c], now.interface.p[c]);
             let p = 0.5 * (p0 + p1);
             self.leaves_contact[c] |= p0 <= 0.0 || p1 <= 0.0;
-            let slip = now.slip_length[c] - before.slip_length[c];
+            let slip = count * (now.slip_length[c] - before.slip_length[c]);
             cycled.slip_distance[c] += slip;
             cycled.pressure_times_slip[c] += p * slip;
-            cycled.dissipated[c] += now.dissipated[c] - before.dissipated[c];
+            cycled.dissipated[c] += count * (now.dissipated[c] - before.dissipated[c]);
             cycled.p[c] += weight * p;
             self.u_z[c] += weight * 0.5 * (before.interface.u_z[c] + now.interface.u_z[c]);
             if slip > 0.0 || now.interface.p[c] <= 0.0 {
@@ -102,11 +110,6 @@ impl Sums {
         let mean = |a: f64, b: f64| weight * 0.5 * (a + b);
         cycled.mean[0] += mean(before.loads.W, now.loads.W);
         cycled.mean[1] += mean(before.motion.delta_z, now.motion.delta_z);
-        let (loads, motion) = (&increment.point.loads, &increment.motion);
-        cycled
-            .corners
-            .push([motion.delta_x, loads.T_x, motion.delta_y, loads.T_y]);
-        self.contact_area = increment.contact_area;
     }
 
     /// Updates the fields from which the border of the stick zone is located.

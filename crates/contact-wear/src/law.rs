@@ -48,6 +48,11 @@ pub trait Law: Debug + Send + Sync {
         false
     }
 
+    /// Checks that cycles below a threshold do not wear.
+    fn has_threshold(&self) -> bool {
+        false
+    }
+
     /// Checks that the depth depends on the loading of the cycle alone, not on depth, energy and
     /// cycles so far. A law that is not steady is evaluated several times in a jump.
     fn is_steady(&self) -> bool {
@@ -98,6 +103,10 @@ impl Law for Archard {
         true
     }
 
+    fn has_threshold(&self) -> bool {
+        self.threshold > 0.0
+    }
+
     fn doubts(&self, key: &str) -> Vec<String> {
         let k = doubt_of("Archard.k", &format!("{key}.k"), self.k.max(0.0));
         k.into_iter().collect()
@@ -142,6 +151,10 @@ impl Law for DissipatedEnergy {
 
     fn is_steady(&self) -> bool {
         true
+    }
+
+    fn has_threshold(&self) -> bool {
+        self.threshold > 0.0
     }
 
     fn doubts(&self, key: &str) -> Vec<String> {

@@ -66,6 +66,8 @@ pub(crate) struct Marched {
     h: Vec<f64>,
     /// Increments before the cycle.
     lead_in: usize,
+    /// First branch of the cycle, after the branch in which the contact adapts.
+    first_branch: usize,
     gives_approach: bool,
     /// The coefficient of friction, if uniform, before its dependence on cycles.
     uniform_mu: Option<f64>,
@@ -142,6 +144,7 @@ impl Marched {
             pressing,
             march,
             lead_in,
+            first_branch: first_branch + 1,
             cycles_solved: 0,
         };
         if !goes_on {
@@ -264,7 +267,9 @@ impl Marched {
         for _ in 0..increments {
             let before = self.march.state().clone();
             let increment = advance(&mut self.march)?;
-            sums.add(&before, self.march.state(), &increment);
+            let branch = increment.point.branch - self.first_branch;
+            let count = self.wear.branch_count(branch);
+            sums.add(&before, self.march.state(), &increment, count);
         }
         self.cycles_solved += 1;
         let state = self.march.state().clone();

@@ -67,6 +67,9 @@ pub struct Wear {
     /// start of its last closed cycle). The branches before it are run through once. The rest is
     /// the cycle and ends where it begins.
     pub first_branch: Option<usize>,
+    /// How often a cycle passes each of its branches (default: each once, an empty list). A block of
+    /// counted loops is a cycle whose path has every loop once; the branches between two loops count 0.
+    pub branch_counts: Vec<f64>,
     /// Cycles per second \[Hz\], for coefficients that are functions of a power (default none).
     pub frequency: Option<f64>,
     /// Method to solve the contact of a cycle.
@@ -92,6 +95,7 @@ impl Wear {
             bodies,
             cycles,
             first_branch: None,
+            branch_counts: Vec::new(),
             frequency: None,
             cycling: Cycling::default(),
             jumps: Jumps::default(),
@@ -172,10 +176,55 @@ impl Wear {
         }
         let first_branch = self.first_branch(scene)?;
         Self::check_closed(scene, first_branch)?;
+        self.check_counts(branches - first_branch)?;
         if self.cycling == Cycling::Sliding {
             stroke(scene, first_branch)?;
         }
         self.jumps.check()
+    }
+
+    /// How often a cycle passes a branch, counted from 0 at its first one.
+    pub(crate) fn branch_count(&self, branch: usize) -> f64 {
+        self.branch_counts.get(branch).copied().unwrap_or(1.0)
+    }
+
+    /// Fails if the counts of the branches do not fit the cycle or its laws.
+    fn check_counts(&self, branches: usize) -> Result<(), Error> {
+        let counts = &self.branch_counts;
+        if counts.is_empty() {
+            return Ok(());
+        }
+        let key = "wear.branch_counts";
+        if counts.len() != branches {
+            let allowed = format!("{branches}, one for each branch of the cycle");
+            return Err(Error::invalid(
+                key,
+                format!("{} numbers", counts.len()),
+                allowed,
+            ));
+        }
+        if let Some(n) = counts.iter().position(|n| !(0.0..=MOST_CYCLES).contains(n)) {
+            let allowed = format!("0 to {MOST_CYCLES:e}");
+            return Err(Error::invalid(format!("{key}[{n}]"), counts[n], allowed));
+        }
+        if counts.iter().sum::<f64>() <= 0.0 {
+            return Err(Error::invalid(
+                key,
+                "0 everywhere",
+                "above 0 for one branch at least",
+            ));
+        }
+        if self.cycling == Cycling::Sliding {
+            let allowed = "left out with cycling = \"sliding\", which knows one stroke";
+            return Err(Error::invalid(key, "given", allowed));
+        }
+        let has_threshold = |body: &BodyWear| body.laws.iter().any(|law| law.has_threshold());
+        if self.bodies.iter().any(has_threshold) {
+            let allowed = "left out for laws with a threshold: it holds for one loop, and the slip of a \
+                           block is the sum of many";
+            return Err(Error::invalid(key, "given", allowed));
+        }
+        Ok(())
     }
 
     /// Sentences on numbers that are allowed but unlikely.

@@ -13,9 +13,10 @@ use super::settings::{Cycling, Jumps, Wear, WornThrough};
 use super::variable::FactorVariable;
 use super::varying::{Factor, Varying};
 
-const KEYS: [&str; 13] = [
+const KEYS: [&str; 14] = [
     "cycles",
     "first_branch",
+    "branch_counts",
     "cycling",
     "frequency",
     "rig_stiffness",
@@ -117,6 +118,9 @@ impl Wear {
         if let Some(first) = self.first_branch {
             let _ = writeln!(text, "first_branch = {first}");
         }
+        if !self.branch_counts.is_empty() {
+            let _ = writeln!(text, "branch_counts = {:?}", self.branch_counts);
+        }
         if let Some(frequency) = self.frequency {
             let _ = writeln!(text, "frequency = {frequency:?}");
         }
@@ -212,6 +216,7 @@ fn wear(section: &Section<'_>) -> Result<Wear, Fault> {
             Some(_) => Some(section.count("first_branch", 1)?),
             None => None,
         },
+        branch_counts: branch_counts(section)?,
         frequency: section.number_if("frequency", &[])?,
         cycling: section.choice(
             "cycling",
@@ -229,6 +234,27 @@ fn wear(section: &Section<'_>) -> Result<Wear, Fault> {
             &[],
         )?,
         ..default
+    })
+}
+
+/// Reads how often a cycle passes its branches.
+fn branch_counts(section: &Section<'_>) -> Result<Vec<f64>, Fault> {
+    let Some(value) = section.get("branch_counts") else {
+        return Ok(Vec::new());
+    };
+    let number = |value: &Value| match value {
+        Value::Integer(count) => Some(*count as f64),
+        Value::Float(count) => Some(*count),
+        _ => None,
+    };
+    let counts = value
+        .as_array()
+        .and_then(|counts| counts.iter().map(number).collect::<Option<Vec<f64>>>());
+    counts.filter(|counts| !counts.is_empty()).ok_or_else(|| {
+        let key = section.path("branch_counts");
+        let message =
+            format!("{key} = {value}: must be a list of numbers, one for each branch of the cycle");
+        Fault::new(&key, message)
     })
 }
 

@@ -120,6 +120,10 @@ impl Law for Varying {
         self.factor.variable == FactorVariable::PowerDensity || self.law.needs_frequency()
     }
 
+    fn has_threshold(&self) -> bool {
+        self.law.has_threshold()
+    }
+
     fn is_steady(&self) -> bool {
         let of_loading = matches!(
             self.factor.variable,
