@@ -71,6 +71,7 @@ from pyfret._util.figures import register_figures
 from pyfret._util.names import OTHER_NAMES, listing
 from pyfret.contacts import offer as offer_contacts
 from pyfret.grids import offer as offer_grids
+from pyfret.history.load_history import LoadHistory, register_reader
 from pyfret.material_table import material
 from pyfret.material_table import materials as materials
 from pyfret.result import Result
@@ -99,6 +100,7 @@ __all__ = [
     "Friction",
     "Grid",
     "History",
+    "LoadHistory",
     "LoadPath",
     "Plastic",
     "Profile",
@@ -157,7 +159,13 @@ def _load_figures() -> ModuleType:
     return PUBLIC_MODULES["plot"]
 
 
+def _read_columns(*values: Any, **options: Any) -> Any:
+    """Read the columns of a file, with the readers of measured data."""
+    return import_module("pyfret.fit.recorders").read_columns(*values, **options)
+
+
 register_figures(_load_figures)
+register_reader(_read_columns)
 #: Modules and functions that are imported at their first use.
 _LATER: dict[str, Callable[[], Any]] = {
     "cite": lambda: import_module("pyfret.citation").cite,

@@ -3387,6 +3387,37 @@ def cycle_temperature(
 ) -> dict[str, Any]:
     """Temperature over a cycle; use :meth:`pyfret.Result.temperature`."""
 
+def damage_of_values(
+    assessment: Assessment,
+    values: ArrayLike,
+    *,
+    below: str,
+    knee: float,
+    exponent: float | None,
+) -> NDArray[np.float64]:
+    """
+    Damage of one loop for each value of a criterion.
+
+    `knee` are the cycles at the knee, `exponent` is the exponent of the lives above a limit.
+    """
+
+def damage_on(
+    assessment: Assessment,
+    stress: ArrayLike,
+    counts: ArrayLike,
+    *,
+    below: str,
+    knee: float,
+    exponent: float | None,
+    bounded: bool,
+) -> dict[str, NDArray[np.float64]]:
+    """
+    Miner's damage of loops on the worst planes of points.
+
+    `stress` has the shape (loops, instants, points, 6). Arrays over the points: `damage`, `missed`
+    and `normal`; `parts` and `values` over (points, loops).
+    """
+
 def dang_van_path(stress: ArrayLike) -> NDArray[np.float64]:
     """
     The path of one point in Dang Van's plane.
@@ -3750,6 +3781,21 @@ def solve_in_memory(
     what a store says of the run, as JSON.
     """
 
+def spectral_cycles(
+    frequencies: ArrayLike,
+    density: ArrayLike,
+    distribution: str,
+    amplitudes: ArrayLike,
+    powers: ArrayLike,
+) -> dict[str, NDArray[np.float64]]:
+    """
+    Cycles of a Gaussian process with a one-sided density per Hz, by "rayleigh" or "dirlik".
+
+    `moments` are m_0, m_1, m_2 and m_4. `rates` are up-crossings, peaks and cycles per second.
+    `exceedance` is the part of the cycles that exceeds each of `amplitudes`. `mean_power` is the
+    mean of amplitude^k over the cycles for every k of `powers`.
+    """
+
 def stress_at(
     body: Body,
     cell: tuple[float, float],
@@ -3957,6 +4003,8 @@ __all__ = [
     "criterion_on",
     "cycle_sections",
     "cycle_temperature",
+    "damage_of_values",
+    "damage_on",
     "dang_van_path",
     "degrees",
     "depths",
@@ -4003,6 +4051,7 @@ __all__ = [
     "si_of",
     "solve",
     "solve_in_memory",
+    "spectral_cycles",
     "stress_at",
     "stress_coefficients",
     "surface_frf",

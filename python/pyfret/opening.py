@@ -8,10 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 from pyfret._core import StoreError, read_bytes, shown
 from pyfret._util import files
+from pyfret.fatigue.damage import Damage
 from pyfret.fatigue.distance import OverDistance
 from pyfret.fatigue.judged import Life
 from pyfret.fit.stored import fit_from_dataset
 from pyfret.fracture.growth import Cracks
+from pyfret.history.loops import CountedLoops
 from pyfret.quantities import quantities
 from pyfret.result import open_result
 from pyfret.study.ledger import FILE
@@ -30,7 +32,9 @@ __all__ = ["open"]
 COPIES: dict[Any, Callable[[xr.Dataset], Any]] = {
     "study": Study,
     "Study": Study,
+    "CountedLoops": CountedLoops,
     "Cracks": Cracks,
+    "Damage": Damage,
     "Life": Life.from_dataset,
     "OverDistance": OverDistance,
     "FitResult": fit_from_dataset,

@@ -10,6 +10,7 @@ from pyfret._core import Scene
 from pyfret._util.arrays import number
 from pyfret._util.lazy import xr
 from pyfret._util.progress import Progress
+from pyfret.history.load_history import LoadHistory
 from pyfret.quantities import Stiffness, quantities
 from pyfret.result import Result, open_result
 from pyfret.run.dataset import dataset
@@ -28,7 +29,7 @@ __all__ = ["Increment", "march", "resume", "solve"]
 @quantities
 def solve(
     scene: Scene | str | os.PathLike[str],
-    path: LoadPath | None = None,
+    path: LoadPath | LoadHistory | None = None,
     *,
     rig_stiffness: Stiffness | None = None,
     save: Literal["branches", "all"] | Sequence[int] | None = None,
@@ -45,8 +46,9 @@ def solve(
     ----------
     scene : Scene or path
         What is in contact, or its scene file.
-    path : LoadPath, optional
-        Load history (default: the scene's own).
+    path : LoadPath or LoadHistory, optional
+        Load path (default: the scene's own), or a measured history that is marched as it is, after
+        the branches of the scene that press the bodies.
     rig_stiffness : float, optional
         Stiffness of a spring along x in series with the contact, through which shifts are given
         and read [N/m] (default: the path's own, or none).
@@ -89,7 +91,8 @@ def solve(
         result is doubtful, such as a contact of few cells (:attr:`Result.doubts`).
     """
     seconds = number(checkpoint, "checkpoint")
-    scene = read(scene).replace(path=path, save=save)
+    scene = read(scene)
+    scene = scene.replace(path=as_path(path, scene), save=save)
     if rig_stiffness is not None:
         scene = scene.replace(path=scene.path.rig(rig_stiffness))
     doubt_scene(scene)
@@ -107,6 +110,23 @@ def solve(
             return warn_and_return(open_result(out))
         run = _core.solve_in_memory(scene, error=error, like=like, on_increment=bar.update)
     return warn_and_return(Result(dataset(*run)))
+
+
+#: Turning points of a history that are marched at most.
+MOST_TURNS = 20_000
+
+
+def as_path(path: LoadPath | LoadHistory | None, scene: Scene) -> LoadPath | None:
+    """Return a load path, or the path through a measured history."""
+    if not isinstance(path, LoadHistory):
+        return path
+    if path.is_series and path.turns().size > MOST_TURNS:
+        raise ValueError(
+            f"the history has {path.turns().size} turning points: must be {MOST_TURNS} or fewer "
+            "to be marched; fatigue.damage and wear.solve(history=...) take a table of few "
+            "amplitudes"
+        )
+    return path.path(scene)
 
 
 def warn_and_return(result: Result) -> Result:

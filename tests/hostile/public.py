@@ -535,7 +535,6 @@ OTHERS: dict[str, set[str]] = {
     "Profile.linear": {"top", "bottom"},
     "Profile.power": {"top", "bottom", "exponent"},
     # Missing values are holes: their rows are left out.
-    "fatigue.rainflow": {"signal"},
     "fit.Loops.from_arrays": {"delta", "T"},
     "fit.Indentation.from_arrays": {"W", "delta_z"},
     "fit.Scar.from_arrays": {"x", "depth"},

@@ -79,6 +79,8 @@ enum Command {
     Stress(stress::Options),
     /// Judge the stress below the contact of a result over a cycle by a fatigue criterion
     Life(life::Options),
+    /// Sum the fatigue damage of a measured load history below a contact (needs the Python package)
+    Damage(python::Options),
     /// Say whether a crack below the contact of a result grows or stops (needs the Python package)
     Crack(python::Options),
     /// Wear the surfaces of a scene with a table [wear] over many cycles
@@ -161,6 +163,7 @@ pub fn run_command(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Compare(options) => return in_python("compare", &options.arguments),
         Command::Life(options) => life::life(&options),
         Command::Export(options) => return in_python("export", &options.arguments),
+        Command::Damage(options) => return in_python("damage", &options.arguments),
         Command::Crack(options) => return in_python("crack", &options.arguments),
         Command::Report(options) => return in_python("report", &options.arguments),
         Command::Fit(options) => return in_python("fit", &options.arguments),

@@ -108,8 +108,9 @@ mod _core {
     use crate::depths::{chosen_depths, depths};
     #[pymodule_export]
     use crate::fatigue::{
-        Assessment, Criterion, Material, criteria, criterion_on, dang_van_path, find_material,
-        known_as, material_quantities, materials, nearest_materials, yielding_on,
+        Assessment, Criterion, Material, criteria, criterion_on, damage_of_values, damage_on,
+        dang_van_path, find_material, known_as, material_quantities, materials, nearest_materials,
+        spectral_cycles, yielding_on,
     };
     #[pymodule_export]
     use crate::fracture::{

@@ -17,6 +17,7 @@ NEEDS_PYTHON = frozenset(
         "explore",
         "export",
         "crack",
+        "damage",
         "fit",
         "threshold",
         "report",

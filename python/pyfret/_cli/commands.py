@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pyfret import verification
-from pyfret._cli import compare, crack, explore, export, fit, info, table, threshold
+from pyfret._cli import compare, crack, damage, explore, export, fit, info, table, threshold
 from pyfret._cli.parser import Parser, added
 from pyfret._cli.printing import print_json, print_text
 from pyfret._cli.values import FIGURES, ending
@@ -62,6 +62,7 @@ def parser() -> argparse.ArgumentParser:
     explore.add_options(commands)
     export.add_options(commands)
     crack.add_options(commands)
+    damage.add_options(commands)
     fit.add_options(commands)
     threshold.add_options(commands)
     info.add_options(commands)
@@ -247,6 +248,7 @@ def run(arguments: Sequence[str] | None) -> int:
         "explore": explore.run,
         "export": export.run,
         "crack": crack.run,
+        "damage": damage.run,
         "report": report,
         "verify": verify,
         "cite": cite,

@@ -25,10 +25,10 @@ from pyfret.fatigue.criteria import (
     first_yield,
     mean_stress_slope,
     moving_load,
-    rainflow,
     to_pylife,
 )
 from pyfret.fatigue.cycles import cycle_increments, history
+from pyfret.fatigue.damage import Damage, DamageLaw, damage, damage_of_loops
 from pyfret.fatigue.distance import OverDistance
 from pyfret.fatigue.factors import LoadFactors, load_factors
 from pyfret.fatigue.frictional_work import ruiz
@@ -36,6 +36,7 @@ from pyfret.fatigue.lives import Life, life, lives
 from pyfret.fatigue.ranges import LifeRange, Range
 from pyfret.fatigue.response import CyclicResponse, cyclic_response
 from pyfret.fatigue.section import Section
+from pyfret.history.counting import rainflow
 
 __all__ = [
     "COMPONENTS",
@@ -43,6 +44,8 @@ __all__ = [
     "Assessment",
     "Criterion",
     "CyclicResponse",
+    "Damage",
+    "DamageLaw",
     "Life",
     "LifeRange",
     "LoadFactors",
@@ -55,6 +58,8 @@ __all__ = [
     "critical_distance",
     "cycle_increments",
     "cyclic_response",
+    "damage",
+    "damage_of_loops",
     "dang_van_path",
     "evaluate_criterion",
     "evaluate_margin",

@@ -37,7 +37,6 @@ __all__ = [
     "first_yield",
     "mean_stress_slope",
     "moving_load",
-    "rainflow",
     "to_pylife",
 ]
 
@@ -322,30 +321,3 @@ def to_pylife(stress: ArrayLike) -> pd.DataFrame:
     )
     rows = points.transpose(1, 0, 2).reshape(-1, 6)
     return pd.DataFrame(rows, index=index, columns=["S11", "S22", "S33", "S12", "S13", "S23"])
-
-
-@quantities
-def rainflow(signal: ArrayLike) -> NDArray[np.float64]:
-    """Count the cycles of a signal: rows of range, mean, count (1 or 1/2).
-
-    Missing values of a signal, masked or NaN, are left out; a constant one has no cycle.
-
-    Needs the package ``rainflow`` (``pip install fretting[fatigue]``), which follows ASTM E1049-85.
-    """
-    try:
-        import rainflow as counter
-    except ImportError as error:
-        raise ImportError("rainflow is missing: pip install fretting[fatigue]") from error
-    values = plain(signal, "signal", holes=True)
-    if values.ndim != 1:
-        raise ValueError(f"signal has the shape {values.shape}: must have one dimension, time")
-    values = values[~np.isnan(values)]
-    changing = values[np.concatenate([[True], np.diff(values) != 0.0])] if values.size else values
-    if changing.size < 2:
-        return np.empty((0, 3))
-    if changing.size == 2:
-        # ASTM E1049-85, 5.4.4: what is left is half a cycle.
-        return np.array([[np.ptp(changing), changing.mean(), 0.5]])
-    cycles = counter.extract_cycles(changing)
-    rows = [(size, mean, count) for size, mean, count, _, _ in cycles]
-    return np.array(rows, dtype=float).reshape(-1, 3)

@@ -24,6 +24,12 @@ from pyfret.plot.life import (
     life_over_distance,
     load_factor_map,
 )
+from pyfret.plot.loads import (
+    damage_contributions,
+    damage_map,
+    load_history,
+    loop_histogram,
+)
 from pyfret.plot.maps import pressure_map, shear_streamlines, slip_map, stick_slip
 from pyfret.plot.overview import overview
 from pyfret.plot.paper import paper_figures
@@ -50,6 +56,8 @@ __all__ = [
     "crack_path",
     "criterion_map",
     "critical_plane_rose",
+    "damage_contributions",
+    "damage_map",
     "dang_van_diagram",
     "depth_map",
     "design_chart",
@@ -62,8 +70,10 @@ __all__ = [
     "kitagawa",
     "life_over_distance",
     "load_factor_map",
+    "load_history",
     "load_path",
     "loop_evolution",
+    "loop_histogram",
     "overview",
     "paper_figures",
     "plastic_zone",

@@ -12,6 +12,8 @@ from pyfret import _core
 from pyfret._core import ArgumentError, OffGridError, Scene, StoreError
 from pyfret._util import files
 from pyfret._util.progress import Progress
+from pyfret.history.ladder import Ladder, check_sliding, follow_channels
+from pyfret.history.load_history import LoadHistory
 from pyfret.quantities import quantities
 from pyfret.run.dataset import dataset
 from pyfret.wear.result import WearResult
@@ -19,7 +21,7 @@ from pyfret.wear.settings import Wear, own, read
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from numpy.typing import NDArray
 
@@ -36,6 +38,7 @@ def solve(
     wear: Wear | None = None,
     *,
     path: LoadPath | None = None,
+    history: LoadHistory | None = None,
     start: WearResult | None = None,
     out: str | os.PathLike[str] | None = None,
     overwrite: bool = False,
@@ -51,7 +54,11 @@ def solve(
     wear : Wear, optional
         What wears, over how many cycles, and how.
     path : LoadPath, optional
-        Load history (default: the scene's own): a part that leads in, then one cycle.
+        Load path (default: the scene's own): a part that leads in, then one cycle.
+    history : LoadHistory, optional
+        A measured history or a spectrum instead of a path, as a block: `cycles` are its passes.
+        Its loops wear with mixed rates: every class of amplitude counts as often as it occurs, in
+        the same jump. Blocks of several histories follow one another by `start`.
     start : WearResult, optional
         Worn surfaces to begin on, from its last block, as after another stroke; cycles, energy
         and volumes count on. The grid must be the same.
@@ -75,6 +82,10 @@ def solve(
     if not isinstance(scene, Scene):
         scene, of_file = _core.wear_of_file(scene)
         wear = read(of_file) if wear is None else wear
+    if history is not None:
+        if path is not None:
+            raise ValueError("path and history: must be one of them")
+        path, settings = block_of_history(scene, history, settings)
     wear = Wear.from_settings(wear, settings)
     table, functions = wear.document()
     begins = None if start is None else surfaces(start)
@@ -102,6 +113,30 @@ def solve(
     if out is None:
         raise RuntimeError("a run without a store is in memory")
     return open_run(out)
+
+
+#: Classes of amplitude of a block of wear.
+CLASSES = 12
+
+
+def block_of_history(
+    scene: Scene, history: LoadHistory, settings: Mapping[str, Any]
+) -> tuple[LoadPath, dict[str, Any]]:
+    """Return the path through the classes of a history, and the settings that count its loops."""
+    loops = history.count()
+    if loops.dataset.sizes["loop"] == 0:
+        raise ValueError("the history has no loop: must vary")
+    levels = loops.classes(CLASSES)
+    check_sliding(scene, history, levels)
+    ladder = Ladder.build(scene, history, levels, follow_channels(history))
+    block: dict[str, Any] = {
+        **settings,
+        "first_branch": ladder.first_branch,
+        "branch_counts": ladder.counts.tolist(),
+    }
+    if history.duration is not None:
+        block.setdefault("frequency", 1.0 / history.duration)
+    return ladder.path, block
 
 
 def solve_until_refused(

@@ -115,6 +115,9 @@ class Wear(Replaceable):
     first_branch : int, optional
         First branch of the path that belongs to the cycle, counted from 0 (default: that of the
         last closed cycle); the cycle ends where it begins.
+    branch_counts : sequence of float, optional
+        How often a cycle passes each of its branches (default: each once). :func:`solve` sets them
+        for a load history, whose cycle is a block of loops.
     cycling : "march" or "sliding"
         "march" solves the increments of the cycle, with stick and slip. "sliding" is for gross slip
         along x under given shifts, whatever the stroke. It solves the normal contact alone at each
@@ -141,6 +144,7 @@ class Wear(Replaceable):
     share2: float | None = None
     debris_kept: float = 0.0
     first_branch: int | None = None
+    branch_counts: Sequence[float] | None = None
     cycling: Literal["march", "sliding"] = "march"
     frequency: InSI[Frequency | None] = by_default(None)
     rig_stiffness: InSI[Stiffness | None] = by_default(None)
@@ -172,6 +176,9 @@ class Wear(Replaceable):
     def document(self) -> tuple[dict[str, Any], list[list[Function]]]:
         """The table of a scene file, and the functions of each body, which no file can hold."""
         table = {name: value for name, value in vars(self).items() if value is not None}
+        if self.branch_counts is not None:
+            counts = items(self.branch_counts, "branch_counts")
+            table["branch_counts"] = plain(counts, "branch_counts").tolist()
         functions: list[list[Function]] = []
         for body in ("body1", "body2"):
             laws_of_body, share = table.pop(body, None), table.pop(f"share{body[-1]}", None)

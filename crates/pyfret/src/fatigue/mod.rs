@@ -2,11 +2,13 @@
 
 mod assessment;
 mod criterion;
+mod damage;
 mod material;
 mod on_stress;
 
 pub(crate) use assessment::Assessment;
 pub(crate) use criterion::{Criterion, add_criteria, criteria};
+pub(crate) use damage::{damage_of_values, damage_on, spectral_cycles};
 pub(crate) use material::{
     Material, find_material, known_as, material_quantities, materials, nearest_materials,
 };
