@@ -27,6 +27,7 @@ COMMANDS = (
     "explore",
     "export",
     "crack",
+    "damage",
     "fit",
     "threshold",
     "info",

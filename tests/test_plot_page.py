@@ -13,6 +13,7 @@ import pyfret as fret
 from conftest import ROOT
 from pyfret import plot
 from pyfret._util.figures import figures_of, first_types
+from pyfret.history import CountedLoops
 from pyfret.subsurface.tensor import Stress
 
 sys.path.insert(0, str(ROOT / "tools"))
@@ -47,7 +48,7 @@ PLAIN = {"xr.Dataset", "xr.DataArray", "ArrayLike", "Mapping[float, Run]"}
 RESULTS = (
     *(fret.Result, fret.Snapshot, Stress, fret.fatigue.Life, fret.fatigue.LoadFactors),
     *(fret.fatigue.OverDistance, fret.fracture.Cracks, fret.wear.WearResult, fret.study.Study),
-    fret.study.Comparison,
+    *(fret.study.Comparison, fret.LoadHistory, CountedLoops, fret.fatigue.Damage),
 )
 
 

@@ -70,6 +70,12 @@ FIGURES: dict[str, dict[str, str]] = {
         "intensity_history": "fret.plot.intensity_history(cracks, 1e-4)",
         "crack_panels": "fret.plot.crack_panels(rig, cracks, threshold)",
     },
+    "Load histories": {
+        "load_history": "fret.plot.load_history(measured)",
+        "loop_histogram": "fret.plot.loop_histogram(measured.count())",
+        "damage_map": "fret.plot.damage_map(damage)",
+        "damage_contributions": "fret.plot.damage_contributions(damage)",
+    },
     "Wear and heat": {
         "wear_history": "fret.plot.wear_history(worn)",
         "wear_profiles": "fret.plot.wear_profiles(worn)",
@@ -229,9 +235,16 @@ def names() -> dict[str, Any]:
         executor=1,
         progress=False,
     )
+    band = ([40.0, 60.0, 120.0], [0.02 * (0.2 * mu * W) ** 2, 0.01 * (0.2 * mu * W) ** 2, 0.0])
+    measured = fret.LoadHistory.from_spectrum(band, 20.0, mean=0.2 * mu * W).sample(seed=2)
+    damage = fret.fatigue.damage(
+        bare.replace(path=pressed), measured, table["steel_42CrMo4"], "smith_watson_topper"
+    )
     return {
         "fret": fret,
         "result": result,
+        "measured": measured,
+        "damage": damage,
         "yielding": yielding(),
         "many": many,
         "by_ratio": by_ratio,
