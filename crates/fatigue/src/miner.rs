@@ -495,7 +495,11 @@ mod tests {
                 });
                 largest = largest.max(sum.sum());
             }
-            assert!(damage.damage >= 0.9999 * largest, "{} {largest}", damage.damage);
+            assert!(
+                damage.damage >= 0.9999 * largest,
+                "{} {largest}",
+                damage.damage
+            );
             assert!(damage.damage <= 1.01 * largest);
             assert!(damage.missed >= 0.0);
             assert!((damage.parts.iter().sum::<f64>() / damage.damage - 1.0).abs() < 1e-12);
