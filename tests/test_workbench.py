@@ -26,6 +26,7 @@ from pyfret.workbench.doubts import doubt_of_sentence, doubts_of
 from pyfret.workbench.events import SCENE_EVENTS, Context, change_scene
 from pyfret.workbench.exports import read_link, write_file, write_link, write_script
 from pyfret.workbench.fields import fields_of, find_field
+from pyfret.workbench.file_views import describe, render_file
 from pyfret.workbench.jobs import Jobs
 from pyfret.workbench.judgements import first_yield, life_of
 from pyfret.workbench.names import OWN, names_of
@@ -234,6 +235,30 @@ def test_a_scene_with_a_measured_surface_stays_on_the_server(tmp_path: Path) -> 
     assert sessions.unpack(SESSION, packed) == (rough, names)
     with pytest.raises(ValueError, match="gone"):
         sessions.unpack("f" * 16, packed)
+
+
+@pytest.mark.parametrize(
+    ("text", "kind"),
+    [
+        ("x [um];depth [um]\n-10;0\n-5;0.5\n0;1\n5;0.5\n10;0\n", "scar"),
+        ("Weg [µm];Kraft [N]\n-1;-2\n1;2\n0,5;1\n-1;-2\n", "loop"),
+        (
+            "x[um] y[um] z[um]\n"
+            + "\n".join(f"{i} {j} {i * j}" for i in range(9) for j in range(9)),
+            "map",
+        ),
+        ("<script>alert(1)</script>", "other"),
+    ],
+)
+def test_dropped_files_are_recognized(text: str, kind: str, tmp_path: Path) -> None:
+    path = tmp_path / "file.csv"
+    path.write_text(text, encoding="utf-8")
+    card = render_file(path, {"id": "a" * 16, "name": "<b>file</b>.csv"})
+    if kind == "other":
+        assert "doubt" in str(card)
+        return
+    assert describe(path)[0] == kind
+    assert "Graph" in str(card)
 
 
 def test_differences_count_beyond_both_errors() -> None:

@@ -127,10 +127,10 @@ def write_tests_of_rig(folder: Path, scene: fret.Scene, cycles: float) -> tuple[
     noise = np.random.default_rng(1)
     lines = [f"{x:.5f};{T + noise.normal(0.0, 0.02):.4f}" for x, T in rows]
     (folder / "loop.csv").write_text("shift [um];T [N]\n" + "\n".join(lines), encoding="utf-8")
-    worn = fret.wear.solve(true, cycles=cycles, progress=False, **law_of(2, 3e-14))
+    worn = fret.wear.solve(true, cycles=cycles, progress=False, **law_of(2, 1e-15))
     cut = worn.dataset.worn2[-1].sel(y=0.0, method="nearest")
     rows = zip(1e6 * worn.dataset.x.values, 1e6 * cut.values, strict=True)
-    lines = [f"{x:.4f};{z + noise.normal(0.0, 2e-4):.6f}" for x, z in rows]
+    lines = [f"{x:.4f};{z + noise.normal(0.0, 2e-5):.7f}" for x, z in rows]
     (folder / "scar.csv").write_text("x [um];depth [um]\n" + "\n".join(lines), encoding="utf-8")
     return folder / "loop.csv", folder / "scar.csv"
 
@@ -147,7 +147,7 @@ def test_a_loop_and_a_scar_lead_to_a_depth(browser: Any, page: Any, tmp_path: Pa
     user.drop(loop, scar)
     user.view.wait_for_selector("#fit-cycles", timeout=PATIENCE)
     user.type("#fit-cycles", "1e4")
-    user.type("#fit-predict", "5e4")
+    user.type("#fit-predict", "2e4")
     user.click("#files [data-event=fit]")
     user.click("#files [data-event=show]")
     user.view.wait_for_selector("#jobs .card", timeout=PATIENCE)
@@ -168,11 +168,11 @@ def test_a_loop_and_a_scar_lead_to_a_depth(browser: Any, page: Any, tmp_path: Pa
         key = "wear.body2.alpha"
         worn = fret.fit(friction.scene, profile, unknown={key: ALPHAS}, executor=1)
         law = law_of(2, worn.known[key].value)
-        predicted = fret.wear.solve(friction.scene, cycles=5e4, progress=False, **law)
+        predicted = fret.wear.solve(friction.scene, cycles=2e4, progress=False, **law)
     assert mu == pytest.approx(friction.known["mu"].value, rel=1e-6)
     assert mu == pytest.approx(0.55, rel=0.05)
     assert alpha == pytest.approx(worn.known[key].value, rel=1e-6)
-    assert alpha == pytest.approx(3e-14, rel=0.1)
+    assert alpha == pytest.approx(1e-15, rel=0.1)
     assert depth == pytest.approx(1e6 * float(predicted.dataset.depth2[-1]), rel=1e-6)
     user.close()
 
@@ -223,7 +223,7 @@ def test_a_doubt_is_removed_by_its_button_and_a_link_opens_the_scene(
     scene = fret.Scene.from_toml(saved.value.path().read_text(encoding="utf-8"))
     assert scene.mu == 0.2
     second = User(browser, page.url + link)
-    second.view.wait_for_selector("#number-friction-mu[value='0.2']", timeout=PATIENCE)
+    second.see("#number-friction-mu", "0.2")
     second.settle()
     second.go("out")
     assert "mu = 0.2" in second.view.inner_text("#toml")

@@ -102,6 +102,14 @@ class User:
         self.actions += 1
         self.view.set_input_files("#file-input", [str(path) for path in paths])
 
+    def see(self, selector: str, value: str) -> None:
+        """Wait until a field has a value."""
+        for _ in range(PATIENCE // 100):
+            if self.view.locator(selector).count() and self.view.input_value(selector) == value:
+                return
+            self.view.wait_for_timeout(100)
+        raise AssertionError(f"{selector} is {self.view.input_value(selector)!r}, not {value!r}")
+
     def number(self, name: str, place: str = "#numbers") -> float:
         """Read a number of a table."""
         cell = self.view.locator(f'{place} [data-number="{name}"]').first

@@ -63,6 +63,15 @@ def connect_answers(app: Any, sessions: Sessions, jobs: Jobs) -> None:
         doubt = doubt_of_sentence(scene, str(error))
         return ["no answer", dash.no_update, render_doubt([doubt]), *[dash.no_update] * 5]
 
+    app.clientside_callback(
+        "function(scene, before) { return JSON.stringify(scene) === JSON.stringify(before) ? "
+        "window.dash_clientside.no_update : 'solving ...'; }",
+        dash.Output("state", "children", allow_duplicate=True),
+        dash.Input("scene", "data"),
+        dash.State("previewed", "data"),
+        prevent_initial_call=True,
+    )
+
     @app.callback(  # type: ignore[untyped-decorator]
         *outputs(again=False),
         dash.Output("previewed", "data"),

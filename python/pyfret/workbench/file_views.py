@@ -11,6 +11,7 @@ import numpy as np
 from pyfret._core import Scene
 from pyfret._util.scene_warnings import SceneWarning
 from pyfret.file_info import describe_file
+from pyfret.fit.columns import kind_of as kind_of_unit
 from pyfret.opening import open as open_store
 from pyfret.scene.surfaces import read_surface
 from pyfret.workbench.answers import REFUSALS
@@ -26,6 +27,8 @@ __all__ = ["kind_of", "read_dropped_scene", "render_file", "surface_of"]
 
 #: Most points along a side of a preview.
 SIDE = 128
+#: Beginnings of the names of a column of depths.
+DEPTHS = ("depth", "z", "h", "worn", "tiefe")
 #: Lines of a description.
 LINES = 24
 
@@ -47,25 +50,37 @@ def describe(path: Path) -> tuple[str, dict[str, str], list[str]]:
         scene = Scene.from_file(path)
         lines = {"format": "scene file", "title": scene.title, "read by": "fret.Scene.from_file"}
         return "scene", lines, scene.doubts()
+    if (columns := profile_columns(path)) is not None:
+        return "scar", {"format": "table", "read by": "fret.fit.read_scar", **columns}, []
     info = describe_file(path)
     lines = {"format": info.format, "read by": info.reader, **info.content}
     return kind_of(info), lines, info.doubts
 
 
+def profile_columns(path: Path) -> dict[str, str] | None:
+    """Describe the columns of a profile: places and depths, and no forces; None of other files."""
+    from pyfret.fit.recorders import read_columns
+
+    try:
+        columns = read_columns(path)
+        places = columns.column("length", ("x", "pos"), None)
+        depths = columns.column("length", DEPTHS, None)
+        size = len(columns.numbers(places, depths)[0])
+    except (*REFUSALS, ImportError, OSError):
+        return None
+    kinds = [kind_of_unit(unit) for unit in columns.units if unit]
+    if places == depths or "force" in kinds or kinds.count("length") != 2:
+        return None
+    names = [f"{columns.names[n]} [{columns.units[n]}]" for n in (places, depths)]
+    return {"place": names[0], "depth": names[1], "points": str(size)}
+
+
 def kind_of(info: FileInfo) -> str:
-    """Return what a file is for the page: store, loop, scar, map or other."""
+    """Return what a file is for the page: store, loop, map or other."""
     if info.reader == "fret.open":
         return "store"
     if info.reader.startswith("fret.fit.read_loops,") or info.reader == "fret.fit.read_loops":
         return "loop"
-    lengths = [
-        text
-        for name, text in info.content.items()
-        if name.startswith("column ")
-        and any(f"[{unit}]" in text for unit in ("um", "µm", "mm", "m", "nm"))
-    ]
-    if len(lengths) >= 2:
-        return "scar"
     return "map" if "read_surface" in info.reader and "points" in info.content else "other"
 
 
@@ -101,7 +116,7 @@ def preview(path: Path, kind: str) -> Any:
         x, y = columns.numbers(first, second)
         return go.Figure(draw([curve(1e6 * x, y, "")], "shift [µm]", "force [N]"))
     first = columns.column("length", ("x", "pos"), None)
-    second = columns.column("length", ("depth", "z", "h", "worn", "tiefe"), None)
+    second = columns.column("length", DEPTHS, None)
     x, y = columns.numbers(first, second)
     return go.Figure(draw([curve(1e6 * x, 1e6 * y, "")], "x [µm]", "depth [µm]", downwards=True))
 

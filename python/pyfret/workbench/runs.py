@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pyfret import wear
-from pyfret._core import LoadPath, with_range
+from pyfret._core import Grid, LoadPath, OffGridError, with_range
 from pyfret._util.numbers import in_words
 from pyfret.study.loop import run as run_points
 from pyfret.workbench.answers import Number, number_with_error
@@ -38,8 +38,24 @@ def law_of(body_number: int, alpha: float) -> dict[str, Any]:
 def run_wear(scene: Scene, order: Mapping[str, Any], folder: Path) -> dict[str, Any]:
     """Wear a body over many cycles."""
     number, alpha, cycles = order["body"], order["alpha"], order["cycles"]
-    worn = wear.solve(scene, cycles=cycles, **law_of(number, alpha))
-    return outcome_of_wear(worn, number)
+    return outcome_of_wear(wear_off(scene, cycles, law_of(number, alpha)), number)
+
+
+def wear_off(scene: Scene, cycles: float, law: dict[str, Any]) -> WearResult:
+    """Wear a scene; where the scar leaves the grid, on a grid that holds it at its end."""
+    try:
+        return wear.solve(scene, cycles=cycles, **law)
+    except OffGridError:
+        grid = Grid.for_contact(
+            scene.body1,
+            scene.body2,
+            scene.path,
+            plane_strain=scene.grid.plane_strain,
+            wear={"cycles": cycles, **law},
+            mu=scene.friction,
+            n=scene.grid.nx,
+        )
+        return wear.solve(scene.replace(grid=grid), cycles=cycles, **law)
 
 
 def outcome_of_wear(worn: WearResult, number: int) -> dict[str, Any]:
@@ -146,7 +162,7 @@ def run_fit(scene: Scene, order: Mapping[str, Any], folder: Path) -> dict[str, A
         figure = draw([measured, computed], "x [µm]", "depth [µm]", downwards=True)
         figures.append(("The measured scar, and the one of the fit.", figure))
     if order.get("predict") and alpha:
-        worn = wear.solve(scene, cycles=order["predict"], **law_of(body, alpha))
+        worn = wear_off(scene, order["predict"], law_of(body, alpha))
         predicted = outcome_of_wear(worn, body)
         numbers += [Number(**row) for row in predicted["numbers"]]
         figures += predicted["figures"]
