@@ -96,7 +96,7 @@ def test_bad_input_is_refused_by_name() -> None:
 @pytest.mark.parametrize(
     ("options", "told"),
     [
-        ({"cycling": "slide"}, r'cycling = "slide": must be "march" or "sliding"'),
+        ({"cycling": "slide"}, r'cycling = "slide": must be "auto" or "march" or "sliding"'),
         ({"worn_through": "on"}, r'worn_through = "on": must be "stop" or "go_on"'),
         ({"jumps": -1}, r"jumps = -1: must be a whole number >= 1"),
         ({"first_branch": 0}, r"first_branch = 0: must be a whole number >= 1"),

@@ -52,6 +52,8 @@ IN_A_WAVE = 8
 #: Cells across the contact before it wears, on the grid and on that of the trial, and most cells
 #: along a side of that one: a scar thirty times as long as the contact is none of this rig.
 IN_A_FIRST, IN_A_TRIAL, MOST_OF_TRIAL = 16, 8, 256
+#: Cells along the length of a contact that is too long for square cells.
+IN_A_LENGTH = 128
 #: How much longer the grid of a trial gets that the scar leaves, and the tolerance of its jumps.
 LONGER, ROUGHLY = 1.5, 0.05
 #: Part of the mean square slope of a measured map in waves that are not resolved.
@@ -91,9 +93,11 @@ def for_contact(
 
     The contact under the largest normal load of the path is solved without friction and
     roughness on 32 cells a side. The grid is `room` times as long, on rough surfaces 15 %
-    longer. It has as many cells as a smooth contact takes for `error`, and eight in the
-    shortest wave of a rough, wavy or measured surface. On measured surfaces, on waves and
-    where a body has edges, the number of cells is doubled. The last changes of area and
+    longer. It has as many cells as a smooth contact takes for `error`. The cells are square;
+    along a contact that would take more than 4096 of them they are oblong, 128 at least. It
+    has eight cells in the shortest wave of a rough, wavy or measured surface. On measured
+    surfaces, on waves and where a body has edges, the number of cells is doubled. The last
+    changes of area and
     largest pressure foretell the next ones: the doubling ends where these are below
     `error`.
 
@@ -183,6 +187,9 @@ def for_contact(
     if wear is not None:
         size = min(size, first / IN_A_FIRST)
     along = [2 * math.ceil(side / size / 2) for side in sides]
+    if max(along) > MOST and math.isinf(wave) and not plane_strain:
+        # A long contact changes along its length at its ends alone: oblong cells.
+        along = [min(count, max(IN_A_LENGTH, 2 * math.ceil(cells / 2))) for count in along]
     plain = _is_plain(body1.shape) and _is_plain(body2.shape)
     if wear is None and max(along) <= MOST and not (plain and of == "p"):
         if of != "p":
@@ -199,8 +206,9 @@ def for_contact(
     _doubt_films(body1, body2, [side / n_cells for side, n_cells in zip(sides, along, strict=True)])
     if max(along) > MOST:
         raise ValueError(
-            f"{max(along)} cells along a side: the contact is {lengths[0]:.3g} m long; a larger "
-            f"error than {error:g}, or roughness of longer waves, takes fewer"
+            f"{max(along)} cells along a side: the contact is {max(lengths):.3g} m long. A larger "
+            f"error than {error:g}, or roughness of longer waves, takes fewer. Grid.from_spacing "
+            "takes cells that are longer along one axis"
         )
     if plane_strain:
         return Grid.strip(extent=sides[0], n=along[0])

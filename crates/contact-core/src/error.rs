@@ -99,7 +99,7 @@ pub enum Error {
     /// The worn contact reaches the border of the grid.
     #[error(
         "after {cycles:.6e} cycles the worn contact reaches the border of the grid, or slides over it. \
-         The grid is {extent_x:.4e} m by {extent_y:.4e} m and should be about {needed:.4e} m wide"
+         The grid is {extent_x:.4e} m by {extent_y:.4e} m and should be about {needed_x:.4e} m by {needed_y:.4e} m"
     )]
     WornOffGrid {
         /// Cycles up to which all is well.
@@ -108,8 +108,10 @@ pub enum Error {
         extent_x: f64,
         /// Length of the grid along y \[m\].
         extent_y: f64,
-        /// Recommended length \[m\].
-        needed: f64,
+        /// Recommended length along x \[m\].
+        needed_x: f64,
+        /// Recommended length along y \[m\].
+        needed_y: f64,
     },
     /// The contact is certain to leave the grid, before anything is solved.
     #[error(

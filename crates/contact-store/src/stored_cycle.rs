@@ -158,11 +158,7 @@ fn find_cycle(store: &Store, branches: &[usize], cycle: i64) -> Result<(usize, u
     };
     let finished_cycles: Vec<_> = cycles(path).into_iter().filter(finished).collect();
     if finished_cycles.is_empty() {
-        return Err(Error::invalid(
-            "cycle",
-            cycle,
-            "a closed cycle of the load path, and it has none: end where a cycle began",
-        ));
+        return Err(path.no_cycle());
     }
     let count = finished_cycles.len() as i64;
     let n = if cycle < 0 { count + cycle } else { cycle };

@@ -250,6 +250,7 @@ pub(super) fn attributes(run: &WearRun, status: &str) -> Value {
     doubts.extend(run.wear().doubts());
     json!({
         "doubts": doubts.join("\n"),
+        "method": run.wear().note(),
         "title": scene.title,
         "schema": SCHEMA,
         "version": env!("CARGO_PKG_VERSION"),

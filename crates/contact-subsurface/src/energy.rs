@@ -7,16 +7,13 @@
 //! turns into gross slip at an energy ratio of 0.2 and a sliding ratio of 0.26.
 
 use contact_core::march::Status;
-use contact_core::scene::{Branch, LoadPath, Loads, Prescribed, RigidMotion};
+use contact_core::scene::{Branch, LoadPath};
 
 use crate::loop_point::{Direction, LoopPoint};
 use crate::reversal;
 
 /// Largest error with which a sliding ratio is given.
 const MAX_SLIDING_ERROR: f64 = 0.05;
-
-/// Loads that agree to this share of the largest are the same.
-const SAME: f64 = 1e-9;
 
 /// A closed part of the load path: the loads at its end are those at its start.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -122,59 +119,9 @@ fn ratio(a: f64, b: f64) -> f64 {
     if b > 0.0 { a / b } else { 0.0 }
 }
 
-/// First and last branch of every cycle of a load path: from a turning point, the first time that
-/// its loads, the motions given in place of loads and the bulk stresses return; cycles follow each
-/// other and do not overlap. A branch that changes nothing is no cycle.
+/// First and last branch of every whole cycle of a load path, [`LoadPath::cycles`].
 pub fn cycles(path: &LoadPath) -> Vec<(usize, usize)> {
-    let ends: Vec<Loads> = std::iter::once(Loads::default())
-        .chain(path.branches.iter().map(|b| b.to))
-        .collect();
-    // Largest load and largest motion that is prescribed; moments and rotations have their own.
-    let kind = |of: RigidMotion, prescribed: Prescribed| {
-        (
-            usize::from(of.is_rotation()),
-            usize::from(prescribed.is_motion()),
-        )
-    };
-    let mut largest = [[0.0_f64; 2]; 2];
-    for end in &ends {
-        for of in RigidMotion::ALL {
-            let prescribed = end.prescribed(of);
-            let (rotation, motion) = kind(of, prescribed);
-            let largest = &mut largest[rotation][motion];
-            *largest = largest.max(prescribed.value().abs());
-        }
-    }
-    let pulls = |l: &Loads| [l.sigma_B, l.sigma_B1];
-    let bulk = ends
-        .iter()
-        .flat_map(pulls)
-        .fold(0.0, |m: f64, s| m.max(s.abs()));
-    let same = |a: &Loads, b: &Loads| {
-        let (a_pulls, b_pulls) = (pulls(a), pulls(b));
-        let pulled_alike = (0..2).all(|k| (a_pulls[k] - b_pulls[k]).abs() <= SAME * bulk);
-        let driven_alike = RigidMotion::ALL.into_iter().all(|of| {
-            let (a, b) = (a.prescribed(of), b.prescribed(of));
-            let (rotation, motion) = kind(of, a);
-            a.is_motion() == b.is_motion()
-                && (a.value() - b.value()).abs() <= SAME * largest[rotation][motion]
-        });
-        pulled_alike && driven_alike
-    };
-    let mut cycles = Vec::new();
-    let mut start = 0;
-    while start < ends.len() {
-        let back = (start + 2..ends.len()).find(|end| same(&ends[start], &ends[*end]));
-        match back {
-            // Branch n ends at the n + 1st of the turning points.
-            Some(end) => {
-                cycles.push((start, end - 1));
-                start = end;
-            }
-            None => start += 1,
-        }
-    }
-    cycles
+    path.cycles()
 }
 
 /// The loops of a motion in the cycles of a path that the history contains completely.
@@ -207,7 +154,7 @@ fn cycle(
     };
     let (force, shift) = (range(|p| p.T), range(|p| p.delta));
     let worse = |a: Status, b: Status| if b.code() > a.code() { b } else { a };
-    let [stiffness, stiffness_error] = reversal::stiffness(split_branches(curve), direction);
+    let [stiffness, stiffness_error] = reversal::stiffness(from_reversals(curve).into_iter(), direction);
     let [opening, opening_error] = loop_opening(curve, f64::midpoint(force.0, force.1));
     Cycle {
         branches,
@@ -222,14 +169,44 @@ fn cycle(
     }
 }
 
-/// The branches of a loop, each with the point that it starts from.
-fn split_branches(curve: &[LoopPoint]) -> impl Iterator<Item = &[LoopPoint]> {
-    let starts = (1..curve.len()).filter(|n| *n == 1 || curve[*n].branch != curve[n - 1].branch);
-    starts.map(|first| {
-        let of_branch = |p: &&LoopPoint| p.branch == curve[first].branch;
-        let count = curve[first..].iter().take_while(of_branch).count();
-        &curve[first - 1..first + count]
-    })
+/// The runs of a loop from reversal to reversal, each with the point that it starts from. Branches that go on
+/// in the same direction of force and shift are one run.
+fn runs(curve: &[LoopPoint]) -> Vec<&[LoopPoint]> {
+    let span = |value: fn(&LoopPoint) -> f64| {
+        let values = curve.iter().map(value);
+        let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
+            (low.min(v), high.max(v))
+        });
+        (high - low).max(f64::MIN_POSITIVE)
+    };
+    let (force, shift) = (span(|p| p.T), span(|p| p.delta));
+    // Change of force and shift in an increment, over their ranges.
+    let change = |n: usize| {
+        let (from, to) = (curve[n - 1], curve[n]);
+        (to.T - from.T) / force + (to.delta - from.delta) / shift
+    };
+    let goes_on = |n: usize| change(n - 1) * change(n) > 0.0;
+    let mut starts: Vec<usize> = (1..curve.len())
+        .filter(|n| *n == 1 || (curve[*n].branch != curve[n - 1].branch && !goes_on(*n)))
+        .collect();
+    starts.push(curve.len());
+    let pairs = starts.windows(2);
+    pairs.map(|pair| &curve[pair[0] - 1..pair[1]]).collect()
+}
+
+/// The runs that begin at a reversal. The first one does not if the last one goes on in its direction.
+fn from_reversals(curve: &[LoopPoint]) -> Vec<&[LoopPoint]> {
+    let mut runs = runs(curve);
+    let rise = |run: &[LoopPoint]| match run {
+        [first, .., last] => last.T - first.T,
+        _ => 0.0,
+    };
+    if let [first, _, .., last] = &runs[..]
+        && rise(first) * rise(last) > 0.0
+    {
+        runs.remove(0);
+    }
+    runs
 }
 
 /// Half the distance between the outermost shifts at which the force passes `middle`, and the bound
@@ -238,7 +215,7 @@ fn split_branches(curve: &[LoopPoint]) -> impl Iterator<Item = &[LoopPoint]> {
 fn loop_opening(curve: &[LoopPoint], middle: f64) -> [f64; 2] {
     let mut range = (f64::INFINITY, f64::NEG_INFINITY);
     let mut error = 0.0;
-    for branch in split_branches(curve) {
+    for branch in runs(curve) {
         for (n, pair) in branch.windows(2).enumerate() {
             let (from, to) = (pair[0], pair[1]);
             if (from.T - middle) * (to.T - middle) > 0.0 || from.T.to_bits() == to.T.to_bits() {

@@ -119,7 +119,7 @@ impl Loaded {
     }
 
     /// s_xx and s_yy of a state at a depth that are the same all over the depth \[Pa\].
-    pub(super) fn uniform(&self, state: usize, depth: Depth) -> [f64; 2] {
+    pub(super) fn uniform(&self, state: usize, depth: Depth) -> [f64; 4] {
         self.uniform.stress(&self.body, state, depth)
     }
 

@@ -44,12 +44,12 @@ impl Uniform {
         })
     }
 
-    /// s_xx and s_yy of a state that are the same all over a depth of the body \[Pa\].
-    pub(super) fn stress(&self, body: &Body, state: usize, depth: Depth) -> [f64; 2] {
+    /// s_xx, s_yy, s_zz and s_xy of a state that are the same all over a depth of the body \[Pa\].
+    pub(super) fn stress(&self, body: &Body, state: usize, depth: Depth) -> [f64; 4] {
         let sigma_B = self.sigma_B.get(state).copied().unwrap_or(0.0);
         let [xx, yy] = self.residual.stress_at(depth.layer, depth.z);
-        let [along, across] = body.bulk_stress(sigma_B, self.plane_strain, depth.layer);
-        [along + xx, across + yy]
+        let bulk = body.bulk_stress(sigma_B, self.plane_strain, (depth.layer, depth.z));
+        [bulk[0] + xx, bulk[1] + yy, 0.0, bulk[2]]
     }
 
     /// The residual stress of plastic strain in a state, at a place \[Pa\]; `None` without plastic

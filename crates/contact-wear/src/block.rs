@@ -29,6 +29,8 @@ pub struct Block {
     /// Shift of body 1 against body 2 along x at which p acts and the two worn surfaces lie \[m\];
     /// zero in a march.
     pub shift: f64,
+    /// Way over which p is the mean, an increment of the stroke \[m\]; zero in a march.
+    pub shift_length: f64,
     /// Contact cells that slip nowhere in the cycle; none in gross slip.
     pub stick: Array2<bool>,
     /// Friction loop of one cycle: shift delta_x \[m\], force T_x \[N\], shift delta_y, force T_y,
@@ -78,6 +80,7 @@ impl WearRun {
             slid: whole(&worn.slid),
             p: whole(seen.p),
             shift: seen.shift,
+            shift_length: seen.shift_length,
             stick,
             friction_loop: seen.corners,
         }

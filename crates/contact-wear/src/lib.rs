@@ -26,6 +26,7 @@ mod jump;
 mod law;
 mod loss;
 mod marched;
+mod method;
 mod model;
 mod on_grid;
 mod outward;
@@ -44,6 +45,7 @@ mod stroke;
 mod table;
 mod variable;
 mod varying;
+mod width;
 mod within_cell;
 mod worn_start;
 

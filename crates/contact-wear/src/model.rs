@@ -54,6 +54,8 @@ pub(crate) struct CycleOutput<'a> {
     pub(crate) p: &'a [f64],
     /// Shift of the bodies at that pressure \[m\].
     pub(crate) shift: f64,
+    /// Way over which that pressure is the mean \[m\].
+    pub(crate) shift_length: f64,
     pub(crate) stick: Option<&'a [bool]>,
     pub(crate) stick_ratio: f64,
     pub(crate) dissipated_per_cycle: f64,
@@ -76,7 +78,8 @@ impl Model {
                 let sliding = Sliding::new(scene, wear, p, worn, stop)?;
                 Ok(Self::Sliding(Box::new(sliding)))
             }
-            Cycling::March => {
+            // Settled runs have a method.
+            Cycling::Auto | Cycling::March => {
                 let state = state.map(ModelState::marched).transpose()?;
                 let marched = Marched::new(scene, wear, state, worn, stop)?;
                 Ok(Self::Marched(Box::new(marched)))
@@ -89,6 +92,18 @@ impl Model {
             Self::Sliding(s) => &s.pressing,
             Self::Marched(m) => &m.pressing,
         }
+    }
+
+    /// Ends of the stroke \[m\]; `None` in a march.
+    pub(crate) fn stroke(&self) -> Option<[f64; 2]> {
+        let Self::Sliding(s) = self else { return None };
+        let shifts = s.places.iter().flat_map(|place| {
+            [
+                place.shift - 0.5 * place.length,
+                place.shift + 0.5 * place.length,
+            ]
+        });
+        Some(shifts.fold([0.0, 0.0], |[low, high], d: f64| [low.min(d), high.max(d)]))
     }
 
     pub(crate) fn cells(&self) -> usize {
@@ -156,6 +171,7 @@ impl Model {
                 CycleOutput {
                     p: &s.p[middle],
                     shift: s.places[middle].shift,
+                    shift_length: s.places[middle].length,
                     stick: None,
                     stick_ratio: 0.0,
                     dissipated_per_cycle: s.dissipated_per_cycle(),
@@ -172,6 +188,7 @@ impl Model {
                 CycleOutput {
                     p: &cycled.p,
                     shift: 0.0,
+                    shift_length: 0.0,
                     stick: Some(&cycled.stick),
                     stick_ratio: cycled.stick_ratio,
                     dissipated_per_cycle: cycled.dissipated.iter().sum::<f64>() * area,

@@ -26,8 +26,8 @@ pub(super) fn check(grid: &Grid, rows: usize, p: &[f64], shifts: &[Shift]) -> Re
         j + 1 == rows || (j == 0 && rows == grid.ny)
     };
     let is_off_grid = |shift: &Shift| {
-        let by = shift.cells();
-        low as f64 + by < 0.0 || high as f64 + by > (grid.nx - 1) as f64
+        let [first, last] = shift.ends();
+        low as f64 + first < 0.0 || high as f64 + last > (grid.nx - 1) as f64
     };
     let off_x = low == 0 || high + 1 == grid.nx || shifts.iter().any(is_off_grid);
     let off_y = !grid.plane_strain && pressed().any(is_at_y_border);

@@ -19,6 +19,7 @@ use super::settings::{Jumps, Wear, WornThrough};
 use super::slip_zone;
 use super::state::WearState;
 use super::variable::FactorVariable;
+use super::width::Scar;
 use super::worn_start::WornStart;
 
 /// The next length is CAUTIOUS (tol/error)^(1/2) times the last one, within SHORTER to LONGER.
@@ -33,6 +34,10 @@ const FIRST_JUMP: f64 = 0.05;
 const PRESSURE: f64 = 20.0;
 /// Least length of a jump over all cycles.
 const SHORTEST: f64 = 1e-9;
+/// Growth of a grid whose need is not known, and the estimate of the width of a scar over the grid from which on
+/// the run is refused.
+const GRID_GROWTH: f64 = 1.4;
+const SURELY: f64 = 1.1;
 /// Most attempts of a jump, for its error and for the cycle of an event.
 const TRIES: usize = 60;
 
@@ -96,6 +101,7 @@ impl WearRun {
         let before = run.state.to_jump(&run.model, 0.0);
         run.state.lost_before = [before.depth, before.volume];
         run.state.next = run.first_jump()?;
+        run.check_width()?;
         Ok(run)
     }
 
@@ -192,14 +198,75 @@ impl WearRun {
                 extent_y,
                 needed,
                 ..
-            } => Error::WornOffGrid {
-                cycles: self.state.cycles,
-                extent_x,
-                extent_y,
-                needed,
-            },
+            } => {
+                // The touched side grows at least by as much as the contact alone asks.
+                let grows = needed / extent_x.max(extent_y);
+                let least = [extent_x, extent_y].map(|extent| extent * grows.max(GRID_GROWTH));
+                let needed = self.needed(1.0).map_or(least, |[enough, _]| {
+                    [0, 1].map(|k| enough[k].max([extent_x, extent_y][k]))
+                });
+                Error::WornOffGrid {
+                    cycles: self.state.cycles,
+                    extent_x,
+                    extent_y,
+                    needed_x: needed[0],
+                    needed_y: needed[1],
+                }
+            }
             error => error,
         }
+    }
+
+    /// Lengths of the grid that holds the scar of a part of the cycles in gross slip, and those below which it
+    /// does not, [`Scar::needed`]; `None` in a march.
+    fn needed(&mut self, part: f64) -> Option<[[f64; 2]; 2]> {
+        let ends = self.model.stroke()?;
+        let cycle = self.model.jump(&self.state.worn, 1.0, false).ok()?;
+        self.model.restore(&self.state.model);
+        let area = self.model.pressing().cell_area();
+        let times = part * self.wear.opens() * self.wear.cycles * area;
+        let scar = Scar {
+            scene: &self.scene,
+            volumes: cycle
+                .depth
+                .each_ref()
+                .map(|depth| times * depth.iter().sum::<f64>()),
+            ends,
+            half_width: self.wear.half_width,
+        };
+        scar.needed()
+    }
+
+    /// Fails if the scar of all cycles does not fit on the grid, before the first jump.
+    fn check_width(&mut self) -> Result<(), Error> {
+        let stops = self.wear.worn_through == WornThrough::Stop
+            && [&self.scene.body1, &self.scene.body2]
+                .iter()
+                .any(|body| !body.coatings.is_empty());
+        let steady = self
+            .wear
+            .bodies
+            .iter()
+            .flat_map(|body| &body.laws)
+            .all(|law| law.is_steady());
+        if stops || !steady || self.state.worn.deepest() > 0.0 {
+            return Ok(());
+        }
+        let Some([enough, least]) = self.needed(1.0) else {
+            return Ok(());
+        };
+        let (extent_x, extent_y) = self.scene.grid.extent();
+        let strip = self.scene.grid.plane_strain;
+        if least[0] <= SURELY * extent_x && (strip || least[1] <= SURELY * extent_y) {
+            return Ok(());
+        }
+        Err(Error::WornOffGrid {
+            cycles: 0.0,
+            extent_x,
+            extent_y,
+            needed_x: enough[0].max(extent_x),
+            needed_y: enough[1].max(extent_y),
+        })
     }
 
     /// The physical cause of jumps that do not converge, as the end of a sentence: large wear in

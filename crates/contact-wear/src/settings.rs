@@ -1,23 +1,24 @@
 //! The wear settings of a user: laws, cycles, jumps, events.
 
 use contact_core::Error;
-use contact_core::scene::{Body, Branch, Dependence, Scene};
+use contact_core::scene::{Body, Dependence, Scene};
 
 use super::law::BodyWear;
 use super::stroke::stroke;
 
-/// Part of its largest value by which a load may differ at the two ends of a cycle.
-const ROUNDING: f64 = 1e-12;
 /// Most cycles of a run.
 const MOST_CYCLES: f64 = 1e15;
 
 /// Method to solve the contact of a cycle.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Cycling {
-    /// Increment by increment through the load path, with stick, partial slip and gross slip
-    /// ([`March`](contact_core::march::March)) (default). The surfaces lie still: for slips that are small
-    /// against the contact.
+    /// Sliding for gross slip by given shifts that are large against the spots of the contact, else the march
+    /// (default).
     #[default]
+    Auto,
+    /// Increment by increment through the load path, with stick, partial slip and gross slip
+    /// ([`March`](contact_core::march::March)). The surfaces lie still: for slips that are small against the
+    /// contact.
     March,
     /// Gross slip along x under given shifts: every cell slips by the motion of the bodies, |q| =
     /// mu p, and the pressure is solved at every place of the stroke, with the worn surfaces in
@@ -86,6 +87,12 @@ pub struct Wear {
     /// Worn depth over the thickness of the coatings from which the event `thinned` is reported
     /// (default 0.1). The elastic response does not change with the thickness.
     pub event_depth_fraction: f64,
+    /// The method of a settled run with the stroke that it was chosen by; empty before.
+    pub note: String,
+    /// Doubts about that method.
+    pub doubts: Vec<String>,
+    /// Half-width of the spots of the first contact of a settled run in gross slip \[m\].
+    pub half_width: f64,
 }
 
 impl Wear {
@@ -102,7 +109,15 @@ impl Wear {
             worn_through: WornThrough::default(),
             debris_kept: 0.0,
             event_depth_fraction: 0.1,
+            note: String::new(),
+            doubts: Vec::new(),
+            half_width: 0.0,
         }
+    }
+
+    /// The method of a settled run, with the stroke beside the contact; empty without a given stroke.
+    pub fn note(&self) -> &str {
+        &self.note
     }
 
     /// Fails with the key, the value and the allowed values if the settings are not valid for a
@@ -174,11 +189,11 @@ impl Wear {
             let allowed = "\"cycles\", \"slip\" or \"dissipated\" over cycles of wear";
             return Err(Error::invalid("friction.history.of", "increment", allowed));
         }
-        let first_branch = self.first_branch(scene)?;
-        Self::check_closed(scene, first_branch)?;
-        self.check_counts(branches - first_branch)?;
+        let (scene, first_branch) = self.with_cycle(scene)?;
+        Self::check_closed(&scene, first_branch)?;
+        self.check_counts(scene.path.branches.len() - first_branch)?;
         if self.cycling == Cycling::Sliding {
-            stroke(scene, first_branch)?;
+            stroke(&scene, first_branch)?;
         }
         self.jumps.check()
     }
@@ -230,9 +245,9 @@ impl Wear {
     /// Sentences on numbers that are allowed but unlikely.
     pub fn doubts(&self) -> Vec<String> {
         let bodies = ["wear.body1", "wear.body2"].into_iter().zip(&self.bodies);
-        bodies
-            .flat_map(|(key, body)| body.laws.iter().flat_map(move |law| law.doubts(key)))
-            .collect()
+        let laws =
+            bodies.flat_map(|(key, body)| body.laws.iter().flat_map(move |law| law.doubts(key)));
+        laws.chain(self.doubts.iter().cloned()).collect()
     }
 
     /// 1 - kept: growth of the gap over the worn depth.
@@ -248,45 +263,19 @@ impl Wear {
             &branches[branches.len() - 1].to,
         );
         if before.rolled != last.rolled {
-            return Err(Error::invalid(
-                "path.rolled",
-                last.rolled,
-                "the same at both ends of a cycle",
-            ));
+            let allowed = "the same at both ends of a cycle";
+            return Err(Error::invalid("path.rolled", last.rolled, allowed));
         }
-        let (from, to) = (before.forces(), last.forces());
-        let (given, ends) = (before.given.motions(), last.given.motions());
-        for k in 0..6 {
-            let name = if ends[k].is_some() {
-                contact_core::scene::RigidMotion::ALL.map(contact_core::scene::RigidMotion::name)
-            } else {
-                contact_core::scene::RigidMotion::ALL
-                    .map(contact_core::scene::RigidMotion::load_name)
-            }[k];
-            // Closed up to rounding.
-            let largest = |value: &dyn Fn(&Branch) -> f64| {
-                let sizes = branches.iter().map(|branch| value(branch).abs());
-                ROUNDING * sizes.fold(0.0, f64::max)
-            };
-            let given_of = |branch: &Branch| branch.to.given.motions()[k].unwrap_or(0.0);
-            let same = match (given[k], ends[k]) {
-                (Some(a), Some(b)) => a == b || (a - b).abs() <= largest(&given_of),
-                (None, None) => (from[k] - to[k]).abs() <= largest(&|b| b.to.forces()[k]),
-                _ => false,
-            };
-            if !same {
-                return Err(Error::invalid(
-                    format!("path[{}].{name}", branches.len() - 1),
-                    ends[k].unwrap_or(to[k]),
-                    format!(
-                        "what it is at the end of path[{}] ({}), where the cycle begins",
-                        first_branch - 1,
-                        given[k].unwrap_or(from[k]),
-                    ),
-                ));
-            }
-        }
-        Ok(())
+        let Some(open) = scene.path.opens((first_branch, branches.len() - 1)) else {
+            return Ok(());
+        };
+        let [from, to] = open.values;
+        let allowed = format!(
+            "what it is at the end of path[{}] ({from}), where the cycle begins",
+            first_branch - 1
+        );
+        let key = format!("path[{}].{}", branches.len() - 1, open.name);
+        Err(Error::invalid(key, to, allowed))
     }
 }
 

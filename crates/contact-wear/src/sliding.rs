@@ -1,7 +1,7 @@
 //! Gross slip: the implicit jump of a stroke.
 //!
-//! With d_i the places of the stroke, s_i the slip distance at each per cycle and p_i the pressure
-//! there, n cycles wear body b (k_b being the coefficient of its law in its own coordinates, S_bi
+//! With d_i the places of the stroke (an interval of shifts for each increment), s_i the slip distance at each
+//! per cycle and p_i the pressure there, n cycles wear body b (k_b being the coefficient of its law in its own coordinates, S_bi
 //! the shift of the grid against it, [`shift`](super::shift)) by
 //!
 //! ```text
@@ -30,7 +30,7 @@ use std::sync::atomic::AtomicBool;
 
 use contact_core::Error;
 use contact_core::plan::Plan;
-use contact_core::scene::{FrictionHistory, Scene, Shape};
+use contact_core::scene::{FrictionHistory, Scene};
 
 use super::course::{Coefficients, coefficients};
 use super::law::CellCycle;
@@ -39,7 +39,7 @@ use super::on_grid;
 use super::pressing::Pressing;
 use super::settings::{Wear, thicknesses};
 use super::shift::Shift;
-use super::stroke::{Corner, Place, stroke};
+use super::stroke::{Corner, Frame, Place, stroke};
 
 /// Change of the pressures in a round that ends the rounds, over the pressures (root mean squares).
 const LEAST_CHANGE: f64 = 1e-3;
@@ -68,8 +68,8 @@ pub(crate) struct Sliding {
     history: Option<FrictionHistory>,
     /// Cycles done.
     cycles: f64,
-    /// Gap between the unworn surfaces \[m\].
-    h: Vec<f64>,
+    /// Gap between the unworn surfaces at the places \[m\].
+    h: Vec<Arc<Vec<f64>>>,
     /// Pressures at the places \[Pa\].
     pub(crate) p: Vec<Vec<f64>>,
 }
@@ -87,28 +87,37 @@ impl Sliding {
         let plan = Plan::new(scene);
         plan.check_memory(scene)?;
         let pressing = Pressing::new(scene, &plan, stop)?;
-        let on_body2 = scene.body1.shape == Shape::Flat;
-        let shifts_of = |place: &Place| {
-            let cells = place.shift / scene.grid.dx;
-            let still = Shift::new(0.0);
-            if on_body2 {
-                [Shift::new(-cells), still]
-            } else {
-                [still, Shift::new(cells)]
+        let frame = Frame::new(scene);
+        let shifts = |place: &Place| {
+            let [cells, length] = [place.shift, place.length].map(|way| way / scene.grid.dx);
+            match frame {
+                Frame::Body1 => [Shift::new(0.0), Shift::interval(cells, length)],
+                Frame::Body2 => [Shift::interval(-cells, length), Shift::new(0.0)],
             }
         };
-        let h = plan.mirror.fold(&scene.h_init());
+        let plain = Arc::new(plan.mirror.fold(&scene.h_init()));
+        let stays = frame.moving_shape(scene).is_straight_along_x();
+        let gap = |place: &Place| {
+            if stays {
+                return plain.clone();
+            }
+            Arc::new(
+                plan.mirror
+                    .fold(&frame.gap(scene, place.shift, place.length)),
+            )
+        };
+        let h: Vec<Arc<Vec<f64>>> = places.iter().map(gap).collect();
         // Hertz's pressure at first, up to a factor.
-        let lowest = h.iter().fold(f64::INFINITY, |m, h| m.min(*h));
         let approach = scene.reference_approach();
-        let guess: Vec<f64> = h
-            .iter()
-            .map(|h| (1.0 - 2.0 * (h - lowest) / approach).max(0.0).sqrt())
-            .collect();
+        let guess = |h: &Arc<Vec<f64>>| -> Vec<f64> {
+            let lowest = h.iter().fold(f64::INFINITY, |m, h| m.min(*h));
+            let pressure = |h: &f64| (1.0 - 2.0 * (h - lowest) / approach).max(0.0).sqrt();
+            h.iter().map(pressure).collect()
+        };
         let goes_on = state.is_some();
         let mut sliding = Self {
-            shifts: places.iter().map(shifts_of).collect(),
-            p: state.unwrap_or_else(|| vec![guess; places.len()]),
+            shifts: places.iter().map(shifts).collect(),
+            p: state.unwrap_or_else(|| h.iter().map(guess).collect()),
             places,
             corners,
             pressing,
@@ -129,7 +138,7 @@ impl Sliding {
     pub(crate) fn settle(&mut self, worn: &Worn) -> Result<(), Error> {
         self.cycles = worn.cycles;
         self.pressing.begin();
-        let none = vec![0.0; self.h.len()];
+        let none = vec![0.0; self.pressing.cells()];
         let mut h = none.clone();
         for i in 0..self.places.len() {
             self.gap(worn, i, &mut h);
@@ -179,7 +188,7 @@ impl Sliding {
     fn iterate(&mut self, worn: &Worn, n: f64, rates: &Rates) -> Result<(), Error> {
         let mut momentum = 1.0_f64;
         let (mut around, mut last) = (self.p.clone(), self.p.clone());
-        let mut buffers = Buffers::new(self.h.len());
+        let mut buffers = Buffers::new(self.pressing.cells());
         for _ in 0..MOST_ROUNDS {
             last.clone_from(&self.p);
             self.one_round(worn, n, rates, &around, &mut buffers)?;
@@ -296,7 +305,7 @@ impl Sliding {
 
     /// The integral of a field over the slip in a cycle, in the coordinates of each body.
     fn integrate(&self, field: &[Vec<f64>]) -> [Vec<f64>; 2] {
-        let mut sums = [vec![0.0; self.h.len()], vec![0.0; self.h.len()]];
+        let mut sums = [0, 1].map(|_| vec![0.0; self.pressing.cells()]);
         self.integrate_into(field, &mut sums);
         sums
     }
@@ -367,7 +376,7 @@ impl Sliding {
         self.read(&worn.depth, i, into);
         let opens = self.wear.opens();
         into.iter_mut()
-            .zip(&self.h)
+            .zip(self.h[i].iter())
             .for_each(|(gap, h)| *gap = opens * *gap + h);
     }
 

@@ -2,6 +2,7 @@
 
 use contact_core::Error;
 use contact_core::scene::{Dependence, Scene, Shape};
+use ndarray::Array2;
 
 /// Places closer than this part of a cell are the same.
 const SAME: f64 = 1e-9;
@@ -9,12 +10,73 @@ const SAME: f64 = 1e-9;
 /// A place of the stroke, the middle of an increment of the cycle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Place {
-    /// Shift of body 1 against body 2 along x \[m\].
+    /// Shift of body 1 against body 2 along x, in the middle of the increment \[m\].
     pub(crate) shift: f64,
+    /// Length of the increment \[m\].
+    pub(crate) length: f64,
     /// Slip here per cycle \[m\].
     pub(crate) slip: f64,
     /// Normal force \[N\].
     pub(crate) W: f64,
+}
+
+/// The body whose coordinates are those of the grid; the other one slides over it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Frame {
+    Body1,
+    Body2,
+}
+
+impl Frame {
+    /// Body 1, unless it is straight along x and body 2 is not: the contact then stays on body 2.
+    pub(crate) fn new(scene: &Scene) -> Self {
+        let straight = [&scene.body1, &scene.body2].map(|body| body.shape.is_straight_along_x());
+        if scene.body1.shape == Shape::Flat || (straight[0] && !straight[1]) {
+            Self::Body2
+        } else {
+            Self::Body1
+        }
+    }
+
+    /// The shape of the body that slides over the grid.
+    pub(crate) fn moving_shape(self, scene: &Scene) -> &Shape {
+        match self {
+            Self::Body1 => &scene.body2.shape,
+            Self::Body2 => &scene.body1.shape,
+        }
+    }
+
+    /// Whether the gap at every place of a stroke is its own mirror image under y -> -y if it is so at no shift.
+    pub(crate) fn is_even(self, scene: &Scene) -> bool {
+        let shape = self.moving_shape(scene);
+        let even = |shape: &Shape| match shape {
+            Shape::HeightMap(_) | Shape::Rough(_) => false,
+            shape => shape.curvature()[1] == 0.0 && !matches!(shape, Shape::Sum(_)),
+        };
+        shape.is_straight_along_x() || even(shape)
+    }
+
+    /// Gap between the unworn surfaces over the cells where body 1 has moved from `shift - length/2` to
+    /// `shift + length/2` along x, mean over the way \[m\].
+    pub(crate) fn gap(self, scene: &Scene, shift: f64, length: f64) -> Array2<f64> {
+        let (shape, way) = match self {
+            Self::Body1 => (&scene.body1.shape, 1.0),
+            Self::Body2 => (&scene.body2.shape, -1.0),
+        };
+        let moving = self.moving_shape(scene);
+        if moving.is_straight_along_x() {
+            return scene.h_init();
+        }
+        // Gauss's rule of three points: exact for polynomials of the fifth degree.
+        let mut gap = shape.drop(&scene.grid);
+        for (node, weight) in [(-0.6_f64.sqrt(), 5.0), (0.0, 8.0), (0.6_f64.sqrt(), 5.0)] {
+            let at = way * (shift + 0.5 * node * length);
+            if let Some(drop) = moving.drop_shifted(&scene.grid, at) {
+                gap.scaled_add(weight / 18.0, &drop);
+            }
+        }
+        gap
+    }
 }
 
 /// The corners of the loop: shift of the rig \[m\], shift of the contact \[m\], force T_x \[N\].
@@ -83,12 +145,18 @@ pub(crate) fn stroke(
                 continue;
             }
             let near = SAME * scene.grid.dx;
-            let same_place = places
-                .iter_mut()
-                .find(|p| (p.shift - shift).abs() < near && (p.W - W).abs() <= 1e-12 * W);
+            let same_place = places.iter_mut().find(|p| {
+                let alike = (p.shift - shift).abs() < near && (p.length - slip).abs() < near;
+                alike && (p.W - W).abs() <= 1e-12 * W
+            });
             match same_place {
                 Some(place) => place.slip += slip,
-                None => places.push(Place { shift, slip, W }),
+                None => places.push(Place {
+                    shift,
+                    length: slip,
+                    slip,
+                    W,
+                }),
             }
         }
     }
@@ -117,9 +185,20 @@ fn check(scene: &Scene, first_branch: usize, rigid: bool) -> Result<(), Error> {
         };
         return refuse("friction".into(), value.into(), allowed);
     }
-    if scene.body1.shape != Shape::Flat && scene.body2.shape != Shape::Flat {
-        let allowed = "flat where wear.cycling = \"sliding\" and body 1 is not";
-        return refuse("body2.shape".into(), "curved, as body 1 is".into(), allowed);
+    let frame = Frame::new(scene);
+    if frame
+        .moving_shape(scene)
+        .drop_shifted(&scene.grid, 0.0)
+        .is_none()
+    {
+        let allowed = "a height map, or flat, where wear.cycling = \"sliding\": random roughness is known on the grid \
+                       alone, and this body slides over it";
+        let key = if frame == Frame::Body1 {
+            "body2.shape"
+        } else {
+            "body1.shape"
+        };
+        return refuse(key.into(), "rough".into(), allowed);
     }
     for (b, branch) in scene.path.branches.iter().enumerate() {
         let to = &branch.to;

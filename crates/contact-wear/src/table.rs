@@ -125,6 +125,7 @@ impl Wear {
             let _ = writeln!(text, "frequency = {frequency:?}");
         }
         let cycling = match self.cycling {
+            Cycling::Auto => "auto",
             Cycling::March => "march",
             Cycling::Sliding => "sliding",
         };
@@ -220,7 +221,11 @@ fn wear(section: &Section<'_>) -> Result<Wear, Fault> {
         frequency: section.number_if("frequency", &[])?,
         cycling: section.choice(
             "cycling",
-            &[("march", Cycling::March), ("sliding", Cycling::Sliding)],
+            &[
+                ("auto", Cycling::Auto),
+                ("march", Cycling::March),
+                ("sliding", Cycling::Sliding),
+            ],
         )?,
         jumps,
         worn_through: section.choice(

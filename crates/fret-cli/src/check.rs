@@ -219,8 +219,9 @@ fn describe_wear(wear: &Wear) -> String {
         .map(|(n, _)| format!("body {}", n + 1))
         .collect();
     let how = match wear.cycling {
+        Cycling::Auto => ", in sliding or a march by the stroke beside the contact",
         Cycling::March => "",
-        Cycling::Sliding => ", in sliding: the pressure at the middle of every increment",
+        Cycling::Sliding => ", in sliding: the mean pressure of every increment",
     };
     format!(
         "{} over {} cycles{how}",

@@ -63,8 +63,8 @@ def _is_in_cycle(result: Run, saved: NDArray[np.int64], cycle: int) -> NDArray[n
     count = cycles.sizes["cycle"]
     if count == 0:
         raise ValueError(
-            "the load path has no closed cycle, and one is needed: end where a cycle began, as "
-            "path.cycles(1, T_x=...) does. The stress of one state is result.at(-1).stress()"
+            f"{result.scene.path.no_cycle()}: a cycle is needed, as path.cycles(1, T_x=...) or "
+            "path.sine(2, T_x=...) make it. The stress of one state is result.at(-1).stress()"
         )
     if not -count <= cycle < count:
         raise ValueError(f"cycle = {cycle}: must be {-count} to {count - 1}, a cycle of the path")

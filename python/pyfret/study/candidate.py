@@ -116,7 +116,7 @@ class Duty:
     #: Cycles of wear.
     cycles: float | None = None
     #: As in :func:`pyfret.wear.solve`.
-    cycling: Literal["march", "sliding"] = "march"
+    cycling: Literal["auto", "march", "sliding"] = "auto"
     #: How the other body wears.
     other_wear: WearLaw | list[WearLaw | None] | None = None
     #: Conductor of the other body.

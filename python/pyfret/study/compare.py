@@ -45,7 +45,7 @@ def compare(
     body_number: Literal[1, 2] = 2,
     criterion: CriterionName = "smith_watson_topper",
     cycles: float | None = None,
-    cycling: Literal["march", "sliding"] = "march",
+    cycling: Literal["auto", "march", "sliding"] = "auto",
     frequency: Frequency | None = None,
     other_wear: WearLaw | list[WearLaw | None] | None = None,
     other_conductor: Conductors | None = None,
@@ -83,7 +83,7 @@ def compare(
         Criterion of the lives, one of :data:`pyfret.fatigue.CRITERIA`.
     cycles : float, optional
         Cycles of wear.
-    cycling : "march" or "sliding"
+    cycling : "auto", "march" or "sliding"
         As in :func:`pyfret.wear.solve`.
     frequency : float, optional
         Cycles per second [Hz], for the temperature.

@@ -31,26 +31,32 @@ class Cycles(float):
 
     #: The last cycle of the run, where the run ended before; None of a number that is known.
     beyond: float | None
+    #: The value at which wear has come to rest, with its unit; None where it goes on, or is zero.
+    at_rest: str | None
 
-    def __new__(cls, value: float, beyond: float | None = None) -> Cycles:
+    def __new__(
+        cls, value: float, beyond: float | None = None, at_rest: str | None = None
+    ) -> Cycles:
         """A number, or with `beyond` the last cycle of a run that ended before."""
         made = super().__new__(cls, value)
-        made.beyond = beyond
+        made.beyond, made.at_rest = beyond, at_rest
         return made
 
     @classmethod
-    def beyond_run(cls, last: float, rate: float) -> Cycles:
-        """Make the cycles to an unreached value: endless without wear, else beyond the run."""
-        return cls(math.nan, last) if rate > 0.0 else cls(math.inf)
+    def beyond_run(cls, last: float, rate: float, at_rest: str | None) -> Cycles:
+        """Make the cycles to an unreached value: endless where wear rests, else beyond the run."""
+        return cls(math.nan, last) if rate > 0.0 else cls(math.inf, at_rest=at_rest)
 
-    def __reduce__(self) -> tuple[type[Cycles], tuple[float, float | None]]:
+    def __reduce__(self) -> tuple[type[Cycles], tuple[float, float | None, str | None]]:
         """Copies and pickles have the bound, too."""
-        return Cycles, (float(self), self.beyond)
+        return Cycles, (float(self), self.beyond, self.at_rest)
 
     def __repr__(self) -> str:
         """The number, or the bound in words."""
         if self.beyond is not None:
             return ended(self.beyond)
+        if math.isinf(self) and self.at_rest is not None:
+            return f"endless: wear has come to rest at {self.at_rest}"
         return "endless: nothing wears" if math.isinf(self) else in_words(float(self))
 
     __str__ = __repr__
@@ -67,7 +73,14 @@ class RangeOfCycles(Range):
             return (
                 f"more than {_core.rough(self.low)} cycles, scatter included (the run ended before)"
             )
-        return "endless: nothing wears" if math.isinf(self.low) else super().__repr__()
+        return repr(self.best) if math.isinf(self.low) else super().__repr__()
+
+
+def in_unit(value: float, units: str) -> str | None:
+    """Format a worn depth in um, anything else in its unit; None of zero."""
+    if value <= 0.0:
+        return None
+    return f"{1e6 * value:.2g} um" if units == "m" else f"{value:.2g} {units}"
 
 
 def spent(d: xr.Dataset, energy: float) -> Cycles:
@@ -76,7 +89,9 @@ def spent(d: xr.Dataset, energy: float) -> Cycles:
     before = float(cycles[0] - d["length"][0])
     start = float(ends[0] - d["dissipated_per_cycle"][0] * d["length"][0])
     if energy > ends[-1]:
-        return Cycles.beyond_run(float(cycles[-1]), float(d["dissipated_per_cycle"][-1]))
+        rest = in_unit(float(ends[-1]), str(d["dissipated"].attrs.get("units", "J")))
+        rate = float(d["dissipated_per_cycle"][-1])
+        return Cycles.beyond_run(float(cycles[-1]), rate, rest)
     return Cycles(np.interp(energy, [max(start, 0.0), *ends], [before, *cycles]))
 
 
@@ -93,7 +108,8 @@ def reached(d: xr.Dataset, name: str, target: float) -> Cycles:
     jumps = np.flatnonzero(ends >= target * (1.0 - _core.DEPTH_ROUNDING))
     if jumps.size == 0:
         last = float(ends[-1] - (ends[-2] if ends.size > 1 else before))
-        return Cycles.beyond_run(float(d.cycles[-1]), last)
+        rest = in_unit(float(ends[-1]), str(d[name].attrs.get("units", "m")))
+        return Cycles.beyond_run(float(d.cycles[-1]), last, rest)
     n = int(jumps[0])
     start = float(ends[n - 1]) if n else before
     whole, energy_needed = float(ends[n]) - start, target - start

@@ -141,7 +141,7 @@ class WearResult(Saveable, Labelled, Figured):
         """Cycles after which a body has worn so far.
 
         NaN if the run ended before, printed as "more than N cycles (the run ended there)". N is
-        ``beyond``. Infinite where nothing wears.
+        ``beyond``. Infinite where nothing wears, or where wear has come to rest before.
 
         Within a jump the depth and the volume follow the parabola through its ends and its middle.
         The error is ``depth_error``, or ``volume_error`` for a volume.
@@ -212,7 +212,7 @@ class WearResult(Saveable, Labelled, Figured):
         error = self.error_of("volume" if to.get("volume") is not None else "depth")
         part = math.exp(math.hypot(0.5 * math.log(scatter), math.log1p(error)))
         cycles = best if best.beyond is None else best.beyond
-        return RangeOfCycles(cycles / part, float(best), best * part)
+        return RangeOfCycles(cycles / part, best, best * part)
 
     @quantities
     def error_of(self, quantity: Literal["depth", "volume"]) -> float:
@@ -296,6 +296,8 @@ class WearResult(Saveable, Labelled, Figured):
         for body in (1, 2):
             laws = document.get(f"body{body}", {}).get("laws", [])
             lines += [f"law of body {body}: {written(law)}" for law in laws]
+        method = str(d.attrs.get("method", ""))
+        lines += [f"method: {method}"] if method else []
         lines += [f"doubted: {doubt}" for doubt in self.doubts]
         return shown("\n".join(lines))
 

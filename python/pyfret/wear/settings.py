@@ -118,10 +118,12 @@ class Wear(Replaceable):
     branch_counts : sequence of float, optional
         How often a cycle passes each of its branches (default: each once). :func:`solve` sets them
         for a load history, whose cycle is a block of loops.
-    cycling : "march" or "sliding"
-        "march" solves the increments of the cycle, with stick and slip. "sliding" is for gross slip
-        along x under given shifts, whatever the stroke. It solves the normal contact alone at each
-        place.
+    cycling : "auto", "march" or "sliding"
+        "march" solves the increments of the cycle, with stick and slip. The worn surfaces stay in
+        place, so the stroke must be small against the contact: beyond its half-width "march" is
+        refused. "sliding" is for gross slip along x under given shifts, whatever the stroke. It
+        solves the normal contact alone at each place. "auto" (default) takes "sliding" for given
+        shifts above 0.2 half-widths of a spot of the contact that are gross slip.
     frequency : float, optional
         Cycles per second [Hz], for coefficients that are functions of the power density.
     rig_stiffness : float, optional
@@ -145,7 +147,7 @@ class Wear(Replaceable):
     debris_kept: float = 0.0
     first_branch: int | None = None
     branch_counts: Sequence[float] | None = None
-    cycling: Literal["march", "sliding"] = "march"
+    cycling: Literal["auto", "march", "sliding"] = "auto"
     frequency: InSI[Frequency | None] = by_default(None)
     rig_stiffness: InSI[Stiffness | None] = by_default(None)
     tolerance: float | None = None

@@ -161,9 +161,50 @@ impl Reached {
                 "the pressure comes to {p:.3e} Pa, {:.2} E*: strains are not small",
                 p / hertz.E_star
             ));
+        } else if let Some((layer, strain)) = most_squeezed(scene, self.contact_radius, p)
+            && strain > LARGE_STRAIN
+        {
+            doubts.push(format!(
+                "the pressure comes to {p:.3e} Pa and strains {layer} by some {:.0} %: strains are not small, below {:.0} %",
+                100.0 * strain,
+                100.0 * LARGE_STRAIN
+            ));
         }
         doubts
     }
+}
+
+/// The layer that a pressure \[Pa\] on a contact of this radius \[m\] strains most, and the strain. A layer as
+/// thick as the contact is wide strains like a half-space, `(1 - nu^2) p/E`. A thin one cannot move sideways:
+/// `(1 + nu)(1 - 2 nu)/(1 - nu) p/E`, and where it is incompressible the part of its thickness in the radius.
+fn most_squeezed(scene: &Scene, radius: f64, p: f64) -> Option<(String, f64)> {
+    let bodies = [("body1", &scene.body1), ("body2", &scene.body2)];
+    let mut strains = Vec::new();
+    for (key, body) in bodies {
+        let mut top = 0.0;
+        let coatings = body.coatings.iter().map(|c| (c.material, c.thickness));
+        for (n, (material, thickness)) in coatings
+            .chain([(body.substrate, f64::INFINITY)])
+            .enumerate()
+        {
+            if top > radius || !material.E.is_finite() {
+                top += thickness;
+                continue;
+            }
+            let (E, nu) = (material.E, material.nu);
+            let confined = (1.0 - 2.0 * nu) / (1.0 - nu).powi(2);
+            let free = (thickness / radius.max(f64::MIN_POSITIVE)).min(1.0);
+            let strain = (1.0 - nu * nu) * p / E * confined.max(free);
+            let name = if thickness.is_finite() {
+                format!("{key}.coatings[{n}]")
+            } else {
+                key.to_owned()
+            };
+            strains.push((name, strain));
+            top += thickness;
+        }
+    }
+    strains.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
 /// The layer of the lowest Young's modulus that stays elastic in the computation, is no rubber, and

@@ -4,7 +4,8 @@
 //! is now at x was at x + s before, and with it its displacement, its shear and its history. Bulk
 //! stresses that change stretch the surface of body 2 by d(eps) more than the surface of body 1
 //! (`scene::bulk_stress`). Both enter the slip, eq. (7), through the no-slip displacement: with u =
-//! u(2) - u(1), the last displacement of the same material less (d(eps_x) x, d(eps_y) y).
+//! u(2) - u(1), the last displacement of the same material less (d(eps_xx) x + d(eps_xy) y, d(eps_xy) x +
+//! d(eps_yy) y).
 //!
 //! Material from beyond the cells had the displacement u(x + s) = C * t(. + s): the response to the
 //! tractions shifted with the material, which must not leave the cells.
@@ -26,8 +27,8 @@ use crate::solvers::{Interface, Response};
 pub(super) struct Roll {
     /// Cells that the contact rolls on along x.
     pub(super) cells: isize,
-    /// Strain d(eps_x), d(eps_y) of body 2 minus the strain of body 1.
-    strain: [f64; 2],
+    /// Strain d(eps_xx), d(eps_yy), d(eps_xy) of body 2 less that of body 1.
+    strain: [f64; 3],
     /// d(phi_z) s/2 of a given rotation \[m\].
     turned: f64,
 }
@@ -62,9 +63,10 @@ impl Roll {
             return [0.0; 2];
         }
         let (arms, length) = (&geometry.arms, geometry.arms.length);
+        let (x, y, [xx, yy, xy]) = (length * arms.x[n], length * arms.y[n], self.strain);
         [
-            self.strain[0] * length * arms.x[n],
-            (self.strain[1] * length * arms.y[n] - self.turned) * arms.axis_ratio,
+            xx * x + xy * y,
+            (xy * x + yy * y - self.turned) * arms.axis_ratio,
         ]
     }
 

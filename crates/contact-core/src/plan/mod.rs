@@ -207,5 +207,8 @@ fn decide_mirror(scene: &Scene) -> Result<&'static str, &'static str> {
     if scene.path.branches.iter().any(|b| drives_odd_motion(&b.to)) {
         return Err("the load path drives a motion along y or a rotation about x or z");
     }
+    if scene.has_oblique_bulk_stress() {
+        return Err("a bulk stress acts obliquely to x and y");
+    }
     Ok("shapes and loads are mirror-symmetric in y")
 }

@@ -26,6 +26,18 @@ pub struct Body {
     pub residual: Vec<Profile>,
     /// Shape of the undeformed surface.
     pub shape: Shape,
+    /// How its bulk stress acts.
+    pub bulk: Bulk,
+}
+
+/// How the bulk stress of a body acts: its direction, and its course over depth.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Bulk {
+    /// Azimuth of its direction, from x towards y \[rad\]; `None`: along the axis of a cylinder, else along x.
+    pub azimuth: Option<f64>,
+    /// Depth of the neutral plane of a bent body \[m\]: the bulk stress is that of the surface and falls to
+    /// nothing there; `None`: the same at all depths. Negative where it grows with depth.
+    pub neutral_depth: Option<f64>,
 }
 
 impl Body {
@@ -38,6 +50,7 @@ impl Body {
             plastic: Vec::new(),
             residual: Vec::new(),
             shape,
+            bulk: Bulk::default(),
         }
     }
 

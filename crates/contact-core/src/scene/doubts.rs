@@ -26,6 +26,12 @@ const HARDENS: [f64; 2] = [1e-5, 2.0];
 const STRONGEST: f64 = 0.2;
 /// Cells in the thickness of a layer from which its own stress is known.
 pub const CELLS_PER_FILM: f64 = 2.0;
+/// Work of adhesion of surfaces that attract each other by van der Waals forces alone \[J/m^2\] (J. N.
+/// Israelachvili, Intermolecular and Surface Forces (2011), ch. 13), and pull-off force over W of a doubt.
+const WEAK_ADHESION: f64 = 0.05;
+const ADHESIVE: f64 = 0.1;
+/// Largest contact radius of that doubt \[m\].
+const WIDEST_ADHESIVE: f64 = 1e-3;
 /// Thickness over contact radius above which the substrate of a coating hardly matters.
 const THICK: f64 = 1000.0;
 /// Root-mean-square slope of a measured surface above which its heights are probably not in metres.
@@ -146,7 +152,40 @@ impl Scene {
         let breadth = self.hertz_breadth();
         doubts.extend(breadth.and_then(|breadth| self.doubt_of_breadth(&breadth)));
         doubts.extend(self.doubts_of_cells());
+        doubts.extend(self.doubt_of_adhesion());
         doubts
+    }
+
+    /// The pull-off force \[N\] of the nominal shapes, of line contacts \[N/m\], for a work of adhesion w
+    /// \[J/m^2\]. Of round contacts it is `1.5 pi w R` (K. L. Johnson, K. Kendall, A. D. Roberts, Proc. R. Soc. A 324
+    /// (1971) 301-313), R being the mean radius of the gap, of lines `3 (pi E* w^2 R/16)^(1/3)` (M. Barquins, J.
+    /// Adhesion 26 (1988) 1-12).
+    pub fn pull_off_force(&self, w: f64) -> Option<f64> {
+        let hertz = self.hertz()?;
+        let (steep, shallow) = self.principal_curvatures();
+        Some(if self.grid.plane_strain {
+            3.0 * (std::f64::consts::PI * hertz.E_star * w * w / (16.0 * steep)).cbrt()
+        } else {
+            1.5 * std::f64::consts::PI * w / (steep * shallow).sqrt()
+        })
+    }
+
+    /// That adhesion of the weakest kind is no small part of the load.
+    fn doubt_of_adhesion(&self) -> Option<String> {
+        let hertz = self.hertz().filter(|hertz| {
+            // Larger contacts, and softer bodies than gels, are in units of their own.
+            self.is_sum_of_paraboloids() && hertz.a < WIDEST_ADHESIVE && hertz.E_star > 0.1 * GEL
+        })?;
+        let W = hertz.W;
+        let force = self.pull_off_force(WEAK_ADHESION)?;
+        (force > ADHESIVE * W).then(|| {
+            format!(
+                "the pull-off force is {force:.2e} {unit}, {:.2} of W = {W:.2e} {unit}, for a work of adhesion of \
+                 {WEAK_ADHESION} J/m^2. Clean dry surfaces have that or more. Adhesion is not in the model",
+                force / W,
+                unit = self.grid.unit_of("N")
+            )
+        })
     }
 
     /// Returns the doubts that need no estimate of the contact.

@@ -28,7 +28,7 @@ mod validity;
 mod yields;
 
 pub use crate::material::{Bond, Coating, Elastic, dundurs_beta};
-pub use body::{Body, check_plastic_law};
+pub use body::{Body, Bulk, check_plastic_law};
 pub use case::{Fault, Section, convert_to_si, quantity, read_scene_and, read_text};
 pub use doubts::CELLS_PER_FILM;
 pub use files::{Reach, read as read_file};
@@ -37,7 +37,9 @@ pub use friction::{Friction, FrictionHistory, History};
 pub use friction_law::missing_law_error;
 pub use friction_law::{CellHistory, FrictionLaw, UserFriction};
 pub use grid::Grid;
-pub use load_path::{Branch, ForceUnits, Increments, LoadPath, LoadPoint, Spacing};
+pub use load_path::{
+    Branch, ForceUnits, Increments, LoadPath, LoadPoint, Open, Spacing, Swing,
+};
 pub use loads::{Loads, PrescribedMotions};
 pub use missing::Missing;
 pub use motion::{Prescribed, RigidMotion};
@@ -157,6 +159,9 @@ impl Scene {
                 return Err(Error::invalid(format!("path.{key}"), stress, allowed));
             }
         }
+        let strip = self.grid.plane_strain;
+        self.body1.check_bulk("body1", strip)?;
+        self.body2.check_bulk("body2", strip)?;
         self.check_plausibility()?;
         self.check_bonds()?;
         self.check_approach()?;

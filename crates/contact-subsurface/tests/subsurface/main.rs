@@ -35,6 +35,7 @@ fn coated() -> Body {
         plastic: Vec::new(),
         residual: Vec::new(),
         shape: Shape::Flat,
+        bulk: Default::default(),
     }
 }
 

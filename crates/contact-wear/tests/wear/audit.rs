@@ -12,6 +12,8 @@ use ndarray::Array2;
 
 /// What sums over the cells and over the halves of a jump lose to rounding, and a margin.
 const ROUNDING: f64 = 1e-9;
+/// Points by which the mean over an increment of a stroke is taken.
+const POINTS: usize = 2000;
 
 /// A run under audit.
 pub(crate) struct Audit<'a> {
@@ -173,11 +175,19 @@ impl<'a> Audit<'a> {
             },
         );
         let u_z = Array2::from_shape_vec(now.p.raw_dim(), u_z).unwrap();
-        let cells = now.shift / self.scene.grid.dx;
+        let dx = self.scene.grid.dx;
+        // The mean over the increment, by many points.
+        let moved = |field: &Array2<f64>, way: f64| {
+            let points = if now.shift_length > 0.0 { POINTS } else { 1 };
+            let point = |k: usize| (k as f64 + 0.5) / points as f64 - 0.5;
+            let shift = |k: usize| way * (now.shift + point(k) * now.shift_length) / dx;
+            let sum = (0..points).map(|k| shifted(field, shift(k)));
+            sum.reduce(|sum, field| sum + field).unwrap() / points as f64
+        };
         let (one, two) = if self.scene.body1.shape == Shape::Flat {
-            (shifted(&now.worn1, -cells), now.worn2.clone())
+            (moved(&now.worn1, -1.0), now.worn2.clone())
         } else {
-            (now.worn1.clone(), shifted(&now.worn2, cells))
+            (now.worn1.clone(), moved(&now.worn2, 1.0))
         };
         Some(self.scene.h_init() + (one + two) * self.opens + u_z)
     }

@@ -94,10 +94,12 @@ pub(crate) fn draw_laws(draw: &mut Draw, layers: [usize; 2], mu: f64, plain: boo
     }
 }
 
-/// The cycles of a cylinder that slides to and fro at one place, and their length per cycle.
+/// The cycles of a cylinder, body 2, that keeps its place under a flat that slides to and fro.
 fn sliding(stroke: f64) -> contact_core::scene::Scene {
     let grid = Grid::strip(0.5e-3, 64, 1.0).unwrap();
-    scene(cylinder(6e-3), grid, to_and_fro(18.5e3, stroke, 1), 0.9)
+    let mut scene = scene(cylinder(6e-3), grid, to_and_fro(18.5e3, stroke, 1), 0.9);
+    std::mem::swap(&mut scene.body1, &mut scene.body2);
+    scene
 }
 
 /// Volume that body 2 loses in so many cycles of sliding by a law.

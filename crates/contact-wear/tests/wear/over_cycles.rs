@@ -100,7 +100,7 @@ fn friction_that_changes_over_cycles_acts_over_jumps() {
     // mu falls to a half within the run: 3/4 of the energy.
     for cycling in [Cycling::Sliding, Cycling::March] {
         let mut scene = sliding();
-        scene.path = to_and_fro(W, 20.0 * STROKE, 3);
+        scene.path = to_and_fro(W, 16.0 * STROKE, 3);
         let mut wear = wear([archard(1e-16), archard(1e-16)], 1000.0, cycling);
         wear.jumps = Jumps::Number(8);
         let (_, plain) = run(&scene, &wear);
@@ -111,10 +111,10 @@ fn friction_that_changes_over_cycles_acts_over_jumps() {
     }
     // By the way slipped: the factor is that of the way in all cycles so far, not of those solved.
     let mut scene = sliding();
-    scene.path = to_and_fro(W, 20.0 * STROKE, 3);
+    scene.path = to_and_fro(W, 16.0 * STROKE, 3);
     let mut wear = wear([archard(1e-16), archard(1e-16)], 1000.0, Cycling::March);
     wear.jumps = Jumps::Number(8);
-    scene.friction.history = history(History::Slip, &[(0.0, 1.0), (80.0 * STROKE * 1000.0, 0.5)]);
+    scene.friction.history = history(History::Slip, &[(0.0, 1.0), (64.0 * STROKE * 1000.0, 0.5)]);
     let (run_, falls) = run(&scene, &wear);
     let first = falls[0].dissipated / falls[0].cycles;
     let last = falls.last().unwrap();
@@ -122,7 +122,7 @@ fn friction_that_changes_over_cycles_acts_over_jumps() {
     let slid = run_.block().slid;
     near(
         slid.iter().fold(0.0, |m: f64, s| m.max(*s)),
-        78.0 * STROKE * 1000.0,
+        62.4 * STROKE * 1000.0,
         0.05,
     );
 }

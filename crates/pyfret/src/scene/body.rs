@@ -24,11 +24,17 @@ use crate::residual_stress::{Profile, Shown, shown, text};
 ///     the top of the layer. Linear between the depths, constant beyond them.
 /// shape : Flat, Sphere, Ellipsoid, Cylinder, ... or a sum of them
 ///     Undeformed surface (default: flat).
+/// bulk_azimuth : float, optional
+///     Direction of its bulk stress, from x towards y [rad] (default: along the axis of a cylinder
+///     or roller, else along x; in line contacts along x).
+/// bulk_neutral_depth : float, optional
+///     Depth of the neutral plane of a bent body [m]: its bulk stress falls linearly from
+///     the surface to zero there (default: the same at all depths).
 #[pyclass(frozen, eq, module = "pyfret")]
 #[derive(Clone, PartialEq)]
 pub(crate) struct Body(pub(crate) core::Body);
 
-parts!(Body: substrate, coatings, residual, shape);
+parts!(Body: substrate, coatings, residual, shape, bulk_azimuth, bulk_neutral_depth);
 takes!(
     Body,
     "a body, such as Body(Elastic(E=210e9, nu=0.3), shape=Sphere(R=5e-3))"
@@ -37,12 +43,14 @@ takes!(
 #[pymethods]
 impl Body {
     #[new]
-    #[pyo3(signature = (substrate, *, coatings = Coatings(Vec::new()), residual = None, shape = Shape::Flat(Flat {})))]
+    #[pyo3(signature = (substrate, *, coatings = Coatings(Vec::new()), residual = None, shape = Shape::Flat(Flat {}), bulk_azimuth: "Angle | None" = None, bulk_neutral_depth: "Length | None" = None))]
     fn new(
         substrate: Elastic,
         coatings: Coatings,
         residual: Option<Profile>,
         shape: Shape,
+        #[pyo3(from_py_with = Optional::angle)] bulk_azimuth: Option<f64>,
+        #[pyo3(from_py_with = Optional::depth)] bulk_neutral_depth: Option<f64>,
     ) -> Answer<Self> {
         let body = Self(core::Body {
             substrate: substrate.0,
@@ -51,6 +59,10 @@ impl Body {
             plastic: coatings.plastic(substrate),
             coatings: coatings.0.into_iter().map(|c| c.layer).collect(),
             shape: shape.into(),
+            bulk: core::Bulk {
+                azimuth: bulk_azimuth,
+                neutral_depth: bulk_neutral_depth,
+            },
         });
         body.0.check_residual("body")?;
         Ok(body)
@@ -89,6 +101,14 @@ impl Body {
         if self.0.shape != core::Shape::Flat {
             parts.push(format!("shape={}", self.shape().repr()));
         }
+        let bulk = [
+            ("bulk_azimuth", self.0.bulk.azimuth),
+            ("bulk_neutral_depth", self.0.bulk.neutral_depth),
+        ];
+        parts.extend(
+            bulk.into_iter()
+                .filter_map(|(name, value)| Some(format!("{name}={:?}", value?))),
+        );
         format!("Body({})", parts.join(", "))
     }
 }
@@ -102,6 +122,10 @@ attributes!(Body, self:
     residual: Option<Shown> = shown(&self.of_layer(self.0.coatings.len()));
     /// Undeformed surface.
     shape: Shape = (&self.0.shape).into();
+    /// Given direction of its bulk stress [rad]; None: along its axis, else x.
+    bulk_azimuth: Option<f64> = self.0.bulk.azimuth;
+    /// Depth of the neutral plane of a bent body [m]; None: the bulk stress is the same at all depths.
+    bulk_neutral_depth: Option<f64> = self.0.bulk.neutral_depth;
 );
 
 impl Body {

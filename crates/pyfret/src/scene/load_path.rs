@@ -28,7 +28,7 @@ use crate::prelude::*;
 #[derive(Clone, PartialEq)]
 pub(crate) struct LoadPath(pub(crate) core::LoadPath);
 
-parts!(LoadPath: branches, rig_stiffness);
+parts!(LoadPath: branches, rig_stiffness, period);
 takes!(
     LoadPath,
     "a load path, such as LoadPath.start().normal(100.0).tangential([20.0, -20.0])"
@@ -49,13 +49,15 @@ fn written(mut path: core::LoadPath, units: core::ForceUnits) -> core::LoadPath 
 #[pymethods]
 impl LoadPath {
     #[new]
-    #[pyo3(signature = (branches = List(Vec::new()), *, rig_stiffness: "Stiffness | None" = None))]
+    #[pyo3(signature = (branches = List(Vec::new()), *, rig_stiffness: "Stiffness | None" = None, period: "float | None" = None))]
     fn new(
         branches: List<Branch>,
         #[pyo3(from_py_with = Optional::rig_stiffness)] rig_stiffness: Option<f64>,
+        #[pyo3(from_py_with = number)] period: Option<f64>,
     ) -> Self {
         let mut path = core::LoadPath {
             rig_stiffness,
+            period,
             ..core::LoadPath::default()
         };
         for Branch(branch, units) in branches.0 {
@@ -76,6 +78,37 @@ impl LoadPath {
             rig_stiffness: stiffness,
             ..self.0.clone()
         })
+    }
+
+    /// The same path with a given period of its cycles, in path time.
+    ///
+    /// Without it cycles are found where the loads return exactly. With it they are counted back from the end of
+    /// the path, and their ends may differ by 2 % of the largest load: noise of a measured history. None takes
+    /// the period out.
+    #[pyo3(signature = (*, period: "float | None"))]
+    fn repeats(&self, #[pyo3(from_py_with = number)] period: Option<f64>) -> Answer<Self> {
+        let path = core::LoadPath {
+            period,
+            ..self.0.clone()
+        };
+        path.check_period()?;
+        Ok(Self(path))
+    }
+
+    /// First and last branch of every whole cycle, from 0.
+    ///
+    /// A cycle ends where the loads return and the path goes on in the same direction, or where it turns. A sine
+    /// may begin anywhere in its period.
+    fn whole_cycles(&self) -> Vec<(usize, usize)> {
+        self.0.cycles()
+    }
+
+    /// Why the path has no closed cycle, in words.
+    fn no_cycle(&self) -> String {
+        match self.0.no_cycle() {
+            contact_core::Error::InvalidScene { value, .. } => format!("the load path has {value}"),
+            error => error.to_string(),
+        }
     }
 
     /// The path before its first branch.
@@ -361,6 +394,8 @@ attributes!(LoadPath, self, py:
 );
 
 attributes!(LoadPath, self:
+    /// Path time of a cycle; None: cycles are found where the loads return.
+    period: Option<f64> = self.0.period;
     /// Stiffness of the rig along x [N/m]; None: the bodies themselves are moved.
     rig_stiffness: Option<f64> = self.0.rig_stiffness;
     /// The branches in their order.

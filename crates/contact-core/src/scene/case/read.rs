@@ -13,16 +13,24 @@ use super::settings::settings;
 use super::shape::shape;
 use crate::material::in_table;
 use crate::scene::files::Files;
-use crate::scene::{Body, Bond, Coating, Elastic, Grid, Plastic, Profile, Scene};
+use crate::scene::{Body, Bond, Bulk, Coating, Elastic, Grid, Plastic, Profile, Scene};
 
 /// The version of the scene file that is read and written.
 pub(super) const SCHEMA: i64 = 1;
-pub(super) const ROOT: [&str; 13] = [
+pub(super) const ROOT: [&str; 14] = [
     "schema", "title", "body1", "body2", "friction", "grid", "path", "kernel", "solver", "skip",
-    "output", "wear", "rig",
+    "output", "wear", "rig", "cycle",
 ];
-const BODY: [&str; 7] = [
-    "shape", "material", "E", "nu", "coatings", "plastic", "residual",
+const BODY: [&str; 9] = [
+    "shape",
+    "material",
+    "E",
+    "nu",
+    "coatings",
+    "plastic",
+    "residual",
+    "bulk_azimuth",
+    "bulk_neutral_depth",
 ];
 
 /// The whole scene, not yet checked for meaning.
@@ -64,6 +72,10 @@ pub(super) fn scene(table: &Table, files: &Files<'_>) -> Result<Scene, Fault> {
         Some(rig) => Some(rig.number("stiffness", "a stiffness in N/m", &[])?),
         None => None,
     };
+    scene.path.period = match root.section("cycle", &["period"])? {
+        Some(cycle) => Some(cycle.number("period", "a path time", &[])?),
+        None => None,
+    };
     scene.body1.check("body1")?;
     scene.body2.check("body2")?;
     scene.friction.check(None)?;
@@ -81,6 +93,15 @@ pub(super) fn scene(table: &Table, files: &Files<'_>) -> Result<Scene, Fault> {
     scene.body2.plastic = plastic(&bodies[1])?;
     scene.body1.residual = residual(&bodies[0])?;
     scene.body2.residual = residual(&bodies[1])?;
+    for (body, section) in [&mut scene.body1, &mut scene.body2]
+        .into_iter()
+        .zip(&bodies)
+    {
+        body.bulk = Bulk {
+            azimuth: section.number_if("bulk_azimuth", &[])?,
+            neutral_depth: section.number_if("bulk_neutral_depth", &[])?,
+        };
+    }
     scene.grid = grid(&root, a_H)?;
     Ok(scene)
 }

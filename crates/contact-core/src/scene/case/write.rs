@@ -78,6 +78,9 @@ impl Scene {
         if let Some(K) = self.path.rig_stiffness {
             line(format_args!("\n[rig]\nstiffness = {K:?}"));
         }
+        if let Some(period) = self.path.period {
+            line(format_args!("\n[cycle]\nperiod = {period:?}"));
+        }
         text += &super::settings::to_text(&self.settings);
         text
     }
@@ -119,8 +122,13 @@ fn substrate_text(body: &Body) -> String {
     let law = law.map_or_else(String::new, |law| format!("\n{}", plastic_text(law)));
     let residual = residual_text(body, body.coatings.len());
     let residual = residual.map_or_else(String::new, |text| format!("\n{text}"));
+    let number = |key: &str, value: Option<f64>| {
+        value.map_or_else(String::new, |value| format!("\n{key} = {value:?}"))
+    };
+    let bulk = number("bulk_azimuth", body.bulk.azimuth)
+        + &number("bulk_neutral_depth", body.bulk.neutral_depth);
     format!(
-        "shape = {shape}\n{}{law}{residual}",
+        "shape = {shape}\n{}{law}{residual}{bulk}",
         material(body.substrate)
     )
 }

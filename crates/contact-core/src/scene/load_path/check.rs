@@ -56,6 +56,18 @@ impl LoadPath {
         Ok(())
     }
 
+    /// Fails at a period that is no time.
+    pub fn check_period(&self) -> Result<(), Error> {
+        match self.period.filter(|t| !(*t > 0.0 && t.is_finite())) {
+            Some(period) => Err(Error::invalid(
+                "cycle.period",
+                period,
+                "a positive path time",
+            )),
+            None => Ok(()),
+        }
+    }
+
     /// Fails where the increments of a branch are yet to be chosen.
     pub(crate) fn check_increments_chosen(&self) -> Result<(), Error> {
         match self.branches.iter().position(|b| b.increments.is_none()) {
@@ -79,6 +91,7 @@ impl LoadPath {
                 "a positive stiffness in N/m",
             ));
         }
+        self.check_period()?;
         self.check_length()?;
         self.check_values()?;
         for (i, b) in self.branches.iter().enumerate() {

@@ -2,14 +2,16 @@
 
 mod build;
 mod check;
+mod cycles;
 mod history;
 mod point;
 mod units;
 mod waypoints;
 
+pub use cycles::Open;
 pub use point::LoadPoint;
 pub use units::ForceUnits;
-pub use waypoints::Increments;
+pub use waypoints::{Increments, Swing};
 
 use super::{Loads, RigidMotion};
 
@@ -129,6 +131,8 @@ pub struct LoadPath {
     pub rig_stiffness: Option<f64>,
     /// The units in which forces were written, if as texts.
     pub units: ForceUnits,
+    /// Path time of a cycle; `None` (default): cycles are found where the loads return.
+    pub period: Option<f64>,
 }
 
 impl LoadPath {

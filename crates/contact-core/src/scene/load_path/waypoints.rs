@@ -1,8 +1,13 @@
 //! Load paths from waypoints: measured histories, tables.
 
+use std::f64::consts::TAU;
+
 use super::{Branch, LoadPath};
 use crate::error::Error;
 use crate::scene::{Loads, Prescribed, RigidMotion};
+
+/// Fewest points of a period of a sine.
+const FEWEST_POINTS: usize = 4;
 
 /// Number of increments between two waypoints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -183,9 +188,140 @@ impl LoadPath {
     }
 }
 
+/// A load, motion or bulk stress that swings: its column, amplitude and phase \[rad\].
+pub type Swing<'a> = (&'a str, f64, f64);
+
+impl LoadPath {
+    /// Swings about where the path stands: `mean + amplitude sin(2 pi n/points + phase)` at n = 0, 1, ... to
+    /// `periods` whole periods, straight from point to point, in one unit of path time a period. Before, it goes
+    /// to n = 0, if that is elsewhere.
+    pub fn sine(
+        self,
+        swings: &[Swing<'_>],
+        (periods, points): (usize, usize),
+        increments: Increments,
+    ) -> Result<Self, Error> {
+        if points < FEWEST_POINTS {
+            let allowed = format!("at least {FEWEST_POINTS} points of a period");
+            return Err(Error::invalid("points", points, allowed));
+        }
+        Self::check_branches(periods.saturating_mul(points))?;
+        let (start, t) = self.end_point();
+        let mut names = vec!["t"];
+        let mut means = Vec::new();
+        for (name, ..) in swings {
+            means.push(Column::from_name(name)?.value(start));
+            names.push(name);
+        }
+        let row = |n: usize| {
+            // The same bits in every period.
+            let angle = TAU * (n % points) as f64 / points as f64;
+            let values = swings
+                .iter()
+                .zip(&means)
+                .map(|((_, amplitude, phase), mean)| {
+                    let sin = (angle + phase).sin();
+                    // The sine of half a turn is 1e-16 in floating point, and no load.
+                    mean + amplitude
+                        * if sin.abs() < 4.0 * f64::EPSILON {
+                            0.0
+                        } else {
+                            sin
+                        }
+                });
+            std::iter::once(t + 1.0 + n as f64 / points as f64)
+                .chain(values)
+                .collect::<Vec<f64>>()
+        };
+        let mut rows: Vec<Vec<f64>> = (0..=periods * points).map(row).collect();
+        let moves =
+            swings
+                .iter()
+                .zip(&means)
+                .zip(&rows[0][1..])
+                .any(|(((name, ..), mean), value)| {
+                    let motion = RigidMotion::from_quantity(name, 0.0);
+                    motion.is_some_and(|(of, kind)| {
+                        kind.is_motion() != start.prescribed(of).is_motion()
+                    }) || mean != value
+                });
+        if !moves {
+            rows.remove(0);
+        }
+        self.waypoints(&names, &rows, increments)
+    }
+}
+
+/// Part of its range by which a periodic function may miss its start.
+const CLOSES: f64 = 1e-6;
+
+impl LoadPath {
+    /// Follows the rows of a period, the first of which is the start and the last the end, `periods` times.
+    /// The period is the `period` of path time. Fails if a column does not return.
+    pub fn periodic(
+        self,
+        names: &[&str],
+        rows: &[Vec<f64>],
+        (periods, period): (usize, f64),
+        increments: Increments,
+    ) -> Result<Self, Error> {
+        let points = rows.len().saturating_sub(1);
+        if points < FEWEST_POINTS {
+            let allowed = format!("at least {FEWEST_POINTS} points of a period");
+            return Err(Error::invalid("points", points, allowed));
+        }
+        if !(period > 0.0 && period.is_finite()) {
+            return Err(Error::invalid("period", period, "a positive path time"));
+        }
+        Self::check_branches(periods.saturating_mul(points))?;
+        for (k, name) in names.iter().enumerate() {
+            let column = || rows.iter().map(|row| row[k]);
+            let range =
+                column().fold(f64::NEG_INFINITY, f64::max) - column().fold(f64::INFINITY, f64::min);
+            let miss = (rows[points][k] - rows[0][k]).abs();
+            if !(miss <= CLOSES * range.max(f64::MIN_POSITIVE)) {
+                let value = format!("{} after a period", rows[points][k]);
+                return Err(Error::invalid(
+                    *name,
+                    value,
+                    format!("{}, as at its start", rows[0][k]),
+                ));
+            }
+        }
+        let (_, t) = self.end_point();
+        let all: Vec<&str> = std::iter::once("t").chain(names.iter().copied()).collect();
+        let row = |n: usize| {
+            let time = t + period * (1.0 + n as f64 / points as f64);
+            std::iter::once(time)
+                .chain(rows[n % points].iter().copied())
+                .collect()
+        };
+        let rows: Vec<Vec<f64>> = (0..=periods * points).map(row).collect();
+        self.waypoints(&all, &rows, increments)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::{Branch, Increments, LoadPath};
+
+    #[test]
+    fn a_sine_has_its_periods() {
+        let swings = [("T_x", 3.0, 0.0), ("delta_y", 1e-6, 1.0)];
+        let path = LoadPath::start().normal(10.0, 1);
+        let path = path
+            .sine(&swings, (2, 16), Increments::Each(1))
+            .expect("a path");
+        assert_eq!(path.branches.len(), 1 + 1 + 32);
+        assert_eq!(path.cycles(), [(2, 17), (18, 33)]);
+        let path =
+            LoadPath::start()
+                .normal(10.0, 1)
+                .sine(&swings[..1], (2, 16), Increments::Each(1));
+        assert_eq!(path.expect("a path").cycles(), [(1, 16), (17, 32)]);
+        let few = LoadPath::start().sine(&swings, (2, 3), Increments::Each(1));
+        assert!(few.expect_err("refused").to_string().contains("points"));
+    }
 
     #[test]
     fn a_table_is_a_path() {

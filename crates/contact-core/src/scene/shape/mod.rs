@@ -119,6 +119,34 @@ impl Shape {
         }
     }
 
+    /// [`Self::drop`] of the surface that lies at x + `shift` \[m\] over the cells; `None` of random
+    /// roughness, which is known on the grid alone.
+    pub fn drop_shifted(&self, grid: &Grid, shift: f64) -> Option<Array2<f64>> {
+        match self {
+            Self::Rough(_) => None,
+            Self::Sum(parts) => {
+                let zero = Array2::zeros((grid.nx, grid.ny));
+                let mut parts = parts.iter();
+                parts.try_fold(zero, |sum, part| {
+                    Some(sum + part.drop_shifted(grid, shift)?)
+                })
+            }
+            shape => Some(grid.map(|x, y| shape.drop_at(x + shift, y))),
+        }
+    }
+
+    /// Whether the surface is the same at every x, so that it may slide along x in place.
+    pub fn is_straight_along_x(&self) -> bool {
+        let across = |angle: f64| angle.cos().abs() < 1e-12;
+        match self {
+            Self::Flat => true,
+            Self::Cylinder { length, angle, .. } => length.is_infinite() && across(*angle),
+            Self::Wedge { angle, .. } | Self::Waviness { angle, .. } => across(*angle),
+            Self::Sum(parts) => parts.iter().all(Self::is_straight_along_x),
+            _ => false,
+        }
+    }
+
     /// Drop below the contact plane at (x, y) \[m\]; zero for shapes that need the whole grid.
     fn drop_at(&self, x: f64, y: f64) -> f64 {
         let perpendicular_coordinate = |angle: f64| x * angle.cos() + y * angle.sin();

@@ -1,0 +1,81 @@
+"""A cycle may begin anywhere in its period: what zigzags, sines and functions have in common."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import pyfret as fret
+
+STEEL = fret.Elastic(E=200e9, nu=0.3)
+R, W, MU = 20e-3, 100.0, 0.4
+A = fret.reference.hertz(R=R, bodies=(STEEL, STEEL), W=W).a
+PRESSED = fret.LoadPath.start().normal(W, increments=1)
+
+
+def ball(n: int = 24) -> fret.Scene:
+    """A ball on a flat."""
+    return fret.Scene(
+        body1=fret.Body(STEEL, shape=fret.Sphere(R=R)),
+        body2=fret.Body(STEEL),
+        mu=MU,
+        grid=fret.Grid.from_spacing((n, n), (2.4 * A / n, 2.4 * A / n)),
+    )
+
+
+@pytest.mark.parametrize("points", [8, 16, 64])
+@pytest.mark.parametrize("phase", [0.0, 0.3, np.pi / 2, 4.0])
+def test_a_sine_of_any_phase_has_its_periods(points: int, phase: float) -> None:
+    """The last cycle is a period long; the first one may begin without shear."""
+    path = PRESSED.sine(2, T_x=0.5 * MU * W, points=points, phase=phase)
+    first, last = path.whole_cycles()[-1]
+    assert last + 1 - first == points
+    two = PRESSED.sine(2, T_x=10.0, sigma_B=1e8, phase={"sigma_B": phase}, points=points)
+    assert [last + 1 - first for first, last in two.whole_cycles()] == [points, points]
+
+
+def test_what_is_no_whole_cycle_is_refused_by_name() -> None:
+    """Half a period more has no second cycle, and a part of a period has none."""
+    t = 2 * np.pi * np.arange(1, 13) / 8
+    assert len(PRESSED.waypoints(T_x=np.sin(t)).whole_cycles()) == 1
+    part = PRESSED.waypoints(T_x=np.sin(t[:7] + 0.2))
+    assert part.whole_cycles() == []
+    assert "no closed cycle" in part.no_cycle()
+    with pytest.raises(fret.errors.InvalidSceneError, match="as at its start"):
+        PRESSED.from_function(lambda t: {"T_x": t}, period=1.0)
+
+
+def test_noise_needs_its_period() -> None:
+    """Measured loads do not return exactly; a given period takes them, and a file keeps it."""
+    rng = np.random.default_rng(1)
+    t = np.arange(1, 49)
+    T = 10.0 * (np.sin(2 * np.pi * t / 16) + 1e-3 * rng.standard_normal(t.size))
+    path = PRESSED.waypoints(t=1.0 + t, T_x=T)
+    assert path.whole_cycles() == []
+    assert "period" in path.no_cycle()
+    assert len(path.repeats(period=16.0).whole_cycles()) == 3
+    scene = ball().replace(path=path.repeats(period=16.0))
+    assert fret.Scene.from_toml(scene.to_toml()).path == scene.path
+    assert path.repeats(period=7.3).whole_cycles() == []
+    with pytest.raises(ValueError, match="period"):
+        path.repeats(period=-1.0)
+
+
+@pytest.mark.solves
+def test_loops_of_a_sine_are_those_of_a_zigzag() -> None:
+    """Energy, force and opening of a cycle do not depend on how its way is given."""
+    scene, T = ball(), 0.8 * MU * W
+    zigzag = fret.solve(scene, PRESSED.cycles(1, T_x=T, increments=24), progress=False)
+    right = zigzag.loops().isel(cycle=-1)
+    for path in (
+        PRESSED.sine(2, T_x=T, points=24, increments=1),
+        PRESSED.sine(2, T_x=T, points=24, phase=1.0, increments=1),
+        PRESSED.from_function(
+            lambda t: {"T_x": T * np.cos(t)}, period=2 * np.pi, points=24, increments=1
+        ),
+    ):
+        loops = fret.solve(scene, path, progress=False).loops()
+        last = loops.isel(cycle=-1)
+        assert abs(float(last.dissipated / right.dissipated) - 1.0) < 0.03
+        assert abs(float(last["T"] / right["T"]) - 1.0) < 0.04
+        assert abs(float(last.secant_stiffness / right.secant_stiffness) - 1.0) < 0.03
