@@ -18,7 +18,7 @@ def ball(n: int = 24) -> fret.Scene:
     return fret.Scene(
         body1=fret.Body(STEEL, shape=fret.Sphere(R=R)),
         body2=fret.Body(STEEL),
-        mu=MU,
+        friction=MU,
         grid=fret.Grid.from_spacing((n, n), (2.4 * A / n, 2.4 * A / n)),
     )
 

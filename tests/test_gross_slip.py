@@ -30,7 +30,7 @@ def worn(scene: fret.Scene, stroke: float, cycles: float, **how: object) -> fret
 def scene(body1: fret.shapes.Shape, body2: fret.shapes.Shape, on: fret.Grid) -> fret.Scene:
     """Two steel bodies."""
     one, two = fret.Body(STEEL, shape=body1), fret.Body(STEEL, shape=body2)
-    return fret.Scene(body1=one, body2=two, mu=MU, grid=on)
+    return fret.Scene(body1=one, body2=two, friction=MU, grid=on)
 
 
 @pytest.mark.solves
@@ -89,7 +89,7 @@ def test_places_follow_the_size_of_a_spot() -> None:
     ridges = fret.Scene(
         body1=fret.Body(STEEL, shape=shape),
         body2=fret.Body(STEEL),
-        mu=MU,
+        friction=MU,
         grid=fret.Grid.strip(extent=3 * wave, n=900),
     )
     law = fret.wear.Archard(k=1e-16)
@@ -128,7 +128,7 @@ def test_the_width_that_is_named_is_enough(stroke: float) -> None:
         ball = fret.Scene(
             body1=fret.Body(brass, shape=fret.Sphere(R=3e-3)),
             body2=fret.Body(brass),
-            mu=0.4,
+            friction=0.4,
             grid=grid(side, 32),
         )
         law = fret.wear.Archard(k=1e-13)
@@ -150,7 +150,7 @@ def test_wear_that_rests_is_not_called_none() -> None:
     ball = fret.Scene(
         body1=fret.Body(STEEL, shape=fret.Sphere(R=3e-3)),
         body2=fret.Body(STEEL),
-        mu=0.4,
+        friction=0.4,
         grid=grid(3.0 * a, 20),
     )
     path = fret.LoadPath.start().normal(1.0).cycles(1, T_x=0.2, increments=8)
