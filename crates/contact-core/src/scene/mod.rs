@@ -37,9 +37,7 @@ pub use friction::{Friction, FrictionHistory, History};
 pub use friction_law::missing_law_error;
 pub use friction_law::{CellHistory, FrictionLaw, UserFriction};
 pub use grid::Grid;
-pub use load_path::{
-    Branch, ForceUnits, Increments, LoadPath, LoadPoint, Open, Spacing, Swing,
-};
+pub use load_path::{Branch, ForceUnits, Increments, LoadPath, LoadPoint, Open, Spacing, Swing};
 pub use loads::{Loads, PrescribedMotions};
 pub use missing::Missing;
 pub use motion::{Prescribed, RigidMotion};
