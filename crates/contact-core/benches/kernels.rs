@@ -29,7 +29,7 @@ fn body(layers: usize) -> Body {
         plastic: Vec::new(),
         residual: Vec::new(),
         shape: Shape::Flat,
-        bulk: Default::default(),
+        bulk: contact_core::scene::Bulk::default(),
     }
 }
 

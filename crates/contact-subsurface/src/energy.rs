@@ -154,7 +154,8 @@ fn cycle(
     };
     let (force, shift) = (range(|p| p.T), range(|p| p.delta));
     let worse = |a: Status, b: Status| if b.code() > a.code() { b } else { a };
-    let [stiffness, stiffness_error] = reversal::stiffness(from_reversals(curve).into_iter(), direction);
+    let [stiffness, stiffness_error] =
+        reversal::stiffness(from_reversals(curve).into_iter(), direction);
     let [opening, opening_error] = loop_opening(curve, f64::midpoint(force.0, force.1));
     Cycle {
         branches,

@@ -140,7 +140,7 @@ pub(crate) fn half_width(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<f64, E
     let approach = scene.reference_approach();
     let guess = |h: &f64| (1.0 - 2.0 * (h - lowest) / approach).max(0.0).sqrt();
     let mut p: Vec<f64> = h.iter().map(guess).collect();
-    let drive = pressing.under(W);
+    let drive = pressing.drive(W);
     pressing.solve(&h, &vec![0.0; h.len()], drive, &mut p, 10.0)?;
     let rows = pressing.rows();
     let mut spots: Vec<(usize, f64)> = Vec::new();

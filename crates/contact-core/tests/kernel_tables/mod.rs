@@ -49,7 +49,7 @@ pub(crate) fn body(entry: &Value) -> Body {
         plastic: Vec::new(),
         residual: Vec::new(),
         shape: Shape::Flat,
-        bulk: Default::default(),
+        bulk: contact_core::scene::Bulk::default(),
     }
 }
 

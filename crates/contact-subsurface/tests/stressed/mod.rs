@@ -35,7 +35,7 @@ pub(crate) fn coated(n: usize) -> Contact {
         plastic: Vec::new(),
         residual: Vec::new(),
         shape: Shape::Flat,
-        bulk: Default::default(),
+        bulk: contact_core::scene::Bulk::default(),
     };
     let grid = Grid::centred(2.4 * A_H, n).expect("a grid");
     let hertz = |x: f64, y: f64| P_H * (1.0 - (x * x + y * y) / (A_H * A_H)).max(0.0).sqrt();

@@ -35,7 +35,7 @@ fn coated() -> Body {
         plastic: Vec::new(),
         residual: Vec::new(),
         shape: Shape::Flat,
-        bulk: Default::default(),
+        bulk: contact_core::scene::Bulk::default(),
     }
 }
 

@@ -17,7 +17,7 @@ fn response(E: Profile, layers: usize) -> [f64; 4] {
         plastic: Vec::new(),
         residual: Vec::new(),
         shape: Shape::Flat,
-        bulk: Default::default(),
+        bulk: contact_core::scene::Bulk::default(),
     };
     let r = Stack::new(&body).response(2e5);
     [r.zz, r.rr, r.tt, r.rz]

@@ -17,7 +17,7 @@ fn body(layers: &[(f64, f64, f64)], substrate: Elastic) -> Body {
         plastic: Vec::new(),
         residual: Vec::new(),
         shape: Shape::Flat,
-        bulk: Default::default(),
+        bulk: contact_core::scene::Bulk::default(),
     }
 }
 

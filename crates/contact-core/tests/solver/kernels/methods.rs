@@ -22,7 +22,7 @@ fn coated() -> Body {
         plastic: Vec::new(),
         residual: Vec::new(),
         shape: Shape::Flat,
-        bulk: Default::default(),
+        bulk: contact_core::scene::Bulk::default(),
     }
 }
 
@@ -142,7 +142,7 @@ fn frequency_domain_is_the_convolution_with_its_own_coefficients() {
         plastic: Vec::new(),
         residual: Vec::new(),
         shape: Shape::Flat,
-        bulk: Default::default(),
+        bulk: contact_core::scene::Bulk::default(),
     };
     for (n, lambda) in [((16, 24), 2), ((12, 10), 3), ((9, 14), 4)] {
         let grid = Grid::from_spacing(n, (1e-6, 0.8e-6)).unwrap();

@@ -92,7 +92,7 @@ fn a_layer_may_be_cut_in_two() {
             plastic: Vec::new(),
             residual: Vec::new(),
             shape: Shape::Flat,
-            bulk: Default::default(),
+            bulk: contact_core::scene::Bulk::default(),
         };
         let mut cut = whole.clone();
         let h = whole.coatings[0].thickness;
