@@ -44,6 +44,7 @@ PLACES = {
     "skip": "skip.",
     "output": "output.",
     "rig": "rig.",
+    "cycle": "cycle.",
     "wear": "wear.",
     "wear/body1": "wear.body1.",
     "wear/body2": "wear.body2.",

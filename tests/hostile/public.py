@@ -8,6 +8,7 @@ a parameter (:data:`GOOD`), or from that and the name of the callable (:data:`OF
 from __future__ import annotations
 
 import inspect
+import math
 import tempfile
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
@@ -212,6 +213,8 @@ OF: dict[str, dict[str, Any]] = {
     "SurfaceMap.from_file": {"path": SURFACE, "spacing": 1e-6, "unit": "um"},
     "LoadPath": {"branches": []},
     "LoadPath.cycles": {"n": 1, "T_x": 1.0},
+    "LoadPath.sine": {"periods": 1, "T_x": 1.0},
+    "LoadPath.from_function": {"function": lambda t: {"T_x": math.sin(t)}, "period": math.tau},
     "LoadPath.displace": {"delta_x": 1e-7},
     "Grid.for_contact": {"body1": small().body1, "body2": COATED},
     "Snapshot.stress": {"bulk": True, "z": [0.0, 1e-5]},

@@ -37,7 +37,6 @@ const SHORTEST: f64 = 1e-9;
 /// Growth of a grid whose need is not known, and the estimate of the width of a scar over the grid from which on
 /// the run is refused.
 const GRID_GROWTH: f64 = 1.4;
-const SURELY: f64 = 1.1;
 /// Most attempts of a jump, for its error and for the cycle of an event.
 const TRIES: usize = 60;
 
@@ -101,7 +100,6 @@ impl WearRun {
         let before = run.state.to_jump(&run.model, 0.0);
         run.state.lost_before = [before.depth, before.volume];
         run.state.next = run.first_jump()?;
-        run.check_width()?;
         Ok(run)
     }
 
@@ -235,38 +233,6 @@ impl WearRun {
             half_width: self.wear.half_width,
         };
         scar.needed()
-    }
-
-    /// Fails if the scar of all cycles does not fit on the grid, before the first jump.
-    fn check_width(&mut self) -> Result<(), Error> {
-        let stops = self.wear.worn_through == WornThrough::Stop
-            && [&self.scene.body1, &self.scene.body2]
-                .iter()
-                .any(|body| !body.coatings.is_empty());
-        let steady = self
-            .wear
-            .bodies
-            .iter()
-            .flat_map(|body| &body.laws)
-            .all(|law| law.is_steady());
-        if stops || !steady || self.state.worn.deepest() > 0.0 {
-            return Ok(());
-        }
-        let Some([enough, least]) = self.needed(1.0) else {
-            return Ok(());
-        };
-        let (extent_x, extent_y) = self.scene.grid.extent();
-        let strip = self.scene.grid.plane_strain;
-        if least[0] <= SURELY * extent_x && (strip || least[1] <= SURELY * extent_y) {
-            return Ok(());
-        }
-        Err(Error::WornOffGrid {
-            cycles: 0.0,
-            extent_x,
-            extent_y,
-            needed_x: enough[0].max(extent_x),
-            needed_y: enough[1].max(extent_y),
-        })
     }
 
     /// The physical cause of jumps that do not converge, as the end of a sentence: large wear in

@@ -88,8 +88,10 @@ impl Sliding {
         plan.check_memory(scene)?;
         let pressing = Pressing::new(scene, &plan, stop)?;
         let frame = Frame::new(scene);
+        // The mean over a longer way has no part of the waves as long as it: nothing would wear them away.
+        let smeared = |place: &Place| place.length.min(scene.grid.dx);
         let shifts = |place: &Place| {
-            let [cells, length] = [place.shift, place.length].map(|way| way / scene.grid.dx);
+            let [cells, length] = [place.shift, smeared(place)].map(|way| way / scene.grid.dx);
             match frame {
                 Frame::Body1 => [Shift::new(0.0), Shift::interval(cells, length)],
                 Frame::Body2 => [Shift::interval(-cells, length), Shift::new(0.0)],
@@ -103,7 +105,7 @@ impl Sliding {
             }
             Arc::new(
                 plan.mirror
-                    .fold(&frame.gap(scene, place.shift, place.length)),
+                    .fold(&frame.gap(scene, place.shift, smeared(place))),
             )
         };
         let h: Vec<Arc<Vec<f64>>> = places.iter().map(gap).collect();
