@@ -88,8 +88,8 @@ impl Sliding {
         plan.check_memory(scene)?;
         let pressing = Pressing::new(scene, &plan, stop)?;
         let frame = Frame::new(scene);
-        // The mean over a longer way has no part of the waves as long as it: nothing would wear them away.
-        let smeared = |place: &Place| place.length.min(scene.grid.dx);
+        // A single place stands for a stroke that is short beside every spot.
+        let smeared = |place: &Place| if places.len() > 1 { place.length } else { 0.0 };
         let shifts = |place: &Place| {
             let [cells, length] = [place.shift, smeared(place)].map(|way| way / scene.grid.dx);
             match frame {
