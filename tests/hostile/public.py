@@ -213,6 +213,7 @@ OF: dict[str, dict[str, Any]] = {
     "SurfaceMap.from_file": {"path": SURFACE, "spacing": 1e-6, "unit": "um"},
     "LoadPath": {"branches": []},
     "LoadPath.cycles": {"n": 1, "T_x": 1.0},
+    "LoadPath.repeats": {"period": 1.0},
     "LoadPath.sine": {"periods": 1, "T_x": 1.0},
     "LoadPath.from_function": {"function": lambda t: {"T_x": math.sin(t)}, "period": math.tau},
     "LoadPath.displace": {"delta_x": 1e-7},

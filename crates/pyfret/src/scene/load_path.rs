@@ -41,7 +41,7 @@ pub(super) fn checked(path: core::LoadPath) -> Answer<LoadPath> {
 }
 
 /// The path with the units that its new forces were written in.
-fn written(mut path: core::LoadPath, units: core::ForceUnits) -> core::LoadPath {
+pub(super) fn written(mut path: core::LoadPath, units: core::ForceUnits) -> core::LoadPath {
     path.units.add(units);
     path
 }

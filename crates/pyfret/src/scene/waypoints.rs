@@ -6,8 +6,9 @@ use contact_core::Error;
 use contact_core::scene as core;
 
 use super::LoadPath;
+use super::forces::{Force, values_and_units};
 use super::increments::{AnyIncrements, Names};
-use super::load_path::checked;
+use super::load_path::{checked, written};
 use crate::error::Answer;
 use crate::prelude::*;
 
@@ -82,9 +83,9 @@ impl LoadPath {
     fn sine(
         &self,
         #[pyo3(from_py_with = number)] periods: usize,
-        #[pyo3(from_py_with = Optional::W)] W: Option<f64>,
-        #[pyo3(from_py_with = Optional::T_x)] T_x: Option<f64>,
-        #[pyo3(from_py_with = Optional::T_y)] T_y: Option<f64>,
+        #[pyo3(from_py_with = Force::W)] W: Option<Force>,
+        #[pyo3(from_py_with = Force::T_x)] T_x: Option<Force>,
+        #[pyo3(from_py_with = Force::T_y)] T_y: Option<Force>,
         #[pyo3(from_py_with = Optional::M_z)] M_z: Option<f64>,
         #[pyo3(from_py_with = Optional::delta_x)] delta_x: Option<f64>,
         #[pyo3(from_py_with = Optional::delta_y)] delta_y: Option<f64>,
@@ -95,6 +96,7 @@ impl LoadPath {
         #[pyo3(from_py_with = number)] points: usize,
         increments: AnyIncrements,
     ) -> Answer<Self> {
+        let ([W, T_x, T_y], units) = values_and_units([W, T_x, T_y]);
         let swinging = [
             ("W", W),
             ("T_x", T_x),
@@ -125,8 +127,8 @@ impl LoadPath {
         let path = self
             .0
             .clone()
-            .sine(&swings, (periods, points), increments.into());
-        checked(path?)
+            .sine(&swings, (periods, points), increments.into())?;
+        checked(written(path, units))
     }
 
     /// Follow a periodic function of path time, straight between `points` points of a period.
