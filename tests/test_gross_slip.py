@@ -29,8 +29,8 @@ def worn(scene: fret.Scene, stroke: float, cycles: float, **how: object) -> fret
 
 def scene(body1: fret.shapes.Shape, body2: fret.shapes.Shape, on: fret.Grid) -> fret.Scene:
     """Two steel bodies."""
-    one, two = fret.Body(STEEL, shape=body1), fret.Body(STEEL, shape=body2)
-    return fret.Scene(body1=one, body2=two, friction=MU, grid=on)
+    upper, lower = fret.Body(STEEL, shape=body1), fret.Body(STEEL, shape=body2)
+    return fret.Scene(body1=upper, body2=lower, friction=MU, grid=on)
 
 
 @pytest.mark.solves
@@ -56,9 +56,9 @@ def test_a_ball_in_a_groove_is_the_ellipsoid_on_a_flat() -> None:
         (fret.Cylinder(R=-groove, angle=np.pi / 2), fret.Sphere(R=R)),
     ]
     depths = []
-    for n, (one, two) in enumerate(pairs):
+    for n, (upper, lower) in enumerate(pairs):
         law = {"body1": fret.wear.Archard(k=K), "body2": None} if n == 2 else {}
-        run = worn(scene(one, two, on), 30e-6, 1e4, **law)
+        run = worn(scene(upper, lower, on), 30e-6, 1e4, **law)
         depths.append(float(run.dataset[f"depth{1 if n == 2 else 2}"][-1]))
     assert np.ptp(depths) < 0.01 * max(depths)
 
@@ -67,9 +67,9 @@ def test_a_ball_in_a_groove_is_the_ellipsoid_on_a_flat() -> None:
 def test_curved_bodies_follow_their_geometry() -> None:
     """Two balls: moved by d, the contact lies d/2 away from the tip of each."""
     on = grid(4e-4, 40)
-    both = scene(fret.Sphere(R=5e-3), fret.Sphere(R=5e-3), on)
+    balls = scene(fret.Sphere(R=5e-3), fret.Sphere(R=5e-3), on)
     d = 60e-6
-    run = worn(both, d, 1e3)
+    run = worn(balls, d, 1e3)
     along = run.dataset.worn2[-1].sum("y").values
     x = run.dataset.x.values
     reach = np.abs(x[along > 0.2 * along.max()]).max()
@@ -83,7 +83,7 @@ def test_curved_bodies_follow_their_geometry() -> None:
 
 @pytest.mark.solves
 def test_places_follow_the_size_of_a_spot() -> None:
-    """Three ridges need as many places as one: the depth is that of many given increments."""
+    """Three ridges need as many places as one: many given increments make no other depth."""
     wave, load = 0.2e-3, 420.0
     shape = fret.shapes.Waviness(amplitude=5e-6, wavelength=wave)
     ridges = fret.Scene(
@@ -118,7 +118,7 @@ def test_a_march_through_gross_slip_is_refused() -> None:
 @pytest.mark.solves
 @pytest.mark.parametrize("stroke", [25e-6, 200e-6])
 def test_the_width_that_is_named_is_enough(stroke: float) -> None:
-    """A scar that does not fit is warned of before the run, and ends it with the width that it needs."""
+    """A scar that does not fit is warned of, and ends the run with the width that it needs."""
     brass = fret.Elastic(E=110e9, nu=0.34)
     a = fret.reference.hertz(R=3e-3, bodies=(brass, brass), W=1.0).a
     path = fret.LoadPath.start().normal(1.0).cycles(1, delta_x=stroke)
@@ -141,14 +141,14 @@ def test_the_width_that_is_named_is_enough(stroke: float) -> None:
         pytest.raises(fret.errors.OffGridError) as refused,
     ):
         run(extent)
-    named = re.search(r"about ([0-9.e+-]+) m", str(refused.value))
-    assert named is not None
-    assert run(float(named.group(1))).dataset.attrs["status"] == "done"
+    width = re.search(r"about ([0-9.e+-]+) m", str(refused.value))
+    assert width is not None
+    assert run(float(width.group(1))).dataset.attrs["status"] == "done"
 
 
 @pytest.mark.solves
 def test_wear_that_rests_is_not_called_none() -> None:
-    """In partial slip wear ends when the slip zone carries nothing."""
+    """Wear in partial slip ends when the slip zone carries nothing."""
     a = fret.reference.hertz(R=3e-3, bodies=(STEEL, STEEL), W=1.0).a
     ball = fret.Scene(
         body1=fret.Body(STEEL, shape=fret.Sphere(R=3e-3)),

@@ -116,6 +116,8 @@ class Assessment:
     @property
     def limit(self, /) -> float | None:
         """The limit, or nothing where the criterion gives lives."""
+    def mean_stress_note(self, /, material: Material | None = None) -> str | None:
+        """Note on a weight of the mean stress that is 0; None where mean stress counts."""
     def range_at(
         self,
         /,
@@ -130,8 +132,6 @@ class Assessment:
 
         The range has the scatter of the material; `scatter` takes the place of its default.
         """
-    def mean_stress_note(self, /, material: Material | None = None) -> str | None:
-        """Note on a weight of the mean stress that is 0; None where mean stress counts."""
     def safety_factor(self, /, value: float) -> float:
         """Factor by which the history may grow until the limit, for values of the criterion."""
 
@@ -152,6 +152,12 @@ class Body:
         the top of the layer. Linear between the depths, constant beyond them.
     shape : Flat, Sphere, Ellipsoid, Cylinder, ... or a sum of them
         Undeformed surface (default: flat).
+    bulk_azimuth : float, optional
+        Direction of its bulk stress, from x towards y [rad] (default: along the axis of a cylinder
+        or roller, else along x; in line contacts along x).
+    bulk_neutral_depth : float, optional
+        Depth of the neutral plane of a bent body [m]: its bulk stress falls linearly from
+        the surface to zero there (default: the same at all depths).
     """
 
     def __eq__(self, value: object, /) -> bool: ...
@@ -177,11 +183,20 @@ class Body:
         | Rough
         | SurfaceMap
         | Sum = ...,
+        bulk_azimuth: Angle | None = None,
+        bulk_neutral_depth: Length | None = None,
     ) -> Body: ...
     def __replace__(self, /, **changes: Any) -> Self: ...
     def __repr__(self, /) -> str: ...
     @property
-    def _curvature(self, /) -> list[float]: ...
+    def _curvature(self, /) -> list[float]:
+        """Second derivatives xx, xy, yy of the parabola of the surface [1/m]."""
+    @property
+    def bulk_azimuth(self, /) -> float | None:
+        """Given direction of its bulk stress [rad]; None: along its axis, else x."""
+    @property
+    def bulk_neutral_depth(self, /) -> float | None:
+        """Depth of the neutral plane of a bent body [m]; None: the same stress at all depths."""
     @property
     def coatings(self, /) -> list[Coating]:
         """Layers from the surface down."""
@@ -324,7 +339,7 @@ class Branch:
         sigma_B1: BulkStress = 0.0,
         rolled: Length = 0.0,
         increments: int | Literal["auto"] | None = None,
-        spacing: Spacing = ...,
+        spacing: Spacing | str = ...,
         t: Time,
         path_error: float | None = None,
     ) -> Branch: ...
@@ -1422,9 +1437,11 @@ class Grid:
 
         The contact under the largest normal load of the path is solved without friction and
         roughness on 32 cells a side. The grid is `room` times as long, on rough surfaces 15 %
-        longer. It has as many cells as a smooth contact takes for `error`, and eight in the
-        shortest wave of a rough, wavy or measured surface. On measured surfaces, on waves and
-        where a body has edges, the number of cells is doubled. The last changes of area and
+        longer. It has as many cells as a smooth contact takes for `error`. The cells are square;
+        along a contact that would take more than 4096 of them they are oblong, 128 at least. It
+        has eight cells in the shortest wave of a rough, wavy or measured surface. On measured
+        surfaces, on waves and where a body has edges, the number of cells is doubled. The last
+        changes of area and
         largest pressure foretell the next ones: the doubling ends where these are below
         `error`.
 
@@ -1725,7 +1742,12 @@ class LoadPath:
     def __len__(self, /) -> int: ...
     def __ne__(self, value: object, /) -> bool: ...
     def __new__(
-        cls, /, branches: Sequence[Branch] = ..., *, rig_stiffness: Stiffness | None = None
+        cls,
+        /,
+        branches: Sequence[Branch] = ...,
+        *,
+        rig_stiffness: Stiffness | None = None,
+        period: float | None = None,
     ) -> LoadPath: ...
     def __replace__(self, /, **changes: Any) -> Self: ...
     def __repr__(self, /) -> str: ...
@@ -1784,7 +1806,7 @@ class LoadPath:
         phi_y: Quantities | None = None,
         phi_z: Quantities | None = None,
         increments: int | Literal["auto"] = ...,
-        spacing: Spacing = ...,
+        spacing: Spacing | str = ...,
         t: Time | None = None,
     ) -> LoadPath:
         """
@@ -1838,7 +1860,7 @@ class LoadPath:
         sigma_B1: BulkStress | None = None,
         rolled: Length | None = None,
         increments: int | Literal["auto"] = ...,
-        spacing: Spacing = ...,
+        spacing: Spacing | str = ...,
         t: Time | None = None,
     ) -> LoadPath:
         """
@@ -1894,20 +1916,66 @@ class LoadPath:
             If the file cannot be read. The message has the line, the column and the argument to
             give.
         """
+    def from_function(
+        self,
+        /,
+        function: Callable[[float], Mapping[str, float]],
+        *,
+        period: float,
+        periods: int = 2,
+        points: int = 32,
+        increments: PerRange | int | Literal["auto"] = ...,
+    ) -> LoadPath:
+        """
+        Follow a periodic function of path time, straight between `points` points of a period.
+
+        Parameters
+        ----------
+        function : callable
+            Takes the time from 0 to `period`, and gives the loads or motions by name, as
+            ``lambda t: {"T_x": 100.0 * np.sin(t), "sigma_B": 2e8 * np.cos(t)}``.
+        period : float
+            Its period. A function that does not return to its start is refused.
+        periods : int
+            How many are followed (default: 2, the second of which repeats itself).
+        points : int
+            Points of a period (default: 32).
+        increments : int, PerRange or "auto"
+            Increments from point to point, as in `waypoints`.
+
+        Examples
+        --------
+        >>> path = LoadPath.start().normal(10.0)
+        >>> path.from_function(lambda t: {"T_x": abs(t - 0.5)}, period=1.0)
+        LoadPath(66 branches, increments to be chosen)
+        """
     def hold(self, /, *, increments: int = 1) -> LoadPath:
         """
         Stay at the loads and motions reached for some increments, one unit of path time.
 
         What friction makes of the history of a cell goes on meanwhile.
         """
+    def no_cycle(self, /) -> str:
+        """Why the path has no closed cycle, in words."""
     def normal(self, /, W: Quantities, *, increments: int | Literal["auto"] = ...) -> LoadPath:
         """
         Go to the normal force `W` [N], the tangential forces kept, in one unit of path time.
 
         Of several forces each is a branch of its own, with as many increments.
         """
+    @property
+    def period(self, /) -> float | None:
+        """Path time of a cycle; None: cycles are found where the loads return."""
     def radial(self, /, W: Quantities, *, increments: int | Literal["auto"] = ...) -> LoadPath:
         """Visit the normal forces `W` [N] in turn, as `tangential` does: fretting mode II."""
+    def repeats(self, /, *, period: float | None) -> LoadPath:
+        """
+        Return the path with a given period of its cycles, in path time.
+
+        Without it cycles are found where the loads return exactly. With it they are counted back
+        from the end of the path, and their ends may differ by 2 % of the largest load: noise of a
+        measured history. None takes the period out.
+        """
     def replace(self, /, **changes: Any) -> Self:
         """Return a copy with some of its parts exchanged, named as in the constructor."""
     def rig(self, /, stiffness: Stiffness | None) -> LoadPath:
@@ -1930,6 +1998,57 @@ class LoadPath:
     @property
     def sigma_B1(self, /) -> NDArray[float64]:
         """Bulk stress of body 1 at the end of every increment [Pa]."""
+    def sine(
+        self,
+        /,
+        periods: int,
+        *,
+        W: Force | None = None,
+        T_x: Force | None = None,
+        T_y: Force | None = None,
+        M_z: Moment | None = None,
+        delta_x: Length | None = None,
+        delta_y: Length | None = None,
+        phi_z: Angle | None = None,
+        sigma_B: BulkStress | None = None,
+        sigma_B1: BulkStress | None = None,
+        phase: float | dict[str, float] = ...,
+        points: int = 16,
+        increments: PerRange | int | Literal["auto"] = ...,
+    ) -> LoadPath:
+        """
+        Swing as a sine about where the path stands.
+
+        It goes straight between `points` points of a period, `periods` times. Several loads swing
+        together, each with its phase. The first period begins where the path stands, so that the
+        second one is the cycle that repeats itself.
+
+        Parameters
+        ----------
+        periods : int
+            Number of periods.
+        W, T_x, T_y : float, optional
+            Amplitudes of forces [N].
+        M_z : float, optional
+            Amplitude of the torsional moment [N m].
+        delta_x, delta_y : float, optional
+            Amplitudes of shifts [m].
+        phi_z : float, optional
+            Amplitude of the rotation [rad].
+        sigma_B, sigma_B1 : float, optional
+            Amplitudes of the bulk stresses of body 2 and body 1 [Pa].
+        phase : float or dict[str, Any], optional
+            Phase [rad] of all, or by name: ``{"sigma_B": np.pi / 2}``.
+        points : int
+            Points of a period (default: 16).
+        increments : int, PerRange or "auto"
+            Increments from point to point, as in `waypoints`.
+
+        Examples
+        --------
+        >>> LoadPath.start().normal(10.0).sine(2, T_x=2.0)
+        LoadPath(33 branches, increments to be chosen)
+        """
     @staticmethod
     def start() -> LoadPath:
         """The path before its first branch."""
@@ -1965,6 +2084,13 @@ class LoadPath:
         **columns : array
             Loads (``W``, ``T_x``, ...), motions (``delta_x``, ...), ``sigma_B``, ``sigma_B1``,
             ``rolled`` and the path time ``t`` at the waypoints. What has no column stays as it is.
+        """
+    def whole_cycles(self, /) -> list[tuple[int, int]]:
+        """
+        First and last branch of every whole cycle, from 0.
+
+        A cycle ends where the loads return and the path goes on in the same direction, or where it
+        turns. A sine may begin anywhere in its period.
         """
 
 @final
@@ -2101,7 +2227,7 @@ class Material:
         """The material with the missing numbers that published rules can estimate."""
     @property
     def kind(self, /) -> str:
-        """What it is: steel, metal, ceramic, coating or polymer; empty where nothing is given."""
+        """Kind: steel, metal, ceramic, coating or polymer; empty where nothing is given."""
     @property
     def name(self, /) -> str:
         """Key of the material in its table."""
@@ -2552,7 +2678,6 @@ class Scene:
         """One line that names the scene."""
     def to_toml(self, /) -> str:
         """Write the text of a scene file, all numbers in SI units."""
-
     @staticmethod
     def ball_on_flat(
         ball: Body | Elastic | str,
@@ -2635,7 +2760,7 @@ class Scene:
         first, second : Body, Elastic or str
             The upper cylinder, whose axis is y, and the lower one.
         R, R2 : float
-            Their radii [m] (default of the second: that of the first).
+            Their radii [m] (default of the second: the first radius).
         angle : float
             Angle between the axes [rad], such as ``"90 deg"`` (default: a right angle).
         W, mu, T, shift, cycles, wear, error, n, quiet
@@ -2660,7 +2785,7 @@ class Scene:
         """Make the scene of a long cylinder on a flat, a line contact in plane strain.
 
         The axis of the cylinder is y. Forces are per metre of its length [N/m]: `W` and `T`.
-        The other parameters are those of :func:`ball_on_flat`.
+        For the other parameters see :func:`ball_on_flat`.
         """
     @staticmethod
     def flat_pad(
@@ -3459,6 +3584,13 @@ def equivalent_range(
 ) -> list[float]:
     """Equivalent range of K at R = 0 [Pa m^0.5] of extremes of K."""
 
+def find_material(name: str, materials: Sequence[Material]) -> Material | None:
+    """
+    The material of a name among some: of its key, or of another name, whatever the case.
+
+    The case counts in a formula, and in a name that differs from one in its case alone.
+    """
+
 def goodman_stick_ratio(*, beta: float, mu: float) -> float:
     """
     Stick over contact radius of an indentation with friction, after Goodman and Spence.
@@ -3521,16 +3653,6 @@ def influence_coefficients(
         u_x, u_y, u_z under q_x, q_y, p at all offsets of the observed cell from the loaded one. The
         offset (0, 0) is in the middle.
     """
-
-def find_material(name: str, materials: Sequence[Material]) -> Material | None:
-    """
-    The material of a name among some: of its key, or of another name, whatever the case.
-
-    The case counts in a formula, and in a name that differs from one in its case alone.
-    """
-
-def nearest_materials(name: str, materials: Sequence[Material], most: int = 3) -> list[str]:
-    """Names of the materials nearest to an unknown name and of its kind, the nearest first."""
 
 def known_as(source: str) -> Literal["known", "estimate", "recalled"]:
     """How a number of a material is known, by its source: "known", "estimate" or "recalled"."""
@@ -3597,6 +3719,9 @@ def measured_by(key: str) -> tuple[str, str] | None:
 
 def measures(unit: str, kind: str) -> bool:
     """Whether a unit measures a kind; a force per length is a force and a stiffness, too."""
+
+def nearest_materials(name: str, materials: Sequence[Material], most: int = 3) -> list[str]:
+    """Names of the materials nearest to an unknown name and of its kind, the nearest first."""
 
 def notes_on_materials(
     criterion: str, body: Body, materials: Sequence[Material | None]
@@ -4013,6 +4138,7 @@ __all__ = [
     "dundurs_beta",
     "ellipse_factor",
     "equivalent_range",
+    "find_material",
     "goodman_stick_ratio",
     "graded",
     "hertz",
@@ -4031,6 +4157,7 @@ __all__ = [
     "measure",
     "measured_by",
     "measures",
+    "nearest_materials",
     "notes_on_materials",
     "partial_crack",
     "principal",

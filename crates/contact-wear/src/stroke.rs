@@ -20,7 +20,7 @@ pub(crate) struct Place {
     pub(crate) W: f64,
 }
 
-/// The body whose coordinates are those of the grid; the other one slides over it.
+/// The body that the grid is fixed to; the other one slides over it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Frame {
     Body1,

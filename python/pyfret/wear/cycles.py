@@ -89,9 +89,9 @@ def spent(d: xr.Dataset, energy: float) -> Cycles:
     before = float(cycles[0] - d["length"][0])
     start = float(ends[0] - d["dissipated_per_cycle"][0] * d["length"][0])
     if energy > ends[-1]:
-        rest = in_unit(float(ends[-1]), str(d["dissipated"].attrs.get("units", "J")))
+        amount = in_unit(float(ends[-1]), str(d["dissipated"].attrs.get("units", "J")))
         rate = float(d["dissipated_per_cycle"][-1])
-        return Cycles.beyond_run(float(cycles[-1]), rate, rest)
+        return Cycles.beyond_run(float(cycles[-1]), rate, amount)
     return Cycles(np.interp(energy, [max(start, 0.0), *ends], [before, *cycles]))
 
 
@@ -108,8 +108,8 @@ def reached(d: xr.Dataset, name: str, target: float) -> Cycles:
     jumps = np.flatnonzero(ends >= target * (1.0 - _core.DEPTH_ROUNDING))
     if jumps.size == 0:
         last = float(ends[-1] - (ends[-2] if ends.size > 1 else before))
-        rest = in_unit(float(ends[-1]), str(d[name].attrs.get("units", "m")))
-        return Cycles.beyond_run(float(d.cycles[-1]), last, rest)
+        amount = in_unit(float(ends[-1]), str(d[name].attrs.get("units", "m")))
+        return Cycles.beyond_run(float(d.cycles[-1]), last, amount)
     n = int(jumps[0])
     start = float(ends[n - 1]) if n else before
     whole, energy_needed = float(ends[n]) - start, target - start

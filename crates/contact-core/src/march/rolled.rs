@@ -27,7 +27,7 @@ use crate::solvers::{Interface, Response};
 pub(super) struct Roll {
     /// Cells that the contact rolls on along x.
     pub(super) cells: isize,
-    /// Strain d(eps_xx), d(eps_yy), d(eps_xy) of body 2 less that of body 1.
+    /// Strain d(eps_xx), d(eps_yy), d(eps_xy) of body 2 less the strain of body 1.
     strain: [f64; 3],
     /// d(phi_z) s/2 of a given rotation \[m\].
     turned: f64,

@@ -35,7 +35,7 @@ pub struct Body {
 pub struct Bulk {
     /// Azimuth of its direction, from x towards y \[rad\]; `None`: along the axis of a cylinder, else along x.
     pub azimuth: Option<f64>,
-    /// Depth of the neutral plane of a bent body \[m\]: the bulk stress is that of the surface and falls to
+    /// Depth of the neutral plane of a bent body \[m\]: the bulk stress is given at the surface and falls to
     /// nothing there; `None`: the same at all depths. Negative where it grows with depth.
     pub neutral_depth: Option<f64>,
 }

@@ -19,7 +19,7 @@
 //! xx = s_1 c^2 + s_2 s^2,   yy = s_1 s^2 + s_2 c^2,   xy = (s_1 - s_2) s c
 //! ```
 //!
-//! of stresses and of strains alike. In bending all of them are 1 - z/z_n times those of the surface, z_n being
+//! of stresses and of strains alike. In bending all of them are 1 - z/z_n times the ones at the surface, z_n being
 //! the depth of the neutral plane.
 
 use super::{Body, Loads, Scene, Shape};
@@ -39,7 +39,7 @@ fn turned([along, across]: [f64; 2], azimuth: f64) -> [f64; 3] {
 }
 
 impl Body {
-    /// Azimuth of the bulk stress \[rad\]: the given one, that of the axis of a cylinder, else 0.
+    /// Azimuth of the bulk stress \[rad\]: the given one, the azimuth of the axis of a cylinder, else 0.
     pub fn bulk_azimuth(&self, plane_strain: bool) -> f64 {
         if plane_strain {
             return 0.0;
@@ -87,7 +87,7 @@ impl Body {
         }
     }
 
-    /// Bulk stress at a depth \[m\] over that of the surface.
+    /// Bulk stress at a depth \[m\] over its value at the surface.
     fn bulk_course(&self, z: f64) -> f64 {
         self.bulk
             .neutral_depth
@@ -130,7 +130,7 @@ impl Body {
 }
 
 impl Scene {
-    /// Bulk strains eps_xx, eps_yy, eps_xy at the surface of body 2 less those of body 1: their part of the
+    /// Bulk strains eps_xx, eps_yy, eps_xy at the surface of body 2 less the strains of body 1: their part of the
     /// gradients of u = u(2) - u(1).
     pub(crate) fn bulk_mismatch(&self, loads: &Loads) -> [f64; 3] {
         let plane_strain = self.grid.plane_strain;
@@ -183,9 +183,12 @@ mod tests {
                     .get(layer)
                     .map_or(body.substrate, |c| c.material);
                 let [xx, yy, _] = body.bulk_stress(2e8, plane_strain, (layer, 0.0));
-                let found = [(xx - m.nu * yy) / m.E, (yy - m.nu * xx) / m.E];
-                for (found, strain) in found.iter().zip(strain) {
-                    assert!((found - strain).abs() < 1e-16, "{layer}: {found} {strain}");
+                let computed = [(xx - m.nu * yy) / m.E, (yy - m.nu * xx) / m.E];
+                for (computed, strain) in computed.iter().zip(strain) {
+                    assert!(
+                        (computed - strain).abs() < 1e-16,
+                        "{layer}: {computed} {strain}"
+                    );
                 }
             }
             // A layer of the substrate's material is no layer.
@@ -216,10 +219,10 @@ mod tests {
                     let along = xx * c * c + 2.0 * xy * s * c + yy * s * s;
                     let across = xx * s * s - 2.0 * xy * s * c + yy * c * c;
                     let shear = (yy - xx) * s * c + xy * (c * c - s * s);
-                    for (found, right) in [(along, course * 4e8), (across, 0.0), (shear, 0.0)] {
+                    for (computed, right) in [(along, course * 4e8), (across, 0.0), (shear, 0.0)] {
                         assert!(
-                            (found - right).abs() < 1e-6 * 4e8,
-                            "{angle}: {found} {right}"
+                            (computed - right).abs() < 1e-6 * 4e8,
+                            "{angle}: {computed} {right}"
                         );
                     }
                 }

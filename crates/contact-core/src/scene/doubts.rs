@@ -170,7 +170,7 @@ impl Scene {
         })
     }
 
-    /// That adhesion of the weakest kind is no small part of the load.
+    /// Doubts a load of which adhesion of the weakest kind is no small part.
     fn doubt_of_adhesion(&self) -> Option<String> {
         let hertz = self.hertz().filter(|hertz| {
             // Larger contacts, and softer bodies than gels, are in units of their own.

@@ -124,7 +124,7 @@ attributes!(Body, self:
     shape: Shape = (&self.0.shape).into();
     /// Given direction of its bulk stress [rad]; None: along its axis, else x.
     bulk_azimuth: Option<f64> = self.0.bulk.azimuth;
-    /// Depth of the neutral plane of a bent body [m]; None: the bulk stress is the same at all depths.
+    /// Depth of the neutral plane of a bent body [m]; None: the same stress at all depths.
     bulk_neutral_depth: Option<f64> = self.0.bulk.neutral_depth;
 );
 

@@ -80,11 +80,11 @@ impl LoadPath {
         })
     }
 
-    /// The same path with a given period of its cycles, in path time.
+    /// Return the path with a given period of its cycles, in path time.
     ///
-    /// Without it cycles are found where the loads return exactly. With it they are counted back from the end of
-    /// the path, and their ends may differ by 2 % of the largest load: noise of a measured history. None takes
-    /// the period out.
+    /// Without it cycles are found where the loads return exactly. With it they are counted back
+    /// from the end of the path, and their ends may differ by 2 % of the largest load: noise of a
+    /// measured history. None takes the period out.
     #[pyo3(signature = (*, period: "float | None"))]
     fn repeats(&self, #[pyo3(from_py_with = number)] period: Option<f64>) -> Answer<Self> {
         let path = core::LoadPath {
@@ -97,8 +97,8 @@ impl LoadPath {
 
     /// First and last branch of every whole cycle, from 0.
     ///
-    /// A cycle ends where the loads return and the path goes on in the same direction, or where it turns. A sine
-    /// may begin anywhere in its period.
+    /// A cycle ends where the loads return and the path goes on in the same direction, or where it
+    /// turns. A sine may begin anywhere in its period.
     fn whole_cycles(&self) -> Vec<(usize, usize)> {
         self.0.cycles()
     }

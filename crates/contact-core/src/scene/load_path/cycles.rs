@@ -351,12 +351,12 @@ impl LoadPath {
         let nodes = Nodes::new(self);
         let allowed = "a load path with a whole closed cycle: its last branch ends where an earlier one ended, as in \
                        [T, -T, T] of T_x";
-        let found = match self.period {
+        let miss = match self.period {
             Some(period) => self.periods(&nodes, period).err(),
             None => nodes.nearest(),
         };
-        let found = found.map_or_else(String::new, |found| format!(": {found}"));
-        Error::invalid("path", format!("no closed cycle{found}"), allowed)
+        let miss = miss.map_or_else(String::new, |miss| format!(": {miss}"));
+        Error::invalid("path", format!("no closed cycle{miss}"), allowed)
     }
 }
 
@@ -369,7 +369,7 @@ impl Nodes {
         }
     }
 
-    /// By how much the path misses its last node, in words.
+    /// Says by how much the path misses its last node.
     fn nearest(&self) -> Option<String> {
         let end = self.ends.len() - 1;
         let arrives = |node: &usize| self.arrives[*node] == self.arrives[end];

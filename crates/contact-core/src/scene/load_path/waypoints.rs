@@ -289,7 +289,7 @@ impl LoadPath {
             }
         }
         let (_, t) = self.end_point();
-        let all: Vec<&str> = std::iter::once("t").chain(names.iter().copied()).collect();
+        let columns: Vec<&str> = std::iter::once("t").chain(names.iter().copied()).collect();
         let row = |n: usize| {
             let time = t + period * (1.0 + n as f64 / points as f64);
             std::iter::once(time)
@@ -297,7 +297,7 @@ impl LoadPath {
                 .collect()
         };
         let rows: Vec<Vec<f64>> = (0..=periods * points).map(row).collect();
-        self.waypoints(&all, &rows, increments)
+        self.waypoints(&columns, &rows, increments)
     }
 }
 
