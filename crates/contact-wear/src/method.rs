@@ -69,7 +69,10 @@ impl Method {
         );
         let slides = amplitude > GROSS * ELASTIC * scene.friction.mu * scene.reference_approach();
         let chosen = match (wear.cycling, &corners) {
-            (Cycling::Auto, Ok(_)) if ratio > SHORT && slides => Cycling::Sliding,
+            // Sliding passes all branches of a cycle equally often.
+            (Cycling::Auto, Ok(_)) if ratio > SHORT && slides && wear.branch_counts.is_empty() => {
+                Cycling::Sliding
+            }
             (Cycling::Auto, _) => Cycling::March,
             (given, _) => given,
         };

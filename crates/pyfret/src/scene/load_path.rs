@@ -83,7 +83,7 @@ impl LoadPath {
     /// Return the path with a given period of its cycles, in path time.
     ///
     /// Without it cycles are found where the loads return exactly. With it they are counted back
-    /// from the end of the path, and their ends may differ by 2 % of the largest load: noise of a
+    /// from the end of the path. Their ends may differ by 2 % of the largest load, the noise of a
     /// measured history. None takes the period out.
     #[pyo3(signature = (*, period: "float | None"))]
     fn repeats(&self, #[pyo3(from_py_with = number)] period: Option<f64>) -> Answer<Self> {
