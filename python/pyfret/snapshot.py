@@ -32,9 +32,14 @@ __all__ = ["Overview", "Shows", "Snapshot"]
 class Overview(Figures):
     """The figures of a run or of an increment; called itself, six of them in one."""
 
-    def __call__(self, *, units: Literal["auto", "dimensionless", "SI"] = "auto") -> Figure:
+    def __call__(
+        self,
+        *,
+        units: Literal["auto", "dimensionless", "SI"] = "auto",
+        width: Literal["column", "page"] | None = None,
+    ) -> Figure:
         """Draw six panels in one figure: :func:`pyfret.plot.overview`."""
-        figure: Figure = super().__call__(units=units)
+        figure: Figure = super().__call__(units=units, width=width)
         return figure
 
 

@@ -3,9 +3,19 @@
 from __future__ import annotations
 
 import math
+import re
 from typing import Protocol
 
-__all__ = ["format_number", "in_letters", "in_words", "layer_name", "length", "place", "um"]
+__all__ = [
+    "format_number",
+    "in_letters",
+    "in_powers",
+    "in_words",
+    "layer_name",
+    "length",
+    "place",
+    "um",
+]
 
 #: Units of lengths, the largest first [m].
 LENGTHS = ((1.0, "m"), (1e-3, "mm"), (1e-6, "µm"), (1e-9, "nm"))
@@ -71,6 +81,22 @@ def in_letters(text: str) -> str:
     'stops at 12 ± 1 µm'
     """
     return text.replace(" um", " µm").replace("+-", "±")
+
+
+def in_powers(text: str) -> str:
+    r"""A text with numbers such as 1.3e6 as figures have them.
+
+    Examples
+    --------
+    >>> print(in_powers("1.3e6 (1e+07 or more) cycles"))
+    $1.3\times 10^{6}$ ($10^{7}$ or more) cycles
+    """
+
+    def power(match: re.Match[str]) -> str:
+        factor = "" if float(match[1]) == 1.0 else rf"{match[1].removesuffix('.0')}\times "
+        return f"${factor}10^{{{int(match[2])}}}$"
+
+    return re.sub(r"(\d+(?:\.\d+)?)e([+-]?\d+)", power, text)
 
 
 class Placed(Protocol):

@@ -46,7 +46,7 @@ INK, SOFT, GRID, GROUND = "#202020", "#595959", "#e6e6e6", "#ffffff"
 #: Curves. The lightness of neighbours differs by 15 (CIE L*) and more, in grey print too.
 CATEGORIES = ("#0072B2", "#E57F00", "#00523B", "#CC79A7", "#3A1A5E", "#56B4E9", "#000000")
 #: The same on a dark ground.
-ON_DARK = ("#56B4E9", "#C75B12", "#7FDDB8", "#CC79A7", "#D3C3F7", "#2E8BD0", "#FFFFFF")
+ON_DARK = ("#56B4E9", "#B5480A", "#7FDDB8", "#CC79A7", "#D3C3F7", "#2E8BD0", "#FFFFFF")
 #: Zones of a contact.
 STICK, SLIP = "#0072B2", "#F2C9A9"
 #: Marks of largest values and of events.
@@ -137,6 +137,7 @@ def settings(text: float = TEXT) -> dict[str, Any]:
         "figure.dpi": 110,
         "figure.constrained_layout.use": True,
         "savefig.dpi": 200,
+        "hatch.linewidth": 0.5,
         "svg.fonttype": "none",
         "pdf.fonttype": 42,
         "axes.unicode_minus": True,

@@ -156,6 +156,10 @@ class Life(Saveable, Labelled, Figured):
         )
 
     @quantities
+    def _material_of(self, layer: int) -> Material | None:
+        """Return the material of a layer; None where it has none."""
+        return self._materials[layer]
+
     def worst_of(self, layer: int) -> Extremum:
         """Give the worst point of a layer; a ValueError where it is not judged."""
         if layer not in self._worst:

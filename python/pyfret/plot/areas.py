@@ -9,6 +9,8 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
+from pyfret._util.theme import DANGER, SAFE
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
@@ -19,6 +21,8 @@ __all__ = ["Raster", "geometric", "logarithmic"]
 
 #: What the codes of a map mean, each with its colour.
 Kinds: TypeAlias = "Mapping[int, tuple[str, str]]"
+#: Hatching of areas, by their colours.
+HATCHES = {DANGER: "//", SAFE: ".."}
 #: Points of the raster along either side.
 FINE = 300
 
@@ -101,11 +105,32 @@ class Raster:
         ax.set_xlim(self.x[0], self.x[-1])
         ax.set_ylim(self.y[0], self.y[-1])
         ax.grid(visible=False)
+        there = [code for code in kinds if (shown == code).any()]
+        for code in there:
+            if pattern := HATCHES.get(kinds[code][1]):
+                self._hatch(ax, shown == code, pattern)
         return [
-            Patch(facecolor=colour, edgecolor="0.6", label=name)
-            for code, (name, colour) in kinds.items()
-            if (shown == code).any()
+            Patch(
+                facecolor=kinds[code][1],
+                edgecolor="0.45",
+                linewidth=0.4,
+                hatch=HATCHES.get(kinds[code][1]),
+                label=kinds[code][0],
+            )
+            for code in there
         ]
+
+    def _hatch(self, ax: Axes, area: NDArray[Any], pattern: str) -> None:
+        """Hatch an area, for grey print and for colour-blind readers."""
+        drawn = ax.contourf(
+            self.x,
+            self.y,
+            np.ma.filled(area.astype(float), 0.0),
+            levels=[0.5, 1.5],
+            colors="none",
+            hatches=[pattern],
+        )
+        drawn.set(edgecolor="0.6", linewidth=0.0, zorder=0.5)
 
 
 def fine(values: NDArray[Any], *, log: bool) -> NDArray[np.float64]:

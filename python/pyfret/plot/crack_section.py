@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import matplotlib.pyplot as plt
 import numpy as np
 
 from pyfret._util.numbers import in_letters
@@ -12,8 +11,9 @@ from pyfret._util.theme import CRACK
 from pyfret.fracture.growth import Cracks, Threshold
 from pyfret.plot.cracks import crack_arrest, intensity_history, kitagawa
 from pyfret.plot.scales import scales
+from pyfret.plot.sizes import Width, new_panels
 from pyfret.plot.stresses import section_map
-from pyfret.plot.style import styled
+from pyfret.plot.style import inside_legend, styled
 from pyfret.quantities import Length, quantities
 from pyfret.subsurface.contact import stress_below
 
@@ -75,23 +75,21 @@ def crack_path(
         unreached = np.insert(s[s > end], 0, end)
         line = np.interp(unreached, s, x), np.interp(unreached, s, z)
         ax.plot(*line, color="k", linewidth=0.8, linestyle="dashed", zorder=4)
-        ax.plot(line[0][0], line[1][0], "o", color=CRACK, markersize=4, zorder=5)
-        ax.annotate(
-            in_letters(arrest.briefly()),
-            (float(line[0][0]), float(line[1][0])),
-            xytext=(6, -3),
-            textcoords="offset points",
-            fontsize=8,
-            bbox={"boxstyle": "round,pad=0.15", "fc": "white", "ec": "none", "alpha": 0.8},
-            zorder=5,
-        )
+        text = in_letters(f"the crack {arrest.briefly()}")
+        ax.plot(line[0][0], line[1][0], "o", color=CRACK, markersize=4, zorder=5, label=text)
+        inside_legend(ax)
     return ax
 
 
 @styled
 @quantities
 def crack_panels(
-    result: Run, cracks: Cracks, threshold: Threshold, *, start: Length | None = None
+    result: Run,
+    cracks: Cracks,
+    threshold: Threshold,
+    *,
+    start: Length | None = None,
+    width: Width | None = None,
 ) -> Figure:
     """Draw the crack in the stress at its largest K_I, K over the cycle, arrest and Kitagawa.
 
@@ -105,9 +103,12 @@ def crack_panels(
         Of the material.
     start : float, optional
         Length that the crack begins with [m] (default: the shortest).
+    width : "column" or "page", optional
+        Width of a new figure: a column of 85 mm or a page of 170 mm.
     """
     about = cracks.dataset.attrs
-    figure, axes = plt.subplots(2, 2, figsize=(8.4, 6.6), layout="constrained")
+    figure, grid = new_panels(4, size=(4.2, 3.3), across=(2, 2, 1))
+    axes = grid.ravel()
     K_I = cracks.dataset.K_I
     shown = K_I.isel(length=int(K_I.max("increment").values.argmax()))
     moment = result.at(int(K_I.increment[int(shown.values.argmax())]))
@@ -121,11 +122,11 @@ def crack_panels(
     # The normal stress across a crack along the depth.
     across = cos**2 * stress.s_xx + 2.0 * sin * cos * stress.s_xy + sin**2 * stress.s_yy
     names = {"x": r"\sigma_{xx}", "y": r"\sigma_{yy}", "s": r"\sigma_{ss}"}
-    section_map(across.assign_attrs(stress.s_xx.attrs), symbol=names[line.axis], ax=axes[0, 0])
-    crack_path(cracks, threshold, start=start, ax=axes[0, 0])
+    section_map(across.assign_attrs(stress.s_xx.attrs), symbol=names[line.axis], ax=axes[0])
+    crack_path(cracks, threshold, start=start, ax=axes[0])
     arrest = cracks.arrest(threshold, start=start)
     length = cracks.lengths[len(cracks.lengths) // 2] if arrest.verdict == "grows" else arrest.tip
-    intensity_history(cracks, float(length), ax=axes[0, 1])
-    crack_arrest(cracks, threshold, start=start, ax=axes[1, 0])
-    kitagawa(cracks, threshold, ax=axes[1, 1])
+    intensity_history(cracks, float(length), ax=axes[1])
+    crack_arrest(cracks, threshold, start=start, ax=axes[2])
+    kitagawa(cracks, threshold, ax=axes[3])
     return figure

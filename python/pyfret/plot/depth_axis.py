@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 from matplotlib.ticker import FixedFormatter, FixedLocator, MaxNLocator, NullLocator
@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
     from pyfret.plot.scales import Scale
 
+#: One scale of depth, a scale for each layer, or the one that shows all layers.
+DepthScale: TypeAlias = Literal["auto", "true", "layers"]
 #: Words behind the label of an axis whose scale changes from layer to layer.
 SCALES = "each layer has its own scale"
 
@@ -26,7 +28,7 @@ def draw_depth_axis(
     which: Literal["x", "y"],
     by: Scale,
     *,
-    stretch: bool | None = None,
+    depth: DepthScale = "auto",
     substrate: bool = True,
 ) -> bool:
     """Label an axis of depth; return whether each layer has a scale of its own.
@@ -41,13 +43,15 @@ def draw_depth_axis(
         The axis.
     by : Scale
         Unit of the depths.
-    stretch : bool, optional
-        Whether each layer gets room (default: if one is too thin to be seen).
+    depth : "auto", "true" or "layers"
+        One scale, or a scale for each layer (default: if one is too thin to be seen).
     substrate : bool
         Whether the deepest point lies in the substrate.
     """
     label = by.label("z")
-    stretch = (thin(borders) if stretch is None else stretch) and borders.size > 2
+    if depth not in ("auto", "true", "layers"):
+        raise ValueError(f'depth = {depth!r}: must be "auto", "true" or "layers"')
+    stretch = (thin(borders) if depth == "auto" else depth == "layers") and borders.size > 2
     if stretch:
         stretch_axis(ax, borders, which)
         name_layers(ax, borders, which, by, substrate=substrate)

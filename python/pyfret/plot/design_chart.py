@@ -11,6 +11,7 @@ from pyfret._util.theme import DANGER, MIDDLE, NEUTRAL, SAFE
 from pyfret.fracture.first import PARTS
 from pyfret.plot.areas import Raster
 from pyfret.plot.parameters import parameter_label
+from pyfret.plot.sizes import Width
 from pyfret.plot.style import axes, styled
 from pyfret.plot.tables import must_hold
 
@@ -22,8 +23,9 @@ if TYPE_CHECKING:
 __all__ = ["design_chart"]
 
 #: What fails first, by the codes of ``first``, each with its colour.
-FIRST = {0: ("nothing fails", NEUTRAL), 1: ("film", DANGER)}
-FIRST |= {2: ("interface", MIDDLE), 3: ("substrate", SAFE)}
+FIRST = {0: ("nothing fails", NEUTRAL), 1: ("nearest to failure: film", DANGER)}
+FIRST |= {2: ("nearest to failure: interface", MIDDLE)}
+FIRST |= {3: ("nearest to failure: substrate", SAFE)}
 #: Lines of the limits of film, interface and substrate.
 STYLES: tuple[Literal["solid", "dashed", "dotted"], ...] = ("solid", "dashed", "dotted")
 
@@ -35,12 +37,14 @@ def design_chart(
     y: str,
     *,
     labels: tuple[str, str] | None = None,
+    width: Width | None = None,
     ax: Axes | None = None,
 ) -> Axes:
     """Film, interface or substrate: what fails first over two parameters of a study.
 
-    Areas by what is loaded most over its limit; lines where each of the three reaches its own.
-    Between the points of the study the loads are interpolated.
+    The colour of an area names the part that is nearest to its limit, or farthest beyond it. Where
+    none has reached its limit the area is white. A line shows where a part begins to fail. Between
+    the points of the study the loads are interpolated.
 
     Parameters
     ----------
@@ -51,6 +55,8 @@ def design_chart(
     labels : (str, str), optional
         Of the axes, in SI units (default: the names of the parameters in words, with units that
         engineers read).
+    width : "column" or "page", optional
+        Width of a new figure: a column of 85 mm or a page of 170 mm.
     ax : matplotlib Axes, optional
         Where to draw.
     """
@@ -74,7 +80,7 @@ def design_chart(
         if min(load.shape) > 1 and np.nanmin(load) < 1.0 < np.nanmax(load):
             fine = raster.resample(load)
             ax.contour(raster.x, raster.y, fine, levels=[1.0], colors="0.2", linestyles=style)
-            label = f"limit of the {name}"
+            label = f"the {name} fails beyond"
             entries.append(Line2D([], [], color="0.2", linestyle=style, label=label))
     ax.set_xlabel(names[0])
     ax.set_ylabel(names[1])

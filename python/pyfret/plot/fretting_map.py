@@ -13,6 +13,7 @@ from pyfret._util.bounds import known_to
 from pyfret._util.theme import CRACK, DANGER, MIDDLE, NEUTRAL, SAFE, STICK
 from pyfret.fracture.arrest import WORDS
 from pyfret.plot.areas import Raster
+from pyfret.plot.sizes import Width
 from pyfret.plot.stresses import COLOURS
 from pyfret.plot.studies import in_figures, whole_labels
 from pyfret.plot.style import add_colour_bar, axes, styled
@@ -48,7 +49,7 @@ LENGTHS = np.array([10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0])
 
 
 @styled
-def fretting_map(table: xr.Dataset, *, ax: Axes | None = None) -> Axes:
+def fretting_map(table: xr.Dataset, *, width: Width | None = None, ax: Axes | None = None) -> Axes:
     """Running conditions as areas, over them contours of crack risk and of the energy of a cycle.
 
     The crack risk is the criterion of the map, as safety factor or as life in cycles. It has full
@@ -61,6 +62,8 @@ def fretting_map(table: xr.Dataset, *, ax: Axes | None = None) -> Axes:
     table : xarray.Dataset
         Of :func:`pyfret.study.running_conditions` with `cracking` and `arrest`; what was not asked
         for is left out.
+    width : "column" or "page", optional
+        Width of a new figure: a column of 85 mm or a page of 170 mm.
     ax : matplotlib Axes, optional
         Where to draw.
     """
@@ -175,7 +178,7 @@ def arrest_lines(ax: Axes, raster: Raster, table: xr.Dataset, colour: str = ARRE
 
 
 @styled
-def arrest_map(table: xr.Dataset, *, ax: Axes | None = None) -> Axes:
+def arrest_map(table: xr.Dataset, *, width: Width | None = None, ax: Axes | None = None) -> Axes:
     """Map where cracks stop over shear and bulk stress, and at which length.
 
     Three areas: no crack grows from its first length, cracks stop, cracks grow. Dotted lines are
@@ -185,6 +188,8 @@ def arrest_map(table: xr.Dataset, *, ax: Axes | None = None) -> Axes:
     ----------
     table : xarray.Dataset
         Of :func:`pyfret.study.arrest_map`.
+    width : "column" or "page", optional
+        Width of a new figure: a column of 85 mm or a page of 170 mm.
     ax : matplotlib Axes, optional
         Where to draw.
     """
@@ -216,7 +221,7 @@ def arrest_map(table: xr.Dataset, *, ax: Axes | None = None) -> Axes:
 
 
 @styled
-def running_map(table: xr.Dataset, *, ax: Axes | None = None) -> Axes:
+def running_map(table: xr.Dataset, *, width: Width | None = None, ax: Axes | None = None) -> Axes:
     r"""Running conditions over W and the amplitude of T or of the shift, from the sweep.
 
     Coloured by the energy ratio, which separates gross slip (0.2 and more) from partial slip. Over

@@ -8,7 +8,8 @@ import numpy as np
 
 from pyfret._util.theme import colour_map
 from pyfret.plot.scales import Units, scales
-from pyfret.plot.style import add_colour_bar, axes, styled
+from pyfret.plot.sizes import Width
+from pyfret.plot.style import add_colour_bar, axes, draw_cross, styled
 from pyfret.plot.tables import must_hold
 
 if TYPE_CHECKING:
@@ -34,7 +35,9 @@ def _degrees(found: xr.Dataset) -> str:
 
 
 @styled
-def temperature(found: xr.Dataset, *, units: Units = "auto", ax: Axes | None = None) -> Axes:
+def temperature(
+    found: xr.Dataset, *, units: Units = "auto", width: Width | None = None, ax: Axes | None = None
+) -> Axes:
     """Mean and largest temperature of a cycle along x, through the hottest place, of both bodies.
 
     Where the bodies touch their mean and instantaneous temperatures are the same.
@@ -45,6 +48,8 @@ def temperature(found: xr.Dataset, *, units: Units = "auto", ax: Axes | None = N
         From :meth:`Result.temperature`.
     units : "auto", "dimensionless" or "SI"
         Of the lengths: over a_H (default where there is one), or in um.
+    width : "column" or "page", optional
+        Width of a new figure: a column of 85 mm or a page of 170 mm.
     ax : matplotlib Axes, optional
         Where to draw.
     """
@@ -74,6 +79,7 @@ def temperature_map(
     of: Literal["steady", "largest", "flash"] = "largest",
     body_number: int = 2,
     units: Units = "auto",
+    width: Width | None = None,
     ax: Axes | None = None,
     **image: Any,
 ) -> Axes:
@@ -81,7 +87,7 @@ def temperature_map(
 
     Parameters
     ----------
-    found, units, ax
+    found, units, width, ax
         As in :func:`temperature`.
     of : "steady", "largest" or "flash"
         Mean or largest temperature of the cycle, or the difference of both.
@@ -104,7 +110,7 @@ def temperature_map(
     look = {"cmap": colour_map("warm"), "aspect": ax.get_aspect(), **image}
     drawn = ax.imshow(values.T, origin="lower", extent=extent, **look)
     hottest = found.attrs["maximum_x"] / length.value, found.attrs["maximum_y"] / length.value
-    ax.plot(*hottest, marker="x", color="0.1", markersize=5)
+    draw_cross(ax, *hottest)
     ax.set_xlabel(length.label("x"))
     ax.set_ylabel(length.label("y"))
     add_colour_bar(ax, drawn, rf"{NAMES[of]} of body {body_number} [K]")

@@ -9,6 +9,7 @@ from matplotlib.ticker import EngFormatter, MaxNLocator
 
 from pyfret._core import LoadPath
 from pyfret.plot.scales import MICRO, Scale, Units, bears, run_of, scales
+from pyfret.plot.sizes import Width
 from pyfret.plot.style import axes, note, styled
 from pyfret.quantities import FrictionCoefficient, quantities
 
@@ -73,6 +74,7 @@ def fretting_loop(
     *,
     direction: Direction | None = None,
     units: Units = "auto",
+    width: Width | None = None,
     ax: Axes | None = None,
     **line: Any,
 ) -> Axes:
@@ -92,6 +94,8 @@ def fretting_loop(
     units : "auto", "dimensionless" or "SI"
         Dimensionless (default where there is a Hertz contact) or in N and um; line contacts, whose
         approach is no yardstick, in N/m and um.
+    width : "column" or "page", optional
+        Width of a new figure: a column of 85 mm or a page of 170 mm.
     ax : matplotlib Axes, optional
         Where to draw.
     **line
@@ -152,7 +156,9 @@ def loop_scales(result: Run, units: Units, *, torsion: bool) -> tuple[Scale, Sca
 
 
 @styled
-def stick_ratio(result: Run, *, ax: Axes | None = None, **line: Any) -> Axes:
+def stick_ratio(
+    result: Run, *, width: Width | None = None, ax: Axes | None = None, **line: Any
+) -> Axes:
     r"""Stick area over contact area along the load path, over :math:`t/\tau`.
 
     At a reversal under constant W the ratio steps up to 1. Branches of few increments have a dot
@@ -197,7 +203,11 @@ DRIVEN = {
 @styled
 @quantities
 def load_path(
-    path: LoadPath | Run, *, mu: FrictionCoefficient | None = None, ax: Axes | None = None
+    path: LoadPath | Run,
+    *,
+    mu: FrictionCoefficient | None = None,
+    width: Width | None = None,
+    ax: Axes | None = None,
 ) -> Axes:
     r"""Loads and motions that a path drives over :math:`t/\tau`, the end of which is 1.
 
@@ -254,7 +264,9 @@ def histories(
 
 
 @styled
-def loop_evolution(result: Run, *, ax: Axes | None = None, **line: Any) -> Axes:
+def loop_evolution(
+    result: Run, *, width: Width | None = None, ax: Axes | None = None, **line: Any
+) -> Axes:
     """Energy ratio, sliding ratio and dissipated energy of each cycle, the last over its mean.
 
     Of the first motion that the path drives: along x, along y or in torsion. Of a single cycle the

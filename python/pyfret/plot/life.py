@@ -5,19 +5,22 @@ from __future__ import annotations
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, Protocol
 
-import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from matplotlib.ticker import MaxNLocator
+from matplotlib.projections.polar import PolarAxes
+from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from pyfret import _core, fatigue
+from pyfret._core import with_error, with_range
 from pyfret._util.arrays import histories
 from pyfret._util.depths import interfaces
 from pyfret._util.material_names import as_material
-from pyfret._util.numbers import layer_name
+from pyfret._util.numbers import in_letters, in_powers, layer_name
 from pyfret._util.theme import MARK, REFERENCE, STICK
-from pyfret.plot.depth_axis import draw_depth_axis
+from pyfret.plot.depth_axis import DepthScale, draw_depth_axis
 from pyfret.plot.scales import scales
+from pyfret.plot.sizes import Width, new_axes
 from pyfret.plot.stresses import COLOURS, FLAT, section_size
 from pyfret.plot.style import add_colour_bar, axes, inside_legend, mark, note, styled
 from pyfret.quantities import Numbers
@@ -34,6 +37,7 @@ if TYPE_CHECKING:
     from pyfret.fatigue.factors import Factor, LoadFactors
     from pyfret.fatigue.judged import Life
     from pyfret.plot.scales import Units
+    from pyfret.subsurface.extremum import Extremum
 
 #: How criteria are written in figures.
 NAMES = dict(_core.criteria())
@@ -50,6 +54,14 @@ UNJUDGED = "0.9"
 ENDLESS = _core.LONGEST_LIFE
 
 
+def used_part(worst: Extremum) -> str:
+    """Return the largest value over the limit with its range, where a criterion has a limit."""
+    assert worst.margin is not None
+    assert worst.whole is not None
+    low, high = (1.0 / margin if margin else np.inf for margin in worst.whole[::-1])
+    return f"{with_range(1.0 / worst.margin, low, high)} of the limit"
+
+
 def _shown(life: Life) -> tuple[NDArray[np.float64], str]:
     """The field of a map and what it is called."""
     name = NAMES[life.dataset.attrs["criterion"]]
@@ -57,7 +69,7 @@ def _shown(life: Life) -> tuple[NDArray[np.float64], str]:
     if life.margin.name == "safety_factor":
         return 1.0 / margin, f"{name}: value over limit"
     # A decade beyond the last contour, so that its line runs between the points.
-    return np.log10(np.minimum(margin, 10 * ENDLESS)), rf"{name}: $\log_{{10}}$ cycles"
+    return np.log10(np.minimum(margin, 10 * ENDLESS)), f"{name}: life [cycles]"
 
 
 @styled
@@ -66,14 +78,15 @@ def criterion_map(
     *,
     units: Units = "auto",
     levels: int = 12,
-    stretch: bool | None = None,
+    depth: DepthScale = "auto",
     whole: bool = False,
+    width: Width | None = None,
     ax: Axes | None = None,
 ) -> Axes:
     """Contours of a criterion on a section, with the worst point and its margin.
 
     Criteria with a limit have the value over the limit; the bold contour is the limit itself. The
-    others have the decimal logarithm of the life, empty beyond 1e7 cycles. Layers without a
+    others have the life in cycles, empty beyond 1e7 cycles. Layers without a
     material stay empty.
 
     Parameters
@@ -84,21 +97,24 @@ def criterion_map(
         Of the lengths: over a_H (default where there is one), or in um.
     levels : int
         Number of contours, about.
-    stretch : bool, optional
-        Whether every layer gets room on the axis of depth (default: if one is too thin to be seen).
+    depth : "auto", "true" or "layers"
+        Whether depths have one scale, or each layer a scale of its own (default: if one layer is
+        too thin to be seen).
     whole : bool
         Whether the whole section is shown. By default the place where the criterion reaches half of
         its largest value is enlarged, if it takes less than half of the section.
+    width : "column" or "page", optional
+        Width of a new figure: a column of 85 mm or a page of 170 mm.
     ax : matplotlib Axes, optional
         Where to draw.
     """
     worst = life.worst
     safety = life.margin.name == "safety_factor"
     margin_text = worst.format_margin()
-    margin = f"safety {margin_text}" if safety else f"{margin_text} cycles"
+    margin = used_part(worst) if safety else f"{in_powers(margin_text)} cycles"
     field, label = _shown(life)
     shown = life.dataset.value.copy(data=field).assign_attrs(life.dataset.attrs)
-    ax = _contours(shown, label, units, levels, ax, stretch=stretch, limit=1.0 if safety else None)
+    ax = _contours(shown, label, units, levels, ax, depth=depth, limit=1.0 if safety else None)
     if not whole:
         _enlarge(ax, shown, life.dataset.value.values, units)
     at = (line_of(shown).place(worst.x, worst.y), worst.z)
@@ -113,13 +129,15 @@ def load_factor_map(
     of: Factor = "von_mises",
     units: Units = "auto",
     levels: int = 12,
-    stretch: bool | None = None,
+    depth: DepthScale = "auto",
     whole: bool = False,
+    width: Width | None = None,
     ax: Axes | None = None,
 ) -> Axes:
-    """Contours of load over limit on a section, with the least load factor and its place.
+    """Contours of load over limit on a section, with the largest value and its place.
 
-    The bold contour is the limit. Layers without a yield stress stay empty.
+    The load factor of the section is one over this value. The bold contour is the limit. Layers
+    without a yield stress stay empty.
 
     Parameters
     ----------
@@ -127,18 +145,19 @@ def load_factor_map(
         From :meth:`Result.load_factors`.
     of : "von_mises", "tresca" or "shakedown"
         First yield by one of the conditions, or shakedown.
-    units, levels, stretch, whole, ax
+    units, levels, depth, whole, width, ax
         As in :func:`criterion_map`.
     """
     least = factors.least(of)
     shown = factors.use(of).assign_attrs(factors.dataset.attrs)
     name = {"von_mises": "First yield, von Mises", "tresca": "First yield, Tresca"}
     label = f"{name.get(of, 'Shakedown')}: load over limit"
-    ax = _contours(shown, label, units, levels, ax, stretch=stretch, limit=1.0)
+    ax = _contours(shown, label, units, levels, ax, depth=depth, limit=1.0)
     if not whole:
         _enlarge(ax, shown, shown.values, units)
     at = (line_of(shown).place(least.x, least.y), least.z)
-    _mark(ax, at, f"least factor {least.value:.3g}", shown, units)
+    largest = with_error(1.0 / least.value, least.error / least.value**2)
+    _mark(ax, at, f"largest {in_letters(largest)} of the limit", shown, units)
     return ax
 
 
@@ -149,7 +168,7 @@ def _contours(
     levels: int,
     ax: Axes | None,
     *,
-    stretch: bool | None,
+    depth: DepthScale,
     limit: float | None,
 ) -> Axes:
     """Contours of a field over (depth, x) or (depth, y), layer by layer; dark is near to the limit.
@@ -159,25 +178,27 @@ def _contours(
     if shown.ndim != 2:
         raise ValueError("the figure shows one section: section(place) gives one of several")
     if ax is None:
-        ax = plt.figure(figsize=section_size(shown, 5.4)).add_subplot()
+        ax = new_axes(section_size(shown, 5.4))
     length = scales(shown.attrs, units).length
     along = str(shown.dims[1])
     x, z = shown[along].values / length.value, shown.z.values / length.value
-    inner = [depth / length.value for depth in interfaces(shown.z, shown.layer)]
+    inner = [z_i / length.value for z_i in interfaces(shown.z, shown.layer)]
     borders = np.array([z[0], *inner, z[-1]])
-    stretch = draw_depth_axis(ax, borders, "y", length, stretch=stretch)
+    stretch = draw_depth_axis(ax, borders, "y", length, depth=depth)
     ax.set_facecolor(UNJUDGED)
     for part, (top, bottom) in enumerate(pairwise(borders)):
         field_of_layer = shown.values[shown.layer.values == shown.layer.values[0] + part]
         if np.isnan(field_of_layer).all():
             ax.axhspan(top, bottom, **NO_MATERIAL)
     image = _filled(ax, x, z, shown, levels, limit)
-    for depth in inner:
-        ax.axhline(depth, color="0.2", linewidth=0.8, linestyle=(0, (6, 3)))
+    for border in inner:
+        ax.axhline(border, color="0.2", linewidth=0.8, linestyle=(0, (6, 3)))
     ax.set_xlim(x[0], x[-1])
     ax.set_ylim(z[-1], z[0])
     if image is not None:
-        add_colour_bar(ax, image, label)
+        bar = add_colour_bar(ax, image, label)
+        if limit is None:
+            bar.ax.yaxis.set_major_formatter(FuncFormatter(lambda v, _: in_powers(f"{10**v:.1e}")))
     ax.set_xlabel(length.label(along))
     flat = x[-1] - x[0] > FLAT * (z[-1] - z[0])
     ax.set_aspect("auto" if stretch or flat else "equal")
@@ -228,11 +249,12 @@ def _filled(
     highest = np.nanmax(field)
     if limit is None:
         highest = min(highest, np.log10(ENDLESS))
-    steps = np.asarray(MaxNLocator(levels).tick_values(np.nanmin(field), highest))
-    if limit is None and np.nanmax(field) > highest:
-        steps = np.append(steps[steps < highest], highest)
-        if steps.size < 2:
+    if limit is None:
+        steps = decades(float(np.nanmin(field)), float(highest), levels)
+        if np.nanmin(field) >= highest:
             return None
+    else:
+        steps = np.asarray(MaxNLocator(levels).tick_values(np.nanmin(field), highest))
     bold = False
     for part in np.unique(layers):
         in_layer = layers == part
@@ -252,6 +274,22 @@ def _filled(
     return image
 
 
+#: Numbers of a decade at which contours of lives lie, the closest ones first.
+SUBDIVISIONS = ((1.0, 1.5, 2.0, 3.0, 5.0, 7.0), (1.0, 2.0, 5.0), (1.0, 3.0), (1.0,))
+
+
+def decades(low: float, high: float, levels: int) -> NDArray[np.float64]:
+    """Return the logarithms of about `levels` round numbers that enclose a range."""
+    for subs in SUBDIVISIONS:
+        powers = np.arange(np.floor(low) - 1, np.ceil(high) + 2)
+        steps = np.sort(np.add.outer(powers, np.log10(subs)).ravel())
+        first = max(int(np.searchsorted(steps, low + 1e-9, side="right")) - 1, 0)
+        last = int(np.searchsorted(steps, high - 1e-9))
+        if last - first <= levels:
+            break
+    return steps[first : last + 1]
+
+
 def _mark(
     ax: Axes,
     place: tuple[float, float],
@@ -267,7 +305,7 @@ def _mark(
     handles: list[Artist] = list(ax.get_legend_handles_labels()[0])
     field = shown.values
     if lives and (field > np.log10(ENDLESS)).any():
-        handles.append(Patch(color=UNJUDGED, label=f"beyond {ENDLESS:.0e} cycles"))
+        handles.append(Patch(color=UNJUDGED, label=f"beyond {in_powers(f'{ENDLESS:.0e}')} cycles"))
     if np.isnan(field).any():
         handles.append(Patch(**NO_MATERIAL, label="no material given"))
     inside_legend(ax, handles=handles)
@@ -291,6 +329,8 @@ def critical_plane_rose(
     criterion: fatigue.Criterion | None = None,
     *,
     plastic_strain: Numbers | None = None,
+    width: Width | None = None,
+    ax: Axes | None = None,
 ) -> Axes:
     """Draw the stresses on the planes through one point whose normal lies in the x-z plane.
 
@@ -307,6 +347,8 @@ def critical_plane_rose(
         One that has a critical plane (default: the life's own).
     plastic_strain : array of the shape of the stress, optional
         Plastic strain at the same instants (default: the life's own).
+    width : "column" or "page", optional
+        Width of a new figure: a column of 85 mm or a page of 170 mm.
     """
     life_or_stress = stress
     stress, own_criterion = history_of(stress)
@@ -327,8 +369,11 @@ def critical_plane_rose(
     s_n = np.maximum((c * c * xx + s * s * zz + 2 * s * c * xz).max(axis=1), 0.0) / 1e6
     shear = s * c * (zz - xx) + (c * c - s * s) * xz
     tau = (shear.max(axis=1) - shear.min(axis=1)) / 2e6
-    ax = plt.figure(figsize=(4.4, 4.4)).add_subplot(projection="polar")
-    ax.set_theta_direction(-1)  # type: ignore[attr-defined]
+    if ax is None:
+        ax = new_axes((4.4, 4.4), projection="polar")
+    if not isinstance(ax, PolarAxes):
+        raise TypeError('ax: must be polar axes, as figure.add_subplot(projection="polar") gives')
+    ax.set_theta_direction(-1)
     ax.plot(angle, s_n, color="C0", label=r"$\sigma_\mathrm{n,max}$ [MPa]")
     ax.plot(angle, tau, color="C2", label=r"$\tau_\mathrm{a}$ [MPa]")
     reach = 1.05 * max(s_n.max(), tau.max())
@@ -336,33 +381,44 @@ def critical_plane_rose(
     at = float(np.arctan2(normal[2], normal[0]))
     at = (at + np.pi / 2) % np.pi - np.pi / 2
     share = np.hypot(normal[0], normal[2])
+    label = f"critical normal, {np.degrees(at):.1f}° from $x$"
     ax.plot(
-        [at, at + np.pi], [share * reach] * 2, color=MARK, linewidth=1.6, label="critical normal"
+        [at, at + np.pi],
+        [share * reach] * 2,
+        color=MARK,
+        linewidth=1.6,
+        label=label,
     )
-    ax.set_rmax(reach)  # type: ignore[attr-defined]
+    ax.set_rmax(reach)
     # The numbers of the radius where the curves are nearest to the middle.
     outer = np.maximum(s_n, tau) + np.where(np.abs(np.sin(angle - at)) < 0.2, reach, 0.0)
     free = float(np.degrees(angle[int(outer.argmin())]))
-    ax.set_rlabel_position(free)  # type: ignore[attr-defined]
+    ax.set_rlabel_position(free)
     ax.set_xticks(np.radians([0, 45, 90, 135, 180, 225, 270, 315]))
     ax.set_xticklabels(["x", "45°", "z", "135°", "-x", "225°", "-z", "315°"])
-    ax.set_title(
-        f"{NAMES[criterion.name]}, normal {np.degrees(at):.1f}° from x towards z", fontsize=9
-    )
-    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.06), ncols=3, fontsize=8)
+    ax.set_title(NAMES[criterion.name])
+    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.06), ncols=2)
     return ax
 
 
 @styled
 def dang_van_diagram(
-    stress: ArrayLike | Life, *, material: Material | str | None = None, ax: Axes | None = None
+    stress: ArrayLike | Life,
+    *,
+    material: Material | str | None = None,
+    width: Width | None = None,
+    ax: Axes | None = None,
 ) -> Axes:
     """Path of one point in Dang Van's plane: mesoscopic shear over hydrostatic stress.
 
-    With a material that has ``s_D`` and ``t_D``, the limit tau = t_D - alpha p_h, and the instant
-    that is nearest to it or farthest beyond. `stress` has the shape (time, 6) [Pa]; of a life it is
-    that at its worst point.
+    A material that has ``s_D`` and ``t_D`` adds the limit tau = t_D - alpha p_h. A cross marks the
+    instant nearest to it or farthest beyond. By default it is the material of a life at
+    its worst point. `stress` has the shape (time, 6) [Pa]; of a life it is the history at its
+    worst point.
     """
+    if material is None and isinstance(stress, fatigue.Life):
+        layer_material = stress._material_of(stress.worst.layer)
+        material = layer_material if has_numbers(layer_material, "t_D", "s_D") else None
     stress, _ = history_of(stress)
     ax = axes(ax)
     tau, p_h = (v / 1e6 for v in fatigue.dang_van_path(stress))
@@ -375,9 +431,9 @@ def dang_van_diagram(
         ax.plot(ends, t_D - alpha * ends, color="0.2", linestyle="--", label="limit")
         worst = int(np.argmax(tau + alpha * p_h))
         factor = t_D / (tau[worst] + alpha * p_h[worst])
-        label = f"safety {factor:.3g}" if factor > 0.0 else "never"
+        label = f"nearest to the limit: safety factor {factor:.3g}" if factor > 0.0 else "no limit"
         ax.plot(p_h[worst], tau[worst], "x", color=MARK, ms=7, mew=1.6, label=label)
-        ax.legend()
+        ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), borderpad=0.1)
     ax.set_xlabel(r"hydrostatic stress $p_\mathrm{h}$ [MPa]")
     ax.set_ylabel(r"mesoscopic shear $\tau$ [MPa]")
     ax.set_ylim(bottom=0.0)
@@ -386,14 +442,18 @@ def dang_van_diagram(
 
 @styled
 def haigh_diagram(
-    life: Life, *, material: Material | str | None = None, ax: Axes | None = None
+    life: Life,
+    *,
+    material: Material | str | None = None,
+    width: Width | None = None,
+    ax: Axes | None = None,
 ) -> Axes:
     """Amplitude over mean of the normal stress on the critical planes of all points of a section.
 
-    A cross marks the worst point of every layer. With a material, the limit of uniaxial stress.
-    Where there is ``s_u``, it goes from ``s_D`` fully reversed to ``s_u`` without amplitude
-    (Goodman 1899). Else it follows from Dang Van's criterion, s_D - (1 - s_D/(2 t_D)) times the
-    mean.
+    A cross marks the worst point of every layer. The dashed line is the limit of uniaxial stress of
+    the material, by default the one of the worst layer. Where there is ``s_u``, it goes from
+    ``s_D`` fully reversed to ``s_u`` without amplitude (Goodman 1899). Else it follows from Dang
+    Van's criterion, s_D - (1 - s_D/(2 t_D)) times the mean.
 
     The limit is meant for planes of the largest normal stress, such as those of
     ``"smith_watson_topper"``. Planes of shear have less normal stress at the same danger.
@@ -403,7 +463,10 @@ def haigh_diagram(
     life : Life
         From :meth:`Result.life`, of a criterion that has critical planes.
     material : Material, optional
-        With ``s_D``, and ``s_u`` or ``t_D``.
+        With ``s_D``, and ``s_u`` or ``t_D`` (default: the material of the worst layer, if it has
+        these numbers).
+    width : "column" or "page", optional
+        Width of a new figure: a column of 85 mm or a page of 170 mm.
     ax : matplotlib Axes, optional
         Where to draw.
     """
@@ -421,14 +484,27 @@ def haigh_diagram(
         name = layer_name(layer, len(d.attrs["interfaces"]))
         at = (mean.ravel()[n], amplitude.ravel()[n])
         ax.plot(*at, "x", color=colour, ms=8, mew=1.8, label=f"worst point, {name}")
+    if material is None:
+        layer_material = life._material_of(life.worst.layer)
+        pairs = (("s_D", "t_D"), ("s_D", "s_u"))
+        if any(has_numbers(layer_material, *pair) for pair in pairs):
+            material = layer_material
     if material is not None:
         _limit_of_uniaxial_stress(ax, as_material(material))
     ax.set_ylim(bottom=0.0)
     ax.set_xlabel(r"mean normal stress $\sigma_\mathrm{n,m}$ [MPa]")
     ax.set_ylabel(r"amplitude $\sigma_\mathrm{n,a}$ [MPa]")
-    ax.set_title(f"planes of {NAMES[criterion]}", fontsize=9)
-    ax.legend(fontsize=8)
+    points = Line2D([], [], linestyle="none", marker=".", color="0.4")
+    points.set_label(f"points, planes of {NAMES[criterion]}")
+    handles = [points, *ax.get_legend_handles_labels()[0]]
+    # Outside: inside it would look like points.
+    ax.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.0, 1.0), borderpad=0.1)
     return ax
+
+
+def has_numbers(material: Material | None, *names: str) -> bool:
+    """Check that a material has numbers of these names."""
+    return material is not None and set(names) <= {name for name, _, _ in material.numbers()}
 
 
 def _limit_of_uniaxial_stress(ax: Axes, material: Material) -> None:
@@ -436,9 +512,11 @@ def _limit_of_uniaxial_stress(ax: Axes, material: Material) -> None:
     slope, name = fatigue.mean_stress_slope(material)
     s_D = material.number("s_D") / 1e6
     x_min, right = ax.get_xlim()
-    ends = np.array([min(x_min, 0.0), s_D / slope if slope > 0.0 else right])
+    top = ax.get_ylim()[1]
+    ends = np.array([min(x_min, 0.0), s_D / slope if slope > 0.0 else max(right, s_D)])
     ax.plot(ends, s_D - slope * ends, color="0.2", linestyle="--", label=f"limit, {name}")
-    ax.set_xlim(x_min, right)
+    ax.set_xlim(x_min, max(right, 0.2 * s_D))
+    ax.set_ylim(top=max(top, 1.1 * s_D))
 
 
 class OverDistances(Protocol):
@@ -454,13 +532,17 @@ class OverDistances(Protocol):
 
 
 @styled
-def life_over_distance(of: OverDistances | Life, *, ax: Axes | None = None) -> Axes:
+def life_over_distance(
+    of: OverDistances | Life, *, width: Width | None = None, ax: Axes | None = None
+) -> Axes:
     """Life or safety factor over the distance that the stress is averaged over, with its range.
 
     Parameters
     ----------
     of : OverDistance or Life
         As :meth:`pyfret.fatigue.Life.over_distance` gives it; of a life over its distances.
+    width : "column" or "page", optional
+        Width of a new figure: a column of 85 mm or a page of 170 mm.
     ax : matplotlib Axes, optional
         Where to draw.
     """
@@ -476,7 +558,7 @@ def life_over_distance(of: OverDistances | Life, *, ax: Axes | None = None) -> A
     ax.fill_between(L, low, high, color=STICK, alpha=0.2, lw=0, label="10 to 90 %")
     ax.plot(L, margin.where(np.isfinite(margin)), "o-", color=STICK, ms=4, label="best estimate")
     if life and float(np.nanmax(high)) >= ENDLESS:
-        ax.axhline(ENDLESS, color=REFERENCE, lw=1, label="longest life that is told")
+        ax.axhline(ENDLESS, color=REFERENCE, lw=1, label="longest life that is computed")
     if "L" in d.attrs:
         ax.axvline(
             1e6 * d.attrs["L"],

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from matplotlib.colors import ListedColormap
@@ -17,8 +17,10 @@ from pyfret.plot.along import (
     touched,
     zones_along,
 )
-from pyfret.plot.scales import MICRO, Scale, Units, last_of, scales_of_snapshot
+from pyfret.plot.scales import MICRO, Scale, Units, last_of, run_of, scales_of_snapshot
+from pyfret.plot.sizes import Width
 from pyfret.plot.style import add_colour_bar, axes, styled
+from pyfret.run.slid import slid_distance
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -27,6 +29,8 @@ if TYPE_CHECKING:
 
     from pyfret.run import Run, State
 
+#: Labels of the net slip and of the slid distance.
+SLIPS = {"net": "net slip $|s|$ [µm]", "distance": r"slid distance $\int|\mathrm{d}s|$ [µm]"}
 #: Part of the cells of a contact whose slip a scale of colours covers.
 INNER = 0.97
 
@@ -61,7 +65,9 @@ def is_round(snapshot: State) -> bool:
 
 
 @styled
-def stick_slip(shown: State | Run, *, units: Units = "auto", ax: Axes | None = None) -> Axes:
+def stick_slip(
+    shown: State | Run, *, units: Units = "auto", width: Width | None = None, ax: Axes | None = None
+) -> Axes:
     """Draw stick and slip zones; dashed, the Hertz circle of spheres.
 
     Of a line contact the pressure along x, coloured by the zones.
@@ -72,6 +78,8 @@ def stick_slip(shown: State | Run, *, units: Units = "auto", ax: Axes | None = N
         The contact; of a result the last increment that it has kept.
     units : "auto", "dimensionless" or "SI"
         Lengths over a_H (default where there is a Hertz contact) or in um.
+    width : "column" or "page", optional
+        Width of a new figure: a column of 85 mm or a page of 170 mm.
     ax : matplotlib Axes, optional
         Where to draw.
     """
@@ -126,6 +134,7 @@ def pressure_map(
     shown: State | Run,
     *,
     units: Units = "auto",
+    width: Width | None = None,
     ax: Axes | None = None,
     colorbar: bool = True,
     **image: Any,
@@ -134,7 +143,7 @@ def pressure_map(
 
     Parameters
     ----------
-    shown, units, ax
+    shown, units, width, ax
         As in :func:`stick_slip`.
     colorbar : bool
         Whether to draw the scale beside the map.
@@ -157,30 +166,47 @@ def pressure_map(
 def slip_map(
     shown: State | Run,
     *,
+    of: Literal["net", "distance"] = "net",
     units: Units = "auto",
+    width: Width | None = None,
     ax: Axes | None = None,
     colorbar: bool = True,
     **image: Any,
 ) -> Axes:
-    """Size of the slip added up over the path, in um; parameters as in :func:`pressure_map`.
+    """Net slip since the start of the path, or the slid distance, in um.
 
-    Of a line contact along x.
+    The net slip is the size of the vector from where a cell began to where it is. It returns to
+    zero where the surfaces come back. The slid distance is the length of the way between, which
+    wears. Of a line contact both are drawn along x.
 
     The scale of colours ends above all cells but a few: those that come and go with the rim slip
     farther than the others.
+
+    Parameters
+    ----------
+    shown, units, width, ax, colorbar, **image
+        As in :func:`pressure_map`.
+    of : "net" or "distance"
+        Net slip, or slid distance. The distance needs a result that kept the fields of all
+        increments, ``solve(..., save="all")``.
     """
     snapshot = last_of(shown)
     by = scales_of_snapshot(snapshot, units)
-    slip = np.hypot(snapshot.dataset.slip_x.values, snapshot.dataset.slip_y.values)
+    if of not in SLIPS:
+        raise ValueError(f'of = {of!r}: must be "net" or "distance"')
+    if of == "net":
+        slip = np.hypot(snapshot.dataset.slip_x.values, snapshot.dataset.slip_y.values)
+    else:
+        slip = slid_distance(run_of(shown))
     contact = snapshot.dataset.contact.values.astype(bool)
     largest = np.quantile(slip[contact], INNER) / MICRO.value if contact.any() else None
     if snapshot.scene.grid.plane_strain:
         shown_s = slip / MICRO.value
-        return field_along(ax, snapshot, shown_s, MICRO.label("|s|"), by.length)
+        return field_along(ax, snapshot, shown_s, SLIPS[of], by.length)
     look = {"vmin": 0, "vmax": largest or None, **image}
     ax, drawn = field_map(ax, snapshot, slip, MICRO, by.length, **look)
     if colorbar:
-        label_scale(drawn, ax, MICRO.label("|s|"))
+        label_scale(drawn, ax, SLIPS[of])
     return ax
 
 
@@ -189,6 +215,7 @@ def shear_streamlines(
     shown: State | Run,
     *,
     units: Units = "auto",
+    width: Width | None = None,
     ax: Axes | None = None,
     largest: float | None = None,
     colorbar: bool = True,
@@ -204,6 +231,8 @@ def shear_streamlines(
         The contact to show; of a result the last increment that it has kept.
     units : "auto", "dimensionless" or "SI"
         Over a_H and mu p_H (default where there is a Hertz contact), or in um and MPa.
+    width : "column" or "page", optional
+        Width of a new figure: a column of 85 mm or a page of 170 mm.
     ax : matplotlib Axes, optional
         Where to draw.
     largest : float, optional

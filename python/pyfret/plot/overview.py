@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import matplotlib.pyplot as plt
 import numpy as np
 
 from pyfret._util.text import literal
@@ -13,6 +12,7 @@ from pyfret.plot.along import look_along
 from pyfret.plot.histories import driven, fretting_loop, load_path, stick_ratio
 from pyfret.plot.maps import pressure_map, shear_streamlines, slip_map, stick_slip
 from pyfret.plot.scales import Scales, Units, last_of, scales_of_snapshot
+from pyfret.plot.sizes import Width, new_panels
 from pyfret.plot.stresses import stress_map
 from pyfret.plot.style import apart, note, styled
 from pyfret.run import Run, State
@@ -27,7 +27,7 @@ __all__ = ["overview"]
 
 
 @styled
-def overview(shown: Run | State, *, units: Units = "auto") -> Figure:
+def overview(shown: Run | State, *, units: Units = "auto", width: Width | None = None) -> Figure:
     """Draw six panels, those of the report: the loop, tractions, zones and the stress below.
 
     Of a path without a cycle the loads over the path stand in place of the loop. Of a line contact
@@ -39,10 +39,12 @@ def overview(shown: Run | State, *, units: Units = "auto") -> Figure:
         The run, whose last increment with fields is shown, or an increment, without its loop.
     units : "auto", "dimensionless" or "SI"
         Over a_H and p_H (default where there is a Hertz contact), or in um and MPa.
+    width : "column" or "page", optional
+        Width of a new figure: a column of 85 mm or a page of 170 mm.
     """
     at = last_of(shown)
     by = scales_of_snapshot(at, units)
-    figure, grid = plt.subplots(2, 3, figsize=(11.8, 7.0))
+    figure, grid = new_panels(6, size=(3.93, 3.5), across=(3, 2, 1))
     apart(figure)
     first, second, third, fourth, fifth, sixth = grid.ravel()
     names = ["", "tractions", "pressure", "shear", "stick and slip", "stress"]

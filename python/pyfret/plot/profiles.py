@@ -12,6 +12,7 @@ from pyfret._util.theme import REFERENCE, colour_map
 from pyfret.plot.along import look_along
 from pyfret.plot.histories import NAMES, driven
 from pyfret.plot.scales import Units, last_of, run_of, scales_of_snapshot
+from pyfret.plot.sizes import Width
 from pyfret.plot.style import axes, styled
 from pyfret.subsurface.line import fields_on, main_line, main_shear
 from pyfret.subsurface.moments import lines_of
@@ -25,7 +26,12 @@ if TYPE_CHECKING:
 
 @styled
 def pressure_profile(
-    shown: State | Run, *, units: Units = "auto", ax: Axes | None = None, **line: Any
+    shown: State | Run,
+    *,
+    units: Units = "auto",
+    width: Width | None = None,
+    ax: Axes | None = None,
+    **line: Any,
 ) -> Axes:
     """Pressure along the shear, over p_H and a_H or in MPa and um.
 
@@ -37,6 +43,8 @@ def pressure_profile(
         The contact; of a result the last increment that it has kept.
     units : "auto", "dimensionless" or "SI"
         Dimensionless (default where there is a Hertz contact) or SI.
+    width : "column" or "page", optional
+        Width of a new figure: a column of 85 mm or a page of 170 mm.
     ax : matplotlib Axes, optional
         Where to draw.
     **line
@@ -60,6 +68,7 @@ def shear_profile(
     of: Literal["q_x", "q_y", "q_s", "q_t"] | None = None,
     bound: bool = False,
     units: Units = "auto",
+    width: Width | None = None,
     ax: Axes | None = None,
     **line: Any,
 ) -> Axes:
@@ -69,7 +78,7 @@ def shear_profile(
 
     Parameters
     ----------
-    shown, units, ax, **line
+    shown, units, width, ax, **line
         As in :func:`pressure_profile`.
     of : "q_x", "q_y", "q_s" or "q_t", optional
         Which component (default: the larger one on the line, as q_y in torsion); q_s and q_t on an
@@ -111,7 +120,9 @@ def _shear_on(
 
 
 @styled
-def shear_profiles(result: Run, *, units: Units = "auto", ax: Axes | None = None) -> Axes:
+def shear_profiles(
+    result: Run, *, units: Units = "auto", width: Width | None = None, ax: Axes | None = None
+) -> Axes:
     """Shear traction along its direction for every increment whose fields were kept.
 
     On the line through the centre of the largest contact, along the shear of all increments.

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Literal
 
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.ticker import MaxNLocator
 
@@ -12,9 +11,10 @@ from pyfret._util.arrays import plain
 from pyfret._util.depths import interfaces, thin
 from pyfret._util.numbers import in_words
 from pyfret._util.theme import colour_map
-from pyfret.plot.depth_axis import draw_depth_axis
+from pyfret.plot.depth_axis import DepthScale, draw_depth_axis
 from pyfret.plot.scales import Scales, Units, scales
-from pyfret.plot.style import add_colour_bar, apart, axes, mark, styled
+from pyfret.plot.sizes import Width, new_axes, new_panels
+from pyfret.plot.style import add_colour_bar, axes, mark, styled
 from pyfret.plot.tables import must_hold
 from pyfret.quantities import RelativeDepth
 from pyfret.subsurface.contact import stress_below
@@ -109,7 +109,8 @@ def contour_levels(
 ) -> tuple[NDArray[np.float64], Colormap]:
     """Return the contours of a field, about `levels` of them, and its colours.
 
-    Fields of both signs have contours symmetric about zero and colours with white at zero.
+    Fields of both signs have contours symmetric about zero and colours with white at zero, and so
+    have contours that are given symmetric about zero.
     """
     signed = is_signed(field)
     if isinstance(levels, int):
@@ -123,8 +124,8 @@ def contour_levels(
     steps = plain(levels, "levels")
     if steps.ndim != 1 or steps.size == 0:
         raise ValueError(f"levels = {levels!r:.60}: must be a number of contours, or their values")
-    symmetric = bool(np.isclose(steps[0], -steps[-1], rtol=1e-9))
-    return steps, SIGNED if signed and symmetric else COLOURS
+    symmetric = steps.size > 1 and bool(np.isclose(steps[0], -steps[-1], rtol=1e-9))
+    return steps, SIGNED if symmetric else COLOURS
 
 
 @styled
@@ -138,8 +139,9 @@ def section_map(
     levels: int | Sequence[float] = 12,
     maximum: Extremum | None = None,
     aspect: Literal["equal", "auto"] | None = None,
-    stretch: bool | None = None,
+    depth: DepthScale = "auto",
     colorbar: bool = True,
+    width: Width | None = None,
     ax: Axes | None = None,
 ) -> Axes:
     """Contours of a field on a section, depth downwards.
@@ -161,11 +163,13 @@ def section_map(
     aspect : "equal" or "auto", optional
         Whether lengths are the same in both directions (default: unless the depth is stretched or
         the section is much longer than deep).
-    stretch : bool, optional
-        Whether every layer gets room on the axis of depth, each on a scale of its own (default: if
-        one is too thin to be seen).
+    depth : "auto", "true" or "layers"
+        Whether depths have one scale, or each layer a scale of its own (default: if one layer is
+        too thin to be seen).
     colorbar : bool
         Whether to draw the scale beside the map.
+    width : "column" or "page", optional
+        Width of a new figure: a column of 85 mm or a page of 170 mm.
     ax : matplotlib Axes, optional
         Where to draw.
     """
@@ -173,12 +177,12 @@ def section_map(
     along = str(values.dims[1])
     x, z = values[along].values / by.length.value, values.z.values / by.length.value
     if ax is None:
-        ax = plt.figure(figsize=section_size(values)).add_subplot()
+        ax = new_axes(section_size(values))
     field = values.values / by.stress.value
     layer = values.layer.values
-    inner = [depth / by.length.value for depth in interfaces(values.z, values.layer)]
+    inner = [z_i / by.length.value for z_i in interfaces(values.z, values.layer)]
     borders = np.array([z[0], *inner, z[-1]])
-    stretch = draw_depth_axis(ax, borders, "y", by.length, stretch=stretch)
+    stretch = draw_depth_axis(ax, borders, "y", by.length, depth=depth)
     steps, colours = contour_levels(field, levels)
     image = None
     for part in np.unique(layer):
@@ -189,16 +193,14 @@ def section_map(
         ax.contour(x, z[in_layer], field[in_layer], levels=steps, colors="0.2", linewidths=0.4)
         if colours is SIGNED:
             ax.contour(x, z[in_layer], field[in_layer], levels=[0.0], colors="0.1", linewidths=1.3)
-    for depth in inner:
-        ax.axhline(depth, color="0.2", linewidth=0.8, linestyle=(0, (6, 3)))
+    for border in inner:
+        ax.axhline(border, color="0.2", linewidth=0.8, linestyle=(0, (6, 3)))
     ax.set_xlim(x[0], x[-1])
     if maximum is not None:
         _mark(ax, maximum, line_of(values), by)
     name = symbol if symbol is not None else SYMBOLS.get(str(values.name), str(values.name))
     if colorbar and image is not None:
         add_colour_bar(ax, image, by.stress.label(name))
-    else:
-        ax.set_title(by.stress.label(name))
     ax.set_xlabel(by.length.label(along))
     ax.set_ylim(z[-1], z[0])
     flat = x[-1] - x[0] > FLAT * (z[-1] - z[0])
@@ -217,21 +219,25 @@ def stress_map(
     of: str = "von_mises",
     levels: int | Sequence[float] = 12,
     aspect: Literal["equal", "auto"] | None = None,
-    stretch: bool | None = None,
+    depth: DepthScale = "auto",
     colorbar: bool = True,
+    width: Width | None = None,
     ax: Axes | None = None,
 ) -> Axes:
     """Contours of a measure of stress on a section; parameters as in :func:`section_map`.
 
     A cross marks the largest value, a circle the largest one on the surface if that is another.
+    ``interface_shear`` and ``interface_peel`` are stresses on the interfaces: a curve for each.
     """
     if not isinstance(stress, Stress):
         raise TypeError(
             f"{type(stress).__name__}: must be the stress on a section, as result.at(-1).stress() "
             "gives it"
         )
-    largest = stress.maximum(of)
     values = stress.measure(of).assign_attrs(stress.dataset.attrs)
+    if of.startswith("interface"):
+        return interface_curves(values, _scales(stress.dataset.attrs, units, a_H, p_H), ax)
+    largest = stress.maximum(of)
     ax = section_map(
         values,
         a_H=a_H,
@@ -240,13 +246,35 @@ def stress_map(
         levels=levels,
         maximum=largest,
         aspect=aspect,
-        stretch=stretch,
+        depth=depth,
         colorbar=colorbar,
         ax=ax,
     )
-    if float(values.z[0]) == 0.0 < largest.z and not of.startswith("interface"):
+    if float(values.z[0]) == 0.0 < largest.z:
         by = _scales(stress.dataset.attrs, units, a_H, p_H)
         _mark(ax, stress.on_surface().maximum(of), line_of(values), by, marker="o")
+    return ax
+
+
+def interface_curves(values: xr.DataArray, by: Scales, ax: Axes | None) -> Axes:
+    """Draw a stress on the interfaces along the section, a curve for each."""
+    depths = interfaces(values.z, values.layer)
+    if not depths:
+        raise ValueError(f"{values.name}: this body has no coatings, and so no interface")
+    ax = axes(ax)
+    along = str(values.dims[1])
+    for n, depth in enumerate(depths):
+        above = np.flatnonzero(values.layer.values == values.layer.values[0] + n)[-1]
+        below = "the substrate" if n + 1 == len(depths) else f"coating {n + 2}"
+        label = f"coating {n + 1} on {below}, $z$ = {in_words(depth / by.length.value, 3)}"
+        label += f" {by.length.name}" if by.length.is_unit else f" ${by.length.name}$"
+        s = values[along].values / by.length.value
+        ax.plot(s, values.values[above] / by.stress.value, label=label)
+    ax.axhline(0.0, color="0.6", linewidth=0.8, zorder=0)
+    ax.margins(x=0.0)
+    ax.set_xlabel(by.length.label(along))
+    ax.set_ylabel(by.stress.label(SYMBOLS[str(values.name)]))
+    ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), borderpad=0.1)
     return ax
 
 
@@ -258,7 +286,8 @@ def stress_along_depth(
     p_H: float | None = None,
     units: Units = "auto",
     of: tuple[str, ...] = ("s_xx", "s_yy", "s_zz", "von_mises"),
-    stretch: bool | None = None,
+    depth: DepthScale = "auto",
+    width: Width | None = None,
     ax: Axes | None = None,
 ) -> Axes:
     """Measures of the stress below one point over the depth; parameters as in :func:`section_map`.
@@ -272,7 +301,7 @@ def stress_along_depth(
         raise ValueError("the line below one point is drawn: give stress(x=..., y=...)")
     inner = [d / by.length.value for d in interfaces(stress.dataset.z, stress.dataset.layer)]
     borders = np.array([z[0], *inner, z[-1]])
-    draw_depth_axis(ax, borders, "x", by.length, stretch=stretch)
+    draw_depth_axis(ax, borders, "x", by.length, depth=depth)
     for n, name in enumerate(of):
         values = stress.measure(name).values / by.stress.value
         for part in np.unique(layer):
@@ -281,8 +310,8 @@ def stress_along_depth(
             # On an axis of symmetry two of the stresses are one line.
             dashes = (0, (3, 3)) if name == "s_yy" else "-"
             ax.plot(z[in_layer], values[in_layer], color=f"C{n}", linestyle=dashes, label=label)
-    for depth in inner:
-        ax.axvline(depth, color="0.6", linewidth=0.8, linestyle=(0, (6, 3)), zorder=0)
+    for border in inner:
+        ax.axvline(border, color="0.6", linewidth=0.8, linestyle=(0, (6, 3)), zorder=0)
     ax.set_xlim(z[0], z[-1])
     ax.set_ylabel(by.stress.label(r"\sigma"))
     ax.legend()
@@ -298,6 +327,7 @@ def envelope_maps(
     units: Units = "auto",
     of: str = "von_mises",
     cycle: int = -1,
+    width: Width | None = None,
 ) -> Figure:
     """Largest value over the path, and amplitude and mean over a cycle, of a measure of stress."""
     must_hold(envelope, "envelope", [f"{of}_max"], ENVELOPE)
@@ -309,15 +339,26 @@ def envelope_maps(
             raise ValueError(f"cycle = {cycle}: must be {-cycles} to {cycles - 1}")
         shown.append((envelope[f"{of}_amplitude"].isel(cycle=cycle), rf"\Delta {name}/2"))
         shown.append((envelope[f"{of}_mean"].isel(cycle=cycle), rf"\overline{{{name}}}"))
+    by = _scales(envelope.attrs, units, a_H, p_H)
+    # One scale of colours for all.
+    fields = np.concatenate([values.values.ravel() for values, _ in shown]) / by.stress.value
+    levels = contour_levels(fields, 12)[0].tolist()
     _, high = section_size(shown[0][0], PANEL)
-    high = max(high, 0.75 * PANEL)
-    figure, row = plt.subplots(
-        1, len(shown), figsize=(PANEL * len(shown), high), squeeze=False, layout="constrained"
+    figure, grid = new_panels(
+        len(shown),
+        size=(PANEL, max(high, 0.75 * PANEL)),
+        across=(3, 3, 1),
+        sharex=True,
+        sharey=True,
     )
-    apart(figure)
-    for ax, (values, symbol) in zip(row[0], shown, strict=True):
+    panels = list(grid.flat[: len(shown)])
+    for ax, letter, (values, symbol) in zip(panels, "abc", shown, strict=False):
         field = values.assign_attrs(envelope.attrs)
-        section_map(field, a_H=a_H, p_H=p_H, units=units, symbol=symbol, ax=ax)
+        scale = ax is panels[-1] or grid.shape[1] == 1
+        section_map(
+            field, a_H=a_H, p_H=p_H, units=units, symbol=name, levels=levels, colorbar=scale, ax=ax
+        )
+        ax.set_title(f"({letter})  ${symbol}$")
         ax.label_outer()
         ax.xaxis.set_major_locator(MaxNLocator(4))
     return figure
@@ -331,6 +372,7 @@ def stress_history(
     p_H: float | None = None,
     units: Units = "auto",
     of: str = "von_mises",
+    width: Width | None = None,
     ax: Axes | None = None,
     **line: Any,
 ) -> Axes:
@@ -371,10 +413,13 @@ def stress_maps(
     depth: RelativeDepth = 2.0,
     layers: int = 256,
     of: str = "von_mises",
+    width: Width | None = None,
 ) -> Figure:
     """Figure 13 of the paper: stress below the contact at the end of the path, for every ratio.
 
     On the section along the shear, through the centre of the contact.
+
+    All panels share one scale of colours.
 
     Parameters
     ----------
@@ -386,6 +431,8 @@ def stress_maps(
         Number of depths.
     of : str
         Measure of stress.
+    width : "column" or "page", optional
+        Width of a new figure: a column of 85 mm or a page of 170 mm.
     """
     below: dict[float, Stress] = {}
     for ratio, result in sorted(results.items()):
@@ -398,12 +445,13 @@ def stress_maps(
         min(float(np.nanmin(field)) for field in fields),
         max(float(np.nanmax(field)) for field in fields),
     )
-    n = len(below)
-    figure, row = plt.subplots(
-        1, n, figsize=(0.9 + 2.4 * n, 3.0), squeeze=False, sharey=True, layout="constrained"
+    figure, grid = new_panels(
+        len(below), size=(2.7, 3.0), across=(len(below), 3, 1), sharex=True, sharey=True
     )
-    for ax, letter, (ratio, stress) in zip(row[0], "abcdef", below.items(), strict=False):
-        stress_map(stress, of=of, levels=levels, colorbar=ax is row[0][-1], ax=ax)
+    panels = list(grid.flat[: len(below)])
+    for ax, letter, (ratio, stress) in zip(panels, "abcdef", below.items(), strict=False):
+        scale = ax is panels[-1] or grid.shape[1] == 1
+        stress_map(stress, of=of, levels=levels, colorbar=scale, ax=ax)
         ax.set_title(rf"({letter})  $E_1/E_2 = {ratio:g}$")
         ax.xaxis.set_major_locator(MaxNLocator(4))
         ax.label_outer()

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeAlias
 
 import numpy as np
 from matplotlib.patches import Patch
+from matplotlib.patheffects import withStroke
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from pyfret._util.bounds import bounds, known_to
@@ -17,6 +18,7 @@ from pyfret._util.text import literal
 from pyfret._util.theme import MARK, REFERENCE, colour_map
 from pyfret.plot.areas import geometric, logarithmic
 from pyfret.plot.parameters import parameter_label
+from pyfret.plot.sizes import Width
 from pyfret.plot.style import axes, styled
 
 if TYPE_CHECKING:
@@ -66,6 +68,7 @@ def study_map(
     levels: int = 10,
     labels: Mapping[str, str] | None = None,
     colorbar: bool = True,
+    width: Width | None = None,
     ax: Axes | None = None,
 ) -> Axes:
     """A measure of a study over its parameters; crosses mark points that failed.
@@ -93,6 +96,8 @@ def study_map(
         where they are keys of a scene file).
     colorbar : bool
         Whether to draw the scale beside the map.
+    width : "column" or "page", optional
+        Width of a new figure: a column of 85 mm or a page of 170 mm.
     ax : matplotlib Axes, optional
         Where to draw.
     """
@@ -287,9 +292,10 @@ BORDER = 0.05
 
 
 def whole_labels(ax: Axes, labels: Iterable[Text]) -> None:
-    """Take off labels of contours that the border of the axes would cut."""
+    """Take off labels of contours that the border of the axes would cut; the others get a halo."""
     onto_axes = ax.transData + ax.transAxes.inverted()
     for label in list(labels):
+        label.set_path_effects([withStroke(linewidth=2.0, foreground="white")])
         position = onto_axes.transform(label.get_position())
         if position.min() < BORDER or position.max() > 1.0 - BORDER:
             label.set_visible(False)

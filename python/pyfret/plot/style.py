@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from contextvars import ContextVar
 from functools import wraps
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar, overload
@@ -18,16 +19,18 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from pyfret._util.theme import MARK, settings
+from pyfret.plot.fit import fit
+from pyfret.plot.sizes import Width, new_axes, text_size, using_width
 from pyfret.quantities import quantities
 
-#: Layouts after which labels keep their places to a hundredth of an inch, with the one of drawing.
-LAYOUTS = 3
+#: Whether a figure is being drawn: figures inside it take its look and its size.
+DRAWING: ContextVar[bool] = ContextVar("drawing", default=False)
 
 
 @contextmanager
 def style() -> Iterator[None]:
     """Set the theme inside the ``with`` block, whatever the settings of the user."""
-    with plt.style.context(settings(), after_reset=True):
+    with plt.style.context(settings(text_size()), after_reset=True):
         try:
             yield
         finally:
@@ -56,6 +59,7 @@ class ThemedFigure(Figure):
 
 
 if TYPE_CHECKING:
+    from matplotlib.colorbar import Colorbar
 
     class Drawn(Axes):
         """Axes that know their figure: ``.figure.savefig("loop.png")`` writes it.
@@ -83,12 +87,22 @@ def styled(draw: Callable[P, Any]) -> Callable[P, Any]:
 
     @wraps(draw)
     def inside(*args: P.args, **kwargs: P.kwargs) -> Any:
-        with style():
-            drawn = draw(*args, **kwargs)
-            fix_colours(drawn)
-            if kwargs.get("ax") is None:
-                keep_theme(drawn)
-                settle(drawn)
+        if DRAWING.get():
+            return draw(*args, **kwargs)
+        width: Any = kwargs.get("width")
+        fresh = kwargs.get("ax") is None
+        if width is not None and not fresh:
+            raise ValueError("width: belongs to a new figure; give ax or width, not both")
+        token = DRAWING.set(True)
+        try:
+            with using_width(width), style():
+                drawn = draw(*args, **kwargs)
+                fix_colours(drawn)
+                if fresh:
+                    keep_theme(drawn)
+                    settle(drawn, width)
+        finally:
+            DRAWING.reset(token)
         if isinstance(drawn, Figure) and "inline" in matplotlib.get_backend():
             show_once(drawn)
         return drawn
@@ -133,36 +147,30 @@ def show_once(figure: Figure) -> None:
     figure._ipython_display_ = show  # type: ignore[attr-defined]
 
 
-def settle(drawn: object) -> None:
-    """Lay out a new figure until the labels of axes of equal lengths are all inside.
-
-    Such axes are narrower than their place, by an amount that depends on the layout. A single
-    layout leaves room for the labels of axes as wide as their place.
-    """
+def settle(drawn: object, width: Width | None) -> None:
+    """Lay out a new figure until no text is cut or lies on another one."""
     figure = figure_of(drawn)
-    if figure is None or all(ax.get_aspect() == "auto" for ax in figure.axes):
-        return
-    engine = figure.get_layout_engine()
-    for _ in range(LAYOUTS if engine is not None else 0):
-        engine.execute(figure)  # type: ignore[union-attr]
+    if figure is not None:
+        fit(figure, legends_below=width == "column")
 
 
 def axes(ax: Axes | None, *, square: bool = False) -> Axes:
     """Give `ax`, or the axes of a new figure; `square` ones for maps of the contact plane."""
     if ax is None:
-        ax = plt.figure(figsize=(4.2, 3.9) if square else None).add_subplot()
+        ax = new_axes((4.2, 3.9) if square else None)
     if square:
         ax.set_aspect("equal")
         ax.grid(visible=False)
     return ax
 
 
-def add_colour_bar(ax: Axes, image: Any, label: str, *, extend: str = "neither") -> None:
+def add_colour_bar(ax: Axes, image: Any, label: str, *, extend: str = "neither") -> Colorbar:
     """The scale of colours of `image` beside the axes, as high as they are."""
     inset = ax.inset_axes((1.03, 0.0, 0.05, 1.0))
-    bar = ax.get_figure().colorbar(image, cax=inset, extend=extend)  # type: ignore[union-attr]
+    bar: Colorbar = ax.get_figure().colorbar(image, cax=inset, extend=extend)  # type: ignore[union-attr]
     bar.outline.set_visible(False)
     bar.set_label(label)
+    return bar
 
 
 def mark(ax: Axes, at: tuple[float, float], text: str, *, marker: str = "x") -> None:
@@ -180,6 +188,12 @@ def mark(ax: Axes, at: tuple[float, float], text: str, *, marker: str = "x") -> 
         linestyle="none",
     )
     inside_legend(ax)
+
+
+def draw_cross(ax: Axes, x: float, y: float) -> None:
+    """Draw a cross that is seen on light and on dark colours."""
+    for colour, width in (("white", 4.0), ("black", 1.8)):
+        ax.plot(x, y, "x", color=colour, ms=9, mew=width, clip_on=False, zorder=4)
 
 
 def inside_legend(ax: Axes, *, handles: list[Artist] | None = None) -> None:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from pyfret._util.theme import colour_map
+from pyfret.plot.sizes import Width
 from pyfret.plot.style import add_colour_bar, axes, inside_legend, styled
 
 if TYPE_CHECKING:
@@ -28,7 +29,12 @@ def _depth(d: xr.Dataset, of: Which) -> np.ndarray:
 
 @styled
 def wear_profiles(
-    result: WearResult, *, of: Which = "body2", lines: int = 8, ax: Axes | None = None
+    result: WearResult,
+    *,
+    of: Which = "body2",
+    lines: int = 8,
+    width: Width | None = None,
+    ax: Axes | None = None,
 ) -> Axes:
     """Worn depth on the line along the shear after several blocks of cycles, in um, downwards.
 
@@ -65,7 +71,12 @@ def wear_profiles(
 
 @styled
 def depth_map(
-    result: WearResult, *, of: Which = "body2", block: int = -1, ax: Axes | None = None
+    result: WearResult,
+    *,
+    of: Which = "body2",
+    block: int = -1,
+    width: Width | None = None,
+    ax: Axes | None = None,
 ) -> Axes:
     """Worn depth over the contact plane after a block of cycles, um."""
     ax = axes(ax, square=True)
@@ -86,7 +97,7 @@ def depth_map(
 
 
 @styled
-def wear_history(result: WearResult, *, ax: Axes | None = None) -> Axes:
+def wear_history(result: WearResult, *, width: Width | None = None, ax: Axes | None = None) -> Axes:
     """Deepest worn depth of each body that wears over cycles, with the coatings' thickness, um.
 
     Coatings that are worn through, or reported as thin, are marked at their cycle.
@@ -120,7 +131,7 @@ def wear_history(result: WearResult, *, ax: Axes | None = None) -> Axes:
 
 
 @styled
-def wear_loops(result: WearResult, *, ax: Axes | None = None) -> Axes:
+def wear_loops(result: WearResult, *, width: Width | None = None, ax: Axes | None = None) -> Axes:
     """Friction loops at the first and at the last block of cycles, along x or y.
 
     The axis has the largest force.

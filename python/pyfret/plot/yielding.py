@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.ticker import MaxNLocator
 
-from pyfret._util.depths import thin
 from pyfret._util.lazy import xr
-from pyfret.plot.depth_axis import draw_depth_axis
+from pyfret.plot.depth_axis import DepthScale, draw_depth_axis
 from pyfret.plot.scales import Units, last_of, scales_of_snapshot
+from pyfret.plot.sizes import Width, new_axes
 from pyfret.plot.stresses import COLOURS, SYMBOLS
 from pyfret.plot.style import axes, styled
 from pyfret.subsurface.fields import interfaces
@@ -37,6 +36,8 @@ def plastic_zone(
     *,
     body_number: int | None = None,
     units: Units = "auto",
+    depth: DepthScale = "auto",
+    width: Width | None = None,
     ax: Axes | None = None,
 ) -> Axes:
     """Equivalent plastic strain of a body that yields on the section along the shear.
@@ -52,6 +53,11 @@ def plastic_zone(
         The body (default: as in :attr:`Snapshot.plastic`).
     units : "auto", "dimensionless" or "SI"
         Lengths over a_H (default where there is a Hertz contact), or in um.
+    depth : "auto", "true" or "layers"
+        Whether depths have one scale, or each layer a scale of its own (default: if one layer is
+        too thin to be seen).
+    width : "column" or "page", optional
+        Width of a new figure: a column of 85 mm or a page of 170 mm.
     ax : matplotlib Axes, optional
         Where to draw.
     """
@@ -73,11 +79,11 @@ def plastic_zone(
     deepest *= 1.0 + ROOM
     if ax is None:
         high = np.clip(3.3 * deepest / (2.0 * widest) + 0.7, 1.8, 6.0)
-        ax = plt.figure(figsize=(4.8, float(high))).add_subplot()
+        ax = new_axes((4.8, float(high)))
     inner = [d / by.length.value for d in interfaces(state.body(plastic.body_number))]
     borders = np.array([0.0, *(d for d in inner if d < deepest), deepest])
     whole = len(borders) == len(inner) + 2
-    draw_depth_axis(ax, borders, "y", by.length, substrate=whole)
+    stretch = draw_depth_axis(ax, borders, "y", by.length, depth=depth, substrate=whole)
     image = None
     if yielded.any():
         steps = MaxNLocator(9).tick_values(0.0, percent.max())
@@ -93,9 +99,9 @@ def plastic_zone(
             )
     else:
         ax.text(0.5, 0.5, "nothing has yielded", transform=ax.transAxes, ha="center")
-    for depth in inner:
-        if depth < deepest:
-            ax.axhline(depth, color="0.2", linewidth=0.8, linestyle=(0, (6, 3)))
+    for border in inner:
+        if border < deepest:
+            ax.axhline(border, color="0.2", linewidth=0.8, linestyle=(0, (6, 3)))
     if outline is not None:
         ends = middle_x + np.array(outline.border(line.angle)) / by.length.value
         ax.plot(ends, [0.0, 0.0], color="k", linewidth=3.0, clip_on=False, zorder=5)
@@ -111,7 +117,7 @@ def plastic_zone(
     ax.set_xlim(middle_x - widest, middle_x + widest)
     ax.set_ylim(deepest, 0.0)
     ax.set_xlabel(by.length.label(line.axis))
-    if not thin(borders):
+    if not stretch:
         ax.set_aspect("equal")
     ax.grid(visible=False)
     return ax
@@ -141,6 +147,8 @@ def residual_stress(
     x: float | None = None,
     y: float | None = None,
     units: Units = "auto",
+    depth: DepthScale = "auto",
+    width: Width | None = None,
     ax: Axes | None = None,
 ) -> Axes:
     """Residual stress of plastic strain below a point over the depth, tension upwards.
@@ -159,6 +167,11 @@ def residual_stress(
         The point [m] (default: the centre of the contact).
     units : "auto", "dimensionless" or "SI"
         Over p_H and a_H (default where there is a Hertz contact), or in MPa and um.
+    depth : "auto", "true" or "layers"
+        Whether depths have one scale, or each layer a scale of its own (default: if one layer is
+        too thin to be seen).
+    width : "column" or "page", optional
+        Width of a new figure: a column of 85 mm or a page of 170 mm.
     ax : matplotlib Axes, optional
         Where to draw.
     """
@@ -171,7 +184,9 @@ def residual_stress(
     z, layer = below.dataset.z.values / by.length.value, below.dataset.layer.values
     inner = [d / by.length.value for d in interfaces(state.body(number))]
     borders = np.array([z[0], *(d for d in inner if d < z[-1]), z[-1]])
-    draw_depth_axis(ax, borders, "x", by.length, substrate=len(borders) == len(inner) + 2)
+    draw_depth_axis(
+        ax, borders, "x", by.length, depth=depth, substrate=len(borders) == len(inner) + 2
+    )
     for n, name in enumerate(of):
         values = below.measure(name).values / by.stress.value
         for part in np.unique(layer):
@@ -181,8 +196,8 @@ def residual_stress(
             dashes = (0, (3, 3)) if name == "s_yy" else "-"
             ax.plot(z[in_layer], values[in_layer], color=f"C{n}", linestyle=dashes, label=label)
     ax.axhline(0.0, color="0.6", linewidth=0.8, zorder=0)
-    for depth in borders[1:-1]:
-        ax.axvline(depth, color="0.6", linewidth=0.8, linestyle=(0, (6, 3)), zorder=0)
+    for border in borders[1:-1]:
+        ax.axvline(border, color="0.6", linewidth=0.8, linestyle=(0, (6, 3)), zorder=0)
     ax.set_xlim(z[0], z[-1])
     symbol = r"\sigma_\mathrm{residual}"
     ax.set_ylabel(by.stress.label(symbol))

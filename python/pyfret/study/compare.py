@@ -166,7 +166,15 @@ def compare(
         coatings=[len(body.body.coatings) for body in candidates.values()],
         doubts=doubts,
         rows=rows,
+        layer_materials=[material_names(body) for body in candidates.values()],
     )
+
+
+def material_names(candidate: Candidate) -> list[str]:
+    """Return a text for every layer that is the same for the same material."""
+    body = candidate.body
+    stiffness = [*(coating.material for coating in body.coatings), body.substrate]
+    return [f"{elastic.E:.9g} {elastic.nu:.9g}" for elastic in stiffness]
 
 
 def own_rows(candidates: Mapping[str, Candidate]) -> dict[str, list[float | str]]:

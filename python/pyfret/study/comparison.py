@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Mapping, Sequence
 from html import escape
@@ -42,9 +43,13 @@ class Preference(NamedTuple):
     best: list[str]
     #: Candidates that are worse, beyond the errors.
     worse: list[str]
+    #: Whether the number is one of the same material in all candidates.
+    comparable: bool = True
 
     def __str__(self) -> str:
         """Describe the preference in a few words."""
+        if not self.comparable:
+            return "different materials"
         if not self.worse:
             return "no difference" if len(self.best) > 1 else ""
         alike = " (no difference)" if len(self.best) > 1 else ""
@@ -95,6 +100,7 @@ class Comparison(Labelled, Figured):
         coatings: Sequence[int],
         doubts: Mapping[str, Sequence[str]],
         rows: Mapping[str, Sequence[float | str]] | None = None,
+        layer_materials: Sequence[Sequence[str]] | None = None,
     ) -> Comparison:
         """Make the table from a study of the candidates on two grids.
 
@@ -116,6 +122,10 @@ class Comparison(Labelled, Figured):
             coords={"candidate": [strip_quotes(name) for name in names]},
             attrs={"title": title},
         )
+        if layer_materials is not None:
+            dataset.attrs["layer_materials"] = json.dumps(
+                [list(names) for names in layer_materials]
+            )
         for name, about in NUMBERS.items():
             if name in results and bool(np.isfinite(fine[name]).any() | np.isinf(fine[name]).any()):
                 for suffix, values in range_on_two_grids(results, name, about).items():
@@ -160,7 +170,8 @@ class Comparison(Labelled, Figured):
     def preference(self, of: str) -> Preference:
         """Return the best candidates by a number, and the worse ones beyond the errors.
 
-        A candidate is worse where its range does not overlap with the range of the best one.
+        A candidate is worse where its range does not overlap with the range of the best one. There
+        is no best stress in different materials, since each of them has a strength of its own.
 
         Raises
         ------
@@ -170,6 +181,8 @@ class Comparison(Labelled, Figured):
         if of not in self.numbers:
             raise ValueError(f"of = {of!r}: must be one of {', '.join(self.numbers)}")
         d = self.dataset
+        if not self._same_material(of):
+            return Preference([], [], comparable=False)
         sign = 1.0 if NUMBERS[of].better == "larger" else -1.0
         range_of = {
             name: sorted((sign * float(d[f"{of}_low"][n]), sign * float(d[f"{of}_high"][n])))
@@ -180,6 +193,20 @@ class Comparison(Labelled, Figured):
         best_low = range_of[max(values, key=lambda name: values[name])][0]
         best = [name for name, (_, high) in range_of.items() if high >= best_low]
         return Preference(best, [name for name in range_of if name not in best])
+
+    def _same_material(self, of: str) -> bool:
+        """Whether a stress is one of the same material in all candidates that have it."""
+        layers, d = self.dataset.attrs.get("layer_materials"), self.dataset
+        if NUMBERS[of].si != "Pa" or layers is None:
+            return True
+        materials: list[list[str]] = json.loads(layers)
+        names = set()
+        for n, layers_of_body in enumerate(materials):
+            if math.isnan(float(d[of][n])):
+                continue
+            layer = float(d[f"{of}_layer"][n]) if f"{of}_layer" in d else math.nan
+            names.add(layers_of_body[-1 if math.isnan(layer) else int(layer)])
+        return len(names) <= 1
 
     def rows(self) -> list[list[str]]:
         """Return the table as text: a head, then a line for every number."""
@@ -253,7 +280,7 @@ class Comparison(Labelled, Figured):
         for name in self.numbers:
             about, d, preference = NUMBERS[name], self.dataset, self.preference(name)
             scale, unit = table_unit(about, str(d[name].attrs["units"]))
-            alike = not preference.worse and len(preference.best) > 1
+            alike = not preference.worse and len(preference.best) != 1
             order = [
                 0 if alike else 1 if candidate in preference.best else 2
                 for candidate in self.candidates
@@ -265,7 +292,7 @@ class Comparison(Labelled, Figured):
                 Panel(
                     about.title,
                     unit,
-                    about.better,
+                    about.better if preference.comparable else "",
                     self.formatted(name),
                     about.logarithmic,
                     values,
