@@ -12,7 +12,9 @@ import numpy as np
 import pytest
 import xarray as xr
 
+import pyfret as fret
 from pyfret._util import files
+from pyfret.study.ledger import FILE
 
 pytestmark = [
     pytest.mark.solves,
@@ -23,7 +25,9 @@ pytestmark = [
 WRITE = """
 import os, sys
 import xarray as xr
+import pyfret as fret
 from pyfret._util import files
+from pyfret.study.ledger import FILE
 count = 0
 def ending(move):
     def moved(source, target, **options):
@@ -71,3 +75,46 @@ def test_leftovers_of_running_processes_stay(tmp_path: Path) -> None:
     files.write(xr.Dataset({"a": ("x", np.ones(2))}), place)
     assert running.exists()
     assert elsewhere.exists()
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    """Return the bytes of all files of a folder, by their names in it."""
+    files_of = (path for path in folder.rglob("*") if path.is_file())
+    return {str(path.relative_to(folder)): path.read_bytes() for path in files_of}
+
+
+def test_the_same_numbers_give_the_same_bytes(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Copies and studies, written at different times; a study without its processor times."""
+    dataset = xr.Dataset({"a": ("x", np.linspace(0.0, 1.0, 1000))})
+    places = [tmp_path / "one.zarr", tmp_path / "two.zarr"]
+    for n, folder in enumerate(places):
+        monkeypatch.setattr(files.packing.time, "time", lambda n=n: 1e9 + n)
+        files.write(dataset, folder)
+    first, second = map(contents, places)
+    assert first == second
+    assert any(name.startswith("a/") for name in first)
+    with xr.open_zarr(places[0], chunks=None) as read:
+        np.testing.assert_array_equal(read.a, dataset.a)
+
+    steel = fret.Elastic(E=210e9, nu=0.3)
+    ball = fret.Body(steel, shape=fret.Sphere(R=0.01))
+    scene = fret.Scene(
+        body1=ball,
+        body2=fret.Body(steel),
+        friction=0.3,
+        grid=fret.Grid.centred(width=8e-4, n=16),
+        path=fret.LoadPath.start().normal(100.0, increments=1),
+    )
+    studies = [tmp_path / "study1.zarr", tmp_path / "study2.zarr"]
+    for folder in studies:
+        fret.study.run(
+            scene, {"mu": [0.2, 0.4]}, measure=["p_max"], executor=1, out=folder, progress=False
+        )
+    first, second = map(contents, studies)
+    times = [name for name in first if name.startswith("seconds/") or name == "points.jsonl"]
+    assert first.keys() == second.keys()
+    different = {name for name in first if first[name] != second[name]}
+    assert all(name.startswith("seconds/") or name == FILE for name in different), different
+    assert times

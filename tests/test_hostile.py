@@ -89,6 +89,13 @@ def test_no_public_callable_takes_for_a_number_what_is_none() -> None:
     assert not wrong, "\n".join(wrong)
 
 
+@pytest.mark.timeout(600)
+def test_a_value_of_a_wrong_class_is_refused_with_the_name_of_its_argument() -> None:
+    """By TypeError, ValueError or an error of pyfret, and in the text itself: 500 calls."""
+    wrong = wrong_of("classes500")
+    assert not wrong, "\n".join(wrong)
+
+
 @pytest.mark.timeout(36_000)
 def test_random_hostile_calls_of_all_public_callables() -> None:
     """Under 8 GB of address space; ``FRET_HOSTILE`` says how many (``make fuzz``: 20 000)."""

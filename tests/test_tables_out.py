@@ -93,6 +93,16 @@ def test_a_run_has_its_path_and_an_increment_its_time(result: fret.Result) -> No
             call()
 
 
+def test_one_residual_stress_belongs_to_a_body_without_coatings(result: fret.Result) -> None:
+    lives = [
+        result.life("steel_42CrMo4", "dang_van", y=0.0, residual=residual).best  # type: ignore[arg-type]
+        for residual in (-600e6, [-600e6], "-600 MPa", 0.0)
+    ]
+    assert lives[0] == lives[1] == lives[2] > lives[3]
+    stress = result.at(-1).stress(y=0.0, residual=-600e6).s_xx  # type: ignore[arg-type]
+    assert stress.identical(result.at(-1).stress(y=0.0, residual=[-600e6]).s_xx)
+
+
 @pytest.mark.solves
 def test_the_command_prints_and_writes_tables(
     result: fret.Result, tmp_path: Path, capsys: pytest.CaptureFixture[str]

@@ -4,6 +4,7 @@
 before and one after each, under a limit of memory. Whoever reads along knows which call ended the
 process. ``python tests/hostile START COUNT`` makes random calls of all public callables, and
 ``python tests/hostile START never`` gives each of them values that are no numbers.
+``python tests/hostile START classes500`` makes 500 calls with an argument of a wrong class.
 """
 
 from __future__ import annotations
@@ -134,10 +135,57 @@ def no_numbers() -> Iterator[tuple[str, Callable[..., Any], dict[str, Any]]]:
                 )
 
 
+def wrong_classes(count: int) -> Iterator[tuple[str, Callable[..., Any], dict[str, Any]]]:
+    """Calls of public callables with one argument of a class that none of them takes."""
+    import public
+
+    known_items = [(name, call, public.good(name, call)) for name, call in public.public()]
+    known_items = [
+        item for item in known_items if item[0] not in public.LEFT_OUT and item[2] is not None
+    ]
+    for number in range(count):
+        rng = random.Random(number)
+        name, call, (needed, free) = rng.choice(known_items)  # type: ignore[misc]
+        free = [key for key in free if f"{name}({key})" not in public.FUNCTIONS]
+        if not free:
+            continue
+        key = rng.choice(free)
+        value = rng.choice(public.OF_NO_CLASS)()
+        text = f"{name}({key} = {type(value).__name__})"
+
+        def made(call: Callable[..., Any] = call, **k: Any) -> Any:
+            return public.invoked(call, k)
+
+        made.__doc__ = call.__doc__
+        yield text, made, needed | {key: value}
+
+
+def refusal_of_class(call: Callable[..., Any], arguments: dict[str, Any], text: str) -> str:
+    """Check that a wrong class ends in a refusal whose text has the name of the argument."""
+    key = text.partition("(")[2].partition(" = ")[0]
+    try:
+        call(**arguments)
+    except BaseException as error:
+        of_pyfret = type(error).__module__.partition(".")[0] == "pyfret"
+        name = type(error).__name__
+        if isinstance(error, KeyError) and "KeyError" in str(getattr(call, "__doc__", "")):
+            return "refused: KeyError, as its page has it"
+        if not of_pyfret and type(error) not in (TypeError, ValueError, MemoryError):
+            return f"BAD: {name}: {str(error)[:150]!r}"
+        if not re.search(rf"\b{re.escape(key)}\b", str(error)):
+            return f"BAD: {key} is not named: {name}: {str(error)[:150]!r}"
+        return f"refused: {name}"
+    return "answered"
+
+
 def main(start: int, more: str = "") -> None:
     """Makes the calls, with a line before and after each."""
     warnings.simplefilter("ignore")
-    computed = no_numbers() if more == "never" else random_cases(int(more)) if more else cases()
+    classes = more.startswith("classes")
+    if classes:
+        computed = wrong_classes(int(more.removeprefix("classes")))
+    else:
+        computed = no_numbers() if more == "never" else random_cases(int(more)) if more else cases()
     import public
 
     first = next(computed)
@@ -148,7 +196,8 @@ def main(start: int, more: str = "") -> None:
         if number < start:
             continue
         print(f"{number}\t{text}", flush=True)
-        print(f"\t{' '.join(outcome(call, arguments).split())}", flush=True)
+        word = refusal_of_class(call, arguments, text) if classes else outcome(call, arguments)
+        print(f"\t{' '.join(word.split())}", flush=True)
         if more:
             public.close()
     print("done", flush=True)

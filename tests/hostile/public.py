@@ -512,6 +512,37 @@ def never(value: Any) -> list[Any]:
     return []
 
 
+def nested(levels: int) -> list[Any]:
+    """A list within a list, so many deep."""
+    value: list[Any] = []
+    for _ in range(levels):
+        value = [value]
+    return value
+
+
+#: Functions of the user that another function calls, which fail by themselves.
+FUNCTIONS = {
+    "kernels.convert(frf)",
+    "fracture.Crack.grow(stress)",
+    "fracture.Crack.intensity(friction)",
+}
+#: What makes values of classes that no parameter takes.
+OF_NO_CLASS: list[Callable[[], Any]] = [
+    object,
+    lambda: 3 + 4j,
+    lambda: b"bytes",
+    lambda: 10**400,
+    lambda: {1, 2},
+    lambda: {"a": 1},
+    lambda: nested(3000),
+    lambda: int,
+    lambda: len,
+    lambda: np.array([object()]),
+    lambda: np.datetime64("2026-01-01"),
+    lambda: fret.Sphere(R=1.0),
+]
+
+
 def unlike(value: Any) -> list[Any]:
     """Hostile values in the place of `value`: those of its type, and some of other types."""
     computed = [*hostile(value), *never(value), None, object(), {}, [], "", Liar([1.0]), b"x"]

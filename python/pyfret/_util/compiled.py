@@ -95,7 +95,7 @@ def telling(call: Callable[..., Any], what: str) -> Callable[..., Any]:
             refusal: Exception | None = None
             if isinstance(error, TypeError):
                 refusal = refused(what, call, values, given)
-            refusal = refusal or with_argument(error)
+            refusal = refusal or with_argument(error) or with_value(call, values, given, error)
             if refusal is None:
                 raise
         raise refusal
@@ -129,6 +129,33 @@ def with_argument(error: Exception) -> Exception | None:
     if issubclass(kind, WRONG_CLASSES):
         kind = ValueError if issubclass(kind, OverflowError) else TypeError
     return kind(text).with_traceback(error.__traceback__)
+
+
+def with_value(
+    call: Callable[..., Any], values: Sequence[Any], keywords: dict[str, Any], error: Exception
+) -> Exception | None:
+    """Return a refusal that repeats a value with the name of its argument before it.
+
+    Nothing where the text has the name already, or begins with no value of the call.
+    """
+    text = str(error)
+    if ": must be" not in text:
+        return None
+    try:
+        arguments = inspect.signature(call).bind_partial(*values, **keywords).arguments
+    except TypeError:
+        return None
+    for name, value in arguments.items():
+        if not isinstance(value, str | float | int | list | tuple | set | dict | bytes):
+            continue
+        shown = repr(value)[:SHOWN]
+        if shown and text.startswith(shown):
+            return type(error)(f"{name} = {text}").with_traceback(error.__traceback__)
+    return None
+
+
+#: Characters of a value that a refusal begins with.
+SHOWN = 50
 
 
 def refused(

@@ -128,7 +128,8 @@ def check_path(path: Any) -> None:
         It is neither a text nor a path.
     """
     if not isinstance(path, str | os.PathLike):
-        raise TypeError(f"path = {path!r:.60}: must be a path, such as 'table.csv'")
+        shown = f"{path!r:.60}" if isinstance(path, int | float) else f"<{type(path).__name__}>"
+        raise TypeError(f"path = {shown}: must be a path, such as 'table.csv'")
 
 
 class Tabular:
@@ -140,11 +141,19 @@ class Tabular:
         return {"values": lambda: (self.dataset, axes)}  # type: ignore[attr-defined]
 
     def _frame(self, of: str | None) -> pd.DataFrame:
-        tables = self._tables()
-        if of is not None and of not in tables:
-            raise ValueError(f"of = {of!r}: must be one of {', '.join(tables)}")
-        make = tables[of] if of is not None else next(iter(tables.values()))
+        make = self._maker(of)
         return data_frame(*make())
+
+    def _maker(self, of: str | None) -> Callable[[], tuple[xr.Dataset, Sequence[str] | None]]:
+        """Return what makes a table, the main one without a name."""
+        tables = self._tables()
+        if of is None:
+            return next(iter(tables.values()))
+        if not isinstance(of, str):
+            raise TypeError(f"of = <{type(of).__name__}>: must be a text, {', '.join(tables)}")
+        if of not in tables:
+            raise ValueError(f"of = {of!r:.60}: must be one of {', '.join(tables)}")
+        return tables[of]
 
     def to_dataframe(self, of: str | None = None) -> pd.DataFrame:
         """Return a table of pandas: a row for every point, units in the names of the columns.
@@ -162,6 +171,7 @@ class Tabular:
 
         A file that is there is replaced.
         """
+        self._maker(of)
         check_path(path)
         self._frame(of).to_csv(path, index=False, lineterminator="\n", encoding="utf-8")
 
@@ -170,6 +180,7 @@ class Tabular:
 
         A file that is there is replaced. It needs openpyxl: ``pip install "fretting[rigs]"``.
         """
+        self._maker(of)
         check_path(path)
         names = list(self._tables()) if of is None else [of]
         write_excel({name: self._frame(name) for name in names}, path)

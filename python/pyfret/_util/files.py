@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import errno
 import glob
+import gzip as packing
 import json
 import os
 import platform
@@ -28,7 +29,7 @@ from pyfret._util.stores import check_store
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["beside", "checked", "gzip", "is_copy", "opened", "read", "write"]
+__all__ = ["beside", "checked", "deflate", "gzip", "is_copy", "opened", "read", "write"]
 
 #: Bytes of a NetCDF file beside its numbers, more than.
 MARGIN = 1 << 20
@@ -167,10 +168,30 @@ def replaceable(place: Path) -> bool:
 
 
 def gzip() -> dict[str, Any]:
-    """How an array is compressed: as those of the stores of runs, so that one reader reads both."""
-    numcodecs, zarr = import_module("numcodecs"), import_module("zarr")
-    codec = numcodecs.GZip(level=1)
-    old = zarr.__version__.startswith("2.")
+    """Return the encoding of a copy: as in the stores of runs, so that one reader reads both.
+
+    The heads have no clock: the same numbers give the same bytes.
+    """
+    numcodecs = import_module("numcodecs")
+
+    class WithoutClock(numcodecs.GZip):  # type: ignore[misc, name-defined]
+        """GZip whose head has the time 0."""
+
+        def encode(self, buf: Any) -> bytes:
+            """Compress bytes."""
+            return packing.compress(np.ascontiguousarray(buf).tobytes(), self.level, mtime=0)
+
+    return encoding_of(WithoutClock(level=1))
+
+
+def deflate() -> dict[str, Any]:
+    """Return the encoding of a study: zlib, without a clock, which netCDF-C reads as well."""
+    return encoding_of(import_module("numcodecs").Zlib(level=1))
+
+
+def encoding_of(codec: Any) -> dict[str, Any]:
+    """Return the encoding with a codec, as the version of zarr takes it."""
+    old = import_module("zarr").__version__.startswith("2.")
     return {"compressor": codec} if old else {"compressors": [codec]}
 
 

@@ -6,9 +6,11 @@ import enum
 import functools
 import inspect
 import math
+import os
 import typing
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from types import BuiltinFunctionType
 from typing import Annotated, Any, Literal
 
 import numpy as np
@@ -84,6 +86,33 @@ MADE = {
 PLAIN = (bool, int, float, complex, str, bytes, list, tuple, dict, set, np.ndarray, np.generic)
 
 
+#: Quantity of which a parameter takes a value for each layer.
+OF_LAYERS = "residual stress"
+#: Classes of values that are no numbers, wherever a number is taken.
+NO_NUMBERS = (type, bytes, set, frozenset, BuiltinFunctionType, np.datetime64, np.timedelta64)
+#: Whole numbers from here on are no floats.
+LARGEST = 2**1024
+
+
+def names_path(hint: Any) -> bool:
+    """Whether a type is a path."""
+    return (typing.get_origin(hint) or hint) is os.PathLike
+
+
+def is_text(hint: Any) -> bool:
+    """Whether a type is a text, a choice of texts, or a path."""
+    if typing.get_origin(hint) is Literal:
+        return all(isinstance(choice, str) for choice in typing.get_args(hint))
+    return hint is str or names_path(hint)
+
+
+def is_texts(hint: Any) -> bool:
+    """Whether a type is a sequence of texts."""
+    items_of = [kind for kind in typing.get_args(hint) if kind is not Ellipsis]
+    several = typing.get_origin(hint) in (Sequence, tuple, list)
+    return several and bool(items_of) and all(is_text(m) for k in items_of for m in members(k))
+
+
 def is_array(hint: Any) -> bool:
     """Whether a type is an array of numbers, or of what numpy makes one of."""
     if typing.get_origin(hint) is Annotated:
@@ -120,7 +149,10 @@ def short_repr(value: Any) -> str:
     """Return a plain value as it is written, an object by its class."""
     if not isinstance(value, PLAIN):
         return f"<{type(value).__name__}>"
-    return f"{' '.join(repr(value).split()):.60}"
+    try:
+        return f"{' '.join(repr(value).split()):.60}"
+    except RecursionError:
+        return f"<{type(value).__name__}>"
 
 
 class Parameter:
@@ -142,12 +174,38 @@ class Parameter:
         if self.material:
             kinds = [kind for kind in kinds if kind is not str]
         self.objects = kinds if kinds and all(map(is_object, kinds)) else []
+        #: Whether it takes texts alone, and whether these may be paths.
+        self.text = bool(kinds) and all(map(is_text, kinds))
+        self.texts = not self.text and bool(kinds)
+        self.texts = self.texts and all(is_text(k) or is_texts(k) for k in kinds)
+        self.function = bool(kinds) and all(typing.get_origin(k) is Callable for k in kinds)
+        #: Whether it is a stress of each layer, of which a single one may be a number.
+        several = any(typing.get_origin(kind) is Sequence for kind in kinds)
+        self.layers = several and self.unit is not None and self.unit.quantity == OF_LAYERS
+        self.path = any(names_path(kind) for kind in kinds)
         parts = [typing.get_args(kind) for kind in kinds if len(kinds) == 1]
         self.items = parts[0][-1] if parts and parts[0] and is_object(parts[0][-1]) else None
 
     def read(self, value: Any) -> Any:
-        """Convert a value to SI, find a material by its name, and check the type."""
+        """Convert a value to SI, find a material by its name, and check the type.
+
+        Raises
+        ------
+        TypeError
+            The value is of a class that the parameter does not take, or lists lie too deep in it.
+        """
+        try:
+            return self.read_checked(value)
+        except RecursionError:
+            raise TypeError(f"{self.name}: lists lie too deep in it") from None
+
+    def read_checked(self, value: Any) -> Any:
+        """Convert and check a value whose lists are not too deep."""
         value = self.find(value)
+        self.check_class(value)
+        if self.layers and (has_unit(value) or isinstance(value, str | int | float)):
+            assert self.unit is not None
+            return [self.unit.convert(value)]
         if self.number is not None:
             value = self.convert(value)
         if value is None and self.number is not None and not self.optional:
@@ -227,6 +285,34 @@ class Parameter:
             single and (hasattr(value, "__float__") or hasattr(value, "__index__"))
         ):
             raise TypeError(f"{name} = {' '.join(repr(value).split()):.60}: must be a number")
+
+    def check_class(self, value: Any) -> None:
+        """Refuse a value of a class that no number and no text is made of.
+
+        Raises
+        ------
+        TypeError
+            The text has the name of the parameter.
+        ValueError
+            It is a whole number beyond the largest float.
+        """
+        if value is None or value is self.default:
+            return
+        if self.text and not isinstance(value, (str, os.PathLike) if self.path else str):
+            allowed = "a path, such as 'file.csv'" if self.path else "a text"
+            raise TypeError(f"{self.name} = {short_repr(value)}: must be {allowed}")
+        if self.texts and not isinstance(value, str | os.PathLike):
+            several = isinstance(value, Sequence | np.ndarray | set | frozenset)
+            if not several or not all(isinstance(i, str | os.PathLike) for i in value):
+                raise TypeError(f"{self.name} = {short_repr(value)}: must be a text, or several")
+        if self.function and not callable(value):
+            raise TypeError(f"{self.name} = {short_repr(value)}: must be a function")
+        if self.number is None and not self.layers:
+            return
+        if isinstance(value, NO_NUMBERS) or (isinstance(value, dict) and not self.mapping):
+            raise TypeError(f"{self.name} = {short_repr(value)}: must be a number, or several")
+        if isinstance(value, int) and not -LARGEST < value < LARGEST:
+            raise ValueError(f"{self.name}: is a whole number beyond 1.8e308")
 
     def is_material(self, value: Any) -> bool:
         """Whether a value is a material in the place of its number."""

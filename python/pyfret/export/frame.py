@@ -38,8 +38,11 @@ class Frame:
 
     def __post_init__(self) -> None:
         """Refuse what is no frame."""
-        if self.unit not in UNITS:
-            raise ValueError(f'unit = {self.unit!r}: must be "m" or "mm"')
+        if not isinstance(self.unit, str) or self.unit not in UNITS:
+            shown = (
+                repr(self.unit) if isinstance(self.unit, str) else f"<{type(self.unit).__name__}>"
+            )
+            raise ValueError(f'unit = {shown}: must be "m" or "mm"')
         for name in ("origin", "x", "z"):
             value = plain(getattr(self, name), name)
             if value.shape != (3,):

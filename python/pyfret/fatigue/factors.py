@@ -69,14 +69,20 @@ class LoadFactors(Labelled, Figured):
         #: The layers that are judged, from the surface down.
         self.layers = list(layers)
 
+    def _check(self, of: object) -> None:
+        """Refuse what is no name of a factor."""
+        if not isinstance(of, str) or of not in get_args(Factor):
+            shown = repr(of) if isinstance(of, str) else f"<{type(of).__name__}>"
+            raise ValueError(f"of = {shown}: must be one of {', '.join(get_args(Factor))}")
+
     def use(self, of: Factor) -> xr.DataArray:
         """Give load over limit, the inverse of a factor: 1 where the limit is reached."""
-        if of not in get_args(Factor):
-            raise ValueError(f"{of!r}: must be one of {', '.join(get_args(Factor))}")
+        self._check(of)
         return 1.0 / self.dataset[of]
 
     def least_of(self, layer: int, of: Factor = "von_mises") -> Extremum:
         """Give the least factor of a layer; a ValueError where it is not judged."""
+        self._check(of)
         if (layer, of) not in self._least:
             self._least[layer, of] = self._search_least(layer, of)
         return self._least[layer, of]

@@ -120,6 +120,8 @@ def lives(
     ValueError
         As in :func:`life`, or no criterion is given.
     """
+    if isinstance(criteria, str) or not isinstance(criteria, Sequence):
+        raise TypeError(f"criteria = <{type(criteria).__name__}>: must be several names, a list")
     names = list(dict.fromkeys(criteria))
     if not names:
         raise ValueError("criteria = []: must be one or more of fatigue.CRITERIA")

@@ -180,8 +180,8 @@ class Run(OfRun):
         """The fields and scalars of an increment of :meth:`at`, and the scene."""
         if isinstance(which, bool) or not isinstance(which, numbers.Real):
             raise TypeError(
-                f"{which!r}: must be an increment, such as 5, or -1 for the last that kept its "
-                "fields, or a path time, such as 1.0"
+                f"which = {which!r:.60}: must be an increment, such as 5, or -1 for the last that "
+                "kept its fields, or a path time, such as 1.0"
             )
         saved = self.dataset.saved_increment.values
         times = self.dataset.saved_t.values
@@ -195,7 +195,7 @@ class Run(OfRun):
             start = "increments count from 1, and " if which == 0 else ""
             ends = f": result.at({saved[0]}) is the first, result.at(-1) the last"
             raise KeyError(
-                f"{start}no fields were kept at {which!r}; kept are the increments "
+                f"{start}no fields were kept at {which!r:.60}; kept are the increments "
                 f"{saved.tolist()} at t = {times.tolist()}{ends if saved.size else ''}"
             )
         last_place = int(places[-1])

@@ -95,8 +95,7 @@ class Study(Saveable, Labelled, Figured):
         them.
         """
         d = self.dataset
-        if of not in (None, "points"):
-            raise ValueError(f"of = {of!r}: must be points")
+        self._maker(of)
         dims = set(d["status"].dims)
         field_dims = {
             str(name): [str(dim) for dim in variable.dims if dim not in dims]

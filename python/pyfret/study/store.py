@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pyfret._core import StoreError, __version__
-from pyfret._util.files import gzip
+from pyfret._util.files import deflate
 from pyfret._util.lazy import xr
 from pyfret._util.stores import check_store
 from pyfret.study.design import TOGETHER
@@ -100,9 +100,9 @@ class Store:
         try:
             empty_study = empty_dataset(design, {**study_attrs, **Store.marks()}, POINT_VARIABLES)
             shape = tuple(design.sizes.values())
-            encoding: dict[str, Any] = {str(name): gzip() for name in empty_study.variables}
+            encoding: dict[str, Any] = {str(name): deflate() for name in empty_study.variables}
             encoding |= {
-                name: {"chunks": shape, "_FillValue": None, **gzip()} for name in POINT_VARIABLES
+                name: {"chunks": shape, "_FillValue": None, **deflate()} for name in POINT_VARIABLES
             }
             empty_study.to_zarr(
                 unfinished, mode="w-", zarr_format=2, consolidated=True, encoding=encoding
@@ -150,7 +150,11 @@ class Store:
             chunk = tuple(1 for _ in sizes) if variable.ndim else tuple(sizes.values())
             values = np.full((*sizes.values(), *variable.shape), np.nan)
             new_arrays[name] = ((*sizes, *variable.dims), values, variable.attrs)
-            encoding[name] = {"chunks": (*chunk, *variable.shape), "_FillValue": np.nan, **gzip()}
+            encoding[name] = {
+                "chunks": (*chunk, *variable.shape),
+                "_FillValue": np.nan,
+                **deflate(),
+            }
         new_arrays.to_zarr(
             self.place, mode="a", zarr_format=2, consolidated=True, encoding=encoding
         )

@@ -107,7 +107,12 @@ impl Criterion {
                 PyValueError::new_err(message)
             })?
         } else {
-            material.extract::<Material>().map_err(PyErr::from)?.0
+            let allowed = "a Material, or the name of one";
+            let refused = |_| {
+                let refusal = must_be(material, allowed);
+                PyTypeError::new_err(format!("material = {}", refusal.value(material.py())))
+            };
+            material.extract::<Material>().map_err(refused)?.0
         };
         let assessment = core::Assessment::from_name(name, &material)?;
         Ok(Self(assessment.criterion))
