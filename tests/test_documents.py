@@ -140,6 +140,7 @@ COMMANDS = (
         "threshold",
         "report",
         "info",
+        "table",
         "verify",
         "cite",
     ),

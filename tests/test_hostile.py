@@ -91,7 +91,7 @@ def test_no_public_callable_takes_for_a_number_what_is_none() -> None:
 
 @pytest.mark.timeout(600)
 def test_a_value_of_a_wrong_class_is_refused_with_the_name_of_its_argument() -> None:
-    """By TypeError, ValueError or an error of pyfret, and in the text itself: 500 calls."""
+    """Make 500 calls: TypeError, ValueError or an error of pyfret, the name in its text."""
     wrong = wrong_of("classes500")
     assert not wrong, "\n".join(wrong)
 

@@ -186,6 +186,8 @@ GOOD: dict[str, Any] = {
         "down": [True, True, False],
     },
     **{"cycle": -1, "tolerance": 1e-2, "angle": 0.1, "azimuth": 0.0, "body_number": 2, "set": []},
+    **{name: STEEL for name in ("ball", "flat", "cylinder", "first", "second", "pad", "rough")},
+    **{"surface": fret.shapes.Rough(rms=1e-8, hurst=0.8, longest=2e-4, shortest=1.5e-4)},
     **{"kinetic": 0.2, "friction": 0.1, "residual": [-1e8], "save": "all", "harmonics": 4},
     **{"constant": (0.0,) * 6, "bulk": 0.0, "error": 0.1, "room": 1.2, "noise": 1e-8},
     **{"sigma_B1": 1e6, "bulk_ratio": 0.0, "scatter": 2.0, "walker": 0.5, "Y": 1.0, "dS_0": 1e8},
@@ -260,6 +262,11 @@ OF: dict[str, dict[str, Any]] = {
     "LoadPath.tangential": {"T_x": [1.0]},
     "LoadPath.torsion": {"M_z": [1e-4]},
     "Scene.from_file": {"path": written("scene.toml", TOML)},
+    **{
+        f"Scene.{name}": {"cycles": 2, "quiet": True, "error": 0.2}
+        for name in ("ball_on_flat", "cylinder_on_flat", "crossed_cylinders", "flat_pad")
+    },
+    "Scene.rough_on_flat": {"cycles": 2, "quiet": True, "error": 0.2, "n": 24},
     "Scene.save": {"path": FOLDER / "saved.toml"},
     "Scene.length": {"p": 1e-3},
     "Scene": {"grid": fret.Grid.centred(width=8e-4, n=12)},

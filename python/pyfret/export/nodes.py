@@ -90,6 +90,8 @@ def nodal_forces(
     frame = Frame() if frame is None else frame
     sign = body_sign(body_number)
     nodes = plain(points, "points")
+    if nodes.ndim != 2 or nodes.shape[1] != 3:
+        raise ValueError(f"points has the shape {nodes.shape}: must be (n, 3), a row for each node")
     at = frame.contact_place(nodes)[:, :2]
     tables = [checked(rows, len(nodes)) for rows in faces]
     if not any(rows.size for rows in tables):
