@@ -56,17 +56,21 @@ def connect(app: Any, sessions: Sessions, jobs: Jobs, measured: Path | None) -> 
     ) -> dict[str, Any]:
         """Do what an event asks for; without one, make the form of the scene of the browser."""
         changes = dict.fromkeys(outputs, dash.no_update)
-        owner = event["session"] if dash.ctx.triggered_id == "event" else session
+        # A page that opens with a link sends both at once.
+        triggers = {trigger["prop_id"].partition(".")[0] for trigger in dash.ctx.triggered}
+        owner = event["session"] if "event" in triggers else session
         sessions.folder_of(owner)
         scene, names = sessions.unpack(owner if "toml" in packed or event else START, packed)
         names = names_of(scene, names)
-        if dash.ctx.triggered_id != "event":
+        if "session" in triggers:
             adopted = (
                 adopt_measured(sessions, owner, measured) if measured and not dropped else None
             )
             if adopted:
                 changes["dropped"] = [adopted]
-            return changes | {"form": render_form(scene, names)}
+            changes["form"] = render_form(scene, names)
+        if "event" not in triggers:
+            return changes
         changes["done"] = event["number"]
         context = Context(sessions, jobs, owner, scene, names)
         try:
