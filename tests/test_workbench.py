@@ -32,7 +32,7 @@ from pyfret.workbench.judgements import first_yield, life_of
 from pyfret.workbench.names import OWN, names_of
 from pyfret.workbench.page import explore, open_workbench
 from pyfret.workbench.presets import FIRST, PRESETS, make_preset
-from pyfret.workbench.sessions import Sessions
+from pyfret.workbench.sessions import START, Sessions
 from pyfret.workbench.uploads import MOST_FILE, safe_parts
 from pyfret.workbench.variants import verdict
 
@@ -235,6 +235,9 @@ def test_a_scene_with_a_measured_surface_stays_on_the_server(tmp_path: Path) -> 
     assert sessions.unpack(SESSION, packed) == (rough, names)
     with pytest.raises(ValueError, match="gone"):
         sessions.unpack("f" * 16, packed)
+    # The scene that a page begins with is there for every browser.
+    packed = sessions.pack(START, rough, names)
+    assert sessions.unpack("e" * 16, packed) == (rough, names)
 
 
 @pytest.mark.parametrize(

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from pyfret.result import Result
     from pyfret.subsurface.tensor import Stress
 
-__all__ = ["Answer", "Number", "Recent", "answer_in_full", "preview", "solve_in_full"]
+__all__ = ["PageAnswer", "PageNumber", "Recent", "answer_in_full", "preview", "solve_in_full"]
 
 T = TypeVar("T")
 
@@ -45,7 +45,7 @@ REFUSALS = (ValueError, RuntimeError, NoConvergenceError, OffGridError, StoreErr
 
 
 @dataclass(frozen=True)
-class Number:
+class PageNumber:
     """A number of an answer, in the unit of the page."""
 
     name: str
@@ -64,10 +64,10 @@ class Number:
 
 
 @dataclass(frozen=True)
-class Answer:
+class PageAnswer:
     """Numbers of a run, with what the figures are drawn from."""
 
-    numbers: list[Number]
+    numbers: list[PageNumber]
     doubts: list[str]
     #: Increments of every branch.
     counts: list[int]
@@ -79,12 +79,12 @@ class Answer:
 
 def number_with_error(
     name: str, value: float, error: float | None, unit: str = "", note: str = ""
-) -> Number:
+) -> PageNumber:
     """Make a number of a value and its error, an estimate where the error is not known."""
     if error is None or not np.isfinite(error):
-        return Number(name, rough(value), unit, value, note=note)
+        return PageNumber(name, rough(value), unit, value, note=note)
     text = with_error(value, error).replace("+-", "±")
-    return Number(name, text, unit, value, value - error, value + error, note)
+    return PageNumber(name, text, unit, value, value - error, value + error, note)
 
 
 def in_increments(path: LoadPath, counts: list[int]) -> LoadPath:
@@ -103,7 +103,7 @@ def quietly(action: Callable[[], Result]) -> Result:
         return action()
 
 
-def preview(scene: Scene, names: dict[str, str], counts: list[int] | None) -> Answer:
+def preview(scene: Scene, names: dict[str, str], counts: list[int] | None) -> PageAnswer:
     """Solve a scene in few increments: a third of its neighbour's, or 4 in each branch.
 
     The stress is the one on the section along the shear. Numbers are estimates.
@@ -119,7 +119,7 @@ def preview(scene: Scene, names: dict[str, str], counts: list[int] | None) -> An
     if below is not None:
         largest = float(below.measure("von_mises").max()) / 1e6
         numbers.append(number_with_error("largest von Mises stress", largest, None, "MPa"))
-    return Answer(numbers, list(result.doubts), counts, result, below)
+    return PageAnswer(numbers, list(result.doubts), counts, result, below)
 
 
 class Recent(Generic[T]):
@@ -145,7 +145,7 @@ class Recent(Generic[T]):
 
 #: Results by the text of their scenes, answers by the names of the materials as well.
 RESULTS: Recent[Result] = Recent()
-ANSWERS: Recent[Answer] = Recent()
+ANSWERS: Recent[PageAnswer] = Recent()
 
 
 def solve_in_full(scene: Scene) -> Result:
@@ -158,13 +158,13 @@ def solve_in_full(scene: Scene) -> Result:
     return RESULTS.fetch(whole.to_toml(), run)
 
 
-def answer_in_full(scene: Scene, names: dict[str, str]) -> Answer:
+def answer_in_full(scene: Scene, names: dict[str, str]) -> PageAnswer:
     """Solve a scene in the chosen increments: numbers with errors, the largest stress of layers."""
     key = f"{sorted(names.items())}\n{scene.to_toml()}"
     return ANSWERS.fetch(key, lambda: make_answer(scene, names))
 
 
-def make_answer(scene: Scene, names: dict[str, str]) -> Answer:
+def make_answer(scene: Scene, names: dict[str, str]) -> PageAnswer:
     """Make the numbers of the full run of a scene."""
     result = solve_in_full(scene)
     below = stress_below(result)
@@ -175,7 +175,7 @@ def make_answer(scene: Scene, names: dict[str, str]) -> Answer:
             numbers.append(number)
             marks.append(spot)
     counts = np.bincount(result.dataset.branch_of_increment.values)
-    return Answer(
+    return PageAnswer(
         numbers, list(result.doubts), [int(n) for n in counts if n], result, below, tuple(marks)
     )
 
@@ -192,7 +192,7 @@ def stress_below(result: Result) -> Stress | None:
 
 def layer_maxima(
     below: Stress, labels: list[str]
-) -> list[tuple[Number, tuple[float, float, float]]]:
+) -> list[tuple[PageNumber, tuple[float, float, float]]]:
     """Return the largest von Mises stress of every layer with its place."""
     numbers = []
     with warnings.catch_warnings():
@@ -207,7 +207,7 @@ def layer_maxima(
     return numbers
 
 
-def scalars(result: Result) -> list[Number]:
+def scalars(result: Result) -> list[PageNumber]:
     """Return contact, motions and loop at the end of the path, with errors where there are any."""
     ends = result.branches()
     bars = result.error_bars().sel(part="total") if result.dataset.attrs.get("error_bars") else None
@@ -223,14 +223,14 @@ def scalars(result: Result) -> list[Number]:
     return [*numbers, *loop_numbers(result)]
 
 
-def loop_numbers(result: Result) -> list[Number]:
+def loop_numbers(result: Result) -> list[PageNumber]:
     """Return energy, stiffness and state of the last cycle."""
     direction = next(iter(directions(result)), None)
     if direction is None:
         return []
     loops = result.loops(direction=direction)
     if not loops.sizes["cycle"]:
-        return [Number("energy of the last cycle", "no closed cycle")]
+        return [PageNumber("energy of the last cycle", "no closed cycle")]
     last = loops.isel(cycle=-1)
     numbers = []
     for key, name in (
@@ -243,7 +243,10 @@ def loop_numbers(result: Result) -> list[Number]:
         if key == "delta" and error is None and "error_bars" in result.dataset.attrs:
             error = shift_error(result, direction)
         numbers.append(number_with_error(name, factor * float(last[key]), error, unit))
-    return [*numbers, Number("state of the last cycle", state_in_words(last.status, result.scene))]
+    return [
+        *numbers,
+        PageNumber("state of the last cycle", state_in_words(last.status, result.scene)),
+    ]
 
 
 def shift_error(result: Result, direction: str) -> float | None:

@@ -60,7 +60,7 @@ def connect(app: Any, sessions: Sessions, jobs: Jobs, measured: Path | None) -> 
         triggers = {trigger["prop_id"].partition(".")[0] for trigger in dash.ctx.triggered}
         owner = event["session"] if "event" in triggers else session
         sessions.folder_of(owner)
-        scene, names = sessions.unpack(owner if "toml" in packed or event else START, packed)
+        scene, names = sessions.unpack(owner, packed)
         names = names_of(scene, names)
         if "session" in triggers:
             adopted = (
@@ -152,7 +152,3 @@ def connect(app: Any, sessions: Sessions, jobs: Jobs, measured: Path | None) -> 
     connect_contact(app, sessions)
     connect_answers(app, sessions, jobs)
     connect_files(app, sessions)
-
-
-#: Session of the start scene.
-START = "0" * 32

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from pyfret._util.extras import needed
-from pyfret.workbench.answers import REFUSALS, Answer, answer_in_full, preview, solve_in_full
+from pyfret.workbench.answers import REFUSALS, PageAnswer, answer_in_full, preview, solve_in_full
 from pyfret.workbench.doubts import doubt_of_sentence
 from pyfret.workbench.figures import draw_loop, draw_stress, draw_tractions, draw_zones
 from pyfret.workbench.form import button
@@ -41,7 +41,7 @@ def connect_answers(app: Any, sessions: Sessions, jobs: Jobs) -> None:
         ]
         return [dash.Output(*slot, allow_duplicate=again) for slot in slots]
 
-    def shown(answer: Answer, scene: Any, names: dict[str, str], state: str) -> list[Any]:
+    def shown(answer: PageAnswer, scene: Any, names: dict[str, str], state: str) -> list[Any]:
         rows = [number.as_row() for number in answer.numbers]
         at_fields = scene.doubts()
         doubts = [doubt_of_sentence(scene, text) for text in answer.doubts if text not in at_fields]

@@ -23,6 +23,8 @@ __all__ = ["draw_load_cycle", "draw_loop", "draw_stress", "draw_tractions", "dra
 
 #: Force and motion of a loop by what drives it.
 LOOPS = {"x": ("T_x", "delta_x"), "y": ("T_y", "delta_y"), "torsion": ("M_z", "phi_z")}
+#: Dashes of curves that may lie on one another.
+DASHES = ("solid", "dash", "dot", "dashdot")
 #: Most points along a section.
 ALONG = 160
 #: Part of the contact that is shown beside it.
@@ -206,8 +208,12 @@ def draw_load_cycle(result_or_path: Any, unit: str) -> Any:
                 x=t,
                 y=[0.0, *(value / largest for value in values)],
                 mode="lines+markers",
-                name=f"{load} / {factor * largest:.3g} {own_unit}",
-                line={"color": CURVES[len(traces) % len(CURVES)], "width": 2},
+                name=f"{load} / {in_words(factor * largest, 3)} {own_unit}",
+                line={
+                    "color": CURVES[len(traces) % len(CURVES)],
+                    "dash": DASHES[len(traces) % len(DASHES)],
+                    "width": 2,
+                },
             )
         )
     labels = axis("path time"), axis("part of the largest")

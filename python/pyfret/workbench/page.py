@@ -22,7 +22,7 @@ from pyfret.workbench.layout import TABS, page_layout
 from pyfret.workbench.names import names_of
 from pyfret.workbench.presets import FIRST, make_preset
 from pyfret.workbench.server import Page, make_folder, make_token
-from pyfret.workbench.sessions import Sessions
+from pyfret.workbench.sessions import START, Sessions
 from pyfret.workbench.theme import css
 from pyfret.workbench.uploads import add_upload
 
@@ -38,8 +38,6 @@ DOCUMENT = """<!DOCTYPE html>
 <title>{%title%}</title>{%favicon%}{%css%}<style>THEME</style></head>
 <body>{%app_entry%}<footer>{%config%}{%scripts%}{%renderer%}</footer></body>
 </html>"""
-#: Name of the session of the start scene, where it is too long for the page itself.
-START = "0" * 32
 
 
 @quantities

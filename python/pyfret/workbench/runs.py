@@ -11,7 +11,7 @@ from pyfret import wear
 from pyfret._core import Grid, LoadPath, OffGridError, with_range
 from pyfret._util.numbers import in_words
 from pyfret.study.loop import run as run_points
-from pyfret.workbench.answers import Number, number_with_error
+from pyfret.workbench.answers import PageNumber, number_with_error
 from pyfret.workbench.figures import graph_objects
 from pyfret.workbench.theme import CURVES, axis, layout
 
@@ -69,7 +69,7 @@ def outcome_of_wear(worn: WearResult, number: int) -> dict[str, Any]:
         number_with_error(
             "worn volume", factor * volume, factor * volume * worn.error_of("volume"), shown
         ),
-        Number("cycles", f"{float(d.cycles[-1]):.6g}", "", float(d.cycles[-1])),
+        PageNumber("cycles", f"{float(d.cycles[-1]):.6g}", "", float(d.cycles[-1])),
     ]
     cut = worn.along()
     along = str(cut[f"worn{number}"].dims[-1])
@@ -110,7 +110,7 @@ def run_study(scene: Scene, order: Mapping[str, Any], folder: Path) -> dict[str,
             text = with_range(answers[n], bottom, top)
         name = f"at {label.partition(' [')[0]} = {value:g}"
         best = float(answers[n]) if math.isfinite(answers[n]) else None
-        rows.append(Number(name, text, "" if unit == "1" else unit, best, bottom, top))
+        rows.append(PageNumber(name, text, "" if unit == "1" else unit, best, bottom, top))
     doubts = [f"{value}: {reason}" for value, reason in study.failed()]
     return {
         "numbers": [row.as_row() for row in rows],
@@ -129,7 +129,7 @@ def run_fit(scene: Scene, order: Mapping[str, Any], folder: Path) -> dict[str, A
     """Fit friction to a loop, the wear coefficient to a scar, and predict a depth from both."""
     from pyfret import fit
 
-    numbers: list[Number] = []
+    numbers: list[PageNumber] = []
     figures, doubts = [], []
     body = order.get("body", 2)
     if order.get("loop"):
@@ -164,7 +164,7 @@ def run_fit(scene: Scene, order: Mapping[str, Any], folder: Path) -> dict[str, A
     if order.get("predict") and alpha:
         worn = wear_off(scene, order["predict"], law_of(body, alpha))
         predicted = outcome_of_wear(worn, body)
-        numbers += [Number(**row) for row in predicted["numbers"]]
+        numbers += [PageNumber(**row) for row in predicted["numbers"]]
         figures += predicted["figures"]
         doubts += predicted["doubts"]
     return {
@@ -175,7 +175,7 @@ def run_fit(scene: Scene, order: Mapping[str, Any], folder: Path) -> dict[str, A
     }
 
 
-def fitted(outcome: Any, names: Mapping[str, tuple[str, float, str]]) -> list[Number]:
+def fitted(outcome: Any, names: Mapping[str, tuple[str, float, str]]) -> list[PageNumber]:
     """Return fitted values with their confidence of 95 %."""
     numbers = []
     for key, (name, factor, unit) in names.items():
@@ -184,7 +184,7 @@ def fitted(outcome: Any, names: Mapping[str, tuple[str, float, str]]) -> list[Nu
         interval = outcome.known[key]
         value, low, high = (factor * v for v in (interval.value, interval.low, interval.high))
         text = with_range(value, low, high)
-        numbers.append(Number(name, text, unit, value, low, high, "95 % confidence"))
+        numbers.append(PageNumber(name, text, unit, value, low, high, "95 % confidence"))
     return numbers
 
 

@@ -10,10 +10,12 @@ from typing import Any
 
 from pyfret._core import Scene
 
-__all__ = ["Sessions"]
+__all__ = ["START", "Sessions"]
 
 #: Names of sessions and of dropped files.
 NAME = re.compile(r"[0-9a-f]{8,64}")
+#: Session of the start scene, which all browsers read.
+START = "0" * 32
 #: Letters of a scene that a browser keeps itself; longer ones hold measured surfaces.
 INLINE = 200_000
 #: Sessions whose last request is remembered.
@@ -65,8 +67,9 @@ class Sessions:
         key = packed.get("file", "")
         if not NAME.fullmatch(str(key)):
             raise ValueError("the scene of this page is damaged: take a preset")
-        path = self.folder_of(session) / f"{key}.toml"
-        if not path.is_file():
+        places = (self.folder_of(name) / f"{key}.toml" for name in (session, START))
+        path = next((path for path in places if path.is_file()), None)
+        if path is None:
             raise ValueError("the scene of this page is gone: take a preset, or drop its file")
         return read_scene_text(path.read_text(encoding="utf-8")), dict(names)
 

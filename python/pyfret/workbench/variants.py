@@ -9,7 +9,7 @@ import numpy as np
 from pyfret._util.extras import needed
 from pyfret.run.summary import directions
 from pyfret.subsurface.line import fields_on, line_of, main_line
-from pyfret.workbench.figures import LOOPS
+from pyfret.workbench.figures import DASHES, LOOPS
 from pyfret.workbench.form import button, html
 from pyfret.workbench.runs import curve, draw
 from pyfret.workbench.theme import CURVES
@@ -17,14 +17,12 @@ from pyfret.workbench.theme import CURVES
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from pyfret.workbench.answers import Answer
+    from pyfret.workbench.answers import PageAnswer
 
 __all__ = ["MOST", "curves_of", "draw_curves", "render_comparison", "verdict"]
 
 #: Most variants, points of a curve.
 MOST, POINTS = 4, 160
-#: Dashes of the curves, so that a variant is known without its colour.
-DASHES = ("solid", "dash", "dot", "dashdot")
 
 
 def thin_out(x: Any, y: Any) -> list[list[float]]:
@@ -34,7 +32,7 @@ def thin_out(x: Any, y: Any) -> list[list[float]]:
     return [[float(f"{v:.5g}") for v in values[keep]] for values in (x, y)]
 
 
-def curves_of(answer: Answer) -> dict[str, Any]:
+def curves_of(answer: PageAnswer) -> dict[str, Any]:
     """Return loop, pressure along the shear, and stress below the middle, for a pin."""
     d, last = answer.result.dataset, answer.result.at(-1)
     force, motion = LOOPS[next(iter(directions(answer.result)), "x")]
