@@ -29,7 +29,7 @@
 //! Tractions below [`ZERO`] times the largest of the history count as zero, and so do the jumps that
 //! they cause: a crack that is unloaded is at rest, whatever the rounding of its stress.
 
-use ndarray::{Array1, Array2};
+use ndarray::{Array1, Array2, s};
 
 use super::Error;
 use super::influence::influence;
@@ -107,15 +107,49 @@ pub(crate) struct Contact {
     /// M: rows normal, then shear; columns opening, then slip.
     matrix: Array2<f64>,
     /// Factors of M, for faces that are open all along.
-    all_open: Lu,
-    /// Whether slip changes normal tractions, as it does along cracks that are not straight.
-    coupled: bool,
+    all_open: Factors,
     /// Largest opening under a unit normal traction.
     compliance: f64,
     /// Weight of the dislocation at the tip.
     pub(crate) tip: f64,
     /// Distances of the points from the mouth over the length.
     pub(crate) s: Vec<f64>,
+}
+
+/// Factors of M.
+#[derive(Clone, Debug)]
+enum Factors {
+    /// All of it: slip changes normal tractions, as it does along cracks that are not straight.
+    Coupled(Lu),
+    /// Its halves: opening to normal tractions, and slip to shear tractions.
+    Halves { opening: Lu, slip: Lu },
+}
+
+impl Factors {
+    /// `None` for a singular matrix.
+    fn new(matrix: &Array2<f64>) -> Option<Self> {
+        let n = matrix.nrows() / 2;
+        let coupled = matrix.indexed_iter().any(|((row, column), t)| {
+            row < n && column >= n && t.abs() > ZERO * matrix[[row, row]].abs()
+        });
+        Some(if coupled {
+            Self::Coupled(Lu::new(matrix.clone())?)
+        } else {
+            Self::Halves {
+                opening: Lu::new(matrix.slice(s![..n, ..n]).to_owned())?,
+                slip: Lu::new(matrix.slice(s![n.., n..]).to_owned())?,
+            }
+        })
+    }
+
+    /// The openings under the tractions -`right`, normal then shear.
+    fn openings(&self, right: &Array1<f64>) -> Array1<f64> {
+        let n = right.len() / 2;
+        match self {
+            Self::Coupled(whole) => whole.solve(right).slice(s![..n]).to_owned(),
+            Self::Halves { opening, .. } => opening.solve(&right.slice(s![..n]).to_owned()),
+        }
+    }
 }
 
 impl Contact {
@@ -136,16 +170,13 @@ impl Contact {
                 column -= &next;
             }
         }
-        let all_open = Lu::new(matrix.clone()).ok_or_else(|| Error::Singular {
+        let all_open = Factors::new(&matrix).ok_or_else(|| Error::Singular {
             length,
             why: "its legs touch or run along each other".into(),
         })?;
         let unit = Array1::from_shape_fn(2 * n, |k| if k < n { -1.0 } else { 0.0 });
         Ok(Self {
-            coupled: matrix.indexed_iter().any(|((row, column), t)| {
-                row < n && column >= n && t.abs() > ZERO * matrix[[row, row]].abs()
-            }),
-            compliance: largest(&all_open.solve(&unit)),
+            compliance: largest(&all_open.openings(&unit)),
             matrix,
             all_open,
             tip: rule.dislocations[0].weight,
@@ -163,10 +194,10 @@ impl Contact {
     ) -> Result<Touching, Unsettled> {
         let n = self.s.len();
         let tight = ZERO * self.compliance * instant.most;
-        let apart = self.all_open.solve(&-instant.load);
-        if apart.iter().take(n).all(|gap| *gap >= -tight) {
+        let gaps = self.all_open.openings(&-instant.load);
+        if gaps.iter().all(|gap| *gap >= -tight) {
             return Ok(Touching {
-                jumps: apart,
+                jumps: self.apart(instant, &gaps),
                 tractions: Array1::zeros(2 * n),
                 states: vec![(State::Open, 0); n],
                 passes: 1,
@@ -212,6 +243,20 @@ impl Contact {
         Err(Unsettled { passes, at_fault })
     }
 
+    /// The jumps of faces that are open all along, with these openings.
+    fn apart(&self, instant: &Instant<'_>, gaps: &Array1<f64>) -> Array1<f64> {
+        match &self.all_open {
+            Factors::Coupled(whole) => whole.solve(&-instant.load),
+            Factors::Halves { slip, .. } => {
+                let n = gaps.len();
+                let loads = instant.load.slice(s![n..]);
+                let right = -self.matrix.slice(s![n.., ..n]).dot(gaps) - loads;
+                let slips = slip.solve(&right);
+                gaps.iter().chain(&slips).copied().collect()
+            }
+        }
+    }
+
     /// The jumps of points in given states: those that are free, from the equations of their states.
     fn jumps(&self, instant: &Instant<'_>, states: &[Signed]) -> Option<Array1<f64>> {
         let n = states.len();
@@ -223,7 +268,11 @@ impl Contact {
         for k in of(|state| state == State::Stick) {
             jumps[n + k] = instant.before[k];
         }
-        let held = instant.load + &self.matrix.dot(&jumps);
+        let held = if moves.len() == n {
+            instant.load.clone()
+        } else {
+            instant.load + &self.matrix.dot(&jumps)
+        };
         // s_nn = 0; s_tn + sign mu s_nn = 0, which is s_tn = 0 where open.
         let share = |row: usize| match row.checked_sub(n) {
             Some(k) => (k, f64::from(states[k].1) * instant.friction),
@@ -246,15 +295,24 @@ impl Contact {
             [] => Some(Array1::zeros(0)),
             free => Lu::new(part(free, free)).map(|lu| lu.solve(right)),
         };
-        let (free, found): (Vec<usize>, Array1<f64>) = if self.coupled {
-            let free = [open, moves].concat();
-            let found = solve(&free, &right(&free))?;
-            (free, found)
-        } else {
-            let gaps = solve(&open, &right(&open))?;
-            let slips = solve(&moves, &(right(&moves) - part(&moves, &open).dot(&gaps)))?;
-            let found = gaps.iter().chain(&slips).copied().collect();
-            ([open, moves].concat(), found)
+        let (free, found): (Vec<usize>, Array1<f64>) = match &self.all_open {
+            Factors::Coupled(_) => {
+                let free = [open, moves].concat();
+                let found = solve(&free, &right(&free))?;
+                (free, found)
+            }
+            Factors::Halves { slip, .. } => {
+                let gaps = solve(&open, &right(&open))?;
+                let shears = right(&moves) - part(&moves, &open).dot(&gaps);
+                // Openings do not depend on slip, so that the same factors serve all signs of it.
+                let slips = if moves.len() == n {
+                    slip.solve(&shears)
+                } else {
+                    solve(&moves, &shears)?
+                };
+                let found = gaps.iter().chain(&slips).copied().collect();
+                ([open, moves].concat(), found)
+            }
         };
         for (place, jump) in free.into_iter().zip(found) {
             jumps[place] = jump;
@@ -264,15 +322,22 @@ impl Contact {
 
     /// Tractions of the faces and the rounding that is in them.
     fn tractions(&self, instant: &Instant<'_>, jumps: &Array1<f64>) -> (Array1<f64>, Array1<f64>) {
-        let of = |(row, load): (ndarray::ArrayView1<'_, f64>, &f64)| {
-            let terms = row.iter().zip(jumps).map(|(t, jump)| t * jump);
+        let n = jumps.len() / 2;
+        let halves = matches!(self.all_open, Factors::Halves { .. });
+        let of = |(k, (row, load)): (usize, (ndarray::ArrayView1<'_, f64>, &f64))| {
+            let columns = if halves && k < n { n } else { 2 * n };
+            let terms = row
+                .iter()
+                .zip(jumps)
+                .take(columns)
+                .map(|(t, jump)| t * jump);
             let (sum, sizes) = terms.fold((*load, 0.0), |(sum, sizes), term: f64| {
                 (sum + term, sizes + term.abs())
             });
             (sum, ROUNDING * sizes + ZERO * instant.most)
         };
-        let all = self.matrix.rows().into_iter().zip(instant.load).map(of);
-        let (tractions, rounding): (Vec<f64>, Vec<f64>) = all.unzip();
+        let rows = self.matrix.rows().into_iter().zip(instant.load).enumerate();
+        let (tractions, rounding): (Vec<f64>, Vec<f64>) = rows.map(of).unzip();
         (tractions.into(), rounding.into())
     }
 }
