@@ -563,6 +563,71 @@ class Cone:
         """Tangent of the angle between flank and contact plane."""
 
 @final
+class ContactForCracks:
+    """
+    A contact in several of its states, prepared for cracks; use :meth:`pyfret.Result.crack`.
+
+    Cracks at several places share the stress that the first one needs.
+    """
+
+    def __new__(
+        cls,
+        /,
+        body: Body,
+        states: States,
+        *,
+        residual: Sequence[ArrayLike] | None = None,
+        body_number: int = 2,
+    ) -> ContactForCracks: ...
+    def growth(
+        self,
+        /,
+        *,
+        x: float,
+        start: float,
+        end: float,
+        direction: str,
+        tolerance: float,
+        angle: Angle = 0.0,
+        azimuth: Angle = 0.0,
+        offset: float = 0.0,
+        friction: float = 0.0,
+    ) -> dict[str, Any]:
+        """Return K of a crack that grows."""
+    def intensity(
+        self,
+        /,
+        *,
+        x: float,
+        lengths: Sequence[float],
+        angle: Angle = 0.0,
+        kink: tuple[float, float] | None = None,
+        azimuth: Angle = 0.0,
+        offset: float = 0.0,
+        friction: float = 0.0,
+        mouth_error: float | None = None,
+    ) -> dict[str, NDArray[np.float64]]:
+        """
+        Return K of cracks.
+
+        The mouth may be off by `mouth_error` [m]: the change of K by it is part of the error of K.
+        """
+    def widest_range(
+        self,
+        /,
+        places: Sequence[tuple[float, float, float]],
+        *,
+        lengths: Sequence[float],
+        angle: Angle = 0.0,
+        friction: float = 0.0,
+    ) -> int:
+        """
+        Return the number of the place with the largest range of K_I of straight cracks.
+
+        Places are x, azimuth and offset of the plane.
+        """
+
+@final
 class Conversion:
     """The paper's conversion, planned; see :func:`pyfret.kernels.convert`."""
 
@@ -911,7 +976,7 @@ class CycleSection:
     `moments` is called with a list of numbers from 0 to `count` - 1, or with None for the moment
     before the cycle. It gives :class:`States` on the grid, or None. `yielding` is the plastic work
     of the cycle and the work beside which it is small [J]. `path_error` is the error of the shear
-    by the increments, over the largest shear.
+    by the increments, over the largest shear. `cache` shares the stress with other sections.
     """
 
     def __new__(
@@ -929,6 +994,7 @@ class CycleSection:
         residual: Sequence[ArrayLike] | None = None,
         yielding: tuple[float, float] | None = None,
         path_error: float | None = None,
+        cache: StressCache | None = None,
     ) -> CycleSection: ...
     def by_criteria(
         self,
@@ -2977,6 +3043,16 @@ class States:
     ) -> States: ...
 
 @final
+class StressCache:
+    """
+    Stress below a body over a cycle, which the sections of several questions share.
+
+    It belongs to one run, one body and one of its cycles. Its memory is at most 192 MB.
+    """
+
+    def __new__(cls, /) -> StressCache: ...
+
+@final
 class Subsurface:
     """
     Tractions on a body, and what they cause below its surface.
@@ -3414,24 +3490,6 @@ def coupled_indentation(*, beta: float, mu: float) -> CoupledIndentation:
     its shape.
     """
 
-def crack_growth_of_states(
-    body: Body,
-    states: States,
-    *,
-    residual: Sequence[ArrayLike] | None = None,
-    x: float,
-    start: float,
-    end: float,
-    direction: str,
-    tolerance: float,
-    angle: Angle = 0.0,
-    azimuth: Angle = 0.0,
-    offset: float = 0.0,
-    friction: float = 0.0,
-    body_number: int = 2,
-) -> dict[str, Any]:
-    """A crack that grows below a contact; use :meth:`pyfret.Result.grow_crack`."""
-
 def crack_life(
     lengths: Sequence[float],
     K_max: Sequence[float],
@@ -3446,22 +3504,6 @@ def crack_life(
     end: float,
 ) -> tuple[float, float, bool]:
     """Cycles of growth by Paris' law, where it ends [m] and whether it stops there."""
-
-def crack_of_states(
-    body: Body,
-    states: States,
-    *,
-    residual: Sequence[ArrayLike] | None = None,
-    x: float,
-    lengths: Sequence[float],
-    angle: Angle = 0.0,
-    kink: tuple[float, float] | None = None,
-    azimuth: Angle = 0.0,
-    offset: float = 0.0,
-    friction: float = 0.0,
-    body_number: int = 2,
-) -> dict[str, NDArray[np.float64]]:
-    """K of cracks below a contact in several of its states; use :meth:`pyfret.Result.crack`."""
 
 def criteria() -> list[tuple[str, str]]:
     """Names of the criteria, and how they are written in figures."""
@@ -4062,6 +4104,7 @@ __all__ = [
     "CoatedIndentation",
     "Coating",
     "Cone",
+    "ContactForCracks",
     "Conversion",
     "CoupledIndentation",
     "Crack",
@@ -4106,6 +4149,7 @@ __all__ = [
     "Springs",
     "States",
     "StoreError",
+    "StressCache",
     "Subsurface",
     "Sum",
     "SurfaceMap",
@@ -4121,9 +4165,7 @@ __all__ = [
     "coated_indentation",
     "continued_pressure",
     "coupled_indentation",
-    "crack_growth_of_states",
     "crack_life",
-    "crack_of_states",
     "criteria",
     "criterion_on",
     "cycle_sections",

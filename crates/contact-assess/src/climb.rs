@@ -1,12 +1,15 @@
 //! The ascent to the worst point of a layer. It judges points beside a place along the line and in
 //! depth, with smaller and smaller steps.
 
+use std::sync::Arc;
+
 use contact_core::Error;
 use contact_core::convolution::Tractions;
 use contact_core::scene::Grid;
-use contact_subsurface::{Border, Depth, DoubledCells, Line, Moments, Point, Zone, borders};
+use contact_subsurface::{Border, Depth, DoubledCells, Line, Point, Zone, borders};
 use ndarray::Array2;
 
+use super::cache::Cells;
 use super::history::History;
 use super::judged::{Judge, Judged};
 use super::site::{PreparedPoints, Site};
@@ -89,11 +92,16 @@ impl<J: Judge> Climb<'_, J> {
     }
 
     /// Crossings of the line with the rims and stick borders of moments of the cycle, each once.
-    pub(super) fn borders(&self) -> Result<Vec<Border>, Error> {
+    pub(super) fn borders(&self) -> Result<Arc<Vec<Border>>, Error> {
         let count = self.site.cycle.count();
         let step = count.div_ceil(BORDER_MOMENTS).max(1);
         let which: Vec<usize> = (0..count).rev().step_by(step).collect();
-        let moments = self.site.cycle.moments(&which)?;
+        let key = (self.line, (which.clone(), Cells::Grid));
+        self.site.cache.borders(key, || self.find_borders(&which))
+    }
+
+    fn find_borders(&self, which: &[usize]) -> Result<Vec<Border>, Error> {
+        let moments = self.site.moments(which)?;
         let mut borders: Vec<Border> = Vec::new();
         for (tractions, stick) in moments.tractions.iter().zip(&moments.stick) {
             for border in borders_of_moment(self.site.grid, tractions, stick, self.line)? {
@@ -142,15 +150,15 @@ impl<J: Judge> Climb<'_, J> {
             .collect()
     }
 
-    /// All moments of the cycle, or of a long one the moments whose stresses at a place differ
-    /// most.
-    pub(super) fn representative_moments(&self, place: Place) -> Result<Moments, Error> {
+    /// Numbers of all moments of the cycle, or of a long one of the moments whose stresses at a
+    /// place differ most.
+    pub(super) fn representative_moments(&self, place: Place) -> Result<Vec<usize>, Error> {
         let count = self.site.cycle.count();
         let all_moments: Vec<usize> = (0..count).collect();
-        let last = self.site.cycle.moments(&[count - 1])?;
+        let last = self.site.moments(&[count - 1])?;
         let touching = last.tractions[0][2].iter().filter(|p| **p > 0.0).count();
         if touching * count <= CHEAP || count <= REPRESENTATIVES {
-            return self.site.cycle.moments(&all_moments);
+            return Ok(all_moments);
         }
         let history = self.site.full_history(&[self.point(place)])?;
         let difference = |a: usize, b: usize| -> f64 {
@@ -170,7 +178,7 @@ impl<J: Judge> Climb<'_, J> {
                 nearest[n] = nearest[n].min(difference(n, next));
             }
         }
-        self.site.cycle.moments(&chosen)
+        Ok(chosen)
     }
 
     /// Ascends from a place. Returns the top, and the drop of the score at the last steps along the
@@ -283,7 +291,7 @@ impl<J: Judge> Climb<'_, J> {
             return Ok(Vec::new());
         }
         let points: Vec<Point> = places.iter().map(|place| self.point(*place)).collect();
-        let judgements = self.judge_points(&points, &prepared.history(&points)?)?;
+        let judgements = self.judge_points(&points, &self.site.history(prepared, &points)?)?;
         Ok(judgements.iter().map(|f| self.judge.score(f)).collect())
     }
 
@@ -303,18 +311,18 @@ impl<J: Judge> Climb<'_, J> {
         &self,
         ([s, z], score): (Place, f64),
         border: Option<&Border>,
-        moments: &Moments,
+        which: &[usize],
     ) -> Result<Option<f64>, Error> {
         let mut change: Option<f64> = None;
-        for cells in DoubledCells::new_pair(self.site.grid) {
+        for (pairing, cells) in DoubledCells::new_pair(self.site.grid).iter().enumerate() {
             if cells.grid.nx < 4 {
                 return Ok(None);
             }
             let there = match border {
                 None => None,
-                Some(border) => self.coarser_border(border, moments, &cells)?,
+                Some(border) => self.coarser_border(border, which, (pairing, cells))?,
             };
-            let at = self.site.prepare_coarser(&cells, moments)?;
+            let at = self.site.prepare(which, Cells::Doubled(pairing))?;
             let scores = self.scores(&at, &[[there.unwrap_or(s), z]])?;
             let largest = scores.iter().map(|coarse| (score - coarse).abs());
             change = largest.chain(change).reduce(f64::max);
@@ -326,20 +334,25 @@ impl<J: Judge> Climb<'_, J> {
     fn coarser_border(
         &self,
         border: &Border,
-        moments: &Moments,
-        cells: &DoubledCells,
+        which: &[usize],
+        (pairing, cells): (usize, &DoubledCells),
     ) -> Result<Option<f64>, Error> {
         let s = self.distance_along(border);
         let (line, shift) = self.line.with_origin(cells.middle);
-        let coarse = moments.coarsened(cells);
+        let key = (self.line, (which.to_vec(), Cells::Doubled(pairing)));
+        let borders = self.site.cache.borders(key, || {
+            let coarse = self.site.moments(which)?.coarsened(cells);
+            let mut borders = Vec::new();
+            for (tractions, stick) in coarse.tractions.iter().zip(&coarse.stick) {
+                borders.extend(borders_of_moment(&cells.grid, tractions, stick, line)?);
+            }
+            Ok(borders)
+        })?;
         let mut nearest: Option<f64> = None;
-        for (tractions, stick) in coarse.tractions.iter().zip(&coarse.stick) {
-            for other in borders_of_moment(&cells.grid, tractions, stick, line)? {
-                let at = line.nearest_distance(other.x, other.y) + shift;
-                let nearer = nearest.is_none_or(|known| (at - s).abs() < (known - s).abs());
-                if other.zone == border.zone && nearer {
-                    nearest = Some(at);
-                }
+        for other in borders.iter().filter(|other| other.zone == border.zone) {
+            let at = line.nearest_distance(other.x, other.y) + shift;
+            if nearest.is_none_or(|known| (at - s).abs() < (known - s).abs()) {
+                nearest = Some(at);
             }
         }
         Ok(nearest.filter(|at| (at - s).abs() < 4.0 * self.cell()))

@@ -7,7 +7,7 @@ use ndarray::{Array3, Axis};
 ///
 /// The total strain is the elastic strain of the stress, residual stress included, and the plastic
 /// strain of the same moment.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct History {
     /// The total stress \[Pa\].
     pub(super) stress: Array3<f64>,

@@ -1,5 +1,6 @@
 //! A judge applied to a section.
 
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use contact_core::Error;
@@ -68,7 +69,7 @@ pub fn judge<J: Judge>(
         vec![vec![None; depths.len()]; judges.len()];
     let strain = judges.iter().any(Judge::takes_strain);
     site.for_each_depth((line, &some), strain, |first, histories| {
-        let of_depth = |(k, history): (usize, &super::history::History)| {
+        let of_depth = |(k, history): (usize, &Arc<super::history::History>)| {
             let Depth { z, layer } = some[first + k];
             let z = vec![z; along.len()];
             let of_judge = |judge: &J| {

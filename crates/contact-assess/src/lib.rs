@@ -15,6 +15,7 @@
 mod average;
 mod by_criterion;
 mod by_yield;
+mod cache;
 mod climb;
 pub mod crack;
 mod history;
@@ -27,6 +28,7 @@ mod worst;
 pub use average::{Averaging, Distance, judge_means};
 pub use by_criterion::{CriterionJudge, from_fatigue, inclination, layer_materials};
 pub use by_yield::YieldJudge;
+pub use cache::StressCache;
 pub use judged::{Judge, Judged, judge};
 pub use mean::{LargestMean, error_of_largest_mean, errors_of_means, largest_mean};
 pub use range::{MarginRange, RangeOptions, margin_range};

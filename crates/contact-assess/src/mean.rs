@@ -1,6 +1,8 @@
 //! The mean over a critical distance along a line: its largest value, and its error by the cells and by
 //! the increments of the path.
 
+use std::sync::Arc;
+
 use contact_core::Error;
 use contact_subsurface::{CycleSource, DoubledCells, Line, Moments, Yielding};
 use fatigue::PointResult;
@@ -107,6 +109,7 @@ fn means_on_coarser(
                 cells,
             },
             stop: site.stop.clone(),
+            cache: Arc::default(),
             ..*site
         };
         let (coarser_line, shift) = line.with_origin(cells.middle);

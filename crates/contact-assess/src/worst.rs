@@ -8,6 +8,7 @@
 use contact_core::Error;
 use contact_subsurface::{Errors, Extremum};
 
+use super::cache::Cells;
 use super::climb::Climb;
 use super::judged::{Judge, Judged};
 use super::site::Site;
@@ -59,8 +60,8 @@ pub fn find_worst_point<J: Judge>(
     let top = of_layer().fold(f64::INFINITY, f64::min);
     let deepest = of_layer().fold(0.0, f64::max);
     let borders = climb.borders()?;
-    let moments = climb.representative_moments(highest.0)?;
-    let prepared = site.prepare(&moments)?;
+    let which = climb.representative_moments(highest.0)?;
+    let prepared = site.prepare(&which, Cells::Grid)?;
     if layer == 0 && top <= 0.0 {
         let places_beside = climb.worst_borders(&borders, judged);
         let scores = climb.scores(&prepared, &places_beside)?;
@@ -75,7 +76,7 @@ pub fn find_worst_point<J: Judge>(
             .zip(scores)
             .filter(|(_, score)| !score.is_nan()),
     );
-    let whole = moments.tractions.len() == site.cycle.count();
+    let whole = prepared.moments() == site.cycle.count();
     let best = starts.iter().copied().fold(
         highest,
         |best, start| if start.1 > best.1 { start } else { best },
@@ -90,7 +91,7 @@ pub fn find_worst_point<J: Judge>(
     let (place, drops) = climb.ascend(&prepared, best, steps, [top, deepest])?;
     let point = climb.point(place);
     let history = if whole {
-        prepared.history(&[point])?
+        site.history(&prepared, &[point])?
     } else {
         site.full_history(&[point])?
     };
@@ -108,7 +109,7 @@ pub fn find_worst_point<J: Judge>(
         (judgement, score) = (sample, highest.1);
     }
     let border = climb.border_at(place, &borders);
-    let change = climb.coarser_change((place, score), border, &moments)?;
+    let change = climb.coarser_change((place, score), border, &which)?;
     // An assumed rim may be half a cell off.
     let places_beside = if prepared.rim_is_unknown(point) {
         [-half_cell, half_cell]

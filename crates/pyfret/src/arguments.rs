@@ -82,6 +82,8 @@ pub(crate) type Field<'py> = Array<'py, Ix2>;
 const UNEVEN: f64 = 1e-3;
 /// Copies of an array that are made of it at most.
 const COPIES: f64 = 4.0;
+/// Memory of copies that is not compared with the memory of the system \[bytes\].
+const ALWAYS_FITS: f64 = 16e6;
 
 impl<'py, D: Dimension> Deref for Array<'py, D> {
     type Target = PyArrayLike<'py, f64, D, AllowTypeChange>;
@@ -200,7 +202,9 @@ impl<'a, 'py, D: Dimension + 'py> FromPyObject<'a, 'py> for Mask<'py, D> {
 /// Refuses arrays of so many numbers of so many bytes whose copies do not fit: one that repeats its numbers takes no memory,
 /// a copy of it does.
 pub(crate) fn must_fit(numbers: usize, bytes: f64) -> PyResult<()> {
-    if COPIES * bytes * numbers as f64 > available_memory() {
+    let needed = COPIES * bytes * numbers as f64;
+    // Reading the memory of the system takes longer than copying a small array.
+    if needed > ALWAYS_FITS && needed > available_memory() {
         return Err(PyMemoryError::new_err(format!(
             "an array of {numbers} numbers does not fit into memory"
         )));

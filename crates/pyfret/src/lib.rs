@@ -63,7 +63,8 @@ mod _core {
 
     #[pymodule_export]
     use crate::assess::{
-        CriterionBelow, CycleSection, YieldBelow, cycle_sections, notes_on_materials, range_of_life,
+        CriterionBelow, CycleSection, StressCache, YieldBelow, cycle_sections, notes_on_materials,
+        range_of_life,
     };
     #[pymodule_export]
     use crate::command_line::run_command;
@@ -114,8 +115,8 @@ mod _core {
     };
     #[pymodule_export]
     use crate::fracture::{
-        Crack, arrest, channel_crack, crack_growth_of_states, crack_life, crack_of_states,
-        ellipse_factor, equivalent_range, partial_crack, threshold_at,
+        ContactForCracks, Crack, arrest, channel_crack, crack_life, ellipse_factor,
+        equivalent_range, partial_crack, threshold_at,
     };
     #[pymodule_export]
     use crate::heat::cycle_temperature;

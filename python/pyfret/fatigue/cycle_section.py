@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
+from zlib import crc32
 
 import numpy as np
 
@@ -66,7 +67,21 @@ def cycle_section(result: Run, section: Section) -> _core.CycleSection:
         residual=section.residual,
         yielding=plastic_and_reference_work(result, kept, section.body_number),
         path_error=max_path_error(result),
+        cache=shared_stress(result, kept, section.body_number),
     )
+
+
+def shared_stress(result: Run, kept: NDArray[np.int64], body_number: int) -> _core.StressCache:
+    """Return the stress below a body over increments, which all questions about a run share.
+
+    A run keeps the stress of one body and one cycle, at most 192 MB.
+    """
+    last = result.dataset.variables["p"].isel(saved=-1).values
+    key = body_number, kept.tobytes(), crc32(np.ascontiguousarray(last).tobytes())
+    kept_before = result.shared.get("stress")
+    if kept_before is None or kept_before[0] != key:
+        kept_before = result.shared["stress"] = (key, _core.StressCache())
+    return kept_before[1]
 
 
 def max_path_error(result: Run) -> float | None:

@@ -15,7 +15,7 @@ from pyfret.quantities import Angle, Lengths, ResidualStresses, as_number, quant
 from pyfret.subsurface.contact import stress_below
 from pyfret.subsurface.fields import coordinates
 from pyfret.subsurface.line import Line
-from pyfret.subsurface.moments import states_of
+from pyfret.subsurface.moments import states_of_increments
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -143,10 +143,9 @@ def _cycle_stress(
     depths, layers = _core.depths(body, wanted_depths)
     parts = []
     for group in np.array_split(kept, int(np.ceil(kept.size / TOGETHER))):
-        moments = [result.at(int(n)) for n in group]
         stress = _core.section_of_states(
             body,
-            states_of(moments, body_number),
+            states_of_increments(result, group.tolist(), body_number),
             depths,
             layers,
             residual=residual,

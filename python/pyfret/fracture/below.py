@@ -24,10 +24,10 @@ from pyfret.quantities import (
     as_number,
     quantities,
 )
-from pyfret.subsurface.moments import states_of
+from pyfret.subsurface.moments import states_of_increments
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Sequence
 
     from numpy.typing import ArrayLike, NDArray
 
@@ -120,21 +120,16 @@ def crack(
         lengths = cycle_of.lengths
     lengths = np.sort(np.atleast_1d(plain(lengths, "lengths")))
 
-    def from_mouth(x: float) -> dict[str, Any]:
-        return cycle_of.intensity(
-            x=x,
-            lengths=lengths.tolist(),
-            angle=angle,
-            kink=kink,
-            azimuth=azimuth,
-            offset=offset,
-            friction=friction,
-        )
-
-    intensity = from_mouth(x)
-    if at_rim:
-        by_rim = cycle_of.error_of_rim(intensity, x, azimuth, from_mouth)
-        intensity["error"] = intensity["error"] + by_rim
+    intensity = cycle_of.contact.intensity(
+        x=x,
+        lengths=lengths.tolist(),
+        angle=angle,
+        kink=kink,
+        azimuth=azimuth,
+        offset=offset,
+        friction=friction,
+        mouth_error=cycle_of.error_of_rim(azimuth) if at_rim else None,
+    )
     sin, cos = np.sin(angle), np.cos(angle)
     tips = {"x": x + lengths * sin, "z": lengths * cos}
     if kink is not None:
@@ -208,7 +203,7 @@ def grow(
     angle = as_number(angle)
     plane = as_number(azimuth), as_number(offset)
     x, azimuth, offset = cycle_of.place(x, plane, angle, friction)
-    growth = cycle_of.growth(
+    growth = cycle_of.contact.growth(
         x=x,
         start=cycle_of.shortest(0.02) if start is None else as_number(start),
         end=cycle_of.half_width if end is None else as_number(end),
@@ -263,23 +258,11 @@ class Cycle:
         low = min(middle + end[0] for middle, end in zip(middles, ends, strict=True))
         return low, max(middle + end[1] for middle, end in zip(middles, ends, strict=True))
 
-    def error_of_rim(
-        self,
-        found: dict[str, Any],
-        x: float,
-        azimuth: float,
-        from_mouth: Callable[[float], dict[str, Any]],
-    ) -> NDArray[np.float64]:
-        """The part of the error of K that the place of the rim makes, over (increment, length)."""
+    def error_of_rim(self, azimuth: float) -> float:
+        """Return the error of the place of the rim along a plane [m]."""
         grid = self.result.scene.grid
         dy = 0.0 if grid.plane_strain else grid.dy
-        off = RIM * float(np.hypot(np.cos(azimuth) * grid.dx, np.sin(azimuth) * dy))
-        changes = []
-        for mouth in (x - off, x + off):
-            beside = from_mouth(mouth)
-            by_mode = [beside[name] - found[name] for name in ("K_I_linear", "K_II_linear")]
-            changes.append(np.hypot(*by_mode))
-        return np.asarray(np.maximum(*changes))
+        return RIM * float(np.hypot(np.cos(azimuth) * grid.dx, np.sin(azimuth) * dy))
 
     @property
     def half_width(self) -> float:
@@ -308,27 +291,15 @@ class Cycle:
         ]
 
     @cached_property
-    def core_states(self) -> _core.States:
-        """The states in the form of the core."""
-        return states_of(self.states, self.body_number)
-
-    def call_core(
-        self, function: Callable[..., dict[str, Any]], options: dict[str, Any]
-    ) -> dict[str, Any]:
-        """Call a function of the core with the body and its states."""
-        scene = self.states[0].scene
-        body = scene.body1 if self.body_number == 1 else scene.body2
-        residual = None if self.residual is None else list(self.residual)
-        options |= {"residual": residual, "body_number": self.body_number}
-        return function(body, self.core_states, **options)
-
-    def intensity(self, **cracks: Any) -> dict[str, Any]:
-        """K of cracks."""
-        return self.call_core(_core.crack_of_states, cracks)
-
-    def growth(self, **crack: Any) -> dict[str, Any]:
-        """K of a crack that grows."""
-        return self.call_core(_core.crack_growth_of_states, crack)
+    def contact(self) -> _core.ContactForCracks:
+        """The states in the form of the core, prepared for cracks."""
+        scene = self.result.scene
+        return _core.ContactForCracks(
+            scene.body1 if self.body_number == 1 else scene.body2,
+            states_of_increments(self.result, self.increments.tolist(), self.body_number),
+            residual=None if self.residual is None else list(self.residual),
+            body_number=self.body_number,
+        )
 
     def offset_of_centre(self, azimuth: float) -> float:
         """Distance of the plane through the centre of the contact from the z axis [m]."""
@@ -365,20 +336,9 @@ class Cycle:
         if len(places) == 1:
             return places[0]
         lengths = (self.half_width * np.array([0.05, 0.1, 0.2, 0.4])).tolist()
-
-        def range_at(place: tuple[float, float, float]) -> float:
-            x, azimuth, offset = place
-            K = self.intensity(
-                x=x,
-                azimuth=azimuth,
-                offset=offset,
-                lengths=lengths,
-                angle=angle,
-                friction=friction,
-            )["K_I"]
-            return float((K.max(axis=0) - K.min(axis=0)).max())
-
-        return max(places, key=range_at)
+        return places[
+            self.contact.widest_range(places, lengths=lengths, angle=angle, friction=friction)
+        ]
 
 
 def labelled(

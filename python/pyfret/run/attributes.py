@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -21,6 +21,16 @@ class OfRun(Labelled):
     def __init__(self, dataset: xr.Dataset, scene: Scene | None = None) -> None:
         super().__init__(dataset)
         self._scene = scene
+        self._shared: dict[str, Any] = {}
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Return the state to pickle or copy, without what was computed from the dataset."""
+        return {**self.__dict__, "_shared": {}}
+
+    @property
+    def shared(self) -> dict[str, Any]:
+        """Numbers that several questions share, by their kind; copies and files leave them out."""
+        return self._shared
 
     @property
     def dataset(self) -> xr.Dataset:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from pyfret.run import Run, State
 
-__all__ = ["lines_of", "moments_of", "states_of"]
+__all__ = ["lines_of", "moments_of", "states_of", "states_of_increments"]
 
 
 def states_of(
@@ -48,6 +48,34 @@ def states_of(
     )
 
 
+def states_of_increments(
+    result: Run, increments: Sequence[int], body_number: int, *, with_left: bool = True
+) -> _core.States:
+    """Give kept increments of a run as the states above a body, as :func:`states_of`.
+
+    The fields are read one by one: a snapshot takes all variables of the dataset along.
+    """
+    scene, variables = result.scene, result.dataset.variables
+    body = scene.body1 if body_number == 1 else scene.body2
+    if with_left and body.yields:
+        return states_of([result.at(int(n)) for n in increments], body_number)
+    saved, numbers = variables["saved_increment"].values, variables["increment"].values
+    places = [int(np.flatnonzero(saved == n)[-1]) for n in increments]
+    bulk_stress = variables["sigma_B1" if body_number == 1 else "sigma_B"].values
+
+    def fields(name: str, kind: type) -> list[Any]:
+        field = variables[name]
+        return [np.ascontiguousarray(field.isel(saved=n).values, dtype=kind) for n in places]
+
+    return _core.States(
+        scene.grid,
+        **{name: fields(name, float) for name in ("p", "q_x", "q_y")},
+        stick=fields("stick", bool),
+        sigma_B=[float(bulk_stress[np.flatnonzero(numbers == n)[0]]) for n in increments],
+        eigenstress=[],
+    )
+
+
 def moments_of(
     result: Run,
     kept: NDArray[np.int64],
@@ -66,8 +94,8 @@ def moments_of(
         if which is None and before is None:
             return None
         increments = [before] if which is None else [int(kept[n]) for n in which]
-        now = [result.at(int(n)) for n in increments if n is not None]
-        return states_of(now, body_number, with_left=with_left)
+        now = [int(n) for n in increments if n is not None]
+        return states_of_increments(result, now, body_number, with_left=with_left)
 
     return moments
 

@@ -1,12 +1,12 @@
 //! A crack that chooses its direction below a contact.
 
 use contact_core::Error;
-use contact_subsurface::States;
 use fracture::{Crack, Direction, End, Growing, Path, PlaneStress, Point, grow};
 use rayon::prelude::*;
 
-use super::along::Line;
-use super::intensity::{Below, NEAREST, OverCycle, QUADRATURE, on_line, refused};
+use super::along::{Line, STEP};
+use super::intensity::{NEAREST, OverCycle, QUADRATURE, Stressed, on_line, refused};
+use super::prepared::{Cells, Prepared};
 
 /// How a crack grows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,7 +54,7 @@ impl From<fracture::Error> for Refused {
 }
 
 /// Grows a crack below a contact in the direction of the largest range over the states.
-pub fn grown(below: &Below<'_>, states: &States<'_>, growth: &Growth) -> Result<Grown, Error> {
+pub fn grown(contact: &Prepared, growth: &Growth) -> Result<Grown, Error> {
     let start = growth.start;
     if !(start > 0.0 && start.is_finite()) {
         return Err(Error::invalid(
@@ -63,22 +63,22 @@ pub fn grown(below: &Below<'_>, states: &States<'_>, growth: &Growth) -> Result<
             "above 0 m",
         ));
     }
-    let mut along = below.along(states, (growth.azimuth, growth.offset), NEAREST * start)?;
+    let plane = (growth.azimuth, growth.offset);
+    let mut along = contact.along(plane, NEAREST * start, STEP)?;
     let stress = |crack: &Crack| -> Result<Vec<Vec<PlaneStress>>, Refused> {
-        let line: Line = along.on(crack.path())?;
-        let points = crack.points();
-        let of_state = |state| line.stress(0, state, &points);
+        let line: Line = along.on(crack.path(), Cells::Grid)?;
+        let stencils = line.stencils(&crack.points());
+        let of_state = |state| line.stress(state, &stencils);
         Ok((0..line.states()).map(of_state).collect())
     };
     let first = Path::straight(growth.x, start, growth.angle);
-    let interfaces = below.breaks(states);
     let found =
-        grow(&first, &growth.growing, &interfaces, stress).map_err(|Refused(error)| error)?;
-    let line = along.on(&found.path)?;
+        grow(&first, &growth.growing, &contact.breaks, stress).map_err(|Refused(error)| error)?;
+    let stressed = Stressed::new(&mut along, &found.path, None)?;
     let of = |tip: &fracture::Tip| {
         let crack = Crack::with_step(found.path.up_to(tip.at.s), QUADRATURE).map_err(refused)?;
-        let crack = crack.with_interfaces(&interfaces);
-        on_line(below.body, &line, &crack, growth.growing.friction)
+        let crack = crack.with_interfaces(&contact.breaks);
+        on_line(&contact.body, &stressed, &crack, growth.growing.friction)
     };
     let over = found
         .tips

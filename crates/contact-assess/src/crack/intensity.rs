@@ -1,14 +1,12 @@
 //! Stress intensity of a crack below a contact: the stress along its line, faces that touch,
 //! errors.
 
-use std::collections::HashMap;
-
 use contact_core::Error;
-use contact_core::scene::{Body, Grid, ResidualStress};
-use contact_subsurface::{DoubledCells, Moments, Points, Side, States};
-use fracture::{Crack, Faces, Intensity};
+use contact_core::scene::Body;
+use fracture::{Crack, Faces, Intensity, Path};
 
-use super::along::{Along, GRIDS, Line, PointsOnGrid};
+use super::along::{Along, Line, Stencil};
+use super::prepared::Cells;
 
 /// The shortest distance from the mouth at which the stress is sampled, over the shortest crack.
 pub(super) const NEAREST: f64 = 1e-3;
@@ -45,70 +43,34 @@ pub struct OverCycle {
     pub open: Vec<f64>,
 }
 
-/// The contact below which cracks run.
-#[derive(Clone, Copy, Debug)]
-pub struct Below<'a> {
-    /// The body.
-    pub body: &'a Body,
-    /// Which of the two it is.
-    pub side: Side,
-    /// The grid of the tractions.
-    pub grid: &'a Grid,
+/// The stress along a line of cracks, and its changes.
+pub(super) struct Stressed {
+    /// The stress by the tractions on the grid.
+    pub(super) line: Line,
+    /// Its changes by tractions on cells twice as large, in both pairings.
+    pub(super) by_cells: Vec<Line>,
+    /// Its changes by the error of the place of the mouth.
+    pub(super) by_mouth: Vec<Line>,
 }
 
-impl<'a> Below<'a> {
-    /// Depths at which the stress jumps or has a kink: interfaces, and rows of residual stress \[m\].
-    pub(super) fn breaks(&self, states: &States<'_>) -> Vec<f64> {
-        let residual = states
-            .residual
-            .map_or_else(|| ResidualStress::from_body(self.body), Clone::clone);
-        [self.body.interfaces(), residual.kinks()].concat()
-    }
-
-    /// Points under states, and under their tractions on cells twice as large: with the middle of each
-    /// grid \[m\].
-    fn points(&self, states: &States<'_>) -> Result<[PointsOnGrid; GRIDS], Error> {
-        let on = |grid: &Grid, states: States<'_>| Points::new(self.body, self.side, grid, states);
-        let moments = Moments::from_states(states, self.grid);
-        let coarser = |cells: &DoubledCells| {
-            let paired = moments.coarsened(cells);
-            let points = paired.with_states(states.residual, &states.stop, |paired| {
-                let stick = states.stick.and(paired.stick);
-                on(&cells.grid, States { stick, ..paired })
-            })?;
-            Ok::<_, Error>((points, cells.middle))
-        };
-        let [first, second] = DoubledCells::new_pair(self.grid);
-        let same = (on(self.grid, states.clone())?, (0.0, 0.0));
-        Ok([same, coarser(&first)?, coarser(&second)?])
-    }
-
-    /// The stress where cracks run, in the plane at an azimuth and a distance from the axis of depth.
-    pub(super) fn along(
-        &self,
-        states: &States<'_>,
-        (azimuth, offset): (f64, f64),
-        nearest: f64,
-    ) -> Result<Along<'a>, Error> {
-        if self.grid.plane_strain && azimuth != 0.0 {
-            let allowed = "0 in plane strain, where cracks run along y";
-            return Err(Error::invalid("azimuth", azimuth, allowed));
-        }
-        if !azimuth.is_finite() {
-            return Err(Error::invalid("azimuth", azimuth, "a finite angle in rad"));
-        }
-        if !offset.is_finite() {
-            return Err(Error::invalid("offset", offset, "a finite distance in m"));
-        }
-        Ok(Along {
-            body: self.body,
-            side: self.side,
-            points: self.points(states)?,
-            azimuth,
-            offset,
-            breaks: self.breaks(states),
-            nearest,
-            known: HashMap::new(),
+impl Stressed {
+    /// The stress along a path, whose mouth may be off by a distance to both sides \[m\].
+    pub(super) fn new(
+        along: &mut Along<'_>,
+        path: &Path,
+        mouth_error: Option<f64>,
+    ) -> Result<Self, Error> {
+        let line = along.on(path, Cells::Grid)?;
+        let by_cells = Cells::DOUBLED.map(|cells| along.change_by_cells(&line, path, cells));
+        let mouths = mouth_error.map(|off| [path.mouth - off, path.mouth + off]);
+        let by_mouth = mouths
+            .into_iter()
+            .flatten()
+            .map(|mouth| along.change_by_mouth(&line, path, mouth));
+        Ok(Self {
+            by_mouth: by_mouth.collect::<Result<_, _>>()?,
+            by_cells: by_cells.into_iter().collect::<Result<_, _>>()?,
+            line,
         })
     }
 }
@@ -116,12 +78,28 @@ impl<'a> Below<'a> {
 /// A crack under the stress along its line.
 pub(super) fn on_line(
     body: &Body,
-    line: &Line,
+    stressed: &Stressed,
     crack: &Crack,
     friction: f64,
 ) -> Result<OverCycle, Error> {
     let layers = layered(body, crack.path().tip().z);
     let points = crack.points();
+    let line = &stressed.line;
+    let stencils = line.stencils(&points);
+    let changes = |lines: &'_ [Line]| -> Vec<Vec<Stencil>> {
+        lines.iter().map(|line| line.stencils(&points)).collect()
+    };
+    let (of_cells, of_mouth) = (changes(&stressed.by_cells), changes(&stressed.by_mouth));
+    // K is linear in the stress where faces may pass through each other.
+    let largest = |lines: &[Line], stencils: &[Vec<Stencil>], state| -> Result<f64, Error> {
+        let mut largest = 0.0_f64;
+        for (line, stencils) in lines.iter().zip(stencils) {
+            let change = crack.intensity(&line.stress(state, stencils));
+            let change = change.map_err(refused)?;
+            largest = largest.max(change.K_I.hypot(change.K_II));
+        }
+        Ok(largest)
+    };
     let mut faces = Faces::new(crack, friction).map_err(refused)?;
     let mut over = OverCycle {
         faces: Vec::new(),
@@ -129,24 +107,44 @@ pub(super) fn on_line(
         open: Vec::new(),
     };
     for state in 0..line.states() {
-        let stress = line.stress(0, state, &points);
+        let stress = line.stress(state, &stencils);
         let mut linear = crack.intensity(&stress).map_err(refused)?;
-        let mut cells = 0.0_f64;
-        for grid in 1..GRIDS {
-            let paired = line.stress(grid, state, &points);
-            let paired = crack.intensity(&paired).map_err(refused)?;
-            cells = cells.max((linear.K_I - paired.K_I).hypot(linear.K_II - paired.K_II));
-        }
-        linear.error += cells;
+        linear.error += largest(&stressed.by_cells, &of_cells, state)?;
         linear.error += (layers + SAMPLES) * linear.K_I.hypot(linear.K_II);
         faces = faces.next(&stress).map_err(refused)?;
         let mut k = faces.intensity;
-        k.error = k.error.max(linear.error);
+        k.error = k.error.max(linear.error) + largest(&stressed.by_mouth, &of_mouth, state)?;
         over.open.push(faces.open_share().map_err(refused)?);
         over.faces.push(k);
         over.linear.push(linear);
     }
     Ok(over)
+}
+
+/// The largest range of K_I over the states, of cracks along a line: with faces that may pass
+/// through each other, or with faces that touch.
+pub(super) fn range_on_line(
+    line: &Line,
+    crack: &Crack,
+    friction: Option<f64>,
+) -> Result<f64, Error> {
+    let stencils = line.stencils(&crack.points());
+    let mut faces = friction
+        .map(|friction| Faces::new(crack, friction))
+        .transpose()
+        .map_err(refused)?;
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    for state in 0..line.states() {
+        let stress = line.stress(state, &stencils);
+        let K_I = if let Some(touching) = &mut faces {
+            *touching = touching.next(&stress).map_err(refused)?;
+            touching.intensity.K_I
+        } else {
+            crack.intensity(&stress).map_err(refused)?.K_I.max(0.0)
+        };
+        (low, high) = (low.min(K_I), high.max(K_I));
+    }
+    Ok((high - low).max(0.0))
 }
 
 /// Relative error of K in the homogeneous half-plane where the materials of the layers differ: with

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use contact_assess::crack::{Below, Cracks, over_cycle};
+use contact_assess::crack::{Cracks, Prepared, over_cycle};
 use contact_core::Scene;
 use contact_core::convolution::Tractions;
 use contact_core::march::March;
@@ -64,12 +64,8 @@ fn compare(share: f64, cells: usize) {
             lengths: [0.05, 0.1, 0.2, 0.5, 1.0].map(|l| l * line.a).to_vec(),
             ..Cracks::default()
         };
-        let below = Below {
-            body: &scene.body2,
-            side: Side::Body2,
-            grid: &scene.grid,
-        };
-        let found = over_cycle(&below, &states, &cracks).unwrap();
+        let contact = Prepared::new(&scene.body2, Side::Body2, &scene.grid, &states);
+        let found = over_cycle(&contact, &cracks, None).unwrap();
         for (length, found) in cracks.lengths.iter().zip(found) {
             let crack = Crack::new(Path::straight(-line.a, *length, angle)).unwrap();
             let stress: Vec<_> = crack

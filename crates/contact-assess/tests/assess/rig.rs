@@ -91,6 +91,7 @@ fn site<'a>(
         residual,
         cycle,
         stop: Arc::default(),
+        cache: Arc::default(),
     }
 }
 

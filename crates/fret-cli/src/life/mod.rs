@@ -4,6 +4,8 @@ mod options;
 mod rows;
 mod table;
 
+use std::sync::Arc;
+
 use contact_assess::{CriterionJudge, Judged, Site, from_fatigue, judge, layer_materials};
 use contact_core::Error;
 use contact_core::scene::read_text;
@@ -66,6 +68,7 @@ fn life_lines(options: &Options) -> Result<Vec<String>, Error> {
         residual: &residual,
         cycle: &cycle,
         stop: stop_on_interrupt(),
+        cache: Arc::default(),
     };
     let lines = match (options.along_x, options.along_y) {
         (_, Some(x)) => vec![Line::AlongY(x)],

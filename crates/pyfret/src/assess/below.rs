@@ -18,6 +18,7 @@ pub(super) struct AssessedBody {
     pub(super) line: Line,
     pub(super) residual: ResidualStress,
     pub(super) cycle: PythonCycle,
+    pub(super) cache: Arc<core::StressCache>,
 }
 
 impl AssessedBody {
@@ -37,6 +38,7 @@ impl AssessedBody {
                 residual: if residual { &self.residual } else { &none },
                 cycle: &self.cycle,
                 stop: stop.clone(),
+                cache: self.cache.clone(),
             })
         })?;
         let raised = self.cycle.take_error();

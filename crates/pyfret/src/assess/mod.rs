@@ -44,12 +44,26 @@ pub(crate) fn cycle_sections(
     Ok(lines.into_iter().map(name_of).collect())
 }
 
+/// Stress below a body over a cycle, which the sections of several questions share.
+///
+/// It belongs to one run, one body and one of its cycles. Its memory is at most 192 MB.
+#[pyclass(frozen, module = "pyfret._core")]
+pub(crate) struct StressCache(Arc<core::StressCache>);
+
+#[pymethods]
+impl StressCache {
+    #[new]
+    fn new() -> Self {
+        Self(Arc::default())
+    }
+}
+
 /// A section of a body below a contact over a cycle.
 ///
 /// `moments` is called with a list of numbers from 0 to `count` - 1, or with None for the moment
 /// before the cycle. It gives :class:`States` on the grid, or None. `yielding` is the plastic work
 /// of the cycle and the work beside which it is small [J]. `path_error` is the error of the shear
-/// by the increments, over the largest shear.
+/// by the increments, over the largest shear. `cache` shares the stress with other sections.
 #[pyclass(frozen, module = "pyfret.fatigue")]
 pub(crate) struct CycleSection {
     below: Arc<AssessedBody>,
@@ -58,7 +72,7 @@ pub(crate) struct CycleSection {
 #[pymethods]
 impl CycleSection {
     #[new]
-    #[pyo3(signature = (body, grid, moments: "Callable[[list[int] | None], States | None]", count: "int", *, x: "float | None" = None, y: "float | None" = None, azimuth: "Angle | None" = None, body_number: "int" = 2, residual = None, yielding: "tuple[float, float] | None" = None, path_error: "float | None" = None))]
+    #[pyo3(signature = (body, grid, moments: "Callable[[list[int] | None], States | None]", count: "int", *, x: "float | None" = None, y: "float | None" = None, azimuth: "Angle | None" = None, body_number: "int" = 2, residual = None, yielding: "tuple[float, float] | None" = None, path_error: "float | None" = None, cache: "StressCache | None" = None))]
     fn new(
         body: Body,
         grid: Grid,
@@ -71,6 +85,7 @@ impl CycleSection {
         residual: Profiles,
         #[pyo3(from_py_with = number)] yielding: Option<(f64, f64)>,
         #[pyo3(from_py_with = number)] path_error: Option<f64>,
+        cache: Option<PyRef<'_, StressCache>>,
     ) -> PyResult<Self> {
         let below = AssessedBody {
             side: side(body_number)?,
@@ -81,6 +96,7 @@ impl CycleSection {
                 .with_path_error(path_error),
             body: body.0,
             grid: grid.0,
+            cache: cache.map(|cache| cache.0.clone()).unwrap_or_default(),
         };
         Ok(Self {
             below: Arc::new(below),

@@ -7,6 +7,6 @@ mod growth;
 mod names;
 
 pub(crate) use alone::Crack;
-pub(crate) use below::{crack_growth_of_states, crack_of_states};
+pub(crate) use below::ContactForCracks;
 pub(crate) use film::{channel_crack, ellipse_factor, partial_crack};
 pub(crate) use growth::{arrest, crack_life, equivalent_range, threshold_at};

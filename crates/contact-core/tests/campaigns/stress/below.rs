@@ -62,6 +62,7 @@ pub(crate) fn judged(scene: &Scene, end: &Fields, stop: &Arc<AtomicBool>) -> Res
         residual: &ResidualStress::default(),
         cycle: &cycle,
         stop: stop.clone(),
+        cache: Arc::default(),
     };
     let area = end.contact.iter().filter(|c| **c).count() as f64 * scene.grid.cell_area();
     let a = (area / std::f64::consts::PI).sqrt();
