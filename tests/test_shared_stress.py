@@ -33,18 +33,22 @@ def rig() -> fret.Result:
 
 def answers(run: fret.Result, order: str) -> dict[str, tuple[float, ...]]:
     """Ask for lives, load factors and the history of a place, in an order."""
-    found: dict[str, tuple[float, ...]] = {}
-    for question in order:
-        if question == "l":
+    numbers: dict[str, tuple[float, ...]] = {}
+    for letter in order:
+        if letter == "l":
             lives = fret.fatigue.lives(run, "titanium_6Al4V", CRITERIA)
             worst = (lives[name].worst for name in CRITERIA)
-            found["lives"] = tuple(x for of in worst for x in (of.value, of.error, *of.place))
-        elif question == "f":
+            numbers["lives"] = tuple(
+                x for point in worst for x in (point.value, point.error, *point.place)
+            )
+        elif letter == "f":
             least = run.load_factors(900e6).least("shakedown")
-            found["factors"] = (least.value, least.error, *least.place)
+            numbers["factors"] = (least.value, least.error, *least.place)
         else:
-            found["elsewhere"] = (float(run.life("titanium_6Al4V", "dang_van", x=0.0).worst.value),)
-    return found
+            numbers["elsewhere"] = (
+                float(run.life("titanium_6Al4V", "dang_van", x=0.0).worst.value),
+            )
+    return numbers
 
 
 @pytest.mark.solves
@@ -91,10 +95,10 @@ def test_the_crack_opens_where_the_range_of_k_is_largest() -> None:
     places = [(end, phi, 0.0) for phi in angles.tolist() for end in cycle.outermost(phi)]
     chosen = cycle.contact.widest_range(places, lengths=lengths)
 
-    def largest_range(place: tuple[float, float, float]) -> float:
-        x, azimuth, offset = place
-        found = cycle.contact.intensity(x=x, azimuth=azimuth, offset=offset, lengths=lengths)
-        return float(np.ptp(found["K_I"], axis=0).max())
+    def largest_range(mouth: tuple[float, float, float]) -> float:
+        x, azimuth, offset = mouth
+        K = cycle.contact.intensity(x=x, azimuth=azimuth, offset=offset, lengths=lengths)
+        return float(np.ptp(K["K_I"], axis=0).max())
 
-    ranges = [largest_range(place) for place in places]
+    ranges = [largest_range(mouth) for mouth in places]
     assert ranges[chosen] > 0.97 * max(ranges)
