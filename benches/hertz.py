@@ -36,13 +36,24 @@ class Shape(NamedTuple):
     amplitude: float = 0.0
     wavelength: float = 1.0
     phase: float = 0.0
+    #: Root mean square of a self-affine roughness [m], its shortest wave as a part of the width.
+    rms: float = 0.0
+    shortest: float = 1 / 64
+
+    @property
+    def is_smooth(self) -> bool:
+        """Whether the answer is Hertz's."""
+        return self.amplitude == 0 and self.rms == 0
 
 
 #: Without waves the answer is Hertz's, which a program may well start from. The waves part the rim
-#: of the contact into spots; nothing is symmetric, and no program knows the answer.
+#: of the contact into spots; nothing is symmetric, and no program knows the answer. The roughness
+#: parts all of it; its waves are the same on every grid.
 SHAPES = {
     "hertz": Shape(2.4 * A),
     "wavy": Shape(3.0 * A, amplitude=0.03 * APPROACH, wavelength=0.25 * A, phase=1.0),
+    #: Hundreds of spots: the contact of a machined ball.
+    "rough": Shape(4.0 * A, rms=0.05 * APPROACH),
 }
 
 
@@ -59,11 +70,29 @@ def squared_radius(shape: Shape, n: int) -> Field:
     return square
 
 
+def roughness(shape: Shape, n: int) -> Field:
+    """Heights of the roughness in the middles of the cells [m]: Hurst exponent 0.8, no image."""
+    most = round(1 / shape.shortest)
+    rng = np.random.default_rng(1)
+    k = np.arange(-most, most + 1)
+    size = np.hypot(k[:, None], k[None, :])
+    amplitude = np.where((size > 0) & (size <= most), np.maximum(size, 4.0) ** -1.8, 0.0)
+    phases = rng.uniform(0, 2 * np.pi, amplitude.shape)
+    factors = amplitude * np.exp(1j * phases)
+    waves = np.exp(2j * np.pi * np.outer(positions(shape, n) / shape.width, k))
+    z: Field = (waves @ factors @ waves.T).real
+    return shape.rms * z / np.sqrt(0.5 * np.sum(amplitude**2))
+
+
 def gap(shape: Shape, n: int) -> Field:
     """Gap between the undeformed surfaces [m], up to a constant."""
-    wave = np.cos(2 * np.pi * positions(shape, n) / shape.wavelength + shape.phase)
     h: Field = squared_radius(shape, n) / (2 * R)
-    return h - shape.amplitude * (wave[:, None] + wave[None, :])
+    if shape.rms > 0:
+        h -= roughness(shape, n)
+    if shape.amplitude > 0:
+        wave = np.cos(2 * np.pi * positions(shape, n) / shape.wavelength + shape.phase)
+        h -= shape.amplitude * (wave[:, None] + wave[None, :])
+    return h
 
 
 def pressure(shape: Shape, n: int) -> Field:
@@ -109,7 +138,7 @@ def judge(p: Field, shape: Shape) -> dict[str, float]:
         "balance": abs(float(p.sum()) * cell / W - 1),
         "residual": max(float(np.sqrt(np.mean(h[contact] ** 2))), overlap) / APPROACH,
     }
-    if shape.amplitude > 0:
+    if not shape.is_smooth:
         return found
     exact = pressure(shape, n)
     return found | {

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 #: Figures that belong to a part, and stand below its table.
 FIGURES = {"wavy": "peers_frictionless.png", "fretting": "peers_fretting.png"}
-PARTS = ("hertz", "wavy", "convolution", "fretting", "runs", "large")
+PARTS = ("hertz", "wavy", "rough", "convolution", "fretting", "runs", "large")
 
 
 def collect(rows: Iterable[Row]) -> list[Row]:
@@ -44,7 +44,8 @@ def collect(rows: Iterable[Row]) -> list[Row]:
 
 def contact(peers: environment.Peers, scene: str, *, quick: bool) -> dict[str, list[Row]]:
     """A frictionless contact: tolerances on one grid, then grids under the one that suffices."""
-    sizes = {"hertz": (64, 128, 256, 512, 1024), "wavy": (256, 1024)}[scene]
+    grids = {"hertz": (64, 128, 256, 512, 1024), "wavy": (256, 1024), "rough": (256, 512, 1024)}
+    sizes = grids[scene]
     cells, sizes, seconds = (64, (64,), 0.2) if quick else (256, sizes, 4.0)
     ladder = collect(side_by_side.precision(peers, scene, cells, seconds / 8))
     on_grids = collect(side_by_side.grids(peers, scene, sizes, ladder, seconds))
@@ -54,7 +55,7 @@ def contact(peers: environment.Peers, scene: str, *, quick: bool) -> dict[str, l
 def measure(part: str, peers: environment.Peers, *, quick: bool) -> dict[str, list[Row]]:
     """One part."""
     print(f"# {part}", flush=True)
-    if part in ("hertz", "wavy"):
+    if part in ("hertz", "wavy", "rough"):
         return contact(peers, part, quick=quick)
     if part == "convolution":
         sizes, rounds = ((64, 128), 1) if quick else ((256, 512, 1024), convolution.ROUNDS)
@@ -74,6 +75,7 @@ def report(found: dict[str, list[Row]], out: Path, document: Path | None) -> Non
     write = {
         "hertz": tables.side_by_side,
         "wavy": tables.side_by_side,
+        "rough": tables.side_by_side,
         "convolution": tables.convolution,
         "fretting": tables.fretting,
         "runs": tables.runs,

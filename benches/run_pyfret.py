@@ -16,6 +16,9 @@ PRESETS = {"fast": fret.settings.Preset.FAST, "spinu2020": fret.settings.Preset.
 def prepare(task: Task) -> fret._core.March:
     """Everything up to the first increment: coefficients, transforms, buffers."""
     shape: fret.Sphere | fret.shapes.Sum = fret.Sphere(R=hertz.R)
+    if task.shape.rms > 0:
+        heights = hertz.roughness(task.shape, task.cells)
+        shape += fret.SurfaceMap(heights, spacing=task.shape.width / task.cells)
     amplitude, wavelength, phase = task.shape.amplitude, task.shape.wavelength, task.shape.phase
     if amplitude > 0:
         for angle in (0.0, math.pi / 2):

@@ -31,7 +31,10 @@ from typing_extensions import Self
 from pyfret._util.types import FrictionFunction, Variable
 from pyfret.quantities import {NAMES}
 import os
+from pyfret.scene.maps import Form, Statistics
+from matplotlib.axes import Axes
 import numpy as np
+import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 """
 

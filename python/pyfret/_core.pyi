@@ -4,7 +4,9 @@ from os import PathLike
 from typing import Any, Final, Literal, final
 
 import numpy as np
+import xarray as xr
 from _typeshed import Incomplete
+from matplotlib.axes import Axes
 from numpy import bool_, float64
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import Self
@@ -33,6 +35,7 @@ from pyfret.quantities import (
     Time,
     YieldStress,
 )
+from pyfret.scene.maps import Form, Statistics
 from pyfret.settings import Settings
 
 CELLS_PER_FILM: Final[float]
@@ -158,6 +161,9 @@ class Body:
     bulk_neutral_depth : float, optional
         Depth of the neutral plane of a bent body [m]: its bulk stress falls linearly from
         the surface to zero there (default: the same at all depths).
+    hardness : float, Material or str, optional
+        Largest pressure that the surface bears [Pa]: beyond it the surface is indented for
+        good. Of a material of the table, or its name, 2.8 times its yield stress (default: none).
     """
 
     def __eq__(self, value: object, /) -> bool: ...
@@ -185,6 +191,7 @@ class Body:
         | Sum = ...,
         bulk_azimuth: Angle | None = None,
         bulk_neutral_depth: Length | None = None,
+        hardness: YieldStress | Material | str | None = None,
     ) -> Body: ...
     def __replace__(self, /, **changes: Any) -> Self: ...
     def __repr__(self, /) -> str: ...
@@ -200,6 +207,9 @@ class Body:
     @property
     def coatings(self, /) -> list[Coating]:
         """Layers from the surface down."""
+    @property
+    def hardness(self, /) -> float | None:
+        """Largest pressure that the surface bears [Pa]; None without a limit."""
     def replace(self, /, **changes: Any) -> Self:
         """Return a copy with some of its parts exchanged, named as in the constructor."""
     @property
@@ -3245,6 +3255,27 @@ class SurfaceMap:
     @property
     def filled(self, /) -> int:
         """How many of the numbers were not measured: each is the mean of its neighbours."""
+    def filter(self, /, *, short: Length | None = None, long: Length | None = None) -> SurfaceMap:
+        """
+        Return the map without waves that are shorter or longer than cut-offs.
+
+        The filters are Gaussian (ISO 16610-61): half of a wave as long as the cut-off passes. At
+        the border the weights are normalised.
+
+        Parameters
+        ----------
+        short, long : float, optional
+            Cut-off wavelengths [m]: shorter than `short` is removed, and longer than `long`.
+        """
+    def fit_form(self, /, form: Literal["plane", "sphere", "paraboloid", "cubic"]) -> Form:
+        """
+        Fit a form by least squares: its slopes, radii and heights.
+
+        Parameters
+        ----------
+        form : "plane", "sphere", "paraboloid" or "cubic"
+            A sphere is replaced by its paraboloid, as every curved shape.
+        """
     @staticmethod
     def from_file(
         path: str | PathLike[str],
@@ -3286,17 +3317,65 @@ class SurfaceMap:
             If the file cannot be read, contradicts the arguments, or leaves something open. The
             message has the line, the column and the argument to give.
         """
+    def level(
+        self, /, form: Literal["plane", "sphere", "paraboloid", "cubic"] = "plane"
+    ) -> SurfaceMap:
+        """
+        Return the map without a form; :meth:`fit_form` gives the radius of what is subtracted.
+
+        Parameters
+        ----------
+        form : "plane", "sphere", "paraboloid" or "cubic"
+            The form that is fitted by least squares and subtracted (default "plane").
+        """
     @property
     def peak_to_valley(self, /) -> float:
         """Largest less smallest number: S_z of heights [m]."""
+    def plot(self, /, ax: Axes | None = None) -> Axes:
+        """Draw the heights; return the axes."""
     def replace(self, /, **changes: Any) -> Self:
         """Return a copy with some of its parts exchanged, named as in the constructor."""
+    def resample(
+        self,
+        /,
+        *,
+        spacing: Quantity | tuple[Quantity, Quantity] | None = None,
+        n: int | tuple[int, int] | None = None,
+    ) -> SurfaceMap:
+        """
+        Return the map on other points, by a cosine series through all of its points.
+
+        Finer points show the waves of the map between them. Coarser points leave out the waves that
+        they cannot carry. The size of the map stays.
+
+        Parameters
+        ----------
+        spacing : float or (float, float), optional
+            Distance of the new points [m], rounded to a whole number of them.
+        n : int or (int, int), optional
+            Number of the new points along x and y.
+        """
     @property
     def rms(self, /) -> float:
         """Root of the mean square about the mean: S_q of heights [m]."""
     @property
     def spacing(self, /) -> tuple[float, float]:
         """Distance of the points along x and y [m]."""
+    def spectrum(self, /) -> xr.DataArray:
+        """Return the power spectral density of the heights, mean over directions [m^4]."""
+    def statistics(self, /) -> Statistics:
+        """
+        Return the parameters of the heights after ISO 25178-2 about their mean.
+
+        S_q, S_a, S_z, S_sk, S_ku and S_dq, with the pitch of the slope. The heights are
+        taken as they are: subtract the form and filter first.
+        """
+    def summary(self, /) -> str:
+        """
+        Describe the map: points, pitch, size, form, and the parameters without the form.
+
+        A ball that was measured with its curvature is named as such, with its radius.
+        """
     @property
     def values(self, /) -> NDArray[float64]:
         """The numbers."""

@@ -8,18 +8,23 @@ from pyfret._core import Elastic, Plastic, material_quantities
 from pyfret._util.scene_warnings import warn
 from pyfret.fatigue import Materials
 from pyfret.fatigue.ranges import known_as
-from pyfret.quantities import quantities
+from pyfret.quantities import YieldStress, quantities
 
 if TYPE_CHECKING:
     import os
 
     import pandas as pd
 
-__all__ = ["material", "materials"]
+    from pyfret.fatigue import Material
+
+__all__ = ["hardness_from", "material", "materials"]
 
 #: Poisson's ratio of what none is known of: hard nitrides and carbon films have 0.2 to 0.3, which
 #: moves E/(1 - nu^2) by 3 % to either side.
 NU = 0.25
+#: Hardness over yield stress: mean pressure of a fully plastic contact (D. Tabor, The Hardness
+#: of Metals, 1951).
+HARDNESS_RATIO = 2.8
 
 
 #: How a number is known, in the words of the table.
@@ -146,3 +151,16 @@ def material(
         law = Plastic(s_y=chosen.number("s_y"))
     nu = chosen.number("nu") if nu is None else nu
     return Elastic(E=chosen.number("E"), nu=nu, plastic=law)
+
+
+@quantities
+def hardness_from(hardness: YieldStress | Material | str) -> float:
+    """Return a hardness [Pa]: a number, or 2.8 times the yield stress of a material."""
+    if isinstance(hardness, (int, float)):
+        return float(hardness)
+    chosen = Materials()[hardness] if isinstance(hardness, str) else hardness
+    if "s_y" not in {key for key, _, _ in chosen.numbers()}:
+        raise ValueError(
+            f"hardness: the table has no yield stress of {chosen.name}; give a pressure in Pa"
+        )
+    return HARDNESS_RATIO * chosen.number("s_y")

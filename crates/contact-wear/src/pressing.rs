@@ -175,6 +175,7 @@ impl Pressing {
             h_init: h,
             arms: &self.arms,
             drive,
+            hardness: f64::INFINITY,
         };
         let params = NormalParams {
             enough: times * self.params.enough,

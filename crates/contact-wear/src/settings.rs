@@ -132,6 +132,18 @@ impl Wear {
             let allowed = "left out in a run of wear: start it with the imprint as part of a shape";
             return Err(Error::invalid(format!("{name}.plastic"), "given", allowed));
         }
+        if let Some((name, body)) = bodies
+            .iter()
+            .find(|(_, body)| body.hardness < f64::INFINITY)
+        {
+            let allowed =
+                "left out in a run of wear: start it with the indented surface as part of a shape";
+            return Err(Error::invalid(
+                format!("{name}.hardness"),
+                body.hardness,
+                allowed,
+            ));
+        }
         for ((name, body), wear) in bodies.into_iter().zip(&self.bodies) {
             wear.check(&format!("wear.{name}"), body.coatings.len() + 1)?;
         }

@@ -34,6 +34,13 @@ from pyfret.plot.maps import pressure_map, shear_streamlines, slip_map, stick_sl
 from pyfret.plot.overview import overview
 from pyfret.plot.paper import paper_figures
 from pyfret.plot.profiles import pressure_profile, shear_profile, shear_profiles
+from pyfret.plot.rough import (
+    area_over_load,
+    gap_map,
+    pressure_histogram,
+    spots,
+    surface_heights,
+)
 from pyfret.plot.stresses import (
     envelope_maps,
     section_map,
@@ -49,6 +56,7 @@ from pyfret.plot.yielding import plastic_zone, residual_stress
 
 __all__ = [
     "animate",
+    "area_over_load",
     "arrest_map",
     "comparison",
     "crack_arrest",
@@ -64,6 +72,7 @@ __all__ = [
     "envelope_maps",
     "fretting_loop",
     "fretting_map",
+    "gap_map",
     "haigh_diagram",
     "intensity",
     "intensity_history",
@@ -77,6 +86,7 @@ __all__ = [
     "overview",
     "paper_figures",
     "plastic_zone",
+    "pressure_histogram",
     "pressure_map",
     "pressure_profile",
     "residual_stress",
@@ -86,6 +96,7 @@ __all__ = [
     "shear_profiles",
     "shear_streamlines",
     "slip_map",
+    "spots",
     "stick_ratio",
     "stick_slip",
     "stress_along_depth",
@@ -94,6 +105,7 @@ __all__ = [
     "stress_maps",
     "study_map",
     "style",
+    "surface_heights",
     "temperature",
     "temperature_map",
     "wear_history",

@@ -58,6 +58,14 @@ class State(OfRun):
     contact_radius: xr.DataArray
     half_width: xr.DataArray
     cells_per_radius: xr.DataArray
+    real_area: xr.DataArray
+    real_area_error: xr.DataArray
+    nominal_area: xr.DataArray
+    spots: xr.DataArray
+    largest_spot: xr.DataArray
+    lone_share: xr.DataArray
+    mean_gap: xr.DataArray
+    mean_pressure: xr.DataArray
     p_max: xr.DataArray
     q_max: xr.DataArray
     q_rms: xr.DataArray
@@ -93,6 +101,7 @@ class State(OfRun):
     u_y: xr.DataArray
     u_z: xr.DataArray
     gap: xr.DataArray
+    indentation: xr.DataArray
     slip_x: xr.DataArray
     slip_y: xr.DataArray
     dissipated_density: xr.DataArray

@@ -50,7 +50,13 @@ pub(super) fn coarser_grids(
 ) -> Result<Vec<GridErrors>, Error> {
     let mut of_branches = vec![GridErrors::default(); fine.len()];
     let mut remainders: Vec<Left> = Vec::new();
-    for (k, part) in PARTS.into_iter().enumerate() {
+    // Maps have heights at every second point, but none at three of eight.
+    let parts = if scene.has_maps() && halves(&scene.grid) {
+        &PARTS[..1]
+    } else {
+        &PARTS[..]
+    };
+    for (k, &part) in parts.iter().enumerate() {
         let coarser = coarser(scene, part)?;
         let mut plan = Plan::new(&coarser);
         let fine_cells = plan.methods.volume_cells as f64;
@@ -74,7 +80,7 @@ pub(super) fn coarser_grids(
             for n in 0..NUMBERS {
                 let off = (f[n] - c[n]) / (ratio.powf(ORDER[n]) - 1.0);
                 of_branches.numbers[n] =
-                    of_branches.numbers[n].hypot(off / (PARTS.len() as f64).sqrt());
+                    of_branches.numbers[n].hypot(off / (parts.len() as f64).sqrt());
             }
         }
         if k == 0 {
@@ -166,8 +172,17 @@ fn coarser(scene: &Scene, part: f64) -> Result<Scene, Error> {
         dy: along_y / ny as f64,
         ..*grid
     };
+    if scene.has_maps() && halves(grid) && 2 * nx == grid.nx {
+        coarse.decimate_maps(grid);
+    }
     coarse.check()?;
     Ok(coarse)
+}
+
+/// Whether half of the cells each way makes cells twice as large.
+fn halves(grid: &Grid) -> bool {
+    let even = |n: usize| n.is_multiple_of(4);
+    even(grid.nx) && even(grid.ny) && !grid.plane_strain
 }
 
 /// Ratio of the cells of two grids, geometric mean of both axes.

@@ -208,6 +208,7 @@ fn bars(
         let least = match n {
             STICK_RATIO => ring,
             DISSIPATED => energy_of_ring(scene, fine, ring),
+            CONTACT_RADIUS if scene.is_uneven() => radius_of_spots(fine),
             _ => 0.0,
         };
         let solver = by_solver[n];
@@ -348,6 +349,14 @@ fn energy_of_ring(scene: &Scene, fine: &BranchSummary, ring: f64) -> f64 {
     let (mu, slips) = (scene.friction.mu, 1.0 - fine.stick_ratio);
     let whole = mu * mu * fine.loads.W * fine.motion.delta_z.abs();
     RING_ENERGY * whole * ring * (2.0 * slips + ring)
+}
+
+/// Error of the contact radius by the cells along the border of the spots, which count whole \[m\].
+fn radius_of_spots(fine: &BranchSummary) -> f64 {
+    let (spots, radius) = (&fine.spots, fine.contact_radius);
+    let whole = spots.whole_cells.max(f64::MIN_POSITIVE);
+    let off = spots.whole_cells - spots.real_area() + spots.real_area_error();
+    0.5 * radius * off / whole
 }
 
 /// Whether cells may slip: friction has a bound, and shear reaches it.

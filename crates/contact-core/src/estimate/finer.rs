@@ -41,6 +41,8 @@ impl Finer {
         };
         let few = Scene {
             grid: scene.grid,
+            body1: scene.body1.clone(),
+            body2: scene.body2.clone(),
             ..fine.clone()
         };
         let solved = |scene: &Scene| -> Result<_, Error> {
@@ -77,6 +79,7 @@ pub fn finest(scene: &Scene) -> Option<Scene> {
         grid,
         ..scene.clone()
     };
+    fine.refine_maps();
     fine.settings.save = SaveFields::Branches;
     fine.settings.solver.path_grid = PathGrid::Same;
     fine.settings.solver.tolerance = Some(scene.tolerance().max(TOLERANCE));

@@ -58,7 +58,8 @@ pub(super) fn choose_path_grid(scene: &mut Scene, stop: &Arc<AtomicBool>) -> Res
                 allowed && shorter >= FEWEST_PATH_CELLS * ratio
             };
             let ratios: Vec<usize> = RATIOS.into_iter().filter(possible).collect();
-            if shorter < FEWEST_CELLS || ratios.is_empty() || !pays(scene) {
+            let hard = scene.hardness() < f64::INFINITY;
+            if shorter < FEWEST_CELLS || ratios.is_empty() || hard || !pays(scene) {
                 return Ok(());
             }
             ratios

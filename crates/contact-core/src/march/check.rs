@@ -63,7 +63,7 @@ pub(super) fn residuals(
     info: &AlternationInfo,
 ) -> (Residuals, [f64; 3]) {
     let mu = setup.problem.scene.friction.reference_mu();
-    let approach = setup.problem.approach;
+    let (approach, hardness) = (setup.problem.approach, setup.problem.hardness);
     let arms = &setup.geometry.arms;
     let [x_0, y_0] = no_slip.displacement();
     let tractions = [&now.p[..], &now.q[0], &now.q[1], setup.mu];
@@ -73,7 +73,11 @@ pub(super) fn residuals(
     let square = |v: [f64; 2]| v[0] * v[0] + v[1] * v[1];
     let (sums, largest) = sums_and_maxima(fields, |n, ((tractions, moved), ([u_z, h], slips))| {
         let ([p, q_x, q_y, mu], [u_x, u_y, x_0, y_0]) = (tractions, moved);
-        let gap = u_z + h - arms.displacement_across(info.approach, n);
+        let mut gap = u_z + h - arms.displacement_across(info.approach, n);
+        if p >= hardness {
+            // The overlap is the indentation.
+            gap = gap.max(0.0);
+        }
         let bound = friction_bound(mu, p);
         let (stretched, excess) = (
             length([q_x, arms.axis_ratio * q_y]),

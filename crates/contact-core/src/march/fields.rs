@@ -29,6 +29,8 @@ pub struct Fields {
     pub u_z: Array2<f64>,
     /// Gap h \[m\], >= 0.
     pub gap: Array2<f64>,
+    /// Permanent indentation under the hardness, of both surfaces together \[m\].
+    pub indentation: Array2<f64>,
     /// Slip along x added up over the load path \[m\], in cells while in contact.
     pub slip_x: Array2<f64>,
     /// Slip along y added up over the load path \[m\].
@@ -105,6 +107,11 @@ impl March {
         };
         let (slips, at_limit) = (mask(&now.slips), mask(&s.at_limit));
         let contact = p.mapv(|p| p > 0.0);
+        let indentation = if s.indented.is_empty() {
+            Array2::zeros(p.dim())
+        } else {
+            unfold(&s.indented, Parity::Even)
+        };
         let stick = ndarray::Zip::from(&contact)
             .and(&slips)
             .and(&at_limit)
@@ -114,7 +121,8 @@ impl March {
             .and(&at_limit)
             .map_collect(|&slips, &at_limit| slips && at_limit);
         Fields {
-            gap: self.offset_gap(u_z.clone() + self.problem.scene.h_init() - rigid),
+            gap: self.offset_gap(u_z.clone() + self.problem.scene.h_init() - rigid) + &indentation,
+            indentation,
             q_x,
             q_y,
             u_x,

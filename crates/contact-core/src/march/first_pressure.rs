@@ -1,25 +1,37 @@
-//! The initial guess of the pressure of a first contact.
+//! The pressure of a paraboloid, the initial guess of a first contact.
 
 use ndarray::Array2;
 
 use super::problem::Problem;
 use crate::scene::LoadPoint;
 
-/// Initial pressure of bodies that have not touched, on the whole grid: up to a factor that of a
-/// paraboloid of the approach expected at a point; uniform without
-/// [`Methods::first_contact`](crate::plan::Methods::first_contact).
-pub(super) fn first_pressure(problem: &Problem, point: &LoadPoint) -> Array2<f64> {
-    let h_init = problem.scene.h_init();
-    if !problem.plan.methods.first_contact {
-        return Array2::ones(h_init.dim());
-    }
+/// Area of a first guess over the area that carries the load at the hardness.
+const ROOM: f64 = 1.3;
+
+/// Pressure of a paraboloid of the approach expected at a point, over the gap `h_init` of cells of an
+/// area \[m^2\], up to a factor; on cells enough for the load at the hardness.
+pub(super) fn pressure_of_paraboloid(
+    problem: &Problem,
+    point: &LoadPoint,
+    h_init: &Array2<f64>,
+    cell_area: f64,
+) -> Array2<f64> {
     let lowest = h_init.iter().fold(f64::INFINITY, |m, h| m.min(*h));
     let approach = problem.approach_at(point, lowest);
-    h_init.map(|h| {
+    let mut p = h_init.map(|h| {
         if approach > 0.0 {
             (1.0 - 2.0 * (h - lowest) / approach).max(0.0).sqrt()
         } else {
             0.0
         }
-    })
+    });
+    let needed = (ROOM * point.loads.W / (problem.hardness * cell_area)).ceil();
+    let pressed = p.iter().filter(|&&p| p > 0.0).count();
+    if needed > pressed as f64 && point.loads.given.delta_z.is_none() {
+        let mut heights: Vec<f64> = h_init.iter().copied().collect();
+        heights.sort_unstable_by(f64::total_cmp);
+        let highest = heights[(needed as usize).min(heights.len()) - 1];
+        p = h_init.map(|&h| if h <= highest { 1.0 } else { 0.0 });
+    }
+    p
 }

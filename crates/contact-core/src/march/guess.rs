@@ -2,9 +2,10 @@
 
 use rayon::prelude::*;
 
-use super::first_pressure::first_pressure;
+use super::domain::first_pressure;
 use super::setup::Setup;
 use crate::cells::{CHUNK, copy, length, set_fields, sweep};
+use crate::solvers::inner::scale_pressure;
 use crate::solvers::{Interface, friction_bound};
 
 /// Tractions and slip set to start from: the last increment's, extrapolated while the loads
@@ -15,7 +16,7 @@ pub(super) fn first_guess(setup: &Setup<'_>, extrapolates: bool) -> Interface {
     let (problem, state) = (setup.problem, setup.state);
     let mut guess = state.interface.clone();
     if state.loads.W <= 0.0 {
-        let p = first_pressure(problem, setup.point);
+        let p = first_pressure(problem, setup.kernel, setup.point);
         guess.p = setup.geometry.cut(problem.plan.mirror, &p);
     }
     match setup.goes_on {
@@ -37,8 +38,10 @@ pub(super) fn first_guess(setup: &Setup<'_>, extrapolates: bool) -> Interface {
         // Every cell would have left the contact: no extrapolation.
         copy(&state.interface.p, &mut guess.p);
     } else if setup.drives.normal.free[0] {
-        let factor = setup.drives.normal.sums[0] / sum;
-        set_fields([], [&mut guess.p], |_, [], [p]| [p * factor]);
+        scale_pressure(&mut guess.p, setup.drives.normal.sums[0], problem.hardness);
+    } else {
+        let hardness = problem.hardness;
+        set_fields([], [&mut guess.p], |_, [], [p]| [p.min(hardness)]);
     }
     guess
 }

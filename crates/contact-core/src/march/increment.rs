@@ -20,6 +20,7 @@ pub(super) fn increment(
     point: &LoadPoint,
     extrapolates: bool,
 ) -> Result<Increment, Failure> {
+    domain.window.geometry.indent(&state.indented);
     let geometry = &domain.window.geometry;
     let roll = Roll::new(problem, state, point);
     let respond = (
@@ -84,6 +85,7 @@ pub(super) fn increment(
         shift: info.shift,
         stuck,
         clear,
+        hardness: problem.hardness,
     };
     accounts::close(state, &increment, now, &closing);
     if state.work != 0.0 {

@@ -43,7 +43,7 @@ pub use fields::{Fields, Tractions};
 pub(crate) use growing::is_remembered;
 pub(crate) use problem::TANGENTIAL_SHARE;
 pub use reached::Reached;
-pub use results::{Energy, Increment, Motion, Residuals, Status, Work, Yield};
+pub use results::{Energy, Increment, Motion, Residuals, Spots, Status, Work, Yield};
 pub use run::{BranchSummary, Observer, solve, summarise};
 pub use shear_errors::shear_errors;
 pub use state::State;
@@ -112,6 +112,7 @@ impl March {
             problem: Problem {
                 largest: Largest::from_path(&scene.path),
                 approach: scene.reference_approach(),
+                hardness: scene.hardness(),
                 cycles: 0.0,
                 share: 1.0,
                 remembers: false,

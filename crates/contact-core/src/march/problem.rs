@@ -22,6 +22,8 @@ pub(super) struct Problem {
     pub(super) largest: Largest,
     /// Approach that scales lengths \[m\].
     pub(super) approach: f64,
+    /// Largest pressure that the surfaces bear \[Pa\]; infinite for elastic bodies.
+    pub(super) hardness: f64,
     /// Cycles of wear done.
     pub(super) cycles: f64,
     /// Part of the tolerance that the increment is solved to.

@@ -1,9 +1,9 @@
 //! Largest values of a run, and warnings that follow from them.
 
-use super::{Increment, shear_errors};
+use super::{Increment, Spots, shear_errors};
 use crate::digits::short;
 use crate::error::Error;
-use crate::scene::{Breadth, LARGE_STRAIN, PathGrid, Scene};
+use crate::scene::{Breadth, FEW_CELLS, LARGE_STRAIN, PathGrid, Scene};
 
 /// Pressure over the Young's modulus of the softest layer, above which metals yield: their hardness
 /// is 0.005 to 0.05 of it.
@@ -23,6 +23,8 @@ pub struct Reached {
     pub cells_per_radius: f64,
     /// Radius of the contact, of a line contact half its width \[m\].
     pub contact_radius: f64,
+    /// Spots of the contact where it is largest.
+    pub spots: Spots,
     /// Pressure \[Pa\].
     pub p_max: f64,
     /// Equivalent plastic strain.
@@ -47,6 +49,9 @@ impl Reached {
     pub fn see(&mut self, increment: &Increment) {
         self.cells_per_radius = self.cells_per_radius.max(increment.cells_per_radius);
         self.contact_radius = self.contact_radius.max(increment.contact_radius);
+        if increment.spots.whole_cells > self.spots.whole_cells {
+            self.spots = increment.spots;
+        }
         self.p_max = self.p_max.max(increment.p_max);
         self.plastic_strain = self.plastic_strain.max(increment.yielded.largest);
         self.yields_at_border |= increment.yielded.at_border;
@@ -55,7 +60,7 @@ impl Reached {
         }
     }
 
-    /// Fails if the contact, where it is largest, has fewer than
+    /// Fails if a smooth contact, where it is largest, has fewer than
     /// [`FEWEST_CELLS`](crate::scene::FEWEST_CELLS) across its radius, on the grid or on the path
     /// grid, or is as wide as a body.
     pub fn check(&self, scene: &Scene) -> Result<(), Error> {
@@ -98,11 +103,34 @@ impl Reached {
         estimated.collect()
     }
 
+    /// Doubts the spots of uneven bodies that have fewer than [`FEW_CELLS`] across their radius.
+    fn doubt_of_asperities(&self) -> Option<String> {
+        let (cells, spots) = (self.cells_per_radius, &self.spots);
+        if cells >= FEW_CELLS {
+            return None;
+        }
+        let area = spots.real_area_error() / spots.real_area().max(f64::MIN_POSITIVE);
+        let [area, lone] = [area, spots.lone_share].map(|part| (100.0 * part).ceil());
+        let count = match spots.count {
+            1 => "one spot".to_owned(),
+            count => format!("{count} spots"),
+        };
+        Some(format!(
+            "the surfaces are uneven: the contact is {count}. Its asperities have {} cells across their radius, {lone} % of its cells \
+             have no neighbour in contact. The real area is off by up to {area} %, the largest pressure and the stick \
+             ratio by as much or more. Approach, loads and energies are off by less: solve(..., error=True) estimates each. \
+             A map of closer points with more cells shows more of the asperities",
+            (10.0 * cells).floor() / 10.0
+        ))
+    }
+
     /// Warnings that need the results of a run, beyond [`Scene::doubts`]; one sentence
     /// each.
     pub fn doubts(&self, scene: &Scene) -> Vec<String> {
         let mut doubts = Vec::new();
-        if self.cells_per_radius > 0.0 {
+        if self.cells_per_radius > 0.0 && scene.is_uneven() {
+            doubts.extend(self.doubt_of_asperities());
+        } else if self.cells_per_radius > 0.0 {
             doubts.extend(scene.doubts_about_cells(self.cells_per_radius, 1.0));
         }
         let allowed = scene.settings.solver.path_tolerance;
@@ -147,10 +175,12 @@ impl Reached {
         let p = self.p_max;
         if let Some((layer, E)) = softest_elastic(scene, self.contact_radius)
             && p > HARD * E
+            && scene.hardness() == f64::INFINITY
         {
             doubts.push(format!(
                 "the pressure comes to {} GPa, E/{:.0} of {layer} (E = {E:.3e} Pa): metals yield above E/100 or before (hardness over E \
-                 is 0.005 to 0.05); the solution is elastic there",
+                 is 0.005 to 0.05); the solution is elastic there. Body(hardness=...) limits the pressure of a rough surface, \
+                 Elastic(..., plastic=...) lets the volume yield",
                 short(1e-9 * p),
                 E / p
             ));

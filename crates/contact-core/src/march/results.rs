@@ -187,6 +187,54 @@ pub struct Yield {
     pub reached: f64,
 }
 
+/// Mean of (true area - area of whole cells) over the area of the cells along the border, one for each face
+/// between a cell in contact and one that is not: -(pi - 1 + ln 2)/24 (V. A. Yastrebov, G. Anciaux,
+/// J.-F. Molinari, Tribology Int. 114 (2017) 161-171).
+const EDGE: f64 = (std::f64::consts::PI - 1.0 + std::f64::consts::LN_2) / 24.0;
+/// Error of the area so corrected, over the area of the cells along the border.
+const EDGE_ERROR: f64 = 0.06;
+
+/// Sizes of the spots of a contact, and the gap between the surfaces.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Spots {
+    /// Number of spots: patches of cells in contact that touch, corners included.
+    pub count: usize,
+    /// Area of the cells in contact \[m^2\].
+    pub whole_cells: f64,
+    /// Faces between a cell in contact and one that is not, times the area of a cell \[m^2\].
+    pub edge_cells: f64,
+    /// Area of the cells of the largest spot \[m^2\].
+    pub largest: f64,
+    /// Part of the cells in contact that have no neighbour in contact.
+    pub lone_share: f64,
+    /// Area of the nominal contact \[m^2\]: the Hertz contact of the shapes without their unevenness, of flat
+    /// shapes the grid.
+    pub nominal_area: f64,
+    /// Gap between the surfaces, mean over the nominal contact \[m\].
+    pub mean_gap: f64,
+}
+
+impl Spots {
+    /// Real area of the contact \[m^2\], corrected for the perimeter of its cells.
+    pub fn real_area(&self) -> f64 {
+        self.whole_cells - EDGE * self.edge_cells
+    }
+
+    /// Mean pressure in the cells in contact under the normal force W \[Pa\]; 0 without contact.
+    pub fn mean_pressure(&self, W: f64) -> f64 {
+        if self.whole_cells > 0.0 {
+            W / self.whole_cells
+        } else {
+            0.0
+        }
+    }
+
+    /// Error of the real area \[m^2\].
+    pub fn real_area_error(&self) -> f64 {
+        EDGE_ERROR * self.edge_cells
+    }
+}
+
 /// One increment of the load path: scalars, residuals, work.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Increment {
@@ -207,6 +255,9 @@ pub struct Increment {
     pub cells_per_radius: f64,
     /// Radius of the circle of the contact's area, of a line contact half its width \[m\].
     pub contact_radius: f64,
+    /// Spots of the contact, and the mean gap.
+    #[serde(default)]
+    pub spots: Spots,
     /// Largest pressure \[Pa\].
     pub p_max: f64,
     /// Largest shear traction |q| \[Pa\].

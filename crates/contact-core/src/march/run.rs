@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use super::{Increment, March, Motion, Reached, Work};
+use super::{Increment, March, Motion, Reached, Spots, Work};
 use crate::error::Error;
 use crate::scene::{LoadPoint, Loads, RigidMotion, SaveFields, Scene};
 
@@ -89,6 +89,8 @@ pub struct BranchSummary {
     pub loads: Loads,
     /// Rigid-body motion at its end.
     pub motion: Motion,
+    /// Spots of the contact at its end.
+    pub spots: Spots,
     /// Radius of the circle of the contact's area at its end, of a line contact half its width \[m\].
     pub contact_radius: f64,
     /// Stick area over contact area at its end.
@@ -152,6 +154,7 @@ pub fn summarise(increments: &[Increment]) -> Vec<BranchSummary> {
                 loads: end.point.loads,
                 motion: end.motion,
                 contact_radius: end.contact_radius,
+                spots: end.spots,
                 stick_ratio: end.stick_ratio(),
                 p_max: end.p_max,
                 dissipated: of_branch.iter().map(|i| i.energy.dissipated).sum(),

@@ -167,6 +167,7 @@ impl Solver<'_> {
             arms: &setup.geometry.arms,
             enters: wanted.entry.is_some() || !wanted.turns,
             normal: setup.drives.normal,
+            hardness: setup.problem.hardness,
             tangential: setup.drives.tangential,
         };
         let params = setup.problem.params(wanted.share);

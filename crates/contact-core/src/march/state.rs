@@ -31,6 +31,9 @@ pub struct State {
     /// Increment of the history that friction depends on, in the last increment \[m, J/m^2\]; zero
     /// without one.
     pub(crate) history_step: Vec<f64>,
+    /// Permanent indentation under the hardness, of both surfaces together \[m\]; empty for elastic bodies.
+    #[serde(default)]
+    pub indented: Vec<f64>,
     /// Work of the applied forces over the path \[J\].
     pub work: f64,
     /// Area of the cells that did not slip in the last increment \[m^2\].
@@ -74,6 +77,7 @@ impl State {
             slip_length: field(),
             dissipated: field(),
             history_step: field(),
+            indented: Vec::new(),
             work: 0.0,
             without_slip: 0.0,
             at_limit: vec![false; cells],
@@ -113,6 +117,9 @@ impl State {
         let pairs = [q, u, &self.total_slip, &self.q_before, &self.residual];
         let fields = fields.into_iter().chain(pairs.into_iter().flatten());
         let masks = [slips, &self.at_limit];
+        if !self.indented.is_empty() && self.indented.len() != cells {
+            return false;
+        }
         fields.into_iter().all(|f| f.len() == cells) && masks.into_iter().all(|f| f.len() == cells)
     }
 

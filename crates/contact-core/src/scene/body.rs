@@ -24,6 +24,8 @@ pub struct Body {
     pub plastic: Vec<Option<Plastic>>,
     /// Residual stress of each layer, from the surface down, the substrate last; missing ones have none.
     pub residual: Vec<Profile>,
+    /// Largest pressure that the surface bears \[Pa\]; infinite for an elastic one.
+    pub hardness: f64,
     /// Shape of the undeformed surface.
     pub shape: Shape,
     /// How its bulk stress acts.
@@ -49,6 +51,7 @@ impl Body {
             bonds: Vec::new(),
             plastic: Vec::new(),
             residual: Vec::new(),
+            hardness: f64::INFINITY,
             shape,
             bulk: Bulk::default(),
         }
@@ -91,6 +94,7 @@ impl Body {
     pub fn elastic(&self) -> Self {
         Self {
             plastic: Vec::new(),
+            hardness: f64::INFINITY,
             ..self.clone()
         }
     }
@@ -168,6 +172,19 @@ impl Body {
         Ok(())
     }
 
+    /// Fails if the hardness is no pressure, or given beside a law of yielding.
+    pub fn check_hardness(&self, key: &str) -> Result<(), Error> {
+        let key = format!("{key}.hardness");
+        if !(self.hardness > 0.0) {
+            return Err(Error::invalid(key, self.hardness, "a pressure above 0 Pa"));
+        }
+        if self.hardness < f64::INFINITY && self.yields() {
+            let allowed = "left out where a layer has plastic: it yields in the volume, without a limit of the pressure";
+            return Err(Error::invalid(key, self.hardness, allowed));
+        }
+        Ok(())
+    }
+
     /// Fails if a layer yields by numbers without meaning, or in a body that this is not computed for.
     fn check_plastic(&self, key: &str) -> Result<(), Error> {
         let layers = self.coatings.len() + 1;
@@ -223,6 +240,7 @@ impl Body {
         for (i, bond) in self.bonds.iter().enumerate() {
             bond.check(&format!("{key}.coatings[{i}].bond"))?;
         }
+        self.check_hardness(key)?;
         self.check_plastic(key)?;
         self.check_residual(key)?;
         self.shape.check(&format!("{key}.shape"))

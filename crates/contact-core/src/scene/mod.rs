@@ -15,8 +15,10 @@ mod grid;
 mod load_path;
 mod loads;
 mod magnitude;
+mod map_points;
 mod missing;
 mod motion;
+mod nominal;
 mod number_files;
 mod residual_stress;
 mod resolution;
@@ -164,6 +166,7 @@ impl Scene {
         self.check_bonds()?;
         self.check_approach()?;
         self.settings.check()?;
+        self.check_hardness()?;
         self.check_yielding()?;
         self.check_path_grid()?;
         self.check_saved_increments()
@@ -340,7 +343,7 @@ impl Scene {
             Some("where the coefficient of friction changes along the path")
         } else if self.settings.solver.preset == Preset::Spinu2020 {
             Some("with the preset spinu2020")
-        } else if self.yields() {
+        } else if self.yields() || self.hardness() < f64::INFINITY {
             Some("where a body yields")
         } else {
             None

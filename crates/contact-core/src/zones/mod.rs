@@ -23,4 +23,4 @@ pub use level::{Level, Stencil};
 pub use outline::{Outline, principal_azimuth};
 pub use rim_pressure::continue_pressure_to_rim;
 pub use spots::Spot;
-pub(crate) use spots::cells_per_radius;
+pub(crate) use spots::{SpotCount, count_spots};

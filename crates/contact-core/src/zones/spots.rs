@@ -77,21 +77,46 @@ struct Run {
     spot: usize,
 }
 
-/// Cells across the radius of a contact: the median of the radii of its spots, weighted by area;
-/// zero without a contact.
-pub(crate) fn cells_per_radius(lattice: Lattice, contact: &[bool]) -> f64 {
-    let mut spots: Vec<(f64, f64)> = sums_of_spots(lattice, contact)
-        .into_iter()
-        .map(|spot| (spot.radius(lattice.is_single_row), spot.cells))
-        .collect();
+/// Sizes of the spots of a contact, in cells.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct SpotCount {
+    /// Median of the radii of the spots, weighted by area; zero without a contact.
+    pub(crate) radius: f64,
+    /// Number of spots.
+    pub(crate) spots: usize,
+    /// Cells in contact.
+    pub(crate) cells: f64,
+    /// Cells of the largest spot.
+    pub(crate) largest: f64,
+    /// Cells in contact that touch no other, corners included.
+    pub(crate) lone: f64,
+    /// Faces between a cell in contact and one that is not; of a line contact its ends.
+    pub(crate) faces: f64,
+}
+
+/// Counts the spots of a contact.
+pub(crate) fn count_spots(lattice: Lattice, contact: &[bool]) -> SpotCount {
+    let flat = lattice.is_single_row;
+    let mut count = SpotCount::default();
+    let mut spots: Vec<(f64, f64)> = Vec::new();
+    for spot in sums_of_spots(lattice, contact) {
+        spots.push((spot.radius(flat), spot.cells));
+        count.cells += spot.cells;
+        count.largest = count.largest.max(spot.cells);
+        count.lone += if spot.cells == 1.0 { 1.0 } else { 0.0 };
+        count.faces += if flat { 2.0 } else { spot.faces };
+    }
     spots.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-    let half = 0.5 * spots.iter().map(|(_, cells)| cells).sum::<f64>();
     let mut below = 0.0;
     let middle = spots.iter().find(|(_, cells)| {
         below += cells;
-        below >= half
+        below >= 0.5 * count.cells
     });
-    middle.map_or(0.0, |(radius, _)| *radius)
+    SpotCount {
+        radius: middle.map_or(0.0, |(radius, _)| *radius),
+        spots: spots.len(),
+        ..count
+    }
 }
 
 /// Sums over the spots of a contact, including the spots of the half that is not kept.
@@ -218,13 +243,15 @@ impl Sums {
 
 #[cfg(test)]
 mod tests {
+    use ndarray::Array2;
+
     use super::*;
 
     fn radius(n: usize, mirror: Mirror, inside: impl Fn(f64, f64) -> bool) -> f64 {
         let grid = Grid::from_spacing((n, n), (1.0, 1.0)).expect("a grid");
         let whole = grid.map(|x, y| f64::from(u8::from(inside(x, y))));
         let is_inside: Vec<bool> = mirror.fold(&whole).iter().map(|f| *f > 0.0).collect();
-        cells_per_radius(Lattice::new(&grid, mirror), &is_inside)
+        count_spots(Lattice::new(&grid, mirror), &is_inside).radius
     }
 
     #[test]
@@ -279,8 +306,40 @@ mod tests {
         let grid = Grid::strip(64.0, 64, 1.0).expect("a strip");
         let contact: Vec<bool> = (0..64).map(|i| (20..32).contains(&i)).collect();
         assert_eq!(
-            cells_per_radius(Lattice::new(&grid, Mirror::None), &contact),
+            count_spots(Lattice::new(&grid, Mirror::None), &contact).radius,
             6.0
         );
+    }
+
+    #[test]
+    fn spots_are_counted_by_cells_and_faces() {
+        let grid = Grid::from_spacing((16, 16), (1.0, 1.0)).expect("a grid");
+        // A block of 2 x 3 cells, a pair that meets at a corner, and a lone cell; each twice.
+        let inside = [
+            (1, 0),
+            (1, 1),
+            (1, 2),
+            (2, 0),
+            (2, 1),
+            (2, 2),
+            (5, 4),
+            (6, 5),
+            (9, 6),
+        ];
+        let field = |mirror: Mirror| {
+            let whole = Array2::from_shape_fn((16, 16), |(i, j)| {
+                let row = if j >= 8 { j - 8 } else { 7 - j };
+                f64::from(u8::from(inside.contains(&(i, row))))
+            });
+            let contact: Vec<bool> = mirror.fold(&whole).iter().map(|f| *f > 0.0).collect();
+            count_spots(Lattice::new(&grid, mirror), &contact)
+        };
+        for mirror in [Mirror::None, Mirror::Y] {
+            let count = field(mirror);
+            assert_eq!((count.spots, count.cells), (5, 18.0), "{mirror:?}");
+            assert_eq!((count.largest, count.lone), (12.0, 2.0), "{mirror:?}");
+            // The block touches its image: 2 x 6 cells have 16 faces.
+            assert_eq!(count.faces, 16.0 + 2.0 * (8.0 + 4.0), "{mirror:?}");
+        }
     }
 }

@@ -235,6 +235,7 @@ fn unloaded(scene: &Scene) -> Fields {
         u_y: zero.clone(),
         u_z: zero.clone(),
         gap: scene.h_init(),
+        indentation: zero.clone(),
         slip_x: zero.clone(),
         slip_y: zero.clone(),
         dissipated: zero,

@@ -54,6 +54,12 @@ pub const FIELDS: &[Field] = &[
     real_field("gap", "m", "gap between the surfaces", |f| {
         FieldView::Real(&f.gap)
     }),
+    real_field(
+        "indentation",
+        "m",
+        "permanent indentation under the hardness",
+        |f| FieldView::Real(&f.indentation),
+    ),
     real_field("slip_x", "m", "slip along x added up over the path", |f| {
         FieldView::Real(&f.slip_x)
     }),

@@ -124,6 +124,51 @@ pub const SCALARS: &[Scalar] = &[
         "cells across the radius of the contact, its half width, or that of its spots",
         |i| i.cells_per_radius,
     ),
+    real(
+        "real_area",
+        "m^2",
+        "area of the cells in contact, corrected for their perimeter",
+        |i| i.spots.real_area(),
+    ),
+    real(
+        "real_area_error",
+        "m^2",
+        "error of the real area by the size of the cells",
+        |i| i.spots.real_area_error(),
+    ),
+    real(
+        "nominal_area",
+        "m^2",
+        "area of the contact of the shapes without roughness, of flat shapes the grid",
+        |i| i.spots.nominal_area,
+    ),
+    count("spots", "patches of cells in contact that touch", |i| {
+        i.spots.count as f64
+    }),
+    real(
+        "largest_spot",
+        "m^2",
+        "area of the cells of the largest spot",
+        |i| i.spots.largest,
+    ),
+    real(
+        "lone_share",
+        "1",
+        "part of the cells in contact that have no neighbour in contact",
+        |i| i.spots.lone_share,
+    ),
+    real(
+        "mean_gap",
+        "m",
+        "gap between the surfaces, mean over the nominal contact",
+        |i| i.spots.mean_gap,
+    ),
+    real(
+        "mean_pressure",
+        "Pa",
+        "normal force over the area of the cells in contact",
+        |i| i.spots.mean_pressure(i.point.loads.W),
+    ),
     real("p_max", "Pa", "largest pressure", |i| i.p_max),
     real("q_max", "Pa", "largest shear traction", |i| i.q_max),
     real(

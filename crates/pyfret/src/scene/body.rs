@@ -8,6 +8,7 @@ use pyo3::{PyTypeInfo, type_hint_union};
 use super::shape::{Flat, Shape};
 use crate::error::Answer;
 use crate::material::{Coating, Elastic};
+use crate::python::from_python;
 use crate::residual_stress::{Profile, Shown, shown, text};
 
 /// An elastic half-space under its coatings and a gently curved surface.
@@ -30,11 +31,14 @@ use crate::residual_stress::{Profile, Shown, shown, text};
 /// bulk_neutral_depth : float, optional
 ///     Depth of the neutral plane of a bent body [m]: its bulk stress falls linearly from
 ///     the surface to zero there (default: the same at all depths).
+/// hardness : float, Material or str, optional
+///     Largest pressure that the surface bears [Pa]: beyond it the surface is indented for
+///     good. Of a material of the table, or its name, 2.8 times its yield stress (default: none).
 #[pyclass(frozen, eq, module = "pyfret")]
 #[derive(Clone, PartialEq)]
 pub(crate) struct Body(pub(crate) core::Body);
 
-parts!(Body: substrate, coatings, residual, shape, bulk_azimuth, bulk_neutral_depth);
+parts!(Body: substrate, coatings, residual, shape, bulk_azimuth, bulk_neutral_depth, hardness);
 takes!(
     Body,
     "a body, such as Body(Elastic(E=210e9, nu=0.3), shape=Sphere(R=5e-3))"
@@ -43,7 +47,7 @@ takes!(
 #[pymethods]
 impl Body {
     #[new]
-    #[pyo3(signature = (substrate, *, coatings = Coatings(Vec::new()), residual = None, shape = Shape::Flat(Flat {}), bulk_azimuth: "Angle | None" = None, bulk_neutral_depth: "Length | None" = None))]
+    #[pyo3(signature = (substrate, *, coatings = Coatings(Vec::new()), residual = None, shape = Shape::Flat(Flat {}), bulk_azimuth: "Angle | None" = None, bulk_neutral_depth: "Length | None" = None, hardness: "YieldStress | Material | str | None" = None))]
     fn new(
         substrate: Elastic,
         coatings: Coatings,
@@ -51,13 +55,21 @@ impl Body {
         shape: Shape,
         #[pyo3(from_py_with = Optional::angle)] bulk_azimuth: Option<f64>,
         #[pyo3(from_py_with = Optional::depth)] bulk_neutral_depth: Option<f64>,
+        hardness: Option<&Bound<'_, PyAny>>,
     ) -> Answer<Self> {
+        let hardness = match hardness {
+            Some(given) => from_python(given.py(), "hardness_from")?
+                .call1((given,))?
+                .extract()?,
+            None => f64::INFINITY,
+        };
         let body = Self(core::Body {
             substrate: substrate.0,
             residual: coatings.residual(residual),
             bonds: coatings.bonds(),
             plastic: coatings.plastic(substrate),
             coatings: coatings.0.into_iter().map(|c| c.layer).collect(),
+            hardness,
             shape: shape.into(),
             bulk: core::Bulk {
                 azimuth: bulk_azimuth,
@@ -65,6 +77,7 @@ impl Body {
             },
         });
         body.0.check_residual("body")?;
+        body.0.check_hardness("body")?;
         Ok(body)
     }
 
@@ -109,6 +122,9 @@ impl Body {
             bulk.into_iter()
                 .filter_map(|(name, value)| Some(format!("{name}={:?}", value?))),
         );
+        if self.0.hardness < f64::INFINITY {
+            parts.push(format!("hardness={:?}", self.0.hardness));
+        }
         format!("Body({})", parts.join(", "))
     }
 }
@@ -126,6 +142,8 @@ attributes!(Body, self:
     bulk_azimuth: Option<f64> = self.0.bulk.azimuth;
     /// Depth of the neutral plane of a bent body [m]; None: the same stress at all depths.
     bulk_neutral_depth: Option<f64> = self.0.bulk.neutral_depth;
+    /// Largest pressure that the surface bears [Pa]; None without a limit.
+    hardness: Option<f64> = Some(self.0.hardness).filter(|hardness| hardness.is_finite());
 );
 
 impl Body {

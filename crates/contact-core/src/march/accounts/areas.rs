@@ -36,7 +36,7 @@ use crate::material::dundurs_beta;
 use crate::solvers::intermediate::AlternationInfo;
 use crate::solvers::no_slip::NoSlipTerms;
 use crate::solvers::{Interface, friction_bound};
-use crate::zones::{Edge, Level, Line, Power, SHRINKING, STICK, Stencil, cells_per_radius};
+use crate::zones::{Edge, Level, Line, Power, SHRINKING, STICK, SpotCount, Stencil, count_spots};
 
 /// The rim of a slip ring on dissimilar bodies, n slip cells wide: for n > RING the pressure is
 /// extrapolated from the outermost max(n - 1, FEWEST_CELLS) cells of a line, that is from slip cells but
@@ -60,8 +60,8 @@ const TELLS: f64 = 1e-3;
 pub(super) struct Areas {
     pub(super) status: Status,
     pub(super) contact: f64,
-    /// Cells across the radius of the contact.
-    pub(super) cells_per_radius: f64,
+    /// Sizes of its spots.
+    pub(super) count: SpotCount,
     /// The stick zone at the end of the increment.
     pub(super) stick: f64,
     /// The cells that did not slip in the increment.
@@ -88,7 +88,7 @@ pub(super) fn areas(
     let whole = Areas {
         status: cells.status(setup, info),
         contact,
-        cells_per_radius: cells_per_radius(cells.lattice, &cells.contact),
+        count: count_spots(cells.lattice, &cells.contact),
         stick: contact,
         without_slip: contact,
         at_limit: Vec::new(),

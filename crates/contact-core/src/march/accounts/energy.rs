@@ -27,7 +27,13 @@ pub(super) fn energies(
     let approach = [0, 1, 2].map(|k| (ended[k] - started[k]) * arms.motion_unit(k));
     let sums = sums([&now.p[..], &last.p], |n, [p, p_before]| {
         if p <= 0.0 && p_before <= 0.0 {
-            return [0.0; 6];
+            return [0.0; 7];
+        }
+        let hardness = problem.hardness;
+        let mut plastic = 0.0;
+        if p >= hardness {
+            let gap = now.u_z[n] + geometry.h_init[n] - arms.displacement_across(info.approach, n);
+            plastic = hardness * (-gap).max(0.0);
         }
         let p = mean(p, p_before);
         let du_z = now.u_z[n] - last.u_z[n];
@@ -52,17 +58,27 @@ pub(super) fn energies(
             elastic,
             dissipated,
             quadrature,
-            opening,
+            opening - plastic,
             of_bulk,
             -p * wider,
+            plastic,
         ]
     });
-    let [elastic, dissipated, quadrature, opening, bulk, rolling] = sums.map(|sum| sum * cell_area);
+    let sums = sums.map(|sum| sum * cell_area);
+    let [
+        elastic,
+        dissipated,
+        quadrature,
+        opening,
+        bulk,
+        rolling,
+        plastic,
+    ] = sums;
     Energy {
         work: work_of_loads(setup, point, motion) + bulk + rolling,
         elastic,
         dissipated,
-        plastic: 0.0,
+        plastic,
         opening,
         quadrature,
     }

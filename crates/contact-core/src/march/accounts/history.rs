@@ -37,6 +37,8 @@ pub(in crate::march) struct Closing<'a> {
     pub(in crate::march) stuck: Stuck,
     /// Lower bound of the gap of the cells beyond the window \[m\].
     pub(in crate::march) clear: f64,
+    /// Largest pressure that the surfaces bear \[Pa\].
+    pub(in crate::march) hardness: f64,
 }
 
 /// Makes the increment the present state.
@@ -66,6 +68,7 @@ pub(in crate::march) fn close(
     state.q_before = last.q;
     state.loads = point.loads;
     state.motion = increment.motion;
+    add_indentation(state, closing);
     state.work += increment.energy.work;
     state.without_slip = closing.stuck.area;
     (state.at_limit).clone_from(&closing.stuck.at_limit);
@@ -132,6 +135,25 @@ fn keep_residual(state: &mut State, status: Status, now: &Interface, closing: &C
         } else {
             slip
         }
+    });
+}
+
+/// Adds the overlap of the cells under the hardness to the permanent indentation.
+fn add_indentation(state: &mut State, closing: &Closing<'_>) {
+    let (hardness, geometry) = (closing.hardness, closing.geometry);
+    if hardness == f64::INFINITY {
+        return;
+    }
+    let approach = state.approach(&geometry.arms);
+    state.indented.resize(state.interface.p.len(), 0.0);
+    let fields = [
+        &state.interface.p[..],
+        &state.interface.u_z,
+        &geometry.h_init,
+    ];
+    set_fields(fields, [&mut state.indented], |n, [p, u_z, h], [depth]| {
+        let gap = u_z + h - geometry.arms.displacement_across(approach, n);
+        [depth + if p >= hardness { (-gap).max(0.0) } else { 0.0 }]
     });
 }
 

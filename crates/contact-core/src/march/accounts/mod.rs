@@ -4,6 +4,7 @@ mod areas;
 mod energy;
 mod history;
 mod scatter;
+mod spots;
 
 pub(super) use self::energy::of_tractions;
 pub(super) use self::history::{Closing, Stuck, close, growth};
@@ -46,7 +47,8 @@ pub(super) fn draw_up(
         status: zones.status,
         contact_area: zones.contact * cell_area,
         stick_area: zones.stick * cell_area,
-        cells_per_radius: zones.cells_per_radius,
+        cells_per_radius: zones.count.radius,
+        spots: spots::spots(setup, &zones.count, now, info, point.loads.W),
         contact_radius: setup
             .problem
             .scene
@@ -57,7 +59,7 @@ pub(super) fn draw_up(
         q_rms,
         q_scatter: (setup.point.ends_branch)
             .then(|| {
-                let cells = zones.cells_per_radius;
+                let cells = zones.count.radius;
                 scatter::scatter(setup.geometry, setup.problem.plan.mirror, now, cells)
             })
             .flatten(),

@@ -59,6 +59,11 @@ pub(in crate::march) fn state(
         slip_length: field(&state.slip_length),
         dissipated: field(&state.dissipated),
         history_step: field(&state.history_step),
+        indented: if state.indented.is_empty() {
+            Vec::new()
+        } else {
+            field(&state.indented)
+        },
         p_before: field(&state.p_before),
         q_before: state.q_before.each_ref().map(field),
         residual: state.residual.each_ref().map(field),

@@ -2,11 +2,11 @@
 
 use std::sync::PoisonError;
 
-use super::shape::{shape_for, shape_of};
+use super::nested::first_pressure;
+use super::shape::{half_lengths, shape_for, shape_of};
 use super::{AROUND, Domain, embed};
 use crate::error::Error;
 use crate::march::State;
-use crate::march::first_pressure::first_pressure;
 use crate::march::growing;
 use crate::march::problem::Problem;
 use crate::scene::LoadPoint;
@@ -14,6 +14,8 @@ use crate::solvers::Response;
 
 /// Least cells between the contact and the border of the window.
 const MARGIN: usize = 2;
+/// Cells by which spots of uneven surfaces may lie beyond the spots of cells twice as large.
+const UNEVEN: usize = 6;
 /// Growth of the contact for which a window is widened in advance, at most.
 const WINDOW_GROWTH: f64 = 1.08;
 
@@ -43,10 +45,15 @@ impl Domain {
             half_lengths(&state.interface.p, mirror.rows(ny), (nx, ny))
         } else if presses {
             let (nx, ny) = shape_of(&problem.scene.grid);
-            let p = first_pressure(problem, point);
+            let p = first_pressure(problem, &self.kernels.pair.zz, point);
             let half = half_lengths(&mirror.fold(&p), mirror.rows(ny), (nx, ny));
             let enters = !growing::steps(problem, state, point).is_empty();
-            half.map(|half| half + if enters { AROUND } else { 0 })
+            let beyond = match (enters, problem.scene.is_uneven()) {
+                (true, _) => AROUND,
+                (false, true) => UNEVEN,
+                (false, false) => 0,
+            };
+            half.map(|half| half + beyond)
         } else {
             return Ok(None);
         };
@@ -83,7 +90,9 @@ impl Domain {
         let [from, to] = [shape, now].map(|(nx, ny)| (nx, mirror.rows(ny)));
         let kept = embed::embedded(&vec![true; from.0 * from.1], from, to, mirror, false);
         let untouched = |n: usize| {
-            state.p_before[n] == 0.0 && state.dissipated[n] == 0.0 && state.slip_length[n] == 0.0
+            let indented = state.indented.get(n).is_some_and(|depth| *depth > 0.0);
+            let fields = [&state.p_before, &state.dissipated, &state.slip_length];
+            !indented && fields.iter().all(|field| field[n] == 0.0)
         };
         (0..kept.len())
             .all(|n| kept[n] || untouched(n))
@@ -205,43 +214,4 @@ fn growth(problem: &Problem, state: &State, point: &LoadPoint) -> [f64; 2] {
         }
     };
     [grows(steps[0], steps[1]), grows(steps[1], steps[2])]
-}
-
-/// Cells along x and along y from the middle of a grid to the far side of the outermost that
-/// touches; the pressure belongs to the kept rows.
-pub(in crate::march) fn half_lengths(
-    p: &[f64],
-    rows: usize,
-    (nx, ny): (usize, usize),
-) -> [usize; 2] {
-    let to = |i: usize, n: usize| (2 * i + 1).abs_diff(n).div_ceil(2);
-    let touches = |p: &f64| *p > 0.0;
-    let mut half = [0; 2];
-    for (i, column) in p.chunks(rows).enumerate() {
-        let ends = [
-            column.iter().position(touches),
-            column.iter().rposition(touches),
-        ];
-        for j in ends.into_iter().flatten() {
-            half[0] = half[0].max(to(i, nx));
-            half[1] = half[1].max(to(j + ny - rows, ny));
-        }
-    }
-    half
-}
-
-#[cfg(test)]
-mod tests {
-    use super::half_lengths;
-
-    #[test]
-    fn the_outermost_cell_that_touches_counts() {
-        // The cell in column 1 and row 1 of the upper three rows.
-        for ((nx, ny), far) in [((4, 5), [1, 1]), ((7, 6), [2, 2])] {
-            let mut p = vec![0.0; 3 * nx];
-            assert_eq!(half_lengths(&p, 3, (nx, ny)), [0, 0]);
-            p[4] = 1.0;
-            assert_eq!(half_lengths(&p, 3, (nx, ny)), far);
-        }
-    }
 }

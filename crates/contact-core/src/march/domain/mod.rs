@@ -9,6 +9,7 @@
 mod beyond;
 mod embed;
 mod fit;
+mod nested;
 mod shape;
 
 use std::sync::atomic::AtomicBool;
@@ -17,11 +18,12 @@ use std::sync::{Mutex, PoisonError};
 use ndarray::Array2;
 
 pub(super) use self::embed::state as embedded_state;
-pub(super) use self::fit::half_lengths;
+pub(super) use self::nested::first_pressure;
+pub(super) use self::shape::half_lengths;
 use self::shape::{first, shape_of};
 use super::State;
 use super::problem::Problem;
-use crate::cells::Arms;
+use crate::cells::{Arms, set_fields};
 use crate::convolution::{
     ApproximateInverse, Convolutions, SurfaceOperator, approximate_inverse, surface_operator,
 };
@@ -39,8 +41,10 @@ pub(super) const AROUND: usize = 7;
 pub(super) struct Geometry {
     /// The cells; all of the scene's grid where nothing is left out.
     pub(super) grid: Grid,
-    /// Gap between the undeformed surfaces on the kept cells \[m\].
+    /// Gap between the unloaded surfaces on the kept cells \[m\].
     pub(super) h_init: Vec<f64>,
+    /// This gap before the first indentation under the hardness; empty for elastic bodies.
+    bare: Vec<f64>,
     /// Lever arms of the kept cells.
     pub(super) arms: Arms,
     /// Factor of the friction coefficient over the kept cells; empty where it is 1.
@@ -249,8 +253,14 @@ impl Geometry {
         };
         let fold = |field: Array2<f64>| mirror.fold(&field);
         let map = scene.friction.map.as_ref();
+        let h_init = fold(middle(&scene.h_init(), (nx, ny)));
         Self {
-            h_init: fold(middle(&scene.h_init(), (nx, ny))),
+            bare: if scene.hardness() < f64::INFINITY {
+                h_init.clone()
+            } else {
+                Vec::new()
+            },
+            h_init,
             arms: Arms {
                 length,
                 x: fold(grid.map(|x, _| x / length)),
@@ -279,6 +289,22 @@ impl Geometry {
             .iter()
             .copied()
             .fold(f64::INFINITY, least)
+    }
+
+    /// Adds the permanent indentation of a state to the gap.
+    pub(super) fn indent(&mut self, indented: &[f64]) {
+        if self.bare.is_empty() {
+            return;
+        }
+        if indented.is_empty() {
+            self.h_init.clone_from(&self.bare);
+            return;
+        }
+        set_fields(
+            [&self.bare[..], indented],
+            [&mut self.h_init],
+            |_, [bare, depth], _| [bare + depth],
+        );
     }
 
     /// Shape of the fields: cells along x, kept rows.

@@ -40,9 +40,32 @@ pub(super) fn shape_for(grid: &Grid, cells: [usize; 2]) -> (usize, usize) {
     (along(grid.nx, cells[0]), along(grid.ny, cells[1]))
 }
 
+/// Cells along x and along y from the middle of a grid to the far side of the outermost that
+/// touches; the pressure belongs to the kept rows.
+pub(in crate::march) fn half_lengths(
+    p: &[f64],
+    rows: usize,
+    (nx, ny): (usize, usize),
+) -> [usize; 2] {
+    let to = |i: usize, n: usize| (2 * i + 1).abs_diff(n).div_ceil(2);
+    let touches = |p: &f64| *p > 0.0;
+    let mut half = [0; 2];
+    for (i, column) in p.chunks(rows).enumerate() {
+        let ends = [
+            column.iter().position(touches),
+            column.iter().rposition(touches),
+        ];
+        for j in ends.into_iter().flatten() {
+            half[0] = half[0].max(to(i, nx));
+            half[1] = half[1].max(to(j + ny - rows, ny));
+        }
+    }
+    half
+}
+
 #[cfg(test)]
 mod tests {
-    use super::shape_for;
+    use super::{half_lengths, shape_for};
     use crate::scene::Grid;
 
     #[test]
@@ -54,6 +77,17 @@ mod tests {
                 let fits = cells <= nx && nx <= whole && (whole - nx) % 2 == 0;
                 assert!(fits && nx == ny, "{nx} x {ny} for {cells} of {whole}");
             }
+        }
+    }
+
+    #[test]
+    fn the_outermost_cell_that_touches_counts() {
+        // The cell in column 1 and row 1 of the upper three rows.
+        for ((nx, ny), far) in [((4, 5), [1, 1]), ((7, 6), [2, 2])] {
+            let mut p = vec![0.0; 3 * nx];
+            assert_eq!(half_lengths(&p, 3, (nx, ny)), [0, 0]);
+            p[4] = 1.0;
+            assert_eq!(half_lengths(&p, 3, (nx, ny)), far);
         }
     }
 }

@@ -21,6 +21,7 @@ pub(super) use self::least_squares::LeastSquares;
 use super::setup::{Setup, Solution, Solver};
 use crate::error::Error;
 use crate::solvers::Interface;
+use crate::solvers::inner::scale_pressure;
 
 /// Solves the increment from a first guess, with the motion of new cells before their entry.
 pub(super) fn solve(
@@ -74,8 +75,7 @@ fn on_old_cells(setup: &Setup<'_>, guess: &Interface) -> Interface {
     }
     let normal = &setup.drives.normal;
     if normal.free[0] {
-        let factor = normal.sums[0] / kept.p.iter().sum::<f64>();
-        kept.p.iter_mut().for_each(|p| *p *= factor);
+        scale_pressure(&mut kept.p, normal.sums[0], setup.problem.hardness);
     }
     kept
 }

@@ -21,7 +21,7 @@ pub(super) const ROOT: [&str; 14] = [
     "schema", "title", "body1", "body2", "friction", "grid", "path", "kernel", "solver", "skip",
     "output", "wear", "rig", "cycle",
 ];
-const BODY: [&str; 9] = [
+const BODY: [&str; 10] = [
     "shape",
     "material",
     "E",
@@ -31,6 +31,7 @@ const BODY: [&str; 9] = [
     "residual",
     "bulk_azimuth",
     "bulk_neutral_depth",
+    "hardness",
 ];
 
 /// The whole scene, not yet checked for meaning.
@@ -116,7 +117,10 @@ fn uncoated_body(section: &Section<'_>, files: &Files<'_>) -> Result<Body, Fault
     } else {
         elastic(section, "a modulus in Pa, or \"rigid\"", &[])?
     };
-    Ok(Body::homogeneous(substrate, shape(section, files)?))
+    Ok(Body {
+        hardness: section.number_or("hardness", f64::INFINITY, &[])?,
+        ..Body::homogeneous(substrate, shape(section, files)?)
+    })
 }
 
 /// Reads the material of a body or of a layer: by its name in the table, by E and nu, or by both, where a

@@ -271,6 +271,33 @@ impl Shape {
         }
     }
 
+    /// Returns the shape with other maps in the place of its own.
+    pub(crate) fn with_maps(&self, change: &impl Fn(&SurfaceMap) -> SurfaceMap) -> Self {
+        match self {
+            Self::HeightMap(map) => Self::HeightMap(change(map)),
+            Self::Sum(parts) => Self::Sum(parts.iter().map(|of| of.with_maps(change)).collect()),
+            shape => shape.clone(),
+        }
+    }
+
+    /// Whether it has measured heights.
+    pub(crate) fn has_map(&self) -> bool {
+        match self {
+            Self::HeightMap(_) => true,
+            Self::Sum(parts) => parts.iter().any(Self::has_map),
+            _ => false,
+        }
+    }
+
+    /// Whether it has hills and valleys: measured heights, roughness, waves.
+    pub fn is_uneven(&self) -> bool {
+        match self {
+            Self::HeightMap(_) | Self::Rough(_) | Self::Waviness { .. } => true,
+            Self::Sum(parts) => parts.iter().any(Self::is_uneven),
+            _ => false,
+        }
+    }
+
     /// Name of the shape in a scene file.
     pub(crate) fn name(&self) -> &'static str {
         match self {

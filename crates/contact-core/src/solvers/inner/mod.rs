@@ -13,8 +13,8 @@ mod tangential;
 
 pub(super) use admissible::make_admissible;
 pub(super) use limit::{Sliding, compute_sliding, exceeds, is_full};
-pub(crate) use normal::assess_gap;
 pub use normal::{NormalInfo, NormalParams, NormalProblem, NormalWorkspace, solve_normal};
+pub(crate) use normal::{assess_gap, scale_pressure};
 pub(super) use shear::first_shift;
 pub use shear::{TangentialInfo, TangentialParams, TangentialProblem};
 pub(super) use shear_gradient::shear_gradient;

@@ -1,8 +1,11 @@
 //! The normal problem: pressure for known shear.
 //!
 //! ```text
-//! minimise  1/2 p.C_zz p + p.h_0   over  p >= 0,  sum of p dA = W, moments of p dA = M_x, M_y
+//! minimise  1/2 p.C_zz p + p.h_0   over  0 <= p <= H,  sum of p dA = W, moments of p dA = M_x, M_y
 //! ```
+//!
+//! H is the hardness of the softer surface, infinite for elastic bodies: where p = H the surfaces overlap,
+//! and the overlap is the permanent indentation (A. Almqvist et al., J. Tribol. 129 (2007) 880-886).
 //!
 //! with h_0 = h_init + C_zx q_x + C_zy q_y; its multipliers are the approach delta_z and the tilts
 //! phi_x, phi_y, its gradient the gap h = C_zz p + h_0 - (delta_z + y phi_x - x phi_y). A motion
@@ -28,6 +31,15 @@ pub struct NormalProblem<'a> {
     pub arms: &'a Arms,
     /// Normal force and tilting moments, or the motions where these are prescribed.
     pub drive: Drive,
+    /// Largest pressure that the surfaces bear \[Pa\]; infinite for elastic bodies.
+    pub hardness: f64,
+}
+
+impl NormalProblem<'_> {
+    /// Whether a cell under the pressure p with this gap is pressed in: the gap is its indentation.
+    fn is_pressed_in(&self, p: f64, gap: f64) -> bool {
+        p >= self.hardness && gap < 0.0
+    }
 }
 
 /// Settings of the normal solver.
@@ -205,8 +217,12 @@ impl Descent {
         }
         self.last_product = product;
         let step = slope / curvature;
-        let [largest_tension] = largest([&*p, &ws.direction], |_, [p, d]| [-(p + step * d)]);
-        if largest_tension <= 0.0 {
+        let hardness = problem.hardness;
+        let [outside] = largest([&*p, &ws.direction], |_, [p, d]| {
+            let p = p + step * d;
+            [(-p).max(p - hardness)]
+        });
+        if outside <= 0.0 {
             response.count_change(step * step * squares);
             let changes = [&ws.direction[..], &ws.response];
             set_fields(changes, [p, u_z], |_, [d, u], [p, u_z]| {
@@ -216,7 +232,7 @@ impl Descent {
             set_fields(
                 [&ws.direction[..]],
                 [p, &mut ws.response],
-                |_, [d], [p, _]| [(p + step * d).max(0.0), p],
+                |_, [d], [p, _]| [(p + step * d).clamp(0.0, hardness), p],
             );
             balance_pressure(problem, p);
             add_response_of_change(response, p, u_z, ws);
@@ -246,16 +262,29 @@ impl Descent {
         let from = [p, u_z, problem.h_init];
         set_fields(from, [residual], |n, [p, u_z, h], _| {
             let gap = u_z + h - arms.displacement_across(motion, n);
-            [if p > 0.0 || gap < 0.0 { -gap } else { 0.0 }]
+            let changes = (p > 0.0 || gap < 0.0) && !problem.is_pressed_in(p, gap);
+            [if changes { -gap } else { 0.0 }]
         });
         response.invert_normal(residual, z, self.preconditioned);
         let from = [p, residual, z];
-        let weight_and_value =
-            |_: usize, [p, r, z]: [f64; 3]| (f64::from(u8::from(p > 0.0 || r > 0.0)), z);
+        let hardness = problem.hardness;
+        let weight_and_value = |_: usize, [p, r, z]: [f64; 3]| {
+            let changes = if p < hardness {
+                p > 0.0 || r > 0.0
+            } else {
+                r < 0.0
+            };
+            (f64::from(u8::from(changes)), z)
+        };
         let motion_of_all = arms.fit_across(problem.drive.free, from, weight_and_value);
-        // A cell without pressure stays out if the direction would make its pressure negative.
+        // A cell at a bound of its pressure stays there if the direction would take it beyond.
         set_fields(from, [free], |n, [p, r, z], _| {
-            let changes = p > 0.0 || (r > 0.0 && z > arms.displacement_across(motion_of_all, n));
+            let rises = z > arms.displacement_across(motion_of_all, n);
+            let changes = if p >= hardness {
+                r < 0.0 && !rises
+            } else {
+                p > 0.0 || (r > 0.0 && rises)
+            };
             [f64::from(u8::from(changes))]
         });
         let weighted = |_: usize, [free, value]: [f64; 2]| (free, value);
@@ -295,10 +324,9 @@ fn balance_pressure(problem: &NormalProblem<'_>, p: &mut [f64]) {
     if free == [false; 3] {
         return;
     }
+    let hardness = problem.hardness;
     if free[0] {
-        let [sum] = sums([&*p], |_, [p]| [p]);
-        let factor = targets[0] / sum;
-        set_fields([], [p], |_, [], [p]| [p * factor]);
+        scale_pressure(p, targets[0], hardness);
     }
     if free == [true, false, false] {
         return;
@@ -312,6 +340,41 @@ fn balance_pressure(problem: &NormalProblem<'_>, p: &mut [f64]) {
         let m = problem.arms.motion_for_sums(free, p, missing_loads);
         for n in 0..p.len() {
             p[n] *= (1.0 + problem.arms.displacement_across(m, n)).max(0.0);
+            p[n] = p[n].min(hardness);
+        }
+    }
+}
+
+/// Scales the pressure below the hardness to a sum \[Pa\]. Where all contact cells come to the hardness and
+/// do not carry the sum, the rest is spread over the other cells.
+pub(crate) fn scale_pressure(p: &mut [f64], target: f64, hardness: f64) {
+    for _ in 0..MOST_SCALINGS {
+        let [below, at] = sums(
+            [&*p],
+            |_, [p]| if p < hardness { [p, 0.0] } else { [0.0, p] },
+        );
+        if at >= target || hardness == f64::INFINITY {
+            let factor = target / (below + at);
+            set_fields([], [p], |_, [], [p]| [p * factor]);
+            return;
+        }
+        if below > 0.0 {
+            let factor = (target - at) / below;
+            set_fields([], [p], |_, [], [p]| {
+                [if p < hardness {
+                    (p * factor).min(hardness)
+                } else {
+                    p
+                }]
+            });
+        } else {
+            let [open] = sums([&*p], |_, [p]| [f64::from(u8::from(p <= 0.0))]);
+            let share = ((target - at) / open.max(1.0)).min(hardness);
+            set_fields([], [p], |_, [], [p]| [if p <= 0.0 { share } else { p }]);
+        }
+        let [sum] = sums([&*p], |_, [p]| [p]);
+        if (sum - target).abs() <= ROUNDING * target {
+            return;
         }
     }
 }
@@ -361,16 +424,32 @@ pub(crate) fn assess_gap(problem: &NormalProblem<'_>, p: &[f64], u_z: &[f64]) ->
     let Drive { free, given, .. } = problem.drive;
     let fields = [p, u_z, problem.h_init];
     let weight_and_gap = |n: usize, [p, u_z, h]: [f64; 3]| {
-        let touches = f64::from(u8::from(p > 0.0));
+        let touches = f64::from(u8::from(p > 0.0 && p < problem.hardness));
         (
             touches,
             u_z + h - problem.arms.displacement_across(given, n),
         )
     };
-    let motion = add_vectors(given, problem.arms.fit_across(free, fields, weight_and_gap));
+    let mut motion = add_vectors(given, problem.arms.fit_across(free, fields, weight_and_gap));
+    if free[0] && problem.hardness < f64::INFINITY && is_indented_everywhere(problem, p) {
+        // No cell that is closed without being pressed in fixes the approach: the least one.
+        let [approach] = largest(fields, |n, [p, u_z, h]| {
+            let tilt = problem
+                .arms
+                .displacement_across([0.0, motion[1], motion[2]], n);
+            [if p > 0.0 {
+                u_z + h - tilt
+            } else {
+                f64::NEG_INFINITY
+            }]
+        });
+        motion[0] = approach;
+    }
     let ([squares, contact], [penetration]) = sums_and_maxima(fields, |n, [p, u_z, h]| {
         let gap = u_z + h - problem.arms.displacement_across(motion, n);
-        if p > 0.0 {
+        if problem.is_pressed_in(p, gap) {
+            ([0.0, 1.0], [0.0])
+        } else if p > 0.0 {
             ([gap * gap, 1.0], [0.0])
         } else {
             ([0.0; 2], [-gap])
@@ -383,6 +462,11 @@ pub(crate) fn assess_gap(problem: &NormalProblem<'_>, p: &[f64], u_z: &[f64]) ->
         penetration,
         iterations: 0,
     }
+}
+
+/// Whether all cells in contact are at the hardness.
+fn is_indented_everywhere(problem: &NormalProblem<'_>, p: &[f64]) -> bool {
+    p.iter().all(|&p| p <= 0.0 || p >= problem.hardness)
 }
 
 /// Slope and curvature of the energy along the direction, and the sum of its squares; its response

@@ -26,6 +26,8 @@ pub struct IncrementProblem<'a> {
     pub enters: bool,
     /// Drive of approach and tilts, from the unloaded state.
     pub normal: Drive,
+    /// Largest pressure that the surfaces bear \[Pa\]; infinite for elastic bodies.
+    pub hardness: f64,
     /// Drive of shifts and torsion in this increment.
     pub tangential: Drive,
 }
@@ -36,6 +38,7 @@ impl<'a> IncrementProblem<'a> {
             h_init: self.h_init,
             arms: self.arms,
             drive: self.normal,
+            hardness: self.hardness,
         }
     }
 

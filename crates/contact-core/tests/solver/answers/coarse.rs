@@ -94,8 +94,27 @@ fn what_is_smallest_where_the_contact_is_largest_counts() {
             seed: 1,
         }),
     );
-    let mut march = March::new(&rough).expect("a scene");
-    let increment = march.advance().expect("an increment").expect("solved");
+    let increments = run(&rough);
+    let increment = increments[0];
     assert!(increment.cells_per_radius < 4.0, "{increment:?}");
     assert!(increment.contact_area > 0.0);
+    // Spots are no fault of the grid: they are doubted by their name, with the numbers they touch.
+    rough.grid.dx *= 4.0;
+    rough.grid.dy *= 4.0;
+    for body in [&mut rough.body2] {
+        if let Shape::Rough(rough) = &mut body.shape {
+            (rough.longest, rough.shortest) = (4.0 * rough.longest, 4.0 * rough.shortest);
+        }
+    }
+    let increments = run(&rough);
+    assert!(increments[0].cells_per_radius < 2.0, "{:?}", increments[0]);
+    let doubts = Reached::from_increments(&increments).doubts(&rough);
+    let doubt = doubts
+        .iter()
+        .find(|doubt| doubt.contains("across their radius"));
+    let doubt = doubt.expect("a doubt of the asperities");
+    assert!(
+        doubt.contains("asperities") && doubt.contains("real area"),
+        "{doubt}"
+    );
 }

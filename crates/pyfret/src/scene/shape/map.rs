@@ -10,6 +10,7 @@ use super::super::Pitch;
 use crate::error::{Answer, InvalidSceneError};
 use crate::hints::Numbers;
 use crate::prelude::*;
+use crate::python::from_python;
 
 /// Numbers over the contact plane, the middle of the map over the origin.
 ///
@@ -99,6 +100,99 @@ impl SurfaceMap {
         };
         let map = py.detach(|| core::SurfaceMap::from_file(&path, &file));
         warn_of_filled(py, map?)
+    }
+
+    /// Describe the map: points, pitch, size, form, and the parameters without the form.
+    ///
+    /// A ball that was measured with its curvature is named as such, with its radius.
+    #[pyo3(signature = () -> "str")]
+    fn summary<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        from_python(slf.py(), "summarize_map")?.call1((slf,))
+    }
+
+    /// Return the parameters of the heights after ISO 25178-2 about their mean.
+    ///
+    /// S_q, S_a, S_z, S_sk, S_ku and S_dq, with the pitch of the slope. The heights are
+    /// taken as they are: subtract the form and filter first.
+    #[pyo3(signature = () -> "Statistics")]
+    fn statistics<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        from_python(slf.py(), "statistics")?.call1((slf,))
+    }
+
+    /// Fit a form by least squares: its slopes, radii and heights.
+    ///
+    /// Parameters
+    /// ----------
+    /// form : "plane", "sphere", "paraboloid" or "cubic"
+    ///     A sphere is replaced by its paraboloid, as every curved shape.
+    #[pyo3(signature = (form: "Literal['plane', 'sphere', 'paraboloid', 'cubic']") -> "Form")]
+    fn fit_form<'py>(slf: &Bound<'py, Self>, form: &str) -> PyResult<Bound<'py, PyAny>> {
+        from_python(slf.py(), "fit_form")?.call1((slf, form))
+    }
+
+    /// Return the map without a form; :meth:`fit_form` gives the radius of what is subtracted.
+    ///
+    /// Parameters
+    /// ----------
+    /// form : "plane", "sphere", "paraboloid" or "cubic"
+    ///     The form that is fitted by least squares and subtracted (default "plane").
+    #[pyo3(signature = (form: "Literal['plane', 'sphere', 'paraboloid', 'cubic']" = "plane") -> "SurfaceMap")]
+    fn level<'py>(slf: &Bound<'py, Self>, form: &str) -> PyResult<Bound<'py, PyAny>> {
+        from_python(slf.py(), "level")?.call1((slf, form))
+    }
+
+    /// Return the map without waves that are shorter or longer than cut-offs.
+    ///
+    /// The filters are Gaussian (ISO 16610-61): half of a wave as long as the cut-off passes. At
+    /// the border the weights are normalised.
+    ///
+    /// Parameters
+    /// ----------
+    /// short, long : float, optional
+    ///     Cut-off wavelengths [m]: shorter than `short` is removed, and longer than `long`.
+    #[pyo3(signature = (*, short: "Length | None" = None, long: "Length | None" = None) -> "SurfaceMap")]
+    fn filter<'py>(
+        slf: &Bound<'py, Self>,
+        short: Option<&Bound<'py, PyAny>>,
+        long: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        from_python(slf.py(), "filter_waves")?.call1((slf, short, long))
+    }
+
+    /// Return the map on other points, by a cosine series through all of its points.
+    ///
+    /// Finer points show the waves of the map between them. Coarser points leave out the waves that
+    /// they cannot carry. The size of the map stays.
+    ///
+    /// Parameters
+    /// ----------
+    /// spacing : float or (float, float), optional
+    ///     Distance of the new points [m], rounded to a whole number of them.
+    /// n : int or (int, int), optional
+    ///     Number of the new points along x and y.
+    #[pyo3(signature = (*, spacing = None, n: "int | tuple[int, int] | None" = None) -> "SurfaceMap")]
+    fn resample<'py>(
+        slf: &Bound<'py, Self>,
+        spacing: Option<Pitch>,
+        n: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let spacing = spacing.map(|spacing| spacing.0);
+        from_python(slf.py(), "resample")?.call1((slf, spacing, n))
+    }
+
+    /// Return the power spectral density of the heights, mean over directions [m^4].
+    #[pyo3(signature = () -> "xr.DataArray")]
+    fn spectrum<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        from_python(slf.py(), "spectrum")?.call1((slf,))
+    }
+
+    /// Draw the heights; return the axes.
+    #[pyo3(signature = (ax: "Axes | None" = None) -> "Axes")]
+    fn plot<'py>(
+        slf: &Bound<'py, Self>,
+        ax: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        from_python(slf.py(), "surface_heights")?.call1((slf, ax))
     }
 
     pub(super) fn __repr__(&self) -> String {

@@ -1,0 +1,103 @@
+"""Rough contacts: accepted, counted, and right against another program and a theorem."""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+import pytest
+
+import pyfret as fret
+from rough_balls import MODULUS, ROWS, R, band_limited, scene, surface
+
+pytestmark = pytest.mark.solves
+
+
+def pressed(seed: int) -> fret.Result:
+    """The ball of a row under its force."""
+    z, pitch, W = surface(seed)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        path = fret.LoadPath.start().normal(W, increments=1)
+        return fret.solve(scene(z, pitch), path, progress=False)
+
+
+@pytest.mark.parametrize("row", ROWS, ids=lambda row: str(row["seed"]))
+def test_self_affine_balls_are_those_of_another_program(row: dict[str, float]) -> None:
+    """Cells in contact and the largest pressure, of contacts of 15 to 2100 cells."""
+    result = pressed(int(row["seed"]))
+    last = result.at(-1)
+    cells = int((np.asarray(last.p) > 0).sum())
+    assert cells == pytest.approx(row["cells"], rel=1e-3)
+    assert float(last.p_max) == pytest.approx(row["p_max"], rel=1e-3)
+
+
+def test_spots_are_counted_in_the_dataset() -> None:
+    """Numbers of spots, areas, gap and pressure follow from the fields."""
+    result = pressed(109)
+    d, last = result.dataset.isel(increment=-1), result.at(-1)
+    p, grid = np.asarray(last.p), result.scene.grid
+    cell = grid.dx * grid.dy
+    contact = p > 0
+    faces = sum(int(np.count_nonzero(np.diff(contact.astype(int), axis=k))) for k in (0, 1))
+    beta = (np.pi - 1 + np.log(2)) / 24
+    assert float(d.real_area) == pytest.approx(cell * (contact.sum() - beta * faces), rel=1e-9)
+    assert float(d.mean_pressure) == pytest.approx(float(d.W) / (cell * contact.sum()), rel=1e-9)
+    a = (3 * float(d.W) * R / (4 * MODULUS)) ** (1 / 3)
+    assert float(d.nominal_area) == pytest.approx(np.pi * a**2, rel=1e-9)
+    inside = np.hypot(grid.x[:, None], grid.y[None, :]) <= a
+    assert float(d.mean_gap) == pytest.approx(float(np.asarray(last.gap)[inside].mean()), rel=1e-6)
+    from pyfret.plot.rough import label_spots
+
+    labels, areas = label_spots(contact, cell)
+    assert int(d.spots) == labels.max() == len(areas) > 10
+    assert float(d.largest_spot) == pytest.approx(areas.max())
+    around = np.pad(contact, 1)
+    near = sum(
+        around[1 + i : around.shape[0] - 1 + i, 1 + j : around.shape[1] - 1 + j]
+        for i in (-1, 0, 1)
+        for j in (-1, 0, 1)
+    )
+    lone = np.count_nonzero(contact & (near == 1)) / contact.sum()
+    assert float(d.lone_share) == pytest.approx(lone)
+
+
+def test_what_is_said_of_asperities_names_them() -> None:
+    """A contact of asperities of one cell is solved; the warning names what depends on them."""
+    z, pitch, W = surface(108)
+    with pytest.warns(fret.errors.SceneWarning, match=r"asperities have .* across their radius"):
+        result = fret.solve(
+            scene(z, pitch), fret.LoadPath.start().normal(W, increments=1), progress=False
+        )
+    assert result.dataset.sizes["increment"] == 1
+
+
+@pytest.mark.parametrize(("seed", "part"), [(1, 0.3), (2, 0.6), (3, 0.9)])
+def test_rough_partial_slip_follows_from_pressing_alone(seed: int, part: float) -> None:
+    """Ciavarella and Jaeger: q = mu (p(W) - p(W - T/mu)), delta_x likewise, for nu = 0.
+
+    M. Ciavarella, Int. J. Solids Struct. 35 (1998) 2349; J. Jaeger, Arch. Appl. Mech. 65 (1995)
+    478.
+    """
+    z, pitch, W = band_limited(seed, 64)
+    mu = 0.4
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        exact = fret.Settings(tolerance=1e-8)
+        sheared = scene(z, pitch, friction=mu, nu=0.0, settings=exact)
+        T = part * mu * W
+        path = fret.LoadPath.start().normal(W, increments=1).tangential(T, increments=1)
+        result = fret.solve(sheared, path, progress=False)
+        unloaded = [
+            fret.solve(
+                scene(z, pitch, nu=0.0, settings=exact),
+                fret.LoadPath.start().normal(load, increments=1),
+                progress=False,
+            ).at(-1)
+            for load in (W, W - T / mu)
+        ]
+    full, reduced = (np.asarray(at.p) for at in unloaded)
+    q = np.asarray(result.at(-1).q_x)
+    assert np.abs(q - mu * (full - reduced)).max() < 1e-3 * mu * full.max()
+    shift = mu * (float(unloaded[0].delta_z) - float(unloaded[1].delta_z))
+    assert float(result.dataset.delta_x[-1]) == pytest.approx(shift, rel=1e-4)
