@@ -43,7 +43,7 @@ def test_a_figure_gives_its_axes_or_the_whole_figure() -> None:
 
 
 #: What figures are drawn of that is no result: they are functions alone.
-PLAIN = {"xr.Dataset", "xr.DataArray", "ArrayLike", "Mapping[float, Run]"}
+PLAIN = {"xr.Dataset", "xr.DataArray", "ArrayLike", "Mapping[float, Run]", "SurfaceMap"}
 #: All results that have figures.
 RESULTS = (
     *(fret.Result, fret.Snapshot, Stress, fret.fatigue.Life, fret.fatigue.LoadFactors),

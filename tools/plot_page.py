@@ -45,6 +45,13 @@ FIGURES: dict[str, dict[str, str]] = {
         "shear_profile": "fret.plot.shear_profile(result.at(-1), bound=True)",
         "shear_profiles": "fret.plot.shear_profiles(result)",
     },
+    "Rough contacts": {
+        "surface_heights": "fret.plot.surface_heights(heights)",
+        "spots": "fret.plot.spots(rough)",
+        "gap_map": "fret.plot.gap_map(rough)",
+        "pressure_histogram": "fret.plot.pressure_histogram(rough)",
+        "area_over_load": "fret.plot.area_over_load(rough)",
+    },
     "Stress below": {
         "stress_map": "fret.plot.stress_map(result.at(-1).stress())",
         "stress_along_depth": "fret.plot.stress_along_depth(result.at(-1).stress(x=0.0, y=0.0))",
@@ -116,6 +123,24 @@ def yielding() -> Any:
     )
     path = fret.LoadPath.start().normal(340.0, increments=4).normal(0.5, increments=2)
     return fret.solve(scene, path, progress=False)
+
+
+def rough() -> dict[str, Any]:
+    """A ground ball on a flat, and the map of its roughness."""
+    steel, n, pitch = fret.Elastic(E=210e9, nu=0.3), 128, 2e-6
+    k = np.hypot(np.fft.fftfreq(n)[:, None], np.fft.fftfreq(n)[None, :])
+    amplitude = np.where((k > 0) & (k < 0.12), np.maximum(k, 0.03) ** -1.8, 0.0)
+    white = np.fft.fft2(np.random.default_rng(2).standard_normal((n, n)))
+    z = np.fft.ifft2(white * amplitude).real
+    heights = fret.SurfaceMap(1.5e-7 * z / z.std(), spacing=pitch)
+    scene = fret.Scene(
+        body1=fret.Body(steel, shape=fret.Sphere(R=8e-3) + heights),
+        body2=fret.Body(steel),
+        friction=0.0,
+        grid=fret.Grid.from_spacing((n, n), (pitch, pitch)),
+    )
+    path = fret.LoadPath.start().normal(4.0, increments=10)
+    return {"heights": heights, "rough": fret.solve(scene, path, progress=False)}
 
 
 def names() -> dict[str, Any]:
@@ -246,6 +271,7 @@ def names() -> dict[str, Any]:
         "measured": measured,
         "damage": damage,
         "yielding": yielding(),
+        **rough(),
         "many": many,
         "by_ratio": by_ratio,
         "rig": rig,

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pyfret._util.numbers import length
+from pyfret.plot.along import field_along
 from pyfret.plot.maps import frame, label_scale, look_at_contact
 from pyfret.plot.scales import MICRO, Scale, Units, last_of, run_of, scales_of_snapshot
 from pyfret.plot.style import axes, note, styled
@@ -23,6 +24,8 @@ INNER = 0.98
 NANO = Scale(1e-9, "nm", is_unit=True)
 #: Bins of a histogram.
 BINS = 40
+#: Increments below which each has a mark.
+FEW = 30
 
 
 @styled
@@ -45,7 +48,9 @@ def spots(shown: State | Run, *, units: Units = "auto", ax: Axes | None = None) 
     contact = snapshot.dataset.contact.values.astype(bool)
     labels, areas = label_spots(contact, snapshot.scene.grid.dx * snapshot.scene.grid.dy)
     area = np.where(contact, np.append(areas, 0.0)[labels - 1], np.nan) / MICRO.value**2
-    ax = axes(ax, square=not snapshot.scene.grid.plane_strain)
+    if snapshot.scene.grid.plane_strain:
+        return field_along(ax, snapshot, area, "area of the spot [µm$^2$]", by.length)
+    ax = axes(ax, square=True)
     extent = frame(ax, snapshot, by.length)
     drawn = ax.imshow(
         area.T, origin="lower", extent=extent, cmap="viridis", norm="log", aspect=ax.get_aspect()
@@ -75,9 +80,7 @@ def label_spots(contact: Any, cell: float) -> tuple[Any, Any]:
         if np.array_equal(least, labels):
             break
         labels = least
-    numbers_of_spots, inverse, count = np.unique(
-        labels[contact], return_inverse=True, return_counts=True
-    )
+    _, inverse, count = np.unique(labels[contact], return_inverse=True, return_counts=True)
     numbers = np.zeros(shape, dtype=int)
     numbers[contact] = inverse + 1
     return numbers, cell * count
@@ -90,7 +93,9 @@ def gap_map(shown: State | Run, *, units: Units = "auto", ax: Axes | None = None
     by = scales_of_snapshot(snapshot, units)
     contact = snapshot.dataset.contact.values.astype(bool)
     gap = np.where(contact, np.nan, snapshot.dataset.gap.values) / MICRO.value
-    ax = axes(ax, square=not snapshot.scene.grid.plane_strain)
+    if snapshot.scene.grid.plane_strain:
+        return field_along(ax, snapshot, gap, MICRO.label("h"), by.length)
+    ax = axes(ax, square=True)
     extent = frame(ax, snapshot, by.length)
     upper = float(np.quantile(gap[~contact], INNER)) if not contact.all() else 1.0
     drawn = ax.imshow(
@@ -144,16 +149,15 @@ def area_over_load(result: Run, *, ax: Axes | None = None, **line: Any) -> Axes:
     """Draw the real area over the normal force, with the error of the cells as a band."""
     d = run_of(result).dataset
     ax = axes(ax)
-    W = np.append(0.0, d.W.values)
-    nominal = d.nominal_area.values
-    share, error = (
-        np.append(0.0, 100.0 * values / np.where(nominal > 0, nominal, np.nan))
-        for values in (d.real_area.values, d.real_area_error.values)
+    W, area, error = (
+        np.append(0.0, d[name].values) for name in ("W", "real_area", "real_area_error")
     )
-    (drawn,) = ax.plot(W, share, **{"marker": "." if len(W) < 30 else "", **line})
-    ax.fill_between(W, share - error, share + error, alpha=0.25, color=drawn.get_color(), lw=0)
+    area, error = area / MICRO.value**2, error / MICRO.value**2
+    (drawn,) = ax.plot(W, area, **{"marker": "." if len(W) < FEW else "", **line})
+    ax.fill_between(W, area - error, area + error, alpha=0.25, color=drawn.get_color(), lw=0)
     ax.set_xlabel(f"$W$ [{d.W.attrs['units']}]")
-    ax.set_ylabel("real over nominal area [%]")
+    per = "/m" if str(d.real_area.attrs["units"]).endswith("/m") else ""
+    ax.set_ylabel(f"real area [µm$^2${per}]")
     ax.set_xlim(0.0, None)
     ax.set_ylim(0.0, None)
     return ax
