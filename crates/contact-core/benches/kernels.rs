@@ -28,6 +28,7 @@ fn body(layers: usize) -> Body {
         bonds: Vec::new(),
         plastic: Vec::new(),
         residual: Vec::new(),
+        hardness: f64::INFINITY,
         shape: Shape::Flat,
         bulk: contact_core::scene::Bulk::default(),
     }

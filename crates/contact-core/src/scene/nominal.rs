@@ -125,7 +125,7 @@ mod tests {
         let grid = Grid::centred(1e-3, 16).expect("a grid");
         let path = LoadPath::start().normal(10.0, 1);
         let [upper, lower] = [shape, Shape::Flat].map(|shape| Body::homogeneous(steel, shape));
-        Scene::new(upper, lower, Friction::default(), grid, path)
+        Scene::new(upper, lower, Friction::coulomb(0.0), grid, path)
     }
 
     #[test]

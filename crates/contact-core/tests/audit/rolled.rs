@@ -28,6 +28,7 @@ impl Audit {
             u_x: carried(&f.u_x),
             u_y: carried(&f.u_y),
             u_z: carried(&f.u_z),
+            indentation: carried(&f.indentation),
             gap: carried(&f.gap),
             slip_x: carried(&f.slip_x),
             slip_y: carried(&f.slip_y),

@@ -47,6 +47,7 @@ pub(crate) fn body(entry: &Value) -> Body {
         coatings: layers.iter().map(coating).collect(),
         bonds: Vec::new(),
         plastic: Vec::new(),
+        hardness: f64::INFINITY,
         residual: Vec::new(),
         shape: Shape::Flat,
         bulk: contact_core::scene::Bulk::default(),

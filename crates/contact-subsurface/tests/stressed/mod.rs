@@ -33,6 +33,7 @@ pub(crate) fn coated(n: usize) -> Contact {
         }],
         bonds: Vec::new(),
         plastic: Vec::new(),
+        hardness: f64::INFINITY,
         residual: Vec::new(),
         shape: Shape::Flat,
         bulk: contact_core::scene::Bulk::default(),

@@ -33,6 +33,7 @@ fn coated() -> Body {
         coatings: vec![layer(3.0, 0.25, 9.5), layer(0.4, 0.4, 2.5)],
         bonds: Vec::new(),
         plastic: Vec::new(),
+        hardness: f64::INFINITY,
         residual: Vec::new(),
         shape: Shape::Flat,
         bulk: contact_core::scene::Bulk::default(),

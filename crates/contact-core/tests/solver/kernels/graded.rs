@@ -15,6 +15,7 @@ fn response(E: Profile, layers: usize) -> [f64; 4] {
         coatings: graded.coatings().unwrap(),
         bonds: Vec::new(),
         plastic: Vec::new(),
+        hardness: f64::INFINITY,
         residual: Vec::new(),
         shape: Shape::Flat,
         bulk: contact_core::scene::Bulk::default(),

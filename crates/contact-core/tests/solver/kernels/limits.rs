@@ -15,6 +15,7 @@ fn body(layers: &[(f64, f64, f64)], substrate: Elastic) -> Body {
         coatings: layers.iter().map(coating).collect(),
         bonds: Vec::new(),
         plastic: Vec::new(),
+        hardness: f64::INFINITY,
         residual: Vec::new(),
         shape: Shape::Flat,
         bulk: contact_core::scene::Bulk::default(),

@@ -90,6 +90,7 @@ fn a_layer_may_be_cut_in_two() {
             coatings,
             bonds: Vec::new(),
             plastic: Vec::new(),
+            hardness: f64::INFINITY,
             residual: Vec::new(),
             shape: Shape::Flat,
             bulk: contact_core::scene::Bulk::default(),
