@@ -123,8 +123,12 @@ fn substrate_text(body: &Body) -> String {
     let residual = residual_text(body, body.coatings.len());
     let residual = residual.map_or_else(String::new, |text| format!("\n{text}"));
     let number = |key: &str, value: Option<f64>| {
-        value.map_or_else(String::new, |value| format!("
-{key} = {value:?}"))
+        value.map_or_else(String::new, |value| {
+            format!(
+                "
+{key} = {value:?}"
+            )
+        })
     };
     let bulk = number("bulk_azimuth", body.bulk.azimuth)
         + &number("bulk_neutral_depth", body.bulk.neutral_depth);
