@@ -130,6 +130,7 @@ STORE = FOLDER / "run.zarr"
 fret.solve(small(), out=STORE, progress=False)
 WORN.save(FOLDER / "worn.zarr")
 TABLE = written("table.csv", "delta [um],T [N]\n0,0\n1,3\n2,5\n1,0\n0,-4\n-1,-5\n0,0\n")
+MAP = fret.SurfaceMap(np.arange(64.0).reshape(8, 8) * 1e-9, spacing=1e-5)
 SURFACE = written("surface.txt", "0 1 2\n1 2 3\n2 3 4\n")
 
 #: Good arguments by the name of the parameter.
@@ -179,6 +180,7 @@ GOOD: dict[str, Any] = {
     **{"wear": WEAR, "which": -1, "width": 1e-4, "x": 1e-5, "y": 0.0, "z": [0.0, 1e-5]},
     **{"rolled": 1e-4, "t": 9.0, "phi_x": 1e-9, "legs": [(1e-5, 0.0)], "vectors": POINTS},
     **{"bond": fret.Bond(), "arrest": ARREST},
+    **{"form": "plane", "short": 2.5e-5, "long": 3.5e-5, "surface": MAP},
     **{"below": STEEL, "frame": FRAME, "family": "steel", "faces": [np.array([0, 1, 0])]},
     **{
         "data": LOOPS,

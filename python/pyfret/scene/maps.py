@@ -7,6 +7,7 @@ of two matrices, z' = A z B^T, one along each axis.
 from __future__ import annotations
 
 import math
+from numbers import Integral
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
@@ -35,6 +36,8 @@ POWERS: dict[str, tuple[tuple[int, int], ...]] = {
 CURVED = 0.5
 #: sqrt(ln 2/pi): a Gaussian filter passes half of a wave of its cut-off (ISO 16610-21, eq. 2).
 ALPHA = math.sqrt(math.log(2.0) / math.pi)
+#: Points of a resampled map along a side.
+FEWEST, MOST = 2, 8192
 
 
 class Form(NamedTuple):
@@ -203,16 +206,29 @@ def resample(
     shape = surface.values.shape
     sides = [count * d for count, d in zip(shape, surface.spacing, strict=True)]
     if spacing is not None:
-        steps = (spacing, spacing) if np.ndim(spacing) == 0 else spacing
-        counts = [max(1, round(side / float(d))) for side, d in zip(sides, steps, strict=True)]  # type: ignore[arg-type]
+        steps = (spacing, spacing) if isinstance(spacing, float) else spacing
+        counts = tuple(max(1, round(side / d)) for side, d in zip(sides, steps, strict=True))
     else:
-        counts = [int(count) for count in np.broadcast_to(n, 2)]  # type: ignore[arg-type]
-    if min(counts) < 2 <= min(shape):
-        raise ValueError(f"resample: {counts[0]} x {counts[1]} points: must be 2 or more each way")
+        counts = two_counts(n)
+    if not all(FEWEST <= count <= MOST for count in counts):
+        raise ValueError(
+            f"resample: {counts[0]} x {counts[1]} points: must be {FEWEST} to {MOST} each way"
+        )
     along_x, along_y = (cosine_matrix(a, b) for a, b in zip(shape, counts, strict=True))
     z = along_x @ np.asarray(surface.values, dtype=float) @ along_y.T
     step_x, step_y = (side / count for side, count in zip(sides, counts, strict=True))
     return replace(surface, z, (step_x, step_y))
+
+
+def two_counts(n: int | tuple[int, int] | None) -> tuple[int, int]:
+    """Return the numbers of points along x and y; a TypeError for what is no whole number."""
+    pair = (n, n) if isinstance(n, Integral) else n
+    if not isinstance(pair, (tuple, list)) or len(pair) != 2:
+        raise TypeError(f"resample: n = {n!r}: must be a whole number, or two")
+    for count in pair:
+        if isinstance(count, bool) or not isinstance(count, Integral):
+            raise TypeError(f"resample: n = {n!r}: must be a whole number, or two")
+    return int(pair[0]), int(pair[1])
 
 
 def cosine_matrix(count: int, wanted: int) -> Field:
