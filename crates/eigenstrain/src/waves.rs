@@ -37,8 +37,9 @@ fn bump(k: f64, reach: f64) -> f64 {
     0.5 * libm::erfc(BUMP * (k / reach - 0.5))
 }
 
-/// Numbers of points of the fast transforms: along y (x in plane strain), at least twice the cells
-/// and even, and along x, odd, so that no wave there lacks its opposite.
+/// Numbers of points of the fast transforms along y (x in plane strain) and along x. On a point grid both
+/// are odd, at least twice the cells less one: every wave has its opposite, and both axes are alike. In plane
+/// strain the number is even.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Periods {
     pub(crate) fast: usize,
@@ -54,7 +55,7 @@ impl Periods {
             };
         }
         Self {
-            fast: smooth(2 * cells.ny, 2),
+            fast: smooth(2 * cells.ny - 1, 1),
             slow: smooth(2 * cells.nx - 1, 1),
         }
     }
@@ -154,7 +155,8 @@ pub(crate) fn of_integral(cells: &Cells, periods: Periods) -> Vec<Wave> {
     let mut waves = Vec::new();
     for (at, weight) in gauss_legendre(n, 0.0, 1.0) {
         let k = at * reach;
-        let directions = (0.5 * (k * farthest + ANGLES)).ceil();
+        // An even number, which makes both axes alike.
+        let directions = 2.0 * (0.25 * (k * farthest + ANGLES)).ceil();
         let step = PI / directions;
         let weight = weight * reach * k * step * bump(k, reach) * cells.area() / (2.0 * PI * PI);
         waves.extend((0..directions as usize).map(|n| {

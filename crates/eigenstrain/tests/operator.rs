@@ -366,3 +366,78 @@ fn a_wider_grid_gives_the_same_answer() {
         }
     }
 }
+
+/// Fields of a body whose axes x and y are exchanged: components by `order`, cells transposed.
+fn with_axes_exchanged(fields: &[f64], order: &[usize], cells: Cells) -> Vec<f64> {
+    let (nx, ny, len) = (cells.nx, cells.ny, cells.len());
+    let mut exchanged = vec![0.0; fields.len()];
+    let blocks = fields.chunks_exact(order.len() * len);
+    for (block, to) in blocks.zip(exchanged.chunks_exact_mut(order.len() * len)) {
+        for (component, from) in order.iter().enumerate() {
+            for (i, j) in (0..nx).flat_map(|i| (0..ny).map(move |j| (i, j))) {
+                to[component * len + j * nx + i] = block[from * len + i * ny + j];
+            }
+        }
+    }
+    exchanged
+}
+
+#[test]
+fn exchanged_axes_give_exchanged_answers() {
+    let mut rng = fastrand::Rng::with_seed(402);
+    let stress_order = [1, 0, 2, 3, 5, 4];
+    let vector_order = [1, 0, 2];
+    for (nx, ny, dy) in [(8, 8, 0.2), (12, 7, 0.2), (9, 10, 0.3), (24, 24, 0.2)] {
+        let cells = Cells {
+            nx,
+            ny,
+            dy,
+            ..square(nx, 0.2)
+        };
+        let exchanged = Cells {
+            nx: ny,
+            ny: nx,
+            dx: cells.dy,
+            dy: cells.dx,
+            ..cells
+        };
+        let coating = Layer {
+            E: 400e9,
+            nu: 0.25,
+            thickness: 0.3,
+        };
+        let answers = |cells: Cells, sources: Sources<'_>| {
+            let layers = vec![coating, STEEL];
+            let mesh = Mesh::graded(cells, layers, 0.9, [0.2; 2], 1.2).expect("a mesh");
+            answer(&mut Operator::new(mesh), sources)
+        };
+        let mesh = Mesh::graded(cells, vec![coating, STEEL], 0.9, [0.2; 2], 1.2).expect("a mesh");
+        let mut random = |n: usize| -> Vec<f64> { (0..n).map(|_| rng.f64() - 0.5).collect() };
+        let e = random(mesh.planes() * COMPONENTS * cells.len());
+        let t: Vec<f64> = random(3 * cells.len()).iter().map(|t| 1e10 * t).collect();
+        let of_axes = |cells: Cells, e: &[f64], t: &[f64]| {
+            let t: Vec<&[f64]> = t.chunks_exact(cells.len()).collect();
+            let sources = Sources {
+                eigenstrain: Some(e),
+                tractions: Some([t[0], t[1], t[2]]),
+            };
+            answers(cells, sources)
+        };
+        let (stress, displacement) = of_axes(cells, &e, &t);
+        let turned = of_axes(
+            exchanged,
+            &with_axes_exchanged(&e, &stress_order, cells),
+            &with_axes_exchanged(&t, &vector_order, cells),
+        );
+        let wanted = [
+            with_axes_exchanged(&stress, &stress_order, cells),
+            with_axes_exchanged(&displacement, &vector_order, cells),
+        ];
+        for (found, wanted) in [turned.0, turned.1].iter().zip(&wanted) {
+            let most = wanted.iter().fold(0.0_f64, |m, s| m.max(s.abs()));
+            let pairs = found.iter().zip(wanted);
+            let off = pairs.fold(0.0_f64, |m, (a, b)| m.max((a - b).abs())) / most;
+            assert!(off < 1e-9, "{nx} x {ny}: {off:e}");
+        }
+    }
+}
