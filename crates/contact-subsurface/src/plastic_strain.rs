@@ -151,7 +151,6 @@ pub(super) fn yielded(strain: [f64; 6], equivalent: f64) -> PlasticPoint {
         cell: 0,
         strain,
         equivalent,
-        flow: [0.0; 6],
         back: Default::default(),
         growth: [0.0; 6],
     }

@@ -10,7 +10,7 @@
 //! plastic strain. R(p) is the sum of the isotropic laws ([`ISOTROPIC`]: linear, Voce, Swift), C the linear
 //! kinematic hardening (W. Prager, 1956), C_i and gamma_i those with recall (P. J. Armstrong, C. O.
 //! Frederick, CEGB report RD/B/N 731, 1966; J.-L. Chaboche, Int. J. Plast. 2 (1986) 149-188). A [`Plastic`] is
-//! these numbers; [`Point::at`] is the return of one point to its yield surface within an increment.
+//! these numbers; [`Point::advance`] is the return of one point to its yield surface within an increment.
 //! Components are xx, yy, zz, xy, xz, yz, tensor components of the strain.
 //!
 //! ```
@@ -21,7 +21,7 @@
 //! // A strain in shear of 1 %, held: the stress falls back to the yield surface.
 //! let mu = 80e9;
 //! let trial = [0.0, 0.0, 0.0, 2.0 * mu * 0.01, 0.0, 0.0];
-//! let found = Point::default().at(&steel, mu, &trial);
+//! let found = Point::default().advance(&steel, mu, &[0.0; 6], &trial);
 //! let left = trial[3] - 2.0 * mu * found.strain[3];
 //! let yield_stress = steel.yield_stress(found.equivalent);
 //! assert!((3f64.sqrt() * left / yield_stress - 1.0).abs() < 1e-12);

@@ -6,9 +6,17 @@
 //! de_p = dp n,     n = b N_0 + (1 - b) N_1,      b = max(0, cos(N_0, N_1))/2
 //! ```
 //!
-//! with N_0 the direction of flow at the start, where the point yielded there, and N_1 that at the end:
-//! the trapezoidal rule, of second order along a path on which the direction turns. A point that starts
-//! to yield within the increment has b = 0, radial return. Along n a back stress with recall is exact,
+//! with N_0 the normal of the yield surface where the trial path leaves it, and N_1 the normal at the
+//! end: the trapezoidal rule, of second order along a path on which the direction turns. The trial path
+//! goes straight from the stress at the start to the trial stress, both with the plastic strain of the
+//! start. With B_0 the stress there less the back stresses, dB its growth, it leaves the surface at
+//!
+//! ```text
+//! t = (-B_0 : dB + sqrt((B_0 : dB)^2 - dB : dB (B_0 : B_0 - 2/3 R(p_0)^2)))/(dB : dB),     0 <= t <= 1
+//! ```
+//!
+//! A start on the surface or beyond it by an error has t = 0, whether or not the point yielded in the
+//! increment before: N_0 is a continuous function of the path. Along n a back stress with recall is exact,
 //!
 //! ```text
 //! X_i = E_i X_i,0 + 2/3 C_i G_i n,     E_i = exp(-gamma_i dp),   G_i = (1 - E_i)/gamma_i
@@ -40,8 +48,6 @@ pub struct Point {
     pub strain: Tensor,
     /// Equivalent plastic strain p, added up over the path.
     pub equivalent: f64,
-    /// Direction of flow N_0; zero where the point did not yield.
-    pub flow: Tensor,
     /// Back stresses X_i with recall \[Pa\].
     pub back: [Tensor; BACK_STRESSES],
 }
@@ -78,10 +84,28 @@ impl From<Returned> for Point {
         Self {
             strain: end.strain,
             equivalent: end.equivalent,
-            flow: end.flow,
             back: end.back,
         }
     }
+}
+
+/// Direction of a deviator, where the trial path from B_0 to `end` leaves the yield surface of the radius R
+/// \[Pa\]. It has N : N = 3/2.
+fn onset_normal(start: &Tensor, end: &Tensor, radius: f64) -> Tensor {
+    let growth: Tensor = std::array::from_fn(|c| end[c] - start[c]);
+    let square = contraction(&growth, &growth);
+    let along = contraction(start, &growth);
+    let outside = contraction(start, start) - radius * radius / 1.5;
+    let root = (along * along - square * outside).max(0.0).sqrt();
+    // Without growth the point stands at its end.
+    let t = if square > 0.0 {
+        ((root - along) / square).clamp(0.0, 1.0)
+    } else {
+        1.0
+    };
+    let onset: Tensor = std::array::from_fn(|c| start[c] + t * growth[c]);
+    let size = equivalent_stress(&onset);
+    onset.map(|s| 1.5 * s / size)
 }
 
 impl Point {
@@ -95,14 +119,15 @@ impl Point {
         }
     }
 
-    /// The end of the increment under the trial stress s_t \[Pa\]: that of the end with the plastic
-    /// strain of the start. `mu` is the shear modulus \[Pa\].
-    pub fn at(&self, law: &Plastic, mu: f64, trial: &Tensor) -> Returned {
+    /// Returns the point to its yield surface, from the stress at the start of the increment \[Pa\] and the
+    /// trial stress s_t \[Pa\], which is the stress at the end with the plastic strain of the start. `mu`
+    /// is the shear modulus \[Pa\].
+    pub fn advance(&self, law: &Plastic, mu: f64, stress: &Tensor, trial: &Tensor) -> Returned {
         let linear = 2.0 / 3.0 * law.kinematic;
-        let mut start = deviator(trial);
-        for (s, e) in start.iter_mut().zip(&self.strain) {
-            *s -= linear * e;
-        }
+        let start: Tensor = {
+            let trial = deviator(trial);
+            std::array::from_fn(|c| trial[c] - linear * self.strain[c])
+        };
         // Terms that are there: C_i, gamma_i and X_i at the start.
         let terms = law
             .chaboche_C
@@ -133,16 +158,24 @@ impl Point {
             return self.unchanged();
         }
         let towards = 1.5 / size;
+        let normal = {
+            let stress = deviator(stress);
+            let relative: Tensor = std::array::from_fn(|c| {
+                let back: f64 = self.back.iter().map(|back| back[c]).sum();
+                stress[c] - linear * self.strain[c] - back
+            });
+            onset_normal(&relative, &shifted, law.yield_stress(self.equivalent))
+        };
         // N : N = 3/2.
-        let cos = towards * contraction(&self.flow, &shifted) / 1.5;
+        let cos = towards * contraction(&normal, &shifted) / 1.5;
         let b = 0.5 * cos.clamp(0.0, 1.0);
         let slope =
             1.5 * d_k + law.slope(self.equivalent) - towards * contraction(&shifted, &d_shifted);
         let whole = |dp: f64| {
             let (mut left, k, mut d_left, d_k) = of(dp);
             for c in 0..COMPONENTS {
-                left[c] -= b * k * self.flow[c];
-                d_left[c] -= b * d_k * self.flow[c];
+                left[c] -= b * k * normal[c];
+                d_left[c] -= b * d_k * normal[c];
             }
             (left, k, d_left, d_k)
         };
@@ -176,7 +209,7 @@ impl Point {
         let (left, ..) = whole(dp);
         let towards = 1.5 / equivalent_stress(&left);
         let flow: Tensor = left.map(|s| towards * s);
-        let along: Tensor = std::array::from_fn(|c| b * self.flow[c] + (1.0 - b) * flow[c]);
+        let along: Tensor = std::array::from_fn(|c| b * normal[c] + (1.0 - b) * flow[c]);
         let back = |n: usize| -> Tensor {
             let (C, gamma) = (law.chaboche_C[n], law.chaboche_gamma[n]);
             if C == 0.0 {

@@ -83,12 +83,13 @@ impl March {
             return Ok(None);
         };
         let start = self.state.clone();
+        let first = self.tractions();
         let increment = self.advance_to(point)?;
         let [p, q_x, q_y] = self.tractions();
         let Some(yields) = &mut self.yielding else {
             return Ok(Some(increment));
         };
-        yields.bodies.begin(&before);
+        yields.bodies.begin(&before, first.each_ref());
         if yields.bodies.pass([&p, &q_x, &q_y]) {
             let reached = yields.bodies.reached();
             return Ok(Some(Increment {
@@ -144,12 +145,13 @@ impl March {
         let Some(before) = start.yielded.as_deref() else {
             return self.advance_to(point);
         };
+        let first = self.tractions();
         let mirror = self.problem.plan.mirror;
         let arms = self.domain.window.geometry.arms.clone();
         let Some(yields) = &mut self.yielding else {
             return self.advance_to(point);
         };
-        yields.bodies.begin(before);
+        yields.bodies.begin(before, first.each_ref());
         let from = Offsets::from_residual(&yields.bodies.residual(), &arms, mirror);
         if let Some(factor) = start.going_on(point) {
             yields.bodies.guess(before, factor);

@@ -90,11 +90,13 @@ impl Yielding {
         &self.volume
     }
 
-    /// Begins an increment from a state, with the plastic strain and displacement of its start.
-    pub(crate) fn begin(&mut self, state: &Yielded) {
+    /// Begins an increment from a state and its tractions p, q_x, q_y \[Pa\], with the plastic strain and
+    /// displacement of its start.
+    pub(crate) fn begin(&mut self, state: &Yielded, [p, q_x, q_y]: [&Array2<f64>; 3]) {
         self.mixing = Anderson::default();
+        let tractions = [q_x, q_y, p].map(|field| self.volume.to_volume(field));
         for (n, body) in self.bodies.iter_mut().enumerate() {
-            body.begin(state.bodies.get(n));
+            body.begin(state.bodies.get(n), tractions.clone());
         }
     }
 
@@ -325,8 +327,8 @@ impl Yielding {
     /// Whether the stress of a state without tractions yields nowhere, by a hundredth of the yield stress.
     pub fn unloads_elastically(&mut self, state: &Yielded) -> bool {
         let whole = self.completed(state);
-        self.begin(&whole);
         let none = Array2::zeros((self.volume.grid().nx, self.volume.grid().ny));
+        self.begin(&whole, [&none; 3]);
         self.pass([&none; 3]);
         self.residuals().0 < UNLOADS
     }

@@ -14,8 +14,6 @@ pub struct PlasticPoint {
     pub strain: Tensor,
     /// Equivalent plastic strain, added up over the path.
     pub equivalent: f64,
-    /// Direction of flow in the last increment; zero if it did not yield there.
-    pub flow: Tensor,
     /// Back stresses with recall \[Pa\], with z into the body.
     pub back: [Tensor; BACK_STRESSES],
     /// Growth of the plastic strain in the last increment, from which the next one is guessed.

@@ -176,7 +176,6 @@ pub fn from_rows(rows: &[Vec<f64>]) -> Yielded {
             cell: value(3) as u32,
             equivalent: value(4),
             strain: std::array::from_fn(|c| value(5 + c)),
-            flow: [0.0; 6],
             back: [std::array::from_fn(|c| value(11 + c)), [0.0; 6], [0.0; 6]],
             growth: [0.0; 6],
         };

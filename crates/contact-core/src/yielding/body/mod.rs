@@ -44,6 +44,10 @@ pub(super) struct YieldingBody {
     stress: Vec<f64>,
     /// Tractions of the last pass, with z into the body \[Pa\].
     tractions: [Vec<f64>; 3],
+    /// Tractions at the start of the increment, with z into the body \[Pa\].
+    start_tractions: [Vec<f64>; 3],
+    /// Stress at the start of the increment on the planes that may yield; empty until a point yields.
+    start_stress: Vec<f64>,
     /// Largest change of the stress in the last pass, over the yield stress.
     pub(super) off: f64,
     /// Largest stress of von Mises in the last pass over the yield stress, of points that have not
@@ -85,6 +89,8 @@ impl YieldingBody {
             slot: vec![NONE; laws.len() * cells],
             active: Vec::new(),
             tractions: Default::default(),
+            start_tractions: Default::default(),
+            start_stress: Vec::new(),
             off: 0.0,
             reached: 0.0,
             laws,
@@ -128,8 +134,10 @@ impl YieldingBody {
         points.any(|known| self.point(known).is_none_or(|point| self.at_border(point)))
     }
 
-    /// Starts from the state at the start of an increment.
-    pub(super) fn begin(&mut self, state: Option<&PlasticState>) {
+    /// Starts from the state at the start of an increment and its tractions, with z into body 2 \[Pa\].
+    pub(super) fn begin(&mut self, state: Option<&PlasticState>, tractions: [Vec<f64>; 3]) {
+        self.start_tractions = self.facing(&tractions);
+        self.start_stress.clear();
         for (point, ..) in std::mem::take(&mut self.active) {
             self.slot[point] = NONE;
             for c in 0..COMPONENTS {
@@ -152,7 +160,6 @@ impl YieldingBody {
             let start = Point {
                 strain: known.strain,
                 equivalent: known.equivalent,
-                flow: known.flow,
                 back: known.back,
             };
             self.active.push((point, start, start.unchanged()));
@@ -191,7 +198,6 @@ impl YieldingBody {
                     cell: self.volume.of_largest(point % cells),
                     strain: end.strain,
                     equivalent: end.equivalent,
-                    flow: end.flow,
                     back: end.back,
                     growth: std::array::from_fn(|c| end.strain[c] - start.strain[c]),
                 })
@@ -229,7 +235,7 @@ impl YieldingBody {
         state: Option<&PlasticState>,
         tractions: Option<&[Vec<f64>; 3]>,
     ) -> (Vec<f64>, Vec<f64>) {
-        self.begin(state);
+        self.begin(state, Default::default());
         let signed = tractions.map(|tractions| self.facing(tractions));
         let mut stress = vec![0.0; self.operator.len()];
         let mut everywhere = vec![0.0; self.next_everywhere.len()];

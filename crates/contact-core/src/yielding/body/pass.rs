@@ -12,6 +12,21 @@ const DISPLACEMENT: f64 = 1e-4;
 /// the others.
 const NEAR: f64 = 0.75;
 
+/// Stress of a cell of a plane with the residual stress s_xx, s_yy before the first load \[Pa\].
+fn whole_stress(plane: &[f64], cell: usize, [xx, yy]: [f64; 2]) -> Tensor {
+    let cells = plane.len() / COMPONENTS;
+    let mut s: Tensor = std::array::from_fn(|c| plane[c * cells + cell]);
+    s[0] += xx;
+    s[1] += yy;
+    s
+}
+
+/// Square of the stress of von Mises \[Pa^2\].
+fn square_of_von_mises(stress: &Tensor) -> f64 {
+    let s = deviator(stress);
+    1.5 * contraction(&s, &s)
+}
+
 impl YieldingBody {
     /// One pass: stress, return, displacement. True where neither strain nor displacement would change
     /// beyond the tolerance.
@@ -56,7 +71,58 @@ impl YieldingBody {
     }
 
     /// Points that yield on each plane that is computed, and its largest stress over the yield stress, squared.
-    fn returned(&self) -> Vec<(Vec<(usize, Returned)>, f64)> {
+    /// The stress at the start of the increment is computed at the first of them.
+    fn returned(&mut self) -> Vec<(Vec<(usize, Returned)>, f64)> {
+        if self.start_stress.is_empty() && self.yields() {
+            self.start_stress = self.stress_at_start();
+        }
+        self.returned_from_start()
+    }
+
+    /// Whether a point may leave its yield surface: one has yielded, or the stress goes beyond the yield stress.
+    fn yields(&self) -> bool {
+        let cells = self.cells();
+        let is_beyond = |plane: usize| {
+            let (Some((law, _)), true) = (&self.laws[plane], self.wanted[plane]) else {
+                return false;
+            };
+            let stress = &self.stress[plane * COMPONENTS * cells..][..COMPONENTS * cells];
+            let limit = law.s_y * (1.0 + YIELDS);
+            (0..cells).any(|cell| {
+                square_of_von_mises(&whole_stress(stress, cell, self.initial[plane]))
+                    > limit * limit
+            })
+        };
+        !self.active.is_empty() || (0..self.laws.len()).into_par_iter().any(is_beyond)
+    }
+
+    /// Computes the stress at the start of the increment on the planes that may yield \[Pa\].
+    fn stress_at_start(&mut self) -> Vec<f64> {
+        let mut stress = vec![0.0; self.operator.len()];
+        let mut strain = vec![0.0; self.operator.len()];
+        for (point, start, _) in &self.active {
+            for c in 0..COMPONENTS {
+                strain[self.index_of_component(*point, c)] = start.strain[c];
+            }
+        }
+        let [x, y, z] = &self.start_tractions;
+        let mut displacement = vec![0.0; self.next_everywhere.len()];
+        self.operator.apply(
+            Sources {
+                eigenstrain: (!self.active.is_empty()).then_some(&strain[..]),
+                tractions: (!x.is_empty()).then_some([&x[..], y, z]),
+            },
+            Answer {
+                stress: &mut stress,
+                wanted: &self.may_yield,
+                displacement: &mut displacement,
+                of_tractions: false,
+            },
+        );
+        stress
+    }
+
+    fn returned_from_start(&self) -> Vec<(Vec<(usize, Returned)>, f64)> {
         let cells = self.cells();
         let (laws, stress, strain, slot, active) = (
             &self.laws,
@@ -75,19 +141,20 @@ impl YieldingBody {
                 &stress[plane * block..][..block],
                 &strain[plane * block..][..block],
             );
+            let start_stress = &self.start_stress.get(plane * block..).unwrap_or_default();
+            let start_stress = start_stress.get(..block).unwrap_or_default();
             let slots = &slot[plane * cells..][..cells];
             let mut yielded = Vec::new();
             let (limit, mut most) = (law.s_y * (1.0 + YIELDS), 0.0_f64);
             for cell in 0..cells {
-                let mut s: Tensor = std::array::from_fn(|c| stress[c * cells + cell]);
-                s[0] += initial[plane][0];
-                s[1] += initial[plane][1];
+                let s = whole_stress(stress, cell, initial[plane]);
+                let from = || whole_stress(start_stress, cell, initial[plane]);
                 if slots[cell] == NONE {
-                    let s_dev = deviator(&s);
-                    let square = 1.5 * contraction(&s_dev, &s_dev);
+                    let square = square_of_von_mises(&s);
                     most = most.max(square);
                     if square > limit * limit {
-                        yielded.push((plane * cells + cell, Point::default().at(law, *mu, &s)));
+                        let returned = Point::default().advance(law, *mu, &from(), &s);
+                        yielded.push((plane * cells + cell, returned));
                     }
                     continue;
                 }
@@ -95,7 +162,7 @@ impl YieldingBody {
                 let trial = std::array::from_fn(|c| {
                     s[c] + 2.0 * mu * (strain[c * cells + cell] - start.strain[c])
                 });
-                let returned = start.at(law, *mu, &trial);
+                let returned = start.advance(law, *mu, &from(), &trial);
                 if returned.flow != [0.0; COMPONENTS] {
                     most = most.max(law.s_y * law.s_y);
                 }
