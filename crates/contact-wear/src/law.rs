@@ -228,7 +228,7 @@ impl BodyWear {
     }
 
     /// The law of a layer, 0 the outermost.
-    fn law(&self, layer: usize) -> Option<&dyn Law> {
+    pub(super) fn law(&self, layer: usize) -> Option<&dyn Law> {
         let only = if self.laws.len() == 1 { 0 } else { layer };
         self.laws.get(only).map(|law| &**law)
     }
