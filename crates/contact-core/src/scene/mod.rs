@@ -135,7 +135,8 @@ impl Scene {
             return Err(Error::invalid(
                 "body1.shape",
                 format!("{first} on {second}"),
-                "a surface that parts from the other one towards the border of the grid",
+                "a surface that parts from the other one towards the border of the grid. Parallel cylinders are a line \
+                 contact: use Grid.strip (plane_strain = true)",
             ));
         }
         self.path.check_for_friction(&self.friction)?;
