@@ -28,6 +28,26 @@ impl Bar {
         }
     }
 
+    /// The bar of a number times a factor >= 0.
+    pub(super) fn times(&self, factor: f64) -> Self {
+        Self {
+            total: factor * self.total,
+            cells: factor * self.cells,
+            path: factor * self.path,
+            solver: factor * self.solver,
+        }
+    }
+
+    /// The bar of a sum of numbers whose errors may have the same sign.
+    pub(super) fn plus(&self, other: &Self) -> Self {
+        Self {
+            total: self.total + other.total,
+            cells: self.cells + other.cells,
+            path: self.path + other.path,
+            solver: self.solver + other.solver,
+        }
+    }
+
     /// Combines the signed error `off` of the cells and their random part `scatter`, and the signed
     /// error `path` of the increments.
     pub(super) fn signed(off: f64, scatter: f64, path: f64, solver: f64) -> Self {

@@ -8,9 +8,10 @@ pub(crate) const CONTACT_RADIUS: usize = 0;
 pub(crate) const STICK_RATIO: usize = 1;
 pub(crate) const P_MAX: usize = 2;
 pub(crate) const DISSIPATED: usize = 3;
+pub(crate) const Q_MAX: usize = 4;
 /// Indices of the first motion and of the first load; the others follow in the order of
 /// [`RigidMotion::ALL`](crate::scene::RigidMotion::ALL).
-pub(crate) const MOTIONS: usize = 4;
+pub(crate) const MOTIONS: usize = 5;
 pub(crate) const LOADS: usize = MOTIONS + 6;
 /// Indices for bodies that yield: plastic work, volume that has yielded, largest plastic strain.
 pub(crate) const PLASTIC: usize = LOADS + 6;
@@ -24,6 +25,7 @@ pub(crate) fn numbers(branch: &BranchSummary) -> [f64; NUMBERS] {
     numbers[STICK_RATIO] = branch.stick_ratio;
     numbers[P_MAX] = branch.p_max;
     numbers[DISSIPATED] = branch.dissipated;
+    numbers[Q_MAX] = branch.q_max;
     numbers[MOTIONS..LOADS].copy_from_slice(&branch.motion.motions());
     numbers[LOADS..PLASTIC].copy_from_slice(&branch.loads.forces());
     numbers[PLASTIC..].copy_from_slice(&[

@@ -97,6 +97,8 @@ pub struct BranchSummary {
     pub stick_ratio: f64,
     /// Largest pressure at its end \[Pa\].
     pub p_max: f64,
+    /// Largest shear traction |q| at its end \[Pa\].
+    pub q_max: f64,
     /// Energy dissipated in it \[J\].
     pub dissipated: f64,
     /// Plastic work in it \[J\].
@@ -157,6 +159,7 @@ pub fn summarise(increments: &[Increment]) -> Vec<BranchSummary> {
                 spots: end.spots,
                 stick_ratio: end.stick_ratio(),
                 p_max: end.p_max,
+                q_max: end.q_max,
                 dissipated: of_branch.iter().map(|i| i.energy.dissipated).sum(),
                 plastic_work: of_branch.iter().map(|i| i.energy.plastic).sum(),
                 plastic_volume: end.yielded.volume,
