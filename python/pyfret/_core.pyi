@@ -3814,6 +3814,9 @@ def loops(
     delta: Sequence[float],
     dissipated: Sequence[float],
     status: Sequence[int],
+    grid: Grid,
+    contact_area: Sequence[float],
+    stick_ratio: Sequence[float],
     errors: Sequence[Sequence[float]],
 ) -> list[dict[str, float]]:
     """Energy and stiffness of every cycle of a history; use :meth:`pyfret.Result.loops`."""

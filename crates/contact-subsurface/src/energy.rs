@@ -15,6 +15,15 @@ use crate::reversal;
 /// Largest error with which a sliding ratio is given.
 const MAX_SLIDING_ERROR: f64 = 0.05;
 
+/// Error of the sliding ratio s by the cells, over `s (1 - s)`, times N^(3/2), N being the cells across the
+/// slip zone: of line contacts, and of others, in which the border of the stick zone cuts cells everywhere.
+/// The cell that this border cuts sticks or slips as a whole, with either sign. From 45 lines of 24 to 96
+/// cells (bare, coated, unlike bodies) against 512, and from 20 spheres of 16 to 48 cells against the closed
+/// form, T 0.15 to 0.9 mu W: 64 of 65 errors are within 1.5 times these.
+const CELLS: [f64; 2] = [0.4, 0.15];
+/// Fewest cells across the slip zone that count.
+const FEWEST: f64 = 0.5;
+
 /// A closed part of the load path: the loads at its end are those at its start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cycle {
@@ -38,6 +47,8 @@ pub struct Cycle {
     pub opening_error: f64,
     /// Gross slip if the interface slid in any increment.
     pub status: Status,
+    /// Cells across the zone that slips, where it is widest; 0 where nothing slips.
+    pub slip_cells: f64,
 }
 
 /// Errors of a cycle, from the errors of its branches.
@@ -81,17 +92,29 @@ impl Cycle {
         ratio(self.opening_error, self.delta)
     }
 
+    /// Error of the sliding ratio by the cells on a grid; 0 where nothing slips. The shift that is not
+    /// opening is elastic: in gross slip this part alone has the error.
+    fn sliding_ratio_error_of_cells(&self, plane_strain: bool) -> f64 {
+        if self.slip_cells <= 0.0 {
+            return 0.0;
+        }
+        let s = ratio(self.opening, self.delta);
+        let factor = CELLS[usize::from(!plane_strain)];
+        (factor * s * (1.0 - s) / self.slip_cells.max(FEWEST).powf(1.5)).max(0.0)
+    }
+
     /// Errors of a cycle from the errors of the branches of the path: of their energy \[J\], of the
     /// force \[N\] and of the shift \[m\] at their ends. Without branches they are NaN, except for
-    /// the sliding ratio. Errors of energies have one cause and add up. The error of half a range
+    /// the sliding ratio, whose error by the cells follows from the width of the slip zone. Errors of energies have one cause and add up. The error of half a range
     /// is the largest error of the ends. The relative error of the opening is the relative error of
     /// the energy, which is the area of the loop, plus the error by the increments.
-    pub fn errors(&self, of_branches: &[[f64; 3]]) -> CycleErrors {
+    pub fn errors(&self, of_branches: &[[f64; 3]], plane_strain: bool) -> CycleErrors {
         if of_branches.is_empty() {
             return CycleErrors {
                 dissipated: f64::NAN,
                 energy_ratio: f64::NAN,
-                sliding_ratio: self.sliding_ratio_error(),
+                sliding_ratio: self.sliding_ratio_error()
+                    + self.sliding_ratio_error_of_cells(plane_strain),
             };
         }
         let (first, last) = self.branches;
@@ -167,6 +190,7 @@ fn cycle(
         opening,
         opening_error,
         status: part.iter().map(|p| p.status).fold(Status::NoContact, worse),
+        slip_cells: part.iter().map(|p| p.slip_cells).fold(0.0, f64::max),
     }
 }
 

@@ -2,6 +2,8 @@
 
 use contact_core::estimate::ErrorBars;
 use contact_core::march::{Increment, Status};
+use contact_core::scene::Grid;
+use contact_core::zones::slip_cells;
 
 /// A tangential motion and the load that drives it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -28,6 +30,8 @@ pub struct LoopPoint {
     pub dissipated: f64,
     /// State of the interface.
     pub status: Status,
+    /// Cells across the zone that slips ([`slip_cells`]).
+    pub slip_cells: f64,
 }
 
 impl Direction {
@@ -44,8 +48,8 @@ impl Direction {
 }
 
 impl LoopPoint {
-    /// The force and shift of an increment along a direction.
-    pub fn new(increment: &Increment, direction: Direction) -> Self {
+    /// The force and shift of an increment on a grid along a direction.
+    pub fn new(increment: &Increment, grid: &Grid, direction: Direction) -> Self {
         let (loads, motion) = (&increment.point.loads, &increment.motion);
         let (T, delta) = match direction {
             Direction::X => (loads.T_x, motion.delta_x),
@@ -58,6 +62,7 @@ impl LoopPoint {
             delta,
             dissipated: increment.energy.dissipated,
             status: increment.status,
+            slip_cells: slip_cells(grid, increment.contact_area, increment.stick_ratio()),
         }
     }
 }

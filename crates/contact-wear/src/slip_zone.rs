@@ -11,25 +11,12 @@
 //! Both constants come from a scan of line contacts: T 0.1 to 0.9 mu W, 2e3 to 1e5 cycles, 48 to 192
 //! cells against 480. Of 50 runs all errors are within 1.5 times these, the largest errors at N = 1 to 3.
 
-use contact_core::scene::Grid;
-
 /// Error of the deepest depth times the cells across the slip zone.
 const DEPTH: f64 = 0.2;
 /// Error of the volume times the cells across the slip zone.
 const VOLUME: f64 = 0.4;
 /// Fewest cells that count: a zone without a whole cell is known to half of one.
 const FEWEST: f64 = 0.5;
-
-/// Cells across the zone of a contact that slips: half of the strip of a line contact that does not
-/// stick, else the ring between two circles of the areas of contact and stick zone.
-pub(crate) fn cells(grid: &Grid, contact_area: f64, stick_ratio: f64) -> f64 {
-    let touching = contact_area / grid.cell_area();
-    if grid.plane_strain {
-        0.5 * touching * (1.0 - stick_ratio)
-    } else {
-        (touching / std::f64::consts::PI).sqrt() * (1.0 - stick_ratio.max(0.0).sqrt())
-    }
-}
 
 /// Errors of deepest depth and volume, over them; zero where nothing sticks.
 pub(crate) fn errors(cells: f64, stick_ratio: f64) -> [f64; 2] {

@@ -1,5 +1,6 @@
 //! The state of a run of wear between jumps.
 
+use contact_core::zones::slip_cells;
 use serde::{Deserialize, Serialize};
 
 use super::events::Event;
@@ -7,7 +8,6 @@ use super::jump::Jump;
 use super::loss::Worn;
 use super::model::{Model, ModelState};
 use super::settings::Wear;
-use super::slip_zone;
 
 /// The state on which the next jump depends.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -99,7 +99,7 @@ impl WearState {
             volume_error: 0.0,
             // Late in life little slips; what has worn slipped when the zone was widest.
             slip_cells: self.history.iter().fold(
-                slip_zone::cells(&model.pressing().grid, touches * area, seen.stick_ratio),
+                slip_cells(&model.pressing().grid, touches * area, seen.stick_ratio),
                 |widest, jump| widest.max(jump.slip_cells),
             ),
         }

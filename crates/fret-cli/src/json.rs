@@ -187,7 +187,7 @@ fn cycle_to_json(
     c: &Cycle,
     bars: Option<&[ErrorBars]>,
 ) -> Value {
-    let errors = cycle_errors(direction, c, bars.unwrap_or_default());
+    let errors = cycle_errors(scene, direction, c, bars.unwrap_or_default());
     json!({
         "direction": word(direction),
         "first_branch": c.branches.0,
@@ -207,9 +207,14 @@ fn cycle_to_json(
 }
 
 /// Errors of a cycle, from the errors of the branches, if any.
-pub(crate) fn cycle_errors(direction: Direction, c: &Cycle, bars: &[ErrorBars]) -> CycleErrors {
+pub(crate) fn cycle_errors(
+    scene: &Scene,
+    direction: Direction,
+    c: &Cycle,
+    bars: &[ErrorBars],
+) -> CycleErrors {
     let of_branches: Vec<[f64; 3]> = bars.iter().map(|bar| direction.errors_of(bar)).collect();
-    c.errors(&of_branches)
+    c.errors(&of_branches, scene.grid.plane_strain)
 }
 
 /// Plastic work in increments \[J\].
@@ -241,7 +246,7 @@ pub(crate) fn cycles(scene: &Scene, increments: &[Increment]) -> Vec<(Direction,
     .flat_map(|(direction, _)| {
         let points: Vec<_> = increments
             .iter()
-            .map(|i| LoopPoint::new(i, direction))
+            .map(|i| LoopPoint::new(i, &scene.grid, direction))
             .collect();
         loops(&scene.path, direction, &points)
             .into_iter()

@@ -288,7 +288,10 @@ fn cycle_lines(scene: &Scene, increments: &[Increment]) -> Vec<String> {
             state(frictionless(scene), c.status),
             short(c.dissipated * joules),
             short(c.energy_ratio()),
-            with_error(c.sliding_ratio(), Some(c.sliding_ratio_error())),
+            with_error(
+                c.sliding_ratio(),
+                Some(json::cycle_errors(scene, *direction, c, &[]).sliding_ratio),
+            ),
             if c.stiffness.is_nan() {
                 format!("not known: {}", Cycle::TOO_FEW)
             } else {
@@ -439,7 +442,7 @@ pub(crate) fn error_table(scene: &Scene, increments: &[Increment], bars: &[Error
     let (joule, joules) = energy(scene);
     let cycles = json::cycles(scene, increments);
     let of_cycle = |(n, (direction, c)): (usize, &(Direction, Cycle))| {
-        let errors = json::cycle_errors(*direction, c, bars);
+        let errors = json::cycle_errors(scene, *direction, c, bars);
         format!(
             "\ncycle {} ({}): {} {joule} dissipated, energy ratio {}, sliding ratio {}",
             n + 1,

@@ -3,6 +3,7 @@
 use std::sync::atomic::AtomicBool;
 
 use contact_core::march;
+use contact_core::zones::slip_cells;
 use contact_subsurface as core;
 use contact_subsurface::{Line, Stream};
 use ndarray::{Array1, Array2, Axis, Ix2};
@@ -181,7 +182,7 @@ fn finished() -> PyErr {
 
 /// Energy and stiffness of every cycle of a history; use :meth:`pyfret.Result.loops`.
 #[pyfunction]
-#[pyo3(signature = (path, *, torsion: "bool", branch: "Sequence[int]", T: "Sequence[float]", delta: "Sequence[float]", dissipated: "Sequence[float]", status: "Sequence[int]", errors: "Sequence[Sequence[float]]") -> "list[dict[str, float]]")]
+#[pyo3(signature = (path, *, torsion: "bool", branch: "Sequence[int]", T: "Sequence[float]", delta: "Sequence[float]", dissipated: "Sequence[float]", status: "Sequence[int]", grid: "Grid", contact_area: "Sequence[float]", stick_ratio: "Sequence[float]", errors: "Sequence[Sequence[float]]") -> "list[dict[str, float]]")]
 pub(crate) fn loops(
     py: Python<'_>,
     path: LoadPath,
@@ -191,6 +192,9 @@ pub(crate) fn loops(
     delta: List<f64>,
     dissipated: List<f64>,
     status: List<u8>,
+    grid: Grid,
+    contact_area: List<f64>,
+    stick_ratio: List<f64>,
     errors: List<[f64; 3]>,
 ) -> PyResult<Vec<Bound<'_, PyDict>>> {
     let history: Vec<core::LoopPoint> = branch
@@ -199,13 +203,17 @@ pub(crate) fn loops(
         .zip(delta.iter())
         .zip(dissipated.iter())
         .zip(status.iter())
+        .zip(contact_area.iter().zip(stick_ratio.iter()))
         .map(
-            |((((&branch, &T), &delta), &dissipated), &status)| core::LoopPoint {
-                branch,
-                T,
-                delta,
-                dissipated,
-                status: march::Status::ALL[usize::from(status).min(3)],
+            |(((((&branch, &T), &delta), &dissipated), &status), (&area, &stick))| {
+                core::LoopPoint {
+                    branch,
+                    T,
+                    delta,
+                    dissipated,
+                    status: march::Status::ALL[usize::from(status).min(3)],
+                    slip_cells: slip_cells(&grid.0, area, stick),
+                }
             },
         )
         .collect();
@@ -220,7 +228,7 @@ pub(crate) fn loops(
             let fields = PyDict::new(py);
             fields.set_item("first_branch", c.branches.0)?;
             fields.set_item("last_branch", c.branches.1)?;
-            let of_cycle = c.errors(&errors);
+            let of_cycle = c.errors(&errors, grid.0.plane_strain);
             fields.set_item("dissipated", c.dissipated)?;
             fields.set_item("dissipated_error", of_cycle.dissipated)?;
             fields.set_item("T", c.T)?;

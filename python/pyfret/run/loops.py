@@ -54,7 +54,7 @@ LOOP = {
     "sliding_ratio": ("1", "opening over the range of the shift, NaN where not known to 0.05"),
     "sliding_ratio_error": (
         "1",
-        "error of the sliding ratio; without error bars what the increments leave of it",
+        "error of the sliding ratio; without error bars by the increments and the width of the slip zone",
     ),
     "status": ("1", "0 no contact, 1 full stick, 2 partial slip, 3 gross slip"),
 }
@@ -81,6 +81,9 @@ def loops_of_cycles(
         delta=dataset[shift].values.tolist(),
         dissipated=dataset.dissipated.values.tolist(),
         status=dataset.status.values.tolist(),
+        grid=scene.grid,
+        contact_area=dataset.contact_area.values.tolist(),
+        stick_ratio=dataset.stick_ratio.values.tolist(),
         errors=[[bar[n]["total"] for n in ("dissipated", force, shift)] for bar in bars or []],
     )
     units = {"N": "N m", "m": "rad", "N/m": "N m/rad"} if torsion else {}
@@ -117,6 +120,9 @@ def loops_of_corners(
             delta=[u[0], *u],
             dissipated=[*[0.0] * u.size, float(energy)],
             status=[0] * (u.size + 1),
+            grid=grid,
+            contact_area=[0.0] * (u.size + 1),
+            stick_ratio=[1.0] * (u.size + 1),
             errors=[],
         )
     return tabulated(loop_numbers, OF_CORNERS, "block", grid, {})

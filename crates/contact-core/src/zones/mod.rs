@@ -11,6 +11,7 @@ mod outline;
 mod parabola;
 mod rim_pressure;
 mod sampled_border;
+mod slip_zone;
 mod spots;
 mod stick_zone;
 
@@ -22,5 +23,6 @@ pub(crate) use level::Line;
 pub use level::{Level, Stencil};
 pub use outline::{Outline, principal_azimuth};
 pub use rim_pressure::continue_pressure_to_rim;
+pub use slip_zone::slip_cells;
 pub use spots::Spot;
 pub(crate) use spots::{SpotCount, count_spots};

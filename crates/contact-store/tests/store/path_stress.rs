@@ -43,7 +43,7 @@ fn loops_are_mindlins() {
         assert_eq!(found, [(2, 3)]);
         let history: Vec<_> = increments
             .iter()
-            .map(|i| LoopPoint::new(i, Direction::X))
+            .map(|i| LoopPoint::new(i, &scene.grid, Direction::X))
             .collect();
         let cycle = loops(&scene.path, Direction::X, &history)[0];
         assert_eq!(
