@@ -238,6 +238,37 @@ def sheared(s_y: float, cycles: int) -> fret.Result:
     )
 
 
+def turned(axis: str, s_y: float, quarter: int) -> xr.Dataset:
+    """Press a ball that makes a flat of another metal yield, and shear it along an axis."""
+    law = fret.Plastic(s_y=s_y, kinematic=6e9, hardening=2e9)
+    ball, flat = fret.Elastic(E=210e9, nu=0.3), fret.Elastic(E=115e9, nu=0.32, plastic=law)
+    W, mu = 150.0, 0.4
+    scene = fret.Scene(
+        body1=fret.Body(ball, shape=fret.Sphere(R=10e-3)),
+        body2=fret.Body(flat),
+        friction=mu,
+        grid=fret.Grid.centred(width=3.6 * fret.reference.hertz(R=10e-3, bodies=(ball, flat), W=W).a, n=20),
+    )
+    path = fret.LoadPath.start().normal(W, increments=3)
+    path = path.cycles(1, **{f"T_{axis}": 0.8 * mu * W}, increments=5 * quarter)
+    return fret.solve(scene, path, save="all", progress=False).dataset
+
+
+@pytest.mark.parametrize(("s_y", "quarter"), [(5e8, 2), (6e8, 4)])
+def test_a_scene_turned_by_90_degrees_yields_the_same(s_y: float, quarter: int) -> None:
+    """Tractions and plastic strain do not depend on the axis of the force."""
+    x, y = (turned(axis, s_y, quarter) for axis in "xy")
+    assert float(x.largest_plastic_strain[-1]) > 1e-3
+    for of_x, of_y in (("p", "p"), ("q_x", "q_y"), ("q_y", "q_x")):
+        size = float(abs(x["p" if of_x == "p" else "q_x"]).max())
+        off = abs(x[of_x].values - y[of_y].values.transpose(0, 2, 1)).max()
+        assert off < 1e-3 * size, (of_x, off / size)
+    np.testing.assert_allclose(
+        y.largest_plastic_strain, x.largest_plastic_strain, rtol=1e-3, atol=1e-6
+    )
+    np.testing.assert_allclose(y.plastic_work.sum(), x.plastic_work.sum(), rtol=1e-3)
+
+
 def test_the_verdict_of_cycles() -> None:
     """Elastic, shaken down and alternating, with the works of every cycle."""
     elastic = sheared(2e9, 1).cyclic_response()

@@ -7,6 +7,7 @@ import gzip
 import json
 import re
 import subprocess
+import warnings
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -372,7 +373,7 @@ def test_a_coating_that_is_worn_through_has_its_cycles() -> None:
     coated = fret.Body(STEEL, coatings=fret.Coating(STEEL, thickness=2e-7))
     run = fret.wear.solve(
         line(64).replace(body2=coated),
-        cycles=2e4,
+        cycles=1e5,
         first_branch=2,
         cycling="sliding",
         body2=[fret.wear.Archard(1e-15), fret.wear.Archard(1e-14)],
@@ -394,6 +395,33 @@ def test_a_coating_that_is_worn_through_has_its_cycles() -> None:
         assert event["cycles_error"] == pytest.approx(part * event["cycles"])
         arguments = with_error(event["cycles"], event["cycles_error"])
         assert f"{event['kind']} after {arguments} cycles" in run.summary()
+
+
+def test_the_scar_is_estimated_with_its_coating() -> None:
+    """The warning before a run follows the layers: a run that ends in a coating has no wide scar."""
+    laws = [fret.wear.Archard(1e-15), fret.wear.Archard(1e-13)]
+    coated = fret.Body(STEEL, coatings=fret.Coating(STEEL, thickness=2e-7))
+    scene = line(32).replace(body2=coated)
+    settings: dict[str, Any] = {"first_branch": 2, "cycling": "sliding", "progress": False}
+
+    def warning(cycles: float, body2: Any, **changes: Any) -> str:
+        """Warn of the scar, and stop the run at its start."""
+        with pytest.warns(UserWarning, match="the scar becomes") as seen:
+            fret.wear.solve(scene, cycles=cycles, body2=body2, jumps=1, **(settings | changes))
+        return str(seen[0].message)
+
+    def cycles_on_grid(text: str) -> float:
+        found = re.search(r"leaves it after about ([0-9.e+]+) cycles", text)
+        assert found
+        return float(found[1])
+
+    bare = cycles_on_grid(warning(1e6, laws[1]))
+    # The coating holds a hundred times as long as the substrate: it comes first.
+    through = cycles_on_grid(warning(1e6, laws, worn_through="go_on"))
+    assert through > 1.01 * bare
+    with warnings.catch_warnings():
+        warnings.filterwarnings("error", message=".*the scar becomes")
+        fret.wear.solve(scene, cycles=1e6, body2=laws, **settings)
 
 
 def test_the_loop_of_a_run_of_wear_is_that_of_its_scene_but_for_wear() -> None:

@@ -141,16 +141,16 @@ class Settings(Replaceable):
     preset : Preset, "fast" or "spinu2020"
         Which algorithms (default ``Preset.FAST``).
     tolerance : float, optional
-        Relative tolerance of the solution. It holds for the gap error over the Hertz approach h and
-        the tangential misfit over mu h. It holds for the last change of the tractions, too. Default
-        1e-6. Where increments are chosen it is 1/125 of ``path_tolerance`` if that is more, 1/2500
+        Relative tolerance of the solution [1]. It holds for the gap error over the Hertz approach h
+        and the tangential misfit over mu h. It holds for the last change of the tractions, too.
+        Default 1e-6. Where increments are chosen it is 1/125 of ``path_tolerance`` if that is more, 1/2500
         where loads only press.
     cell_entry_correction : bool
         Compute the slip of cells that come into contact from their entry (default True). It takes
         far fewer increments, with one more solution in each in which the contact grows.
     path_tolerance : float
         Largest error of the shear at the ends of branches that ``increments="auto"`` leaves, over
-        the largest shear of the path (L2, default 5e-3).
+        the largest shear of the path [1] (L2, default 5e-3).
     path_grid : "auto", "same" or int
         Cells along x of the grid for increments that are solved for the path alone, a half or a
         quarter of the grid's cells. Their fields are not kept, they end no branch, and normal
@@ -169,7 +169,7 @@ class Settings(Replaceable):
         Conversion of the frequency response of coated bodies (default ``Hankel()``). The texts
         ``"hankel"``, ``"inverse_fft"`` and ``"frequency_domain"`` mean these with their defaults.
     kernel_tolerance : float
-        Largest error of the influence coefficients over C33(0, 0) (default 1e-10).
+        Largest error of the influence coefficients over C33(0, 0) [1] (default 1e-10).
     skip : Skip
         What may be left out (default: all that the scene does not need).
     save : "branches", "all" or sequence of int

@@ -8,7 +8,7 @@ use super::catalogue::FieldView;
 pub(super) type Scalar = (&'static str, &'static str, &'static str, fn(&Jump) -> f64);
 
 /// Every scalar over `jump`.
-pub(super) const SCALARS: [Scalar; 23] = [
+pub(super) const SCALARS: [Scalar; 24] = [
     ("cycles", "1", "cycles at the end of the jump", |j| j.cycles),
     ("length", "1", "cycles that the jump is long", |j| j.length),
     ("volume1", "m^3", "volume that body 1 has lost", |j| {
@@ -101,6 +101,12 @@ pub(super) const SCALARS: [Scalar; 23] = [
         "1",
         "cells across the zone that slips, when it was widest",
         |j| j.slip_cells,
+    ),
+    (
+        "p_max_error",
+        "1",
+        "error of the largest pressure by cells and jump, over it; infinite where it is singular",
+        |j| j.p_max_error,
     ),
     ("retries", "1", "times that the jump was tried anew", |j| {
         j.retries as f64

@@ -47,4 +47,8 @@ pub struct Jump {
     /// Cells across the zone that slips, at the end of the jump at which it was widest so far.
     #[serde(default)]
     pub slip_cells: f64,
+    /// Estimated error of the largest pressure over it; infinite in partial slip on worn surfaces, whose
+    /// pressure is singular at the border of the stick zone.
+    #[serde(default)]
+    pub p_max_error: f64,
 }

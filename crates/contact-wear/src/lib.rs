@@ -31,6 +31,7 @@ mod model;
 mod on_grid;
 mod outward;
 mod passage;
+mod peak;
 mod pressing;
 mod rates;
 mod run;

@@ -409,6 +409,7 @@ impl WearRun {
             length: n,
             error: tried.error,
             pressure_error: tried.pressure_error,
+            p_max_error: seen.p_max_error.hypot(tried.pressure_error),
             retries,
             volume_halfway: middle.each_ref().map(|w| w.iter().sum::<f64>() * area),
             depth_halfway: middle

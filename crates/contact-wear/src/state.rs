@@ -7,6 +7,7 @@ use super::events::Event;
 use super::jump::Jump;
 use super::loss::Worn;
 use super::model::{Model, ModelState};
+use super::peak::error_of_largest;
 use super::settings::Wear;
 
 /// The state on which the next jump depends.
@@ -97,6 +98,11 @@ impl WearState {
             stick_ratio: seen.stick_ratio,
             depth_error: self.over_deepest(moved),
             volume_error: 0.0,
+            p_max_error: error_of_largest(
+                seen.p,
+                model.pressing().rows(),
+                seen.stick_ratio > 0.0 && self.worn.deepest() > 0.0,
+            ),
             // Late in life little slips; what has worn slipped when the zone was widest.
             slip_cells: self.history.iter().fold(
                 slip_cells(&model.pressing().grid, touches * area, seen.stick_ratio),

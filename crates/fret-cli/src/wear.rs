@@ -218,11 +218,21 @@ fn describe_event(event: &Event) -> String {
     }
 }
 
+/// The largest pressure \[MPa\] with its error; none in partial slip on worn surfaces.
+fn p_max(jump: &Jump) -> String {
+    if jump.p_max_error.is_infinite() {
+        "singular".to_owned()
+    } else {
+        let p = jump.p_max / 1e6;
+        with_error(p, Some(jump.p_max_error * p))
+    }
+}
+
 /// A line for every few jumps.
 fn table(jumps: &[Jump], grid: &Grid) -> String {
     let volume = grid.unit_of("m^3").replace('^', "");
     let mut lines = vec![format!(
-        "{:>12} {:>11} {:>11} {:>12} {:>12} {:>12} {:>10} {:>8}",
+        "{:>12} {:>11} {:>11} {:>12} {:>12} {:>12} {:>16} {:>8}",
         "cycles",
         "depth1 um",
         "depth2 um",
@@ -237,14 +247,14 @@ fn table(jumps: &[Jump], grid: &Grid) -> String {
     let shown = (0..=last).filter(|i| i % every == 0 || *i == last);
     for j in shown.map(|i| &jumps[i]) {
         lines.push(format!(
-            "{:12.1} {:11.4} {:11.4} {:12.4e} {:12.4e} {:12.4e} {:10.1} {:8.1e}",
+            "{:12.1} {:11.4} {:11.4} {:12.4e} {:12.4e} {:12.4e} {:>16} {:8.1e}",
             j.cycles,
             1e6 * j.depth[0],
             1e6 * j.depth[1],
             j.volume[0],
             j.volume[1],
             j.dissipated,
-            j.p_max / 1e6,
+            p_max(j),
             j.depth_error
         ));
     }

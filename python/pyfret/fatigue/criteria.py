@@ -177,6 +177,8 @@ def evaluate_margin(
 
     Takes the parameters of :func:`evaluate_criterion`. Adds ``safety_factor`` (limit over
     value) for criteria with a limit, and ``life`` [cycles] for those with a strain-life curve.
+    A life of more than 1e7 cycles, where no curve has tests, is infinite, as in
+    :class:`pyfret.fatigue.Life`; ``material.assessment(criterion).life(value)`` follows the curve.
 
     Raises
     ------
@@ -189,12 +191,14 @@ def evaluate_margin(
     )
     result.attrs["material"] = material.title
     name, unit, meaning = (
-        ("life", "1", "cycles until a crack has started")
+        ("life", "1", "cycles until a crack has started, infinite: more than 1e7")
         if assessment.limit is None
         else ("safety_factor", "1", "limit over value")
     )
     margin = assessment.life if assessment.limit is None else assessment.safety_factor
     values = np.array([margin(float(v)) for v in result.value.values.ravel()])
+    if assessment.limit is None:
+        values[values > _core.LONGEST_LIFE] = np.inf
     attrs = {"units": unit, "long_name": meaning}
     result[name] = (result.value.dims, values.reshape(result.value.shape), attrs)
     return result

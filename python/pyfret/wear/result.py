@@ -285,7 +285,7 @@ class WearResult(Saveable, Labelled, Figured):
             if frictionless(self.scene)
             else f"stick ratio {with_error(last['stick_ratio'])}"
         )
-        lines.append(f"largest pressure: {with_error(1e-6 * last['p_max'])} MPa, {sticks}")
+        lines.append(f"largest pressure: {self.largest_pressure(-1)}, {sticks}")
         for event in self.events:
             cycles = with_error(event["cycles"], event.get("cycles_error"))
             lines.append(
@@ -300,6 +300,15 @@ class WearResult(Saveable, Labelled, Figured):
         lines += [f"method: {method}"] if method else []
         lines += [f"doubted: {doubt}" for doubt in self.doubts]
         return shown("\n".join(lines))
+
+    def largest_pressure(self, jump: int) -> str:
+        """Format the largest pressure after a jump with its error, or say that it is singular."""
+        d = self.dataset
+        value = 1e-6 * float(d.p_max[jump])
+        error = float(d.p_max_error[jump]) if "p_max_error" in d else 0.0
+        if math.isinf(error):
+            return "singular at the border of the stick zone: it grows with the grid"
+        return f"{with_error(value, error * value)} MPa"
 
     @property
     def of_loops(self) -> str:
@@ -344,10 +353,10 @@ class WearResult(Saveable, Labelled, Figured):
         rows = [
             [f"{float(d.cycles[n]):.4g}"]
             + [f"{1e6 * float(d[name][n]):.4g}" for name in ("depth1", "depth2")]
-            + [f"{1e-6 * float(d.p_max[n]):.4g}"]
+            + [self.largest_pressure(n)]
             for n in at
         ]
-        heading = ["cycles", "depth, body 1 [µm]", "depth, body 2 [µm]", "p_max [MPa]"]
+        heading = ["cycles", "depth, body 1 [µm]", "depth, body 2 [µm]", "p_max"]
         return table(heading, rows)
 
     def __repr__(self) -> str:
