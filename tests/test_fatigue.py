@@ -59,6 +59,10 @@ def test_materials_and_lives(tmp_path: Path) -> None:
         for s in (500, 600, 700)
     ]
     assert lives[0] > lives[1] > lives[2] > 1e3
+    # Beyond the tests of a curve, as in the life of a result; the curve itself goes on.
+    beyond = fatigue.evaluate_margin(axial(200, -200), titanium, "smith_watson_topper")
+    assert np.isinf(beyond.life)
+    assert 1e7 < titanium.assessment("smith_watson_topper").life(float(beyond.value)) < np.inf
     with pytest.raises(ValueError, match=r"alumina`\.s_D: is missing \(fatigue limit"):
         fatigue.evaluate_margin(axial(1, -1), table["alumina"], "crossland")
     with pytest.raises(KeyError, match="steel_42CrMo4"):

@@ -189,3 +189,26 @@ def test_an_opening_is_right_or_not_given(increments: int | str) -> None:
     bound = max(float(loop.sliding_ratio_error[0]), 1e-3) * shift
     assert np.isnan(opening) or abs(opening - right) < bound, (opening, right)
     assert (increments == "auto") <= np.isfinite(opening)
+
+
+@pytest.mark.filterwarnings("ignore::pyfret.errors.SceneWarning")
+def test_the_sliding_ratio_has_the_error_of_the_cells_without_error_bars() -> None:
+    """Narrow and wide slip zones of equal balls, many increments: Mindlin, Deresiewicz (1953)."""
+    load, mu = 50.0, 0.5
+    a = fret.reference.hertz(R=10e-3, bodies=(STEEL, STEEL), W=load).a
+    ratios = []
+    for n in (16, 24, 32, 48):
+        for part in (0.15, 0.3, 0.5, 0.7, 0.9):
+            path = fret.LoadPath.start().normal(load, increments=1)
+            path = path.cycles(1, T_x=part * mu * load, increments=60)
+            scene = fret.Scene(
+                body1=fret.Body(STEEL, shape=fret.Sphere(R=10e-3)),
+                body2=fret.Body(STEEL),
+                friction=mu,
+                grid=fret.Grid.centred(width=2.4 * a, n=n),
+            )
+            last = fret.solve(scene, path, progress=False).loops().isel(cycle=-1)
+            off = abs(float(last.sliding_ratio) - sliding_ratio(part, 1.0))
+            ratios.append(off / float(last.sliding_ratio_error))
+    assert np.mean(np.array(ratios) < 1.5) >= 0.95, ratios
+    assert np.median(ratios) > 0.1

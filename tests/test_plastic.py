@@ -247,7 +247,9 @@ def turned(axis: str, s_y: float, quarter: int) -> xr.Dataset:
         body1=fret.Body(ball, shape=fret.Sphere(R=10e-3)),
         body2=fret.Body(flat),
         friction=mu,
-        grid=fret.Grid.centred(width=3.6 * fret.reference.hertz(R=10e-3, bodies=(ball, flat), W=W).a, n=20),
+        grid=fret.Grid.centred(
+            width=3.6 * fret.reference.hertz(R=10e-3, bodies=(ball, flat), W=W).a, n=20
+        ),
     )
     path = fret.LoadPath.start().normal(W, increments=3)
     path = path.cycles(1, **{f"T_{axis}": 0.8 * mu * W}, increments=5 * quarter)

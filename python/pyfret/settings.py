@@ -143,8 +143,8 @@ class Settings(Replaceable):
     tolerance : float, optional
         Relative tolerance of the solution [1]. It holds for the gap error over the Hertz approach h
         and the tangential misfit over mu h. It holds for the last change of the tractions, too.
-        Default 1e-6. Where increments are chosen it is 1/125 of ``path_tolerance`` if that is more, 1/2500
-        where loads only press.
+        Default 1e-6. Where increments are chosen it is 1/125 of ``path_tolerance`` if that is more,
+        1/2500 where loads only press.
     cell_entry_correction : bool
         Compute the slip of cells that come into contact from their entry (default True). It takes
         far fewer increments, with one more solution in each in which the contact grows.

@@ -108,8 +108,8 @@ fn spans(bodies: &[LayerRates; 2], cut: Cut, wear: &Wear) -> Vec<(f64, f64)> {
         // Depth of a body over the depth of the gap.
         let parts = rates.map(|rate| rate / growth);
         let bottoms = [0, 1].into_iter().filter_map(|b| {
-            let left = bodies[b].bottom(through[b])? - depths[b];
-            (parts[b] > 0.0).then(|| (b, left.max(0.0) / parts[b]))
+            let remaining = bodies[b].bottom(through[b])? - depths[b];
+            (parts[b] > 0.0).then(|| (b, remaining.max(0.0) / parts[b]))
         });
         let reached = bottoms
             .min_by(|a, b| a.1.total_cmp(&b.1))

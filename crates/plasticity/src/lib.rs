@@ -21,9 +21,9 @@
 //! // A strain in shear of 1 %, held: the stress falls back to the yield surface.
 //! let mu = 80e9;
 //! let trial = [0.0, 0.0, 0.0, 2.0 * mu * 0.01, 0.0, 0.0];
-//! let found = Point::default().advance(&steel, mu, &[0.0; 6], &trial);
-//! let left = trial[3] - 2.0 * mu * found.strain[3];
-//! let yield_stress = steel.yield_stress(found.equivalent);
+//! let end = Point::default().advance(&steel, mu, &[0.0; 6], &trial);
+//! let left = trial[3] - 2.0 * mu * end.strain[3];
+//! let yield_stress = steel.yield_stress(end.equivalent);
 //! assert!((3f64.sqrt() * left / yield_stress - 1.0).abs() < 1e-12);
 //! # Ok::<(), plasticity::Error>(())
 //! ```

@@ -54,7 +54,7 @@ LOOP = {
     "sliding_ratio": ("1", "opening over the range of the shift, NaN where not known to 0.05"),
     "sliding_ratio_error": (
         "1",
-        "error of the sliding ratio; without error bars by the increments and the width of the slip zone",
+        "error of the sliding ratio; without error bars by increments and width of the slip zone",
     ),
     "status": ("1", "0 no contact, 1 full stick, 2 partial slip, 3 gross slip"),
 }

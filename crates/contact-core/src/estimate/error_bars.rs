@@ -52,7 +52,7 @@ const BORDER: f64 = 0.04;
 /// plane strain, bulk stress in phase).
 const BORDER_UNDER_THIN: f64 = 0.25;
 const THIN: f64 = 2.0;
-/// The same of line contacts under bulk stress, bare and coated, whose stick zone lies beside the middle: half
+/// [`BORDER`] of line contacts under bulk stress, bare and coated, whose stick zone lies beside the middle: half
 /// the root mean square error of its width over a cycle, on 36 grids of 48 to 96 cells against 512 (titanium,
 /// bare and with one or two layers of 0.05 to 0.4 a, bulk stress in and out of phase).
 const BORDER_UNDER_BULK: [f64; 2] = [0.25, 0.4];
@@ -289,8 +289,8 @@ fn bars(
     }
 }
 
-/// Errors of the contact area A and of the stick area S A from those of the radius a and of the stick ratio
-/// S: dA = 2 A da/a, of a line contact A da/a; d(S A) = S dA + A dS.
+/// Errors of the contact area A and of the stick area S A from the errors of the radius a and of the
+/// stick ratio S: dA = 2 A da/a, of a line contact A da/a; d(S A) = S dA + A dS.
 fn bars_of_areas(scene: &Scene, fine: &BranchSummary, radius: Bar, stick: Bar) -> [Bar; 2] {
     let a = fine.contact_radius;
     let (area, slope) = if scene.grid.plane_strain {

@@ -173,8 +173,8 @@ fn an_elastic_part_of_an_increment_costs_no_order() {
     };
     let exact = strain_of(4096);
     let error = |steps: usize| {
-        let found = strain_of(steps);
-        let off: Tensor = std::array::from_fn(|c| found[c] - exact[c]);
+        let strain = strain_of(steps);
+        let off: Tensor = std::array::from_fn(|c| strain[c] - exact[c]);
         crate::equivalent_strain(&off) / crate::equivalent_strain(&exact)
     };
     let errors = [1, 4, 16].map(error);
@@ -197,8 +197,8 @@ fn a_point_on_its_surface_unloads_elastically() {
         0.0,
         0.0,
     ];
-    let found = Point::default().advance(&law, MU, &ZERO, &trial);
-    assert_eq!(found, Returned::default());
+    let end = Point::default().advance(&law, MU, &ZERO, &trial);
+    assert_eq!(end, Returned::default());
 }
 
 /// One step of a bar: the deviator of a total strain along x.
