@@ -302,7 +302,7 @@ class WearResult(Saveable, Labelled, Figured):
         return shown("\n".join(lines))
 
     def largest_pressure(self, jump: int) -> str:
-        """Format the largest pressure after a jump with its error, or the reason that it has none."""
+        """Format the largest pressure after a jump and its error, or why it has none."""
         d = self.dataset
         value = 1e-6 * float(d.p_max[jump])
         error = float(d.p_max_error[jump]) if "p_max_error" in d else 0.0
