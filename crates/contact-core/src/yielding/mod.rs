@@ -96,7 +96,7 @@ impl Yielding {
         self.mixing = Anderson::default();
         let tractions = [q_x, q_y, p].map(|field| self.volume.to_volume(field));
         for (n, body) in self.bodies.iter_mut().enumerate() {
-            body.begin(state.bodies.get(n), tractions.clone());
+            body.begin(state.bodies.get(n), &tractions);
         }
     }
 

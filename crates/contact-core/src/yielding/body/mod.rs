@@ -135,8 +135,8 @@ impl YieldingBody {
     }
 
     /// Starts from the state at the start of an increment and its tractions, with z into body 2 \[Pa\].
-    pub(super) fn begin(&mut self, state: Option<&PlasticState>, tractions: [Vec<f64>; 3]) {
-        self.start_tractions = self.facing(&tractions);
+    pub(super) fn begin(&mut self, state: Option<&PlasticState>, tractions: &[Vec<f64>; 3]) {
+        self.start_tractions = self.facing(tractions);
         self.start_stress.clear();
         for (point, ..) in std::mem::take(&mut self.active) {
             self.slot[point] = NONE;
@@ -235,7 +235,7 @@ impl YieldingBody {
         state: Option<&PlasticState>,
         tractions: Option<&[Vec<f64>; 3]>,
     ) -> (Vec<f64>, Vec<f64>) {
-        self.begin(state, Default::default());
+        self.begin(state, &Default::default());
         let signed = tractions.map(|tractions| self.facing(tractions));
         let mut stress = vec![0.0; self.operator.len()];
         let mut everywhere = vec![0.0; self.next_everywhere.len()];

@@ -87,7 +87,7 @@ impl YieldingBody {
         &mut self,
         tractions: &[Vec<f64>; 3],
     ) -> Option<(f64, usize, usize, f64)> {
-        self.begin(None, Default::default());
+        self.begin(None, &Default::default());
         self.tractions = self.facing(tractions);
         self.respond();
         let cells = self.cells();
