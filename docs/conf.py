@@ -7,7 +7,10 @@ import sys
 import warnings
 from pathlib import Path
 
+import matplotlib as mpl
+
 import pyfret
+from pyfret._util import theme
 
 # What the pages run is run with this interpreter, whichever comes first on PATH otherwise.
 os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
@@ -42,11 +45,29 @@ napoleon_google_docstring = False
 napoleon_use_rtype = False
 
 html_theme = "furo"
+html_theme_options = {
+    f"{name}_css_variables": {
+        "color-brand-primary": values["--accent"],
+        "color-brand-content": values["--accent"],
+        "color-background-primary": values["--ground"],
+        "color-foreground-primary": values["--ink"],
+        "font-stack": values["--font"],
+    }
+    for name, values in (("light", theme.variables()), ("dark", theme.variables(dark=True)))
+}
 html_title = f"pyfret {release}"
 html_copy_source = False
 
 warnings.filterwarnings("ignore", category=pyfret.errors.SceneWarning)
+
+
+def use_theme(_: object, __: str) -> None:
+    """Give the figures of the gallery the theme."""
+    mpl.rcParams.update(theme.settings())
+
+
 sphinx_gallery_conf = {
+    "reset_modules": ("matplotlib", use_theme),
     "examples_dirs": [str(Path(__file__).parents[1] / "examples" / "gallery")],
     "gallery_dirs": ["gallery"],
     "filename_pattern": r"\.py$",

@@ -315,7 +315,8 @@ def page() -> str:
     lines = [
         "# All figures",
         "",
-        "Every figure takes `ax=`, to be drawn over others or into a figure of yours. Figures over",
+        '`width="column"` draws a figure for a column of 85 mm, `width="page"` for 170 mm.',
+        "A figure of one panel takes `ax=`, to be drawn into a figure of yours. Figures over",
         "a_H and p_H take `units=`. A figure of a result is also a method of it:",
         "`result.plot.fretting_loop()`, `worn.plot.wear_history()`. Figures of plain arrays,",
         "datasets and tables are functions alone. A figure of one panel returns its axes, one of",
@@ -340,6 +341,7 @@ def main() -> None:
     warnings.simplefilter("ignore")
     PICTURES.mkdir(parents=True, exist_ok=True)
     given = names()
+    plot.animate(given["result"], PICTURES.parent / "contact.gif", fps=4, dpi=60)
     for figures in FIGURES.values():
         for name, code in figures.items():
             picture(eval(code, given), PICTURES / f"{name}.png")

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.animation import FFMpegWriter, FuncAnimation, PillowWriter
+from PIL import Image
 
 from pyfret._util.arrays import plain
 from pyfret.plot.histories import fretting_loop, loop_point
@@ -16,12 +18,49 @@ from pyfret.plot.style import styled
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
+
+    from matplotlib.axes import Axes
 
     from pyfret.run import Run
 
-#: What a file is written with, by its ending.
-WRITERS = {".mp4": FFMpegWriter, ".gif": PillowWriter}
+
+class OnePalette(PillowWriter):
+    """A writer of GIF files whose frames share the colours of all of them."""
+
+    def finish(self) -> None:
+        """Reduce the colours of all frames together, and write the file."""
+        frames = [frame.convert("RGB") for frame in self._frames]  # type: ignore[has-type]
+        step = max(len(frames) // SAMPLES, 1)
+        sampled = frames[::step]
+        width, height = sampled[0].size
+        sheet = Image.new("RGB", (width, height * len(sampled)))
+        for n, frame in enumerate(sampled):
+            sheet.paste(frame, (0, n * height))
+        palette = sheet.quantize(256)
+        self._frames = [
+            frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames
+        ]
+        super().finish()
+
+
+#: Frames that the colours of a film are taken from.
+SAMPLES = 4
+#: Writers of files, by their endings.
+WRITERS = {".mp4": FFMpegWriter, ".gif": OnePalette}
+
+
+def common_limits(
+    snapshots: Sequence[Any], draw: Callable[..., Any], ax: Axes
+) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Return the limits of axes that show a map of all increments."""
+    limits = []
+    for at in (snapshots[0], snapshots[len(snapshots) // 2], snapshots[-1]):
+        ax.clear()
+        draw(at, ax=ax)
+        limits.append((*ax.get_xlim(), *ax.get_ylim()))
+    low, high = np.min(limits, axis=0), np.max(limits, axis=0)
+    return (float(low[0]), float(high[1])), (float(low[2]), float(high[3]))
 
 
 @styled
@@ -35,7 +74,8 @@ def animate(
 ) -> None:
     """Write the loop, the stick and slip zones and the shear of a path as a film.
 
-    A frame is an increment that kept its fields: solve with ``save="all"`` for all of them.
+    A frame is an increment that kept its fields: solve with ``save="all"`` for all of them. Axes
+    and scales of colours are the same in all frames, and each frame has its time.
 
     Parameters
     ----------
@@ -73,20 +113,27 @@ def animate(
     figure, row = plt.subplots(1, 3, figsize=(11, 3.6), layout="constrained")
     fretting_loop(result, ax=row[0], color="0.75")
     (dot,) = row[0].plot([], [], "o", color="C1", markersize=7)
-    shear_streamlines(snapshots[-1], ax=row[2], largest=largest / mu_p)
-    bar = figure.axes[-1]
+    maps: list[Callable[..., Any]] = [
+        stick_slip,
+        partial(shear_streamlines, largest=largest / mu_p, colorbar=False),
+    ]
+    limits = [
+        common_limits(snapshots, draw_map, ax) for draw_map, ax in zip(maps, row[1:], strict=True)
+    ]
 
     def draw(n: int) -> Any:
         at = snapshots[n]
         dot.set_data(*loop_point(result, at))
-        for ax, plot in ((row[1], stick_slip), (row[2], None)):
+        for ax in row[1:]:
             ax.clear()
-            if plot is not None:
-                plot(at, ax=ax)
-            else:
-                shear_streamlines(at, ax=ax, largest=largest / mu_p, colorbar=False)
-        row[0].set_title(f"increment {int(at.increment)}")
-        return (dot, bar)
+        stick_slip(at, ax=row[1])
+        shear_streamlines(at, ax=row[2], largest=largest / mu_p)
+        for ax, (across, up) in zip(row[1:], limits, strict=True):
+            ax.set_xlim(across)
+            ax.set_ylim(up)
+        time = f"increment {int(at.increment)}, t = {float(at.dataset.t):.4g}"
+        row[0].set_title(time)
+        return (dot,)
 
     film = FuncAnimation(figure, draw, frames=len(snapshots), blit=False)
     film.save(target, writer=WRITERS[target.suffix](fps=fps), dpi=dpi)

@@ -12,13 +12,17 @@
   document.head.append(program);
   const data = JSON.parse(await unpacked("packed-numbers"));
   const fields = data.fields;
-  const colours = { stick: "#0072B2", slip: "#F2C9A9", first: "#0072B2", second: "#D55E00", bound: "#9A9A9A" };
-  const options = { responsive: true, displaylogo: false, modeBarButtonsToRemove: ["lasso2d", "select2d"] };
+  // Figures need a place of a size to be drawn into.
+  document.body.dataset.drawing = "yes";
+  const dark = matchMedia("(prefers-color-scheme: dark)").matches;
+  const look = data.theme[dark ? "dark" : "light"];
+  const { colours, scale } = look;
+  const options = { responsive: true, displaylogo: false, displayModeBar: "hover", modeBarButtonsToRemove: ["lasso2d", "select2d"] };
   const layout = (x, y, more = {}) => ({
     margin: { l: 60, r: 12, t: 10, b: 56 },
-    font: { size: 12 },
-    xaxis: { title: { text: x, standoff: 6 }, zeroline: false },
-    yaxis: { title: { text: y }, zeroline: false },
+    ...look.layout,
+    xaxis: { ...look.layout.xaxis, title: { text: x, standoff: 6 }, zeroline: false },
+    yaxis: { ...look.layout.yaxis, title: { text: y }, zeroline: false },
     legend: { orientation: "h", y: 1.12 },
     ...more,
   });
@@ -57,8 +61,8 @@
     if (fields.flat) {
       alongX(at);
     } else {
-      map("p", at.p, { zmin: 0, zmax: fields.largest.p, colorscale: "YlGnBu", reversescale: true, colorbar: bar("p [MPa]") });
-      map("q", at.q, { zmin: 0, zmax: fields.largest.q || 1, colorscale: "YlGnBu", reversescale: true, colorbar: bar("|q| [MPa]") });
+      map("p", at.p, { zmin: 0, zmax: fields.largest.p, colorscale: scale, colorbar: bar("p [MPa]") });
+      map("q", at.q, { zmin: 0, zmax: fields.largest.q || 1, colorscale: scale, colorbar: bar("|q| [MPa]") });
       map("zone", at.zone, {
         zmin: 1, zmax: 2, showscale: false,
         colorscale: [[0, colours.slip], [0.5, colours.slip], [0.5, colours.stick], [1, colours.stick]],
@@ -112,25 +116,26 @@
     const [x, y, z] = stress.largest.at.map((of) => of.toPrecision(3));
     const crack = [];
     if (stress.crack) {
-      const way = (of, line) => crack.push({ x: of.x, y: of.z, mode: "lines", line: { color: "black", ...line }, hoverinfo: "skip", showlegend: false });
+      const way = (of, line) => crack.push({ x: of.x, y: of.z, mode: "lines", line: { color: colours.ink, ...line }, hoverinfo: "skip", showlegend: false });
       way(stress.crack.grown, { width: 2.5 });
       way(stress.crack.rest, { width: 1, dash: "dash" });
       if (stress.crack.end) {
-        crack.push({ x: stress.crack.end.x, y: stress.crack.end.z, mode: "markers", marker: { size: 8, color: "#a50f15" }, hoverinfo: "skip", showlegend: false });
+        crack.push({ x: stress.crack.end.x, y: stress.crack.end.z, mode: "markers", marker: { size: 8, color: colours.crack }, hoverinfo: "skip", showlegend: false });
       }
     }
     document.getElementById("body").textContent = stress.body;
     document.getElementById("plane").textContent = stress.plane;
     Plotly.newPlot("stress", [
-      { type: "heatmap", x: stress.x, y: stress.place, z: stress.values, customdata: stress.z.map((z) => stress.x.map(() => z)), hovertemplate: stress.along + " %{x} µm, z %{customdata} µm: %{z} MPa<extra></extra>", colorscale: "YlGnBu", reversescale: true, colorbar: { title: { text: "von Mises [MPa]", side: "right" }, thickness: 12 } },
+      { type: "heatmap", x: stress.x, y: stress.place, z: stress.values, customdata: stress.z.map((z) => stress.x.map(() => z)), hovertemplate: stress.along + " %{x} µm, z %{customdata} µm: %{z} MPa<extra></extra>", colorscale: scale, colorbar: { title: { text: "von Mises [MPa]", side: "right" }, thickness: 12 } },
       { x: [stress.mark[0]], y: [stress.mark[1]], mode: "markers", marker: { symbol: "x-thin", size: 10, line: { width: 2, color: "black" } }, hoverinfo: "skip", showlegend: false },
       ...crack,
     ], section, options);
     document.getElementById("largest").textContent =
-      `the cross marks the largest, ${stress.largest.value} MPa at x = ${x} µm, y = ${y} µm, z = ${z} µm${stress.crack ? `; the line is the crack${stress.crack.end ? `, dashed beyond the dot: it ${stress.crack.briefly}` : ""}` : ""}.${stress.interfaces.length ? " Each layer has a scale of depth of its own." : ""}`;
+      `the cross marks the largest, ${stress.largest.value.replace("+-", "±")} MPa at x = ${x} µm, y = ${y} µm, z = ${z} µm${stress.crack ? `; the line is the crack${stress.crack.end ? `, dashed beyond the dot: it ${stress.crack.briefly}` : ""}` : ""}.${stress.interfaces.length ? " Each layer has a scale of depth of its own." : ""}`;
   } else {
     document.getElementById("below").remove();
   }
+  for (const id of ["cracked", "worn"]) document.getElementById(id).hidden = false;
   if (data.crack) {
     const of = data.crack;
     document.getElementById("verdict").textContent = of.says;
@@ -147,7 +152,7 @@
       axes.yaxis = { ...axes.yaxis, type: "log", dtick: "D2" };
       const lines = [
         { x: length, y: load, name: "load", line: { color: colours.first } },
-        { x: length, y: limit, name: "limit", line: { color: "black" } },
+        { x: length, y: limit, name: "limit", line: { color: colours.ink } },
       ];
       if (smooth !== null) {
         lines.push({ x: [length[0], length[length.length - 1]], y: [smooth, smooth], name: "fatigue limit", mode: "lines", line: { color: colours.bound, dash: "dot" } });

@@ -8,9 +8,10 @@ import io
 import json
 from pathlib import Path
 from string import Template
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from pyfret._core import Scene, __version__
+from pyfret._util import theme
 from pyfret._util.files import beside
 from pyfret._util.text import html
 from pyfret.citation import sources
@@ -105,7 +106,7 @@ def report(
         title=html(str(result.dataset.attrs["title"]) or "Fretting contact"),
         version=html(str(result.dataset.attrs.get("version", __version__))),
         status=html(result.status),
-        doubts="".join(f"<p>Doubted: {html(doubt)}.</p>" for doubt in result.doubts),
+        doubts="".join(f'<p class="doubt">Doubted: {html(doubt)}.</p>' for doubt in result.doubts),
         scene=scene_html(result.scene),
         ends=ends_table(result),
         bars=bars(result),
@@ -113,15 +114,18 @@ def report(
         plan=plan(result),
         sources=cited(result),
         surfaces="" if wear is None else SURFACES.format(of=html(wear.of_loops)),
-        worn="" if wear is None else f"<pre>{html(wear.summary())}</pre>",
+        worn="" if wear is None else f'<pre tabindex="0">{html(wear.summary())}</pre>',
         more="".join(
             picture(caption, figure)
             for caption, figure in {**yielded(result), **(figures or {})}.items()
         ),
         toml=html(result.scene.to_toml()),
-        css=(HERE / "page.css").read_text(encoding="utf-8"),
+        css=theme.css_variables() + (HERE / "page.css").read_text(encoding="utf-8"),
         js=(HERE / "page.js").read_text(encoding="utf-8"),
-        numbers=packed(json.dumps(numbers(result, wear, cracked), allow_nan=False)),
+        numbers=packed(
+            json.dumps({**numbers(result, wear, cracked), "theme": looks()}, allow_nan=False)
+        ),
+        **stills(result, wear, crack, threshold),
         plotly=packed(drawing()),
     )
     with beside(target) as unfinished:
@@ -204,6 +208,69 @@ def cited(result: Run) -> str:
         for s in sources(result)
     ]
     return f"<ul>{''.join(rows)}</ul>"
+
+
+def looks() -> dict[str, Any]:
+    """Return the theme of the figures, on a light and on a dark screen."""
+    out = {}
+    for name, dark in (("light", False), ("dark", True)):
+        values = theme.variables(dark=dark)
+        first, second = (values[f"--category-{n}"] for n in (1, 2))
+        meanings = {key: values[f"--{key}"] for key in ("stick", "slip", "crack", "ink")}
+        colours = {**meanings, "first": first, "second": second, "bound": values["--reference"]}
+        layout = theme.plotly_layout(dark=dark)
+        out[name] = {
+            "colours": colours,
+            "layout": layout,
+            "scale": theme.plotly_scale("sequential"),
+        }
+    return out
+
+
+def stills(
+    result: Run, wear: WearResult | None, crack: Cracks | None, threshold: Threshold | None
+) -> dict[str, str]:
+    """Return the figures that are seen on paper, and wherever no program draws."""
+    from pyfret import plot
+
+    shown = {"still": [("the loop, the contact and the stress below", plot.overview(result))]}
+    shown["still_crack"] = []
+    if crack is not None:
+        largest = crack.lengths[len(crack.lengths) // 2]
+        figure = plot.intensity_history(crack, float(largest)).figure
+        shown["still_crack"] = [("stress intensity over the cycle", figure)]
+        if threshold is not None:
+            diagram = plot.kitagawa(crack, threshold).figure
+            shown["still_crack"].append(("diagram of Kitagawa and Takahashi", diagram))
+    shown["still_wear"] = []
+    if wear is not None:
+        history, loops = plot.wear_history(wear).figure, plot.wear_loops(wear).figure
+        shown["still_wear"] = [("worn depth over cycles", history), ("friction loops", loops)]
+    pages = {key: "".join(image(*pair) for pair in pairs) for key, pairs in shown.items()}
+    for pairs in shown.values():
+        for _, figure in pairs:
+            close(figure)
+    return {
+        **pages,
+        "verdict": "",
+        "no_crack": "hidden" if crack is None else "",
+        "no_wear": "hidden" if wear is None else "",
+    }
+
+
+def close(figure: Figure) -> None:
+    """Close a figure."""
+    import matplotlib.pyplot as plt
+
+    plt.close(figure)
+
+
+def image(caption: str, figure: Figure) -> str:
+    """Return a figure of matplotlib as an image of vectors, described by its caption."""
+    file = io.BytesIO()
+    figure.savefig(file, format="svg")
+    data = base64.b64encode(file.getvalue()).decode("ascii")
+    return f'<img alt="{html(caption)}" src="data:image/svg+xml;base64,{data}">'
 
 
 def picture(caption: str, figure: Figure) -> str:

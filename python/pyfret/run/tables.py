@@ -31,6 +31,8 @@ ENDS = {
     "delta_x": "&delta;<sub>x</sub>",
     "delta_y": "&delta;<sub>y</sub>",
     "phi_z": "&phi;<sub>z</sub>",
+    "sigma_B": "&sigma;<sub>B</sub>",
+    "sigma_B1": "&sigma;<sub>B1</sub>",
     "contact_radius": "contact radius",
     "half_width": "half width",
     "p_max": "p<sub>max</sub>",
@@ -107,7 +109,7 @@ def cycles_table(result: Run, direction: Any) -> str:
         ]
         for n, loop in ((n, loops.isel(cycle=n)) for n in range(loops.sizes["cycle"]))
     ]
-    return table(titles, rows)
+    return table(titles, [[cell.replace("+-", "&plusmn;") for cell in row] for row in rows])
 
 
 def run_html(result: Run) -> str:

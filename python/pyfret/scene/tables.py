@@ -47,12 +47,15 @@ def table(heading: Sequence[str], rows: Iterable[Sequence[str]], *, words: bool 
     `words` are broken and begin on the left.
     """
     alignment = ' style="text-align: left"' if words else ""
-    head = "".join(f"<th{alignment}>{cell}</th>" for cell in heading)
+    # A head without words is no head to those who listen.
+    head = "".join(
+        f"<th{alignment}>{cell}</th>" if cell else f"<td{alignment}></td>" for cell in heading
+    )
     lines = ("".join(f"<td{alignment}>{cell}</td>" for cell in row) for row in rows)
     body = "".join(f"<tr>{line}</tr>" for line in lines)
     kind = ' class="words"' if words else ""
     return (
-        f'<div class="wide"><table{kind}><thead><tr>{head}</tr></thead>'
+        f'<div class="wide" tabindex="0"><table{kind}><thead><tr>{head}</tr></thead>'
         f"<tbody>{body}</tbody></table></div>"
     )
 
