@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import json
 import os
 import signal
 import subprocess
 import sys
 from pathlib import Path
 
+import numcodecs
 import numpy as np
 import pytest
 import xarray as xr
 
 import pyfret as fret
+from pyfret._core import StoreError
 from pyfret._util import files
 from pyfret.study.ledger import FILE
 
@@ -26,6 +29,7 @@ WRITE = """
 import os, sys
 import xarray as xr
 import pyfret as fret
+from pyfret._core import StoreError
 from pyfret._util import files
 from pyfret.study.ledger import FILE
 count = 0
@@ -118,3 +122,28 @@ def test_the_same_numbers_give_the_same_bytes(
     different = {name for name in first if first[name] != second[name]}
     assert all(name.startswith("seconds/") or name == FILE for name in different), different
     assert times
+
+
+@pytest.mark.parametrize("codec", ["gzip", "zlib", "zstd", "blosc"])
+def test_a_chunk_that_unpacks_to_more_than_its_array_is_refused(codec: str, tmp_path: Path) -> None:
+    """Before it is unpacked whole: a chunk of one megabyte that holds hundreds."""
+    folder = tmp_path / "copy.zarr"
+    files.write(xr.Dataset({"a": ("x", np.zeros(1000))}), folder)
+    packers = {
+        "gzip": numcodecs.GZip(level=1),
+        "zlib": numcodecs.Zlib(level=1),
+        "zstd": numcodecs.Zstd(level=1),
+        "blosc": numcodecs.Blosc(),
+    }
+    for document in (folder / "a" / ".zarray", folder / ".zmetadata"):
+        text = json.loads(document.read_text())
+        array = text.get("metadata", {}).get("a/.zarray", text)
+        array["compressor"] = packers[codec].get_config()
+        document.write_text(json.dumps(text))
+    chunk = folder / "a" / "0"
+    chunk.write_bytes(packers[codec].encode(bytes(8000)))
+    assert float(files.opened(folder).a.sum()) == 0.0
+    chunk.write_bytes(packers[codec].encode(bytes(400 << 20)))
+    assert chunk.stat().st_size < 1 << 22
+    with pytest.raises(StoreError, match=r"a/0: unpacks to more than its 8000 bytes"):
+        files.opened(folder)

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pyfret._core import StoreError, read_bytes, shown
+from pyfret._util.unpacking import unpacks_within
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -23,6 +24,8 @@ __all__ = ["check_store"]
 
 #: Codecs that pyfret writes, or xarray for it.
 CODECS = frozenset(("gzip", "zlib", "zstd", "blosc", "bytes", "crc32c"))
+#: Codecs that pack.
+PACKED = frozenset(("gzip", "zlib", "zstd", "blosc"))
 #: Types of numbers and text of a fixed length, in Zarr 2 and 3.
 TYPES = re.compile(r"[<>|]?(b1|[iu][1248]|f[248]|[US]\d{1,6})")
 NAMES = frozenset(
@@ -133,6 +136,20 @@ def codecs(of: Mapping[str, Any]) -> list[Any]:
     return [*named, *(listed if isinstance(listed, list) else [listed])]
 
 
+def check_chunks(of: Mapping[str, Any], where: Path, root: Path, limit: int) -> None:
+    """Refuse chunks that unpack to more bytes than the metadata of the array have room for."""
+    if not (where.resolve().is_relative_to(root.resolve()) and where.is_dir()):
+        return
+    words = (c.get("id", c.get("name")) if isinstance(c, dict) else c for c in codecs(of))
+    names = sorted({str(word) for word in words} & PACKED)
+    for file in entries(where, DEEPEST):
+        if not file.name.startswith((".", "zarr")):
+            for name in names:
+                if not unpacks_within(file, name, limit):
+                    shown_name = file.relative_to(root)
+                    raise Refused(f"{shown_name}: unpacks to more than its {limit} bytes")
+
+
 def check_size(of: Mapping[str, Any], where: Path, root: Path, word: str) -> None:
     """Refuse an array that says it is larger than its files can make it."""
     grid = of.get("chunk_grid") or {}
@@ -150,6 +167,7 @@ def check_size(of: Mapping[str, Any], where: Path, root: Path, word: str) -> Non
     values, chunk = math.prod(of["shape"]), math.prod(chunks or [1])
     if chunk > LARGEST:
         raise Refused(f"{where.name}: has chunks of {chunk} values: must be {LARGEST} at most")
+    check_chunks(of, where, root, chunk * each * (4 if "U" in word else 1))
     if values * each <= FREE:
         return
     inside = where.resolve().is_relative_to(root.resolve()) and where.is_dir()
