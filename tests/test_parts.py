@@ -50,6 +50,8 @@ PARTS: list[tuple[Any, dict[str, Any]]] = [
     (fret.shapes.Cone(slope=0.01), {"slope": 0.02}),
     (fret.shapes.Wedge(slope=0.01), {"angle": 0.1}),
     (fret.shapes.FlatPunch(radius=1e-3, edge=1e-4), {"edge": 2e-4}),
+    (fret.shapes.Ring(radius=1e-3, R=1e-2), {"R": 2e-2}),
+    (fret.shapes.Ridges(R=1e-2, spacing=1e-4), {"count": 3.0}),
     (fret.shapes.Waviness(amplitude=1e-7, wavelength=1e-5), {"phase": 1.0}),
     (fret.shapes.Rough(rms=1e-7, hurst=0.8, longest=1e-4, shortest=1e-5, seed=3), {"seed": 4}),
     (MAP, {"spacing": (3e-6, 3e-6)}),

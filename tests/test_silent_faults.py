@@ -30,6 +30,7 @@ ANGLED: dict[str, dict[str, Any]] = {
     "CrownedRoller": {"R": 0.01, "length": 1e-3, "crown": 0.1},
     "Ellipsoid": {"R_x": 0.01, "R_y": 0.02},
     "Wedge": {"slope": 0.01},
+    "Ridges": {"R": 0.01, "spacing": 1e-4},
     "Waviness": {"amplitude": 1e-8, "wavelength": 1e-4},
 }
 

@@ -55,6 +55,8 @@ VALUES: list[Any] = [
     fret.shapes.Cone(slope=0.01),
     fret.shapes.Wedge(slope=0.01),
     fret.shapes.FlatPunch(radius=1e-3, edge=1e-4),
+    fret.shapes.Ring(radius=1e-3, R=1e-2),
+    fret.shapes.Ridges(R=1e-2, spacing=1e-4, count=3),
     fret.shapes.Waviness(amplitude=1e-7, wavelength=1e-5),
     fret.shapes.Rough(rms=1e-7, hurst=0.8, longest=1e-4, shortest=1e-5, seed=3),
     fret.Sphere(1.0) + MAP,

@@ -185,6 +185,8 @@ class Body:
         | Cone
         | Wedge
         | FlatPunch
+        | Ring
+        | Ridges
         | Waviness
         | Rough
         | SurfaceMap
@@ -227,6 +229,8 @@ class Body:
         | Cone
         | Wedge
         | FlatPunch
+        | Ring
+        | Ridges
         | Waviness
         | SurfaceMap
         | Rough
@@ -2522,6 +2526,82 @@ class Profile:
         """Interpolate linearly between the points (s, value), s rising from 0 to 1."""
 
 @final
+class Ridges:
+    """
+    Parallel round ridges along y, turned by `angle`, symmetric about the origin.
+
+    Between two crests the surface follows the nearer one.
+
+    Parameters
+    ----------
+    R : float
+        Radius of a ridge [m].
+    spacing : float
+        Distance of neighbouring crests [m].
+    count : float
+        Number of ridges, a whole number; infinite (default): a row without an end.
+    angle : float
+        Turn of the ridges from y [rad].
+    """
+
+    @property
+    def R(self, /) -> float:
+        """Radius of a ridge [m]."""
+    def __add__(self, other: object, /) -> Sum: ...
+    def __radd__(self, other: object, /) -> Sum: ...
+    def __eq__(self, value: object, /) -> bool: ...
+    def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
+    def __hash__(self, /) -> int: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __new__(
+        cls, /, *, R: Radius, spacing: Length, count: float = ..., angle: Angle = 0.0
+    ) -> Ridges: ...
+    def __replace__(self, /, **changes: Any) -> Self: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def angle(self, /) -> float:
+        """Turn of the ridges from y [rad]."""
+    @property
+    def count(self, /) -> float:
+        """Number of ridges; infinite for a row without an end."""
+    def replace(self, /, **changes: Any) -> Self:
+        """Return a copy with some of its parts exchanged, named as in the constructor."""
+    @property
+    def spacing(self, /) -> float:
+        """Distance of neighbouring crests [m]."""
+
+@final
+class Ring:
+    """
+    A round ridge along a circle about the origin: a ring, an O-ring, the rim of a cup.
+
+    Parameters
+    ----------
+    radius : float
+        Radius of the circle of its crest [m].
+    R : float
+        Radius of its cross-section [m].
+    """
+
+    @property
+    def R(self, /) -> float:
+        """Radius of its cross-section [m]."""
+    def __add__(self, other: object, /) -> Sum: ...
+    def __radd__(self, other: object, /) -> Sum: ...
+    def __eq__(self, value: object, /) -> bool: ...
+    def __getnewargs_ex__(self, /) -> tuple[tuple[()], dict[str, Any]]: ...
+    def __hash__(self, /) -> int: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __new__(cls, /, *, radius: Length, R: Radius) -> Ring: ...
+    def __replace__(self, /, **changes: Any) -> Self: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def radius(self, /) -> float:
+        """Radius of the circle of its crest [m]."""
+    def replace(self, /, **changes: Any) -> Self:
+        """Return a copy with some of its parts exchanged, named as in the constructor."""
+
+@final
 class Rough:
     """
     A random self-affine surface; add it to a shape.
@@ -3187,6 +3267,8 @@ class Sum:
             | Cone
             | Wedge
             | FlatPunch
+            | Ring
+            | Ridges
             | Waviness
             | Rough
             | SurfaceMap
@@ -3207,6 +3289,8 @@ class Sum:
         | Cone
         | Wedge
         | FlatPunch
+        | Ring
+        | Ridges
         | Waviness
         | SurfaceMap
         | Rough
@@ -3634,12 +3718,7 @@ def cycle_temperature(
     """Temperature over a cycle; use :meth:`pyfret.Result.temperature`."""
 
 def damage_of_values(
-    assessment: Assessment,
-    values: ArrayLike,
-    *,
-    below: str,
-    knee: float,
-    exponent: float | None,
+    assessment: Assessment, values: ArrayLike, *, below: str, knee: float, exponent: float | None
 ) -> NDArray[np.float64]:
     """
     Damage of one loop for each value of a criterion.
@@ -4041,8 +4120,8 @@ def spectral_cycles(
     Cycles of a Gaussian process with a one-sided density per Hz, by "rayleigh" or "dirlik".
 
     `moments` are m_0, m_1, m_2 and m_4. `rates` are up-crossings, peaks and cycles per second.
-    `exceedance` is the part of the cycles that exceeds each of `amplitudes`. `mean_power` is the
-    mean of amplitude^k over the cycles for every k of `powers`.
+    `exceedance` is the part of the cycles that exceeds each of `amplitudes`. `mean_power` is the mean
+    of amplitude^k over the cycles for every k of `powers`.
     """
 
 def stress_at(
@@ -4222,6 +4301,8 @@ __all__ = [
     "Plastic",
     "PlasticBody",
     "Profile",
+    "Ridges",
+    "Ring",
     "Rough",
     "Scene",
     "SlidingError",

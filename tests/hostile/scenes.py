@@ -110,6 +110,12 @@ CALLS: list[Call] = [
         {"slope": 0.01, "angle": 0.1},
     ),
     ("FlatPunch", lambda **k: shaped(fret.shapes.FlatPunch(**k)), {"radius": 1e-4, "edge": 0.01}),
+    ("Ring", lambda **k: shaped(fret.shapes.Ring(**k)), {"radius": 1e-4, "R": 0.01}),
+    (
+        "Ridges",
+        lambda **k: shaped(fret.shapes.Ridges(**k)),
+        {"R": 0.01, "spacing": 1e-4, "count": 3.0, "angle": 0.1},
+    ),
     (
         "Waviness",
         lambda **k: shaped(fret.shapes.Waviness(**k) + fret.Sphere(R=0.01)),

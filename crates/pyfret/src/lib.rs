@@ -101,8 +101,8 @@ mod _core {
     #[pymodule_export]
     use crate::scene::{
         Body, Bond, Branch, Coating, Cone, CrownedRoller, Cylinder, Elastic, Ellipsoid, Flat,
-        FlatPunch, Friction, Grid, History, LoadPath, PerRange, Plastic, Profile, Rough, Scene,
-        Spacing, Sphere, Sum, SurfaceMap, Waviness, Wedge, check_settings, graded,
+        FlatPunch, Friction, Grid, History, LoadPath, PerRange, Plastic, Profile, Ridges, Ring,
+        Rough, Scene, Spacing, Sphere, Sum, SurfaceMap, Waviness, Wedge, check_settings, graded,
     };
 
     #[pymodule_export]

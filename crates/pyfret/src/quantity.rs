@@ -51,7 +51,7 @@ macro_rules! taken {
 }
 
 taken! {
-    E thickness R R_x R_y length crown radius edge amplitude wavelength angle phase slope
+    E thickness R R_x R_y length crown radius edge spacing count amplitude wavelength angle phase slope
     W T_x T_y M_x M_y M_z delta_x delta_y phi_z sigma_B sigma_B1 rolled stiffness
     s_y hardening voce_Q kinematic
     azimuth depth extent longest rms shortest frequency delta_z phi_x phi_y t rig_stiffness

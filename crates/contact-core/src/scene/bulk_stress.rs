@@ -46,9 +46,9 @@ impl Body {
         }
         let axis = match self.shape {
             // The axis is y turned by the angle.
-            Shape::Cylinder { angle, .. } | Shape::CrownedRoller { angle, .. } => {
-                std::f64::consts::FRAC_PI_2 + angle
-            }
+            Shape::Cylinder { angle, .. }
+            | Shape::CrownedRoller { angle, .. }
+            | Shape::Ridges { angle, .. } => std::f64::consts::FRAC_PI_2 + angle,
             _ => 0.0,
         };
         let azimuth = self.bulk.azimuth.unwrap_or(axis);

@@ -153,6 +153,7 @@ impl Scene {
         doubts.extend(breadth.and_then(|breadth| self.doubt_of_breadth(&breadth)));
         doubts.extend(self.doubts_of_cells());
         doubts.extend(self.doubt_of_adhesion());
+        doubts.extend(self.doubt_of_heathcote_slip());
         doubts
     }
 
@@ -455,6 +456,7 @@ fn angles(shape: &Shape) -> Vec<(&'static str, f64)> {
         Shape::Ellipsoid { angle, .. }
         | Shape::Cylinder { angle, .. }
         | Shape::CrownedRoller { angle, .. }
+        | Shape::Ridges { angle, .. }
         | Shape::Wedge { angle, .. } => vec![("angle", angle)],
         Shape::Waviness { angle, phase, .. } => vec![("angle", angle), ("phase", phase)],
         Shape::Sum(ref parts) => parts.iter().flat_map(angles).collect(),

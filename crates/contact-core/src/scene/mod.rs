@@ -12,6 +12,7 @@ mod files;
 mod friction;
 mod friction_law;
 mod grid;
+mod heathcote;
 mod load_path;
 mod loads;
 mod magnitude;

@@ -26,7 +26,7 @@ pub(crate) use load_path::LoadPath;
 pub(crate) use profile::{Profile, graded};
 pub(crate) use settings::{Settings, check_settings};
 pub(crate) use shape::{
-    Cone, CrownedRoller, Cylinder, Ellipsoid, Flat, FlatPunch, Rough, Sphere, Sum, SurfaceMap,
-    Waviness, Wedge,
+    Cone, CrownedRoller, Cylinder, Ellipsoid, Flat, FlatPunch, Ridges, Ring, Rough, Sphere, Sum,
+    SurfaceMap, Waviness, Wedge,
 };
 pub(crate) use whole::Scene;

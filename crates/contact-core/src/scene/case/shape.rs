@@ -8,7 +8,7 @@ use super::section::{Section, pair};
 use crate::scene::files::Files;
 use crate::scene::{FileOfNumbers, Missing, Rough, Shape, SurfaceMap};
 
-const SHAPES: [&str; 11] = [
+const SHAPES: [&str; 13] = [
     "sphere",
     "ellipsoid",
     "cylinder",
@@ -16,6 +16,8 @@ const SHAPES: [&str; 11] = [
     "cone",
     "wedge",
     "flat_punch",
+    "ring",
+    "ridges",
     "waviness",
     "height_map",
     "rough",
@@ -103,6 +105,22 @@ fn named_shape(shapes: &Section<'_>, name: &str, files: &Files<'_>) -> Result<Sh
             Shape::FlatPunch {
                 radius: s.number("radius", length, &[])?,
                 edge: s.number("edge", "the radius of the rounding in m", &[])?,
+            }
+        }
+        "ring" => {
+            let s = numbers(&["radius", "R"])?;
+            Shape::Ring {
+                radius: s.number("radius", "the radius of the circle in m", &[])?,
+                R: s.number("R", "the radius of the cross-section in m", &[])?,
+            }
+        }
+        "ridges" => {
+            let s = numbers(&["R", "spacing", "count", "angle"])?;
+            Shape::Ridges {
+                R: s.number("R", "the radius in m", &[])?,
+                spacing: s.number("spacing", length, &[])?,
+                count: s.number_or("count", f64::INFINITY, &[])?,
+                angle: s.number_or("angle", 0.0, &[])?,
             }
         }
         "waviness" => {

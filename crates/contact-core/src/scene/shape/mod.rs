@@ -72,6 +72,24 @@ pub enum Shape {
         /// Radius of the rounding beyond it \[m\].
         edge: f64,
     },
+    /// A round ridge along a circle about the origin: a ring, an O-ring, the rim of a cup.
+    Ring {
+        /// Radius of the circle of its crest \[m\].
+        radius: f64,
+        /// Radius of its cross-section \[m\].
+        R: f64,
+    },
+    /// Parallel ridges along y turned by the angle, symmetric about the origin.
+    Ridges {
+        /// Radius of a ridge \[m\].
+        R: f64,
+        /// Distance of neighbouring crests \[m\].
+        spacing: f64,
+        /// Number of ridges; infinite for a row without an end.
+        count: f64,
+        /// Turn of the ridges from y \[rad\].
+        angle: f64,
+    },
     /// A wave along the direction `angle`, with a crest at the origin for phase 0.
     Waviness {
         /// Height of a crest above the mean \[m\].
@@ -141,7 +159,9 @@ impl Shape {
         match self {
             Self::Flat => true,
             Self::Cylinder { length, angle, .. } => length.is_infinite() && across(*angle),
-            Self::Wedge { angle, .. } | Self::Waviness { angle, .. } => across(*angle),
+            Self::Wedge { angle, .. }
+            | Self::Ridges { angle, .. }
+            | Self::Waviness { angle, .. } => across(*angle),
             Self::Sum(parts) => parts.iter().all(Self::is_straight_along_x),
             _ => false,
         }
@@ -183,6 +203,16 @@ impl Shape {
             Self::Cone { slope } => slope * x.hypot(y),
             Self::Wedge { slope, angle } => slope * perpendicular_coordinate(angle).abs(),
             Self::FlatPunch { radius, edge } => squared_excess(x.hypot(y), radius) / (2.0 * edge),
+            Self::Ring { radius, R } => (x.hypot(y) - radius).powi(2) / (2.0 * R),
+            Self::Ridges {
+                R,
+                spacing,
+                count,
+                angle,
+            } => {
+                let crest = nearest_crest(perpendicular_coordinate(angle) / spacing, count);
+                (perpendicular_coordinate(angle) - spacing * crest).powi(2) / (2.0 * R)
+            }
             Self::Waviness {
                 amplitude,
                 wavelength,
@@ -242,6 +272,10 @@ impl Shape {
                 Range::NotNegative => (value.is_finite() && value >= 0.0, "a number >= 0"),
                 Range::Length => (value > 0.0, "a positive length in m"),
                 Range::Any => (value.is_finite(), "a finite number"),
+                Range::Count => (
+                    value >= 1.0 && (value.fract() == 0.0 || value.is_infinite()),
+                    "a whole number from 1 on, or infinite",
+                ),
             };
             if !good {
                 return refuse(name, value, allowed);
@@ -309,6 +343,8 @@ impl Shape {
             Self::Cone { .. } => "cone",
             Self::Wedge { .. } => "wedge",
             Self::FlatPunch { .. } => "flat_punch",
+            Self::Ring { .. } => "ring",
+            Self::Ridges { .. } => "ridges",
             Self::Waviness { .. } => "waviness",
             Self::HeightMap(_) => "height_map",
             Self::Rough(_) => "rough",
@@ -318,7 +354,7 @@ impl Shape {
 
     /// Name, value and range of every number of an elementary shape, in the order of its fields.
     pub(crate) fn parameters(&self) -> Vec<(&'static str, f64, Range)> {
-        use Range::{Any, Length, NotNegative, Positive, Radius};
+        use Range::{Any, Count, Length, NotNegative, Positive, Radius};
         match *self {
             Self::Flat | Self::HeightMap(_) | Self::Rough(_) | Self::Sum(_) => Vec::new(),
             Self::Sphere { R } => vec![("sphere.R", R, Radius)],
@@ -352,6 +388,20 @@ impl Shape {
                 ("flat_punch.radius", radius, Positive),
                 ("flat_punch.edge", edge, Positive),
             ],
+            Self::Ring { radius, R } => {
+                vec![("ring.radius", radius, Positive), ("ring.R", R, Positive)]
+            }
+            Self::Ridges {
+                R,
+                spacing,
+                count,
+                angle,
+            } => vec![
+                ("ridges.R", R, Positive),
+                ("ridges.spacing", spacing, Positive),
+                ("ridges.count", count, Count),
+                ("ridges.angle", angle, Any),
+            ],
             Self::Waviness {
                 amplitude,
                 wavelength,
@@ -380,4 +430,62 @@ pub(crate) enum Range {
     Length,
     /// Finite.
     Any,
+    /// Whole and above zero, infinity included.
+    Count,
+}
+
+/// The crest next to a place, in numbers of spacings from the origin, of `count` crests about the origin.
+fn nearest_crest(place: f64, count: f64) -> f64 {
+    if count.is_infinite() {
+        return place.round();
+    }
+    let outermost = 0.5 * (count - 1.0);
+    ((place + outermost).round() - outermost).clamp(-outermost, outermost)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ridges_are_cylinders_side_by_side() {
+        let (R, spacing) = (2e-3, 1e-4);
+        let ridges = |count| Shape::Ridges {
+            R,
+            spacing,
+            count,
+            angle: 0.3,
+        };
+        let cylinder = |n: f64, x: f64, y: f64| {
+            let u = x * 0.3_f64.cos() + y * 0.3_f64.sin() - n * spacing;
+            u * u / (2.0 * R)
+        };
+        for (x, y) in [(0.0, 0.0), (1.3e-4, 2e-5), (-4.1e-4, 1e-4), (2.6e-4, -3e-4)] {
+            for (count, crests) in [
+                (1.0, vec![0.0]),
+                (2.0, vec![-0.5, 0.5]),
+                (3.0, vec![-1.0, 0.0, 1.0]),
+            ] {
+                let drops = crests.iter().map(|n| cylinder(*n, x, y));
+                let least = drops.fold(f64::INFINITY, f64::min);
+                assert!((ridges(count).drop_at(x, y) - least).abs() < 1e-18);
+            }
+            let drops = (-20..=20).map(|n| cylinder(f64::from(n), x, y));
+            let least = drops.fold(f64::INFINITY, f64::min);
+            assert!((ridges(f64::INFINITY).drop_at(x, y) - least).abs() < 1e-18);
+        }
+        let key = ridges(2.5).check("shape").expect_err("refused").to_string();
+        assert!(key.contains("ridges.count = 2.5"), "{key}");
+    }
+
+    #[test]
+    fn a_ring_is_round_along_its_circle() {
+        let ring = Shape::Ring {
+            radius: 1e-3,
+            R: 2e-3,
+        };
+        assert_eq!(ring.drop_at(1e-3, 0.0), 0.0);
+        let (near, away) = (ring.drop_at(0.6e-3, 0.8e-3), ring.drop_at(0.0, 1.2e-3));
+        assert!(near.abs() < 1e-30 && (away - 1e-5).abs() < 1e-18);
+    }
 }

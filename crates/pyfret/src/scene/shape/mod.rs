@@ -3,6 +3,7 @@
 mod edged;
 mod elementary;
 mod map;
+mod ridges;
 mod rough;
 mod round;
 mod sum;
@@ -10,6 +11,7 @@ mod waviness;
 
 pub(crate) use edged::{Cone, Flat, FlatPunch, Wedge};
 pub(crate) use map::SurfaceMap;
+pub(crate) use ridges::{Ridges, Ring};
 pub(crate) use rough::Rough;
 pub(crate) use round::{CrownedRoller, Cylinder, Ellipsoid, Sphere};
 pub(crate) use sum::{Shape, Sum};

@@ -5,6 +5,7 @@ use pyo3::{PyTypeInfo, type_hint_union};
 
 use super::edged::{Cone, Flat, FlatPunch, Wedge};
 use super::map::SurfaceMap;
+use super::ridges::{Ridges, Ring};
 use super::rough::Rough;
 use super::round::{CrownedRoller, Cylinder, Ellipsoid, Sphere};
 use super::waviness::Waviness;
@@ -31,7 +32,7 @@ impl Sum {
 #[pymethods]
 impl Sum {
     #[new]
-    #[pyo3(signature = (parts: "Sequence[Flat | Sphere | Ellipsoid | Cylinder | CrownedRoller | Cone | Wedge | FlatPunch | Waviness | Rough | SurfaceMap | Sum]"))]
+    #[pyo3(signature = (parts: "Sequence[Flat | Sphere | Ellipsoid | Cylinder | CrownedRoller | Cone | Wedge | FlatPunch | Ring | Ridges | Waviness | Rough | SurfaceMap | Sum]"))]
     fn new(parts: List<Shape>) -> Self {
         Self(parts.into_iter().map(core::Shape::from).collect())
     }
@@ -59,7 +60,7 @@ macro_rules! adds {
     };
 }
 adds!(
-    Flat Sphere Ellipsoid Cylinder CrownedRoller Cone Wedge FlatPunch Waviness Rough SurfaceMap Sum
+    Flat Sphere Ellipsoid Cylinder CrownedRoller Cone Wedge FlatPunch Ring Ridges Waviness Rough SurfaceMap Sum
 );
 
 /// Any shape, on its way in or out.
@@ -73,6 +74,8 @@ pub(crate) enum Shape {
     Cone(Cone),
     Wedge(Wedge),
     FlatPunch(FlatPunch),
+    Ring(Ring),
+    Ridges(Ridges),
     Waviness(Waviness),
     SurfaceMap(SurfaceMap),
     Rough(Rough),
@@ -128,7 +131,7 @@ macro_rules! shapes {
 shapes!(
     Flat {} Sphere { R } Ellipsoid { R_x, R_y, angle } Cylinder { R, length, angle }
     CrownedRoller { R, length, crown, angle } Cone { slope } Wedge { slope, angle }
-    FlatPunch { radius, edge } Waviness { amplitude, wavelength, angle, phase };
+    FlatPunch { radius, edge } Ring { radius, R } Ridges { R, spacing, count, angle } Waviness { amplitude, wavelength, angle, phase };
     Rough(Rough) SurfaceMap(HeightMap) Sum(Sum)
 );
 
