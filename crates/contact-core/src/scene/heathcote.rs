@@ -42,8 +42,8 @@ impl Scene {
     pub(super) fn doubt_of_heathcote_slip(&self) -> Option<String> {
         let ratio = self.heathcote_ratio().filter(|ratio| *ratio > CURVED)?;
         Some(format!(
-            "the bodies roll in a groove: the curvature of their common surface makes the edges of the contact slip by \
-             {ratio:.2} of the creep of full slip (Heathcote). The contact is taken as flat, without this slip"
+            "the bodies roll in a groove, and their common surface is curved. Its edges slip by {ratio:.2} of the creep of \
+             full slip (Heathcote). The contact is taken as flat, without this slip"
         ))
     }
 }
