@@ -4120,8 +4120,8 @@ def spectral_cycles(
     Cycles of a Gaussian process with a one-sided density per Hz, by "rayleigh" or "dirlik".
 
     `moments` are m_0, m_1, m_2 and m_4. `rates` are up-crossings, peaks and cycles per second.
-    `exceedance` is the part of the cycles that exceeds each of `amplitudes`. `mean_power` is the mean
-    of amplitude^k over the cycles for every k of `powers`.
+    `exceedance` is the part of the cycles that exceeds each of `amplitudes`. `mean_power` is the
+    mean of amplitude^k over the cycles for every k of `powers`.
     """
 
 def stress_at(

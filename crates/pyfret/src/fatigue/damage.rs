@@ -87,8 +87,8 @@ pub(crate) fn damage_on<'py>(
 /// Cycles of a Gaussian process with a one-sided density per Hz, by "rayleigh" or "dirlik".
 ///
 /// `moments` are m_0, m_1, m_2 and m_4. `rates` are up-crossings, peaks and cycles per second.
-/// `exceedance` is the part of the cycles that exceeds each of `amplitudes`. `mean_power` is the mean
-/// of amplitude^k over the cycles for every k of `powers`.
+/// `exceedance` is the part of the cycles that exceeds each of `amplitudes`. `mean_power` is the
+/// mean of amplitude^k over the cycles for every k of `powers`.
 #[pyfunction]
 #[pyo3(signature = (frequencies, density, distribution, amplitudes, powers) -> "dict[str, NDArray[np.float64]]")]
 pub(crate) fn spectral_cycles<'py>(
