@@ -20,8 +20,14 @@ if TYPE_CHECKING:
 
 __all__ = ["connect_answers"]
 
-#: The criterion of a page that has just begun.
-FIRST = "smith_watson_topper"
+#: Scene and criterion to judge while the second tab is shown, each pair once.
+JUDGE = """function(scene, tab, event, before) {
+  const chosen = event && event.event === "criterion" ? event.value : null;
+  const criterion = chosen || (before ? before.criterion : "smith_watson_topper");
+  const next = {scene, criterion};
+  const same = JSON.stringify(next) === JSON.stringify(before);
+  return tab !== "answers" || same ? window.dash_clientside.no_update : next;
+}"""
 
 
 def connect_answers(app: Any, sessions: Sessions, jobs: Jobs) -> None:
@@ -119,27 +125,29 @@ def connect_answers(app: Any, sessions: Sessions, jobs: Jobs) -> None:
         state = f"full answer: {cells} cells, {sum(answer.counts)} increments, errors estimated"
         return [*shown(answer, scene, names, state), answer.counts, packed]
 
+    # A server call that begins anew loses its answer: the browser decides when to judge.
+    app.clientside_callback(
+        JUDGE,
+        dash.Output("judging", "data"),
+        dash.Input("solved", "data"),
+        dash.Input("tab", "data"),
+        dash.Input("event", "data"),
+        dash.State("judging", "data"),
+        prevent_initial_call=True,
+    )
+
     @app.callback(  # type: ignore[untyped-decorator]
         dash.Output("life", "children"),
         dash.Output("judged", "data"),
-        dash.Input("solved", "data"),
-        dash.Input("event", "data"),
-        dash.Input("tab", "data"),
+        dash.Input("judging", "data"),
         dash.State("session", "data"),
-        dash.State("judged", "data"),
         prevent_initial_call=True,
     )
-    def judge(packed: Any, event: Any, tab: Any, session: Any, before: Any) -> list[Any]:
+    def judge(judging: Any, session: Any) -> list[Any]:
         """Judge first yield and life, which take seconds, while the second tab is shown."""
-        criterion = (before or {}).get("criterion", FIRST)
-        if dash.ctx.triggered_id == "event":
-            if event.get("event") != "criterion":
-                raise dash.exceptions.PreventUpdate
-            criterion = str(event["value"])
-        elif tab != "answers" or (packed and (before or {}).get("scene") == packed):
-            raise dash.exceptions.PreventUpdate
+        packed, criterion = judging["scene"], judging["criterion"]
         if not packed:
-            return ["no answer: the contact has no solution", {"criterion": criterion}]
+            return ["no answer yet", {"criterion": criterion}]
         scene, names = sessions.unpack(session, packed)
         names = names_of(scene, names)
         if not sessions.wants(session, scene.to_toml()):

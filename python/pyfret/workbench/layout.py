@@ -209,7 +209,16 @@ def page_layout(packed: Mapping[str, Any], first: str) -> Any:
         dcc.Store(id="dropped", storage_type="session", data=[]),
         *(
             dcc.Store(id=name)
-            for name in ("event", "done", "session", "tab", "solved", "previewed", "judged")
+            for name in (
+                "event",
+                "done",
+                "session",
+                "tab",
+                "judging",
+                "solved",
+                "previewed",
+                "judged",
+            )
         ),
         dcc.Store(id="counts"),
         dcc.Store(id="note"),
