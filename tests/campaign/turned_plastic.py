@@ -39,7 +39,7 @@ def solve(seed: int, axis: str, n: int = 24) -> fret.Result:
         body1=fret.Body(ball, shape=fret.Sphere(R=R)),
         body2=fret.Body(flat),
         friction=mu,
-        grid=fret.Grid.centred(extent=3.6 * a, n=n),
+        grid=fret.Grid.centred(width=3.6 * a, n=n),
     )
     return fret.solve(scene, path, save="all", progress=False)
 

@@ -37,7 +37,7 @@ def wear(kind: str, n: int, part: float, cycles: float) -> fret.wear.WearResult:
         W = 50.0
         width = 2.9 * fret.reference.hertz(R=R, bodies=(STEEL, STEEL), W=W).a
         shape = fret.shapes.Sphere(R=R)
-        grid = fret.Grid.centred(extent=width, n=n)
+        grid = fret.Grid.centred(width=width, n=n)
     T = part * MU * W
     path = fret.LoadPath.start().normal(W, increments=2).tangential([T, -T, T])
     scene = fret.Scene(
