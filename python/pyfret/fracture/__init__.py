@@ -21,6 +21,7 @@ from pyfret._core import Crack, ellipse_factor
 from pyfret._util.names import listing
 from pyfret.fracture.arrest import CrackArrest, CrackLife
 from pyfret.fracture.below import crack, grow
+from pyfret.fracture.blocks import BlockGrowth, grow_by_history
 from pyfret.fracture.film import channel_release, film_intensity
 from pyfret.fracture.first import PARTS, FailureOrder, first_to_fail
 from pyfret.fracture.growth import Cracks, Paris, Threshold
@@ -28,6 +29,7 @@ from pyfret.fracture.interface import Buckling, buckling_release, edge_release, 
 
 __all__ = [
     "PARTS",
+    "BlockGrowth",
     "Buckling",
     "Crack",
     "CrackArrest",
@@ -44,6 +46,7 @@ __all__ = [
     "film_intensity",
     "first_to_fail",
     "grow",
+    "grow_by_history",
     "over_cycle",
 ]
 __dir__ = listing(__all__)
