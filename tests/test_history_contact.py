@@ -258,3 +258,25 @@ def test_damage_is_saved_opened_and_drawn(tmp_path) -> None:  # type: ignore[no-
     ):
         for name in figures:
             assert getattr(thing.plot, name)().has_data()  # type: ignore[attr-defined]
+
+
+def test_a_crack_grows_by_loops_as_by_cycles() -> None:
+    # The cycle of a run, and ten loops of its amplitude in a pass.
+    paris = fret.fracture.Paris(C=1e-11, m=3.0)
+    threshold = fret.fracture.Threshold(dK_th=5e5)
+    lengths = np.geomspace(2e-6, 2e-5, 24)
+    scene = contact(32)
+    result = fret.solve(scene, PRESSED.cycles(1, T_x=250.0), save="all", progress=False)
+    cracks = result.crack(-4.8e-4, lengths=lengths, azimuth=0.0, offset=0.0)
+    history = fret.LoadHistory.from_matrix([500.0], [0.0], [10.0])
+    growth = fret.fracture.grow_by_history(
+        scene, history, paris, -4.8e-4, lengths, threshold=threshold, progress=False
+    )
+    cycles = cracks.life(threshold, paris, start=lengths[0], end=lengths[-1]).cycles
+    passes = growth.passes(lengths[0], lengths[-1])
+    assert 10.0 * passes == pytest.approx(cycles, rel=0.01)
+    half = history.from_matrix([500.0], [0.0], [0.5])
+    slower = fret.fracture.grow_by_history(
+        scene, half, paris, -4.8e-4, lengths, threshold=threshold, progress=False
+    )
+    np.testing.assert_allclose(20.0 * slower.growth, growth.growth, rtol=1e-9)

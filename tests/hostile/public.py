@@ -95,6 +95,12 @@ LOOPS = fret.fit.Loops.from_arrays(
     T=np.array([0.0, 3.0, 5.0, 0.0, -4.0, -5.0, 0.0]),
     W=100.0,
 )
+VIBRATION = fret.LoadHistory.from_array(T_x=[5.0, -5.0, 3.0, -2.0, 5.0])
+SPECTRUM = fret.history.Spectrum.from_arrays([1.0, 50.0], [1.0, 1.0])
+BAND = fret.LoadHistory.from_spectrum(SPECTRUM, 10.0)
+PRESSED = small(body2=fret.Body(STEEL)).replace(path=CYCLE)
+DAMAGE = fatigue.damage(PRESSED, VIBRATION, ALLOY, "smith_watson_topper", [0.0], y=0.0)
+SWT = ALLOY.assessment("smith_watson_topper")
 LINE = fret.reference.line_contact(R=0.01, bodies=PAIR, W=1e5)
 CATTANEO = fret.reference.CattaneoMindlin(HERTZ, bodies=PAIR, mu=0.3)
 LUBKIN = fret.reference.Lubkin(HERTZ, bodies=PAIR, mu=0.3)
@@ -258,6 +264,44 @@ OF: dict[str, dict[str, Any]] = {
     "wear.WearResult.save": {"path": FOLDER / "w.zarr"},
     "study.Study.save": {"path": FOLDER / "s.zarr"},
     "LoadPath.from_csv": {"path": written("path.csv", "W\n1\n2\n")},
+    "LoadHistory": {"channels": {"T_x": np.array([0.0, 1.0])}, "t": np.array([0.0, 1.0])},
+    "LoadHistory.from_csv": {"path": written("rig.csv", "t [s];T_x [N]\n0;1\n1;2\n2;1\n")},
+    "LoadHistory.from_array": {"T_x": [0.0, 1.0], "t": [0.0, 1.0], "frequency": None},
+    "LoadHistory.from_matrix": {
+        "range": [2.0],
+        "mean": [0.0],
+        "counts": [1.0],
+        "duration": None,
+    },
+    "LoadHistory.from_spectrum": {"psd": SPECTRUM, "duration": 10.0, "mean": 0.0},
+    "LoadHistory.sample": {"self": BAND, "seed": 1, "duration": None},
+    "LoadHistory.equivalent_amplitude": {"exponent": 3.0},
+    "LoadHistory.path": {"scene": PRESSED},
+    "fatigue.rainflow": {"signal": [0.0, 1.0, 0.0]},
+    "fatigue.Damage": {"dataset": DAMAGE.dataset},
+    "fatigue.Damage.contributions": {"bins": 4},
+    "fatigue.Damage.save": {"path": FOLDER / "d.zarr"},
+    "fatigue.DamageLaw": {"exponent": None},
+    "fatigue.damage": {
+        "contact": PRESSED,
+        "history": VIBRATION,
+        "materials": ALLOY,
+        "criterion": "smith_watson_topper",
+        "z": [0.0],
+    },
+    "fatigue.damage_of_loops": {"values": [1e6], "counts": [1.0], "assessment": SWT},
+    "fracture.BlockGrowth": {"dataset": DAMAGE.dataset},
+    "fracture.grow_by_history": {
+        "contact": PRESSED,
+        "history": VIBRATION,
+        "growth": fracture.Paris(C=1e-11, m=3.0),
+        "x": 0.0,
+        "lengths": LENGTHS,
+    },
+    "plot.load_history": {"history": VIBRATION},
+    "plot.loop_histogram": {"loops": VIBRATION.count()},
+    "plot.damage_map": {"damage": DAMAGE},
+    "plot.damage_contributions": {"damage": DAMAGE},
     "LoadPath.ellipse": {"increments": 4},
     "LoadPath.waypoints": {"increments": 2},
     "LoadPath.from_table": {"increments": 2},

@@ -29,6 +29,8 @@ __all__ = ["BlockGrowth", "grow_by_history"]
 
 #: Unit of dK in Paris' law [Pa m^0.5].
 UNIT = 1e6
+#: A threshold that nothing is compared with [Pa m^0.5].
+NO_THRESHOLD = 4e6
 
 
 class BlockGrowth(Labelled):
@@ -142,7 +144,8 @@ def grow_by_history(
     # Without contact of the faces K is a sum of the states.
     K = np.einsum("lmi,ic->lmc", states.weights, intensity["K_I_linear"])
     K_max, K_min = K.max(axis=1), K.min(axis=1)
-    numbers = (threshold or Threshold(dK_th=1.0))._numbers()
+    # The equivalent range depends on the load ratio, not on the threshold.
+    numbers = (threshold or Threshold(dK_th=NO_THRESHOLD))._numbers()
     ranges = np.array(
         _core.equivalent_range(numbers, K_max.ravel().tolist(), K_min.ravel().tolist())
     ).reshape(K_max.shape)

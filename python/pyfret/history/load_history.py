@@ -186,6 +186,8 @@ class LoadHistory(HoldsArrays, Figured):
         residue : "half" or "repeat"
             As in :meth:`from_array`.
         """
+        if t is not None and not isinstance(t, str):
+            raise TypeError(f"t = {t!r:.60}: must be the name of the column of time")
         table = READERS[0](path, units, skip=skip, group=group)
         short = [table.short(n) for n in range(len(table.names))]
         if columns is None:

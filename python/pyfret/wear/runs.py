@@ -134,6 +134,8 @@ def block_of_history(
         "first_branch": ladder.first_branch,
         "branch_counts": ladder.counts.tolist(),
     }
+    # The surfaces lie still: classes of many strokes share one cycle.
+    block.setdefault("cycling", "march")
     if history.duration is not None:
         block.setdefault("frequency", 1.0 / history.duration)
     return ladder.path, block
