@@ -135,6 +135,7 @@ COMMANDS = (
         "workbench",
         "life",
         "crack",
+        "damage",
         "export",
         "fit",
         "threshold",

@@ -38,6 +38,7 @@ ARREST = fret.fracture.CrackArrest("stops", 1e-5, 1e-4, (1e-4,), 0.9, 2e-4, 1.1,
 #: A value of every class that needs no run; the members of enumerations are values as well.
 VALUES: list[Any] = [
     fret.subsurface.Zone(-1e-4, 2e-4, 0),
+    fret.fatigue.DamageLaw("original", 1e6, 5.0),
     fret.kernels.EigenstrainOperator(BODY, GRID, depth=1e-4, height=5e-5),
     fret.subsurface.Extremum(0.01, 1e-4, fret.subsurface.Place(0.0, 0.0, 1e-4), 0),
     fret.subsurface.Place(1e-4, 0.0, 2e-5),
@@ -173,6 +174,22 @@ def of_a_run() -> list[Any]:
     )
     of_path = scene.replace(path=path)
     fitted = fret.fit.fit(of_path, curve, unknown={"body2.E": (1e11, 4e11)})
+    loop = ("loop", [1.0])
+    damage = fret.fatigue.Damage(
+        xr.Dataset(
+            {
+                "damage": (("depth", "x"), [[1e-3]]),
+                "range": loop,
+                "part": loop,
+                "compressive": loop,
+            },
+            attrs={"place": [0.0, 0.0, 1e-5], "error": 1e-4, "notes": "a note"},
+        )
+    )
+    lengths = [1e-5, 2e-5]
+    growth = fret.fracture.BlockGrowth(
+        xr.Dataset({"growth": ("length", [1e-9, 2e-9])}, coords={"length": lengths})
+    )
     return [
         result,
         result.at(-1),
@@ -190,6 +207,8 @@ def of_a_run() -> list[Any]:
         worn,
         study,
         fitted,
+        damage,
+        growth,
         Check("what", "source", ours=1.0, truth=1.0, scale=1.0, last=0.0),
     ]
 

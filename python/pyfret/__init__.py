@@ -71,7 +71,8 @@ from pyfret._util.figures import register_figures
 from pyfret._util.names import OTHER_NAMES, listing
 from pyfret.contacts import offer as offer_contacts
 from pyfret.grids import offer as offer_grids
-from pyfret.history.load_history import LoadHistory, register_reader
+from pyfret.history.load_history import LoadHistory as LoadHistory
+from pyfret.history.load_history import register_reader
 from pyfret.material_table import material
 from pyfret.material_table import materials as materials
 from pyfret.result import Result
@@ -100,7 +101,6 @@ __all__ = [
     "Friction",
     "Grid",
     "History",
-    "LoadHistory",
     "LoadPath",
     "Plastic",
     "Profile",
