@@ -8,6 +8,7 @@ import numpy as np
 
 from pyfret._util.theme import MARK, STICK, colour_map
 from pyfret.history.channels import channel_unit
+from pyfret.plot.sizes import Width
 from pyfret.plot.style import add_colour_bar, axes, styled
 
 if TYPE_CHECKING:
@@ -33,7 +34,9 @@ def scaled(channel: str) -> tuple[float, str]:
 
 
 @styled
-def load_history(history: LoadHistory, *, ax: Axes | None = None) -> Axes:
+def load_history(
+    history: LoadHistory, *, width: Width | None = None, ax: Axes | None = None
+) -> Axes:
     """Channels over time, the density of a spectrum, or the range-mean histogram of loops.
 
     The counted channel has the left axis; other channels are drawn over their largest value.
@@ -70,7 +73,12 @@ def load_history(history: LoadHistory, *, ax: Axes | None = None) -> Axes:
 
 @styled
 def loop_histogram(
-    loops: CountedLoops, *, ranges: int = 24, means: int = 24, ax: Axes | None = None
+    loops: CountedLoops,
+    *,
+    ranges: int = 24,
+    means: int = 24,
+    width: Width | None = None,
+    ax: Axes | None = None,
 ) -> Axes:
     """Number of loops over range and mean, in a logarithmic scale."""
     from matplotlib.colors import LogNorm
@@ -95,7 +103,7 @@ def loop_histogram(
 
 
 @styled
-def damage_map(damage: Damage, *, ax: Axes | None = None) -> Axes:
+def damage_map(damage: Damage, *, width: Width | None = None, ax: Axes | None = None) -> Axes:
     """Damage of one pass of the history on a section, decimal logarithm, with the worst point."""
     ax = axes(ax)
     d = damage.dataset
@@ -119,7 +127,9 @@ def damage_map(damage: Damage, *, ax: Axes | None = None) -> Axes:
 
 
 @styled
-def damage_contributions(damage: Damage, *, bins: int = 16, ax: Axes | None = None) -> Axes:
+def damage_contributions(
+    damage: Damage, *, bins: int = 16, width: Width | None = None, ax: Axes | None = None
+) -> Axes:
     """Part of each amplitude in the damage of the worst point, and the number of its loops."""
     ax = axes(ax)
     channel = str(damage.dataset.attrs["channel"])

@@ -7,9 +7,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pyfret._util.numbers import length
+from pyfret._util.theme import colour_map
 from pyfret.plot.along import field_along
 from pyfret.plot.maps import frame, label_scale, look_at_contact
 from pyfret.plot.scales import MICRO, Scale, Units, last_of, run_of, scales_of_snapshot
+from pyfret.plot.sizes import Width
 from pyfret.plot.style import axes, note, styled
 
 if TYPE_CHECKING:
@@ -29,7 +31,9 @@ FEW = 30
 
 
 @styled
-def spots(shown: State | Run, *, units: Units = "auto", ax: Axes | None = None) -> Axes:
+def spots(
+    shown: State | Run, *, units: Units = "auto", width: Width | None = None, ax: Axes | None = None
+) -> Axes:
     """Draw the spots of the contact, each by its own area.
 
     A spot is a patch of cells in contact that touch, corners included. The title has their number.
@@ -40,6 +44,8 @@ def spots(shown: State | Run, *, units: Units = "auto", ax: Axes | None = None) 
         The contact; of a result the last increment that it has kept.
     units : "auto", "dimensionless" or "SI"
         Lengths over a_H (default where there is a Hertz contact) or in um.
+    width : "column" or "page", optional
+        Width of a new figure: a column of 85 mm or a page of 170 mm.
     ax : matplotlib Axes, optional
         Where to draw.
     """
@@ -53,7 +59,12 @@ def spots(shown: State | Run, *, units: Units = "auto", ax: Axes | None = None) 
     ax = axes(ax, square=True)
     extent = frame(ax, snapshot, by.length)
     drawn = ax.imshow(
-        area.T, origin="lower", extent=extent, cmap="viridis", norm="log", aspect=ax.get_aspect()
+        area.T,
+        origin="lower",
+        extent=extent,
+        cmap=colour_map("sequential"),
+        norm="log",
+        aspect=ax.get_aspect(),
     )
     look_at_contact(ax, snapshot, by.length)
     if len(areas):
@@ -87,7 +98,9 @@ def label_spots(contact: Any, cell: float) -> tuple[Any, Any]:
 
 
 @styled
-def gap_map(shown: State | Run, *, units: Units = "auto", ax: Axes | None = None) -> Axes:
+def gap_map(
+    shown: State | Run, *, units: Units = "auto", width: Width | None = None, ax: Axes | None = None
+) -> Axes:
     """Draw the gap between the surfaces, white in the contact; parameters as in :func:`spots`."""
     snapshot = last_of(shown)
     by = scales_of_snapshot(snapshot, units)
@@ -102,7 +115,7 @@ def gap_map(shown: State | Run, *, units: Units = "auto", ax: Axes | None = None
         gap.T,
         origin="lower",
         extent=extent,
-        cmap="magma_r",
+        cmap=colour_map("sequential"),
         vmin=0.0,
         vmax=upper or 1.0,
         aspect=ax.get_aspect(),
@@ -114,7 +127,7 @@ def gap_map(shown: State | Run, *, units: Units = "auto", ax: Axes | None = None
 
 @styled
 def pressure_histogram(
-    shown: State | Run, *, units: Units = "auto", ax: Axes | None = None
+    shown: State | Run, *, units: Units = "auto", width: Width | None = None, ax: Axes | None = None
 ) -> Axes:
     """Draw the distribution of the pressure over the cells in contact.
 
@@ -124,6 +137,8 @@ def pressure_histogram(
         The contact; of a result the last increment that it has kept.
     units : "auto", "dimensionless" or "SI"
         Pressures over p_H (default where there is a Hertz contact) or in MPa.
+    width : "column" or "page", optional
+        Width of a new figure: a column of 85 mm or a page of 170 mm.
     ax : matplotlib Axes, optional
         Where to draw.
     """
@@ -145,7 +160,9 @@ def pressure_histogram(
 
 
 @styled
-def area_over_load(result: Run, *, ax: Axes | None = None, **line: Any) -> Axes:
+def area_over_load(
+    result: Run, *, width: Width | None = None, ax: Axes | None = None, **line: Any
+) -> Axes:
     """Draw the real area over the normal force, with the error of the cells as a band."""
     d = run_of(result).dataset
     ax = axes(ax)
@@ -164,7 +181,9 @@ def area_over_load(result: Run, *, ax: Axes | None = None, **line: Any) -> Axes:
 
 
 @styled
-def surface_heights(surface: SurfaceMap, *, ax: Axes | None = None) -> Axes:
+def surface_heights(
+    surface: SurfaceMap, *, width: Width | None = None, ax: Axes | None = None
+) -> Axes:
     """Draw the heights of a map about their mean."""
     z = np.asarray(surface.values, dtype=float)
     z = z - z.mean()
@@ -175,7 +194,9 @@ def surface_heights(surface: SurfaceMap, *, ax: Axes | None = None) -> Axes:
         z.T / scale.value,
         origin="lower",
         extent=(-half[0], half[0], -half[1], half[1]),
-        cmap="cividis",
+        cmap=colour_map("diverging"),
+        vmin=-np.abs(z).max() / scale.value,
+        vmax=np.abs(z).max() / scale.value,
         aspect=ax.get_aspect(),
     )
     ax.set_xlabel(MICRO.label("x"))
