@@ -1,0 +1,114 @@
+//! The symmetric matrix of the five-point scheme on the closed cells.
+//!
+//! A side between two closed cells has the conductance of both halves in series (the harmonic mean).
+//! A border at the distance theta cells from a centre has the conductance of the cell over theta:
+//! symmetric, and of second order (F. Gibou, R. Fedkiw, L.-T. Cheng, M. Kang, J. Comput. Phys. 176
+//! (2002) 205-227).
+
+use std::fmt;
+
+use super::conjugate_gradients::conjugate_gradients;
+use super::region::{Region, Side};
+use super::tridiagonal::eliminate;
+
+/// Conjugate gradients that do not reach their tolerance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NotConverged {
+    /// Sum of the residuals.
+    pub residual: f64,
+    /// The largest allowed sum.
+    pub tolerance: f64,
+    /// Iterations done.
+    pub iterations: usize,
+}
+
+impl fmt::Display for NotConverged {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "conjugate gradients leave a residual of {:.1e}, above {:.1e}, after {} iterations",
+            self.residual, self.tolerance, self.iterations
+        )
+    }
+}
+
+impl std::error::Error for NotConverged {}
+
+/// The matrix `diagonal + reaction - div(conductance grad)`.
+pub(crate) struct Matrix {
+    pub(crate) diagonal: Vec<f64>,
+    /// Entry, and index of the neighbour, towards -x and -y; the entry is zero without one.
+    pub(crate) west: Vec<(f64, usize)>,
+    pub(crate) south: Vec<(f64, usize)>,
+    /// Conductance of all borders of a cell together.
+    pub(crate) border: Vec<f64>,
+    is_line: bool,
+}
+
+impl Matrix {
+    /// Assembles the matrix from the reaction and the conductance of each closed cell.
+    pub(crate) fn new(region: &Region, reaction: &[f64], conductance: &[f64]) -> Self {
+        let count = region.cells.len();
+        let mut matrix = Self {
+            diagonal: reaction.to_vec(),
+            west: vec![(0.0, 0); count],
+            south: vec![(0.0, 0); count],
+            border: vec![0.0; count],
+            is_line: region.lattice.rows == 1,
+        };
+        for (c, sides) in region.sides.iter().enumerate() {
+            for (k, side) in sides.iter().enumerate() {
+                let scale = region.inverse_square(k);
+                match *side {
+                    Side::Closed(n) => {
+                        let entry = scale * harmonic_mean(conductance[c], conductance[n]);
+                        matrix.diagonal[c] += entry;
+                        match k {
+                            0 => matrix.west[c] = (-entry, n),
+                            2 => matrix.south[c] = (-entry, n),
+                            _ => {}
+                        }
+                    }
+                    Side::Border(theta) => matrix.border[c] += scale * conductance[c] / theta,
+                    Side::Sealed => {}
+                }
+            }
+            matrix.diagonal[c] += matrix.border[c];
+        }
+        matrix
+    }
+
+    /// Solves for the right-hand side `b` from the guess `x`, until the sum of the residuals is below
+    /// `tolerance`; exactly in a line.
+    pub(crate) fn solve(
+        &self,
+        b: &[f64],
+        x: &mut [f64],
+        tolerance: f64,
+    ) -> Result<(), NotConverged> {
+        if self.is_line {
+            eliminate(self, b, x);
+            return Ok(());
+        }
+        conjugate_gradients(self, b, x, tolerance)
+    }
+
+    /// Computes the product with x.
+    pub(crate) fn apply(&self, x: &[f64], y: &mut [f64]) {
+        for c in 0..x.len() {
+            let ((west, w), (south, s)) = (self.west[c], self.south[c]);
+            y[c] = self.diagonal[c] * x[c] + west * x[w] + south * x[s];
+            y[w] += west * x[c];
+            y[s] += south * x[c];
+        }
+    }
+}
+
+/// Harmonic mean; zero if one of the values is.
+fn harmonic_mean(a: f64, b: f64) -> f64 {
+    if a > 0.0 && b > 0.0 {
+        2.0 * a * (b / (a + b))
+    } else {
+        0.0
+    }
+}
