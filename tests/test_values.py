@@ -96,6 +96,8 @@ VALUES: list[Any] = [
     fret.fatigue.Materials(),
     fret.fatigue.Section(y=0.0),
     fret.heat.Conductor(conductivity=45.0, heat_capacity=3.6e6),
+    fret.wear.Air(distance=1e-3, power_density=1e4, power_exponent=0.9),
+    fret.wear.DebrisBed(kappa=1e-3),
     fret.wear.Archard(1e-14),
     fret.wear.DissipatedEnergy(1e-14),
     fret.study.Cracking(MATERIAL, "dang_van"),

@@ -4193,7 +4193,7 @@ def wear(
     *,
     store: str | PathLike[str] | None = None,
     overwrite: bool = False,
-    start: tuple[float, float, Sequence[NDArray[np.float64]]] | None = None,
+    start: tuple[float, float, Sequence[NDArray[np.float64]], float] | None = None,
     on_jump: Callable[[float], None] | None = None,
 ) -> tuple[dict[str, Variable], str] | None:
     """

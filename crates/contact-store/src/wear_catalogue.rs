@@ -8,7 +8,7 @@ use super::catalogue::FieldView;
 pub(super) type Scalar = (&'static str, &'static str, &'static str, fn(&Jump) -> f64);
 
 /// Every scalar over `jump`.
-pub(super) const SCALARS: [Scalar; 24] = [
+pub(super) const SCALARS: [Scalar; 26] = [
     ("cycles", "1", "cycles at the end of the jump", |j| j.cycles),
     ("length", "1", "cycles that the jump is long", |j| j.length),
     ("volume1", "m^3", "volume that body 1 has lost", |j| {
@@ -52,6 +52,18 @@ pub(super) const SCALARS: [Scalar; 24] = [
         "m^3",
         "volume that stays in the contact as debris",
         |j| j.debris,
+    ),
+    (
+        "ejected",
+        "m^3",
+        "volume of debris that has left the contact",
+        |j| j.ejected,
+    ),
+    (
+        "aerated_share",
+        "1",
+        "share of the area of the contact that oxygen reaches",
+        |j| j.aerated_share,
     ),
     (
         "dissipated",
@@ -123,7 +135,7 @@ type Field = (
 );
 
 /// Every field over `block`, `x`, `y`.
-pub(super) const FIELDS: [Field; 7] = [
+pub(super) const FIELDS: [Field; 9] = [
     (
         "worn1",
         "m",
@@ -151,6 +163,18 @@ pub(super) const FIELDS: [Field; 7] = [
     ("slid", "m", "way slipped in contact so far", |b| {
         FieldView::Real(&b.slid)
     }),
+    (
+        "bed",
+        "m",
+        "debris per area in the contact, in the coordinates of the grid",
+        |b| FieldView::Real(&b.bed),
+    ),
+    (
+        "aerated",
+        "1",
+        "share of the cell that oxygen reaches",
+        |b| FieldView::Real(&b.aerated),
+    ),
     (
         "p",
         "Pa",

@@ -41,6 +41,8 @@ pub fn read_worn(path: impl AsRef<Path>) -> Result<WornStart, Error> {
         worn: [field("worn1")?, field("worn2")?],
         energy: [field("energy1")?, field("energy2")?],
         slid: field("slid")?,
+        bed: Some(field("bed")?),
+        ejected: number("ejected")?,
     })
 }
 

@@ -23,6 +23,12 @@ pub struct Block {
     pub energy2: Array2<f64>,
     /// Distance slipped in contact so far \[m\].
     pub slid: Array2<f64>,
+    /// Debris per area in the contact, in the cells of the grid \[m\]; zero without a bed.
+    pub bed: Array2<f64>,
+    /// Debris that has left \[m^3\].
+    pub ejected: f64,
+    /// Share of each cell that oxygen reaches; 1 without a model of the air.
+    pub aerated: Array2<f64>,
     /// Pressure \[Pa\]: in a march the mean of the cycle, weighted with the energy dissipated in
     /// each increment; in gross slip the pressure in the middle of the stroke.
     pub p: Array2<f64>,
@@ -47,6 +53,8 @@ impl Block {
             worn: [self.worn1.clone(), self.worn2.clone()],
             energy: [self.energy1.clone(), self.energy2.clone()],
             slid: self.slid.clone(),
+            bed: Some(self.bed.clone()),
+            ejected: self.ejected,
         }
     }
 }
@@ -78,6 +86,13 @@ impl WearRun {
             energy1: whole(energy1),
             energy2: whole(energy2),
             slid: whole(&worn.slid),
+            bed: whole(&worn.bed),
+            ejected: worn.ejected * pressing.cell_area(),
+            aerated: if seen.aerated.is_empty() {
+                Array2::ones((grid.nx, grid.ny))
+            } else {
+                whole(seen.aerated)
+            },
             p: whole(seen.p),
             shift: seen.shift,
             shift_length: seen.shift_length,

@@ -132,15 +132,10 @@ impl Cut {
     }
 
     /// Growth of the gap at the cell minus its growth at the cell inside \[m\]: the part `opens` of
-    /// the worn depths.
+    /// the worn depths, less the bed.
     pub(crate) fn gap_difference(&self, worn: &Worn, opens: f64) -> f64 {
-        let depth_difference = |depth: &Vec<f64>| depth[self.cell] - depth[self.inner];
-        opens
-            * worn
-                .depth
-                .iter()
-                .map(depth_difference)
-                .sum::<f64>()
-                .max(0.0)
+        let difference = |field: &Vec<f64>| field[self.cell] - field[self.inner];
+        let depths: f64 = worn.depth.iter().map(difference).sum();
+        (opens * depths - difference(&worn.bed)).max(0.0)
     }
 }

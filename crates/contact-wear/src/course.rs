@@ -358,6 +358,7 @@ mod tests {
             energy: &none,
             cycles: 100.0,
             frequency: f64::NAN,
+            ..CellCycle::default()
         };
         let Coefficients { mean, .. } = coefficients(body, &cycle, coatings, n).unwrap();
         mean.iter().zip(WAYS).map(|(k, way)| k * way).collect()

@@ -28,6 +28,10 @@ pub struct Jump {
     pub depth_halfway: [f64; 2],
     /// Volume that stays in the contact as debris \[m^3\].
     pub debris: f64,
+    /// Volume of the debris that has left the contact \[m^3\].
+    pub ejected: f64,
+    /// Share of the area of the contact that oxygen reaches; 1 without a model of the air.
+    pub aerated_share: f64,
     /// Energy dissipated so far \[J\].
     pub dissipated: f64,
     /// Energy dissipated in one cycle on the surfaces at the end \[J\].

@@ -9,7 +9,7 @@ use plausible::doubt_of;
 use super::variable::FactorVariable;
 
 /// Loading of each cell of a surface in one cycle, in the coordinates of its own body.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct CellCycle<'a> {
     /// Integral of the pressure over the slip, `int p |ds|` \[Pa m\] = \[J/m^2\] per unit of mu.
     pub pressure_times_slip: &'a [f64],
@@ -25,6 +25,12 @@ pub struct CellCycle<'a> {
     pub cycles: f64,
     /// Cycles per second \[Hz\]; not a number where none is given.
     pub frequency: f64,
+    /// Share of the cell that oxygen reaches; empty without a model of the air.
+    pub aerated: &'a [f64],
+    /// Debris per area in the cell \[m\]; empty without a bed.
+    pub debris: &'a [f64],
+    /// Factor of the depth by the protection of the bed; empty without one.
+    pub protection: &'a [f64],
 }
 
 /// A law of wear. The user's own is any type with this trait.
@@ -63,6 +69,16 @@ pub trait Law: Debug + Send + Sync {
     /// and a cell is followed from one value of its energy to the next.
     fn bends(&self, _of: FactorVariable) -> Vec<f64> {
         Vec::new()
+    }
+
+    /// Part of the depth that is worn without oxygen, given the aerated share of a cell.
+    fn starved_part(&self, aerated: f64) -> f64 {
+        1.0 - aerated
+    }
+
+    /// Checks that the depth depends on the aerated share.
+    fn depends_on_air(&self) -> bool {
+        false
     }
 
     /// The law as a table of a scene file; `None` if a file cannot represent it.
@@ -262,6 +278,12 @@ impl BodyWear {
         self.laws.len() <= 1 && self.laws.iter().all(|law| law.is_steady())
     }
 
+    /// Part of the depth that is worn without oxygen off the layer that is bare at a depth \[m\].
+    pub(super) fn starved_part(&self, worn: f64, thickness: &[f64], aerated: f64) -> f64 {
+        let law = self.law(layer_at(worn, thickness));
+        law.map_or(0.0, |law| law.starved_part(aerated))
+    }
+
     /// Values of a variable at which a law bends, ascending.
     pub(super) fn bends(&self, variable: FactorVariable) -> Vec<f64> {
         let mut bends: Vec<f64> = self
@@ -294,6 +316,9 @@ impl BodyWear {
             for n in (0..depth.len()).filter(|&n| bare(n)) {
                 if cycle.pressure_times_slip[n] > 0.0 {
                     depth[n] = self.share.unwrap_or(1.0) * of_law[n];
+                    if let Some(factor) = cycle.protection.get(n) {
+                        depth[n] *= factor;
+                    }
                 }
             }
         }
@@ -340,6 +365,7 @@ mod tests {
             energy: &[0.0; 3],
             cycles: 0.0,
             frequency: f64::NAN,
+            ..CellCycle::default()
         };
         let mut depth = [9.0; 3];
         body.depth(&cycle, &[1.0], &mut depth).unwrap();
@@ -361,6 +387,7 @@ mod tests {
             energy: &[0.0; 3],
             cycles: 0.0,
             frequency: f64::NAN,
+            ..CellCycle::default()
         };
         let mut depth = [9.0; 3];
         super::Law::depth(&law, &cycle, &mut depth).unwrap();

@@ -15,12 +15,16 @@
 
 #![forbid(unsafe_code)]
 
+mod aerated;
+mod air;
+mod anderson;
 mod attempt;
 mod block;
 mod border;
 mod compliant;
 mod course;
 mod cycled;
+mod debris_bed;
 mod events;
 mod jump;
 mod law;
@@ -44,13 +48,18 @@ mod slip_zone;
 mod state;
 mod stroke;
 mod table;
+mod third_body;
+mod third_body_table;
 mod variable;
 mod varying;
 mod width;
 mod within_cell;
 mod worn_start;
 
+pub use aerated::Aerated;
+pub use air::{Air, Reaction};
 pub use block::Block;
+pub use debris_bed::DebrisBed;
 pub use events::{Event, EventKind};
 pub use jump::Jump;
 pub use law::{Archard, BodyWear, CellCycle, DissipatedEnergy, Law};

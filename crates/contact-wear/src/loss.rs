@@ -13,6 +13,10 @@ pub(crate) struct Worn {
     pub(crate) energy: [Vec<f64>; 2],
     /// Slip distance in contact, in the cells of the grid \[m\].
     pub(crate) slid: Vec<f64>,
+    /// Debris per area in the contact, in the cells of the grid \[m\]; zero without a bed.
+    pub(crate) bed: Vec<f64>,
+    /// Sum over the cells of the debris that has left \[m\].
+    pub(crate) ejected: f64,
 }
 
 impl Worn {
@@ -23,6 +27,8 @@ impl Worn {
             depth: [field(), field()],
             energy: [field(), field()],
             slid: field(),
+            bed: field(),
+            ejected: 0.0,
         }
     }
 
@@ -33,6 +39,10 @@ impl Worn {
             add_to(&mut self.energy[b], &loss.energy[b]);
         }
         add_to(&mut self.slid, &loss.slid);
+        if let Some(debris) = &loss.debris {
+            self.bed.clone_from(&debris.bed);
+            self.ejected += debris.ejected;
+        }
     }
 
     pub(crate) fn deepest(&self) -> f64 {
@@ -53,6 +63,30 @@ pub(crate) struct Loss {
     pub(crate) slid: Vec<f64>,
     /// Energy dissipated in all its cycles \[J\].
     pub(crate) dissipated: f64,
+    /// Debris at its end, with a bed.
+    pub(crate) debris: Option<Debris>,
+}
+
+/// Debris at the end of a jump.
+#[derive(Clone, Debug)]
+pub(crate) struct Debris {
+    /// Volume per area \[m\], >= 0.
+    pub(crate) bed: Vec<f64>,
+    /// Sum over the cells of the debris that left in the jump \[m\].
+    pub(crate) ejected: f64,
+}
+
+impl Debris {
+    /// Extrapolates two halves by one whole jump. A bed that would be negative is zero, and the
+    /// other cells hold so much less.
+    fn extrapolated(mut self, whole: &Self) -> Self {
+        let sum = |bed: &[f64]| bed.iter().sum::<f64>();
+        let exact = 2.0 * sum(&self.bed) - sum(&whole.bed);
+        extrapolate(&mut self.bed, &whole.bed);
+        // Without any debris left in the sum, the rest has left.
+        self.ejected = 2.0 * self.ejected - whole.ejected + exact.min(0.0);
+        self
+    }
 }
 
 impl Loss {
@@ -65,6 +99,13 @@ impl Loss {
         add_to(&mut self.slid, &other.slid);
         self.cycles += other.cycles;
         self.dissipated += other.dissipated;
+        self.debris = match (self.debris, &other.debris) {
+            (Some(first), Some(second)) => Some(Debris {
+                bed: second.bed.clone(),
+                ejected: first.ejected + second.ejected,
+            }),
+            _ => None,
+        };
         self
     }
 
@@ -87,6 +128,9 @@ impl Loss {
         }
         extrapolate(&mut self.slid, &whole.slid);
         self.dissipated = 2.0 * self.dissipated - whole.dissipated;
+        if let (Some(debris), Some(whole)) = (self.debris.take(), &whole.debris) {
+            self.debris = Some(debris.extrapolated(whole));
+        }
         (self, (moved / f64::max(size, f64::MIN_POSITIVE)).sqrt())
     }
 }
@@ -132,6 +176,7 @@ mod tests {
                 energy: [field(), field()],
                 slid: field(),
                 dissipated,
+                debris: None,
             };
             let (halves, whole) = (loss(3.0), loss(2.0));
             let sum = |f: &[f64]| f.iter().sum::<f64>();

@@ -34,6 +34,7 @@ use super::outward::extrapolate_outward;
 use super::pressing::Pressing;
 use super::rates::Rates;
 use super::settings::{Jumps, Wear, thicknesses};
+use super::third_body::{FixedPoint, MOST_EVALUATIONS, Meeting, ThirdBody, ThirdFields};
 use super::within_cell::half_cell_error;
 
 /// Change of the pressure between two corrections (root mean square, over the pressure) that ends
@@ -80,6 +81,10 @@ pub(crate) struct Marched {
     pub(crate) p: Vec<f64>,
     /// Cycles solved so far.
     pub(crate) cycles_solved: usize,
+    /// Oxygen and debris in the contact.
+    third_body: Option<ThirdBody>,
+    /// Aerated share of the settled contact; empty without a model of the air.
+    pub(crate) aerated: Vec<f64>,
 }
 
 impl Marched {
@@ -139,6 +144,8 @@ impl Marched {
             history: scene.friction.history.clone(),
             depends_on_past: scene.friction.history.is_some() || scene.friction.law.is_some(),
             p: Vec::new(),
+            third_body: ThirdBody::new(wear, &pressing),
+            aerated: Vec::new(),
             state,
             wear: wear.clone(),
             pressing,
@@ -147,7 +154,9 @@ impl Marched {
             first_branch: first_branch + 1,
             cycles_solved: 0,
         };
-        if !goes_on {
+        if goes_on {
+            marched.aerate(worn)?;
+        } else {
             marched.settle(worn)?;
         }
         Ok(marched)
@@ -158,18 +167,51 @@ impl Marched {
         let (cycled, mut start) = self.cycle(worn)?;
         start.increments = self.lead_in;
         self.state = MarchedState { start, cycled };
+        self.aerate(worn)
+    }
+
+    /// Computes the aerated share of the present contact.
+    fn aerate(&mut self, worn: &Worn) -> Result<(), Error> {
+        if let Some(third_body) = self.third_body.take() {
+            let p = self.state.cycled.p.clone();
+            let fields = self.begin_third_body(&third_body, worn, &p);
+            self.third_body = Some(third_body);
+            self.aerated = fields?.0.aerated;
+        }
         Ok(())
+    }
+
+    /// The fields of the third body under the pressure p, and the gap that they follow from.
+    fn begin_third_body(
+        &mut self,
+        third_body: &ThirdBody,
+        worn: &Worn,
+        p: &[f64],
+    ) -> Result<(ThirdFields, Vec<f64>), Error> {
+        let cycled = &self.state.cycled;
+        let unloaded = gap(&self.h, worn, self.wear.opens());
+        let h: Vec<f64> = unloaded
+            .iter()
+            .zip(&cycled.u_q)
+            .map(|(h, u)| h + u)
+            .collect();
+        let gap = self.pressing.loaded_gap(&h, p);
+        let cycled = &self.state.cycled;
+        let meeting = Meeting {
+            gap: &gap,
+            p,
+            dissipated: &cycled.dissipated,
+            slip: &cycled.slip_distance,
+        };
+        let fields = third_body.begin(worn, &meeting)?;
+        Ok((fields, gap))
     }
 
     /// The loss of both bodies in n cycles.
     pub(crate) fn jump(&mut self, worn: &Worn, n: f64, implicit: bool) -> Result<Loss, Error> {
-        let mut rates = self.rates(worn, &self.state.cycled, n)?;
         let mut p = self.state.cycled.p.clone();
-        let (area, shortest_waves) = (self.pressing.cell_area(), self.pressing.shortest_waves());
-        let opens = self.wear.opens();
         if !implicit {
-            let in_jump = rates.in_jump(n, (worn, opens), &p, shortest_waves);
-            return Ok(in_jump.loss(&rates, &p, area));
+            return self.loss_of_jump(worn, n, &mut p, false);
         }
         self.pressing.begin();
         let may_leave = AGREES_IN_ALL
@@ -179,20 +221,7 @@ impl Marched {
             };
         let mut last: Option<(Vec<f64>, Loss)> = None;
         for correction in 0..=CORRECTIONS {
-            let in_jump = rates.in_jump(n, (worn, opens), &p, shortest_waves);
-            let cells = self.h.len();
-            let compliance: Vec<f64> = (0..cells)
-                .map(|c| opens * (rates.k[0][c] + rates.k[1][c]) * in_jump.slip[c])
-                .collect();
-            let gap = gap(&self.h, worn, opens);
-            let excess =
-                |c: usize| opens * (rates.excess[0][c] + rates.excess[1][c]) * in_jump.slip[c];
-            let h: Vec<f64> = (0..cells)
-                .map(|c| gap[c] + rates.u_q[c] + excess(c) - compliance[c] * in_jump.borne[c])
-                .collect();
-            self.pressing
-                .solve(&h, &compliance, rates.drive, &mut p, 1.0)?;
-            let loss = in_jump.loss(&rates, &p, area);
+            let loss = self.loss_of_jump(worn, n, &mut p, true)?;
             if let Some((last_p, last_loss)) = &last {
                 let change = change_norm(last_loss, &loss);
                 let enough = (AGREES_IN_JUMP * depth_norm(&loss.depth))
@@ -216,10 +245,136 @@ impl Marched {
             end.add(&loss);
             last = Some((p.clone(), loss));
             let (cycled, _) = self.cycle(&end)?;
-            rates = self.rates(worn, &cycled, n)?;
             self.state.cycled = cycled;
         }
         unreachable!("the last correction returns")
+    }
+
+    /// The loss in a jump of n cycles that are like the last one, from the pressure `p` on.
+    fn loss_of_jump(
+        &mut self,
+        worn: &Worn,
+        n: f64,
+        p: &mut Vec<f64>,
+        implicit: bool,
+    ) -> Result<Loss, Error> {
+        if let Some(third_body) = self.third_body.take() {
+            let loss = self.loss_with_third_body(&third_body, worn, n, p, implicit);
+            self.third_body = Some(third_body);
+            return loss;
+        }
+        let rates = self.rates(worn, &self.state.cycled, n, &ThirdFields::default())?;
+        self.loss_at_rates(worn, n, &rates, &worn.bed, p, implicit)
+    }
+
+    /// Solves the jump with oxygen and debris, which follow from the contact at the end of the jump.
+    fn loss_with_third_body(
+        &mut self,
+        third_body: &ThirdBody,
+        worn: &Worn,
+        n: f64,
+        p: &mut Vec<f64>,
+        implicit: bool,
+    ) -> Result<Loss, Error> {
+        let cells = self.h.len();
+        let start = gap(&self.h, worn, self.wear.opens());
+        let mut h = vec![0.0; cells];
+        let (mut fields, mut closed) = self.begin_third_body(third_body, worn, p)?;
+        let mut fixed_point = FixedPoint::default();
+        let mut last: Option<Loss> = None;
+        let (mut change, mut enough) = (f64::INFINITY, 0.0);
+        for _ in 0..MOST_EVALUATIONS {
+            let rates = self.rates(worn, &self.state.cycled, n, &fields)?;
+            let bed = if fields.bed.is_empty() {
+                &worn.bed
+            } else {
+                &fields.bed
+            };
+            let mut loss = self.loss_at_rates(worn, n, &rates, bed, p, implicit)?;
+            if implicit {
+                for c in 0..cells {
+                    let depth = loss.depth[0][c] + loss.depth[1][c];
+                    h[c] =
+                        start[c] + rates.u_q[c] + self.wear.opens() * depth + worn.bed[c] - bed[c];
+                }
+                closed = self.pressing.loaded_gap(&h, p);
+            }
+            let mut lost = 0.0;
+            let mut supply = vec![0.0; cells];
+            for b in 0..2 {
+                for (c, w) in loss.depth[b].iter().enumerate() {
+                    let starved = fields.aerated.get(c).map_or(0.0, |s| {
+                        self.wear.bodies[b].starved_part(worn.depth[b][c], &self.coatings[b], *s)
+                    });
+                    let [fresh, at_once] = third_body.yields(starved);
+                    supply[c] += w * fresh;
+                    lost += w * at_once;
+                }
+            }
+            let dissipated: Vec<f64> = (0..cells)
+                .map(|c| rates.mu[c] * rates.sigma[c] * p[c])
+                .collect();
+            let meeting = Meeting {
+                gap: &closed,
+                p,
+                dissipated: &dissipated,
+                slip: &rates.slips,
+            };
+            let image = third_body.respond(worn, &meeting, (n, &supply, lost), &fields)?;
+            loss.debris = image.to_debris();
+            if !implicit {
+                return Ok(loss);
+            }
+            enough = third_body.enough(&loss.depth, worn);
+            if let Some(last) = &last {
+                change = change_norm(last, &loss).max(FixedPoint::misfit(&fields, &image));
+                if change <= enough {
+                    return Ok(loss);
+                }
+            }
+            last = Some(loss);
+            fields = fixed_point.accelerate(third_body, &fields, image);
+        }
+        Err(Error::NotConverged {
+            increment: 0,
+            solver: "wear",
+            residual: change,
+            tolerance: enough,
+            iterations: MOST_EVALUATIONS,
+            why: String::new(),
+        })
+    }
+
+    /// The loss at known rates over a known bed; an implicit jump solves the pressure at its end.
+    fn loss_at_rates(
+        &mut self,
+        worn: &Worn,
+        n: f64,
+        rates: &Rates,
+        bed: &[f64],
+        p: &mut [f64],
+        implicit: bool,
+    ) -> Result<Loss, Error> {
+        let (area, shortest_waves) = (self.pressing.cell_area(), self.pressing.shortest_waves());
+        let opens = self.wear.opens();
+        let in_jump = rates.in_jump(n, (worn, opens), p, shortest_waves);
+        if implicit {
+            let cells = self.h.len();
+            let compliance: Vec<f64> = (0..cells)
+                .map(|c| opens * (rates.k[0][c] + rates.k[1][c]) * in_jump.slip[c])
+                .collect();
+            let gap = gap(&self.h, worn, opens);
+            let excess =
+                |c: usize| opens * (rates.excess[0][c] + rates.excess[1][c]) * in_jump.slip[c];
+            let h: Vec<f64> = (0..cells)
+                .map(|c| {
+                    gap[c] + rates.u_q[c] + excess(c) - compliance[c] * in_jump.borne[c]
+                        + (worn.bed[c] - bed[c])
+                })
+                .collect();
+            self.pressing.solve(&h, &compliance, rates.drive, p, 1.0)?;
+        }
+        Ok(in_jump.loss(rates, p, area))
     }
 
     /// The results of the last cycle.
@@ -287,7 +442,13 @@ impl Marched {
 
     /// Rates of wear of every cell in n cycles from worn surfaces on. Cells outside the contact get
     /// the mean of their neighbours.
-    fn rates(&self, worn: &Worn, cycled: &CycleResults, n: f64) -> Result<Rates, Error> {
+    fn rates(
+        &self,
+        worn: &Worn,
+        cycled: &CycleResults,
+        n: f64,
+        fields: &ThirdFields,
+    ) -> Result<Rates, Error> {
         let cells = self.h.len();
         let largest = cycled.p.iter().fold(0.0, |m: f64, p| m.max(*p));
         let is_pressed =
@@ -323,6 +484,9 @@ impl Marched {
                 energy: &worn.energy[b],
                 cycles: worn.cycles,
                 frequency: self.wear.frequency.unwrap_or(f64::NAN),
+                aerated: &fields.aerated,
+                debris: &fields.bed,
+                protection: &fields.protection,
             };
             let body_coefficients =
                 coefficients(&self.wear.bodies[b], &cycle, &self.coatings[b], n)?;
@@ -364,12 +528,13 @@ fn uniform_mu(friction: &Friction) -> Option<f64> {
         .then_some(friction.mu)
 }
 
-/// Gap between worn surfaces: h plus the part `opens` of the worn depths \[m\].
+/// Gap between worn surfaces: h plus the part `opens` of the worn depths, less the bed \[m\].
 fn gap(h: &[f64], worn: &Worn, opens: f64) -> Vec<f64> {
     let [depth1, depth2] = &worn.depth;
     let cells = h.iter().zip(depth1.iter().zip(depth2));
     cells
-        .map(|(h, (depth1, depth2))| h + opens * depth1 + opens * depth2)
+        .zip(&worn.bed)
+        .map(|((h, (depth1, depth2)), bed)| h + opens * depth1 + opens * depth2 - bed)
         .collect()
 }
 

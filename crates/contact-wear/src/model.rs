@@ -56,6 +56,8 @@ pub(crate) struct CycleOutput<'a> {
     pub(crate) shift: f64,
     /// Way over which that pressure is the mean \[m\].
     pub(crate) shift_length: f64,
+    /// Aerated share; empty without a model of the air.
+    pub(crate) aerated: &'a [f64],
     pub(crate) stick: Option<&'a [bool]>,
     pub(crate) stick_ratio: f64,
     pub(crate) dissipated_per_cycle: f64,
@@ -172,6 +174,7 @@ impl Model {
                     p: &s.p[middle],
                     shift: s.places[middle].shift,
                     shift_length: s.places[middle].length,
+                    aerated: &s.aerated,
                     stick: None,
                     stick_ratio: 0.0,
                     dissipated_per_cycle: s.dissipated_per_cycle(),
@@ -189,6 +192,7 @@ impl Model {
                     p: &cycled.p,
                     shift: 0.0,
                     shift_length: 0.0,
+                    aerated: &m.aerated,
                     stick: Some(&cycled.stick),
                     stick_ratio: cycled.stick_ratio,
                     dissipated_per_cycle: cycled.dissipated.iter().sum::<f64>() * area,

@@ -103,6 +103,19 @@ impl Pressing {
         u_z
     }
 
+    /// Gap between the loaded surfaces \[m\], `h + C p - delta_z`, h being the gap between the unloaded
+    /// ones. It is zero where the pressure acts.
+    pub(crate) fn loaded_gap(&mut self, h: &[f64], p: &[f64]) -> Vec<f64> {
+        let mut gap = self.response(p);
+        gap.iter_mut().zip(h).for_each(|(gap, h)| *gap += h);
+        let force: f64 = p.iter().sum();
+        let approach = gap.iter().zip(p).map(|(g, p)| g * p).sum::<f64>() / force;
+        for gap in &mut gap {
+            *gap -= approach;
+        }
+        gap
+    }
+
     /// C(0) - C(1), the difference of the responses of a cell and its neighbour \[m/Pa\].
     pub(crate) fn shortest_waves(&self) -> f64 {
         shortest_waves(&self.kernel)

@@ -88,6 +88,7 @@ impl LossRate {
             slid: (0..p.len()).map(slip_of).collect(),
             energy: [energy.clone(), energy],
             dissipated: dissipated * cell_area,
+            debris: None,
         }
     }
 }

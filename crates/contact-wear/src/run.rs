@@ -97,7 +97,7 @@ impl WearRun {
             model,
             stop: stop.clone(),
         };
-        let before = run.state.to_jump(&run.model, 0.0);
+        let before = run.state.to_jump(&run.model, &run.wear);
         run.state.lost_before = [before.depth, before.volume];
         run.state.next = run.first_jump()?;
         Ok(run)
@@ -219,6 +219,10 @@ impl WearRun {
     /// does not, [`Scar::needed`]; `None` in a march.
     fn needed(&mut self, part: f64) -> Option<[[f64; 2]; 2]> {
         let ends = self.model.stroke()?;
+        // The width that a bed leaves follows from the run alone.
+        if self.wear.bed.is_some() {
+            return None;
+        }
         let cycle = self.model.jump(&self.state.worn, 1.0, false).ok()?;
         self.model.restore(&self.state.model);
         let area = self.model.pressing().cell_area();
@@ -397,7 +401,7 @@ impl WearRun {
         state.dissipated += tried.loss.dissipated;
         state.next = next;
         state.ended = ends;
-        let seen = state.to_jump(&self.model, self.wear.debris_kept);
+        let seen = state.to_jump(&self.model, &self.wear);
         let by_border = state.lost_by_slip(&seen) * by_border;
         let of_jumps = seen.depth_error + state.over_deepest(by_border);
         let [of_depth, of_volume] = slip_zone::errors(seen.slip_cells, seen.stick_ratio);

@@ -192,6 +192,7 @@ impl Wear {
             energy: &zero,
             cycles: 0.0,
             frequency: self.frequency.unwrap_or(f64::NAN),
+            ..CellCycle::default()
         };
         let layer_rates = |body: usize| {
             let wear_of_body = &self.bodies[body];

@@ -3,6 +3,8 @@
 use contact_core::Error;
 use contact_core::scene::{Body, Dependence, Scene};
 
+use super::air::{Air, check_positive};
+use super::debris_bed::DebrisBed;
 use super::law::BodyWear;
 use super::stroke::stroke;
 
@@ -84,6 +86,12 @@ pub struct Wear {
     /// body. A worn scar that fits its counterbody is then `(1 - kept) depth = b^2/(2 R)` deep (the
     /// geometry of P. Arnaud, S. Baydoun, S. Fouvry, Tribol. Int. 161 (2021) 107077).
     pub debris_kept: f64,
+    /// Oxygen in the contact (default none: it is everywhere).
+    pub air: Option<Air>,
+    /// The bed of debris (default none). It replaces [`Self::debris_kept`].
+    pub bed: Option<DebrisBed>,
+    /// Gap below which the region between the bodies is closed to the air \[m\] (default 1e-6).
+    pub closed_below: f64,
     /// Worn depth over the thickness of the coatings from which the event `thinned` is reported
     /// (default 0.1). The elastic response does not change with the thickness.
     pub event_depth_fraction: f64,
@@ -108,6 +116,9 @@ impl Wear {
             jumps: Jumps::default(),
             worn_through: WornThrough::default(),
             debris_kept: 0.0,
+            air: None,
+            bed: None,
+            closed_below: 1e-6,
             event_depth_fraction: 0.1,
             note: String::new(),
             doubts: Vec::new(),
@@ -186,6 +197,7 @@ impl Wear {
                 "between 0 and 1",
             ));
         }
+        self.check_third_body()?;
         if !(self.event_depth_fraction > 0.0 && self.event_depth_fraction <= 1.0) {
             return Err(Error::invalid(
                 "wear.event_depth_fraction",
@@ -259,7 +271,48 @@ impl Wear {
         let bodies = ["wear.body1", "wear.body2"].into_iter().zip(&self.bodies);
         let laws =
             bodies.flat_map(|(key, body)| body.laws.iter().flat_map(move |law| law.doubts(key)));
-        laws.chain(self.doubts.iter().cloned()).collect()
+        let without_air = self.air.is_none() && self.depends_on_air();
+        let without_air = without_air.then(|| {
+            "wear: a law has a coefficient without oxygen (`starved`), which only wear.air uses"
+                .to_owned()
+        });
+        laws.chain(without_air)
+            .chain(self.doubts.iter().cloned())
+            .collect()
+    }
+
+    /// Checks that a law depends on the aerated share.
+    fn depends_on_air(&self) -> bool {
+        let mut laws = self.bodies.iter().flat_map(|body| &body.laws);
+        laws.any(|law| law.depends_on_air())
+    }
+
+    /// Fails at settings of air and bed without a meaning.
+    fn check_third_body(&self) -> Result<(), Error> {
+        check_positive("wear.closed_below", self.closed_below, "m")?;
+        if let Some(air) = &self.air {
+            air.check()?;
+            if self.frequency.is_none() {
+                let allowed =
+                    "given in Hz beside wear.air, which consumes oxygen at a rate per second";
+                return Err(Error::invalid("wear.frequency", "nothing", allowed));
+            }
+        }
+        if !self.branch_counts.is_empty() && (self.air.is_some() || self.bed.is_some()) {
+            let allowed = "left out beside wear.air and wear.bed, which follow one kind of cycle";
+            return Err(Error::invalid("wear.branch_counts", "given", allowed));
+        }
+        let Some(bed) = &self.bed else { return Ok(()) };
+        bed.check()?;
+        if self.debris_kept > 0.0 {
+            let allowed = "left out beside wear.bed, which computes what stays in the contact";
+            return Err(Error::invalid(
+                "wear.debris_kept",
+                self.debris_kept,
+                allowed,
+            ));
+        }
+        Ok(())
     }
 
     /// 1 - kept: growth of the gap over the worn depth.

@@ -40,6 +40,7 @@ use super::pressing::Pressing;
 use super::settings::{Wear, thicknesses};
 use super::shift::Shift;
 use super::stroke::{Corner, Frame, Place, stroke};
+use super::third_body::{FixedPoint, MOST_EVALUATIONS, Meeting, ThirdBody, ThirdFields};
 
 /// Change of the pressures in a round that ends the rounds, over the pressures (root mean squares).
 const LEAST_CHANGE: f64 = 1e-3;
@@ -72,6 +73,12 @@ pub(crate) struct Sliding {
     h: Vec<Arc<Vec<f64>>>,
     /// Pressures at the places \[Pa\].
     pub(crate) p: Vec<Vec<f64>>,
+    /// Oxygen and debris in the contact.
+    third_body: Option<ThirdBody>,
+    /// Debris per area in the gap, in the cells of the grid \[m\]; empty without a bed.
+    bed: Vec<f64>,
+    /// Aerated share of the settled contact; empty without a model of the air.
+    pub(crate) aerated: Vec<f64>,
 }
 
 impl Sliding {
@@ -117,6 +124,7 @@ impl Sliding {
             h.iter().map(pressure).collect()
         };
         let goes_on = state.is_some();
+        let third_body = ThirdBody::new(wear, &pressing);
         let mut sliding = Self {
             shifts: places.iter().map(shifts).collect(),
             p: state.unwrap_or_else(|| h.iter().map(guess).collect()),
@@ -129,8 +137,13 @@ impl Sliding {
             history: scene.friction.history.clone(),
             cycles: worn.cycles,
             h,
+            third_body,
+            bed: Vec::new(),
+            aerated: Vec::new(),
         };
-        if !goes_on {
+        if goes_on {
+            sliding.aerate(worn)?;
+        } else {
             sliding.settle(worn)?;
         }
         Ok(sliding)
@@ -139,6 +152,7 @@ impl Sliding {
     /// Solves the pressures at all places of surfaces worn so far.
     pub(crate) fn settle(&mut self, worn: &Worn) -> Result<(), Error> {
         self.cycles = worn.cycles;
+        self.lay_bed(&worn.bed);
         self.pressing.begin();
         let none = vec![0.0; self.pressing.cells()];
         let mut h = none.clone();
@@ -148,6 +162,19 @@ impl Sliding {
             let (grid, rows) = (&self.pressing.grid, self.pressing.rows());
             on_grid::check(grid, rows, &self.p[i], &self.shifts[i])?;
         }
+        self.aerate(worn)
+    }
+
+    /// Computes the aerated share of the present contact.
+    fn aerate(&mut self, worn: &Worn) -> Result<(), Error> {
+        let Some(third_body) = self.third_body.take() else {
+            return Ok(());
+        };
+        self.lay_bed(&worn.bed);
+        let contact = self.meet(worn);
+        let fields = third_body.begin(worn, &contact.meeting());
+        self.third_body = Some(third_body);
+        self.aerated = fields?.aerated;
         Ok(())
     }
 
@@ -156,7 +183,12 @@ impl Sliding {
     /// wrote the law.
     pub(crate) fn jump(&mut self, worn: &Worn, n: f64, implicit: bool) -> Result<Loss, Error> {
         self.cycles = worn.cycles;
-        let mut rates = self.rates(worn, n)?;
+        if let Some(third_body) = self.third_body.take() {
+            let loss = self.jump_with_third_body(&third_body, worn, n, implicit);
+            self.third_body = Some(third_body);
+            return loss;
+        }
+        let mut rates = self.rates(worn, n, &ThirdFields::default())?;
         if !implicit {
             return Ok(self.loss(n, &rates, &self.integrate(&self.p)));
         }
@@ -176,7 +208,7 @@ impl Sliding {
             if correction == CORRECTIONS || last.as_ref().is_some_and(has_settled) {
                 return Ok(loss);
             }
-            let corrected = self.rates(worn, n)?;
+            let corrected = self.rates(worn, n, &ThirdFields::default())?;
             if corrected.agree_with(&rates, &ways) {
                 return Ok(loss);
             }
@@ -184,6 +216,149 @@ impl Sliding {
             rates = corrected;
         }
         unreachable!("the last correction returns")
+    }
+
+    /// Solves the jump with oxygen and debris, which follow from the contact at the end of the jump.
+    fn jump_with_third_body(
+        &mut self,
+        third_body: &ThirdBody,
+        worn: &Worn,
+        n: f64,
+        implicit: bool,
+    ) -> Result<Loss, Error> {
+        self.lay_bed(&worn.bed);
+        self.pressing.begin();
+        let before = self.meet(worn);
+        let mut fields = third_body.begin(worn, &before.meeting())?;
+        let mut fixed_point = FixedPoint::default();
+        let mut last: Option<Loss> = None;
+        let (mut change, mut enough) = (f64::INFINITY, 0.0);
+        for _ in 0..MOST_EVALUATIONS {
+            self.lay_bed(&fields.bed);
+            let rates = self.rates(worn, n, &fields)?;
+            if implicit {
+                self.iterate(worn, n, &rates)?;
+            }
+            let mut loss = self.loss(n, &rates, &self.integrate(&self.p));
+            let (supply, lost) = self.supply(third_body, worn, &loss, &rates.aerated);
+            let after = if implicit {
+                let mut end = worn.clone();
+                end.add(&loss);
+                Some(self.meet(&end))
+            } else {
+                None
+            };
+            let meeting = after.as_ref().unwrap_or(&before).meeting();
+            let image = third_body.respond(worn, &meeting, (n, &supply, lost), &fields)?;
+            loss.debris = image.to_debris();
+            if !implicit {
+                return Ok(loss);
+            }
+            enough = third_body.enough(&loss.depth, worn);
+            if let Some(last) = &last {
+                change = depth_change(last, &loss).max(FixedPoint::misfit(&fields, &image));
+                if change <= enough {
+                    return Ok(loss);
+                }
+            }
+            last = Some(loss);
+            fields = fixed_point.accelerate(third_body, &fields, image);
+        }
+        Err(Error::NotConverged {
+            increment: 0,
+            solver: "wear",
+            residual: change,
+            tolerance: enough,
+            iterations: MOST_EVALUATIONS,
+            why: String::new(),
+        })
+    }
+
+    /// Lays debris into the gap, where the run has a bed.
+    fn lay_bed(&mut self, bed: &[f64]) {
+        if self.wear.bed.is_some() {
+            self.bed.clear();
+            self.bed.extend_from_slice(bed);
+        }
+    }
+
+    /// The contact that the third body meets under the present pressures.
+    fn meet(&mut self, worn: &Worn) -> Contact {
+        let (cells, s) = (self.pressing.cells(), self.slip_distance());
+        let mut contact = Contact {
+            gap: vec![0.0; cells],
+            p: vec![0.0; cells],
+            dissipated: Vec::new(),
+            slip: vec![s; cells],
+        };
+        let mut h = vec![0.0; cells];
+        for i in 0..self.places.len() {
+            self.gap(worn, i, &mut h);
+            let weight = self.places[i].slip / s;
+            let gap = self.pressing.loaded_gap(&h, &self.p[i]);
+            for c in 0..cells {
+                contact.gap[c] += weight * gap[c];
+                contact.p[c] += weight * self.p[i][c];
+            }
+        }
+        contact.dissipated = contact.p.iter().map(|p| self.mu() * s * p).collect();
+        contact
+    }
+
+    /// The fresh debris of a loss in the cells of the grid, spread over the stroke \[m\], and the sum
+    /// that leaves at once; `aerated` shares of both bodies.
+    fn supply(
+        &self,
+        third_body: &ThirdBody,
+        worn: &Worn,
+        loss: &Loss,
+        aerated: &[Vec<f64>; 2],
+    ) -> (Vec<f64>, f64) {
+        let mut supply = vec![0.0; self.pressing.cells()];
+        let (mut lost, s) = (0.0, self.slip_distance());
+        for b in 0..2 {
+            let yields = |c: usize| {
+                let starved = aerated[b].get(c).map_or(0.0, |s| {
+                    self.wear.bodies[b].starved_part(worn.depth[b][c], &self.coatings[b], *s)
+                });
+                third_body.yields(starved)
+            };
+            let cells = loss.depth[b].iter().enumerate();
+            let [fresh, at_once]: [Vec<f64>; 2] =
+                [0, 1].map(|k| cells.clone().map(|(c, w)| w * yields(c)[k]).collect());
+            lost += at_once.iter().sum::<f64>();
+            for (i, place) in self.places.iter().enumerate() {
+                let weighted: Vec<f64> = fresh.iter().map(|w| w * place.slip / s).collect();
+                self.shifts[i][b].read(&weighted, self.pressing.rows(), &mut supply);
+            }
+        }
+        (supply, lost)
+    }
+
+    /// A field of the grid in the coordinates of each body: its mean over what passes, weighted with the
+    /// pressure.
+    fn carry(&self, field: &[f64], outside: f64) -> [Vec<f64>; 2] {
+        if field.is_empty() {
+            return [vec![], vec![]];
+        }
+        let largest = self.p.iter().flatten().fold(0.0, |m: f64, p| m.max(*p));
+        let least = 1e-9 * largest + f64::MIN_POSITIVE;
+        let weights: Vec<Vec<f64>> = self
+            .p
+            .iter()
+            .map(|p| p.iter().map(|p| p + least).collect())
+            .collect();
+        let products: Vec<Vec<f64>> = weights
+            .iter()
+            .map(|p| p.iter().zip(field).map(|(p, f)| p * f).collect())
+            .collect();
+        let (sums, weights) = (self.integrate(&products), self.integrate(&weights));
+        [0, 1].map(|b| {
+            let cells = sums[b].iter().zip(&weights[b]);
+            let mean =
+                |(sum, weight): (&f64, &f64)| if *weight > 0.0 { sum / weight } else { outside };
+            cells.map(mean).collect()
+        })
     }
 
     /// The rounds over all places at given rates, accelerated.
@@ -297,6 +472,7 @@ impl Sliding {
             slid: self.p[self.middle()].iter().map(slides).collect(),
             energy,
             dissipated: n * self.dissipated_per_cycle(),
+            debris: None,
         }
     }
 
@@ -325,7 +501,7 @@ impl Sliding {
     }
 
     /// The rates of n cycles from worn surfaces on, at the present pressures.
-    fn rates(&self, worn: &Worn, n: f64) -> Result<Rates, Error> {
+    fn rates(&self, worn: &Worn, n: f64, fields: &ThirdFields) -> Result<Rates, Error> {
         let ways = self.integrate(&self.p);
         let touches = |p: &f64| f64::from(u8::from(*p > 0.0));
         let touched: Vec<Vec<f64>> = self
@@ -335,6 +511,9 @@ impl Sliding {
             .collect();
         let (touched, s) = (self.integrate(&touched), self.slip_distance());
         let (mut k, mut above) = ([vec![], vec![]], [vec![], vec![]]);
+        let aerated = self.carry(&fields.aerated, 1.0);
+        let debris = self.carry(&fields.bed, 0.0);
+        let protection = self.carry(&fields.protection, 1.0);
         for b in 0..2 {
             // Cells that come into contact within the jump need a coefficient, too: they get a
             // small pressed way.
@@ -353,6 +532,9 @@ impl Sliding {
                 energy: &worn.energy[b],
                 cycles: worn.cycles,
                 frequency: self.wear.frequency.unwrap_or(f64::NAN),
+                aerated: &aerated[b],
+                debris: &debris[b],
+                protection: &protection[b],
             };
             let Coefficients { mean, end } =
                 coefficients(&self.wear.bodies[b], &cycle, &self.coatings[b], n)?;
@@ -362,7 +544,11 @@ impl Sliding {
                 .collect();
             k[b] = end;
         }
-        Ok(Rates { k, excess: above })
+        Ok(Rates {
+            k,
+            excess: above,
+            aerated,
+        })
     }
 
     /// The sum of fields of both bodies, shifted to the grid at a place.
@@ -380,6 +566,9 @@ impl Sliding {
         into.iter_mut()
             .zip(self.h[i].iter())
             .for_each(|(gap, h)| *gap = opens * *gap + h);
+        for (gap, bed) in into.iter_mut().zip(&self.bed) {
+            *gap -= bed;
+        }
     }
 
     /// Solves the pressure at a place to `times` the tolerance of the scene.
@@ -397,6 +586,33 @@ struct Rates {
     k: [Vec<f64>; 2],
     /// Difference of the mean depth of a cycle and the depth of the last cycle \[m\].
     excess: [Vec<f64>; 2],
+    /// Aerated share; empty without a model of the air.
+    aerated: [Vec<f64>; 2],
+}
+
+/// The contact that the third body meets.
+struct Contact {
+    gap: Vec<f64>,
+    p: Vec<f64>,
+    dissipated: Vec<f64>,
+    slip: Vec<f64>,
+}
+
+impl Contact {
+    fn meeting(&self) -> Meeting<'_> {
+        Meeting {
+            gap: &self.gap,
+            p: &self.p,
+            dissipated: &self.dissipated,
+            slip: &self.slip,
+        }
+    }
+}
+
+/// Root of the sum of squares of the change of the depths \[m\].
+fn depth_change(last: &Loss, now: &Loss) -> f64 {
+    let pairs = last.depth.iter().flatten().zip(now.depth.iter().flatten());
+    pairs.map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
 }
 
 impl Rates {

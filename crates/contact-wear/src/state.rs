@@ -69,9 +69,8 @@ impl WearState {
         done >= 1.2 * kept_at || done >= kept_at + wear.cycles / 50.0
     }
 
-    /// The present values of a [`Jump`]; its errors, length and retries are zero. `kept`: part of
-    /// the loss that is debris.
-    pub(super) fn to_jump(&self, model: &Model, kept: f64) -> Jump {
+    /// The present values of a [`Jump`]; its errors, length and retries are zero.
+    pub(super) fn to_jump(&self, model: &Model, wear: &Wear) -> Jump {
         let area = model.pressing().cell_area();
         let seen = model.output();
         let touches = seen.p.iter().filter(|p| **p > 0.0).count() as f64;
@@ -79,6 +78,15 @@ impl WearState {
         let moved = self.corrections.iter().flatten();
         let moved = moved.fold(0.0, |m: f64, e| m.max(e.abs()));
         let volume = [0, 1].map(|b| self.worn.depth[b].iter().sum::<f64>() * area);
+        let lost = volume[0] + volume[1];
+        let [debris, ejected] = if wear.bed.is_some() {
+            [
+                self.worn.bed.iter().sum::<f64>() * area,
+                self.worn.ejected * area,
+            ]
+        } else {
+            [wear.debris_kept * lost, (1.0 - wear.debris_kept) * lost]
+        };
         Jump {
             index: self.jumps,
             cycles: self.cycles,
@@ -90,7 +98,9 @@ impl WearState {
             depth: [0, 1].map(|b| largest(&self.worn.depth[b])),
             volume_halfway: [0.0; 2],
             depth_halfway: [0.0; 2],
-            debris: kept * (volume[0] + volume[1]),
+            debris,
+            ejected,
+            aerated_share: mean_under_pressure(seen.aerated, seen.p),
             dissipated: self.dissipated,
             dissipated_per_cycle: seen.dissipated_per_cycle,
             p_max: largest(seen.p),
@@ -128,4 +138,11 @@ impl WearState {
             0.0
         }
     }
+}
+
+/// Mean of a share over the cells in contact; 1 without one.
+fn mean_under_pressure(share: &[f64], p: &[f64]) -> f64 {
+    let touching = share.iter().zip(p).filter(|(_, p)| **p > 0.0);
+    let (sum, count) = touching.fold((0.0, 0.0), |(sum, count), (s, _)| (sum + s, count + 1.0));
+    if count > 0.0 { sum / count } else { 1.0 }
 }

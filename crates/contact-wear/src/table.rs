@@ -8,12 +8,14 @@ use contact_core::Error;
 use contact_core::scene::{Fault, Reach, Scene, Section, read_scene_and, read_text};
 use toml::{Table, Value};
 
+use super::aerated::Aerated;
 use super::law::{Archard, BodyWear, CellCycle, DissipatedEnergy, Law};
 use super::settings::{Cycling, Jumps, Wear, WornThrough};
+use super::third_body_table::{air, bed, write_third_body};
 use super::variable::FactorVariable;
 use super::varying::{Factor, Varying};
 
-const KEYS: [&str; 14] = [
+const KEYS: [&str; 17] = [
     "cycles",
     "first_branch",
     "branch_counts",
@@ -25,12 +27,23 @@ const KEYS: [&str; 14] = [
     "explicit_jumps",
     "worn_through",
     "debris_kept",
+    "air",
+    "bed",
+    "closed_below",
     "event_depth_fraction",
     "body1",
     "body2",
 ];
-const BODY: [&str; 6] = ["k", "alpha", "threshold", "factor", "laws", "share"];
-const LAW: [&str; 5] = ["k", "alpha", "threshold", "factor", "own"];
+const BODY: [&str; 7] = [
+    "k",
+    "alpha",
+    "starved",
+    "threshold",
+    "factor",
+    "laws",
+    "share",
+];
+const LAW: [&str; 6] = ["k", "alpha", "starved", "threshold", "factor", "own"];
 
 impl Wear {
     /// Reads and checks a scene file with a table `[wear]`, as [`Scene::from_file_reaching`].
@@ -144,6 +157,9 @@ impl Wear {
             Jumps::Number(n) => writeln!(text, "jumps = {n}"),
             Jumps::Explicit(n) => writeln!(text, "explicit_jumps = {n}"),
         };
+        if self.air.is_some() || self.bed.is_some() {
+            text.push_str(&write_third_body(self));
+        }
         for (name, body) in ["body1", "body2"].into_iter().zip(&self.bodies) {
             if body.laws.is_empty() {
                 continue;
@@ -233,6 +249,9 @@ fn wear(section: &Section<'_>) -> Result<Wear, Fault> {
             &[("stop", WornThrough::Stop), ("go_on", WornThrough::GoOn)],
         )?,
         debris_kept: section.number_or("debris_kept", default.debris_kept, &[])?,
+        air: air(section)?,
+        bed: bed(section)?,
+        closed_below: section.number_or("closed_below", default.closed_below, &[])?,
         event_depth_fraction: section.number_or(
             "event_depth_fraction",
             default.event_depth_fraction,
@@ -291,12 +310,16 @@ fn law(section: &Section<'_>) -> Result<Arc<dyn Law>, Fault> {
         return Ok(Arc::new(LawPlaceholder));
     }
     let threshold = section.number_or("threshold", 0.0, &[])?;
+    let starved = section.number_if("starved", &[])?;
     let law: Arc<dyn Law> = match (
         section.number_if("k", &[])?,
         section.number_if("alpha", &[])?,
     ) {
-        (Some(k), None) => Arc::new(Archard { k, threshold }),
-        (None, Some(alpha)) => Arc::new(DissipatedEnergy { alpha, threshold }),
+        (Some(k), None) => in_air(k, starved, |k| Archard { k, threshold }),
+        (None, Some(alpha)) => in_air(alpha, starved, |alpha| DissipatedEnergy {
+            alpha,
+            threshold,
+        }),
         _ => {
             let key = section.path("k");
             let choice = "either k (Archard, m^2/N) or alpha (dissipated energy, m^3/J)";
@@ -307,6 +330,23 @@ fn law(section: &Section<'_>) -> Result<Arc<dyn Law>, Fault> {
         Some(factor) => Arc::new(Varying { law, factor }),
         None => law,
     })
+}
+
+/// A law of a coefficient, which differs without oxygen if `starved` is given.
+fn in_air<L: Law + 'static>(
+    coefficient: f64,
+    starved: Option<f64>,
+    law: impl Fn(f64) -> L,
+) -> Arc<dyn Law> {
+    let aerated = Arc::new(law(coefficient));
+    match starved {
+        Some(starved) => Arc::new(Aerated {
+            law: aerated,
+            starved_law: Arc::new(law(starved)),
+            coefficients: [coefficient, starved],
+        }),
+        None => aerated,
+    }
 }
 
 fn factor(law: &Section<'_>) -> Result<Option<Factor>, Fault> {

@@ -124,6 +124,14 @@ impl Law for Varying {
         self.law.has_threshold()
     }
 
+    fn starved_part(&self, aerated: f64) -> f64 {
+        self.law.starved_part(aerated)
+    }
+
+    fn depends_on_air(&self) -> bool {
+        self.law.depends_on_air()
+    }
+
     fn is_steady(&self) -> bool {
         let of_loading = matches!(
             self.factor.variable,
@@ -158,6 +166,7 @@ mod tests {
             energy: &[10.0, 20.0],
             cycles: 5.0,
             frequency: 10.0,
+            ..CellCycle::default()
         };
         for (of, table, asked) in [
             (

@@ -21,6 +21,10 @@ pub struct WornStart {
     pub energy: [Array2<f64>; 2],
     /// Slip distance in contact \[m\].
     pub slid: Array2<f64>,
+    /// Debris per area in the contact \[m\]; `None` without a bed.
+    pub bed: Option<Array2<f64>>,
+    /// Debris that has left \[m^3\].
+    pub ejected: f64,
 }
 
 impl WornStart {
@@ -68,6 +72,11 @@ impl WornStart {
                 field("energy2", &self.energy[1])?,
             ],
             slid: field("slid", &self.slid)?,
+            bed: match &self.bed {
+                Some(bed) => field("bed", bed)?,
+                None => vec![0.0; mirror.fold(&self.slid).len()],
+            },
+            ejected: self.ejected / (grid.cell_area() * mirror.multiplicity()),
         })
     }
 }

@@ -1,7 +1,9 @@
 //! The oxygen that diffuses into the closed region and is consumed there.
 
-use super::matrix::{Matrix, NotConverged};
+use super::conjugate_gradients::NotConverged;
+use super::matrix::Matrix;
 use super::region::Region;
+use super::solve::solve;
 
 /// Error of the partial pressure, over its threshold.
 pub const ACCURACY: f64 = 1e-3;
@@ -11,7 +13,7 @@ pub const ACCURACY: f64 = 1e-3;
 /// where nothing is consumed. The error is at most [`ACCURACY`] times the `threshold`. A `guess`
 /// shortens the iterations.
 ///
-/// The scheme errs by (dx/lambda)^2/24 of the oxygen distance.
+/// The oxygen distance d of the scheme is too large by (dx/lambda)^2 (d/24 - lambda/8).
 pub fn diffuse_air(
     region: &Region,
     lambda_squared: &[f64],
@@ -33,6 +35,6 @@ pub fn diffuse_air(
     let slowest = reaction.iter().fold(f64::INFINITY, |m, r| m.min(*r));
     let response = (1.0 / slowest).min(region.width().powi(2) / 8.0);
     let tolerance = ACCURACY * threshold / response;
-    matrix.solve(&matrix.border, &mut P, tolerance)?;
+    solve(&matrix, &matrix.border, &mut P, tolerance)?;
     Ok(region.scatter(&P, 1.0))
 }

@@ -1,7 +1,9 @@
 //! The bed of debris over a jump of cycles.
 
-use super::matrix::{Matrix, NotConverged};
+use super::conjugate_gradients::NotConverged;
+use super::matrix::Matrix;
 use super::region::Region;
+use super::solve::solve;
 
 /// Part of the debris that the sum of the residuals may lose.
 const MASS: f64 = 1e-10;
@@ -33,7 +35,7 @@ pub fn spread_bed(
     let b = region.gather(supply);
     let total: f64 = b.iter().map(|b| b.abs()).sum();
     let mut h = region.gather(guess.unwrap_or(supply));
-    matrix.solve(&b, &mut h, MASS * total)?;
+    solve(&matrix, &b, &mut h, MASS * total)?;
     let leaves: f64 = h.iter().zip(&matrix.border).map(|(h, c)| h * c).sum();
     let open = supply.iter().sum::<f64>() - b.iter().sum::<f64>();
     Ok(Bed {

@@ -1,13 +1,38 @@
 //! Conjugate gradients with the modified incomplete Cholesky factor of the five-point scheme
 //! (I. Gustafsson, BIT 18 (1978) 142-156).
 
-use super::matrix::{Matrix, NotConverged};
+use std::fmt;
+
+use super::matrix::Matrix;
 
 /// Part of the neglected fill-in that is added to the diagonal, and the least pivot over it.
 const MODIFIED: f64 = 0.97;
 const LEAST_PIVOT: f64 = 0.25;
 /// Most iterations.
 const MOST: usize = 20_000;
+
+/// Conjugate gradients that do not reach their tolerance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NotConverged {
+    /// Sum of the residuals.
+    pub residual: f64,
+    /// The largest allowed sum.
+    pub tolerance: f64,
+    /// Iterations done.
+    pub iterations: usize,
+}
+
+impl fmt::Display for NotConverged {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "conjugate gradients leave a residual of {:.1e}, above {:.1e}, after {} iterations",
+            self.residual, self.tolerance, self.iterations
+        )
+    }
+}
+
+impl std::error::Error for NotConverged {}
 
 /// Solves from the guess `x` until the sum of the residuals is below `tolerance`.
 pub(crate) fn conjugate_gradients(

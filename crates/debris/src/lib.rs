@@ -20,10 +20,11 @@ mod conjugate_gradients;
 mod matrix;
 mod region;
 mod share;
+mod solve;
 mod tridiagonal;
 
 pub use air::{ACCURACY, diffuse_air};
 pub use bed::{Bed, spread_bed};
-pub use matrix::NotConverged;
+pub use conjugate_gradients::NotConverged;
 pub use region::{Lattice, Region};
 pub use share::aerated_share;

@@ -5,34 +5,7 @@
 //! symmetric, and of second order (F. Gibou, R. Fedkiw, L.-T. Cheng, M. Kang, J. Comput. Phys. 176
 //! (2002) 205-227).
 
-use std::fmt;
-
-use super::conjugate_gradients::conjugate_gradients;
 use super::region::{Region, Side};
-use super::tridiagonal::eliminate;
-
-/// Conjugate gradients that do not reach their tolerance.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct NotConverged {
-    /// Sum of the residuals.
-    pub residual: f64,
-    /// The largest allowed sum.
-    pub tolerance: f64,
-    /// Iterations done.
-    pub iterations: usize,
-}
-
-impl fmt::Display for NotConverged {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "conjugate gradients leave a residual of {:.1e}, above {:.1e}, after {} iterations",
-            self.residual, self.tolerance, self.iterations
-        )
-    }
-}
-
-impl std::error::Error for NotConverged {}
 
 /// The matrix `diagonal + reaction - div(conductance grad)`.
 pub(crate) struct Matrix {
@@ -42,7 +15,8 @@ pub(crate) struct Matrix {
     pub(crate) south: Vec<(f64, usize)>,
     /// Conductance of all borders of a cell together.
     pub(crate) border: Vec<f64>,
-    is_line: bool,
+    /// Whether it is tridiagonal.
+    pub(crate) is_line: bool,
 }
 
 impl Matrix {
@@ -76,21 +50,6 @@ impl Matrix {
             matrix.diagonal[c] += matrix.border[c];
         }
         matrix
-    }
-
-    /// Solves for the right-hand side `b` from the guess `x`, until the sum of the residuals is below
-    /// `tolerance`; exactly in a line.
-    pub(crate) fn solve(
-        &self,
-        b: &[f64],
-        x: &mut [f64],
-        tolerance: f64,
-    ) -> Result<(), NotConverged> {
-        if self.is_line {
-            eliminate(self, b, x);
-            return Ok(());
-        }
-        conjugate_gradients(self, b, x, tolerance)
     }
 
     /// Computes the product with x.

@@ -78,9 +78,10 @@ fn laws(given: &[Vec<Py<PyAny>>; 2], raised: &Raised, py: Python<'_>) -> [Vec<Ar
         .map(|body| body.iter().map(to_law).collect())
 }
 
-/// Surfaces to begin on: cycles, energy dissipated, and the fields worn1, worn2, energy1, energy2, slid.
+/// Surfaces to begin on: cycles, energy dissipated, the fields worn1, worn2, energy1, energy2, slid, bed, and the
+/// volume of debris that has left.
 #[derive(FromPyObject)]
-pub(crate) struct Start<'py>(f64, f64, Vec<PyArrayLike2<'py, f64>>);
+pub(crate) struct Start<'py>(f64, f64, Vec<PyArrayLike2<'py, f64>>, f64);
 
 impl Start<'_> {
     fn read(&self) -> WornStart {
@@ -96,6 +97,8 @@ impl Start<'_> {
             worn: [field(0), field(1)],
             energy: [field(2), field(3)],
             slid: field(4),
+            bed: (self.2.len() > 5).then(|| field(5)),
+            ejected: self.3,
         }
     }
 }
@@ -108,7 +111,7 @@ type StoredVariable<'py> = (Bound<'py, PyDict>, String);
 /// It writes a store, or without one gives all in memory. Laws that are functions, `{ own = true }`
 /// in the table, stand in `own` for each body.
 #[pyfunction]
-#[pyo3(signature = (scene, wear: "dict[str, Any]", own: "Sequence[Sequence[Callable[..., ArrayLike]]]", *, store = None, overwrite = false, start: "tuple[float, float, Sequence[NDArray[np.float64]]] | None" = None, on_jump: "Callable[[float], None] | None" = None) -> "tuple[dict[str, Variable], str] | None")]
+#[pyo3(signature = (scene, wear: "dict[str, Any]", own: "Sequence[Sequence[Callable[..., ArrayLike]]]", *, store = None, overwrite = false, start: "tuple[float, float, Sequence[NDArray[np.float64]], float] | None" = None, on_jump: "Callable[[float], None] | None" = None) -> "tuple[dict[str, Variable], str] | None")]
 pub(crate) fn wear<'py>(
     py: Python<'py>,
     scene: Scene,

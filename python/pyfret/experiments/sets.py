@@ -48,6 +48,18 @@ NAMES = (
 TI64 = Elastic(E=119e9, nu=0.29)
 #: Part of the debris that stays between Ti-6Al-4V (Arnaud, Baydoun, Fouvry 2021).
 KEPT = 0.85
+#: Oxygen between Ti-6Al-4V: 218.64 1/s at 0.024 W/mm^2, exponent 0.94 (Arnaud and others 2021).
+#: The oxygen distance enters for D/r: 1.753 mm, lambda 0.1353 mm.
+TI64_AIR = wearing.Air(distance=1.753e-3, power_density=24e3, power_exponent=0.94)
+#: Bed of debris of Ti-6Al-4V: kappa fitted on the U-shaped profile of Arnaud and others 2021. It
+#: takes up 0.75 of the volume that is worn without oxygen.
+TI64_BED = wearing.DebrisBed(kappa=4.444e-3, starved_yield=0.75)
+#: Coefficients of cylinder and plane, of half of the energy each, in air and without oxygen
+#: (Arnaud and others 2021).
+TI64_LAWS = (
+    wearing.DissipatedEnergy(alpha=4.1e-13, starved=0.9e-13),
+    wearing.DissipatedEnergy(alpha=5.1e-13, starved=1.4e-13),
+)
 ARNAUD = (
     "P. Arnaud, S. Baydoun, S. Fouvry, Tribol. Int. 161 (2021) 107077, "
     "doi:10.1016/j.triboint.2021.107077"
@@ -180,7 +192,7 @@ def fouvry2007(
 
 
 @quantities
-def fouvry2017(test: str, *, debris_kept: float = KEPT) -> Experiment:
+def fouvry2017(test: str, *, debris_kept: float = KEPT, third_body: bool = False) -> Experiment:
     """Ti-6Al-4V cylinder on flat, gross slip of 75 um: a row of S. Fouvry and others' appendix A.
 
     The coefficient of friction follows from the row's energy, E = 4 mu W slip N; both bodies share
@@ -193,6 +205,9 @@ def fouvry2017(test: str, *, debris_kept: float = KEPT) -> Experiment:
     debris_kept : float
         Part of the debris that stays in the contact, 0 to 1; the grid is as long as the scar
         that follows needs.
+    third_body : bool
+        Whether oxygen and a bed of debris are computed, with one set of constants for all tests.
+        Then `debris_kept` and V/E of the row are not used.
     """
     row = row_of("fouvry2017_ti64", "test", test)
     slip, W, cycles, length = 75e-6, row["W_max_N_per_m"], row["cycles"], row["L_m"]
@@ -207,6 +222,10 @@ def fouvry2017(test: str, *, debris_kept: float = KEPT) -> Experiment:
     if swing < 1:
         scene = scene.replace(path=to_and_fro(W, slip, W_end=swing * W))
     law = wearing.DissipatedEnergy(alpha)
+    law1, law2 = TI64_LAWS if third_body else (law, law)
+    debris: dict[str, Any] = (
+        {"air": TI64_AIR, "bed": TI64_BED} if third_body else {"debris_kept": debris_kept}
+    )
     return Experiment(
         "S. Fouvry, P. Arnaud, A. Mignot, P. Neubauer, Tribol. Int. 113 (2017) 460-473, "
         "doi:10.1016/j.triboint.2016.12.049, appendix A",
@@ -215,11 +234,11 @@ def fouvry2017(test: str, *, debris_kept: float = KEPT) -> Experiment:
         {
             "cycles": cycles,
             "cycling": "sliding",
-            "body1": law,
-            "body2": law,
+            "body1": law1,
+            "body2": law2,
             "share1": 0.5,
             "share2": 0.5,
-            "debris_kept": debris_kept,
+            **debris,
             "frequency": row["frequency_Hz"],
         },
         (
@@ -232,13 +251,25 @@ def fouvry2017(test: str, *, debris_kept: float = KEPT) -> Experiment:
 
 
 @quantities
-def arnaud2021(*, debris_kept: float = KEPT) -> Experiment:
+def arnaud2021(*, debris_kept: float = KEPT, bed: bool = False) -> Experiment:
     """Worn profile of Ti-6Al-4V, U-shaped: P. Arnaud, S. Baydoun, S. Fouvry.
 
     It is the test RP_f_20 of :func:`fouvry2017`; ``row`` has ``x`` and ``depth`` [m], the depth
     that both bodies together have lost.
+
+    Parameters
+    ----------
+    debris_kept : float
+        Part of the debris that stays in the contact, 0 to 1.
+    bed : bool
+        Whether a bed of debris is computed in place of `debris_kept`. At 0.11 Hz oxygen is
+        everywhere, and the coefficient is V/E of the test.
     """
     test = fouvry2017("RP_f_20", debris_kept=debris_kept)
+    arguments = dict(test.arguments)
+    if bed:
+        del arguments["debris_kept"]
+        arguments["bed"] = TI64_BED
     rows = [r for r in table("arnaud2021_profiles") if r["profile"] == "U_0.1Hz_measured"]
     row = {
         **test.row,
@@ -249,7 +280,7 @@ def arnaud2021(*, debris_kept: float = KEPT) -> Experiment:
         "axes W/mm3 are W/mm2; eps 11 mm2/W; alpha_c,ad 1.0e-5 (table), not 0.5e-5",
         "the profile holds 2.81 mm^3, that of RP_f_20 2.87",
     )
-    return Experiment(ARNAUD, test.scene, row, test.arguments, remarks)
+    return Experiment(ARNAUD, test.scene, row, arguments, remarks)
 
 
 @quantities

@@ -10,6 +10,16 @@ from pyfret._util.names import listing
 from pyfret.wear.result import WearResult
 from pyfret.wear.runs import resume, solve
 from pyfret.wear.settings import Archard, DissipatedEnergy, Wear
+from pyfret.wear.third_body import Air, DebrisBed
 
-__all__ = ["Archard", "DissipatedEnergy", "Wear", "WearResult", "resume", "solve"]
+__all__ = [
+    "Air",
+    "Archard",
+    "DebrisBed",
+    "DissipatedEnergy",
+    "Wear",
+    "WearResult",
+    "resume",
+    "solve",
+]
 __dir__ = listing(__all__)

@@ -233,6 +233,8 @@ class WearResult(Saveable, Labelled, Figured):
     def gap(self) -> xr.DataArray:
         """Growth of the gap [m]: the worn depth of both bodies minus the debris that stays."""
         opened: xr.DataArray = (1.0 - self.debris_kept) * self.worn
+        if "bed" in self.table:
+            opened = opened - self.dataset.bed
         return opened
 
     @property
@@ -275,6 +277,13 @@ class WearResult(Saveable, Labelled, Figured):
                 f"debris: {self.debris_kept:g} of it stays in the contact, "
                 f"{with_error(last['debris'], self.error_of('volume') * last['debris'])} {volume}"
             )
+        if "bed" in self.table:
+            lines.append(
+                f"debris: {with_error(last['debris'])} {volume} in the bed, "
+                f"{with_error(last['ejected'])} {volume} has left"
+            )
+        if "air" in self.table:
+            lines.append(f"aerated: {with_error(last['aerated_share'])} of the contact")
         lines.append(
             f"energy: {with_error(last['dissipated'])} {energy}, "
             f"{with_error(last['dissipated_per_cycle'])} {energy} in the last cycle, "

@@ -169,14 +169,15 @@ def solve_until_refused(
         return open_run(out), " ".join(str(error).split())
 
 
-def surfaces(start: WearResult) -> tuple[float, float, list[NDArray[np.float64]]]:
+def surfaces(start: WearResult) -> tuple[float, float, list[NDArray[np.float64]], float]:
     """The worn surfaces at the end of a run."""
     if not isinstance(start, WearResult):
         raise TypeError(f"start = {start!r:.60}: must be the result of a run of wear")
     d = start.dataset
-    names = ("worn1", "worn2", "energy1", "energy2", "slid")
-    fields = [np.asarray(d[name][-1].values, dtype=float) for name in names]
-    return float(d.block_cycles[-1]), float(d.dissipated[-1]), fields
+    names = ("worn1", "worn2", "energy1", "energy2", "slid", "bed")
+    fields = [np.asarray(d[name][-1].values, dtype=float) for name in names if name in d]
+    ejected = float(d.ejected[-1]) if "ejected" in d else 0.0
+    return float(d.block_cycles[-1]), float(d.dissipated[-1]), fields, ejected
 
 
 @quantities

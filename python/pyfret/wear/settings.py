@@ -18,6 +18,7 @@ from pyfret.quantities import (
     EnergyWearCoefficient,
     Frequency,
     InSI,
+    Length,
     Stiffness,
     WearCoefficient,
     by_default,
@@ -25,6 +26,8 @@ from pyfret.quantities import (
     quantities,
 )
 from pyfret.scene.parts import Replaceable
+from pyfret.wear import third_body
+from pyfret.wear.third_body import Air, DebrisBed
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -51,11 +54,14 @@ class Archard(Replaceable):
     factor : (str, list of pairs), optional
         What the coefficient changes with ("cycles", "pressure", "power_density" or "energy"), and
         pairs of that and its factor.
+    starved : float, optional
+        Coefficient where no oxygen arrives [m^2/N] (default: the same); see :class:`Air`.
     """
 
     k: InSI[WearCoefficient]
     threshold: float = 0.0
     factor: Factor | None = None
+    starved: InSI[WearCoefficient | None] = by_default(None)
 
     def __post_init__(self) -> None:
         """Make the pairs of the factor a value, as the law is."""
@@ -75,11 +81,14 @@ class DissipatedEnergy(Replaceable):
     factor : (str, list of pairs), optional
         What the coefficient changes with ("cycles", "pressure", "power_density" or "energy"), and
         pairs of that and its factor.
+    starved : float, optional
+        Coefficient where no oxygen arrives [m^3/J] (default: the same); see :class:`Air`.
     """
 
     alpha: InSI[EnergyWearCoefficient]
     threshold: float = 0.0
     factor: Factor | None = None
+    starved: InSI[EnergyWearCoefficient | None] = by_default(None)
 
     def __post_init__(self) -> None:
         """Make the pairs of the factor a value, as the law is."""
@@ -112,6 +121,12 @@ class Wear(Replaceable):
     debris_kept : float
         Part of what both bodies lose that stays in the contact, 0 to 1: the gap grows by the rest.
         Debris lies where it was made and is as stiff as the body that it was.
+    air : Air, optional
+        Oxygen in the contact; it needs a `frequency`. Without it, oxygen is everywhere.
+    bed : DebrisBed, optional
+        A bed of debris that spreads and leaves, in place of `debris_kept`.
+    closed_below : float
+        Gap below which the region between the bodies is closed to the air [m].
     first_branch : int, optional
         First branch of the path that belongs to the cycle, counted from 0 (default: that of the
         last closed cycle); the cycle ends where it begins.
@@ -145,6 +160,9 @@ class Wear(Replaceable):
     share1: float | None = None
     share2: float | None = None
     debris_kept: float = 0.0
+    air: Air | None = None
+    bed: DebrisBed | None = None
+    closed_below: InSI[Length] = 1e-6
     first_branch: int | None = None
     branch_counts: Sequence[float] | None = None
     cycling: Literal["auto", "march", "sliding"] = "auto"
@@ -181,6 +199,11 @@ class Wear(Replaceable):
         if self.branch_counts is not None:
             counts = items(self.branch_counts, "branch_counts")
             table["branch_counts"] = plain(counts, "branch_counts").tolist()
+        for name, kind in (("air", Air), ("bed", DebrisBed)):
+            if name in table:
+                if not isinstance(table[name], kind):
+                    raise TypeError(f"{name} = {table[name]!r:.60}: must be a {kind.__name__}")
+                table[name] = third_body.written(table[name])
         functions: list[list[Function]] = []
         for body in ("body1", "body2"):
             laws_of_body, share = table.pop(body, None), table.pop(f"share{body[-1]}", None)
@@ -240,6 +263,9 @@ def read(text: str) -> Wear:
         A law is a function, which no file can hold.
     """
     table = dict(tomllib.loads(text)["wear"])
+    for name, kind in (("air", Air), ("bed", DebrisBed)):
+        if name in table:
+            table[name] = kind(**table[name])
     for body in ("body1", "body2"):
         body_table = table.pop(body, {})
         if "share" in body_table:

@@ -18,3 +18,4 @@ mod random;
 mod resumed;
 #[path = "../../../contact-core/tests/splitmix/mod.rs"]
 mod splitmix;
+mod third_body;

@@ -182,6 +182,8 @@ fn a_run_goes_on_from_worn_surfaces() {
             worn: [block.worn1, block.worn2],
             energy: [block.energy1, block.energy2],
             slid: block.slid,
+            bed: Some(block.bed),
+            ejected: block.ejected,
         };
         let mut second =
             WearRun::from_worn(&scene, &with(0.5 * cycles, 6), &start, &Arc::default()).unwrap();

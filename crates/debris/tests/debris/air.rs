@@ -41,8 +41,14 @@ fn air_of_a_strip() {
     // (dx/lambda)^2/24 of the distance: of second order.
     let order = (coarse.0 - core) / (fine.0 - core);
     assert!((3.5..4.5).contains(&order), "{order}");
-    let ten = core_of_strip(&strip, 10.0).0;
-    near(ten - core, (b - core) * -0.01 / 24.0, 0.1, "its error");
+    // The wave decays too slowly, and starts too low on the border.
+    let (ten, lambda) = (core_of_strip(&strip, 10.0).0, strip.input("lam"));
+    near(
+        core - ten,
+        0.01 * ((b - core) / 24.0 - lambda / 8.0),
+        0.03,
+        "its error",
+    );
 }
 
 #[test]
