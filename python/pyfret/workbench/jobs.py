@@ -88,14 +88,15 @@ class Jobs:
             folder.mkdir(mode=0o700)
             (folder / "order.json").write_text(json.dumps(order), encoding="utf-8")
             command = [sys.executable, "-m", "pyfret.workbench.worker", str(folder)]
-            process = subprocess.Popen(
-                command,
-                cwd=folder,
-                env={**os.environ, "MPLBACKEND": "Agg"},
-                stdin=subprocess.DEVNULL,
-                stdout=subprocess.DEVNULL,
-                stderr=(folder / "errors.txt").open("wb"),
-            )
+            with (folder / "errors.txt").open("wb") as errors:
+                process = subprocess.Popen(
+                    command,
+                    cwd=folder,
+                    env={**os.environ, "MPLBACKEND": "Agg"},
+                    stdin=subprocess.DEVNULL,
+                    stdout=subprocess.DEVNULL,
+                    stderr=errors,
+                )
             job = Job(number, title, folder, process)
             self._jobs.setdefault(session, []).append(job)
             del self._jobs[session][:-KEPT]
