@@ -14,6 +14,7 @@ import argparse
 import json
 import time
 import warnings
+from functools import partial
 from pathlib import Path
 from statistics import median
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -26,6 +27,8 @@ import pyfret as fret
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from pyfret.fatigue.criteria import CriterionName
+
 #: A ball or a roller of steel on a flat of Ti-6Al-4V. The film is a tenth of the radius thick.
 STEEL, TITANIUM = fret.Elastic(E=210e9, nu=0.3), fret.Elastic(E=114e9, nu=0.34)
 CARBON = fret.Elastic(E=200e9, nu=0.25)
@@ -36,7 +39,13 @@ SHARE = 0.6
 S_Y, S_Y_LOW = 900e6, 550e6
 MATERIAL = "titanium_6Al4V"
 #: Criteria of stress: lives of strain are for closed loops, and the first cycle may ratchet.
-CRITERIA = ("findley", "dang_van", "crossland", "matake", "mcdiarmid")
+CRITERIA: tuple[CriterionName, ...] = (
+    "findley",
+    "dang_van",
+    "crossland",
+    "matake",
+    "mcdiarmid",
+)
 CONTACTS = ("bare", "coated", "line", "yielding")
 
 
@@ -45,10 +54,6 @@ class Known(NamedTuple):
 
     value: float
     error: float
-
-
-#: A question: a function of a result and of depths, None for the default depths.
-Ask = "Callable[[fret.Result, list[float] | None], Known]"
 
 
 def contact(kind: str, cells: int) -> fret.Scene:
@@ -77,7 +82,7 @@ def half_width(upper: fret.Body, lower: fret.Body, force: float, *, line: bool) 
 def twice_as_many(depths: np.ndarray) -> list[float]:
     """Return depths with one more between each two."""
     z = np.unique(depths)
-    return np.sort(np.concatenate([z, 0.5 * (z[1:] + z[:-1])])).tolist()
+    return sorted([*z.tolist(), *(0.5 * (z[1:] + z[:-1])).tolist()])
 
 
 def stress(run: fret.Result, z: list[float] | None) -> Known:
@@ -97,7 +102,7 @@ def largest(*measures: str) -> Any:
     return ask
 
 
-def lives(*criteria: str) -> Any:
+def lives(*criteria: CriterionName) -> Any:
     """Return a question for the worst points by criteria; its number belongs to the first one."""
 
     def ask(run: fret.Result, z: list[float] | None) -> Known:
@@ -168,7 +173,7 @@ def measure(kind: str, cells: int, repeat: int) -> dict[str, Any]:
         times = []
         for _ in range(repeat):
             fresh = fret.Result(run.dataset)
-            seconds, known = timed(lambda q=question, r=fresh: q.ask(r, None))
+            seconds, known = timed(partial(question.ask, fresh, None))
             times.append(seconds)
         answer = {"ratio": median(times) / unit, "value": known.value, "error": known.error}
         if question.depths:
