@@ -108,6 +108,9 @@ pub fn find<'a>(materials: &'a BTreeMap<String, Material>, name: &str) -> Option
         .or_else(|| same_case.or(any_case).map(|(_, material)| *material))
 }
 
+/// Likeness from which on a name is a slip of the pen in the nearest one, whatever its kind.
+const CLOSE: f64 = 0.95;
+
 /// The names that are nearest to one that is unknown, of one kind, the nearest first: metals for the
 /// symbol of an element, ceramics and coatings for a compound, else the kind of the nearest name.
 pub fn nearest(materials: &BTreeMap<String, Material>, name: &str, most: usize) -> Vec<String> {
@@ -119,12 +122,15 @@ pub fn nearest(materials: &BTreeMap<String, Material>, name: &str, most: usize) 
     };
     let mut found: Vec<_> = (materials.values()).map(|of| (likeness(of), of)).collect();
     found.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let exact = found.first().is_some_and(|(likeness, _)| *likeness == 1.0);
+    let likeness_of_nearest = found.first().map_or(0.0, |(likeness, _)| *likeness);
+    let exact = likeness_of_nearest == 1.0;
     let nearest_kind = found.first().map_or("", |(_, of)| of.kind.as_str());
     let is_of_kind = |of: &Material| match name {
         _ if exact => of.kind == nearest_kind,
         name if ELEMENTS.contains(&name) => METALS.contains(&of.kind.as_str()),
-        name if is_compound(name) => COMPOUNDS.contains(&of.kind.as_str()),
+        name if is_compound(name) && likeness_of_nearest < CLOSE => {
+            COMPOUNDS.contains(&of.kind.as_str())
+        }
         _ => of.kind == nearest_kind,
     };
     if found.iter().any(|(_, of)| is_of_kind(of)) {

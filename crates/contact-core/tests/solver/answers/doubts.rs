@@ -64,8 +64,8 @@ fn what_is_meant_is_not_doubted() {
     quiet(|scene| {
         let rubber = Elastic { E: 3e6, nu: 0.49 };
         (scene.body1.substrate, scene.body2.substrate) = (rubber, rubber);
-        scene.path = LoadPath::start().normal(1e-2 * W, 1);
-        scene.grid = Grid::centred(6e-3, 64).expect("a grid");
+        scene.path = LoadPath::start().normal(1e-3 * W, 1);
+        scene.grid = Grid::centred(3e-3, 64).expect("a grid");
     });
     quiet(|scene| {
         scene.body1.shape = Shape::Sphere { R: 0.46 };
