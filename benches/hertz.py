@@ -81,7 +81,8 @@ def roughness(shape: Shape, n: int) -> Field:
     factors = amplitude * np.exp(1j * phases)
     waves = np.exp(2j * np.pi * np.outer(positions(shape, n) / shape.width, k))
     z: Field = (waves @ factors @ waves.T).real
-    return shape.rms * z / np.sqrt(0.5 * np.sum(amplitude**2))
+    scaled: Field = shape.rms * z / np.sqrt(0.5 * np.sum(amplitude**2))
+    return scaled
 
 
 def gap(shape: Shape, n: int) -> Field:

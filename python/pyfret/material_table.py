@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from pyfret._core import Elastic, Plastic, material_quantities
+from pyfret._core import Elastic, Material, Plastic, material_quantities
 from pyfret._util.scene_warnings import warn
 from pyfret.fatigue import Materials
 from pyfret.fatigue.ranges import known_as
@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     import os
 
     import pandas as pd
-
-    from pyfret.fatigue import Material
 
 __all__ = ["hardness_from", "material", "materials"]
 
@@ -159,6 +157,8 @@ def hardness_from(hardness: YieldStress | Material | str) -> float:
     if isinstance(hardness, (int, float)):
         return float(hardness)
     chosen = Materials()[hardness] if isinstance(hardness, str) else hardness
+    if not isinstance(chosen, Material):
+        raise TypeError(f"hardness = {hardness!r}: must be a pressure in Pa or a material")
     if "s_y" not in {key for key, _, _ in chosen.numbers()}:
         raise ValueError(
             f"hardness: the table has no yield stress of {chosen.name}; give a pressure in Pa"

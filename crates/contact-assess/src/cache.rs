@@ -5,14 +5,13 @@
 //! each of them once. It holds the stress of the loads alone, without the residual stress of the
 //! layers, which some judges take and others do not.
 
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use contact_core::Error;
 use contact_subsurface::{Border, Depth, Line, Moments};
 
 use super::history::History;
-use super::site::PreparedPoints;
+use super::prepared_points::PreparedPoints;
 
 /// Most memory of the histories of sections, of prepared points, and of moments \[bytes\].
 const MOST_HISTORIES: usize = 96 << 20;
@@ -142,11 +141,6 @@ impl<K: PartialEq, V> Shelf<K, V> {
             values.remove(0);
         }
     }
-}
-
-/// Checks that no interruption was asked for.
-pub(super) fn is_running(stop: &AtomicBool) -> bool {
-    !stop.load(Ordering::Relaxed)
 }
 
 #[cfg(test)]

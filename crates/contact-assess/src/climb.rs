@@ -12,7 +12,8 @@ use ndarray::Array2;
 use super::cache::Cells;
 use super::history::History;
 use super::judged::{Judge, Judged};
-use super::site::{PreparedPoints, Site};
+use super::prepared_points::PreparedPoints;
+use super::site::Site;
 
 /// Most hills and most places on borders that are judged before the ascent.
 const HILLS: usize = 3;

@@ -21,6 +21,7 @@ pub mod crack;
 mod history;
 mod judged;
 mod mean;
+mod prepared_points;
 mod range;
 mod site;
 mod worst;

@@ -62,8 +62,8 @@ LAWS = {
     "haibach": "below the knee the curve goes on with the exponent 2 m - 1 (Haibach)",
 }
 #: Error of the damage by the memory of a contact over the difference of one stretch, which is a
-#: sample of it. Of six contacts (coated, bulk stress out of phase) the errors are 0.56 to 1.64 times
-#: the difference.
+#: sample of it. Of six contacts (coated, bulk stress out of phase) the errors are 0.56 to 1.64
+#: times the difference.
 COVER = 2.0
 
 

@@ -23,7 +23,7 @@ from pyfret.history.load_history import LoadHistory
 from pyfret.history.table import HistoryTable
 from pyfret.quantities import Angle, CrackLengths, Length, as_number, quantities
 from pyfret.run.run import Run
-from pyfret.subsurface.moments import states_of
+from pyfret.subsurface.moments import states_of_increments
 
 __all__ = ["BlockGrowth", "grow_by_history"]
 
@@ -130,16 +130,14 @@ def grow_by_history(
     long = np.sort(np.atleast_1d(plain(lengths, "lengths")))
     scene = run.scene
     body = scene.body1 if body_number == 1 else scene.body2
-    moments = states_of([run.at(int(n)) for n in states.increments], body_number)
-    intensity = _core.crack_of_states(
-        body,
-        moments,
+    moments = states_of_increments(run, [int(n) for n in states.increments], body_number)
+    below = _core.ContactForCracks(body, moments, body_number=body_number)
+    intensity = below.intensity(
         x=as_number(x),
         lengths=long.tolist(),
         angle=as_number(angle),
         azimuth=as_number(azimuth),
         offset=as_number(offset),
-        body_number=body_number,
     )
     # Without contact of the faces K is a sum of the states.
     K = np.einsum("lmi,ic->lmc", states.weights, intensity["K_I_linear"])

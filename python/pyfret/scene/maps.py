@@ -14,7 +14,7 @@ import numpy as np
 
 from pyfret._core import SurfaceMap
 from pyfret._util.numbers import length
-from pyfret.quantities import Length, quantities
+from pyfret.quantities import Length, as_number, quantities
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -126,8 +126,9 @@ def least_squares(z: Field, columns: list[Field]) -> tuple[Field, Field]:
     """Return the sum of the columns nearest to the heights, and their factors."""
     matrix = np.stack([np.broadcast_to(column, z.shape).ravel() for column in columns], axis=1)
     # The normal equations of a few columns: no copy of the matrix of a large map.
-    factors = np.linalg.solve(matrix.T @ matrix, matrix.T @ z.ravel())
-    return (matrix @ factors).reshape(z.shape), factors
+    factors = np.asarray(np.linalg.solve(matrix.T @ matrix, matrix.T @ z.ravel()), dtype=float)
+    fitted: Field = (matrix @ factors).reshape(z.shape)
+    return fitted, factors
 
 
 def level(surface: SurfaceMap, name: FormName) -> SurfaceMap:
@@ -147,6 +148,7 @@ def filter_waves(
     surface: SurfaceMap, short: Length | None = None, long: Length | None = None
 ) -> SurfaceMap:
     """Remove waves shorter and longer than cut-offs, by Gaussian filters (ISO 16610-61)."""
+    short, long = as_number(short), as_number(long)
     if short is None and long is None:
         raise ValueError("filter: needs short= or long=, a cut-off wavelength in m")
     if short is not None and long is not None and not short < long:
@@ -188,7 +190,8 @@ def gaussian_weights(count: int, step: float) -> Field:
     """Return the matrix of the weights along one axis, each row of the sum 1."""
     offsets = step * (np.arange(count)[:, None] - np.arange(count)[None, :])
     weights: Field = np.exp(-np.pi * offsets**2)
-    return weights / weights.sum(axis=1, keepdims=True)
+    normalised: Field = weights / weights.sum(axis=1, keepdims=True)
+    return normalised
 
 
 def resample(

@@ -162,7 +162,7 @@ class Wear(Replaceable):
     debris_kept: float = 0.0
     air: Air | None = None
     bed: DebrisBed | None = None
-    closed_below: InSI[Length] = 1e-6
+    closed_below: InSI[Length] = by_default(1e-6)
     first_branch: int | None = None
     branch_counts: Sequence[float] | None = None
     cycling: Literal["auto", "march", "sliding"] = "auto"

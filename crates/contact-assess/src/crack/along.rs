@@ -65,6 +65,36 @@ pub(super) struct Stencil {
     weights: [f64; SAMPLES],
 }
 
+impl Prepared {
+    /// The stress where cracks run, in the plane at an azimuth and a distance from the axis of depth,
+    /// sampled from a distance from the mouth on with a step of its logarithm.
+    pub(super) fn along(
+        &self,
+        (azimuth, offset): (f64, f64),
+        nearest: f64,
+        step: f64,
+    ) -> Result<Along<'_>, Error> {
+        if self.grid.plane_strain && azimuth != 0.0 {
+            let allowed = "0 in plane strain, where cracks run along y";
+            return Err(Error::invalid("azimuth", azimuth, allowed));
+        }
+        if !azimuth.is_finite() {
+            return Err(Error::invalid("azimuth", azimuth, "a finite angle in rad"));
+        }
+        if !offset.is_finite() {
+            return Err(Error::invalid("offset", offset, "a finite distance in m"));
+        }
+        Ok(Along {
+            contact: self,
+            azimuth,
+            offset,
+            nearest,
+            step,
+            known: HashMap::new(),
+        })
+    }
+}
+
 impl Along<'_> {
     /// The stress along a path and along its parts from the mouth on, by the tractions on `cells`.
     pub(super) fn on(&mut self, path: &Path, cells: Cells) -> Result<Line, Error> {

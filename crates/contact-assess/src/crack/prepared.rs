@@ -8,8 +8,6 @@ use contact_core::Error;
 use contact_core::scene::{Body, Grid, ResidualStress};
 use contact_subsurface::{DoubledCells, Moments, Points, Side, States};
 
-use super::along::Along;
-
 /// Cells of the tractions: the cells of the grid, or cells twice as large in one of two pairings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(super) enum Cells {
@@ -29,7 +27,7 @@ pub(super) type PointsOnGrid = (Points, (f64, f64));
 pub struct Prepared {
     pub(super) body: Body,
     pub(super) side: Side,
-    grid: Grid,
+    pub(super) grid: Grid,
     moments: Moments,
     has_stick: bool,
     residual: ResidualStress,
@@ -89,33 +87,5 @@ impl Prepared {
         let made = Arc::new(made);
         points.insert(cells, made.clone());
         Ok(made)
-    }
-
-    /// The stress where cracks run, in the plane at an azimuth and a distance from the axis of depth,
-    /// sampled from a distance from the mouth on with a step of its logarithm.
-    pub(super) fn along(
-        &self,
-        (azimuth, offset): (f64, f64),
-        nearest: f64,
-        step: f64,
-    ) -> Result<Along<'_>, Error> {
-        if self.grid.plane_strain && azimuth != 0.0 {
-            let allowed = "0 in plane strain, where cracks run along y";
-            return Err(Error::invalid("azimuth", azimuth, allowed));
-        }
-        if !azimuth.is_finite() {
-            return Err(Error::invalid("azimuth", azimuth, "a finite angle in rad"));
-        }
-        if !offset.is_finite() {
-            return Err(Error::invalid("offset", offset, "a finite distance in m"));
-        }
-        Ok(Along {
-            contact: self,
-            azimuth,
-            offset,
-            nearest,
-            step,
-            known: HashMap::new(),
-        })
     }
 }
