@@ -15,7 +15,7 @@ const SCENE: &str = concat!(
     env!("CARGO_MANIFEST_DIR"),
     "/../../scenes/coated_small.toml"
 );
-/// Fields of 144 x 144 cells take 2 to 50 kB, a state 1200 kB, the metadata 30 kB.
+/// Fields of 144 x 144 cells take 1 to 100 kB, a state 1200 kB, the metadata 50 kB.
 const SETTINGS: &str = "--set grid.n=144 --set path.0.increments=8 --set output.save=all --quiet --set path.2.increments=2 \
                         --set path.3.increments=2 --set path.4.increments=2 --set path.5.increments=2";
 
@@ -91,10 +91,10 @@ fn a_checkpoint_that_does_not_fit_on_the_disk() {
     full_disk("no_state.zarr", 512, 0.0, "checkpoint/state.");
 }
 
-/// Pressures are the first fields to outgrow 40 kB.
+/// Displacements are the first fields to outgrow 60 kB.
 #[test]
 fn fields_that_do_not_fit_on_the_disk() {
-    full_disk("no_field.zarr", 80, 1000.0, "");
+    full_disk("no_field.zarr", 120, 1000.0, "");
 }
 
 /// A folder without the right to write; root, who has that right everywhere, is refused by `/proc`.
