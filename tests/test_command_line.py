@@ -104,7 +104,7 @@ def test_check_of_sliding_wear_has_the_places_of_its_stroke(tmp_path: Path) -> N
     assert sliding.returncode == 0, sliding.stderr
     assert "path error" not in sliding.stdout
     assert "some 12" not in sliding.stdout
-    assert "in sliding: the pressure at the middle of every increment" in sliding.stdout
+    assert "in sliding: the mean pressure of every increment" in sliding.stdout
     least, upper = json.loads(fret_run("check", tmp_path / "open.toml", "--json").stdout)["path"][
         "increments"
     ]

@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 import pyfret as fret
@@ -78,6 +79,14 @@ WAYS: dict[str, list[list[str]]] = {
     "info": [["info", "loop.csv"], ["info", STORE]],
     "report": [["report", STORE, "-o", "page.html"]],
     "cite": [["cite"], ["cite", STORE]],
+    "table": [
+        ["table", STORE, *extra]
+        for extra in ((), ("--of", "branches"), ("--of", "loops"), ("-o", "table.csv"))
+    ],
+    "damage": [
+        ["damage", "pressed.toml", "rig.csv", "--material", "7075", *extra]
+        for extra in ((), ("--criterion", "crossland", "--exponent", "5"))
+    ],
 }
 #: Checks all of the package for minutes; its answer has no number that may be missing.
 LONG = {"verify"}
@@ -117,6 +126,12 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
             path=fret.LoadPath.start().normal(100.0, increments=2),
         ).to_toml()
     )
+    # One that only presses, and the recording of a force that follows.
+    pressed = scene.replace(path=fret.LoadPath.start().normal(1e5, increments=2))
+    (position / "pressed.toml").write_text(pressed.to_toml())
+    samples = 2e4 * np.sin(np.arange(200))
+    recorded = "\n".join(f"{n / 100:.2f};{force:.9g}" for n, force in enumerate(samples))
+    (position / "rig.csv").write_text(f"t [s];T_x [N/m]\n{recorded}\n")
     (position / "study.toml").write_text(STUDY)
     (position / "compare.toml").write_text(COMPARE)
     result = fret.solve(scene, out=position / STORE, progress=False)

@@ -84,7 +84,6 @@ def test_a_word_of_others_names_what_it_means() -> None:
         (SCENE, "save", "to_toml"),
         (SCENE, "to_file", "to_toml"),
         (SCENE.grid, "extent", "nx and dx"),
-        (at, "real_area", "contact_area"),
         (at.stress(), "max", "maximum"),
     ):
         with pytest.raises(AttributeError, match=f"it is called {expected_name}"):

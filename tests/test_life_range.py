@@ -215,7 +215,7 @@ def test_everyday_names_are_found(name: str, key: str) -> None:
 
 
 def test_a_wrong_name_gets_the_nearest_one() -> None:
-    with pytest.raises(KeyError, match="the nearest is 42CrMo4"):
+    with pytest.raises(KeyError, match="the nearest of its kind are steel_42CrMo4, "):
         fret.material("42CrMo")
 
 

@@ -87,7 +87,7 @@ def test_layers_have_their_own_limits(coated_cycle: fret.Result) -> None:
         assert ax.get_ylim()[0] > ax.get_ylim()[1]
         legend = ax.get_legend()
         assert legend is not None
-        assert any("factor" in text.get_text() for text in legend.get_texts())
+        assert any("of the limit" in text.get_text() for text in legend.get_texts())
     plt.close("all")
 
 

@@ -74,6 +74,8 @@ PARTS: list[tuple[Any, dict[str, Any]]] = [
     (fret.wear.Archard(1e-14, threshold=1e-9), {"k": 2e-14}),
     (fret.wear.DissipatedEnergy(1e-14), {"threshold": 1.0}),
     (fret.wear.Archard(1e-14, factor=("cycles", [(0.0, 1.0), (9.0, 2.0)])), {"factor": None}),
+    (fret.wear.Air(distance=1e-3, power_density=1e4), {"threshold": 1.0}),
+    (fret.wear.DebrisBed(kappa=1e-3), {"volume_ratio": 2.0}),
     (fret.wear.Wear(1e4, body2=fret.wear.Archard(1e-14)), {"cycles": 2e4}),
     (
         fret.Scene(

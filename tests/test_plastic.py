@@ -337,9 +337,10 @@ def test_a_hard_film_is_in_tension_after_unloading() -> None:
         path=path.normal(1e-3 * state["load"]["value"], increments=2),
     )
     result = fret.solve(scene, progress=False)
+    # The row has no load after unloading; the 0.34 N of the last increment add 93 MPa there.
     bottom = []
-    for n in (10, 12):
-        s_xx = result.at(n).plastic.on_axis("stress").sel(component="xx")
+    for n, name in ((10, "stress"), (12, "residual_stress")):
+        s_xx = result.at(n).plastic.on_axis(name).sel(component="xx")
         bottom.append(beside(s_xx, film, 0))
     remaining = state["unloaded"]["s_rr_at_interfaces"]
     under_load = state["s_rr_at_interfaces_loaded"]

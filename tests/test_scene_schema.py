@@ -46,6 +46,8 @@ PLACES = {
     "rig": "rig.",
     "cycle": "cycle.",
     "wear": "wear.",
+    "wear/air": "wear.air.",
+    "wear/bed": "wear.bed.",
     "wear/body1": "wear.body1.",
     "wear/body2": "wear.body2.",
     "wear/body1/factor": "wear.body1.factor.",

@@ -56,41 +56,41 @@ def test_a_constructor_refuses_at_once(make: Callable[[], object], says: str) ->
     [
         (
             lambda: fret.Body(210e9),
-            r"(?s)210000000000.0: must be a material, such as Elastic.*'substrate'",
+            r"^substrate = 210000000000.0: must be a material, such as Elastic",
         ),
         (
             lambda: fret.Body(STEEL, shape="flat"),
-            r"(?s)'flat': must be a shape, such as Sphere.*'shape'",
+            r"^shape = 'flat': must be a shape, such as Sphere",
         ),
-        (lambda: fret.Body(STEEL, coatings=3e-6), r"(?s).*must be a list of coatings.*'coatings'"),
+        (lambda: fret.Body(STEEL, coatings=3e-6), r"^coatings = 3e-06: must be a list of coatings"),
         (
             lambda: fret.Body(STEEL, coatings=[STEEL]),
-            r"(?s)Elastic.*must be a coating, such as.*'coatings'",
+            r"^coatings: Elastic.*must be a coating, such as",
         ),
         (
             lambda: fret.Coating(210e9, thickness=1e-6),
-            r"(?s).*such as Elastic\(E=210e9.*'material'",
+            r"^material = 210000000000.0: .*such as Elastic\(E=210e9",
         ),
         (
             lambda: fret.Scene(body1=STEEL, body2=FLAT, friction=0.3, grid=GRID),
-            r"(?s).*such as Body.*'body1'",
+            r"^body1: Elastic.*such as Body",
         ),
         (
             lambda: fret.Scene(body1=BALL, body2=FLAT, friction="a", grid=GRID),
-            r"(?s)'a': must be a coeffic.*'friction'",
+            r"^friction = 'a': must be a coeffic",
         ),
         (
             lambda: fret.Scene(body1=BALL, body2=FLAT, friction=0.3, grid=128),
-            r"(?s)128: must be a grid.*'grid'",
+            r"^grid = 128: must be a grid",
         ),
         (
             lambda: fret.reference.hertz(R=R, bodies=(R, STEEL), W=W),
-            r"(?s)must be a material.*'bodies'",
+            r"^bodies = 0.018: must be a material",
         ),
-        (lambda: PRESSED.tangential("a"), r"(?s)'a': must be a number, or several.*'T_x'"),
+        (lambda: PRESSED.tangential("a"), r"^T_x = 'a': must be a number, or several"),
         (
             lambda: fret.SurfaceMap([[0.0]], spacing="a"),
-            r"(?s)'a': must be a length in m.*'spacing'",
+            r"^spacing = 'a': must be a length in m",
         ),
     ],
 )
@@ -148,8 +148,8 @@ def test_heights_in_another_unit_are_refused() -> None:
     [
         (flat_of([fret.Coating(STEEL, thickness=3.0)]), r"thickness = 3.000e0 m is \d+ times"),
         (
-            sphere_on_flat().replace(path=PRESSED.displace(delta_x=3.0, increments=1)),
-            r"path\[1\].delta_x = 3.000e0 m is beyond the grid",
+            sphere_on_flat().replace(path=PRESSED.displace(delta_x=0.03, increments=1)),
+            r"path\[1\].delta_x = 3.000e-2 m is beyond the grid",
         ),
         (
             sphere_on_flat().replace(path=PRESSED.force(sigma_B=5e10, increments=1)),
@@ -169,7 +169,7 @@ def test_a_scene_is_checked_along_a_path_that_comes_later() -> None:
     with pytest.raises(fret.errors.InvalidSceneError, match="path = empty"):
         scene.check()
     scene.check(PRESSED)
-    far = PRESSED.displace(delta_x=3.0, increments=1)
+    far = PRESSED.displace(delta_x=0.03, increments=1)
     assert "is beyond the grid" in " ".join(scene.doubts(far))
     with pytest.warns(fret.errors.SceneWarning, match="is beyond the grid"):
         scene.check(path=far)

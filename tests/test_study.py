@@ -316,7 +316,7 @@ def test_stresses_wear_and_a_scene_file_with_its_measures(tmp_path: Path) -> Non
     assert (d.worn_depth2 > 0).all()
     assert (d.worn_depth1 == 0).all()
     assert "coating_life2: its range is without the scatter of the wear" in study.summary()
-    hertz = fret.reference.hertz(R=R, bodies=(SCENE.body1, SCENE.body1), W=W)
+    hertz = fret.reference.hertz(R=R, bodies=(SCENE.body1.substrate,) * 2, W=W)
     file = tmp_path / "scene.toml"
     varied = fret.Scene.from_file(file, set=["body2.coatings.0.thickness.a_H=0.5"])
     assert varied.body2.coatings[0].thickness == pytest.approx(0.5 * hertz.a, rel=1e-12)

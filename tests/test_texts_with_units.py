@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import dataclasses
 import importlib
+import inspect
 import re
 from collections.abc import Callable
 from decimal import Decimal
 from pathlib import Path
+from types import FunctionType
 from typing import Any
 
 import numpy as np
@@ -14,6 +17,7 @@ import pytest
 
 import pyfret as fret
 from pyfret import _core
+from pyfret._util.parameter import Signature
 from test_types import annotation_in_stub
 
 pytestmark = [pytest.mark.solves, pytest.mark.filterwarnings("ignore")]
@@ -44,7 +48,7 @@ def test_every_number_takes_a_text_with_its_unit_or_says_what_to_write(
         for key, value in computed[0].items():
             if type(value) is not float or not accepted(public, call, computed[0]):
                 continue
-            measured = _core.measured_by(f"{name}.{key}")
+            measured = _core.measured_by(f"{name}.{key}") or measured_by_type(call, key)
             if measured and " at " in measured[1]:
                 # A growth law has no unit of one word.
                 continue
@@ -66,6 +70,19 @@ def test_every_number_takes_a_text_with_its_unit_or_says_what_to_write(
     assert not wrong, "\n".join(wrong)
     assert taken > 45
     assert refused > 60
+
+
+def measured_by_type(call: Any, key: str) -> tuple[str, str] | None:
+    """Quantity and unit of a parameter by its type: its name may have no row."""
+    if isinstance(call, type) and dataclasses.is_dataclass(call):
+        of_part = inspect.unwrap(call.__init__)
+        rules = Signature(of_part, call).rules
+    elif isinstance(call, FunctionType):
+        rules = Signature(inspect.unwrap(call)).rules
+    else:
+        return None
+    unit = rules[key].unit if key in rules else None
+    return None if unit is None else (unit.quantity, unit.si)
 
 
 def accepted(public: Any, call: Any, given: dict[str, Any]) -> bool:

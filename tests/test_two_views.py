@@ -190,7 +190,7 @@ def test_numbers_of_cycles(result: fret.Result, pages: tuple[str, dict[str, Any]
         name, scale = heading(title, truth)
         if name in OTHERS:
             continue
-        value, half = read(cell)
+        value, half = read(unescape(cell).replace("±", "+-"))
         assert value == pytest.approx(truth["cycles"][0][name] / scale, abs=1.01 * half), title
     loops = result.loops().isel(cycle=0)
     shared = truth["cycles"][0].keys() & set(map(str, loops.data_vars)) - {"status"}

@@ -246,7 +246,10 @@ def test_keys_alone_reach_tabs_fields_and_sliders(browser: Any, page: Any) -> No
     user.settle()
     after = float(user.view.input_value("#number-friction-mu"))
     assert after > before
-    user.go("out")
+    # No click in between: the browser shows the focus of keys alone.
+    user.view.focus("#tab-contact")
+    for _ in TABS[1:]:
+        user.view.keyboard.press("ArrowRight")
     assert fret.Scene.from_toml(user.view.inner_text("#toml")).mu == pytest.approx(after)
     user.view.focus("#panel-out [data-event=out]")
     focused = user.view.evaluate("() => getComputedStyle(document.activeElement).outlineStyle")

@@ -113,7 +113,7 @@ CALLS: list[Call] = [
     ("Ring", lambda **k: shaped(fret.shapes.Ring(**k)), {"radius": 1e-4, "R": 0.01}),
     (
         "Ridges",
-        lambda **k: shaped(fret.shapes.Ridges(**k)),
+        lambda **k: shaped(fret.shapes.Ridges(**k) + fret.Sphere(R=0.01)),
         {"R": 0.01, "spacing": 1e-4, "count": 3.0, "angle": 0.1},
     ),
     (

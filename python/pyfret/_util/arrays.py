@@ -87,7 +87,10 @@ def plain(values: ArrayLike, name: str, *, holes: bool = False) -> NDArray[np.fl
             f"{name} has the axes {', '.join(map(str, labels(values)))}, whose order is not known "
             f"here: put the axes in order and give {name}.values"
         )
-    return numbers(values, name, holes=holes)
+    try:
+        return numbers(values, name, holes=holes)
+    except RecursionError:
+        raise TypeError(f"{name}: lists lie too deep in it") from None
 
 
 def numbers(values: ArrayLike, name: str, *, holes: bool = False) -> NDArray[np.float64]:

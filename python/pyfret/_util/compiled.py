@@ -139,14 +139,19 @@ def with_value(
     Nothing where the text has the name already, or begins with no value of the call.
     """
     text = str(error)
-    if ": must be" not in text:
+    uncalled = NOT_CALLABLE.fullmatch(text)
+    if ": must be" not in text and uncalled is None:
         return None
     try:
         arguments = inspect.signature(call).bind_partial(*values, **keywords).arguments
     except TypeError:
         return None
+    if uncalled is not None and not any(map(callable, arguments.values())):
+        for name, value in arguments.items():
+            if type(value).__name__ == uncalled[1]:
+                return TypeError(f"{name}: must be a function, not of the class {uncalled[1]}")
     for name, value in arguments.items():
-        if not isinstance(value, str | float | int | list | tuple | set | dict | bytes):
+        if not isinstance(value, REPEATED):
             continue
         shown = repr(value)[:SHOWN]
         if shown and text.startswith(shown):
@@ -154,6 +159,10 @@ def with_value(
     return None
 
 
+#: Refusal of Python to call a value.
+NOT_CALLABLE = re.compile(r"'(\w+)' object is not callable")
+#: Classes of values that a refusal repeats.
+REPEATED = (str, float, int, list, tuple, set, dict, bytes, type, BuiltinFunctionType)
 #: Characters of a value that a refusal begins with.
 SHOWN = 50
 

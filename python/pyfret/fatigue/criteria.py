@@ -12,6 +12,7 @@ from pyfret._core import Assessment, Criterion, Material
 from pyfret._util.arrays import COMPONENTS, histories, number, plain
 from pyfret._util.lazy import xr
 from pyfret._util.material_names import find_material, list_materials
+from pyfret._util.parameter import short_repr
 from pyfret._util.scene_warnings import warn
 from pyfret.fatigue.plastic_strain import align_plastic_strain
 from pyfret.quantities import StressHistory, YieldStress, quantities
@@ -74,6 +75,8 @@ class Materials(Mapping[str, Material]):
 
     def __getitem__(self, name: str) -> Material:
         """Give a material by its name, or by another one that it is known by: ``"Ti6Al4V"``."""
+        if not isinstance(name, str):
+            raise TypeError(f"key = {short_repr(name)}: must be a text, the name of a material")
         material = find_material(name, self._materials)
         if material is None:
             raise KeyError(list_materials(name, self._materials))

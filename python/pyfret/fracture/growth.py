@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal, cast
 import numpy as np
 
 from pyfret import _core
-from pyfret._util.arrays import plain, together
+from pyfret._util.arrays import items, plain, together
 from pyfret._util.figures import Figured
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
@@ -115,7 +115,7 @@ class Threshold:
     def _numbers(
         self,
     ) -> tuple[float, float | None, float, float | None, list[tuple[float, float]] | None]:
-        table = None if self.table is None else [(float(r), float(f)) for r, f in self.table]
+        table = None if self.table is None else pairs_of(self.table)
         return self.dK_th, self.dS_0, self.Y, self.walker, table
 
     @property
@@ -162,6 +162,11 @@ class Paris:
     short: bool = False
     estimate: str | None = None
 
+    def __post_init__(self) -> None:
+        """Refuse a choice that is neither True nor False."""
+        if not isinstance(self.short, bool | np.bool_):
+            raise TypeError(f"short = {self.short!r:.60}: must be True or False")
+
     @classmethod
     @quantities
     def from_material(cls, material: Material | str) -> Paris:
@@ -171,6 +176,21 @@ class Paris:
         return cls(
             table_material.number("paris_C"), table_material.number("paris_m"), estimate=estimate
         )
+
+
+def pairs_of(table: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
+    """The rows of a table of thresholds as pairs of numbers.
+
+    Raises
+    ------
+    TypeError
+        They are no pairs of numbers.
+    """
+    rows = items(table, "table")
+    try:
+        return [(float(r), float(ratio)) for r, ratio in rows]
+    except (TypeError, ValueError, OverflowError):
+        raise TypeError("table: must be rows of (R, ratio), such as [(0.0, 1.0)]") from None
 
 
 class Cracks(Saveable, Labelled, Figured):

@@ -105,8 +105,10 @@ def loop_histogram(
 @styled
 def damage_map(damage: Damage, *, width: Width | None = None, ax: Axes | None = None) -> Axes:
     """Damage of one pass of the history on a section, decimal logarithm, with the worst point."""
-    ax = axes(ax)
     d = damage.dataset
+    if min(d.damage.shape) < 2:
+        raise ValueError("damage: a map needs two depths and two places: give z=[...] to damage()")
+    ax = axes(ax)
     along = str(d.damage.dims[1])
     places, depths = 1e6 * d[along].values, 1e6 * d.z.values
     with np.errstate(divide="ignore", invalid="ignore"):

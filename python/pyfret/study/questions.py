@@ -224,8 +224,13 @@ def life(result: Result, candidate: Candidate, duty: Duty) -> Answered:
 
 
 def notes_on_life(candidate: Candidate, duty: Duty) -> list[str]:
-    """Return notes on the materials for the criterion of the lives."""
-    return notes_on_materials(duty.criterion, candidate.body, candidate.layer_materials)
+    """Return notes on the materials for the criterion of the lives, and on its mean stress."""
+    notes = notes_on_materials(duty.criterion, candidate.body, candidate.layer_materials)
+    for material in filter(None, candidate.layer_materials):
+        note = material.assessment(duty.criterion).mean_stress_note(material)
+        if note and note not in notes:
+            notes.append(note)
+    return notes
 
 
 def missing_materials(candidate: Candidate, duty: Duty, scene: Scene) -> str:

@@ -13,6 +13,7 @@ from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
 from pyfret._util.numbers import layer_name
 from pyfret._util.scene_warnings import warn
+from pyfret.quantities import quantities
 from pyfret.scene.tables import table
 from pyfret.subsurface.extremum import Errors, Extremum, Place
 from pyfret.subsurface.line import line_of
@@ -52,6 +53,7 @@ class Stress(Labelled, Figured):
         """The components as an array of shape (6, number of points)."""
         return np.stack([self.dataset[c].values.ravel() for c in COMPONENTS])
 
+    @quantities
     def measure(self, name: str) -> xr.DataArray:
         """Give what follows from the stress by its name."""
         if name in COMPONENTS:
@@ -95,6 +97,7 @@ class Stress(Labelled, Figured):
             coords={**pattern.coords, "axis": ["x", "y", "z"]},
         )
 
+    @quantities
     def maximum(self, of: str = "von_mises", *, layer: int | None = None) -> Extremum:
         """Give the largest value and its place: a value at a point.
 

@@ -17,7 +17,7 @@ from pyfret.history.load_history import LoadHistory
 from pyfret.quantities import quantities
 from pyfret.run.dataset import dataset
 from pyfret.wear.result import WearResult
-from pyfret.wear.settings import Wear, own, read
+from pyfret.wear.settings import Wear, check_laws, own, read
 
 if TYPE_CHECKING:
     import os
@@ -207,6 +207,8 @@ def resume(
     StoreError
         There is no run of wear, or its checkpoint is damaged or of another version of pyfret.
     """
+    check_laws(body1, "body1")
+    check_laws(body2, "body2")
     with Progress(title="resumed", shown=progress):
         _core.resume_wear(store, [own(body1), own(body2)], friction_law=friction_law)
     return open_run(store)

@@ -186,7 +186,7 @@ class Wear(Replaceable):
         """
         if settings is None or not all(isinstance(name, str) for name in settings):
             raise TypeError(f"settings = {settings!r:.60}: must be a mapping of names")
-        refuse_unknown("Wear.from_settings", settings, [field.name for field in fields(cls)])
+        refuse_unknown("wear.Wear", settings, [field.name for field in fields(cls)])
         if wear is not None:
             return wear.replace(**settings)
         if "cycles" not in settings:
@@ -247,6 +247,25 @@ def listed(laws: Law | Sequence[Law | None] | None) -> list[Law | None]:
     if laws is None:
         return []
     return items(laws, "laws") if isinstance(laws, list | tuple) else [laws]  # type: ignore[list-item]
+
+
+def check_laws(laws: Law | Sequence[Law | None] | None, name: str) -> None:
+    """Refuse what is no law of wear, by the name of its argument.
+
+    Raises
+    ------
+    TypeError
+        It is of another class.
+    """
+    for law in listed(laws):
+        if (
+            law is not None
+            and not isinstance(law, Archard | DissipatedEnergy)
+            and not callable(law)
+        ):
+            raise TypeError(
+                f"{name} = {law!r:.60}: must be an Archard, a DissipatedEnergy, a function or None"
+            )
 
 
 def own(laws: Law | Sequence[Law | None] | None) -> list[Function]:

@@ -15,6 +15,8 @@
   const set = (id, props) => window.dash_clientside.set_props(id, props);
   const queue = [];
   let number = 0, busy = false, since = 0;
+  // The timer of a slider that has moved and whose value is not sent yet; 0 without one.
+  let dragging = 0;
 
   // Changes wait for the answer to the one before, so that none is lost. A newer value of one field
   // takes the place of an older one.
@@ -35,7 +37,7 @@
   window.workbench = {
     send,
     done: () => { busy = false; setTimeout(next, 0); },
-    idle: () => !busy && !queue.length,
+    idle: () => !busy && !queue.length && !dragging,
     session,
   };
 
@@ -48,14 +50,16 @@
     const low = Number(box.dataset.low), high = Number(box.dataset.high);
     return Math.max(0, Math.min(240, Math.round((240 * (Math.log10(value) - low)) / (high - low))));
   }
-  let dragging = 0;
   document.addEventListener("input", (e) => {
     if (e.target.type !== "range" || !place(e.target)) return;
     const box = place(e.target), field = box.querySelector("input[type=number]");
     const value = toValue(box, Number(e.target.value));
     set(field.id, { value });
     clearTimeout(dragging);
-    dragging = setTimeout(() => send({ event: "value", key: box.dataset.field, value: String(value) }), 60);
+    dragging = setTimeout(() => {
+      dragging = 0;
+      send({ event: "value", key: box.dataset.field, value: String(value) });
+    }, 60);
   });
   document.addEventListener("change", (e) => {
     const t = e.target;
