@@ -20,6 +20,7 @@ else:
 
 import pyfret as fret
 from conftest import ROOT
+from pyfret import _core
 from pyfret._core import run_command, unit_of
 
 SCHEMA: dict[str, Any] = json.loads(
@@ -107,6 +108,37 @@ def test_keys_are_those_of_the_reader(
     keys = re.search(r"unknown key `[^`]*zzzz`: .*?\(of ([^)]*)\)", printed)
     assert keys, printed
     assert set(keys[1].split(", ")) == set(properties(place))
+
+
+#: Where tables of the schema that stand for several places are in a scene.
+DEFINED = {"wear_law": "wear.body1.laws", "coating": "body1.coatings", "branch": "path"}
+
+
+def quantities_of(node: Any, place: str = "") -> Iterator[tuple[str, str]]:
+    """Return the key and the unit of every quantity of a schema."""
+    if isinstance(node, list):
+        for item in node:
+            yield from quantities_of(item, place)
+    if not isinstance(node, dict):
+        return
+    if "x-unit" in node:
+        yield place, node["x-unit"]
+    for key, value in node.items():
+        if key in ("properties", "definitions"):
+            for name, item in value.items():
+                step = DEFINED.get(name, name) if key == "definitions" else name
+                yield from quantities_of(item, f"{place}.{step}" if place else step)
+        else:
+            yield from quantities_of(value, place)
+
+
+def test_every_quantity_is_read_with_its_unit() -> None:
+    quantities = list(quantities_of(SCHEMA))
+    assert len(quantities) > 60
+    for key, unit in quantities:
+        measured = _core.measured_by(key)
+        assert measured is not None, f"{key}: a text with a unit is refused"
+        assert measured[1] == unit.split(",")[0], key
 
 
 def test_every_table_of_the_schema_has_a_place() -> None:
