@@ -26,6 +26,7 @@ mod course;
 mod cycled;
 mod debris_bed;
 mod events;
+mod fixed_point;
 mod jump;
 mod law;
 mod loss;

@@ -90,6 +90,16 @@ impl Debris {
 }
 
 impl Loss {
+    /// Root of the sum of squares of the change of the depths to another loss \[m\].
+    pub(crate) fn depth_change(&self, other: &Self) -> f64 {
+        let pairs = self
+            .depth
+            .iter()
+            .flatten()
+            .zip(other.depth.iter().flatten());
+        pairs.map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
+    }
+
     /// Adds the loss of another jump.
     pub(crate) fn plus(mut self, other: &Self) -> Self {
         for b in 0..2 {

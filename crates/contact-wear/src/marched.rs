@@ -28,13 +28,14 @@ use serde::{Deserialize, Serialize};
 
 use super::course::coefficients;
 use super::cycled::{CycleResults, Sums};
+use super::fixed_point::{FixedPoint, MOST_EVALUATIONS, Step};
 use super::law::CellCycle;
 use super::loss::{Loss, Worn};
 use super::outward::extrapolate_outward;
 use super::pressing::Pressing;
 use super::rates::Rates;
 use super::settings::{Jumps, Wear, thicknesses};
-use super::third_body::{FixedPoint, MOST_EVALUATIONS, Meeting, ThirdBody, ThirdFields};
+use super::third_body::{Meeting, ThirdBody, ThirdFields};
 use super::within_cell::half_cell_error;
 
 /// Change of the pressure between two corrections (root mean square, over the pressure) that ends
@@ -223,7 +224,7 @@ impl Marched {
         for correction in 0..=CORRECTIONS {
             let loss = self.loss_of_jump(worn, n, &mut p, true)?;
             if let Some((last_p, last_loss)) = &last {
-                let change = change_norm(last_loss, &loss);
+                let change = last_loss.depth_change(&loss);
                 let enough = (AGREES_IN_JUMP * depth_norm(&loss.depth))
                     .max(may_leave * depth_norm(&worn.depth));
                 if agree(last_p, &p) && change <= enough {
@@ -281,8 +282,6 @@ impl Marched {
         let mut h = vec![0.0; cells];
         let (mut fields, mut closed) = self.begin_third_body(third_body, worn, p)?;
         let mut fixed_point = FixedPoint::default();
-        let mut last: Option<Loss> = None;
-        let (mut change, mut enough) = (f64::INFINITY, 0.0);
         for _ in 0..MOST_EVALUATIONS {
             let rates = self.rates(worn, &self.state.cycled, n, &fields)?;
             let bed = if fields.bed.is_empty() {
@@ -325,24 +324,12 @@ impl Marched {
             if !implicit {
                 return Ok(loss);
             }
-            enough = third_body.enough(&loss.depth, worn);
-            if let Some(last) = &last {
-                change = change_norm(last, &loss).max(FixedPoint::misfit(&fields, &image));
-                if change <= enough {
-                    return Ok(loss);
-                }
+            match fixed_point.advance(third_body, (worn, loss), &fields, image) {
+                Step::Settled(loss) => return Ok(loss),
+                Step::Next(next) => fields = next,
             }
-            last = Some(loss);
-            fields = fixed_point.accelerate(third_body, &fields, image);
         }
-        Err(Error::NotConverged {
-            increment: 0,
-            solver: "wear",
-            residual: change,
-            tolerance: enough,
-            iterations: MOST_EVALUATIONS,
-            why: String::new(),
-        })
+        Err(fixed_point.not_converged())
     }
 
     /// The loss at known rates over a known bed; an implicit jump solves the pressure at its end.
@@ -551,15 +538,6 @@ fn agree(last: &[f64], now: &[f64]) -> bool {
 /// Root mean square of the worn depths of both bodies, times a common factor.
 fn depth_norm(depth: &[Vec<f64>; 2]) -> f64 {
     depth.iter().flatten().map(|w| w * w).sum::<f64>().sqrt()
-}
-
-/// Root mean square of the change of the loss, times the same factor.
-fn change_norm(last: &Loss, now: &Loss) -> f64 {
-    let pairs = last.depth.iter().flatten().zip(now.depth.iter().flatten());
-    pairs
-        .map(|(last, now)| (now - last).powi(2))
-        .sum::<f64>()
-        .sqrt()
 }
 
 fn advance(march: &mut March) -> Result<Increment, Error> {

@@ -33,6 +33,7 @@ use contact_core::plan::Plan;
 use contact_core::scene::{FrictionHistory, Scene};
 
 use super::course::{Coefficients, coefficients};
+use super::fixed_point::{FixedPoint, MOST_EVALUATIONS, Step};
 use super::law::CellCycle;
 use super::loss::{Loss, Worn};
 use super::on_grid;
@@ -40,7 +41,7 @@ use super::pressing::Pressing;
 use super::settings::{Wear, thicknesses};
 use super::shift::Shift;
 use super::stroke::{Corner, Frame, Place, stroke};
-use super::third_body::{FixedPoint, MOST_EVALUATIONS, Meeting, ThirdBody, ThirdFields};
+use super::third_body::{Meeting, ThirdBody, ThirdFields};
 
 /// Change of the pressures in a round that ends the rounds, over the pressures (root mean squares).
 const LEAST_CHANGE: f64 = 1e-3;
@@ -231,8 +232,6 @@ impl Sliding {
         let before = self.meet(worn);
         let mut fields = third_body.begin(worn, &before.meeting())?;
         let mut fixed_point = FixedPoint::default();
-        let mut last: Option<Loss> = None;
-        let (mut change, mut enough) = (f64::INFINITY, 0.0);
         for _ in 0..MOST_EVALUATIONS {
             self.lay_bed(&fields.bed);
             let rates = self.rates(worn, n, &fields)?;
@@ -254,24 +253,12 @@ impl Sliding {
             if !implicit {
                 return Ok(loss);
             }
-            enough = third_body.enough(&loss.depth, worn);
-            if let Some(last) = &last {
-                change = depth_change(last, &loss).max(FixedPoint::misfit(&fields, &image));
-                if change <= enough {
-                    return Ok(loss);
-                }
+            match fixed_point.advance(third_body, (worn, loss), &fields, image) {
+                Step::Settled(loss) => return Ok(loss),
+                Step::Next(next) => fields = next,
             }
-            last = Some(loss);
-            fields = fixed_point.accelerate(third_body, &fields, image);
         }
-        Err(Error::NotConverged {
-            increment: 0,
-            solver: "wear",
-            residual: change,
-            tolerance: enough,
-            iterations: MOST_EVALUATIONS,
-            why: String::new(),
-        })
+        Err(fixed_point.not_converged())
     }
 
     /// Lays debris into the gap, where the run has a bed.
@@ -607,12 +594,6 @@ impl Contact {
             slip: &self.slip,
         }
     }
-}
-
-/// Root of the sum of squares of the change of the depths \[m\].
-fn depth_change(last: &Loss, now: &Loss) -> f64 {
-    let pairs = last.depth.iter().flatten().zip(now.depth.iter().flatten());
-    pairs.map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
 }
 
 impl Rates {

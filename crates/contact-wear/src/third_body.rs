@@ -9,14 +9,13 @@
 //!
 //! p being solved with the whole spring n k sigma and the bed h as a known offset of the gap. Since
 //! A^-1 does not amplify, the map contracts, for long jumps by the part of the debris that stays:
-//! slowly. [`Anderson`] removes the few slow modes. The bed belongs to the worn depth of the same
+//! slowly. [`Anderson`](super::anderson::Anderson) removes the few slow modes. The bed belongs to the worn depth of the same
 //! evaluation, so that mass is conserved whatever residual is left.
 
 use contact_core::Error;
 use debris::{Lattice, NotConverged, Region, aerated_share, diffuse_air, spread_bed};
 
 use super::air::Air;
-use super::anderson::Anderson;
 use super::debris_bed::DebrisBed;
 use super::loss::{Debris, Worn};
 use super::pressing::Pressing;
@@ -29,11 +28,6 @@ const AGREES_IN_JUMP: f64 = 3e-3;
 const AGREES_IN_ALL: f64 = 0.05;
 /// The part of the worn depth where jumps are given.
 const USUAL: f64 = 0.01;
-/// Evaluations after which the acceleration begins again, with half of each step: a region that opens
-/// and closes by turns.
-const PATIENCE: usize = 15;
-/// Most evaluations. A jump that has not settled by then is too long.
-pub(crate) const MOST_EVALUATIONS: usize = 60;
 
 /// Oxygen and debris between the surfaces, in the cells of the grid.
 pub(crate) struct ThirdBody {
@@ -198,7 +192,7 @@ impl ThirdBody {
         Ok(())
     }
 
-    fn protect(&self, fields: &mut ThirdFields) {
+    pub(crate) fn protect(&self, fields: &mut ThirdFields) {
         if let Some(bed) = self.bed.filter(|bed| bed.protecting_thickness.is_some()) {
             fields.protection = fields.bed.iter().map(|h| bed.protection(*h)).collect();
         }
@@ -232,68 +226,5 @@ fn to_error(error: &NotConverged) -> Error {
         tolerance: error.tolerance,
         iterations: error.iterations,
         why: String::new(),
-    }
-}
-
-/// The fixed point of a jump.
-pub(crate) struct FixedPoint {
-    anderson: Anderson,
-    /// Scale of the bed \[m\].
-    scale: f64,
-    evaluations: usize,
-    /// Part of a step that is taken.
-    damping: f64,
-}
-
-impl Default for FixedPoint {
-    fn default() -> Self {
-        Self {
-            anderson: Anderson::default(),
-            scale: 0.0,
-            evaluations: 0,
-            damping: 1.0,
-        }
-    }
-}
-
-impl FixedPoint {
-    /// Root of the sum of squares of the change of the bed \[m\].
-    pub(crate) fn misfit(x: &ThirdFields, image: &ThirdFields) -> f64 {
-        let pairs = x.bed.iter().zip(&image.bed);
-        pairs.map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
-    }
-
-    /// The next fields after an evaluation.
-    pub(crate) fn accelerate(
-        &mut self,
-        third_body: &ThirdBody,
-        x: &ThirdFields,
-        image: ThirdFields,
-    ) -> ThirdFields {
-        if self.scale == 0.0 {
-            self.scale = image.bed.iter().fold(f64::MIN_POSITIVE, |m, h| m.max(*h));
-        }
-        let pack = |fields: &ThirdFields| -> Vec<f64> {
-            let bed = fields.bed.iter().map(|h| h / self.scale);
-            bed.chain(fields.aerated.iter().copied()).collect()
-        };
-        self.evaluations += 1;
-        if self.evaluations.is_multiple_of(PATIENCE) {
-            self.anderson = Anderson::default();
-            self.damping *= 0.5;
-        }
-        let (from, mut to) = (pack(x), pack(&image));
-        for (to, from) in to.iter_mut().zip(&from) {
-            *to = from + self.damping * (*to - from);
-        }
-        let packed = self.anderson.accelerate(&from, to);
-        let (bed, aerated) = packed.split_at(image.bed.len());
-        let mut next_fields = ThirdFields {
-            bed: bed.iter().map(|h| (h * self.scale).max(0.0)).collect(),
-            aerated: aerated.iter().map(|s| s.clamp(0.0, 1.0)).collect(),
-            ..image
-        };
-        third_body.protect(&mut next_fields);
-        next_fields
     }
 }
