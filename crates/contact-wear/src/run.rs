@@ -19,7 +19,7 @@ use super::settings::{Jumps, Wear, WornThrough};
 use super::slip_zone;
 use super::state::WearState;
 use super::variable::FactorVariable;
-use super::width::Scar;
+use super::width::SweptScar;
 use super::worn_start::WornStart;
 
 /// The next length is CAUTIOUS (tol/error)^(1/2) times the last one, within SHORTER to LONGER.
@@ -34,8 +34,7 @@ const FIRST_JUMP: f64 = 0.05;
 const PRESSURE: f64 = 20.0;
 /// Least length of a jump over all cycles.
 const SHORTEST: f64 = 1e-9;
-/// Growth of a grid whose need is not known, and the estimate of the width of a scar over the grid from which on
-/// the run is refused.
+/// Growth of a grid whose need is not known.
 const GRID_GROWTH: f64 = 1.4;
 /// Most attempts of a jump, for its error and for the cycle of an event.
 const TRIES: usize = 60;
@@ -200,8 +199,9 @@ impl WearRun {
                 // The touched side grows at least by as much as the contact alone asks.
                 let grows = needed / extent_x.max(extent_y);
                 let least = [extent_x, extent_y].map(|extent| extent * grows.max(GRID_GROWTH));
-                let needed = self.needed(1.0).map_or(least, |[enough, _]| {
-                    [0, 1].map(|k| enough[k].max([extent_x, extent_y][k]))
+                let lengths = self.grid_lengths();
+                let needed = lengths.map_or(least, |lengths| {
+                    [lengths[0].max(extent_x), lengths[1].max(extent_y)]
                 });
                 Error::WornOffGrid {
                     cycles: self.state.cycles,
@@ -215,9 +215,9 @@ impl WearRun {
         }
     }
 
-    /// Lengths of the grid that holds the scar of a part of the cycles in gross slip, and those below which it
-    /// does not, [`Scar::needed`]; `None` in a march.
-    fn needed(&mut self, part: f64) -> Option<[[f64; 2]; 2]> {
+    /// Lengths of the grid that holds the scar of all cycles in gross slip, [`SweptScar::grid_lengths`]; `None`
+    /// in a march.
+    fn grid_lengths(&mut self) -> Option<[f64; 2]> {
         let ends = self.model.stroke()?;
         // The width that a bed leaves follows from the run alone.
         if self.wear.bed.is_some() {
@@ -226,8 +226,8 @@ impl WearRun {
         let cycle = self.model.jump(&self.state.worn, 1.0, false).ok()?;
         self.model.restore(&self.state.model);
         let area = self.model.pressing().cell_area();
-        let times = part * self.wear.opens() * self.wear.cycles * area;
-        let scar = Scar {
+        let times = self.wear.opens() * self.wear.cycles * area;
+        let scar = SweptScar {
             scene: &self.scene,
             volumes: cycle
                 .depth
@@ -236,7 +236,7 @@ impl WearRun {
             ends,
             half_width: self.wear.half_width,
         };
-        scar.needed()
+        scar.grid_lengths()
     }
 
     /// The physical cause of jumps that do not converge, as the end of a sentence: large wear in

@@ -28,7 +28,7 @@ const MARGIN: f64 = 2.0;
 const ROOM: f64 = 1.05;
 
 /// A run in gross slip, with all that its scar depends on.
-pub(crate) struct Scar<'a> {
+pub(crate) struct SweptScar<'a> {
     pub(crate) scene: &'a Scene,
     /// Volumes by which the wear of body 1 and body 2 opens the gap \[m^3\].
     pub(crate) volumes: [f64; 2],
@@ -38,24 +38,22 @@ pub(crate) struct Scar<'a> {
     pub(crate) half_width: f64,
 }
 
-impl Scar<'_> {
-    /// Lengths along x and y of the grid that holds the scar, with room, and those below which it does not
-    /// \[m\]; `None` where the shapes do not bound it.
-    pub(crate) fn needed(&self) -> Option<[[f64; 2]; 2]> {
+impl SweptScar<'_> {
+    /// Lengths along x and y of the grid that holds the scar, with room \[m\]; `None` where the shapes do
+    /// not bound it.
+    pub(crate) fn grid_lengths(&self) -> Option<[f64; 2]> {
         let [x, y] = LONGER.iter().find_map(|times| self.reach(*times))?;
         let grid = self.scene.grid;
-        let (extent_x, extent_y) = grid.extent();
         let away = self.ends.iter().fold(0.0_f64, |most, d| most.max(d.abs()));
-        let least = [2.0 * (x + away), 2.0 * y];
         let room = |half: f64, cells: usize| {
             2.0 * ROOM * (half + self.half_width) / (1.0 - 2.0 * MARGIN / cells.max(8) as f64)
         };
-        let enough = [room(x + away, grid.nx), room(y, grid.ny)];
-        if grid.plane_strain {
-            return Some([[enough[0], extent_y], [least[0], extent_y]]);
-        }
-        let _ = extent_x;
-        Some([enough, least])
+        let across = if grid.plane_strain {
+            grid.extent().1
+        } else {
+            room(y, grid.ny)
+        };
+        Some([room(x + away, grid.nx), across])
     }
 
     /// How far the worn contact reaches from the middle along x and y \[m\], on a grid that is so many times
