@@ -139,7 +139,7 @@ pub const SCALARS: &[Scalar] = &[
     real(
         "nominal_area",
         "m^2",
-        "area of the contact of the shapes without roughness, of flat shapes the grid",
+        "area of the contact of the shapes without roughness; the grid for flats and maps",
         |i| i.spots.nominal_area,
     ),
     count("spots", "patches of cells in contact that touch", |i| {
