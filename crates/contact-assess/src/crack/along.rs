@@ -68,7 +68,7 @@ pub(super) struct Stencil {
 impl Prepared {
     /// The stress where cracks run, in the plane at an azimuth and a distance from the axis of depth,
     /// sampled from a distance from the mouth on with a step of its logarithm.
-    pub(super) fn along(
+    pub(super) fn stress_in_plane(
         &self,
         (azimuth, offset): (f64, f64),
         nearest: f64,
@@ -97,7 +97,7 @@ impl Prepared {
 
 impl Along<'_> {
     /// The stress along a path and along its parts from the mouth on, by the tractions on `cells`.
-    pub(super) fn on(&mut self, path: &Path, cells: Cells) -> Result<Line, Error> {
+    pub(super) fn sample_path(&mut self, path: &Path, cells: Cells) -> Result<Line, Error> {
         self.sampled(self.parts(path), path, cells)
     }
 

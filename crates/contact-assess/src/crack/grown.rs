@@ -64,9 +64,9 @@ pub fn grown(contact: &Prepared, growth: &Growth) -> Result<Grown, Error> {
         ));
     }
     let plane = (growth.azimuth, growth.offset);
-    let mut along = contact.along(plane, NEAREST * start, STEP)?;
+    let mut along = contact.stress_in_plane(plane, NEAREST * start, STEP)?;
     let stress = |crack: &Crack| -> Result<Vec<Vec<PlaneStress>>, Refused> {
-        let line: Line = along.on(crack.path(), Cells::Grid)?;
+        let line: Line = along.sample_path(crack.path(), Cells::Grid)?;
         let stencils = line.stencils(&crack.points());
         let of_state = |state| line.stress(state, &stencils);
         Ok((0..line.states()).map(of_state).collect())

@@ -60,7 +60,7 @@ impl Stressed {
         path: &Path,
         mouth_error: Option<f64>,
     ) -> Result<Self, Error> {
-        let line = along.on(path, Cells::Grid)?;
+        let line = along.sample_path(path, Cells::Grid)?;
         let by_cells = Cells::DOUBLED.map(|cells| along.change_by_cells(&line, path, cells));
         let mouths = mouth_error.map(|off| [path.mouth - off, path.mouth + off]);
         let by_mouth = mouths

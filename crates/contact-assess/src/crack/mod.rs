@@ -84,7 +84,8 @@ pub fn over_cycle(
     // Straight ones are alike.
     let unit = Path::straight(cracks.x, longest, cracks.angle);
     let unit = Crack::with_step(unit, QUADRATURE).map_err(refused)?;
-    let mut along = contact.along((cracks.azimuth, cracks.offset), NEAREST * shortest, STEP)?;
+    let mut along =
+        contact.stress_in_plane((cracks.azimuth, cracks.offset), NEAREST * shortest, STEP)?;
     let stressed = Stressed::new(&mut along, &path, mouth_error)?;
     let at_length = |length: &f64| {
         let part = path.up_to(*length);
@@ -136,8 +137,8 @@ fn range_of(contact: &Prepared, cracks: &Cracks, cells: Cells, touch: bool) -> R
     let path = cracks.path(longest);
     let unit = Crack::with_step(path.clone(), QUADRATURE).map_err(refused)?;
     let plane = (cracks.azimuth, cracks.offset);
-    let mut along = contact.along(plane, NEAREST * shortest, COMPARED_STEP)?;
-    let line = along.on(&path, cells)?;
+    let mut along = contact.stress_in_plane(plane, NEAREST * shortest, COMPARED_STEP)?;
+    let line = along.sample_path(&path, cells)?;
     let at_length = |length: &f64| {
         let crack = unit.similar(cracks.x, *length).map_err(refused)?;
         let crack = crack.with_interfaces(&contact.breaks);

@@ -54,7 +54,12 @@ fn a_bed_in_a_strip_fills_and_settles() {
     let kept = strip.list("output", "kept");
     for ((cycles, centre), kept) in cycles.iter().zip(&centres).zip(&kept) {
         let bed = bed_after(&region, &inside(K), &inside(q), *cycles, 100);
-        near(line.at(&bed.height, 0.0), *centre, 2e-3, "h_centre");
+        near(
+            line.interpolate(&bed.height, 0.0),
+            *centre,
+            2e-3,
+            "h_centre",
+        );
         let volume = line.lattice.dx * bed.height.iter().sum::<f64>();
         near(volume / (2.0 * b * q * cycles), *kept, 3e-3, "kept");
         let worn = 2.0 * b * q * cycles / line.lattice.dx;
@@ -140,7 +145,7 @@ fn debris_does_not_pass_a_stick_zone() {
     };
     let n = 1e12;
     let bed = spread_bed(&region, &slips(K), n, &slips(n * q), None).unwrap();
-    let at = |x: f64| line.at(&bed.height, x);
+    let at = |x: f64| line.interpolate(&bed.height, x);
     near(
         at(c + 0.5 * line.lattice.dx),
         strip.output("h_at_stick"),
@@ -185,7 +190,7 @@ fn a_bed_that_protects_lets_the_middle_of_a_pad_wear_less() {
             low = v;
         }
     }
-    let h = line.at(&steady(low), 0.0);
+    let h = line.interpolate(&steady(low), 0.0);
     near(low, pad.output("recession"), 1e-4, "recession");
     near(h, pad.output("h_centre"), 1e-3, "h_centre");
     near(pressure(low, h), pad.output("p_centre"), 1e-3, "p_centre");

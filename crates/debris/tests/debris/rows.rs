@@ -60,7 +60,7 @@ impl Strip {
     }
 
     /// Value of a field at x, linear between the centres.
-    pub(crate) fn at(&self, field: &[f64], x: f64) -> f64 {
+    pub(crate) fn interpolate(&self, field: &[f64], x: f64) -> f64 {
         let place = (x - self.x[0]) / self.lattice.dx;
         let i = (place.floor() as usize).min(self.x.len() - 2);
         let part = place - i as f64;
@@ -70,7 +70,7 @@ impl Strip {
     /// The same, linear in the logarithm.
     pub(crate) fn log_at(&self, field: &[f64], x: f64) -> f64 {
         let logs: Vec<f64> = field.iter().map(|v| v.ln()).collect();
-        self.at(&logs, x).exp()
+        self.interpolate(&logs, x).exp()
     }
 }
 
