@@ -70,7 +70,7 @@ impl FixedPoint {
         Step::Next(self.accelerate(third_body, fields, image))
     }
 
-    /// That the evaluations have not settled.
+    /// Returns the error of evaluations that have not settled.
     pub(crate) fn not_converged(&self) -> Error {
         Error::NotConverged {
             increment: 0,
