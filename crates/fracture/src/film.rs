@@ -28,8 +28,10 @@ const STEP: f64 = 0.2;
 /// Range of the logarithm of the distance to the surface, 4 exp(-20).
 const TO_SURFACE: f64 = 20.0;
 /// The same to a tip at the interface, where the density goes with the distance to the power of -s:
-/// it takes 1/(1 - s) times the range.
-const TO_INTERFACE: f64 = 20.0;
+/// it takes 1/(1 - s) times the range. g changes by less than 1e-8 from 8 to 20.
+const TO_INTERFACE: f64 = 10.0;
+/// Largest range: exp(-690) is still a number of full precision.
+const LARGEST_RANGE: f64 = 690.0;
 /// Largest Dundurs' alpha in size: beyond it s nears 1.
 const LARGEST_ALPHA: f64 = 0.99;
 
@@ -88,7 +90,7 @@ impl Film {
     pub fn channel(&self) -> Result<f64, Error> {
         // The stress at a tip at the interface is less singular than r^-(1+alpha)/2.
         let slow = 2.0 / (1.0 - self.alpha.max(0.0));
-        let (below, above) = (TO_INTERFACE * slow, TO_SURFACE);
+        let (below, above) = ((TO_INTERFACE * slow).min(LARGEST_RANGE), TO_SURFACE);
         let count = ((below + above) / STEP).ceil() as usize;
         let place = |t: f64| {
             // z = 1/(1 + exp t), r = 1 - z.
@@ -148,7 +150,7 @@ impl Film {
                 let (r, r_0) = (at.r, d.r);
                 let S = r + r_0;
                 let echo = (2.0 * m - n) / S
-                    + (n - m) * (3.0 * r_0 + r) / (S * S)
+                    + (n - m) * ((3.0 * r_0 + r) / S) / S
                     + 4.0 * (m - n) * (r / S) * (r_0 / S) / S;
                 matrix[[k, j]] += 2.0 / apart + 2.0 * surface - 2.0 * echo;
                 matrix[[k, j]] *= d.weight;

@@ -71,7 +71,7 @@ def channel_release(coating: Coating, below: Elastic, stress: float | None = Non
     except _core.InvalidSceneError as refused:
         raise ValueError(
             f"channel_release: no solution for a film of {E:.4g} Pa on {below.E:.4g} Pa. "
-            "Films of up to 10 times the modulus of what they lie on have one"
+            "Films of up to 190 times the modulus of what they lie on have one"
         ) from refused
     return float(Z * max(stress, 0.0) ** 2 * coating.thickness * (1.0 - nu * nu) / E)
 

@@ -83,3 +83,24 @@ fn equal_constants_are_no_film() {
     assert!((g - 1.121_522_255_231_f64.powi(2)).abs() < 1e-6, "{g}");
     assert!(Film::new(1.0, 0.0).is_err() && Film::new(0.0, 0.6).is_err());
 }
+
+/// A film far stiffer than what it lies on: g grows as a smooth power of 1 - alpha, without a jump
+/// up to the largest alpha.
+#[test]
+fn stiff_films_have_an_answer() {
+    let alphas = [0.8, 0.85, 0.89, 0.9, 0.95, 0.99];
+    let g = alphas.map(|alpha| {
+        let film = Film::new(alpha, alpha / 4.0).expect("a film");
+        film.channel().expect("g")
+    });
+    for k in 1..alphas.len() {
+        let slope = -(g[k] / g[k - 1]).ln() / ((1.0 - alphas[k]) / (1.0 - alphas[k - 1])).ln();
+        assert!(
+            (0.5..0.7).contains(&slope),
+            "alpha = {}: g = {}, slope {slope}",
+            alphas[k],
+            g[k]
+        );
+    }
+    assert!((g[3] / 5.72467 - 1.0).abs() < 1e-5, "{}", g[3]);
+}
