@@ -35,6 +35,8 @@ const BEYOND: f64 = 0.5;
 const FAR: f64 = 1e3;
 /// A point is on a border if it is at most this many cells from it.
 const ON_BORDER: f64 = 0.1;
+/// Borders on cells twice as large are beside a border within this many cells.
+const BESIDE: f64 = 4.0;
 /// Contact cells times moments up to which every point of the ascent is judged by the whole
 /// history.
 const CHEAP: usize = 100_000;
@@ -307,7 +309,8 @@ impl<J: Judge> Climb<'_, J> {
     }
 
     /// The largest change of a score by tractions on cells twice as large, paired in both ways. A
-    /// place on a border is compared with the same border.
+    /// place on a border is a maximum among the borders of all moments, so it is compared with the
+    /// maximum at the borders beside it on the larger cells.
     pub(super) fn coarser_change(
         &self,
         ([s, z], score): (Place, f64),
@@ -320,24 +323,28 @@ impl<J: Judge> Climb<'_, J> {
                 return Ok(None);
             }
             let there = match border {
-                None => None,
-                Some(border) => self.coarser_border(border, which, (pairing, cells))?,
+                None => vec![s],
+                Some(border) => self.coarser_borders(border, which, (pairing, cells))?,
             };
             let at = self.site.prepare(which, Cells::Doubled(pairing))?;
-            let scores = self.scores(&at, &[[there.unwrap_or(s), z]])?;
-            let largest = scores.iter().map(|coarse| (score - coarse).abs());
-            change = largest.chain(change).reduce(f64::max);
+            let places: Vec<Place> = there.into_iter().map(|s| [s, z]).collect();
+            let scores = self.scores(&at, &places)?.into_iter();
+            let coarse = scores.fold(f64::NEG_INFINITY, f64::max);
+            if coarse.is_finite() {
+                change = Some(change.unwrap_or(0.0).max((score - coarse).abs()));
+            }
         }
         Ok(change)
     }
 
-    /// Distance along the line of the nearest border of the same zone on cells twice as large.
-    fn coarser_border(
+    /// Distances along the line of the borders beside one on cells twice as large, over all moments;
+    /// the border itself where there are none.
+    fn coarser_borders(
         &self,
         border: &Border,
         which: &[usize],
         (pairing, cells): (usize, &DoubledCells),
-    ) -> Result<Option<f64>, Error> {
+    ) -> Result<Vec<f64>, Error> {
         let s = self.distance_along(border);
         let (line, shift) = self.line.with_origin(cells.middle);
         let key = (self.line, (which.to_vec(), Cells::Doubled(pairing)));
@@ -349,14 +356,18 @@ impl<J: Judge> Climb<'_, J> {
             }
             Ok(borders)
         })?;
-        let mut nearest: Option<f64> = None;
-        for other in borders.iter().filter(|other| other.zone == border.zone) {
-            let at = line.nearest_distance(other.x, other.y) + shift;
-            if nearest.is_none_or(|known| (at - s).abs() < (known - s).abs()) {
-                nearest = Some(at);
-            }
+        let places = borders
+            .iter()
+            .map(|other| line.nearest_distance(other.x, other.y) + shift);
+        let mut beside: Vec<f64> = places
+            .filter(|at| (at - s).abs() < BESIDE * self.cell())
+            .collect();
+        beside.sort_by(f64::total_cmp);
+        beside.dedup_by(|a, b| (*a - *b).abs() < ON_BORDER * self.cell());
+        if beside.is_empty() {
+            beside.push(s);
         }
-        Ok(nearest.filter(|at| (at - s).abs() < 4.0 * self.cell()))
+        Ok(beside)
     }
 
     /// The border that a place lies on.

@@ -110,8 +110,9 @@ pub fn find_worst_point<J: Judge>(
     }
     let border = climb.border_at(place, &borders);
     let change = climb.coarser_change((place, score), border, &which)?;
-    // An assumed rim may be half a cell off.
-    let places_beside = if prepared.rim_is_unknown(point) {
+    // An assumed rim may be half a cell off; a border that was extrapolated is where it is.
+    let on_extrapolated_border = border.is_some_and(|border| border.within_cell);
+    let places_beside = if !on_extrapolated_border && prepared.rim_is_unknown(point) {
         [-half_cell, half_cell]
             .map(|by| [place[0] + by, place[1]])
             .into()

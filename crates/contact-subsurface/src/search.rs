@@ -312,7 +312,10 @@ impl Search {
         // Under the rim of a thin layer the samples of an interface follow the cells of the border.
         let follows_steps =
             is_on_interfaces(probe) && self.thin && self.is_near_border(scene_point);
-        let uncertain = follows_steps || self.points.rim_is_unknown(scene_point);
+        // A border that was extrapolated is where it is, whatever the cells beside it.
+        let rim_is_assumed = !border.is_some_and(|border| border.within_cell)
+            && self.points.rim_is_unknown(scene_point);
+        let uncertain = follows_steps || rim_is_assumed;
         let inwards = if uncertain {
             self.points_beside(framed)
         } else {
@@ -334,7 +337,7 @@ impl Search {
         let rim = border.is_some_and(|border| border.zone == Zone::Contact);
         let part = if self.thin && self.is_near_border(scene_point) {
             ROOT_FACTOR
-        } else if rim && !self.points.rim_is_unknown(scene_point) {
+        } else if rim && !rim_is_assumed {
             CONTINUED_FACTOR
         } else {
             1.0
