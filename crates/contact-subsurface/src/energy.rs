@@ -60,6 +60,8 @@ pub struct CycleErrors {
     pub energy_ratio: f64,
     /// Error of the sliding ratio.
     pub sliding_ratio: f64,
+    /// Error of half the opening \[m\].
+    pub opening: f64,
 }
 
 impl Cycle {
@@ -92,22 +94,27 @@ impl Cycle {
         ratio(self.opening_error, self.delta)
     }
 
-    /// Error of the sliding ratio by the cells on a grid; 0 where nothing slips. The shift that is not
-    /// opening is elastic: in gross slip this part alone has the error.
-    fn sliding_ratio_error_of_cells(&self, plane_strain: bool) -> f64 {
+    /// Relative error of the opening by the cells on a grid; 0 where nothing slips.
+    fn opening_error_of_cells(&self, plane_strain: bool) -> f64 {
         if self.slip_cells <= 0.0 {
             return 0.0;
         }
+        CELLS[usize::from(!plane_strain)] / self.slip_cells.max(FEWEST).powf(1.5)
+    }
+
+    /// Error of the sliding ratio by the cells on a grid. The shift that is not opening is elastic: in
+    /// gross slip this part alone has the error.
+    fn sliding_ratio_error_of_cells(&self, plane_strain: bool) -> f64 {
         let s = ratio(self.opening, self.delta);
-        let factor = CELLS[usize::from(!plane_strain)];
-        (factor * s * (1.0 - s) / self.slip_cells.max(FEWEST).powf(1.5)).max(0.0)
+        (self.opening_error_of_cells(plane_strain) * s * (1.0 - s)).max(0.0)
     }
 
     /// Errors of a cycle from the errors of the branches of the path: of their energy \[J\], of the
     /// force \[N\] and of the shift \[m\] at their ends. Without branches they are NaN, except for
-    /// the sliding ratio, whose error by the cells follows from the width of the slip zone. Errors of energies have one cause and add up. The error of half a range
-    /// is the largest error of the ends. The relative error of the opening is the relative error of
-    /// the energy, which is the area of the loop, plus the error by the increments.
+    /// the opening and the sliding ratio, whose errors by the cells follow from the width of the slip
+    /// zone. Errors of energies have one cause and add up. The error of half a range is the largest
+    /// error of the ends. The relative error of the opening is the relative error of the energy,
+    /// which is the area of the loop, plus the error by the increments.
     pub fn errors(&self, of_branches: &[[f64; 3]], plane_strain: bool) -> CycleErrors {
         if of_branches.is_empty() {
             return CycleErrors {
@@ -115,6 +122,8 @@ impl Cycle {
                 energy_ratio: f64::NAN,
                 sliding_ratio: self.sliding_ratio_error()
                     + self.sliding_ratio_error_of_cells(plane_strain),
+                opening: self.opening_error
+                    + self.opening * self.opening_error_of_cells(plane_strain),
             };
         }
         let (first, last) = self.branches;
@@ -128,6 +137,7 @@ impl Cycle {
             dissipated: energy,
             energy_ratio: self.energy_ratio() * (of_energy + of_T + of_delta),
             sliding_ratio: self.sliding_ratio_error() + of_cells,
+            opening: self.opening_error + self.opening * (of_energy + of_T),
         }
     }
 

@@ -199,6 +199,8 @@ fn cycle_to_json(
         "delta": c.delta,
         "stiffness": number(c.stiffness),
         "stiffness_error": number(c.stiffness_error),
+        "opening": number(c.checked_opening()),
+        "opening_error": number(errors.opening),
         "energy_ratio": number(c.energy_ratio()),
         "energy_ratio_error": number(errors.energy_ratio),
         "sliding_ratio": number(c.sliding_ratio()),

@@ -237,6 +237,7 @@ pub(crate) fn loops(
             fields.set_item("stiffness_error", c.stiffness_error)?;
             fields.set_item("secant_stiffness", c.secant_stiffness())?;
             fields.set_item("opening", c.checked_opening())?;
+            fields.set_item("opening_error", of_cycle.opening)?;
             fields.set_item("energy_ratio", c.energy_ratio())?;
             fields.set_item("energy_ratio_error", of_cycle.energy_ratio)?;
             fields.set_item("sliding_ratio", c.sliding_ratio())?;

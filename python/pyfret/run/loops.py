@@ -49,6 +49,10 @@ LOOP = {
     "stiffness_error": ("N/m", "estimated error of the stiffness"),
     "secant_stiffness": ("N/m", "stiffness of the whole loop"),
     "opening": ("m", "half the opening at the middle force, NaN as sliding_ratio"),
+    "opening_error": (
+        "m",
+        "error of the opening; without error bars by increments and width of the slip zone",
+    ),
     "energy_ratio": ("1", "dissipated energy over that of the surrounding rectangle"),
     "energy_ratio_error": ("1", "error of the energy ratio, where the run has error bars"),
     "sliding_ratio": ("1", "opening over the range of the shift, NaN where not known to 0.05"),
