@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -9,6 +10,9 @@ from pathlib import Path
 import pytest
 
 import pyfret as fret
+
+# Tests compare texts in whole lines. `test_terminal.py` has the widths of windows.
+os.environ["COLUMNS"] = "400"
 
 
 @pytest.fixture(autouse=True)

@@ -65,36 +65,31 @@ def heading(text: str, of: dict[str, Any]) -> tuple[str, float]:
     return name, scale
 
 
-def rows_of_text(lines: list[str]) -> list[list[str]]:
-    """Cells of a table of text, whose columns are at least two blanks apart."""
-    return [re.split(r"\s{2,}", line.strip()) for line in lines]
-
-
 def rows_of_html(page: str) -> list[list[str]]:
     """Cells of the one table of a page."""
     rows = re.findall(r"<tr>(.*?)</tr>", page)
     return [re.findall(r"<t[hd][^>]*>(.*?)</t[hd]>", row) for row in rows]
 
 
-def rows_of_box(page: str) -> list[list[str]]:
-    """Cells of the table of the command, whose rows may take several lines."""
-    lines = [line.strip("|") for line in page.splitlines() if line.startswith("|")]
-    lines = [line for line in lines if set(line) != {"="}]
-    width = max(map(len, lines))
-    lines = [line.ljust(width) for line in lines]
-    blank = [all(line[n] == " " for line in lines) for n in range(width)]
+def rows_of_text(page: str) -> list[list[str]]:
+    """Cells of the table of a text: titles of several lines, a line of dashes, a line per row."""
+    lines = page.splitlines()
+    rule = next(n for n, line in enumerate(lines) if line and set(line) == {"-"})
+    begin = rule
+    while begin > 0 and "  " in lines[begin - 1].strip():
+        begin -= 1
+    end = next((n for n in range(rule, len(lines)) if not lines[n].strip()), len(lines))
+    titles, body = lines[begin:rule], lines[rule + 1 : end]
+    body = [line for line in body if "  " in line]
+    width = max(map(len, [*titles, *body]))
+    padded = [line.ljust(width) for line in (*titles, *body)]
+    blank = [all(line[n] == " " for line in padded) for n in range(width)]
     ends = [n for n in range(1, width) if blank[n] and blank[n - 1]]
-    borders = [0, *ends, width]
-    columns = [(a, b) for a, b in pairwise(borders) if not all(blank[a:b])]
-    rows: list[list[str]] = []
-    for n, line in enumerate(lines):
-        cells = [line[a:b].strip() for a, b in columns]
-        if n == 0 or re.match(r"\d", cells[0]):
-            rows.append(cells)
-        else:
-            joined = zip(rows[-1], cells, strict=True)
-            rows[-1] = [f"{a} {b}".strip().replace("- ", "") for a, b in joined]
-    return rows
+    columns = [(a, b) for a, b in pairwise([0, *ends, width]) if not all(blank[a:b])]
+    cells = [[line[a:b].strip() for a, b in columns] for line in padded]
+    count = len(titles)
+    heads = [" ".join(filter(None, column)) for column in zip(*cells[:count], strict=True)]
+    return [[head.replace("- ", "") for head in heads], *cells[count:]]
 
 
 def of_branches(rows: list[list[str]], truth: dict[str, Any]) -> Iterator[tuple[str, int, str]]:
@@ -162,9 +157,11 @@ def pages(scene: fret.Scene, tmp_path_factory: Any) -> tuple[str, dict[str, Any]
 
 def test_numbers_of_branches(result: fret.Result, pages: tuple[str, dict[str, Any]]) -> None:
     text, truth = pages
-    count = len(truth["branches"])
-    summary = result.summary().splitlines()[1 : count + 2]
-    tables = [rows_of_text(summary), rows_of_html(ends_table(result)), rows_of_box(text)]
+    tables = [
+        rows_of_text(result.summary()),
+        rows_of_html(ends_table(result)),
+        rows_of_text(text),
+    ]
     seen = [{name for name, _, _ in of_branches(rows, truth)} for rows in tables]
     for names in seen:
         assert {"W", "T_x", "contact_radius", "p_max", "stick_ratio", "dissipated"} <= names

@@ -4168,6 +4168,13 @@ def stress_coefficients(
 def surface_frf(body: Body, k_x: ArrayLike, k_y: ArrayLike) -> NDArray[np.complex128]:
     """Surface response at one-dimensional arrays of wave numbers; see :mod:`pyfret.kernels`."""
 
+def table_text(titles: Sequence[str], rows: Sequence[Sequence[str]], keys: int, width: int) -> str:
+    """
+    A table as text, of lines of at most `width` characters.
+
+    Columns that do not fit stand below, beside the first `keys` columns again.
+    """
+
 def threshold_at(
     threshold_: tuple[float, float | None, float, float | None, list[tuple[float, float]] | None],
     lengths: Sequence[float],
@@ -4211,6 +4218,9 @@ def with_error(value: float, error: float | None = None) -> str:
 
 def with_range(value: float, low: float, high: float) -> str:
     """A number and the range that it lies in, with the digits that the range leaves."""
+
+def wrap_text(text: str, width: int) -> str:
+    """A text whose lines that are wider than `width` are wrapped."""
 
 def yielded_columns() -> list[str]:
     """Names of the columns of the points that have yielded, in their order."""

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import base64
 import io
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
 from pyfret._util import files
 from pyfret._util.csv_table import Tabular
+from pyfret._util.page import svg_image, write_page
 from pyfret._util.text import html
 from pyfret.quantities import quantities
 
@@ -41,15 +41,6 @@ else:
     HasDataset = object
 
 __all__ = ["Saveable"]
-
-#: The page, with its title, the view for notebooks, the figure and the summary.
-PAGE = """<!doctype html><html lang="en"><meta charset="utf-8"><title>{title}</title>
-<style>body{{font-family:sans-serif;margin:2em}}td,th{{padding:.3em .8em;text-align:left;
-border-bottom:1px solid #ddd}}img{{max-width:100%}}pre{{overflow:auto}}</style>
-<h1>{title}</h1>{view}<p><img alt="the figure of what was found"
-src="data:image/svg+xml;base64,{figure}"></p>
-<pre>{summary}</pre></html>
-"""
 
 
 class Saveable(Tabular):
@@ -95,13 +86,11 @@ class Saveable(Tabular):
         drawn = io.BytesIO()
         figure = self.plot(**options)
         getattr(figure, "figure", figure).savefig(drawn, format="svg", bbox_inches="tight")
-        page = PAGE.format(
-            title=html(self._title()),
-            view=self._repr_html_(),
-            figure=base64.b64encode(drawn.getvalue()).decode(),
-            summary=html(self.summary()),
-        )
-        Path(path).write_text(page, encoding="utf-8")
+        title, summary = self._title(), html(self.summary())
+        shown = svg_image(drawn.getvalue(), f"figure of {title}; its numbers stand on this page")
+        view = self._repr_html_()
+        text = "" if view == f"<pre>{summary}</pre>" else f'<pre tabindex="0">{summary}</pre>'
+        write_page(Path(path), title, f"{view}\n<p>{shown}</p>\n{text}")
 
     def _title(self: HasDataset) -> str:
         return str(self.dataset.attrs.get("title") or type(self).__name__)

@@ -26,6 +26,7 @@ from pyfret._core import (
     Scene,
     Sphere,
 )
+from pyfret._util.window import format_table
 from pyfret.quantities import quantities
 from pyfret.solution import solve
 
@@ -87,16 +88,23 @@ class Verification:
 
     def __str__(self) -> str:
         """A line for every check."""
-        width = max(len(check.what) for check in self.checks)
-        lines = [
-            f"{'ok  ' if c.passed else 'FAIL'} {c.what:{width}}  {c.ours:<13.6g} truth "
-            f"{c.truth:<13.6g} error {100 * c.error:+.4f} %  (last {100 * c.last:+.4f} %)  "
-            f"{c.source}"
+        rows = [
+            (
+                c.what,
+                "ok" if c.passed else "FAIL",
+                f"{c.ours:.6g}",
+                f"{c.truth:.6g}",
+                f"{100 * c.error:+.4f}",
+                f"{100 * c.last:+.4f}",
+                c.source,
+            )
             for c in self.checks
         ]
+        titles = ["number", "check", "ours", "truth", "error\n[%]", "last\n[%]", "source"]
         bad = sum(not c.passed for c in self.checks)
         outcome = "all passed" if self.passed else f"{bad} FAILED"
-        return "\n".join([*lines, f"{len(self.checks)} numbers, {outcome}, {self.seconds:.0f} s"])
+        head = f"{len(self.checks)} numbers, {outcome}, {self.seconds:.0f} s"
+        return f"{head}\n{format_table(titles, rows)}"
 
     __repr__ = __str__
 

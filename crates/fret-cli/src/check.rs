@@ -13,6 +13,7 @@ use serde_json::{Map, Value, json};
 
 use crate::failure::Failure;
 use crate::json::{NO_HERTZ, or_missing, pretty};
+use crate::layout::Page;
 use crate::printed::print;
 use crate::scene_options::{SceneOptions, warn_of_doubts};
 use crate::units::{mega, um};
@@ -52,11 +53,12 @@ pub(crate) fn check(options: &Options) -> Result<(), Failure> {
     if options.json {
         print(&pretty(numbers(&scene, &plan, &work, &lines, &doubts)))?;
     } else {
-        let lines = lines
-            .iter()
-            .map(|(subject, text)| format!("{subject:<14}{text}"));
-        let texts: Vec<String> = std::iter::once(scene.title.clone()).chain(lines).collect();
-        print(&texts.join("\n"))?;
+        let mut page = Page::new();
+        page.head(&scene.title);
+        for (subject, text) in &lines {
+            page.description(subject, text);
+        }
+        page.print()?;
     }
     warn_of_doubts(&doubts);
     plan.check_memory(&scene).map_err(Failure::BadInput)?;

@@ -1,12 +1,8 @@
 //! Failures of a command and their exit codes.
 
-use std::io::IsTerminal;
+use contact_core::Error;
 
-use clap::ColorChoice;
-use clap::builder::styling::AnsiColor;
-use contact_core::{Error, shown};
-
-use crate::terminal::{colours, print_coloured, print_message};
+use crate::terminal::print_error;
 
 /// A failure of a command.
 pub(crate) enum Failure {
@@ -31,16 +27,7 @@ impl Failure {
             Self::Doubted(doubts) => (format!("{doubts} of its values are doubtful (--strict)"), 1),
             Self::Stopped => ("stopped, nothing was written".to_owned(), 1),
         };
-        let stderr = std::io::stderr();
-        let coloured = stderr.is_terminal() && colours() != ColorChoice::Never;
-        let red = AnsiColor::Red.on_default().bold();
-        for line in error.lines() {
-            if coloured {
-                print_coloured(&format!("{red}fret:{red:#} {}", shown(line)));
-            } else {
-                print_message(&format!("fret: {line}"));
-            }
-        }
+        error.lines().for_each(print_error);
         code
     }
 }

@@ -10,6 +10,7 @@ mod check;
 mod failure;
 mod json;
 mod largest;
+pub mod layout;
 mod life;
 mod loads;
 mod new;
@@ -31,16 +32,16 @@ mod wear;
 mod words;
 
 use std::ffi::OsString;
-use std::io::Write;
+use std::io::{IsTerminal, Write};
 use std::path::PathBuf;
 
 use clap::builder::styling::{AnsiColor, Styles};
-use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use clap::{ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand};
 use contact_core::Error;
 
 use crate::failure::Failure;
 use crate::printed::{check_written, print};
-use crate::terminal::colours;
+use crate::terminal::{colours, help_width, wrap_message};
 
 /// Fretting contact of elastic bodies, homogeneous or coated.
 #[derive(Parser)]
@@ -133,12 +134,12 @@ enum Command {
 pub fn run_command(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let parsed = Cli::command()
         .color(colours())
+        .term_width(help_width())
         .try_get_matches_from(arguments);
     let cli = match parsed.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
         Err(error) => {
-            // Help and version arrive here, too.
-            let printed = check_written(error.print().and_then(|()| std::io::stdout().flush()));
+            let printed = check_written(print_usage(&error));
             let code = u8::try_from(error.exit_code()).unwrap_or(2);
             return printed.map_or_else(|failure| failure.report(), |()| code);
         }
@@ -177,6 +178,21 @@ pub fn run_command(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Ok(()) => 0,
         Err(failure) => failure.report(),
     }
+}
+
+/// Prints help or version, or what is wrong with the command line.
+fn print_usage(error: &clap::Error) -> std::io::Result<()> {
+    if !error.use_stderr() {
+        return error.print().and_then(|()| std::io::stdout().flush());
+    }
+    let coloured = std::io::stderr().is_terminal() && colours() != ColorChoice::Never;
+    let text = error.render();
+    let text = if coloured {
+        text.ansi().to_string()
+    } else {
+        text.to_string()
+    };
+    writeln!(std::io::stderr(), "{}", wrap_message(text.trim_end()))
 }
 
 /// Runs the command of the Python package and returns its exit code.

@@ -1,4 +1,4 @@
-//! Results on the standard output.
+//! Results on the standard output: for programs as they are, for people by [`crate::layout`].
 
 use std::io::{self, ErrorKind, Write};
 
@@ -11,6 +11,13 @@ use crate::failure::Failure;
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
     check_written(writeln!(out, "{}", shown(text)).and_then(|()| out.flush()))
+}
+
+/// Writes lines of text and of this program's own codes of colours to the standard output.
+pub(crate) fn write_lines(lines: &[String]) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    let written = lines.iter().try_for_each(|line| writeln!(out, "{line}"));
+    check_written(written.and_then(|()| out.flush()))
 }
 
 /// Outcome of writing to the standard output.

@@ -9,7 +9,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use crate::summary;
 use crate::terminal::{can_draw, print_message};
 
-const TEMPLATE: &str = "{bar:20} {pos}/{len} increments, {elapsed} elapsed, {eta} left  {msg}";
+const TEMPLATE: &str = "{bar:10} {pos}/{len} increments, {elapsed}, {eta} left  {wide_msg}";
 const TICK: Duration = Duration::from_millis(200);
 
 /// The display on the standard error during the run.

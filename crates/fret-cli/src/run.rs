@@ -47,7 +47,7 @@ pub(crate) struct RunOptions {
     /// Print the summary as one JSON object, for programs
     #[arg(long)]
     pub(crate) json: bool,
-    /// A summary with the work of the solvers, wider than 100 columns
+    /// A summary with the work of the solvers
     #[arg(long, conflicts_with_all = ["quiet", "json"])]
     pub(crate) wide: bool,
     /// Show neither progress nor summary; with --json the summary alone
@@ -89,7 +89,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
                         Some(&bars),
                     )))?;
                 } else if !manner.quiet {
-                    print(&summary::error_table(&scene, &increments, &bars))?;
+                    summary::error_table(&scene, &increments, &bars).print()?;
                 }
             }
             Err(stopped @ Error::Interrupted { .. }) => return Err(to_failure(stopped)),
@@ -139,12 +139,11 @@ impl RunOptions {
         let mut printed = Ok(());
         let later = held && outcome.is_ok();
         if (!self.quiet || self.json) && !increments.is_empty() && !later {
-            let text = if self.json {
-                json::pretty(json::run_to_json(scene, &increments, None))
+            printed = if self.json {
+                print(&json::pretty(json::run_to_json(scene, &increments, None)))
             } else {
-                summary::table(scene, &increments, self.wide)
+                summary::table(scene, &increments, self.wide).print()
             };
-            printed = print(&text);
             if !self.quiet {
                 print_message(&summary::describe_time(
                     begun.elapsed(),

@@ -18,6 +18,7 @@ use ndarray::Axis;
 
 use crate::failure::Failure;
 use crate::largest::{Largest, Units};
+use crate::layout::Page;
 use crate::loads::Loads;
 use crate::printed::print;
 use crate::quantity::{length, stress as stress_of};
@@ -161,7 +162,14 @@ pub(crate) fn stress(options: &Options) -> Result<(), Failure> {
         Error::Interrupted { .. } => Failure::Stopped,
         error => Failure::BadInput(error),
     })?;
-    print(&lines.join("\n"))
+    if options.json {
+        return print(&lines.join("\n"));
+    }
+    let mut page = Page::new();
+    for line in &lines {
+        page.text(line);
+    }
+    page.print()
 }
 
 /// Rejects a file that is neither image data nor a Zarr folder, for example a figure.

@@ -2,7 +2,6 @@
 
 use std::time::Duration;
 
-use comfy_table::{CellAlignment, Table, presets};
 use contact_core::Scene;
 use contact_core::digits::{short, with_error};
 use contact_core::estimate::{Bar, ErrorBars};
@@ -12,6 +11,8 @@ use contact_core::yielding::Rim;
 use contact_subsurface::{Cycle, Direction};
 
 use crate::json;
+use crate::layout::{self, Page};
+use crate::units::{mega, um};
 use crate::words::{frictionless, state, word};
 
 /// Micrometres, or microjoules, per SI unit.
@@ -212,9 +213,7 @@ fn columns(scene: &Scene, increments: &[Increment], wide: bool) -> Vec<Column> {
                 short(b.stick_ratio)
             }
         }),
-        column("state", move |_, last| {
-            state(bare, last.status).replace(' ', "\n")
-        }),
+        column("state", move |_, last| state(bare, last.status).to_owned()),
         column(format!("p_max\n[{}]", pressure.0), move |b, _| {
             short(b.p_max / pressure.1)
         }),
@@ -361,7 +360,7 @@ fn secondary_columns(scene: &Scene) -> Vec<ErrorColumn> {
 
 /// The headline numbers at the end of every branch, with their errors and the sources of the
 /// errors.
-pub(crate) fn error_table(scene: &Scene, increments: &[Increment], bars: &[ErrorBars]) -> String {
+pub(crate) fn error_table(scene: &Scene, increments: &[Increment], bars: &[ErrorBars]) -> Page {
     let Measures { radius, pressure } = Measures::for_scene(scene);
     let answers = secondary_columns(scene);
     let (joule, joules) = energy(scene);
@@ -374,25 +373,20 @@ pub(crate) fn error_table(scene: &Scene, increments: &[Increment], bars: &[Error
     ];
     let of_yielding = of_yielding.into_iter().filter(|_| yields);
     let residual_column = yields.then(|| "residual\nstress [%]".to_owned());
-    let mut table = Table::new();
-    table
-        .load_style(presets::ASCII_BORDERS_ONLY_CONDENSED)
-        .set_header(
-            [
-                "branch".to_owned(),
-                format!("{}\n[{}]", size_name(scene), radius.0),
-                "stick ratio".to_owned(),
-                format!("p_max\n[{}]", pressure.0),
-                "approach delta_z\n[um]".to_owned(),
-                "shift delta_x\n[um]".to_owned(),
-                format!("dissipated\n[{joule}]"),
-            ]
-            .into_iter()
-            .chain(of_yielding)
-            .chain(answers.iter().map(|answer| answer.title.clone()))
-            .chain(["p, field\n[%]".to_owned(), "q, field\n[%]".to_owned()])
-            .chain(residual_column),
-        );
+    let mut titles = vec![
+        "branch".to_owned(),
+        format!("{}\n[{}]", size_name(scene).replace(' ', "\n"), radius.0),
+        "stick\nratio".to_owned(),
+        format!("p_max\n[{}]", pressure.0),
+        "approach\ndelta_z\n[um]".to_owned(),
+        "shift\ndelta_x\n[um]".to_owned(),
+        format!("dissipated\n[{joule}]"),
+    ];
+    titles.extend(of_yielding);
+    titles.extend(answers.iter().map(|answer| answer.title.clone()));
+    titles.extend(["p, field\n[%]".to_owned(), "q, field\n[%]".to_owned()]);
+    titles.extend(residual_column);
+    let mut rows: Vec<Vec<String>> = Vec::new();
     for (of, bar) in summarise(increments).iter().zip(bars) {
         let mut numbers = vec![
             (of.contact_radius, bar.contact_radius, 1.0 / radius.1),
@@ -416,12 +410,10 @@ pub(crate) fn error_table(scene: &Scene, increments: &[Increment], bars: &[Error
             with_error(value * unit, Some(bar.total * unit))
         };
         let field = |bar: &Bar| format!("+- {:.2}", 100.0 * bar.total);
-        let branch = (of.branch + 1).to_string();
-        table.add_row(
-            std::iter::once(branch)
-                .chain(numbers.iter().map(number))
-                .chain(fields.iter().map(field)),
-        );
+        let mut row = vec![(of.branch + 1).to_string()];
+        row.extend(numbers.iter().map(number));
+        row.extend(fields.iter().map(field));
+        rows.push(row);
         for (name, part) in
             [("cells", |b: Bar| b.cells), ("path", |b: Bar| b.path)] as [(&str, fn(Bar) -> f64); 2]
         {
@@ -429,58 +421,84 @@ pub(crate) fn error_table(scene: &Scene, increments: &[Increment], bars: &[Error
                 .iter()
                 .map(|&(_, b, unit)| format!("{:.1e}", part(b) * unit));
             let fields = fields.iter().map(|&b| format!("{:.2}", 100.0 * part(b)));
-            table.add_row(
-                std::iter::once(name.to_owned())
-                    .chain(numbers)
-                    .chain(fields),
-            );
+            let mut row = vec![name.to_owned()];
+            row.extend(numbers);
+            row.extend(fields);
+            rows.push(row);
         }
     }
-    for column in table.column_iter_mut() {
-        column.set_cell_alignment(CellAlignment::Right);
-    }
-    let (joule, joules) = energy(scene);
-    let cycles = json::cycles(scene, increments);
-    let of_cycle = |(n, (direction, c)): (usize, &(Direction, Cycle))| {
+    let mut page = Page::new();
+    for (n, (direction, c)) in json::cycles(scene, increments).iter().enumerate() {
         let errors = json::cycle_errors(scene, *direction, c, bars);
-        format!(
-            "\ncycle {} ({}): {} {joule} dissipated, energy ratio {}, sliding ratio {}",
+        page.text(&format!(
+            "cycle {} ({}): {} {joule} dissipated, energy ratio {}, sliding ratio {}",
             n + 1,
             word(*direction),
             with_error(c.dissipated * joules, Some(errors.dissipated * joules)),
             with_error(c.energy_ratio(), Some(errors.energy_ratio)),
             with_error(c.sliding_ratio(), Some(errors.sliding_ratio)),
-        )
-    };
-    let cycles: String = cycles.iter().enumerate().map(of_cycle).collect();
-    format!("errors, and the parts of them that cells and increments leave\n{table}{cycles}")
+        ));
+    }
+    page.head("errors, and the parts of them that cells and increments leave");
+    let columns: Vec<layout::Column> = titles
+        .into_iter()
+        .enumerate()
+        .map(|(n, title)| layout::Column {
+            title,
+            cells: rows.iter().map(|row| row[n].clone()).collect(),
+        })
+        .collect();
+    page.table(&columns, 1);
+    page
 }
 
-/// One row per branch that has begun, and one line per cycle.
-pub(crate) fn table(scene: &Scene, increments: &[Increment], wide: bool) -> String {
-    let columns = columns(scene, increments, wide);
-    let mut table = Table::new();
-    table
-        .load_style(presets::ASCII_BORDERS_ONLY_CONDENSED)
-        .set_header(columns.iter().map(|(title, _)| title));
+/// The end of the path in SI units.
+fn end_line(scene: &Scene, increments: &[Increment]) -> Option<String> {
+    let (branch, last) = (summarise(increments).pop()?, increments.last()?);
+    let bare = frictionless(scene);
+    let stick = if bare {
+        String::new()
+    } else {
+        format!(", stick ratio {}", short(branch.stick_ratio))
+    };
+    Some(format!(
+        "at the end: {}{stick}, {} {}, p_max {}",
+        state(bare, last.status),
+        size_name(scene),
+        um(branch.contact_radius),
+        mega(branch.p_max, "Pa"),
+    ))
+}
+
+/// The end of the path, one line per cycle, and one row per branch that has begun.
+pub(crate) fn table(scene: &Scene, increments: &[Increment], wide: bool) -> Page {
+    let mut page = Page::new();
+    if let Some(line) = end_line(scene, increments) {
+        page.head(&line);
+    }
+    let notes = far_from_yield(scene, increments)
+        .into_iter()
+        .chain(strain_at_a_rim(increments));
+    for line in cycle_lines(scene, increments).into_iter().chain(notes) {
+        page.text(&line);
+    }
     let mut done = 0;
+    let mut rows = Vec::new();
     for branch in summarise(increments) {
         done += branch.increments;
-        let row = (
-            &branch.without_insignificant_values(scene),
-            &increments[done - 1],
-        );
-        table.add_row(columns.iter().map(|(_, cell)| cell(&row)));
+        let branch = branch.without_insignificant_values(scene);
+        rows.push((branch, &increments[done - 1]));
     }
-    for column in table.column_iter_mut() {
-        column.set_cell_alignment(CellAlignment::Right);
-        column.set_padding((0, 1));
-    }
-    let lines = cycle_lines(scene, increments);
-    std::iter::once(table.to_string())
-        .chain(lines)
-        .chain(far_from_yield(scene, increments))
-        .chain(strain_at_a_rim(increments))
-        .collect::<Vec<_>>()
-        .join("\n")
+    let columns: Vec<layout::Column> = columns(scene, increments, wide)
+        .into_iter()
+        .map(|(title, cell)| layout::Column {
+            title,
+            cells: rows
+                .iter()
+                .map(|(branch, last)| cell(&(branch, last)))
+                .collect(),
+        })
+        .collect();
+    page.table(&columns, 1);
+    page
 }

@@ -16,6 +16,7 @@ use serde_json::json;
 
 use crate::failure::Failure;
 use crate::json::pretty;
+use crate::layout::{Column, Page};
 use crate::out::Out;
 use crate::printed::print;
 use crate::run::stop_on_interrupt;
@@ -24,7 +25,7 @@ use crate::terminal::{can_draw, print_message};
 use crate::threads::Threads;
 use crate::units::um;
 
-const TEMPLATE: &str = "{bar:20} {pos}/{len} cycles, {elapsed} elapsed, {eta} left  {msg}";
+const TEMPLATE: &str = "{bar:10} {pos}/{len} cycles, {elapsed}, {eta} left  {wide_msg}";
 
 /// Options of `fret wear`.
 #[derive(Args)]
@@ -165,7 +166,7 @@ fn to_end(
         printed = print(&pretty(document));
     }
     if shown == Display::Table {
-        printed = print(&table(jumps, &run.scene().grid));
+        printed = table(jumps, &run.scene().grid).print();
         let seconds = begun.elapsed().as_secs_f64();
         print_message(&format!("{} jumps in {seconds:.1} s", jumps.len()));
     }
@@ -228,35 +229,40 @@ fn p_max(jump: &Jump) -> String {
     }
 }
 
-/// A line for every few jumps.
-fn table(jumps: &[Jump], grid: &Grid) -> String {
-    let volume = grid.unit_of("m^3").replace('^', "");
-    let mut lines = vec![format!(
-        "{:>12} {:>11} {:>11} {:>12} {:>12} {:>12} {:>16} {:>8}",
-        "cycles",
-        "depth1 um",
-        "depth2 um",
-        format!("volume1 {volume}"),
-        format!("volume2 {volume}"),
-        format!("energy {}", grid.unit_of("J")),
-        "p_max MPa",
-        "error"
-    )];
-    let every = jumps.len().div_ceil(20);
+/// Depths and volumes of the last jump, and a line for every few jumps.
+fn table(jumps: &[Jump], grid: &Grid) -> Page {
+    let mut page = Page::new();
     let last = jumps.len() - 1;
-    let shown = (0..=last).filter(|i| i % every == 0 || *i == last);
-    for j in shown.map(|i| &jumps[i]) {
-        lines.push(format!(
-            "{:12.1} {:11.4} {:11.4} {:12.4e} {:12.4e} {:12.4e} {:>16} {:8.1e}",
-            j.cycles,
-            1e6 * j.depth[0],
-            1e6 * j.depth[1],
-            j.volume[0],
-            j.volume[1],
-            j.dissipated,
-            p_max(j),
-            j.depth_error
+    let end = &jumps[last];
+    for body in (0..2).filter(|&body| end.volume[body] > 0.0) {
+        let depth = 1e6 * end.depth[body];
+        page.head(&format!(
+            "body {}: {} um deep after {:.1} cycles",
+            body + 1,
+            with_error(depth, Some(end.depth_error * depth)),
+            end.cycles
         ));
     }
-    lines.join("\n")
+    let every = jumps.len().div_ceil(20);
+    let shown: Vec<&Jump> = (0..=last)
+        .filter(|i| i % every == 0 || *i == last)
+        .map(|i| &jumps[i])
+        .collect();
+    let column = |title: &str, unit: &str, cell: &dyn Fn(&Jump) -> String| Column {
+        title: format!("{title}\n[{unit}]"),
+        cells: shown.iter().map(|jump| cell(jump)).collect(),
+    };
+    let (volume, energy) = (grid.unit_of("m^3"), grid.unit_of("J"));
+    let columns = [
+        column("cycles", "1", &|j| format!("{:.1}", j.cycles)),
+        column("depth1", "um", &|j| format!("{:.4}", 1e6 * j.depth[0])),
+        column("depth2", "um", &|j| format!("{:.4}", 1e6 * j.depth[1])),
+        column("error", "1", &|j| format!("{:.1e}", j.depth_error)),
+        column("p_max", "MPa", &p_max),
+        column("volume1", volume, &|j| format!("{:.4e}", j.volume[0])),
+        column("volume2", volume, &|j| format!("{:.4e}", j.volume[1])),
+        column("energy", energy, &|j| format!("{:.4e}", j.dissipated)),
+    ];
+    page.table(&columns, 1);
+    page
 }

@@ -134,7 +134,8 @@ mod _core {
     use crate::subsurface::{Subsurface, section_of_states};
     #[pymodule_export]
     use crate::text::{
-        degrees, read_bytes, read_text, rough, rounded_place, shown, with_error, with_range,
+        degrees, read_bytes, read_text, rough, rounded_place, shown, table_text, with_error,
+        with_range, wrap_text,
     };
     #[pymodule_export]
     use crate::wear::{resume_wear, verify_wear, wear, wear_of_file};

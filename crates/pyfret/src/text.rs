@@ -31,6 +31,25 @@ pub(crate) fn shown(text: &str) -> String {
     contact_core::shown(text).into_owned()
 }
 
+/// A table as text, of lines of at most `width` characters.
+///
+/// Columns that do not fit stand below, beside the first `keys` columns again.
+#[pyfunction]
+pub(crate) fn table_text(
+    titles: Vec<String>,
+    rows: Vec<Vec<String>>,
+    keys: usize,
+    width: usize,
+) -> String {
+    fret_cli::layout::table_text(&titles, &rows, keys, width)
+}
+
+/// A text whose lines that are wider than `width` are wrapped.
+#[pyfunction]
+pub(crate) fn wrap_text(text: &str, width: usize) -> String {
+    fret_cli::layout::wrap_text(text, width)
+}
+
 /// A number and its error, with the digits that the error leaves; an estimate without one.
 #[pyfunction]
 #[pyo3(signature = (value: "float", error: "float | None" = None))]

@@ -15,12 +15,13 @@ from typing import TYPE_CHECKING
 from pyfret import verification
 from pyfret._cli import compare, crack, damage, explore, export, fit, info, table, threshold
 from pyfret._cli.parser import Parser, added
-from pyfret._cli.printing import print_json, print_text
+from pyfret._cli.printing import print_json, print_message, print_text
 from pyfret._cli.values import FIGURES, ending
 from pyfret._core import __version__
 from pyfret._util.numbers import format_number
 from pyfret.citation import cite as citation_text
 from pyfret.citation import sources
+from pyfret.fatigue import CRITERIA, Materials, lives
 from pyfret.opening import open as open_any
 from pyfret.result import Result, open_result
 from pyfret.study.file import run_study_file
@@ -29,6 +30,8 @@ from pyfret.wear.runs import open_run
 if TYPE_CHECKING:
     import argparse
     from collections.abc import Sequence
+
+    from pyfret.fatigue.judged import Life
 
 #: Exit codes, the same as ``fret``: done; ended early or with failures; bad input; output that
 #: could not be written.
@@ -75,6 +78,14 @@ def parser() -> argparse.ArgumentParser:
         "--crack", action="store_true", help="show a crack as well; the options below say which"
     )
     crack.add_crack(report)
+    report.add_argument(
+        "--life",
+        action="append",
+        choices=CRITERIA,
+        metavar="CRITERION",
+        help="show the life by this criterion as well, of the substrate of --material; "
+        "may be given several times",
+    )
     verify = added(commands, "verify", "check this installation against closed forms, in minutes")
     cite = added(commands, "cite", "say what to cite for a result")
     cite.add_argument("store", nargs="?", help="result (default: all methods)")
@@ -103,7 +114,7 @@ def study(options: argparse.Namespace) -> int:
             mapped=options.map is not None,
         )
     except KeyboardInterrupt:
-        print_text("fret: stopped; the same command goes on", file=sys.stderr)
+        print_message("fret: stopped; the same command goes on")
         return ENDED_EARLY
     finally:
         if client is not None:
@@ -142,18 +153,40 @@ def report(options: argparse.Namespace) -> int:
     if not isinstance(result, Result):
         if options.crack or worn is not None:
             raise ValueError(f"{options.store}: --crack and --wear belong to the result of a run")
+        if options.life:
+            raise ValueError(f"{options.store}: --life belongs to the result of a run")
         result.report(page)
     else:
-        cracks = threshold = None
+        cracks = threshold = lives = None
+        if options.life:
+            lives = lives_of(result, options)
         if options.crack:
             cracks, threshold = crack.cracks_of(result, options), crack.threshold_of(options)
-        result.report(page, wear=worn, crack=cracks, threshold=threshold)
+        result.report(page, wear=worn, crack=cracks, threshold=threshold, life=lives)
     size = page.stat().st_size
     if options.json:
         print_answer(page=str(page), bytes=size)
     else:
         print_text(f"{page}: {size / 1e6:.1f} MB")
     return DONE
+
+
+def lives_of(result: Result, options: argparse.Namespace) -> list[Life]:
+    """The lives asked for."""
+    if options.material is None:
+        raise ValueError("--life: needs --material")
+    table = Materials(options.materials)
+    if options.material not in table:
+        raise ValueError(f"--material {options.material}: must be one of {', '.join(table)}")
+    judged = lives(
+        result,
+        table[options.material],
+        options.life,
+        body_number=options.body,
+        cycle=options.cycle,
+        residual=options.residual,
+    )
+    return list(judged.values())
 
 
 def verify(options: argparse.Namespace) -> int:
@@ -207,7 +240,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return DONE
     except OSError as error:
         leave_output()
-        print_text(f"fret: standard output: {error.strerror}", file=sys.stderr)
+        print_message(f"fret: standard output: {error.strerror}")
         return UNWRITTEN
     return code
 
@@ -271,19 +304,19 @@ def run(arguments: Sequence[str] | None) -> int:
         raise
     except OSError as error:
         prefix = f"{error.filename}: " if error.filename else ""
-        print_text(f"fret: {prefix}{error.strerror or error}", file=sys.stderr)
+        print_message(f"fret: {prefix}{error.strerror or error}")
         return UNWRITTEN if error.errno in FULL else BAD_INPUT
     except (ValueError, KeyError, ImportError) as error:
-        print_text(f"fret: {' '.join(str(error).split())}", file=sys.stderr)
+        print_message(f"fret: {' '.join(str(error).split())}")
         return BAD_INPUT
     except (RuntimeError, MemoryError) as error:
-        print_text(f"fret: {' '.join(str(error).split()) or 'no memory'}", file=sys.stderr)
+        print_message(f"fret: {' '.join(str(error).split()) or 'no memory'}")
         return ENDED_EARLY
     except KeyboardInterrupt:
-        print_text("fret: stopped", file=sys.stderr)
+        print_message("fret: stopped")
         return ENDED_EARLY
 
 
 def say_warning(message: Warning | str, *_: object, **__: object) -> None:
     """Print a warning as the binary prints its own: without a line of Python."""
-    print_text(f"fret: warning: {message}", file=sys.stderr)
+    print_message(f"fret: warning: {message}")

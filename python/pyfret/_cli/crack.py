@@ -13,6 +13,7 @@ from pyfret._cli.values import DEGREES, FIGURES, Value, Values, ending, takes
 from pyfret._core import with_error
 from pyfret._util import files
 from pyfret._util.numbers import in_words, um
+from pyfret._util.window import format_table
 from pyfret.fracture import Paris, Threshold
 from pyfret.result import open_result
 
@@ -121,11 +122,14 @@ def run(options: argparse.Namespace) -> int:
         growth = threshold.growth if options.paris is None else Paris(*options.paris)
         if growth is not None:
             rows[-1] |= _cycles(cracks.life(threshold, growth, start=options.start))
-    for row in rows:
-        if options.json:
+    if options.json:
+        for row in rows:
             print_json(row)
-        else:
-            print_text(_line(row))
+    else:
+        verdict = rows.pop() if threshold is not None else None
+        if verdict is not None:
+            print_text(_sentence(verdict))
+        print_text(_table(rows))
     if options.out and Path(options.out).suffix in FIELDS:
         files.write(cracks.dataset, options.out, otherwise="")
     elif options.out and threshold is not None:
@@ -235,18 +239,29 @@ def _cycles(life: CrackLife) -> dict[str, object]:
     )
 
 
-def _line(row: dict[str, Any]) -> str:
-    """A row for people: each number with the error of that number."""
-    number = {name: value for name, value in row.items() if isinstance(value, float)}
-    if "verdict" in row:
-        notes = [*row["notes"], *row.get("cycles_notes", [])]
-        # A note on estimates that both have stands once.
-        return f"crack from x = {um(number['x'])} {'; '.join(dict.fromkeys(notes))}"
-    K_min, K_max, dK = (
-        with_error(number[name] / 1e6, number[f"{name}_error"] / 1e6)
-        for name in ("K_min", "K_max", "dK")
-    )
-    line = f"l = {um(number['length'])}: K_I {K_min} to {K_max} MPa m^0.5, dK {dK}"
-    if "dK_th" not in number:
-        return line
-    return f"{line} of dK_th {in_words(number['dK_th'] / 1e6)}{' (estimate)' * ('estimate' in row)}"
+def _sentence(row: dict[str, Any]) -> str:
+    """The verdict for people."""
+    notes = [*row["notes"], *row.get("cycles_notes", [])]
+    # A note on estimates that both have stands once.
+    return f"crack from x = {um(row['x'])} {'; '.join(dict.fromkeys(notes))}"
+
+
+def _table(rows: list[dict[str, Any]]) -> str:
+    """Intensities over the length for people, each number with its error."""
+    unit = "[MPa m^0.5]"
+    titles = ["l", f"K_I min\n{unit}", f"K_I max\n{unit}", f"dK\n{unit}"]
+    cells = [
+        [
+            um(row["length"]),
+            *(
+                with_error(row[name] / 1e6, row[f"{name}_error"] / 1e6)
+                for name in ("K_min", "K_max", "dK")
+            ),
+        ]
+        for row in rows
+    ]
+    if "dK_th" in rows[0]:
+        titles.append(f"dK_th\n{unit}{' (estimate)' * ('estimate' in rows[0])}")
+        for row, line in zip(rows, cells, strict=True):
+            line.append(in_words(row["dK_th"] / 1e6))
+    return format_table(titles, cells)

@@ -10,7 +10,7 @@ import numpy as np
 
 from pyfret import export
 from pyfret._cli.parser import added
-from pyfret._cli.printing import print_json, print_text
+from pyfret._cli.printing import print_data, print_json
 from pyfret._cli.values import Value
 from pyfret.result import open_result as open_result
 
@@ -81,7 +81,7 @@ def run(options: argparse.Namespace) -> int:
         about = {"file": options.out, "body": options.body, "unit": options.unit}
         print_json(about | {"bytes": Path(options.out).stat().st_size}, indent=2)
     else:
-        print_text(options.out)
+        print_data(options.out)
     return 0
 
 

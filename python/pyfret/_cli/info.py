@@ -6,8 +6,7 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from pyfret._cli.parser import added
-from pyfret._cli.printing import print_json
-from pyfret._util.text import shown
+from pyfret._cli.printing import print_json, print_text
 from pyfret.file_info import describe_file
 
 if TYPE_CHECKING:
@@ -31,6 +30,5 @@ def run(options: argparse.Namespace) -> int:
     if options.json:
         print_json(asdict(info), indent=2)
     else:
-        for line in str(info).splitlines():
-            print(shown(line))
+        print_text(info)
     return 0

@@ -7,13 +7,16 @@ import sys
 import textwrap
 from typing import TYPE_CHECKING, Any, NoReturn
 
+from pyfret._cli.printing import print_message
+from pyfret._util.window import window_width, wrap
+
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
 __all__ = ["Parser", "added"]
 
-#: Columns of a line of help.
-WIDTH = 100
+#: Columns of a line of help at most.
+WIDEST = 100
 #: Columns of the names of options, of which longer ones stand on a line of their own.
 NAMES = 26
 
@@ -41,11 +44,13 @@ class Parser(argparse.ArgumentParser):
         places = [value(a) for a in self._places()]
         options = [] if self._commands() is not None else ["[OPTIONS]"]
         command = [] if options else ["<COMMAND>"]
-        return " ".join(["Usage:", self.prog, *options, *needed_options, *places, *command]) + "\n"
+        words = ["Usage:", self.prog, *options, *needed_options, *places, *command]
+        return wrap(" ".join(words), width_of_help()) + "\n"
 
     def format_help(self) -> str:
         """Format the help of the command: purpose, usage, arguments."""
-        parts = [sentence(self.description or ""), "", self.format_usage()]
+        purpose = textwrap.wrap(sentence(self.description or ""), width_of_help())
+        parts = [*purpose, "", self.format_usage()]
         commands = self._commands()
         if commands is not None:
             rows = [(f"  {a.dest}", sentence(a.help or "")) for a in commands]
@@ -58,13 +63,14 @@ class Parser(argparse.ArgumentParser):
         options.sort(key=lambda a: "--help" in a.option_strings)
         parts += ["Options:", *table([(names(a), meaning(a)) for a in options])]
         if self.epilog:
-            parts += ["", *textwrap.wrap(self.epilog, WIDTH)]
+            parts += ["", *textwrap.wrap(self.epilog, width_of_help())]
         return "\n".join(parts) + "\n"
 
     def error(self, message: str) -> NoReturn:
         """Say what is wrong, how the command is called and where more stands."""
-        text = f"error: {message}\n\n{self.format_usage()}\nFor more information, try '--help'.\n"
-        self.exit(2, text)
+        text = f"error: {message}\n\n{self.format_usage()}\nFor more information, try '--help'."
+        print_message(text)
+        self.exit(2)
 
     def _print_message(self, message: str, file: Any = None) -> None:
         # Without a standard error, as under pythonw, nothing is printed.
@@ -90,6 +96,11 @@ def added(
     """Add a command that does something."""
     command: argparse.ArgumentParser = commands.add_parser(name, help=does, description=does)
     return command
+
+
+def width_of_help() -> int:
+    """Columns of a line of help."""
+    return min(window_width(), WIDEST)
 
 
 def sentence(text: str) -> str:
@@ -129,7 +140,7 @@ def table(rows: list[tuple[str, str]]) -> list[str]:
     width = min(max((len(name) for name, _ in rows), default=0) + 2, NAMES)
     lines = []
     for name, text in rows:
-        wrapped = textwrap.wrap(text, WIDTH - width) or [""]
+        wrapped = textwrap.wrap(text, width_of_help() - width) or [""]
         if len(name) + 2 > width:
             lines.append(name)
             lines += [" " * width + line for line in wrapped]

@@ -4,24 +4,46 @@ from __future__ import annotations
 
 import json
 import math
-from typing import TYPE_CHECKING, Any
+import sys
+from typing import Any
 
 from pyfret._util.text import shown
+from pyfret._util.window import LEAST, is_coloured, named_width, terminal_width, wrap
 
-if TYPE_CHECKING:
-    from typing import TextIO
-
-__all__ = ["as_printed", "print_json", "print_text"]
+__all__ = ["as_printed", "print_data", "print_json", "print_message", "print_text"]
 
 
-def print_text(text: object, *, file: TextIO | None = None) -> None:
-    """Print a line, to the standard output unless another one is given."""
-    print(shown(str(text)), file=file)
+#: Beginnings of messages, with the codes of their colours on a terminal.
+MARKS = {"fret: warning:": "\x1b[1;33m", "fret:": "\x1b[1;31m"}
+#: Code that ends a colour.
+PLAIN = "\x1b[0m"
+
+
+def print_text(text: object) -> None:
+    """Print lines for people to the standard output, wrapped to the window."""
+    print(wrap(shown(str(text))))
+
+
+def print_message(text: object) -> None:
+    """Print a message to the standard error; in a file it is one line, which can be searched."""
+    lines = shown(str(text))
+    width = named_width() or terminal_width(sys.stderr)
+    if width is not None:
+        lines = wrap(lines, max(width, LEAST))
+    if is_coloured(sys.stderr):
+        mark = next((mark for mark in MARKS if lines.startswith(mark)), "")
+        lines = f"{MARKS.get(mark, '')}{mark}{PLAIN if mark else ''}{lines[len(mark) :]}"
+    print(lines, file=sys.stderr)
+
+
+def print_data(text: object) -> None:
+    """Print what programs read: a table with commas, the name of a file."""
+    print(shown(str(text)))
 
 
 def print_json(answer: object, *, indent: int | None = None) -> None:
     """Print an answer for programs, as JSON that every reader takes."""
-    print_text(json.dumps(as_printed(answer), indent=indent, allow_nan=False))
+    print_data(json.dumps(as_printed(answer), indent=indent, allow_nan=False))
 
 
 def as_printed(answer: Any) -> Any:

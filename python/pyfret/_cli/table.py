@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import json
+import sys
 from typing import TYPE_CHECKING, Any
 
 from pyfret._cli.parser import added
-from pyfret._cli.printing import print_json, print_text
+from pyfret._cli.printing import print_data, print_json, print_text
 from pyfret._cli.values import ending
 from pyfret._util.csv_table import Tabular
+from pyfret._util.numbers import format_number
+from pyfret._util.window import format_table, terminal_width
 from pyfret.opening import open as open_any
 
 if TYPE_CHECKING:
     import argparse
+
+    import pandas as pd
 
 __all__ = ["add_options", "run"]
 
@@ -56,5 +61,14 @@ def run(options: argparse.Namespace) -> int:
     elif options.out:
         print_text(f"{options.out}: {len(frame)} rows, {frame.shape[1]} columns")
     else:
-        print_text(frame.to_csv(index=False, lineterminator="\n").rstrip("\n"))
+        print_frame(frame)
     return 0
+
+
+def print_frame(frame: pd.DataFrame) -> None:
+    """Print a table: aligned on a terminal, with commas into a file or another program."""
+    if terminal_width(sys.stdout) is None:
+        print_data(frame.to_csv(index=False, lineterminator="\n").rstrip("\n"))
+        return
+    rows = [[format_number(value) for value in row] for row in frame.itertuples(index=False)]
+    print_text(format_table([str(title).replace(" [", "\n[") for title in frame.columns], rows))

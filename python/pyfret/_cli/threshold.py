@@ -10,6 +10,7 @@ from pyfret._cli.printing import print_json, print_text
 from pyfret._cli.values import Value, number, pair, setting, takes
 from pyfret._core import measured_by
 from pyfret._util.numbers import format_number
+from pyfret._util.window import format_table
 from pyfret.study.design import with_values
 from pyfret.study.thresholds import Averaged, ThresholdLoad, threshold
 
@@ -112,17 +113,15 @@ def run(options: argparse.Namespace) -> int:
     units = {
         name: grid.unit_of((measured_by(name) or ("", ""))[1]) for name in (searched, *(over or {}))
     }
-    for row in rows:
-        if options.json:
+    if options.json:
+        for row in rows:
             print_json(row | {"unit": units[searched]} | ({"estimate": note} if note else {}))
-        else:
-            row_units = units | dict.fromkeys(
-                ("threshold", "error", "low", "high"), units[searched]
-            )
-            told_of = (
-                f"{name} = {format_number(value)} {row_units.get(name, '')}"
-                for name, value in row.items()
-            )
-            text = ", ".join(part.rstrip() for part in told_of)
-            print_text(f"{text}; estimate: {note}" if note else text)
+        return 0
+    units |= dict.fromkeys(("threshold", "error", "low", "high"), units[searched])
+    titles = [f"{name}\n[{units[name]}]" if units.get(name) else name for name in rows[0]]
+    print_text(
+        format_table(titles, [[format_number(value) for value in row.values()] for row in rows])
+    )
+    if note:
+        print_text(f"estimate: {note}")
     return 0

@@ -10,6 +10,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from pyfret._core import shown
+from pyfret._util.window import terminal_width
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -17,6 +18,8 @@ if TYPE_CHECKING:
 
 #: Characters of the bar.
 WIDTH = 28
+#: Columns of a window for the whole title and bar.
+WIDE = 100
 #: Seconds between two drawings, so that drawing never costs.
 INTERVAL = 0.1
 
@@ -91,6 +94,8 @@ class Progress:
         if self.view is not None:
             self.view.update({"text/plain": line}, raw=True)
             return
+        width = terminal_width(sys.stderr)
+        line = line if width is None else line[: width - 1]
         self.draw("\r" + line.ljust(self.drawn_letters))
         self.drawn_letters = len(line)
 
@@ -107,10 +112,14 @@ class Progress:
     def line(self, elapsed: float) -> str:
         """The bar, counts and times after `elapsed` seconds."""
         share = min(self.done / max(self.total, 1), 1.0)
-        bar = ("=" * round(WIDTH * share)).ljust(WIDTH)
+        # The counts stay in sight in a narrow window.
+        wide = (terminal_width(sys.stderr) or WIDE) >= WIDE
+        letters = WIDTH if wide else WIDTH // 3
+        bar = ("=" * round(letters * share)).ljust(letters)
+        title = shown(self.title) if wide else shown(self.title)[: WIDTH // 2]
         left = elapsed * (1 - share) / share if share > 0 else 0.0
         counts = f"{self.done}/{max(self.total, self.done)}"
-        return f"{shown(self.title)} [{bar}] {counts} {elapsed:.0f} s, {left:.0f} s left "
+        return f"{title} [{bar}] {counts} {elapsed:.0f} s, {left:.0f} s left "
 
     def __exit__(
         self,

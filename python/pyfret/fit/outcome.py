@@ -14,6 +14,7 @@ from pyfret._util.holds_arrays import HoldsArrays
 from pyfret._util.keywords import refuse_unknown
 from pyfret._util.lazy import xr
 from pyfret._util.packed import packed
+from pyfret._util.window import format_table
 from pyfret.fit.data import Loops
 from pyfret.saveable import Saveable
 
@@ -213,15 +214,18 @@ class FitResult(Saveable, HoldsArrays):
 
     def summary(self) -> str:
         """Return values, confidence, offsets and doubts as text."""
-        width = max(map(len, self.known))
-        lines = [
-            f"{'unknown':{width}}  {'value':>11}  95 % confidence          of noise, of solver"
-        ]
-        for key, k in self.known.items():
-            lines.append(
-                f"{key:{width}}  {k.value:11.5g}  {k.low:10.4g} to {k.high:10.4g}  "
-                f"{k.noise:9.2g}, {k.solver:9.2g}"
+        rows = [
+            (
+                key,
+                f"{k.value:.5g}",
+                f"{k.low:.4g} to {k.high:.4g}",
+                f"{k.noise:.2g}",
+                f"{k.solver:.2g}",
             )
+            for key, k in self.known.items()
+        ]
+        titles = ["unknown", "value", "95 % confidence", "error\nof noise", "error\nof solver"]
+        lines = [format_table(titles, rows)]
         if self.posterior is not None:
             for key in self.known:
                 low, high = self.posterior.interval(key)

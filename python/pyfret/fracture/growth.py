@@ -14,6 +14,7 @@ from pyfret._util.figures import Figured
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
 from pyfret._util.material_names import as_material
+from pyfret._util.window import format_table
 from pyfret.fracture.arrest import CrackArrest, CrackLife
 from pyfret.quantities import (
     CrackGrowth,
@@ -320,18 +321,18 @@ class Cracks(Saveable, Labelled, Figured):
 
     def summary(self) -> str:
         """Tabulate K of the cycle over the length: um, and MPa m^0.5."""
-        rows = ["length [um]  K_max  K_min  range [MPa m^0.5]"]
-        for length, largest, smallest, span in zip(
-            self.lengths, self.K_max, self.K_min, self.dK(), strict=True
-        ):
-            rows.append(
-                f"{1e6 * length:11.4g}  {1e-6 * largest:5.3g}  {1e-6 * smallest:5.3g}  "
-                f"{1e-6 * span:.4g}"
-            )
+        unit = "MPa m^0.5"
+        numbers = zip(self.lengths, self.K_max, self.K_min, self.dK(), strict=True)
+        rows = [
+            (f"{1e6 * length:.4g}", f"{1e-6 * high:.3g}", f"{1e-6 * low:.3g}", f"{1e-6 * span:.4g}")
+            for length, high, low, span in numbers
+        ]
+        titles = ["length\n[um]", f"K_max\n[{unit}]", f"K_min\n[{unit}]", f"range\n[{unit}]"]
+        lines = [format_table(titles, rows)]
         if "error" in self.dataset:
             for name, error in (("K_max", self.error), ("range", self.dK_error())):
-                rows.append(f"error of {name}: {1e-6 * error.max():.2g} MPa m^0.5 at most")
-        return "\n".join(rows)
+                lines.append(f"error of {name}: {1e-6 * error.max():.2g} {unit} at most")
+        return "\n".join(lines)
 
     @quantities
     def dK(self, threshold: Threshold | None = None) -> NDArray[np.float64]:

@@ -10,11 +10,14 @@ from pathlib import Path
 from string import Template
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from pyfret._core import Scene, __version__
 from pyfret._util import theme
 from pyfret._util.files import beside
 from pyfret._util.text import html
 from pyfret.citation import sources
+from pyfret.fatigue.judged import Life
 from pyfret.fracture.growth import Cracks, Threshold
 from pyfret.quantities import quantities
 from pyfret.report.content import figures as numbers
@@ -26,7 +29,7 @@ from pyfret.subsurface.plastic import PlasticState
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from matplotlib.figure import Figure
 
@@ -53,6 +56,7 @@ def report(
     wear: WearResult | None = None,
     crack: Cracks | None = None,
     threshold: Threshold | None = None,
+    life: Life | Sequence[Life] | None = None,
     figures: Mapping[str, Figure] | None = None,
 ) -> None:
     """Write a result as one page for a browser, which needs neither pyfret nor a network.
@@ -74,8 +78,10 @@ def report(
         the cycle.
     threshold : Threshold, optional
         Of its material: whether and where the crack stops, Kitagawa and Takahashi's diagram.
+    life : Life or sequence of Life, optional
+        Lives of :meth:`Result.life`, such as one for each criterion: range, worst points and a map.
     figures : mapping of str to Figure, optional
-        Figures of matplotlib to append, by their captions: lives, yours.
+        Figures of matplotlib to append, by their captions.
 
     Raises
     ------
@@ -101,6 +107,9 @@ def report(
             )
         if bodies != bodies_of(result):
             raise ValueError(f"{name}: is of other bodies than the run: write a page for each")
+    lives = [] if life is None else [life] if isinstance(life, Life) else list(life)
+    for one_life in lives:
+        check_layers(one_life, result)
     cracked = None if crack is None else CrackSection(crack, threshold)
     page = Template((HERE / "page.html").read_text(encoding="utf-8")).substitute(
         title=html(str(result.dataset.attrs["title"]) or "Fretting contact"),
@@ -125,6 +134,8 @@ def report(
         numbers=packed(
             json.dumps({**numbers(result, wear, cracked), "theme": looks()}, allow_nan=False)
         ),
+        life="".join(map(life_section, lives)),
+        no_life="" if lives else "hidden",
         **stills(result, wear, crack, threshold),
         plotly=packed(drawing()),
     )
@@ -140,6 +151,29 @@ def bodies_of(result: Run | WearResult | Cracks) -> tuple[Body, Body] | None:
     else:
         scene = result.scene
     return None if scene is None else (scene.body1, scene.body2)
+
+
+def check_layers(life: Life, result: Run) -> None:
+    """Refuse a life below another contact: its interfaces are other ones."""
+    interfaces = np.atleast_1d(life.dataset.attrs.get("interfaces", []))
+    for body in (result.scene.body1, result.scene.body2):
+        depths = np.cumsum([coating.thickness for coating in body.coatings])
+        if interfaces.shape == depths.shape and np.allclose(interfaces, depths, rtol=1e-6):
+            return
+    raise ValueError("life: is of other bodies than the run: write a page for each")
+
+
+def life_section(life: Life) -> str:
+    """Return the numbers of a life, its notes and its map."""
+    from pyfret import plot
+
+    criterion = str(life.dataset.attrs["criterion"])
+    drawn = plot.criterion_map(life)
+    figure = drawn.get_figure()
+    shown = image(f"map of the criterion {criterion} below the contact", figure)
+    close(figure)
+    notes = "".join(f"<p>{html(note)}</p>" for note in life.notes)
+    return f"{life._repr_html_()}{notes}<p>{shown}</p>"
 
 
 def yielded(result: Run) -> dict[str, Figure]:

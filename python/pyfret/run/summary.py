@@ -9,6 +9,7 @@ import numpy as np
 from pyfret._core import STRAIN_AT_A_RIM, TOO_FEW_INCREMENTS, with_error
 from pyfret._util.numbers import in_words
 from pyfret._util.text import shown
+from pyfret._util.window import format_table
 from pyfret.run.loops import frictionless, state_in_words
 
 if TYPE_CHECKING:
@@ -118,27 +119,23 @@ def drives(result: Run, name: str) -> bool:
 
 
 def summary(result: Run) -> str:
-    """Tabulate what the run ended with: a line per branch, one per cycle, what is to be doubted.
+    """Tabulate what the run ended with: a line per cycle, a row per branch, what is to be doubted.
 
     Lengths are over a_H and pressures over p_H where there is a Hertz contact, else in um and
     MPa. Of a line contact a is half its width, and forces and energies are per metre. Errors that
     of the run stand behind ``+-``.
     """
-    table = columns(result, result.branches())
-    widths = [max(len(cell) for cell in column) for column in table]
-    rows = [
-        "  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True))
-        for row in zip(*table, strict=True)
-    ]
+    titles, *rows = zip(*columns(result, result.branches()), strict=True)
+    table = format_table([title.replace(" [", "\n[") for title in titles], rows)
     title = f"{result.dataset.attrs['title'] or 'run'}: {result.status}"
     doubts = [f"doubted: {doubt}" for doubt in result.doubts]
     lines = [
-        *yardsticks(result),
         *cycle_lines(result),
+        *yardsticks(result),
         *far_from_yield(result),
         *strain_at_rim(result),
     ]
-    return shown("\n".join([title, *rows, *lines, *doubts]))
+    return shown("\n".join([title, *lines, table, *doubts]))
 
 
 def yardsticks(result: Run) -> list[str]:

@@ -17,6 +17,8 @@ from pyfret._util.figures import Figured
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
 from pyfret._util.numbers import in_words, length
+from pyfret._util.page import svg_image, write_page
+from pyfret._util.window import format_table
 from pyfret.fatigue.ranges import Range
 from pyfret.scene.tables import table
 from pyfret.study.point import FAILED, PARTLY
@@ -253,13 +255,9 @@ class Comparison(Labelled, Figured):
 
     def summary(self) -> str:
         """Return the table as text, with missing answers and doubts."""
-        rows = self.rows()
-        widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
-        lines = [
-            "  ".join(text.ljust(width) for text, width in zip(row, widths, strict=True)).rstrip()
-            for row in rows
-        ]
-        return "\n".join([str(self.dataset.attrs["title"] or "comparison"), *lines, *self.notes()])
+        titles, *rows = self.rows()
+        title = str(self.dataset.attrs["title"] or "comparison")
+        return "\n".join([title, format_table(titles, rows), *self.notes()])
 
     def notes(self) -> list[str]:
         """List missing answers, failed candidates and doubts."""
@@ -317,21 +315,13 @@ class Comparison(Labelled, Figured):
 
     def report(self, path: str | os.PathLike[str]) -> None:
         """Write a page for a browser: the table and the figure."""
-        import base64
         import io
 
         drawn = io.BytesIO()
         self.plot().savefig(drawn, format="svg")
-        picture = base64.b64encode(drawn.getvalue()).decode()
-        title = escape(str(self.dataset.attrs["title"] or "comparison"))
-        Path(path).write_text(
-            f'<!doctype html><html lang="en"><meta charset="utf-8"><title>{title}</title>'
-            "<style>body{font-family:sans-serif;margin:2em}td,th{padding:.3em .8em;"
-            "text-align:left;border-bottom:1px solid #ddd}img{max-width:100%}</style>"
-            f'<h1>{title}</h1>{self._repr_html_()}<img alt="the same numbers with their errors" '
-            f'src="data:image/svg+xml;base64,{picture}"></html>',
-            encoding="utf-8",
-        )
+        title = str(self.dataset.attrs["title"] or "comparison")
+        shown = svg_image(drawn.getvalue(), "the same numbers with their errors")
+        write_page(Path(path), title, f"{self._repr_html_()}\n<p>{shown}</p>")
 
     def _repr_html_(self) -> str:
         """The table for notebooks."""

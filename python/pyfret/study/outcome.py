@@ -16,6 +16,7 @@ from pyfret._util.lazy import xr
 from pyfret._util.numbers import format_number
 from pyfret._util.per_metre import PER_METRE, of_line_contacts
 from pyfret._util.text import html, shown
+from pyfret._util.window import format_table
 from pyfret.quantities import quantities
 from pyfret.saveable import Saveable
 from pyfret.scene.tables import table
@@ -191,16 +192,10 @@ class Study(Saveable, Labelled, Figured):
 
         Measures have their errors, or two digits and the word "estimate".
         """
-        rows = [
-            ("", "from, to", "unit"),
-            *((name, span, unit) for _, name, span, unit in self._spans()),
-        ]
-        widths = [max(len(row[n]) for row in rows) for n in range(3)]
+        rows = [(name, span, unit) for _, name, span, unit in self._spans()]
         counts = ", ".join(f"{n} {name}" for name, n in self.count().items() if n)
         lines = [f"{self._title()}: {counts}"]
-        lines += [
-            "  ".join(c.ljust(w) for c, w in zip(r, widths, strict=True)).rstrip() for r in rows
-        ]
+        lines.append(format_table(["", "from, to", "unit"], rows))
         for name in self.measures:
             if excluded := self.dataset[name].attrs.get("without"):
                 lines.append(f"{name}: its range is without {excluded}")

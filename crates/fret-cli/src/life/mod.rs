@@ -20,6 +20,7 @@ pub(crate) use self::options::Options;
 use self::rows::{LayerAssessor, Row};
 use crate::failure::Failure;
 use crate::json;
+use crate::layout::Page;
 use crate::printed::print;
 use crate::stress::{given_residual, stop_on_interrupt};
 use crate::terminal::print_message;
@@ -30,7 +31,14 @@ pub(crate) fn life(options: &Options) -> Result<(), Failure> {
         Error::Interrupted { .. } => Failure::Stopped,
         error => Failure::BadInput(error),
     })?;
-    lines.iter().try_for_each(|line| print(line))
+    if options.json {
+        return lines.iter().try_for_each(|line| print(line));
+    }
+    let mut page = Page::new();
+    for line in &lines {
+        page.text(line);
+    }
+    page.print()
 }
 
 /// Note on a worst point at the rim.
@@ -105,7 +113,11 @@ fn life_lines(options: &Options) -> Result<Vec<String>, Error> {
             None => judging.rows_of_layers(&judged, criteria),
         }
     });
-    let rows_of_all = rows.collect::<Result<Vec<_>, _>>()?.concat();
+    let mut rows_of_all = rows.collect::<Result<Vec<_>, _>>()?.concat();
+    if !options.json {
+        // People read the layers that decide first.
+        rows_of_all.sort_by_key(|row| !row.decides);
+    }
     // Each line has the notes of the cycle and its own notes, each once. The standard error has all
     // notes, each once.
     let notes_of_row = |row: &Row| {

@@ -31,6 +31,8 @@ pub(super) struct Row {
     pub(super) notes: Vec<String>,
     /// True if the value belongs to a point on the rim of the contact.
     pub(super) at_rim: bool,
+    /// True if no other layer has less margin.
+    pub(super) decides: bool,
 }
 
 /// A layer with its worst point of all sections, and its range.
@@ -289,6 +291,7 @@ impl Layer<'_> {
             json,
             notes: self.range.notes.clone(),
             at_rim: extreme.at == Some(Zone::Contact) && self.range.length.is_none(),
+            decides,
         }
     }
 
@@ -316,6 +319,7 @@ impl Layer<'_> {
             json,
             notes: self.range.notes.clone(),
             at_rim: false,
+            decides: true,
         }
     }
 
