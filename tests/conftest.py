@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -11,8 +12,17 @@ import pytest
 
 import pyfret as fret
 
+#: Columns of the window that the tests are run in.
+WINDOW = shutil.get_terminal_size().columns
 # Tests compare texts in whole lines. `test_terminal.py` has the widths of windows.
-os.environ["COLUMNS"] = "400"
+os.environ["COLUMNS"] = "4000"
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_configure(config: pytest.Config) -> None:
+    """Keep the lines of pytest itself in the window."""
+    if config.pluginmanager.has_plugin("terminalreporter"):
+        config.get_terminal_writer().fullwidth = WINDOW
 
 
 @pytest.fixture(autouse=True)

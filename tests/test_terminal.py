@@ -210,7 +210,7 @@ def test_summaries_fit(
 
 def test_a_table_keeps_its_columns_and_repeats_the_first(monkeypatch: pytest.MonkeyPatch) -> None:
     titles = [f"quantity{n}\n[MPa]" for n in range(12)]
-    rows = [[f"{n}{k}.5e-12" for n in range(12)] for k in range(3)]
+    rows = [[f"{k}.{n:02d}e-12" for n in range(12)] for k in range(3)]
     for width in (40, 60, 80, 120):
         monkeypatch.setenv("COLUMNS", str(width))
         text = format_table(titles, rows)

@@ -31,7 +31,9 @@ pub(crate) fn help_width() -> usize {
 /// which can be searched for.
 pub(crate) fn message_width() -> Option<usize> {
     let window = || window(terminal_size_of(io::stderr()));
-    named_width().or_else(window).map(|width| width.max(LEAST))
+    let usual = || io::stderr().is_terminal().then_some(USUAL);
+    let width = named_width().or_else(window).or_else(usual)?;
+    Some(width.max(LEAST))
 }
 
 /// Columns that the variable COLUMNS names.
