@@ -113,10 +113,12 @@ def test_the_command_prints_each_error_beside_its_number(
     assert "; ".join(rows[-1]["notes"]) == rows[-1]["told"]
     assert "; ".join(rows[-1]["cycles_notes"]) == rows[-1]["cycles_told"]
     assert commands.main(message) == 0
-    for row, line in zip(rows, capsys.readouterr().out.splitlines(), strict=True):
-        if "K_max" in row:
-            assert fret._core.with_error(row["K_max"] / 1e6, row["K_max_error"] / 1e6) in line
-            assert fret._core.with_error(row["dK"] / 1e6, row["dK_error"] / 1e6) in line
+    lines = capsys.readouterr().out.splitlines()
+    # The verdict stands first.
+    assert lines[0].startswith("crack from x")
+    for row, line in zip(rows[:-1], lines[-len(rows) + 1 :], strict=True):
+        for name in ("K_min", "K_max", "dK"):
+            assert fret._core.with_error(row[name] / 1e6, row[f"{name}_error"] / 1e6) in line
 
 
 def test_a_crack_without_errors_has_none() -> None:
