@@ -1,18 +1,18 @@
 //! Results that fit into the window: wrapped lines, and tables whose columns go on below.
 //!
-//! `textwrap` wraps lines and `comfy-table` aligns cells. Neither splits a table that is wider than
-//! the window; cells would be folded in the middle of a number.
+//! `comfy-table` aligns cells. It does not split a table that is wider than the window; cells would
+//! be folded in the middle of a number.
 
 use clap::builder::styling::Style;
 use comfy_table::{
     CellAlignment, ContentArrangement, ContentLineStyle, LineStyle, Table, TableStyle,
 };
 use contact_core::shown;
-use textwrap::{Options, WordSplitter};
 
 use crate::failure::Failure;
 use crate::printed::write_lines;
 use crate::terminal::{result_width, results_are_coloured};
+use crate::wrapping::{wrap, wrap_behind};
 
 /// Spaces between columns.
 const GAP: usize = 2;
@@ -209,13 +209,6 @@ pub fn table_text(titles: &[String], rows: &[Vec<String>], keys: usize, width: u
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// Wraps the lines of a text that are wider than `width`.
-#[must_use]
-pub fn wrap_text(text: &str, width: usize) -> String {
-    let lines = text.split('\n').flat_map(|line| wrap(line, width));
-    lines.collect::<Vec<_>>().join("\n")
-}
-
 /// Indices of the columns of each block of a table: the first `keys`, and others as they fit.
 fn blocks(widths: &[usize], keys: usize, total: usize) -> Vec<Vec<usize>> {
     let of_keys: usize = widths[..keys].iter().sum();
@@ -233,55 +226,6 @@ fn blocks(widths: &[usize], keys: usize, total: usize) -> Vec<Vec<usize>> {
         }
     }
     blocks
-}
-
-/// Lines of at most `width` characters; those that follow the first are two characters further in.
-pub(crate) fn wrap(line: &str, width: usize) -> Vec<String> {
-    let indent = line.len() - line.trim_start_matches(' ').len();
-    if textwrap::core::display_width(line) <= width {
-        return vec![line.to_owned()];
-    }
-    let indent = " ".repeat((indent + 2).min(width / 2));
-    wrap_glued(line, options(width).subsequent_indent(&indent))
-}
-
-/// Lines of at most `width` characters, all of which begin behind `indent` spaces.
-fn wrap_behind(line: &str, width: usize, indent: usize) -> Vec<String> {
-    let indent = " ".repeat(indent);
-    let options = options(width).initial_indent(&indent);
-    wrap_glued(line, options.subsequent_indent(&indent))
-}
-
-/// A space within a number with its symbol, error and unit, where no line ends.
-const GLUE: &str = "\u{a0}";
-/// Units that stand behind a number.
-const UNITS: [&str; 21] = [
-    "%", "GB", "GPa", "J", "K", "MB", "MPa", "N", "Pa", "W", "a_H", "cells", "cycles", "degrees",
-    "m", "mJ", "mm", "p_H", "s", "uJ", "um",
-];
-
-/// Wraps a line between its words, not within `x = 1.5 +- 0.1 um`.
-fn wrap_glued(line: &str, options: Options<'_>) -> Vec<String> {
-    let mut words = line.split(' ');
-    let mut text = words.next().unwrap_or_default().to_owned();
-    for (before, word) in line.split(' ').zip(words) {
-        let is_sign = |word: &str| ["=", "+-"].contains(&word);
-        let is_unit = UNITS.contains(&word.trim_end_matches([',', ':', ';', ')', '.']))
-            || word.contains(['/', '^']) && !word.starts_with('/');
-        let is_number = before.ends_with(|c: char| c.is_ascii_digit());
-        let is_whole = is_sign(before) || is_sign(word) || is_number && is_unit;
-        text += if is_whole { GLUE } else { " " };
-        text += word;
-    }
-    textwrap::wrap(&text, options)
-        .iter()
-        .map(|line| line.replace(GLUE, " "))
-        .collect()
-}
-
-/// Words are broken if they are wider than a line, and never at the sign of a number.
-fn options(width: usize) -> Options<'static> {
-    Options::new(width).word_splitter(WordSplitter::NoHyphenation)
 }
 
 #[cfg(test)]
@@ -319,22 +263,6 @@ mod tests {
                 text.matches("quantity0").count(),
                 text.matches("---\n").count()
             );
-        }
-    }
-
-    #[test]
-    fn lines_are_wrapped_between_words_and_numbers_stay_whole() {
-        let line = "  stiffness (1.070 +- 0.011)e8 N/m and a shift of -3.5e-12 m beside a/very/long/name/of/a/file";
-        for width in [40, 60] {
-            let lines = wrap(line, width);
-            assert!(lines.iter().all(|line| line.len() <= width), "{lines:?}");
-            assert!(lines.iter().any(|line| line.contains("-3.5e-12 m")));
-            assert!(
-                lines
-                    .iter()
-                    .any(|line| line.contains("(1.070 +- 0.011)e8 N/m"))
-            );
-            assert!(lines[1].starts_with("    "));
         }
     }
 

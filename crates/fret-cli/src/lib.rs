@@ -30,6 +30,7 @@ mod threads;
 mod units;
 mod wear;
 mod words;
+pub mod wrapping;
 
 use std::ffi::OsString;
 use std::io::{IsTerminal, Write};

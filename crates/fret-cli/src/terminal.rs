@@ -7,7 +7,7 @@ use clap::builder::styling::{AnsiColor, Style};
 use contact_core::shown;
 use terminal_size::{Width, terminal_size_of};
 
-use crate::layout::wrap;
+use crate::wrapping::wrap;
 
 /// Columns of results that go to a file or a pipe.
 const USUAL: usize = 80;

@@ -47,7 +47,7 @@ pub(crate) fn table_text(
 /// A text whose lines that are wider than `width` are wrapped.
 #[pyfunction]
 pub(crate) fn wrap_text(text: &str, width: usize) -> String {
-    fret_cli::layout::wrap_text(text, width)
+    fret_cli::wrapping::wrap_text(text, width)
 }
 
 /// A number and its error, with the digits that the error leaves; an estimate without one.

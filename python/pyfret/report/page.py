@@ -168,8 +168,7 @@ def life_section(life: Life) -> str:
     from pyfret import plot
 
     criterion = str(life.dataset.attrs["criterion"])
-    drawn = plot.criterion_map(life)
-    figure = drawn.get_figure()
+    figure = plot.criterion_map(life).figure
     shown = image(f"map of the criterion {criterion} below the contact", figure)
     close(figure)
     notes = "".join(f"<p>{html(note)}</p>" for note in life.notes)
