@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pyfret._util.lazy import xr
+from pyfret.fatigue.beyond_yield import note_on_yield
 from pyfret.fatigue.cycle_section import (
     choose_depths,
     concat_sections,
@@ -145,6 +146,7 @@ def lives(
             labelled_sections[name].append(label_fields(result, section_at_place, depths, fields))
         if not notes and first.cycle is not None:
             notes.extend(filter(None, [below.note_on_cycle()]))
+    notes.extend(note_on_yield(result, layer_materials, z, depths[1], first, section))
 
     def life_by(name: CriterionName) -> Life:
         whole = concat_sections(result, first, labelled_sections[name]).assign_attrs(criterion=name)
