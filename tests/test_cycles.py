@@ -27,11 +27,51 @@ def ball(n: int = 24) -> fret.Scene:
 @pytest.mark.parametrize("phase", [0.0, 0.3, np.pi / 2, 4.0])
 def test_a_sine_of_any_phase_has_its_periods(points: int, phase: float) -> None:
     """The last cycle is a period long; the first one may begin without shear."""
+    # The turning points of the sine come on top, unless they are among the points.
+    count = points + (0 if phase in (0.0, np.pi / 2) else 2)
     path = PRESSED.sine(2, T_x=0.5 * MU * W, points=points, phase=phase)
     first, last = path.whole_cycles()[-1]
-    assert last + 1 - first == points
+    assert last + 1 - first == count
     two = PRESSED.sine(2, T_x=10.0, sigma_B=1e8, phase={"sigma_B": phase}, points=points)
-    assert [last + 1 - first for first, last in two.whole_cycles()] == [points, points]
+    # Loads out of phase follow a curve: 64 points or more.
+    count += 64 - points if phase else 0
+    assert [last + 1 - first for first, last in two.whole_cycles()] == [count, count]
+
+
+@pytest.mark.parametrize("points", [4, 5, 8, 16, 33])
+@pytest.mark.parametrize("phase", np.linspace(0.0, 6.2, 7))
+def test_a_swing_reaches_its_amplitude(points: int, phase: float) -> None:
+    """A few points of a sine at any phase, or of a function: every load turns where it should."""
+    T, sigma_B = 10.0, 1e8
+    phases = {"T_x": phase, "sigma_B": 1.0 - phase}
+
+    def loads(t: float) -> dict[str, float]:
+        return {
+            "T_x": T * float(np.sin(t + phases["T_x"])),
+            "sigma_B": sigma_B * float(np.sin(t + phases["sigma_B"])),
+        }
+
+    sine = PRESSED.sine(2, T_x=T, sigma_B=sigma_B, phase=phases, points=points)
+    function = PRESSED.from_function(loads, period=2 * np.pi, points=points)
+    for path in (sine, function):
+        for name, amplitude in (("T_x", T), ("sigma_B", sigma_B)):
+            reached = np.asarray(getattr(path, name))
+            assert float(reached.max()) == pytest.approx(amplitude, rel=2e-6)
+            assert float(reached.min()) == pytest.approx(-amplitude, rel=2e-6)
+        assert len(path.whole_cycles()) >= 1
+
+
+def test_a_corner_of_a_function_is_kept() -> None:
+    """A triangle whose corners lie between the points, and a trapezoid that rests."""
+    corner = PRESSED.from_function(
+        lambda t: {"T_x": 1.0 - 4.0 * abs(((t + 0.13) % 1.0) - 0.5)}, period=1.0, points=16
+    )
+    assert max(corner.T_x) == pytest.approx(1.0, rel=1e-4)
+    rests = PRESSED.from_function(
+        lambda t: {"T_x": float(np.clip(3.0 * np.sin(t), -1.0, 1.0))}, period=2 * np.pi, points=16
+    )
+    assert max(rests.T_x) == 1.0
+    assert len(rests.whole_cycles()) == 2
 
 
 def test_what_is_no_whole_cycle_is_refused_by_name() -> None:

@@ -2003,7 +2003,7 @@ class LoadPath:
         *,
         period: float,
         periods: int = 2,
-        points: int = 32,
+        points: int = 64,
         increments: PerRange | int | Literal["auto"] = ...,
     ) -> LoadPath:
         """
@@ -2019,7 +2019,7 @@ class LoadPath:
         periods : int
             How many are followed (default: 2, the second of which repeats itself).
         points : int
-            Points of a period (default: 32).
+            Points of a period (default: 64). The turning points of every load are added.
         increments : int, PerRange or "auto"
             Increments from point to point, as in `waypoints`.
 
@@ -2027,7 +2027,7 @@ class LoadPath:
         --------
         >>> path = LoadPath.start().normal(10.0)
         >>> path.from_function(lambda t: {"T_x": abs(t - 0.5)}, period=1.0)
-        LoadPath(66 branches, increments to be chosen)
+        LoadPath(130 branches, increments to be chosen)
         """
     def hold(self, /, *, increments: int = 1) -> LoadPath:
         """
@@ -2120,7 +2120,8 @@ class LoadPath:
         phase : float or dict[str, Any], optional
             Phase [rad] of all, or by name: ``{"sigma_B": np.pi / 2}``.
         points : int
-            Points of a period (default: 16).
+            Points of a period (default: 16), with the turning points of every load added. Loads out
+            of phase get 64 points or more, a multiple of it.
         increments : int, PerRange or "auto"
             Increments from point to point, as in `waypoints`.
 

@@ -40,7 +40,10 @@ pub use friction::{Friction, FrictionHistory, History};
 pub use friction_law::missing_law_error;
 pub use friction_law::{CellHistory, FrictionLaw, UserFriction};
 pub use grid::Grid;
-pub use load_path::{Branch, ForceUnits, Increments, LoadPath, LoadPoint, Open, Spacing, Swing};
+pub use load_path::{
+    Branch, ForceUnits, Increments, LoadPath, LoadPoint, Open, Samples, Spacing, Swing,
+    sample_period,
+};
 pub use loads::{Loads, PrescribedMotions};
 pub use missing::Missing;
 pub use motion::{Prescribed, RigidMotion};

@@ -71,7 +71,8 @@ impl LoadPath {
     /// phase : float or dict, optional
     ///     Phase [rad] of all, or by name: ``{"sigma_B": np.pi / 2}``.
     /// points : int
-    ///     Points of a period (default: 16).
+    ///     Points of a period (default: 16), with the turning points of every load added. Loads out
+    ///     of phase get 64 points or more, a multiple of it.
     /// increments : int, PerRange or "auto"
     ///     Increments from point to point, as in `waypoints`.
     ///
@@ -143,7 +144,7 @@ impl LoadPath {
     /// periods : int
     ///     How many are followed (default: 2, the second of which repeats itself).
     /// points : int
-    ///     Points of a period (default: 32).
+    ///     Points of a period (default: 64). The turning points of every load are added.
     /// increments : int, PerRange or "auto"
     ///     Increments from point to point, as in `waypoints`.
     ///
@@ -151,8 +152,8 @@ impl LoadPath {
     /// --------
     /// >>> path = LoadPath.start().normal(10.0)
     /// >>> path.from_function(lambda t: {"T_x": abs(t - 0.5)}, period=1.0)
-    /// LoadPath(66 branches, increments to be chosen)
-    #[pyo3(signature = (function: "Callable[[float], Mapping[str, float]]", *, period: "float", periods: "int" = 2, points: "int" = 32, increments = AnyIncrements::Chosen))]
+    /// LoadPath(130 branches, increments to be chosen)
+    #[pyo3(signature = (function: "Callable[[float], Mapping[str, float]]", *, period: "float", periods: "int" = 2, points: "int" = 64, increments = AnyIncrements::Chosen))]
     #[expect(
         clippy::wrong_self_convention,
         reason = "a path grows from where it stands"
@@ -166,12 +167,9 @@ impl LoadPath {
         increments: AnyIncrements,
     ) -> PyResult<Self> {
         let mut names: Vec<String> = Vec::new();
-        let mut rows = Vec::new();
-        for n in 0..=points {
-            let values: BTreeMap<String, f64> = function
-                .call1((period * n as f64 / points.max(1) as f64,))?
-                .extract()?;
-            if n == 0 {
+        let row = |time: f64| -> PyResult<Vec<f64>> {
+            let values: BTreeMap<String, f64> = function.call1((time,))?.extract()?;
+            if names.is_empty() {
                 names = values.keys().cloned().collect();
             }
             if !values.keys().eq(&names) {
@@ -180,13 +178,16 @@ impl LoadPath {
                     names.join(", ")
                 );
             }
-            rows.push(values.into_values().collect::<Vec<f64>>());
-        }
+            Ok(values.into_values().collect())
+        };
+        let fits = core::LoadPath::check_points(points, periods);
+        fits.map_err(crate::error::to_python)?;
+        let samples = core::sample_period(row, (period, points))?;
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
         let path = self
             .0
             .clone()
-            .periodic(&names, &rows, (periods, period), increments.into());
+            .periodic(&names, &samples, (periods, period), increments.into());
         Ok(checked(path.map_err(crate::error::to_python)?)?)
     }
 

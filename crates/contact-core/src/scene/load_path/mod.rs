@@ -11,7 +11,7 @@ mod waypoints;
 pub use cycles::Open;
 pub use point::LoadPoint;
 pub use units::ForceUnits;
-pub use waypoints::{Increments, Swing};
+pub use waypoints::{Increments, Samples, Swing, sample_period};
 
 use super::{Loads, RigidMotion};
 

@@ -191,9 +191,45 @@ impl LoadPath {
 /// A load, motion or bulk stress that swings: its column, amplitude and phase \[rad\].
 pub type Swing<'a> = (&'a str, f64, f64);
 
+/// Distance of a turning point from a point of the period, over the distance of two points, up to which they are
+/// the same: the amplitude is right to `(2 pi 1e-3/points)^2/2`, 1e-6 of it at four points.
+const SAME_POINT: f64 = 1e-3;
+
+/// Points of a period, from 0 to `points`, with the turning points at the fractions `turns` of it between them.
+fn with_turns(points: usize, turns: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut positions: Vec<f64> = (0..points).map(|n| n as f64).collect();
+    for turn in turns {
+        let turn = turn.rem_euclid(1.0) * points as f64;
+        let is_apart = |position: &f64| {
+            let distance = (turn - position).abs();
+            distance.min(points as f64 - distance) > SAME_POINT
+        };
+        if positions.iter().all(is_apart) {
+            positions.push(turn);
+        }
+    }
+    positions.sort_by(f64::total_cmp);
+    positions
+}
+
+/// Fewest points of a period of loads that swing out of phase. Between its points the path is straight, and its
+/// error is of second order in their distance: with 16 points the energy of a cycle is up to 4 % too small, with 64
+/// points 0.3 %.
+const OUT_OF_PHASE: usize = 64;
+
+/// Whether some loads do not reach zero together.
+fn out_of_phase(swings: &[Swing<'_>]) -> bool {
+    let mut phases = (swings.iter())
+        .filter(|(_, amplitude, _)| *amplitude != 0.0)
+        .map(|(_, _, phase)| phase);
+    let first = phases.next().copied().unwrap_or(0.0);
+    phases.any(|phase| (phase - first).sin().abs() > 1e-9)
+}
+
 impl LoadPath {
     /// Swings about where the path stands: `mean + amplitude sin(2 pi n/points + phase)` at n = 0, 1, ... to
-    /// `periods` whole periods, straight from point to point, in one unit of path time a period. Before, it goes
+    /// `periods` whole periods, and at the turning points of every swing. Loads out of phase get 64 points or more, a
+    /// multiple of `points`. It is straight from point to point, in one unit of path time a period. Before, it goes
     /// to n = 0, if that is elsewhere.
     pub fn sine(
         self,
@@ -201,11 +237,18 @@ impl LoadPath {
         (periods, points): (usize, usize),
         increments: Increments,
     ) -> Result<Self, Error> {
-        if points < FEWEST_POINTS {
-            let allowed = format!("at least {FEWEST_POINTS} points of a period");
-            return Err(Error::invalid("points", points, allowed));
-        }
-        Self::check_branches(periods.saturating_mul(points))?;
+        Self::check_points(points, periods)?;
+        let points = if out_of_phase(swings) {
+            points * OUT_OF_PHASE.div_ceil(points)
+        } else {
+            points
+        };
+        // Turning points of the sine: a quarter and three quarters of a period.
+        let turns = (swings.iter())
+            .filter(|(_, amplitude, _)| *amplitude != 0.0)
+            .flat_map(|(_, _, phase)| [0.25, 0.75].map(|turn| turn - phase / TAU));
+        let positions = with_turns(points, turns);
+        let count = positions.len();
         let (start, t) = self.end_point();
         let mut names = vec!["t"];
         let mut means = Vec::new();
@@ -215,25 +258,20 @@ impl LoadPath {
         }
         let row = |n: usize| {
             // The same bits in every period.
-            let angle = TAU * (n % points) as f64 / points as f64;
+            let fraction = positions[n % count] / points as f64;
             let values = swings
                 .iter()
                 .zip(&means)
                 .map(|((_, amplitude, phase), mean)| {
-                    let sin = (angle + phase).sin();
+                    let sin = (TAU * fraction + phase).sin();
                     // The sine of half a turn is 1e-16 in floating point, and no load.
-                    mean + amplitude
-                        * if sin.abs() < 4.0 * f64::EPSILON {
-                            0.0
-                        } else {
-                            sin
-                        }
+                    let is_zero = sin.abs() < 4.0 * f64::EPSILON;
+                    mean + amplitude * if is_zero { 0.0 } else { sin }
                 });
-            std::iter::once(t + 1.0 + n as f64 / points as f64)
-                .chain(values)
-                .collect::<Vec<f64>>()
+            let time = t + 1.0 + (n / count) as f64 + fraction;
+            std::iter::once(time).chain(values).collect::<Vec<f64>>()
         };
-        let mut rows: Vec<Vec<f64>> = (0..=periods * points).map(row).collect();
+        let mut rows: Vec<Vec<f64>> = (0..=periods * count).map(row).collect();
         let moves =
             swings
                 .iter()
@@ -254,26 +292,98 @@ impl LoadPath {
 
 /// Part of its range by which a periodic function may miss its start.
 const CLOSES: f64 = 1e-6;
+/// Part of its range by which a column exceeds its points before its turning point counts.
+const EXCEEDS: f64 = 1e-6;
+/// Golden sections to find a turning point between two points: to 1e-5 of their distance.
+const SECTIONS: usize = 24;
+
+/// Samples of a periodic function: times from 0 to the period, and a row of its columns for each.
+pub type Samples = (Vec<f64>, Vec<Vec<f64>>);
+
+/// Samples a periodic function at `points` points of a period, at its end, and at the turning points of its columns
+/// between them (golden-section search; J. Kiefer, Proc. Am. Math. Soc. 4 (1953) 502-506).
+pub fn sample_period<E>(
+    mut function: impl FnMut(f64) -> Result<Vec<f64>, E>,
+    (period, points): (f64, usize),
+) -> Result<Samples, E> {
+    let time = |position: f64| period * position / points.max(1) as f64;
+    let mut rows = Vec::new();
+    for n in 0..=points {
+        rows.push(function(time(n as f64))?);
+    }
+    let columns = rows[0].len();
+    let mut turns = Vec::new();
+    for k in (0..columns).filter(|_| points >= FEWEST_POINTS) {
+        let value = |n: usize| rows[n % points][k];
+        let (low, high) = rows
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), row| {
+                (low.min(row[k]), high.max(row[k]))
+            });
+        for n in 0..points {
+            let [before, after] = [value(n) - value(n + points - 1), value(n + 1) - value(n)];
+            if before * after > 0.0 || before == after {
+                continue;
+            }
+            let sign = if before - after > 0.0 { 1.0 } else { -1.0 };
+            let mut height = |position: f64| -> Result<f64, E> {
+                Ok(sign * function(time(position.rem_euclid(points as f64)))?[k])
+            };
+            let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
+            let (mut a, mut b) = (n as f64 - 1.0, n as f64 + 1.0);
+            let (mut c, mut d) = (b - golden * (b - a), a + golden * (b - a));
+            let (mut height_c, mut height_d) = (height(c)?, height(d)?);
+            for _ in 0..SECTIONS {
+                if height_c > height_d {
+                    (b, d, height_d) = (d, c, height_c);
+                    c = b - golden * (b - a);
+                    height_c = height(c)?;
+                } else {
+                    (a, c, height_c) = (c, d, height_d);
+                    d = a + golden * (b - a);
+                    height_d = height(d)?;
+                }
+            }
+            if height_c.max(height_d) - sign * value(n) > EXCEEDS * (high - low) {
+                turns.push(if height_c > height_d { c } else { d } / points as f64);
+            }
+        }
+    }
+    let mut times = Vec::new();
+    let mut sampled = Vec::new();
+    for position in with_turns(points, turns.into_iter()) {
+        times.push(time(position));
+        sampled.push(function(time(position))?);
+    }
+    times.push(time(points as f64));
+    sampled.extend(rows.pop());
+    Ok((times, sampled))
+}
 
 impl LoadPath {
-    /// Follows the rows of a period, the first of which is the start and the last the end, `periods` times.
-    /// The period is the `period` of path time. Fails if a column does not return.
-    pub fn periodic(
-        self,
-        names: &[&str],
-        rows: &[Vec<f64>],
-        (periods, period): (usize, f64),
-        increments: Increments,
-    ) -> Result<Self, Error> {
-        let points = rows.len().saturating_sub(1);
+    /// Fails at too few points of a period, or at more than a path may have.
+    pub fn check_points(points: usize, periods: usize) -> Result<(), Error> {
         if points < FEWEST_POINTS {
             let allowed = format!("at least {FEWEST_POINTS} points of a period");
             return Err(Error::invalid("points", points, allowed));
         }
+        Self::check_branches(periods.max(1).saturating_mul(points))
+    }
+
+    /// Follows the samples of a period, the first of which is the start and the last the end, `periods` times.
+    /// The period is the `period` of path time. Fails if a column does not return.
+    pub fn periodic(
+        self,
+        names: &[&str],
+        (times, rows): &Samples,
+        (periods, period): (usize, f64),
+        increments: Increments,
+    ) -> Result<Self, Error> {
+        let points = rows.len().saturating_sub(1);
+        Self::check_points(points, periods)?;
         if !(period > 0.0 && period.is_finite()) {
             return Err(Error::invalid("period", period, "a positive path time"));
         }
-        Self::check_branches(periods.saturating_mul(points))?;
         for (k, name) in names.iter().enumerate() {
             let column = || rows.iter().map(|row| row[k]);
             let range =
@@ -291,7 +401,7 @@ impl LoadPath {
         let (_, t) = self.end_point();
         let columns: Vec<&str> = std::iter::once("t").chain(names.iter().copied()).collect();
         let row = |n: usize| {
-            let time = t + period * (1.0 + n as f64 / points as f64);
+            let time = t + period * (1 + n / points) as f64 + times[n % points];
             std::iter::once(time)
                 .chain(rows[n % points].iter().copied())
                 .collect()
@@ -312,8 +422,12 @@ mod tests {
         let path = path
             .sine(&swings, (2, 16), Increments::Each(1))
             .expect("a path");
-        assert_eq!(path.branches.len(), 1 + 1 + 32);
-        assert_eq!(path.cycles(), [(2, 17), (18, 33)]);
+        // Out of phase: 64 points. The first turns at two of them, the second between points.
+        assert_eq!(path.branches.len(), 1 + 1 + 132);
+        assert_eq!(path.cycles(), [(2, 67), (68, 133)]);
+        let shifts = || path.branches[2..].iter().map(|b| b.to.given.delta_y);
+        let largest = shifts().flatten().fold(0.0, f64::max);
+        assert!((largest - 1e-6).abs() < 1e-18);
         let path =
             LoadPath::start()
                 .normal(10.0, 1)
