@@ -43,7 +43,7 @@ pub struct Jump {
     /// Ratio of the area that sticks all through the cycle and the area of the contact.
     pub stick_ratio: f64,
     /// Estimated error of the deepest depth so far, over it: by the jumps, by the place of the border
-    /// of the stick zone, and by the cells across the slip zone.
+    /// of the stick zone, and by the cells across the slip zone or, in gross slip, across a spot.
     pub depth_error: f64,
     /// Estimated error of the volume so far, over it, with the same parts.
     #[serde(default)]

@@ -46,6 +46,7 @@ mod settled;
 mod shift;
 mod sliding;
 mod slip_zone;
+mod spots;
 mod state;
 mod stroke;
 mod table;

@@ -14,6 +14,7 @@ use contact_core::scene::{Branch, Scene};
 
 use super::pressing::Pressing;
 use super::settings::{Cycling, Wear};
+use super::spots::half_width_in_cells;
 use super::stroke::stroke;
 
 /// Stroke over the half-width of a spot up to which a march keeps the worn surfaces where they are, and from
@@ -23,8 +24,6 @@ const LONG: f64 = 1.0;
 /// Elastic shift of the contact over mu times the approach, at most, and stroke over it of gross slip.
 const ELASTIC: f64 = 1.5;
 const GROSS: f64 = 2.0;
-/// Part of the load that is borne by spots at most as wide as the one that is taken.
-const BORNE: f64 = 0.25;
 
 /// The method of a run, and why.
 pub(crate) struct Method {
@@ -146,25 +145,5 @@ pub(crate) fn half_width(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<f64, E
     let drive = pressing.drive(W);
     pressing.solve(&h, &vec![0.0; h.len()], drive, &mut p, 10.0)?;
     let rows = pressing.rows();
-    let mut spots: Vec<(usize, f64)> = Vec::new();
-    for row in 0..rows {
-        let (mut cells, mut load) = (0, 0.0);
-        for i in 0..=h.len() / rows {
-            let p = p.get(i * rows + row).copied().unwrap_or(0.0);
-            if i < h.len() / rows && p > 0.0 {
-                (cells, load) = (cells + 1, load + p);
-            } else if cells > 0 {
-                spots.push((cells, load));
-                (cells, load) = (0, 0.0);
-            }
-        }
-    }
-    spots.sort_unstable_by_key(|(cells, _)| *cells);
-    let total: f64 = spots.iter().map(|(_, load)| load).sum();
-    let mut borne = 0.0;
-    let spot = spots.iter().find(|(_, load)| {
-        borne += load;
-        borne >= BORNE * total
-    });
-    Ok(0.5 * dx * spot.map_or(1, |(cells, _)| *cells) as f64)
+    Ok(dx * half_width_in_cells(&p, rows))
 }

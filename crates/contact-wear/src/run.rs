@@ -17,6 +17,7 @@ use super::on_grid;
 use super::passage::Passage;
 use super::settings::{Jumps, Wear, WornThrough};
 use super::slip_zone;
+use super::spots;
 use super::state::WearState;
 use super::variable::FactorVariable;
 use super::width::SweptScar;
@@ -198,8 +199,16 @@ impl WearRun {
             } => {
                 // The touched side grows at least by as much as the contact alone asks.
                 let grows = needed / extent_x.max(extent_y);
-                let least = [extent_x, extent_y].map(|extent| extent * grows.max(GRID_GROWTH));
-                let lengths = self.grid_lengths();
+                let mut least = [extent_x, extent_y].map(|extent| extent * grows.max(GRID_GROWTH));
+                if self.scene.grid.plane_strain {
+                    least[1] = extent_y;
+                }
+                // An estimate that fits on the grid that the run has left leaves something out, such as the elastic
+                // contact of many spots.
+                let lengths = self.grid_lengths().filter(|lengths| {
+                    lengths[0] > extent_x
+                        || (lengths[1] > extent_y && !self.scene.grid.plane_strain)
+                });
                 let needed = lengths.map_or(least, |lengths| {
                     [lengths[0].max(extent_x), lengths[1].max(extent_y)]
                 });
@@ -388,6 +397,13 @@ impl WearRun {
             middle.iter_mut().zip(half).for_each(|(w, half)| *w += half);
         }
         let area = self.model.pressing().cell_area();
+        let output = self.model.output();
+        let by_spots = if output.stick_ratio > 0.0 {
+            0.0
+        } else {
+            let grown = worn.deepest() - self.state.worn.deepest();
+            spots::depth_error(grown, output.p, self.model.pressing().rows())
+        };
         let by_border = self.model.border_error(&worn)?;
         let state = &mut self.state;
         for (sum, moved) in state.corrections.iter_mut().zip(&tried.correction) {
@@ -395,6 +411,7 @@ impl WearRun {
                 .zip(moved)
                 .for_each(|(sum, moved)| *sum += moved);
         }
+        state.spot_error += by_spots;
         (state.worn, state.model) = (worn, self.model.state());
         state.jumps += 1;
         state.cycles = cycles;
@@ -404,11 +421,12 @@ impl WearRun {
         let seen = state.to_jump(&self.model, &self.wear);
         let by_border = state.lost_by_slip(&seen) * by_border;
         let of_jumps = seen.depth_error + state.over_deepest(by_border);
+        let of_spots = state.over_deepest(state.spot_error);
         let [of_depth, of_volume] = slip_zone::errors(seen.slip_cells, seen.stick_ratio);
         let worn = state.over_deepest(1.0) > 0.0;
         let of_cells = |part: f64| if worn { of_jumps.hypot(part) } else { of_jumps };
         let jump = Jump {
-            depth_error: of_cells(of_depth),
+            depth_error: of_cells(of_depth.hypot(of_spots)),
             volume_error: of_cells(of_volume),
             length: n,
             error: tried.error,

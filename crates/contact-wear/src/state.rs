@@ -34,6 +34,9 @@ pub struct WearState {
     pub(crate) next: f64,
     /// Sum over all jumps of the corrections of the worn depth by extrapolation \[m\].
     pub(crate) corrections: [Vec<f64>; 2],
+    /// Error of the deepest depth by the cells in gross slip \[m\] ([`spots`](super::spots)).
+    #[serde(default)]
+    pub(crate) spot_error: f64,
     pub(crate) ended: bool,
 }
 
@@ -48,6 +51,7 @@ impl WearState {
             dissipated,
             events,
             corrections: worn.depth.each_ref().map(|d| vec![0.0; d.len()]),
+            spot_error: 0.0,
             model,
             kept_at: worn.cycles,
             worn,
