@@ -4,7 +4,7 @@ use std::io::Read;
 use std::path::PathBuf;
 
 use clap::Args;
-use contact_core::scene::{Reach, read_text};
+use contact_core::scene::{Reach, Section, read_scene_and, read_text};
 use contact_core::{Error, Scene};
 use contact_wear::Wear;
 
@@ -37,6 +37,13 @@ impl SceneOptions {
     pub(crate) fn read_whole(&self) -> Result<(Scene, Option<Wear>), Error> {
         let (text, name) = self.text()?;
         Wear::scene_and_wear(&text, &name, &self.settings, self.reach())
+    }
+
+    /// Whether the scene has a load history, a table `[history]`.
+    pub(crate) fn has_history(&self) -> Result<bool, Error> {
+        let (text, name) = self.text()?;
+        let has_section = |root: &Section<'_>, _: &Scene| Ok(root.get("history").is_some());
+        Ok(read_scene_and(&text, &name, &self.settings, self.reach(), has_section)?.1)
     }
 
     /// The files that the scene may name.

@@ -26,6 +26,9 @@ use crate::threads::Threads;
 use crate::units::um;
 
 const TEMPLATE: &str = "{bar:10} {pos}/{len} cycles, {elapsed}, {eta} left  {wide_msg}";
+/// Remedy for a scene with a load history.
+const WITHOUT_HISTORY: &str = "left out: `fret damage SCENE --block FILE` writes a scene with the loops of its history, \
+     which fret wear takes";
 
 /// Options of `fret wear`.
 #[derive(Args)]
@@ -77,6 +80,10 @@ pub(crate) fn wear(options: &Options) -> Result<(), Failure> {
     let reach = options.scene.reach();
     let read = Wear::from_file(&options.scene.scene, &options.scene.settings, reach);
     let (scene, wear) = read.map_err(Failure::BadInput)?;
+    if options.scene.has_history().map_err(Failure::BadInput)? {
+        let error = Error::invalid("history", "given", WITHOUT_HISTORY);
+        return Err(Failure::BadInput(error));
+    }
     warn_of_doubts(&wear.doubts());
     warn_of_doubts(wear.doubt_of_grid(&scene).as_slice());
     let out = &options.out.path;

@@ -17,10 +17,33 @@ use crate::scene::{Body, Bond, Bulk, Coating, Elastic, Grid, Plastic, Profile, S
 
 /// The version of the scene file that is read and written.
 pub(super) const SCHEMA: i64 = 1;
-pub(super) const ROOT: [&str; 14] = [
+pub(super) const ROOT: [&str; 15] = [
     "schema", "title", "body1", "body2", "friction", "grid", "path", "kernel", "solver", "skip",
-    "output", "wear", "rig", "cycle",
+    "output", "wear", "rig", "cycle", "history",
 ];
+/// Keys of a load history: of a recording, or of a spectrum or counted loops, each a table.
+const HISTORY: [&str; 10] = [
+    "file",
+    "columns",
+    "units",
+    "t",
+    "frequency",
+    "skip",
+    "group",
+    "residue",
+    "spectrum",
+    "matrix",
+];
+const SPECTRUM: [&str; 7] = [
+    "channel",
+    "frequencies",
+    "values",
+    "of",
+    "duration",
+    "mean",
+    "distribution",
+];
+const MATRIX: [&str; 5] = ["channel", "range", "mean", "counts", "duration"];
 const BODY: [&str; 10] = [
     "shape",
     "material",
@@ -77,6 +100,7 @@ pub(super) fn scene(table: &Table, files: &Files<'_>) -> Result<Scene, Fault> {
         Some(cycle) => Some(cycle.number("period", "a path time", &[])?),
         None => None,
     };
+    check_history_keys(&root)?;
     scene.body1.check("body1")?;
     scene.body2.check("body2")?;
     scene.friction.check(None)?;
@@ -105,6 +129,15 @@ pub(super) fn scene(table: &Table, files: &Files<'_>) -> Result<Scene, Fault> {
     }
     scene.grid = grid(&root, a_H)?;
     Ok(scene)
+}
+
+/// Refuses unknown keys of a load history. Its values are read by the Python package, which counts it.
+fn check_history_keys(root: &Section<'_>) -> Result<(), Fault> {
+    if let Some(history) = root.section("history", &HISTORY)? {
+        history.section("spectrum", &SPECTRUM)?;
+        history.section("matrix", &MATRIX)?;
+    }
+    Ok(())
 }
 
 fn uncoated_body(section: &Section<'_>, files: &Files<'_>) -> Result<Body, Fault> {
