@@ -174,7 +174,8 @@ def test_contributions_add_up_and_other_planes_are_bounded() -> None:
     edges, parts = damage.contributions()
     assert parts.sum() == pytest.approx(1.0)
     assert edges[-1] >= 0.5 * float(damage.dataset["range"].max())
-    assert 0.0 <= damage.error < 0.2 * damage.worst
+    assert damage.error == pytest.approx(sum(damage.errors.values()))
+    assert damage.errors["planes"] < 0.05 * damage.worst
     assert damage.repeats == pytest.approx(1.0 / damage.worst)
 
 

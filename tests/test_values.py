@@ -185,7 +185,12 @@ def of_a_run() -> list[Any]:
                 "part": loop,
                 "compressive": loop,
             },
-            attrs={"place": [0.0, 0.0, 1e-5], "error": 1e-4, "notes": "a note"},
+            attrs={
+                "place": [0.0, 0.0, 1e-5],
+                "error_sources": "cells",
+                "errors": [1e-4],
+                "notes": "a note",
+            },
         )
     )
     lengths = [1e-5, 2e-5]

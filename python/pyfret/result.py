@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import json
-from os import fspath
 from typing import TYPE_CHECKING, Literal
 
-from pyfret import _core, fatigue, fracture
+from pyfret import fatigue, fracture
 from pyfret import heat as heating
-from pyfret._core import StoreError
 from pyfret._util import files
 from pyfret.export.write import write as export
 from pyfret.quantities import Angle, Lengths, Numbers, ResidualStresses, Unchecked, quantities
 from pyfret.report.page import report
 from pyfret.run import Run
+from pyfret.run.opening import open_dataset
 from pyfret.run.run import one_of
 from pyfret.run.summary import summary
 from pyfret.run.tables import run_html
@@ -198,11 +196,4 @@ def open_result(path: str | os.PathLike[str]) -> Result:
     StoreError
         There is no store, or a file of it is missing or damaged; the message names both.
     """
-    files.checked(path)
-    # Zarr reads the attributes of the group from a file that no checksum covers.
-    attributes = {} if files.is_copy(path) else json.loads(_core.verify(path))
-    dataset = files.opened(path)
-    if "scene" not in dataset.attrs or "increment" not in dataset.sizes:
-        raise StoreError(f"{fspath(path)}: is no result of pyfret: it has no scene or no increment")
-    kept = {name: value for name, value in attributes.items() if name in dataset.attrs}
-    return Result(dataset.assign_attrs(kept))
+    return Result(open_dataset(path))

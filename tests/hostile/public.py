@@ -101,6 +101,7 @@ BAND = fret.LoadHistory.from_spectrum(SPECTRUM, 10.0)
 PRESSED = small(body2=fret.Body(STEEL)).replace(path=CYCLE)
 DAMAGE = fatigue.damage(PRESSED, VIBRATION, ALLOY, "smith_watson_topper", [0.0], y=0.0)
 SWT = ALLOY.assessment("smith_watson_topper")
+HISTORY_TOML = "[history.matrix]\nrange = [2.0]\nmean = [0.0]\ncounts = [1.0]\n"
 LINE = fret.reference.line_contact(R=0.01, bodies=PAIR, W=1e5)
 CATTANEO = fret.reference.CattaneoMindlin(HERTZ, bodies=PAIR, mu=0.3)
 LUBKIN = fret.reference.Lubkin(HERTZ, bodies=PAIR, mu=0.3)
@@ -292,6 +293,9 @@ OF: dict[str, dict[str, Any]] = {
         "z": [0.0],
     },
     "fatigue.damage_of_loops": {"values": [1e6], "counts": [1.0], "assessment": SWT},
+    "fatigue.add_damages": {"damages": [DAMAGE, DAMAGE], "passes": [1.0, 2.0]},
+    "fatigue.equivalent_amplitude": {"history": VIBRATION, "exponent": 3.0},
+    "history.read_history": {"scene": written("vibration.toml", HISTORY_TOML), "changes": None},
     "fracture.BlockGrowth": {"dataset": DAMAGE.dataset},
     "fracture.grow_by_history": {
         "contact": PRESSED,

@@ -9,10 +9,13 @@ from pyfret import fatigue
 from pyfret._cli.parser import added
 from pyfret._cli.printing import print_json, print_text
 from pyfret._cli.values import FIGURES, Value, ending, pair, setting, takes
-from pyfret._core import Scene
+from pyfret._core import Scene, wear_of_file
 from pyfret.history.load_history import LoadHistory
+from pyfret.history.scene_file import read_history
 from pyfret.history.table import HistoryTable
-from pyfret.study.design import with_values
+from pyfret.study.design import to_toml_value, with_values
+from pyfret.wear.runs import block_of_history
+from pyfret.wear.settings import read as read_wear
 
 if TYPE_CHECKING:
     import argparse
@@ -32,9 +35,12 @@ def add_options(commands: argparse._SubParsersAction[Any]) -> None:
         "scene", help="scene file; the branches of its path before any shear press the bodies"
     )
     command.add_argument(
-        "history", help="recording: a table, TDMS, MAT, HDF5, MDF or a workbook of Excel"
+        "history",
+        nargs="?",
+        help="recording: a table, TDMS, MAT, HDF5, MDF or a workbook of Excel (default: the table "
+        "[history] of the scene)",
     )
-    command.add_argument("--material", required=True, help="name of the material")
+    command.add_argument("--material", help="name of the material; without it no damage is summed")
     command.add_argument("--materials", metavar="FILE", help="table of materials (TOML)")
     command.add_argument(
         "--criterion",
@@ -91,21 +97,36 @@ def add_options(commands: argparse._SubParsersAction[Any]) -> None:
         type=ending(*FIGURES, *FIELDS),
         help="map of the damage (.png, .svg, .pdf) or its numbers (.nc, .zarr)",
     )
+    command.add_argument(
+        "--store",
+        metavar="FOLDER",
+        help="folder that keeps the runs; a call that was interrupted goes on from there",
+    )
+    command.add_argument(
+        "--block",
+        type=ending(".toml"),
+        metavar="FILE",
+        help="write a scene with the loops of the history as one cycle of its table [wear], for "
+        "fret wear",
+    )
     command.add_argument("--json", action="store_true", help="print one JSON object")
 
 
 def run(options: argparse.Namespace) -> int:
-    """Sum the damage and print it."""
-    scene = with_values(options.scene, dict(setting(text) for text in options.set))
+    """Sum the damage and print it, or write the block of wear."""
+    changes = dict(setting(text) for text in options.set)
+    scene = with_values(options.scene, changes)
     assert isinstance(scene, Scene)
-    history = LoadHistory.from_csv(
-        options.history,
-        columns=dict(pair(text, "--column") for text in options.column) or None,
-        units=dict(pair(text, "--unit") for text in options.unit) or None,
-        frequency=options.frequency,
-        residue=options.residue,
-    )
-    table = HistoryTable.build(scene, history)
+    history = read(options, changes)
+    if options.block:
+        write_block(options, history)
+        if options.material is None:
+            print_text(f"{history.count().summary()}\nwritten: {options.block}")
+            return 0
+    table = HistoryTable.build(scene, history, store=options.store)
+    if options.material is None:
+        print_text(table.summary())
+        return 0
     material = fatigue.Materials(options.materials)[options.material]
     law = fatigue.DamageLaw(options.below, options.knee, options.exponent)
     damage = fatigue.damage(scene, history, material, options.criterion, law=law, table=table)
@@ -119,6 +140,7 @@ def run(options: argparse.Namespace) -> int:
             {
                 "damage": damage.worst,
                 "error": damage.error,
+                "errors": damage.errors,
                 "repeats": damage.repeats,
                 "place": {"x": x, "y": y, "z": z},
                 "loops": table.loops.total,
@@ -132,3 +154,43 @@ def run(options: argparse.Namespace) -> int:
     else:
         print_text(f"{table.summary()}\n{damage.summary()}")
     return 0
+
+
+def read(options: argparse.Namespace, changes: dict[str, Any]) -> LoadHistory:
+    """Read the recording, or the history of the scene."""
+    if options.history is None:
+        history = read_history(options.scene, changes)
+        if history is None:
+            raise ValueError(
+                f"{options.scene}: has no table [history]: give one, or a recording: "
+                "fret damage SCENE HISTORY"
+            )
+        return history
+    return LoadHistory.from_csv(
+        options.history,
+        columns=dict(pair(text, "--column") for text in options.column) or None,
+        units=dict(pair(text, "--unit") for text in options.unit) or None,
+        frequency=options.frequency,
+        residue=options.residue,
+    )
+
+
+def write_block(options: argparse.Namespace, history: LoadHistory) -> None:
+    """Write a scene whose cycle of wear has the loops of a history."""
+    scene, of_file = wear_of_file(options.scene, options.set)
+    settings = read_wear(of_file)
+    path, block = block_of_history(scene, history, {})
+    table, _ = settings.replace(**block).document()
+    lines = [f"{key} = {toml_text(value)}" for key, value in table.items()]
+    text = "\n".join([scene.replace(path=path).to_toml().rstrip(), "", "[wear]", *lines, ""])
+    Path(options.block).write_text(text, encoding="utf-8")
+
+
+def toml_text(value: Any) -> str:
+    """Write a value of TOML, tables in a line."""
+    if isinstance(value, dict):
+        parts = (f"{key} = {toml_text(item)}" for key, item in value.items() if item is not None)
+        return f"{{ {', '.join(parts)} }}"
+    if isinstance(value, list | tuple):
+        return f"[{', '.join(toml_text(item) for item in value)}]"
+    return to_toml_value(value)

@@ -28,7 +28,8 @@ from pyfret.fatigue.criteria import (
     to_pylife,
 )
 from pyfret.fatigue.cycles import cycle_increments, history
-from pyfret.fatigue.damage import Damage, DamageLaw, damage, damage_of_loops
+from pyfret.fatigue.damage import Damage, add_damages, damage
+from pyfret.fatigue.damage_law import DamageLaw, damage_of_loops, equivalent_amplitude
 from pyfret.fatigue.distance import OverDistance
 from pyfret.fatigue.factors import LoadFactors, load_factors
 from pyfret.fatigue.frictional_work import ruiz
@@ -54,6 +55,7 @@ __all__ = [
     "OverDistance",
     "Range",
     "Section",
+    "add_damages",
     "average",
     "critical_distance",
     "cycle_increments",
@@ -61,6 +63,7 @@ __all__ = [
     "damage",
     "damage_of_loops",
     "dang_van_path",
+    "equivalent_amplitude",
     "evaluate_criterion",
     "evaluate_margin",
     "first_yield",

@@ -17,9 +17,9 @@ from pyfret._util.arrays import plain
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
 from pyfret._util.numbers import um
-from pyfret.fatigue.damage import states_of_march
 from pyfret.fracture.growth import Paris, Threshold
 from pyfret.history.load_history import LoadHistory
+from pyfret.history.states import states_of_march
 from pyfret.history.table import HistoryTable
 from pyfret.quantities import Angle, CrackLengths, Length, as_number, quantities
 from pyfret.run.run import Run

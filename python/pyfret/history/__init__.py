@@ -11,7 +11,8 @@ from pyfret._util.names import listing
 from pyfret.history.counting import rainflow
 from pyfret.history.load_history import LoadHistory
 from pyfret.history.loops import CountedLoops
+from pyfret.history.scene_file import read_history
 from pyfret.history.spectrum import Spectrum
 
-__all__ = ["CountedLoops", "LoadHistory", "Spectrum", "rainflow"]
+__all__ = ["CountedLoops", "LoadHistory", "Spectrum", "rainflow", "read_history"]
 __dir__ = listing(__all__)

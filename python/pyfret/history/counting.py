@@ -86,15 +86,15 @@ def rearranged(values: NDArray[np.float64]) -> NDArray[np.int64]:
 
 
 def merge_halves(rows: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Merge consecutive half cycles of the same range and mean into whole ones."""
-    merged: list[NDArray[np.float64]] = []
+    """Merge half cycles of the same range and mean into whole ones."""
+    merged = rows.copy()
+    kept = np.ones(len(rows), dtype=bool)
     waiting: dict[tuple[float, float], int] = {}
-    for row in rows:
-        key = (float(row[0]), float(row[1]))
-        if row[2] == 0.5 and key in waiting:
-            merged[waiting.pop(key)][2] = 1.0
-            continue
-        if row[2] == 0.5:
-            waiting[key] = len(merged)
-        merged.append(row.copy())
-    return np.array(merged).reshape(-1, 5)
+    for n in np.flatnonzero(rows[:, 2] == 0.5).tolist():
+        key = (float(rows[n, 0]), float(rows[n, 1]))
+        if key in waiting:
+            merged[waiting.pop(key), 2] = 1.0
+            kept[n] = False
+        else:
+            waiting[key] = n
+    return merged[kept]

@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pyfret.history.load_history import LoadHistory, press
+from pyfret.history.mean_grid import MeanGrid
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -146,6 +147,8 @@ class Ladder:
         Branch at whose end the loop has its largest and its least value.
     quarters : list of (int, int)
         Branches at whose ends it passes its mean, falling and rising; the ends of ellipses alone.
+    grid : MeanGrid, optional
+        Loops of several means after them.
     """
 
     path: LoadPath
@@ -156,6 +159,7 @@ class Ladder:
     tops: list[int]
     bottoms: list[int]
     quarters: list[tuple[int, int]]
+    grid: MeanGrid | None = None
 
     @staticmethod
     def build(
@@ -165,8 +169,12 @@ class Ladder:
         companions: Companions,
         *,
         settling: int = 0,
+        with_means: bool = False,
     ) -> Ladder:
-        """Build the path of some levels; `settling` loops of the first one come before it."""
+        """Build the path of some levels; `settling` loops of the first one come before it.
+
+        `with_means`: a grid of loops of several means follows.
+        """
         samples = history.block().tolist() if history.is_series else [0]
         lead_in = press(scene, history.channels, np.array(samples, dtype=np.int64))
         names = [history.channel, *companions.ratios]
@@ -209,6 +217,15 @@ class Ladder:
         if len(levels) > 1:
             # Back to where the loops began.
             go(float(levels[0, 1] + levels[0, 0]), 0.0, 0.0)
+        counted = len(points)
+
+        def lead(u: float) -> int:
+            go(u, 0.0, 0.0)
+            return before + len(points) - 1
+
+        grid = None
+        if with_means:
+            grid = MeanGrid.build(lead, float(levels[0, 0]), float(levels[0, 1]))
         table = np.array(points)
         path = lead_in.waypoints(
             increments="auto", **{name: table[:, k] for k, name in enumerate(names)}
@@ -217,9 +234,10 @@ class Ladder:
             path,
             levels,
             before + 1,
-            np.array(counts[1:]),
+            np.array(counts[1:counted]),
             branches,
             tops,
             bottoms,
             quarters,
+            grid,
         )

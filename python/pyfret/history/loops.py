@@ -21,13 +21,15 @@ if TYPE_CHECKING:
 
     from pyfret.history.spectrum import Distribution, Spectrum
 
-__all__ = ["CountedLoops"]
+__all__ = ["CountedLoops", "distinct"]
 
 #: Classes of the amplitude of a spectrum.
 CLASSES = 400
 #: Exponent of the amplitude whose mean a class keeps, by the energy of small loops of partial slip
 #: (R. D. Mindlin, H. Deresiewicz, J. Appl. Mech. 20 (1953) 327-344).
 SMALL_LOOPS = 3.0
+#: Part of the largest amplitude by which equal ones may differ.
+SAME = 1e-12
 #: Text of the rules for ranges that do not close.
 RULES = {
     "half": "ASTM E1049-85, 5.4.4: ranges that do not close are half cycles",
@@ -155,9 +157,9 @@ class CountedLoops(Saveable, Labelled, Figured):
         d = self.dataset
         a, m, n = d.amplitude.values, d["mean"].values, d["count"].values
         top = float(a.max())
-        levels = np.unique(np.round(a / top, 12))
+        levels = distinct(a / top)
         if levels.size <= count:
-            index = np.searchsorted(levels, np.round(a / top, 12))
+            index = np.searchsorted(levels, a / top, side="right") - 1
             size = levels.size
         else:
             # Classes of equal parts of the energy of small loops, the largest one among them.
@@ -186,6 +188,13 @@ class CountedLoops(Saveable, Labelled, Figured):
         )
 
     __repr__ = summary
+
+
+def distinct(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the ascending values that differ by more than rounding from the one below."""
+    ordered = np.sort(values)
+    first = np.append(True, np.diff(ordered) > SAME * ordered[-1])
+    return np.asarray(ordered[first])
 
 
 def padded(values: NDArray[np.float64]) -> tuple[float, float]:

@@ -13,10 +13,12 @@ linear between the amplitudes of a table. Below the least one it is proportional
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["amplitude_weights", "state_weights"]
+__all__ = ["amplitude_weights", "branch_origins", "state_weights"]
 
 
 def amplitude_weights(
@@ -38,6 +40,31 @@ def amplitude_weights(
     return weights
 
 
+def branch_origins(values: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Return the reversal at which the branch of each value begins, loops that closed left out.
+
+    The first value is the largest one, and its own origin.
+    """
+    origins = [0] * values.size
+    series = values.tolist()
+    stack = [0]
+    falling = True
+    previous = series[0]
+    for n in range(1, len(series)):
+        value = series[n]
+        if n > 1 and (value > previous if falling else value < previous):
+            # The last point was a reversal.
+            stack.append(n - 1)
+            falling = not falling
+        while len(stack) > 2 and (
+            value <= series[stack[-2]] if falling else value >= series[stack[-2]]
+        ):
+            del stack[-2:]
+        origins[n] = stack[-1]
+        previous = value
+    return np.array(origins, dtype=np.int64)
+
+
 def state_weights(
     values: NDArray[np.float64], amplitudes: NDArray[np.float64]
 ) -> NDArray[np.float64]:
@@ -45,30 +72,21 @@ def state_weights(
 
     The block begins at its largest value; the state there is M + D of the largest amplitude.
     """
-    size = amplitudes.size
-    weights = np.zeros((values.size, size))
+    origins = branch_origins(values)
+    change = values - values[origins]
+    weights = amplitude_weights(amplitudes, 0.5 * np.abs(change))
+    weights *= 2.0 * np.sign(change)[:, None]
+    weights[0] = 0.0
     weights[0, -1] = 1.0
-    stack = [(float(values[0]), weights[0])]
-    direction = -1.0
-    grid = amplitudes.tolist()
-    for n in range(1, values.size):
-        value = float(values[n])
-        before = float(values[n - 1])
-        if (value - before) * direction < 0.0 and n > 1:
-            # The last point was a reversal.
-            stack.append((before, weights[n - 1]))
-            direction = -direction
-        while len(stack) > 2 and (value - stack[-2][0]) * direction >= 0.0:
-            del stack[-2:]
-        origin, start = stack[-1]
-        half = 0.5 * abs(value - origin)
-        row = weights[n]
-        row[:] = start
-        if half <= grid[0]:
-            row[0] += 2.0 * direction * half / grid[0]
-            continue
-        upper = min(int(np.searchsorted(amplitudes, half)), size - 1)
-        part = min((half - grid[upper - 1]) / (grid[upper] - grid[upper - 1]), 1.0)
-        row[upper] += 2.0 * direction * part
-        row[upper - 1] += 2.0 * direction * (1.0 - part)
+    # A state adds its branch to the state of the origin, which lies one level higher.
+    level = np.zeros(values.size, dtype=np.int64)
+    levels = [0] * values.size
+    for n, origin in enumerate(origins.tolist()):
+        levels[n] = levels[origin] + 1 if n else 0
+    level[:] = levels
+    order = np.argsort(level, kind="stable")
+    starts = np.searchsorted(level[order], np.arange(1, int(level.max()) + 2))
+    for first, last in itertools.pairwise(starts):
+        rows = order[first:last]
+        weights[rows] += weights[origins[rows]]
     return weights

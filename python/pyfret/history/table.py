@@ -2,94 +2,59 @@
 
 The energy of a loop is interpolated over its amplitude, as energy over amplitude^3, and a state by
 the rule of memory (:mod:`pyfret.history.memory`). Both are exact for elastically like bodies under
-a constant normal force, up to the interpolation. For other contacts one stretch of the history is
-marched, and the difference is the error.
+a constant normal force, up to the interpolation. For other contacts a grid of means is marched as
+well (:mod:`pyfret.history.mean_grid`). One stretch of the history is marched, too, and the
+difference is the error (:mod:`pyfret.history.stretch`).
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from pyfret import _core
+from pyfret._core import InvalidSceneError, NoConvergenceError, OffGridError
 from pyfret._util.numbers import format_number
-from pyfret._util.progress import Progress
-from pyfret.history.counting import count_signal, rearranged
+from pyfret.history.counting import rearranged
 from pyfret.history.ladder import Companions, Ladder, check_sliding, follow_channels
 from pyfret.history.load_history import LoadHistory, press
-from pyfret.history.loops import CountedLoops
+from pyfret.history.loops import CountedLoops, distinct
+from pyfret.history.marching import Marches
+from pyfret.history.mean_grid import MEANS, SIDES, SIZES, grid_weights, memory_of_loops
 from pyfret.history.memory import amplitude_weights, state_weights
-from pyfret.run.dataset import dataset
-from pyfret.run.run import Run
+from pyfret.history.states import (
+    LoopStates,
+    branch_ends,
+    group_loops,
+    loops_as_levels,
+    loops_as_rows,
+)
+from pyfret.history.stretch import Stretch, StretchCheck
 
 if TYPE_CHECKING:
+    import os
+
     from numpy.typing import NDArray
 
     from pyfret._core import Scene
+    from pyfret.run.run import Run
 
-__all__ = ["HistoryTable", "LoopStates", "StretchCheck"]
+__all__ = ["HistoryTable"]
 
 #: Amplitudes of a table: at first, and at most.
 FEWEST, MOST = 8, 16
 #: Part of the energy that the interpolation may leave.
 TOLERANCE = 5e-3
 #: Loops whose states are followed one by one. More of them become classes of range and mean.
-MOST_LOOPS, RANGES, MEANS = 400, 40, 8
-#: Turning points of the stretch that is marched.
-STRETCH = 24
+MOST_LOOPS, CLASSES = 400, (40, 8)
 #: Line of the plan of a scene whose pressure does not depend on its shear.
 UNCOUPLED = "skipped: normal-tangential coupling"
 #: Settling loops of a contact whose pressure depends on its shear.
 SETTLING = 2
-
-
-@dataclass(frozen=True)
-class LoopStates:
-    """States at the moments of loops, as sums of states of a run.
-
-    Attributes
-    ----------
-    rows : array
-        Rows of range, mean, count.
-    weights : array of shape (loops, moments, increments)
-        Weights of the states of the increments.
-    increments : array of int
-        Kept increments of the run.
-    """
-
-    rows: NDArray[np.float64]
-    weights: NDArray[np.float64]
-    increments: NDArray[np.int64]
-
-
-@dataclass(frozen=True)
-class StretchCheck:
-    """A stretch of the history, marched in full beside the table.
-
-    Attributes
-    ----------
-    run : Run
-        The march.
-    states : LoopStates
-        States of its loops, by the march.
-    table_states : LoopStates
-        The same by the table.
-    energy, table_energy : float
-        Energy dissipated in its loops [J].
-    """
-
-    run: Run
-    states: LoopStates
-    table_states: LoopStates
-    energy: float
-    table_energy: float
-
-    @property
-    def energy_error(self) -> float:
-        """Difference of the energies over the energy of the march."""
-        return abs(self.table_energy - self.energy) / max(self.energy, 1e-300)
+#: Cells along x from which half of them are marched, too.
+LEAST_CELLS = 32
 
 
 class HistoryTable:
@@ -109,12 +74,17 @@ class HistoryTable:
     ) -> None:
         self.scene, self.history, self.loops = scene, history, loops
         self.companions, self.ladder, self.run = companions, ladder, run
-        dissipated = run.branches().dissipated.values
-        energy = [float(dissipated[first : last + 1].sum()) for first, last in ladder.branches]
         #: Amplitudes, ascending, and the energy of their loops [J].
         self.amplitudes = ladder.levels[::-1, 0].copy()
-        self.energies = np.array(energy[::-1])
+        self.energies = self._energies_of(ladder.branches[::-1])
         self.check: StretchCheck | None = None
+        #: The run on half of the cells along each side.
+        self.coarse_run: Run | None = None
+
+    def _energies_of(self, branches: list[tuple[int, int]]) -> NDArray[np.float64]:
+        """Return the energy of ranges of branches, first to last [J]."""
+        dissipated = self.run.branches().dissipated.values
+        return np.array([float(dissipated[a : b + 1].sum()) for a, b in branches])
 
     @classmethod
     def build(
@@ -124,6 +94,7 @@ class HistoryTable:
         *,
         tolerance: float = TOLERANCE,
         check: bool | None = None,
+        store: str | os.PathLike[str] | None = None,
         progress: bool = True,
     ) -> HistoryTable:
         """March the loops of a table: 8 amplitudes, or 16 where 8 are too few.
@@ -139,6 +110,8 @@ class HistoryTable:
         check : bool, optional
             Whether a stretch of the history is marched beside the table (default: where the rule of
             memory is no more than an approximation).
+        store : path, optional
+            Folder that keeps the runs of the table. A call that was interrupted goes on from there.
         progress : bool
             Whether to draw a progress bar.
         """
@@ -147,88 +120,130 @@ class HistoryTable:
             raise ValueError("the history has no loop: must vary")
         companions = follow_channels(history)
         check_sliding(scene, history, loops_as_levels(loops))
+        first = history.block()[:1] if history.is_series else np.zeros(1, dtype=np.int64)
+        marches = Marches(store, progress=progress)
+        path = press(scene, history.channels, first)
+        pressed = marches.run(scene.replace(path=path, save="branches"), "pressed")
+        exact = keeps_memory(pressed, companions)
+        settling = 0 if is_uncoupled(pressed) else SETTLING
         table = None
         for count in (FEWEST, MOST):
             levels = table_levels(loops, count)
-            settling = 0 if table is None or table.is_uncoupled else SETTLING
-            table = cls._march(
-                scene, history, loops, companions, levels, settling, progress=progress
+            with_means = not exact and not companions.turns and len(levels) > 1
+            ladder = Ladder.build(
+                scene, history, levels, companions, settling=settling, with_means=with_means
             )
-            if not table.is_uncoupled and settling == 0:
-                table = cls._march(
-                    scene, history, loops, companions, levels, SETTLING, progress=progress
-                )
+            run = marches.run(
+                scene.replace(path=ladder.path, save="branches"), f"{len(levels)}_amplitudes"
+            )
+            table = cls(scene, history, loops, companions, ladder, run)
             if len(levels) < count or table.interpolation_error <= tolerance:
                 break
         assert table is not None
-        if (not table.is_exact if check is None else check) and history.is_series:
-            table.check = table._check_stretch(progress=progress)
+        if not table.is_exact if check is None else check:
+            stretch = Stretch.march(scene, history, loops, companions, marches)
+            states = table.states_of_series(stretch.values, stretch.loops)
+            table.check = StretchCheck(stretch, states, table.energy_of_loops(stretch.loops))
+        if scene.grid.nx % 4 == 0 and scene.grid.nx >= LEAST_CELLS:
+            table.coarse_run = table.march_coarse(marches)
         return table
-
-    @classmethod
-    def _march(
-        cls,
-        scene: Scene,
-        history: LoadHistory,
-        loops: CountedLoops,
-        companions: Companions,
-        levels: NDArray[np.float64],
-        settling: int,
-        *,
-        progress: bool,
-    ) -> HistoryTable:
-        ladder = Ladder.build(scene, history, levels, companions, settling=settling)
-        run = march(scene.replace(path=ladder.path, save="branches"), "table", progress=progress)
-        return cls(scene, history, loops, companions, ladder, run)
-
-    @property
-    def is_uncoupled(self) -> bool:
-        """Whether the pressure does not depend on the shear."""
-        return any(line.startswith(UNCOUPLED) for line in self.run.dataset.attrs["plan"])
 
     @property
     def is_exact(self) -> bool:
         """Whether the rule of memory holds: like bodies, constant W, channels in phase."""
-        varies = "W" in self.companions.ratios and self.companions.ratios["W"][1:] != (0.0, 0.0)
-        yields = self.scene.body1.yields or self.scene.body2.yields
-        in_phase = not self.companions.turns and self.companions.residual < 1e-6
-        return self.is_uncoupled and in_phase and not varies and not yields
+        return keeps_memory(self.run, self.companions)
+
+    def march_coarse(self, marches: Marches) -> Run | None:
+        """March the table on half of the cells along each side; None where they are too few."""
+        grid = self.scene.grid
+        ny = grid.ny if grid.plane_strain else grid.ny // 2
+        dy = grid.dy if grid.plane_strain else 2.0 * grid.dy
+        if not grid.plane_strain and grid.ny % 2:
+            return None
+        cells = grid.replace(nx=grid.nx // 2, ny=ny, dx=2.0 * grid.dx, dy=dy)
+        scene = self.scene.replace(path=self.ladder.path, save="branches", grid=cells)
+        try:
+            return marches.run(scene, "half_of_the_cells")
+        except (InvalidSceneError, OffGridError, NoConvergenceError):
+            return None
+
+    @property
+    def every_second(self) -> slice:
+        """Every second amplitude, the largest one among them."""
+        return slice((self.amplitudes.size + 1) % 2, None, 2)
 
     def energy(self, amplitude: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the energy of loops of some amplitudes [J]."""
+        """Return the energy of loops of some amplitudes at the mean of the largest one [J]."""
         return interpolate_energy(self.amplitudes, self.energies, amplitude)
 
-    @property
-    def total_energy(self) -> float:
-        """Energy that the loops of the history dissipate [J]."""
-        d = self.loops.dataset
-        return float((d["count"].values * self.energy(d.amplitude.values)).sum())
+    def energy_of_loops(self, loops: CountedLoops) -> float:
+        """Return the energy that loops dissipate, by amplitude and mean [J]."""
+        levels = loops_as_levels(loops)
+        energy = self.energy(levels[:, 0])
+        grid = self.ladder.grid
+        if grid is not None:
+            # Both branches of the largest loop have as many loops.
+            shape = grid.outer.shape
+            ranges = zip(
+                (grid.outer + 1).ravel().tolist(), grid.closed.ravel().tolist(), strict=True
+            )
+            marched = self._energies_of(list(ranges)).reshape(shape).mean(axis=0)
+            by_table = self.energy(float(self.ladder.levels[0, 0]) * np.array(SIZES))
+            with np.errstate(divide="ignore", invalid="ignore"):
+                excess = np.nan_to_num(marched / by_table[:, None] - 1.0, posinf=0.0, neginf=0.0)
+            weights = grid_weights(levels, *self._largest)
+            energy = energy * (1.0 + np.einsum("lkj,kj->l", weights, excess))
+        return float((levels[:, 2] * energy).sum())
 
     @property
+    def _largest(self) -> tuple[float, float]:
+        """Amplitude and mean of the largest loop."""
+        top, middle = self.ladder.levels[0, :2].tolist()
+        return top, middle
+
+    @cached_property
+    def total_energy(self) -> float:
+        """Energy that the loops of the history dissipate [J]."""
+        return self.energy_of_loops(self.loops)
+
+    @property
+    def is_interpolated(self) -> bool:
+        """Whether some loops have amplitudes between the amplitudes of the table."""
+        occurring = distinct(self.loops.dataset.amplitude.values)
+        nearest = self.amplitudes[
+            np.abs(self.amplitudes[:, None] - occurring[None, :]).argmin(axis=0)
+        ]
+        return bool((np.abs(nearest - occurring) > 1e-9 * occurring).any())
+
+    @cached_property
     def interpolation_error(self) -> float:
         """Difference of the energy to the one by every second amplitude, over the energy."""
-        if self.amplitudes.size < 4:
+        if self.amplitudes.size < 4 or not self.is_interpolated:
             return 0.0
-        kept = np.arange(self.amplitudes.size - 1, -1, -2)[::-1]
-        d = self.loops.dataset
-        a, n = d.amplitude.values, d["count"].values
-        coarse = interpolate_energy(self.amplitudes[kept], self.energies[kept], a)
+        kept, levels = self.every_second, loops_as_levels(self.loops)
+        coarse = interpolate_energy(self.amplitudes[kept], self.energies[kept], levels[:, 0])
+        difference = float((levels[:, 2] * (coarse - self.energy(levels[:, 0]))).sum())
         # Of a piecewise linear interpolation, half of the distance leaves a quarter of the error.
-        return (
-            abs(float((n * coarse).sum()) - self.total_energy) / max(self.total_energy, 1e-300) / 3
-        )
+        return abs(difference) / max(self.total_energy, 1e-300) / 3.0
 
     @property
     def energy_error(self) -> float:
-        """Part of the energy that may be wrong: by interpolation, and by memory where marched."""
+        """Part of the energy that may be wrong: by interpolation, increments, memory."""
         memory = self.check.energy_error if self.check is not None else 0.0
-        return self.interpolation_error + memory
+        return self.interpolation_error + memory + self.path_error
+
+    @property
+    def path_error(self) -> float:
+        """Part of the shear that the increments of the path leave wrong, where they are chosen."""
+        errors = self.run.dataset.attrs.get("path_error")
+        return float(np.max(errors)) if errors else 0.0
 
     @property
     def notes(self) -> list[str]:
         """Notes on the table: amplitudes, and what its error covers."""
+        means = "" if self.ladder.grid is None else f", {self.ladder.grid.outer[0, 0].size} means"
         lines = [
-            f"{self.amplitudes.size} amplitudes marched, "
+            f"{self.amplitudes.size} amplitudes{means} marched, "
             f"interpolation {self.interpolation_error:.1e}"
         ]
         if self.is_exact:
@@ -239,9 +254,7 @@ class HistoryTable:
                 f"{self.check.energy_error:.1e} in energy"
             )
         else:
-            lines.append(
-                "memory approximate, and its error unknown: the history has no order to march"
-            )
+            lines.append("memory approximate, and its error unknown: no stretch was marched")
         if self.companions.residual > 1e-2:
             lines.append(
                 f"{format_number(100 * self.companions.residual)} % of the variance of another "
@@ -249,116 +262,121 @@ class HistoryTable:
             )
         return lines
 
-    def loop_states(self) -> LoopStates:
-        """Return the states at the ends of the loops, or of classes of many loops."""
-        history = self.history
-        if not history.is_series:
-            return self._states_without_order(loops_as_levels(self.loops))
-        values = history.channels[history.channel]
-        return self._states_of_series(values, self.loops)
+    def loop_states(
+        self, classes: tuple[int, int] = CLASSES, *, coarse: bool = False
+    ) -> LoopStates:
+        """Return the states at the ends of the loops, or of classes of many loops.
 
-    def _states_of_series(self, values: NDArray[np.float64], loops: CountedLoops) -> LoopStates:
+        `coarse`: by every second amplitude of the table.
+        """
+        rows, moments, sides = self._memory_of_history
+        if self.is_grouped:
+            rows, moments, sides = group_loops(rows, moments, sides, classes)
+        return self._on_increments(rows, moments, sides, coarse=coarse)
+
+    @property
+    def is_grouped(self) -> bool:
+        """Whether the loops are so many that classes of them stand for them."""
+        return self.history.is_series and self.loops.dataset.sizes["loop"] > MOST_LOOPS
+
+    @cached_property
+    def _memory_of_history(
+        self,
+    ) -> tuple[NDArray[np.float64], list[NDArray[np.float64]], NDArray[np.float64]]:
+        """Rows of range, mean and count, the weights of D at both ends, and the branches."""
+        history = self.history
+        if history.is_series:
+            return self._memory_of_series(history.channels[history.channel], self.loops)
+        levels = loops_as_levels(self.loops)
+        top, middle = self._largest
+        inside = levels[:, 0] < top * (1.0 - 1e-12)
+        # Loops without an order lie on the rising and on the falling branch of the largest one.
+        loops = np.concatenate([levels, levels[inside]])
+        loops[: len(levels), 2] *= np.where(inside, 0.5, 1.0)
+        loops[len(levels) :, 2] *= 0.5
+        sides = np.concatenate([np.ones(len(levels)), -np.ones(int(inside.sum()))])
+        moments = memory_of_loops(self.amplitudes, top, middle, loops[:, :2], sides)
+        return np.column_stack([2.0 * loops[:, 0], loops[:, 1:]]), list(moments), sides
+
+    def _memory_of_series(
+        self, values: NDArray[np.float64], loops: CountedLoops
+    ) -> tuple[NDArray[np.float64], list[NDArray[np.float64]], NDArray[np.float64]]:
         d = loops.dataset
         firsts, lasts = (d[name].values.astype(int) for name in ("first", "last"))
         turns = rearranged(values)
         # Ends of the series that are no turning points of the block stand in their order.
-        start = int(turns[0])
-        ends = np.setdiff1d(np.unique(np.concatenate([firsts, lasts])), turns)
-        order = np.concatenate([turns[:-1], ends])
-        order = order[np.argsort((order - start) % values.size, kind="stable")]
+        missing = np.zeros(values.size, dtype=bool)
+        missing[firsts] = missing[lasts] = True
+        missing[turns] = False
+        order = np.concatenate([turns[:-1], np.flatnonzero(missing)])
+        order = order[np.argsort((order - int(turns[0])) % values.size, kind="stable")]
+        position = np.zeros(values.size, dtype=np.int64)
+        position[order] = np.arange(order.size)
         weights = state_weights(values[order], self.amplitudes)
-        position = {int(sample): n for n, sample in enumerate(order)}
-        start_weights, end_weights = (
-            weights[[position[int(sample)] for sample in samples]] for samples in (firsts, lasts)
-        )
-        rows = loops_as_rows(loops)
-        if len(rows) > MOST_LOOPS:
-            rising = values[lasts] > values[firsts]
-            rows, start_weights, end_weights = group_loops(rows, start_weights, end_weights, rising)
-        return self._on_increments(rows, start_weights, end_weights)
+        moments = [weights[position[samples]] for samples in (firsts, lasts)]
+        # A loop that begins at its least value lies on a falling branch.
+        sides = np.where(values[lasts] > values[firsts], -1.0, 1.0)
+        return loops_as_rows(loops), moments, sides
 
-    def _states_without_order(self, levels: NDArray[np.float64]) -> LoopStates:
-        """States of loops that hang on the rising or on the falling branch of the largest loop."""
-        top, middle = float(self.ladder.levels[0, 0]), float(self.ladder.levels[0, 1])
-        rows, start_weights, end_weights = [], [], []
-        largest = amplitude_weights(self.amplitudes, np.array([top]))[0]
-        for amplitude, mean, count in levels:
-            inside = amplitude_weights(self.amplitudes, np.array([amplitude]))[0]
-            sides = (1.0, -1.0) if amplitude < top * (1.0 - 1e-12) else (1.0,)
-            for side in sides:
-                # The outer end of the loop, on the branch from the other end of the largest loop.
-                distance = side * (mean - middle) + amplitude + top
-                reach = amplitude_weights(
-                    self.amplitudes, np.array([np.clip(0.5 * distance, 0.0, top)])
-                )
-                end = side * (2.0 * reach[0] - largest)
-                rows.append([2.0 * amplitude, mean, count / len(sides)])
-                start_weights.append(end)
-                end_weights.append(end - side * 2.0 * inside)
-        return self._on_increments(np.array(rows), np.array(start_weights), np.array(end_weights))
+    def states_of_series(self, values: NDArray[np.float64], loops: CountedLoops) -> LoopStates:
+        """Return the states at the ends of the loops of a series, one by one."""
+        return self._on_increments(*self._memory_of_series(values, loops))
 
     def _on_increments(
         self,
         rows: NDArray[np.float64],
-        start_weights: NDArray[np.float64],
-        end_weights: NDArray[np.float64],
+        moments: list[NDArray[np.float64]],
+        sides: NDArray[np.float64],
+        *,
+        coarse: bool = False,
     ) -> LoopStates:
         """Turn weights of half changes D into weights of the states of the run."""
         ends = branch_ends(self.run)
-        tops = np.array([ends[b] for b in self.ladder.tops[::-1]])
-        bottoms = np.array([ends[b] for b in self.ladder.bottoms[::-1]])
-        increments = np.unique(np.concatenate([tops, bottoms]))
-        size, levels = increments.size, tops.size
-        half = np.zeros((levels, size))
-        np.add.at(half, (np.arange(levels), np.searchsorted(increments, tops)), 0.5)
-        np.add.at(half, (np.arange(levels), np.searchsorted(increments, bottoms)), -0.5)
-        middle = np.abs(half[-1])
-        moments = [start_weights @ half + middle, end_weights @ half + middle]
-        if self.companions.turns:
-            falling, rising = np.array(
-                [[ends[a], ends[b]] for a, b in self.ladder.quarters[::-1]]
-            ).T
-            increments_all = np.unique(np.concatenate([increments, falling, rising]))
-            wide = np.zeros((levels, increments_all.size))
-            np.add.at(wide, (np.arange(levels), np.searchsorted(increments_all, falling)), 0.5)
-            np.add.at(wide, (np.arange(levels), np.searchsorted(increments_all, rising)), -0.5)
-            spread = np.zeros((size, increments_all.size))
-            spread[np.arange(size), np.searchsorted(increments_all, increments)] = 1.0
-            moments = [moment @ spread for moment in moments]
-            quarter = amplitude_weights(self.amplitudes, 0.5 * rows[:, 0]) @ wide
-            mean = 0.5 * (moments[0] + moments[1])
-            moments += [mean + quarter, mean - quarter]
-            increments = increments_all
-        return LoopStates(rows, np.stack(moments, axis=1), increments)
+        increments = np.array(sorted(set(ends.values())))
+        position = {branch: int(np.searchsorted(increments, n)) for branch, n in ends.items()}
 
-    def _check_stretch(self, *, progress: bool) -> StretchCheck:
-        """March a stretch of the block, from its largest value, and compare."""
-        history = self.history
-        block = history.block()
-        stretch = block[: STRETCH + 1] if block.size > STRETCH + 1 else block[:-1]
-        # Back to where it began, so that its loops close.
-        places = np.concatenate([stretch, block[:1]])
-        settle = np.concatenate([places, places])
-        path = press(self.scene, history.channels, places)
-        columns = {name: values[settle] for name, values in history.channels.items()}
-        path = path.waypoints(increments="auto", **columns)
-        run = march(self.scene.replace(path=path, save="branches"), "stretch", progress=progress)
-        before = len(path.branches) - places.size
-        dissipated = run.branches().dissipated.values
-        energy = float(dissipated[before + 1 :].sum())
-        values = history.channels[history.channel][places]
-        loops = CountedLoops.from_rows(count_signal(values, "repeat"), history.channel, "stretch")
-        d = loops.dataset
-        table_energy = float((d["count"].values * self.energy(d.amplitude.values)).sum())
-        ends = branch_ends(run)
-        samples = d["first"].values.astype(int), d["last"].values.astype(int)
-        weights, increments = marched_weights(
-            run, samples, before, ends, turns=self.companions.turns
-        )
-        states = LoopStates(loops_as_rows(loops), weights, increments)
-        return StretchCheck(
-            run, states, self._states_of_series(values, loops), energy, table_energy
-        )
+        def half_changes(pairs: list[tuple[int, int]]) -> NDArray[np.float64]:
+            half = np.zeros((len(pairs), increments.size))
+            for row, (high, low) in enumerate(pairs):
+                half[row, position[high]] += 0.5
+                half[row, position[low]] -= 0.5
+            return half
+
+        ladder = self.ladder
+        pairs = list(zip(ladder.tops, ladder.bottoms, strict=True))[::-1]
+        half = half_changes(pairs)
+        middle = np.abs(half[-1])
+        if coarse:
+            kept = self.every_second
+            half = amplitude_weights(self.amplitudes[kept], self.amplitudes) @ half[kept]
+        states = [moment @ half + middle for moment in moments]
+        if ladder.grid is not None:
+            grid = ladder.grid
+            top, mean = self._largest
+            nodes = np.array(
+                [
+                    [top * size, mean + position_over_room * top * (1.0 - size)]
+                    for size in SIZES
+                    for position_over_room in MEANS
+                ]
+            )
+            weights = grid_weights(np.column_stack([0.5 * rows[:, 0], rows[:, 1]]), top, mean)
+            flat = weights.reshape(len(rows), -1)
+            for i, side in enumerate(SIDES):
+                of_side = np.full(len(nodes), side)
+                by_memory = memory_of_loops(self.amplitudes, top, mean, nodes, of_side)
+                for m, branches in enumerate((grid.outer[i], grid.inner[i])):
+                    marched = np.zeros((len(nodes), increments.size))
+                    columns = [position[int(branch)] for branch in branches.ravel()]
+                    marched[np.arange(len(nodes)), columns] = 1.0
+                    correction = marched - (by_memory[m] @ half + middle)
+                    states[m] = states[m] + (flat * (sides == side)[:, None]) @ correction
+        if self.companions.turns:
+            quarters = half_changes(ladder.quarters[::-1])
+            quarter = amplitude_weights(self.amplitudes, 0.5 * rows[:, 0]) @ quarters
+            mean_state = 0.5 * (states[0] + states[1])
+            states += [mean_state + quarter, mean_state - quarter]
+        return LoopStates(rows, np.stack(states, axis=1), increments)
 
     def summary(self) -> str:
         """Describe the table: loops, energy with its error, notes."""
@@ -374,50 +392,18 @@ class HistoryTable:
     __repr__ = summary
 
 
-def march(scene: Scene, title: str, *, progress: bool, **options: Any) -> Run:
-    """Run a scene in memory."""
-    with Progress(title=scene.title or title, shown=progress) as bar:
-        run = _core.solve_in_memory(scene, on_increment=bar.update, **options)
-    return Run(dataset(*run))
+def is_uncoupled(run: Run) -> bool:
+    """Return whether the pressure of a run does not depend on its shear."""
+    return any(line.startswith(UNCOUPLED) for line in run.dataset.attrs["plan"])
 
 
-def branch_ends(run: Run) -> dict[int, int]:
-    """Return the last increment of every branch."""
-    branch = run.dataset.branch_of_increment.values
-    increments = run.dataset.increment.values
-    return {int(b): int(n) for b, n in zip(branch, increments, strict=True)}
-
-
-def marched_weights(
-    run: Run,
-    samples: tuple[NDArray[np.int64], NDArray[np.int64]],
-    before: int,
-    ends: dict[int, int],
-    *,
-    turns: bool,
-) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Return the weights of the increments of a march in the moments of its loops.
-
-    `before` is the branch that ends at the first sample. With channels out of phase all states
-    between the two ends of a loop are moments, up to the number of two.
-    """
-    increments = np.array(sorted(set(ends.values())))
-    moments = []
-    for ends_of_loops in samples:
-        weights = np.zeros((ends_of_loops.size, increments.size))
-        position = np.searchsorted(
-            increments, [ends[before + int(sample)] for sample in ends_of_loops]
-        )
-        weights[np.arange(ends_of_loops.size), position] = 1.0
-        moments.append(weights)
-    if turns:
-        middles = 0.5 * (samples[0] + samples[1])
-        for side in (np.floor(middles), np.ceil(middles)):
-            weights = np.zeros((middles.size, increments.size))
-            position = np.searchsorted(increments, [ends[before + int(sample)] for sample in side])
-            weights[np.arange(middles.size), position] = 1.0
-            moments.append(weights)
-    return np.stack(moments, axis=1), increments
+def keeps_memory(run: Run, companions: Companions) -> bool:
+    """Return whether the rule of memory holds on the contact of a run."""
+    scene = run.scene
+    varies = "W" in companions.ratios and companions.ratios["W"][1:] != (0.0, 0.0)
+    yields = scene.body1.yields or scene.body2.yields
+    in_phase = not companions.turns and companions.residual < 1e-6
+    return is_uncoupled(run) and in_phase and not varies and not yields
 
 
 def interpolate_energy(
@@ -431,58 +417,24 @@ def interpolate_energy(
     return np.exp(np.interp(wanted, a, ratio)) * wanted**3
 
 
-def loops_as_rows(loops: CountedLoops) -> NDArray[np.float64]:
-    """Return rows of range, mean, count."""
-    d = loops.dataset
-    return np.column_stack([d["range"].values, d["mean"].values, d["count"].values])
-
-
-def loops_as_levels(loops: CountedLoops) -> NDArray[np.float64]:
-    """Return rows of amplitude, mean, count."""
-    rows = loops_as_rows(loops)
-    rows[:, 0] *= 0.5
-    return rows
-
-
 def table_levels(loops: CountedLoops, count: int) -> NDArray[np.float64]:
     """Choose the amplitudes of a table: those that occur if they are few, else equal parts.
 
-    All loops of the table have the mean of the largest one.
+    All loops of the table have the mean of the largest one, which holds all others. Where no loop
+    of a list of loops holds the others, that is a loop from the least to the largest value.
     """
     classes = loops_as_levels(loops)
     largest = int(classes[:, 0].argmax())
     top, mean = float(classes[largest, 0]), float(classes[largest, 1])
-    distinct = np.unique(np.round(classes[:, 0] / top, 12))
-    parts = distinct if distinct.size <= count else np.arange(1, count + 1) / count
+    low = float((classes[:, 1] - classes[:, 0]).min())
+    high = float((classes[:, 1] + classes[:, 0]).max())
+    hull = 0.5 * (high - low)
+    amplitudes = distinct(classes[:, 0])
+    if hull > top * (1.0 + 1e-9):
+        top, mean = hull, 0.5 * (high + low)
+        amplitudes = np.append(amplitudes, top)
+    parts = amplitudes / top if amplitudes.size <= count else np.arange(1, count + 1) / count
     levels = np.zeros((parts.size, 3))
     levels[:, 0], levels[:, 1] = top * parts[::-1], mean
     levels[0, 0] = top
     return levels
-
-
-def group_loops(
-    rows: NDArray[np.float64],
-    start_weights: NDArray[np.float64],
-    end_weights: NDArray[np.float64],
-    rising: NDArray[np.bool_],
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Merge many loops into classes of range, mean and direction, which keep their mean states."""
-    top = float(rows[:, 0].max())
-    low, high = float(rows[:, 1].min()), float(rows[:, 1].max())
-    by_range = np.minimum((rows[:, 0] / top * RANGES).astype(int), RANGES - 1)
-    by_mean = np.minimum(
-        ((rows[:, 1] - low) / max(high - low, 1e-300) * MEANS).astype(int), MEANS - 1
-    )
-    key = (by_range * MEANS + by_mean) * 2 + rising
-    _, position = np.unique(key, return_inverse=True)
-    size = int(position.max()) + 1
-    counts = np.bincount(position, rows[:, 2], size)
-
-    def mean_of(values: NDArray[np.float64]) -> NDArray[np.float64]:
-        return np.stack(
-            [np.bincount(position, rows[:, 2] * column, size) / counts for column in values.T],
-            axis=1,
-        )
-
-    middle = mean_of(rows[:, :2])
-    return np.column_stack([middle, counts]), mean_of(start_weights), mean_of(end_weights)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pyfret import _core
-from pyfret._core import Scene, with_error
+from pyfret._core import Body, Scene, SurfaceMap, with_error
 from pyfret._util.figures import Figured
 from pyfret._util.labelled import Labelled
 from pyfret._util.numbers import length, um
@@ -244,6 +244,24 @@ class WearResult(Saveable, Labelled, Figured):
         # Stores of before have the rig in the table of wear.
         stiffness = self.table.get("rig_stiffness", scene.path.rig_stiffness)
         return scene.replace(path=scene.path.rig(stiffness))
+
+    @property
+    def worn_scene(self) -> Scene:
+        """The scene with the worn surfaces of the last block as its shapes, for a run on them."""
+        scene, kept = self.scene, 1.0 - self.debris_kept
+        grid = scene.grid
+
+        def worn(body: Body, depth: xr.DataArray) -> Body:
+            heights = -kept * np.asarray(depth.values, dtype=float)
+            if not heights.any():
+                return body
+            # A map has two lines at least.
+            wide = np.repeat(heights, 2, axis=1) if heights.shape[1] == 1 else heights
+            return body.replace(shape=body.shape + SurfaceMap(wide, spacing=(grid.dx, grid.dy)))
+
+        d = self.dataset
+        bodies = worn(scene.body1, d.worn1[-1]), worn(scene.body2, d.worn2[-1])
+        return scene.replace(body1=bodies[0], body2=bodies[1])
 
     @property
     def table(self) -> dict[str, Any]:

@@ -14,6 +14,7 @@ from pyfret._util import files
 from pyfret._util.progress import Progress
 from pyfret.history.ladder import Ladder, check_sliding, follow_channels
 from pyfret.history.load_history import LoadHistory
+from pyfret.history.scene_file import read_history
 from pyfret.quantities import quantities
 from pyfret.run.dataset import dataset
 from pyfret.wear.result import WearResult
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
     from pyfret._util.types import FrictionFunction
     from pyfret.wear.settings import Law
 
-__all__ = ["open_run", "resume", "solve"]
+__all__ = ["block_of_history", "open_run", "resume", "solve"]
 
 
 @quantities
@@ -50,7 +51,8 @@ def solve(
     Parameters
     ----------
     scene : Scene or path
-        What is in contact, or a scene file; what its table ``[wear]`` holds need not be given.
+        What is in contact, or a scene file; what its tables ``[wear]`` and ``[history]`` hold need
+        not be given.
     wear : Wear, optional
         What wears, over how many cycles, and how.
     path : LoadPath, optional
@@ -80,6 +82,8 @@ def solve(
         A setting has no such name; the message offers the nearest.
     """
     if not isinstance(scene, Scene):
+        if history is None and path is None:
+            history = read_history(scene)
         scene, of_file = _core.wear_of_file(scene)
         wear = read(of_file) if wear is None else wear
     if history is not None:

@@ -1,0 +1,36 @@
+"""The dataset of a run in a store, checked before it is read."""
+
+from __future__ import annotations
+
+import json
+from os import fspath
+from typing import TYPE_CHECKING
+
+from pyfret import _core
+from pyfret._core import StoreError
+from pyfret._util import files
+
+if TYPE_CHECKING:
+    import os
+
+    import xarray as xr
+
+__all__ = ["open_dataset"]
+
+
+def open_dataset(path: str | os.PathLike[str]) -> xr.Dataset:
+    """Open the dataset of a run: a Zarr store, or a copy that was saved.
+
+    Raises
+    ------
+    StoreError
+        There is no store, or a file of it is missing or damaged; the message names both.
+    """
+    files.checked(path)
+    # Zarr reads the attributes of the group from a file that no checksum covers.
+    attributes = {} if files.is_copy(path) else json.loads(_core.verify(path))
+    dataset = files.opened(path)
+    if "scene" not in dataset.attrs or "increment" not in dataset.sizes:
+        raise StoreError(f"{fspath(path)}: is no result of pyfret: it has no scene or no increment")
+    kept = {name: value for name, value in attributes.items() if name in dataset.attrs}
+    return dataset.assign_attrs(kept)
