@@ -129,7 +129,7 @@ def kill_when(store: Path, code: str, path: Path) -> None:
     while not path.exists() and process.poll() is None and time.monotonic() < deadline:
         time.sleep(0.005)
     process.send_signal(signal.SIGKILL)
-    process.wait()
+    assert process.wait() == -signal.SIGKILL
     assert store.exists()
 
 
