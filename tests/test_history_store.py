@@ -201,12 +201,12 @@ def test_wear_moves_the_worst_point() -> None:
         for s in (scene, worn.worn_scene)
     )
     assert later.place != fresh.place
-    both = fatigue.add_damages([fresh, later], [1000.0, 2000.0])
+    total_damage = fatigue.add_damages([fresh, later], [1000.0, 2000.0])
     total = 1000.0 * fresh.dataset.damage + 2000.0 * later.dataset.damage
-    np.testing.assert_allclose(both.dataset.damage, total)
-    assert both.worst == pytest.approx(float(total.max()))
-    assert both.worst < 1000.0 * fresh.worst + 2000.0 * later.worst
-    assert both.error == pytest.approx(1000.0 * fresh.error + 2000.0 * later.error)
+    np.testing.assert_allclose(total_damage.dataset.damage, total)
+    assert total_damage.worst == pytest.approx(float(total.max()))
+    assert total_damage.worst < 1000.0 * fresh.worst + 2000.0 * later.worst
+    assert total_damage.error == pytest.approx(1000.0 * fresh.error + 2000.0 * later.error)
     with pytest.raises(ValueError, match="2 damages and 1 passes"):
         fatigue.add_damages([fresh, later], [1.0])
     elsewhere = fatigue.damage(scene, history, steel, SWT, [3e-5], y=0.0, progress=False)

@@ -29,9 +29,6 @@ const TEMPLATE: &str = "{bar:10} {pos}/{len} cycles, {elapsed}, {eta} left  {wid
 /// Remedy for a scene with a load history.
 const WITHOUT_HISTORY: &str = "left out: `fret damage SCENE --block FILE` writes a scene with the loops of its history, \
      which fret wear takes";
-/// Remedy for a scene with a load history.
-const WITHOUT_HISTORY: &str = "left out: `fret damage SCENE --block FILE` writes a scene with the loops of its history, \
-     which fret wear takes";
 
 /// Options of `fret wear`.
 #[derive(Args)]
