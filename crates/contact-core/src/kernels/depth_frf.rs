@@ -12,7 +12,7 @@
 
 use rustfft::num_complex::Complex64;
 
-use super::layered_frf::{HalfSpace, Stack, propagate_down, propagate_up};
+use super::layered_frf::{HalfSpace, LayerWaves, Stack, propagate_down, propagate_up};
 use super::matrix::Matrix2;
 use crate::error::Error;
 use crate::magnitude::{LARGEST, SMALLEST};
@@ -119,17 +119,55 @@ impl Stack {
     /// The response at depth; `remainder` subtracts the half-space of the outermost
     /// material, which decays slower (only for places in the outermost layer).
     pub(crate) fn fields(&self, k: f64, place: &DepthPoint, remainder: bool) -> WaveFields {
+        let mut fields = WaveFields::default();
+        self.fields_at(k, std::slice::from_ref(place), remainder, |_, at| {
+            fields = at
+        });
+        fields
+    }
+
+    /// The responses at several depths by one recursion over the layers; `put` takes each with its
+    /// number. `remainder` as in [`Self::fields`].
+    pub(crate) fn fields_at(
+        &self,
+        k: f64,
+        places: &[DepthPoint],
+        remainder: bool,
+        mut put: impl FnMut(usize, WaveFields),
+    ) {
         let waves = self.waves(k);
-        let (mut traction, mut traction_t) = (Matrix2::ONE, 1.0);
-        for (wave, (_, h)) in waves.iter().zip(&self.layers).take(place.layer) {
+        let deepest = places.iter().map(|place| place.layer).max().unwrap_or(0);
+        // Tractions on the top of each layer.
+        let mut tops = Vec::with_capacity(deepest + 1);
+        tops.push((Matrix2::ONE, 1.0));
+        for (wave, (_, h)) in waves.iter().zip(&self.layers).take(deepest) {
+            let (traction, traction_t) = tops[tops.len() - 1];
             let x = k * h;
-            traction = wave.s * propagate_down(x) * wave.down * traction;
-            traction_t *= wave.s_t * (-x).exp() * wave.down_t;
+            tops.push((
+                wave.s * propagate_down(x) * wave.down * traction,
+                traction_t * (wave.s_t * (-x).exp() * wave.down_t),
+            ));
         }
+        for (n, place) in places.iter().enumerate() {
+            let wave = waves.get(place.layer);
+            put(
+                n,
+                self.fields_in_layer(k, place, (wave, tops[place.layer]), remainder),
+            );
+        }
+    }
+
+    /// The response in a layer with its waves, under the tractions on its top.
+    fn fields_in_layer(
+        &self,
+        k: f64,
+        place: &DepthPoint,
+        (wave, (traction, traction_t)): (Option<&LayerWaves>, (Matrix2, f64)),
+        remainder: bool,
+    ) -> WaveFields {
         let x = k * place.below_top;
         let decay_down = propagate_down(x);
-        let Some((wave, (material, h))) = waves.get(place.layer).zip(self.layers.get(place.layer))
-        else {
+        let Some((wave, (material, h))) = wave.zip(self.layers.get(place.layer)) else {
             let (down, down_t) = (decay_down * traction, (-x).exp() * traction_t);
             return WaveFields::new(&self.substrate, down, Matrix2::default(), down_t, 0.0);
         };

@@ -7,6 +7,7 @@
 use std::f64::consts::TAU;
 use std::marker::PhantomData;
 use std::ops::Range;
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use ndarray::Array2;
@@ -15,18 +16,16 @@ use rayon::prelude::*;
 use super::Quadrant;
 use super::cell::Cell;
 use super::depth_frf::{DepthPoint, WaveFields};
+use super::depth_tables::{self, Smooth};
 use super::layered_frf::{HalfSpace, Stack};
-use super::radial_table::{Hankel, RadialTable};
 use crate::error::Error;
 use crate::stop::unless;
 
 /// Relative error of a cell's Gauss rule, against the response under the load.
-const CUBATURE: f64 = 1e-13;
-/// Largest error of the tabulated part over the response of the half-space.
-const TOLERANCE: f64 = 1e-9;
+const CUBATURE: f64 = 1e-11;
 
 /// A quantity of R components under each of q_x, q_y, p, made of N radial functions.
-pub trait Quantity<const N: usize, const R: usize> {
+pub trait Quantity<const N: usize, const R: usize>: 'static {
     /// Orders of the Bessel functions in the Hankel integrals.
     const ORDERS: [usize; N];
 
@@ -62,7 +61,7 @@ pub struct DepthKernel<Q, const N: usize, const R: usize> {
     /// The outermost material where its closed form takes part.
     closed: Option<HalfSpace>,
     /// The tabulated part and its smallest scale \[m\].
-    smooth: Option<(RadialTable<N>, f64)>,
+    smooth: Option<Arc<Smooth<N>>>,
     /// Distance along x and along y that a point on the edge of a cell is taken to have from it
     /// \[m\].
     edge: (f64, f64),
@@ -80,42 +79,33 @@ impl<Q: Quantity<N, R>, const N: usize, const R: usize> DepthKernel<Q, N, R> {
     /// by Stirling's formula.
     pub fn new(stack: &Stack, place: DepthPoint, r_max: f64, d: (f64, f64)) -> Result<Self, Error> {
         let outermost = place.layer == 0;
-        let mut kernel = Self {
+        let smooth = if stack.layers.is_empty() {
+            None
+        } else {
+            Some(depth_tables::table::<Q, N, R>(stack, place, r_max)?)
+        };
+        Ok(Self {
             place,
             closed: outermost.then(|| stack.outermost()),
-            smooth: None,
+            smooth,
             edge: (d.0 / TAU, d.1 / TAU),
             quantity: PhantomData,
-        };
-        let zeta = match stack.layers.first() {
-            None => return Ok(kernel),
-            Some((_, h)) if outermost => 2.0 * h - place.z,
-            Some(_) => place.z,
-        };
-        let hankel = Hankel {
-            amplitude: &|k| Q::amplitudes(k, &stack.fields(k, &place, outermost)),
-            orders: Q::ORDERS,
-            zeta,
-            k_low: stack.lowest_scale(),
-        };
-        let table = hankel.tabulate(r_max);
-        let estimate = hankel.max_deviation(&table, r_max) / Q::error_scale(stack, zeta);
-        if estimate.is_nan() || estimate > TOLERANCE {
-            return Err(Error::StressInaccurate {
-                z: place.z,
-                estimate,
-                tolerance: TOLERANCE,
-            });
+        })
+    }
+
+    /// Computes what the kernels at several depths have in common, for [`Self::new`] with these places
+    /// and the same distance: one recursion over the layers serves many depths.
+    pub fn prepare(stack: &Stack, places: &[DepthPoint], r_max: f64) -> Result<(), Error> {
+        if stack.layers.is_empty() {
+            return Ok(());
         }
-        kernel.smooth = Some((table, zeta));
-        Ok(kernel)
+        depth_tables::prepare::<Q, N, R>(stack, places, r_max)
     }
 
     /// Adds the tabulated part at (0, 0) under unit traction on the cell.
     fn add_smooth(&self, sum: &mut [[f64; 3]; R], cell: &Cell) {
-        let Some((table, zeta)) = &self.smooth else {
-            return;
-        };
+        let Some(smooth) = &self.smooth else { return };
+        let Smooth { table, zeta } = &**smooth;
         cell.nodes_of_parts(*zeta, CUBATURE, &mut |x, y, w| {
             Q::add(sum, x, y, table.evaluate(x * x + y * y).map(|g| w * g));
         });
@@ -202,8 +192,8 @@ impl<Q: Quantity<N, R>, const N: usize, const R: usize> DepthKernel<Q, N, R> {
             Some(material) => Q::radial(material, s, self.place.z),
             None => [0.0; N],
         };
-        if let Some((table, _)) = &self.smooth {
-            for (g, t) in g.iter_mut().zip(table.evaluate(s)) {
+        if let Some(smooth) = &self.smooth {
+            for (g, t) in g.iter_mut().zip(smooth.table.evaluate(s)) {
                 *g += t;
             }
         }

@@ -12,6 +12,7 @@ mod coefficients;
 mod convert;
 mod depth_frf;
 mod depth_kernel;
+mod depth_tables;
 mod displacement;
 mod graded;
 mod half_space;

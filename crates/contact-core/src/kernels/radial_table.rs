@@ -125,10 +125,53 @@ fn octave(rule: &Rule) -> Arc<Octave> {
 }
 
 impl<const N: usize> Hankel<'_, N> {
-    /// End of the first panel in r, a power of two between 0.35 and 0.71 zeta, or larger if needed.
-    fn r_first(&self, r_max: f64) -> f64 {
-        let zeta = (0.5 * self.zeta).log2().round();
-        zeta.min(r_max.log2().ceil()).exp2()
+    /// Calls `f` with a set of these functions alone.
+    fn with_set<T>(&self, f: impl FnOnce(&HankelSet<'_, N>) -> Vec<T>) -> T {
+        let amplitudes = |k: f64, at: &mut [[f64; N]]| at.fill((self.amplitude)(k));
+        let set = HankelSet {
+            amplitudes: &amplitudes,
+            orders: self.orders,
+            zetas: &[self.zeta],
+            k_low: self.k_low,
+        };
+        f(&set).swap_remove(0)
+    }
+
+    /// Tabulates the functions for r <= `r_max`.
+    pub fn tabulate(&self, r_max: f64) -> RadialTable<N> {
+        self.with_set(|set| set.tabulate(r_max))
+    }
+
+    /// Largest deviation of the table from a finer integration, each function in the unit r^m,
+    /// times `r`: one radius in each octave, off the nodes.
+    pub fn max_deviation(&self, table: &RadialTable<N>, r_max: f64) -> f64 {
+        self.with_set(|set| set.max_deviations(&[table], r_max))
+    }
+}
+
+/// End of the first panel in r of functions of the decay length `zeta`, a power of two between 0.35
+/// and 0.71 zeta, or larger if needed.
+pub(super) fn first_radius(zeta: f64, r_max: f64) -> f64 {
+    let zeta = (0.5 * zeta).log2().round();
+    zeta.min(r_max.log2().ceil()).exp2()
+}
+
+/// Several sets of functions with one end of the first panel ([`first_radius`]), such as the responses at several depths of
+/// a stack: they share the nodes in k, so that a recursion over the layers serves all of them.
+pub(super) struct HankelSet<'a, const N: usize> {
+    /// Writes the amplitudes A_n(k) of each set.
+    pub(super) amplitudes: &'a (dyn Fn(f64, &mut [[f64; N]]) + Sync),
+    /// Order m of the Bessel function of each function, 0 to 3.
+    pub(super) orders: [usize; N],
+    /// Decay length of the amplitudes of each set \[m\]: A_n ~ exp(-k zeta).
+    pub(super) zetas: &'a [f64],
+    /// Wave number below which the amplitudes are well resolved by low polynomials \[1/m\].
+    pub(super) k_low: f64,
+}
+
+impl<const N: usize> HankelSet<'_, N> {
+    fn least_zeta(&self) -> f64 {
+        self.zetas.iter().copied().fold(f64::INFINITY, f64::min)
     }
 
     /// Smallest scale of a rule whose unit is 1/r \[-\].
@@ -136,32 +179,49 @@ impl<const N: usize> Hankel<'_, N> {
         self.k_low * r / 8.0
     }
 
-    /// The amplitudes times weight and window at the nodes of a rule for radii from `r_a`.
-    fn weighted_amplitudes(&self, rule: &Rule, r_a: f64, window: Option<f64>) -> Vec<[f64; N]> {
-        let amplitude_at = |&(t, w): &(f64, f64)| {
+    /// The amplitudes of each set times weight and window at the nodes of a rule for radii from
+    /// `r_a`.
+    fn weighted_amplitudes(
+        &self,
+        rule: &Rule,
+        r_a: f64,
+        window: Option<f64>,
+    ) -> Vec<Vec<[f64; N]>> {
+        let sets = self.zetas.len();
+        let least_zeta = self.least_zeta();
+        let amplitudes_at = |&(t, w): &(f64, f64)| {
             let k = t / r_a;
-            if k * self.zeta > DECAY {
-                return [0.0; N];
+            let mut at = vec![[0.0; N]; sets];
+            if k * least_zeta > DECAY {
+                return at;
             }
             let window_value = window.map_or(1.0, |c| libm::erfc((t - c) / WINDOW_WIDTH) / 2.0);
             let factor = window_value * w / r_a / (2.0 * PI);
-            (self.amplitude)(k).map(|a| a * factor)
+            (self.amplitudes)(k, &mut at);
+            for (amplitudes, zeta) in at.iter_mut().zip(self.zetas) {
+                let factor = if k * zeta > DECAY { 0.0 } else { factor };
+                amplitudes.iter_mut().for_each(|a| *a *= factor);
+            }
+            at
         };
-        rule.0.par_iter().map(amplitude_at).collect()
+        rule.0.par_iter().map(amplitudes_at).collect()
     }
 
-    /// g_n(r)/r^m at r = `rho` r_a, from the weighted amplitudes.
-    fn sum(&self, rule: &Rule, weighted: &[[f64; N]], rho: f64, r_a: f64) -> [f64; N] {
-        let mut g = [0.0; N];
-        for (&(t, _), a) in rule.0.iter().zip(weighted) {
-            if a.iter().any(|a| a.abs() > 0.0) {
+    /// g_n(r)/r^m of each set at r = `rho` r_a, from the weighted amplitudes.
+    fn sums(&self, rule: &Rule, weighted: &[Vec<[f64; N]>], rho: f64, r_a: f64) -> Vec<[f64; N]> {
+        let mut sums = vec![[0.0; N]; self.zetas.len()];
+        for (&(t, _), at) in rule.0.iter().zip(weighted) {
+            if at.iter().flatten().any(|a| a.abs() > 0.0) {
                 let j = bessel(t * rho);
-                for n in 0..N {
-                    g[n] += a[n] * j[self.orders[n]];
+                for (g, a) in sums.iter_mut().zip(at) {
+                    for n in 0..N {
+                        g[n] += a[n] * j[self.orders[n]];
+                    }
                 }
             }
         }
-        self.divide_by_powers(g, rho * r_a)
+        let divided = |g: [f64; N]| self.divide_by_powers(g, rho * r_a);
+        sums.into_iter().map(divided).collect()
     }
 
     fn divide_by_powers(&self, mut g: [f64; N], r: f64) -> [f64; N] {
@@ -171,97 +231,109 @@ impl<const N: usize> Hankel<'_, N> {
         g
     }
 
-    /// The functions at one radius by a finer rule than the table's.
-    fn evaluate_finer(&self, r: f64) -> [f64; N] {
+    /// The functions of each set at one radius by a finer rule than the rule of the tables.
+    fn evaluate_finer(&self, r: f64) -> Vec<[f64; N]> {
         let middle = 1.25 * WINDOW_MIDDLE;
-        let high = (2.0 * middle).min(DECAY / self.zeta * r);
+        let high = (2.0 * middle).min(DECAY / self.least_zeta() * r);
         let rule = Rule::new(self.smallest_scale(r) / 2.0, high, NODES + 6);
         let window = (high > middle / 4.0).then_some(middle);
         let weighted = self.weighted_amplitudes(&rule, r, window);
-        self.sum(&rule, &weighted, 1.0, r)
+        self.sums(&rule, &weighted, 1.0, r)
     }
 
-    /// Tabulates the functions for r <= `r_max`.
-    pub fn tabulate(&self, r_max: f64) -> RadialTable<N> {
-        let r_first = self.r_first(r_max);
+    /// Tabulates the functions of each set for r <= `r_max`.
+    pub(super) fn tabulate(&self, r_max: f64) -> Vec<RadialTable<N>> {
+        let r_first = first_radius(self.zetas[0], r_max);
         let mut coefficients = self.tabulate_first_panel(r_first);
         // A radius at the very end of an octave belongs to the next one.
         let octaves = ((r_max / r_first).log2().floor() + 1.0).max(0.0) as usize;
         if octaves > 0 {
-            coefficients.extend(self.tabulate_octaves(r_first, octaves));
+            self.add_octaves(r_first, octaves, &mut coefficients);
         }
-        RadialTable {
+        let table = |coefficients| RadialTable {
             s_first: r_first * r_first,
             coefficients,
+        };
+        coefficients.into_iter().map(table).collect()
+    }
+
+    /// The coefficients of each set in the first panel. The rule belongs to the smallest decay
+    /// length with this panel, so that a table does not depend on the others of its set.
+    fn tabulate_first_panel(&self, r_first: f64) -> Vec<Vec<[f64; N]>> {
+        let high = DECAY / 2.0_f64.sqrt();
+        let rule = Rule::new(self.smallest_scale(r_first), high, NODES);
+        let weighted = self.weighted_amplitudes(&rule, r_first, None);
+        let radii = cosines().map(|x| f64::midpoint(1.0, x).sqrt());
+        let values = radii.map(|rho| self.sums(&rule, &weighted, rho, r_first));
+        let of_set = |set: usize| transform(&values.each_ref().map(|of| of[set])).to_vec();
+        (0..self.zetas.len()).map(of_set).collect()
+    }
+
+    fn add_octaves(&self, r_first: f64, octaves: usize, coefficients: &mut [Vec<[f64; N]>]) {
+        let rule = Rule::new(self.smallest_scale(r_first), 2.0 * WINDOW_MIDDLE, NODES);
+        let (radii, bessels) = &*octave(&rule);
+        for octave in 0..octaves {
+            let r_a = r_first * (octave as f64).exp2();
+            let weighted = self.weighted_amplitudes(&rule, r_a, Some(WINDOW_MIDDLE));
+            let add = |(set, coefficients): (usize, &mut Vec<[f64; N]>)| {
+                let value = |(bessels, rho): (&Vec<[f64; 4]>, &f64)| {
+                    let mut g = [0.0; N];
+                    for (j, a) in bessels.iter().zip(&weighted) {
+                        for n in 0..N {
+                            g[n] += a[set][n] * j[self.orders[n]];
+                        }
+                    }
+                    self.divide_by_powers(g, rho * r_a)
+                };
+                let values: Vec<[f64; N]> = bessels.iter().zip(radii).map(value).collect();
+                for panel in values.chunks_exact(ORDER) {
+                    let panel: &[[f64; N]; ORDER] =
+                        panel.try_into().expect("a panel has ORDER nodes");
+                    coefficients.extend(transform(panel));
+                }
+            };
+            coefficients.par_iter_mut().enumerate().for_each(add);
         }
     }
 
-    fn tabulate_first_panel(&self, r_first: f64) -> Vec<[f64; N]> {
-        let rule = Rule::new(
-            self.smallest_scale(r_first),
-            DECAY / self.zeta * r_first,
-            NODES,
-        );
-        let weighted = self.weighted_amplitudes(&rule, r_first, None);
-        let radii = cosines().map(|x| f64::midpoint(1.0, x).sqrt());
-        let values = radii.map(|rho| self.sum(&rule, &weighted, rho, r_first));
-        transform(&values).to_vec()
-    }
-
-    fn tabulate_octaves(&self, r_first: f64, octaves: usize) -> Vec<[f64; N]> {
-        let rule = Rule::new(self.smallest_scale(r_first), 2.0 * WINDOW_MIDDLE, NODES);
-        let (radii, bessels) = &*octave(&rule);
-        (0..octaves)
-            .into_par_iter()
-            .flat_map_iter(|octave| {
-                let r_a = r_first * (octave as f64).exp2();
-                let weighted = self.weighted_amplitudes(&rule, r_a, Some(WINDOW_MIDDLE));
-                let values: Vec<[f64; N]> = bessels
-                    .iter()
-                    .zip(radii)
-                    .map(|(bessels, rho)| {
-                        let mut g = [0.0; N];
-                        for (j, a) in bessels.iter().zip(&weighted) {
-                            for n in 0..N {
-                                g[n] += a[n] * j[self.orders[n]];
-                            }
-                        }
-                        self.divide_by_powers(g, rho * r_a)
-                    })
-                    .collect();
-                let panels = values.chunks_exact(ORDER);
-                panels
-                    .flat_map(|v| transform(v.try_into().expect("a panel has ORDER nodes")))
-                    .collect::<Vec<_>>()
-            })
-            .collect()
-    }
-
-    /// Largest deviation of the table from a finer integration, each function in the unit r^m,
-    /// times `r`: one radius in each octave, off the nodes.
-    pub fn max_deviation(&self, table: &RadialTable<N>, r_max: f64) -> f64 {
-        let mut radii = vec![0.37 * table.s_first.sqrt()];
-        let mut r = 1.23 * table.s_first.sqrt();
+    /// Largest deviation of each table from a finer integration, each function in the unit r^m, times
+    /// `r`: one radius in each octave, off the nodes.
+    pub(super) fn max_deviations(&self, tables: &[&RadialTable<N>], r_max: f64) -> Vec<f64> {
+        let s_first = tables[0].s_first.sqrt();
+        let mut radii = vec![0.37 * s_first];
+        let mut r = 1.23 * s_first;
         while r < r_max {
             radii.push(r);
             r *= 2.13;
         }
-        let deviation = |r: &f64| {
-            let (fine, table) = (self.evaluate_finer(*r), table.evaluate(r * r));
-            let deviations =
-                (0..N).map(|n| (fine[n] - table[n]).abs() * r.powi(self.orders[n] as i32));
-            // A maximum would ignore NaN.
-            let largest = deviations.fold(
-                0.0,
-                |m: f64, v| if v.is_nan() { f64::INFINITY } else { m.max(v) },
-            );
-            r * largest
+        let deviations = |r: &f64| -> Vec<f64> {
+            let fine = self.evaluate_finer(*r);
+            let deviation = |(fine, table): (&[f64; N], &&RadialTable<N>)| {
+                let table = table.evaluate(r * r);
+                let deviations =
+                    (0..N).map(|n| (fine[n] - table[n]).abs() * r.powi(self.orders[n] as i32));
+                // A maximum would ignore NaN.
+                let largest =
+                    deviations.fold(
+                        0.0,
+                        |m: f64, v| if v.is_nan() { f64::INFINITY } else { m.max(v) },
+                    );
+                r * largest
+            };
+            fine.iter().zip(tables).map(deviation).collect()
         };
-        radii.par_iter().map(deviation).reduce(|| 0.0, f64::max)
+        let larger = |a: Vec<f64>, b: Vec<f64>| a.iter().zip(b).map(|(a, b)| a.max(b)).collect();
+        let none = || vec![0.0; tables.len()];
+        radii.par_iter().map(deviations).reduce(none, larger)
     }
 }
 
 impl<const N: usize> RadialTable<N> {
+    /// Memory of the coefficients \[bytes\].
+    pub(super) fn bytes(&self) -> usize {
+        std::mem::size_of_val(self.coefficients.as_slice())
+    }
+
     /// g_n(r)/r^m at s = r^2, within the range tabulated.
     pub fn evaluate(&self, s: f64) -> [f64; N] {
         let ratio = s / self.s_first;
