@@ -176,12 +176,18 @@ impl Points {
             let key = (depth.z.to_bits(), depth.layer);
             by_depth.entry(key).or_default().push(n);
         }
+        let distances = points.iter().map(|(x, y, _)| x.hypot(*y));
+        let farthest = distances.fold(0.0, f64::max);
+        if by_depth.len() > 1 {
+            let depths: Vec<Depth> = by_depth.values().map(|group| points[group[0]].2).collect();
+            self.prepare::<Q, N, R>(&depths, farthest)?;
+        }
         let groups: Vec<_> = by_depth
             .into_values()
             .collect::<Vec<_>>()
             .into_par_iter()
             .map(|group| {
-                let values = self.values_at_depth(points, &group, &more)?;
+                let values = self.values_at_depth((points, farthest), &group, &more)?;
                 Ok((group, values))
             })
             .collect::<Result<_, Error>>()?;
@@ -200,19 +206,26 @@ impl Points {
         Ok(by_state)
     }
 
+    /// Tabulates the kernels at several depths together, for points up to a distance from the middle of
+    /// the grid \[m\].
+    pub(super) fn prepare<Q: Quantity<N, R>, const N: usize, const R: usize>(
+        &self,
+        depths: &[Depth],
+        farthest: f64,
+    ) -> Result<(), Error> {
+        let reach = self.plane.reach() + farthest;
+        self.loaded.prepare_kernels::<Q, N, R>(depths, reach)
+    }
+
     /// The values of every state at the points of a group, which share their depth; `more` is
-    /// added.
+    /// added. All points lie within `farthest` of the middle of the grid \[m\].
     fn values_at_depth<Q: Quantity<N, R> + Sync, const N: usize, const R: usize>(
         &self,
-        points: &[Point],
+        (points, farthest): (&[Point], f64),
         group: &[usize],
         more: &(impl Fn(&DepthKernel<Q, N, R>, Depth, usize, &mut Vec<[f64; R]>) + Sync),
     ) -> Result<Vec<Vec<[f64; R]>>, Error> {
         let depth = points[group[0]].2;
-        let farthest = group
-            .iter()
-            .map(|n| points[*n].0.hypot(points[*n].1))
-            .fold(0.0, f64::max);
         let reach = self.plane.reach() + farthest;
         let kernel: DepthKernel<Q, N, R> = self.loaded.kernel(depth, reach)?;
         let source = Source::for_depth(depth.z, self.plane.d);

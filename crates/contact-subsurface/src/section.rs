@@ -72,12 +72,14 @@ impl Section {
     /// Stress of each state \[Pa\], shape (6, depths, cells along the line): xx, yy, zz, xy, xz,
     /// yz.
     pub fn stress(&self, depths: &[Depth]) -> Result<Vec<Array3<f64>>, Error> {
+        self.prepare::<Stress, 10, 6>(depths)?;
         self.gather::<6>(depths, |depth| self.stress_at(depth))
     }
 
     /// Displacement of each state relative to infinity \[m\], shape (3, depths, cells along the
     /// line).
     pub fn displacement(&self, depths: &[Depth]) -> Result<Vec<Array3<f64>>, Error> {
+        self.prepare::<Displacement, 5, 3>(depths)?;
         self.gather::<3>(depths, |depth| match &self.method {
             Method::Rows(rows) => rows.displacement_at(depth),
             Method::Points(points, places) => points
@@ -94,10 +96,28 @@ impl Section {
         kept: &mut [T],
         f: impl Fn(&mut T, Depth, &[Array2<f64>]) + Sync,
     ) -> Result<(), Error> {
+        self.prepare::<Stress, 10, 6>(depths)?;
         depths.par_iter().zip(kept).try_for_each(|(depth, kept)| {
             f(kept, *depth, &self.stress_at(*depth)?);
             Ok(())
         })
+    }
+
+    /// Tabulates the kernels at the depths of a line along an axis together.
+    fn prepare<Q: Quantity<N, R>, const N: usize, const R: usize>(
+        &self,
+        depths: &[Depth],
+    ) -> Result<(), Error> {
+        match &self.method {
+            Method::Rows(rows) => {
+                let reach = rows.plane.reach();
+                rows.loaded.prepare_kernels::<Q, N, R>(depths, reach)
+            }
+            Method::Points(points, places) => {
+                let farthest = places.iter().map(|(x, y)| x.hypot(*y)).fold(0.0, f64::max);
+                points.prepare::<Q, N, R>(depths, farthest)
+            }
+        }
     }
 
     /// The lines at all depths, by state.

@@ -89,6 +89,9 @@ impl Slices {
         kept: &mut [T],
         f: impl Fn(&mut T, Depth, &[Array2<f64>]) + Sync,
     ) -> Result<(), Error> {
+        let reach = self.plane.reach();
+        self.loaded
+            .prepare_kernels::<Stress, 10, 6>(depths, reach)?;
         depths.par_iter().zip(kept).try_for_each(|(depth, kept)| {
             let flat = |planes: [Array2<f64>; 6]| {
                 let cells = planes[0].len();

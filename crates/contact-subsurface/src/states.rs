@@ -118,6 +118,22 @@ impl Loaded {
         DepthKernel::new(&self.stack, position, reach, (dx, dy))
     }
 
+    /// Tabulates the kernels at several depths together, for [`Self::kernel`] with the same reach. A
+    /// depth that has no kernel is left to [`Self::kernel`], which refuses it.
+    pub(super) fn prepare_kernels<Q: Quantity<N, R>, const N: usize, const R: usize>(
+        &self,
+        depths: &[Depth],
+        reach: f64,
+    ) -> Result<(), Error> {
+        unless(&self.stop)?;
+        let locate = |depth: &Depth| {
+            check_not_rigid(&self.body, depth.layer).ok()?;
+            self.stack.locate_depth(depth.z, Some(depth.layer)).ok()
+        };
+        let places: Vec<_> = depths.iter().filter_map(locate).collect();
+        DepthKernel::<Q, N, R>::prepare(&self.stack, &places, reach)
+    }
+
     /// s_xx and s_yy of a state at a depth that are the same all over the depth \[Pa\].
     pub(super) fn uniform(&self, state: usize, depth: Depth) -> [f64; 4] {
         self.uniform.stress(&self.body, state, depth)

@@ -82,8 +82,9 @@ pub(crate) fn insert(key: Key, coefficients: &Arc<InfluenceCoefficients>) {
     }
 }
 
-/// Empties the cache of coefficients of this process.
+/// Empties the caches of coefficients and of tables at depths of this process.
 pub fn clear_cache() {
+    super::depth_tables::clear();
     ENTRIES
         .lock()
         .unwrap_or_else(PoisonError::into_inner)

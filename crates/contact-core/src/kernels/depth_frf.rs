@@ -120,15 +120,14 @@ impl Stack {
     /// material, which decays slower (only for places in the outermost layer).
     pub(crate) fn fields(&self, k: f64, place: &DepthPoint, remainder: bool) -> WaveFields {
         let mut fields = WaveFields::default();
-        self.fields_at(k, std::slice::from_ref(place), remainder, |_, at| {
-            fields = at
-        });
+        let places = std::slice::from_ref(place);
+        self.fields_of_places(k, places, remainder, |_, response| fields = response);
         fields
     }
 
-    /// The responses at several depths by one recursion over the layers; `put` takes each with its
-    /// number. `remainder` as in [`Self::fields`].
-    pub(crate) fn fields_at(
+    /// The responses at several depths by one recursion over the layers; `put` takes each response with
+    /// the number of its depth. `remainder` as in [`Self::fields`].
+    pub(crate) fn fields_of_places(
         &self,
         k: f64,
         places: &[DepthPoint],

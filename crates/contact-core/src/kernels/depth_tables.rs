@@ -1,8 +1,8 @@
 //! Tables of the responses at depths below a layered surface, kept for the next use.
 //!
-//! Sections, points and planes below one contact ask for the same depths, and the answers to several questions
-//! do. A recursion over the layers takes as long as there are layers, for one depth as for many:
-//! tables of many depths are made together.
+//! Sections, points and planes below one contact need the same depths, and so do several questions.
+//! A recursion over the layers takes a time in proportion to their number, for one depth as for many.
+//! So the tables of many depths are made together: their time grows linearly with the layers.
 
 use std::any::{Any, TypeId};
 use std::collections::HashMap;
@@ -11,15 +11,15 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
 use super::depth_frf::DepthPoint;
-use super::depth_kernel::Quantity;
 use super::layered_frf::{HalfSpace, Stack};
+use super::quantity::Quantity;
 use super::radial_table::{HankelSet, RadialTable, first_radius};
 use crate::error::Error;
 
 /// Largest error of the tabulated part over the response of the half-space.
 const TOLERANCE: f64 = 1e-9;
 /// Most depths whose tables are made together.
-const TOGETHER: usize = 64;
+const TOGETHER: usize = 256;
 /// Most memory of the tables that are kept \[bytes\].
 const MOST_MEMORY: usize = 96 << 20;
 
@@ -51,6 +51,11 @@ pub fn depth_tables_made() -> u64 {
     MADE.load(Ordering::Relaxed)
 }
 
+/// Forgets all tables.
+pub(super) fn clear() {
+    *TABLES.lock().unwrap_or_else(PoisonError::into_inner) = Tables::default();
+}
+
 impl Tables {
     fn get<const N: usize>(&mut self, key: &Key) -> Option<Arc<Smooth<N>>> {
         self.uses += 1;
@@ -68,7 +73,11 @@ impl Tables {
             self.bytes -= replaced;
         }
         if self.bytes > MOST_MEMORY {
-            let mut by_use: Vec<_> = self.kept.iter().map(|(key, of)| (of.0, *key)).collect();
+            let mut by_use: Vec<_> = self
+                .kept
+                .iter()
+                .map(|(key, entry)| (entry.0, *key))
+                .collect();
             by_use.sort_unstable_by_key(|(used, _)| *used);
             for (_, key) in by_use {
                 if self.bytes <= MOST_MEMORY / 4 * 3 {
@@ -92,7 +101,7 @@ pub(super) fn table<Q: Quantity<N, R>, const N: usize, const R: usize>(
     r_max: f64,
 ) -> Result<Arc<Smooth<N>>, Error> {
     let reach = reach(r_max);
-    let key = key_of::<Q, N, R>(digest(stack), &place, reach);
+    let key = table_key::<Q, N, R>(digest(stack), &place, reach);
     let kept = TABLES
         .lock()
         .unwrap_or_else(PoisonError::into_inner)
@@ -103,34 +112,36 @@ pub(super) fn table<Q: Quantity<N, R>, const N: usize, const R: usize>(
     }
 }
 
-/// Makes the tables of places that are not kept.
+/// Makes the tables of places that are not kept. Returns the number of sets of places whose tables were
+/// made together.
 pub(super) fn prepare<Q: Quantity<N, R>, const N: usize, const R: usize>(
     stack: &Stack,
     places: &[DepthPoint],
     r_max: f64,
-) -> Result<(), Error> {
+) -> Result<usize, Error> {
     let (reach, digest) = (reach(r_max), digest(stack));
-    let missing: Vec<DepthPoint> = {
+    let mut missing: Vec<DepthPoint> = {
         let mut tables = TABLES.lock().unwrap_or_else(PoisonError::into_inner);
         let is_missing = |place: &&DepthPoint| {
-            let key = key_of::<Q, N, R>(digest, place, reach);
+            let key = table_key::<Q, N, R>(digest, place, reach);
             tables.get::<N>(&key).is_none()
         };
         places.iter().filter(is_missing).copied().collect()
     };
-    // Those with one end of the first panel share their nodes.
+    // Places with one end of the first panel share their nodes.
     let group = |place: &DepthPoint| {
         let zeta = smallest_scale(stack, place);
         (place.layer == 0, first_radius(zeta, reach).to_bits())
     };
-    let mut missing = missing;
     missing.sort_by_key(|place| group(place));
-    for same in missing.chunk_by(|a, b| group(a) == group(b)) {
-        for some in same.chunks(TOGETHER) {
-            make::<Q, N, R>(stack, some, reach)?;
+    let mut sets = 0;
+    for group in missing.chunk_by(|a, b| group(a) == group(b)) {
+        for places in group.chunks(TOGETHER) {
+            make::<Q, N, R>(stack, places, reach)?;
+            sets += 1;
         }
     }
-    Ok(())
+    Ok(sets)
 }
 
 /// The smallest scale of the tabulated part at a place \[m\].
@@ -153,9 +164,9 @@ fn make<Q: Quantity<N, R>, const N: usize, const R: usize>(
         .iter()
         .map(|place| smallest_scale(stack, place))
         .collect();
-    let amplitudes = |k: f64, at: &mut [[f64; N]]| {
-        stack.fields_at(k, places, outermost, |n, fields| {
-            at[n] = Q::amplitudes(k, &fields)
+    let amplitudes = |k: f64, amplitudes: &mut [[f64; N]]| {
+        stack.fields_of_places(k, places, outermost, |n, fields| {
+            amplitudes[n] = Q::amplitudes(k, &fields);
         });
     };
     let hankel = HankelSet {
@@ -181,7 +192,7 @@ fn make<Q: Quantity<N, R>, const N: usize, const R: usize>(
     let mut kept = TABLES.lock().unwrap_or_else(PoisonError::into_inner);
     let keep = |((table, zeta), place): ((RadialTable<N>, f64), &DepthPoint)| {
         let smooth = Arc::new(Smooth { table, zeta });
-        kept.insert(key_of::<Q, N, R>(digest, place, reach), smooth.clone());
+        kept.insert(table_key::<Q, N, R>(digest, place, reach), smooth.clone());
         smooth
     };
     Ok(tables
@@ -192,7 +203,7 @@ fn make<Q: Quantity<N, R>, const N: usize, const R: usize>(
         .collect())
 }
 
-fn key_of<Q: Quantity<N, R>, const N: usize, const R: usize>(
+fn table_key<Q: Quantity<N, R>, const N: usize, const R: usize>(
     digest: [u64; 2],
     place: &DepthPoint,
     reach: f64,
@@ -218,4 +229,84 @@ fn digest(stack: &Stack) -> [u64; 2] {
         (seed, &bits).hash(&mut hasher);
         hasher.finish()
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::radial_table::Hankel;
+    use super::super::stress::Stress;
+    use super::*;
+    use crate::scene::{Body, Coating, Elastic, Shape};
+
+    /// Layers of two materials in turn, and the borders and the middle of each.
+    fn stack_and_places(layers: usize) -> (Stack, Vec<DepthPoint>) {
+        let materials =
+            [(250e9, 0.25, 1e-8), (450e9, 0.2, 2e-8)].map(|(E, nu, thickness)| Coating {
+                material: Elastic { E, nu },
+                thickness,
+            });
+        let coatings = (0..layers).map(|n| materials[n % 2]);
+        let substrate = Elastic { E: 207e9, nu: 0.3 };
+        let body = Body::coated(substrate, coatings, Shape::Flat);
+        let stack = Stack::new(&body);
+        let mut top = 0.0;
+        let mut places = Vec::new();
+        for n in 0..layers {
+            let h = stack.layers[n].1;
+            for z in [top, top + 0.5 * h, top + h] {
+                places.extend(stack.locate_depth(z, Some(n)));
+            }
+            top += h;
+        }
+        places.extend([1.0, 5.0, 30.0].map(|of| {
+            let below = stack.locate_depth(of * top, Some(layers));
+            below.expect("a depth in the substrate")
+        }));
+        (stack, places)
+    }
+
+    /// The table of a depth made alone, with all radial functions over their r^m.
+    fn made_alone(stack: &Stack, place: DepthPoint, r_max: f64) -> RadialTable<10> {
+        let outermost = place.layer == 0;
+        let hankel = Hankel {
+            amplitude: &|k| Stress::amplitudes(k, &stack.fields(k, &place, outermost)),
+            orders: Stress::ORDERS,
+            zeta: smallest_scale(stack, &place),
+            k_low: stack.lowest_scale(),
+        };
+        hankel.tabulate(reach(r_max))
+    }
+
+    #[test]
+    fn tables_made_together_are_the_tables_of_single_depths() {
+        let (stack, places) = stack_and_places(13);
+        let r_max = 3e-5;
+        prepare::<Stress, 10, 6>(&stack, &places, r_max).expect("tables");
+        let made = depth_tables_made();
+        assert!(made >= places.len() as u64);
+        for place in places {
+            let together = table::<Stress, 10, 6>(&stack, place, r_max).expect("a table");
+            let alone = made_alone(&stack, place, r_max);
+            for r in [0.0, 1e-9, 3e-8, 1e-6, 2.9e-5] {
+                let (together, alone) = (together.table.evaluate(r * r), alone.evaluate(r * r));
+                let scale = alone.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+                for (a, b) in together.iter().zip(alone) {
+                    assert!((a - b).abs() < 1e-13 * scale, "{place:?}, r = {r}: {a} {b}");
+                }
+            }
+        }
+    }
+
+    /// A set needs one recursion over the layers for each wave number. So the time grows linearly with
+    /// the layers if the number of sets does not grow with it.
+    #[test]
+    fn more_layers_do_not_need_more_recursions() {
+        let sets = |layers| {
+            let (stack, places) = stack_and_places(layers);
+            prepare::<Stress, 10, 6>(&stack, &places, 1e-6).expect("tables")
+        };
+        let (few, many) = (sets(12), sets(48));
+        assert!(many <= few + 3, "{few} sets for 12 layers, {many} for 48");
+        assert_eq!(sets(48), 0, "the tables are kept");
+    }
 }

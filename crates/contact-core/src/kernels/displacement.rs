@@ -11,9 +11,9 @@
 //! ```
 
 use super::depth_frf::WaveFields;
-use super::depth_kernel::Quantity;
 use super::half_space_displacement::{self, DisplacementResponse};
 use super::layered_frf::{HalfSpace, Stack};
+use super::quantity::Quantity;
 
 /// The three displacements \[m/Pa\].
 pub struct Displacement;

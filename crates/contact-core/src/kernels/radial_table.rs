@@ -156,8 +156,8 @@ pub(super) fn first_radius(zeta: f64, r_max: f64) -> f64 {
     zeta.min(r_max.log2().ceil()).exp2()
 }
 
-/// Several sets of functions with one end of the first panel ([`first_radius`]), such as the responses at several depths of
-/// a stack: they share the nodes in k, so that a recursion over the layers serves all of them.
+/// Several sets of functions with one end of the first panel ([`first_radius`]): the responses at several
+/// depths of a stack. They share the nodes in k, so that one recursion over the layers serves all of them.
 pub(super) struct HankelSet<'a, const N: usize> {
     /// Writes the amplitudes A_n(k) of each set.
     pub(super) amplitudes: &'a (dyn Fn(f64, &mut [[f64; N]]) + Sync),
@@ -189,39 +189,48 @@ impl<const N: usize> HankelSet<'_, N> {
     ) -> Vec<Vec<[f64; N]>> {
         let sets = self.zetas.len();
         let least_zeta = self.least_zeta();
-        let amplitudes_at = |&(t, w): &(f64, f64)| {
+        let mut weighted = vec![vec![[0.0; N]; rule.0.len()]; sets];
+        let mut amplitudes = vec![[0.0; N]; sets];
+        for (node, &(t, w)) in rule.0.iter().enumerate() {
             let k = t / r_a;
-            let mut at = vec![[0.0; N]; sets];
             if k * least_zeta > DECAY {
-                return at;
+                continue;
             }
             let window_value = window.map_or(1.0, |c| libm::erfc((t - c) / WINDOW_WIDTH) / 2.0);
             let factor = window_value * w / r_a / (2.0 * PI);
-            (self.amplitudes)(k, &mut at);
-            for (amplitudes, zeta) in at.iter_mut().zip(self.zetas) {
-                let factor = if k * zeta > DECAY { 0.0 } else { factor };
-                amplitudes.iter_mut().for_each(|a| *a *= factor);
+            (self.amplitudes)(k, &mut amplitudes);
+            for ((values, amplitudes), zeta) in weighted.iter_mut().zip(&amplitudes).zip(self.zetas)
+            {
+                if k * zeta <= DECAY {
+                    values[node] = amplitudes.map(|a| a * factor);
+                }
             }
-            at
-        };
-        rule.0.par_iter().map(amplitudes_at).collect()
+        }
+        // Amplitudes that have decayed end the sums.
+        for values in &mut weighted {
+            let is_zero = |a: &[f64; N]| a.iter().all(|a| *a == 0.0);
+            let end = values.iter().rposition(|a| !is_zero(a));
+            values.truncate(end.map_or(0, |last| last + 1));
+        }
+        weighted
     }
 
     /// g_n(r)/r^m of each set at r = `rho` r_a, from the weighted amplitudes.
     fn sums(&self, rule: &Rule, weighted: &[Vec<[f64; N]>], rho: f64, r_a: f64) -> Vec<[f64; N]> {
-        let mut sums = vec![[0.0; N]; self.zetas.len()];
-        for (&(t, _), at) in rule.0.iter().zip(weighted) {
-            if at.iter().flatten().any(|a| a.abs() > 0.0) {
-                let j = bessel(t * rho);
-                for (g, a) in sums.iter_mut().zip(at) {
-                    for n in 0..N {
-                        g[n] += a[n] * j[self.orders[n]];
-                    }
-                }
+        let bessels: Vec<[f64; 4]> = rule.0.iter().map(|(t, _)| bessel(t * rho)).collect();
+        let sum = |values: &Vec<[f64; N]>| self.sum(&bessels, values, rho * r_a);
+        weighted.iter().map(sum).collect()
+    }
+
+    /// g_n(r)/r^m at `r`, from the Bessel functions and the weighted amplitudes at the nodes.
+    fn sum(&self, bessels: &[[f64; 4]], weighted: &[[f64; N]], r: f64) -> [f64; N] {
+        let mut g = [0.0; N];
+        for (j, a) in bessels.iter().zip(weighted) {
+            for n in 0..N {
+                g[n] += a[n] * j[self.orders[n]];
             }
         }
-        let divided = |g: [f64; N]| self.divide_by_powers(g, rho * r_a);
-        sums.into_iter().map(divided).collect()
+        self.divide_by_powers(g, r)
     }
 
     fn divide_by_powers(&self, mut g: [f64; N], r: f64) -> [f64; N] {
@@ -265,34 +274,35 @@ impl<const N: usize> HankelSet<'_, N> {
         let weighted = self.weighted_amplitudes(&rule, r_first, None);
         let radii = cosines().map(|x| f64::midpoint(1.0, x).sqrt());
         let values = radii.map(|rho| self.sums(&rule, &weighted, rho, r_first));
-        let of_set = |set: usize| transform(&values.each_ref().map(|of| of[set])).to_vec();
-        (0..self.zetas.len()).map(of_set).collect()
+        let coefficients =
+            |set: usize| transform(&values.each_ref().map(|sums| sums[set])).to_vec();
+        (0..self.zetas.len()).map(coefficients).collect()
     }
 
+    /// Adds the coefficients of the octaves beyond the first panel to each set.
     fn add_octaves(&self, r_first: f64, octaves: usize, coefficients: &mut [Vec<[f64; N]>]) {
         let rule = Rule::new(self.smallest_scale(r_first), 2.0 * WINDOW_MIDDLE, NODES);
         let (radii, bessels) = &*octave(&rule);
-        for octave in 0..octaves {
+        let tabulate = |octave: usize| -> Vec<Vec<[f64; N]>> {
             let r_a = r_first * (octave as f64).exp2();
             let weighted = self.weighted_amplitudes(&rule, r_a, Some(WINDOW_MIDDLE));
-            let add = |(set, coefficients): (usize, &mut Vec<[f64; N]>)| {
-                let value = |(bessels, rho): (&Vec<[f64; 4]>, &f64)| {
-                    let mut g = [0.0; N];
-                    for (j, a) in bessels.iter().zip(&weighted) {
-                        for n in 0..N {
-                            g[n] += a[set][n] * j[self.orders[n]];
-                        }
-                    }
-                    self.divide_by_powers(g, rho * r_a)
-                };
-                let values: Vec<[f64; N]> = bessels.iter().zip(radii).map(value).collect();
-                for panel in values.chunks_exact(ORDER) {
-                    let panel: &[[f64; N]; ORDER] =
-                        panel.try_into().expect("a panel has ORDER nodes");
-                    coefficients.extend(transform(panel));
-                }
+            let panels_of = |weighted: Vec<[f64; N]>| {
+                let nodes = bessels.iter().zip(radii);
+                let values: Vec<[f64; N]> = nodes
+                    .map(|(bessels, rho)| self.sum(bessels, &weighted, rho * r_a))
+                    .collect();
+                let panels = values.chunks_exact(ORDER);
+                panels
+                    .flat_map(|v| transform(v.try_into().expect("a panel has ORDER nodes")))
+                    .collect()
             };
-            coefficients.par_iter_mut().enumerate().for_each(add);
+            weighted.into_par_iter().map(panels_of).collect()
+        };
+        let by_octave: Vec<_> = (0..octaves).into_par_iter().map(tabulate).collect();
+        for of_sets in by_octave {
+            for (coefficients, more) in coefficients.iter_mut().zip(of_sets) {
+                coefficients.extend(more);
+            }
         }
     }
 
