@@ -29,7 +29,7 @@ pub type StressResponse = [[f64; 3]; 6];
 /// logarithm of the distance. There the distance is taken for `edge`, along x and along y in the
 /// same unit.
 pub(crate) fn corner(x: f64, y: f64, z: f64, edge: (f64, f64), nu: f64) -> StressResponse {
-    let rho = x.hypot(y).hypot(z);
+    let rho = (x * x + y * y + z * z).sqrt();
     let (xz2, yz2) = (x * x + z * z, y * y + z * z);
     let rho_plus_z = rho + z;
     // L_xx, L_yy, L_zz, L_xy, L_xz, L_yz.
@@ -37,7 +37,7 @@ pub(crate) fn corner(x: f64, y: f64, z: f64, edge: (f64, f64), nu: f64) -> Stres
     let l_xx = mean_angle(y, x) - mean_angle(y * z, x * rho);
     let l_yy = mean_angle(x, y) - mean_angle(x * z, y * rho);
     let l_zz = -depth_angle;
-    let vertex = edge.0.hypot(edge.1);
+    let vertex = (edge.0 * edge.0 + edge.1 * edge.1).sqrt();
     let (l_xy, l_xz, l_yz) = (
         log_or_zero(rho_plus_z / vertex),
         log_sum(y, xz2, edge.0),

@@ -423,7 +423,7 @@ impl CellTractions {
             return [p * x, p * y, p];
         };
         let [e_x, e_y] = e.each_ref().map(|e| e.interpolate(offset));
-        let length = e_x.hypot(e_y).max(f64::MIN_POSITIVE);
+        let length = (e_x * e_x + e_y * e_y).sqrt().max(f64::MIN_POSITIVE);
         let (e_x, e_y) = (e_x / length, e_y / length);
         // Along e the bound gives the shear, across it q/p.
         let shear_along = m.interpolate(offset) * p - shortfall.interpolate(offset).max(0.0).sqrt();
