@@ -3,6 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
+use super::numbers::Q_MAX;
 use super::two_runs::{PathError, TwoRuns, of_trial};
 use crate::error::Error;
 use crate::march::March;
@@ -185,7 +186,12 @@ impl Trial {
             } else {
                 1.0 - (-order).exp2()
             };
-            PathError { q: whole, ..change }.times(missed / part)
+            let mut error = PathError { q: whole, ..change }.times(missed / part);
+            if grows {
+                let unconfirmed = error.unconfirmed[usize::from(halves)];
+                error.numbers[Q_MAX] = unconfirmed.max(error.numbers[Q_MAX].abs());
+            }
+            error
         };
         let branches = path.branches.iter().zip(change);
         Ok(branches.enumerate().map(of_path).collect())

@@ -35,6 +35,8 @@ pub(crate) struct PathError {
     pub(crate) bearable: f64,
     /// Mean width of the ring of slip there \[m\].
     pub(crate) ring: f64,
+    /// [`unconfirmed_peak`] of the run with few increments by the run with many, and the reverse \[Pa\].
+    pub(crate) unconfirmed: [f64; 2],
 }
 
 /// Above SLIDING times the limit of friction shift and energy grow without bound while the shear
@@ -175,6 +177,10 @@ impl TwoRuns {
                     reached: many.q() / q,
                     bearable: self.mu * many.p() / q,
                     ring: (1.0 - many.summary.stick_ratio.sqrt()) * many.summary.contact_radius,
+                    unconfirmed: [
+                        unconfirmed_peak(&few.tractions, &many.tractions),
+                        unconfirmed_peak(&many.tractions, &few.tractions),
+                    ],
                 }
             })
             .collect())
@@ -265,6 +271,23 @@ impl End {
     fn q(&self) -> f64 {
         norm(&self.tractions[1]).hypot(norm(&self.tractions[2]))
     }
+}
+
+/// Part of the largest shear traction that another run does not confirm \[Pa\]:
+/// max |q| - max (|q| - |q - q'|).
+///
+/// Cells that enter the contact within an increment keep a shear that belongs to its end. The error is a
+/// ripple with peaks at the borders of the increments. It falls like n^-1/2 at the peaks, while the
+/// largest |q| jumps from peak to peak: its change from n/2 to n is no error of it.
+fn unconfirmed_peak([_, x, y]: &Tractions, [_, other_x, other_y]: &Tractions) -> f64 {
+    let (mut largest, mut confirmed) = (0.0_f64, 0.0_f64);
+    let cells = x.iter().zip(y).zip(other_x.iter().zip(other_y));
+    for ((x, y), (other_x, other_y)) in cells {
+        let q = x.hypot(*y);
+        largest = largest.max(q);
+        confirmed = confirmed.max(q - (x - other_x).hypot(y - other_y));
+    }
+    largest - confirmed
 }
 
 fn norm(f: &Array2<f64>) -> f64 {
