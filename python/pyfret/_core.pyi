@@ -577,6 +577,18 @@ class Cone:
         """Tangent of the angle between flank and contact plane."""
 
 @final
+class CheckedStore:
+    """A result store whose values are checked when they are read; use :func:`pyfret.open`."""
+
+    def __new__(cls, /, store: str | PathLike[str]) -> CheckedStore: ...
+    def attributes(self, /) -> str:
+        """Return the attributes of the group as JSON."""
+    def check(self, /) -> None:
+        """Fail if a file of the store is missing or is not as it was written."""
+    def check_part(self, /, name: str, first: int, end: int) -> None:
+        """Fail if a chunk with entries from `first` to before `end` is missing or damaged."""
+
+@final
 class ContactForCracks:
     """
     A contact in several of its states, prepared for cracks; use :meth:`pyfret.Result.crack`.
@@ -4273,6 +4285,7 @@ __all__ = [
     "Bond",
     "Branch",
     "CattaneoMindlin",
+    "CheckedStore",
     "CoatedIndentation",
     "Coating",
     "Cone",

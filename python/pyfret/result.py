@@ -188,8 +188,9 @@ class Result(Run, Shows):
 def open_result(path: str | os.PathLike[str]) -> Result:
     """Open a result: a Zarr store, or what :meth:`Result.save` wrote (``.zarr``, ``.nc``).
 
-    Fields are read when they are asked for. Every file of a store is checked before: what is read
-    is what was written. What :meth:`Result.save` wrote has no checksums and is not checked.
+    Fields are read when they are asked for. A store of up to 64 MB is checked as a whole before.
+    The fields of a larger one are checked when they are read: what is read is what was written.
+    What :meth:`Result.save` wrote is checked up to 256 MB.
 
     Raises
     ------

@@ -76,6 +76,17 @@ impl Store {
         whole::verify(&self.folder, &self.consolidated)
     }
 
+    /// Fails if a chunk of an array is missing or damaged that holds entries of the first axis from
+    /// `first` to before `end`. Entries beyond the array as it was opened are left out.
+    pub fn verify_part(&self, name: &str, first: u64, end: u64) -> Result<(), Error> {
+        let stored = self.array(name)?;
+        let shape = stored.shape();
+        let mut ranges: Vec<_> = shape.iter().map(|n| 0..*n).collect();
+        ranges[0] = first.min(shape[0])..end.min(shape[0]);
+        let verified = stored.verify(&ArraySubset::new_with_ranges(&ranges));
+        verified.map_err(|e| self.folder.error(&format!("{name}: {e}")))
+    }
+
     /// Opens a store and checks all of it. If the store is being written meanwhile, it tries again.
     pub fn open_whole(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();

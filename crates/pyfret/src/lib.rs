@@ -97,7 +97,7 @@ mod _core {
         goodman_stick_ratio, hertz, hertz_ellipse, line_contact,
     };
     #[pymodule_export]
-    use crate::result::{resume, solve, solve_in_memory, verify};
+    use crate::result::{CheckedStore, resume, solve, solve_in_memory, verify};
     #[pymodule_export]
     use crate::scene::{
         Body, Bond, Branch, Coating, Cone, CrownedRoller, Cylinder, Elastic, Ellipsoid, Flat,

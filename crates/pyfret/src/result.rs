@@ -170,6 +170,36 @@ pub(crate) fn solve_in_memory(
     Ok((variables.finish(), attributes))
 }
 
+/// A result store whose values are checked when they are read; use :func:`pyfret.open`.
+#[pyclass(frozen, module = "pyfret._core")]
+pub(crate) struct CheckedStore(contact_store::Store);
+
+#[pymethods]
+impl CheckedStore {
+    /// Opens a store and checks its metadata.
+    #[new]
+    fn new(py: Python<'_>, store: PathBuf) -> Answer<Self> {
+        let store = interruptible(py, &Arc::default(), || contact_store::Store::open(store))?;
+        Ok(Self(store?))
+    }
+
+    /// Return the attributes of the group as JSON.
+    fn attributes(&self) -> String {
+        self.0.attributes().to_string()
+    }
+
+    /// Fail if a file of the store is missing or is not as it was written.
+    fn check(&self, py: Python<'_>) -> Answer<()> {
+        Ok(interruptible(py, &Arc::default(), || self.0.verify())??)
+    }
+
+    /// Fail if a chunk with entries from `first` to before `end` is missing or damaged.
+    fn check_part(&self, py: Python<'_>, name: &str, first: u64, end: u64) -> Answer<()> {
+        let checked = || self.0.verify_part(name, first, end);
+        Ok(interruptible(py, &Arc::default(), checked)??)
+    }
+}
+
 /// Checks a store and gives the attributes of its group as JSON.
 #[pyfunction]
 pub(crate) fn verify(py: Python<'_>, store: PathBuf) -> Answer<String> {

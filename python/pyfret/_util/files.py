@@ -328,14 +328,17 @@ def opened(path: str | os.PathLike[str]) -> xr.Dataset:
         raise StoreError(f"{os.fspath(path)}: {type(error).__name__}: {message}") from error
 
 
-def checked(path: str | os.PathLike[str]) -> None:
-    """Refuse, before anything is read of it, what is neither a file nor a folder of ours."""
+def checked(path: str | os.PathLike[str], *, chunks: bool = True) -> None:
+    """Refuse, before anything is read of it, what is neither a file nor a folder of ours.
+
+    `chunks` as in :func:`pyfret._util.stores.check_store`.
+    """
     place = Path(path)
     restore(place)
     if not place.exists():
         raise StoreError(shown(f"{os.fspath(path)}: no such file or folder"))
     if place.is_dir():
-        check_store(place)
+        check_store(place, chunks=chunks)
     elif place.suffix != ".nc":
         read_bytes(path)
         raise StoreError(shown(f"{os.fspath(path)}: is no result: a folder .zarr, or a file .nc"))

@@ -43,8 +43,11 @@ FREE, LARGEST = 1 << 26, 1 << 28
 DEEPEST = 6
 
 
-def check_store(path: str | os.PathLike[str]) -> None:
+def check_store(path: str | os.PathLike[str], *, chunks: bool = True) -> None:
     """Refuse a store that asks for more than to be read.
+
+    Without `chunks` the sizes to which its chunks unpack are not compared with the metadata. The
+    reader of runs compares them chunk by chunk.
 
     Raises
     ------
@@ -54,10 +57,8 @@ def check_store(path: str | os.PathLike[str]) -> None:
     """
     root = Path(path)
     try:
-        found = list(entries(root, DEEPEST))
-        for file in found:
-            if file.name in DOCUMENTS:
-                check_document(root, file)
+        for file in [file for file in entries(root, DEEPEST) if file.name in DOCUMENTS]:
+            check_document(root, Path(file.path), chunks=chunks)
     except Refused as refused:
         raise StoreError(shown(f"{os.fspath(path)}: {refused}")) from None
     except (OSError, RecursionError) as error:
@@ -68,21 +69,21 @@ class Refused(Exception):
     """Why a store is not read."""
 
 
-def entries(folder: Path, levels: int) -> Iterator[Path]:
-    """The files of a folder and of those in it."""
+def entries(folder: str | os.PathLike[str], levels: int) -> Iterator[os.DirEntry[str]]:
+    """Iterate over the files of a folder and of the folders in it."""
     if levels == 0:
-        raise Refused(f"{folder.name}: folders lie {DEEPEST} deep in it")
+        raise Refused(f"{Path(folder).name}: folders lie {DEEPEST} deep in it")
     with os.scandir(folder) as listed:
         for entry in listed:
             if entry.is_dir():
-                yield from entries(Path(entry.path), levels - 1)
+                yield from entries(entry.path, levels - 1)
             elif entry.is_file():
-                yield Path(entry.path)
+                yield entry
             else:
                 raise Refused(f"{entry.name} is not a file")
 
 
-def check_document(root: Path, file: Path) -> None:
+def check_document(root: Path, file: Path, *, chunks: bool) -> None:
     """Refuse what a document of metadata asks for; the message names the document."""
     name = file.relative_to(root)
     try:
@@ -92,14 +93,14 @@ def check_document(root: Path, file: Path) -> None:
     if not isinstance(document, dict):
         raise Refused(f"the file {name} is damaged: it is no object")
     try:
-        check_arrays(document, file.parent, root)
+        check_arrays(document, file.parent, root, chunks=chunks)
     except Refused as refused:
         raise Refused(f"the file {name}: {refused}") from None
 
 
-def check_arrays(document: Mapping[str, Any], where: Path, root: Path) -> None:
-    """Refuse what a document asks for in its array, or in those that it collects."""
-    check_array(document, where, root)
+def check_arrays(document: Mapping[str, Any], where: Path, root: Path, *, chunks: bool) -> None:
+    """Refuse what a document asks for in its array, or in the arrays that it collects."""
+    check_array(document, where, root, chunks=chunks)
     for key in ("metadata", "consolidated_metadata"):
         inner = document.get(key)
         inner = inner.get("metadata", inner) if isinstance(inner, dict) else inner
@@ -107,10 +108,10 @@ def check_arrays(document: Mapping[str, Any], where: Path, root: Path) -> None:
             for name, of in inner.items():
                 if isinstance(of, dict):
                     part = name.removesuffix("/.zarray").removesuffix("/.zattrs")
-                    check_array(of, where / part.removeprefix("/"), root)
+                    check_array(of, where / part.removeprefix("/"), root, chunks=chunks)
 
 
-def check_array(of: Mapping[str, Any], where: Path, root: Path) -> None:
+def check_array(of: Mapping[str, Any], where: Path, root: Path, *, chunks: bool) -> None:
     """Refuse what the metadata of an array ask for; others say nothing of arrays."""
     if "shape" not in of and "dtype" not in of and "data_type" not in of:
         return
@@ -126,7 +127,7 @@ def check_array(of: Mapping[str, Any], where: Path, root: Path) -> None:
     word = kind.get("name") if isinstance(kind, dict) else kind
     if not isinstance(word, str) or not (TYPES.fullmatch(word) or word in NAMES):
         raise Refused(f"{name}: holds {kind!r}: pyfret reads numbers and text of a fixed length")
-    check_size(of, where, root, word)
+    check_size(of, where, root, word, unpacked=chunks)
 
 
 def codecs(of: Mapping[str, Any]) -> list[Any]:
@@ -145,12 +146,14 @@ def check_chunks(of: Mapping[str, Any], where: Path, root: Path, limit: int) -> 
     for file in entries(where, DEEPEST):
         if not file.name.startswith((".", "zarr")):
             for name in names:
-                if not unpacks_within(file, name, limit):
-                    shown_name = file.relative_to(root)
+                if not unpacks_within(Path(file.path), name, limit):
+                    shown_name = Path(file.path).relative_to(root)
                     raise Refused(f"{shown_name}: unpacks to more than its {limit} bytes")
 
 
-def check_size(of: Mapping[str, Any], where: Path, root: Path, word: str) -> None:
+def check_size(
+    of: Mapping[str, Any], where: Path, root: Path, word: str, *, unpacked: bool
+) -> None:
     """Refuse an array that says it is larger than its files can make it."""
     grid = of.get("chunk_grid") or {}
     inner = grid.get("configuration", {}) if isinstance(grid, dict) else {}
@@ -167,7 +170,8 @@ def check_size(of: Mapping[str, Any], where: Path, root: Path, word: str) -> Non
     values, chunk = math.prod(of["shape"]), math.prod(chunks or [1])
     if chunk > LARGEST:
         raise Refused(f"{where.name}: has chunks of {chunk} values: must be {LARGEST} at most")
-    check_chunks(of, where, root, chunk * each * (4 if "U" in word else 1))
+    if unpacked:
+        check_chunks(of, where, root, chunk * each * (4 if "U" in word else 1))
     if values * each <= FREE:
         return
     inside = where.resolve().is_relative_to(root.resolve()) and where.is_dir()

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import json
+from importlib import import_module
 from os import fspath
 from typing import TYPE_CHECKING
 
-from pyfret import _core
 from pyfret._core import StoreError
 from pyfret._util import files
 
@@ -26,11 +25,12 @@ def open_dataset(path: str | os.PathLike[str]) -> xr.Dataset:
     StoreError
         There is no store, or a file of it is missing or damaged; the message names both.
     """
-    files.checked(path)
-    # Zarr reads the attributes of the group from a file that no checksum covers.
-    attributes = {} if files.is_copy(path) else json.loads(_core.verify(path))
-    dataset = files.opened(path)
+    if files.is_copy(path):
+        dataset = files.opened(path)
+    else:
+        files.checked(path, chunks=False)
+        dataset = import_module("pyfret.run.checked_store").open_checked(path)
     if "scene" not in dataset.attrs or "increment" not in dataset.sizes:
         raise StoreError(f"{fspath(path)}: is no result of pyfret: it has no scene or no increment")
-    kept = {name: value for name, value in attributes.items() if name in dataset.attrs}
-    return dataset.assign_attrs(kept)
+    opened: xr.Dataset = dataset
+    return opened
