@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, fields
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from zlib import crc32
 
 import numpy as np
 
@@ -77,12 +78,43 @@ def path_measure(name: str, reduce: Callable[[xr.DataArray], Any]) -> Callable[[
 SECTION_TOLERANCE = 0.05
 
 
-def largest_sample(below: Stress, name: str) -> float:
-    """Return the highest sample of a measure on a section, rims of the contact included."""
-    samples = [below.measure(name)]
-    if not name.startswith("interface"):
-        samples += [border.measure(name) for border in (below.rims(), below.stick_borders())]
-    return max(float(sample.max()) for sample in samples if sample.size)
+class SampledState(NamedTuple):
+    """The stress below a body in one state: on its section, and where borders cross the section."""
+
+    section: Stress
+    borders: tuple[Stress, Stress]
+
+    def largest(self, name: str) -> float:
+        """Return the highest sample of a measure, rims of the contact included."""
+        samples = [self.section.measure(name)]
+        if not name.startswith("interface"):
+            samples += [border.measure(name) for border in self.borders]
+        return max(float(sample.max()) for sample in samples if sample.size)
+
+
+#: Most memory of sections that the stress measures of a result share [bytes].
+SHARED_SECTIONS = 128e6
+
+
+def sample_states(result: Result, body_number: int) -> list[SampledState]:
+    """Return the stress of all states with contact, which the stress measures of a result share.
+
+    Sections are sampled once for all measures. They are kept with the result up to 128 MB.
+    """
+    saved = result.dataset.saved_increment.values
+    p = result.dataset.variables["p"].isel(saved=-1).values
+    key = saved.tobytes(), crc32(np.ascontiguousarray(p).tobytes())
+    name = f"sections of body {body_number}"
+    kept = result.shared.get(name)
+    if kept is not None and kept[0] == key:
+        sampled: list[SampledState] = kept[1]
+        return sampled
+    states = (result.at(int(n)) for n in saved)
+    sections = [s.stress(body_number=body_number) for s in states if bool(s.contact.any())]
+    sampled = [SampledState(below, (below.rims(), below.stick_borders())) for below in sections]
+    if sum(below.dataset.nbytes for below in sections) <= SHARED_SECTIONS:
+        result.shared[name] = (key, sampled)
+    return sampled
 
 
 def stress_measure(name: str) -> Callable[[Result], Answer]:
@@ -99,17 +131,16 @@ def stress_measure(name: str) -> Callable[[Result], Answer]:
         return max(answers, key=lambda answer: answer.value, default=NO_ANSWER)
 
     def in_body(result: Result, body_number: int) -> Answer:
-        states = (result.at(int(n)) for n in result.dataset.saved_increment.values)
-        sections = [s.stress(body_number=body_number) for s in states if bool(s.contact.any())]
-        if not sections:
+        states = sample_states(result, body_number)
+        if not states:
             return NO_ANSWER
-        tops = [largest_sample(section, name) for section in sections]
+        tops = [state.largest(name) for state in states]
         highest = int(np.argmax(tops))
-        worst = sections[highest].maximum(name)
+        worst = states[highest].section.maximum(name)
         if not abs(worst.value - tops[highest]) <= SECTION_TOLERANCE * abs(worst.value):
             # The sections do not show at which increment the largest value is.
             worst = max(
-                (section.maximum(name) for section in sections), key=lambda found: found.value
+                (state.section.maximum(name) for state in states), key=lambda found: found.value
             )
         return Answer.from_error(
             worst.value, worst.error, least=-math.inf if name in SIGNED else 0.0
