@@ -23,6 +23,9 @@ def visible_texts(figure: Figure) -> list[tuple[str, Bbox, float]]:
             hidden |= {id(text) for axis in (ax.xaxis, ax.yaxis) for text in axis.findobj(Text)}
             continue
         for axis in (ax.xaxis, ax.yaxis):
+            if not axis.get_visible():
+                hidden |= {id(text) for text in axis.findobj(Text)}
+                continue
             low, high = sorted(axis.get_view_interval())
             span = high - low
             for tick in [*axis.get_major_ticks(), *axis.get_minor_ticks()]:

@@ -26,7 +26,8 @@ from pyfret.plot import sizes
 sys.path.insert(0, str(ROOT / "tools"))
 import plot_page
 
-pytestmark = pytest.mark.filterwarnings("ignore")
+# The first figure waits for all runs and studies that the page draws.
+pytestmark = [pytest.mark.filterwarnings("ignore"), pytest.mark.timeout(1200)]
 
 CODE = {name: code for figures in plot_page.FIGURES.values() for name, code in figures.items()}
 #: Colours of curves in the theme, beside greys.

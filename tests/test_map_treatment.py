@@ -119,9 +119,11 @@ def test_a_spectrum_has_the_height_of_the_map() -> None:
 
 
 def test_heights_are_drawn() -> None:
-    """The axes of a map are in um, and its S_q is the title."""
+    """The axes of a map are in um, and its S_q stands beside the scale of colours."""
     surface = fret.SurfaceMap(np.random.default_rng(1).normal(size=(24, 16)), spacing=SPACING)
     ax = surface.plot()
     assert "x" in ax.get_xlabel()
-    assert "S_q" in ax.get_title("left")
+    labels = [inset.get_ylabel() for inset in ax.child_axes]
+    assert any("S_q" in label for label in labels)
+    assert ax.get_title("left") == ""
     assert ax.get_xlim()[1] == pytest.approx(24.0)

@@ -184,6 +184,67 @@ def test_a_crack_is_in_the_section_with_its_numbers(result: fret.Result) -> None
         result.report("run.html", threshold=threshold)
 
 
+def test_lives_are_on_the_page_when_asked(result: fret.Result, tmp_path: Path) -> None:
+    steel = fret.fatigue.Materials()["steel_42CrMo4"]
+    lives = fret.fatigue.lives(result, steel, ["findley", "crossland"])
+    page = tmp_path / "run.html"
+    result.report(page, life=list(lives.values()))
+    text = page.read_text(encoding="utf-8")
+    for name in lives:
+        assert f"map of the criterion {name} below the contact" in text
+    assert '<section id="lived" >' in text
+    result.report(page, life=lives["findley"])
+    assert page.read_text(encoding="utf-8").count("map of the criterion") == 1
+    result.report(page)
+    assert '<section id="lived" hidden>' in page.read_text(encoding="utf-8")
+    bare = fret.solve(sphere_on_flat(n=16), PATH, progress=False)
+    with pytest.raises(ValueError, match="life: is of other bodies"):
+        bare.report(page, life=lives["findley"])
+
+
+def test_the_command_adds_a_life(
+    result: fret.Result, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    result.save(tmp_path / "run.zarr")
+    page = tmp_path / "run.html"
+    call = ["report", str(tmp_path / "run.zarr"), "-o", str(page), "--life", "findley"]
+    assert commands.main(call) == 2
+    assert "--life: needs --material" in capsys.readouterr().err
+    assert commands.main([*call, "--material", "steel_42CrMo4"]) == 0
+    assert "map of the criterion findley" in page.read_text(encoding="utf-8")
+
+
+@pytest.mark.timeout(180)
+def test_a_comparison_fits_on_every_screen(tmp_path: Path) -> None:
+    api = pytest.importorskip("playwright.sync_api")
+    axe = pytest.importorskip("axe_playwright_python.sync_playwright")
+    scene = sphere_on_flat(n=16).replace(path=PATH)
+    film = fret.Coating(fret.Elastic(E=420e9, nu=0.25), thickness=2e-6)
+    bodies = {
+        "bare": scene.body2,
+        "coated with a hard film": fret.Body(fret.Elastic(E=210e9, nu=0.3), coatings=film),
+    }
+    fret.compare(bodies, scene, executor=1, progress=False).report(tmp_path / "compare.html")
+    with api.sync_playwright() as play:
+        chromium = browser(play)
+        for width in (380, 800, 1280, 1920):
+            view = chromium.new_page(viewport={"width": width, "height": 900})
+            requests: list[str] = []
+            view.on("request", lambda r, asked=requests: asked.append(r.url))
+            view.goto((tmp_path / "compare.html").as_uri())
+            assert view.evaluate("document.documentElement.scrollWidth") <= width
+            assert view.locator("img").count() == 1
+            for name in bodies:
+                assert name in view.inner_text("table")
+            if width >= 1280:
+                table = "document.querySelector('.wide')"
+                assert view.evaluate(f"{table}.scrollWidth <= {table}.clientWidth")
+            assert axe.Axe().run(view).violations_count == 0
+            assert [url for url in requests if not url.startswith(("file:", "data:"))] == []
+            view.close()
+        chromium.close()
+
+
 def browser(play: Any) -> Any:
     """Chromium, or the test is skipped."""
     computed = shutil.which("chromium") or shutil.which("chromium-browser")
@@ -281,6 +342,40 @@ def test_a_film_of_a_cycle(result: fret.Result, tmp_path: Path) -> None:
         assert film.n_frames == 3
     with pytest.raises(ValueError, match="must end in"):
         fret.plot.animate(result, tmp_path / "cycle.avi")
+    pytest.importorskip("imageio_ffmpeg")
+    fret.plot.animate(result, tmp_path / "cycle.mp4", increments=[3, 7, 11], dpi=40, fps=4)
+    film = frames_of(tmp_path / "cycle.mp4", 440, 144)
+    assert len(film) == 3
+    # Outside the maps, the dot and the time, all frames are alike: axes and scales are fixed.
+    corner = film[0].shape[0] - 12
+    for frame in film[1:]:
+        assert np.abs(frame[corner:].astype(int) - film[0][corner:]).mean() < 1.0
+        assert np.abs(frame.astype(int) - film[0]).mean() > 0.1
+
+
+def frames_of(film: Path, width: int, height: int) -> list[Any]:
+    """Frames of a film."""
+    from pyfret.plot.animation import find_ffmpeg
+
+    program = find_ffmpeg()
+    assert program is not None
+    raw = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-loglevel", "error", "-"]
+    pixels = subprocess.run([program, "-i", film, *raw], capture_output=True, check=True).stdout
+    frames = np.frombuffer(pixels, np.uint8).reshape(-1, height, width, 3)
+    return list(frames)
+
+
+def test_a_film_without_the_program_is_refused(
+    result: fret.Result, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from pyfret.plot import animation
+
+    monkeypatch.setattr(animation, "find_ffmpeg", lambda: None)
+    with pytest.raises(ValueError, match="imageio-ffmpeg"):
+        fret.plot.animate(result, tmp_path / "cycle.mp4")
+
+
+def test_a_gif_has_its_name_checked(result: fret.Result, tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="needs more"):
         fret.plot.animate(result, tmp_path / "cycle.gif", increments=[3])
 

@@ -126,3 +126,20 @@ def test_layers_on_a_stretched_axis_have_names(name: str) -> None:
     for word in ("coating 1", "coating 2", "substrate", "each layer has its own scale"):
         assert word in texts
     plt.close("all")
+
+
+def test_a_mark_beyond_the_drawn_section_is_inside_the_axes() -> None:
+    from pyfret.plot.style import mark
+
+    for x, y in ((-2.0, 0.5), (3.0, 1.5), (0.2, -1.0), (0.5, 0.5)):
+        for down in (False, True):
+            _, ax = plt.subplots()
+            ax.set_xlim(0.0, 1.0)
+            ax.set_ylim(*((1.0, 0.0) if down else (0.0, 1.0)))
+            mark(ax, (x, y), "worst point")
+            for value, limits in ((x, ax.get_xlim()), (y, ax.get_ylim())):
+                assert min(limits) <= value <= max(limits)
+            assert ax.yaxis_inverted() == down
+            if 0.0 <= x <= 1.0:
+                assert ax.get_xlim() == (0.0, 1.0)
+            plt.close("all")

@@ -68,7 +68,7 @@ FIGURES: dict[str, dict[str, str]] = {
         "criterion_map": "fret.plot.criterion_map(life)",
         "load_factor_map": "fret.plot.load_factor_map(rig.load_factors(880e6))",
         "critical_plane_rose": "fret.plot.critical_plane_rose(history, criterion)",
-        "dang_van_diagram": "fret.plot.dang_van_diagram(history)",
+        "dang_van_diagram": 'fret.plot.dang_van_diagram(history, material="titanium_6Al4V")',
         "haigh_diagram": "fret.plot.haigh_diagram(life)",
         "life_over_distance": "fret.plot.life_over_distance(life.over_distance(lengths))",
         "crack_arrest": "fret.plot.crack_arrest(cracks, threshold)",

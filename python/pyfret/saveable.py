@@ -90,7 +90,7 @@ class Saveable(Tabular):
         shown = svg_image(drawn.getvalue(), f"figure of {title}; its numbers stand on this page")
         view = self._repr_html_()
         text = "" if view == f"<pre>{summary}</pre>" else f'<pre tabindex="0">{summary}</pre>'
-        write_page(Path(path), title, f"{view}\n<p>{shown}</p>\n{text}")
+        write_page(Path(path), title, f"{view}\n{shown}\n{text}")
 
     def _title(self: HasDataset) -> str:
         return str(self.dataset.attrs.get("title") or type(self).__name__)

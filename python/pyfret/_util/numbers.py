@@ -79,8 +79,11 @@ def in_letters(text: str) -> str:
     --------
     >>> in_letters("stops at 12 +- 1 um")
     'stops at 12 ± 1 µm'
+    >>> in_letters("uJ")
+    'µJ'
     """
-    return text.replace(" um", " µm").replace("+-", "±")
+    text = text.replace("+-", "±")
+    return re.sub(r"(?<![A-Za-z])u([mJ])(?![A-Za-z])", r"µ\1", text)
 
 
 def in_powers(text: str) -> str:
@@ -90,13 +93,17 @@ def in_powers(text: str) -> str:
     --------
     >>> print(in_powers("1.3e6 (1e+07 or more) cycles"))
     $1.3\times 10^{6}$ ($10^{7}$ or more) cycles
+    >>> print(in_powers("(1.2 +- 0.1)e-8"))
+    (1.2 +- 0.1)$\times 10^{-8}$
     """
 
     def power(match: re.Match[str]) -> str:
         factor = "" if float(match[1]) == 1.0 else rf"{match[1].removesuffix('.0')}\times "
         return f"${factor}10^{{{int(match[2])}}}$"
 
-    return re.sub(r"(\d+(?:\.\d+)?)e([+-]?\d+)", power, text)
+    text = re.sub(r"(\d+(?:\.\d+)?)e([+-]?\d+)", power, text)
+    # A number and its error have their power together.
+    return re.sub(r"\)e([+-]?\d+)", lambda m: rf")$\times 10^{{{int(m[1])}}}$", text)
 
 
 class Placed(Protocol):

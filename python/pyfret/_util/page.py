@@ -46,4 +46,5 @@ def write_page(path: Path, title: str, content: str) -> None:
 def svg_image(svg: bytes, description: str) -> str:
     """Return a figure as an image of vectors, with its description for those who listen."""
     data = base64.b64encode(svg).decode("ascii")
-    return f'<img alt="{html(description)}" src="data:image/svg+xml;base64,{data}">'
+    source = f'alt="{html(description)}" src="data:image/svg+xml;base64,{data}"'
+    return f'<div class="wide" tabindex="0"><img {source}></div>'

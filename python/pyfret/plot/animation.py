@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import shutil
 from functools import partial
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import matplotlib as mpl
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.animation import FFMpegWriter, FuncAnimation, PillowWriter
@@ -48,6 +51,20 @@ class OnePalette(PillowWriter):
 SAMPLES = 4
 #: Writers of files, by their endings.
 WRITERS = {".mp4": FFMpegWriter, ".gif": OnePalette}
+#: Options of the writers: colours close to those of the theme.
+OPTIONS: dict[str, dict[str, Any]] = {".mp4": {"extra_args": ["-crf", "14"]}, ".gif": {}}
+
+
+def find_ffmpeg() -> str | None:
+    """Return the program ffmpeg: on the path, else in the package imageio-ffmpeg."""
+    program = shutil.which(mpl.rcParams["animation.ffmpeg_path"])
+    if program is not None:
+        return program
+    try:
+        imageio_ffmpeg = import_module("imageio_ffmpeg")
+        return str(imageio_ffmpeg.get_ffmpeg_exe())
+    except (ImportError, RuntimeError):
+        return None
 
 
 def common_limits(
@@ -82,7 +99,8 @@ def animate(
     result : Result
         The run.
     path : path
-        File to write: ``.gif``, or ``.mp4``, which needs the program ffmpeg.
+        File to write: ``.gif``, or ``.mp4``, which needs the program ffmpeg or the package
+        imageio-ffmpeg.
     increments : sequence of int, optional
         Increments to show, from 1 (default: all that kept their fields).
     fps : int
@@ -98,8 +116,12 @@ def animate(
     target = Path(path)
     if target.suffix not in WRITERS:
         raise ValueError(f"{target}: must end in {' or '.join(WRITERS)}")
-    if target.suffix == ".mp4" and not FFMpegWriter.isAvailable():
-        raise ValueError(f"{target}: films as .mp4 need the program ffmpeg; .gif needs none")
+    ffmpeg = find_ffmpeg()
+    if target.suffix == ".mp4" and ffmpeg is None:
+        raise ValueError(
+            f"{target}: films as .mp4 need the program ffmpeg or the package imageio-ffmpeg "
+            '(pip install "fretting[film]"); .gif needs none'
+        )
     kept = result.dataset.saved_increment.values
     if increments is not None:
         kept = plain(increments, "increments").astype(np.int64)
@@ -136,5 +158,6 @@ def animate(
         return (dot,)
 
     film = FuncAnimation(figure, draw, frames=len(snapshots), blit=False)
-    film.save(target, writer=WRITERS[target.suffix](fps=fps), dpi=dpi)
+    with mpl.rc_context({"animation.ffmpeg_path": ffmpeg or "ffmpeg"}):
+        film.save(target, writer=WRITERS[target.suffix](fps=fps, **OPTIONS[target.suffix]), dpi=dpi)
     plt.close(figure)

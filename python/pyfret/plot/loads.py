@@ -6,10 +6,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pyfret._util.theme import MARK, STICK, colour_map
+from pyfret._core import with_error
+from pyfret._util.numbers import in_letters, in_powers
+from pyfret._util.theme import DANGER, STICK, colour_map
 from pyfret.history.channels import channel_unit
 from pyfret.plot.sizes import Width
-from pyfret.plot.style import add_colour_bar, axes, styled
+from pyfret.plot.style import add_colour_bar, axes, mark, styled
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -33,6 +35,17 @@ def scaled(channel: str) -> tuple[float, str]:
     return factor, prefix + unit
 
 
+#: Names of channels that are Greek letters.
+GREEK = ("delta", "sigma", "phi")
+
+
+def symbol(channel: str) -> str:
+    """Return the name of a channel as a formula."""
+    name, _, index = channel.partition("_")
+    letter = f"\\{name}" if name in GREEK else name
+    return f"${letter}_{{{index}}}$" if index else f"${letter}$"
+
+
 @styled
 def load_history(
     history: LoadHistory, *, width: Width | None = None, ax: Axes | None = None
@@ -49,25 +62,25 @@ def load_history(
         spectrum = history.spectrum
         ax.plot(spectrum.frequencies, factor**2 * spectrum.density)
         ax.set_xlabel("frequency [Hz]")
-        ax.set_ylabel(f"density of {history.channel} [({unit})²/Hz]")
+        ax.set_ylabel(f"density of {symbol(history.channel)} [({unit})²/Hz]")
         ax.set_ylim(bottom=0.0)
         return ax
     values = history.channels[history.channel]
     places = np.arange(values.size) if values.size <= MOST_POINTS else history.turns()
     time = places if history.t is None else history.t[places]
-    ax.plot(time, factor * values[places], linewidth=0.8, label=history.channel)
+    ax.plot(time, factor * values[places], linewidth=0.8, label=symbol(history.channel))
     others = [name for name in history.channels if name != history.channel]
     for name in others:
         values_of_name = history.channels[name]
         top = max(float(np.abs(values_of_name).max()), 1e-300)
         factor_of_name, unit_of_name = scaled(name)
         size = factor * float(np.abs(values).max()) / top
-        label = f"{name}, largest {factor_of_name * top:.4g} {unit_of_name}"
+        label = f"{symbol(name)}, largest {factor_of_name * top:.4g} {unit_of_name}"
         ax.plot(time, size * values_of_name[places], linewidth=0.8, linestyle="--", label=label)
     if others:
         ax.legend()
     ax.set_xlabel("sample" if history.t is None else "time [s]")
-    ax.set_ylabel(f"{history.channel} [{unit}]")
+    ax.set_ylabel(f"{symbol(history.channel)} [{unit}]")
     return ax
 
 
@@ -97,8 +110,8 @@ def loop_histogram(
         cmap=colour_map("sequential"),
     )
     add_colour_bar(ax, drawn, "loops")
-    ax.set_xlabel(f"mean of {channel} [{unit}]")
-    ax.set_ylabel(f"range of {channel} [{unit}]")
+    ax.set_xlabel(f"mean of {symbol(channel)} [{unit}]")
+    ax.set_ylabel(f"range of {symbol(channel)} [{unit}]")
     return ax
 
 
@@ -116,10 +129,15 @@ def damage_map(damage: Damage, *, width: Width | None = None, ax: Axes | None = 
     if shown.count():
         top = float(shown.max())
         shown = np.ma.masked_less(shown, top - DECADES)
-        drawn = ax.contourf(places, depths, shown, levels=12, cmap=colour_map("warm"))
+        drawn = ax.contourf(places, depths, shown, levels=12, cmap=colour_map("sequential"))
         add_colour_bar(ax, drawn, r"$\log_{10}$ damage of one pass")
         x, y, z = damage.place
-        ax.plot(1e6 * (x if along == "x" else y), 1e6 * z, "o", color=MARK, clip_on=False)
+        worst = with_error(damage.worst, damage.error)
+        mark(
+            ax,
+            (1e6 * (x if along == "x" else y), 1e6 * z),
+            f"worst point: {in_letters(in_powers(worst))}",
+        )
     rows = np.flatnonzero(~np.ma.getmaskarray(shown).all(axis=1))
     deepest = depths[min(rows[-1] + 2, depths.size - 1)] if rows.size else depths[-1]
     ax.set_ylim(deepest, 0.0)
@@ -144,14 +162,19 @@ def damage_contributions(
         100.0 * parts,
         factor * np.diff(edges),
         align="edge",
-        color=MARK,
+        color=DANGER,
         edgecolor="white",
+        label="damage",
     )
-    ax.set_xlabel(f"amplitude of {channel} [{unit}]")
+    ax.set_xlabel(f"amplitude of {symbol(channel)} [{unit}]")
     ax.set_ylabel("part of the damage [%]")
     loops = ax.twinx()
+    loops.spines["right"].set_visible(True)
+    loops.grid(visible=False)
     filled = counts > 0.0
     middles = factor * 0.5 * (edges[1:] + edges[:-1])
     loops.semilogy(middles[filled], counts[filled], "o", color=STICK)
-    loops.set_ylabel("loops")
+    loops.set_ylabel("number of loops")
+    ax.plot([], [], "o", color=STICK, label="loops (right)")
+    ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, borderpad=0.1)
     return ax

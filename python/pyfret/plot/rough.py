@@ -68,8 +68,7 @@ def spots(
     )
     look_at_contact(ax, snapshot, by.length)
     if len(areas):
-        label_scale(drawn, ax, "area of the spot [µm$^2$]")
-    ax.set_title(f"{len(areas)} spots")
+        label_scale(drawn, ax, f"area of each of {len(areas)} spots [µm$^2$]")
     return ax
 
 
@@ -201,6 +200,5 @@ def surface_heights(
     )
     ax.set_xlabel(MICRO.label("x"))
     ax.set_ylabel(MICRO.label("y"))
-    ax.set_title(f"$S_q$ = {length(surface.rms)}")
-    label_scale(drawn, ax, scale.label("z"))
+    label_scale(drawn, ax, f"{scale.label('z')}, $S_q$ = {length(surface.rms)}")
     return ax

@@ -15,6 +15,7 @@ import numpy as np
 from pyfret._core import Scene, __version__
 from pyfret._util import theme
 from pyfret._util.files import beside
+from pyfret._util.numbers import in_letters
 from pyfret._util.text import html
 from pyfret.citation import sources
 from pyfret.fatigue.judged import Life
@@ -123,7 +124,7 @@ def report(
         plan=plan(result),
         sources=cited(result),
         surfaces="" if wear is None else SURFACES.format(of=html(wear.of_loops)),
-        worn="" if wear is None else f'<pre tabindex="0">{html(wear.summary())}</pre>',
+        worn="" if wear is None else f'<pre tabindex="0">{html(in_letters(wear.summary()))}</pre>',
         more="".join(
             picture(caption, figure)
             for caption, figure in {**yielded(result), **(figures or {})}.items()
@@ -172,7 +173,7 @@ def life_section(life: Life) -> str:
     shown = image(f"map of the criterion {criterion} below the contact", figure)
     close(figure)
     notes = "".join(f"<p>{html(note)}</p>" for note in life.notes)
-    return f"{life._repr_html_()}{notes}<p>{shown}</p>"
+    return f"{in_letters(life._repr_html_())}{notes}<p>{shown}</p>"
 
 
 def yielded(result: Run) -> dict[str, Figure]:

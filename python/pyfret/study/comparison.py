@@ -16,7 +16,7 @@ from pyfret._util import files
 from pyfret._util.figures import Figured
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
-from pyfret._util.numbers import in_words, length
+from pyfret._util.numbers import in_letters, in_words, length
 from pyfret._util.page import svg_image, write_page
 from pyfret._util.window import format_table
 from pyfret.fatigue.ranges import Range
@@ -321,13 +321,14 @@ class Comparison(Labelled, Figured):
         self.plot().savefig(drawn, format="svg")
         title = str(self.dataset.attrs["title"] or "comparison")
         shown = svg_image(drawn.getvalue(), "the same numbers with their errors")
-        write_page(Path(path), title, f"{self._repr_html_()}\n<p>{shown}</p>")
+        content = f'<div class="side">{self._repr_html_()}</div>\n{shown}'
+        write_page(Path(path), title, content)
 
     def _repr_html_(self) -> str:
         """The table for notebooks."""
-        head, *rows = self.rows()
+        head, *rows = ([in_letters(text) for text in row] for row in self.rows())
         body = [[escape(text) for text in row] for row in rows]
-        notes = "".join(f"<p>{escape(note)}</p>" for note in self.notes())
+        notes = "".join(f"<p>{escape(in_letters(note))}</p>" for note in self.notes())
         return f"{table([escape(text) for text in head], body)}{notes}"
 
     def __repr__(self) -> str:
