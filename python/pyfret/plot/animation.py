@@ -51,7 +51,7 @@ class OnePalette(PillowWriter):
 SAMPLES = 4
 #: Writers of files, by their endings.
 WRITERS = {".mp4": FFMpegWriter, ".gif": OnePalette}
-#: Options of the writers: colours close to those of the theme.
+#: Options of the writers, by their endings; the colours of the theme are kept.
 OPTIONS: dict[str, dict[str, Any]] = {".mp4": {"extra_args": ["-crf", "14"]}, ".gif": {}}
 
 
@@ -59,10 +59,9 @@ def find_ffmpeg() -> str | None:
     """Return the program ffmpeg: on the path, else in the package imageio-ffmpeg."""
     program = shutil.which(mpl.rcParams["animation.ffmpeg_path"])
     if program is not None:
-        return program
+        return str(program)
     try:
-        imageio_ffmpeg = import_module("imageio_ffmpeg")
-        return str(imageio_ffmpeg.get_ffmpeg_exe())
+        return str(import_module("imageio_ffmpeg").get_ffmpeg_exe())
     except (ImportError, RuntimeError):
         return None
 

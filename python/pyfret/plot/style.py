@@ -192,17 +192,17 @@ def mark(ax: Axes, at: tuple[float, float], text: str, *, marker: str = "x") -> 
 
 
 def keep_inside(ax: Axes, x: float, y: float, *, room: float = 0.03) -> None:
-    """Widen the limits of axes to a place that is marked, which may lie beyond what is drawn."""
-    for low_high, set_limits, place in (
+    """Widen the limits of axes to a marked point, which may lie beyond the drawn section."""
+    for low_high, set_limits, coordinate in (
         (ax.get_xlim(), ax.set_xlim, x),
         (ax.get_ylim(), ax.set_ylim, y),
     ):
         first, last = low_high
         span = room * abs(last - first)
-        if place < min(first, last):
-            set_limits(*(place - span if end == min(first, last) else end for end in low_high))
-        elif place > max(first, last):
-            set_limits(*(place + span if end == max(first, last) else end for end in low_high))
+        if coordinate < min(first, last):
+            set_limits(*(coordinate - span if end == min(first, last) else end for end in low_high))
+        elif coordinate > max(first, last):
+            set_limits(*(coordinate + span if end == max(first, last) else end for end in low_high))
 
 
 def draw_cross(ax: Axes, x: float, y: float) -> None:
