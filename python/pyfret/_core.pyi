@@ -2491,12 +2491,20 @@ class PlasticBody:
     def eigenstress(self, /, rows: Sequence[NDArray[np.float64]]) -> Eigenstress | None:
         """The residual stress, for :class:`Subsurface`; None where nothing has yielded."""
     def fields(
-        self, /, rows: Sequence[NDArray[np.float64]], p: ArrayLike, q_x: ArrayLike, q_y: ArrayLike
+        self,
+        /,
+        rows: Sequence[NDArray[np.float64]],
+        p: ArrayLike,
+        q_x: ArrayLike,
+        q_y: ArrayLike,
+        *,
+        sigma_B: float = 0.0,
     ) -> dict[str, NDArray[np.float64]]:
         """
         Equivalent plastic strain, plastic strain and stress over planes, components and cells.
 
-        The stress with the tractions, and the residual stress without [Pa].
+        The stress with the tractions and the bulk stress `sigma_B` of the body, and the residual
+        stress without [Pa].
         """
     def grid(self, /, rows: Sequence[NDArray[np.float64]]) -> dict[str, Any]:
         """

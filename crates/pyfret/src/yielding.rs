@@ -175,8 +175,9 @@ impl PlasticBody {
 
     /// Equivalent plastic strain, plastic strain and stress over planes, components and cells.
     ///
-    /// The stress with the tractions, and the residual stress without [Pa].
-    #[pyo3(signature = (rows: "Sequence[NDArray[np.float64]]", p, q_x, q_y) -> "dict[str, NDArray[np.float64]]")]
+    /// The stress with the tractions and the bulk stress `sigma_B` of the body, and the residual
+    /// stress without [Pa].
+    #[pyo3(signature = (rows: "Sequence[NDArray[np.float64]]", p, q_x, q_y, *, sigma_B: "float" = 0.0) -> "dict[str, NDArray[np.float64]]")]
     fn fields<'py>(
         &self,
         py: Python<'py>,
@@ -184,6 +185,7 @@ impl PlasticBody {
         p: Field<'py>,
         q_x: Field<'py>,
         q_y: Field<'py>,
+        #[pyo3(from_py_with = number)] sigma_B: f64,
     ) -> PyResult<Bound<'py, PyDict>> {
         let yielded = read(rows)?;
         let shape = (self.grid.nx, self.grid.ny);
@@ -194,8 +196,8 @@ impl PlasticBody {
         let body = self.number;
         let stresses = self.with_bodies(py, &yielded, |yielding| {
             let [p, q_x, q_y] = &tractions;
-            let loaded = yielding.stress(&yielded, Some([p, q_x, q_y]), body);
-            let residual = yielding.stress(&yielded, None, body);
+            let loaded = yielding.stress(&yielded, Some([p, q_x, q_y]), (body, sigma_B));
+            let residual = yielding.stress(&yielded, None, (body, 0.0));
             let mesh = yielding.mesh(body);
             let shape = mesh.map(|mesh| (mesh.planes(), mesh.cells.nx, mesh.cells.ny));
             (loaded, residual, shape, yielding.points(&yielded, body))

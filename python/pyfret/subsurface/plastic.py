@@ -167,7 +167,8 @@ class PlasticState:
         cells of the contact.
         """
         columns = self._columns
-        fields = _body(self._of).fields(columns, **self._state.tractions())
+        sigma_B = self._state.bulk_stress(self.body_number)
+        fields = _body(self._of).fields(columns, **self._state.tractions(), sigma_B=sigma_B)
         imprint = _body(self._of).imprint(columns_of(self._state))
         scalar, tensor = ("z", "y", "x"), ("z", "component", "y", "x")
 
@@ -180,7 +181,7 @@ class PlasticState:
         labels = {
             "equivalent": ("1", "equivalent plastic strain, added up over the path"),
             "strain": ("1", "plastic strain"),
-            "stress": ("Pa", "stress, residual stress included"),
+            "stress": ("Pa", "stress, residual and bulk stress included"),
             "residual_stress": ("Pa", "stress without the tractions of the contact"),
         }
         variables: dict[str, Any] = {

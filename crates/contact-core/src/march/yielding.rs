@@ -90,6 +90,8 @@ impl March {
             return Ok(Some(increment));
         };
         yields.bodies.begin(&before, first.each_ref());
+        let loads = [&start.loads, &point.loads].map(|loads| [loads.sigma_B1, loads.sigma_B]);
+        yields.bodies.set_bulk(loads[0], loads[1]);
         if yields.bodies.pass([&p, &q_x, &q_y]) {
             let reached = yields.bodies.reached();
             return Ok(Some(Increment {
@@ -152,6 +154,8 @@ impl March {
             return self.advance_to(point);
         };
         yields.bodies.begin(before, first.each_ref());
+        let loads = [&start.loads, &point.loads].map(|loads| [loads.sigma_B1, loads.sigma_B]);
+        yields.bodies.set_bulk(loads[0], loads[1]);
         let from = Offsets::from_residual(&yields.bodies.residual(), &arms, mirror);
         if let Some(factor) = start.going_on(point) {
             yields.bodies.guess(before, factor);
@@ -187,7 +191,10 @@ impl March {
                 let energy = &mut increment.energy;
                 // The tractions did work on the residual displacements: by reciprocity this is the
                 // plastic work and the change of the energy of the residual stress.
-                let trapezoidal = energy.elastic - elastic;
+                // So does the bulk stress on the plastic strain.
+                let by_bulk = yields.bodies.work_of_bulk();
+                let trapezoidal = energy.elastic - elastic + by_bulk;
+                energy.work += by_bulk;
                 energy.elastic = elastic;
                 energy.plastic = now.work - before.work;
                 energy.quadrature += energy.plastic - trapezoidal;

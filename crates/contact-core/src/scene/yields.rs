@@ -1,6 +1,6 @@
 //! Bodies that may yield: where yielding begins in closed form, and what is refused.
 
-use super::{KernelMethod, Scene, Shape};
+use super::{KernelMethod, ResidualStress, Scene, Shape};
 use crate::error::Error;
 
 /// Largest pressure over the yield stress at which a body below a round contact begins to yield after von
@@ -48,13 +48,8 @@ impl Scene {
             if branch.to.rolled != 0.0 {
                 return refuse("given, and path.rolled", "left out where the bodies roll");
             }
-            if branch.to.sigma_B != 0.0 || branch.to.sigma_B1 != 0.0 {
-                return refuse(
-                    "given, and a bulk stress",
-                    "left out with path.sigma_B and path.sigma_B1",
-                );
-            }
         }
+        self.check_bulk_yielding()?;
         if self.settings.kernel.method != KernelMethod::Hankel {
             return refuse(
                 "given, and another kernel.method",
@@ -62,6 +57,49 @@ impl Scene {
             );
         }
         self.check_mean_pressure(number + 1)
+    }
+
+    /// Fails where a bulk stress alone, with the residual stress, makes a layer yield as a whole: what yields must
+    /// lie near the contact.
+    fn check_bulk_yielding(&self) -> Result<(), Error> {
+        for (i, branch) in self.path.branches.iter().enumerate() {
+            let to = &branch.to;
+            for (name, number, body, sigma_B) in [
+                ("sigma_B1", 1, &self.body1, to.sigma_B1),
+                ("sigma_B", 2, &self.body2, to.sigma_B),
+            ] {
+                if sigma_B == 0.0 || !body.yields() {
+                    continue;
+                }
+                let residual = ResidualStress::from_body(body);
+                let mut top = 0.0;
+                for layer in 0..=body.coatings.len() {
+                    let s_y = body.plastic(layer).map_or(f64::INFINITY, |law| law.s_y);
+                    let bulk = body.bulk_stress(sigma_B, self.grid.plane_strain, (layer, top));
+                    let [xx, yy] = residual.stress_at(layer, top);
+                    let (xx, yy, xy) = (xx + bulk[0], yy + bulk[1], bulk[2]);
+                    let von_mises = (xx * xx - xx * yy + yy * yy + 3.0 * xy * xy).sqrt();
+                    if von_mises >= s_y {
+                        let key = match body.coatings.get(layer) {
+                            Some(_) => format!("body{number}.coatings[{layer}]"),
+                            None => format!("body{number}"),
+                        };
+                        return Err(Error::invalid(
+                            format!("path[{i}].{name}"),
+                            format!(
+                                "{sigma_B:.3e} Pa, in {key} a stress of von Mises of {von_mises:.3e} Pa"
+                            ),
+                            format!(
+                                "such that this is below the yield stress, {s_y:.3e} Pa: the layer would yield as a \
+                                 whole, and not near the contact alone"
+                            ),
+                        ));
+                    }
+                    top += body.coatings.get(layer).map_or(0.0, |c| c.thickness);
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Returns the physical cause, as the end of a sentence, of an increment of yielding bodies without a

@@ -97,7 +97,21 @@ impl Yielding {
         let tractions = [q_x, q_y, p].map(|field| self.volume.to_volume(field));
         for (n, body) in self.bodies.iter_mut().enumerate() {
             body.begin(state.bodies.get(n), &tractions);
+            body.bulk = [0.0; 2];
         }
+    }
+
+    /// Sets the bulk stresses of body 1 and body 2 at the start and at the end of an increment that has begun
+    /// \[Pa\].
+    pub(crate) fn set_bulk(&mut self, start: [f64; 2], end: [f64; 2]) {
+        for body in &mut self.bodies {
+            body.bulk = [start, end].map(|bulk| bulk[body.number - 1]);
+        }
+    }
+
+    /// Work of the bulk stresses on the plastic strain of the increment \[J\].
+    pub(crate) fn work_of_bulk(&self) -> f64 {
+        self.bodies.iter().map(YieldingBody::work_of_bulk).sum()
     }
 
     /// Guesses x where the path goes on, by `factor` of the last increment.
@@ -234,17 +248,17 @@ impl Yielding {
         }
     }
 
-    /// Stress under tractions, residual stress and plastic strain of a state in a body, on the planes of its
-    /// mesh: for each plane six components on the cells of the volume grid \[Pa\], in the axes of the scene.
+    /// Stress under tractions, bulk stress, residual stress and plastic strain of a state in a body, on the planes
+    /// of its mesh: for each plane six components on the cells of the volume grid \[Pa\], in the axes of the scene.
     pub fn stress(
         &mut self,
         state: &Yielded,
         tractions: Option<[&Array2<f64>; 3]>,
-        body: usize,
+        (body, sigma_B): (usize, f64),
     ) -> Option<Vec<f64>> {
         let mut stress = self.stress_of_changes(state, tractions, body)?;
         let yielding_body = self.bodies.iter().find(|b| b.number == body)?;
-        yielding_body.add_initial(&mut stress);
+        yielding_body.add_uniform(&mut stress, sigma_B);
         Some(stress)
     }
 

@@ -109,7 +109,9 @@ fn the_energy_of_the_residual_stress_is_left_after_unloading() {
     let left: f64 = increments.iter().map(|i| i.energy.elastic).sum();
     let state = march.state().yielded.clone().expect("plastic strain");
     let bodies = march.yielding().expect("a body that yields");
-    let stress = bodies.stress(&state, None, 2).expect("residual stress");
+    let stress = bodies
+        .stress(&state, None, (2, 0.0))
+        .expect("residual stress");
     let (mesh, cells) = (bodies.mesh(2).expect("a mesh"), grid.nx * grid.ny);
     let volume = bodies.volume();
     // -1/2 int sigma : e dV, without any traction.
@@ -214,7 +216,7 @@ fn no_point_is_beyond_its_yield_stress() {
     let [p, q_x, q_y] = march.tractions();
     let state = march.state().yielded.clone().expect("plastic strain");
     let bodies = march.yielding().expect("a body that yields");
-    let stress = bodies.stress(&state, Some([&p, &q_x, &q_y]), 2);
+    let stress = bodies.stress(&state, Some([&p, &q_x, &q_y]), (2, 0.0));
     let stress = stress.expect("a stress");
     let (volume, mesh) = (bodies.volume(), bodies.mesh(2).expect("a mesh"));
     let cells = volume.cells.len();

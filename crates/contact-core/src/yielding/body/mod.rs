@@ -5,7 +5,7 @@ mod pass;
 mod unknowns;
 
 use eigenstrain::{Answer, COMPONENTS, Mesh, Operator, Sources};
-use plasticity::{Plastic, Point, Returned};
+use plasticity::{Plastic, Point, Returned, Tensor};
 
 use super::state::{PlasticPoint, PlasticState};
 use super::volume::Volume;
@@ -27,6 +27,10 @@ pub(super) struct YieldingBody {
     laws: Vec<Option<(Plastic, f64)>>,
     /// Residual stress s_xx, s_yy of each plane before the first load \[Pa\].
     initial: Vec<[f64; 2]>,
+    /// Stress s_xx, s_yy, s_xy of each plane under the bulk stress 1, and the bulk stress at the start and at the
+    /// end of the increment \[Pa\].
+    bulk_course: Vec<[f64; 3]>,
+    pub(super) bulk: [f64; 2],
     /// Planes that may yield, and the planes that are computed in the present increment.
     may_yield: Vec<bool>,
     wanted: Vec<bool>,
@@ -71,6 +75,10 @@ impl YieldingBody {
         let residual = ResidualStress::from_body(body);
         let initial = (0..mesh.planes()).map(|n| residual.stress_at(mesh.layer(n), mesh.depth(n)));
         let initial = initial.collect();
+        let plane_strain = volume.cells.plane_strain;
+        let bulk_course = (0..mesh.planes())
+            .map(|n| body.bulk_stress(1.0, plane_strain, (mesh.layer(n), mesh.depth(n))))
+            .collect();
         let cells = volume.cells.len();
         let operator = Operator::new(mesh);
         let may_yield: Vec<bool> = laws.iter().map(Option::is_some).collect();
@@ -95,6 +103,8 @@ impl YieldingBody {
             reached: 0.0,
             laws,
             initial,
+            bulk_course,
+            bulk: [0.0; 2],
             operator,
         })
     }
@@ -213,16 +223,28 @@ impl YieldingBody {
         }
     }
 
-    /// Adds the residual stress before the first load to a stress on all planes \[Pa\].
-    pub(super) fn add_initial(&self, stress: &mut [f64]) {
+    /// Stress of a plane that is the same in all its cells \[Pa\]: the residual stress before the first load, and
+    /// the part of a bulk stress.
+    fn uniform(&self, plane: usize, bulk: f64) -> Tensor {
+        let ([xx, yy], course) = (self.initial[plane], self.bulk_course[plane]);
+        [
+            xx + bulk * course[0],
+            yy + bulk * course[1],
+            0.0,
+            bulk * course[2],
+            0.0,
+            0.0,
+        ]
+    }
+
+    /// Adds the residual stress before the first load and a bulk stress to a stress on all planes \[Pa\].
+    pub(super) fn add_uniform(&self, stress: &mut [f64], bulk: f64) {
         let cells = self.cells();
-        for (of_plane, initial) in stress
-            .chunks_exact_mut(COMPONENTS * cells)
-            .zip(&self.initial)
-        {
-            for (field, initial) in of_plane.chunks_exact_mut(cells).zip(initial) {
+        for (plane, of_plane) in stress.chunks_exact_mut(COMPONENTS * cells).enumerate() {
+            let uniform = self.uniform(plane, bulk);
+            for (field, uniform) in of_plane.chunks_exact_mut(cells).zip(uniform) {
                 for s in field.iter_mut() {
-                    *s += initial;
+                    *s += uniform;
                 }
             }
         }

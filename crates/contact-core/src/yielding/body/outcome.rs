@@ -39,6 +39,22 @@ impl YieldingBody {
         0.5 * self.volume.cells.area() * (of_tractions - of_stress)
     }
 
+    /// Work of the bulk stress on the plastic strain of the increment \[J\], by the trapezoidal rule.
+    pub(in crate::yielding) fn work_of_bulk(&self) -> f64 {
+        let (mesh, cells) = (self.mesh(), self.cells());
+        let mean = 0.5 * (self.bulk[0] + self.bulk[1]);
+        if mean == 0.0 {
+            return 0.0;
+        }
+        let of_point = |(point, start, end): &(usize, Point, Returned)| {
+            let plane = point / cells;
+            let [xx, yy, xy] = self.bulk_course[plane];
+            let grown: Tensor = std::array::from_fn(|c| end.strain[c] - start.strain[c]);
+            mesh.weight(plane) * contraction(&[xx, yy, 0.0, xy, 0.0, 0.0], &grown)
+        };
+        mean * self.volume.cells.area() * self.active.iter().map(of_point).sum::<f64>()
+    }
+
     /// Volume of the points that have yielded \[m^3\].
     pub(in crate::yielding) fn plastic_volume(&self) -> f64 {
         let (mesh, cells) = (self.mesh(), self.cells());

@@ -12,13 +12,10 @@ const DISPLACEMENT: f64 = 1e-4;
 /// the others.
 const NEAR: f64 = 0.75;
 
-/// Stress of a cell of a plane with the residual stress s_xx, s_yy before the first load \[Pa\].
-fn whole_stress(plane: &[f64], cell: usize, [xx, yy]: [f64; 2]) -> Tensor {
+/// Stress of a cell of a plane with the stress that all its cells have \[Pa\].
+fn whole_stress(plane: &[f64], cell: usize, uniform: &Tensor) -> Tensor {
     let cells = plane.len() / COMPONENTS;
-    let mut s: Tensor = std::array::from_fn(|c| plane[c * cells + cell]);
-    s[0] += xx;
-    s[1] += yy;
-    s
+    std::array::from_fn(|c| plane[c * cells + cell] + uniform[c])
 }
 
 /// Square of the stress of von Mises \[Pa^2\].
@@ -88,9 +85,9 @@ impl YieldingBody {
             };
             let stress = &self.stress[plane * COMPONENTS * cells..][..COMPONENTS * cells];
             let limit = law.s_y * (1.0 + YIELDS);
+            let uniform = self.uniform(plane, self.bulk[1]);
             (0..cells).any(|cell| {
-                square_of_von_mises(&whole_stress(stress, cell, self.initial[plane]))
-                    > limit * limit
+                square_of_von_mises(&whole_stress(stress, cell, &uniform)) > limit * limit
             })
         };
         !self.active.is_empty() || (0..self.laws.len()).into_par_iter().any(is_beyond)
@@ -132,9 +129,9 @@ impl YieldingBody {
             &self.active,
         );
         let block = COMPONENTS * cells;
-        let (wanted, initial) = (&self.wanted, &self.initial);
+        let is_wanted = &self.wanted;
         let of_plane = |plane: usize| -> (Vec<(usize, Returned)>, f64) {
-            let (Some((law, mu)), true) = (&laws[plane], wanted[plane]) else {
+            let (Some((law, mu)), true) = (&laws[plane], is_wanted[plane]) else {
                 return (Vec::new(), 0.0);
             };
             let (stress, strain) = (
@@ -144,11 +141,12 @@ impl YieldingBody {
             let start_stress = &self.start_stress.get(plane * block..).unwrap_or_default();
             let start_stress = start_stress.get(..block).unwrap_or_default();
             let slots = &slot[plane * cells..][..cells];
+            let [before, now] = self.bulk.map(|bulk| self.uniform(plane, bulk));
             let mut yielded = Vec::new();
             let (limit, mut most) = (law.s_y * (1.0 + YIELDS), 0.0_f64);
             for cell in 0..cells {
-                let s = whole_stress(stress, cell, initial[plane]);
-                let from = || whole_stress(start_stress, cell, initial[plane]);
+                let s = whole_stress(stress, cell, &now);
+                let from = || whole_stress(start_stress, cell, &before);
                 if slots[cell] == NONE {
                     let square = square_of_von_mises(&s);
                     most = most.max(square);
