@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
+
+import pyfret as fret
 
 sys.path.insert(0, str(Path(__file__).parent / "campaign"))
 
@@ -43,6 +46,19 @@ def test_few_cells_across_a_spot_have_their_error(cells: float, k: tuple[float, 
     bar = coarse.error_of("depth")
     assert abs(depth / right - 1.0) < gross_slip.MOST * bar
     assert bar > fine.error_of("depth")
+
+
+def test_the_width_that_is_named_exceeds_the_grid() -> None:
+    """Wavy bodies that fit by the worn volume alone, and not by their elastic contact."""
+    case = gross_slip.drawn(5, "waviness")
+    narrow = replace(case, lengths=(4.4931e-3, 1.0))
+    with pytest.raises(fret.errors.OffGridError, match=r"after [1-9]") as refused:
+        narrow.wear(3.0)
+    width = re.search(r"should be about ([0-9.e+-]+) m by 1\.0", str(refused.value))
+    assert width is not None
+    wide = replace(case, lengths=(float(width[1]), 1.0))
+    assert wide.lengths[0] > 1.02 * narrow.lengths[0]
+    assert wide.wear(3.0).dataset.attrs["status"] == "done"
 
 
 @pytest.mark.slow
