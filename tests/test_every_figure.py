@@ -8,6 +8,7 @@ import sys
 from collections.abc import Iterator
 from functools import cache
 from inspect import signature
+from pathlib import Path
 from typing import Any
 
 import matplotlib.pyplot as plt
@@ -16,6 +17,7 @@ import pytest
 from matplotlib.colors import to_hex, to_rgb
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.testing.compare import compare_images
 
 from conftest import ROOT
 from overlaps import faults
@@ -110,6 +112,19 @@ def test_a_file_has_the_theme(name: str, user: str) -> None:
         grey = np.ptp(rgb) < NEAR
         stepped = np.abs(shades - rgb).max(axis=1).min() < NEAR
         assert grey or stepped or to_hex(rgb) in CURVES, (name, line.get_color())
+
+
+#: Root-mean-square difference, of 255, up to which a picture of the book is the one of the code.
+ALIKE = 8.0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", CODE)
+def test_the_sheet_of_the_book_is_as_new_as_the_code(name: str, tmp_path: Path) -> None:
+    """``python tools/plot_page.py`` draws the sheet anew: look at it."""
+    plot_page.picture(eval(CODE[name], names()), tmp_path / "now.png")
+    picture = plot_page.PICTURES / f"{name}.png"
+    assert compare_images(str(picture), str(tmp_path / "now.png"), tol=ALIKE) is None
 
 
 def lightness(colour: str) -> float:

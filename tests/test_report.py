@@ -355,7 +355,7 @@ def test_a_film_of_a_cycle(result: fret.Result, tmp_path: Path) -> None:
 
 def frames_of(film: Path, width: int, height: int) -> list[Any]:
     """Frames of a film."""
-    from pyfret.plot.animation import find_ffmpeg
+    from pyfret.plot.film_writers import find_ffmpeg
 
     program = find_ffmpeg()
     assert program is not None
@@ -368,9 +368,9 @@ def frames_of(film: Path, width: int, height: int) -> list[Any]:
 def test_a_film_without_the_program_is_refused(
     result: fret.Result, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from pyfret.plot import animation
+    from pyfret.plot import film_writers
 
-    monkeypatch.setattr(animation, "find_ffmpeg", lambda: None)
+    monkeypatch.setattr(film_writers, "find_ffmpeg", lambda: None)
     with pytest.raises(ValueError, match="imageio-ffmpeg"):
         fret.plot.animate(result, tmp_path / "cycle.mp4")
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import io
 import re
+import subprocess
+import sys
 from functools import cache
 
 import matplotlib.pyplot as plt
@@ -13,9 +15,9 @@ from matplotlib.colors import to_rgb
 from matplotlib.text import Text
 
 import pyfret as fret
-from pyfret._util.theme import CATEGORIES
+from pyfret._util.theme import CATEGORIES, colour_map
 from pyfret.plot.histories import FEW
-from pyfret.plot.stresses import SIGNED, contour_levels, is_signed
+from pyfret.plot.stresses import contour_levels, is_signed
 
 pytestmark = [
     pytest.mark.solves,
@@ -91,16 +93,18 @@ def test_fields_of_both_signs_have_zero_in_the_middle() -> None:
         steps, colours = contour_levels(field, 12)
         if is_signed(field):
             signed += 1
-            assert colours is SIGNED
+            assert colours is colour_map("diverging")
             assert steps[0] == -steps[-1]
             lightness = [sum(colours(x)[:3]) for x in (0.0, 0.5, 1.0)]
             assert lightness[1] > lightness[0] + 0.8
             assert lightness[1] > lightness[2] + 0.8
         else:
-            assert colours is not SIGNED
+            assert colours is not colour_map("diverging")
     assert signed >= 3
     # Contours that are given keep the colours of one sign unless they are symmetric.
-    assert contour_levels(np.array([[-1.0, 2.0]]), [-1.0, 0.0, 2.0])[1] is not SIGNED
+    assert contour_levels(np.array([[-1.0, 2.0]]), [-1.0, 0.0, 2.0])[1] is not colour_map(
+        "diverging"
+    )
 
 
 @pytest.mark.parametrize("increments", [12, 4 * FEW])
@@ -143,3 +147,18 @@ def test_a_mark_beyond_the_drawn_section_is_inside_the_axes() -> None:
             if 0.0 <= x <= 1.0:
                 assert ax.get_xlim() == (0.0, 1.0)
             plt.close("all")
+
+
+@pytest.mark.parametrize(
+    ("module", "left_out"),
+    [
+        ("pyfret", ("matplotlib.pyplot", "cmcrameri", "plotly", "scipy")),
+        ("pyfret.plot", ("cmcrameri", "matplotlib.animation", "matplotlib.patheffects", "plotly")),
+    ],
+)
+def test_an_import_leaves_out_what_single_figures_need(
+    module: str, left_out: tuple[str, ...]
+) -> None:
+    code = f"import sys, {module}; print([m for m in {left_out!r} if m in sys.modules])"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"

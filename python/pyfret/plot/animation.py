@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-import shutil
 from functools import partial
-from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import matplotlib as mpl
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.animation import FFMpegWriter, FuncAnimation, PillowWriter
-from PIL import Image
 
 from pyfret._util.arrays import plain
 from pyfret.plot.histories import fretting_loop, loop_point
@@ -26,44 +22,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from pyfret.run import Run
-
-
-class OnePalette(PillowWriter):
-    """A writer of GIF files whose frames share the colours of all of them."""
-
-    def finish(self) -> None:
-        """Reduce the colours of all frames together, and write the file."""
-        frames = [frame.convert("RGB") for frame in self._frames]  # type: ignore[has-type]
-        step = max(len(frames) // SAMPLES, 1)
-        sampled = frames[::step]
-        width, height = sampled[0].size
-        sheet = Image.new("RGB", (width, height * len(sampled)))
-        for n, frame in enumerate(sampled):
-            sheet.paste(frame, (0, n * height))
-        palette = sheet.quantize(256)
-        self._frames = [
-            frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames
-        ]
-        super().finish()
-
-
-#: Frames that the colours of a film are taken from.
-SAMPLES = 4
-#: Writers of files, by their endings.
-WRITERS = {".mp4": FFMpegWriter, ".gif": OnePalette}
-#: Options of the writers, by their endings; the colours of the theme are kept.
-OPTIONS: dict[str, dict[str, Any]] = {".mp4": {"extra_args": ["-crf", "14"]}, ".gif": {}}
-
-
-def find_ffmpeg() -> str | None:
-    """Return the program ffmpeg: on the path, else in the package imageio-ffmpeg."""
-    program = shutil.which(mpl.rcParams["animation.ffmpeg_path"])
-    if program is not None:
-        return str(program)
-    try:
-        return str(import_module("imageio_ffmpeg").get_ffmpeg_exe())
-    except (ImportError, RuntimeError):
-        return None
 
 
 def common_limits(
@@ -112,6 +70,11 @@ def animate(
     ValueError
         The ending of the file is another, or fewer than two increments kept their fields.
     """
+    # Loaded for films alone: figures do not need them.
+    from matplotlib.animation import FuncAnimation
+
+    from pyfret.plot.film_writers import OPTIONS, WRITERS, find_ffmpeg
+
     target = Path(path)
     if target.suffix not in WRITERS:
         raise ValueError(f"{target}: must end in {' or '.join(WRITERS)}")

@@ -10,11 +10,10 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
 from pyfret._util.bounds import known_to
-from pyfret._util.theme import CRACK, DANGER, MIDDLE, NEUTRAL, SAFE, STICK
+from pyfret._util.theme import CRACK, DANGER, MIDDLE, NEUTRAL, SAFE, STICK, colour_map
 from pyfret.fracture.arrest import WORDS
 from pyfret.plot.areas import Raster
 from pyfret.plot.sizes import Width
-from pyfret.plot.stresses import COLOURS
 from pyfret.plot.studies import in_figures, whole_labels
 from pyfret.plot.style import add_colour_bar, axes, styled
 from pyfret.plot.tables import must_hold
@@ -245,7 +244,7 @@ def running_map(table: xr.Dataset, *, width: Width | None = None, ax: Axes | Non
         raster.draw(ax, np.where(gross, 1.0, np.nan), {1: ("", UNSOLVED)})
         fine = np.ma.masked_where(gross, fine)
     steps = MaxNLocator(10).tick_values(float(fine.min()), float(fine.max()))
-    image = ax.contourf(raster.x, raster.y, fine, levels=steps, cmap=COLOURS)
+    image = ax.contourf(raster.x, raster.y, fine, levels=steps, cmap=colour_map("sequential"))
     add_colour_bar(ax, image, "energy ratio")
     if limit is not None:
         ax.plot(raster.x, limit, color="0.2", linestyle="-" if driven == "delta" else "--")

@@ -17,11 +17,11 @@ from pyfret._util.arrays import histories
 from pyfret._util.depths import interfaces
 from pyfret._util.material_names import as_material
 from pyfret._util.numbers import in_letters, in_powers, layer_name
-from pyfret._util.theme import MARK, REFERENCE, STICK
+from pyfret._util.theme import MARK, REFERENCE, STICK, colour_map
 from pyfret.plot.depth_axis import DepthScale, draw_depth_axis
 from pyfret.plot.scales import scales
 from pyfret.plot.sizes import Width, new_axes
-from pyfret.plot.stresses import COLOURS, FLAT, section_size
+from pyfret.plot.stresses import FLAT, section_size
 from pyfret.plot.style import add_colour_bar, axes, inside_legend, mark, note, styled
 from pyfret.quantities import Numbers
 from pyfret.subsurface.line import line_of
@@ -242,7 +242,7 @@ def _filled(
     if not np.isfinite(field).any():
         return None
     image = None
-    colours = COLOURS.reversed() if limit is None else COLOURS
+    colours = colour_map("sequential").reversed() if limit is None else colour_map("sequential")
     if limit is not None and np.nanmax(np.abs(field)) < NOTHING:
         note(ax, "nothing of the limit is used")
         return None

@@ -90,10 +90,6 @@ def section_size(values: xr.DataArray, width: float = 4.8) -> tuple[float, float
 FLAT = 3.0
 #: Width of one of several sections side by side [inch]: three fill a page at the size of its text.
 PANEL = 2.9
-#: Light enough for black labels.
-COLOURS = colour_map("sequential")
-#: Blue for negative and red for positive numbers, white at zero, light enough for black labels.
-SIGNED = colour_map("diverging")
 #: Part of the largest size from which both signs of a field are shown.
 BOTH_SIGNS = 0.02
 
@@ -125,7 +121,7 @@ def contour_levels(
     if steps.ndim != 1 or steps.size == 0:
         raise ValueError(f"levels = {levels!r:.60}: must be a number of contours, or their values")
     symmetric = steps.size > 1 and bool(np.isclose(steps[0], -steps[-1], rtol=1e-9))
-    return steps, SIGNED if symmetric else COLOURS
+    return steps, colour_map("diverging") if symmetric else colour_map("sequential")
 
 
 @styled
@@ -191,7 +187,7 @@ def section_map(
             continue
         image = ax.contourf(x, z[in_layer], field[in_layer], levels=steps, cmap=colours)
         ax.contour(x, z[in_layer], field[in_layer], levels=steps, colors="0.2", linewidths=0.4)
-        if colours is SIGNED:
+        if colours is colour_map("diverging"):
             ax.contour(x, z[in_layer], field[in_layer], levels=[0.0], colors="0.1", linewidths=1.3)
     for border in inner:
         ax.axhline(border, color="0.2", linewidth=0.8, linestyle=(0, (6, 3)))

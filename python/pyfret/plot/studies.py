@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeAlias
 
 import numpy as np
 from matplotlib.patches import Patch
-from matplotlib.patheffects import withStroke
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from pyfret._util.bounds import bounds, known_to
@@ -35,7 +34,6 @@ Words: TypeAlias = Mapping[str, tuple[str, float]]
 CONTOURED = 4
 #: Step of the contours over the scatter of the values, at least: closer ones are its islands.
 ABOVE_SCATTER = 5.0
-COLOURS = colour_map("sequential")
 #: Letters in a line of a label, so that it fits beside a map.
 WIDTH = 44
 #: Status of a point that is done, and colour of points that are and have no value.
@@ -271,7 +269,7 @@ def plane(
     drawn: Any
     if kind == "contour" or (kind == "auto" and fine and field.count() > 3):
         steps = MaxNLocator(levels).tick_values(float(field.min()), float(field.max()))
-        drawn = ax.contourf(x, y, field, levels=steps, cmap=COLOURS)
+        drawn = ax.contourf(x, y, field, levels=steps, cmap=colour_map("sequential"))
         lines = ax.contour(x, y, field, levels=steps, colors="0.25", linewidths=0.5)
         whole_labels(ax, ax.clabel(lines, fontsize=7, fmt="%g"))
     else:
@@ -279,7 +277,7 @@ def plane(
             edges(places, logarithmic=scale == "log")
             for places, scale in ((x, ax.get_xscale()), (y, ax.get_yscale()))
         ]
-        drawn = ax.pcolormesh(*borders, field, cmap=COLOURS, shading="flat")
+        drawn = ax.pcolormesh(*borders, field, cmap=colour_map("sequential"), shading="flat")
     ax.grid(visible=False)
     if label is not None:
         bar = ax.get_figure().colorbar(drawn, ax=ax)  # type: ignore[union-attr]
@@ -293,6 +291,8 @@ BORDER = 0.05
 
 def whole_labels(ax: Axes, labels: Iterable[Text]) -> None:
     """Take off labels of contours that the border of the axes would cut; the others get a halo."""
+    from matplotlib.patheffects import withStroke
+
     onto_axes = ax.transData + ax.transAxes.inverted()
     for label in list(labels):
         label.set_path_effects([withStroke(linewidth=2.0, foreground="white")])
@@ -321,7 +321,7 @@ def scattered(
         x,
         y,
         c=values.values,
-        cmap=COLOURS,
+        cmap=colour_map("sequential"),
         s=26,
         edgecolors=REFERENCE,
         linewidths=0.4,

@@ -8,10 +8,11 @@ import numpy as np
 from matplotlib.ticker import MaxNLocator
 
 from pyfret._util.lazy import xr
+from pyfret._util.theme import colour_map
 from pyfret.plot.depth_axis import DepthScale, draw_depth_axis
 from pyfret.plot.scales import Units, last_of, scales_of_snapshot
 from pyfret.plot.sizes import Width, new_axes
-from pyfret.plot.stresses import COLOURS, SYMBOLS
+from pyfret.plot.stresses import SYMBOLS
 from pyfret.plot.style import axes, styled
 from pyfret.subsurface.fields import interfaces
 from pyfret.subsurface.line import cut, main_line
@@ -93,7 +94,9 @@ def plastic_zone(
             in_layer = layers == layer
             if np.count_nonzero(in_layer) < 2 or not yielded[in_layer].any():
                 continue
-            image = ax.contourf(x, z[in_layer], percent[in_layer], levels=levels, cmap=COLOURS)
+            image = ax.contourf(
+                x, z[in_layer], percent[in_layer], levels=levels, cmap=colour_map("sequential")
+            )
             ax.contour(
                 x, z[in_layer], percent[in_layer], levels=steps[1:], colors="0.2", linewidths=0.4
             )

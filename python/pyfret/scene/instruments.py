@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import gzip
 import warnings
-from importlib.metadata import version
+from importlib import import_module
 from os import fspath
 from typing import TYPE_CHECKING, Any
 
@@ -52,7 +52,7 @@ def read_by_surface_topography(
             'reading instrument files needs SurfaceTopography: pip install "fretting[surfaces]"'
         )
         raise ImportError(message) from absent
-    release = version("SurfaceTopography")
+    release = import_module("importlib.metadata").version("SurfaceTopography")
     if tuple(int(part) for part in release.split(".")[:3] if part.isdigit()) < NEEDED:
         raise StoreError(
             f"needs SurfaceTopography 1.27.1 or later, and {release} is installed: older releases "
