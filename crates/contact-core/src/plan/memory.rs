@@ -7,7 +7,7 @@ use crate::memory::fits;
 use crate::scene::{Grid, KernelMethod, Scene};
 
 /// Memory of the program itself \[bytes\].
-const PROGRAM: f64 = 10e6;
+const PROGRAM: f64 = 16e6;
 /// Numbers per cell of the domain of [`KernelMethod::FrequencyDomain`], lambda^2 times the grid:
 /// samples of the response and buffers of the transforms.
 const SAMPLES: f64 = 10.0;
@@ -16,9 +16,10 @@ const HALF_WAY: f64 = 6.0;
 /// Numbers per increment: its loads, its results, its line in the store.
 const INCREMENT: f64 = 200.0;
 
-/// Upper bound of the memory of operators with a window around the contact, 0.9 times as long and
-/// wide as the grid, over the memory of the operators without it.
-const WINDOW: f64 = 1.8;
+/// Largest part of the side of a grid that a window around the contact takes, and the side of a
+/// window over the diameter of the contact of Hertz.
+const WIDEST: f64 = 0.9;
+const AROUND: f64 = 1.2;
 
 const BYTES: f64 = 8.0;
 
@@ -33,9 +34,9 @@ struct ArraysPerCell {
 impl ArraysPerCell {
     fn for_kernels(kernels: KernelSet) -> Self {
         let (fields, spectra) = match kernels {
-            KernelSet::Normal => (50.0, 34.0),
-            KernelSet::Uncoupled => (116.0, 26.0),
-            KernelSet::All => (176.0, 48.0),
+            KernelSet::Normal => (44.0, 15.0),
+            KernelSet::Uncoupled => (112.0, 30.0),
+            KernelSet::All => (112.0, 42.0),
         };
         Self { fields, spectra }
     }
@@ -43,8 +44,8 @@ impl ArraysPerCell {
 
 impl Plan {
     /// Peak memory of a solution of the scene \[bytes\], including nested grids, the choice of
-    /// increments, error bars, the store. This is an upper bound: measured runs take 0.5 to 0.8
-    /// times as much from 256 cells per side on.
+    /// increments and the store. Measured runs from 128 to 1024 cells per side, with and without a
+    /// mirror plane, take 0.8 to 1 times as much.
     pub fn memory(&self, scene: &Scene) -> f64 {
         let grid = &scene.grid;
         let (solved_cells, cells) = (
@@ -58,7 +59,7 @@ impl Plan {
             KernelMethod::FrequencyDomain { lambda } => SAMPLES * (lambda * lambda) as f64,
         };
         let spectra = if self.methods.window {
-            WINDOW * spectra
+            (1.0 + window_share(scene)) * spectra
         } else {
             spectra
         };
@@ -69,6 +70,24 @@ impl Plan {
     /// Fails with both numbers if the solution needs more memory than there is.
     pub fn check_memory(&self, scene: &Scene) -> Result<(), Error> {
         fits("the solution", self.memory(scene))
+    }
+}
+
+/// Part of the cells of the grid in the window around the contact: of the diameter of a round contact,
+/// else the largest.
+fn window_share(scene: &Scene) -> f64 {
+    let (k_1, k_2) = scene.principal_curvatures();
+    let is_round = scene.grid.plane_strain || k_1 - k_2 <= 1e-9 * k_1;
+    let diameter = scene
+        .hertz()
+        .filter(|_| is_round)
+        .map_or(f64::INFINITY, |hertz| AROUND * 2.0 * hertz.a);
+    let part = |side: f64| (diameter / side).min(WIDEST);
+    let (length, width) = scene.grid.extent();
+    if scene.grid.plane_strain {
+        part(length)
+    } else {
+        part(length) * part(width)
     }
 }
 
