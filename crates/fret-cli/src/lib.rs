@@ -133,6 +133,7 @@ enum Command {
 /// the exit code: 0 done, 1 the run ended early, 2 bad scene or bad command line, 3 the output
 /// could not be written.
 pub fn run_command(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    let _ = survive_size_limit();
     let parsed = Cli::command()
         .color(colours())
         .term_width(help_width())
@@ -194,6 +195,20 @@ fn print_usage(error: &clap::Error) -> std::io::Result<()> {
         text.to_string()
     };
     writeln!(std::io::stderr(), "{}", wrap_message(text.trim_end()))
+}
+
+/// Keeps the process alive at a limit of file sizes (`ulimit -f`): the writing that passes it fails
+/// with an error instead, which names the file.
+#[cfg(unix)]
+fn survive_size_limit() -> std::io::Result<()> {
+    const SIGXFSZ: i32 = 25;
+    signal_hook::flag::register(SIGXFSZ, std::sync::Arc::default()).map(|_| ())
+}
+
+/// Other systems have no limit of file sizes.
+#[cfg(not(unix))]
+fn survive_size_limit() -> std::io::Result<()> {
+    Ok(())
 }
 
 /// Runs the command of the Python package and returns its exit code.
