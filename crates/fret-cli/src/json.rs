@@ -156,7 +156,8 @@ fn branch_to_json(
     }
     set(size_variable(scene), json!(b.contact_radius));
     let sticks = (!frictionless(scene)).then_some(b.stick_ratio);
-    set("stick_ratio", or_missing(json!(sticks), "no friction"));
+    let why = sticks.map_or("no friction", |_| "no contact");
+    set("stick_ratio", or_missing(json!(sticks), why));
     set(
         "status",
         json!(state(frictionless(scene), last.status).replace(' ', "_")),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -67,7 +68,8 @@ def sticks_of(at: State) -> str:
     """The stick ratio of an increment, or that there is no friction."""
     if frictionless(at.scene):
         return NO_FRICTION
-    return f"stick ratio {float(at.dataset.stick_ratio):.3f}"
+    ratio = float(at.dataset.stick_ratio)
+    return "no contact" if math.isnan(ratio) else f"stick ratio {ratio:.3f}"
 
 
 def increments(result: Run) -> dict[str, Any]:

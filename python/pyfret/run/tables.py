@@ -41,7 +41,7 @@ ENDS = {
     "plastic_work": "plastic work",
     "plastic_volume": "yielded",
     "largest_plastic_strain": "largest plastic strain",
-    "path_error": "error of q",
+    "path_error": "error of shear",
 }
 #: Units that people read numbers in, with their factors, by SI unit.
 SHOWN_IN = {
@@ -82,8 +82,9 @@ def ends_table(result: Run) -> str:
     for n in range(ends.sizes["branch"]):
         cells = [str(int(ends.branch[n]))]
         for name, (factor, _) in shown.items():
-            cell = number(factor * float(values[name][n]))
-            if bars is not None and name in bars:
+            value = float(values[name][n])
+            cell = number(factor * value) if np.isfinite(value) else "-"
+            if bars is not None and name in bars and np.isfinite(value):
                 cell += f" &plusmn; {factor * float(bars[name][n]):.1g}"
             cells.append(cell)
         rows.append([*cells, state_in_words(ends.status[n], result.scene)])
@@ -124,6 +125,8 @@ def state_html(state: State) -> str:
     rows = []
     for name in ENDS:
         if name in d and has(name, state.scene) and (name == "W" or float(d[name])):
+            if not np.isfinite(float(d[name])):
+                continue
             factor, title = heading(d, name)
             rows.append([title, number(factor * float(d[name]))])
     rows.append(["state", state_in_words(d.status, state.scene)])

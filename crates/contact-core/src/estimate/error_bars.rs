@@ -293,16 +293,14 @@ fn bars(
 /// stick ratio S: dA = 2 A da/a, of a line contact A da/a; d(S A) = S dA + A dS.
 fn bars_of_areas(scene: &Scene, fine: &BranchSummary, radius: Bar, stick: Bar) -> [Bar; 2] {
     let a = fine.contact_radius;
+    let stick_ratio = if a > 0.0 { fine.stick_ratio } else { 0.0 };
     let (area, slope) = if scene.grid.plane_strain {
         (2.0 * a * scene.grid.dy, 2.0 * scene.grid.dy)
     } else {
         (PI * a * a, 2.0 * PI * a)
     };
     let contact = radius.times(slope);
-    [
-        contact,
-        contact.times(fine.stick_ratio).plus(&stick.times(area)),
-    ]
+    [contact, contact.times(stick_ratio).plus(&stick.times(area))]
 }
 
 /// The error of the stress that the errors of the tractions cause, over the stress, from the errors
@@ -381,7 +379,11 @@ fn slip_ring(scene: &Scene, fine: &BranchSummary) -> f64 {
 /// may be larger by `ring` \[J\]; negligible where loads in the plane act.
 fn energy_of_ring(scene: &Scene, fine: &BranchSummary, ring: f64) -> f64 {
     let mut until = scene.path.branches[..=fine.branch].iter();
-    if ring <= 0.0 || !Plan::new(scene).coupling || !until.all(Branch::only_presses) {
+    if ring <= 0.0
+        || fine.contact_radius <= 0.0
+        || !Plan::new(scene).coupling
+        || !until.all(Branch::only_presses)
+    {
         return 0.0;
     }
     let (mu, slips) = (scene.friction.mu, 1.0 - fine.stick_ratio);

@@ -22,7 +22,10 @@ pub(crate) const NUMBERS: usize = PLASTIC + 3;
 pub(crate) fn numbers(branch: &BranchSummary) -> [f64; NUMBERS] {
     let mut numbers = [0.0; NUMBERS];
     numbers[CONTACT_RADIUS] = branch.contact_radius;
-    numbers[STICK_RATIO] = branch.stick_ratio;
+    // Without contact there is no stick ratio, and no error of one.
+    if branch.contact_radius > 0.0 {
+        numbers[STICK_RATIO] = branch.stick_ratio;
+    }
     numbers[P_MAX] = branch.p_max;
     numbers[DISSIPATED] = branch.dissipated;
     numbers[Q_MAX] = branch.q_max;

@@ -176,7 +176,11 @@ impl TwoRuns {
                     driven: prescribed.delta_x.is_none() && prescribed.delta_y.is_none(),
                     reached: many.q() / q,
                     bearable: self.mu * many.p() / q,
-                    ring: (1.0 - many.summary.stick_ratio.sqrt()) * many.summary.contact_radius,
+                    ring: if many.summary.contact_radius > 0.0 {
+                        (1.0 - many.summary.stick_ratio.sqrt()) * many.summary.contact_radius
+                    } else {
+                        0.0
+                    },
                     unconfirmed: [
                         unconfirmed_peak(&few.tractions, &many.tractions),
                         unconfirmed_peak(&many.tractions, &few.tractions),

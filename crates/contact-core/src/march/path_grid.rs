@@ -277,7 +277,12 @@ impl March {
             point,
             motion: Motion::from_motions(std::array::from_fn(motion)),
             contact_area: fine.contact_area,
-            stick_area: coarse.stick_ratio() * fine.contact_area,
+            // Without contact on the coarse grid nothing slips.
+            stick_area: if coarse.contact_area > 0.0 {
+                coarse.stick_ratio() * fine.contact_area
+            } else {
+                fine.contact_area
+            },
             path_grid: coarse.path_grid,
             cells_per_radius: fine.cells_per_radius,
             p_max: moved(|i| i.p_max),

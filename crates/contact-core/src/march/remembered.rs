@@ -174,7 +174,7 @@ fn places(scene: &Scene, mirror: Mirror, (nx, ny): (usize, usize)) -> Vec<[f64; 
 /// Whether the stick zone is large enough to say where the particles of the ring come to stick: with
 /// c = 0.48 a the error is three times the error of the increments.
 pub(super) fn remembers_enough(row: &Increment) -> bool {
-    row.stick_ratio() > LEAST_STICK * LEAST_STICK
+    row.contact_area <= 0.0 || row.stick_ratio() > LEAST_STICK * LEAST_STICK
 }
 
 impl March {

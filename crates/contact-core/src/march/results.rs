@@ -285,12 +285,12 @@ pub struct Increment {
 }
 
 impl Increment {
-    /// Stick area over contact area; 1 where there is no contact.
+    /// Stick area over contact area; NaN without contact.
     pub fn stick_ratio(&self) -> f64 {
         if self.contact_area > 0.0 {
             self.stick_area / self.contact_area
         } else {
-            1.0
+            f64::NAN
         }
     }
 }

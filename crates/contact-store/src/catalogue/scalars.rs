@@ -109,7 +109,7 @@ pub const SCALARS: &[Scalar] = &[
     real(
         "stick_ratio",
         "1",
-        "stick area over contact area",
+        "stick area over contact area, NaN without contact",
         Increment::stick_ratio,
     ),
     real(
