@@ -50,4 +50,4 @@ struct UseAsADependency;
 
 pub use error::Error;
 pub use scene::Scene;
-pub use shown::shown;
+pub use shown::{abridge, shown};

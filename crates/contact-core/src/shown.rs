@@ -37,6 +37,30 @@ fn acts(c: char) -> bool {
     )
 }
 
+/// Characters of a text from outside that a message repeats.
+const LONGEST_ECHO: usize = 200;
+
+/// A text from outside as a message repeats it: the first 200 characters, with the
+/// number of the characters that are left out.
+///
+/// # Examples
+///
+/// ```
+/// use contact_core::abridge;
+///
+/// assert_eq!(abridge("friction.mu"), "friction.mu");
+/// assert!(abridge(&"k".repeat(5000)).ends_with("kk... (4800 more characters)"));
+/// ```
+pub fn abridge(text: &str) -> Cow<'_, str> {
+    match text.char_indices().nth(LONGEST_ECHO) {
+        None => Cow::Borrowed(text),
+        Some((end, _)) => {
+            let more = text[end..].chars().count();
+            Cow::Owned(format!("{}... ({more} more characters)", &text[..end]))
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::shown;

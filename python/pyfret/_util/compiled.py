@@ -12,6 +12,7 @@ from collections.abc import Callable, Sequence
 from types import BuiltinFunctionType, MethodDescriptorType
 from typing import TYPE_CHECKING, Any
 
+from pyfret._util.echo import abridge_error
 from pyfret._util.keywords import check_places, unknown_keyword
 
 if TYPE_CHECKING:
@@ -96,6 +97,7 @@ def telling(call: Callable[..., Any], what: str) -> Callable[..., Any]:
             if isinstance(error, TypeError):
                 refusal = refused(what, call, values, given)
             refusal = refusal or with_argument(error) or with_value(call, values, given, error)
+            abridge_error(refusal or error)
             if refusal is None:
                 raise
         raise refusal

@@ -17,8 +17,13 @@ __all__ = ["check_places", "nearest_names", "refuse_unknown", "unknown_keyword"]
 POSITIONAL = (inspect.Parameter.POSITIONAL_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD)
 
 
+#: Characters of a name that are compared with others: the time grows with their square.
+COMPARED = 64
+
+
 def nearest_names(name: str, known: Iterable[str], most: int) -> list[str]:
     """Return the known names that are synonyms of a name, or else the most similar ones."""
+    name = name[:COMPARED]
     lower = {candidate.lower(): candidate for candidate in known}
     similar = [lower[match] for match in get_close_matches(name.lower(), lower, n=most)]
     return (meant(name, list(lower.values())) or similar)[:most]
@@ -39,7 +44,7 @@ def unknown_keyword(call: str, keywords: Iterable[str], known: Sequence[str]) ->
             near = nearest_names(name, known, 1)
             names = ", ".join(known) or "none"
             hint = f"the nearest is {near[0]!r} (of {names})" if near else f"it takes {names}"
-            return TypeError(f"{call} has no argument {name!r}: {hint}")
+            return TypeError(f"{call} has no argument {name!r:.200}: {hint}")
     return None
 
 

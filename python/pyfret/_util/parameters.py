@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import json
 import re
 from collections.abc import Iterable, Mapping
@@ -11,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from pyfret import _core
+from pyfret._util.keywords import nearest_names
 from pyfret._util.lazy import xr
 
 __all__ = ["SHORT", "full", "in_si", "one_of", "opposite", "part", "single"]
@@ -48,9 +48,10 @@ def one_of(known: Iterable[str], name: str, what: str) -> str:
     keys = {full(of): of for of in known}
     if full(name) in keys:
         return keys[full(name)]
-    near = difflib.get_close_matches(name, known, n=1)
+    near = nearest_names(name, known, 1)
     hint = f"; the nearest is {near[0]!r}" if near else ""
-    raise ValueError(f"{what}: the study has no parameter {name!r}{hint} (of {', '.join(known)})")
+    known_names = ", ".join(known)
+    raise ValueError(f"{what}: the study has no parameter {name!r:.200}{hint} (of {known_names})")
 
 
 def in_si(name: str, value: Any) -> Any:

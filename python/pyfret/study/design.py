@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import json
 import math
 import re
@@ -21,6 +20,7 @@ import numpy as np
 
 from pyfret._core import InvalidSceneError, Scene
 from pyfret._util.arrays import items, labels
+from pyfret._util.keywords import nearest_names
 from pyfret._util.lazy import xr
 from pyfret._util.parameters import SHORT, in_si, opposite, single
 from pyfret._util.scene_warnings import doubt_numbers, warn
@@ -385,8 +385,8 @@ class Design:
         valid = [*SHORT, "friction", "grid", "body1", "body2", "path", "solver", "kernel"]
         for key in self.parameters:
             if key.split(".")[0] not in valid:
-                near = difflib.get_close_matches(key, SHORT, n=1)
-                return f"; {key}: the nearest is {near[0]}" if near else ""
+                near = nearest_names(key, SHORT, 1)
+                return f"; {key:.200}: the nearest is {near[0]}" if near else ""
         return ""
 
 

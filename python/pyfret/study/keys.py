@@ -41,7 +41,7 @@ def read_document(file: Path, keys: tuple[str, ...], needed: Iterable[str]) -> d
     for key in FILES:
         if not isinstance(document.get(key, ""), str):
             raise ValueError(
-                f"{file}: `{key}` = {document[key]!r}: must be the name of a file in quotes"
+                f"{file}: `{key}` = {document[key]!r:.200}: must be the name of a file in quotes"
             )
     return document
 
@@ -49,8 +49,8 @@ def read_document(file: Path, keys: tuple[str, ...], needed: Iterable[str]) -> d
 def check_key(key: str, keys: tuple[str, ...], where: str) -> None:
     """Reject an unknown key and name the nearest one."""
     if key not in keys:
-        nearest = difflib.get_close_matches(key, keys, n=1, cutoff=0.0)[0]
-        raise ValueError(f"{where}: unknown key `{key}`: the nearest valid key is `{nearest}`")
+        nearest = difflib.get_close_matches(key[:64], keys, n=1, cutoff=0.0)[0]
+        raise ValueError(f"{where}: unknown key `{key:.200}`: the nearest valid key is `{nearest}`")
 
 
 def store_path(file: Path, document: dict[str, Any], out: Any) -> Path:

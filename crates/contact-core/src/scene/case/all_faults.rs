@@ -101,12 +101,13 @@ fn replace_refused_value(root: &mut Table, fault: &Fault) -> bool {
     let Some((name, table)) = path.split_last() else {
         return false;
     };
-    if let Some(nearest) = &fault.nearest {
+    if fault.is_unknown {
         let Some(table) = table_at(root, table) else {
             return false;
         };
-        let value = table.remove(*name);
-        if let Some(value) = value.filter(|_| !table.contains_key(nearest)) {
+        if let (Some(value), Some(nearest)) = (table.remove(*name), &fault.nearest)
+            && !table.contains_key(nearest)
+        {
             table.insert(nearest.clone(), value);
         }
         return true;

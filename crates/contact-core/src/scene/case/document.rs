@@ -5,7 +5,9 @@ use toml::{Spanned, Table, Value};
 
 use super::fault::Fault;
 use super::measure;
+use super::synonyms::full_key;
 use crate::error::Error;
+use crate::shown::abridge;
 
 /// A scene file with the settings applied.
 pub(super) struct Document<'a> {
@@ -39,7 +41,7 @@ impl<'a> Document<'a> {
                     apply(&mut root, setting)
                 };
                 applied.map_err(|message| Error::Setting {
-                    setting: one_line(setting),
+                    setting: one_line(&abridge(setting)),
                     message: one_line(&message),
                 })?;
             }
@@ -62,7 +64,8 @@ impl<'a> Document<'a> {
     pub(super) fn error(&self, fault: &Fault) -> Error {
         let path = steps(&fault.key);
         let related = |setting: &&String| {
-            let setting_path = steps(setting.split('=').next().unwrap_or_default().trim());
+            let setting_key = setting.split('=').next().unwrap_or_default().trim();
+            let setting_path = steps(full_key(setting_key));
             setting_path
                 .iter()
                 .zip(&path)
@@ -71,7 +74,7 @@ impl<'a> Document<'a> {
         };
         if let Some(setting) = self.settings.iter().rev().find(related) {
             return Error::Setting {
-                setting: one_line(setting),
+                setting: one_line(&abridge(setting)),
                 message: one_line(&fault.message),
             };
         }
@@ -139,7 +142,7 @@ pub(super) fn apply(root: &mut Table, setting: &str) -> Result<(), String> {
     let (key, value) = setting
         .split_once('=')
         .ok_or("a setting must be of the form key=value")?;
-    set_every(root, &steps(key), &parse_value(value.trim())?)
+    set_every(root, &steps(full_key(key)), &parse_value(value.trim())?)
 }
 
 /// The key of a material, and the numbers beside it that belong to the material. A number stands in
@@ -317,6 +320,6 @@ pub(super) fn parse_value(text: &str) -> Result<Value, String> {
         _ if measure::has_unit(text) || (!text.is_empty() && text.chars().all(bare)) => {
             Ok(Value::String(text.to_owned()))
         }
-        _ => Err(format!("`{text}` is not a TOML value")),
+        _ => Err(format!("`{}` is not a TOML value", abridge(text))),
     }
 }

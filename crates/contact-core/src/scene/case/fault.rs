@@ -3,6 +3,7 @@
 use toml::Value;
 
 use crate::error::Error;
+use crate::shown::abridge;
 
 /// A message about the value at a key.
 #[derive(Debug)]
@@ -11,7 +12,9 @@ pub struct Fault {
     pub(super) key: String,
     /// One sentence.
     pub(super) message: String,
-    /// The nearest valid name of a key that is unknown.
+    /// Whether the key is unknown.
+    pub(super) is_unknown: bool,
+    /// The nearest valid name of an unknown key in its table.
     pub(super) nearest: Option<String>,
     /// Whether the value can be read, but is out of range or contradicts other values.
     pub(super) is_of_meaning: bool,
@@ -23,6 +26,7 @@ impl Fault {
         Self {
             key: key.into(),
             message: message.into(),
+            is_unknown: false,
             nearest: None,
             is_of_meaning: false,
         }
@@ -44,7 +48,8 @@ impl Fault {
             }
             value => value.to_string(),
         };
-        Self::new(key, format!("{key} = {shown}: must be {allowed}"))
+        let (named, value) = (abridge(key), abridge(&shown));
+        Self::new(key, format!("{named} = {value}: must be {allowed}"))
     }
 }
 

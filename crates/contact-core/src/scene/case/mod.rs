@@ -17,6 +17,7 @@ mod refusal_tests;
 mod section;
 mod settings;
 mod shape;
+mod synonyms;
 #[cfg(test)]
 mod tests;
 mod write;

@@ -8,6 +8,10 @@ fn bad_settings_are_named() {
     for (setting, part) in [
         ("friction.mmu=0.5", "the nearest valid key is `friction.mu`"),
         ("frition.mu=0.5", "the nearest valid key is `friction`"),
+        ("pitch=1e-6", "the nearest valid key is `grid.spacing`"),
+        ("grid.pitch=1e-6", "the nearest valid key is `grid.spacing`"),
+        ("cof=0.3", "the nearest valid key is `friction.mu`"),
+        ("path.0.load=3", "the nearest valid key is `path[0].W`"),
         ("friction.mu", "of the form key=value"),
         ("=1", "the key is empty"),
         ("friction.mu=", "is not a TOML value"),

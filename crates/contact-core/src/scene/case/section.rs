@@ -4,6 +4,8 @@ use toml::{Table, Value};
 
 use super::fault::Fault;
 use super::measure::{self, Measure};
+use super::synonyms::{meant_key, nearest};
+use crate::shown::abridge;
 
 /// A table of the file with its place in it.
 pub struct Section<'a> {
@@ -24,9 +26,22 @@ impl<'a> Section<'a> {
             None => Ok(section),
             Some(unknown) => {
                 let key = section.path(unknown);
-                let message = format!("unknown key `{key}`: {}", section.hint(unknown, allowed));
+                let meant = meant_key(unknown, &section.key, allowed);
+                let nearest = match &meant {
+                    Some(key) => allowed
+                        .iter()
+                        .find(|&&name| section.path(name) == *key)
+                        .map(|&name| name.to_owned()),
+                    None => nearest(unknown, allowed),
+                };
+                let hint = match meant.or_else(|| nearest.as_ref().map(|name| section.path(name))) {
+                    Some(key) => format!("the nearest valid key is `{key}`{}", names(allowed)),
+                    None => "no key is allowed here".to_owned(),
+                };
+                let message = format!("unknown key `{}`: {hint}", abridge(&key));
                 Err(Fault {
-                    nearest: nearest(unknown, allowed),
+                    is_unknown: true,
+                    nearest,
                     ..Fault::new(key, message)
                 })
             }
@@ -46,17 +61,6 @@ impl<'a> Section<'a> {
                 value,
                 &format!("a table of {}", allowed.join(", ")),
             )),
-        }
-    }
-
-    fn hint(&self, unknown: &str, allowed: &[&str]) -> String {
-        match nearest(unknown, allowed) {
-            Some(name) => format!(
-                "the nearest valid key is `{}` (of {})",
-                self.path(&name),
-                allowed.join(", ")
-            ),
-            None => "no key is allowed here".to_owned(),
         }
     }
 
@@ -176,13 +180,13 @@ impl<'a> Section<'a> {
     }
 }
 
-/// The allowed name that is nearest to an unknown one.
-fn nearest(unknown: &str, allowed: &[&str]) -> Option<String> {
-    let distance = |name: &&&str| strsim::damerau_levenshtein(unknown, name);
-    allowed
-        .iter()
-        .min_by_key(distance)
-        .map(|&name| name.to_owned())
+/// The allowed names, in brackets.
+fn names(allowed: &[&str]) -> String {
+    if allowed.is_empty() {
+        String::new()
+    } else {
+        format!(" (of {})", allowed.join(", "))
+    }
 }
 
 /// A whole number of at least `least`.
