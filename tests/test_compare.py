@@ -157,7 +157,7 @@ def test_a_margin_says_what_the_stress_is_and_what_is_doubted() -> None:
             pattern = [
                 note for note in single.notes if "the scene has" in note or "estimate" in note
             ]
-            assert all(f"doubted: {name}: {note}" in table for note in pattern)
+            assert all(f"warning: {name}: {note}" in table for note in pattern)
         assert table.count("mean over L = ") == 2
         assert "the scene has E = " in table
 

@@ -121,9 +121,9 @@ def test_a_line_is_the_mean_of_the_rows_beside_it(coated: fret.Result) -> None:
 
 def test_the_summary_has_a_line_per_branch(coated: fret.Result) -> None:
     title, header, *lines = coated.summary().splitlines()
-    doubted = [line for line in lines if line.startswith("doubted: ")]
-    assert [line.removeprefix("doubted: ") for line in doubted] == coated.doubts
-    rows = [line for line in lines if not line.startswith(("cycle", "doubted", "a_H"))]
+    warned = [line for line in lines if line.startswith("warning: ")]
+    assert [line.removeprefix("warning: ") for line in warned] == coated.doubts
+    rows = [line for line in lines if not line.startswith(("cycle", "warning", "a_H"))]
     [over] = [line for line in lines if line.startswith("a_H")]
     assert f"p_H = {1e-6 * coated.p_H:.0f}" in over
     cycles = [line for line in lines if line.startswith("cycle")]

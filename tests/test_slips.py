@@ -196,7 +196,7 @@ def test_a_contact_of_few_cells_is_doubted_before_and_after() -> None:
         result = fret.solve(few_cells(4.0), PRESSED, progress=False)
     assert len(text) == 2
     assert "cells across its radius" in result.doubts[0]
-    assert "doubted: the contact has" in result.summary()
+    assert "warning: the contact has" in result.summary()
     assert 3.0 < float(result.dataset.cells_per_radius[-1]) < 5.0
 
 

@@ -34,8 +34,9 @@ NAMES = {
     "a": "contact_radius",
     "radius": "contact_radius",
     "dissip.": "dissipated",
-    "error of q": "path_error",
+    "error of shear": "path_error",
     "sliding ratio": "sliding_ratio",
+    "sliding ratio (slip/shift)": "sliding_ratio",
 }
 #: What is no number of a branch or of a cycle.
 OTHERS = {"branch", "#", "cycle", "state", "increments"}
@@ -118,7 +119,7 @@ def of_cycle(text: str, truth: dict[str, Any]) -> Iterator[tuple[str, str]]:
         name, _, unit = (item.strip() for item in part.partition(numbers[0]))
         if "dissipated" in unit:
             name, unit = "dissipated", unit.split()[0]
-        name = name.replace(" ", "_")
+        name = name.partition(" (")[0].replace(" ", "_")
         value, half = read(numbers[0])
         assert name in cycle, f"{name}: compare this number as well"
         assert value == pytest.approx(cycle[name] / UNITS[unit], abs=1.01 * half), part

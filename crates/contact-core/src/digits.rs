@@ -24,7 +24,7 @@ pub fn rough(x: f64) -> String {
 }
 
 /// A number and its error, with the decimals of the first two digits of the error. Without an error
-/// (`None`, NaN or infinite) two digits and the word "estimate"; without a number "not known". An
+/// (`None`, NaN or infinite) "about" and two digits; without a number "not known". An
 /// error below 1e-6 of the number gives the number alone.
 ///
 /// # Examples
@@ -34,7 +34,7 @@ pub fn rough(x: f64) -> String {
 ///
 /// assert_eq!(with_error(2.16345, Some(0.0123)), "2.163 +- 0.012");
 /// assert_eq!(with_error(1.2184e7, Some(2.4e5)), "(1.218 +- 0.024)e7");
-/// assert_eq!(with_error(2.16345, None), "2.2 (estimate)");
+/// assert_eq!(with_error(2.16345, None), "about 2.2");
 /// assert_eq!(with_error(9.822447996, Some(1e-12)), "9.822");
 /// assert_eq!(with_error(f64::NAN, None), "not known");
 /// ```
@@ -45,7 +45,7 @@ pub fn with_error(value: f64, error: Option<f64>) -> String {
     let error = error.filter(|error| error.is_finite()).map(f64::abs);
     match error {
         _ if value.is_infinite() => value.to_string(),
-        None => format!("{} (estimate)", digits(value, OF_ERRORS)),
+        None => format!("about {}", digits(value, OF_ERRORS)),
         Some(error) if error < UNREAD * value.abs() || error == 0.0 => short(value),
         Some(error) => {
             let size = power(value.abs().max(error));
@@ -82,7 +82,7 @@ pub fn with_range(value: f64, [low, high]: [f64; 2]) -> String {
         return "not known".into();
     }
     if low.is_nan() || high.is_nan() {
-        return format!("{} (estimate)", digits(value, OF_ERRORS));
+        return format!("about {}", digits(value, OF_ERRORS));
     }
     if value.is_infinite() {
         return if low.is_finite() {

@@ -69,11 +69,26 @@ pub(crate) fn line(scene: &Scene, branch: &BranchSummary, t: f64) -> String {
         if frictionless(scene) {
             "no friction".to_owned()
         } else {
-            format!("stick ratio {:.4}", branch.stick_ratio)
+            stick_ratio_text(branch, "no contact", |ratio| {
+                format!("stick ratio {ratio:.4}")
+            })
         },
         branch.p_max / pressure.1,
         pressure.0,
     )
+}
+
+/// The stick ratio of a branch, or `missing` where the branch ends without contact.
+fn stick_ratio_text(
+    branch: &BranchSummary,
+    missing: &str,
+    format_ratio: impl Fn(f64) -> String,
+) -> String {
+    if branch.stick_ratio.is_nan() {
+        missing.to_owned()
+    } else {
+        format_ratio(branch.stick_ratio)
+    }
 }
 
 /// Motions that most paths leave at zero, and their loads.
@@ -210,7 +225,7 @@ fn columns(scene: &Scene, increments: &[Increment], wide: bool) -> Vec<Column> {
             if bare {
                 "-".into()
             } else {
-                short(b.stick_ratio)
+                stick_ratio_text(b, "-", short)
             }
         }),
         column("state", move |_, last| state(bare, last.status).to_owned()),
@@ -236,7 +251,7 @@ fn columns(scene: &Scene, increments: &[Increment], wide: bool) -> Vec<Column> {
     }
     let errors = Reached::from_increments(increments).shear_errors(scene);
     if errors.iter().any(Option::is_some) {
-        columns.push(column("error\nof q", move |b, _| {
+        columns.push(column("error of\nshear", move |b, _| {
             let error = errors.get(b.branch).copied().flatten();
             error.map_or_else(String::new, |error| format!("{:.2} %", 100.0 * error))
         }));
@@ -281,7 +296,7 @@ fn cycle_lines(scene: &Scene, increments: &[Increment]) -> Vec<String> {
             "N/m"
         });
         format!(
-            "cycle {} ({}): {}, {} {joule} dissipated, energy ratio {}\n  sliding ratio {}\n  stiffness {}",
+            "cycle {} ({}): {}, {} {joule} dissipated, energy ratio {}\n  sliding ratio (slip/shift) {}\n  stiffness {}",
             n + 1,
             word(*direction),
             state(frictionless(scene), c.status),
@@ -431,7 +446,7 @@ pub(crate) fn error_table(scene: &Scene, increments: &[Increment], bars: &[Error
     for (n, (direction, c)) in json::cycles(scene, increments).iter().enumerate() {
         let errors = json::cycle_errors(scene, *direction, c, bars);
         page.text(&format!(
-            "cycle {} ({}): {} {joule} dissipated, energy ratio {}, sliding ratio {}",
+            "cycle {} ({}): {} {joule} dissipated, energy ratio {}, sliding ratio (slip/shift) {}",
             n + 1,
             word(*direction),
             with_error(c.dissipated * joules, Some(errors.dissipated * joules)),

@@ -22,9 +22,9 @@ __all__ = ["ESTIMATE", "SIDES", "bounds", "is_bound", "known_to", "span", "split
 
 #: Suffixes of a number and of its range, with what they add to its meaning.
 SIDES = {"": "", "_low": ", lowest", "_high": ", highest"}
-#: Attributes of a number without an error, and what stands behind it.
+#: Attributes of a number without an error, and the word before it.
 ESTIMATE = {"accuracy": "estimate"}
-MARK = " (estimate)"
+ABOUT = "about "
 #: Factor from which on the range of a number is a factor and no part.
 FACTOR = 1.5
 
@@ -73,8 +73,8 @@ def span(table: xr.Dataset, name: str) -> str:
     values = table[name].values
     ends = [np.unravel_index(int(of(values)), values.shape) for of in (np.nanargmin, np.nanargmax)]
     low, high = (shown(table, name, at) for at in ends)
-    if low.endswith(MARK) and high.endswith(MARK):
-        low = low.removesuffix(MARK)
+    if low.startswith(ABOUT) and high.startswith(ABOUT):
+        high = high.removeprefix(ABOUT)
     return f"{low} to {high}"
 
 

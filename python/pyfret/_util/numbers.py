@@ -129,10 +129,10 @@ class Placed(Protocol):
 def place(of: Placed, coatings: int | None = None) -> str:
     """Where something lies, in ASCII: short lengths with their units, and the layer.
 
-    The layer is called by its name if the number of coatings is known.
+    The layer is called by its name if the number of coatings is known, else by its number.
     """
     axes = ", ".join(f"{axis} = {length(getattr(of, axis))}" for axis in "xyz")
-    where = f"layer = {of.layer} (from 0)"
+    where = f"layer = {of.layer}"
     if coatings is not None:
         where = f"in {layer_name(of.layer, coatings)}"
     return f"{axes}, {where}".replace("µ", "u")

@@ -113,6 +113,7 @@ class LoadFactors(Labelled, Figured):
             _error_of_inverse(use, error),
             Place(best["x"], best["y"], best["z"]),
             best["layer"],
+            coatings=len(self.dataset.attrs.get("interfaces", ())),
         )
 
     def least(self, of: Factor = "von_mises") -> Extremum:

@@ -191,6 +191,7 @@ class Life(Saveable, Labelled, Figured):
                 whole=(worst["whole"][0], worst["whole"][1]),
                 normal=tuple(worst["normal"]) if "normal" in worst else None,
                 inclination=worst.get("inclination"),
+                coatings=len(self.dataset.attrs.get("interfaces", ())),
             )
         return self._worst[layer]
 

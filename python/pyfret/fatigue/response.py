@@ -180,5 +180,12 @@ def strain_growth_of_body(
     top = int(growth.argmax())
     point = ends.isel(point=top)
     peak = Place(float(point.x), float(point.y), float(point.z))
-    largest = Extremum(float(growth[top]), np.nan, peak, int(point.layer), body_number=body_number)
+    largest = Extremum(
+        float(growth[top]),
+        np.nan,
+        peak,
+        int(point.layer),
+        body_number=body_number,
+        coatings=len(last.body(body_number).coatings),
+    )
     return largest.value, net_strain, largest

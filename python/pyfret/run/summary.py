@@ -83,10 +83,10 @@ def columns(result: Run, ends: xr.Dataset) -> list[list[str]]:
                 for v, e in zip(values, errors, strict=True)
             ]
         else:
-            cells = [in_words(value) for value in values]
+            cells = [in_words(value) if np.isfinite(value) else "-" for value in values]
         table.append([title, *cells])
     if "path_error" in ends:
-        table.append(["error of q", *(f"{100 * e:.2f} %" for e in ends.path_error.values)])
+        table.append(["error of shear", *(f"{100 * e:.2f} %" for e in ends.path_error.values)])
     return [*table, ["state", *(state_in_words(code, result.scene) for code in ends.status)]]
 
 
@@ -119,7 +119,7 @@ def drives(result: Run, name: str) -> bool:
 
 
 def summary(result: Run) -> str:
-    """Tabulate what the run ended with: a line per cycle, a row per branch, what is to be doubted.
+    """Tabulate what the run ended with: a line per cycle, a row per branch, the warnings.
 
     Lengths are over a_H and pressures over p_H where there is a Hertz contact, else in um and
     MPa. Of a line contact a is half its width, and forces and energies are per metre. Errors that
@@ -128,7 +128,7 @@ def summary(result: Run) -> str:
     titles, *rows = zip(*columns(result, result.branches()), strict=True)
     table = format_table([title.replace(" [", "\n[") for title in titles], rows)
     title = f"{result.dataset.attrs['title'] or 'run'}: {result.status}"
-    doubts = [f"doubted: {doubt}" for doubt in result.doubts]
+    doubts = [f"warning: {doubt}" for doubt in result.doubts]
     lines = [
         *cycle_lines(result),
         *yardsticks(result),
@@ -186,7 +186,7 @@ def cycle_lines(result: Run) -> list[str]:
                 f"cycle {n + 1} ({direction}): {state_in_words(loop.status, result.scene)}, "
                 f"{energy} {joules} dissipated, "
                 f"energy ratio {with_bar(loop, 'energy_ratio', digits=3)}, "
-                f"sliding ratio "
+                "sliding ratio (slip/shift) "
                 f"{with_error(float(loop.sliding_ratio), float(loop.sliding_ratio_error))}, "
                 f"stiffness {stiffness(loop)}"
             )

@@ -268,7 +268,7 @@ class Comparison(Labelled, Figured):
         lines += [f"no answer for {name}: {why}" for name, why in self.unanswered.items()]
         lines += [f"{name} failed: {reason}" for name, reason in self.failed.items()]
         doubts = str(self.dataset.attrs.get("doubts", ""))
-        return lines + [f"doubted: {doubt}" for doubt in doubts.splitlines()]
+        return lines + [f"warning: {doubt}" for doubt in doubts.splitlines()]
 
     def panels(self) -> list[Panel]:
         """Return the numbers for a figure: in the units of the table, ordered by preference."""

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple, NoReturn
 
 from pyfret._core import degrees, with_error, with_range
 from pyfret._util.attributes import missing_attribute
+from pyfret._util.numbers import layer_name
 from pyfret._util.numbers import place as describe_place
 
 __all__ = ["Errors", "Extremum", "Place", "format_value"]
@@ -93,6 +94,15 @@ class Extremum(NamedTuple):
     inclination: float | None = None
     #: The body, 1 or 2, where the search went over both.
     body_number: int | None = None
+    #: Number of coatings of the body, for the name of the layer.
+    coatings: int | None = None
+
+    @property
+    def layer_name(self) -> str:
+        """Name of the layer, such as "coating 1" or "the substrate"."""
+        if self.coatings is None:
+            return f"layer {self.layer}"
+        return layer_name(self.layer, self.coatings)
 
     @property
     def x(self) -> float:
@@ -118,11 +128,11 @@ class Extremum(NamedTuple):
     def __repr__(self) -> str:
         """Give value, error and place in a few digits, and the margin with its range."""
         value = format_value(self.value, self.error, self.units)
-        parts = [value, describe_place(self)]
+        parts = [value, describe_place(self, self.coatings)]
         if margin := self.format_margin():
             life = self.margin_units == "cycles"
             kind = f"life {margin} cycles" if life else f"safety factor {margin}"
-            parts = [f"{kind} at a point", f"value={value}", describe_place(self)]
+            parts = [f"{kind} at a point", f"value={value}", describe_place(self, self.coatings)]
         if self.border:
             parts.append(self.border)
         if self.inclination is not None:

@@ -155,7 +155,10 @@ class Stress(Labelled, Figured):
             raise ValueError("the section holds no number")
         value, x, y, z, in_layer, border, error, errors = extremum
         point = Place(x, y, z)
-        return Extremum(value, error, point, in_layer, "Pa", border, Errors(*errors))
+        coatings = len(self.dataset.attrs.get("interfaces", ()))
+        return Extremum(
+            value, error, point, in_layer, "Pa", border, Errors(*errors), coatings=coatings
+        )
 
     def on_surface(self) -> Stress:
         """Give the stress at the first depth alone."""

@@ -325,7 +325,7 @@ class WearResult(Saveable, Labelled, Figured):
             lines += [f"law of body {body}: {written(law)}" for law in laws]
         method = str(d.attrs.get("method", ""))
         lines += [f"method: {method}"] if method else []
-        lines += [f"doubted: {doubt}" for doubt in self.doubts]
+        lines += [f"warning: {doubt}" for doubt in self.doubts]
         return shown("\n".join(lines))
 
     def largest_pressure(self, jump: int) -> str:
