@@ -25,6 +25,7 @@ from typing import (
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pyfret._util.echo import abridge_error
 from pyfret._util.keywords import check_places, refuse_unknown
 from pyfret._util.names import listing
 from pyfret._util.parameter import Signature, Unit, unit_of
@@ -108,6 +109,11 @@ ScarPositions: TypeAlias = Annotated[NDArray[np.float64], Unit("place on a scar"
 Forces: TypeAlias = Annotated[ArrayLike, Unit("force", "N")]
 BulkStresses: TypeAlias = Annotated[ArrayLike, Unit("bulk stress", "Pa")]
 ResidualStresses: TypeAlias = Annotated[ArrayLike, Unit("residual stress", "Pa")]
+if TYPE_CHECKING:
+    #: A stress of every layer: of a body without coatings one number may stand alone.
+    LayerStresses: TypeAlias = Quantity | Sequence[ArrayLike]
+else:
+    LayerStresses = Sequence[ResidualStresses]
 StressHistory: TypeAlias = Annotated[ArrayLike, Unit("stress history", "Pa", checked=False)]
 
 
@@ -139,6 +145,11 @@ def as_number(read: Any) -> Any:
     return read
 
 
+def as_layers(read: LayerStresses | None) -> Sequence[ArrayLike] | None:
+    """Return stresses of layers that the decorator has converted: for type checkers."""
+    return read  # type: ignore[return-value]
+
+
 def by_default(number: float | None) -> Any:
     """Return the default of a field of the type :class:`InSI`: for type checkers."""
     return number
@@ -162,6 +173,13 @@ def checked(call: C, dataclass: type | None = None) -> C:
 
     @functools.wraps(call)
     def call_checked(*values: Any, **keywords: Any) -> Any:
+        try:
+            return call_converted(values, keywords)
+        except (TypeError, ValueError, LookupError, OSError) as error:
+            abridge_error(error)
+            raise
+
+    def call_converted(values: tuple[Any, ...], keywords: dict[str, Any]) -> Any:
         signature = read()
         rules, names = signature.rules, signature.names
         if signature.keywords is not None:

@@ -8,7 +8,15 @@ from pyfret import fatigue, fracture
 from pyfret import heat as heating
 from pyfret._util import files
 from pyfret.export.write import write as export
-from pyfret.quantities import Angle, Lengths, Numbers, ResidualStresses, Unchecked, quantities
+from pyfret.quantities import (
+    Angle,
+    LayerStresses,
+    Lengths,
+    Numbers,
+    Unchecked,
+    as_layers,
+    quantities,
+)
 from pyfret.report.page import report
 from pyfret.run import Run
 from pyfret.run.opening import open_dataset
@@ -106,7 +114,7 @@ class Result(Run, Shows):
         of: Sequence[str] = ("von_mises",),
         body_number: int = 2,
         bulk: bool = True,
-        residual: Sequence[ResidualStresses] | None = None,
+        residual: LayerStresses | None = None,
     ) -> xr.Dataset:
         """Extremes of stress over the increments whose fields were kept, on a section or on planes.
 
@@ -117,7 +125,7 @@ class Result(Run, Shows):
         """
         saved = self.dataset.saved_increment.values
         if z is None and x is None and y is None and azimuth is None:
-            x, y, azimuth = lines_of(self, saved, body_number, residual)[0]
+            x, y, azimuth = lines_of(self, saved, body_number, as_layers(residual))[0]
         kept = (self.at(int(n)) for n in saved)
         return fields.envelope(
             self.scene,

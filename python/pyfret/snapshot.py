@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Literal
 
 from pyfret._util.figures import Figured, Figures
 from pyfret.export.write import write as export
-from pyfret.quantities import Angle, Lengths, ResidualStresses, as_number, quantities
+from pyfret.quantities import Angle, LayerStresses, Lengths, as_layers, as_number, quantities
 from pyfret.run import State
 from pyfret.run.tables import state_html
 from pyfret.subsurface import contact
@@ -127,7 +127,7 @@ class Snapshot(State, Shows):
         azimuth: Angle | None = None,
         body_number: int = 2,
         bulk: bool = True,
-        residual: Sequence[ResidualStresses] | None = None,
+        residual: LayerStresses | None = None,
     ) -> Stress:
         """Stress below the contact, in the lower body unless `body_number` is 1.
 
@@ -173,7 +173,7 @@ class Snapshot(State, Shows):
             azimuth=as_number(azimuth),
             body_number=body_number,
             bulk=bulk,
-            residual=residual,
+            residual=as_layers(residual),
         )
 
     @quantities
@@ -214,11 +214,11 @@ class Snapshot(State, Shows):
         of: Sequence[str] = ("von_mises",),
         body_number: int = 2,
         bulk: bool = True,
-        residual: Sequence[ResidualStresses] | None = None,
+        residual: LayerStresses | None = None,
     ) -> None:
         """Write stress, displacement in the volume: :func:`pyfret.subsurface.write_volume`."""
         contact.write_below(
-            self, out, z, of=of, body_number=body_number, bulk=bulk, residual=residual
+            self, out, z, of=of, body_number=body_number, bulk=bulk, residual=as_layers(residual)
         )
 
     def export(

@@ -9,7 +9,7 @@ import numpy as np
 
 from pyfret._util.arrays import plain
 from pyfret.export.frame import Frame
-from pyfret.quantities import Numbers, ResidualStresses, quantities
+from pyfret.quantities import LayerStresses, Numbers, as_layers, quantities
 from pyfret.subsurface import fields
 from pyfret.subsurface.contact import loaded_by
 
@@ -129,7 +129,7 @@ def stress(
     frame: Frame | None = None,
     body_number: int = 2,
     bulk: bool = True,
-    residual: Sequence[ResidualStresses] | None = None,
+    residual: LayerStresses | None = None,
 ) -> NDArray[np.float64]:
     """Stress of a contact at the points of another model, and a table of it.
 
@@ -170,7 +170,7 @@ def stress(
     body = state.body(body_number)
     tops = np.concatenate([[0.0], fields.interfaces(body)])
     layer = np.searchsorted(tops, depth, side="right") - 1
-    below = loaded_by(state, body_number, bulk=bulk, residual=residual)
+    below = loaded_by(state, body_number, bulk=bulk, residual=as_layers(residual))
     wanted_points = [
         (x, y, z, n)
         for x, y, z, n in zip(

@@ -13,6 +13,7 @@ from pyfret._util.lazy import xr
 from pyfret._util.numbers import layer_name
 from pyfret.fatigue.cycles import cycle_increments, moment_before
 from pyfret.fatigue.plastic_strain import plastic_and_reference_work
+from pyfret.quantities import as_layers
 from pyfret.subsurface.fields import coordinates, interfaces
 from pyfret.subsurface.moments import lines_of, moments_of
 
@@ -49,7 +50,7 @@ def sections_of_cycle(result: Run, section: Section) -> list[Section]:
     if section.is_placed:
         return [section]
     kept = cycle_increments(result, section.cycle)
-    lines = lines_of(result, kept, section.body_number, section.residual)
+    lines = lines_of(result, kept, section.body_number, as_layers(section.residual))
     return [section.moved_below(line) for line in lines]
 
 
@@ -64,7 +65,7 @@ def cycle_section(result: Run, section: Section) -> _core.CycleSection:
         len(kept),
         **section.line.named(),
         body_number=section.body_number,
-        residual=section.residual,
+        residual=as_layers(section.residual),
         yielding=plastic_and_reference_work(result, kept, section.body_number),
         path_error=max_path_error(result),
         cache=shared_stress(result, kept, section.body_number),

@@ -11,7 +11,7 @@ from pyfret._util.arrays import plain
 from pyfret._util.lazy import xr
 from pyfret.fatigue.criteria import COMPONENTS
 from pyfret.fatigue.plastic_strain import GROWS, plastic_strain_grows, plastic_strain_history
-from pyfret.quantities import Angle, Lengths, ResidualStresses, as_number, quantities
+from pyfret.quantities import Angle, LayerStresses, Lengths, as_layers, as_number, quantities
 from pyfret.subsurface.contact import stress_below
 from pyfret.subsurface.fields import coordinates
 from pyfret.subsurface.line import Line
@@ -83,7 +83,7 @@ def history(
     azimuth: Angle | None = None,
     body_number: int = 2,
     cycle: int | None = -1,
-    residual: Sequence[ResidualStresses] | None = None,
+    residual: LayerStresses | None = None,
     of: HistoryKind = "stress",
 ) -> xr.DataArray:
     """Return the stress over a closed cycle of a run whose increments were kept.
@@ -117,7 +117,7 @@ def history(
     line = Line(x, y, as_number(azimuth))
     if of == "plastic_strain":
         return plastic_strain_history(result, kept, z, line, body_number)
-    stress = _cycle_stress(result, kept, z, line, body_number, residual)
+    stress = _cycle_stress(result, kept, z, line, body_number, as_layers(residual))
     return (
         stress.assign_attrs({GROWS: True})
         if plastic_strain_grows(result, kept, body_number)

@@ -10,7 +10,7 @@ import numpy as np
 
 from pyfret._core import Material
 from pyfret._util.arrays import items, plain
-from pyfret.quantities import Angle, InSI, ResidualStresses, by_default, part
+from pyfret.quantities import Angle, InSI, LayerStresses, by_default, part
 from pyfret.subsurface.line import Line
 
 if TYPE_CHECKING:
@@ -33,7 +33,7 @@ class SectionOptions(TypedDict, total=False):
     azimuth: Angle | None
     body_number: int
     cycle: int | None
-    residual: Sequence[ResidualStresses] | None
+    residual: LayerStresses | None
 
 
 @part(kw_only=True)
@@ -56,7 +56,7 @@ class Section:
     cycle: int | None = -1
     #: Residual stress of every layer from the surface down, the substrate's last, in place of that
     #: of the body: each a stress [Pa] or a table over depth, as :class:`pyfret.Body` takes it.
-    residual: Sequence[ResidualStresses] | None = None
+    residual: LayerStresses | None = None
 
     def __post_init__(self) -> None:
         """Reject values that define no section."""

@@ -19,8 +19,9 @@ from pyfret.quantities import (
     Angle,
     CrackLengths,
     FrictionCoefficient,
+    LayerStresses,
     Length,
-    ResidualStresses,
+    as_layers,
     as_number,
     quantities,
 )
@@ -62,7 +63,7 @@ def crack(
     friction: FrictionCoefficient = 0.0,
     body_number: int = 2,
     cycle: int | None = -1,
-    residual: Sequence[ResidualStresses] | None = None,
+    residual: LayerStresses | None = None,
 ) -> Cracks:
     """Take the stress of a closed cycle to the tips of cracks of several lengths.
 
@@ -111,7 +112,7 @@ def crack(
     ValueError
         There is no closed cycle, too few of its increments were kept, or the crack has no meaning.
     """
-    cycle_of = Cycle(result, cycle, body_number, residual)
+    cycle_of = Cycle(result, cycle, body_number, as_layers(residual))
     angle = as_number(angle)
     at_rim = x is None
     plane = as_number(azimuth), as_number(offset)
@@ -162,7 +163,7 @@ def grow(
     friction: FrictionCoefficient = 0.0,
     body_number: int = 2,
     cycle: int | None = -1,
-    residual: Sequence[ResidualStresses] | None = None,
+    residual: LayerStresses | None = None,
 ) -> Cracks:
     """Let a crack grow below a contact in the direction of the largest range over a closed cycle.
 
@@ -199,7 +200,7 @@ def grow(
     ValueError
         As :func:`crack`.
     """
-    cycle_of = Cycle(result, cycle, body_number, residual)
+    cycle_of = Cycle(result, cycle, body_number, as_layers(residual))
     angle = as_number(angle)
     plane = as_number(azimuth), as_number(offset)
     x, azimuth, offset = cycle_of.place(x, plane, angle, friction)

@@ -18,9 +18,10 @@ from pyfret.fracture.growth import Threshold
 from pyfret.fracture.interface import over_cycle
 from pyfret.quantities import (
     CrackLength,
-    ResidualStresses,
+    LayerStresses,
     Strength,
     Toughness,
+    as_layers,
     as_number,
     quantities,
 )
@@ -96,7 +97,7 @@ def first_to_fail(
     peel_strength: Strength | None = None,
     shear_strength: Strength | None = None,
     threshold: Threshold | Material | str | None = None,
-    residual: Sequence[ResidualStresses] | None = None,
+    residual: LayerStresses | None = None,
     x: float | None = None,
     lengths: Sequence[CrackLength] | None = None,
     body_number: int = 2,
@@ -153,7 +154,8 @@ def first_to_fail(
         below = body.coatings[1].material if len(body.coatings) > 1 else body.substrate
         # The surface, the depths of a table of residual stress, and both sides of the first
         # interface: the upper one is the film's.
-        film_stress = coating if residual is None else coating.replace(residual=residual[0])
+        layers = as_layers(residual)
+        film_stress = coating if layers is None else coating.replace(residual=layers[0])
         table = film_stress.residual
         rows = table if isinstance(table, list) else []
         inside = [row[0] for row in rows if 0.0 < row[0] < coating.thickness]

@@ -14,7 +14,7 @@ from pyfret.heat import Conductors
 from pyfret.quantities import (
     FrictionCoefficient,
     InSI,
-    ResidualStresses,
+    LayerStresses,
     Strength,
     Toughness,
     by_default,
@@ -55,7 +55,7 @@ class Candidate:
     s_y: YieldStresses | None = None
     #: Residual stress of every layer, each a stress [Pa] or a table over depth (default: that of
     #: the body).
-    residual: Sequence[ResidualStresses] | None = None
+    residual: LayerStresses | None = None
     #: Energy release rate at which a crack channels through the outermost coating [J/m^2].
     toughness: InSI[Toughness | None] = by_default(None)
     #: Strengths of the interfaces [Pa].

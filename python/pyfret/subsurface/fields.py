@@ -12,10 +12,11 @@ from pyfret._util.lazy import xr
 from pyfret.quantities import (
     Angle,
     BulkStress,
+    LayerStresses,
     Length,
     Lengths,
     Numbers,
-    ResidualStresses,
+    as_layers,
     as_number,
     quantities,
 )
@@ -140,7 +141,7 @@ def stress(
     rim: bool = False,
     stick: ArrayLike | None = None,
     length: Length | None = None,
-    residual: Sequence[ResidualStresses] | None = None,
+    residual: LayerStresses | None = None,
 ) -> Stress:
     """Stress in a body under tractions on its surface.
 
@@ -184,7 +185,9 @@ def stress(
         Of dims (depth, x), (depth, y), (depth) or (depth, x, y).
     """
     loads = (p, q_x, q_y)
-    below = subsurface(body, grid, loads, body_number, sigma_B, residual, rim=rim, stick=stick)
+    below = subsurface(
+        body, grid, loads, body_number, sigma_B, as_layers(residual), rim=rim, stick=stick
+    )
     length = loaded_length(grid, *loads) if length is None else as_number(length)
     return sampled_stress(below, body, grid, z, Line(x, y, as_number(azimuth)), length)
 
@@ -273,7 +276,7 @@ def write_volume(
     of: Sequence[str] = ("von_mises",),
     body_number: int = 2,
     sigma_B: BulkStress = 0.0,
-    residual: Sequence[ResidualStresses] | None = None,
+    residual: LayerStresses | None = None,
     rim: bool = False,
     stick: ArrayLike | None = None,
     title: str = "",
@@ -293,7 +296,9 @@ def write_volume(
         What the Zarr group calls itself.
     """
     loads = (p, q_x, q_y)
-    below = subsurface(body, grid, loads, body_number, sigma_B, residual, rim=rim, stick=stick)
+    below = subsurface(
+        body, grid, loads, body_number, sigma_B, as_layers(residual), rim=rim, stick=stick
+    )
     write(below, body, out, z, loaded_length(grid, *loads), of, title)
 
 
@@ -325,7 +330,7 @@ def envelope(
     of: Sequence[str] = ("von_mises",),
     body_number: int = 2,
     bulk: bool = True,
-    residual: Sequence[ResidualStresses] | None = None,
+    residual: LayerStresses | None = None,
 ) -> xr.Dataset:
     """Extremes of stress over a load path, none of whose increments is kept.
 
@@ -379,7 +384,7 @@ def envelope(
         y=y,
         azimuth=azimuth,
         body_number=body_number,
-        residual=residual,
+        residual=as_layers(residual),
     )
     for snapshot in increments:
         fields = {k: snapshot.dataset[k].values for k in ("p", "q_x", "q_y")}
