@@ -93,6 +93,7 @@ FIGURES: dict[str, dict[str, str]] = {
     },
     "Many runs": {
         "comparison": "fret.plot.comparison(compared)",
+        "study_line": 'fret.plot.study_line(study, "loop_energy")',
         "study_map": 'fret.plot.study_map(study, "loop_energy")',
         "running_map": "fret.plot.running_map(table)",
         "fretting_map": "fret.plot.fretting_map(table)",

@@ -50,6 +50,7 @@ from pyfret.plot.stresses import (
     stress_maps,
 )
 from pyfret.plot.studies import study_map
+from pyfret.plot.study_lines import study_line
 from pyfret.plot.style import style
 from pyfret.plot.wear import depth_map, wear_history, wear_loops, wear_profiles
 from pyfret.plot.yielding import plastic_zone, residual_stress
@@ -103,6 +104,7 @@ __all__ = [
     "stress_history",
     "stress_map",
     "stress_maps",
+    "study_line",
     "study_map",
     "style",
     "surface_heights",

@@ -99,6 +99,43 @@ def study_map(
     ax : matplotlib Axes, optional
         Where to draw.
     """
+    d, values, label, words = select_measure(study, of, at, labels)
+    chosen = str(values.name)
+    ax = axes(ax)
+    label = "\n".join(filter(None, (label, known_to(d, chosen))))
+    if "point" in values.dims:
+        scattered(ax, study.parameters, values, label, words)
+    elif values.ndim == 1:
+        line(ax, values, label, words)
+        shade(ax, values, d, chosen, words)
+    elif values.ndim == 2:
+        plane(ax, values, kind, levels, label if colorbar else None, words)
+    else:
+        raise ValueError(
+            f"{values.ndim} parameters: give the values of {values.ndim - 2} of "
+            f"{', '.join(map(str, values.dims))} as at={{name: value}}"
+        )
+    if "point" not in values.dims:
+        crosses(ax, d["status"], words)
+    if values.ndim == 2 and bool((values.isnull() & d["status"].isin(SOLVED)).any()):
+        # A life that is longer than the run, a crack that never starts.
+        ax.set_facecolor(NO_VALUE)
+        handles = [*ax.get_legend_handles_labels()[0], Patch(color=NO_VALUE, label="no value")]
+        ax.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2)
+    return ax
+
+
+def select_measure(
+    study: Tabulated,
+    of: str | None,
+    at: Mapping[str, float | str] | None,
+    labels: Mapping[str, str] | None,
+) -> tuple[xr.Dataset, xr.DataArray, str, Words]:
+    """Return the part of a study that a figure draws, and its words.
+
+    The tuple has the dataset at the values `at`, the measure in the unit of the figure, and its
+    label on several lines. The last entry has the labels of the parameters.
+    """
     d = study.dataset
     labels = {
         key if key in study.measures else one_of(study.parameters, key, "labels"): text
@@ -121,31 +158,10 @@ def study_map(
     extra = [k for k in values.dims if k not in d["status"].dims]
     if extra:
         raise ValueError(f"{chosen} is a field over {', '.join(map(str, extra))}: draw one point")
-    ax = axes(ax)
     values, label = in_figures(values)
     label = labels.get(chosen, label)
     lines = [label] if "$" in label else textwrap.wrap(label, WIDTH)
-    label = "\n".join(filter(None, (*lines, known_to(d, chosen))))
-    if "point" in values.dims:
-        scattered(ax, study.parameters, values, label, words)
-    elif values.ndim == 1:
-        line(ax, values, label, words)
-        shade(ax, values, d, chosen, words)
-    elif values.ndim == 2:
-        plane(ax, values, kind, levels, label if colorbar else None, words)
-    else:
-        raise ValueError(
-            f"{values.ndim} parameters: give the values of {values.ndim - 2} of "
-            f"{', '.join(map(str, values.dims))} as at={{name: value}}"
-        )
-    if "point" not in values.dims:
-        crosses(ax, d["status"], words)
-    if values.ndim == 2 and bool((values.isnull() & d["status"].isin(SOLVED)).any()):
-        # A life that is longer than the run, a crack that never starts.
-        ax.set_facecolor(NO_VALUE)
-        handles = [*ax.get_legend_handles_labels()[0], Patch(color=NO_VALUE, label="no value")]
-        ax.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2)
-    return ax
+    return d, values.rename(chosen), "\n".join(lines), words
 
 
 #: Powers of ten of the prefixes of units.
