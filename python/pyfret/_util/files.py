@@ -24,7 +24,7 @@ import numpy as np
 from pyfret._core import StoreError, read_bytes, shown
 from pyfret._util.extras import needed
 from pyfret._util.lazy import xr
-from pyfret._util.stores import check_store
+from pyfret._util.stores import check_heads, check_store
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -319,6 +319,8 @@ def opened(path: str | os.PathLike[str]) -> xr.Dataset:
     Of a folder :func:`pyfret._util.stores.check_store` comes first.
     """
     checked(path)
+    if Path(path).is_dir():
+        check_heads(path)
     try:
         return read(path)
     except ModuleNotFoundError:

@@ -20,7 +20,7 @@ from pyfret._util.unpacking import unpacks_within
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-__all__ = ["check_store"]
+__all__ = ["check_heads", "check_store"]
 
 #: Codecs that pyfret writes, or xarray for it.
 CODECS = frozenset(("gzip", "zlib", "zstd", "blosc", "bytes", "crc32c"))
@@ -62,6 +62,33 @@ def check_store(path: str | os.PathLike[str], *, chunks: bool = True) -> None:
     except Refused as refused:
         raise StoreError(shown(f"{os.fspath(path)}: {refused}")) from None
     except (OSError, RecursionError) as error:
+        raise StoreError(shown(f"{os.fspath(path)}: {error}")) from error
+
+
+def check_heads(path: str | os.PathLike[str]) -> None:
+    """Refuse a store whose arrays have other heads than its collected metadata.
+
+    Readers take one or the other, so that a changed head gives other numbers to some of them.
+
+    Raises
+    ------
+    StoreError
+        A head is missing, or differs. The message names the file.
+    """
+    root = Path(path)
+    collected = root / ".zmetadata"
+    if not collected.is_file():
+        return
+    try:
+        heads = json.loads(read_bytes(collected))["metadata"]
+        for name, head in heads.items():
+            if json.loads(read_bytes(root / name)) != head:
+                raise Refused(
+                    f"the file {name} is not what was written: .zmetadata has other values"
+                )
+    except Refused as refused:
+        raise StoreError(shown(f"{os.fspath(path)}: {refused}")) from None
+    except (OSError, ValueError, LookupError, TypeError, AttributeError, RecursionError) as error:
         raise StoreError(shown(f"{os.fspath(path)}: {error}")) from error
 
 

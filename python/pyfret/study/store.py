@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import os
 import shutil
+import time
 import zlib
 from dataclasses import replace
 from os import fspath
@@ -18,9 +19,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pyfret._core import StoreError, __version__
-from pyfret._util.files import deflate
+from pyfret._util.files import UNFINISHED, clear_leftovers, deflate, leftover
 from pyfret._util.lazy import xr
-from pyfret._util.stores import check_store
+from pyfret._util.stores import check_heads, check_store
 from pyfret.study.design import TOGETHER
 from pyfret.study.ledger import FILE, Ledger, attributes, checksum
 from pyfret.study.measures import measure_names
@@ -38,6 +39,8 @@ __all__ = ["Store", "read_study"]
 SCHEMA = 2
 #: Attempts to read a store while it is written.
 ATTEMPTS = 20
+#: Seconds between two comparisons of heads.
+PAUSE = 0.05
 #: Characters of a reason that are kept.
 REASON = 800
 #: Variables of every study beside its measures: type, value of an open point, unit, meaning.
@@ -72,6 +75,7 @@ class Store:
         self, place: str | os.PathLike[str], design: Design, study_attrs: dict[str, str]
     ) -> None:
         self.place, self.design = Path(place), design
+        remove_partial_files(self.place)
         self.check(study_attrs)
         point_dims = set(design.sizes)
         self.ledger = Ledger(self.place)
@@ -93,9 +97,10 @@ class Store:
     def prepare(place: str | os.PathLike[str], design: Design, study_attrs: dict[str, str]) -> None:
         """Lay out the store of a study where there is nothing."""
         target = Path(place)
+        clear_leftovers(target)
         if target.exists():
             return
-        unfinished = target.with_name(f".{target.name}.{os.getpid()}.unfinished")
+        unfinished = leftover(target, UNFINISHED)
         shutil.rmtree(unfinished, ignore_errors=True)
         try:
             empty_study = empty_dataset(design, {**study_attrs, **Store.marks()}, POINT_VARIABLES)
@@ -181,7 +186,9 @@ class Store:
             values["reason"] = xr.Variable((), np.array(outcome.reason, f"<U{REASON}"))
         written = {**values, **outcome.measures}
         self.write_region(n, written)
-        self.ledger.add(n, outcome.status, self.as_stored(written), self.attrs)
+        # Times differ from run to run: without them the same study gives the same ledger.
+        stored = {k: v for k, v in self.as_stored(written).items() if k != "seconds"}
+        self.ledger.add(n, outcome.status, stored, self.attrs)
         self.write_status(n, outcome.status)
 
     def write_status(self, n: int, status: int) -> None:
@@ -225,6 +232,12 @@ class Store:
         statuses = (OPEN, FAILED, PARTLY) if again else (OPEN,)
         status_of = {n: status for n, (status, _) in self.ledger.points.items()}
         return [n for n in range(len(self.design)) if status_of.get(n, OPEN) in statuses]
+
+
+def remove_partial_files(place: Path) -> None:
+    """Remove the files that a killed process began to write; Zarr moves a file when it is whole."""
+    for path in place.rglob("*.partial"):
+        path.unlink(missing_ok=True)
 
 
 def reject_misfits(outcome: Outcome, design: Design, shapes: dict[str, dict[str, int]]) -> Outcome:
@@ -344,6 +357,7 @@ def read_study(place: str | os.PathLike[str]) -> xr.Dataset:
     folder = Path(place)
     if folder.is_dir():
         check_store(folder)
+        check_heads_in_time(folder)
     if not (folder / FILE).exists():
         raise StoreError(f"{fspath(place)}: is not the store of a study: it has no file {FILE}")
     for _ in range(ATTEMPTS):
@@ -363,6 +377,18 @@ def read_study(place: str | os.PathLike[str]) -> xr.Dataset:
             if Ledger(folder).length == ledger.length:
                 raise
     raise StoreError(f"{fspath(place)}: is being written too fast to be read")
+
+
+def check_heads_in_time(folder: Path) -> None:
+    """Compare the heads of the arrays, again if another process lays out arrays meanwhile."""
+    for attempt in range(ATTEMPTS):
+        try:
+            check_heads(folder)
+            return
+        except StoreError:
+            if attempt + 1 == ATTEMPTS:
+                raise
+            time.sleep(PAUSE)
 
 
 def point_dims(dataset: xr.Dataset) -> list[str]:
