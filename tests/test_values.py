@@ -113,6 +113,7 @@ VALUES: list[Any] = [
     fret.fracture.Cracks.from_arrays([1e-5, 1e-4], [1e6, 2e6], [0.0, 1e5]),
     fret.study.Arrest(fret.fracture.Threshold(dK_th=2.1e6)),
     fret.study.FirstToFail(toughness=90.0),
+    fret.study.LargestStress("s_1", increments=[-1, 2]),
     fret.fracture.FailureOrder(1.1, 0.5, 0.2),
     fret.study.Averaged(MATERIAL, "crossland", L=5e-5),
     fret.study.ThresholdLoad(1e3, 5.0, 2, ((900.0, 1.1), (1100.0, 0.9)), 900.0, 1100.0),

@@ -157,9 +157,18 @@ pub fn find_body_maximum(
             Line::AlongX(0.0).places(grid),
             Line::AlongY(0.0).places(grid),
         );
-        for (depth, on_one) in depths.iter().zip(interface_mask) {
+        for (n, (depth, on_one)) in depths.iter().zip(interface_mask).enumerate() {
             let is_searched = layer.is_none_or(|layer| layer == depth.layer);
-            if !is_searched || !(on_one || depth.z <= 0.0) || (measure.on_interfaces && !on_one) {
+            // The stresses that act on an interface are the same on both sides.
+            let is_repeated = measure.on_interfaces
+                && layer.is_none()
+                && n > 0
+                && depths[n - 1].z.total_cmp(&depth.z).is_eq();
+            if is_repeated
+                || !is_searched
+                || !(on_one || depth.z <= 0.0)
+                || (measure.on_interfaces && !on_one)
+            {
                 continue;
             }
             let planes = slices.stress(*depth)?.swap_remove(0);
@@ -200,7 +209,7 @@ pub fn find_body_maximum(
     let mut largest = search.ascend(&probe, starts, &reached, layer, &near)?;
     if free {
         // A narrow ridge along the section is followed on it to its top.
-        let search = Search::new(body, side, grid, Some(line), states)?;
+        let search = search.on_line(line);
         let mut starts: Vec<Start> = Vec::new();
         for sampled_line in sampled
             .iter()

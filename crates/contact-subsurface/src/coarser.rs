@@ -74,6 +74,15 @@ impl CoarserCells {
         })
     }
 
+    /// The same cells, with the borders on a line of the fine grid alone.
+    pub(super) fn on_line(self, line: Line) -> Self {
+        let line = line.with_origin(self.middle).0;
+        Self {
+            borders: self.points.borders(0, Some(line)),
+            ..self
+        }
+    }
+
     /// Converts a place to the coordinates of the coarser grid. A place beside a border keeps its
     /// distance from the nearest border there.
     fn convert_place(&self, x: f64, y: f64, border: Option<&Border>) -> (f64, f64) {

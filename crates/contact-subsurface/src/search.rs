@@ -75,6 +75,17 @@ impl Search {
         })
     }
 
+    /// The same search, below a line alone.
+    pub(super) fn on_line(self, line: Line) -> Self {
+        Self {
+            borders: self.points.borders(0, Some(line)),
+            coarser: self.coarser.map(|coarser| coarser.on_line(line)),
+            line: Some(line),
+            free: false,
+            ..self
+        }
+    }
+
     /// Search in the body `side` under the first of the states, below `line` or anywhere.
     pub fn new(
         body: &Body,

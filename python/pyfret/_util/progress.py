@@ -65,6 +65,8 @@ class Progress:
 
     def __init__(self, *, title: str, shown: bool) -> None:
         self.title = title
+        #: Text behind the times, such as the cost of a point.
+        self.note = ""
         self.shown = shown and watched(sys.stderr)
         self.started = self.drawn = time.monotonic()
         self.done = self.total = self.drawn_letters = 0
@@ -119,7 +121,8 @@ class Progress:
         title = shown(self.title) if wide else shown(self.title)[: WIDTH // 2]
         left = elapsed * (1 - share) / share if share > 0 else 0.0
         counts = f"{self.done}/{max(self.total, self.done)}"
-        return f"{title} [{bar}] {counts} {elapsed:.0f} s, {left:.0f} s left "
+        note = f"({shown(self.note)}) " if self.note and wide else ""
+        return f"{title} [{bar}] {counts} {elapsed:.0f} s, {left:.0f} s left {note}"
 
     def __exit__(
         self,

@@ -16,6 +16,7 @@ from pyfret.study.loads import arrest_map, running_conditions
 from pyfret.study.loop import run
 from pyfret.study.measures import MEASURES, Arrest, Cracking, FirstToFail, WornDepth
 from pyfret.study.outcome import Study
+from pyfret.study.stresses import LargestStress
 from pyfret.study.thresholds import Averaged, Limits, ThresholdLoad, fit_limits, threshold
 
 __all__ = [
@@ -26,6 +27,7 @@ __all__ = [
     "Comparison",
     "Cracking",
     "FirstToFail",
+    "LargestStress",
     "Limits",
     "Study",
     "ThresholdLoad",

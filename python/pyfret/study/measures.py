@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, fields
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
-from zlib import crc32
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
@@ -21,8 +21,8 @@ from pyfret.quantities import (
     CrackLength,
     FrictionCoefficient,
     InSI,
+    LayerStresses,
     Length,
-    ResidualStresses,
     Strength,
     Toughness,
     by_default,
@@ -32,18 +32,19 @@ from pyfret.quantities import (
 from pyfret.run.summary import directions
 from pyfret.study.answer import NO_ANSWER, Answer, estimate
 from pyfret.study.identity import code_checksum
+from pyfret.study.stresses import LargestStress, stress_measure
 from pyfret.subsurface.tensor import LABELS
 
 if TYPE_CHECKING:
     from pyfret.fatigue.criteria import CriterionName
     from pyfret.result import Result
-    from pyfret.subsurface.tensor import Stress
 
 __all__ = [
     "MEASURES",
     "Arrest",
     "Cracking",
     "FirstToFail",
+    "LargestStress",
     "Measure",
     "Reasoned",
     "WornDepth",
@@ -71,82 +72,6 @@ def cycle_measure(name: str) -> Callable[[Result], float | Answer]:
 def path_measure(name: str, reduce: Callable[[xr.DataArray], Any]) -> Callable[[Result], float]:
     """Make a measure: a scalar over the path, reduced to a number."""
     return lambda result: float(reduce(result.dataset[name]))
-
-
-#: Relative difference of a largest stress and the highest sample of its section, up to
-#: which the samples show the increment at which it is largest.
-SECTION_TOLERANCE = 0.05
-
-
-class SampledState(NamedTuple):
-    """The stress below a body in one state: on its section, and where borders cross the section."""
-
-    section: Stress
-    borders: tuple[Stress, Stress]
-
-    def largest(self, name: str) -> float:
-        """Return the highest sample of a measure, rims of the contact included."""
-        samples = [self.section.measure(name)]
-        if not name.startswith("interface"):
-            samples += [border.measure(name) for border in self.borders]
-        return max(float(sample.max()) for sample in samples if sample.size)
-
-
-#: Most memory of sections that the stress measures of a result share [bytes].
-SHARED_SECTIONS = 128e6
-
-
-def sample_states(result: Result, body_number: int) -> list[SampledState]:
-    """Return the stress of all states with contact, which the stress measures of a result share.
-
-    Sections are sampled once for all measures. They are kept with the result up to 128 MB.
-    """
-    saved = result.dataset.saved_increment.values
-    p = result.dataset.variables["p"].isel(saved=-1).values
-    key = saved.tobytes(), crc32(np.ascontiguousarray(p).tobytes())
-    name = f"sections of body {body_number}"
-    kept = result.shared.get(name)
-    if kept is not None and kept[0] == key:
-        sampled: list[SampledState] = kept[1]
-        return sampled
-    states = (result.at(int(n)) for n in saved)
-    sections = [s.stress(body_number=body_number) for s in states if bool(s.contact.any())]
-    sampled = [SampledState(below, (below.rims(), below.stick_borders())) for below in sections]
-    if sum(below.dataset.nbytes for below in sections) <= SHARED_SECTIONS:
-        result.shared[name] = (key, sampled)
-    return sampled
-
-
-def stress_measure(name: str) -> Callable[[Result], Answer]:
-    """Make a measure: the largest stress over the increments with fields.
-
-    Interfaces belong to both bodies, all other stresses to body 2.
-    """
-
-    def measure(result: Result) -> Answer:
-        bodies = ((1, result.scene.body1), (2, result.scene.body2))
-        if not name.startswith("interface"):
-            return in_body(result, 2)
-        answers = [in_body(result, number) for number, body in bodies if body.coatings]
-        return max(answers, key=lambda answer: answer.value, default=NO_ANSWER)
-
-    def in_body(result: Result, body_number: int) -> Answer:
-        states = sample_states(result, body_number)
-        if not states:
-            return NO_ANSWER
-        tops = [state.largest(name) for state in states]
-        highest = int(np.argmax(tops))
-        worst = states[highest].section.maximum(name)
-        if not abs(worst.value - tops[highest]) <= SECTION_TOLERANCE * abs(worst.value):
-            # The sections do not show at which increment the largest value is.
-            worst = max(
-                (state.section.maximum(name) for state in states), key=lambda found: found.value
-            )
-        return Answer.from_error(
-            worst.value, worst.error, least=-math.inf if name in SIGNED else 0.0
-        )
-
-    return measure
 
 
 def half_length(result: Result) -> float:
@@ -224,8 +149,6 @@ OF_CYCLE = (
 )
 
 
-#: Largest stresses that may be compression; the others are sizes.
-SIGNED = ("interface_peel",)
 #: Measures that are codes: they have no error.
 CODES = ("regime", "first")
 
@@ -348,7 +271,7 @@ class Arrest:
     aspect: float | None = None
     friction: FrictionCoefficient = 0.0
     body_number: int = 2
-    residual: Sequence[ResidualStresses] | None = None
+    residual: LayerStresses | None = None
 
     def __call__(self, result: Result) -> dict[str, xr.DataArray]:
         """Follow the crack."""
@@ -390,7 +313,7 @@ class FirstToFail:
     peel_strength: InSI[Strength | None] = by_default(None)
     shear_strength: InSI[Strength | None] = by_default(None)
     threshold: fracture.Threshold | None = None
-    residual: Sequence[ResidualStresses] | None = None
+    residual: LayerStresses | None = None
     x: float | None = None
     lengths: Sequence[CrackLength] | None = None
     body_number: int = 2
@@ -431,7 +354,7 @@ def suffixes(measures: Sequence[Measure]) -> list[str]:
 
 def is_of_pyfret(measure: Measure) -> bool:
     """Check that a measure is a class of this package, which names its numbers itself."""
-    return isinstance(measure, (WornDepth, Cracking, Arrest, FirstToFail))
+    return isinstance(measure, (WornDepth, Cracking, Arrest, FirstToFail, LargestStress))
 
 
 def describe_differences(measure: Any, measures: Sequence[Measure]) -> str:
@@ -502,15 +425,27 @@ def reason_without_number(result: Result, name: str) -> str:
         body.coatings for body in (result.scene.body1, result.scene.body2)
     ):
         return "neither body has a coating"
+    if name == "stick_ratio" and float(d.contact_area[-1]) == 0.0:
+        return "there is no contact at the end of the path"
     if not any(bool(result.at(int(n)).contact.any()) for n in d.saved_increment.values):
         return "no increment that kept its fields has contact"
     return "the result has no such number"
 
 
+def needs_more_increments(result: Result, measures: Sequence[Measure]) -> bool:
+    """Check for a measure that lacks its number because branches have too few increments."""
+    return "stiffness" in measures and any(
+        reason.endswith(TOO_FEW_INCREMENTS)
+        for reason in evaluate_measure(result, "stiffness", measures)[1]
+    )
+
+
 def evaluate_measures(
-    result: Result, measures: Sequence[Measure]
+    result: Result, measures: Sequence[Measure], costs: dict[str, float] | None = None
 ) -> tuple[dict[str, xr.Variable], list[str]]:
     """Evaluate all measures of a result: numbers by name, and the reasons of missing ones.
+
+    `costs` gets the processor time of each measure by its name [s].
 
     A measure that raises an error leaves the others as they are. Second and further measures of one
     class of this package have their number behind the name.
@@ -526,6 +461,7 @@ def evaluate_measures(
     reasons: list[str] = []
     errors: list[Exception] = []
     for measure, suffix in zip(measures, suffixes(measures), strict=True):
+        started = time.process_time()
         try:
             arrays, why = evaluate_measure(result, measure, measures)
         except Exception as error:
@@ -537,6 +473,10 @@ def evaluate_measures(
                 units = result.scene.grid.unit_of(units)
                 numbers[measure] = estimate(math.nan, units, meaning).variable
             continue
+        finally:
+            if costs is not None:
+                name = f"{measure_names([measure])[0]}{suffix}"
+                costs[name] = time.process_time() - started
         reasons += why
         for name, value in arrays.items():
             base, side = split(name, arrays)

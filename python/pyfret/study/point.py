@@ -11,13 +11,15 @@ from typing import TYPE_CHECKING, Any
 from pyfret._core import Grid, OffGridError, Scene
 from pyfret._util.scene_warnings import SceneWarning
 from pyfret.solution import solve
-from pyfret.study.measures import evaluate_measures
+from pyfret.study.design import with_values
+from pyfret.study.measures import evaluate_measures, needs_more_increments
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     import xarray as xr
 
+    from pyfret.result import Result
     from pyfret.study.measures import Measure
 
 __all__ = ["DONE", "FAILED", "OPEN", "PARTLY", "Outcome", "solve_point"]
@@ -27,6 +29,8 @@ OPEN, DONE, FAILED, PARTLY = 0, 1, 2, 3
 MEANINGS = "open done failed partly"
 #: Growth factor of a grid that is too small, and the largest number of growths: 7.5 times in all.
 GROWTH, GROWTHS = 1.4, 6
+#: Factor on the increments of a path whose branches have too few for a measure.
+REFINEMENT = 3
 
 
 @dataclass(frozen=True)
@@ -41,6 +45,8 @@ class Outcome:
     #: Cells along x and y that it took.
     nx: int = 0
     ny: int = 0
+    #: Processor time of the solution and of each measure [s].
+    costs: dict[str, float] = field(default_factory=dict)
 
 
 def failure(error: BaseException) -> Outcome:
@@ -55,6 +61,20 @@ def enlarge_grid(grid: Grid) -> Grid:
         return n + 2 * max(round(n * (GROWTH - 1) / 2), 1)
 
     return grid.replace(nx=more(grid.nx), ny=grid.ny if grid.plane_strain else more(grid.ny))
+
+
+def with_more_increments(scene: Scene, result: Result) -> Scene | None:
+    """Return a scene with more increments than its result has, on the branches that choose them.
+
+    Branches on which the normal force changes stay as they are. None if no branch is left.
+    """
+    branches, taken = scene.path.branches, result.scene.path.branches
+    settings = {
+        f"path.{n}.increments": REFINEMENT * (taken[n].increments or 1)
+        for n in range(1, len(branches))
+        if branches[n].increments is None and branches[n].W == branches[n - 1].W
+    }
+    return with_values(scene, settings) if settings else None
 
 
 def solve_point(
@@ -86,6 +106,7 @@ def solve_point(
     if threads is not None and os.getpid() != home:
         os.environ.setdefault("RAYON_NUM_THREADS", str(threads))
     started = time.process_time()
+    costs: dict[str, float] = {}
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", SceneWarning)
@@ -98,10 +119,14 @@ def solve_point(
                     if not (grow and growths_left):
                         raise
                     scene = scene.replace(grid=enlarge_grid(scene.grid))
-            values, reasons = evaluate_measures(result, measures)
+            if needs_more_increments(result, measures):
+                finer = with_more_increments(scene, result)
+                result = result if finer is None else solve(finer, progress=False)
+            costs["solution"] = time.process_time() - started
+            values, reasons = evaluate_measures(result, measures, costs)
     except (Exception, SystemExit) as error:
         return failure(error)
     seconds = time.process_time() - started
     status = PARTLY if reasons else DONE
     reason = "\n".join(reasons) if reasons else " ".join(result.doubts)
-    return Outcome(status, reason, values, seconds, scene.grid.nx, scene.grid.ny)
+    return Outcome(status, reason, values, seconds, scene.grid.nx, scene.grid.ny, costs)

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from pyfret.run import State
 
-__all__ = ["displacement_below", "stress_below", "write_below"]
+__all__ = ["displacement_below", "stress_at_interfaces", "stress_below", "write_below"]
 
 
 def stress_below(
@@ -42,8 +42,29 @@ def stress_below(
     line, chosen = line_below(state, z, x, y, azimuth)
     loaded = loaded_by(state, body_number, bulk=bulk, residual=residual)
     below = fields.sampled_stress(loaded, body, grid, z, line, state.length)
-    yardsticks = {k: v for k, v in state.dataset.attrs.items() if k in ("a_H", "p_H")}
-    return below.assign_attrs(yardsticks | stress_error(state) | {"anywhere": int(chosen)})
+    return with_contact(below, state, anywhere=chosen)
+
+
+def stress_at_interfaces(state: State, *, body_number: int = 2) -> Stress:
+    """Return the stress on both sides of every interface of a coated body.
+
+    The section is the one that :func:`stress_below` chooses, with the interfaces as its depths.
+    """
+    body, grid = state.body(body_number), state.scene.grid
+    doubt_layers(fields.interfaces(body), grid)
+    loaded = loaded_by(state, body_number, bulk=True, residual=None)
+    depths = fields.interfaces(body)
+    below = fields.sampled_stress(loaded, body, grid, depths, main_line(state), state.length)
+    return with_contact(below, state, anywhere=True)
+
+
+def with_contact(below: Stress, state: State, *, anywhere: bool) -> Stress:
+    """Add the scales of the contact, and the error of its tractions, to a stress below it.
+
+    `anywhere`: the largest value is that of the whole body, not of the section.
+    """
+    scales = {k: v for k, v in state.dataset.attrs.items() if k in ("a_H", "p_H")}
+    return below.assign_attrs(scales | stress_error(state) | {"anywhere": int(anywhere)})
 
 
 def loaded_by(

@@ -1,0 +1,178 @@
+"""Measures of a study: largest stresses below the contact."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, NamedTuple
+from zlib import crc32
+
+import numpy as np
+
+from pyfret.quantities import part
+from pyfret.study.answer import NO_ANSWER, Answer
+from pyfret.subsurface.contact import stress_at_interfaces
+from pyfret.subsurface.tensor import LABELS
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from pyfret.result import Result
+    from pyfret.snapshot import Snapshot
+    from pyfret.subsurface.tensor import Stress
+
+__all__ = ["LargestStress", "stress_measure"]
+
+#: Largest relative difference of a largest stress and the highest sample of its section at which
+#: the samples show the increment of the largest stress.
+SECTION_TOLERANCE = 0.05
+#: Largest stresses that may be compression; the others are absolute values.
+SIGNED = ("interface_peel",)
+
+
+def on_interfaces(name: str) -> bool:
+    """Check that a stress belongs to the interfaces."""
+    return name.startswith("interface")
+
+
+def section_below(state: Snapshot, name: str, body_number: int) -> Stress:
+    """Return the section of a state on which a stress is sampled.
+
+    A stress of interfaces is sampled at their depths alone: this takes a tenth of the time.
+    """
+    if on_interfaces(name):
+        return stress_at_interfaces(state, body_number=body_number)
+    return state.stress(body_number=body_number)
+
+
+class SampledState(NamedTuple):
+    """The stress below a body in one state: on its section, and where borders cross the section."""
+
+    section: Stress
+    borders: tuple[Stress, ...]
+
+    def largest(self, name: str) -> float:
+        """Return the highest sample of a stress, rims of the contact included."""
+        samples = [section.measure(name) for section in (self.section, *self.borders)]
+        return max(float(sample.max()) for sample in samples if sample.size)
+
+
+#: Most memory of sections that the stress measures of a result share [bytes].
+SHARED_SECTIONS = 128e6
+
+
+def sample_states(
+    result: Result, name: str, increments: Sequence[int], body_number: int
+) -> list[SampledState]:
+    """Return the stress of increments with contact, which the stress measures of a result share.
+
+    Sections are sampled once for all measures. They are kept with the result up to 128 MB.
+    """
+    p = result.dataset.variables["p"].isel(saved=-1).values
+    key = tuple(increments), crc32(np.ascontiguousarray(p).tobytes())
+    place = f"{'interfaces' if on_interfaces(name) else 'sections'} of body {body_number}"
+    kept = result.shared.get(place)
+    if kept is not None and kept[0] == key:
+        sampled: list[SampledState] = kept[1]
+        return sampled
+    states = (result.at(n) for n in increments)
+    sections = [section_below(s, name, body_number) for s in states if bool(s.contact.any())]
+    sampled = [
+        SampledState(below, () if on_interfaces(name) else (below.rims(), below.stick_borders()))
+        for below in sections
+    ]
+    if sum(below.dataset.nbytes for below in sections) <= SHARED_SECTIONS:
+        result.shared[place] = (key, sampled)
+    return sampled
+
+
+def largest_of_states(
+    result: Result, name: str, increments: Sequence[int], body_number: int
+) -> Answer:
+    """Return the largest value of a stress in a body below some increments."""
+    states = sample_states(result, name, increments, body_number)
+    if not states:
+        return NO_ANSWER
+    tops = [state.largest(name) for state in states]
+    highest = int(np.argmax(tops))
+    largest = states[highest].section.maximum(name)
+    if not abs(largest.value - tops[highest]) <= SECTION_TOLERANCE * abs(largest.value):
+        # The samples do not show at which increment the largest value is.
+        largest = max(
+            (state.section.maximum(name) for state in states), key=lambda extremum: extremum.value
+        )
+    least = -math.inf if name in SIGNED else 0.0
+    return Answer.from_error(largest.value, largest.error, least=least)
+
+
+def largest_of_bodies(
+    result: Result, name: str, increments: Sequence[int], body_number: int | None
+) -> Answer:
+    """Return the largest value of a stress in one body, or of its interfaces in both."""
+    if body_number is None and not on_interfaces(name):
+        body_number = 2
+    bodies = ((1, result.scene.body1), (2, result.scene.body2))
+    answers = [
+        largest_of_states(result, name, increments, number)
+        for number, body in bodies
+        if body_number in (None, number) and (body.coatings or not on_interfaces(name))
+    ]
+    return max(answers, key=lambda answer: answer.value, default=NO_ANSWER)
+
+
+def stress_measure(name: str) -> Callable[[Result], Answer]:
+    """Make a measure: the largest stress below the increments with fields.
+
+    Interfaces belong to both bodies, all other stresses to body 2.
+    """
+
+    def measure(result: Result) -> Answer:
+        increments = [int(n) for n in result.dataset.saved_increment.values]
+        return largest_of_bodies(result, name, increments, None)
+
+    return measure
+
+
+@part()
+class LargestStress:
+    """A measure: the largest value of a stress below some increments.
+
+    Gives ``largest_von_mises`` for ``of="von_mises"``, with its range. The time of the measure
+    grows with the number of increments.
+
+    Parameters
+    ----------
+    of : str
+        A stress, such as ``"von_mises"``, ``"s_1"`` or ``"interface_shear"``.
+    increments : sequence of int
+        Increments with fields, as of ``result.at``: -1 is the last (default).
+    body_number : 1, 2 or None
+        The body (default: body 2; a stress of interfaces belongs to both bodies).
+
+    Examples
+    --------
+    >>> LargestStress("interface_shear", increments=[-1]).of
+    'interface_shear'
+    """
+
+    of: str
+    increments: Sequence[int] = (-1,)
+    body_number: int | None = None
+
+    def __post_init__(self) -> None:
+        """Reject an unknown stress, and an empty list of increments."""
+        object.__setattr__(self, "increments", tuple(self.increments))
+        if self.of not in LABELS:
+            raise ValueError(f"of = {self.of!r:.60}: must be one of {', '.join(sorted(LABELS))}")
+        if len(self.increments) == 0:
+            raise ValueError("increments: must have one at least, such as [-1], the last")
+        if self.body_number not in (None, 1, 2):
+            raise ValueError(f"body_number = {self.body_number!r:.60}: must be 1, 2 or None")
+
+    def __call__(self, result: Result) -> dict[str, xr.DataArray]:
+        """Find the largest value below the increments."""
+        answer = largest_of_bodies(result, self.of, list(self.increments), self.body_number)
+        units, meaning = LABELS[self.of]
+        where = ", ".join(map(str, self.increments))
+        label = f"largest {meaning.removeprefix('largest ')} below the increments {where}"
+        return answer.arrays(f"largest_{self.of}", units, label)
